@@ -1,0 +1,31 @@
+// Text forms of errors.
+#include "common/error.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace tisserand {
+
+Error::Error(std::string what, std::string where, std::string remedy)
+    : message_(std::move(what)), where_(std::move(where)), remedy_(std::move(remedy)) {
+  if (!where_.empty()) text_ += where_ + ": ";
+  text_ += message_;
+  if (!remedy_.empty()) text_ += "; " + remedy_;
+}
+
+Error merge_errors(const std::vector<Error>& errors) {
+  if (errors.size() == 1) return errors.front();
+  std::string text;
+  for (const Error& error : errors) {
+    if (!text.empty()) text += '\n';
+    text += error.what();
+  }
+  return Error(text, "", "");
+}
+
+void ensure_failed(const char* condition, const char* file, int line, const std::string& values) {
+  std::fprintf(stderr, "internal error: %s:%d: '%s' does not hold: %s\n", file, line, condition, values.c_str());
+  std::abort();
+}
+
+}  // namespace tisserand

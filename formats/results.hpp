@@ -1,0 +1,94 @@
+// Results file *.results.h5: blocks over time (formats/RESULTS.md).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/units.hpp"
+
+namespace tisserand::formats {
+
+/// What a run stores; fixed before the first row.
+struct ResultsLayout {
+  std::string scene;                         ///< name of the scene
+  std::string producer;
+  Units units;
+  std::vector<std::string> nodes;
+  std::vector<std::string> superelements;
+  std::vector<int> modes_offset;             ///< superelements.size() + 1; into the columns of y
+  std::vector<int> boundary_offset;          ///< superelements.size() + 1; into the rows of boundary_force
+  std::vector<std::string> joints;
+  std::vector<std::string> channels;         ///< selection, as in OutputSpec; empty: all
+  std::vector<std::string> superelement_content_ids;
+};
+
+/// One instant. World frame unless said; sized once by resize(layout). Joint force and moment: what A's body exerts on B's
+/// body, at B's origin, in A's axes. Boundary force: wrench that each boundary node receives from the rest of the
+/// mechanism, world axes.
+struct ResultsRow {
+  double time = 0.0;
+  Eigen::Matrix3Xd node_position, node_velocity, node_angular_velocity, node_acceleration, node_angular_acceleration;
+  Eigen::Matrix4Xd node_rotation;            ///< w x y z, Q_WN
+  Eigen::Matrix3Xd frame_position;
+  Eigen::Matrix4Xd frame_rotation;
+  Eigen::VectorXd y;                         ///< all superelements, file coordinates, modes_offset
+  Eigen::Matrix<double, 6, Eigen::Dynamic> boundary_force;  ///< [force; moment]
+  Eigen::Matrix3Xd joint_force, joint_moment;
+  Eigen::VectorXd joint_coordinate, joint_rate;             ///< NaN where the joint has none (not revolute)
+  double kinetic = 0.0, strain = 0.0, potential = 0.0, work = 0.0, dissipated = 0.0, total = 0.0, balance = 0.0;
+  double step = 0.0, iterations = 0.0, residual = 0.0, constraint = 0.0;
+
+  void resize(const ResultsLayout& layout);
+};
+
+/// Appends rows to <path>.part, flushes about every second, renames to path in finish(). The destructor of an unfinished
+/// writer closes the file as a partial one (completed = 0) and leaves it under `path`.
+class ResultsWriter {
+ public:
+  ResultsWriter(const std::string& path, const ResultsLayout& layout);
+  ~ResultsWriter();
+  ResultsWriter(const ResultsWriter&) = delete;
+  ResultsWriter& operator=(const ResultsWriter&) = delete;
+
+  /// No heap allocation between flushes. Throws Error (disk full, ...).
+  void append(const ResultsRow& row);
+  /// Writes the run report (JSON text), sets completed and reason ("" if completed), closes and renames.
+  void finish(bool completed, const std::string& reason, const std::string& report_json);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// One scalar column of a results file, e.g. "nodes/position/beam/tip/x".
+struct Channel {
+  std::string name;
+  std::string unit;
+};
+
+class ResultsReader {
+ public:
+  explicit ResultsReader(const std::string& path);   ///< accepts partial files
+  ~ResultsReader();
+
+  bool completed() const;
+  std::string reason() const;
+  std::string report_json() const;
+  std::string scene() const;
+  std::vector<double> time() const;
+  std::vector<Channel> channels() const;
+  /// Values over time. Throws Error with the nearest channel names if there is none of that name.
+  std::vector<double> read(const std::string& channel) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// CSV with one header line "time [s],name [unit],..."; empty selection: all channels. Wildcards * are allowed.
+void export_csv(const ResultsReader& reader, const std::vector<std::string>& selection, const std::string& path);
+
+}  // namespace tisserand::formats

@@ -1,0 +1,188 @@
+// scene.yaml: bodies, joints, loads, analysis and output of a mechanism (formats/SCENE.md).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "common/units.hpp"
+#include "formats/section.hpp"
+
+namespace tisserand::formats {
+
+struct Pose {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+};
+
+/// Rigid motion of a part at the start: the pose of the part frame and the motion of its origin, world axes.
+struct InitialMotion {
+  Pose pose;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
+};
+
+enum class FrameKind { karcher, paper, node };
+enum class InertiaOption { A, B };
+
+struct NodeWeight {
+  std::string node;
+  double weight = 0.0;
+};
+
+struct Damping {
+  double mass = 0.0;                 ///< a of a M̄
+  double stiffness = 0.0;            ///< b of b S̄
+  double ratio = 0.0;                ///< of every internal mode
+  std::vector<double> ratios;        ///< of the first modes; overrides `ratio`
+};
+
+struct SuperelementBodySpec {
+  std::string name;
+  std::string file;                  ///< resolved path
+  InitialMotion start;
+  bool rigid = false;                ///< use: rigid
+  std::optional<int> modes;          ///< absent: all in the file
+  std::optional<double> cutoff;      ///< [1/time of the scene]
+  InertiaOption inertia = InertiaOption::B;
+  FrameKind frame = FrameKind::karcher;
+  std::string frame_node;            ///< for FrameKind::node
+  std::vector<NodeWeight> position_weights;  ///< empty: from the file's centre of mass
+  std::vector<NodeWeight> rotation_weights;
+  Damping damping;
+  std::string where;
+};
+
+struct RigidNodeSpec {
+  std::string name;
+  Pose pose;                         ///< in the part frame
+};
+
+struct RigidBodySpec {
+  std::string name;
+  InitialMotion start;
+  double mass = 0.0;
+  Eigen::Vector3d center_of_mass = Eigen::Vector3d::Zero();      ///< part frame
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();             ///< about the centre of mass, part axes
+  std::vector<RigidNodeSpec> nodes;  ///< named places for joints and loads; the part frame itself is `<body>`
+  std::string where;
+};
+
+/// A geometrically exact beam along a line or an arc; its nodes are <name>/0 ... <name>/N (and <name>/start, /end).
+struct BeamBodySpec {
+  std::string name;
+  InitialMotion start;
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();                ///< part frame
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();
+  std::optional<Eigen::Vector3d> through;                        ///< a third point of the circular arc
+  std::optional<Eigen::Vector3d> orientation;                    ///< direction of the section's y axis
+  int elements = 1;
+  int nodes_per_element = 2;                                     ///< 2 or 3
+  Section section;
+  Material material;
+  std::string where;
+};
+
+using BodySpec = std::variant<SuperelementBodySpec, RigidBodySpec, BeamBodySpec>;
+
+enum class JointKind { fixed, revolute, spherical };
+
+/// A place on a body: "ground", "<body>" (rigid), "<body>/<node>"; position and orientation in the node's axes.
+struct MarkerSpec {
+  std::string node;
+  std::optional<Eigen::Vector3d> position;                       ///< absent: the node itself (ground: from the joint)
+  std::optional<Eigen::Quaterniond> orientation;
+  std::string where;
+};
+
+struct JointSpec {
+  std::string name;
+  JointKind kind = JointKind::spherical;
+  MarkerSpec a;
+  MarkerSpec b;
+  /// Where both markers are placed at the start, world frame: position (absent: at marker b, or a if b is ground) and axis
+  /// (z of both markers; revolute needs it unless the markers carry orientations).
+  std::optional<Eigen::Vector3d> position;
+  std::optional<Eigen::Vector3d> axis;
+  std::string where;
+};
+
+/// Function of time: a number, a table (linear between points, constant outside) or an expression in t.
+struct TimeTable {
+  std::vector<double> time;
+  std::vector<double> value;
+};
+struct TimeExpression {
+  std::string text;
+  std::vector<double> breakpoints;   ///< steps end here
+  std::string where;
+};
+using TimeFunctionSpec = std::variant<double, TimeTable, TimeExpression>;
+
+enum class LoadKind { force, moment };
+enum class LoadAxes { world, body };
+
+struct LoadSpec {
+  std::string name;
+  LoadKind kind = LoadKind::force;
+  MarkerSpec at;
+  LoadAxes axes = LoadAxes::world;   ///< body: follows the node
+  std::array<TimeFunctionSpec, 3> components;
+  std::string where;
+};
+
+enum class AnalysisKind { dynamics, statics };
+enum class Method { generalised_alpha, hht };
+enum class Formulation { index3, stabilised_index2 };
+enum class LinearSolver { automatic, klu, dense };
+
+struct IntegratorSpec {
+  Method method = Method::generalised_alpha;
+  double rho = 0.9;                  ///< spectral radius at infinity (generalised alpha)
+  double alpha = 0.05;               ///< HHT, 0 <= alpha <= 1/3
+  Formulation formulation = Formulation::stabilised_index2;
+  double step = 0.0;
+  double start = 0.0;
+  double end = 0.0;
+  double tolerance = 1e-8;           ///< Newton, relative to the running maximum of the forces
+  double constraint_tolerance = 1e-10;  ///< relative to the characteristic length
+  int max_iterations = 20;
+  int max_halvings = 10;
+  LinearSolver linear_solver = LinearSolver::automatic;
+};
+
+struct StaticsSpec {
+  int load_steps = 1;
+  double tolerance = 1e-9;
+  int max_iterations = 50;
+};
+
+struct OutputSpec {
+  int every = 1;
+  std::optional<double> interval;
+  double from = 0.0;
+  std::vector<std::string> channels; ///< groups or datasets such as "nodes", "nodes/position", "energy"; empty: all
+};
+
+struct Scene {
+  std::string name;
+  std::string file;
+  Units units = Units::si();
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  std::vector<BodySpec> bodies;
+  std::vector<JointSpec> joints;
+  std::vector<LoadSpec> loads;
+  AnalysisKind analysis = AnalysisKind::dynamics;
+  IntegratorSpec integrator;
+  StaticsSpec statics;
+  OutputSpec output;
+  double initial_tolerance = 1e-6;   ///< largest correction of initial positions (times characteristic length) and velocities
+};
+
+}  // namespace tisserand::formats
