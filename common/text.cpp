@@ -1,0 +1,145 @@
+// Edit distance, wildcards, and files written beside and renamed.
+#include "common/text.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+#include "common/error.hpp"
+
+namespace tisserand {
+
+namespace {
+
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
+/// Throws the Error of a failed system call on `path` after removing the incomplete `leftover`.
+[[noreturn]] void fail(const std::string& action, const std::string& path, const std::string& leftover, int number) {
+  if (!leftover.empty()) ::unlink(leftover.c_str());
+  throw Error(fmt::format("{}: {}", action, std::strerror(number)), path, remedy_of_errno(number));
+}
+
+}  // namespace
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> before_last(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    before_last.swap(last);
+    last.swap(row);
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = lower(a[i - 1]) == lower(b[j - 1]) ? 0 : 1;
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + change});
+      if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
+        row[j] = std::min(row[j], before_last[j - 2] + 1);
+    }
+  }
+  return row[b.size()];
+}
+
+std::optional<std::string> nearest(const std::string& word, const std::vector<std::string>& known) {
+  std::optional<std::string> best;
+  std::size_t smallest = 0;
+  for (const std::string& candidate : known) {
+    const std::size_t limit = std::clamp<std::size_t>(std::max(word.size(), candidate.size()) / 3, 1, 3);
+    const std::size_t longer = std::max(word.size(), candidate.size()), shorter = std::min(word.size(), candidate.size());
+    if (longer - shorter > limit) continue;
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance <= limit && (!best || distance < smallest)) {
+      best = candidate;
+      smallest = distance;
+    }
+  }
+  return best;
+}
+
+std::string join(const std::vector<std::string>& parts, const std::string& separator) {
+  std::string text;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (i > 0) text += separator;
+    text += parts[i];
+  }
+  return text;
+}
+
+bool matches_wildcard(const std::string& text, const std::string& pattern) {
+  std::size_t t = 0, p = 0, star = std::string::npos, resume = 0;
+  while (t < text.size()) {
+    if (p < pattern.size() && pattern[p] == '*') {
+      star = p++;
+      resume = t;
+    } else if (p < pattern.size() && pattern[p] == text[t]) {
+      ++p;
+      ++t;
+    } else if (star != std::string::npos) {
+      p = star + 1;
+      t = ++resume;
+    } else {
+      return false;
+    }
+  }
+  while (p < pattern.size() && pattern[p] == '*') ++p;
+  return p == pattern.size();
+}
+
+std::string remedy_of_errno(int error_number) {
+  switch (error_number) {
+    case ENOSPC:
+    case EDQUOT:
+      return "free some space or write to another disk";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "choose a place that you may write to";
+    case ENOENT:
+    case ENOTDIR:
+      return "choose a folder that exists, or create it first";
+    case EISDIR:
+      return "give the name of a file, not of a folder";
+    default:
+      return "choose another place or name";
+  }
+}
+
+std::string temporary_beside(const std::string& path) {
+  static std::atomic<unsigned> counter{0};
+  return fmt::format("{}.tmp-{}-{}", path, ::getpid(), counter.fetch_add(1));
+}
+
+void publish_file(const std::string& from, const std::string& to) {
+  const int file = ::open(from.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) fail("cannot reopen the file to make it durable", to, from, errno);
+  const bool durable = ::fsync(file) == 0;
+  const int number = errno;
+  ::close(file);
+  if (!durable) fail("cannot write", to, from, number);
+  if (::rename(from.c_str(), to.c_str()) != 0) fail("cannot move the complete file to its name", to, from, errno);
+}
+
+void write_text_file(const std::string& path, const std::string& text) {
+  const std::string temporary = temporary_beside(path);
+  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0) fail("cannot create the file", path, "", errno);
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t written = ::write(file, text.data() + done, text.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      const int number = errno;
+      ::close(file);
+      fail(fmt::format("cannot write {} bytes", text.size()), path, temporary, number);
+    }
+    done += static_cast<std::size_t>(written);
+  }
+  if (::close(file) != 0) fail("cannot write", path, temporary, errno);
+  publish_file(temporary, path);
+}
+
+}  // namespace tisserand

@@ -1,0 +1,37 @@
+// Small text helpers of readers and writers: nearest key, join, and files that appear whole or not at all.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tisserand {
+
+/// Number of insertions, deletions, substitutions and swaps of neighbours that turn `a` into `b` (optimal string
+/// alignment), upper and lower case taken as equal. Cost: a.size() × b.size().
+std::size_t edit_distance(const std::string& a, const std::string& b);
+
+/// The member of `known` with the smallest edit distance to `word`, or nothing if even that one differs in more than a
+/// third of its letters (at least one, at most three).
+std::optional<std::string> nearest(const std::string& word, const std::vector<std::string>& known);
+
+/// The parts with `separator` between them.
+std::string join(const std::vector<std::string>& parts, const std::string& separator);
+
+/// Whether `text` matches `pattern`, in which * stands for any run of characters (also none, also with /).
+bool matches_wildcard(const std::string& text, const std::string& pattern);
+
+/// Writes `text` beside `path` and renames: the file appears whole or not at all. Throws Error (no permission, disk full).
+void write_text_file(const std::string& path, const std::string& text);
+
+/// Name of the temporary file that write helpers use beside `path` until it is complete (same folder, unique per process).
+std::string temporary_beside(const std::string& path);
+
+/// Renames `from` to `to` after the data of `from` have reached the disk. Throws Error and removes `from` on failure.
+void publish_file(const std::string& from, const std::string& to);
+
+/// What the user can do about a failed system call, by its errno: "free some space", "choose a folder that exists", ...
+std::string remedy_of_errno(int error_number);
+
+}  // namespace tisserand
