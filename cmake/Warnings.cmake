@@ -1,9 +1,14 @@
-# Flags of every target of the project (tisserand_options), and the version that programs print.
+# Flags of every target of the project (tisserand_options), and the version that programs print. The processor flags are
+# here too: Eigen's alignment follows from them, so they must be the same in every translation unit.
 add_library(tisserand_options INTERFACE)
 target_compile_options(tisserand_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
                                                    -Woverloaded-virtual $<$<BOOL:${TISSERAND_WERROR}>:-Werror>)
 target_compile_definitions(tisserand_options INTERFACE TISSERAND_VERSION="${PROJECT_VERSION}")
 if(TISSERAND_NATIVE)
   target_compile_options(tisserand_options INTERFACE -march=native)
+endif()
+if(TISSERAND_SANITIZE)
+  target_compile_options(tisserand_options INTERFACE -fsanitize=${TISSERAND_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(tisserand_options INTERFACE -fsanitize=${TISSERAND_SANITIZE})
 endif()
 target_include_directories(tisserand_options INTERFACE ${PROJECT_SOURCE_DIR})
