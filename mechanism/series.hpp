@@ -1,0 +1,59 @@
+// Named histories from results files and CSV files: what `plot` and `compare` look at.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/results.hpp"
+
+namespace tisserand::mechanism {
+
+enum class SeriesKind { run, reference };
+
+/// One quantity over another, in the units of its file.
+struct Series {
+  SeriesKind kind = SeriesKind::run;
+  std::string source;   ///< label of the file: its own label, else the file name without endings
+  std::string channel;  ///< "nodes/position/beam/tip/x", or the column of a CSV file
+  std::string unit;     ///< "" if unnamed or unknown
+  std::string x_name = "time";
+  std::string x_unit;
+  std::vector<double> x;
+  std::vector<double> y;
+};
+
+/// Two columns of a CSV file with a header line.
+struct ReferenceColumn {
+  std::string file;
+  std::string x;
+  std::string y;
+  std::string label;
+};
+
+struct SeriesRequest {
+  std::vector<std::string> files;     ///< *.results.h5, also of interrupted runs
+  std::vector<std::string> labels;    ///< of the files, in their order; fewer than files: the file names
+  std::vector<std::string> channels;  ///< names, groups such as "nodes/position", or patterns with *
+  std::vector<ReferenceColumn> references;
+};
+
+/// "file.csv:x column:y column[:label]"; the label may hold colons. Throws Error with the form.
+ReferenceColumn parse_reference(const std::string& text);
+
+/// Reads two columns; a header cell "name [unit]" is found by "name" as well. Rows in which either cell is empty or nan
+/// are left out. Throws Error with file:line:column, or with the names of the columns there are.
+Series read_reference(const ReferenceColumn& column);
+
+/// The channels that the patterns choose, in the order of the patterns, each once. A pattern is the name of a channel,
+/// of a group (all below it), or holds *. Throws Error naming the nearest channel for a pattern that chooses none.
+std::vector<formats::Channel> select_channels(const std::vector<formats::Channel>& channels,
+                                              const std::vector<std::string>& patterns, const std::string& where);
+
+/// All series of a request: files in order, in each its channels, then the references. Throws Error if nothing is asked
+/// for.
+std::vector<Series> read_series(const SeriesRequest& request);
+
+/// File name without folders and without ".results.h5", ".csv" and the like.
+std::string stem(const std::string& path);
+
+}  // namespace tisserand::mechanism
