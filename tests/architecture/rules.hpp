@@ -1,0 +1,59 @@
+// The rules of the tree as functions over its text: who may include whom, lengths, wording, links. Beside the programs.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tisserand::architecture {
+
+struct Include {
+  std::size_t line = 0;
+  std::string target;  ///< what stands between the quotes or angle brackets
+};
+
+/// A text file of the tree. `code` is the text of a source file without comments (same number of lines).
+struct SourceFile {
+  std::string path;  ///< from the root, with /
+  std::vector<std::string> lines;
+  std::vector<std::string> code;
+  std::vector<Include> includes;
+
+  bool is_header() const { return path.ends_with(".hpp"); }
+  bool is_source() const { return path.ends_with(".cpp") || is_header(); }
+  bool is_page() const { return path.ends_with(".md"); }
+};
+
+struct SourceTree {
+  std::filesystem::path root;
+  std::vector<SourceFile> files;
+};
+
+struct Violation {
+  std::string path;
+  std::size_t line = 0;  ///< 0: the file as a whole
+  std::string what;
+};
+
+/// Every text file below `root` except build folders, hidden folders (but .ci) and data (references, *.csv, *.h5, ...).
+SourceTree read_tree(const std::filesystem::path& root);
+
+/// common <- formats <- reducer, mechanism; libraries only where they belong; no clock, file or output in numerics.
+std::vector<Violation> check_dependencies(const SourceTree& tree);
+
+/// No cycle of headers inside a folder of the first level, and none between its sub-folders (sources counted).
+std::vector<Violation> check_cycles(const SourceTree& tree);
+
+/// .cpp up to 500 lines, .hpp up to 300.
+std::vector<Violation> check_lengths(const SourceTree& tree);
+
+/// No promises instead of code, no places of one machine, no typographic dashes and quotes, no stray blanks.
+std::vector<Violation> check_wording(const SourceTree& tree);
+
+/// Links of pages, and files that pages and comments name, exist.
+std::vector<Violation> check_links(const SourceTree& tree);
+
+/// One line per violation; empty for none.
+std::string to_text(const std::vector<Violation>& violations);
+
+}  // namespace tisserand::architecture

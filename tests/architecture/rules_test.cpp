@@ -1,0 +1,148 @@
+// The scanner itself: a planted violation of each rule is found, and only that one.
+#include "tests/architecture/rules.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+namespace tisserand::architecture {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// A small tree in a temporary folder, in which all rules hold until something is planted.
+class PlantedTree : public ::testing::Test {
+ protected:
+  PlantedTree() {
+    std::string name = (std::filesystem::temp_directory_path() / "tisserand-tree-XXXXXX").string();
+    root_ = ::mkdtemp(name.data());
+    plant("common/a.hpp", "#include <vector>\n");
+    plant("formats/b.hpp", "#include \"common/a.hpp\"\n");
+    plant("formats/b.cpp", "#include \"formats/b.hpp\"\n#include <hdf5.h>\n#include <yaml-cpp/yaml.h>\n");
+    plant("reducer/mesh.cpp", "#include <gmsh.h>\n#include \"formats/b.hpp\"\n");
+    plant("mechanism/solver/klu.cpp", "#include <klu.h>\n#include \"formats/b.hpp\"\n");
+    plant("mechanism/main.cpp", "#include <CLI/CLI.hpp>\n");
+    plant("README.md", "[a](common/a.hpp) and [b](https://example.org/x)\n");
+  }
+  ~PlantedTree() override { std::filesystem::remove_all(root_); }
+
+  void plant(const std::string& path, const std::string& text) {
+    std::filesystem::create_directories((root_ / path).parent_path());
+    std::ofstream(root_ / path) << text;
+  }
+
+  SourceTree tree() const { return read_tree(root_); }
+
+  std::filesystem::path root_;
+};
+
+TEST_F(PlantedTree, IsCleanAtFirst) {
+  EXPECT_EQ(to_text(check_dependencies(tree())), "");
+  EXPECT_EQ(to_text(check_cycles(tree())), "");
+  EXPECT_EQ(to_text(check_lengths(tree())), "");
+  EXPECT_EQ(to_text(check_wording(tree())), "");
+  EXPECT_EQ(to_text(check_links(tree())), "");
+}
+
+struct Planted {
+  std::string path;
+  std::string text;
+  std::string found;  ///< expected beginning of the only line of the report
+};
+
+class PlantedDependency : public PlantedTree, public ::testing::WithParamInterface<Planted> {};
+
+TEST_P(PlantedDependency, IsFound) {
+  plant(GetParam().path, GetParam().text);
+  const std::vector<Violation> violations = check_dependencies(tree());
+  ASSERT_EQ(violations.size(), 1u) << to_text(violations);
+  EXPECT_THAT(to_text(violations), HasSubstr(GetParam().found));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rules, PlantedDependency,
+    ::testing::Values(
+        Planted{"common/x.cpp", "#include \"formats/b.hpp\"\n", "common/x.cpp:1: common may not include formats/b.hpp"},
+        Planted{"formats/x.cpp", "\n#include \"mechanism/m.hpp\"\n", "formats/x.cpp:2: formats may not include"},
+        Planted{"reducer/x.cpp", "#include \"mechanism/m.hpp\" // why\n", "reducer/x.cpp:1"},
+        Planted{"tests/mechanism/x_test.cpp", "#include \"reducer/m.hpp\"\n", "tests/mechanism/x_test.cpp:1"},
+        Planted{"mechanism/x.cpp", "#include <petscksp.h>\n", "PETSc and SLEPc stay in reducer"},
+        Planted{"formats/x.cpp", "#include <slepceps.h>\n", "PETSc and SLEPc stay in reducer"},
+        Planted{"reducer/other.cpp", "#include <gmsh.h>\n", "gmsh stays in one file"},
+        Planted{"mechanism/gmsh.cpp", "#include <gmsh.h>\n", "gmsh stays in one file"},
+        Planted{"mechanism/solver/other.cpp", "#include <suitesparse/klu.h>\n", "KLU stays in one file"},
+        Planted{"mechanism/x.cpp", "#include <cholmod.h>\n", "CHOLMOD stays in one file of reducer"},
+        Planted{"mechanism/x.cpp", "#include <CLI/App.hpp>\n", "only main.cpp sees"},
+        Planted{"reducer/x.cpp", "#  include <hdf5.h>\n", "HDF5 stays in formats"},
+        Planted{"mechanism/x.hpp", "#include <yaml-cpp/yaml.h>\n", "yaml-cpp stays in formats"},
+        Planted{"common/x.hpp", "#include <nlohmann/json.hpp>\n", "common reads and writes no JSON"},
+        Planted{"mechanism/bodies/x.cpp", "#include <chrono>\n", "numerics do not include <chrono>"},
+        Planted{"mechanism/joints/x.cpp", "#include <iostream>\n", "numerics do not include <iostream>"},
+        Planted{"reducer/elements/x.cpp", "int f() { return std::getenv(\"A\") != nullptr; }\n",
+                "numerics do not use getenv"},
+        Planted{"mechanism/x.cpp", "const char* s = \"run reducer again\";\n", "do not name each other"},
+        Planted{"reducer/x.cpp", "using namespace mechanism::other;\n", "do not name each other"},
+        Planted{"mechanism/CMakeLists.txt", "target_link_libraries(a tisserand_reducer)\n", "do not name each other"}));
+
+TEST_F(PlantedTree, CommentsAndForeignWordsAreNoDependency) {
+  plant("mechanism/x.cpp", "// #include <petscksp.h>\n/* reducer\n#include <gmsh.h> */\nint n = 1'000; // reducer's\n");
+  plant("reducer/x.cpp", "const char* s = \"a mechanism inside the part\";\n");
+  EXPECT_EQ(to_text(check_dependencies(tree())), "");
+}
+
+TEST_F(PlantedTree, CircleOfHeadersIsFound) {
+  plant("common/p.hpp", "#include \"common/q.hpp\"\n");
+  plant("common/q.cpp", "#include \"common/q.hpp\"\n#include \"common/p.hpp\"\n");
+  plant("common/q.hpp", "#include \"common/r.hpp\"\n");
+  plant("common/r.hpp", "#include \"common/p.hpp\"\n");
+  EXPECT_THAT(to_text(check_cycles(tree())), HasSubstr("common/p -> common/q -> common/r -> common/p"));
+}
+
+TEST_F(PlantedTree, CircleOfFoldersIsFound) {
+  plant("mechanism/bodies/p.hpp", "#include \"mechanism/joints/q.hpp\"\n");
+  plant("mechanism/joints/r.hpp", "#include \"mechanism/bodies/s.hpp\"\n");
+  EXPECT_THAT(to_text(check_cycles(tree())), HasSubstr("mechanism/bodies -> mechanism/joints -> mechanism/bodies"));
+}
+
+TEST_F(PlantedTree, LengthIsBounded) {
+  const auto lines = [](int n) {
+    std::string text;
+    for (int i = 0; i < n; ++i) text += "\n";
+    return text;
+  };
+  plant("common/long.hpp", lines(300));
+  plant("common/long.cpp", lines(500));
+  EXPECT_EQ(to_text(check_lengths(tree())), "");
+  plant("common/long.hpp", lines(301));
+  EXPECT_EQ(to_text(check_lengths(tree())), "common/long.hpp: 301 lines, at most 300\n");
+}
+
+TEST_F(PlantedTree, WordingIsChecked) {
+  for (const std::string text : {"// TO"
+                                 "DO later",
+                                 "see /tm"
+                                 "p/x",
+                                 "a \xE2\x80\x94 b", "blank ", "\xE2\x80\x9Cquoted"}) {
+    plant("formats/PAGE.md", text + "\n");
+    EXPECT_EQ(check_wording(tree()).size(), 1u) << text;
+  }
+  plant("formats/PAGE.md",
+        "a/tm"
+        "p/b, a - b, 'quoted'\n");
+  EXPECT_EQ(to_text(check_wording(tree())), "");
+}
+
+TEST_F(PlantedTree, DeadLinksAreFound) {
+  plant("formats/PAGE.md", "[x](../common/a.hpp#l3) [y](none.md)\n");
+  EXPECT_EQ(to_text(check_links(tree())), "formats/PAGE.md:1: dead link: none.md\n");
+  plant("formats/PAGE.md", "see `formats/NONE.md` and `formats/b.hpp`\n");
+  EXPECT_THAT(to_text(check_links(tree())), HasSubstr("names a file that is not there: formats/NONE.md"));
+  plant("formats/PAGE.md", "");
+  plant("common/a.hpp", "#include \"x/missing.hpp\"\nint a;  // rules: ABSENT.md, PAGE.md\n");
+  EXPECT_EQ(to_text(check_links(tree())), "common/a.hpp:2: names a page that is not there: ABSENT.md\n");
+}
+
+}  // namespace
+}  // namespace tisserand::architecture

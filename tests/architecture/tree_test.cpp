@@ -1,0 +1,31 @@
+// The rules of the tree hold for this tree (architecture rules 1-5, README "Where things are").
+#include <gtest/gtest.h>
+
+#include "tests/architecture/rules.hpp"
+
+namespace tisserand::architecture {
+namespace {
+
+const SourceTree& this_tree() {
+  static const SourceTree tree = read_tree(TISSERAND_SOURCE_DIR);
+  return tree;
+}
+
+TEST(Tree, IsReadWhole) {
+  std::size_t sources = 0;
+  for (const SourceFile& file : this_tree().files) sources += file.is_source() ? 1 : 0;
+  EXPECT_GT(sources, 40u);
+}
+
+TEST(Tree, DependenciesPointOneWay) { EXPECT_EQ(to_text(check_dependencies(this_tree())), ""); }
+
+TEST(Tree, IncludesMakeNoCircle) { EXPECT_EQ(to_text(check_cycles(this_tree())), ""); }
+
+TEST(Tree, FilesAreShort) { EXPECT_EQ(to_text(check_lengths(this_tree())), ""); }
+
+TEST(Tree, WordsAreKept) { EXPECT_EQ(to_text(check_wording(this_tree())), ""); }
+
+TEST(Tree, LinksLead) { EXPECT_EQ(to_text(check_links(this_tree())), ""); }
+
+}  // namespace
+}  // namespace tisserand::architecture
