@@ -284,6 +284,22 @@ std::vector<Violation> check_cycles(const SourceTree& tree) {
   return violations;
 }
 
+std::vector<Violation> check_headers(const SourceTree& tree) {
+  std::vector<Violation> violations;
+  std::map<std::string, std::string> first_include;  // of each .cpp, by its path
+  for (const SourceFile& file : tree.files)
+    if (!file.is_header() && !file.includes.empty()) first_include[file.path] = file.includes.front().target;
+  for (const SourceFile& file : tree.files) {
+    if (!file.is_header()) continue;
+    if (std::find(file.code.begin(), file.code.end(), "#pragma once") == file.code.end())
+      violations.push_back({file.path, 0, "has no #pragma once"});
+    const auto own = first_include.find(without_ending(file.path) + ".cpp");
+    if (own != first_include.end() && own->second != file.path)
+      violations.push_back({own->first, 0, "must include " + file.path + " first"});
+  }
+  return violations;
+}
+
 std::vector<Violation> check_lengths(const SourceTree& tree) {
   std::vector<Violation> violations;
   for (const SourceFile& file : tree.files) {

@@ -44,6 +44,9 @@ std::vector<Violation> check_dependencies(const SourceTree& tree);
 /// No cycle of headers inside a folder of the first level, and none between its sub-folders (sources counted).
 std::vector<Violation> check_cycles(const SourceTree& tree);
 
+/// Every header has #pragma once, and the .cpp beside it includes it first (which proves that it compiles alone).
+std::vector<Violation> check_headers(const SourceTree& tree);
+
 /// .cpp up to 500 lines, .hpp up to 300.
 std::vector<Violation> check_lengths(const SourceTree& tree);
 

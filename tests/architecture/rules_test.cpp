@@ -18,8 +18,8 @@ class PlantedTree : public ::testing::Test {
   PlantedTree() {
     std::string name = (std::filesystem::temp_directory_path() / "tisserand-tree-XXXXXX").string();
     root_ = ::mkdtemp(name.data());
-    plant("common/a.hpp", "#include <vector>\n");
-    plant("formats/b.hpp", "#include \"common/a.hpp\"\n");
+    plant("common/a.hpp", "#pragma once\n#include <vector>\n");
+    plant("formats/b.hpp", "#pragma once\n#include \"common/a.hpp\"\n");
     plant("formats/b.cpp", "#include \"formats/b.hpp\"\n#include <hdf5.h>\n#include <yaml-cpp/yaml.h>\n");
     plant("reducer/mesh.cpp", "#include <gmsh.h>\n#include \"formats/b.hpp\"\n");
     plant("mechanism/solver/klu.cpp", "#include <klu.h>\n#include \"formats/b.hpp\"\n");
@@ -41,6 +41,7 @@ class PlantedTree : public ::testing::Test {
 TEST_F(PlantedTree, IsCleanAtFirst) {
   EXPECT_EQ(to_text(check_dependencies(tree())), "");
   EXPECT_EQ(to_text(check_cycles(tree())), "");
+  EXPECT_EQ(to_text(check_headers(tree())), "");
   EXPECT_EQ(to_text(check_lengths(tree())), "");
   EXPECT_EQ(to_text(check_wording(tree())), "");
   EXPECT_EQ(to_text(check_links(tree())), "");
@@ -104,6 +105,14 @@ TEST_F(PlantedTree, CircleOfFoldersIsFound) {
   plant("mechanism/bodies/p.hpp", "#include \"mechanism/joints/q.hpp\"\n");
   plant("mechanism/joints/r.hpp", "#include \"mechanism/bodies/s.hpp\"\n");
   EXPECT_THAT(to_text(check_cycles(tree())), HasSubstr("mechanism/bodies -> mechanism/joints -> mechanism/bodies"));
+}
+
+TEST_F(PlantedTree, UnguardedAndLateHeadersAreFound) {
+  plant("common/p.hpp", "// #pragma once\n");
+  EXPECT_EQ(to_text(check_headers(tree())), "common/p.hpp: has no #pragma once\n");
+  plant("common/p.hpp", "#pragma once\n");
+  plant("common/p.cpp", "#include <vector>\n#include \"common/p.hpp\"\n");
+  EXPECT_EQ(to_text(check_headers(tree())), "common/p.cpp: must include common/p.hpp first\n");
 }
 
 TEST_F(PlantedTree, LengthIsBounded) {

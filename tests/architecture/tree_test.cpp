@@ -21,6 +21,8 @@ TEST(Tree, DependenciesPointOneWay) { EXPECT_EQ(to_text(check_dependencies(this_
 
 TEST(Tree, IncludesMakeNoCircle) { EXPECT_EQ(to_text(check_cycles(this_tree())), ""); }
 
+TEST(Tree, HeadersAreGuardedAndFirst) { EXPECT_EQ(to_text(check_headers(this_tree())), ""); }
+
 TEST(Tree, FilesAreShort) { EXPECT_EQ(to_text(check_lengths(this_tree())), ""); }
 
 TEST(Tree, WordsAreKept) { EXPECT_EQ(to_text(check_wording(this_tree())), ""); }
