@@ -1,0 +1,102 @@
+// Kinematics, residual and energies of a superelement body in double precision.
+#include "mechanism/bodies/superelement_evaluate.hpp"
+
+namespace tisserand::mechanism {
+
+SuperelementScratch make_scratch(const SuperelementBody& body) {
+  const Eigen::Index nb = body.boundary_size, m = body.modes;
+  SuperelementScratch scratch;
+  scratch.motion = make_local_motion<double>(body);
+  scratch.forces = make_forces<double>(body);
+  scratch.R0_reference.setIdentity();
+  scratch.r_B_condensed.setZero(nb);
+  scratch.A_BB.setZero(nb, nb);
+  SuperelementTangent& tangent = scratch.tangent;
+  tangent.inverse_D.setZero(m);
+  tangent.R0.setIdentity();
+  tangent.Omega0.setZero();
+  tangent.node = scratch.motion.node;
+  tangent.U.setZero(3, nb);
+  for (Eigen::MatrixXd* matrix : {&tangent.Q, &tangent.N, &tangent.work_1, &tangent.work_2, &tangent.work_3}) matrix->setZero(nb, nb);
+  tangent.thin_1.setZero(nb, 3);
+  tangent.thin_2.setZero(nb, 3);
+  tangent.thin_3.setZero(nb, 3);
+  tangent.boundary_1.setZero(nb);
+  tangent.boundary_2.setZero(nb);
+  tangent.internal_1.setZero(m);
+  return scratch;
+}
+
+void update_kinematics(const SuperelementBody& body, std::span<const NodeMotion> all_nodes, const double* y, const double* yd,
+                       const double* ydd, const Eigen::Matrix3d& R0_reference, SuperelementScratch& scratch) {
+  LocalMotion<double>& motion = scratch.motion;
+  if (body.modes > 0) {
+    motion.y_I = Eigen::Map<const Eigen::VectorXd>(y, body.modes);
+    motion.rate_I = Eigen::Map<const Eigen::VectorXd>(yd, body.modes);
+    motion.acceleration_I = Eigen::Map<const Eigen::VectorXd>(ydd, body.modes);
+  }
+  scratch.R0_reference = R0_reference;
+  motion.R0 = R0_reference;
+  local_motion<double>(body, NodeView<NodeMotion>{all_nodes.data(), body.nodes.data()}, motion);
+}
+
+void residual(const SuperelementBody& body, SuperelementScratch& scratch, const Eigen::Vector3d& gravity) {
+  switch (body.boundary_size) {
+    case 12: superelement_forces<12>(body, scratch.motion, gravity, scratch.forces); break;
+    case 18: superelement_forces<18>(body, scratch.motion, gravity, scratch.forces); break;
+    default: superelement_forces<Eigen::Dynamic>(body, scratch.motion, gravity, scratch.forces); break;
+  }
+}
+
+namespace {
+
+double quadratic_form(const Eigen::MatrixXd& A, const Eigen::VectorXd& v) {
+  double sum = 0.0;
+  for (Eigen::Index k = 0; k < A.cols(); ++k) sum += v[k] * A.col(k).dot(v);
+  return sum;
+}
+
+double coupling_form(const Eigen::MatrixXd& A, const Eigen::VectorXd& row, const Eigen::VectorXd& column) {
+  double sum = 0.0;
+  for (Eigen::Index k = 0; k < A.cols(); ++k) sum += column[k] * A.col(k).dot(row);
+  return sum;
+}
+
+}  // namespace
+
+SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratch& scratch, const Eigen::Vector3d& gravity) {
+  const LocalMotion<double>& motion = scratch.motion;
+  SuperelementEnergy result;
+  result.kinetic = 0.5 * (quadratic_form(body.M_BB, motion.rate_B) + motion.rate_I.squaredNorm()) +
+                   coupling_form(body.M_BI, motion.rate_B, motion.rate_I);
+  result.strain = 0.5 * (quadratic_form(body.S_BB, motion.y_B) + motion.y_I.cwiseAbs2().dot(body.S_II));
+  if (!gravity.isZero(0.0)) {
+    const Eigen::Vector3d center = motion.x0 + motion.R0 * deformed_center_of_mass<double>(body, motion);
+    result.gravity_potential = -body.mass * gravity.dot(center);
+  }
+  if (body.damping.active) {
+    const double a = body.damping.mass, b = body.damping.stiffness;
+    const Eigen::VectorXd& rate = motion.deformation_rate_B;
+    result.damping_power = a * quadratic_form(body.M_BB, rate) + b * quadratic_form(body.S_BB, rate) +
+                           2.0 * a * coupling_form(body.M_BI, rate, motion.rate_I) +
+                           motion.rate_I.cwiseAbs2().dot(body.damping.internal);
+  }
+  return result;
+}
+
+Eigen::Index file_coordinate_count(const SuperelementBody& body) {
+  return static_cast<Eigen::Index>(body.file.boundary_row.size() + body.file.internal_row.size());
+}
+
+void file_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch, Eigen::Ref<Eigen::VectorXd> out) {
+  const LocalMotion<double>& motion = scratch.motion;
+  for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i)
+    out[body.file.boundary_row[i]] = motion.y_B[static_cast<Eigen::Index>(i)];
+  for (std::size_t k = 0; k < body.file.internal_row.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    out[body.file.internal_row[k]] =
+        body.file.static_part.row(row).dot(motion.y_B) + body.file.modal_part.row(row).dot(motion.y_I);
+  }
+}
+
+}  // namespace tisserand::mechanism
