@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "common/units.hpp"
+#include "formats/override.hpp"
 #include "formats/section.hpp"
 
 namespace tisserand::formats {
@@ -76,5 +77,11 @@ struct Part {
   std::vector<BoundaryNode> boundary;
   ModeSelection modes;
 };
+
+/// Reads part.yaml with the overrides applied, then checks. Throws all errors together, each with file:line:column.
+Part read_part(const std::string& path, const std::vector<Override>& overrides);
+
+/// Names, references, signs and geometry (PART.md). Throws all findings together.
+void check(const Part& part);
 
 }  // namespace tisserand::formats

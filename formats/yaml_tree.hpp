@@ -1,0 +1,48 @@
+// First step from part.yaml and scene.yaml to structs: the text as a plain tree that remembers lines and columns.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tisserand::formats {
+
+enum class YamlKind { null, scalar, sequence, map };
+
+/// Line and column (1-based) in source 0 (the file) or in source k > 0 (the k-th override).
+struct YamlPlace {
+  int line = 0;
+  int column = 0;
+  int source = 0;
+};
+
+/// A value; in a map it carries its key. Children are in the order of the file, double keys included.
+struct YamlNode {
+  YamlKind kind = YamlKind::null;
+  bool quoted = false;       ///< scalar in quotes: text, never a number
+  std::string text;          ///< of a scalar
+  YamlPlace place;
+  std::string key;           ///< in a map
+  YamlPlace key_place;
+  std::vector<YamlNode> children;
+};
+
+/// A tree and the names of its sources: the file and the overrides that changed it.
+struct YamlDocument {
+  YamlNode root;
+  std::vector<std::string> sources;
+
+  /// "file:line:column", or the text of the override.
+  std::string where(const YamlPlace& place) const;
+};
+
+/// Parses one YAML document (anchors and aliases are resolved by copy; tags and merge keys are not supported). Bounds:
+/// depth 100, one million values, 16 MiB. Throws Error with file:line:column.
+YamlDocument parse_yaml(const std::string& text, const std::string& file);
+
+/// Reads a file and parses it. Throws Error (missing, a folder, empty, binary, syntax).
+YamlDocument load_yaml(const std::string& path);
+
+/// "a number", "a list", "a map", "text", "nothing": for messages.
+std::string describe(const YamlNode& node);
+
+}  // namespace tisserand::formats
