@@ -238,6 +238,26 @@ void check_named_files(const SourceTree& tree, const SourceFile& file, const std
   }
 }
 
+std::set<std::string> keys_of(const std::string& text, const std::regex& key) {
+  std::set<std::string> keys;
+  for (std::sregex_iterator it(text.begin(), text.end(), key), end; it != end; ++it) keys.insert(it->str());
+  return keys;
+}
+
+/// Source keys in prose that no table row "| [key] | ..." of CONVENTIONS.md explains.
+void check_keys(const SourceTree& tree, std::vector<Violation>& violations) {
+  static const std::regex key(R"(\[[A-Z][A-Za-z]{1,4}[0-9]{2}\])");
+  std::set<std::string> known;
+  for (const SourceFile& file : tree.files)
+    if (file.path == "CONVENTIONS.md")
+      for (const std::string& line : file.lines)
+        if (line.starts_with("| [")) known.merge(keys_of(line.substr(0, line.find('|', 1)), key));
+  for (const SourceFile& file : tree.files)
+    for (std::size_t i = 0; (file.is_page() || file.is_source()) && i < file.lines.size(); ++i)
+      for (const std::string& found : keys_of(prose(file, i), key))
+        if (!known.contains(found)) violations.push_back({file.path, i + 1, "CONVENTIONS.md has no source " + found});
+}
+
 }  // namespace
 
 SourceTree read_tree(const fs::path& root) {
@@ -345,6 +365,7 @@ std::vector<Violation> check_links(const SourceTree& tree) {
   std::set<std::string> pages;
   for (const SourceFile& file : tree.files)
     if (file.is_page()) pages.insert(fs::path(file.path).filename().string());
+  check_keys(tree, violations);
   for (const SourceFile& file : tree.files) {
     if (!file.is_page() && !file.is_source()) continue;
     check_named_files(tree, file, pages, violations);

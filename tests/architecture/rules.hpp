@@ -53,7 +53,8 @@ std::vector<Violation> check_lengths(const SourceTree& tree);
 /// No promises instead of code, no places of one machine, no typographic dashes and quotes, no stray blanks.
 std::vector<Violation> check_wording(const SourceTree& tree);
 
-/// Links of pages, and files that pages and comments name, exist.
+/// Links of pages, and files that pages and comments name, exist; source keys such as [Car00] have a row in
+/// CONVENTIONS.md.
 std::vector<Violation> check_links(const SourceTree& tree);
 
 /// One line per violation; empty for none.

@@ -153,5 +153,11 @@ TEST_F(PlantedTree, DeadLinksAreFound) {
   EXPECT_EQ(to_text(check_links(tree())), "common/a.hpp:2: names a page that is not there: ABSENT.md\n");
 }
 
+TEST_F(PlantedTree, UnknownSourceKeysAreFound) {
+  plant("CONVENTIONS.md", "| [Abc01] | A. Bc, 2001 |\n");
+  plant("common/a.hpp", "#pragma once\nint a;  // as in [Abc01] (3), not as in [Xyz99]\n");
+  EXPECT_EQ(to_text(check_links(tree())), "common/a.hpp:2: CONVENTIONS.md has no source [Xyz99]\n");
+}
+
 }  // namespace
 }  // namespace tisserand::architecture
