@@ -29,17 +29,17 @@ template <int N>
 struct BeamElement {
   static_assert(N == 2 || N == 3);
   static constexpr int dofs = 6 * N;
-  static constexpr int points = N - 1;                   ///< quadrature points
+  static constexpr int points = N - 1;  ///< quadrature points
 
-  std::array<int, N> nodes{};                            ///< indices of nodes, along the beam
-  double length = 0.0;                                   ///< L, arc length of the reference curve
-  std::array<Eigen::Matrix3d, N> section{};              ///< D_i: section triad in node axes
-  Eigen::Vector3d force_stiffness = {0, 0, 0};           ///< C_n = (E A, G A_y, G A_z)
-  Eigen::Vector3d moment_stiffness = {0, 0, 0};          ///< C_m = (G J, E I_y, E I_z)
-  std::array<Eigen::Vector3d, points> initial_gamma{};   ///< Γ₀ (including the 1 of the axis)
-  std::array<Eigen::Vector3d, points> initial_kappa{};   ///< κ₀
-  double mass = 0.0;                                     ///< ρ A L
-  std::array<Eigen::Matrix3d, N> inertia{};              ///< rotary inertia of node i in node axes
+  std::array<int, N> nodes{};                           ///< indices of nodes, along the beam
+  double length = 0.0;                                  ///< L, arc length of the reference curve
+  std::array<Eigen::Matrix3d, N> section{};             ///< D_i: section triad in node axes
+  Eigen::Vector3d force_stiffness = {0, 0, 0};          ///< C_n = (E A, G A_y, G A_z)
+  Eigen::Vector3d moment_stiffness = {0, 0, 0};         ///< C_m = (G J, E I_y, E I_z)
+  std::array<Eigen::Vector3d, points> initial_gamma{};  ///< Γ₀ (including the 1 of the axis)
+  std::array<Eigen::Vector3d, points> initial_kappa{};  ///< κ₀
+  double mass = 0.0;                                    ///< ρ A L
+  std::array<Eigen::Matrix3d, N> inertia{};             ///< rotary inertia of node i in node axes
 };
 
 using BeamElement2 = BeamElement<2>;
@@ -49,13 +49,13 @@ using BeamElement3 = BeamElement<3>;
 template <int N>
 struct BeamReference {
   std::array<int, N> nodes{};
-  std::array<Eigen::Vector3d, N> position{};             ///< in order along the beam, equally spaced in arc length
-  std::array<Eigen::Matrix3d, N> section{};              ///< section triads; columns x (axis), y, z
-  double length = 0.0;                                   ///< arc length
+  std::array<Eigen::Vector3d, N> position{};  ///< in order along the beam, equally spaced in arc length
+  std::array<Eigen::Matrix3d, N> section{};   ///< section triads; columns x (axis), y, z
+  double length = 0.0;                        ///< arc length
 };
 
-/// Constants of an element. Throws Error if the section has no shear areas (place: section.where) or if a stiffness, the
-/// density or the length is not physical.
+/// Constants of an element. Throws Error if the section has no shear areas (place: section.where) or if a stiffness,
+/// the density or the length is not physical.
 template <int N>
 BeamElement<N> make_beam_element(const BeamReference<N>& reference, const formats::Section& section,
                                  const formats::Material& material);

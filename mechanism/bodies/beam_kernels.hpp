@@ -1,4 +1,5 @@
-// Strains, energy and forces of beam elements for any scalar (double, Dual, complex); beam_element.cpp instantiates them.
+// Strains, energy and forces of beam elements for any scalar (double, Dual, complex); beam_element.cpp instantiates
+// them.
 #pragma once
 
 #include <array>
@@ -25,12 +26,18 @@ inline S polynomial(const std::array<double, K>& a, const S& u) {
 
 /// e(u) of T⁻¹, u = a²: Σ |B_2k| u^(k−1)/(2k)!. Below `series_limit` nine terms are exact to rounding.
 inline constexpr double series_limit = 0.25;
-inline constexpr std::array<double, 9> e_series = {
-    1.0 / 12.0, 1.0 / 720.0, 1.0 / 30240.0, 1.0 / 1209600.0, 1.0 / 47900160.0, 691.0 / 1307674368000.0,
-    1.0 / 74724249600.0, 3617.0 / 10670622842880000.0, 43867.0 / 5109094217170944000.0};
+inline constexpr std::array<double, 9> e_series = {1.0 / 12.0,
+                                                   1.0 / 720.0,
+                                                   1.0 / 30240.0,
+                                                   1.0 / 1209600.0,
+                                                   1.0 / 47900160.0,
+                                                   691.0 / 1307674368000.0,
+                                                   1.0 / 74724249600.0,
+                                                   3617.0 / 10670622842880000.0,
+                                                   43867.0 / 5109094217170944000.0};
 /// atan(√z)/√z.
-inline constexpr std::array<double, 10> atan_series = {1.0, -1.0 / 3, 1.0 / 5, -1.0 / 7, 1.0 / 9, -1.0 / 11,
-                                                       1.0 / 13, -1.0 / 15, 1.0 / 17, -1.0 / 19};
+inline constexpr std::array<double, 10> atan_series = {1.0,       -1.0 / 3, 1.0 / 5,   -1.0 / 7, 1.0 / 9,
+                                                       -1.0 / 11, 1.0 / 13, -1.0 / 15, 1.0 / 17, -1.0 / 19};
 
 /// ψ = log(E), |ψ| ≤ π, with what variations of ψ need:
 /// w = tan(a/4)/a ψ (so that exp(ψ/2) = 1 + 2 (w~ + w~²)/(1 + w·w)), u = a² = ψ·ψ, e of T⁻¹(ψ) = 1 + ψ~/2 + e ψ~².
@@ -135,10 +142,11 @@ inline Vec3<S> tangent_gradient(const Vec3<S>& phi, const S& u, const CurvatureF
 /// Shape functions and their derivatives by arc length times L at the quadrature points of the three-node element,
 /// s = −1/√3, 1/√3 (weights L/2): N₁ = s(s−1)/2, N₂ = 1 − s², N₃ = s(s+1)/2; d/dS = (2/L) d/ds.
 inline constexpr double gauss = 0.57735026918962576451;
-inline constexpr std::array<std::array<double, 3>, 2> shape = {{{0.5 * gauss * (gauss + 1), 2.0 / 3, 0.5 * gauss * (gauss - 1)},
-                                                                {0.5 * gauss * (gauss - 1), 2.0 / 3, 0.5 * gauss * (gauss + 1)}}};
-inline constexpr std::array<std::array<double, 3>, 2> slope = {{{-2 * gauss - 1, 4 * gauss, 1 - 2 * gauss},
-                                                                {2 * gauss - 1, -4 * gauss, 1 + 2 * gauss}}};
+inline constexpr std::array<std::array<double, 3>, 2> shape = {
+    {{0.5 * gauss * (gauss + 1), 2.0 / 3, 0.5 * gauss*(gauss - 1)},
+     {0.5 * gauss * (gauss - 1), 2.0 / 3, 0.5 * gauss*(gauss + 1)}}};
+inline constexpr std::array<std::array<double, 3>, 2> slope = {
+    {{-2 * gauss - 1, 4 * gauss, 1 - 2 * gauss}, {2 * gauss - 1, -4 * gauss, 1 + 2 * gauss}}};
 
 /// The element state of two nodes: section axes in the middle, g = Λᵀx', strains and resultants (section axes).
 template <class S>
@@ -147,7 +155,8 @@ struct State2 {
   Mat3<S> axes;
   Vec3<S> g, gamma, kappa, force, moment;
 
-  State2(const BeamElement2& e, const Configuration<S, 2>& q) : State2(e, q, q.R[0] * e.section[0].template cast<S>()) {}
+  State2(const BeamElement2& e, const Configuration<S, 2>& q)
+      : State2(e, q, q.R[0] * e.section[0].template cast<S>()) {}
 
  private:
   State2(const BeamElement2& e, const Configuration<S, 2>& q, const Mat3<S>& first)
@@ -253,8 +262,7 @@ Moments3<S> internal_force(const BeamElement3& e, const State3<S>& state, Eigen:
     for (int i = 0; i < 3; ++i) r.template segment<3>(6 * i) += n * S(0.5 * slope[k][i]);
     const Vec3<S> h = cross(p.force, p.g) * S(weight);
     const Vec3<S> minus = -p.phi;
-    const Vec3<S> on_phi =
-        tangent_times(minus, p.f, h) + tangent_gradient(p.phi, p.u, p.f, p.a, p.moment) * S(weight);
+    const Vec3<S> on_phi = tangent_times(minus, p.f, h) + tangent_gradient(p.phi, p.u, p.f, p.a, p.moment) * S(weight);
     const Vec3<S> on_a = tangent_times(minus, p.f, p.moment);
     P.on1 += on_phi * S(shape[k][0]) + on_a * S(0.5 * slope[k][0]);
     P.on3 += on_phi * S(shape[k][2]) + on_a * S(0.5 * slope[k][2]);
@@ -262,14 +270,15 @@ Moments3<S> internal_force(const BeamElement3& e, const State3<S>& state, Eigen:
   }
   const Vec3<S> minus1 = -state.log1.psi, minus3 = -state.log3.psi;
   r.template segment<3>(3) = e.section[0].template cast<S>() * inverse_tangent_times(minus1, state.log1.e, P.on1);
-  r.template segment<3>(9) = e.section[1].template cast<S>() *
-                             (P.direct - inverse_tangent_times(state.log1.psi, state.log1.e, P.on1) -
-                              inverse_tangent_times(state.log3.psi, state.log3.e, P.on3));
+  r.template segment<3>(9) =
+      e.section[1].template cast<S>() * (P.direct - inverse_tangent_times(state.log1.psi, state.log1.e, P.on1) -
+                                         inverse_tangent_times(state.log3.psi, state.log3.e, P.on3));
   r.template segment<3>(15) = e.section[2].template cast<S>() * inverse_tangent_times(minus3, state.log3.e, P.on3);
   return P;
 }
 
-/// Consistent translational mass ∫ N_i N_j dS / L and its row sums ∫ N_i dS / L (lumping of gravity and rotary inertia).
+/// Consistent translational mass ∫ N_i N_j dS / L and its row sums ∫ N_i dS / L (lumping of gravity and rotary
+/// inertia).
 template <int N>
 struct Shares;
 template <>
@@ -279,9 +288,8 @@ struct Shares<2> {
 };
 template <>
 struct Shares<3> {
-  static constexpr double mass[3][3] = {{2.0 / 15, 1.0 / 15, -1.0 / 30},
-                                        {1.0 / 15, 8.0 / 15, 1.0 / 15},
-                                        {-1.0 / 30, 1.0 / 15, 2.0 / 15}};
+  static constexpr double mass[3][3] = {
+      {2.0 / 15, 1.0 / 15, -1.0 / 30}, {1.0 / 15, 8.0 / 15, 1.0 / 15}, {-1.0 / 30, 1.0 / 15, 2.0 / 15}};
   static constexpr double node[3] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
 };
 

@@ -30,8 +30,8 @@ Curve line(const formats::BeamBodySpec& spec, int intervals) {
   const Vector3d axis = spec.to - spec.from;
   curve.length = axis.norm();
   if (!(curve.length > 0.0) || !std::isfinite(curve.length))
-    throw Error(fmt::format("beam '{}' has zero length: from and to are both {}", spec.name, text(spec.from)), spec.where,
-                "give two different points");
+    throw Error(fmt::format("beam '{}' has zero length: from and to are both {}", spec.name, text(spec.from)),
+                spec.where, "give two different points");
   for (int i = 0; i <= intervals; ++i) {
     curve.position.push_back(spec.from + axis * (static_cast<double>(i) / intervals));
     curve.tangent.push_back(axis / curve.length);
@@ -46,9 +46,10 @@ Curve arc(const formats::BeamBodySpec& spec, int intervals) {
   const double area = normal.norm();  // twice the area of the triangle
   const double size = std::max({a.norm(), b.norm(), (a - b).norm()});
   if (!(area > 1e-9 * size * size))
-    throw Error(fmt::format("the arc of beam '{}' is not defined: from {}, through {} and to {} lie on a line or coincide",
-                            spec.name, text(spec.from), text(*spec.through), text(spec.to)),
-                spec.where, "give three points of a circle, or leave out 'through' for a straight beam");
+    throw Error(
+        fmt::format("the arc of beam '{}' is not defined: from {}, through {} and to {} lie on a line or coincide",
+                    spec.name, text(spec.from), text(*spec.through), text(spec.to)),
+        spec.where, "give three points of a circle, or leave out 'through' for a straight beam");
   // From `from` to the center of the circle through 0, a, b: (|a|² b − |b|² a) × (a × b) / (2 |a × b|²).
   const Vector3d center = (a.squaredNorm() * b - b.squaredNorm() * a).cross(normal) * (0.5 / (area * area));
   const Vector3d start = -center;
@@ -69,26 +70,24 @@ Curve arc(const formats::BeamBodySpec& spec, int intervals) {
   return curve;
 }
 
-Vector3d default_orientation(const Curve& curve) {
-  const std::array<Vector3d, 3> candidates = {Vector3d::UnitY(), Vector3d::UnitZ(), Vector3d::UnitX()};
-  Vector3d best = candidates[0];
-  double least = 2.0;
-  for (const Vector3d& candidate : candidates) {
-    double largest = 0.0;
-    for (const Vector3d& tangent : curve.tangent) largest = std::max(largest, std::abs(candidate.dot(tangent)));
-    if (largest < least - 1e-6) {
-      least = largest;
-      best = candidate;
-    }
-  }
-  return best;
+/// The global axis most nearly normal to the chords of all elements (stride: node intervals per element).
+Vector3d default_orientation(const Curve& curve, std::size_t stride) {
+  Vector3d largest = Vector3d::Zero();
+  for (std::size_t i = 0; i + stride < curve.position.size(); i += stride)
+    largest = largest.cwiseMax((curve.position[i + stride] - curve.position[i]).normalized().cwiseAbs());
+  int best = 1;
+  for (const int axis : {2, 0})
+    if (largest[axis] < largest[best] - 1e-9) best = axis;
+  return Vector3d::Unit(best);
 }
 
 std::vector<Matrix3d> section_triads(const formats::BeamBodySpec& spec, const Curve& curve) {
-  const Vector3d given = spec.orientation ? *spec.orientation : default_orientation(curve);
+  const Vector3d given = spec.orientation
+                             ? *spec.orientation
+                             : default_orientation(curve, static_cast<std::size_t>(spec.nodes_per_element - 1));
   if (!(given.norm() > 0.0) || !given.allFinite())
-    throw Error(fmt::format("orientation of beam '{}' is {}, which has no direction", spec.name, text(given)), spec.where,
-                "give a vector that is not parallel to the beam");
+    throw Error(fmt::format("orientation of beam '{}' is {}, which has no direction", spec.name, text(given)),
+                spec.where, "give a vector that is not parallel to the beam");
   const Vector3d direction = given.normalized();
   std::vector<Matrix3d> triads;
   for (const Vector3d& tangent : curve.tangent) {
@@ -101,10 +100,11 @@ std::vector<Matrix3d> section_triads(const formats::BeamBodySpec& spec, const Cu
     triad << tangent, normal.normalized(), tangent.cross(normal.normalized());
     // Between neighbours the triad turns with the tangent, unless the orientation crosses the tangent.
     if (!triads.empty() && triads.back().col(1).dot(triad.col(1)) < 0.5 * triads.back().col(0).dot(tangent))
-      throw Error(fmt::format("orientation {} of beam '{}' turns the section over near {}, where it is nearly parallel to "
-                              "the beam",
-                              text(given), spec.name, text(curve.position[triads.size()])),
-                  spec.where, "give an orientation along the normal of the arc, or more elements");
+      throw Error(
+          fmt::format("orientation {} of beam '{}' turns the section over near {}, where it is nearly parallel to "
+                      "the beam",
+                      text(given), spec.name, text(curve.position[triads.size()])),
+          spec.where, "give an orientation along the normal of the arc, or more elements");
     triads.push_back(triad);
   }
   return triads;

@@ -16,16 +16,16 @@ struct BeamMesh {
   std::vector<Eigen::Matrix3d> section;   ///< section triads in part axes; columns x (along the beam), y, z
   std::vector<BeamElement2> elements2;    ///< element.nodes are first_node + the node's number
   std::vector<BeamElement3> elements3;
-  double length = 0.0;                    ///< arc length of the whole beam
+  double length = 0.0;  ///< arc length of the whole beam
 };
 
 /// Meshes the straight line from–to, or the circular arc from–through–to.
 ///
 /// Section axes: x along the curve; y is the part of `orientation` that is normal to x. Without `orientation` it is the
-/// global axis most nearly normal to the curve (the one whose largest |cosine| with the tangents at the nodes is least,
-/// within 1e-6; among equals the order is y, z, x).
-/// Throws Error (place: spec.where) for a line of zero length, three points on a line or coinciding, an orientation
-/// along the beam or one that turns over along the arc, element numbers out of range, and bad sections.
+/// global axis most nearly normal to the curve (the one whose largest |cosine| with the chords of the elements is
+/// least; among equals, within 1e-9, y before z before x): the rule of part.yaml. Throws Error (place: spec.where) for
+/// a line of zero length, three points on a line or coinciding, an orientation along the beam or one that turns over
+/// along the arc, element numbers out of range, and bad sections.
 BeamMesh mesh_beam(const formats::BeamBodySpec& spec, int first_node);
 
 }  // namespace tisserand::mechanism

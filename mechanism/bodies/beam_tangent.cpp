@@ -4,9 +4,9 @@
 namespace tisserand::mechanism {
 namespace {
 
+using beam::Logarithm;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using beam::Logarithm;
 template <int N>
 using Square = Eigen::Matrix<double, 6 * N, 6 * N>;
 
@@ -23,9 +23,9 @@ struct LogarithmDerivatives {
       const double w2 = log.w.squaredNorm();
       t = std::sqrt(w2 / log.u);
       t1 = (0.25 * (1.0 + w2) - t) / log.u;
-      const double cotangent = 1.0 - log.e * log.u;                    // (a/2) cot(a/2)
-      const double sine = 2.0 * std::sqrt(w2) / (1.0 + w2);            // sin(a/2)
-      const double cosecant = 0.25 * log.u / (sine * sine);            // (a/2)²/sin²(a/2)
+      const double cotangent = 1.0 - log.e * log.u;          // (a/2) cot(a/2)
+      const double sine = 2.0 * std::sqrt(w2) / (1.0 + w2);  // sin(a/2)
+      const double cosecant = 0.25 * log.u / (sine * sine);  // (a/2)²/sin²(a/2)
       e1 = ((cosecant - cotangent) / log.u - 2.0 * log.e) / log.u;
     }
   }
@@ -33,8 +33,15 @@ struct LogarithmDerivatives {
  private:
   /// tan(a/4)/a = ¼ Σ τ_k (u/16)^k with tan x = Σ τ_k x^(2k+1).
   static constexpr std::array<double, 9> t_series = [] {
-    constexpr std::array<double, 9> tau = {1.0, 1.0 / 3, 2.0 / 15, 17.0 / 315, 62.0 / 2835, 1382.0 / 155925,
-                                           21844.0 / 6081075, 929569.0 / 638512875, 6404582.0 / 10854718875};
+    constexpr std::array<double, 9> tau = {1.0,
+                                           1.0 / 3,
+                                           2.0 / 15,
+                                           17.0 / 315,
+                                           62.0 / 2835,
+                                           1382.0 / 155925,
+                                           21844.0 / 6081075,
+                                           929569.0 / 638512875,
+                                           6404582.0 / 10854718875};
     std::array<double, 9> a{};
     double factor = 0.25;
     for (std::size_t k = 0; k < 9; ++k, factor /= 16.0) a[k] = factor * tau[k];

@@ -56,8 +56,8 @@ TYPED_TEST(BeamElementTest, GravityIsTheGradientOfItsPotential) {
     for (int k = 0; k < 3; ++k) {
       std::vector<NodeMotion> moved = nodes;
       moved[i].x[k] += 1.0;  // the potential is linear
-      const double difference = energy(this->general, moved, this->gravity).potential -
-                                energy(this->general, nodes, this->gravity).potential;
+      const double difference =
+          energy(this->general, moved, this->gravity).potential - energy(this->general, nodes, this->gravity).potential;
       EXPECT_NEAR((with - without)[6 * i + k], difference, 1e-14 * 10.0);
       EXPECT_EQ(with[6 * i + 3 + k], without[6 * i + 3 + k]);
     }
@@ -77,8 +77,7 @@ TYPED_TEST(BeamElementTest, TangentEqualsComplexStepAndDual) {
     for (int dof = 0; dof < 6 * N; ++dof) {
       using C = std::complex<double>;
       constexpr double h = 1e-30;
-      const auto moved =
-          perturbed<C, N>(nodes, dof, C(0, h * c.stiffness), C(0, h * c.damping), C(0, h * c.mass));
+      const auto moved = perturbed<C, N>(nodes, dof, C(0, h * c.stiffness), C(0, h * c.damping), C(0, h * c.mass));
       const Eigen::Matrix<C, 6 * N, 1> rc = test::scalar_residual<C, N>(this->general, moved, this->gravity);
       const auto dual = perturbed<Dual, N>(nodes, dof, Dual(0, c.stiffness), Dual(0, c.damping), Dual(0, c.mass));
       const Eigen::Matrix<Dual, 6 * N, 1> rd = test::scalar_residual<Dual, N>(this->general, dual, this->gravity);
@@ -106,9 +105,15 @@ TYPED_TEST(BeamElementTest, TangentEqualsCentralDifferences) {
     NodeMotion& n = moved[static_cast<std::size_t>(dof / 6)];
     const Vector3d step = h * Vector3d::Unit(dof % 3);
     const NodeMotion start = n;
-    if (dof % 6 < 3) n.x = start.x + step; else n.R = start.R * exp_so3<double>(step);
+    if (dof % 6 < 3)
+      n.x = start.x + step;
+    else
+      n.R = start.R * exp_so3<double>(step);
     residual(this->general, moved, this->gravity, plus);
-    if (dof % 6 < 3) n.x = start.x - step; else n.R = start.R * exp_so3<double>(-step);
+    if (dof % 6 < 3)
+      n.x = start.x - step;
+    else
+      n.R = start.R * exp_so3<double>(-step);
     residual(this->general, moved, this->gravity, minus);
     EXPECT_LT(((plus - minus) / (2 * h) - A.col(dof)).cwiseAbs().maxCoeff(), 1e-9) << dof;
   }

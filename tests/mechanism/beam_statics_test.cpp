@@ -77,8 +77,7 @@ TEST(BeamStatics, Bend45OfBatheAndBolourchi) {
 
 TEST(BeamStatics, SolutionDoesNotDependOnTheLoadPath) {
   const std::vector<double> row = reference_rows("beam_bend_45.csv")[0];
-  for (const int n : {2, 3})
-    EXPECT_LT((bend_45(row, 8, n, 8) - bend_45(row, 8, n, 20)).norm(), 1e-9) << n << " nodes";
+  for (const int n : {2, 3}) EXPECT_LT((bend_45(row, 8, n, 8) - bend_45(row, 8, n, 20)).norm(), 1e-9) << n << " nodes";
 }
 
 Cantilever roll_up(int elements, int nodes_per_element, double turns) {
@@ -102,8 +101,8 @@ TEST(BeamStatics, RollUpToAFullCircle) {
     }
 }
 
-// Half a circle shows the error: an element of two nodes keeps the length h of its chord, so that the nodes are corners of
-// a regular polygon with side h; the tip is at h/sin(π/2N) exactly, instead of 2L/π: order 2. Three nodes: order 4.
+// Half a circle shows the error: an element of two nodes keeps the length h of its chord, so that the nodes are corners
+// of a regular polygon with side h; the tip is at h/sin(π/2N) exactly, instead of 2L/π: order 2. Three nodes: order 4.
 TEST(BeamStatics, RollUpToHalfACircle) {
   const double exact = 20.0 / pi;
   for (const int n : {4, 8, 16}) {
@@ -151,7 +150,8 @@ TEST(BeamStatics, PrincetonBeam) {
       const Vector3d u = result.nodes.back().x - mesh.position.back(), expected(row[2], row[3], row[4]);
       const Eigen::Matrix3d& R = result.nodes.back().R;
       EXPECT_LT((u - expected).norm(), 1e-3 * expected.norm()) << row[0] << " N, " << row[1] << " degrees";
-      EXPECT_NEAR(std::atan2(-R(1, 2), R(2, 2)) * 180.0 / pi, row[5], 3.5e-3) << row[0] << " N, " << row[1] << " degrees";
+      EXPECT_NEAR(std::atan2(-R(1, 2), R(2, 2)) * 180.0 / pi, row[5], 3.5e-3)
+          << row[0] << " N, " << row[1] << " degrees";
     }
   }
 }
@@ -166,8 +166,9 @@ Eigen::Matrix<double, 6, 1> linear_tip(const BeamMesh& mesh, const Eigen::Matrix
   return K.bottomRightCorner(f.size(), f.size()).partialPivLu().solve(f).tail<6>();
 }
 
-// Two nodes with one quadrature point: tip deflection P L³/(3EI) (1 − 1/(4N²)) + P L/(GA), whatever the slenderness; end
-// moment, torque and axial force exactly. Three nodes: exact for all of them (cubic deflection, superconvergent nodes).
+// Two nodes with one quadrature point: tip deflection P L³/(3EI) (1 − 1/(4N²)) + P L/(GA), whatever the slenderness;
+// end moment, torque and axial force exactly. Three nodes: exact for all of them (cubic deflection, superconvergent
+// nodes).
 TEST(BeamStatics, LinearCantileverWithoutLockingAtAnySlenderness) {
   for (const double height : {0.5, 0.05, 5e-4}) {  // length 5: slenderness 10 to 1e4; locking: errors of size one
     for (const int n : {1, 4, 16})
@@ -199,8 +200,8 @@ TEST(BeamStatics, LinearCantileverWithoutLockingAtAnySlenderness) {
   }
 }
 
-// Quarter circle, clamped, radial tip force in its plane (Castigliano): u = (π P R/4) (R²/EI + 1/EA + 1/GA). With membrane
-// locking the error would grow with slenderness; here it is that of the interpolation, order 2 and 4.
+// Quarter circle, clamped, radial tip force in its plane (Castigliano): u = (π P R/4) (R²/EI + 1/EA + 1/GA). With
+// membrane locking the error would grow with slenderness; here it is that of the interpolation, order 2 and 4.
 TEST(BeamStatics, ThinArcWithoutMembraneLocking) {
   for (const int nodes_per_element : {2, 3}) {
     const int n = nodes_per_element == 2 ? 16 : 4;
@@ -226,8 +227,8 @@ TEST(BeamStatics, ThinArcWithoutMembraneLocking) {
   }
 }
 
-// Axially compressed cantilever: the tangent loses definiteness at Haringx's load for Simo-Reissner rods, the smallest root
-// of P (1 + P/GA) = π² EI/(4L²) for EA → ∞ (axial shortening is made negligible here).
+// Axially compressed cantilever: the tangent loses definiteness at Haringx's load for Simo-Reissner rods, the smallest
+// root of P (1 + P/GA) = π² EI/(4L²) for EA → ∞ (axial shortening is made negligible here).
 TEST(BeamStatics, TangentFindsTheBucklingLoad) {
   formats::BeamBodySpec spec = straight(2.0, 16, 3);
   spec.section = test::rectangle(1.0, 1.0, 1.0, 1.0);

@@ -1,4 +1,5 @@
-// Random deformed states of single beam elements and their perturbation in any scalar, for tests of forces and tangents.
+// Random deformed states of single beam elements and their perturbation in any scalar, for tests of forces and
+// tangents.
 #pragma once
 
 #include <random>
@@ -60,8 +61,8 @@ std::vector<NodeMotion> random_state(std::mt19937& generator, double size) {
   const Eigen::Matrix3d turn = exp_so3<double>(random_vector(generator, 1.5));
   for (int i = 0; i < N; ++i) {
     const double s = static_cast<double>(i) / (N - 1);
-    nodes[i].x = turn * (Eigen::Vector3d(s, 0.2 * s * s, -0.1 * s) + random_vector(generator, size)) +
-                 Eigen::Vector3d(1, -2, 3);
+    nodes[i].x =
+        turn * (Eigen::Vector3d(s, 0.2 * s * s, -0.1 * s) + random_vector(generator, size)) + Eigen::Vector3d(1, -2, 3);
     nodes[i].R = turn * exp_so3<double>(random_vector(generator, size));
     nodes[i].xd = random_vector(generator, 1.0);
     nodes[i].Omega = random_vector(generator, 1.0);

@@ -18,8 +18,8 @@ struct TipLoad {
 
 struct Cantilever {
   std::vector<NodeMotion> nodes;
-  int iterations = 0;        ///< of the last load step
-  double last_step = 0.0;    ///< largest increment of the last iteration
+  int iterations = 0;      ///< of the last load step
+  double last_step = 0.0;  ///< largest increment of the last iteration
   bool converged = false;
 };
 
