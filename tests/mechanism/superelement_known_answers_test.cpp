@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "mechanism/bodies/superelement_evaluate.hpp"
-#include "tests/support/superelement_cases.hpp"
+#include "tests/support/superelement_known_answers.hpp"
 
 namespace tisserand::mechanism {
 namespace {
