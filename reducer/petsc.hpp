@@ -1,0 +1,59 @@
+// The thin layer over PETSc and SLEPc: start and end, owned matrices, errors as exceptions. Their headers stay in .cpp files.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include <Eigen/Core>
+
+struct _p_Mat;
+
+namespace tisserand::reducer {
+
+/// Starts MPI, PETSc and SLEPc (no option files, no signal handlers) and ends them. One per process, in commands that
+/// solve only: it costs some 50 ms.
+class SolverSession {
+ public:
+  SolverSession();
+  ~SolverSession();
+  SolverSession(const SolverSession&) = delete;
+  SolverSession& operator=(const SolverSession&) = delete;
+};
+
+/// Throws Error with PETSc's own text if `code` is not 0.
+void petsc_check(int code);
+
+/// Owner of a PETSc Mat.
+class Matrix {
+ public:
+  Matrix() = default;
+  explicit Matrix(_p_Mat* mat) : mat_(mat) {}
+  Matrix(Matrix&& other) noexcept : mat_(std::exchange(other.mat_, nullptr)) {}
+  Matrix& operator=(Matrix&& other) noexcept {
+    std::swap(mat_, other.mat_);
+    return *this;
+  }
+  Matrix(const Matrix&) = delete;
+  Matrix& operator=(const Matrix&) = delete;
+  ~Matrix();
+
+  _p_Mat* get() const { return mat_; }
+  _p_Mat** out() { return &mat_; }  ///< for PETSc functions that create
+
+ private:
+  _p_Mat* mat_ = nullptr;
+};
+
+/// A X for symmetric A (n x n) and dense X (n x k).
+Eigen::MatrixXd multiply(const Matrix& A, const Eigen::MatrixXd& X);
+
+/// diag(A).
+Eigen::VectorXd diagonal(const Matrix& A);
+
+/// A as a dense matrix, both triangles.
+Eigen::MatrixXd dense(const Matrix& A);
+
+/// A + factor B; the pattern of B is within that of A or is added.
+Matrix combine(const Matrix& A, double factor, const Matrix& B);
+
+}  // namespace tisserand::reducer

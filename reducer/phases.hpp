@@ -1,0 +1,43 @@
+// Time per phase of a reduction, and a sign of life on stderr when one takes longer than a second.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace tisserand::reducer {
+
+/// A phase ends when the next begins. A watching thread reports a phase after its first second, then ever more rarely.
+class Phases {
+ public:
+  Phases();
+  ~Phases();
+  Phases(const Phases&) = delete;
+  Phases& operator=(const Phases&) = delete;
+
+  void begin(const std::string& name);
+  void end();
+  /// "mesh 0.010 s, assembly 0.021 s, ..., total 0.310 s".
+  std::string text() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Phase {
+    std::string name;
+    Clock::time_point start;
+    double seconds = 0.0;
+  };
+  void watch();
+
+  std::vector<Phase> phases_;
+  bool running_ = false;   ///< the last phase has not ended
+  bool finished_ = false;  ///< the watching thread shall end
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::thread watcher_;
+};
+
+}  // namespace tisserand::reducer

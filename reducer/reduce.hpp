@@ -1,0 +1,25 @@
+// The story of stage 1: from a part to its superelement and certificate.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "formats/part.hpp"
+#include "formats/superelement.hpp"
+#include "reducer/certificate.hpp"
+
+namespace tisserand::reducer {
+
+struct Reduction {
+  formats::Superelement superelement;
+  FileCertificate file;
+  ModelCertificate model;
+};
+
+/// Called when a phase begins, with its name: the caller measures time and shows progress.
+using PhaseListener = std::function<void(const std::string& phase)>;
+
+/// Needs a SolverSession. Throws Error for whatever is wrong with the part.
+Reduction reduce(const formats::Part& part, const PhaseListener& begin);
+
+}  // namespace tisserand::reducer
