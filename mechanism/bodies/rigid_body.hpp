@@ -1,0 +1,47 @@
+// Rigid body: a node at the centre of mass that carries mass and inertia.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "common/rotation.hpp"
+#include "mechanism/motion.hpp"
+
+namespace tisserand::mechanism {
+
+/// The node sits at the centre of mass with the axes of the part; inertia about it, in these axes.
+struct RigidBody {
+  std::string name;
+  int node = 0;
+  double mass = 0.0;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+};
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+/// Newton and Euler: r = [m (ẍ − g); J Ω̇ + Ω × J Ω], force in world axes, moment in body axes.
+inline void residual(const RigidBody& body, const NodeMotion& n, const Eigen::Vector3d& gravity, Vector6d& r) {
+  r.head<3>() = body.mass * (n.xdd - gravity);
+  r.tail<3>() = body.inertia * n.Omegad + n.Omega.cross(body.inertia * n.Omega);
+}
+
+/// c_m ∂r/∂v̇ + c_c ∂r/∂v; the stiffness is zero.
+inline void tangent(const RigidBody& body, const NodeMotion& n, const TangentCoefficients& c, Matrix6d& A) {
+  A.setZero();
+  A.diagonal().head<3>().setConstant(c.mass * body.mass);
+  const Eigen::Vector3d momentum = body.inertia * n.Omega;
+  A.block<3, 3>(3, 3) =
+      c.mass * body.inertia + c.damping * (skew<double>(n.Omega) * body.inertia - skew<double>(momentum));
+}
+
+inline double kinetic_energy(const RigidBody& body, const NodeMotion& n) {
+  return 0.5 * (body.mass * n.xd.squaredNorm() + n.Omega.dot(body.inertia * n.Omega));
+}
+
+inline double gravity_potential(const RigidBody& body, const NodeMotion& n, const Eigen::Vector3d& gravity) {
+  return -body.mass * gravity.dot(n.x);
+}
+
+}  // namespace tisserand::mechanism

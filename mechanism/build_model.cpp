@@ -1,0 +1,348 @@
+// Bodies become nodes and elements, places become markers, joints and loads refer to markers.
+#include "mechanism/build_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <Eigen/LU>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "mechanism/bodies/beam_mesh.hpp"
+#include "mechanism/evaluate.hpp"
+#include "mechanism/newton.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+class Builder {
+ public:
+  Builder(const formats::Scene& scene, const SuperelementFiles& files) : scene_(scene), files_(files) {}
+
+  BuiltModel build() {
+    model_.name = scene_.name;
+    model_.units = scene_.units;
+    model_.gravity = scene_.gravity;
+    model_.internal_offset = {0};
+    for (const formats::BodySpec& body : scene_.bodies) {
+      collect([&] { std::visit([this](const auto& spec) { add_body(spec); }, body); });
+    }
+    throw_errors();
+    initial_motion();
+    for (const formats::JointSpec& joint : scene_.joints) collect([&] { add_joint(joint); });
+    for (const formats::LoadSpec& load : scene_.loads) collect([&] { add_load(load); });
+    throw_errors();
+    finish();
+    BuiltModel built{std::move(model_), State(Sizes{}), std::move(notes_)};
+    built.state = initial_state(built.model);
+    return built;
+  }
+
+ private:
+  // ---- errors -------------------------------------------------------------------------------------------------------
+  template <class Action>
+  void collect(Action action) {
+    try {
+      action();
+    } catch (const Error& error) {
+      errors_.push_back(error);
+    }
+  }
+  void throw_errors() const {
+    if (!errors_.empty()) throw merge_errors(errors_);
+  }
+
+  // ---- bodies -------------------------------------------------------------------------------------------------------
+  /// A node at `position` (part frame) of a body that starts with `start`.
+  int add_node(const std::string& name, const formats::InitialMotion& start, const Vector3d& position, int translations,
+               int rotations) {
+    Node node{name, -1, -1};
+    if (translations) node.translation = std::exchange(model_.sizes.boundary, model_.sizes.boundary + 3);
+    if (rotations) node.rotation = std::exchange(model_.sizes.boundary, model_.sizes.boundary + 3);
+    model_.nodes.push_back(node);
+    NodeMotion motion;
+    motion.R = start.pose.orientation.normalized().toRotationMatrix();
+    const Vector3d arm = motion.R * position;
+    motion.x = start.pose.position + arm;
+    motion.xd = start.velocity + start.angular_velocity.cross(arm);
+    motion.Omega = motion.R.transpose() * start.angular_velocity;
+    motion_.push_back(motion);
+    return static_cast<int>(model_.nodes.size()) - 1;
+  }
+
+  void add_place(const std::string& name, const Marker& marker) {
+    model_.places.push_back({name, marker});
+    places_[name] = marker;
+  }
+
+  void add_body(const formats::SuperelementBodySpec& spec) {
+    const formats::LoadedSuperelement& file = files_.at(spec.file);
+    const formats::Superelement& element = file.superelement;
+    const UnitConversion units = convert_units(element.units, scene_.units, spec.file);
+    if (element.units.named() && (units.length != 1.0 || units.mass != 1.0 || units.time != 1.0))
+      notes_.push_back(fmt::format("body '{}': converted from {}, {}, {} to {}, {}, {}", spec.name, element.units.length.label,
+                                   element.units.mass.label, element.units.time.label, scene_.units.length.label,
+                                   scene_.units.mass.label, scene_.units.time.label));
+    for (const std::string& warning : file.report.warnings) notes_.push_back(fmt::format("body '{}': {}", spec.name, warning));
+    if (spec.rigid) {
+      add_rigid_superelement(spec, file, units);
+      return;
+    }
+    SuperelementOptions options;
+    options.frame = spec.frame;
+    options.frame_node = spec.frame_node;
+    options.inertia = spec.inertia;
+    options.modes = spec.modes;
+    options.cutoff = spec.cutoff;
+    options.position_weights = spec.position_weights;
+    options.rotation_weights = spec.rotation_weights;
+    options.damping = spec.damping;
+    options.units = units;
+    options.where = spec.where;
+    SuperelementBody body = build_superelement_body(element, file.report.rigid, options);
+    body.name = spec.name;
+    for (const std::string& note : body.notes) notes_.push_back(fmt::format("body '{}': {}", spec.name, note));
+    for (std::size_t j = 0; j < body.node.size(); ++j) {
+      const std::string name = spec.name + "/" + body.node[j].name;
+      const Vector3d position = body.reference_origin + body.node[j].X;
+      body.nodes[j] = add_node(name, spec.start, position, body.node[j].has_translation(), body.node[j].has_rotation());
+      add_place(name, {body.nodes[j], Vector3d::Zero(), Matrix3d::Identity()});
+    }
+    model_.internal_offset.push_back(model_.internal_offset.back() + body.modes);
+    model_.superelement_content_ids.push_back(element.content_id);
+    model_.superelements.push_back(std::move(body));
+    frames_.push_back(spec.start.pose.orientation.normalized());
+  }
+
+  void add_rigid_superelement(const formats::SuperelementBodySpec& spec, const formats::LoadedSuperelement& file,
+                              const UnitConversion& units) {
+    formats::RigidBodySpec rigid;
+    rigid.name = spec.name;
+    rigid.start = spec.start;
+    rigid.mass = file.report.rigid.mass * units.mass;
+    rigid.center_of_mass = file.report.rigid.center_of_mass * units.length;
+    rigid.inertia = file.report.rigid.inertia * (units.mass * units.length * units.length);
+    rigid.where = spec.where;
+    const formats::Superelement& element = file.superelement;
+    for (std::size_t j = 0; j < element.node_name.size(); ++j) {
+      formats::RigidNodeSpec node;
+      node.name = element.node_name[j];
+      node.pose.position = element.node_position.row(static_cast<Eigen::Index>(j)).transpose() * units.length;
+      rigid.nodes.push_back(node);
+    }
+    add_body(rigid);
+  }
+
+  void add_body(const formats::RigidBodySpec& spec) {
+    const int node = add_node(spec.name, spec.start, spec.center_of_mass, 1, 1);
+    model_.rigid_bodies.push_back({spec.name, node, spec.mass, spec.inertia});
+    add_place(spec.name, {node, -spec.center_of_mass, Matrix3d::Identity()});
+    for (const formats::RigidNodeSpec& place : spec.nodes)
+      add_place(spec.name + "/" + place.name, {node, place.pose.position - spec.center_of_mass,
+                                               place.pose.orientation.normalized().toRotationMatrix()});
+  }
+
+  void add_body(const formats::BeamBodySpec& spec) {
+    const BeamMesh mesh = mesh_beam(spec, 0);
+    std::vector<int> nodes;
+    for (std::size_t i = 0; i < mesh.position.size(); ++i) {
+      const std::string name = fmt::format("{}/{}", spec.name, i);
+      nodes.push_back(add_node(name, spec.start, mesh.position[i], 1, 1));
+      add_place(name, {nodes.back(), Vector3d::Zero(), Matrix3d::Identity()});
+    }
+    places_[spec.name + "/start"] = {nodes.front(), Vector3d::Zero(), Matrix3d::Identity()};
+    places_[spec.name + "/end"] = {nodes.back(), Vector3d::Zero(), Matrix3d::Identity()};
+    const auto append = [&nodes](const auto& elements, auto& pool) {
+      for (auto element : elements) {
+        for (int& node : element.nodes) node = nodes[static_cast<std::size_t>(node)];
+        pool.push_back(element);
+      }
+    };
+    append(mesh.elements2, model_.beams2);
+    append(mesh.elements3, model_.beams3);
+  }
+
+  // ---- joints and loads ---------------------------------------------------------------------------------------------
+  /// The place that a marker names (without the marker's own offset).
+  Marker find_place(const formats::MarkerSpec& spec) const {
+    if (spec.node == "ground") return {};
+    const auto found = places_.find(spec.node);
+    if (found != places_.end()) return found->second;
+    std::vector<std::string> names{"ground"};
+    for (const auto& [name, marker] : places_) names.push_back(name);
+    const auto suggestion = nearest(spec.node, names);
+    if (names.size() > 12) names = {names.begin(), names.begin() + 12};
+    throw Error(fmt::format("there is no node '{}'", spec.node), spec.where,
+                suggestion ? fmt::format("did you mean '{}'?", *suggestion)
+                           : "the scene has " + join(names, ", ") + (places_.size() > 11 ? ", ..." : ""));
+  }
+
+  Marker with_offset(Marker marker, const formats::MarkerSpec& spec) const {
+    if (spec.position) marker.p += marker.R * *spec.position;
+    if (spec.orientation) marker.R *= spec.orientation->normalized().toRotationMatrix();
+    return marker;
+  }
+
+  NodeMotion motion(int node) const { return node < 0 ? NodeMotion{} : motion_[static_cast<std::size_t>(node)]; }
+
+  /// Gives the marker the world pose (position, R) where the scene leaves it open.
+  void place_marker(const formats::MarkerSpec& spec, const Vector3d& position, const Matrix3d& R, Marker& marker) const {
+    const NodeMotion carrier = motion(marker.node);
+    if (!spec.position) marker.p = carrier.R.transpose() * (position - carrier.x);
+    if (!spec.orientation) marker.R = carrier.R.transpose() * R;
+  }
+
+  void check_marker(const formats::JointSpec& spec, const formats::MarkerSpec& place, const Marker& marker) const {
+    if (marker.node < 0 || model_.nodes[static_cast<std::size_t>(marker.node)].rotation >= 0) return;
+    if (spec.kind != formats::JointKind::spherical)
+      throw Error(fmt::format("joint '{}' holds the rotation of node '{}', which has none", spec.name, place.node), place.where,
+                  "use a spherical joint, or keep the rotations of that node in the superelement");
+    if (marker.p.norm() > 1e-12)
+      throw Error(fmt::format("joint '{}' is {:.3g} away from node '{}', which has no rotations to carry the offset", spec.name,
+                              marker.p.norm(), place.node),
+                  place.where, "put the joint at the node, or keep the rotations of that node in the superelement");
+  }
+
+  void add_joint(const formats::JointSpec& spec) {
+    Joint joint;
+    joint.name = spec.name;
+    joint.kind = spec.kind;
+    joint.a = with_offset(find_place(spec.a), spec.a);
+    joint.b = with_offset(find_place(spec.b), spec.b);
+    if (joint.a.node == joint.b.node)
+      throw Error(fmt::format("joint '{}' connects '{}' and '{}', which are {}", spec.name, spec.a.node, spec.b.node,
+                              joint.a.node < 0 ? "both ground" : "on one and the same node"),
+                  spec.where, "connect two different nodes");
+    // Where the scene leaves it open: at b, or at a if b is ground; explicit markers first.
+    const bool at_a = spec.b.node == "ground" || (spec.a.position && !spec.b.position);
+    const Marker& known = at_a ? joint.a : joint.b;
+    const Vector3d position = spec.position ? *spec.position : marker_position(known, motion(known.node));
+    const bool turned_a = spec.a.orientation.has_value(), turned_b = spec.b.orientation.has_value();
+    Matrix3d R = Matrix3d::Identity();
+    if (spec.axis)
+      R = frame_with_z(*spec.axis);
+    else if (turned_a || turned_b)
+      R = turned_a ? marker_rotation(joint.a, motion(joint.a.node)) : marker_rotation(joint.b, motion(joint.b.node));
+    else if (spec.kind == formats::JointKind::revolute)
+      throw Error(fmt::format("revolute joint '{}' has no axis", spec.name), spec.where,
+                  "give `axis: [x, y, z]` in the world frame at the start, or orientations of its markers");
+    place_marker(spec.a, position, R, joint.a);
+    place_marker(spec.b, position, R, joint.b);
+    check_marker(spec, spec.a, joint.a);
+    check_marker(spec, spec.b, joint.b);
+    model_.joints.push_back(std::move(joint));
+  }
+
+  static Matrix3d frame_with_z(const Vector3d& axis) {
+    const Vector3d z = axis.normalized();
+    Eigen::Index smallest = 0;
+    z.cwiseAbs().minCoeff(&smallest);
+    const Vector3d x = (Vector3d::Unit(smallest) - z[smallest] * z).normalized();
+    Matrix3d R;
+    R << x, z.cross(x), z;
+    return R;
+  }
+
+  void add_load(const formats::LoadSpec& spec) {
+    Load load;
+    load.name = spec.name;
+    load.kind = spec.kind;
+    load.axes = spec.axes;
+    load.at = with_offset(find_place(spec.at), spec.at);
+    load.components = spec.components;
+    load.where = spec.where;
+    if (load.at.node < 0)
+      throw Error(fmt::format("load '{}' acts on ground", spec.name), spec.where, "name a node of a body");
+    const Node& node = model_.nodes[static_cast<std::size_t>(load.at.node)];
+    if (spec.kind == formats::LoadKind::moment && node.rotation < 0)
+      throw Error(fmt::format("moment '{}' acts on node '{}', which has no rotations", spec.name, node.name), spec.where,
+                  "use forces, or keep the rotations of that node in the superelement");
+    for (const formats::TimeFunctionSpec& component : spec.components) {
+      TimeFunction check(component);  // reports syntax errors now
+      for (const double t : breakpoints(component)) breakpoints_.insert(t);
+    }
+    model_.loads.push_back(std::move(load));
+  }
+
+  // ---- the whole ----------------------------------------------------------------------------------------------------
+  void initial_motion() {
+    if (motion_.empty()) throw Error("the scene has no bodies", scene_.file, "add a body under `bodies:`");
+    Vector3d low = motion_.front().x, high = low;
+    for (const NodeMotion& m : motion_) {
+      low = low.cwiseMin(m.x);
+      high = high.cwiseMax(m.x);
+    }
+    model_.length = (high - low).norm();
+    for (const Place& place : model_.places) model_.length = std::max(model_.length, place.marker.p.norm());
+    if (!(model_.length > 0.0)) model_.length = 1.0;
+  }
+
+  void finish() {
+    model_.sizes.nodes = static_cast<int>(model_.nodes.size());
+    model_.sizes.internal = model_.internal_offset.back();
+    model_.sizes.superelements = static_cast<int>(model_.superelements.size());
+    model_.breakpoints.assign(breakpoints_.begin(), breakpoints_.end());
+    finish_model(model_, scene_.integrator.linear_solver);
+  }
+
+  State initial_state(Model& model) {
+    State state(model.sizes);
+    state.time() = state.load_time() = scene_.integrator.start;
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+      const NodeMotion& m = motion_[i];
+      const auto column = static_cast<Eigen::Index>(i);
+      state.x().col(column) = m.x;
+      state.Q().col(column) = wxyz(Eigen::Quaterniond(m.R).normalized());
+      if (model.nodes[i].translation >= 0) state.v().segment<3>(model.nodes[i].translation) = m.xd;
+      if (model.nodes[i].rotation >= 0) state.v().segment<3>(model.nodes[i].rotation) = m.Omega;
+    }
+    for (std::size_t i = 0; i < frames_.size(); ++i) state.frames().col(static_cast<Eigen::Index>(i)) = wxyz(frames_[i]);
+    scale(model, state);
+    return state;
+  }
+
+  /// Largest diagonal entries of mass and stiffness, which the iteration matrix is scaled with.
+  static void scale(Model& model, const State& state) {
+    Workspace workspace(model);
+    evaluate(model, state, workspace);
+    const auto largest_diagonal = [&](const TangentCoefficients& c) {
+      model.mass_scale = model.stiffness_scale = 1.0;
+      evaluate_tangent(model, state, c, TangentKind::step, {}, workspace);
+      double largest = 0.0;
+      for (const Node& node : model.nodes)
+        for (int k = 0; k < 3 && node.translation >= 0; ++k)
+          largest = std::max(largest, std::abs(workspace.values[static_cast<std::size_t>(
+                                          model.pattern->slot(node.translation + k, node.translation + k))]));
+      for (const Node& node : model.nodes)
+        for (int k = 0; k < 3 && node.rotation >= 0; ++k)
+          largest = std::max(largest, std::abs(workspace.values[static_cast<std::size_t>(
+                                          model.pattern->slot(node.rotation + k, node.rotation + k))]) /
+                                          (model.length * model.length));
+      return largest;
+    };
+    const double mass = largest_diagonal({1.0, 0.0, 0.0});
+    const double stiffness = largest_diagonal({0.0, 0.0, 1.0});
+    model.mass_scale = mass > 0.0 ? mass : 1.0;
+    model.stiffness_scale = stiffness;
+  }
+
+  const formats::Scene& scene_;
+  const SuperelementFiles& files_;
+  Model model_;
+  std::vector<NodeMotion> motion_;              ///< start of each node
+  std::vector<Eigen::Quaterniond> frames_;
+  std::map<std::string, Marker> places_;
+  std::set<double> breakpoints_;
+  std::vector<std::string> notes_;
+  std::vector<Error> errors_;
+};
+
+}  // namespace
+
+BuiltModel build_model(const formats::Scene& scene, const SuperelementFiles& files) { return Builder(scene, files).build(); }
+
+}  // namespace tisserand::mechanism

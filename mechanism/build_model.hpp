@@ -1,0 +1,26 @@
+// From the scene and its superelement files to the constant model and the state before projection.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "formats/scene.hpp"
+#include "formats/superelement.hpp"
+#include "mechanism/model.hpp"
+#include "mechanism/state.hpp"
+
+namespace tisserand::mechanism {
+
+/// Superelement files by path, each read once.
+using SuperelementFiles = std::map<std::string, formats::LoadedSuperelement>;
+
+struct BuiltModel {
+  Model model;
+  State state;                      ///< positions and velocities of the scene, not yet projected on the constraints
+  std::vector<std::string> notes;   ///< conversions, cut modes, warnings: whole sentences
+};
+
+/// Throws Error (all that are found) for names that do not exist, joints on nodes without rotations, and so on.
+BuiltModel build_model(const formats::Scene& scene, const SuperelementFiles& files);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,36 @@
+// The one door between integration and mechanics: residual, constraints and tangents of a model at a state.
+#pragma once
+
+#include "mechanism/model.hpp"
+#include "mechanism/state.hpp"
+#include "mechanism/workspace.hpp"
+
+namespace tisserand::mechanism {
+
+/// Fills r = G_iner + G_int + G_damp + Bᵀλ − F (boundary coordinates; internal ones stay in the superelements' scratch),
+/// Φ, B v + Φ_t, the force scales and the powers of loads and damping.
+void evaluate(const Model& model, const State& state, Workspace& workspace);
+
+/// Fills Ḃ v (Φ̈ = B v̇ + Ḃ v) for the state of the last evaluate().
+void evaluate_bias(const Model& model, Workspace& workspace);
+
+/// What the constraint rows of the iteration matrix are derivatives of.
+struct ConstraintRows {
+  enum class Kind {
+    plain,     ///< B: Φ for material increments
+    position,  ///< B T(displacement of the step): Φ for increments of the rotation vector of the step
+    velocity   ///< B + rate_factor ∂(B v)/∂q: rate_factor times B v for increments whose velocity is 1/rate_factor of them
+  };
+  Kind kind = Kind::plain;
+  double rate_factor = 0.0;
+};
+
+/// Fills the values of [A/s Bᵀ; rows 0] with A = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q, internal coordinates condensed, at
+/// the state of the last evaluate().
+void evaluate_tangent(const Model& model, const State& state, const TangentCoefficients& coefficients, TangentKind kind,
+                      const ConstraintRows& rows, Workspace& workspace);
+
+/// At the state of the last evaluate().
+Energy evaluate_energy(const Model& model, Workspace& workspace);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,227 @@
+// Rank, projection and consistent start.
+#include "mechanism/initial.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/QR>
+#include <Eigen/SparseCore>
+#include <Eigen/SparseQR>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "mechanism/evaluate.hpp"
+#include "mechanism/integrator.hpp"
+#include "mechanism/newton.hpp"
+#include "mechanism/schedule.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+/// Singular values of B below this (relative) count as zero.
+constexpr double rank_tolerance = 1e-10;
+/// Smallest reciprocal condition of a mass matrix that is solved as it is.
+constexpr double mass_condition = 1e-15;
+/// Constraint Jacobians up to this size are decomposed densely.
+constexpr int dense_rank_limit = 400;
+
+/// Bᵀ with rotation rows divided by the characteristic length and angle columns multiplied with it.
+Eigen::SparseMatrix<double> scaled_jacobian(const Model& model, const Workspace& workspace) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Joint& joint = model.joints[i];
+    const std::vector<int>& coordinates = model.joint_maps[i].coordinates;
+    for (int k = 0; k < joint_size(joint.kind); ++k)
+      for (int j = 0; j < 12; ++j) {
+        const double value = workspace.joints[i].B(k, j);
+        if (coordinates[static_cast<std::size_t>(j)] < 0 || value == 0.0) continue;
+        const double scale = (j % 6 < 3 ? 1.0 : 1.0 / model.length) * (k < 3 ? 1.0 : model.length);
+        entries.emplace_back(coordinates[static_cast<std::size_t>(j)], joint.row + k, value * scale);
+      }
+  }
+  Eigen::SparseMatrix<double> B(model.sizes.boundary, model.sizes.constraints);
+  B.setFromTriplets(entries.begin(), entries.end());
+  B.makeCompressed();
+  return B;
+}
+
+/// Largest violation and its row; positions relative to the length.
+struct Violation {
+  double value = 0.0;
+  int row = -1;
+};
+
+Violation largest_violation(const Model& model, const Eigen::VectorXd& rows) {
+  Violation worst;
+  for (const Joint& joint : model.joints)
+    for (int k = 0; k < joint_size(joint.kind); ++k) {
+      const double value = std::abs(rows[joint.row + k]) / (k < 3 ? model.length : 1.0);
+      if (!(value <= worst.value)) worst = {value, joint.row + k};
+    }
+  return worst;
+}
+
+double largest_velocity(const Model& model, const State& state) {
+  double largest = 0.0;
+  for (const Node& node : model.nodes) {
+    if (node.translation >= 0)
+      largest = std::max(largest, state.v().segment<3>(node.translation).norm() / model.length);
+    if (node.rotation >= 0) largest = std::max(largest, state.v().segment<3>(node.rotation).norm());
+  }
+  return largest;
+}
+
+void require_factors(const Model& model, const FactorReport& factors, const std::string& where, Workspace& workspace) {
+  if (factors.regular && factors.reciprocal_condition > 1e-300) return;
+  std::string name = "a direction of the scene";
+  if (factors.singular_column >= 0)
+    name = factors.singular_column < model.sizes.boundary
+               ? coordinate_name(model, factors.singular_column)
+               : constraint_name(model, factors.singular_column - model.sizes.boundary);
+  workspace.has_factors = false;
+  throw Error(fmt::format("{} has no mass, no stiffness and no constraint", name), where,
+              "give the body mass or inertia there, or hold the direction with a joint");
+}
+
+}  // namespace
+
+Mobility count_mobility(const Model& model, const State& state, Workspace& workspace) {
+  evaluate(model, state, workspace);
+  Mobility mobility;
+  mobility.coordinates = model.sizes.velocities();
+  mobility.constraints = model.sizes.constraints;
+  const Eigen::SparseMatrix<double> B = scaled_jacobian(model, workspace);
+  const auto count = [&mobility](auto rank, const auto& permutation) {
+    mobility.rank = static_cast<int>(rank);
+    for (Eigen::Index k = rank; k < mobility.constraints; ++k) mobility.redundant.push_back(static_cast<int>(permutation[k]));
+  };
+  if (mobility.constraints > 0 && mobility.constraints <= dense_rank_limit) {
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+    qr.setThreshold(rank_tolerance);
+    qr.compute(Eigen::MatrixXd(B));
+    count(qr.rank(), qr.colsPermutation().indices());
+  } else if (mobility.constraints > 0) {
+    Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr;
+    qr.setPivotThreshold(rank_tolerance * std::max(1.0, B.coeffs().cwiseAbs().maxCoeff()));
+    qr.compute(B);
+    count(qr.rank(), qr.colsPermutation().indices());
+  }
+  std::sort(mobility.redundant.begin(), mobility.redundant.end());
+  mobility.degrees_of_freedom = mobility.coordinates - mobility.rank;
+  const int elements = static_cast<int>(model.beams2.size() + model.beams3.size());
+  mobility.rigid_mobility = elements > 0 ? -1
+                                         : 6 * static_cast<int>(model.superelements.size() + model.rigid_bodies.size()) -
+                                               mobility.rank;
+  return mobility;
+}
+
+void require_independent_constraints(const Model& model, const Mobility& mobility, const std::string& where) {
+  if (mobility.redundant.empty()) return;
+  std::vector<std::string> names;
+  for (const int row : mobility.redundant) names.push_back("'" + constraint_name(model, row) + "'");
+  throw Error(fmt::format("{} of {} constraint equations repeat what the others already demand: {}", mobility.redundant.size(),
+                          mobility.constraints, join(names, ", ")),
+              where, "replace a joint by one that holds less, for example a revolute by a spherical joint");
+}
+
+Projection project_initial_state(const Model& model, double tolerance, double step, const std::string& where, State& state,
+                                 Workspace& workspace) {
+  Projection projection;
+  workspace.displacement.setZero();
+  for (int iteration = 0;; ++iteration) {
+    evaluate(model, state, workspace);
+    const Violation worst = largest_violation(model, workspace.constraint);
+    if (iteration == 0) {
+      projection.position = worst.value;
+      if (!(worst.value <= tolerance))
+        throw Error(fmt::format("joint '{}' is not met at the start: off by {:.3g} {} (initial_tolerance allows {:.3g})",
+                                constraint_name(model, worst.row),
+                                worst.value, "of the characteristic length or radians", tolerance),
+                    where, "correct poses or markers, or raise initial_tolerance to let the program move the bodies");
+    }
+    if (worst.value <= 1e-14 || iteration == 20) break;
+    require_factors(model, factor(model, state, {1.0, 0.0, step * step}, TangentKind::step, {}, workspace), where, workspace);
+    solve_correction(model, -workspace.constraint, workspace);
+    const State before = state;
+    retract(model, before, workspace.correction, state);
+    if (workspace.correction.head(model.sizes.boundary).cwiseAbs().maxCoeff() < 1e-15 * model.length) break;
+  }
+  const Violation left = largest_violation(model, workspace.constraint);
+  if (!(left.value <= 1e-9))
+    throw Error(fmt::format("the joints cannot be closed: '{}' stays open by {:.3g}", constraint_name(model, left.row), left.value),
+                where, "correct the poses of the bodies");
+  const double velocity = largest_velocity(model, state);
+  const Violation worst = largest_violation(model, workspace.constraint_rate);
+  projection.velocity = velocity > 0.0 ? worst.value / velocity : 0.0;
+  if (!(projection.velocity <= tolerance))
+    throw Error(fmt::format("initial velocities violate joint '{}': {:.3g} of the largest velocity (initial_tolerance allows {:.3g})",
+                            constraint_name(model, worst.row), projection.velocity, tolerance),
+                where, "give velocities that agree with the joints, or raise initial_tolerance to let the program change them");
+  if (worst.value > 0.0) {
+    require_factors(model, factor(model, state, {1.0, 0.0, step * step}, TangentKind::step, {}, workspace), where, workspace);
+    solve_correction(model, -workspace.constraint_rate, workspace);
+    state.v() += workspace.correction;
+  }
+  workspace.has_factors = false;
+  return projection;
+}
+
+bool solve_accelerations(const Model& model, double step, const std::string& where, State& state, Workspace& workspace) {
+  workspace.displacement.setZero();
+  state.vdot().setZero();
+  state.lambda().setZero();
+  evaluate(model, state, workspace);
+  FactorReport factors = factor(model, state, {1.0, 0.0, 0.0}, TangentKind::step, {}, workspace);
+  const bool massless = !factors.regular || factors.reciprocal_condition < mass_condition;
+  if (massless) {
+    factors = factor(model, state, {1.0, 0.0, step * step}, TangentKind::step, {}, workspace);
+    require_factors(model, factors, where, workspace);
+  }
+  for (int refinement = 0; refinement < 2; ++refinement) {
+    if (refinement > 0) evaluate(model, state, workspace);
+    evaluate_bias(model, workspace);
+    apply_jacobian(model, workspace, state.vdot(), workspace.multipliers);
+    workspace.bias = -workspace.bias - workspace.multipliers;
+    solve_increment(model, workspace.bias, workspace);
+    state.vdot() += workspace.increment;
+    state.lambda() += workspace.unknowns.tail(model.sizes.constraints);
+  }
+  workspace.has_factors = false;
+  evaluate(model, state, workspace);
+  return massless;
+}
+
+void start_algorithmic_acceleration(const Model& model, double shift, double step, const std::string& where, State& state,
+                                    Workspace& workspace) {
+  state.algorithmic() = state.vdot();
+  state.step() = step;
+  if (shift == 0.0) return;
+  const double epsilon = 1e-3 * step;
+  State ahead = state;
+  ahead.time() += epsilon;
+  ahead.load_time() += epsilon;
+  const Eigen::VectorXd d = epsilon * state.v() + 0.5 * epsilon * epsilon * state.vdot();
+  retract(model, state, d, ahead);
+  ahead.v() += epsilon * state.vdot();
+  solve_accelerations(model, step, where, ahead, workspace);
+  state.algorithmic() += (shift * step / epsilon) * (ahead.vdot() - state.vdot());
+}
+
+StartReport start(const formats::Scene& scene, const Model& model, State& state, Workspace& workspace) {
+  const std::string& where = scene.file;
+  const bool dynamics = scene.analysis == formats::AnalysisKind::dynamics;
+  // Only regularises massless directions, where statics has no step of its own.
+  const double step = dynamics ? scene.integrator.step : 1e-3;
+  StartReport report;
+  report.mobility = count_mobility(model, state, workspace);
+  require_independent_constraints(model, report.mobility, where);
+  report.projection = project_initial_state(model, scene.initial_tolerance, step, where, state, workspace);
+  if (!dynamics) return report;
+  report.massless = solve_accelerations(model, step, where, state, workspace);
+  const AlphaParameters alpha = alpha_parameters(scene.integrator);
+  start_algorithmic_acceleration(model, alpha.alpha_m - alpha.alpha_f, step, where, state, workspace);
+  begin(model, state, workspace);
+  return report;
+}
+
+}  // namespace tisserand::mechanism

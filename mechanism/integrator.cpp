@@ -1,0 +1,263 @@
+// The time step as a page of verbs: predict, evaluate, check, solve, correct, accept.
+#include "mechanism/integrator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/evaluate.hpp"
+#include "mechanism/newton.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using formats::Formulation;
+using formats::IntegratorSpec;
+
+/// Increments below this, relative to the characteristic length and to one radian, are round-off.
+constexpr double increment_floor = 1e-13;
+/// Factors are renewed when the residual falls by less than this per iteration.
+constexpr double slow_rate = 0.2;
+/// Smallest reciprocal condition with which a factorisation is used.
+constexpr double singular_condition = 1e-17;
+
+struct Norms {
+  double force_ratio = 0.0;
+  double constraint_ratio = 0.0;
+  double residual = 0.0;
+  double constraint = 0.0;
+  int worst_coordinate = -1;
+  int worst_constraint = -1;
+  double worst() const { return std::max(force_ratio, constraint_ratio); }
+};
+
+void raise(double& value, int& at, double candidate, int index) {
+  if (!(candidate <= value)) {  // also NaN
+    value = candidate;
+    at = index;
+  }
+}
+
+/// Largest residuals against the running maxima of forces, moments and internal forces; largest violations against the
+/// characteristic length (rates: against length/step).
+Norms measure(const Model& model, const IntegratorSpec& options, double step, const State& state, Workspace& workspace) {
+  Norms norms;
+  double scale[3];
+  for (int k = 0; k < 3; ++k) scale[k] = std::max(state.force_scale(k), workspace.force_scale[k]);
+  // Forces and moments measure each other through the length, so that a scale of zero in one does not stall the test.
+  const double force = std::max(scale[0], scale[1] / model.length);
+  const double internal = std::max(scale[2], 1e-300);
+  for (const Node& node : model.nodes) {
+    for (int k = 0; k < 3 && node.translation >= 0; ++k) {
+      const double r = std::abs(workspace.residual[node.translation + k]);
+      norms.residual = std::max(norms.residual, r);
+      raise(norms.force_ratio, norms.worst_coordinate, r / (options.tolerance * force + 1e-300), node.translation + k);
+    }
+    for (int k = 0; k < 3 && node.rotation >= 0; ++k) {
+      const double r = std::abs(workspace.residual[node.rotation + k]) / model.length;
+      norms.residual = std::max(norms.residual, r);
+      raise(norms.force_ratio, norms.worst_coordinate, r / (options.tolerance * force + 1e-300), node.rotation + k);
+    }
+  }
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const auto& r = workspace.superelements[i].forces.r_I;
+    for (Eigen::Index k = 0; k < r.size(); ++k)
+      raise(norms.force_ratio, norms.worst_coordinate, std::abs(r[k]) / (options.tolerance * internal),
+            model.sizes.boundary + model.internal_offset[i] + static_cast<int>(k));
+  }
+  const double rate_tolerance = options.constraint_tolerance / step;
+  for (const Joint& joint : model.joints)
+    for (int k = 0; k < joint_size(joint.kind); ++k) {
+      const double length = k < 3 ? model.length : 1.0;
+      const int row = joint.row + k;
+      norms.constraint = std::max(norms.constraint, std::abs(workspace.constraint[row]) / length * model.length);
+      raise(norms.constraint_ratio, norms.worst_constraint,
+            std::abs(workspace.constraint[row]) / (length * options.constraint_tolerance), row);
+      if (options.formulation == Formulation::stabilised_index2)
+        raise(norms.constraint_ratio, norms.worst_constraint,
+              std::abs(workspace.constraint_rate[row]) / (length * rate_tolerance), row);
+    }
+  return norms;
+}
+
+bool is_round_off(const Model& model, const Eigen::VectorXd& increment) {
+  double largest = 0.0;
+  for (const Node& node : model.nodes) {
+    if (node.translation >= 0)
+      largest = std::max(largest, increment.segment<3>(node.translation).cwiseAbs().maxCoeff() / model.length);
+    if (node.rotation >= 0) largest = std::max(largest, increment.segment<3>(node.rotation).cwiseAbs().maxCoeff());
+  }
+  return largest < increment_floor;
+}
+
+void predict(const Model& model, const AlphaParameters& alpha, double step, State& state, Workspace& workspace) {
+  const State& last = workspace.previous;
+  workspace.displacement = step * last.v() + (0.5 * step * step) * last.algorithmic();
+  workspace.position_correction.setZero();
+  state.v() = last.v() + step * last.algorithmic();
+  state.vdot() = ((last.algorithmic() - alpha.alpha_f * last.vdot()) / (1.0 - alpha.alpha_f));
+  retract(model, last, workspace.displacement, state);
+}
+
+/// Adds an increment of h² β a to acceleration, velocity and position, and a correction to the position alone.
+void correct(const Model& model, const AlphaParameters& alpha, double step, State& state, Workspace& workspace) {
+  const TangentCoefficients c = step_coefficients(alpha, step);
+  state.algorithmic() += workspace.increment / (alpha.beta * step * step);
+  state.v() += c.damping * workspace.increment;
+  state.vdot() += c.mass * workspace.increment;
+  workspace.displacement += workspace.increment + workspace.correction;
+  workspace.position_correction += workspace.correction;
+  state.lambda() += workspace.unknowns.tail(model.sizes.constraints);
+  retract(model, workspace.previous, workspace.displacement, state);
+}
+
+/// Position and multiplier increments of one iteration; Φ (index 3) or B v and Φ (stabilised index 2) to zero.
+void solve(const Model& model, const IntegratorSpec& options, const AlphaParameters& alpha, double step,
+           Workspace& workspace) {
+  if (options.formulation == Formulation::index3) {
+    workspace.bias = -workspace.constraint;
+    solve_increment(model, workspace.bias, workspace);
+    return;
+  }
+  workspace.bias = -(alpha.beta * step / alpha.gamma) * workspace.constraint_rate;
+  solve_increment(model, workspace.bias, workspace);
+  workspace.multipliers = workspace.unknowns.tail(model.sizes.constraints);
+  apply_jacobian(model, workspace, workspace.increment, workspace.bias);
+  workspace.bias = -workspace.constraint - workspace.bias;
+  solve_correction(model, workspace.bias, workspace);
+  workspace.unknowns.tail(model.sizes.constraints) = workspace.multipliers;
+}
+
+void accept(const Model& model, double step, State& state, Workspace& workspace) {
+  auto Q = state.Q();
+  for (Eigen::Index i = 0; i < Q.cols(); ++i) Q.col(i).normalize();
+  auto frames = state.frames();
+  for (std::size_t i = 0; i < model.superelements.size(); ++i)
+    frames.col(static_cast<Eigen::Index>(i)) = wxyz(Eigen::Quaterniond(workspace.superelements[i].motion.R0));
+  for (const Joint& joint : model.joints)
+    if (joint.hinge >= 0) {
+      double& angle = state.hinges()[joint.hinge];
+      const auto at = [&workspace](int node) -> const NodeMotion& {
+        return node < 0 ? workspace.motion.back() : workspace.motion[static_cast<std::size_t>(node)];
+      };
+      angle += std::remainder(hinge_angle(joint, at(joint.a.node), at(joint.b.node)) - angle, 2.0 * EIGEN_PI);
+    }
+  for (int k = 0; k < 3; ++k) state.force_scale(k) = std::max(state.force_scale(k), workspace.force_scale[k]);
+  state.work() += 0.5 * step * (workspace.previous_load_power + workspace.load_power);
+  state.dissipated() += 0.5 * step * (workspace.previous_damping_power + workspace.damping_power);
+  workspace.previous_load_power = workspace.load_power;
+  workspace.previous_damping_power = workspace.damping_power;
+}
+
+}  // namespace
+
+AlphaParameters alpha_parameters(const IntegratorSpec& spec) {
+  AlphaParameters p;
+  switch (spec.method) {
+    case formats::Method::generalised_alpha:
+      p.alpha_m = (2.0 * spec.rho - 1.0) / (spec.rho + 1.0);
+      p.alpha_f = spec.rho / (spec.rho + 1.0);
+      break;
+    case formats::Method::hht:
+      p.alpha_m = 0.0;
+      p.alpha_f = spec.alpha;
+      break;
+  }
+  p.gamma = 0.5 + p.alpha_f - p.alpha_m;
+  p.beta = 0.25 * (p.gamma + 0.5) * (p.gamma + 0.5);
+  return p;
+}
+
+TangentCoefficients step_coefficients(const AlphaParameters& p, double step) {
+  return {(1.0 - p.alpha_m) / ((1.0 - p.alpha_f) * p.beta * step * step), p.gamma / (p.beta * step), 1.0};
+}
+
+StepReport advance(const Model& model, const IntegratorSpec& options, const StepEnd& end, State& state,
+                   Workspace& workspace) {
+  const AlphaParameters alpha = alpha_parameters(options);
+  const double step = end.time - state.time();
+  const TangentCoefficients coefficients = step_coefficients(alpha, step);
+  if (state.step() != step) rebuild_algorithmic_acceleration(step, state);
+  const ConstraintRows rows = options.formulation == Formulation::index3
+                                  ? ConstraintRows{ConstraintRows::Kind::position, 0.0}
+                                  : ConstraintRows{ConstraintRows::Kind::velocity, alpha.beta * step / alpha.gamma};
+  workspace.previous.block() = state.block();
+
+  state.time() = end.time;
+  state.load_time() = end.load_time;
+  predict(model, alpha, step, state, workspace);
+  workspace.correction.setZero();
+
+  StepReport report;
+  bool renew = !workspace.has_factors || !(workspace.factored == coefficients);
+  double last = 0.0;
+  while (true) {
+    evaluate(model, state, workspace);
+    const Norms norms = measure(model, options, step, state, workspace);
+    report.force_ratio = norms.force_ratio;
+    report.constraint_ratio = norms.constraint_ratio;
+    report.residual = norms.residual;
+    report.constraint = norms.constraint;
+    report.worst_coordinate = norms.force_ratio >= norms.constraint_ratio ? norms.worst_coordinate : -1;
+    report.worst_constraint = norms.force_ratio >= norms.constraint_ratio ? -1 : norms.worst_constraint;
+    if (norms.worst() <= 1.0) break;
+    if (report.iterations > 0 && is_round_off(model, workspace.increment) && is_round_off(model, workspace.correction)) break;
+    if (!std::isfinite(norms.worst())) report.outcome = StepOutcome::diverged;
+    if (report.iterations >= options.max_iterations) report.outcome = StepOutcome::too_many_iterations;
+    if (report.iterations > 0 && norms.worst() > slow_rate * last) renew = true;
+    last = norms.worst();
+    if (report.outcome == StepOutcome::accepted && renew) {
+      const FactorReport factors = factor(model, state, coefficients, TangentKind::step, rows, workspace);
+      ++report.factorisations;
+      renew = false;
+      if (!factors.regular || factors.reciprocal_condition < singular_condition) {
+        report.outcome = StepOutcome::singular;
+        report.singular_column = factors.singular_column;
+      }
+    }
+    if (report.outcome != StepOutcome::accepted) {
+      workspace.has_factors = false;
+      state.block() = workspace.previous.block();
+      return report;
+    }
+    solve(model, options, alpha, step, workspace);
+    correct(model, alpha, step, state, workspace);
+    ++report.iterations;
+  }
+  accept(model, step, state, workspace);
+  return report;
+}
+
+void rebuild_algorithmic_acceleration(double step, State& state) {
+  if (state.step() > 0.0) state.algorithmic() = state.vdot() + (step / state.step()) * (state.algorithmic() - state.vdot());
+  state.step() = step;
+}
+
+std::string explain(const Model& model, const StepReport& report) {
+  std::string place;
+  if (report.outcome == StepOutcome::singular && report.singular_column >= 0)
+    place = report.singular_column < model.sizes.boundary
+                ? coordinate_name(model, report.singular_column)
+                : constraint_name(model, report.singular_column - model.sizes.boundary);
+  else if (report.worst_constraint >= 0)
+    place = constraint_name(model, report.worst_constraint);
+  else if (report.worst_coordinate >= 0)
+    place = coordinate_name(model, report.worst_coordinate);
+  switch (report.outcome) {
+    case StepOutcome::accepted: return "accepted";
+    case StepOutcome::singular:
+      return fmt::format("the iteration matrix is singular{}{}: a direction without mass, stiffness or constraint, or "
+                         "redundant constraints", place.empty() ? "" : " at ", place);
+    case StepOutcome::diverged:
+      return fmt::format("the iteration left the range of numbers, first at {}: the step is too long for the motion, or "
+                         "a load is not finite", place);
+    case StepOutcome::too_many_iterations:
+      return fmt::format("Newton's iteration does not converge, worst at {} (residual {:.1e} times the tolerance, "
+                         "constraint {:.1e} times): the step is too long, or parts turn so far that their elements are "
+                         "no longer small", place, report.force_ratio, report.constraint_ratio);
+  }
+  return {};
+}
+
+}  // namespace tisserand::mechanism

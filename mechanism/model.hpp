@@ -1,0 +1,86 @@
+// Model: all that is constant while a mechanism moves; one pool per type of body, joint and load.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/units.hpp"
+#include "mechanism/bodies/beam_element.hpp"
+#include "mechanism/bodies/rigid_body.hpp"
+#include "mechanism/bodies/superelement_body.hpp"
+#include "mechanism/forces/load.hpp"
+#include "mechanism/joints/joint.hpp"
+#include "mechanism/solver/linear_solver.hpp"
+#include "mechanism/state.hpp"
+
+namespace tisserand::mechanism {
+
+/// The unit of state: translations and/or rotations at one place.
+struct Node {
+  std::string name;
+  int translation = -1;   ///< first velocity coordinate of ẋ, −1 if the node owns no translations
+  int rotation = -1;      ///< first velocity coordinate of Ω, −1 if the node owns no rotations
+};
+
+/// A named place whose motion is reported; a marker, so that rigid bodies can have many.
+struct Place {
+  std::string name;
+  Marker marker;
+};
+
+/// Where the local rows and columns of an element go: coordinate −1 is absent (ground, or not owned by the node).
+/// slots[i + j n]: index of entry (i, j) in the values of the iteration matrix, −1 if absent.
+struct ElementMap {
+  std::vector<int> coordinates;
+  std::vector<int> slots;
+};
+
+/// Slots of the constraint rows of a joint: B at (row k, column j) and Bᵀ at (j, k), index k + size·j.
+struct ConstraintMap {
+  std::vector<int> lower;
+  std::vector<int> upper;
+};
+
+struct Model {
+  std::string name;
+  Units units;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  double length = 1.0;            ///< characteristic length: extent of the nodes (1 if they coincide)
+  double stiffness_scale = 1.0;   ///< largest diagonal entry of ∂r/∂q at the start
+  double mass_scale = 1.0;        ///< largest diagonal entry of ∂r/∂v̇ at the start
+
+  Sizes sizes;
+  std::vector<Node> nodes;
+  std::vector<Place> places;
+
+  std::vector<SuperelementBody> superelements;
+  std::vector<ElementMap> superelement_maps;
+  std::vector<int> internal_offset;          ///< superelements + 1; into the internal coordinates
+  std::vector<std::string> superelement_content_ids;
+  std::vector<RigidBody> rigid_bodies;
+  std::vector<ElementMap> rigid_maps;
+  std::vector<BeamElement2> beams2;
+  std::vector<ElementMap> beam2_maps;
+  std::vector<BeamElement3> beams3;
+  std::vector<ElementMap> beam3_maps;
+  std::vector<Joint> joints;
+  std::vector<ElementMap> joint_maps;
+  std::vector<ConstraintMap> constraint_maps;
+  std::vector<Load> loads;
+  std::vector<ElementMap> load_maps;
+  std::vector<double> breakpoints;           ///< ascending, of all loads
+
+  std::unique_ptr<SparsePattern> pattern;    ///< of [A Bᵀ; B 0], boundary coordinates then multipliers
+};
+
+/// "beam/tip, rotation y": velocity coordinate (boundary) or constraint row by name, for messages.
+std::string coordinate_name(const Model& model, int coordinate);
+std::string constraint_name(const Model& model, int row);
+
+/// Numbers the constraints, builds pattern and slots once all pools and nodes are there.
+void finish_model(Model& model, formats::LinearSolver solver);
+
+}  // namespace tisserand::mechanism

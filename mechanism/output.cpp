@@ -1,0 +1,105 @@
+// World-frame motion of the places, reactions, boundary forces and energies of one instant.
+#include "mechanism/output.hpp"
+
+#include <limits>
+
+#include "mechanism/evaluate.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+const NodeMotion& motion_of(const Workspace& workspace, int node) {
+  return node < 0 ? workspace.motion.back() : workspace.motion[static_cast<std::size_t>(node)];
+}
+
+void fill_places(const Model& model, const Workspace& workspace, formats::ResultsRow& row) {
+  for (std::size_t i = 0; i < model.places.size(); ++i) {
+    const Marker& marker = model.places[i].marker;
+    const NodeMotion& node = motion_of(workspace, marker.node);
+    const auto column = static_cast<Eigen::Index>(i);
+    row.node_position.col(column) = marker_position(marker, node);
+    row.node_rotation.col(column) = wxyz(Eigen::Quaterniond(marker_rotation(marker, node)));
+    row.node_velocity.col(column) = marker_velocity(marker, node);
+    row.node_angular_velocity.col(column) = node.R * node.Omega;
+    row.node_acceleration.col(column) =
+        node.xdd + node.R * (node.Omegad.cross(marker.p) + node.Omega.cross(node.Omega.cross(marker.p)));
+    row.node_angular_acceleration.col(column) = node.R * node.Omegad;
+  }
+}
+
+void fill_superelements(const Model& model, Workspace& workspace, formats::ResultsRow& row) {
+  Eigen::Index y = 0, boundary = 0;
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const SuperelementBody& body = model.superelements[i];
+    const SuperelementScratch& scratch = workspace.superelements[i];
+    const auto column = static_cast<Eigen::Index>(i);
+    row.frame_position.col(column) = scratch.motion.x0;
+    row.frame_rotation.col(column) = wxyz(Eigen::Quaterniond(scratch.motion.R0));
+    const Eigen::Index count = file_coordinate_count(body);
+    file_coordinates(body, scratch, row.y.segment(y, count));
+    y += count;
+    for (std::size_t j = 0; j < body.node.size(); ++j, ++boundary) {
+      const SuperelementNode& node = body.node[j];
+      row.boundary_force.col(boundary).setZero();
+      if (node.has_translation())
+        row.boundary_force.col(boundary).head<3>() = scratch.forces.r_B.segment<3>(node.translation_row);
+      if (node.has_rotation())
+        row.boundary_force.col(boundary).tail<3>() =
+            motion_of(workspace, body.nodes[j]).R * scratch.forces.r_B.segment<3>(node.rotation_row);
+    }
+  }
+}
+
+void fill_joints(const Model& model, const State& state, const Workspace& workspace, formats::ResultsRow& row) {
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Joint& joint = model.joints[i];
+    const NodeMotion& a = motion_of(workspace, joint.a.node);
+    const NodeMotion& b = motion_of(workspace, joint.b.node);
+    const JointReaction reaction = joint_reaction(joint, a, b, state.lambda().data() + joint.row);
+    const auto column = static_cast<Eigen::Index>(i);
+    row.joint_force.col(column) = reaction.force;
+    row.joint_moment.col(column) = reaction.moment;
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    row.joint_coordinate[column] = joint.hinge < 0 ? none : state.hinges()[joint.hinge];
+    row.joint_rate[column] = joint.hinge < 0 ? none : hinge_rate(joint, a, b);
+  }
+}
+
+}  // namespace
+
+formats::ResultsLayout results_layout(const Model& model, const formats::Scene& scene) {
+  formats::ResultsLayout layout;
+  layout.scene = scene.name;
+  layout.producer = std::string("tisserand mechanism ") + TISSERAND_VERSION;
+  layout.units = scene.units;
+  for (const Place& place : model.places) layout.nodes.push_back(place.name);
+  layout.modes_offset = {0};
+  layout.boundary_offset = {0};
+  for (const SuperelementBody& body : model.superelements) {
+    layout.superelements.push_back(body.name);
+    layout.modes_offset.push_back(layout.modes_offset.back() + static_cast<int>(file_coordinate_count(body)));
+    layout.boundary_offset.push_back(layout.boundary_offset.back() + static_cast<int>(body.node.size()));
+  }
+  for (const Joint& joint : model.joints) layout.joints.push_back(joint.name);
+  layout.channels = scene.output.channels;
+  layout.superelement_content_ids = model.superelement_content_ids;
+  return layout;
+}
+
+void fill_row(const Model& model, const State& state, Workspace& workspace, formats::ResultsRow& row) {
+  evaluate(model, state, workspace);
+  row.time = state.time();
+  fill_places(model, workspace, row);
+  fill_superelements(model, workspace, row);
+  fill_joints(model, state, workspace, row);
+  const Energy energy = evaluate_energy(model, workspace);
+  row.kinetic = energy.kinetic;
+  row.strain = energy.strain;
+  row.potential = energy.potential;
+  row.total = energy.total();
+  row.work = state.work();
+  row.dissipated = state.dissipated();
+  row.balance = row.total - state.initial_energy() - row.work + row.dissipated;
+}
+
+}  // namespace tisserand::mechanism

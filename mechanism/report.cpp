@@ -1,0 +1,80 @@
+// The report of a run, as JSON and as text.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "common/text.hpp"
+#include "mechanism/simulate.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+const char* outcome_name(RunOutcome outcome) {
+  switch (outcome) {
+    case RunOutcome::completed: return "completed";
+    case RunOutcome::not_converged: return "not converged";
+    case RunOutcome::interrupted: return "interrupted";
+  }
+  return "";
+}
+
+double relative_balance(const RunReport& report) {
+  return report.energy_reference > 0.0 ? report.largest_balance / report.energy_reference : 0.0;
+}
+
+}  // namespace
+
+std::string report_json(const RunReport& report) {
+  nlohmann::ordered_json json;
+  json["outcome"] = outcome_name(report.outcome);
+  json["reason"] = report.reason;
+  json["time"] = report.time;
+  json["steps"] = report.steps;
+  json["iterations"] = report.iterations;
+  json["factorisations"] = report.factorisations;
+  json["rejected_steps"] = report.rejected;
+  json["rejections"] = report.rejections;
+  json["largest_constraint_violation"] = report.largest_constraint;
+  json["energy"] = {{"balance", report.balance},
+                    {"largest_balance", report.largest_balance},
+                    {"reference", report.energy_reference},
+                    {"largest_relative_balance", relative_balance(report)}};
+  json["mobility"] = {{"coordinates", report.mobility.coordinates},
+                      {"constraints", report.mobility.constraints},
+                      {"rank", report.mobility.rank},
+                      {"degrees_of_freedom", report.mobility.degrees_of_freedom}};
+  json["initial_correction"] = {{"position", report.projection.position}, {"velocity", report.projection.velocity}};
+  json["linear_solver"] = {{"name", report.solver}, {"unknowns", report.unknowns}, {"nonzeros", report.nonzeros}};
+  json["effects"] = report.effects;
+  json["notes"] = report.notes;
+  json["seconds"] = {{"model", report.seconds_model},
+                     {"start", report.seconds_start},
+                     {"steps", report.seconds_steps},
+                     {"output", report.seconds_output}};
+  return json.dump(2);
+}
+
+std::string report_text(const RunReport& report, const Units& units) {
+  const std::string time = unit_label(units, 0, 0, 1);
+  std::string text;
+  const auto line = [&text](const char* name, const std::string& value) { text += fmt::format("  {:<16} {}\n", name, value); };
+  for (const std::string& note : report.notes) line("note", note);
+  line("model", join(report.effects, ", "));
+  line("mobility", fmt::format("{} degrees of freedom: {} coordinates, {} constraints of rank {}",
+                               report.mobility.degrees_of_freedom, report.mobility.coordinates, report.mobility.constraints,
+                               report.mobility.rank));
+  line("solver", fmt::format("{}, {} unknowns, {} nonzeros", report.solver, report.unknowns, report.nonzeros));
+  if (report.steps == 0 && report.outcome == RunOutcome::completed) return text;
+  line("outcome", report.reason.empty() ? outcome_name(report.outcome)
+                                        : fmt::format("{}: {}", outcome_name(report.outcome), report.reason));
+  line("reached", fmt::format("t = {:.6g}{}{}", report.time, time.empty() ? "" : " ", time));
+  line("steps", fmt::format("{} ({} taken again), {} iterations, {} factorisations", report.steps, report.rejected,
+                            report.iterations, report.factorisations));
+  for (const std::string& why : report.rejections) line("taken again", why);
+  line("energy", fmt::format("largest balance error {:.2e} of the largest energy or work", relative_balance(report)));
+  line("constraints", fmt::format("largest violation {:.2e}", report.largest_constraint));
+  line("seconds", fmt::format("{:.3f} model, {:.3f} start, {:.3f} steps, {:.3f} output", report.seconds_model,
+                              report.seconds_start, report.seconds_steps, report.seconds_output));
+  return text;
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,108 @@
+// Grid of steps and output instants.
+#include "mechanism/schedule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mechanism/evaluate.hpp"
+#include "mechanism/initial.hpp"
+
+namespace tisserand::mechanism {
+
+Schedule::Schedule(const formats::Scene& scene, const std::vector<double>& breakpoints)
+    : integrator_(scene.integrator), output_(scene.output), breakpoints_(breakpoints) {
+  // Instants closer than this are the same.
+  round_off_ = 1e-9 * integrator_.step;
+  while (breakpoint_ < breakpoints_.size() && breakpoints_[breakpoint_] <= integrator_.start + round_off_) ++breakpoint_;
+}
+
+bool Schedule::output_at_start() const { return integrator_.start >= output_.from - round_off_; }
+
+bool Schedule::reached(double time, double target) const { return time >= target - round_off_; }
+
+bool Schedule::finished(double time) const { return reached(time, integrator_.end); }
+
+double Schedule::target() const {
+  double t = std::min(integrator_.start + static_cast<double>(grid_) * integrator_.step, integrator_.end);
+  if (integrator_.end - t < round_off_) t = integrator_.end;
+  if (breakpoint_ < breakpoints_.size() && breakpoints_[breakpoint_] < t - round_off_) t = breakpoints_[breakpoint_];
+  return t;
+}
+
+StepEnd Schedule::next(double time) const {
+  double t = target();
+  if (fraction_ > 0.0 && time + fraction_ < t - round_off_) t = time + fraction_;
+  const bool at_breakpoint = breakpoint_ < breakpoints_.size() && reached(t, breakpoints_[breakpoint_]);
+  return {t, at_breakpoint ? t - round_off_ : t};
+}
+
+bool Schedule::halve(double time) {
+  if (halvings_ == integrator_.max_halvings) return false;
+  fraction_ = 0.5 * (next(time).time - time);
+  ++halvings_;
+  return true;
+}
+
+Schedule::Event Schedule::accept(double time) {
+  Event event;
+  if (breakpoint_ < breakpoints_.size() && reached(time, breakpoints_[breakpoint_])) {
+    event.breakpoint = true;
+    while (breakpoint_ < breakpoints_.size() && reached(time, breakpoints_[breakpoint_])) ++breakpoint_;
+  }
+  const double grid = integrator_.start + static_cast<double>(grid_) * integrator_.step;
+  const bool on_grid = reached(time, std::min(grid, integrator_.end));
+  if (on_grid) {
+    halvings_ = 0;
+    fraction_ = 0.0;
+  }
+  if (time >= output_.from - round_off_) {
+    if (output_.interval) {
+      const double due = integrator_.start + static_cast<double>(rows_) * *output_.interval;
+      event.output = reached(time, due) || finished(time);
+      while (reached(time, integrator_.start + static_cast<double>(rows_) * *output_.interval)) ++rows_;
+    } else {
+      event.output = on_grid && (grid_ % output_.every == 0 || finished(time));
+    }
+  } else if (output_.interval) {
+    while (reached(time, integrator_.start + static_cast<double>(rows_) * *output_.interval)) ++rows_;
+  }
+  if (on_grid) ++grid_;
+  return event;
+}
+
+void begin(const Model& model, State& state, Workspace& workspace) {
+  evaluate(model, state, workspace);
+  state.work() = state.dissipated() = 0.0;
+  state.initial_energy() = evaluate_energy(model, workspace).total();
+  workspace.previous_load_power = workspace.load_power;
+  workspace.previous_damping_power = workspace.damping_power;
+  for (int k = 0; k < 3; ++k) state.force_scale(k) = workspace.force_scale[static_cast<std::size_t>(k)];
+  for (const Joint& joint : model.joints)
+    if (joint.hinge >= 0) {
+      const auto at = [&workspace](int node) -> const NodeMotion& {
+        return node < 0 ? workspace.motion.back() : workspace.motion[static_cast<std::size_t>(node)];
+      };
+      state.hinges()[joint.hinge] = hinge_angle(joint, at(joint.a.node), at(joint.b.node));
+    }
+}
+
+void pass_breakpoint(const Model& model, const formats::Scene& scene, State& state, Workspace& workspace) {
+  const double side = 1e-9 * scene.integrator.step;
+  double jump = 0.0, size = 0.0;
+  for (std::size_t i = 0; i < model.loads.size(); ++i)
+    for (auto& function : workspace.load_functions[i]) {
+      const double before = function(state.time() - side), after = function(state.time() + side);
+      jump = std::max(jump, std::abs(after - before));
+      size = std::max({size, std::abs(after), std::abs(before)});
+    }
+  if (jump <= 1e-6 * size) return;
+  state.load_time() = state.time() + side;
+  solve_accelerations(model, scene.integrator.step, scene.file, state, workspace);
+  const AlphaParameters alpha = alpha_parameters(scene.integrator);
+  start_algorithmic_acceleration(model, alpha.alpha_m - alpha.alpha_f, scene.integrator.step, scene.file, state, workspace);
+  evaluate(model, state, workspace);
+  workspace.previous_load_power = workspace.load_power;
+  workspace.previous_damping_power = workspace.damping_power;
+}
+
+}  // namespace tisserand::mechanism

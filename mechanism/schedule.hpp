@@ -1,0 +1,56 @@
+// When steps end and when rows are written: the grid of steps, breakpoints of loads, halving after a failure.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "formats/scene.hpp"
+#include "mechanism/integrator.hpp"
+#include "mechanism/model.hpp"
+#include "mechanism/state.hpp"
+#include "mechanism/workspace.hpp"
+
+namespace tisserand::mechanism {
+
+/// Steps end at start + k·step, at breakpoints and at the end; after a failure the step is divided by 2, 4, ... until the
+/// next point of the grid.
+class Schedule {
+ public:
+  Schedule(const formats::Scene& scene, const std::vector<double>& breakpoints);
+
+  bool output_at_start() const;
+  bool finished(double time) const;
+  /// End of the step that starts at `time`.
+  StepEnd next(double time) const;
+  /// Halves the step from `time`; false if that was done max_halvings times already.
+  bool halve(double time);
+
+  struct Event {
+    bool output = false;
+    bool breakpoint = false;
+  };
+  /// A step has ended at `time`.
+  Event accept(double time);
+
+ private:
+  bool reached(double time, double target) const;
+  double target() const;
+
+  formats::IntegratorSpec integrator_;
+  formats::OutputSpec output_;
+  std::vector<double> breakpoints_;
+  double round_off_ = 0.0;
+  long grid_ = 1;                 ///< the next point of the grid
+  std::size_t breakpoint_ = 0;    ///< the next breakpoint
+  int halvings_ = 0;
+  double fraction_ = 0.0;         ///< step after halving, 0: to the target
+  long rows_ = 1;                 ///< output instants passed (interval)
+};
+
+/// Work, dissipation and energy start from zero here.
+void begin(const Model& model, State& state, Workspace& workspace);
+
+/// After a step that ended on a breakpoint: where loads jump, accelerations and multipliers are solved anew on its far side.
+void pass_breakpoint(const Model& model, const formats::Scene& scene, State& state, Workspace& workspace);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,180 @@
+// scene -> model -> start -> steps -> results, as a page of calls.
+#include "mechanism/simulate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "common/error.hpp"
+#include "formats/results.hpp"
+#include "mechanism/evaluate.hpp"
+#include "mechanism/output.hpp"
+#include "mechanism/schedule.hpp"
+#include "mechanism/statics.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+/// Everything that one run owns.
+struct Run {
+  const formats::Scene& scene;
+  const RunControl& control;
+  RunReport report;
+  BuiltModel built;
+  Workspace workspace;
+
+  Run(const formats::Scene& scene_, const RunControl& control_)
+      : scene(scene_), control(control_), built(build_model(scene_, read_superelements(scene_))), workspace(built.model) {
+    report.notes = built.notes;
+    report.solver = workspace.solver.name();
+    report.unknowns = built.model.pattern->size();
+    report.nonzeros = built.model.pattern->nonzeros();
+    report.effects = effects(built.model);
+  }
+
+  static std::vector<std::string> effects(const Model& model) {
+    std::vector<std::string> list;
+    const auto add = [&list](std::size_t count, const char* what) {
+      if (count > 0) list.push_back(fmt::format("{} {}", count, what));
+    };
+    add(model.superelements.size(), "superelements");
+    add(model.rigid_bodies.size(), "rigid bodies");
+    add(model.beams2.size() + model.beams3.size(), "nonlinear beam elements");
+    add(model.joints.size(), "joints");
+    add(model.loads.size(), "loads");
+    if (!model.gravity.isZero(0.0)) list.push_back("gravity");
+    const bool damped = std::any_of(model.superelements.begin(), model.superelements.end(),
+                                    [](const SuperelementBody& body) { return body.damping.active; });
+    if (damped) list.push_back("damping");
+    return list;
+  }
+
+  double seconds() const { return control.clock ? control.clock() : 0.0; }
+};
+
+void start(Run& run) {
+  const StartReport report = start(run.scene, run.built.model, run.built.state, run.workspace);
+  run.report.mobility = report.mobility;
+  run.report.projection = report.projection;
+  if (report.massless)
+    run.report.notes.push_back("the mass matrix is singular: accelerations of its massless directions come from statics");
+}
+
+void write_row(Run& run, const StepReport& step, double size, formats::ResultsRow& row, formats::ResultsWriter& writer) {
+  const double before = run.seconds();
+  fill_row(run.built.model, run.built.state, run.workspace, row);
+  row.step = size;
+  row.iterations = step.iterations;
+  row.residual = step.residual;
+  row.constraint = step.constraint;
+  writer.append(row);
+  RunReport& report = run.report;
+  report.balance = row.balance;
+  report.largest_balance = std::max(report.largest_balance, std::abs(row.balance));
+  report.energy_reference = std::max(report.energy_reference, std::abs(row.kinetic) + std::abs(row.strain) + std::abs(row.work));
+  report.seconds_output += run.seconds() - before;
+}
+
+/// Takes the steps of the schedule; a step that fails is taken again in halves.
+void integrate(Run& run, formats::ResultsRow& row, formats::ResultsWriter& writer) {
+  const Model& model = run.built.model;
+  State& state = run.built.state;
+  RunReport& report = run.report;
+  Schedule schedule(run.scene, model.breakpoints);
+  if (schedule.output_at_start()) write_row(run, {}, 0.0, row, writer);
+  while (!schedule.finished(state.time())) {
+    if (run.control.interrupted && run.control.interrupted()) {
+      report.outcome = RunOutcome::interrupted;
+      report.reason = fmt::format("interrupted at t = {:.6g}", state.time());
+      break;
+    }
+    const double before = state.time();
+    const StepEnd target = schedule.next(before);
+    const StepReport step = advance(model, run.scene.integrator, target, state, run.workspace);
+    report.iterations += step.iterations;
+    report.factorisations += step.factorisations;
+    if (step.outcome != StepOutcome::accepted) {
+      ++report.rejected;
+      const std::string why = fmt::format("t = {:.6g}, step {:.3g}: {}", before, target.time - before, explain(model, step));
+      if (report.rejections.size() < 20) report.rejections.push_back(why);
+      if (schedule.halve(before)) continue;
+      report.outcome = RunOutcome::not_converged;
+      report.reason = why;
+      break;
+    }
+    ++report.steps;
+    report.largest_constraint = std::max(report.largest_constraint, step.constraint);
+    const Schedule::Event event = schedule.accept(state.time());
+    if (event.output) write_row(run, step, state.time() - before, row, writer);
+    if (event.breakpoint) pass_breakpoint(model, run.scene, state, run.workspace);
+    if (run.control.progress) run.control.progress(state.time());
+  }
+  report.time = state.time();
+}
+
+void equilibrate(Run& run, formats::ResultsRow& row, formats::ResultsWriter& writer) {
+  const StaticsReport statics = solve_statics(run.built.model, run.scene.statics, run.built.state, run.workspace);
+  run.report.steps = statics.load_steps;
+  run.report.iterations = run.report.factorisations = statics.iterations;
+  run.report.largest_constraint = statics.constraint;
+  run.report.time = run.built.state.time();
+  if (statics.outcome != StepOutcome::accepted) {
+    run.report.outcome = RunOutcome::not_converged;
+    run.report.reason = statics.explanation;
+    return;
+  }
+  StepReport step;
+  step.iterations = statics.iterations;
+  step.residual = statics.residual;
+  step.constraint = statics.constraint;
+  write_row(run, step, 0.0, row, writer);
+}
+
+}  // namespace
+
+SuperelementFiles read_superelements(const formats::Scene& scene) {
+  SuperelementFiles files;
+  std::vector<Error> errors;
+  for (const formats::BodySpec& body : scene.bodies) {
+    const auto* spec = std::get_if<formats::SuperelementBodySpec>(&body);
+    if (spec == nullptr || files.contains(spec->file)) continue;
+    try {
+      files[spec->file] = formats::read_superelement(spec->file);
+    } catch (const Error& error) {
+      errors.push_back(error);
+    }
+  }
+  if (!errors.empty()) throw merge_errors(errors);
+  return files;
+}
+
+RunReport simulate(const formats::Scene& scene, const std::string& path, const RunControl& control) {
+  const double begin_model = control.clock ? control.clock() : 0.0;
+  Run run(scene, control);
+  const double begin_start = run.seconds();
+  start(run);
+  const double begin_steps = run.seconds();
+  const formats::ResultsLayout layout = results_layout(run.built.model, scene);
+  formats::ResultsRow row;
+  row.resize(layout);
+  formats::ResultsWriter writer(path, layout);
+  switch (scene.analysis) {
+    case formats::AnalysisKind::dynamics: integrate(run, row, writer); break;
+    case formats::AnalysisKind::statics: equilibrate(run, row, writer); break;
+  }
+  RunReport& report = run.report;
+  report.results = path;
+  report.seconds_model = begin_start - begin_model;
+  report.seconds_start = begin_steps - begin_start;
+  report.seconds_steps = run.seconds() - begin_steps - report.seconds_output;
+  writer.finish(report.outcome == RunOutcome::completed, report.reason, report_json(report));
+  return report;
+}
+
+RunReport inspect(const formats::Scene& scene, const RunControl& control) {
+  Run run(scene, control);
+  start(run);
+  return run.report;
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,62 @@
+// One run of a scene, from the file to the results: the story of this stage.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "formats/scene.hpp"
+#include "mechanism/build_model.hpp"
+#include "mechanism/initial.hpp"
+#include "mechanism/integrator.hpp"
+#include "mechanism/model.hpp"
+#include "mechanism/state.hpp"
+
+namespace tisserand::mechanism {
+
+/// What the outside world tells a run and hears of it.
+struct RunControl {
+  std::function<bool()> interrupted;                ///< polled once per step
+  std::function<void(double time)> progress;        ///< after every accepted step
+  std::function<double()> clock;                    ///< seconds, for the report
+};
+
+enum class RunOutcome { completed, not_converged, interrupted };
+
+struct RunReport {
+  RunOutcome outcome = RunOutcome::completed;
+  std::string reason;                               ///< of a run that did not complete
+  std::string results;                              ///< path of the results file
+  double time = 0.0;                                ///< reached
+  long steps = 0;
+  long iterations = 0;
+  long factorisations = 0;
+  long rejected = 0;                                ///< steps taken again with half the size
+  std::vector<std::string> rejections;              ///< the first ones: when and why
+  double largest_constraint = 0.0;                  ///< over all steps
+  double balance = 0.0;                             ///< energy balance at the end (output instants)
+  double largest_balance = 0.0;
+  double energy_reference = 0.0;                    ///< largest kinetic + strain + |work|
+  Mobility mobility;
+  Projection projection;
+  std::vector<std::string> notes;
+  std::vector<std::string> effects;                 ///< what the model contains: pools and terms that are on
+  std::string solver;
+  int unknowns = 0, nonzeros = 0;
+  double seconds_model = 0.0, seconds_start = 0.0, seconds_steps = 0.0, seconds_output = 0.0;
+};
+
+/// Reads the superelement files of a scene, each once.
+SuperelementFiles read_superelements(const formats::Scene& scene);
+
+/// Builds the model, starts, integrates (or finds equilibrium) and writes `path`. Throws Error for faults of the input.
+RunReport simulate(const formats::Scene& scene, const std::string& path, const RunControl& control);
+
+/// Builds and starts but runs nothing: counts and notes.
+RunReport inspect(const formats::Scene& scene, const RunControl& control);
+
+/// As JSON (stored in the results file) and as the lines that the command prints.
+std::string report_json(const RunReport& report);
+std::string report_text(const RunReport& report, const Units& units);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,28 @@
+// Layout of the state block.
+#include "mechanism/state.hpp"
+
+namespace tisserand::mechanism {
+
+State::State(const Sizes& sizes) : sizes_(sizes) {
+  scalars_ = add("scalars", 9);
+  x_ = add("x", 3 * sizes.nodes);
+  Q_ = add("Q", 4 * sizes.nodes);
+  y_ = add("y", sizes.internal);
+  v_ = add("v", sizes.velocities());
+  vdot_ = add("vdot", sizes.velocities());
+  a_ = add("algorithmic", sizes.velocities());
+  lambda_ = add("lambda", sizes.constraints);
+  frames_ = add("frames", 4 * sizes.superelements);
+  hinges_ = add("hinges", sizes.hinges);
+  block_.assign(static_cast<std::size_t>(hinges_ + sizes.hinges), 0.0);
+  Q().row(0).setOnes();
+  frames().row(0).setOnes();
+}
+
+int State::add(const std::string& name, int size) {
+  const int offset = fields_.empty() ? 0 : fields_.back().offset + fields_.back().size;
+  fields_.push_back({name, offset, size});
+  return offset;
+}
+
+}  // namespace tisserand::mechanism

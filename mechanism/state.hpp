@@ -1,0 +1,101 @@
+// State: all that changes during a run and influences later steps, as one contiguous block with a table of its fields.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace tisserand::mechanism {
+
+/// Sizes of a model: nodes, velocities (node coordinates first, then internal coordinates), constraints, bodies.
+struct Sizes {
+  int nodes = 0;
+  int boundary = 0;       ///< velocity coordinates of nodes: the global system
+  int internal = 0;       ///< internal coordinates of superelements, eliminated inside the element
+  int constraints = 0;    ///< multipliers λ
+  int superelements = 0;  ///< floating frames
+  int hinges = 0;         ///< joint angles that are unwrapped
+  int velocities() const { return boundary + internal; }
+};
+
+/// One named stretch of the state block.
+struct StateField {
+  std::string name;
+  int offset = 0;
+  int size = 0;
+};
+
+/// Positions are x (world) and a unit quaternion Q_WN [w x y z] per node and the internal coordinates y; velocities, their
+/// rates and the algorithmic accelerations are [ẋ world; Ω material] per node, then ẏ.
+class State {
+ public:
+  static constexpr int version = 1;
+
+  explicit State(const Sizes& sizes);
+
+  const Sizes& sizes() const { return sizes_; }
+  const std::vector<StateField>& fields() const { return fields_; }
+  const std::vector<double>& block() const { return block_; }
+  std::vector<double>& block() { return block_; }
+
+  double& time() { return block_[scalars_ + 0]; }
+  double time() const { return block_[scalars_ + 0]; }
+  /// The instant at which loads are evaluated: differs from time() only on one side of a jump.
+  double& load_time() { return block_[scalars_ + 1]; }
+  double load_time() const { return block_[scalars_ + 1]; }
+  /// The step for which `algorithmic` was built.
+  double& step() { return block_[scalars_ + 2]; }
+  double step() const { return block_[scalars_ + 2]; }
+  double& work() { return block_[scalars_ + 3]; }
+  double work() const { return block_[scalars_ + 3]; }
+  double& dissipated() { return block_[scalars_ + 4]; }
+  double dissipated() const { return block_[scalars_ + 4]; }
+  double& initial_energy() { return block_[scalars_ + 5]; }
+  double initial_energy() const { return block_[scalars_ + 5]; }
+  /// Running maxima of forces, moments and internal forces, which the tests of Newton's iteration refer to.
+  double& force_scale(int kind) { return block_[scalars_ + 6 + kind]; }
+  double force_scale(int kind) const { return block_[scalars_ + 6 + kind]; }
+
+  using Map = Eigen::Map<Eigen::VectorXd>;
+  using ConstMap = Eigen::Map<const Eigen::VectorXd>;
+  using Map3 = Eigen::Map<Eigen::Matrix3Xd>;
+  using ConstMap3 = Eigen::Map<const Eigen::Matrix3Xd>;
+  using Map4 = Eigen::Map<Eigen::Matrix4Xd>;
+  using ConstMap4 = Eigen::Map<const Eigen::Matrix4Xd>;
+
+  Map3 x() { return {block_.data() + x_, 3, sizes_.nodes}; }
+  ConstMap3 x() const { return {block_.data() + x_, 3, sizes_.nodes}; }
+  Map4 Q() { return {block_.data() + Q_, 4, sizes_.nodes}; }
+  ConstMap4 Q() const { return {block_.data() + Q_, 4, sizes_.nodes}; }
+  Map y() { return {block_.data() + y_, sizes_.internal}; }
+  ConstMap y() const { return {block_.data() + y_, sizes_.internal}; }
+  Map v() { return {block_.data() + v_, sizes_.velocities()}; }
+  ConstMap v() const { return {block_.data() + v_, sizes_.velocities()}; }
+  Map vdot() { return {block_.data() + vdot_, sizes_.velocities()}; }
+  ConstMap vdot() const { return {block_.data() + vdot_, sizes_.velocities()}; }
+  Map algorithmic() { return {block_.data() + a_, sizes_.velocities()}; }
+  ConstMap algorithmic() const { return {block_.data() + a_, sizes_.velocities()}; }
+  Map lambda() { return {block_.data() + lambda_, sizes_.constraints}; }
+  ConstMap lambda() const { return {block_.data() + lambda_, sizes_.constraints}; }
+  /// Rotation of each floating frame at the last accepted step [w x y z] (reference of the incremental mean, eq. (15)).
+  Map4 frames() { return {block_.data() + frames_, 4, sizes_.superelements}; }
+  ConstMap4 frames() const { return {block_.data() + frames_, 4, sizes_.superelements}; }
+  /// Unwrapped angle of each hinge at the last accepted step.
+  Map hinges() { return {block_.data() + hinges_, sizes_.hinges}; }
+  ConstMap hinges() const { return {block_.data() + hinges_, sizes_.hinges}; }
+
+ private:
+  int add(const std::string& name, int size);
+
+  Sizes sizes_;
+  std::vector<StateField> fields_;
+  std::vector<double> block_;
+  int scalars_ = 0, x_ = 0, Q_ = 0, y_ = 0, v_ = 0, vdot_ = 0, a_ = 0, lambda_ = 0, frames_ = 0, hinges_ = 0;
+};
+
+/// [w x y z] of Q, and back.
+inline Eigen::Vector4d wxyz(const Eigen::Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,113 @@
+// Load steps around Newton's iteration.
+#include "mechanism/statics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/evaluate.hpp"
+#include "mechanism/newton.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+/// A stiffness matrix with a smaller reciprocal condition (after scaling) leaves a rigid motion free.
+constexpr double free_motion_condition = 1e-14;
+constexpr int most_halvings = 12;
+
+double largest_residual(const Model& model, const Workspace& workspace) {
+  double largest = 0.0;
+  for (const Node& node : model.nodes) {
+    if (node.translation >= 0)
+      largest = std::max(largest, workspace.residual.segment<3>(node.translation).cwiseAbs().maxCoeff());
+    if (node.rotation >= 0)
+      largest = std::max(largest, workspace.residual.segment<3>(node.rotation).cwiseAbs().maxCoeff() / model.length);
+  }
+  return largest;
+}
+
+double largest_internal_residual(const Workspace& workspace) {
+  double largest = 0.0;
+  for (const SuperelementScratch& scratch : workspace.superelements)
+    if (scratch.forces.r_I.size() > 0) largest = std::max(largest, scratch.forces.r_I.cwiseAbs().maxCoeff());
+  return largest;
+}
+
+/// Newton's iteration for one load factor.
+StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options, State& state, Workspace& workspace,
+                        StaticsReport& report) {
+  for (int iteration = 0;; ++iteration) {
+    evaluate(model, state, workspace);
+    report.residual = largest_residual(model, workspace);
+    report.constraint = model.sizes.constraints > 0 ? workspace.constraint.cwiseAbs().maxCoeff() : 0.0;
+    const double force = std::max(workspace.force_scale[0], workspace.force_scale[1] / model.length);
+    const bool forces = report.residual <= options.tolerance * force &&
+                        largest_internal_residual(workspace) <= options.tolerance * workspace.force_scale[2];
+    if (iteration > 0 && forces && report.constraint <= options.tolerance * model.length) return StepOutcome::accepted;
+    if (!std::isfinite(report.residual)) return StepOutcome::diverged;
+    if (iteration == options.max_iterations) return StepOutcome::too_many_iterations;
+    const FactorReport factors = factor(model, state, {0.0, 0.0, 1.0}, TangentKind::exact, {}, workspace);
+    if (!factors.regular || factors.reciprocal_condition < free_motion_condition) {
+      report.explanation = factors.singular_column >= 0 && factors.singular_column < model.sizes.boundary
+                               ? coordinate_name(model, factors.singular_column)
+                               : factors.regular ? weakest_equation(model, workspace) : std::string("a rigid motion");
+      return StepOutcome::singular;
+    }
+    workspace.bias = -workspace.constraint;
+    solve_increment(model, workspace.bias, workspace);
+    state.lambda() += workspace.unknowns.tail(model.sizes.constraints);
+    const State before = state;
+    retract(model, before, workspace.increment, state);
+    ++report.iterations;
+  }
+}
+
+void update_frames(const Model& model, State& state, const Workspace& workspace) {
+  for (std::size_t i = 0; i < model.superelements.size(); ++i)
+    state.frames().col(static_cast<Eigen::Index>(i)) =
+        wxyz(Eigen::Quaterniond(workspace.superelements[i].motion.R0).normalized());
+  for (Eigen::Index i = 0; i < state.Q().cols(); ++i) state.Q().col(i).normalize();
+}
+
+}  // namespace
+
+StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, State& state, Workspace& workspace) {
+  StaticsReport report;
+  state.v().setZero();
+  state.vdot().setZero();
+  workspace.displacement.setZero();
+  double reached = 0.0;
+  double size = 1.0 / std::max(1, options.load_steps);
+  int halvings = 0;
+  while (reached < 1.0) {
+    const State before = state;
+    workspace.load_factor = std::min(1.0, reached + size);
+    report.outcome = equilibrate(model, options, state, workspace, report);
+    if (report.outcome == StepOutcome::accepted) {
+      reached = workspace.load_factor;
+      update_frames(model, state, workspace);
+      ++report.load_steps;
+      continue;
+    }
+    state = before;
+    if (report.outcome == StepOutcome::singular || ++halvings > most_halvings) break;
+    size *= 0.5;
+  }
+  workspace.load_factor = 1.0;
+  workspace.has_factors = false;
+  switch (report.outcome) {
+    case StepOutcome::accepted: break;
+    case StepOutcome::singular:
+      report.explanation = fmt::format("the scene can move freely: nothing holds {}", report.explanation);
+      break;
+    case StepOutcome::diverged:
+    case StepOutcome::too_many_iterations:
+      report.explanation = fmt::format("no equilibrium was found beyond {:.3g} of the load (residual {:.2e})", reached,
+                                       report.residual);
+      break;
+  }
+  return report;
+}
+
+}  // namespace tisserand::mechanism

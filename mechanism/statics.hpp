@@ -1,0 +1,28 @@
+// Static equilibrium of a scene: Newton's iteration with exact tangents and load steps.
+#pragma once
+
+#include <string>
+
+#include "formats/scene.hpp"
+#include "mechanism/integrator.hpp"
+#include "mechanism/model.hpp"
+#include "mechanism/state.hpp"
+#include "mechanism/workspace.hpp"
+
+namespace tisserand::mechanism {
+
+struct StaticsReport {
+  StepOutcome outcome = StepOutcome::accepted;
+  int iterations = 0;
+  int load_steps = 0;        ///< taken, after halvings
+  double residual = 0.0;     ///< largest force, largest moment / length
+  double constraint = 0.0;
+  std::string explanation;   ///< of a failure: equation and likely cause
+};
+
+/// Equilibrium under loads (at the state's time) and gravity, from `state` with all velocities zero, in load steps that are
+/// halved where the iteration fails. A scene that can move freely is an outcome `singular` that names the direction.
+[[nodiscard]] StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, State& state,
+                                          Workspace& workspace);
+
+}  // namespace tisserand::mechanism

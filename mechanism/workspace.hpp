@@ -1,0 +1,59 @@
+// Workspace: scratch of one run, sized once from the model; nothing in it influences later steps.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "mechanism/bodies/superelement_evaluate.hpp"
+#include "mechanism/model.hpp"
+
+namespace tisserand::mechanism {
+
+/// Sums over the bodies at one instant.
+struct Energy {
+  double kinetic = 0.0;
+  double strain = 0.0;
+  double potential = 0.0;      ///< of gravity
+  double total() const { return kinetic + strain + potential; }
+};
+
+struct Workspace {
+  explicit Workspace(const Model& model);
+
+  // evaluate()
+  std::vector<NodeMotion> motion;            ///< of every node; one more at the end: ground
+  std::vector<SuperelementScratch> superelements;
+  std::vector<JointTerms> joints;
+  std::vector<std::array<TimeFunction, 3>> load_functions;
+  std::vector<Eigen::Vector3d> load_values;
+  Eigen::VectorXd residual;                  ///< r, boundary coordinates (uncondensed)
+  Eigen::VectorXd constraint;                ///< Φ
+  Eigen::VectorXd constraint_rate;           ///< B v + Φ_t
+  Eigen::VectorXd bias;                      ///< Ḃ v
+  std::array<double, 3> force_scale{};       ///< largest force, moment and internal force of any single term
+  double load_factor = 1.0;                  ///< of loads and gravity (load steps of statics)
+  double load_power = 0.0;
+  double damping_power = 0.0;
+  std::vector<double> values;                ///< of the iteration matrix [A/s Bᵀ; B 0]
+  double matrix_scale = 1.0;                 ///< s
+
+  // Newton's iteration
+  LinearSolver solver;
+  TangentCoefficients factored;              ///< coefficients of the factors that are kept
+  bool has_factors = false;
+  Eigen::VectorXd unknowns;                  ///< right-hand side and solution of the global system
+  Eigen::VectorXd increment;                 ///< of the velocity coordinates, boundary and internal
+  Eigen::VectorXd correction;                ///< the same for the position correction of stabilised index 2
+  Eigen::VectorXd displacement;              ///< total increment of the positions over the step
+  Eigen::VectorXd position_correction;       ///< total correction over the step
+  Eigen::VectorXd multipliers;               ///< increment of λ of the current iteration
+  Eigen::VectorXd element_boundary;          ///< of one superelement
+  Eigen::VectorXd element_internal;
+  State previous;                            ///< the last accepted state
+  double previous_load_power = 0.0;
+  double previous_damping_power = 0.0;
+};
+
+}  // namespace tisserand::mechanism
