@@ -39,7 +39,7 @@ void read_division(const MapReader& map, BeamLine& beam) {
     map.fail(map.has("size") ? "both 'elements' and 'size' are given" : "neither 'elements' nor 'size' is given",
              "give one of them");
   if (const YamlNode* node = map.find("elements")) {
-    beam.elements = read_integer(map.context(), *node, "elements");
+    beam.elements = read_integer(map.context(), *node, "elements").value_or(1);
     if (beam.elements < 1) map.context().fail(node->place, fmt::format("elements {} must be 1 or more", beam.elements), "");
   }
   if (map.has("size")) beam.size = map.number("size");
@@ -98,7 +98,7 @@ std::vector<BoundaryNode> read_boundary(const MapReader& map) {
   }
   for (const YamlNode& item : node->children) {
     const Context context{reader, "boundary", reader.where(item.place)};
-    reader.note(context.entry, "", item.place);
+    reader.note_place(context.entry, item.place);
     const std::string name = read_text(context, item, "an entry");
     boundary.push_back({name, name, true, true, context.entry});
   }

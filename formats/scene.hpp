@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "common/units.hpp"
+#include "formats/override.hpp"
 #include "formats/section.hpp"
 
 namespace tisserand::formats {
@@ -184,5 +185,12 @@ struct Scene {
   OutputSpec output;
   double initial_tolerance = 1e-6;   ///< largest correction of initial positions (times characteristic length) and velocities
 };
+
+/// Reads scene.yaml with the overrides applied, then checks. Paths in it are relative to its folder. Throws all errors
+/// together, each with file:line:column or the text of the override.
+Scene read_scene(const std::string& path, const std::vector<Override>& overrides);
+
+/// Names, references, signs and ranges (SCENE.md), without opening superelement files. Throws all findings together.
+void check(const Scene& scene);
 
 }  // namespace tisserand::formats

@@ -91,12 +91,6 @@ Section read_constants(const Context& context, const YamlNode& node, const std::
   return section;
 }
 
-const YamlNode* child(const YamlNode& node, std::string_view key) {
-  for (const YamlNode& entry : node.children)
-    if (entry.key == key) return &entry;
-  return nullptr;
-}
-
 }  // namespace
 
 std::vector<KeySet> section_key_sets() {
@@ -120,7 +114,7 @@ Material read_material(const Context& context, const YamlNode& node, const std::
 }
 
 Section read_section(const Context& context, const YamlNode& node, const Units& units, const std::string& prefix) {
-  const YamlNode* shape = child(node, "shape");
+  const YamlNode* shape = find_child(node, "shape");
   Section section = shape != nullptr ? read_shape(context, node, *shape, units, prefix) : read_constants(context, node, prefix);
   section.name = node.key;
   section.where = context.entry;
@@ -154,17 +148,20 @@ void check_material(const Material& material, const std::string& subject, const 
 }
 
 void check_section(const Section& section, const std::string& subject, const std::string& prefix, Faults& faults) {
-  const auto need = [&](const char* key, double value, bool zero_allowed) {
-    if (std::isfinite(value) && (value > 0.0 || (zero_allowed && value == 0.0))) return;
-    faults.add(section.where, prefix + key,
-               fmt::format("{}: {} {:g} must be {}", subject, key, value, zero_allowed ? "positive or 0" : "positive"), "");
+  const auto positive = [&](const char* key, double value) {
+    if (!(value > 0.0) || !std::isfinite(value))
+      faults.add(section.where, prefix + key, fmt::format("{}: {} {:g} must be positive", subject, key, value), "");
   };
-  need("A", section.area, false);
-  need("Iy", section.second_moment_y, false);
-  need("Iz", section.second_moment_z, false);
-  need("J", section.torsion_constant, false);
-  need("shear_area_y", section.shear_area_y, true);
-  need("shear_area_z", section.shear_area_z, true);
+  const auto positive_or_zero = [&](const char* key, double value) {
+    if (!(value >= 0.0) || !std::isfinite(value))
+      faults.add(section.where, prefix + key, fmt::format("{}: {} {:g} must be positive or 0", subject, key, value), "");
+  };
+  positive("A", section.area);
+  positive("Iy", section.second_moment_y);
+  positive("Iz", section.second_moment_z);
+  positive("J", section.torsion_constant);
+  positive_or_zero("shear_area_y", section.shear_area_y);
+  positive_or_zero("shear_area_z", section.shear_area_z);
   if ((section.shear_area_y == 0.0) != (section.shear_area_z == 0.0))
     faults.add(section.where, prefix + (section.shear_area_y == 0.0 ? "shear_area_y" : "shear_area_z"),
                fmt::format("{}: only one of the two shear areas is given", subject),

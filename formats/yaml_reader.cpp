@@ -64,27 +64,49 @@ void YamlReader::fail(const std::string& entry, const YamlPlace& place, const st
   broken_.insert(entry);
 }
 
-void YamlReader::note(const std::string& entry, const std::string& key, const YamlPlace& place) {
-  places_.insert_or_assign({entry, key}, place);
+void YamlReader::note(const std::string& entry, const std::string& key, const YamlNode& node) {
+  places_.insert_or_assign({entry, key}, Noted{node.place, node.kind == YamlKind::scalar});
+}
+
+void YamlReader::note_place(const std::string& entry, const YamlPlace& place) {
+  places_.insert_or_assign({entry, ""}, Noted{place, false});
+}
+
+/// The place of the key of the finding, or of the innermost map around it that stands in the file.
+const YamlReader::Noted* YamlReader::noted(const Fault& fault) const {
+  std::string key = fault.key;
+  while (true) {
+    const auto found = places_.find({fault.entry, key});
+    if (found != places_.end()) return &found->second;
+    if (key.empty()) return nullptr;
+    const std::size_t dot = key.rfind('.');
+    key = dot == std::string::npos ? "" : key.substr(0, dot);
+  }
+}
+
+bool YamlReader::follows_from_error(const Fault& fault) const {
+  if (!broken_.contains(fault.entry)) return false;
+  const auto found = places_.find({fault.entry, fault.key});
+  if (found == places_.end() || !found->second.scalar) return true;
+  const auto same_place = [&found](const Placed& placed) { return placed.place == found->second.place; };
+  return std::ranges::any_of(errors_, same_place);
 }
 
 void YamlReader::raise(const Faults& faults) const {
   std::vector<Placed> all = errors_;
   for (const Fault& fault : faults.list) {
-    if (broken_.contains(fault.entry)) continue;
-    auto found = places_.find({fault.entry, fault.key});
-    if (found == places_.end()) found = places_.find({fault.entry, ""});
-    if (found == places_.end()) {
-      all.push_back({{}, Error(fault.what, fault.entry, fault.remedy)});
-    } else {
-      all.push_back({found->second, Error(fault.what, where(found->second), fault.remedy)});
-    }
+    if (follows_from_error(fault)) continue;
+    const Noted* found = noted(fault);
+    const std::string text_where = found == nullptr ? fault.entry : where(found->place);
+    all.push_back({found == nullptr ? YamlPlace{} : found->place, Error(fault.what, text_where, fault.remedy)});
   }
   std::ranges::stable_sort(all, {}, [](const Placed& placed) {
     return std::tuple(placed.place.source, placed.place.line, placed.place.column);
   });
   std::vector<Error> errors;
-  for (const Placed& placed : all) errors.push_back(placed.error);
+  std::set<std::string> told;  // two bodies may share one faulty section
+  for (const Placed& placed : all)
+    if (told.insert(placed.error.what()).second) errors.push_back(placed.error);
   if (!errors.empty()) throw merge_errors(errors);
 }
 
@@ -108,7 +130,7 @@ double read_number(const Context& context, const YamlNode& node, const std::stri
   return unreadable;
 }
 
-int read_integer(const Context& context, const YamlNode& node, const std::string& what) {
+std::optional<int> read_integer(const Context& context, const YamlNode& node, const std::string& what) {
   if (node.kind == YamlKind::scalar && !node.quoted) {
     int value = 0;
     const char* end = node.text.data() + node.text.size();
@@ -116,11 +138,11 @@ int read_integer(const Context& context, const YamlNode& node, const std::string
     if (stop == end && status == std::errc{}) return value;
     if (stop == end && status == std::errc::result_out_of_range) {
       context.fail(node.place, fmt::format("{} {} is too large", what, describe(node)), "");
-      return 0;
+      return std::nullopt;
     }
   }
   context.fail(node.place, fmt::format("{} must be a whole number, not {}", what, describe(node)), number_remedy(node));
-  return 0;
+  return std::nullopt;
 }
 
 std::string read_text(const Context& context, const YamlNode& node, const std::string& what) {
@@ -169,7 +191,7 @@ MapReader::MapReader(Context context, const YamlNode& node, std::string_view nou
     else if (!is_new)
       context_.fail(child.key_place, fmt::format("key '{}' is given twice (first in line {})", child.key, first->second.line),
                     "remove one");
-    context_.reader.note(context_.entry, prefix + child.key, child.place);
+    context_.reader.note(context_.entry, prefix + child.key, child);
   }
 }
 
@@ -222,7 +244,7 @@ double MapReader::number(std::string_view key, double fallback) const {
 
 int MapReader::integer(std::string_view key, int fallback) const {
   const YamlNode* node = find(key);
-  return node == nullptr ? fallback : read_integer(context_, *node, std::string(key));
+  return node == nullptr ? fallback : read_integer(context_, *node, std::string(key)).value_or(fallback);
 }
 
 std::string MapReader::text(std::string_view key) const {
@@ -232,7 +254,7 @@ std::string MapReader::text(std::string_view key) const {
 
 Context entry_context(YamlReader& reader, const std::string& noun, const YamlNode& node) {
   Context context{reader, fmt::format("{} '{}'", noun, node.key), reader.where(node.key_place)};
-  reader.note(context.entry, "", node.key_place);
+  reader.note_place(context.entry, node.key_place);
   return context;
 }
 

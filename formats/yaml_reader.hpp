@@ -31,11 +31,13 @@ class YamlReader {
   const KeySet& keys(std::string_view noun) const;
   std::string where(const YamlPlace& place) const { return document_.where(place); }
 
-  /// An error inside the entry whose `where` is given: findings of the check about that entry are dropped.
+  /// An error inside the entry whose `where` is given. Findings of the check about that entry are then dropped, except
+  /// those about a scalar that was read without error.
   void fail(const std::string& entry, const YamlPlace& place, const std::string& what, const std::string& remedy);
   /// Remembers where the value of a key of an entry stands, for findings of the check.
-  void note(const std::string& entry, const std::string& key, const YamlPlace& place);
-  /// Throws the errors collected and those findings whose entry was read without error, in the order of the lines.
+  void note(const std::string& entry, const std::string& key, const YamlNode& node);
+  void note_place(const std::string& entry, const YamlPlace& place);
+  /// Throws the errors collected and the findings of the check, in the order of the lines.
   void raise(const Faults& faults) const;
 
  private:
@@ -43,11 +45,18 @@ class YamlReader {
     YamlPlace place;
     Error error;
   };
+  struct Noted {
+    YamlPlace place;
+    bool scalar = false;
+  };
+  const Noted* noted(const Fault& fault) const;
+  bool follows_from_error(const Fault& fault) const;
+
   const YamlDocument& document_;
   std::vector<KeySet> key_sets_;
   std::vector<Placed> errors_;
   std::set<std::string> broken_;
-  std::map<std::pair<std::string, std::string>, YamlPlace> places_;
+  std::map<std::pair<std::string, std::string>, Noted> places_;
 };
 
 /// What is being read: its words in messages ("section 'tube'") and the `where` of the entry that it belongs to.
@@ -61,7 +70,7 @@ struct Context {
 
 /// Numbers are finite; not-a-number stands for one that could not be read (the error is recorded).
 double read_number(const Context& context, const YamlNode& node, const std::string& what);
-int read_integer(const Context& context, const YamlNode& node, const std::string& what);
+std::optional<int> read_integer(const Context& context, const YamlNode& node, const std::string& what);
 std::string read_text(const Context& context, const YamlNode& node, const std::string& what);
 /// A list of numbers of any length.
 std::vector<double> read_numbers(const Context& context, const YamlNode& node, const std::string& what);

@@ -246,6 +246,12 @@ YamlDocument load_yaml(const std::string& path) {
   return parse_yaml(text, path);
 }
 
+const YamlNode* find_child(const YamlNode& node, std::string_view key) {
+  for (const YamlNode& child : node.children)
+    if (node.kind == YamlKind::map && child.key == key) return &child;
+  return nullptr;
+}
+
 std::string describe(const YamlNode& node) {
   switch (node.kind) {
     case YamlKind::null:

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tisserand::formats {
@@ -13,6 +14,8 @@ struct YamlPlace {
   int line = 0;
   int column = 0;
   int source = 0;
+
+  bool operator==(const YamlPlace&) const = default;
 };
 
 /// A value; in a map it carries its key. Children are in the order of the file, double keys included.
@@ -42,7 +45,10 @@ YamlDocument parse_yaml(const std::string& text, const std::string& file);
 /// Reads a file and parses it. Throws Error (missing, a folder, empty, binary, syntax).
 YamlDocument load_yaml(const std::string& path);
 
-/// "a number", "a list", "a map", "text", "nothing": for messages.
+/// The value of a key of a map, or null.
+const YamlNode* find_child(const YamlNode& node, std::string_view key);
+
+/// "'4.5'", "the text \"4.5\"", "a list of 3", "a map", "nothing": for messages.
 std::string describe(const YamlNode& node);
 
 }  // namespace tisserand::formats

@@ -1,0 +1,111 @@
+// scene.yaml to the struct Scene.
+#include "formats/scene.hpp"
+
+#include <filesystem>
+
+#include "formats/geometry_reader.hpp"
+#include "formats/scene_check.hpp"
+#include "formats/scene_keys.hpp"
+#include "formats/scene_reader.hpp"
+#include "formats/section_reader.hpp"
+#include "formats/units_reader.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
+  IntegratorSpec spec;
+  spec.method = map.choice("method", {Choice<Method>{"generalised_alpha", Method::generalised_alpha}, {"hht", Method::hht}}, spec.method);
+  spec.rho = map.number("rho", spec.rho);
+  spec.alpha = map.number("alpha", spec.alpha);
+  spec.formulation = map.choice("formulation", {Choice<Formulation>{"index3", Formulation::index3},
+                                                {"stabilised_index2", Formulation::stabilised_index2}}, spec.formulation);
+  if (analysis == AnalysisKind::dynamics) {
+    spec.step = map.number("step");
+    spec.end = map.number("end");
+  } else {
+    spec.step = map.number("step", spec.step);
+    spec.end = map.number("end", spec.end);
+  }
+  spec.start = map.number("start", spec.start);
+  spec.tolerance = map.number("tolerance", spec.tolerance);
+  spec.constraint_tolerance = map.number("constraint_tolerance", spec.constraint_tolerance);
+  spec.max_iterations = map.integer("max_iterations", spec.max_iterations);
+  spec.max_halvings = map.integer("max_halvings", spec.max_halvings);
+  spec.linear_solver = map.choice("linear_solver", {Choice<LinearSolver>{"auto", LinearSolver::automatic},
+                                                    {"klu", LinearSolver::klu}, {"dense", LinearSolver::dense}}, spec.linear_solver);
+  return spec;
+}
+
+StaticsSpec read_statics(const MapReader& map) {
+  StaticsSpec spec;
+  spec.load_steps = map.integer("load_steps", spec.load_steps);
+  spec.tolerance = map.number("tolerance", spec.tolerance);
+  spec.max_iterations = map.integer("max_iterations", spec.max_iterations);
+  return spec;
+}
+
+OutputSpec read_output(const MapReader& map) {
+  OutputSpec spec;
+  if (map.has("every") && map.has("interval")) map.fail("both 'every' and 'interval' are given", "give one of them");
+  spec.every = map.integer("every", spec.every);
+  if (map.has("interval")) spec.interval = map.number("interval");
+  spec.from = map.number("from", spec.from);
+  const YamlNode* channels = map.find("channels");
+  if (channels == nullptr) return spec;
+  if (channels->kind != YamlKind::sequence) {
+    map.context().fail(channels->place, fmt::format("channels must be a list, not {}", describe(*channels)), "write it as [nodes, energy]");
+    return spec;
+  }
+  for (const YamlNode& channel : channels->children) spec.channels.push_back(read_text(map.context(), channel, "a channel"));
+  return spec;
+}
+
+/// The settings below `integrator`, `statics` and `output`.
+void read_settings(const MapReader& map, Scene& scene) {
+  YamlReader& reader = map.context().reader;
+  const auto context = [&](const std::string& subject) { return Context{reader, subject, scene.file}; };
+  scene.analysis = map.choice("analysis", {Choice<AnalysisKind>{"dynamics", AnalysisKind::dynamics},
+                                           {"statics", AnalysisKind::statics}}, AnalysisKind::dynamics);
+  const YamlNode* integrator = scene.analysis == AnalysisKind::dynamics ? map.require("integrator") : map.find("integrator");
+  if (integrator != nullptr)
+    scene.integrator = read_integrator(MapReader(context("integrator"), *integrator, "integrator", "integrator."), scene.analysis);
+  if (const YamlNode* statics = map.find("statics"))
+    scene.statics = read_statics(MapReader(context("statics"), *statics, "statics", "statics."));
+  if (const YamlNode* output = map.find("output"))
+    scene.output = read_output(MapReader(context("output"), *output, "output", "output."));
+}
+
+Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
+  const MapReader map(Context{reader, "", path}, reader.root(), "scene");
+  Scene scene;
+  scene.file = path;
+  scene.name = map.text("scene");
+  scene.units = read_units(map);
+  scene.gravity = read_vector(map, "gravity", scene.gravity);
+  const SceneDefinitions definitions{std::filesystem::path(path).parent_path().string(), scene.units, read_materials(map),
+                                     read_sections(map, scene.units)};
+  check_definitions(definitions.materials, definitions.sections, faults);
+  scene.bodies = read_bodies(map, definitions);
+  scene.joints = read_joints(map);
+  scene.loads = read_loads(map, definitions);
+  read_settings(map, scene);
+  scene.initial_tolerance = map.number("initial_tolerance", scene.initial_tolerance);
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
+  YamlDocument document = load_yaml(path);
+  apply_overrides(document, overrides, {"materials", "sections", "bodies", "joints", "loads", "nodes"});
+  YamlReader reader(document, scene_key_sets());
+  Faults faults;
+  Scene scene = read_tree(reader, path, faults);
+  for (Fault& fault : find_faults(scene).list) faults.list.push_back(std::move(fault));
+  reader.raise(faults);
+  return scene;
+}
+
+}  // namespace tisserand::formats

@@ -1,0 +1,224 @@
+// Findings of a scene: names, references to bodies and nodes, ranges of settings.
+#include "formats/scene_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/text.hpp"
+#include "formats/line_check.hpp"
+#include "formats/name_check.hpp"
+#include "formats/section_reader.hpp"
+#include "formats/settings_check.hpp"
+#include "formats/time_function_reader.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+const std::string& name_of(const BodySpec& body) {
+  return std::visit([](const auto& spec) -> const std::string& { return spec.name; }, body);
+}
+
+void check_start(const InitialMotion& start, const std::string& subject, const std::string& where, Faults& faults) {
+  const auto finite = [&](const Eigen::Vector3d& vector, const char* key) {
+    if (!vector.allFinite()) faults.add(where, key, fmt::format("{}: {} must be finite", subject, key), "");
+  };
+  finite(start.pose.position, "pose.position");
+  finite(start.velocity, "velocity");
+  finite(start.angular_velocity, "angular_velocity");
+  if (!(std::abs(start.pose.orientation.norm() - 1.0) < 1e-9))
+    faults.add(where, "pose.orientation",
+               fmt::format("{}: the quaternion of the orientation has length {:g}, not 1", subject, start.pose.orientation.norm()), "");
+}
+
+void check_weights(const std::vector<NodeWeight>& weights, const std::string& subject, const std::string& where,
+                   const std::string& key, Faults& faults) {
+  double sum = 0.0;
+  for (const NodeWeight& weight : weights) sum += weight.weight;
+  if (!weights.empty() && !(std::abs(sum - 1.0) < 1e-6))
+    faults.add(where, key, fmt::format("{}: {} have the sum {:.9g}", subject, key, sum), "their sum must be 1");
+}
+
+void check_damping(const Damping& damping, const std::string& subject, const std::string& where, Faults& faults) {
+  const auto not_negative = [&](double value, const char* key) {
+    if (!(value >= 0.0) || !std::isfinite(value))
+      faults.add(where, fmt::format("damping.{}", key), fmt::format("{}: damping: {} {:g} must not be negative", subject, key, value), "");
+  };
+  not_negative(damping.mass, "mass");
+  not_negative(damping.stiffness, "stiffness");
+  not_negative(damping.ratio, "ratio");
+  for (const double ratio : damping.ratios) not_negative(ratio, "ratios");
+}
+
+void check_body(const SuperelementBodySpec& body, const std::string& subject, Faults& faults) {
+  if (body.file.empty()) faults.add(body.where, "file", fmt::format("{}: has no superelement file", subject), "");
+  if (body.modes && *body.modes < 0)
+    faults.add(body.where, "modes", fmt::format("{}: modes {} must not be negative", subject, *body.modes), "modes: 0 uses none");
+  if (body.cutoff && !(*body.cutoff > 0.0 && std::isfinite(*body.cutoff)))
+    faults.add(body.where, "cutoff", fmt::format("{}: cutoff {:g} must be positive", subject, *body.cutoff), "");
+  if (body.frame == FrameKind::node && body.frame_node.empty())
+    faults.add(body.where, "frame", fmt::format("{}: frame has no node", subject), "write frame: {node: name}");
+  check_weights(body.position_weights, subject, body.where, "weights.positions", faults);
+  check_weights(body.rotation_weights, subject, body.where, "weights.rotations", faults);
+  check_damping(body.damping, subject, body.where, faults);
+}
+
+void check_body(const RigidBodySpec& body, const std::string& subject, Faults& faults) {
+  check_mass({subject, body.where, body.mass, body.inertia}, MassSign::positive, faults);
+  if (!body.center_of_mass.allFinite())
+    faults.add(body.where, "center_of_mass", fmt::format("{}: center_of_mass must be finite", subject), "");
+  std::vector<std::string> names;
+  for (const RigidNodeSpec& node : body.nodes) {
+    check_name(subject + ": node", node.name, body.where, names, faults);
+    if (!node.pose.position.allFinite())
+      faults.add(body.where, fmt::format("nodes.{}.position", node.name), fmt::format("{}: node '{}': position must be finite", subject, node.name), "");
+  }
+}
+
+void check_body(const BeamBodySpec& body, const std::string& subject, Faults& faults) {
+  if (!body.from.allFinite()) faults.add(body.where, "from", fmt::format("{}: from must be finite", subject), "");
+  if (!body.to.allFinite()) faults.add(body.where, "to", fmt::format("{}: to must be finite", subject), "");
+  check_line({subject, body.where, body.from, body.to, body.through, body.orientation}, faults);
+  constexpr int most_elements = 100'000;
+  if (body.elements < 1 || body.elements > most_elements)
+    faults.add(body.where, "elements", fmt::format("{}: elements {} must lie between 1 and {}", subject, body.elements, most_elements), "");
+  if (body.nodes_per_element != 2 && body.nodes_per_element != 3)
+    faults.add(body.where, "nodes_per_element", fmt::format("{}: nodes_per_element {} must be 2 or 3", subject, body.nodes_per_element), "");
+  const Section& section = body.section;
+  const Material& material = body.material;
+  check_section(section, section.name.empty() ? subject + ": section" : fmt::format("section '{}'", section.name),
+                section.name.empty() ? "section." : "", faults);
+  check_material(material, material.name.empty() ? subject + ": material" : fmt::format("material '{}'", material.name),
+                 material.name.empty() ? "material." : "", faults);
+  if (section.area > 0.0 && section.shear_area_y == 0.0 && section.shear_area_z == 0.0)
+    faults.add(body.where, "section", fmt::format("{}: its section has no shear areas, which this beam needs", subject),
+               "give shear_area_y and shear_area_z");
+}
+
+/// Nodes of a body that the scene alone determines; nothing for superelements, whose nodes stand in the file.
+std::optional<std::vector<std::string>> nodes_of(const BodySpec& body) {
+  std::vector<std::string> nodes;
+  if (const RigidBodySpec* rigid = std::get_if<RigidBodySpec>(&body)) {
+    for (const RigidNodeSpec& node : rigid->nodes) nodes.push_back(node.name);
+    return nodes;
+  }
+  if (const BeamBodySpec* beam = std::get_if<BeamBodySpec>(&body)) {
+    nodes = {"start", "end"};
+    for (long i = 0; i <= static_cast<long>(beam->elements) * (beam->nodes_per_element - 1); ++i) nodes.push_back(std::to_string(i));
+    return nodes;
+  }
+  return std::nullopt;
+}
+
+void check_node(const Scene& scene, const MarkerSpec& marker, const std::string& subject, const std::string& where,
+                const std::string& key, Faults& faults) {
+  const std::size_t slash = marker.node.find('/');
+  const std::string body_name = marker.node.substr(0, slash);
+  std::vector<std::string> bodies;
+  for (const BodySpec& body : scene.bodies) bodies.push_back(name_of(body));
+  const auto found = std::ranges::find(bodies, body_name);
+  if (found == bodies.end()) {
+    if (key != "at") bodies.push_back("ground");
+    check_reference(subject, "body", body_name, bodies, where, key, faults);
+    return;
+  }
+  const BodySpec& body = scene.bodies[static_cast<std::size_t>(found - bodies.begin())];
+  const auto nodes = nodes_of(body);
+  if (slash != std::string::npos) {
+    const std::string node = marker.node.substr(slash + 1);
+    if (nodes && nodes->size() > 20 && std::ranges::find(*nodes, node) == nodes->end())
+      faults.add(where, key, fmt::format("{}: there is no node '{}' in body '{}'", subject, node, body_name),
+                 fmt::format("its nodes are 0 to {}, start and end", nodes->size() - 3));
+    else if (nodes)
+      check_reference(fmt::format("{}: body '{}'", subject, body_name), "node", node, *nodes, where, key, faults);
+    return;
+  }
+  const SuperelementBodySpec* element = std::get_if<SuperelementBodySpec>(&body);
+  const bool rigid = std::holds_alternative<RigidBodySpec>(body) || (element != nullptr && element->rigid);
+  if (!rigid)
+    faults.add(where, key, fmt::format("{}: body '{}' is flexible; '{}' names no node", subject, body_name, marker.node),
+               fmt::format("write {}/<node>{}", body_name, nodes ? ", for example " + body_name + "/end" : ""));
+}
+
+void check_marker(const Scene& scene, const MarkerSpec& marker, const std::string& subject, const std::string& where,
+                  const std::string& key, Faults& faults) {
+  const bool at_ground = marker.node == "ground";
+  if (at_ground && key == "at") faults.add(where, key, fmt::format("{}: acts on the ground", subject), "name a node of a body");
+  if (!at_ground) check_node(scene, marker, subject, where, key, faults);
+  if (marker.position && !marker.position->allFinite())
+    faults.add(where, key + ".position", fmt::format("{}: {}: position must be finite", subject, key), "");
+  if (marker.orientation && !(std::abs(marker.orientation->norm() - 1.0) < 1e-9))
+    faults.add(where, key + ".orientation",
+               fmt::format("{}: {}: the quaternion of the orientation has length {:g}, not 1", subject, key, marker.orientation->norm()), "");
+}
+
+void check_joint(const Scene& scene, const JointSpec& joint, Faults& faults) {
+  const std::string subject = fmt::format("joint '{}'", joint.name);
+  check_marker(scene, joint.a, subject, joint.where, "a", faults);
+  check_marker(scene, joint.b, subject, joint.where, "b", faults);
+  if (joint.a.node == joint.b.node)
+    faults.add(joint.where, "b", fmt::format("{}: joins '{}' to itself", subject, joint.a.node), "name two different nodes");
+  if (joint.position && !joint.position->allFinite())
+    faults.add(joint.where, "position", fmt::format("{}: position must be finite", subject), "");
+  if (joint.axis && !joint.axis->allFinite())
+    faults.add(joint.where, "axis", fmt::format("{}: axis must be finite", subject), "");
+  else if (joint.axis && joint.axis->stableNorm() == 0.0)
+    faults.add(joint.where, "axis", fmt::format("{}: axis has zero length", subject), "give a direction, for example [0, 0, 1]");
+  const bool oriented = joint.a.orientation && joint.b.orientation;
+  if (joint.kind == JointKind::revolute && !joint.axis && !oriented)
+    faults.add(joint.where, "", fmt::format("{}: a revolute joint needs an axis", subject),
+               "give axis: [x, y, z], or an orientation to both a and b");
+}
+
+void check_load(const Scene& scene, const LoadSpec& load, Faults& faults) {
+  const std::string subject = fmt::format("load '{}'", load.name);
+  check_marker(scene, load.at, subject, load.where, "at", faults);
+  for (std::size_t i = 0; i < load.components.size(); ++i)
+    check_time_function(load.components[i], subject, load.where, fmt::format("value[{}]", i), faults);
+}
+
+}  // namespace
+
+void check_definitions(const std::vector<Material>& materials, const std::vector<Section>& sections, Faults& faults) {
+  std::vector<std::string> names;
+  for (const Material& material : materials) {
+    check_name("material", material.name, material.where, names, faults);
+    check_material(material, fmt::format("material '{}'", material.name), "", faults);
+  }
+  names.clear();
+  for (const Section& section : sections) {
+    check_name("section", section.name, section.where, names, faults);
+    check_section(section, fmt::format("section '{}'", section.name), "", faults);
+  }
+}
+
+Faults find_faults(const Scene& scene) {
+  Faults faults;
+  if (scene.name.empty()) faults.add(scene.file, "scene", "the scene has no name", "scene: <name>");
+  if (!scene.gravity.allFinite()) faults.add(scene.file, "gravity", "gravity must be finite", "");
+  if (scene.bodies.empty()) faults.add(scene.file, "bodies", "the scene has no bodies", "");
+  std::vector<std::string> bodies, joints, loads;
+  for (const BodySpec& body : scene.bodies) {
+    std::visit([&](const auto& spec) {
+      const std::string subject = fmt::format("body '{}'", spec.name);
+      check_name("body", spec.name, spec.where, bodies, faults);
+      if (spec.name == "ground") faults.add(spec.where, "", "body 'ground': the name is taken by the fixed world", "rename it");
+      check_start(spec.start, subject, spec.where, faults);
+      check_body(spec, subject, faults);
+    }, body);
+  }
+  for (const JointSpec& joint : scene.joints) {
+    check_name("joint", joint.name, joint.where, joints, faults);
+    check_joint(scene, joint, faults);
+  }
+  for (const LoadSpec& load : scene.loads) {
+    check_name("load", load.name, load.where, loads, faults);
+    check_load(scene, load, faults);
+  }
+  check_settings(scene, faults);
+  return faults;
+}
+
+void check(const Scene& scene) { find_faults(scene).raise(); }
+
+}  // namespace tisserand::formats

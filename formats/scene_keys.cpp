@@ -1,0 +1,40 @@
+// Data: the legal keys of scene.yaml.
+#include "formats/scene_keys.hpp"
+
+#include "formats/section_reader.hpp"
+
+namespace tisserand::formats {
+
+std::vector<KeySet> scene_key_sets() {
+  std::vector<KeySet> sets{
+      {"scene",
+       {"scene", "units", "gravity", "materials", "sections", "bodies", "joints", "loads", "analysis", "integrator",
+        "statics", "output", "initial_tolerance"}},
+      {"units", {"length", "mass", "time"}},
+      {"pose", {"position", "orientation"}},
+      {"orientation", {"axis", "angle_deg", "x", "y", "z"}},
+      {"body_superelement",
+       {"type", "file", "use", "modes", "cutoff", "inertia", "frame", "weights", "damping", "pose", "velocity",
+        "angular_velocity"}},
+      {"frame", {"node"}},
+      {"weights", {"positions", "rotations"}},
+      {"damping", {"mass", "stiffness", "ratio", "ratios"}},
+      {"body_rigid", {"type", "mass", "center_of_mass", "inertia", "nodes", "pose", "velocity", "angular_velocity"}},
+      {"body_rigid_from", {"type", "from", "pose", "velocity", "angular_velocity"}},
+      {"body_beam",
+       {"type", "from", "to", "through", "orientation", "elements", "nodes_per_element", "section", "material", "pose",
+        "velocity", "angular_velocity"}},
+      {"joint", {"type", "a", "b", "axis", "position"}},
+      {"marker", {"node", "position", "orientation"}},
+      {"load", {"type", "at", "axes", "value"}},
+      {"time_function", {"table", "file", "expression", "breakpoints"}},
+      {"integrator",
+       {"method", "rho", "alpha", "formulation", "step", "start", "end", "tolerance", "constraint_tolerance",
+        "max_iterations", "max_halvings", "linear_solver"}},
+      {"statics", {"load_steps", "tolerance", "max_iterations"}},
+      {"output", {"every", "interval", "from", "channels"}}};
+  for (KeySet& set : section_key_sets()) sets.push_back(std::move(set));
+  return sets;
+}
+
+}  // namespace tisserand::formats

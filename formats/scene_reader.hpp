@@ -1,0 +1,24 @@
+// Parts of reading scene.yaml: what stands below `bodies`, `joints` and `loads`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/scene.hpp"
+#include "formats/yaml_reader.hpp"
+
+namespace tisserand::formats {
+
+/// What bodies may refer to.
+struct SceneDefinitions {
+  std::string folder;                ///< of the scene file: paths are relative to it
+  Units units;
+  std::vector<Material> materials;
+  std::vector<Section> sections;
+};
+
+std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& definitions);
+std::vector<JointSpec> read_joints(const MapReader& map);
+std::vector<LoadSpec> read_loads(const MapReader& map, const SceneDefinitions& definitions);
+
+}  // namespace tisserand::formats

@@ -1,0 +1,66 @@
+// Ranges of the settings of integrator, statics and output.
+#include "formats/settings_check.hpp"
+
+#include <cmath>
+
+namespace tisserand::formats {
+
+namespace {
+
+/// The settings of one group in messages and keys.
+struct Group {
+  const Scene& scene;
+  std::string name;  ///< "integrator", or "" for the top level
+  Faults& faults;
+
+  void add(const std::string& key, const std::string& what, const std::string& remedy) const {
+    faults.add(scene.file, name.empty() ? key : name + "." + key, name.empty() ? what : name + ": " + what, remedy);
+  }
+  void positive(const std::string& key, double value) const {
+    if (!(value > 0.0) || !std::isfinite(value)) add(key, fmt::format("{} {:g} must be positive", key, value), "");
+  }
+  void between(const std::string& key, double value, double low, double high) const {
+    if (!(value >= low && value <= high)) add(key, fmt::format("{} {:g} must lie between {:g} and {:.4g}", key, value, low, high), "");
+  }
+  void at_least(const std::string& key, int value, int low) const {
+    if (value < low) add(key, fmt::format("{} {} must be {} or more", key, value, low), "");
+  }
+};
+
+void check_times(const IntegratorSpec& spec, const Group& group) {
+  group.positive("step", spec.step);
+  if (!std::isfinite(spec.start)) group.add("start", "start must be finite", "");
+  if (!(spec.end > spec.start) || !std::isfinite(spec.end)) {
+    group.add("end", fmt::format("end {:g} must be later than start {:g}", spec.end, spec.start), "");
+    return;
+  }
+  const double steps = (spec.end - spec.start) / spec.step;
+  constexpr double most = 1e12;
+  if (spec.step > 0.0 && steps > most)
+    group.add("step", fmt::format("step {:g} makes {:.3g} steps; the limit is {:g}", spec.step, steps, most), "give a larger step");
+}
+
+}  // namespace
+
+void check_settings(const Scene& scene, Faults& faults) {
+  const Group integrator{scene, "integrator", faults}, statics{scene, "statics", faults}, output{scene, "output", faults};
+  const IntegratorSpec& spec = scene.integrator;
+  if (scene.analysis == AnalysisKind::dynamics) check_times(spec, integrator);
+  integrator.between("rho", spec.rho, 0.0, 1.0);
+  integrator.between("alpha", spec.alpha, 0.0, 1.0 / 3.0);
+  integrator.positive("tolerance", spec.tolerance);
+  integrator.positive("constraint_tolerance", spec.constraint_tolerance);
+  integrator.at_least("max_iterations", spec.max_iterations, 1);
+  integrator.at_least("max_halvings", spec.max_halvings, 0);
+  statics.at_least("load_steps", scene.statics.load_steps, 1);
+  statics.positive("tolerance", scene.statics.tolerance);
+  statics.at_least("max_iterations", scene.statics.max_iterations, 1);
+  output.at_least("every", scene.output.every, 1);
+  if (scene.output.interval) output.positive("interval", *scene.output.interval);
+  if (!std::isfinite(scene.output.from)) output.add("from", "from must be finite", "");
+  for (const std::string& channel : scene.output.channels)
+    if (channel.empty()) output.add("channels", "a channel has no name", "");
+  Group{scene, "", faults}.positive("initial_tolerance", scene.initial_tolerance);
+}
+
+}  // namespace tisserand::formats
