@@ -19,9 +19,7 @@ namespace {
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
-/// Throws the Error of a failed system call on `path` after removing the incomplete `leftover`.
-[[noreturn]] void fail(const std::string& action, const std::string& path, const std::string& leftover, int number) {
-  if (!leftover.empty()) ::unlink(leftover.c_str());
+[[noreturn]] void fail(const std::string& action, const std::string& path, int number) {
   throw Error(fmt::format("{}: {}", action, std::strerror(number)), path, remedy_of_errno(number));
 }
 
@@ -113,33 +111,49 @@ std::string temporary_beside(const std::string& path) {
   return fmt::format("{}.tmp-{}-{}", path, ::getpid(), counter.fetch_add(1));
 }
 
+TextFile::TextFile(const std::string& path) : path_(path), temporary_(temporary_beside(path)) {
+  file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file_ < 0) fail("cannot create the file", path_, errno);
+}
+
+TextFile::~TextFile() {
+  if (file_ < 0) return;
+  ::close(file_);
+  ::unlink(temporary_.c_str());
+}
+
+void TextFile::write(const std::string& text) {
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t written = ::write(file_, text.data() + done, text.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("cannot write the file", path_, errno);
+    done += static_cast<std::size_t>(written);
+  }
+}
+
+void TextFile::publish() {
+  if (::fsync(file_) != 0 && errno != EINVAL && errno != EROFS) fail("cannot write the file", path_, errno);
+  if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot move the complete file to its name", path_, errno);
+  ::close(file_);
+  file_ = -1;
+}
+
 void publish_file(const std::string& from, const std::string& to) {
   const int file = ::open(from.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) fail("cannot reopen the file to make it durable", to, from, errno);
-  const bool durable = ::fsync(file) == 0;
-  const int number = errno;
-  ::close(file);
-  if (!durable) fail("cannot write", to, from, number);
-  if (::rename(from.c_str(), to.c_str()) != 0) fail("cannot move the complete file to its name", to, from, errno);
+  int number = file < 0 ? errno : 0;
+  if (file >= 0 && ::fsync(file) != 0) number = errno;
+  if (file >= 0) ::close(file);
+  if (number == 0 && ::rename(from.c_str(), to.c_str()) == 0) return;
+  if (number == 0) number = errno;
+  ::unlink(from.c_str());
+  fail("cannot write the file", to, number);
 }
 
 void write_text_file(const std::string& path, const std::string& text) {
-  const std::string temporary = temporary_beside(path);
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file < 0) fail("cannot create the file", path, "", errno);
-  std::size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t written = ::write(file, text.data() + done, text.size() - done);
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) {
-      const int number = errno;
-      ::close(file);
-      fail(fmt::format("cannot write {} bytes", text.size()), path, temporary, number);
-    }
-    done += static_cast<std::size_t>(written);
-  }
-  if (::close(file) != 0) fail("cannot write", path, temporary, errno);
-  publish_file(temporary, path);
+  TextFile file(path);
+  file.write(text);
+  file.publish();
 }
 
 }  // namespace tisserand

@@ -22,6 +22,23 @@ std::string join(const std::vector<std::string>& parts, const std::string& separ
 /// Whether `text` matches `pattern`, in which * stands for any run of characters (also none, also with /).
 bool matches_wildcard(const std::string& text, const std::string& pattern);
 
+/// A text file that grows beside its name and takes it in publish(); without that, nothing is left. Throws Error.
+class TextFile {
+ public:
+  explicit TextFile(const std::string& path);
+  ~TextFile();
+  TextFile(const TextFile&) = delete;
+  TextFile& operator=(const TextFile&) = delete;
+
+  void write(const std::string& text);
+  void publish();
+
+ private:
+  std::string path_;
+  std::string temporary_;
+  int file_ = -1;
+};
+
 /// Writes `text` beside `path` and renames: the file appears whole or not at all. Throws Error (no permission, disk full).
 void write_text_file(const std::string& path, const std::string& text);
 
