@@ -3,6 +3,8 @@
 add_library(tisserand_options INTERFACE)
 target_compile_options(tisserand_options INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
                                                    -Woverloaded-virtual $<$<BOOL:${TISSERAND_WERROR}>:-Werror>)
+# GCC 12 takes the undefined registers of its own avx512fintrin.h for uninitialised values (GCC bug 105593).
+target_compile_options(tisserand_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 target_compile_definitions(tisserand_options INTERFACE TISSERAND_VERSION="${PROJECT_VERSION}")
 if(TISSERAND_NATIVE)
   target_compile_options(tisserand_options INTERFACE -march=native)
