@@ -316,11 +316,15 @@ DatasetInfo InputFile::info(const std::string& dataset) const {
   const Handle creation(H5Dget_create_plist(handle.id()), close_properties);
   if (!type.valid() || !space.valid() || H5Sget_simple_extent_type(space.id()) == H5S_NULL)
     throw Error("has no values", place(dataset), "compare the file with its specification");
-  DatasetInfo result{kind_of(type.id()), type_in_words(type.id()), shape_of(space.id()), true};
+  DatasetInfo result;
+  result.kind = kind_of(type.id());
+  result.type_text = type_in_words(type.id());
+  result.shape = shape_of(space.id());
   const auto count = static_cast<std::uint64_t>(H5Sget_simple_extent_npoints(space.id()));
-  const std::uint64_t stored = H5Dget_storage_size(handle.id());
-  const bool filtered = H5Pget_nfilters(creation.id()) > 0;
-  result.written = count == 0 || (stored > 0 && (filtered || stored / H5Tget_size(type.id()) >= count));
+  result.stored_bytes = H5Dget_storage_size(handle.id());
+  result.filtered = H5Pget_nfilters(creation.id()) > 0;
+  const bool whole = result.filtered || result.stored_bytes / H5Tget_size(type.id()) >= count;
+  result.written = count == 0 || (result.stored_bytes > 0 && whole);
   return result;
 }
 

@@ -41,6 +41,8 @@ struct DatasetInfo {
   std::string type_text;  ///< in words, e.g. "32-bit float"
   Shape shape;            ///< empty: scalar
   bool written = true;    ///< false: some of its storage was never written
+  bool filtered = false;  ///< compressed or otherwise packed
+  std::uint64_t stored_bytes = 0;
 };
 
 /// Which files may be opened: only those that were closed properly, or also those of a run that still writes or was killed.

@@ -108,7 +108,7 @@ Handle create_in_memory(const std::string& where) {
   silence();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), close_properties);
   H5Pset_fapl_core(access.id(), 1u << 20, false);
-  Handle file(H5Fcreate("superelement", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), close_file);
+  Handle file(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), close_file);
   if (!file.valid()) throw last_error("cannot compose the file in memory", where, "check the installation of HDF5");
   return file;
 }

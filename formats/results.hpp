@@ -20,6 +20,7 @@ struct ResultsLayout {
   std::vector<std::string> superelements;
   std::vector<int> modes_offset;             ///< superelements.size() + 1; into the columns of y
   std::vector<int> boundary_offset;          ///< superelements.size() + 1; into the rows of boundary_force
+  std::vector<std::string> boundary_nodes;   ///< boundary_offset.back() names of the rows of boundary_force; empty: numbers
   std::vector<std::string> joints;
   std::vector<std::string> channels;         ///< selection, as in OutputSpec; empty: all
   std::vector<std::string> superelement_content_ids;
@@ -78,15 +79,23 @@ class ResultsReader {
   std::string reason() const;
   std::string report_json() const;
   std::string scene() const;
+  std::size_t rows() const;
   std::vector<double> time() const;
   std::vector<Channel> channels() const;
   /// Values over time. Throws Error with the nearest channel names if there is none of that name.
   std::vector<double> read(const std::string& channel) const;
+  /// Rows [first, first + count) of several channels, count x channels.size(); each dataset is read once.
+  Eigen::MatrixXd read_rows(const std::vector<std::string>& channels, std::size_t first, std::size_t count) const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Names of the channels that a selection means: exact names, groups and datasets ("nodes", "nodes/position"), patterns with
+/// * (any run of characters, also /). Empty: all. In the order of the file. Throws Error for an entry that means none.
+std::vector<Channel> select_channels(const std::vector<Channel>& channels, const std::vector<std::string>& selection,
+                                     const std::string& where);
 
 /// CSV with one header line "time [s],name [unit],..."; empty selection: all channels. Wildcards * are allowed.
 void export_csv(const ResultsReader& reader, const std::vector<std::string>& selection, const std::string& path);

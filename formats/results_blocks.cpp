@@ -1,0 +1,185 @@
+// Datasets, units and channel names of results files, and the selection among them.
+#include "formats/results_blocks.hpp"
+
+#include <algorithm>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+const std::vector<std::string> xyz{"x", "y", "z"};
+const std::vector<std::string> wxyz{"w", "x", "y", "z"};
+const std::vector<std::string> wrench{"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"};
+
+std::string with_radian(const std::string& unit) { return unit.empty() ? "" : "rad " + unit; }
+
+/// Items x components, column "item/component", one unit for all.
+Block vectors(const std::string& dataset, const std::vector<std::string>& items, const std::vector<std::string>& components,
+              const std::string& unit, const double* (*values)(const ResultsRow&)) {
+  Block block{dataset, {items.size(), components.size()}, {}, {}, unit, values};
+  for (const std::string& item : items)
+    for (const std::string& component : components) block.columns.push_back(item + "/" + component);
+  block.units.assign(block.columns.size(), unit);
+  return block;
+}
+
+Block scalars(const std::string& dataset, const std::vector<std::string>& items, const std::string& unit,
+              const double* (*values)(const ResultsRow&)) {
+  return {dataset, {items.size()}, items, std::vector<std::string>(items.size(), unit), unit, values};
+}
+
+Block scalar(const std::string& dataset, const std::string& unit, const double* (*values)(const ResultsRow&)) {
+  return {dataset, {}, {""}, {unit}, unit, values};
+}
+
+/// "beam/0", "beam/1", ... for the entries of each superelement between its offsets.
+std::vector<std::string> numbered(const std::vector<std::string>& owners, const std::vector<int>& offset) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i + 1 < offset.size() && i < owners.size(); ++i)
+    for (int k = offset[i]; k < offset[i + 1]; ++k) names.push_back(fmt::format("{}/{}", owners[i], k - offset[i]));
+  return names;
+}
+
+std::vector<std::string> boundary_names(const ResultsLayout& layout) {
+  std::vector<std::string> names = numbered(layout.superelements, layout.boundary_offset);
+  if (layout.boundary_nodes.empty()) return names;
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < layout.superelements.size(); ++i)
+    for (int k = layout.boundary_offset[i]; k < layout.boundary_offset[i + 1]; ++k, ++row)
+      names[row] = layout.superelements[i] + "/" + layout.boundary_nodes[row];
+  return names;
+}
+
+void add_nodes(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  using Row = const ResultsRow&;
+  const Units& u = layout.units;
+  const auto add = [&](const char* name, const std::vector<std::string>& components, const std::string& unit,
+                       const double* (*values)(Row)) {
+    blocks.push_back(vectors(std::string("/nodes/") + name, layout.nodes, components, unit, values));
+  };
+  add("position", xyz, unit_label(u, 1, 0, 0), [](Row r) { return r.node_position.data(); });
+  add("rotation", wxyz, "1", [](Row r) { return r.node_rotation.data(); });
+  add("velocity", xyz, unit_label(u, 1, 0, -1), [](Row r) { return r.node_velocity.data(); });
+  add("angular_velocity", xyz, with_radian(unit_label(u, 0, 0, -1)), [](Row r) { return r.node_angular_velocity.data(); });
+  add("acceleration", xyz, unit_label(u, 1, 0, -2), [](Row r) { return r.node_acceleration.data(); });
+  add("angular_acceleration", xyz, with_radian(unit_label(u, 0, 0, -2)),
+      [](Row r) { return r.node_angular_acceleration.data(); });
+}
+
+void add_superelements(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  using Row = const ResultsRow&;
+  const Units& u = layout.units;
+  const std::string force = unit_label(u, 1, 1, -2), moment = unit_label(u, 2, 1, -2);
+  blocks.push_back(vectors("/superelements/frame_position", layout.superelements, xyz, unit_label(u, 1, 0, 0),
+                           [](Row r) { return r.frame_position.data(); }));
+  blocks.push_back(vectors("/superelements/frame_rotation", layout.superelements, wxyz, "1",
+                           [](Row r) { return r.frame_rotation.data(); }));
+  blocks.push_back(scalars("/superelements/y", numbered(layout.superelements, layout.modes_offset), "",
+                           [](Row r) { return r.y.data(); }));
+  Block boundary = vectors("/superelements/boundary_force", boundary_names(layout), wrench,
+                           force.empty() ? "" : force + ", " + moment, [](Row r) { return r.boundary_force.data(); });
+  for (std::size_t column = 0; column < boundary.width(); ++column) boundary.units[column] = column % 6 < 3 ? force : moment;
+  blocks.push_back(boundary);
+}
+
+void add_joints(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  using Row = const ResultsRow&;
+  const Units& u = layout.units;
+  blocks.push_back(vectors("/joints/force", layout.joints, xyz, unit_label(u, 1, 1, -2),
+                           [](Row r) { return r.joint_force.data(); }));
+  blocks.push_back(vectors("/joints/moment", layout.joints, xyz, unit_label(u, 2, 1, -2),
+                           [](Row r) { return r.joint_moment.data(); }));
+  blocks.push_back(scalars("/joints/coordinate", layout.joints, "rad", [](Row r) { return r.joint_coordinate.data(); }));
+  blocks.push_back(scalars("/joints/rate", layout.joints, with_radian(unit_label(u, 0, 0, -1)),
+                           [](Row r) { return r.joint_rate.data(); }));
+}
+
+void add_scalars(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  using Row = const ResultsRow&;
+  const Units& u = layout.units;
+  const std::string label = unit_label(u, 2, 1, -2), energy = label == "N m" ? "J" : label;
+  blocks.push_back(scalar("/energy/kinetic", energy, [](Row r) { return &r.kinetic; }));
+  blocks.push_back(scalar("/energy/strain", energy, [](Row r) { return &r.strain; }));
+  blocks.push_back(scalar("/energy/potential", energy, [](Row r) { return &r.potential; }));
+  blocks.push_back(scalar("/energy/work", energy, [](Row r) { return &r.work; }));
+  blocks.push_back(scalar("/energy/dissipated", energy, [](Row r) { return &r.dissipated; }));
+  blocks.push_back(scalar("/energy/total", energy, [](Row r) { return &r.total; }));
+  blocks.push_back(scalar("/energy/balance", energy, [](Row r) { return &r.balance; }));
+  blocks.push_back(scalar("/solver/step", unit_label(u, 0, 0, 1), [](Row r) { return &r.step; }));
+  blocks.push_back(scalar("/solver/iterations", "1", [](Row r) { return &r.iterations; }));
+  blocks.push_back(scalar("/solver/residual", "1", [](Row r) { return &r.residual; }));
+  blocks.push_back(scalar("/solver/constraint", "1", [](Row r) { return &r.constraint; }));
+}
+
+/// Whether the entry names the dataset, its group, or matches it; "/nodes/position" and "nodes/position" are the same.
+bool chooses(const std::string& entry, const std::string& dataset) {
+  const std::string wanted = entry.starts_with("/") ? entry : "/" + entry;
+  return dataset == wanted || dataset.starts_with(wanted + "/") || matches_wildcard(dataset, wanted);
+}
+
+}  // namespace
+
+void ResultsRow::resize(const ResultsLayout& layout) {
+  const auto nodes = static_cast<Eigen::Index>(layout.nodes.size());
+  const auto superelements = static_cast<Eigen::Index>(layout.superelements.size());
+  const auto joints = static_cast<Eigen::Index>(layout.joints.size());
+  const auto last = [](const std::vector<int>& offset) { return offset.empty() ? 0 : offset.back(); };
+  for (Eigen::Matrix3Xd* block : {&node_position, &node_velocity, &node_angular_velocity, &node_acceleration,
+                                  &node_angular_acceleration})
+    block->setZero(3, nodes);
+  const Eigen::Vector4d no_rotation(1, 0, 0, 0);
+  node_rotation = no_rotation.replicate(1, nodes);
+  frame_position.setZero(3, superelements);
+  frame_rotation = no_rotation.replicate(1, superelements);
+  y.setZero(last(layout.modes_offset));
+  boundary_force.setZero(6, last(layout.boundary_offset));
+  joint_force.setZero(3, joints);
+  joint_moment.setZero(3, joints);
+  joint_coordinate.setZero(joints);
+  joint_rate.setZero(joints);
+}
+
+std::vector<Block> all_blocks(const ResultsLayout& layout) {
+  std::vector<Block> blocks{scalar("/time", unit_label(layout.units, 0, 0, 1), [](const ResultsRow& r) { return &r.time; })};
+  add_nodes(layout, blocks);
+  add_superelements(layout, blocks);
+  add_joints(layout, blocks);
+  add_scalars(layout, blocks);
+  std::erase_if(blocks, [](const Block& block) { return block.width() == 0; });
+  return blocks;
+}
+
+std::vector<Block> chosen_blocks(const ResultsLayout& layout, const std::string& where) {
+  const std::vector<Block> all = all_blocks(layout);
+  if (layout.channels.empty()) return all;
+  std::vector<bool> chosen(all.size(), false);
+  chosen[0] = true;
+  // Groups and datasets that this mechanism has no member of may be chosen without effect ("joints" without joints).
+  std::vector<std::string> known{"time"};
+  ResultsLayout full;
+  full.nodes = full.superelements = full.joints = {"a"};
+  full.modes_offset = full.boundary_offset = {0, 1};
+  for (const Block& block : all_blocks(full)) {
+    const std::string name = block.dataset.substr(1), group = name.substr(0, name.find('/'));
+    known.push_back(name);
+    if (std::find(known.begin(), known.end(), group) == known.end()) known.push_back(group);
+  }
+  for (const std::string& entry : layout.channels) {
+    bool meaningful = std::any_of(known.begin(), known.end(), [&](const std::string& name) { return chooses(entry, "/" + name); });
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (chooses(entry, all[i].dataset)) chosen[i] = true;
+    if (meaningful) continue;
+    const std::optional<std::string> near = nearest(entry, known);
+    throw Error(fmt::format("output channel '{}' does not exist", entry), where,
+                near ? fmt::format("did you mean '{}'?", *near) : "choose among " + join(known, ", "));
+  }
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (chosen[i]) blocks.push_back(all[i]);
+  return blocks;
+}
+
+}  // namespace tisserand::formats

@@ -1,0 +1,220 @@
+// From *.results.h5, whole, partial or still being written, to channels over time.
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "formats/hdf5_file.hpp"
+#include "formats/results_blocks.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+constexpr std::uint64_t max_names = 10'000'000;
+constexpr std::uint64_t max_rows = std::uint64_t{1} << 40;
+
+/// The file itself, or its unfinished form if only that is there.
+std::string existing_path(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored) && std::filesystem::exists(path + ".part", ignored)) return path + ".part";
+  return path;
+}
+
+std::uint64_t bounded_length(const hdf5::InputFile& file, const std::string& dataset) {
+  const hdf5::DatasetInfo info = file.info(dataset);
+  if (info.shape.size() != 1 || info.shape[0] > max_names)
+    throw Error(fmt::format("has shape {}, expected one dimension of at most {} entries", hdf5::shape_text(info.shape), max_names),
+                fmt::format("{}: {}", file.path(), dataset), "compare the file with formats/RESULTS.md");
+  return info.shape[0];
+}
+
+std::vector<std::string> names(const hdf5::InputFile& file, const std::string& dataset) {
+  if (!file.has(dataset)) return {};
+  return file.read_texts(dataset, bounded_length(file, dataset), "names");
+}
+
+/// Offsets of `owners` superelements: begin with 0, ascend, one more than owners.
+std::vector<int> offsets(const hdf5::InputFile& file, const std::string& dataset, std::size_t owners) {
+  if (!file.has(dataset)) return owners == 0 ? std::vector<int>{} : std::vector<int>(owners + 1, 0);
+  std::vector<std::int64_t> wide(bounded_length(file, dataset));
+  file.read(dataset, {wide.size()}, "offsets", wide.data());
+  const bool valid = wide.size() == owners + 1 && wide.front() == 0 && std::is_sorted(wide.begin(), wide.end()) &&
+                     wide.back() <= static_cast<std::int64_t>(max_names);
+  if (!valid)
+    throw Error(fmt::format("is no ascending list from 0 with one entry more than the {} names", owners),
+                fmt::format("{}: {}", file.path(), dataset), "compare the file with formats/RESULTS.md");
+  return std::vector<int>(wide.begin(), wide.end());
+}
+
+Unit read_unit(const hdf5::InputFile& file, const std::string& name) {
+  return {file.number_attribute("/", name), file.text_attribute("/", name + "_label")};
+}
+
+ResultsLayout read_layout(const hdf5::InputFile& file) {
+  ResultsLayout l;
+  l.scene = file.text_attribute("/", "scene");
+  l.producer = file.text_attribute("/", "producer");
+  l.units = {read_unit(file, "length_unit"), read_unit(file, "mass_unit"), read_unit(file, "time_unit")};
+  l.nodes = names(file, "/nodes/name");
+  l.joints = names(file, "/joints/name");
+  l.superelements = names(file, "/superelements/name");
+  l.superelement_content_ids = names(file, "/superelements/content_id");
+  l.modes_offset = offsets(file, "/superelements/offset", l.superelements.size());
+  l.boundary_offset = offsets(file, "/superelements/boundary_offset", l.superelements.size());
+  l.boundary_nodes = names(file, "/superelements/boundary_name");
+  const std::size_t boundary = l.boundary_offset.empty() ? 0 : static_cast<std::size_t>(l.boundary_offset.back());
+  if (l.boundary_nodes.size() != boundary) l.boundary_nodes.clear();
+  return l;
+}
+
+void check_format(const hdf5::InputFile& file) {
+  const std::string format = file.has_attribute("/", "format") ? file.text_attribute("/", "format") : "";
+  if (format != "tisserand-results")
+    throw Error(format.empty() ? "is an HDF5 file, but not a results file (it has no attribute 'format')"
+                               : fmt::format("is a file of the kind '{}', expected 'tisserand-results'", format.substr(0, 60)),
+                file.path(), "give a *.results.h5 file, as `mechanism run` writes it");
+  const std::string version = file.text_attribute("/", "version");
+  if (!version.starts_with("1."))
+    throw Error(fmt::format("is '{}', this program reads versions 1.x", version.substr(0, 20)),
+                file.path() + ": attribute 'version'", "use a program of the same major version");
+}
+
+/// Rows of a dataset that are there: its first extent, and no more than its storage holds.
+std::uint64_t rows_of(const hdf5::InputFile& file, const Block& block) {
+  const hdf5::DatasetInfo info = file.info(block.dataset);
+  hdf5::Shape expected = block.shape;
+  expected.insert(expected.begin(), info.shape.empty() ? 0 : info.shape[0]);
+  if (info.kind != hdf5::ElementKind::float64 || info.shape != expected || expected[0] > max_rows)
+    throw Error(fmt::format("holds {} of shape {}, expected 64-bit floating numbers of shape T{}{}", info.type_text,
+                            hdf5::shape_text(info.shape), block.shape.empty() ? "" : " x ",
+                            block.shape.empty() ? "" : hdf5::shape_text(block.shape)),
+                fmt::format("{}: {}", file.path(), block.dataset), "compare the file with formats/RESULTS.md");
+  return info.filtered ? expected[0] : std::min(expected[0], info.stored_bytes / (8 * block.width()));
+}
+
+struct Place {
+  std::size_t block = 0;
+  std::size_t column = 0;
+};
+
+}  // namespace
+
+struct ResultsReader::Impl {
+  explicit Impl(const std::string& path) : file(existing_path(path), hdf5::Completeness::any) {}
+
+  hdf5::InputFile file;
+  ResultsLayout layout;
+  std::vector<Block> blocks;
+  std::uint64_t rows = 0;
+  std::vector<Channel> channels;
+  std::unordered_map<std::string, Place> place;
+
+  const Place& find(const std::string& channel) const;
+};
+
+const Place& ResultsReader::Impl::find(const std::string& channel) const {
+  const auto found = place.find(channel);
+  if (found != place.end()) return found->second;
+  std::vector<std::string> known;
+  for (const Channel& c : channels) known.push_back(c.name);
+  const std::optional<std::string> near = nearest(channel, known);
+  throw Error(fmt::format("has no channel '{}'", channel.substr(0, 200)), file.path(),
+              near ? fmt::format("did you mean '{}'?", *near) : "`mechanism channels` lists all names");
+}
+
+ResultsReader::ResultsReader(const std::string& path) : impl_(std::make_unique<Impl>(path)) {
+  check_format(impl_->file);
+  impl_->layout = read_layout(impl_->file);
+  impl_->rows = max_rows;
+  for (Block& block : all_blocks(impl_->layout)) {
+    if (!impl_->file.has(block.dataset)) continue;
+    impl_->rows = std::min(impl_->rows, rows_of(impl_->file, block));
+    impl_->blocks.push_back(std::move(block));
+  }
+  if (impl_->blocks.empty() || impl_->blocks.front().dataset != "/time")
+    throw Error("is missing", impl_->file.path() + ": /time", "compare the file with formats/RESULTS.md");
+  for (std::size_t b = 0; b < impl_->blocks.size(); ++b) {
+    const Block& block = impl_->blocks[b];
+    for (std::size_t c = 0; c < block.width(); ++c) {
+      const std::string name = block.dataset.substr(1) + (block.columns[c].empty() ? "" : "/" + block.columns[c]);
+      impl_->place.emplace(name, Place{b, c});
+      impl_->channels.push_back({name, block.units[c]});
+    }
+  }
+}
+
+ResultsReader::~ResultsReader() = default;
+
+bool ResultsReader::completed() const { return impl_->file.number_attribute("/", "completed") == 1.0; }
+
+std::string ResultsReader::reason() const {
+  const std::string reason = impl_->file.text_attribute("/", "reason");
+  if (!reason.empty() || completed()) return reason;
+  return "the program that wrote the file still runs, or ended without closing it";
+}
+
+std::string ResultsReader::report_json() const {
+  return impl_->file.has("/report") ? impl_->file.read_text("/report") : "";
+}
+
+std::string ResultsReader::scene() const { return impl_->layout.scene; }
+std::size_t ResultsReader::rows() const { return impl_->rows; }
+std::vector<double> ResultsReader::time() const { return read("time"); }
+std::vector<Channel> ResultsReader::channels() const { return impl_->channels; }
+
+std::vector<double> ResultsReader::read(const std::string& channel) const {
+  const Place& place = impl_->find(channel);
+  std::vector<double> values(impl_->rows);
+  if (!values.empty())
+    impl_->file.read_column(impl_->blocks[place.block].dataset, place.column, impl_->rows, values.data());
+  return values;
+}
+
+Eigen::MatrixXd ResultsReader::read_rows(const std::vector<std::string>& channels, std::size_t first, std::size_t count) const {
+  TISSERAND_ENSURE(first <= impl_->rows && count <= impl_->rows - first, "rows {} + {} of {}", first, count, impl_->rows);
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto rows = static_cast<Eigen::Index>(count);
+  Eigen::MatrixXd values(rows, static_cast<Eigen::Index>(channels.size()));
+  std::vector<std::vector<std::pair<Eigen::Index, Eigen::Index>>> wanted(impl_->blocks.size());  // from, to
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const Place& place = impl_->find(channels[i]);
+    wanted[place.block].emplace_back(static_cast<Eigen::Index>(place.column), static_cast<Eigen::Index>(i));
+  }
+  for (std::size_t b = 0; b < wanted.size(); ++b) {
+    if (wanted[b].empty() || count == 0) continue;
+    RowMajor block(rows, static_cast<Eigen::Index>(impl_->blocks[b].width()));
+    impl_->file.read_rows(impl_->blocks[b].dataset, first, count, block.data());
+    for (const auto& [from, to] : wanted[b]) values.col(to) = block.col(from);
+  }
+  return values;
+}
+
+std::vector<Channel> select_channels(const std::vector<Channel>& channels, const std::vector<std::string>& selection,
+                                     const std::string& where) {
+  if (selection.empty()) return channels;
+  std::vector<bool> chosen(channels.size(), false);
+  std::vector<std::string> known;
+  for (const Channel& channel : channels) known.push_back(channel.name);
+  for (const std::string& entry : selection) {
+    const std::string wanted = entry.starts_with("/") ? entry.substr(1) : entry;
+    bool found = false;
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (known[i] != wanted && !known[i].starts_with(wanted + "/") && !matches_wildcard(known[i], wanted)) continue;
+      chosen[i] = found = true;
+    }
+    if (found) continue;
+    const std::optional<std::string> near = nearest(wanted, known);
+    throw Error(fmt::format("has no channel '{}'", entry.substr(0, 200)), where,
+                near ? fmt::format("did you mean '{}'?", *near) : "`mechanism channels` lists all names");
+  }
+  std::vector<Channel> result;
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    if (chosen[i]) result.push_back(channels[i]);
+  return result;
+}
+
+}  // namespace tisserand::formats

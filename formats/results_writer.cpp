@@ -1,0 +1,303 @@
+// From rows of a running analysis to *.results.h5, such that a killed run leaves a readable file.
+//
+// The file appears as <path>.part when its head is complete, and is then open in HDF5's single-writer mode, whose order of
+// writes keeps the file on disk consistent at every moment. Between writes rows wait in memory that was taken at the start.
+#include <hdf5.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+
+#include "common/text.hpp"
+#include "formats/hdf5_file.hpp"
+#include "formats/results_blocks.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds flush_interval{1000};
+constexpr std::size_t buffer_bytes = 4u << 20;   // of all waiting rows together
+constexpr std::size_t chunk_bytes = 64u << 10;   // of one chunk on disk, unless one row is larger
+constexpr std::size_t max_chunk_rows = 256;
+constexpr std::uint64_t disk_reserve = 256u << 10;  // left for the report and for closing the file
+
+int close_file(hdf5::Id id) { return H5Fclose(id); }
+int close_dataset(hdf5::Id id) { return H5Dclose(id); }
+int close_space(hdf5::Id id) { return H5Sclose(id); }
+int close_properties(hdf5::Id id) { return H5Pclose(id); }
+
+std::size_t chunk_rows(const Block& block) {
+  return std::clamp<std::size_t>(chunk_bytes / (block.width() * sizeof(double)), 1, max_chunk_rows);
+}
+
+/// An empty dataset 0 x shape that can grow in its first dimension.
+void create_growing(hdf5::Id file, const Block& block, const std::string& where) {
+  std::vector<hsize_t> extent{0}, limit{H5S_UNLIMITED}, chunk{chunk_rows(block)};
+  for (const std::uint64_t e : block.shape) {
+    extent.push_back(e);
+    limit.push_back(e);
+    chunk.push_back(e);
+  }
+  const int rank = static_cast<int>(extent.size());
+  const hdf5::Handle links(H5Pcreate(H5P_LINK_CREATE), close_properties);
+  const hdf5::Handle creation(H5Pcreate(H5P_DATASET_CREATE), close_properties);
+  const hdf5::Handle space(H5Screate_simple(rank, extent.data(), limit.data()), close_space);
+  H5Pset_create_intermediate_group(links.id(), 1);
+  H5Pset_obj_track_times(creation.id(), false);
+  H5Pset_chunk(creation.id(), rank, chunk.data());
+  H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
+  const hdf5::Handle dataset(H5Dcreate2(file, block.dataset.c_str(), H5T_IEEE_F64LE, space.id(), links.id(), creation.id(),
+                                        H5P_DEFAULT),
+                             close_dataset);
+  if (!dataset.valid())
+    throw hdf5::last_error("cannot create dataset " + block.dataset, where, "name fewer nodes or choose fewer channels");
+  hdf5::write_text_attribute(file, block.dataset, "unit", block.unit, where);
+}
+
+void write_unit(hdf5::Id file, const std::string& name, const Unit& unit, const std::string& where) {
+  hdf5::write_number_attribute(file, "/", name, unit.factor, where);
+  hdf5::write_text_attribute(file, "/", name + "_label", unit.label, where);
+}
+
+void check_layout(const ResultsLayout& l) {
+  const std::size_t n = l.superelements.size();
+  TISSERAND_ENSURE(l.modes_offset.size() == (n == 0 && l.modes_offset.empty() ? 0 : n + 1), "{} modes_offset of {}",
+                   l.modes_offset.size(), n);
+  TISSERAND_ENSURE(l.boundary_offset.size() == (n == 0 && l.boundary_offset.empty() ? 0 : n + 1), "{} boundary_offset of {}",
+                   l.boundary_offset.size(), n);
+  const std::size_t boundary = l.boundary_offset.empty() ? 0 : static_cast<std::size_t>(l.boundary_offset.back());
+  TISSERAND_ENSURE(l.boundary_nodes.empty() || l.boundary_nodes.size() == boundary, "{} boundary_nodes of {}",
+                   l.boundary_nodes.size(), boundary);
+}
+
+/// Access in the form of HDF5 1.10, which can be appended to while others read and writers die; no locks.
+hdf5::Handle access_properties() {
+  hdf5::Handle access(H5Pcreate(H5P_FILE_ACCESS), close_properties);
+  H5Pset_file_locking(access.id(), false, true);
+  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_LATEST);
+  H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
+  return access;
+}
+
+/// A file with everything that does not change during the run. The names of a group are stored if any of its datasets is.
+void create_head(const std::string& path, const ResultsLayout& layout, const std::vector<Block>& blocks, const std::string& where) {
+  hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access_properties().id()), close_file);
+  if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
+  hdf5::write_text_attribute(file.id(), "/", "format", "tisserand-results", where);
+  hdf5::write_text_attribute(file.id(), "/", "version", "1.0", where);
+  hdf5::write_text_attribute(file.id(), "/", "scene", layout.scene, where);
+  hdf5::write_text_attribute(file.id(), "/", "producer", layout.producer, where);
+  write_unit(file.id(), "length_unit", layout.units.length, where);
+  write_unit(file.id(), "mass_unit", layout.units.mass, where);
+  write_unit(file.id(), "time_unit", layout.units.time, where);
+  hdf5::write_integer_attribute(file.id(), "/", "completed", 0, where);
+  hdf5::write_text_attribute(file.id(), "/", "reason", "", where);
+  for (const Block& block : blocks) create_growing(file.id(), block, where);
+  const auto stores = [&](const std::string& group) {
+    return std::any_of(blocks.begin(), blocks.end(), [&](const Block& b) { return b.dataset.starts_with(group); });
+  };
+  if (stores("/nodes/")) hdf5::write_texts(file.id(), "/nodes/name", layout.nodes, where);
+  if (stores("/joints/")) hdf5::write_texts(file.id(), "/joints/name", layout.joints, where);
+  if (stores("/superelements/")) {
+    const auto offsets = [&](const char* name, const std::vector<int>& offset) {
+      hdf5::write_dataset(file.id(), std::string("/superelements/") + name, {offset.size()}, offset.data(), where);
+    };
+    hdf5::write_texts(file.id(), "/superelements/name", layout.superelements, where);
+    if (!layout.superelement_content_ids.empty())
+      hdf5::write_texts(file.id(), "/superelements/content_id", layout.superelement_content_ids, where);
+    offsets("offset", layout.modes_offset);
+    offsets("boundary_offset", layout.boundary_offset);
+    if (!layout.boundary_nodes.empty())
+      hdf5::write_texts(file.id(), "/superelements/boundary_name", layout.boundary_nodes, where);
+  }
+  if (file.reset() < 0) throw hdf5::last_error("cannot write the file", where, "choose another place or name");
+}
+
+/// The file of create_head() under its name, whole or not at all.
+void publish_head(const std::string& part, const ResultsLayout& layout, const std::vector<Block>& blocks) {
+  const std::string temporary = temporary_beside(part);
+  try {
+    create_head(temporary, layout, blocks, part);
+  } catch (const Error&) {
+    ::unlink(temporary.c_str());
+    throw;
+  }
+  publish_file(temporary, part);
+}
+
+hdf5::Handle open_for_writing(const std::string& path, unsigned mode) {
+  hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR | mode, access_properties().id()), close_file);
+  if (!file.valid()) throw hdf5::last_error("cannot open the file for writing", path, "choose another place or name");
+  return file;
+}
+
+/// A block with its open dataset and its waiting rows.
+struct Column {
+  Block block;
+  hdf5::Handle dataset;
+  std::vector<double> waiting;  ///< capacity x width, sized once
+};
+
+}  // namespace
+
+struct ResultsWriter::Impl {
+  std::string path;
+  std::string part;
+  hdf5::Handle file;
+  std::vector<Column> columns;
+  std::size_t capacity = 0;       ///< rows that can wait
+  std::size_t waiting = 0;        ///< rows that do
+  std::uint64_t written = 0;      ///< rows in the file
+  std::uint64_t bytes_per_row = 0;
+  Clock::time_point last_flush = Clock::now();
+  bool broken = false;            ///< a write failed: the file on disk stays as the last good write left it
+  bool finished = false;
+
+  void require_space() const;
+  void write_waiting();
+  void flush();
+  void close();
+  void write_end(int completed, const std::string& reason, const std::string& report_json) const;
+  void rename_to_final() const;
+};
+
+/// HDF5 cannot give up cleanly on a full disk, so that ours asks first.
+void ResultsWriter::Impl::require_space() const {
+  struct statvfs disk {};
+  if (::statvfs(part.c_str(), &disk) != 0) return;
+  std::uint64_t needed = disk_reserve + waiting * bytes_per_row;
+  for (const Column& column : columns) {
+    const std::size_t rows = chunk_rows(column.block);
+    const bool opens_chunk = written % rows == 0 || written % rows + waiting > rows;
+    if (opens_chunk) needed += rows * column.block.width() * sizeof(double);
+  }
+  const std::uint64_t free = static_cast<std::uint64_t>(disk.f_bavail) * disk.f_frsize;
+  if (free < needed)
+    throw Error(fmt::format("the disk is full: {} kB are free, the next {} rows need {} kB", free / 1024, waiting, needed / 1024),
+                part, "free some space, write to another disk, or store fewer channels");
+}
+
+void ResultsWriter::Impl::write_waiting() {
+  if (waiting == 0) return;
+  require_space();
+  for (Column& column : columns) {
+    std::vector<hsize_t> extent{written + waiting}, start{written}, count{waiting};
+    for (const std::uint64_t e : column.block.shape) {
+      extent.push_back(e);
+      start.push_back(0);
+      count.push_back(e);
+    }
+    const hsize_t total = waiting * column.block.width();
+    bool ok = H5Dset_extent(column.dataset.id(), extent.data()) >= 0;
+    const hdf5::Handle space(H5Dget_space(column.dataset.id()), close_space), memory(H5Screate_simple(1, &total, nullptr), close_space);
+    ok = ok && H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0;
+    ok = ok && H5Dwrite(column.dataset.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT, column.waiting.data()) >= 0;
+    if (!ok) {
+      broken = true;
+      throw hdf5::last_error(fmt::format("cannot write rows {} to {} of {}", written, written + waiting, column.block.dataset),
+                             part, "choose another place for the results");
+    }
+  }
+  written += waiting;
+  waiting = 0;
+}
+
+void ResultsWriter::Impl::flush() {
+  write_waiting();
+  if (H5Fflush(file.id(), H5F_SCOPE_GLOBAL) < 0) {
+    broken = true;
+    throw hdf5::last_error("cannot write results", part, "choose another place for the results");
+  }
+  last_flush = Clock::now();
+}
+
+void ResultsWriter::Impl::close() {
+  for (Column& column : columns)
+    if (column.dataset.reset() < 0) broken = true;
+  if (file.reset() < 0) broken = true;
+}
+
+void ResultsWriter::Impl::write_end(int completed, const std::string& reason, const std::string& report_json) const {
+  hdf5::Handle end = open_for_writing(part, 0);
+  hdf5::write_text(end.id(), "/report", report_json, part);
+  hdf5::write_text_attribute(end.id(), "/", "reason", reason.substr(0, 4096), part);
+  hdf5::write_integer_attribute(end.id(), "/", "completed", completed, part);
+  if (end.reset() < 0) throw hdf5::last_error("cannot write the run report", part, "choose another place for the results");
+}
+
+void ResultsWriter::Impl::rename_to_final() const {
+  if (::rename(part.c_str(), path.c_str()) == 0) return;
+  const int number = errno;
+  throw Error(fmt::format("cannot rename the results to their final name: {}", std::strerror(number)), path,
+              fmt::format("they are complete in {}", part));
+}
+
+ResultsWriter::ResultsWriter(const std::string& path, const ResultsLayout& layout) : impl_(std::make_unique<Impl>()) {
+  check_layout(layout);
+  hdf5::silence();
+  impl_->path = path;
+  impl_->part = path + ".part";
+  const std::vector<Block> blocks = chosen_blocks(layout, layout.scene);
+  publish_head(impl_->part, layout, blocks);
+  impl_->file = open_for_writing(impl_->part, H5F_ACC_SWMR_WRITE);
+  std::size_t width = 0;
+  for (const Block& block : blocks) width += block.width();
+  impl_->bytes_per_row = width * sizeof(double);
+  impl_->capacity = std::clamp<std::size_t>(buffer_bytes / impl_->bytes_per_row, 1, 4096);
+  for (const Block& block : blocks) {
+    hdf5::Handle dataset(H5Dopen2(impl_->file.id(), block.dataset.c_str(), H5P_DEFAULT), close_dataset);
+    if (!dataset.valid()) throw hdf5::last_error("cannot open dataset " + block.dataset, impl_->part, "choose another place");
+    impl_->columns.push_back({block, std::move(dataset), std::vector<double>(impl_->capacity * block.width())});
+  }
+}
+
+ResultsWriter::~ResultsWriter() {
+  if (impl_->finished) return;
+  try {
+    finish(false, "the run ended before it was complete", "{}");
+  } catch (const std::exception&) {
+    // Nobody is left to tell; what was flushed stays readable under its .part name.
+  }
+}
+
+void ResultsWriter::append(const ResultsRow& row) {
+  TISSERAND_ENSURE(!impl_->finished, "append() after finish() of {}", impl_->path);
+  if (impl_->broken) throw Error("an earlier write has failed", impl_->part, "choose another place for the results");
+  if (impl_->waiting == impl_->capacity) impl_->write_waiting();
+  for (Column& column : impl_->columns) {
+    const std::size_t width = column.block.width();
+    std::copy_n(column.block.values(row), width, column.waiting.begin() + static_cast<std::ptrdiff_t>(impl_->waiting * width));
+  }
+  ++impl_->waiting;
+  if (Clock::now() - impl_->last_flush >= flush_interval) impl_->flush();
+}
+
+void ResultsWriter::finish(bool completed, const std::string& reason, const std::string& report_json) {
+  TISSERAND_ENSURE(!impl_->finished, "finish() twice of {}", impl_->path);
+  impl_->finished = true;
+  std::string problem;
+  try {
+    if (!impl_->broken) impl_->flush();
+  } catch (const Error& error) {
+    problem = error.what();
+  }
+  impl_->close();
+  if (problem.empty() && impl_->broken) problem = "some rows could not be written";
+  const std::string told = reason.empty() || problem.empty() ? reason + problem : reason + "; " + problem;
+  try {
+    impl_->write_end(completed && problem.empty() ? 1 : 0, told, report_json);
+  } catch (const Error& error) {
+    if (problem.empty()) problem = error.what();
+  }
+  impl_->rename_to_final();
+  if (completed && !problem.empty()) throw Error(problem, "", "the results until then are in " + impl_->path);
+}
+
+}  // namespace tisserand::formats
