@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <set>
 #include <string_view>
 
 #include "common/error.hpp"
@@ -67,16 +66,27 @@ double number(const std::string& cell, const std::string& file, std::size_t line
   return value;
 }
 
-bool chooses(const std::string& pattern, const std::string& channel) {
-  return channel == pattern || channel.starts_with(pattern + "/") || matches_wildcard(channel, pattern);
-}
-
-/// Unit of time of a results file: that of the quantity energy/... has none, so the file lists "time" among its
-/// channels.
-std::string time_unit_of(const std::vector<formats::Channel>& channels) {
+/// The series of one file: the chosen channels over time.
+void append_run(const std::string& file, const std::string& label, const std::vector<std::string>& patterns,
+                std::vector<Series>& all) {
+  const formats::ResultsReader reader(file);
+  const std::vector<formats::Channel> channels = reader.channels();
+  std::string time_unit;
+  std::vector<std::string> names;
+  std::vector<Series> chosen;
   for (const formats::Channel& channel : channels)
-    if (channel.name == "time") return channel.unit;
-  return {};
+    if (channel.name == "time") time_unit = channel.unit;
+  for (const formats::Channel& channel : formats::select_channels(channels, patterns, file)) {
+    if (channel.name == "time") continue;
+    names.push_back(channel.name);
+    chosen.push_back({SeriesKind::run, label, channel.name, channel.unit, "time", time_unit, reader.time(), {}});
+  }
+  const Eigen::MatrixXd values = reader.read_rows(names, 0, reader.rows());
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const auto column = values.col(static_cast<Eigen::Index>(i));
+    chosen[i].y.assign(column.begin(), column.end());
+    all.push_back(std::move(chosen[i]));
+  }
 }
 
 }  // namespace
@@ -132,29 +142,6 @@ Series read_reference(const ReferenceColumn& column) {
   return series;
 }
 
-std::vector<formats::Channel> select_channels(const std::vector<formats::Channel>& channels,
-                                              const std::vector<std::string>& patterns, const std::string& where) {
-  std::vector<formats::Channel> chosen;
-  std::set<std::string> names;
-  for (const std::string& pattern : patterns) {
-    const bool is_wild = pattern.find('*') != std::string::npos;
-    bool found = false;
-    for (const formats::Channel& channel : channels) {
-      if (channel.name == "time" && pattern != "time") continue;
-      if (!chooses(pattern, channel.name)) continue;
-      found = true;
-      if (names.insert(channel.name).second) chosen.push_back(channel);
-    }
-    if (found) continue;
-    std::vector<std::string> known;
-    for (const formats::Channel& channel : channels) known.push_back(channel.name);
-    const auto near = nearest(pattern, known);
-    throw Error(is_wild ? "no channel matches '" + pattern + "'" : "no channel '" + pattern + "'", where,
-                near ? "did you mean '" + *near + "'?" : "`mechanism channels " + where + "` lists them");
-  }
-  return chosen;
-}
-
 std::vector<Series> read_series(const SeriesRequest& request) {
   if (request.files.empty() && request.references.empty())
     throw Error("no file to read", "", "name a results file, or a CSV file with --reference file.csv:x:y");
@@ -165,21 +152,9 @@ std::vector<Series> read_series(const SeriesRequest& request) {
     throw Error(fmt::format("{} labels for {} files", request.labels.size(), request.files.size()), "--label",
                 "give at most one label per results file; a reference has its own as file.csv:x:y:label");
   std::vector<Series> all;
-  for (std::size_t i = 0; i < request.files.size(); ++i) {
-    const formats::ResultsReader reader(request.files[i]);
-    const std::vector<formats::Channel> channels = reader.channels();
-    const std::vector<double> time = reader.time();
-    for (const formats::Channel& channel : select_channels(channels, request.channels, request.files[i])) {
-      Series series;
-      series.source = i < request.labels.size() ? request.labels[i] : stem(request.files[i]);
-      series.channel = channel.name;
-      series.unit = channel.unit;
-      series.x_unit = time_unit_of(channels);
-      series.x = time;
-      series.y = reader.read(channel.name);
-      all.push_back(std::move(series));
-    }
-  }
+  for (std::size_t i = 0; i < request.files.size(); ++i)
+    append_run(request.files[i], i < request.labels.size() ? request.labels[i] : stem(request.files[i]),
+               request.channels, all);
   for (const ReferenceColumn& column : request.references) all.push_back(read_reference(column));
   return all;
 }

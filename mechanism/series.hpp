@@ -44,11 +44,6 @@ ReferenceColumn parse_reference(const std::string& text);
 /// are left out. Throws Error with file:line:column, or with the names of the columns there are.
 Series read_reference(const ReferenceColumn& column);
 
-/// The channels that the patterns choose, in the order of the patterns, each once. A pattern is the name of a channel,
-/// of a group (all below it), or holds *. Throws Error naming the nearest channel for a pattern that chooses none.
-std::vector<formats::Channel> select_channels(const std::vector<formats::Channel>& channels,
-                                              const std::vector<std::string>& patterns, const std::string& where);
-
 /// All series of a request: files in order, in each its channels, then the references. Throws Error if nothing is asked
 /// for.
 std::vector<Series> read_series(const SeriesRequest& request);

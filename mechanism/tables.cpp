@@ -45,8 +45,7 @@ std::string channels_table(const std::string& file, const std::vector<std::strin
   if (!time.empty()) text += fmt::format(" from {:g} to {:g}", time.front(), time.back());
   if (!reader.completed()) text += fmt::format("\nnot completed: {}", reader.reason());
   text += "\n";
-  const std::vector<formats::Channel> all = reader.channels();
-  const std::vector<formats::Channel> chosen = patterns.empty() ? all : select_channels(all, patterns, file);
+  const std::vector<formats::Channel> chosen = formats::select_channels(reader.channels(), patterns, file);
   std::size_t width = 0;
   for (const formats::Channel& channel : chosen) width = std::max(width, channel.name.size());
   for (const formats::Channel& channel : chosen)
@@ -56,12 +55,7 @@ std::string channels_table(const std::string& file, const std::vector<std::strin
 }
 
 void export_table(const std::string& file, const std::vector<std::string>& patterns, const std::string& output) {
-  const formats::ResultsReader reader(file);
-  std::vector<std::string> names;
-  if (!patterns.empty())
-    for (const formats::Channel& channel : select_channels(reader.channels(), patterns, file))
-      names.push_back(channel.name);
-  formats::export_csv(reader, names, output);
+  formats::export_csv(formats::ResultsReader(file), patterns, output);
 }
 
 Deviation deviation(const Series& series, const Series& reference, const TimeWindow& window) {

@@ -10,7 +10,7 @@
 namespace tisserand::mechanism {
 
 /// One line per channel, "name  [unit]", with the number of instants and, of an interrupted run, the reason above.
-/// `patterns` choose as in select_channels(); none: all.
+/// `patterns` choose as in formats::select_channels(); none: all.
 std::string channels_table(const std::string& file, const std::vector<std::string>& patterns);
 
 /// Writes the chosen channels (none chosen: all) as CSV with the header "time [s],name [unit],...".

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +13,7 @@
 
 #include "common/error.hpp"
 #include "mechanism/tables.hpp"
+#include "tests/support/results_rows.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -79,22 +81,74 @@ TEST_F(CsvFile, FaultsNameTheirPlace) {
   EXPECT_THAT(error_of([] { (void)read_reference({"none.csv", "t", "w", ""}); }), HasSubstr("none.csv"));
 }
 
-TEST(Channels, AreChosenByNameGroupAndPattern) {
-  const std::vector<formats::Channel> channels = {{"time", "s"},
-                                                  {"nodes/position/beam/tip/x", "m"},
-                                                  {"nodes/position/beam/tip/y", "m"},
-                                                  {"energy/kinetic", "J"},
-                                                  {"energy/total", "J"}};
-  const auto chosen = [&](const std::vector<std::string>& patterns) {
-    std::vector<std::string> names;
-    for (const formats::Channel& channel : select_channels(channels, patterns, "run")) names.push_back(channel.name);
-    return names;
-  };
-  EXPECT_THAT(chosen({"energy/total", "energy"}), ElementsAre("energy/total", "energy/kinetic"));
-  EXPECT_THAT(chosen({"nodes/*/tip/y"}), ElementsAre("nodes/position/beam/tip/y"));
-  EXPECT_EQ(chosen({"*"}).size(), 4u) << "time is the abscissa, not a channel among others";
-  EXPECT_THAT(error_of([&] { chosen({"energy/totl"}); }), HasSubstr("did you mean 'energy/total'?"));
-  EXPECT_THAT(error_of([&] { chosen({"joints/*"}); }), HasSubstr("no channel matches 'joints/*'"));
+class ResultsFile : public CsvFile {
+ protected:
+  std::string write_results(const std::string& name) const {
+    const std::string path = (folder_ / name).string();
+    const formats::ResultsLayout layout = test_support::example_layout();
+    formats::ResultsWriter writer(path, layout);
+    formats::ResultsRow row;
+    row.resize(layout);
+    for (int t = 0; t < 20; ++t) {
+      test_support::fill_row(t, row);
+      row.total = 3.0 + t;
+      writer.append(row);
+    }
+    writer.finish(true, "", "{}");
+    return path;
+  }
+};
+
+TEST_F(ResultsFile, GivesTheChosenChannelsOverTime) {
+  const std::string a = write_results("first.results.h5"), b = write_results("second.results.h5");
+  const std::vector<Series> series =
+      read_series({{a, b}, {"own label"}, {"energy/total", "nodes/position/beam/tip/*"}, {}});
+  ASSERT_EQ(series.size(), 8u);
+  const auto total =
+      std::find_if(series.begin(), series.end(), [](const Series& s) { return s.channel == "energy/total"; });
+  ASSERT_NE(total, series.end());
+  EXPECT_EQ(total->source, "own label");
+  EXPECT_EQ(total->unit, "J");
+  EXPECT_EQ(total->x_unit, "s");
+  ASSERT_EQ(total->x.size(), 20u);
+  EXPECT_EQ(total->x[19], 0.02);  // fill_row(): time is (row + 1) ms
+  EXPECT_EQ(total->y[19], 22.0);
+  EXPECT_EQ(series.back().source, "second");
+}
+
+TEST_F(ResultsFile, FaultsNameWhatIsMissing) {
+  const std::string a = write_results("first.results.h5");
+  EXPECT_THAT(error_of([&] {
+                (void)read_series({{a}, {}, {"energy/totl"}, {}});
+              }),
+              HasSubstr("did you mean 'energy/total'?"));
+  EXPECT_THAT(error_of([&] { (void)read_series({{a}, {}, {}, {}}); }), HasSubstr("no channel chosen"));
+  EXPECT_THAT(error_of([&] {
+                (void)read_series({{a}, {"x", "y"}, {"energy"}, {}});
+              }),
+              HasSubstr("2 labels for 1 files"));
+  EXPECT_THAT(error_of([] { (void)read_series({}); }), HasSubstr("no file to read"));
+}
+
+TEST_F(ResultsFile, IsComparedWithItsOwnExport) {
+  const std::string a = write_results("first.results.h5"), csv = (folder_ / "first.csv").string();
+  export_table(a, {"energy/total"}, csv);
+  const std::vector<Deviation> same = compare({{a}, {}, {"energy/total"}, {{csv, "time", "energy/total", ""}}}, {});
+  ASSERT_EQ(same.size(), 1u);
+  EXPECT_EQ(same[0].instants, 20u);
+  EXPECT_EQ(same[0].largest, 0.0);
+  EXPECT_THAT(error_of([&] {
+                (void)compare({{a}, {}, {"energy/total"}, {}}, {});
+              }),
+              HasSubstr("0 references, one is needed"));
+}
+
+TEST_F(ResultsFile, ChannelsAreListedWithUnits) {
+  const std::string table = channels_table(write_results("first.results.h5"), {"energy"});
+  EXPECT_THAT(table, HasSubstr("scene 'example', 20 instants from 0.001 to 0.02"));
+  EXPECT_THAT(table, HasSubstr("energy/total"));
+  EXPECT_THAT(table, HasSubstr("[J]"));
+  EXPECT_THAT(table, ::testing::Not(HasSubstr("nodes/")));
 }
 
 Series sampled(double from, double to, int intervals, double (*f)(double)) {
