@@ -1,4 +1,4 @@
-// Environment variables for OpenBLAS and OpenMPI, and the one re-execution that OpenBLAS needs.
+// Environment variables for OpenBLAS and OpenMPI.
 #include "reducer/startup.hpp"
 
 #include <dlfcn.h>
@@ -10,29 +10,38 @@
 namespace tisserand::reducer {
 namespace {
 
+constexpr int keep = 0;  ///< setenv: what the user has set stays
+constexpr const char* core_type = "OPENBLAS_CORETYPE";
 constexpr const char* restarted = "TISSERAND_REDUCER_RESTARTED";
 
-/// The kernel family that OpenBLAS runs with; empty if the BLAS is another one.
-std::string_view openblas_core() {
+/// The kernels of OpenBLAS for this processor's instructions; null: let it choose.
+const char* core_of_processor() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
+    return "SkylakeX";
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "Haswell";
+#endif
+  return nullptr;
+}
+
+bool is_intel() {
+#if defined(__x86_64__)
+  return __builtin_cpu_is("intel") != 0;
+#else
+  return false;
+#endif
+}
+
+/// The kernels that OpenBLAS runs with; empty if the BLAS is another one.
+std::string_view loaded_core() {
   using CoreName = char* (*)();
   void* const symbol = dlsym(RTLD_DEFAULT, "openblas_get_corename");
   return symbol == nullptr ? std::string_view() : reinterpret_cast<CoreName>(symbol)();
 }
 
-/// The right OPENBLAS_CORETYPE for this processor if OpenBLAS fell back to its oldest kernels; else null.
-const char* better_core() {
-#if defined(__x86_64__)
-  if (openblas_core() != "Prescott" || !__builtin_cpu_supports("avx2")) return nullptr;
-  return __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") ? "SkylakeX" : "Haswell";
-#else
-  return nullptr;
-#endif
-}
-
 }  // namespace
 
-void prepare_environment(char** argv) {
-  constexpr int keep = 0;
+void prepare_environment() {
   setenv("OPENBLAS_NUM_THREADS", "1", keep);
   if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) {
     setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
@@ -40,10 +49,15 @@ void prepare_environment(char** argv) {
     setenv("OMPI_MCA_btl", "self", keep);
     setenv("OMPI_MCA_opal_signal", "", keep);
   }
-  if (std::getenv("OPENBLAS_CORETYPE") != nullptr || std::getenv(restarted) != nullptr) return;
-  const char* const core = better_core();
-  if (core == nullptr) return;
-  setenv("OPENBLAS_CORETYPE", core, keep);
+  if (const char* const core = core_of_processor(); core != nullptr && is_intel()) setenv(core_type, core, keep);
+}
+
+void restart_if_blas_is_slow(char** argv) {
+  const char* const core = core_of_processor();
+  if (core == nullptr || loaded_core() != "Prescott" || std::getenv(restarted) != nullptr ||
+      std::getenv(core_type) != nullptr)
+    return;
+  setenv(core_type, core, keep);
   setenv(restarted, "1", keep);
   execv("/proc/self/exe", argv);  // returns only if it failed: then go on with slow kernels
 }

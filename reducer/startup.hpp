@@ -1,12 +1,15 @@
-// What must be right in the environment of the process before solvers start.
+// What must be right in the environment of the process before the libraries of the solver are loaded.
 #pragma once
 
 namespace tisserand::reducer {
 
-/// Debian's OpenBLAS takes unknown processors for the oldest (4-5 times slower) and reads OPENBLAS_CORETYPE only when it
-/// is loaded; OpenMPI starts a daemon per process unless told otherwise. Sets the variables, and starts this program once
-/// more in place of itself if OpenBLAS has chosen wrongly. Variables that the user has set stay. Call it before
-/// SolverSession, in commands that solve only.
-void prepare_environment(char** argv);
+/// OpenBLAS 0.3.21 takes processors that it does not know for the oldest (4-5 times slower) and reads OPENBLAS_CORETYPE only
+/// while it is loaded; OpenMPI starts a daemon per process unless told otherwise. Sets the variables for this processor;
+/// those that the user has set stay.
+void prepare_environment();
+
+/// If OpenBLAS has chosen its oldest kernels on a better processor all the same: starts this program once more in place
+/// of itself with the right choice.
+void restart_if_blas_is_slow(char** argv);
 
 }  // namespace tisserand::reducer

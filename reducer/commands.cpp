@@ -1,0 +1,79 @@
+// The commands of stage 1: read, work, write, tell.
+#include "reducer/commands.hpp"
+
+#include <fmt/format.h>
+
+#include "formats/override.hpp"
+#include "formats/part.hpp"
+#include "formats/superelement.hpp"
+#include "reducer/certificate.hpp"
+#include "reducer/mesher.hpp"
+#include "reducer/petsc.hpp"
+#include "reducer/phases.hpp"
+#include "reducer/reduce.hpp"
+#include "reducer/startup.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+std::vector<formats::Override> overrides(const Arguments& arguments) {
+  std::vector<formats::Override> result;
+  for (const std::string& text : arguments.set) result.push_back(formats::parse_override(text));
+  return result;
+}
+
+/// The input's path without .part.yaml or .yaml, plus `ending`.
+std::string beside(const std::string& input, const std::string& ending) {
+  for (const std::string known : {".part.yaml", ".part.yml", ".yaml", ".yml"})
+    if (input.size() > known.size() && input.ends_with(known)) return input.substr(0, input.size() - known.size()) + ending;
+  return input + ending;
+}
+
+int run(const Arguments& arguments) {
+  Phases phases;
+  phases.begin("read");
+  const formats::Part part = formats::read_part(arguments.input, overrides(arguments));
+  const std::string output = arguments.output.empty() ? beside(arguments.input, ".superelement.h5") : arguments.output;
+  phases.begin("start solvers");
+  const SolverSession session;
+  Reduction reduction = reduce(part, [&phases](const std::string& phase) { phases.begin(phase); });
+  phases.begin("write");
+  formats::write_superelement(output, reduction.superelement);
+  write_certificate(output, reduction.superelement, reduction.file, reduction.model);
+  phases.end();
+  fmt::print("{}", certificate_text(reduction.superelement, reduction.file, reduction.model));
+  fmt::print("{:<19}{}\n{:<19}{}\n{:<19}{}\n", "time", phases.text(), "written", output, "",
+             certificate_path(output));
+  return 0;
+}
+
+int show(const Arguments& arguments) {
+  const formats::LoadedSuperelement loaded = formats::read_superelement(arguments.input);
+  const FileCertificate file = certify(loaded.superelement, loaded.report);
+  fmt::print("{}", certificate_text(loaded.superelement, file,
+                                             read_certificate(arguments.input, loaded.superelement.content_id)));
+  return 0;
+}
+
+int mesh(const Arguments& arguments) {
+  const formats::Part part = formats::read_part(arguments.input, overrides(arguments));
+  const std::string output = arguments.output.empty() ? beside(arguments.input, ".msh") : arguments.output;
+  const Mesh result = write_gmsh_file(part, output);
+  fmt::print("{} nodes, {} elements\nwritten {} (open it with gmsh)\n", result.nodes(), result.beams.size(), output);
+  return 0;
+}
+
+}  // namespace
+
+int perform(const Arguments& arguments, char** argv) {
+  prepare_environment();
+  restart_if_blas_is_slow(argv);
+  switch (arguments.command) {
+    case Command::run: return run(arguments);
+    case Command::show: return show(arguments);
+    case Command::mesh: return mesh(arguments);
+  }
+  return 1;
+}
+
+}  // namespace tisserand::reducer
