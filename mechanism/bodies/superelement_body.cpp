@@ -245,9 +245,9 @@ void set_damping(const SuperelementOptions& options, SuperelementBody& body) {
   require(given.stiffness, "stiffness");
   require(given.ratio, "ratio");
   for (const double ratio : given.ratios) require(ratio, "ratio of a mode");
-  if (static_cast<int>(given.ratios.size()) > body.modes)
-    throw Error(fmt::format("damping: {} ratios for {} internal modes", given.ratios.size(), body.modes), options.where,
-                "give at most one ratio per mode");
+  if (given.ratios.size() > body.file.internal_row.size())
+    throw Error(fmt::format("damping: {} ratios for {} internal modes", given.ratios.size(), body.file.internal_row.size()),
+                options.where, "give at most one ratio per mode");
   body.damping.mass = given.mass;
   body.damping.stiffness = given.stiffness;
   body.damping.internal.resize(body.modes);
