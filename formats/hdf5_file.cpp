@@ -175,7 +175,11 @@ int Handle::reset() {
   return status;
 }
 
-void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void silence() {
+  // HDF5's own closing at exit crashes on files whose last write failed; ours are closed by their owners.
+  [[maybe_unused]] static const herr_t once = H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 std::string shape_text(const Shape& shape) {
   if (shape.empty()) return "scalar";

@@ -27,6 +27,8 @@ class Handle {
   bool valid() const { return id_ >= 0; }
   /// Closes now; negative if HDF5 could not (for a file: its last data may be missing).
   int reset();
+  /// Forgets the identifier without closing: what is on the disk stays as it is.
+  void abandon() { id_ = -1; }
 
  private:
   Id id_ = -1;
@@ -121,7 +123,7 @@ void write_text(Id file, const std::string& dataset, const std::string& value, c
 Handle create_in_memory(const std::string& where);
 std::string file_image(Id file, const std::string& where);
 
-/// Switches off HDF5's own printing of errors; every opening function calls it.
+/// Switches off HDF5's own printing of errors and its work at exit; every opening function calls it.
 void silence();
 
 }  // namespace tisserand::formats::hdf5

@@ -88,7 +88,8 @@ hdf5::Handle access_properties() {
 
 /// A file with everything that does not change during the run. The names of a group are stored if any of its datasets is.
 void create_head(const std::string& path, const ResultsLayout& layout, const std::vector<Block>& blocks, const std::string& where) {
-  hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access_properties().id()), close_file);
+  const hdf5::Handle access = access_properties();  // lives on: closing it would forget why H5Fcreate failed
+  hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), close_file);
   if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
   hdf5::write_text_attribute(file.id(), "/", "format", "tisserand-results", where);
   hdf5::write_text_attribute(file.id(), "/", "version", "1.0", where);
@@ -133,7 +134,8 @@ void publish_head(const std::string& part, const ResultsLayout& layout, const st
 }
 
 hdf5::Handle open_for_writing(const std::string& path, unsigned mode) {
-  hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR | mode, access_properties().id()), close_file);
+  const hdf5::Handle access = access_properties();
+  hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR | mode, access.id()), close_file);
   if (!file.valid()) throw hdf5::last_error("cannot open the file for writing", path, "choose another place or name");
   return file;
 }
@@ -218,7 +220,13 @@ void ResultsWriter::Impl::flush() {
   last_flush = Clock::now();
 }
 
+/// After a failed write HDF5 would only spoil, by closing, what the last good write has left.
 void ResultsWriter::Impl::close() {
+  if (broken) {
+    for (Column& column : columns) column.dataset.abandon();
+    file.abandon();
+    return;
+  }
   for (Column& column : columns)
     if (column.dataset.reset() < 0) broken = true;
   if (file.reset() < 0) broken = true;
@@ -270,7 +278,7 @@ ResultsWriter::~ResultsWriter() {
 void ResultsWriter::append(const ResultsRow& row) {
   TISSERAND_ENSURE(!impl_->finished, "append() after finish() of {}", impl_->path);
   if (impl_->broken) throw Error("an earlier write has failed", impl_->part, "choose another place for the results");
-  if (impl_->waiting == impl_->capacity) impl_->write_waiting();
+  if (impl_->waiting == impl_->capacity) impl_->flush();
   for (Column& column : impl_->columns) {
     const std::size_t width = column.block.width();
     std::copy_n(column.block.values(row), width, column.waiting.begin() + static_cast<std::ptrdiff_t>(impl_->waiting * width));
@@ -292,7 +300,7 @@ void ResultsWriter::finish(bool completed, const std::string& reason, const std:
   if (problem.empty() && impl_->broken) problem = "some rows could not be written";
   const std::string told = reason.empty() || problem.empty() ? reason + problem : reason + "; " + problem;
   try {
-    impl_->write_end(completed && problem.empty() ? 1 : 0, told, report_json);
+    if (!impl_->broken) impl_->write_end(completed && problem.empty() ? 1 : 0, told, report_json);
   } catch (const Error& error) {
     if (problem.empty()) problem = error.what();
   }

@@ -313,7 +313,7 @@ TEST(Results, FileThatCannotGrowIsAnErrorAndKeepsWhatItHas) {
   const pid_t child = ::fork();
   if (child == 0) {
     std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit limit{3u << 20, 3u << 20};
+    const rlimit limit{16u << 20, 16u << 20};
     ::setrlimit(RLIMIT_FSIZE, &limit);
     std::string text = "no error";
     try {
