@@ -167,7 +167,7 @@ void check_section(const Section& section, const std::string& subject, const std
                fmt::format("{}: only one of the two shear areas is given", subject),
                "give both, or neither for beams without shear deformation");
   const double polar = section.second_moment_y + section.second_moment_z;
-  if (std::abs(section.polar_moment - polar) > 1e-9 * polar)
+  if (polar > 0.0 && std::abs(section.polar_moment - polar) > 1e-9 * polar)
     faults.add(section.where, "", fmt::format("{}: polar moment {:g} is not Iy + Iz = {:g}", subject, section.polar_moment, polar), "");
 }
 

@@ -44,7 +44,7 @@ Extent measure(const YamlNode& node) {
 /// Builds the tree from the events of yaml-cpp's parser, which are the only recursion (bounded there and here).
 class TreeBuilder : public YAML::EventHandler {
  public:
-  explicit TreeBuilder(std::string file) : file_(std::move(file)) {}
+  TreeBuilder(const std::string& text, std::string file) : input_(text), file_(std::move(file)) {}
 
   YamlNode take_root() { return std::move(root_); }
 
@@ -71,6 +71,7 @@ class TreeBuilder : public YAML::EventHandler {
     YamlNode node = make(YamlKind::scalar, mark);
     node.text = value;
     node.quoted = tag == "!";
+    if (node.quoted) check_closing_quote(mark);
     finish(std::move(node), anchor);
   }
 
@@ -102,6 +103,22 @@ class TreeBuilder : public YAML::EventHandler {
   void check_tag(const YAML::Mark& mark, const std::string& tag) const {
     if (!tag.empty() && tag != "?" && tag != "!")
       fail(mark, fmt::format("YAML tag '{}' is not supported", tag), "remove it");
+  }
+
+  /// yaml-cpp takes the end of the file for a missing closing quote.
+  void check_closing_quote(const YAML::Mark& mark) const {
+    const auto begin = static_cast<std::size_t>(std::max(mark.pos, 0));
+    if (begin >= input_.size() || (input_[begin] != '"' && input_[begin] != '\'')) return;
+    const char quote = input_[begin];
+    for (std::size_t i = begin + 1; i < input_.size(); ++i) {
+      const bool doubled = quote == '\'' && input_.compare(i, 2, "''") == 0;
+      if (doubled || (quote == '"' && input_[i] == '\\')) {
+        ++i;
+      } else if (input_[i] == quote) {
+        return;
+      }
+    }
+    fail(mark, "not valid YAML: the quote that opens here is never closed", "close it");
   }
 
   void count(std::size_t values, const YAML::Mark& mark) {
@@ -158,11 +175,13 @@ class TreeBuilder : public YAML::EventHandler {
     } else {
       node.key = std::move(frame.key->text);
       node.key_place = frame.key->place;
+      if (node.kind == YamlKind::null) node.place = node.key_place;
       frame.key.reset();
       frame.node.children.push_back(std::move(node));
     }
   }
 
+  const std::string& input_;
   std::string file_;
   std::vector<Frame> stack_;
   std::map<YAML::anchor_t, YamlNode> anchors_;
@@ -197,8 +216,8 @@ void check_characters(const std::string& text, const std::string& file) {
   }
 }
 
-void check_only_one(YAML::Parser& parser, const std::string& file) {
-  TreeBuilder other(file);
+void check_only_one(YAML::Parser& parser, const std::string& text, const std::string& file) {
+  TreeBuilder other(text, file);
   if (!parser.HandleNextDocument(other)) return;
   const YamlPlace place = other.take_root().place;
   throw Error("a second YAML document begins after '---'", fmt::format("{}:{}:{}", file, place.line, place.column),
@@ -217,12 +236,13 @@ YamlDocument parse_yaml(const std::string& text, const std::string& file) {
     throw Error(fmt::format("the file has {} bytes; the limit is {}", text.size(), most_bytes), file,
                 "put long tables into csv files of their own");
   check_characters(text, file);
-  TreeBuilder builder(file);
+  const std::string body = text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;  // without byte order mark
+  TreeBuilder builder(body, file);
   try {
-    std::istringstream stream(text);
+    std::istringstream stream(body);
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) throw Error("the file is empty", file, "");
-    check_only_one(parser, file);
+    check_only_one(parser, body, file);
   } catch (const YAML::Exception& fault) {
     const bool placed = fault.mark.line >= 0;
     throw Error(fmt::format("not valid YAML: {}", fault.msg),
