@@ -1,0 +1,97 @@
+// Nearest keys, wildcards, and files that appear whole or not at all.
+#include "common/text.hpp"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/error.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace tisserand {
+namespace {
+
+using test_support::TemporaryFolder;
+
+std::string text_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+TEST(Text, EditDistanceCountsInsertionsDeletionsSubstitutionsAndSwaps) {
+  EXPECT_EQ(edit_distance("", ""), 0u);
+  EXPECT_EQ(edit_distance("", "abc"), 3u);
+  EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);  // the textbook example of Levenshtein distances
+  EXPECT_EQ(edit_distance("stpe", "step"), 1u);
+  EXPECT_EQ(edit_distance("Step", "step"), 0u);
+  EXPECT_EQ(edit_distance("ca", "abc"), 3u);  // optimal string alignment, where Damerau-Levenshtein has 2
+}
+
+TEST(Text, NearestSuggestsOnlyWhatIsSimilar) {
+  const std::vector<std::string> keys{"integrator", "initial", "bodies", "joints", "step"};
+  EXPECT_EQ(nearest("integrater", keys), "integrator");
+  EXPECT_EQ(nearest("join", keys), "joints");
+  EXPECT_EQ(nearest("setp", keys), "step");
+  EXPECT_EQ(nearest("gravity", keys), std::nullopt);
+  EXPECT_EQ(nearest("", keys), std::nullopt);
+  EXPECT_EQ(nearest("x", {}), std::nullopt);
+}
+
+TEST(Text, JoinPutsTheSeparatorBetween) {
+  EXPECT_EQ(join({}, ", "), "");
+  EXPECT_EQ(join({"a"}, ", "), "a");
+  EXPECT_EQ(join({"a", "", "b"}, ", "), "a, , b");
+}
+
+TEST(Text, WildcardsMatchAnyRun) {
+  EXPECT_TRUE(matches_wildcard("nodes/position/tip/x", "nodes/*/x"));
+  EXPECT_TRUE(matches_wildcard("abc", "abc"));
+  EXPECT_TRUE(matches_wildcard("abc", "*"));
+  EXPECT_TRUE(matches_wildcard("", "**"));
+  EXPECT_TRUE(matches_wildcard("aXbXb", "a*b"));
+  EXPECT_FALSE(matches_wildcard("abc", "ab"));
+  EXPECT_FALSE(matches_wildcard("abc", "*d*"));
+  EXPECT_FALSE(matches_wildcard("", "?"));
+}
+
+TEST(Text, FileIsReplacedAsAWhole) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.txt"), text = std::string("one\0two\n", 8);
+  write_text_file(path, "old");
+  write_text_file(path, text);
+  EXPECT_EQ(text_of(path), text);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()), 1);
+}
+
+TEST(Text, UnpublishedFileLeavesNothing) {
+  const TemporaryFolder folder;
+  {
+    TextFile file(folder.file("a.txt"));
+    file.write("half");
+  }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(Text, UnwritablePlacesAreErrorsWithRemedy) {
+  const TemporaryFolder folder;
+  write_text_file(folder.file("file"), "x");
+  std::filesystem::create_directory(folder.file("folder"));
+  const auto error_of = [](const std::string& path) -> std::string {
+    try {
+      write_text_file(path, "text");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_THAT(error_of(folder.file("missing/a")), testing::HasSubstr("No such file or directory; choose a folder that exists"));
+  EXPECT_THAT(error_of(folder.file("file/a")), testing::HasSubstr("Not a directory; choose a folder that exists"));
+  EXPECT_THAT(error_of(folder.file("folder")), testing::HasSubstr("Is a directory; give the name of a file"));
+  EXPECT_THAT(error_of("/proc/self/a"), testing::HasSubstr("/proc/self/a: cannot create the file"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()), 2);
+}
+
+}  // namespace
+}  // namespace tisserand
