@@ -161,9 +161,18 @@ BeamBodySpec read_beam(const Context& context, const YamlNode& node, const Scene
   body.through = read_optional_vector(map, "through");
   body.orientation = read_optional_vector(map, "orientation");
   map.require("elements");
-  body.elements = map.integer("elements", 1);
+  body.elements = map.integer("elements", 0);
   body.nodes_per_element = map.integer("nodes_per_element", 2);
   read_properties(map, definitions, body);
+  return body;
+}
+
+/// Stands for a body whose type cannot be read, so that references to it are not errors too.
+SuperelementBodySpec unreadable_body(const Context& context, const YamlNode& node) {
+  SuperelementBodySpec body;
+  body.name = node.key;
+  body.where = context.entry;
+  body.rigid = true;
   return body;
 }
 
@@ -177,6 +186,7 @@ std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& 
     if (type == nullptr) {
       context.fail(node->key_place, node->kind == YamlKind::map ? "missing key 'type'" : fmt::format("must be a map, not {}", describe(*node)),
                    "give type: superelement, rigid or beam");
+      bodies.emplace_back(unreadable_body(context, *node));
       continue;
     }
     switch (read_word(context, *type, "type", {"superelement", "rigid", "beam"}).value_or(3)) {
@@ -194,7 +204,7 @@ std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& 
         bodies.emplace_back(read_beam(context, *node, definitions));
         break;
       default:
-        break;
+        bodies.emplace_back(unreadable_body(context, *node));
     }
   }
   return bodies;
