@@ -14,3 +14,11 @@ if(TISSERAND_SANITIZE)
   target_link_options(tisserand_options INTERFACE -fsanitize=${TISSERAND_SANITIZE})
 endif()
 target_include_directories(tisserand_options INTERFACE ${PROJECT_SOURCE_DIR})
+
+# tisserand_precompile(target header...): Eigen and what nearly every file includes, parsed once per target, which saves 1 s
+# (of about 5 s) per file. Not with a compiler cache such as ccache: it cannot look behind precompiled headers.
+function(tisserand_precompile target)
+  if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    target_precompile_headers(${target} PRIVATE <Eigen/Core> <Eigen/Geometry> <fmt/format.h> <string> <vector> ${ARGN})
+  endif()
+endfunction()
