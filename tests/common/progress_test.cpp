@@ -1,0 +1,83 @@
+// Tests of the progress line with a clock that the test turns, and of the phase timer.
+#include "common/progress.hpp"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "common/timer.hpp"
+
+namespace tisserand {
+namespace {
+
+struct Recorder {
+  std::FILE* file = std::tmpfile();
+  double now = 100.0;
+
+  ~Recorder() { std::fclose(file); }
+  ProgressOutput output(bool terminal) {
+    return {file, terminal, [this] { return now; }};
+  }
+  std::string text() const {
+    std::rewind(file);
+    std::string content(4096, '\0');
+    content.resize(std::fread(content.data(), 1, content.size(), file));
+    return content;
+  }
+};
+
+TEST(Progress, SaysNothingDuringTheFirstSecond) {
+  Recorder recorder;
+  {
+    Progress progress("running", 10.0, recorder.output(true));
+    recorder.now += 0.9;
+    progress.update(5.0, "t = 5 s");
+  }
+  EXPECT_EQ(recorder.text(), "");
+}
+
+TEST(Progress, RewritesOneLineOnATerminalAndRemovesIt) {
+  Recorder recorder;
+  Progress progress("running", 10.0, recorder.output(true));
+  recorder.now += 1.4;
+  progress.update(2.5, "t = 2.5 s");
+  recorder.now += 0.05;  // too early for another
+  progress.update(2.6, "t = 2.6 s");
+  recorder.now += 0.05;
+  progress.update(5.0, "");
+  progress.finish();
+  progress.finish();
+  EXPECT_EQ(recorder.text(), "\rrunning: 25 %, t = 2.5 s, 1 s gone, 4 s to go\x1b[K\rrunning: 50 %, 2 s gone, 2 s to go\x1b[K\r\x1b[K");
+}
+
+TEST(Progress, WritesALineEveryTenSecondsElsewhere) {
+  Recorder recorder;
+  Progress progress("modes", 0.0, recorder.output(false));
+  for (int i = 0; i < 25; ++i) {
+    recorder.now += 1.0;
+    progress.update(i, "");
+  }
+  progress.finish();
+  EXPECT_EQ(recorder.text(), "modes: 1 s gone\nmodes: 11 s gone\nmodes: 21 s gone\nmodes: done in 25 s\n");
+}
+
+TEST(PhaseTimer, AddsUpPhasesInTheOrderOfTheirFirstStart) {
+  PhaseTimer timer;
+  timer.start("mesh");
+  timer.start("modes");
+  timer.start("mesh");
+  const auto begin = std::chrono::steady_clock::now();
+  while (std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(20)) {
+  }
+  timer.stop();
+  timer.stop();
+  ASSERT_EQ(timer.phases().size(), 2u);
+  EXPECT_EQ(timer.phases()[0].name, "mesh");
+  EXPECT_EQ(timer.phases()[1].name, "modes");
+  EXPECT_GE(timer.phases()[0].seconds, 0.02);  // the loop was inside it
+  EXPECT_LT(timer.phases()[1].seconds, timer.phases()[0].seconds);
+  EXPECT_DOUBLE_EQ(timer.total(), timer.phases()[0].seconds + timer.phases()[1].seconds);
+}
+
+}  // namespace
+}  // namespace tisserand
