@@ -156,6 +156,7 @@ Matrix3d tangent_hessian(const beam::Point3<double>& p) {
 }
 
 /// Contribution of one quadrature point, scaled by c: K by (Φ₁, Φ₃, θ₂), Kx: their forces by (x₁, x₂, x₃).
+/// Of the variations δφ, δa, δθ₂ with δθ = T δφ + exp(−φ) δθ₂ and δκ = T δa + Ξ δφ; δφ = Σ n_i δΦ_i, δa = Σ n_i' δΦ_i.
 void add_point(const BeamElement3& e, const beam::Point3<double>& p, int point, double c, Matrix9& K, Matrix9& Kx,
                Square<3>& A) {
   const double weight = 0.5 * c * e.length;
@@ -165,29 +166,29 @@ void add_point(const BeamElement3& e, const beam::Point3<double>& p, int point, 
   const Matrix3d T = Matrix3d::Identity() - p.f.c * skew_phi + p.f.d * (skew_phi * skew_phi);
   const Matrix3d Xi = tangent_derivative(p.phi, p.f, p.a);
   const Vector3d h = weight * p.force.cross(p.g), m = weight * p.moment;
-  const Matrix3d Yh = -tangent_derivative(-p.phi, p.f, h), Ym = -tangent_derivative(-p.phi, p.f, m);
   const Matrix3d H = weight * (skew(p.force) - skew_g * e.force_stiffness.asDiagonal());
-  const Matrix3d J = H * skew_g;
-  const Matrix3d F = Yh + weight * tangent_hessian(p);
-  Matrix39 rotation, curvature;
-  rotation << n[0] * T, n[1] * T, p.turn.transpose();
-  curvature << n[0] * Xi + dn[0] * T, n[1] * Xi + dn[1] * T, Matrix3d::Zero();
-  const Matrix39 Jr = J.lazyProduct(rotation);
-  K.noalias() += rotation.transpose().lazyProduct(Jr);
-  const Matrix39 Cm = (weight * e.moment_stiffness).asDiagonal() * curvature;
-  K.topLeftCorner<6, 6>().noalias() += curvature.leftCols<6>().transpose().lazyProduct(Cm.leftCols<6>());
-  const Matrix3d turned = p.turn * skew(h) * T;
+  const Matrix3d J = H * skew_g, JT = J * T, JE = J * p.turn.transpose();
+  const Matrix3d CT = (weight * e.moment_stiffness).asDiagonal() * T;
+  const Matrix3d CX = (weight * e.moment_stiffness).asDiagonal() * Xi;
+  const Matrix3d by_phi =
+      T.transpose() * JT + Xi.transpose() * CX - tangent_derivative(-p.phi, p.f, h) + weight * tangent_hessian(p);
+  const Matrix3d mixed = Xi.transpose() * CT - tangent_derivative(-p.phi, p.f, m).transpose();
+  const Matrix3d by_a = T.transpose() * CT;
+  const Matrix3d down = p.turn * (JT - skew(h) * T), across = T.transpose() * JE;
   for (int i = 0; i < 2; ++i) {
     for (int j = 0; j < 2; ++j)
-      K.block<3, 3>(3 * i, 3 * j) += n[i] * n[j] * F + n[i] * dn[j] * Ym.transpose() + dn[i] * n[j] * Ym;
-    K.block<3, 3>(6, 3 * i) -= n[i] * turned;
+      K.block<3, 3>(3 * i, 3 * j) +=
+          n[i] * n[j] * by_phi + n[i] * dn[j] * mixed + dn[i] * n[j] * mixed.transpose() + dn[i] * dn[j] * by_a;
+    K.block<3, 3>(6, 3 * i) += n[i] * down;
+    K.block<3, 3>(3 * i, 6) += n[i] * across;
   }
-  const Matrix3d HL = H * p.axes.transpose();
-  const Eigen::Matrix<double, 9, 3> RH = rotation.transpose().lazyProduct(HL);
+  K.block<3, 3>(6, 6) += p.turn * JE;
+  const Matrix3d HL = H * p.axes.transpose(), THL = T.transpose() * HL, EHL = p.turn * HL;
   const Matrix3d C = p.axes * (weight * e.force_stiffness).asDiagonal() * p.axes.transpose();
   for (int i = 0; i < 3; ++i) {
     const double di = beam::slope[point][i] / e.length;
-    Kx.middleCols<3>(3 * i) += di * RH;
+    for (int k = 0; k < 2; ++k) Kx.block<3, 3>(3 * k, 3 * i) += n[k] * di * THL;
+    Kx.block<3, 3>(6, 3 * i) += di * EHL;
     for (int j = 0; j < 3; ++j) A.block<3, 3>(6 * i, 6 * j) += di * beam::slope[point][j] / e.length * C;
   }
 }

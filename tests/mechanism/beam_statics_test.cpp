@@ -71,7 +71,7 @@ TEST(BeamStatics, Bend45OfBatheAndBolourchi) {
     EXPECT_LT(c4, 1e-3 * size);
     EXPECT_LT(c8, 2e-5 * size);
     EXPECT_NEAR(std::log2(c4 / c8), 4.0, 0.2);
-    EXPECT_LT((bend_45(row, 32, 3, 8) - expected).cwiseAbs().maxCoeff(), 8e-6);  // the last digit of the reference
+    EXPECT_LT((bend_45(row, 16, 3, 8) - expected).norm(), 1e-6 * size);  // seven digits of the reference
   }
 }
 
@@ -93,7 +93,7 @@ Cantilever roll_up(int elements, int nodes_per_element, double turns) {
 // turned by 2π/N. The full circle therefore closes to rounding with any number of elements.
 TEST(BeamStatics, RollUpToAFullCircle) {
   for (const int nodes_per_element : {2, 3})
-    for (const int elements : {5, 8, 32}) {
+    for (const int elements : {5, 8, 16}) {
       const Cantilever result = roll_up(elements, nodes_per_element, 1.0);
       ASSERT_TRUE(result.converged);
       EXPECT_LT(result.nodes.back().x.norm(), 1e-12 * 10.0);
