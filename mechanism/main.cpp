@@ -63,7 +63,7 @@ int run(const RunArguments& arguments) {
   mechanism::RunControl control;
   control.interrupted = [] { return interrupt_requested.load(std::memory_order_relaxed); };
   control.clock = wall_clock;
-  control.progress = [&progress, start](double t) { progress.update(t - start); };
+  control.progress = [&progress, start](double t) { progress.update(t - start, ""); };
   const mechanism::RunReport report = mechanism::simulate(scene, path, control);
   progress.finish();
   fmt::print("{}: {}\n{}  {:<16} {}\n", arguments.scene, scene.name, mechanism::report_text(report, scene.units), "results",

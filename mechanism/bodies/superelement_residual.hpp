@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "mechanism/bodies/column_kernels.hpp"
 #include "mechanism/bodies/superelement_kinematics.hpp"
 
 namespace tisserand::mechanism {
@@ -37,11 +38,7 @@ void multiply_add(const Eigen::MatrixXd& A, const Eigen::Matrix<S, Eigen::Dynami
   } else if constexpr (Rows == Eigen::Dynamic) {
     y.noalias() += A * x;
   } else {
-    using Column = Eigen::Matrix<double, Rows, 1>;
-    Column sum = Eigen::Map<const Column>(y.data());
-    const double* column = A.data();
-    for (Eigen::Index k = 0; k < A.cols(); ++k, column += Rows) sum += x[k] * Eigen::Map<const Column>(column);
-    Eigen::Map<Column>(y.data()) = sum;
+    column_kernels::multiply_add_fixed<Rows>(A.data(), A.cols(), x.data(), y.data());
   }
 }
 

@@ -8,6 +8,8 @@ namespace tisserand::mechanism {
 
 namespace {
 
+using column_kernels::multiply3;
+using column_kernels::Write;
 using formats::InertiaOption;
 
 template <int NB>
@@ -68,6 +70,12 @@ Eigen::Matrix3d rotation_map(InertiaOption inertia, const LocalNode<double>& loc
   return inertia == InertiaOption::A ? Eigen::Matrix3d(local.Tinv.transpose()) : local.Tinv;
 }
 
+/// Column `row` of a matrix with nb rows.
+template <class Matrix>
+auto* column_data(Matrix& A, int row) {
+  return A.data() + A.rows() * row;
+}
+
 /// out = X V, V = [ẋ*~; Ω*~ (option A); 0].
 template <int NB, class X>
 void multiply_V(const SuperelementBody& body, const SuperelementTangent& work, const X& matrix, Thin<NB>& out) {
@@ -75,68 +83,72 @@ void multiply_V(const SuperelementBody& body, const SuperelementTangent& work, c
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     if (node.has_translation())
-      out.noalias() += columns(matrix, node.translation_row).lazyProduct(skew<double>(work.node[i].xd));
+      multiply3<NB, Write::add>(column_data(matrix, node.translation_row), skew<double>(work.node[i].xd), body.boundary_size, out.data());
     if (node.has_rotation() && body.inertia == InertiaOption::A)
-      out.noalias() += columns(matrix, node.rotation_row).lazyProduct(skew<double>(work.node[i].Omega));
+      multiply3<NB, Write::add>(column_data(matrix, node.rotation_row), skew<double>(work.node[i].Omega), body.boundary_size, out.data());
   }
 }
 
 /// out += F U, only the columns in which U is not zero.
 template <int NB>
 void add_times_U(const SuperelementBody& body, const SuperelementTangent& work, const Thin<NB>& F, Square<NB>& out) {
-  const ConstWide<NB> U(work.U.data(), 3, body.boundary_size);
+  const int nb = body.boundary_size;
   for (const SuperelementNode& node : body.node) {
-    if (body.frame == FrameAlgorithm::polar)
-      columns(out, node.translation_row).noalias() += F.lazyProduct(columns(U, node.translation_row));
-    else if (node.alpha_rotation != 0.0)
-      columns(out, node.rotation_row).noalias() += F.lazyProduct(columns(U, node.rotation_row));
+    const bool polar = body.frame == FrameAlgorithm::polar;
+    if (!polar && node.alpha_rotation == 0.0) continue;
+    const int row = polar ? node.translation_row : node.rotation_row;
+    multiply3<NB, Write::add>(F.data(), columns(work.U, row), nb, column_data(out, row));
   }
 }
 
 /// out += c X O₀ᵀ.
 template <int NB, class X>
 void add_times_O0(const SuperelementBody& body, const SuperelementTangent& work, double c, const X& matrix, Square<NB>& out) {
+  const int nb = body.boundary_size;
   const Eigen::Matrix3d O0 = skew<double>(-c * work.Omega0);
   for (const SuperelementNode& node : body.node) {
-    if (node.has_translation()) columns(out, node.translation_row).noalias() += columns(matrix, node.translation_row).lazyProduct(O0);
+    if (node.has_translation())
+      multiply3<NB, Write::add>(column_data(matrix, node.translation_row), O0, nb, column_data(out, node.translation_row));
     if (node.has_rotation() && body.inertia == InertiaOption::A)
-      columns(out, node.rotation_row).noalias() += columns(matrix, node.rotation_row).lazyProduct(O0);
+      multiply3<NB, Write::add>(column_data(matrix, node.rotation_row), O0, nb, column_data(out, node.rotation_row));
   }
 }
 
 /// out += c X (O₀ ∓ O_B)ᵀ.
 template <int NB, class X>
 void add_times_O(const SuperelementBody& body, const SuperelementTangent& work, double c, const X& matrix, Square<NB>& out) {
+  const int nb = body.boundary_size;
   const Eigen::Matrix3d O0 = skew<double>(-c * work.Omega0);
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
-    if (node.has_translation()) columns(out, node.translation_row).noalias() += columns(matrix, node.translation_row).lazyProduct(O0);
+    if (node.has_translation())
+      multiply3<NB, Write::add>(column_data(matrix, node.translation_row), O0, nb, column_data(out, node.translation_row));
     if (!node.has_rotation()) continue;
     const Eigen::Vector3d& Omega = work.node[i].Omega;
     const Eigen::Vector3d rate = body.inertia == InertiaOption::A ? Eigen::Vector3d(Omega - work.Omega0) : Eigen::Vector3d(-Omega);
-    columns(out, node.rotation_row).noalias() += columns(matrix, node.rotation_row).lazyProduct(skew<double>(c * rate));
+    multiply3<NB, Write::add>(column_data(matrix, node.rotation_row), skew<double>(c * rate), nb, column_data(out, node.rotation_row));
   }
 }
 
 /// Υᵀ S' Υ with S' = k S_BB, Υ = B + H U (S' has no stiffness against translation, so the weights of x₀ drop out):
-/// G = Bᵀ S' B, J = Bᵀ S' H + ½ Uᵀ (Hᵀ S' H); then Υᵀ S' Υ = G + J U + (J U)ᵀ.
+/// G = Bᵀ S' B = (S' B)ᵀ B, J = Bᵀ S' H + ½ Uᵀ (Hᵀ S' H); then Υᵀ S' Υ = G + J U + (J U)ᵀ. `SB` is work space.
 template <int NB>
-void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& work, double k, Square<NB>& G, Thin<NB>& J) {
-  const ConstSquare<NB> S(body.S_BB.data(), body.boundary_size, body.boundary_size);
+void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& work, double k, Square<NB>& SB, Square<NB>& G, Thin<NB>& J) {
+  const int nb = body.boundary_size;
+  const ConstSquare<NB> S(body.S_BB.data(), nb, nb);
+  SB = k * S;
   J.setZero();
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     const LocalNode<double>& local = work.node[i];
-    if (node.has_translation()) {
-      columns(G, node.translation_row) = k * columns(S, node.translation_row);
-      J.noalias() += columns(S, node.translation_row).lazyProduct(skew<double>(k * local.xh));
-    }
-    if (node.has_rotation()) {
-      const Eigen::Matrix3d B = k * rotation_map(body.inertia, local), H = -k * local.Tinv.transpose();
-      columns(G, node.rotation_row).noalias() = columns(S, node.rotation_row).lazyProduct(B);
-      J.noalias() += columns(S, node.rotation_row).lazyProduct(H);
-    }
+    if (node.has_translation())
+      multiply3<NB, Write::add>(column_data(S, node.translation_row), skew<double>(k * local.xh), nb, J.data());
+    if (!node.has_rotation()) continue;
+    const double* S_columns = column_data(S, node.rotation_row);
+    multiply3<NB, Write::assign>(S_columns, k * rotation_map(body.inertia, local), nb, column_data(SB, node.rotation_row));
+    multiply3<NB, Write::add>(S_columns, -k * local.Tinv.transpose(), nb, J.data());
   }
+  column_kernels::transpose<NB>(SB.data(), nb, G.data());
   Eigen::Matrix3d HSH = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
@@ -144,30 +156,27 @@ void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& wo
     if (node.has_translation()) HSH.noalias() -= skew<double>(local.xh) * J.template middleRows<3>(node.translation_row);
     if (!node.has_rotation()) continue;
     const int row = node.rotation_row;
-    const Eigen::Matrix3d SH = J.template middleRows<3>(row), BT = rotation_map(body.inertia, local).transpose();
+    const Eigen::Matrix3d B = rotation_map(body.inertia, local), SH = J.template middleRows<3>(row);
     HSH.noalias() -= local.Tinv * SH;
-    J.template middleRows<3>(row).noalias() = BT * SH;
-    for (int column = 0; column < body.boundary_size; column += 3) {
-      const Eigen::Matrix3d block = G.template block<3, 3>(row, column);
-      G.template block<3, 3>(row, column).noalias() = BT * block;
-    }
+    J.template middleRows<3>(row).noalias() = B.transpose() * SH;
+    multiply3<NB, Write::assign>(column_data(G, row), B, nb, column_data(G, row));
   }
-  const ConstWide<NB> U(work.U.data(), 3, body.boundary_size);
+  const ConstWide<NB> U(work.U.data(), 3, nb);
   J.noalias() += U.transpose().lazyProduct(0.5 * HSH);
 }
 
 /// out = X P.
 template <int NB>
 void multiply_P(const SuperelementBody& body, const SuperelementTangent& work, const Square<NB>& X, Square<NB>& out) {
+  const int nb = body.boundary_size;
+  const Eigen::Matrix3d R0T = work.R0.transpose();
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
-    if (node.has_translation()) {
-      const Eigen::Matrix3d R0T = work.R0.transpose();
-      columns(out, node.translation_row).noalias() = columns(X, node.translation_row).lazyProduct(R0T);
-    }
+    if (node.has_translation())
+      multiply3<NB, Write::assign>(column_data(X, node.translation_row), R0T, nb, column_data(out, node.translation_row));
     if (!node.has_rotation()) continue;
     if (body.inertia == InertiaOption::A)
-      columns(out, node.rotation_row).noalias() = columns(X, node.rotation_row).lazyProduct(work.node[i].E);
+      multiply3<NB, Write::assign>(column_data(X, node.rotation_row), work.node[i].E, nb, column_data(out, node.rotation_row));
     else
       columns(out, node.rotation_row) = columns(X, node.rotation_row);
   }
@@ -209,9 +218,10 @@ void condensed_tangent(const SuperelementBody& body, SuperelementScratch& scratc
     A.setZero();
     add_times_U<NB>(body, work, F, A);
     add_times_O0<NB>(body, work, 1.0, Q, A);
-    Np -= c.damping * A.transpose();
+    column_kernels::transpose<NB>(A.data(), nb, G1.data());
+    Np -= c.damping * G1;
   }
-  stiffness_parts<NB>(body, work, c.stiffness + c.damping * body.damping.stiffness, G1, J);
+  stiffness_parts<NB>(body, work, c.stiffness + c.damping * body.damping.stiffness, G2, G1, J);
   G1 += c.mass * N;
   add_times_O<NB>(body, work, c.damping, Np, G1);
   multiply_V<NB>(body, work, N, F);
@@ -227,9 +237,10 @@ void condensed_tangent(const SuperelementBody& body, SuperelementScratch& scratc
   multiply_V<NB>(body, work, Np, F);
   F = J - V1 - c.damping * F;
   add_times_U<NB>(body, work, F, G1);
-  G1 += G2.transpose();
+  column_kernels::transpose<NB>(G2.data(), nb, A.data());
+  G1 += A;
   multiply_P<NB>(body, work, G1, G2);
-  G1 = G2.transpose();
+  column_kernels::transpose<NB>(G2.data(), nb, G1.data());
   multiply_P<NB>(body, work, G1, A);
 }
 
