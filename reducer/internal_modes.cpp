@@ -14,9 +14,10 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Fixed numbers without simple ratios: equal roles of x, y and z become unequal.
-const Eigen::Matrix<double, 6, 1> component_weight = (Eigen::Matrix<double, 6, 1>() << 1.0, 0.83, 0.67, 0.53, 0.41,
-                                                      0.31).finished();
+/// Fixed numbers without simple ratios: equal roles of x, y and z become unequal. Rotations ascend, so that bending in x-y
+/// (translation y, rotation z) comes before bending in x-z.
+const Eigen::Matrix<double, 6, 1> component_weight = (Eigen::Matrix<double, 6, 1>() << 1.0, 0.83, 0.67, 0.31, 0.41,
+                                                      0.53).finished();
 
 /// Fixed functions that choose a basis inside clusters and signs; all depend on the body, none on its node numbers.
 struct Gauge {

@@ -45,13 +45,13 @@ int main(int argc, char** argv) {
   CLI::App* const run_command = app.add_subcommand("run", "Reduce a part to a superelement file with certificate");
   run_command->add_option("part", arguments.input, "part.yaml")->required();
   run_command->add_option("-o,--output", arguments.output, "superelement file (default: beside the part)");
-  run_command->add_option("--set", arguments.set, "path=value: override a value of the part, e.g. modes=4")->expected(1);
+  run_command->add_option("--set", arguments.set, "path=value: override a value of the part, e.g. modes=4")->allow_extra_args(false);
   CLI::App* const show_command = app.add_subcommand("show", "Print the certificate of a superelement file");
   show_command->add_option("file", arguments.input, "name.superelement.h5")->required();
   CLI::App* const mesh_command = app.add_subcommand("mesh", "Mesh a part and write a gmsh file to look at");
   mesh_command->add_option("part", arguments.input, "part.yaml")->required();
   mesh_command->add_option("-o,--output", arguments.output, "gmsh file (default: beside the part)");
-  mesh_command->add_option("--set", arguments.set, "path=value: override a value of the part")->expected(1);
+  mesh_command->add_option("--set", arguments.set, "path=value: override a value of the part")->allow_extra_args(false);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,0 +1,187 @@
+// Internal modes: clusters, cuts, counts, massless coordinates, and agreement of the two eigenvalue solvers.
+#include "reducer/internal_modes.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "reducer/mesher.hpp"
+#include "tests/reducer/parts.hpp"
+
+namespace tisserand::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+
+std::string error_of(const formats::Part& part) {
+  try {
+    reduce(part);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Clusters, ACutCompletesTheDoubleModesAndSaysSo) {
+  const reducer::Reduction r = reduce(cardona_beam(40, 3));
+  EXPECT_EQ(r.superelement.size(), 12 + 4);
+  ASSERT_EQ(r.model.notes.size(), 1u);
+  EXPECT_THAT(r.model.notes[0], AllOf(HasSubstr("after 3 modes"), HasSubstr("4 are kept")));
+  EXPECT_TRUE(reduce(cardona_beam(40, 4)).model.notes.empty());
+  const MatrixXd& S = r.superelement.stiffness;
+  EXPECT_EQ(S(12, 12), S(13, 13)) << "members of a cluster share one eigenvalue";
+}
+
+TEST(Clusters, BasisFollowsTheAxesAndNotTheSolver) {
+  // The beam along x: translations y and z have unequal weights, so one mode of each pair moves in y, the other in z.
+  const MatrixXd M = reduce(cardona_beam(40, 4)).superelement.mass;
+  for (const int first : {12, 14}) {
+    EXPECT_GT(std::abs(M(first, 1)) + std::abs(M(first, 5)), 1e-2);
+    EXPECT_LT(std::abs(M(first, 2)) + std::abs(M(first, 4)), 1e-9);
+    EXPECT_GT(std::abs(M(first + 1, 2)) + std::abs(M(first + 1, 4)), 1e-2);
+    EXPECT_LT(std::abs(M(first + 1, 1)) + std::abs(M(first + 1, 5)), 1e-9);
+  }
+}
+
+TEST(Clusters, NumberingDoesNotMatterForDoubleModes) {
+  formats::Part part = cardona_beam(40, 6);
+  const MatrixXd M = reduce(part).superelement.mass;
+  std::reverse(part.points.begin(), part.points.end());
+  EXPECT_LT(relative_difference(reduce(part).superelement.mass, M), 1e-9);
+}
+
+TEST(Cutoff, KeepsAllModesBelow) {
+  // Fixed-boundary frequencies of the beam: 2.522 (twice), 6.924 (twice), 13.50 (twice) 1/time.
+  formats::Part part = cardona_beam(40, 0);
+  for (const auto& [cutoff, expected] : {std::pair{2.0, 0}, std::pair{2.6, 2}, std::pair{7.0, 4}, std::pair{13.0, 4}}) {
+    part.modes.cutoff = cutoff;
+    const reducer::Reduction r = reduce(part);
+    EXPECT_EQ(r.superelement.size(), 12 + expected) << "cutoff " << cutoff;
+    EXPECT_GT(*r.model.first_dropped_frequency, cutoff);
+  }
+}
+
+TEST(MassLessCoordinates, OnlyFiniteModesExist) {
+  // Lumped without rotary inertia: of six coordinates per inner node four have mass (three translations, torsion).
+  formats::Part part = plain_beam(Vector3d::Zero(), Vector3d(1, 1, 0.5), 5, 16);
+  set_mass(part, formats::MassMatrix::lumped, false);
+  const reducer::Reduction r = reduce(part);
+  EXPECT_EQ(r.superelement.size(), 12 + 16);
+  EXPECT_EQ(r.model.modes_available, 16);
+  EXPECT_FALSE(r.model.first_dropped_frequency);
+  // Rank of the full mass matrix: 4 coordinates of 6 nodes; 28 reduced coordinates cannot all have mass.
+  EXPECT_EQ(r.file.massless.size(), 4u);
+  part.modes.count = 0;  // without modes the boundary carries the inside along
+  EXPECT_EQ(reduce(part).file.massless.size(), 0u);
+  part.modes.count = 17;
+  EXPECT_THAT(error_of(part), AllOf(HasSubstr("17 internal modes asked for, but only 16 exist"), HasSubstr("rotary inertia")));
+}
+
+TEST(MassLessCoordinates, ManyNodesOnTheIterativePath) {
+  formats::Part part = plain_beam(Vector3d::Zero(), Vector3d(1, 1, 0.5), 120, 6);
+  set_mass(part, formats::MassMatrix::lumped, false);
+  const reducer::Reduction lumped = reduce(part);
+  set_mass(part, formats::MassMatrix::consistent, false);
+  const reducer::Reduction consistent = reduce(part);
+  EXPECT_EQ(lumped.model.modes_available, 4 * 119);
+  for (std::size_t k = 0; k < 6; ++k)  // both of order 2 or better on 120 elements
+    EXPECT_NEAR(lumped.file.fixed_frequency[k] / consistent.file.fixed_frequency[k], 1.0, 3e-3);
+}
+
+TEST(Mechanism, DirectionWithoutStiffnessIsNamed) {
+  formats::Part part = plain_beam(Vector3d::Zero(), Vector3d(1, 0, 0), 3, 0);
+  part.points.push_back({"end", Vector3d(1, 1, 0), ""});
+  part.sections.push_back(part.sections[0]);
+  part.sections[1].name = "untwistable";
+  part.sections[1].torsion_constant = 0.0;
+  part.beams.push_back(part.beams[0]);
+  part.beams[1].name = "branch";
+  part.beams[1].from = "tip";
+  part.beams[1].to = "end";
+  part.beams[1].section = "untwistable";
+  part.beams[1].elements = 1;
+  EXPECT_THAT(error_of(part), AllOf(HasSubstr("1 motion(s) without stiffness"), HasSubstr("end (rotation y)")));
+}
+
+/// A plane grid of n x n fields with double frequencies: its eigenvalues are wanted from both solvers.
+formats::Part grid(int n, int elements) {
+  formats::Part part = cardona_beam(elements, 0);
+  const formats::BeamLine line = part.beams[0];
+  part.points.clear();
+  part.beams.clear();
+  part.boundary.clear();
+  const auto name = [](int i, int j) { return "p" + std::to_string(i) + "_" + std::to_string(j); };
+  const auto add = [&](const std::string& from, const std::string& to) {
+    part.beams.push_back(line);
+    part.beams.back().name = from + "-" + to;
+    part.beams.back().from = from;
+    part.beams.back().to = to;
+  };
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) {
+      part.points.push_back({name(i, j), Vector3d(40.0 * i, 40.0 * j, 0.0), ""});
+      if (i < n) add(name(i, j), name(i + 1, j));
+      if (j < n) add(name(i, j), name(i, j + 1));
+    }
+  for (const auto& [i, j] : {std::pair{0, 0}, std::pair{n, 0}, std::pair{0, n}, std::pair{n, n}})
+    part.boundary.push_back({"b" + name(i, j), name(i, j), true, true, ""});
+  return part;
+}
+
+struct Pieces {
+  reducer::Mesh mesh;
+  reducer::Partition partition;
+  reducer::Blocks blocks;
+  reducer::Factor factor;
+};
+
+Pieces pieces_of(const formats::Part& part) {
+  start_solvers();
+  Pieces p{reducer::mesh_part(part), {}, {}, {}};
+  p.partition = reducer::partition(p.mesh);
+  p.blocks = reducer::split(reducer::assemble(p.mesh), p.partition);
+  p.factor = reducer::Factor(p.blocks.S_II);
+  return p;
+}
+
+TEST(Solvers, DenseAndKrylovAgreeOnAGridWithDoubleFrequencies) {
+  const Pieces p = pieces_of(grid(4, 3));
+  const reducer::Pencil pencil{p.blocks.S_II, p.blocks.M_II, p.factor, 0.0};
+  const int available = reducer::finite_mode_count(p.mesh, p.partition);
+  const reducer::Spectrum a = reducer::lowest_pairs(pencil, 25, available, reducer::EigenSolver::dense);
+  const reducer::Spectrum b = reducer::lowest_pairs(pencil, 25, available, reducer::EigenSolver::krylov_schur);
+  ASSERT_EQ(a.kept, b.kept);
+  for (int k = 0; k < a.kept; ++k) EXPECT_NEAR(b.pairs.value[k] / a.pairs.value[k], 1.0, 1e-9) << "mode " << k;
+  EXPECT_EQ(b.counted, b.kept);
+  // The same basis after both, although each solver returns its own vectors of the double frequencies.
+  const reducer::InternalProblem problem{p.mesh, p.partition, p.blocks, p.factor, "grid"};
+  Eigen::VectorXd lambda_a = a.pairs.value.head(a.kept), lambda_b = b.pairs.value.head(b.kept);
+  MatrixXd Phi_a = a.pairs.vector.leftCols(a.kept), Phi_b = b.pairs.vector.leftCols(b.kept);
+  reducer::fix_basis(problem, lambda_a, Phi_a);
+  reducer::fix_basis(problem, lambda_b, Phi_b);
+  EXPECT_LT(relative_difference(Phi_b, Phi_a), 1e-5);
+}
+
+TEST(Solvers, FiveThousandCoordinatesNoneMissed) {
+  const Pieces p = pieces_of(grid(8, 6));
+  EXPECT_GT(p.mesh.dofs(), 4500);
+  const reducer::Pencil pencil{p.blocks.S_II, p.blocks.M_II, p.factor, 0.0};
+  const reducer::Spectrum s = reducer::lowest_pairs(pencil, 40, reducer::finite_mode_count(p.mesh, p.partition),
+                                                    reducer::choose_solver(p.partition.n_I(), 40));
+  EXPECT_EQ(s.solver, reducer::EigenSolver::krylov_schur);
+  EXPECT_EQ(s.counted, s.kept);
+  EXPECT_LT(s.residual, 1e-10);
+  // An independent count in the middle of the spectrum.
+  const double middle = 0.5 * (s.pairs.value[20] + s.pairs.value[21]);
+  const int below = static_cast<int>((s.pairs.value.array() < middle).count());
+  EXPECT_EQ(reducer::count_below(p.blocks.S_II, p.blocks.M_II, middle), below);
+}
+
+}  // namespace
+}  // namespace tisserand::testing

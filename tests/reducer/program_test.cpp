@@ -1,0 +1,110 @@
+// The program as users call it: exit codes, files, messages.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "formats/superelement.hpp"
+
+namespace tisserand::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+struct Outcome {
+  int code = -1;
+  std::string text;  ///< both streams
+};
+
+class Program : public ::testing::Test {
+ protected:
+  std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) /
+                                 ("reducer_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+  std::string part = (folder / "beam.part.yaml").string();
+
+  void SetUp() override {
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    std::filesystem::copy_file(TISSERAND_SOURCE_DIR "/examples/hinged_beam/beam.part.yaml", part);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder); }
+
+  Outcome call(const std::string& arguments) const {
+    const std::string log = (folder / "log").string();
+    const int status = std::system((TISSERAND_BINARY_DIR "/bin/reducer " + arguments + " > " + log + " 2>&1").c_str());
+    std::ifstream file(log);
+    std::stringstream text;
+    text << file.rdbuf();
+    return {WEXITSTATUS(status), text.str()};
+  }
+};
+
+TEST_F(Program, RunWritesSuperelementAndCertificateBesideThePart) {
+  const Outcome run = call("run " + part);
+  ASSERT_EQ(run.code, 0) << run.text;
+  EXPECT_THAT(run.text, AllOf(HasSubstr("8 kept"), HasSubstr("total"), HasSubstr("beam.superelement.h5")));
+  const formats::LoadedSuperelement loaded = formats::read_superelement((folder / "beam.superelement.h5").string());
+  EXPECT_EQ(loaded.superelement.size(), 20);
+  EXPECT_FALSE(loaded.superelement.units.named());
+  EXPECT_NEAR(loaded.report.rigid.mass, 7.8e-3 * 9.0 * 141.42, 1e-11);
+  std::ifstream file(folder / "beam.superelement.certificate.json");
+  const nlohmann::json certificate = nlohmann::json::parse(file);
+  EXPECT_EQ(certificate.at("content_id"), loaded.superelement.content_id);
+  EXPECT_EQ(certificate.at("file").at("fixed_boundary_frequency").size(), 8u);
+
+  const Outcome show = call("show " + (folder / "beam.superelement.h5").string());
+  EXPECT_EQ(show.code, 0);
+  EXPECT_THAT(show.text, AllOf(HasSubstr("free, full"), HasSubstr("first dropped"), HasSubstr("mass 9.927684")));
+}
+
+TEST_F(Program, ShowIgnoresACertificateOfOtherContent) {
+  const std::string file = (folder / "arm.superelement.h5").string();
+  ASSERT_EQ(call("run " + part + " -o " + file).code, 0);
+  std::filesystem::copy_file(folder / "arm.superelement.certificate.json", folder / "kept.json");
+  ASSERT_EQ(call("run " + part + " -o " + file + " --set modes=2").code, 0);
+  std::filesystem::copy_file(folder / "kept.json", folder / "arm.superelement.certificate.json",
+                             std::filesystem::copy_options::overwrite_existing);
+  const Outcome show = call("show " + file);
+  EXPECT_EQ(show.code, 0);
+  EXPECT_THAT(show.text, Not(HasSubstr("first dropped")));
+}
+
+TEST_F(Program, MeshWritesAGmshFile) {
+  EXPECT_EQ(call("mesh " + part).code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "beam.msh"));
+}
+
+TEST_F(Program, HelpAndVersionAreUnderstood) {
+  EXPECT_THAT(call("--help").text, AllOf(HasSubstr("Examples:"), HasSubstr("reducer run beam.part.yaml")));
+  EXPECT_EQ(call("--help").code, 0);
+  EXPECT_THAT(call("--version").text, HasSubstr("reducer " TISSERAND_VERSION));
+}
+
+TEST_F(Program, WrongUsageIsTwoAndErrorsAreOne) {
+  EXPECT_EQ(call("").code, 2);
+  EXPECT_EQ(call("run").code, 2);
+  EXPECT_EQ(call("walk").code, 2);
+  EXPECT_EQ(call("run " + part + " --nonsense").code, 2);
+  const Outcome missing = call("run " + (folder / "none.yaml").string());
+  EXPECT_EQ(missing.code, 1);
+  EXPECT_THAT(missing.text, HasSubstr("none.yaml"));
+  const Outcome many = call("run " + part + " --set modes=1000");
+  EXPECT_EQ(many.code, 1);
+  EXPECT_THAT(many.text, HasSubstr("1000 internal modes asked for, but only 282 exist"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "beam.superelement.h5"));
+}
+
+TEST_F(Program, OverridesReachThePart) {
+  ASSERT_EQ(call("run " + part + " --set modes=0 --set beams.rod.elements=10").code, 0);
+  EXPECT_EQ(formats::read_superelement((folder / "beam.superelement.h5").string()).superelement.size(), 12);
+}
+
+}  // namespace
+}  // namespace tisserand::testing
