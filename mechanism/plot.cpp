@@ -39,10 +39,10 @@ std::vector<std::string> path_parts(const std::string& channel) {
   return parts;
 }
 
-/// "nodes/angular_velocity/beam/tip/z" -> "angular velocity"; "energy/kinetic" -> "energy".
+/// "nodes/angular_velocity/beam/tip/z" -> "angular velocity"; "solver/step" -> "step"; "energy/kinetic" -> "energy".
 std::string quantity(const Series& series) {
   const std::vector<std::string> parts = path_parts(series.channel);
-  std::string word = parts.size() > 2 ? parts[1] : parts.front();
+  std::string word = parts.size() > 1 && parts.front() != "energy" ? parts[1] : parts.front();
   std::replace(word.begin(), word.end(), '_', ' ');
   return word;
 }
@@ -55,7 +55,7 @@ std::string short_name(const Series& series) {
 }
 
 std::string with_unit(const std::string& name, const std::string& unit) {
-  return unit.empty() ? name : name + " [" + with_superscripts(unit) + "]";
+  return unit.empty() || unit == "1" ? name : name + " [" + with_superscripts(unit) + "]";
 }
 
 /// Series that share a unit, as indices; a reference without unit joins the first panel.

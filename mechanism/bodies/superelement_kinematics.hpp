@@ -30,7 +30,7 @@ struct NodeView {
 /// One boundary node seen from the floating frame (axes of the frame unless said).
 template <class S>
 struct LocalNode {
-  Mat3<S> E;      ///< R₀ᵀ Rᵢ
+  Mat3<S> E;      ///< R₀ᵀ Rᵢ; used (and surely up to date) only with inertia option A
   Vec3<S> psi;    ///< log E
   Mat3<S> Tinv;   ///< T⁻¹(ψᵢ); T⁻¹(−ψᵢ) is its transpose
   Mat3<S> U;      ///< δΘ₀ = Σ Uⱼ δΘⱼ + Σ U_xⱼ δxⱼ
@@ -148,7 +148,7 @@ void pair(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion
   n1.psi = -body.node[i2].alpha_rotation * phi;
   n2.psi = body.node[i1].alpha_rotation * phi;
   n1.E = exp_so3<S>(n1.psi);
-  n2.E = exp_so3<S>(n2.psi);
+  if (body.inertia == formats::InertiaOption::A) n2.E = exp_so3<S>(n2.psi);
   motion.R0.noalias() = nodes[i1].R * n1.E.transpose();
   n1.Tinv = inverse_tangent_so3<S>(n1.psi);
   n2.Tinv = inverse_tangent_so3<S>(n2.psi);
