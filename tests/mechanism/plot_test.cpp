@@ -74,6 +74,8 @@ TEST(GnuplotScript, LabelsAxesWithQuantityAndUnit) {
   EXPECT_THAT(script, HasSubstr("set ylabel 'angular velocity [rad s⁻¹]'"));
   EXPECT_THAT(script, HasSubstr("set xlabel 'time [s]'"));
   EXPECT_THAT(script, HasSubstr("title 'beam/tip/z'"));
+  EXPECT_THAT(gnuplot_script({wave("run", "solver/iterations", "1", 5)}, {}, "a.png"),
+              HasSubstr("set ylabel 'iterations'"));
   PlotOptions own;
   own.x_label = "turns";
   own.y_label = "speed";
