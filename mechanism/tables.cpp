@@ -106,11 +106,12 @@ std::string deviations_table(const std::vector<Deviation>& deviations) {
   std::array<std::size_t, 6> width{};
   for (const auto& row : rows)
     for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], row[i].size());
+  const bool has_units = std::any_of(deviations.begin(), deviations.end(), [](auto& d) { return !d.unit.empty(); });
   std::string text;
   for (const auto& row : rows) {
     text += fmt::format("{:<{}}  {:<{}}  {:>{}}  {:>{}}  {:>{}}", row[0], width[0], row[1], width[1], row[2], width[2],
                         row[3], width[3], row[4], width[4]);
-    if (width[5] > 4 || !row[5].empty()) text += "  " + row[5];
+    if (has_units) text += "  " + row[5];
     text += "\n";
   }
   if (!deviations.empty()) {
