@@ -58,13 +58,9 @@ std::vector<double> fixed_frequencies(const formats::Superelement& element) {
 std::vector<double> free_frequencies(const formats::Superelement& element, int massless) {
   const int count = std::min(static_cast<int>(element.size()) - massless, 6 + most_frequencies);
   if (count <= 6) return {};
-  const auto stiffness = element.stiffness.diagonal().array(), mass = element.mass.diagonal().array();
   double coarse = 0.0;
   for (Eigen::Index i = 0; i < element.size(); ++i)
-    if (mass[i] > 0.0 && stiffness[i] > 0.0) {
-      const double ratio = stiffness[i] / mass[i];
-      coarse = coarse == 0.0 ? ratio : std::min(coarse, ratio);
-    }
+    if (element.mass(i, i) > 0.0) coarse = std::max(coarse, element.stiffness(i, i) / element.mass(i, i));
   if (!(coarse > 0.0)) return {};
   const double first = dense_lowest(element.stiffness, element.mass, -coarse, 7).value[6];
   const Eigen::VectorXd lambda = dense_lowest(element.stiffness, element.mass, -0.5 * first, count).value;

@@ -1,4 +1,5 @@
 // The certificate as JSON beside the superelement file and as text for people.
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -126,12 +127,14 @@ std::string frequency_table(const FileCertificate& file, const std::vector<doubl
   const auto cell = [](const std::vector<double>& v, std::size_t k) {
     return k < v.size() ? fmt::format("{:.8g}", v[k]) : std::string("-");
   };
-  for (std::size_t k = 0; k < count; ++k) {
+  constexpr std::size_t most_rows = 20;
+  for (std::size_t k = 0; k < std::min(count, most_rows); ++k) {
     const bool both = k < full.size() && k < file.free_frequency.size();
     text += fmt::format("  {:>4} {:>16} {:>16} {:>16} {:>10}\n", k + 1, cell(file.fixed_frequency, k),
                         cell(file.free_frequency, k), full.empty() ? "" : cell(full, k),
                         both ? fmt::format("{:.1e}", file.free_frequency[k] / full[k] - 1.0) : "");
   }
+  if (count > most_rows) text += fmt::format("  {:>4} {} more in the certificate file\n", "...", count - most_rows);
   return text;
 }
 

@@ -36,7 +36,7 @@ int finite_mode_count(const Mesh& mesh, const Partition& p);
 /// By number or by cut-off frequency. Throws Error if more modes are asked for than exist.
 InternalModes internal_modes(const InternalProblem& problem, const formats::ModeSelection& selection);
 
-/// Fixes order and signs (DECISIONS.md): inside a cluster the basis diagonalises the participation of the six rigid
+/// Fixes order and signs: inside a cluster the basis diagonalises the participation of the six rigid
 /// motions with fixed unequal weights, and if that is not unique, a fixed function of place; signs by the same functions.
 /// Cluster members share their mean eigenvalue.
 void fix_basis(const InternalProblem& problem, Eigen::VectorXd& lambda, Eigen::MatrixXd& Phi);
