@@ -163,6 +163,17 @@ void append_panel(std::string& script, const std::vector<Series>& series, const 
   script += "plot " + join(curves, ", \\\n     ") + "\n";
 }
 
+/// The time of the runs where there are runs, since references often go on after them; else all there is.
+std::optional<std::array<double, 2>> range_of_runs(const std::vector<Series>& series) {
+  std::optional<std::array<double, 2>> range;
+  for (const Series& one : series) {
+    if (one.kind == SeriesKind::reference || one.x.empty()) continue;
+    const auto [low, high] = std::minmax_element(one.x.begin(), one.x.end());
+    range = range ? std::array{std::min((*range)[0], *low), std::max((*range)[1], *high)} : std::array{*low, *high};
+  }
+  return range && (*range)[0] < (*range)[1] ? range : std::nullopt;
+}
+
 std::string terminal_of(const std::string& picture, std::size_t panels) {
   const int height = panels == 1 ? 800 : 200 + 400 * static_cast<int>(panels);
   if (picture.ends_with(".png"))
@@ -266,7 +277,7 @@ std::string gnuplot_script(const std::vector<Series>& series, const PlotOptions&
       "set rmargin 4\n";
   if (options.x_scale == AxisScale::logarithmic) script += "set logscale x\nset format x '10^{%T}'\n";
   if (options.y_scale == AxisScale::logarithmic) script += "set logscale y\nset format y '10^{%T}'\n";
-  append_range(script, "x", options.x_range);
+  append_range(script, "x", options.x_range ? options.x_range : range_of_runs(series));
   append_range(script, "y", options.y_range);
   if (panels.size() > 1) {
     fmt::format_to(std::back_inserter(script), "set multiplot layout {},1 title {} noenhanced font ',20'\n",

@@ -16,9 +16,9 @@ enum class Mark { line, line_with_points };
 struct PlotOptions {
   std::string output;  ///< ends in .png or .svg
   std::string title;
-  std::string x_label;  ///< empty: name and unit of the abscissa
-  std::string y_label;  ///< empty: quantity and unit of the channels
-  std::optional<std::array<double, 2>> x_range;
+  std::string x_label;                           ///< empty: name and unit of the abscissa
+  std::string y_label;                           ///< empty: quantity and unit of the channels
+  std::optional<std::array<double, 2>> x_range;  ///< absent: that of the runs
   std::optional<std::array<double, 2>> y_range;
   AxisScale x_scale = AxisScale::linear;
   AxisScale y_scale = AxisScale::linear;

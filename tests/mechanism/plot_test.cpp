@@ -116,6 +116,12 @@ TEST(GnuplotScript, RangesAndLogarithmicScales) {
   EXPECT_THAT(script, Not(HasSubstr("set logscale x")));
 }
 
+TEST(GnuplotScript, ShowsTheTimeOfTheRuns) {
+  const Series run = wave("a", "energy/total", "J", 5);  // 0 to 0.04; the reference goes on to 0.09
+  EXPECT_THAT(gnuplot_script({run, reference("exact")}, {}, "a.svg"), HasSubstr("set xrange [0:0.04]"));
+  EXPECT_THAT(gnuplot_script({reference("exact")}, {}, "a.svg"), Not(HasSubstr("set xrange")));
+}
+
 TEST(GnuplotScript, ThinsLongHistoriesToTheirEnvelope) {
   Series series = wave("a", "energy/total", "J", 1000000);
   series.y[123457] = 77.0;  // one spike among a million points must stay
