@@ -277,7 +277,8 @@ std::string gnuplot_script(const std::vector<Series>& series, const PlotOptions&
       "set rmargin 4\n";
   if (options.x_scale == AxisScale::logarithmic) script += "set logscale x\nset format x '10^{%T}'\n";
   if (options.y_scale == AxisScale::logarithmic) script += "set logscale y\nset format y '10^{%T}'\n";
-  append_range(script, "x", options.x_range ? options.x_range : range_of_runs(series));
+  const bool may_start_at_zero = options.x_scale == AxisScale::linear;
+  append_range(script, "x", options.x_range || !may_start_at_zero ? options.x_range : range_of_runs(series));
   append_range(script, "y", options.y_range);
   if (panels.size() > 1) {
     fmt::format_to(std::back_inserter(script), "set multiplot layout {},1 title {} noenhanced font ',20'\n",
