@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -102,6 +103,10 @@ class InputFile {
   bool closed_properly_ = true;
   Handle file_;
 };
+
+/// Runs `read` in a child process first, because HDF5 itself can crash on damaged files. Throws Error if the child dies or
+/// needs ten times the processor time of an ordinary read (HDF5 can also loop for ever); what `read` throws is left to be met again when the caller reads.
+void rehearse(const std::string& path, const std::function<void()>& read);
 
 // Writing, used by the writers of superelements and results. `file` is a file or group identifier; missing groups on the way
 // are made. Texts are UTF-8. All throw Error with `where` in front.

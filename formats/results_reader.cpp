@@ -104,7 +104,7 @@ struct Place {
 }  // namespace
 
 struct ResultsReader::Impl {
-  explicit Impl(const std::string& path) : file(existing_path(path), hdf5::Completeness::any) {}
+  explicit Impl(const std::string& path);
 
   hdf5::InputFile file;
   ResultsLayout layout;
@@ -116,6 +116,26 @@ struct ResultsReader::Impl {
   const Place& find(const std::string& channel) const;
 };
 
+ResultsReader::Impl::Impl(const std::string& path) : file(existing_path(path), hdf5::Completeness::any) {
+  check_format(file);
+  layout = read_layout(file);
+  rows = max_rows;
+  for (Block& block : all_blocks(layout)) {
+    if (!file.has(block.dataset)) continue;
+    rows = std::min(rows, rows_of(file, block));
+    blocks.push_back(std::move(block));
+  }
+  if (blocks.empty() || blocks.front().dataset != "/time")
+    throw Error("is missing", file.path() + ": /time", "compare the file with formats/RESULTS.md");
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (std::size_t c = 0; c < blocks[b].width(); ++c) {
+      const std::string& column = blocks[b].columns[c];
+      const std::string name = blocks[b].dataset.substr(1) + (column.empty() ? "" : "/" + column);
+      place.emplace(name, Place{b, c});
+      channels.push_back({name, blocks[b].units[c]});
+    }
+}
+
 const Place& ResultsReader::Impl::find(const std::string& channel) const {
   const auto found = place.find(channel);
   if (found != place.end()) return found->second;
@@ -126,25 +146,9 @@ const Place& ResultsReader::Impl::find(const std::string& channel) const {
               near ? fmt::format("did you mean '{}'?", *near) : "`mechanism channels` lists all names");
 }
 
-ResultsReader::ResultsReader(const std::string& path) : impl_(std::make_unique<Impl>(path)) {
-  check_format(impl_->file);
-  impl_->layout = read_layout(impl_->file);
-  impl_->rows = max_rows;
-  for (Block& block : all_blocks(impl_->layout)) {
-    if (!impl_->file.has(block.dataset)) continue;
-    impl_->rows = std::min(impl_->rows, rows_of(impl_->file, block));
-    impl_->blocks.push_back(std::move(block));
-  }
-  if (impl_->blocks.empty() || impl_->blocks.front().dataset != "/time")
-    throw Error("is missing", impl_->file.path() + ": /time", "compare the file with formats/RESULTS.md");
-  for (std::size_t b = 0; b < impl_->blocks.size(); ++b) {
-    const Block& block = impl_->blocks[b];
-    for (std::size_t c = 0; c < block.width(); ++c) {
-      const std::string name = block.dataset.substr(1) + (block.columns[c].empty() ? "" : "/" + block.columns[c]);
-      impl_->place.emplace(name, Place{b, c});
-      impl_->channels.push_back({name, block.units[c]});
-    }
-  }
+ResultsReader::ResultsReader(const std::string& path) {
+  hdf5::rehearse(path, [&path] { Impl rehearsal(path); });
+  impl_ = std::make_unique<Impl>(path);
 }
 
 ResultsReader::~ResultsReader() = default;

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "common/error.hpp"
 #include "common/sha256.hpp"
@@ -94,8 +95,8 @@ Eigen::MatrixXd read_matrix(const hdf5::InputFile& file, const std::string& data
   return values;
 }
 
-/// One line if the file holds more than version 1.0 knows.
-void note_unknown(const hdf5::InputFile& file, std::vector<std::string>& warnings) {
+/// One line if the file holds more than version 1.0 knows, else empty.
+std::string unknown_items(const hdf5::InputFile& file) {
   std::vector<std::string> unknown;
   const auto note = [&](const std::string& group, const std::vector<std::string>& known) {
     for (const std::string& name : file.members(group))
@@ -107,11 +108,11 @@ void note_unknown(const hdf5::InputFile& file, std::vector<std::string>& warning
   for (const std::string& name : file.attributes("/"))
     if (std::find(known_attributes.begin(), known_attributes.end(), name) == known_attributes.end())
       unknown.push_back(fmt::format("attribute '{}'", name));
-  if (unknown.empty()) return;
+  if (unknown.empty()) return "";
   const std::size_t more = unknown.size() > 10 ? unknown.size() - 10 : 0;
   if (more > 0) unknown.resize(10);
-  warnings.push_back(fmt::format("{}: ignored, as version 1.0 does not know them: {}{}.", file.path(), join(unknown, ", "),
-                                 more > 0 ? fmt::format(" and {} more", more) : ""));
+  return fmt::format("{}: ignored, as version 1.0 does not know them: {}{}.", file.path(), join(unknown, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
 Superelement read_fields(const hdf5::InputFile& file) {
@@ -134,6 +135,21 @@ Superelement read_fields(const hdf5::InputFile& file) {
   e.stiffness = read_matrix(file, "/stiffness", n);
   e.mass = read_matrix(file, "/mass", n);
   return e;
+}
+
+/// All that is taken from the file, before any rule of check().
+struct Unchecked {
+  Superelement superelement;
+  std::optional<std::string> content_id;
+  std::string unknown;
+};
+
+Unchecked read_unchecked(const std::string& path) {
+  const hdf5::InputFile file(path, hdf5::Completeness::closed);
+  check_format(file);
+  Unchecked result{read_fields(file), std::nullopt, unknown_items(file)};
+  if (file.has_attribute("/", "content_id")) result.content_id = file.text_attribute("/", "content_id");
+  return result;
 }
 
 void write_unit(hdf5::Id file, const std::string& name, const Unit& unit, const std::string& where) {
@@ -195,23 +211,21 @@ std::string content_id(const Superelement& element) {
 }
 
 LoadedSuperelement read_superelement(const std::string& path) {
-  const hdf5::InputFile file(path, hdf5::Completeness::closed);
-  check_format(file);
-  LoadedSuperelement loaded;
-  loaded.superelement = read_fields(file);
+  hdf5::rehearse(path, [&path] { static_cast<void>(read_unchecked(path)); });
+  Unchecked file = read_unchecked(path);
+  LoadedSuperelement loaded{std::move(file.superelement), {}};
   Superelement& e = loaded.superelement;
   check_labels(e, path);
   e.content_id = content_id(e);
-  const bool identified = file.has_attribute("/", "content_id");
-  const std::string stated = identified ? file.text_attribute("/", "content_id") : e.content_id;
+  const std::string stated = file.content_id.value_or(e.content_id);
   loaded.report = check(e, path);
   if (stated != e.content_id)
     throw Error(fmt::format("is {}..., but the contents have {}...: the file was changed after it was written",
                             stated.substr(0, 12), e.content_id.substr(0, 12)),
                 path + ": attribute 'content_id'", "reduce the part again, or compute the attribute anew after a change by hand");
-  if (!identified)
+  if (!file.content_id)
     loaded.report.warnings.push_back(path + ": has no attribute 'content_id', so that damage cannot be noticed.");
-  note_unknown(file, loaded.report.warnings);
+  if (!file.unknown.empty()) loaded.report.warnings.push_back(file.unknown);
   if (loaded.report.rigid_residual > rigid_residual_accepted) {
     filter_rigid_motions(e);
     loaded.report.filtered = true;

@@ -326,7 +326,7 @@ TEST(SuperelementFile, TruncationAndFlippedBytesNeverCrash) {
     EXPECT_NE(error_of(folder.file("cut.h5")), "no error") << size;
   }
   int harmless = 0, tried = 0;
-  for (std::size_t i = 0; i < bytes.size(); i += 37) {
+  for (std::size_t i = 0; i < bytes.size(); i += 61) {
     std::string flipped = bytes;
     flipped[i] = static_cast<char>(flipped[i] ^ (1 << (i % 8)));
     std::ofstream(folder.file("flip.h5"), std::ios::binary) << flipped;
@@ -338,6 +338,39 @@ TEST(SuperelementFile, TruncationAndFlippedBytesNeverCrash) {
   EXPECT_LT(harmless, tried / 2);
 }
 
+TEST(SuperelementFile, DamagedStringsOfVariableLengthNeverCrash) {
+  const TemporaryFolder folder;
+  Superelement e = craig_bampton_beam({}, 0);
+  write_superelement(folder.file("a.h5"), e);
+  const std::string mark = "a method of this many letters";
+  change(folder.file("a.h5"), [&](hid_t file) {
+    const hid_t text = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    H5Tset_size(text, H5T_VARIABLE);
+    H5Adelete(file, "method");
+    const hid_t attribute = H5Acreate2(file, "method", text, space, H5P_DEFAULT, H5P_DEFAULT);
+    const char* value = mark.c_str();
+    H5Awrite(attribute, text, &value);
+    H5Aclose(attribute);
+    H5Sclose(space);
+    H5Tclose(text);
+  });
+  ASSERT_EQ(error_of(folder.file("a.h5")), "no error");
+  std::ifstream in(folder.file("a.h5"), std::ios::binary);
+  std::string bytes(std::istreambuf_iterator<char>(in), {});
+  // The global heap: signature GCOL, 16 bytes of header, then per object index, count, reserved and size before its text.
+  const std::size_t heap = bytes.find("GCOL"), text = bytes.find(mark);
+  ASSERT_NE(heap, std::string::npos);
+  ASSERT_EQ(text, heap + 32);
+  int damaged = 0;
+  for (std::size_t i = heap; i < text; ++i) {
+    std::string flipped = bytes;
+    flipped[i] = '\x7f';
+    std::ofstream(folder.file("flip.h5"), std::ios::binary) << flipped;
+    if (error_of(folder.file("flip.h5")) != "no error") ++damaged;
+  }
+  EXPECT_GT(damaged, 0);
+}
+
 TEST(SuperelementFile, EveryFlippedBitOfTheDataIsNoticed) {
   const TemporaryFolder folder;
   Superelement e = craig_bampton_beam({}, 2);
@@ -347,7 +380,7 @@ TEST(SuperelementFile, EveryFlippedBitOfTheDataIsNoticed) {
   const Eigen::MatrixXd columns = e.mass.transpose();
   const std::size_t data = bytes.find(std::string(reinterpret_cast<const char*>(columns.data()), 14 * 14 * 8));
   ASSERT_NE(data, std::string::npos);
-  for (std::size_t i = data; i < data + 14 * 14 * 8; i += 5) {
+  for (std::size_t i = data; i < data + 14 * 14 * 8; i += 23) {
     std::string flipped = bytes;
     flipped[i] = static_cast<char>(flipped[i] ^ 1);
     std::ofstream(folder.file("flip.h5"), std::ios::binary) << flipped;
