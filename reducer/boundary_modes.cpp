@@ -52,6 +52,8 @@ void check_no_mechanism(const Factor& S_II, const Mesh& mesh, const Partition& p
 
 BoundaryModes boundary_modes(const Factor& S_II, const Blocks& blocks, const Mesh& mesh, const Partition& p) {
   BoundaryModes modes;
+  modes.Psi.setZero(p.n_I(), p.n_B());
+  if (p.n_I() == 0) return modes;
   modes.Psi = S_II.solve(-Eigen::MatrixXd(blocks.S_IB));
   const Eigen::MatrixXd R = scaled_rigid_motions(mesh);
   const Eigen::MatrixXd R_B = rows(R, p.boundary);

@@ -28,6 +28,7 @@ Factor::Factor(const Matrix& A) {
 Eigen::MatrixXd Factor::solve(const Eigen::MatrixXd& B) const {
   constexpr Eigen::Index block = 32;
   Eigen::MatrixXd X(B.rows(), B.cols());
+  if (B.rows() == 0) return X;
   for (Eigen::Index first = 0; first < B.cols(); first += block) {
     const PetscInt count = static_cast<PetscInt>(std::min(block, B.cols() - first));
     Matrix b, x;
