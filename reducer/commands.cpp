@@ -1,8 +1,15 @@
 // The commands of stage 1: read, work, write, tell.
 #include "reducer/commands.hpp"
 
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
 #include <fmt/format.h>
 
+#include "common/error.hpp"
+#include "common/text.hpp"
 #include "formats/override.hpp"
 #include "formats/part.hpp"
 #include "formats/superelement.hpp"
@@ -29,11 +36,22 @@ std::string beside(const std::string& input, const std::string& ending) {
   return input + ending;
 }
 
+/// Throws Error now rather than after the work if nothing can be written to the folder of `output`.
+void check_folder(const std::string& output) {
+  const std::size_t slash = output.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : output.substr(0, slash + 1);
+  if (access(folder.c_str(), W_OK | X_OK) == 0) return;
+  const int number = errno;
+  throw Error(fmt::format("cannot write to the folder '{}': {}", folder, std::strerror(number)), output,
+              remedy_of_errno(number));
+}
+
 int run(const Arguments& arguments) {
   Phases phases;
   phases.begin("read");
   const formats::Part part = formats::read_part(arguments.input, overrides(arguments));
   const std::string output = arguments.output.empty() ? beside(arguments.input, ".superelement.h5") : arguments.output;
+  check_folder(output);
   phases.begin("start solvers");
   const SolverSession session;
   Reduction reduction = reduce(part, [&phases](const std::string& phase) { phases.begin(phase); });

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <petscmat.h>
+
+#include "common/error.hpp"
 
 namespace tisserand::reducer {
 
@@ -16,9 +19,18 @@ Factor::Factor(const Matrix& A) {
   petsc_check(MatGetFactor(A.get(), MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factor_.out()));
   petsc_check(MatMumpsSetIcntl(factor_.get(), 24, 1));      // null pivots are found, not fatal
   petsc_check(MatMumpsSetCntl(factor_.get(), 3, 1e-14));    // ... below this share of the scaled matrix's norm
+  petsc_check(MatMumpsSetIcntl(factor_.get(), 14, 60));     // per cent of memory beyond the estimate, for pivoting
   petsc_check(MatCholeskyFactorSymbolic(factor_.get(), A.get(), nullptr, &info));
   petsc_check(MatCholeskyFactorNumeric(factor_.get(), A.get(), &info));
-  PetscInt null = 0, negative = 0;
+  MatFactorError failure = MAT_FACTOR_NOERROR;
+  petsc_check(MatFactorGetError(factor_.get(), &failure));
+  PetscInt null = 0, negative = 0, code = 0;
+  petsc_check(MatMumpsGetInfog(factor_.get(), 1, &code));
+  if (failure != MAT_FACTOR_NOERROR || code < 0)
+    throw Error(fmt::format("MUMPS cannot factor a matrix of {} rows (INFOG(1) = {})", n, code), "factorisation",
+                failure == MAT_FACTOR_OUTMEMORY || code == -9 || code == -13
+                    ? "the memory of this machine does not suffice: use fewer elements"
+                    : "please report this with the part file");
   petsc_check(MatMumpsGetInfog(factor_.get(), 28, &null));
   petsc_check(MatMumpsGetInfog(factor_.get(), 12, &negative));
   null_ = null;

@@ -101,6 +101,12 @@ TEST_F(Program, WrongUsageIsTwoAndErrorsAreOne) {
   EXPECT_FALSE(std::filesystem::exists(folder / "beam.superelement.h5"));
 }
 
+TEST_F(Program, FolderThatDoesNotExistIsToldBeforeTheWork) {
+  const Outcome run = call("run " + part + " -o " + (folder / "none" / "x.superelement.h5").string());
+  EXPECT_EQ(run.code, 1);
+  EXPECT_THAT(run.text, AllOf(HasSubstr("cannot write to the folder"), HasSubstr("No such file or directory")));
+}
+
 TEST_F(Program, OverridesReachThePart) {
   ASSERT_EQ(call("run " + part + " --set modes=0 --set beams.rod.elements=10").code, 0);
   EXPECT_EQ(formats::read_superelement((folder / "beam.superelement.h5").string()).superelement.size(), 12);
