@@ -233,7 +233,7 @@ std::string YamlDocument::where(const YamlPlace& place) const {
 
 YamlDocument parse_yaml(const std::string& text, const std::string& file) {
   if (text.size() > most_bytes)
-    throw Error(fmt::format("the file has {} bytes; the limit is {}", text.size(), most_bytes), file,
+    throw Error(fmt::format("the file has more than {} bytes", most_bytes), file,
                 "put long tables into csv files of their own");
   check_characters(text, file);
   const std::string body = text.starts_with("\xef\xbb\xbf") ? text.substr(3) : text;  // without byte order mark
@@ -259,9 +259,9 @@ YamlDocument load_yaml(const std::string& path) {
     throw Error("is not a regular file", path, "give a text file");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw Error(fmt::format("cannot open the file: {}", std::strerror(errno)), path, "check path and permission");
-  std::string text(most_bytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
+  std::string text, piece(1u << 16, '\0');
+  while (text.size() <= most_bytes && stream.read(piece.data(), static_cast<std::streamsize>(piece.size())).gcount() > 0)
+    text.append(piece, 0, static_cast<std::size_t>(stream.gcount()));
   if (stream.bad()) throw Error(fmt::format("cannot read the file: {}", std::strerror(errno)), path, "");
   return parse_yaml(text, path);
 }
