@@ -94,11 +94,14 @@ std::string y_label_of(const std::vector<Series>& series, const Panel& panel) {
 std::string legend_of(const std::vector<Series>& series, const Series& one) {
   if (one.kind == SeriesKind::reference) return one.source;
   bool same_source = true, same_channel = true;
+  std::size_t from_this_source = 0;
   for (const Series& other : series) {
     if (other.kind == SeriesKind::reference) continue;
     same_source = same_source && other.source == one.source;
     same_channel = same_channel && other.channel == one.channel;
+    from_this_source += other.source == one.source ? 1 : 0;
   }
+  if (one.has_own_label && from_this_source == 1) return one.source;
   if (same_channel) return same_source ? short_name(one) : one.source;
   return same_source ? short_name(one) : one.source + ": " + short_name(one);
 }

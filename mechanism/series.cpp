@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
+#include <optional>
 #include <string_view>
 
 #include "common/error.hpp"
@@ -66,9 +68,31 @@ double number(const std::string& cell, const std::string& file, std::size_t line
   return value;
 }
 
+/// Of every pattern: the error of the last file that lacked it, until some file has it.
+using Misses = std::map<std::string, std::optional<Error>>;
+
+/// The channels of a file that the patterns mean. Throws Error if there are none.
+std::vector<formats::Channel> chosen_channels(const std::vector<formats::Channel>& channels, const std::string& file,
+                                              const std::vector<std::string>& patterns, Misses& misses) {
+  std::vector<std::string> present;
+  std::optional<Error> missing;
+  for (const std::string& pattern : patterns) {
+    try {
+      (void)formats::select_channels(channels, {pattern}, file);
+      present.push_back(pattern);
+      misses[pattern] = std::nullopt;
+    } catch (const Error& error) {
+      if (!missing) missing = error;
+      misses.try_emplace(pattern, error);
+    }
+  }
+  if (present.empty()) throw *missing;
+  return formats::select_channels(channels, present, file);
+}
+
 /// The series of one file: the chosen channels over time.
 void append_run(const std::string& file, const std::string& label, const std::vector<std::string>& patterns,
-                std::vector<Series>& all) {
+                Misses& misses, std::vector<Series>& all) {
   const formats::ResultsReader reader(file);
   const std::vector<formats::Channel> channels = reader.channels();
   std::string time_unit;
@@ -76,10 +100,17 @@ void append_run(const std::string& file, const std::string& label, const std::ve
   std::vector<Series> chosen;
   for (const formats::Channel& channel : channels)
     if (channel.name == "time") time_unit = channel.unit;
-  for (const formats::Channel& channel : formats::select_channels(channels, patterns, file)) {
+  for (const formats::Channel& channel : chosen_channels(channels, file, patterns, misses)) {
     if (channel.name == "time") continue;
     names.push_back(channel.name);
-    chosen.push_back({SeriesKind::run, label, channel.name, channel.unit, "time", time_unit, reader.time(), {}});
+    Series series;
+    series.source = label.empty() ? stem(file) : label;
+    series.channel = channel.name;
+    series.unit = channel.unit;
+    series.x_unit = time_unit;
+    series.x = reader.time();
+    series.has_own_label = !label.empty();
+    chosen.push_back(std::move(series));
   }
   const Eigen::MatrixXd values = reader.read_rows(names, 0, reader.rows());
   for (std::size_t i = 0; i < chosen.size(); ++i) {
@@ -152,9 +183,11 @@ std::vector<Series> read_series(const SeriesRequest& request) {
     throw Error(fmt::format("{} labels for {} files", request.labels.size(), request.files.size()), "--label",
                 "give at most one label per results file; a reference has its own as file.csv:x:y:label");
   std::vector<Series> all;
+  Misses misses;
   for (std::size_t i = 0; i < request.files.size(); ++i)
-    append_run(request.files[i], i < request.labels.size() ? request.labels[i] : stem(request.files[i]),
-               request.channels, all);
+    append_run(request.files[i], i < request.labels.size() ? request.labels[i] : "", request.channels, misses, all);
+  for (const auto& [pattern, error] : misses)
+    if (error) throw *error;
   for (const ReferenceColumn& column : request.references) all.push_back(read_reference(column));
   return all;
 }

@@ -91,6 +91,13 @@ TEST(GnuplotScript, LegendNamesWhatDiffers) {
               HasSubstr("title 'b: kinetic'"));
 }
 
+TEST(GnuplotScript, LegendIsTheLabelWhereItSaysAll) {
+  std::vector<Series> series = {wave("a", "nodes/position/rod/base/x", "m", 5),
+                                wave("b", "nodes/position/rod/start/x", "m", 5)};
+  for (Series& one : series) one.has_own_label = true;
+  EXPECT_THAT(gnuplot_script(series, {}, "a.png"), HasSubstr("title 'b'"));
+}
+
 TEST(GnuplotScript, ReferencesLieBeneathAndJoinTheFirstPanel) {
   const std::string script = gnuplot_script(
       {wave("a", "energy/total", "J", 5), wave("a", "solver/step", "s", 5), reference("exact")}, {}, "a.png");

@@ -122,6 +122,11 @@ TEST_F(ResultsFile, FaultsNameWhatIsMissing) {
                 (void)read_series({{a}, {}, {"energy/totl"}, {}});
               }),
               HasSubstr("did you mean 'energy/total'?"));
+  EXPECT_THAT(error_of([&] {
+                (void)read_series({{a, a}, {}, {"energy/total", "energy/totl"}, {}});
+              }),
+              HasSubstr("did you mean 'energy/total'?"))
+      << "a channel that no file has";
   EXPECT_THAT(error_of([&] { (void)read_series({{a}, {}, {}, {}}); }), HasSubstr("no channel chosen"));
   EXPECT_THAT(error_of([&] {
                 (void)read_series({{a}, {"x", "y"}, {"energy"}, {}});
