@@ -65,7 +65,9 @@ std::vector<double> free_frequencies(const formats::Superelement& element, int m
   const double first = dense_lowest(element.stiffness, element.mass, -coarse, 7).value[6];
   const Eigen::VectorXd lambda = dense_lowest(element.stiffness, element.mass, -0.5 * first, count).value;
   std::vector<double> result;
-  for (int k = 6; k < count; ++k) result.push_back(frequency(lambda[k]));
+  constexpr double resolved = 1e13;  // eigenvalues farther above the first are round-off
+  for (int k = 6; k < count && lambda[k] > 0.0 && lambda[k] < resolved * first; ++k)
+    result.push_back(frequency(lambda[k]));
   return result;
 }
 

@@ -106,6 +106,41 @@ void append(const EigenPairs& more, EigenPairs& pairs) {
   pairs.vector.rightCols(added) = more.vector;
 }
 
+/// Drops pairs whose 1/(λ − shift) is round-off beside that of the first: nearly massless coordinates have such. Expects
+/// and leaves ascending order.
+void discard_unresolved(double shift, EigenPairs& pairs) {
+  constexpr double resolved = 1e-13;
+  const Eigen::ArrayXd mu = (pairs.value.array() - shift).inverse();
+  std::vector<int> good;
+  for (int k = 0; k < mu.size(); ++k)
+    if (mu[k] > resolved * mu.maxCoeff()) good.push_back(k);
+  pairs.value = Eigen::VectorXd(pairs.value(good));
+  pairs.vector = Eigen::MatrixXd(pairs.vector(Eigen::all, good));
+}
+
+/// One step of inverse iteration, y = (S − shift M)⁻¹ M x, with λ − shift = yᵀMx/yᵀMy: removes from x what nearly massless
+/// coordinates hide from the solver, whose inner product is that of M. Not for the pairs far above the first, where the
+/// step would amplify the round-off along the first. Then sorts and normalises.
+void purify(const Pencil& pencil, EigenPairs& pairs) {
+  constexpr double far = 1e4;
+  discard_unresolved(pencil.shift, pairs);
+  sort_and_normalise(pencil.M, pairs);
+  Eigen::Index near = 0;
+  while (near < pairs.value.size() && pairs.value[near] - pencil.shift < far * (pairs.value[0] - pencil.shift)) ++near;
+  if (near == 0) return;
+  const Eigen::MatrixXd MX = multiply(pencil.M, pairs.vector.leftCols(near));
+  pairs.vector.leftCols(near) = pencil.factor.solve(MX);
+  const Eigen::MatrixXd MY = multiply(pencil.M, pairs.vector.leftCols(near));
+  for (Eigen::Index k = 0; k < near; ++k)
+    pairs.value[k] = pencil.shift + pairs.vector.col(k).dot(MX.col(k)) / pairs.vector.col(k).dot(MY.col(k));
+  sort_and_normalise(pencil.M, pairs);
+}
+
+[[noreturn]] void fail_missing(int found, int exist) {
+  throw Error(fmt::format("{} internal modes found where {} exist", found, exist), "eigenvalue solver",
+              "ask for fewer modes, or use fewer elements per line");
+}
+
 /// See Spectrum::residual.
 double largest_residual(const Pencil& pencil, const EigenPairs& pairs, int count) {
   const Eigen::VectorXd weight = diagonal(pencil.S).cwiseMax(0.0).cwiseSqrt();
@@ -134,8 +169,10 @@ Spectrum dense_spectrum(const Pencil& pencil, int count, int available) {
   const Eigen::MatrixXd S = dense(pencil.S), M = dense(pencil.M);
   for (int wanted = std::min(available, count + 8);; wanted = std::min(available, 2 * wanted)) {
     s.pairs = dense_lowest(S, M, pencil.shift, wanted);
+    discard_unresolved(pencil.shift, s.pairs);
+    if (s.pairs.value.size() < count) fail_missing(static_cast<int>(s.pairs.value.size()), count);
     s.kept = cluster_end(s.pairs.value, count, pencil.shift);
-    if (s.kept < wanted || wanted == available) break;
+    if (s.kept < s.pairs.value.size() || s.pairs.value.size() < wanted || wanted == available) break;
   }
   s.counted = s.kept;
   return s;
@@ -148,23 +185,20 @@ Spectrum krylov_spectrum(const Pencil& pencil, int count, int available) {
   int wanted = std::min(available, count + 6);
   const Eigen::Index size = diagonal(pencil.S).size();
   s.pairs = KrylovSchur(pencil).solve(wanted, size);
-  sort_and_normalise(pencil.M, s.pairs);
+  purify(pencil, s.pairs);
   for (int attempt = 0; attempt < attempts; ++attempt) {
     if (s.pairs.value.size() >= count) {
       s.kept = cluster_end(s.pairs.value, count, pencil.shift);
-      if (s.kept < s.pairs.value.size() || s.kept == available) {
-        s.counted = s.kept == available ? available
-                                        : count_below(pencil.S, pencil.M, value_in_gap(s.pairs, s.kept, pencil.shift));
-        if (s.counted == s.kept) return s;
-      }
+      const double above = value_in_gap(s.pairs, s.kept, pencil.shift);
+      s.counted = s.kept == available ? available : count_below(pencil.S, pencil.M, above);
+      if (s.counted == s.kept) return s;
     }
     KrylovSchur again(pencil);  // repeated eigenvalues hide from one Krylov sequence: look for what is orthogonal
     again.deflate(s.pairs.vector);
     append(again.solve(std::max(4, s.counted - s.kept), size), s.pairs);
-    sort_and_normalise(pencil.M, s.pairs);
+    purify(pencil, s.pairs);
   }
-  throw Error(fmt::format("{} internal modes found where {} exist below the cut", s.kept, s.counted), "eigenvalue solver",
-              "ask for another number of modes, or use fewer elements per line");
+  fail_missing(static_cast<int>(s.pairs.value.size()), std::max(count, s.counted));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "common/error.hpp"
 #include "reducer/mesher.hpp"
@@ -92,6 +93,27 @@ TEST(MassLessCoordinates, ManyNodesOnTheIterativePath) {
   EXPECT_EQ(lumped.model.modes_available, 4 * 119);
   for (std::size_t k = 0; k < 6; ++k)  // both of order 2 or better on 120 elements
     EXPECT_NEAR(lumped.file.fixed_frequency[k] / consistent.file.fixed_frequency[k], 1.0, 3e-3);
+}
+
+TEST(MassLessCoordinates, PointMassOnAnAlmostMasslessBeam) {
+  // Mass in the middle of a clamped-clamped beam: ω² = k/m, 1/k = L³/(192 EI) + L/(4 G A_s) (both planes).
+  for (const int elements : {10, 60}) {  // dense and iterative
+    formats::Part part = plain_beam(Vector3d::Zero(), Vector3d(0.8, 0, 0), elements, 2);
+    part.materials[0].density = 1e-9;
+    part.points.push_back({"middle", Vector3d(0.4, 0, 0), ""});
+    part.beams.push_back(part.beams[0]);
+    part.beams[0].to = "middle";
+    part.beams[1].from = "middle";
+    part.beams[1].name = "other";
+    part.point_masses.push_back({"load", "middle", 3.0, 0.01 * Eigen::Matrix3d::Identity(), ""});
+    const reducer::Reduction r = reduce(part);
+    const double E = 2.1e11, G = E / 2.6, L = 0.8;
+    for (const auto& [mode, I, area] : {std::tuple{0u, 3e-7, 1.5e-3}, std::tuple{1u, 8e-7, 1.6e-3}}) {
+      const double flexibility = L * L * L / (192.0 * E * I) + L / (4.0 * G * area);
+      const double exact = std::sqrt(1.0 / (3.0 * flexibility)) / (2.0 * EIGEN_PI);
+      EXPECT_NEAR(r.file.fixed_frequency[mode] / exact, 1.0, 1e-8) << elements << " elements";
+    }
+  }
 }
 
 TEST(Mechanism, DirectionWithoutStiffnessIsNamed) {
