@@ -1,0 +1,143 @@
+# What the `run` scripts of the examples share: arguments, runs with their cost, rows of tables. Sourced by them.
+
+fail() {
+  printf '%s: %s\n' "$(basename "$(dirname "$0")")/run" "$*" >&2
+  exit 1
+}
+
+# arguments_of_example <arguments...>: sets `example`, `root`, `references`, `out`, `mechanism`, `reducer`.
+arguments_of_example() {
+  example="$(cd "$(dirname "$0")" && pwd)"
+  root="$(cd "$example/../.." && pwd)"
+  references="$root/tests/verification/references/cardona"
+  local bin="" name
+  out=""
+  while [ $# -gt 0 ]; do
+    case "$1" in
+      -h | --help)
+        printf 'Usage: %s [--bin <folder of reducer and mechanism>] [<output folder>]\n' "$0"
+        printf 'Without --bin: build/release/bin, else the programs on the PATH. Output: build/examples/%s\n' \
+          "$(basename "$example")"
+        exit 0
+        ;;
+      --bin)
+        [ $# -ge 2 ] || fail "--bin needs the folder of the programs"
+        bin="$2"
+        shift
+        ;;
+      -*) fail "unknown option '$1'; see --help" ;;
+      *)
+        [ -z "$out" ] || fail "two output folders, '$out' and '$1'; see --help"
+        out="$1"
+        ;;
+    esac
+    shift
+  done
+  [ -n "$out" ] || out="$root/build/examples/$(basename "$example")"
+  if [ -z "$bin" ] && [ -x "$root/build/release/bin/mechanism" ]; then bin="$root/build/release/bin"; fi
+  for name in mechanism reducer; do
+    local program="${bin:+$bin/}$name"
+    command -v "$program" >/dev/null ||
+      fail "no program '$program'; build it (cmake --preset release && cmake --build --preset release) or give --bin"
+    printf -v "$name" '%s' "$(realpath "$(command -v "$program")")"
+  done
+  mkdir -p "$out" && out="$(cd "$out" && pwd)"
+  # One thread: the matrices are small, and CPU seconds are to be compared.
+  export OPENBLAS_NUM_THREADS=1
+}
+
+# reduce <part file> <name> [--set ...]: $out/<name>.superelement.h5, its certificate in $out/<name>.reducer.log
+reduce() {
+  local part="$1" name="$2"
+  shift 2
+  "$reducer" run "$part" -o "$out/$name.superelement.h5" "$@" >"$out/$name.reducer.log" ||
+    fail "reducer run $part failed; see $out/$name.reducer.log"
+}
+
+# simulate <scene file> <name> [--set ...]: $out/<name>.results.h5; what the program prints and its CPU seconds
+# (user and system) in $out/<name>.log. Returns the program's exit code.
+simulate() {
+  local scene="$1" name="$2" code=0
+  shift 2
+  local TIMEFORMAT='cpu %U %S'
+  { time "$mechanism" run "$scene" -o "$out/$name.results.h5" "$@" >"$out/$name.log" 2>&1 || code=$?; } \
+    2>"$out/$name.cpu"
+  cat "$out/$name.cpu" >>"$out/$name.log"
+  rm "$out/$name.cpu"
+  return $code
+}
+
+# cost <name>: "coordinates steps iterations CPU-seconds" of a run
+cost() {
+  awk '/coordinates, .* constraints/ { for (i = 2; i <= NF; i++) if ($i == "coordinates,") coordinates = $(i - 1) }
+       $1 == "steps" { steps = $2; for (i = 3; i <= NF; i++) if ($i == "iterations,") iterations = $(i - 1) }
+       $1 == "cpu" { seconds = $2 + $3 }
+       END { printf "%s %s %s %.3f\n", coordinates, steps, iterations, seconds }' "$out/$1.log"
+}
+
+# node_of_base <name>: its name in a run; nonlinear beams count their nodes, a cut beam has pieces
+node_of_base() {
+  if grep -q 'nonlinear beam elements' "$out/$1.log"; then
+    printf 'beam/0'
+  elif grep -q ' 1 superelements' "$out/$1.log"; then
+    printf 'beam/base'
+  else
+    printf 'piece1/base'
+  fi
+}
+
+# channel <name>: the z angular velocity of the base
+channel() {
+  printf 'nodes/angular_velocity/%s/z' "$(node_of_base "$1")"
+}
+
+# error_against <name> <reference file:t:column> [--from t --to t]: "max RMS relative%" of the base's angular velocity
+error_against() {
+  local name="$1" reference="$2"
+  shift 2
+  "$mechanism" compare "$out/$name.results.h5" --label run -c "$(channel "$name")" \
+    --reference "$reference" "$@" | awk '$1 == "run" && NF > 3 && $2 ~ /^nodes/ { print $3, $4, $5 }'
+}
+
+# history <name>: a run as reference for others, "file:t:column"
+history() {
+  "$mechanism" export "$out/$1.results.h5" -c "$(channel "$1")" -o "$out/$1.csv" >/dev/null
+  printf '%s:time:%s' "$out/$1.csv" "$(channel "$1")"
+}
+
+# picture <file> <title> <first time> <last time> <reference> <name=label>...
+picture() {
+  local file="$1" title="$2" from="$3" to="$4" reference="$5" one
+  shift 5
+  local files=() labels=() channels=()
+  for one in "$@"; do
+    files+=("$out/${one%%=*}.results.h5")
+    labels+=(--label "${one#*=}")
+    [[ " ${channels[*]} " == *" $(channel "${one%%=*}") "* ]] || channels+=(-c "$(channel "${one%%=*}")")
+  done
+  "$mechanism" plot "${files[@]}" "${labels[@]}" "${channels[@]}" ${reference:+--reference "$reference"} \
+    --title "$title" --range "$from" "$to" -o "$out/$file" >/dev/null
+}
+
+# split_scene <superelement file> <pieces> <modes> <joint of the base> <step> <end>: the beam in equal pieces, each the same
+# superelement, welded together. The joint is `revolute` (section 8.1) or `spherical` (8.2, with the impulse at the tip).
+# Prints the scene.
+split_scene() {
+  awk -v file="$1" -v pieces="$2" -v modes="$3" -v joint="$4" -v step="$5" -v end="$6" '
+    BEGIN {
+      length_ = 141.42 / pieces
+      print "scene: \"Beam in " pieces " superelements of " modes " modes\"\nunits: consistent\nbodies:"
+      for (i = 1; i <= pieces; i++)
+        printf "  piece%d: {type: superelement, file: %s, modes: %d, pose: {position: [%.10g, 0, 0]}}\n", i, file, modes,
+          (i - 1) * length_
+      print "joints:"
+      print "  base: {type: " joint ", a: ground, b: piece1/base" (joint == "revolute" ? ", axis: [0, 0, 1]" : "") "}"
+      for (i = 2; i <= pieces; i++)
+        printf "  weld%d: {type: fixed, a: piece%d/tip, b: piece%d/base}\n", i - 1, i - 1, i
+      print "loads:"
+      print "  torque: {type: moment, at: piece1/base, value: [0, 0, {table: [[0, 0], [0.2, 200], [10, 200], [10.2, 0]]}]}"
+      if (joint == "spherical")
+        print "  impulse: {type: force, at: piece" pieces "/tip, value: [0, 0, {table: [[15, 0], [15.2, 100], [15.4, 0]]}]}"
+      printf "integrator: {method: generalised_alpha, rho: 0.9, step: %s, end: %s}\noutput: {every: 1}\n", step, end
+    }'
+}
