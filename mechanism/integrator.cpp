@@ -20,8 +20,14 @@ using formats::IntegratorSpec;
 constexpr double increment_floor = 1e-13;
 /// Relative difference up to which two steps are the same.
 constexpr double same_step = 1e-9;
-/// Factors are renewed when the residual falls by less than this per iteration.
-constexpr double slow_rate = 0.2;
+/// Largest error of an iterated floating frame [rad].
+constexpr double frame_tolerance = 1e-10;
+/// Kept factors are given up when an increment is not smaller than this times the one before.
+constexpr double slow_rate = 0.25;
+/// Factors that served this many steps are worth keeping.
+constexpr int long_life = 8;
+/// Most steps with new factors in every iteration before kept ones are tried again.
+constexpr int longest_pause = 63;
 /// Smallest reciprocal condition with which a factorisation is used.
 constexpr double singular_condition = 1e-17;
 
@@ -71,6 +77,8 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
     for (Eigen::Index k = 0; k < r.size(); ++k)
       raise(norms.force_ratio, norms.worst_coordinate, std::abs(r[k]) / (options.tolerance * internal),
             model.sizes.boundary + model.internal_offset[i] + static_cast<int>(k));
+    raise(norms.force_ratio, norms.worst_coordinate, workspace.superelements[i].motion.frame_error / frame_tolerance,
+          model.superelement_maps[i].coordinates.front());
   }
   const double rate_tolerance = options.constraint_tolerance / step;
   for (const Joint& joint : model.joints)
@@ -87,22 +95,24 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
   return norms;
 }
 
-bool is_round_off(const Model& model, const Eigen::VectorXd& increment) {
+/// Largest component, positions relative to the characteristic length.
+double size_of(const Model& model, const Eigen::VectorXd& increment) {
   double largest = 0.0;
   for (const Node& node : model.nodes) {
     if (node.translation >= 0)
       largest = std::max(largest, increment.segment<3>(node.translation).cwiseAbs().maxCoeff() / model.length);
     if (node.rotation >= 0) largest = std::max(largest, increment.segment<3>(node.rotation).cwiseAbs().maxCoeff());
   }
-  return largest < increment_floor;
+  return largest;
 }
 
 void predict(const Model& model, const AlphaParameters& alpha, double step, State& state, Workspace& workspace) {
   const State& last = workspace.previous;
   workspace.displacement = step * last.v() + (0.5 * step * step) * last.algorithmic();
   workspace.position_correction.setZero();
+  workspace.correction.setZero();
   state.v() = last.v() + step * last.algorithmic();
-  state.vdot() = ((last.algorithmic() - alpha.alpha_f * last.vdot()) / (1.0 - alpha.alpha_f));
+  state.vdot() = (last.algorithmic() - alpha.alpha_f * last.vdot()) / (1.0 - alpha.alpha_f);
   retract(model, last, workspace.displacement, state);
 }
 
@@ -156,6 +166,90 @@ void accept(const Model& model, double step, State& state, Workspace& workspace)
   workspace.previous_damping_power = workspace.damping_power;
 }
 
+/// What the factors of a step are made of.
+struct IterationMatrix {
+  TangentCoefficients coefficients;
+  ConstraintRows rows;
+};
+
+IterationMatrix iteration_matrix(const IntegratorSpec& options, const AlphaParameters& alpha, double step) {
+  const ConstraintRows rows = options.formulation == Formulation::index3
+                                  ? ConstraintRows{ConstraintRows::Kind::position, 0.0}
+                                  : ConstraintRows{ConstraintRows::Kind::velocity, alpha.beta * step / alpha.gamma};
+  return {step_coefficients(alpha, step), rows};
+}
+
+/// Factors anew at the state of the last evaluate().
+void renew(const Model& model, const IterationMatrix& matrix, const State& state, Workspace& workspace, StepReport& report) {
+  const FactorReport factors = factor(model, state, matrix.coefficients, TangentKind::step, matrix.rows, workspace);
+  ++report.factorisations;
+  if (factors.regular && factors.reciprocal_condition >= singular_condition) return;
+  report.outcome = StepOutcome::singular;
+  report.singular_column = factors.singular_column;
+}
+
+/// Notes the norms of the last evaluate() in the report; true if they, or the last increments, are small enough. Sets the
+/// outcome when the iteration cannot go on.
+bool converged(const Model& model, const IntegratorSpec& options, double step, int iterations, const State& state, Workspace& workspace,
+               StepReport& report) {
+  const Norms norms = measure(model, options, step, state, workspace);
+  const bool force_is_worse = norms.force_ratio >= norms.constraint_ratio;
+  report.force_ratio = norms.force_ratio;
+  report.constraint_ratio = norms.constraint_ratio;
+  report.residual = norms.residual;
+  report.constraint = norms.constraint;
+  report.worst_coordinate = force_is_worse ? norms.worst_coordinate : -1;
+  report.worst_constraint = force_is_worse ? -1 : norms.worst_constraint;
+  if (norms.worst() <= 1.0) return true;
+  if (!std::isfinite(norms.worst())) {
+    report.outcome = StepOutcome::diverged;
+    return false;
+  }
+  if (iterations > 0 && size_of(model, workspace.increment) < increment_floor &&
+      size_of(model, workspace.correction) < increment_floor)
+    return true;
+  if (iterations >= options.max_iterations) report.outcome = StepOutcome::too_many_iterations;
+  return false;
+}
+
+enum class Factors { kept, fresh };
+
+/// What stays the same during the iterations of one step.
+struct Iteration {
+  const Model& model;
+  const IntegratorSpec& options;
+  const AlphaParameters& alpha;
+  IterationMatrix matrix;
+  double step;
+  StepEnd end;
+};
+
+/// Newton's iteration from the prediction, with the factors that are there or with new ones in every iteration. True if it
+/// converges. Gives up kept factors as soon as they contract slowly, without an outcome of its own.
+bool iterate(const Iteration& it, Factors factors, State& state, Workspace& workspace, StepReport& report) {
+  state.block() = workspace.previous.block();
+  state.time() = it.end.time;
+  state.load_time() = it.end.load_time;
+  predict(it.model, it.alpha, it.step, state, workspace);
+  double last = 0.0;
+  for (int count = 0;; ++count) {
+    evaluate(it.model, state, workspace);
+    if (converged(it.model, it.options, it.step, count, state, workspace, report)) return true;
+    if (report.outcome != StepOutcome::accepted) return false;
+    if (factors == Factors::fresh) {
+      renew(it.model, it.matrix, state, workspace, report);
+      if (report.outcome != StepOutcome::accepted) return false;
+    } else if (count > 0) {
+      const double size = size_of(it.model, workspace.increment);
+      if (count > 1 && size > slow_rate * last) return false;
+      last = size;
+    }
+    solve(it.model, it.options, it.alpha, it.step, workspace);
+    correct(it.model, it.alpha, it.step, state, workspace);
+    ++report.iterations;
+  }
+}
+
 }  // namespace
 
 AlphaParameters alpha_parameters(const IntegratorSpec& spec) {
@@ -185,55 +279,33 @@ StepReport advance(const Model& model, const IntegratorSpec& options, const Step
   // Steps of one size differ in the last digits of their ends: they keep their factors.
   const double difference = end.time - state.time();
   const double step = std::abs(difference - state.step()) <= same_step * difference ? state.step() : difference;
-  const TangentCoefficients coefficients = step_coefficients(alpha, step);
   if (state.step() != step) rebuild_algorithmic_acceleration(step, state);
-  const ConstraintRows rows = options.formulation == Formulation::index3
-                                  ? ConstraintRows{ConstraintRows::Kind::position, 0.0}
-                                  : ConstraintRows{ConstraintRows::Kind::velocity, alpha.beta * step / alpha.gamma};
   workspace.previous.block() = state.block();
-
-  state.time() = end.time;
-  state.load_time() = end.load_time;
-  predict(model, alpha, step, state, workspace);
-  workspace.correction.setZero();
+  const Iteration iteration{model, options, alpha, iteration_matrix(options, alpha, step), step, end};
 
   StepReport report;
-  bool renew = !workspace.has_factors || !(workspace.factored == coefficients);
-  double last = 0.0;
-  while (true) {
-    evaluate(model, state, workspace);
-    const Norms norms = measure(model, options, step, state, workspace);
-    report.force_ratio = norms.force_ratio;
-    report.constraint_ratio = norms.constraint_ratio;
-    report.residual = norms.residual;
-    report.constraint = norms.constraint;
-    report.worst_coordinate = norms.force_ratio >= norms.constraint_ratio ? norms.worst_coordinate : -1;
-    report.worst_constraint = norms.force_ratio >= norms.constraint_ratio ? -1 : norms.worst_constraint;
-    if (norms.worst() <= 1.0) break;
-    if (report.iterations > 0 && is_round_off(model, workspace.increment) && is_round_off(model, workspace.correction)) break;
-    if (!std::isfinite(norms.worst())) report.outcome = StepOutcome::diverged;
-    if (report.iterations >= options.max_iterations) report.outcome = StepOutcome::too_many_iterations;
-    if (report.iterations > 0 && norms.worst() > slow_rate * last) renew = true;
-    last = norms.worst();
-    if (report.outcome == StepOutcome::accepted && renew) {
-      const FactorReport factors = factor(model, state, coefficients, TangentKind::step, rows, workspace);
-      ++report.factorisations;
-      renew = false;
-      if (!factors.regular || factors.reciprocal_condition < singular_condition) {
-        report.outcome = StepOutcome::singular;
-        report.singular_column = factors.singular_column;
-      }
-    }
-    if (report.outcome != StepOutcome::accepted) {
-      workspace.has_factors = false;
-      state.block() = workspace.previous.block();
+  FactorReuse& reuse = workspace.reuse;
+  const bool same = workspace.has_factors && workspace.factored == iteration.matrix.coefficients;
+  if (same && reuse.fresh_left == 0) {
+    if (iterate(iteration, Factors::kept, state, workspace, report)) {
+      accept(model, step, state, workspace);
+      ++reuse.kept;
       return report;
     }
-    solve(model, options, alpha, step, workspace);
-    correct(model, alpha, step, state, workspace);
-    ++report.iterations;
+    // Factors that age within a few steps are not worth keeping for a while.
+    reuse.fresh = reuse.kept >= long_life ? 0 : std::min(2 * reuse.fresh + 1, longest_pause);
+    reuse.fresh_left = reuse.fresh;
+    reuse.kept = 0;
+  } else if (same) {
+    --reuse.fresh_left;
   }
-  accept(model, step, state, workspace);
+  report.outcome = StepOutcome::accepted;
+  if (iterate(iteration, Factors::fresh, state, workspace, report)) {
+    accept(model, step, state, workspace);
+    return report;
+  }
+  workspace.has_factors = false;
+  state.block() = workspace.previous.block();
   return report;
 }
 

@@ -98,7 +98,7 @@ struct SeriesArguments {
 };
 
 void add_series_arguments(CLI::App& command, SeriesArguments& arguments) {
-  command.add_option("results", arguments.request.files, "results files, also of interrupted runs")->required();
+  command.add_option("results", arguments.request.files, "results files, also of interrupted runs");
   command.add_option("--channel,-c", arguments.request.channels, "channel, group or pattern, e.g. nodes/position/beam/tip/*")
       ->allow_extra_args(false);
   command.add_option("--label", arguments.request.labels, "label of each file, in order")->allow_extra_args(false);
@@ -154,14 +154,22 @@ int command_line(int argc, char** argv) {
 
   SeriesArguments plot_arguments;
   mechanism::PlotOptions plot_options;
-  std::vector<double> plot_range;
+  std::vector<double> plot_range, plot_y_range;
   CLI::App* plot_command = app.add_subcommand("plot", "draw channels of results files over one another (png or svg)");
   add_series_arguments(*plot_command, plot_arguments);
   plot_command->add_option("-o,--output", plot_options.output, "picture, .png or .svg")->required();
   plot_command->add_option("--title", plot_options.title, "title of the picture");
-  plot_command->add_option("--range", plot_range, "first and last time")->expected(2);
+  plot_command->add_option("--range", plot_range, "first and last abscissa")->expected(2);
+  plot_command->add_option("--y-range", plot_y_range, "lowest and highest ordinate")->expected(2);
+  plot_command->add_option("--x-label", plot_options.x_label, "default: name and unit of the abscissa");
+  plot_command->add_option("--y-label", plot_options.y_label, "default: quantity and unit of the channels");
+  plot_command->add_flag_callback("--log-x", [&] { plot_options.x_scale = mechanism::AxisScale::logarithmic; });
+  plot_command->add_flag_callback("--log-y", [&] { plot_options.y_scale = mechanism::AxisScale::logarithmic; });
+  plot_command->add_flag_callback("--points", [&] { plot_options.mark = mechanism::Mark::line_with_points; },
+                                  "mark the points");
   plot_command->callback([&] {
     if (plot_range.size() == 2) plot_options.x_range = {{plot_range[0], plot_range[1]}};
+    if (plot_y_range.size() == 2) plot_options.y_range = {{plot_y_range[0], plot_y_range[1]}};
     mechanism::plot(mechanism::read_series(complete(plot_arguments)), plot_options);
     fmt::print("picture: {}\n", plot_options.output);
   });

@@ -79,6 +79,7 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
     layout.superelements.push_back(body.name);
     layout.modes_offset.push_back(layout.modes_offset.back() + static_cast<int>(file_coordinate_count(body)));
     layout.boundary_offset.push_back(layout.boundary_offset.back() + static_cast<int>(body.node.size()));
+    for (const SuperelementNode& node : body.node) layout.boundary_nodes.push_back(node.name);
   }
   for (const Joint& joint : model.joints) layout.joints.push_back(joint.name);
   layout.channels = scene.output.channels;

@@ -19,6 +19,13 @@ struct Energy {
   double total() const { return kinetic + strain + potential; }
 };
 
+/// When factors are kept: learnt from how long they served. Forgotten at checkpoints together with the factors.
+struct FactorReuse {
+  int kept = 0;        ///< steps that the present factors have served
+  int fresh = 0;       ///< steps to take with new factors after the latest failure
+  int fresh_left = 0;
+};
+
 struct Workspace {
   explicit Workspace(const Model& model);
 
@@ -43,6 +50,7 @@ struct Workspace {
   LinearSolver solver;
   TangentCoefficients factored;              ///< coefficients of the factors that are kept
   bool has_factors = false;
+  FactorReuse reuse;
   Eigen::VectorXd unknowns;                  ///< right-hand side and solution of the global system
   Eigen::VectorXd increment;                 ///< of the velocity coordinates, boundary and internal
   Eigen::VectorXd correction;                ///< the same for the position correction of stabilised index 2
