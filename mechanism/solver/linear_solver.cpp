@@ -91,9 +91,10 @@ struct LinearSolver::Klu {
 
 struct LinearSolver::Dense {
   Eigen::PartialPivLU<Eigen::MatrixXd> lu;
+  Eigen::VectorXd permuted;  // Eigen's permutation in place allocates
   bool factored = false;
 
-  explicit Dense(int n) : lu(n) {}
+  explicit Dense(int n) : lu(n), permuted(n) {}
 
   FactorReport factor(int n, const double* values) {
     lu.compute(Eigen::Map<const Eigen::MatrixXd>(values, n, n));
@@ -104,6 +105,14 @@ struct LinearSolver::Dense {
     factored = true;
     const bool regular = std::isfinite(largest) && smallest > 0.0;
     return {regular, regular ? smallest / largest : 0.0, regular ? -1 : static_cast<int>(at)};
+  }
+
+  void solve(double* right_hand_side) {
+    Eigen::Map<Eigen::VectorXd> b(right_hand_side, permuted.size());
+    permuted.noalias() = lu.permutationP() * b;
+    lu.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(permuted);
+    lu.matrixLU().triangularView<Eigen::Upper>().solveInPlace(permuted);
+    b = permuted;
   }
 };
 
@@ -132,10 +141,7 @@ void LinearSolver::solve(std::span<double> right_hand_side) const {
   TISSERAND_ENSURE(static_cast<int>(right_hand_side.size()) == n, "{} rows", right_hand_side.size());
   if (n == 0) return;
   if (dense_) {
-    Eigen::Map<Eigen::VectorXd> b(right_hand_side.data(), n);
-    dense_->lu.permutationP().applyThisOnTheLeft(b);
-    dense_->lu.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(b);
-    dense_->lu.matrixLU().triangularView<Eigen::Upper>().solveInPlace(b);
+    dense_->solve(right_hand_side.data());
     return;
   }
   klu_solve(klu_->symbolic, klu_->numeric, n, 1, right_hand_side.data(), &klu_->common);
