@@ -7,9 +7,10 @@
 #include <vector>
 
 #include <fmt/format.h>
+// clang-format off: the LAPACK header does not compile before the others
 #include <slepceps.h>
-
 #include <petscblaslapack.h>
+// clang-format on
 
 #include "common/error.hpp"
 
