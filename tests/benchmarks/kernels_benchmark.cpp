@@ -1,0 +1,167 @@
+// Parts of an iteration, their share of a step, and the two linear solvers.
+#include <benchmark/benchmark.h>
+
+#include "mechanism/bodies/superelement_evaluate.hpp"
+#include "mechanism/evaluate.hpp"
+#include "mechanism/integrator.hpp"
+#include "mechanism/newton.hpp"
+#include "scenes.hpp"
+
+namespace tisserand::benchmarks {
+namespace {
+
+using formats::Formulation;
+using mechanism::TangentKind;
+
+/// CPU time of one call [us].
+template <class Action>
+double microseconds(Action action) {
+  int count = 64;
+  while (true) {
+    const double begin = cpu_seconds();
+    for (int i = 0; i < count; ++i) action();
+    const double seconds = cpu_seconds() - begin;
+    if (seconds > 5e-3) return 1e6 * seconds / count;
+    count *= 2;
+  }
+}
+
+/// CPU times of one call each [us].
+struct Kernels {
+  double element = 0.0;          ///< kinematics and forces of the elements
+  double element_tangent = 0.0;  ///< their tangents
+  double evaluate = 0.0;         ///< all of evaluate(), elements included
+  double tangent = 0.0;          ///< all of evaluate_tangent(), elements included
+  double factor = 0.0;
+  double solve = 0.0;            ///< with condensation and expansion of internal coordinates
+};
+
+Kernels measure(Stopped& run) {
+  const mechanism::Model& model = run.built.model;
+  mechanism::Workspace& workspace = run.workspace;
+  const mechanism::State& state = run.built.state;
+  const formats::IntegratorSpec& options = run.scene.integrator;
+  const auto c = mechanism::step_coefficients(mechanism::alpha_parameters(options), options.step);
+  const Eigen::VectorXd rows = Eigen::VectorXd::Zero(model.sizes.constraints);
+  Kernels time;
+  time.evaluate = microseconds([&] { mechanism::evaluate(model, state, workspace); });
+  time.tangent = microseconds([&] { mechanism::evaluate_tangent(model, state, c, TangentKind::step, {}, workspace); });
+  time.factor = microseconds([&] { benchmark::DoNotOptimize(workspace.solver.numeric(workspace.values)); });
+  time.solve = microseconds([&] { mechanism::solve_increment(model, rows, workspace); });
+  time.element = microseconds([&] {
+    for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+      const int internal = model.internal_offset[i], first = model.sizes.boundary + internal;
+      mechanism::update_kinematics(model.superelements[i], workspace.motion, state.y().data() + internal,
+                                   state.v().data() + first, state.vdot().data() + first,
+                                   Eigen::Matrix3d(workspace.superelements[i].R0_reference), workspace.superelements[i]);
+      mechanism::residual(model.superelements[i], workspace.superelements[i], model.gravity);
+    }
+  });
+  time.element += microseconds([&] {
+    Eigen::Matrix<double, 12, 1> r;
+    for (const auto& beam : model.beams2) mechanism::residual(beam, workspace.motion, model.gravity, r);
+    benchmark::DoNotOptimize(r);
+  });
+  time.element_tangent = microseconds([&] {
+    for (std::size_t i = 0; i < model.superelements.size(); ++i)
+      mechanism::tangent(model.superelements[i], workspace.superelements[i], c);
+  });
+  time.element_tangent += microseconds([&] {
+    Eigen::Matrix<double, 12, 1> r;
+    Eigen::Matrix<double, 12, 12> A;
+    for (const auto& beam : model.beams2) mechanism::residual_and_tangent(beam, workspace.motion, model.gravity, c, r, A);
+    benchmark::DoNotOptimize(A);
+  });
+  return time;
+}
+
+Case chosen(int which) {
+  switch (which) {
+    case 0: return hinged_beam(4, Formulation::index3);
+    case 1: return hinged_beam(4, Formulation::stabilised_index2);
+    case 2: return nonlinear_beam(10, 2);
+    default: return chain(100, 20);
+  }
+}
+
+double half_time(const Case& input) { return 0.5 * input.scene.integrator.end; }
+
+void kernels(benchmark::State& state, int which) {
+  const Case input = chosen(which);
+  Stopped stopped(input, half_time(input));
+  for (auto _ : state) {
+    const Kernels time = measure(stopped);
+    state.counters["a: unknowns"] = stopped.built.model.pattern->size();
+    state.counters["b: evaluate us"] = time.evaluate;
+    state.counters["c: tangent us"] = time.tangent;
+    state.counters["d: factor us"] = time.factor;
+    state.counters["e: solve us"] = time.solve;
+  }
+}
+BENCHMARK_CAPTURE(kernels, hinged_beam_4_modes, 1)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(kernels, ten_nonlinear_beams, 2)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(kernels, chain_of_100, 3)->Iterations(1)->Repetitions(5);
+
+/// Times of the kernels by how often a run calls them; `rest` is the integrator's own work.
+void shares(benchmark::State& state, int which) {
+  const Case input = chosen(which);
+  Stopped stopped(input, half_time(input));
+  for (auto _ : state) {
+    const Kernels time = measure(stopped);
+    const Cost cost = run(input);
+    const double steps = static_cast<double>(cost.steps), iterations = static_cast<double>(cost.iterations) / steps;
+    const double factorisations = static_cast<double>(cost.factorisations) / steps, all = 1e6 * cost.seconds() / steps;
+    const double evaluations = iterations + 1.0;
+    const double element = evaluations * time.element + factorisations * time.element_tangent;
+    const double assembly =
+        evaluations * (time.evaluate - time.element) + factorisations * (time.tangent - time.element_tangent);
+    const double factor = factorisations * time.factor, solve = iterations * time.solve;
+    const double output = 1e6 * cost.seconds_output / steps;
+    state.counters["a: us/step"] = all;
+    state.counters["b: element %"] = 100.0 * element / all;
+    state.counters["c: assembly and joints %"] = 100.0 * assembly / all;
+    state.counters["d: factor %"] = 100.0 * factor / all;
+    state.counters["e: solve %"] = 100.0 * solve / all;
+    state.counters["f: output %"] = 100.0 * output / all;
+    state.counters["g: rest %"] = 100.0 * (all - element - assembly - factor - solve - output) / all;
+  }
+}
+BENCHMARK_CAPTURE(shares, hinged_beam_index3, 0)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(shares, hinged_beam_stabilised_index2, 1)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(shares, ten_nonlinear_beams, 2)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(shares, chain_of_100, 3)->Iterations(1)->Repetitions(5);
+
+/// Factorisation and solution with both solvers, for the limit in mechanism/model.cpp.
+void compare_solvers(Case input, benchmark::State& state) {
+  input.scene.integrator.linear_solver = formats::LinearSolver::klu;
+  Stopped sparse(input, half_time(input));
+  input.scene.integrator.linear_solver = formats::LinearSolver::dense;
+  Stopped dense(input, half_time(input));
+  for (auto _ : state) {
+    const Kernels a = measure(sparse), b = measure(dense);
+    state.counters["a: unknowns"] = sparse.built.model.pattern->size();
+    state.counters["b: KLU factor us"] = a.factor;
+    state.counters["c: dense factor us"] = b.factor;
+    state.counters["d: KLU solve us"] = a.solve;
+    state.counters["e: dense solve us"] = b.solve;
+    // An iteration of stabilised index 2 with new factors: one tangent, one factorisation, two solutions.
+    state.counters["f: KLU / dense"] = (a.tangent + a.factor + 2.0 * a.solve) / (b.tangent + b.factor + 2.0 * b.solve);
+  }
+}
+
+void solvers_chain(benchmark::State& state) {
+  Case input = chain(static_cast<int>(state.range(0)), 4);
+  input.scene.output.every = 1;
+  compare_solvers(std::move(input), state);
+}
+BENCHMARK(solvers_chain)->DenseRange(1, 6)->Iterations(1)->Repetitions(5);
+
+void solvers_nonlinear_beams(benchmark::State& state) {
+  Case input = nonlinear_beam(static_cast<int>(state.range(0)), 2);
+  input.scene.integrator.end = 0.1;
+  compare_solvers(std::move(input), state);
+}
+BENCHMARK(solvers_nonlinear_beams)->DenseRange(1, 10)->Iterations(1)->Repetitions(5);
+
+}  // namespace
+}  // namespace tisserand::benchmarks
