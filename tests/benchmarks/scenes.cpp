@@ -2,6 +2,7 @@
 #include "scenes.hpp"
 
 #include <time.h>
+#include <unistd.h>
 
 #include <array>
 #include <cmath>
