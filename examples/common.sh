@@ -79,10 +79,10 @@ cost() {
 node_of_base() {
   if grep -q 'nonlinear beam elements' "$out/$1.log"; then
     printf 'beam/0'
-  elif grep -q ' 1 superelements' "$out/$1.log"; then
-    printf 'beam/base'
-  else
+  elif grep -q ': Beam in .* superelements of' "$out/$1.log"; then
     printf 'piece1/base'
+  else
+    printf 'beam/base'
   fi
 }
 
