@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "common/error.hpp"
+#include "common/output_path.hpp"
 
 namespace tisserand {
 
@@ -111,7 +112,13 @@ std::string temporary_beside(const std::string& path) {
   return fmt::format("{}.tmp-{}-{}", path, ::getpid(), counter.fetch_add(1));
 }
 
-TextFile::TextFile(const std::string& path) : path_(path), temporary_(temporary_beside(path)) {
+TextFile::TextFile(const std::string& path) : path_(path) {
+  if (is_stream(path)) {
+    file_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file_ < 0) fail("cannot open", path_, errno);
+    return;
+  }
+  temporary_ = temporary_beside(path);
   file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (file_ < 0) fail("cannot create the file", path_, errno);
 }
@@ -119,7 +126,7 @@ TextFile::TextFile(const std::string& path) : path_(path), temporary_(temporary_
 TextFile::~TextFile() {
   if (file_ < 0) return;
   ::close(file_);
-  ::unlink(temporary_.c_str());
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
 void TextFile::write(const std::string& text) {
@@ -127,6 +134,7 @@ void TextFile::write(const std::string& text) {
   while (done < text.size()) {
     const ssize_t written = ::write(file_, text.data() + done, text.size() - done);
     if (written < 0 && errno == EINTR) continue;
+    if (written < 0 && errno == EPIPE) return;  // the reader has left
     if (written < 0) fail("cannot write the file", path_, errno);
     done += static_cast<std::size_t>(written);
   }
@@ -134,7 +142,7 @@ void TextFile::write(const std::string& text) {
 
 void TextFile::publish() {
   if (::fsync(file_) != 0 && errno != EINVAL && errno != EROFS) fail("cannot write the file", path_, errno);
-  if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot move the complete file to its name", path_, errno);
+  if (!temporary_.empty() && ::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot move the complete file to its name", path_, errno);
   ::close(file_);
   file_ = -1;
 }

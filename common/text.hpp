@@ -22,7 +22,8 @@ std::string join(const std::vector<std::string>& parts, const std::string& separ
 /// Whether `text` matches `pattern`, in which * stands for any run of characters (also none, also with /).
 bool matches_wildcard(const std::string& text, const std::string& pattern);
 
-/// A text file that grows beside its name and takes it in publish(); without that, nothing is left. Throws Error.
+/// A text file that grows beside its name and takes it in publish(); without that, nothing is left. Streams such as
+/// /dev/stdout are written as they are. Throws Error.
 class TextFile {
  public:
   explicit TextFile(const std::string& path);

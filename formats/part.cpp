@@ -140,6 +140,7 @@ Part read_part(const std::string& path, const std::vector<Override>& overrides) 
   YamlDocument document = load_yaml(path);
   apply_overrides(document, overrides, {"materials", "sections", "points", "beams", "point_masses"});
   YamlReader reader(document, part_key_sets());
+  require_kind(reader, "part", "scene", "give it to `mechanism run`");
   Part part = read_tree(reader, path);
   reader.raise(find_faults(part));
   return part;

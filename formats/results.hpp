@@ -75,6 +75,7 @@ class ResultsReader {
   explicit ResultsReader(const std::string& path);   ///< accepts partial files
   ~ResultsReader();
 
+  std::string path() const;   ///< of the file that is read; ends in .part if only that is there
   bool completed() const;
   std::string reason() const;
   std::string report_json() const;

@@ -152,11 +152,7 @@ std::vector<Block> all_blocks(const ResultsLayout& layout) {
   return blocks;
 }
 
-std::vector<Block> chosen_blocks(const ResultsLayout& layout, const std::string& where) {
-  const std::vector<Block> all = all_blocks(layout);
-  if (layout.channels.empty()) return all;
-  std::vector<bool> chosen(all.size(), false);
-  chosen[0] = true;
+std::optional<std::pair<std::string, std::string>> fault_of_selection(const std::string& entry) {
   // Groups and datasets that this mechanism has no member of may be chosen without effect ("joints" without joints).
   std::vector<std::string> known{"time"};
   ResultsLayout full;
@@ -167,14 +163,21 @@ std::vector<Block> chosen_blocks(const ResultsLayout& layout, const std::string&
     known.push_back(name);
     if (std::find(known.begin(), known.end(), group) == known.end()) known.push_back(group);
   }
+  if (std::any_of(known.begin(), known.end(), [&](const std::string& name) { return chooses(entry, "/" + name); })) return {};
+  const std::optional<std::string> near = nearest(entry, known);
+  return {{fmt::format("output channel '{}' does not exist", entry),
+           near ? fmt::format("did you mean '{}'?", *near) : "choose among " + join(known, ", ")}};
+}
+
+std::vector<Block> chosen_blocks(const ResultsLayout& layout, const std::string& where) {
+  const std::vector<Block> all = all_blocks(layout);
+  if (layout.channels.empty()) return all;
+  std::vector<bool> chosen(all.size(), false);
+  chosen[0] = true;
   for (const std::string& entry : layout.channels) {
-    bool meaningful = std::any_of(known.begin(), known.end(), [&](const std::string& name) { return chooses(entry, "/" + name); });
+    if (const auto fault = fault_of_selection(entry)) throw Error(fault->first, where, fault->second);
     for (std::size_t i = 0; i < all.size(); ++i)
       if (chooses(entry, all[i].dataset)) chosen[i] = true;
-    if (meaningful) continue;
-    const std::optional<std::string> near = nearest(entry, known);
-    throw Error(fmt::format("output channel '{}' does not exist", entry), where,
-                near ? fmt::format("did you mean '{}'?", *near) : "choose among " + join(known, ", "));
   }
   std::vector<Block> blocks;
   for (std::size_t i = 0; i < all.size(); ++i)

@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "formats/results.hpp"
@@ -24,6 +26,9 @@ struct Block {
 
 /// All blocks that the layout has columns for, in the order of RESULTS.md, /time first; the selection is not applied.
 std::vector<Block> all_blocks(const ResultsLayout& layout);
+
+/// Finds out what is wrong with an entry of a selection, or nothing: {what, remedy}.
+std::optional<std::pair<std::string, std::string>> fault_of_selection(const std::string& entry);
 
 /// Those that layout.channels chooses (groups, datasets, patterns), always with /time. Throws Error for an entry that means
 /// none.

@@ -27,7 +27,7 @@ void export_csv(const ResultsReader& reader, const std::vector<std::string>& sel
   std::string header;
   for (const Channel& channel : all)
     if (channel.name == "time") header = header_cell(channel.name, channel.unit);
-  for (const Channel& channel : select_channels(all, selection, reader.scene())) {
+  for (const Channel& channel : select_channels(all, selection, reader.path())) {
     if (channel.name == "time") continue;
     names.push_back(channel.name);
     header += ',' + header_cell(channel.name, channel.unit);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <set>
 #include <unordered_map>
 
 #include "common/error.hpp"
@@ -153,6 +154,8 @@ ResultsReader::ResultsReader(const std::string& path) {
 
 ResultsReader::~ResultsReader() = default;
 
+std::string ResultsReader::path() const { return impl_->file.path(); }
+
 bool ResultsReader::completed() const { return impl_->file.number_attribute("/", "completed") == 1.0; }
 
 std::string ResultsReader::reason() const {
@@ -197,6 +200,20 @@ Eigen::MatrixXd ResultsReader::read_rows(const std::vector<std::string>& channel
   return values;
 }
 
+namespace {
+
+/// The names and all that they begin with: "nodes/position/a/x" also gives "nodes", "nodes/position", "nodes/position/a".
+std::vector<std::string> with_groups(std::vector<std::string> names) {
+  std::set<std::string> groups;
+  for (const std::string& name : names)
+    for (std::size_t slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1))
+      groups.insert(name.substr(0, slash));
+  names.insert(names.end(), groups.begin(), groups.end());
+  return names;
+}
+
+}  // namespace
+
 std::vector<Channel> select_channels(const std::vector<Channel>& channels, const std::vector<std::string>& selection,
                                      const std::string& where) {
   if (selection.empty()) return channels;
@@ -211,7 +228,7 @@ std::vector<Channel> select_channels(const std::vector<Channel>& channels, const
       chosen[i] = found = true;
     }
     if (found) continue;
-    const std::optional<std::string> near = nearest(wanted, known);
+    const std::optional<std::string> near = nearest(wanted, with_groups(known));
     throw Error(fmt::format("has no channel '{}'", entry.substr(0, 200)), where,
                 near ? fmt::format("did you mean '{}'?", *near) : "`mechanism channels` lists all names");
   }

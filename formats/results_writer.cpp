@@ -3,6 +3,8 @@
 // The file appears as <path>.part when its head is complete, and is then open in HDF5's single-writer mode, whose order of
 // writes keeps the file on disk consistent at every moment. Between writes rows wait in memory that was taken at the start.
 #include <hdf5.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
@@ -173,7 +175,8 @@ struct ResultsWriter::Impl {
 /// HDF5 cannot give up cleanly on a full disk, so that ours asks first.
 void ResultsWriter::Impl::require_space() const {
   struct statvfs disk {};
-  if (::statvfs(part.c_str(), &disk) != 0) return;
+  struct stat status {};
+  if (::statvfs(part.c_str(), &disk) != 0 || ::stat(part.c_str(), &status) != 0) return;
   std::uint64_t needed = disk_reserve + waiting * bytes_per_row;
   for (const Column& column : columns) {
     const std::size_t rows = chunk_rows(column.block);
@@ -181,6 +184,12 @@ void ResultsWriter::Impl::require_space() const {
     if (opens_chunk) needed += rows * column.block.width() * sizeof(double);
   }
   const std::uint64_t free = static_cast<std::uint64_t>(disk.f_bavail) * disk.f_frsize;
+  struct rlimit limit {};
+  const bool limited = ::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  if (limited && static_cast<std::uint64_t>(status.st_size) + needed > limit.rlim_cur)
+    throw Error(fmt::format("the file may not grow beyond {} kB (limit of the shell, `ulimit -f`); the next {} rows need {} kB",
+                            limit.rlim_cur / 1024, waiting, needed / 1024),
+                part, "raise the limit, or store fewer channels or instants");
   if (free < needed)
     throw Error(fmt::format("the disk is full: {} kB are free, the next {} rows need {} kB", free / 1024, waiting, needed / 1024),
                 part, "free some space, write to another disk, or store fewer channels");

@@ -101,6 +101,7 @@ Scene read_scene(const std::string& path, const std::vector<Override>& overrides
   YamlDocument document = load_yaml(path);
   apply_overrides(document, overrides, {"materials", "sections", "bodies", "joints", "loads", "nodes"});
   YamlReader reader(document, scene_key_sets());
+  require_kind(reader, "scene", "part", "make a superelement of it with `reducer run`");
   Faults faults;
   Scene scene = read_tree(reader, path, faults);
   for (Fault& fault : find_faults(scene).list) faults.list.push_back(std::move(fault));

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "common/text.hpp"
 #include "formats/line_check.hpp"
 #include "formats/name_check.hpp"
 #include "formats/section_reader.hpp"
@@ -113,8 +114,10 @@ void check_node_of_body(const BodySpec& body, const std::string& node, const std
     for (const RigidNodeSpec& one : rigid->nodes) names.push_back(one.name);
     check_reference(fmt::format("{}: body '{}'", subject, rigid->name), "node", node, names, where, key, faults);
   } else if (const BeamBodySpec* beam = std::get_if<BeamBodySpec>(&body); beam != nullptr && !has_node(*beam, node)) {
+    const auto near = nearest(node, {"start", "end"});
+    const std::string hint = near ? fmt::format("did you mean '{}'? ", *near) : "";
     faults.add(where, key, fmt::format("{}: body '{}': there is no node '{}'", subject, beam->name, node),
-               fmt::format("its nodes are 0 to {}, start and end", beam->elements * (beam->nodes_per_element - 1)));
+               fmt::format("{}its nodes are 0 to {}, start and end", hint, beam->elements * (beam->nodes_per_element - 1)));
   }
 }
 

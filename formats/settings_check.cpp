@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "formats/results_blocks.hpp"
+
 namespace tisserand::formats {
 
 namespace {
@@ -59,7 +61,10 @@ void check_settings(const Scene& scene, Faults& faults) {
   if (scene.output.interval) output.positive("interval", *scene.output.interval);
   if (!std::isfinite(scene.output.from)) output.add("from", "from must be finite", "");
   for (const std::string& channel : scene.output.channels)
-    if (channel.empty()) output.add("channels", "a channel has no name", "");
+    if (channel.empty())
+      output.add("channels", "a channel has no name", "");
+    else if (const auto fault = fault_of_selection(channel))
+      output.add("channels", fault->first, fault->second);
   Group{scene, "", faults}.positive("initial_tolerance", scene.initial_tolerance);
 }
 

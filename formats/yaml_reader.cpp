@@ -197,6 +197,13 @@ MapReader::MapReader(Context context, const YamlNode& node, std::string_view nou
 
 YamlPlace MapReader::place() const { return node_.key.empty() ? node_.place : node_.key_place; }
 
+void require_kind(const YamlReader& reader, std::string_view own, std::string_view other, const std::string& remedy) {
+  const std::vector<YamlNode>& children = reader.root().children;
+  const auto stray = std::ranges::find(children, other, &YamlNode::key);
+  if (stray == children.end() || std::ranges::find(children, own, &YamlNode::key) != children.end()) return;
+  throw Error(fmt::format("this file describes a {}, not a {}", other, own), reader.where(stray->place), remedy);
+}
+
 const YamlNode* MapReader::find(std::string_view key) const {
   TISSERAND_ENSURE(std::ranges::find(keys_.keys, key) != keys_.keys.end(), "key '{}' of '{}'", key, keys_.noun);
   if (node_.kind != YamlKind::map) return nullptr;

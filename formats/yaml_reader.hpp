@@ -22,6 +22,11 @@ struct KeySet {
   std::vector<std::string_view> keys;
 };
 
+class YamlReader;
+
+/// Throws Error if the document has the first key of another kind of file and not its own: a part given as a scene.
+void require_kind(const YamlReader& reader, std::string_view own, std::string_view other, const std::string& remedy);
+
 /// Collects the errors of one document.
 class YamlReader {
  public:

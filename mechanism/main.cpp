@@ -10,7 +10,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "common/console.hpp"
 #include "common/error.hpp"
+#include "common/output_path.hpp"
 #include "common/progress.hpp"
 #include "formats/override.hpp"
 #include "formats/scene.hpp"
@@ -29,9 +31,89 @@ std::atomic<bool> interrupt_requested{false};
 
 void on_interrupt(int) { interrupt_requested = true; }
 
+/// Ctrl-C, `kill` and a closed terminal end the run in order; a second one ends the program at once. A signal that the
+/// caller ignores (nohup, a job in the background) stays ignored.
+void listen_for_interrupts() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction action {};
+    ::sigaction(signal, nullptr, &action);
+    if (action.sa_handler == SIG_IGN) continue;
+    action.sa_handler = on_interrupt;
+    action.sa_flags = SA_RESETHAND | SA_RESTART;
+    ::sigaction(signal, &action, nullptr);
+  }
+}
+
 double wall_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+constexpr const char* about =
+    R"help(mechanism: dynamics and statics of flexible mechanisms from superelement files.
+
+  superelement.h5 + scene.yaml -> model -> steps -> results.h5 -> pictures and tables
+
+Examples:
+  mechanism check arm.scene.yaml                       what is wrong, and the mobility
+  mechanism run arm.scene.yaml -o arm.results.h5       simulates
+  mechanism run arm.scene.yaml --set integrator.step=0.005 --set bodies.arm.modes=2
+  mechanism channels arm.results.h5                    what the file holds, with units
+  mechanism plot arm.results.h5 -c nodes/position/arm/tip/z -o arm.png
+  mechanism export arm.results.h5 -c energy -o arm.csv
+
+A scene in ten lines:
+  scene: pendulum
+  gravity: [0, 0, -9.81]
+  bodies:
+    arm: {type: superelement, file: arm.superelement.h5, modes: 4}
+  joints:
+    hinge: {type: revolute, a: ground, b: arm/base, axis: [0, 1, 0]}
+  loads:
+    push: {type: force, at: arm/tip, value: [0, "10 * sin(2 * t)", 0]}
+  integrator: {step: 0.01, end: 5}
+  output: {every: 10}
+
+Units are those that the scene names, by default m, kg, s; angles in radians.
+Exit codes: 0 done, 1 error, 2 wrong usage, 3 did not converge, 130 interrupted.)help";
+
+constexpr const char* about_run = R"help(Simulates a scene and writes its results.
+
+  mechanism run arm.scene.yaml
+  mechanism run arm.scene.yaml -o fine.results.h5 --set integrator.step=0.001
+  mechanism run arm.scene.yaml --set 'loads.push.value=[0, 0, "5 * t"]' --set output.channels='[nodes/position, energy]'
+
+While it runs the results grow in <output>.part, readable at any time. Ctrl-C, a step that does not converge and a full disk
+close the file with what was reached and the reason; `channels`, `export` and `plot` accept it. Names of files in the scene
+and in --set count from the folder of the scene; <output> counts from this folder.
+Exit codes: 0 done, 1 error, 2 wrong usage, 3 did not converge, 130 interrupted.)help";
+
+constexpr const char* about_check = R"help(Reads everything, counts coordinates, constraints and mobility, says what is wrong, runs nothing.
+
+  mechanism check arm.scene.yaml
+  mechanism check arm.scene.yaml --set bodies.arm.modes=2
+
+Exit codes: 0 no errors found, 1 errors, 2 wrong usage.)help";
+
+constexpr const char* about_export = R"help(Writes channels of a results file as CSV: time, then one column per channel, with units.
+
+  mechanism export arm.results.h5 -o arm.csv
+  mechanism export arm.results.h5 -c nodes/position -c 'joints/*/hinge/*' -o arm.csv
+  mechanism export arm.results.h5 -c energy -o /dev/stdout | head)help";
+
+constexpr const char* about_channels = R"help(Lists the channels of a results file with their units.
+
+  mechanism channels arm.results.h5
+  mechanism channels arm.results.h5 -c 'nodes/position/arm/*')help";
+
+constexpr const char* about_plot = R"help(Draws channels of results files over one another, one panel per unit (png or svg, by gnuplot).
+
+  mechanism plot arm.results.h5 -c nodes/position/arm/tip/z -o tip.png
+  mechanism plot coarse.results.h5 fine.results.h5 --label coarse --label fine -c energy/total -o energy.svg --range 0 2
+  mechanism plot arm.results.h5 -c nodes/position/arm/tip/z --reference 'measured.csv:t:z:measured' -o tip.png)help";
+
+constexpr const char* about_compare = R"help(Measures channels against a reference history: largest and root-mean-square deviation.
+
+  mechanism compare arm.results.h5 -c nodes/position/arm/tip/z --reference reference.csv:t:z --from 1 --to 5)help";
 
 /// "dir/pendulum.scene.yaml" -> "pendulum.results.h5" in the working folder.
 std::string default_results(const std::string& scene) {
@@ -53,11 +135,19 @@ formats::Scene read(const RunArguments& arguments) {
   return formats::read_scene(arguments.scene, overrides);
 }
 
+/// The files that a run reads and must not replace.
+std::vector<std::string> inputs(const formats::Scene& scene) {
+  std::vector<std::string> files{scene.file};
+  for (const formats::BodySpec& body : scene.bodies)
+    if (const auto* spec = std::get_if<formats::SuperelementBodySpec>(&body)) files.push_back(spec->file);
+  return files;
+}
+
 int run(const RunArguments& arguments) {
   const formats::Scene scene = read(arguments);
   const std::string path = arguments.output.empty() ? default_results(arguments.scene) : arguments.output;
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  require_output(path, inputs(scene), Replaces::hdf5_only);
+  listen_for_interrupts();
   const double start = scene.integrator.start;
   Progress progress("simulating", scene.integrator.end - start);
   mechanism::RunControl control;
@@ -66,8 +156,8 @@ int run(const RunArguments& arguments) {
   control.progress = [&progress, start](double t) { progress.update(t - start, ""); };
   const mechanism::RunReport report = mechanism::simulate(scene, path, control);
   progress.finish();
-  fmt::print("{}: {}\n{}  {:<16} {}\n", arguments.scene, scene.name, mechanism::report_text(report, scene.units), "results",
-             report.results);
+  say(fmt::format("{}: {}\n{}  {:<16} {}\n", arguments.scene, scene.name, mechanism::report_text(report, scene.units),
+                  "results", report.results));
   switch (report.outcome) {
     case mechanism::RunOutcome::completed: return 0;
     case mechanism::RunOutcome::not_converged:
@@ -81,13 +171,13 @@ int run(const RunArguments& arguments) {
 int check(const RunArguments& arguments) {
   const formats::Scene scene = read(arguments);
   const mechanism::RunReport report = mechanism::inspect(scene, {});
-  fmt::print("{}: {}: no errors found\n{}", arguments.scene, scene.name, mechanism::report_text(report, scene.units));
+  say(fmt::format("{}: {}: no errors found\n{}", arguments.scene, scene.name, mechanism::report_text(report, scene.units)));
   return 0;
 }
 
 void add_run_arguments(CLI::App& command, RunArguments& arguments) {
   command.add_option("scene", arguments.scene, "scene file (formats/SCENE.md)")->required();
-  command.add_option("--set", arguments.settings, "change a value of the scene: path=value, e.g. integrator.step=0.005")
+  command.add_option("--set", arguments.settings, "change a value of the scene, e.g. integrator.step=0.005; may be repeated")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
 }
@@ -112,50 +202,76 @@ mechanism::SeriesRequest complete(SeriesArguments arguments) {
   return arguments.request;
 }
 
+std::vector<std::string> drawn_files(const SeriesArguments& arguments) {
+  std::vector<std::string> files = arguments.request.files;
+  for (const std::string& text : arguments.references) files.push_back(mechanism::parse_reference(text).file);
+  return files;
+}
+
+/// Prints what is wrong with the words of the command line.
+int tell_usage(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  std::vector<std::string> commands;
+  const CLI::App* command = nullptr;
+  for (const CLI::App* one : app.get_subcommands([](const CLI::App*) { return true; })) {
+    commands.push_back(one->get_name());
+    if (argc > 1 && one->get_name() == argv[1]) command = one;
+  }
+  const bool is_word = argc > 1 && argv[1][0] != '-';
+  fmt::print(stderr, "mechanism: {}\n`mechanism {}--help` explains.\n",
+             is_word && command == nullptr ? unknown_command(argv[1], commands) : std::string(error.what()),
+             command == nullptr ? "" : command->get_name() + " ");
+  return exit_usage;
+}
+
+/// The list of commands shows one line of each; its own help shows all.
+std::string first_line(const char* text) { return std::string(text).substr(0, std::string(text).find('\n')); }
+
+void describe(CLI::App& app, const std::vector<std::pair<std::string, std::string>>& abouts, int argc, char** argv) {
+  for (const auto& [name, about_command] : abouts)
+    if (argc > 1 && name == argv[1]) app.get_subcommand(name)->description(about_command + "\n");
+}
+
 int command_line(int argc, char** argv) {
-  CLI::App app{"mechanism: dynamics and statics of flexible mechanisms from superelement files.\n\n"
-               "  superelement.h5 + scene.yaml -> model -> steps -> results.h5 -> pictures and tables\n\n"
-               "Example:\n"
-               "  mechanism check examples/hinged_beam/floating_b.scene.yaml\n"
-               "  mechanism run examples/hinged_beam/floating_b.scene.yaml --set integrator.step=0.005 -o b.results.h5\n"
-               "  mechanism plot b.results.h5 -c nodes/angular_velocity/beam/base/z -o b.png\n\n"
-               "Exit codes: 0 done, 1 error, 2 wrong usage, 3 did not converge, 130 interrupted."};
+  CLI::App app{about};
   app.name("mechanism");
   app.set_version_flag("--version", std::string("tisserand mechanism ") + TISSERAND_VERSION);
   app.require_subcommand(1);
   int code = 0;
 
   RunArguments run_arguments;
-  CLI::App* run_command = app.add_subcommand("run", "simulate a scene and write its results");
+  CLI::App* run_command = app.add_subcommand("run", first_line(about_run));
   add_run_arguments(*run_command, run_arguments);
   run_command->add_option("-o,--output", run_arguments.output, "results file; default: <scene>.results.h5 in this folder");
   run_command->callback([&] { code = run(run_arguments); });
 
   RunArguments check_arguments;
   CLI::App* check_command =
-      app.add_subcommand("check", "read everything, count coordinates, constraints and mobility, run nothing");
+      app.add_subcommand("check", first_line(about_check));
   add_run_arguments(*check_command, check_arguments);
   check_command->callback([&] { code = check(check_arguments); });
 
   std::string export_file, export_output;
   std::vector<std::string> export_channels;
-  CLI::App* export_command = app.add_subcommand("export", "write channels of a results file as CSV");
+  CLI::App* export_command = app.add_subcommand("export", first_line(about_export));
   export_command->add_option("results", export_file, "results file, also of an interrupted run")->required();
   export_command->add_option("--channel,-c", export_channels, "channel, group or pattern; default: all")->allow_extra_args(false);
-  export_command->add_option("-o,--output", export_output, "CSV file")->required();
-  export_command->callback([&] { mechanism::export_table(export_file, export_channels, export_output); });
+  export_command->add_option("-o,--output", export_output, "CSV file, or /dev/stdout")->required();
+  export_command->callback([&] {
+    if (!is_stream(export_output)) require_output(export_output, {export_file}, Replaces::anything);
+    mechanism::export_table(export_file, export_channels, export_output);
+  });
 
   std::string channels_file;
   std::vector<std::string> channels_patterns;
-  CLI::App* channels_command = app.add_subcommand("channels", "list the channels of a results file with their units");
+  CLI::App* channels_command = app.add_subcommand("channels", first_line(about_channels));
   channels_command->add_option("results", channels_file, "results file, also of an interrupted run")->required();
   channels_command->add_option("--channel,-c", channels_patterns, "group or pattern; default: all")->allow_extra_args(false);
-  channels_command->callback([&] { fmt::print("{}", mechanism::channels_table(channels_file, channels_patterns)); });
+  channels_command->callback([&] { say(mechanism::channels_table(channels_file, channels_patterns)); });
 
   SeriesArguments plot_arguments;
   mechanism::PlotOptions plot_options;
   std::vector<double> plot_range, plot_y_range;
-  CLI::App* plot_command = app.add_subcommand("plot", "draw channels of results files over one another (png or svg)");
+  CLI::App* plot_command = app.add_subcommand("plot", first_line(about_plot));
   add_series_arguments(*plot_command, plot_arguments);
   plot_command->add_option("-o,--output", plot_options.output, "picture, .png or .svg")->required();
   plot_command->add_option("--title", plot_options.title, "title of the picture");
@@ -163,30 +279,33 @@ int command_line(int argc, char** argv) {
   plot_command->add_option("--y-range", plot_y_range, "lowest and highest ordinate")->expected(2);
   plot_command->add_option("--x-label", plot_options.x_label, "default: name and unit of the abscissa");
   plot_command->add_option("--y-label", plot_options.y_label, "default: quantity and unit of the channels");
-  plot_command->add_flag_callback("--log-x", [&] { plot_options.x_scale = mechanism::AxisScale::logarithmic; });
-  plot_command->add_flag_callback("--log-y", [&] { plot_options.y_scale = mechanism::AxisScale::logarithmic; });
+  plot_command->add_flag_callback("--log-x", [&] { plot_options.x_scale = mechanism::AxisScale::logarithmic; }, "logarithmic abscissa");
+  plot_command->add_flag_callback("--log-y", [&] { plot_options.y_scale = mechanism::AxisScale::logarithmic; }, "logarithmic ordinate");
   plot_command->add_flag_callback("--points", [&] { plot_options.mark = mechanism::Mark::line_with_points; },
                                   "mark the points");
   plot_command->callback([&] {
     if (plot_range.size() == 2) plot_options.x_range = {{plot_range[0], plot_range[1]}};
     if (plot_y_range.size() == 2) plot_options.y_range = {{plot_y_range[0], plot_y_range[1]}};
+    require_output(plot_options.output, drawn_files(plot_arguments), Replaces::anything);
     mechanism::plot(mechanism::read_series(complete(plot_arguments)), plot_options);
-    fmt::print("picture: {}\n", plot_options.output);
+    say(fmt::format("picture: {}\n", plot_options.output));
   });
 
   SeriesArguments compare_arguments;
   mechanism::TimeWindow window;
-  CLI::App* compare_command = app.add_subcommand("compare", "measure channels against a reference history");
+  CLI::App* compare_command = app.add_subcommand("compare", first_line(about_compare));
   add_series_arguments(*compare_command, compare_arguments);
-  compare_command->add_option("--from", window.from, "first instant compared");
-  compare_command->add_option("--to", window.to, "last instant compared");
+  compare_command->add_option("--from", window.from, "first instant compared [time of the run]; default: all");
+  compare_command->add_option("--to", window.to, "last instant compared; default: all");
   compare_command->callback(
-      [&] { fmt::print("{}", mechanism::deviations_table(mechanism::compare(complete(compare_arguments), window))); });
+      [&] { say(mechanism::deviations_table(mechanism::compare(complete(compare_arguments), window))); });
 
+  describe(app, {{"run", about_run}, {"check", about_check}, {"export", about_export}, {"channels", about_channels},
+                 {"plot", about_plot}, {"compare", about_compare}}, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : exit_usage;
+    return error.get_exit_code() == 0 ? app.exit(error) : tell_usage(app, error, argc, argv);
   }
   return code;
 }
@@ -194,6 +313,7 @@ int command_line(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  tisserand::take_write_failures_as_errors();
   try {
     return command_line(argc, argv);
   } catch (const tisserand::Error& error) {

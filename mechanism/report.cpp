@@ -1,4 +1,6 @@
 // The report of a run, as JSON and as text.
+#include <algorithm>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -69,7 +71,11 @@ std::string report_text(const RunReport& report, const Units& units) {
   line("reached", fmt::format("t = {:.6g}{}{}", report.time, time.empty() ? "" : " ", time));
   line("steps", fmt::format("{} ({} taken again), {} iterations, {} factorisations", report.steps, report.rejected,
                             report.iterations, report.factorisations));
-  for (const std::string& why : report.rejections) line("taken again", why);
+  constexpr std::size_t shown = 3;
+  for (std::size_t i = 0; i < std::min(shown, report.rejections.size()); ++i) line("taken again", report.rejections[i]);
+  if (report.rejected > static_cast<long>(shown))
+    line("", fmt::format("and {} more; the report in the results file lists the first {}",
+                         report.rejected - static_cast<long>(shown), report.rejections.size()));
   line("energy", fmt::format("largest balance error {:.2e} of the largest energy or work", relative_balance(report)));
   line("constraints", fmt::format("largest violation {:.2e}", report.largest_constraint));
   line("seconds", fmt::format("{:.3f} model, {:.3f} start, {:.3f} steps, {:.3f} output", report.seconds_model,

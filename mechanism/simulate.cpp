@@ -52,12 +52,37 @@ struct Run {
   double seconds() const { return control.clock ? control.clock() : 0.0; }
 };
 
+/// A component of a load that is no number at `time`, with its formula, or empty.
+std::string nonfinite_load(Run& run, double time) {
+  const std::vector<Load>& loads = run.built.model.loads;
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double value = run.workspace.load_functions[i][k](time);
+      if (std::isfinite(value)) continue;
+      const auto* expression = std::get_if<formats::TimeExpression>(&loads[i].components[k]);
+      return fmt::format("load '{}', {} component{}: the value at t = {:.6g} is {}, not a finite number", loads[i].name,
+                         "xyz"[k], expression == nullptr ? "" : " '" + expression->text + "'", time, value);
+    }
+  return {};
+}
+
+void require_finite_loads(Run& run) {
+  const std::string bad = nonfinite_load(run, run.scene.integrator.start);
+  if (!bad.empty()) throw Error(bad, run.scene.file, "correct the formula, for example with t > 0 ? .. : ..");
+}
+
 void start(Run& run) {
+  require_finite_loads(run);
   const StartReport report = start(run.scene, run.built.model, run.built.state, run.workspace);
   run.report.mobility = report.mobility;
   run.report.projection = report.projection;
   if (report.massless)
     run.report.notes.push_back("the mass matrix is singular: accelerations of its massless directions come from statics");
+  if (run.scene.analysis != formats::AnalysisKind::statics) return;
+  const std::string free = free_motion(run.built.model, run.built.state, run.workspace);
+  if (!free.empty())
+    throw Error(fmt::format("statics: the scene can move freely: nothing holds {}", free), run.scene.file,
+                "hold it with a joint, or use `analysis: dynamics`");
 }
 
 void write_row(Run& run, const StepReport& step, double size, formats::ResultsRow& row, formats::ResultsWriter& writer) {
@@ -97,9 +122,11 @@ void integrate(Run& run, formats::ResultsRow& row, formats::ResultsWriter& write
       ++report.rejected;
       const std::string why = fmt::format("t = {:.6g}, step {:.3g}: {}", before, target.time - before, explain(model, step));
       if (report.rejections.size() < 20) report.rejections.push_back(why);
-      if (schedule.halve(before)) continue;
+      const std::string load = nonfinite_load(run, target.load_time);
+      if (load.empty() && schedule.halve(before)) continue;
       report.outcome = RunOutcome::not_converged;
-      report.reason = why;
+      report.reason = load.empty() ? fmt::format("{} (after {} halvings of the step)", why, run.scene.integrator.max_halvings)
+                                   : load + "; correct the formula or end the run before";
       break;
     }
     ++report.steps;

@@ -34,6 +34,15 @@ double largest_internal_residual(const Workspace& workspace) {
   return largest;
 }
 
+/// Factors the stiffness at the state that was evaluated; names the motion that nothing holds, or nothing.
+std::string free_direction(const Model& model, const State& state, Workspace& workspace) {
+  const FactorReport factors = factor(model, state, {0.0, 0.0, 1.0}, TangentKind::exact, {}, workspace);
+  if (factors.regular && factors.reciprocal_condition >= free_motion_condition) return {};
+  if (factors.singular_column >= 0 && factors.singular_column < model.sizes.boundary)
+    return coordinate_name(model, factors.singular_column);
+  return factors.regular ? weakest_equation(model, workspace) : std::string("a rigid motion");
+}
+
 /// Newton's iteration for one load factor.
 StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options, State& state, Workspace& workspace,
                         StaticsReport& report) {
@@ -47,13 +56,8 @@ StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options,
     if (iteration > 0 && forces && report.constraint <= options.tolerance * model.length) return StepOutcome::accepted;
     if (!std::isfinite(report.residual)) return StepOutcome::diverged;
     if (iteration == options.max_iterations) return StepOutcome::too_many_iterations;
-    const FactorReport factors = factor(model, state, {0.0, 0.0, 1.0}, TangentKind::exact, {}, workspace);
-    if (!factors.regular || factors.reciprocal_condition < free_motion_condition) {
-      report.explanation = factors.singular_column >= 0 && factors.singular_column < model.sizes.boundary
-                               ? coordinate_name(model, factors.singular_column)
-                               : factors.regular ? weakest_equation(model, workspace) : std::string("a rigid motion");
-      return StepOutcome::singular;
-    }
+    report.explanation = free_direction(model, state, workspace);
+    if (!report.explanation.empty()) return StepOutcome::singular;
     workspace.bias = -workspace.constraint;
     solve_increment(model, workspace.bias, workspace);
     state.lambda() += workspace.unknowns.tail(model.sizes.constraints);
@@ -71,6 +75,16 @@ void update_frames(const Model& model, State& state, const Workspace& workspace)
 }
 
 }  // namespace
+
+std::string free_motion(const Model& model, State state, Workspace& workspace) {
+  state.v().setZero();
+  state.vdot().setZero();
+  workspace.displacement.setZero();
+  evaluate(model, state, workspace);
+  std::string direction = free_direction(model, state, workspace);
+  workspace.has_factors = false;
+  return direction;
+}
 
 StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, State& state, Workspace& workspace) {
   StaticsReport report;

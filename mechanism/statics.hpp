@@ -20,6 +20,9 @@ struct StaticsReport {
   std::string explanation;   ///< of a failure: equation and likely cause
 };
 
+/// The coordinate that moves most in a motion of the state at rest that nothing holds, or empty.
+std::string free_motion(const Model& model, State state, Workspace& workspace);
+
 /// Equilibrium under loads (at the state's time) and gravity, from `state` with all velocities zero, in load steps that are
 /// halved where the iteration fails. A scene that can move freely is an outcome `singular` that names the direction.
 [[nodiscard]] StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, State& state,

@@ -1,14 +1,11 @@
 // The commands of stage 1: read, work, write, tell.
 #include "reducer/commands.hpp"
 
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstring>
-
 #include <fmt/format.h>
 
+#include "common/console.hpp"
 #include "common/error.hpp"
+#include "common/output_path.hpp"
 #include "common/text.hpp"
 #include "formats/override.hpp"
 #include "formats/part.hpp"
@@ -36,22 +33,12 @@ std::string beside(const std::string& input, const std::string& ending) {
   return input + ending;
 }
 
-/// Throws Error now rather than after the work if nothing can be written to the folder of `output`.
-void check_folder(const std::string& output) {
-  const std::size_t slash = output.rfind('/');
-  const std::string folder = slash == std::string::npos ? "." : output.substr(0, slash + 1);
-  if (access(folder.c_str(), W_OK | X_OK) == 0) return;
-  const int number = errno;
-  throw Error(fmt::format("cannot write to the folder '{}': {}", folder, std::strerror(number)), output,
-              remedy_of_errno(number));
-}
-
 int run(const Arguments& arguments) {
   Phases phases;
   phases.begin("read");
   const formats::Part part = formats::read_part(arguments.input, overrides(arguments));
   const std::string output = arguments.output.empty() ? beside(arguments.input, ".superelement.h5") : arguments.output;
-  check_folder(output);
+  require_output(output, {arguments.input}, Replaces::hdf5_only);
   phases.begin("start solvers");
   const SolverSession session;
   Reduction reduction = reduce(part, [&phases](const std::string& phase) { phases.begin(phase); });
@@ -59,25 +46,25 @@ int run(const Arguments& arguments) {
   formats::write_superelement(output, reduction.superelement);
   write_certificate(output, reduction.superelement, reduction.file, reduction.model);
   phases.end();
-  fmt::print("{}", certificate_text(reduction.superelement, reduction.file, reduction.model));
-  fmt::print("{:<19}{}\n{:<19}{}\n{:<19}{}\n", "time", phases.text(), "written", output, "",
-             certificate_path(output));
+  say(certificate_text(reduction.superelement, reduction.file, reduction.model));
+  say(fmt::format("{:<19}{}\n{:<19}{}\n{:<19}{}\n", "time", phases.text(), "written", output, "",
+                  certificate_path(output)));
   return 0;
 }
 
 int show(const Arguments& arguments) {
   const formats::LoadedSuperelement loaded = formats::read_superelement(arguments.input);
   const FileCertificate file = certify(loaded.superelement, loaded.report);
-  fmt::print("{}", certificate_text(loaded.superelement, file,
-                                             read_certificate(arguments.input, loaded.superelement.content_id)));
+  say(certificate_text(loaded.superelement, file, read_certificate(arguments.input, loaded.superelement.content_id)));
   return 0;
 }
 
 int mesh(const Arguments& arguments) {
   const formats::Part part = formats::read_part(arguments.input, overrides(arguments));
   const std::string output = arguments.output.empty() ? beside(arguments.input, ".msh") : arguments.output;
+  require_output(output, {arguments.input}, Replaces::anything);
   const Mesh result = write_gmsh_file(part, output);
-  fmt::print("{} nodes, {} elements\nwritten {} (open it with gmsh)\n", result.nodes(), result.beams.size(), output);
+  say(fmt::format("{} nodes, {} elements\nwritten {} (open it with gmsh)\n", result.nodes(), result.beams.size(), output));
   return 0;
 }
 

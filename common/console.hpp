@@ -1,0 +1,18 @@
+// Between the programs and the terminal: standard output that may be closed or full, and words that are no commands.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tisserand {
+
+/// A reader that leaves early (`| head -1`) and files over a limit of size then fail as writes, not as signals.
+void take_write_failures_as_errors();
+
+/// Writes to standard output and flushes. A reader that has left is no error; a full disk throws Error.
+void say(const std::string& text);
+
+/// The message for `word` in the place of a command, with the nearest one or the list of all.
+std::string unknown_command(const std::string& word, const std::vector<std::string>& commands);
+
+}  // namespace tisserand

@@ -1,0 +1,64 @@
+// Looks at the place of an output before the work for it begins.
+#include "common/output_path.hpp"
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string_view>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+
+namespace tisserand {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view hdf5_signature{"\x89HDF\r\n\x1a\n", 8};
+
+/// Empty files and files that cannot be read are nobody's loss, or are reported when they are written.
+bool is_of_another_kind(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string head(hdf5_signature.size(), '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  const auto count = static_cast<std::size_t>(file.gcount());
+  return count > 0 && head.substr(0, count) != hdf5_signature.substr(0, count);
+}
+
+void require_folder(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+  if (::access(folder.c_str(), W_OK | X_OK) == 0) return;
+  const int number = errno;
+  throw Error(fmt::format("cannot write to the folder '{}': {}", folder, std::strerror(number)), path,
+              remedy_of_errno(number));
+}
+
+}  // namespace
+
+bool is_stream(const std::string& path) {
+  if (path.starts_with("/dev/") && !path.starts_with("/dev/shm/")) return true;
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path, ignored);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+void require_output(const std::string& path, const std::vector<std::string>& inputs, Replaces replaces) {
+  if (path.empty()) throw Error("the name of the output file is empty", "-o", "give the name of a file");
+  std::error_code ignored;
+  if (path.ends_with('/') || fs::is_directory(path, ignored))
+    throw Error("is a folder, not a file", path, "give -o the name of a file");
+  if (is_stream(path)) throw Error("is a device or pipe, not a file", path, "give -o the name of a file");
+  require_folder(path);
+  for (const std::string& input : inputs)
+    if (fs::equivalent(input, path, ignored))
+      throw Error("the output would replace its own input", path, "give -o another name");
+  if (replaces == Replaces::hdf5_only && is_of_another_kind(path))
+    throw Error("exists and is a file of another kind (not HDF5)", path, "give -o another name, or remove that file first");
+}
+
+}  // namespace tisserand
