@@ -116,7 +116,8 @@ picture() {
     [[ " ${channels[*]} " == *" $(channel "${one%%=*}") "* ]] || channels+=(-c "$(channel "${one%%=*}")")
   done
   "$mechanism" plot "${files[@]}" "${labels[@]}" "${channels[@]}" ${reference:+--reference "$reference"} \
-    --title "$title" --range "$from" "$to" -o "$out/$file" >/dev/null
+    --title "$title" --range "$from" "$to" \
+    --y-label "angular velocity of the base about z" -o "$out/$file" >/dev/null
 }
 
 # split_scene <superelement file> <pieces> <modes> <joint of the base> <step> <end>: the beam in equal pieces, each the same

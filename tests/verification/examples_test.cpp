@@ -1,9 +1,9 @@
 // The examples of [Car00], section 8, through both stages: scenes as they lie in examples/, expected numbers of others.
 //
-// Expected values: "design numbers" were computed by an independent implementation of the same formulation (the equations
-// document of the project, section 10) with generalised-alpha, rho = 0.9 and the steps of the paper, against a beam model
-// with the same step; they are quoted to two or three digits. Tolerances are one unit of the last digit quoted, since the
-// parts are meshed differently. Reference histories: references/README.md.
+// Expected values: "design numbers" were computed by an independent implementation of the same formulation (the
+// equations document of the project, section 10) with generalised-alpha, rho = 0.9 and the steps of the paper, against
+// a beam model with the same step; they are quoted to two or three digits. Tolerances are one unit of the last digit
+// quoted, since the parts are meshed differently. Reference histories: references/README.md.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -94,9 +94,9 @@ class Examples : public ::testing::Test {
                               oz = of("angular_velocity/" + node + "/z");
     double largest = 0.0;
     for (std::size_t i = 0; i < w.size(); ++i)
-      largest = std::max(largest, std::abs((1.0 - 2.0 * (y[i] * y[i] + z[i] * z[i])) * ox[i] +
-                                           2.0 * (x[i] * y[i] + w[i] * z[i]) * oy[i] +
-                                           2.0 * (x[i] * z[i] - w[i] * y[i]) * oz[i]));
+      largest = std::max(
+          largest, std::abs((1.0 - 2.0 * (y[i] * y[i] + z[i] * z[i])) * ox[i] +
+                            2.0 * (x[i] * y[i] + w[i] * z[i]) * oy[i] + 2.0 * (x[i] * z[i] - w[i] * y[i]) * oz[i]));
     return largest;
   }
 
@@ -124,13 +124,13 @@ TEST_F(HingedBeam, ErrorsByNumberOfModesAreTheDesignNumbers) {
   EXPECT_NEAR(relative(superelement("hinged_beam/node_tip", 4, end), beam), 0.025, 0.001);
 }
 
-// Spectral beams with explicit time integration, known to 1e-5. The step of 0.01 alone costs the nonlinear beams 2.1 % in
-// 20 s: the high modes run out of phase, (omega dt)²/12 per radian. 3 % leaves the superelement about as much again.
+// Spectral beams with explicit time integration, known to 1e-5. The step of 0.01 alone costs the nonlinear beams 2.1 %
+// in 20 s: the high modes run out of phase, (omega dt)²/12 per radian. 3 % leaves the superelement about as much again.
 TEST_F(HingedBeam, AllFormulationsFollowTheConvergedReference) {
   const Series converged = reference("hinged_beam_200");
   EXPECT_LT(relative(nonlinear_beams("hinged_beam", {}), converged), 0.03);
-  for (const char* scene : {"hinged_beam/node_base", "hinged_beam/node_tip", "hinged_beam/floating_a",
-                            "hinged_beam/floating_b"})
+  for (const char* scene :
+       {"hinged_beam/node_base", "hinged_beam/node_tip", "hinged_beam/floating_a", "hinged_beam/floating_b"})
     EXPECT_LT(relative(superelement(scene, 4, {}), converged), 0.03) << scene;
 }
 
@@ -140,8 +140,8 @@ TEST_F(HingedBeam, InertiaAAndBAreTheSameInThePlane) {
   EXPECT_LT(deviation(a, b, {}).largest, 1e-9);
 }
 
-// [Car00] 8.1: the formulation is invariant with respect to the order of the nodes; frames attached to base and tip give
-// different results when the load is large. Order: round-off and Newton's tolerance only.
+// [Car00] 8.1: the formulation is invariant with respect to the order of the nodes; frames attached to base and tip
+// give different results when the load is large. Order: round-off and Newton's tolerance only.
 TEST_F(HingedBeam, OrderOfTheNodesDoesNotMatterButTheReferenceNodeDoes) {
   reduce("permuted", "boundary={tip: all, base: all}");
   const Series given = superelement("hinged_beam/floating_b", 8, {});
@@ -154,9 +154,9 @@ TEST_F(HingedBeam, OrderOfTheNodesDoesNotMatterButTheReferenceNodeDoes) {
             0.05);
 }
 
-// One superelement lacks geometric stiffening: design numbers 13 % to 14 % for every number of modes in the floating frame,
-// over 20 s the phase has drifted a little less. Two pieces of the beam would follow it better. The reference is known to
-// 0.5 %.
+// One superelement lacks geometric stiffening: design numbers 13 % to 14 % for every number of modes in the floating
+// frame, over 20 s the phase has drifted a little less. Two pieces of the beam would follow it better. The reference is
+// known to 0.5 %.
 TEST_F(HingedBeam, LargeMomentShowsTheMissingGeometricStiffening) {
   const Series converged = reference("hinged_beam_10000");
   const Settings large = {kLargeMoment, "integrator.step=0.002"};
@@ -167,8 +167,9 @@ TEST_F(HingedBeam, LargeMomentShowsTheMissingGeometricStiffening) {
   }
 }
 
-// Design numbers: at the paper's step the node-attached frame does not converge or gains energy (12 % to 17 % with short
-// steps, so the step is to blame), the floating one does neither. Twice the error is "blown up" without a fine line.
+// Design numbers: at the paper's step the node-attached frame does not converge or gains energy (12 % to 17 % with
+// short steps, so the step is to blame), the floating one does neither. Twice the error is "blown up" without a fine
+// line.
 TEST_F(HingedBeam, FloatingFrameStandsTheLargeMomentAtThePapersStep) {
   const Series converged = reference("hinged_beam_10000");
   const RunReport floating = run("hinged_beam/floating_b", "floating.results.h5", {body("beam"), kLargeMoment});
@@ -210,7 +211,8 @@ TEST_F(SphericalBeam, ErrorsAfterTheImpulseAreTheDesignNumbers) {
       {"node_base", {{0, 3.3e-2}, {4, 3.2e-2}, {8, 3.0e-2}}}};
   for (const auto& [scene, by_modes] : design)
     for (const auto& [modes, expected] : by_modes)
-      EXPECT_NEAR(deviation(superelement("spherical_beam/" + scene, modes, end), beam, kAfterImpulse).rms, expected, 1e-3)
+      EXPECT_NEAR(deviation(superelement("spherical_beam/" + scene, modes, end), beam, kAfterImpulse).rms, expected,
+                  1e-3)
           << scene << ", " << modes << " modes";
 }
 

@@ -1,0 +1,176 @@
+// Static equilibrium of scenes: cantilevers of superelements and nonlinear beams, large rotations, scenes that can move.
+#include "mechanism/statics.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/beam_states.hpp"
+#include "tests/support/beam_superelement.hpp"
+#include "tests/support/reference_table.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Vector3d;
+using formats::JointKind;
+using formats::LoadKind;
+using std::numbers::pi;
+using test_support::BeamData;
+using test_support::Simulation;
+
+formats::Scene static_scene(int load_steps) {
+  formats::Scene scene = test_support::empty_scene(1.0, 1.0);
+  scene.analysis = formats::AnalysisKind::statics;
+  scene.statics.load_steps = load_steps;
+  return scene;
+}
+
+StaticsReport solve(Simulation& run) {
+  run.start();
+  return solve_statics(run.model(), run.scene.statics, run.state(), run.workspace);
+}
+
+/// A superelement beam clamped at its base, its part frame turned by `pose`, with a force at the tip.
+struct Cantilever {
+  BeamData data;
+  SuperelementFiles files;
+  formats::Scene scene = static_scene(1);
+
+  Cantilever(const Eigen::Quaterniond& pose, const Vector3d& force) {
+    test_support::add_file("beam", test_support::craig_bampton_beam(data, 4), files);
+    formats::SuperelementBodySpec body = test_support::superelement_body("beam", "beam");
+    body.start.pose.orientation = pose;
+    scene.bodies.push_back(body);
+    scene.joints.push_back(test_support::joint("clamp", JointKind::fixed, "ground", "beam/base", {0, 0, 0}, {0, 0, 1}));
+    scene.loads.push_back(test_support::constant_load("tip", LoadKind::force, "beam/tip", force));
+  }
+};
+
+// P L³/(3 E I) and P L²/(2 E I); a force of 0.01 N turns the tip by 5e-6, whose square is the nonlinear remainder.
+TEST(SuperelementCantilever, TipDeflectionIsTheAnalyticOne) {
+  const double P = 0.01;
+  Cantilever c(Eigen::Quaterniond::Identity(), {0, P, 0});
+  Simulation run(c.scene, c.files);
+  const StaticsReport report = solve(run);
+  ASSERT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
+  const double EI = c.data.young * c.data.Iz, L = c.data.length;
+  EXPECT_NEAR(run.position("beam/tip").y() / (P * L * L * L / (3 * EI)), 1.0, 1e-8);
+  EXPECT_NEAR(2 * run.rotation("beam/tip").z() / (P * L * L / (2 * EI)), 1.0, 1e-8);
+  // The clamp carries −P and −P L about z.
+  evaluate(run.model(), run.state(), run.workspace);
+  const JointReaction r = joint_reaction(run.model().joints[0], NodeMotion{}, run.workspace.motion[0], run.state().lambda().data());
+  EXPECT_LT((r.force - Vector3d(0, -P, 0)).norm(), 1e-8 * P);
+  EXPECT_LT((r.moment - Vector3d(0, 0, -P * L)).norm(), 1e-8 * P * L);
+}
+
+// Turned by 90 degrees about z and pulled along its axis: elongation N L/(E A), nothing else.
+TEST(SuperelementCantilever, PulledAndTurnedByNinetyDegrees) {
+  const double N = 2e5;
+  Cantilever c(Eigen::Quaterniond(Eigen::AngleAxisd(pi / 2, Vector3d::UnitZ())), {0, N, 0});
+  Simulation run(c.scene, c.files);
+  const StaticsReport report = solve(run);
+  ASSERT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
+  const double stretch = N * c.data.length / (c.data.young * c.data.area);
+  EXPECT_LT((run.position("beam/tip") - Vector3d(0, c.data.length + stretch, 0)).norm(), 1e-9 * stretch);
+  EXPECT_LT(run.rotation("beam/tip").angularDistance(run.rotation("beam/base")), 1e-9);
+}
+
+// A moment bends a single superelement of two nodes into a rotation of 90 degrees: its linear law for the relative rotation,
+// θ = M L/(E I), holds at any size because the frame turns with it.
+TEST(SuperelementCantilever, MomentTurnsTheTipByNinetyDegrees) {
+  Cantilever c(Eigen::Quaterniond::Identity(), {0, 0, 0});
+  const double M = pi / 2 * c.data.young * c.data.Iz / c.data.length;
+  c.scene.loads[0] = test_support::constant_load("tip", LoadKind::moment, "beam/tip", {0, 0, M});
+  c.scene.statics.load_steps = 4;
+  Simulation run(c.scene, c.files);
+  const StaticsReport report = solve(run);
+  ASSERT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
+  const Eigen::Matrix3d R = run.rotation("beam/tip").toRotationMatrix();
+  EXPECT_NEAR(std::atan2(R(1, 0), R(0, 0)), pi / 2, 1e-7);
+  // The frame lies at half the angle.
+  EXPECT_NEAR(run.position("beam/tip").x(), run.position("beam/tip").y(), 1e-7);
+}
+
+formats::BeamBodySpec beam_body(const Vector3d& to, int elements) {
+  formats::BeamBodySpec beam;
+  beam.name = "beam";
+  beam.to = to;
+  beam.elements = elements;
+  beam.nodes_per_element = 3;
+  return beam;
+}
+
+// Bathe & Bolourchi's bend under 600 lb (references/README.md); 8 quadratic elements are within 0.1 %.
+TEST(BeamScene, FortyFiveDegreeBend) {
+  const std::vector<double> row = test_support::reference_rows("beam_bend_45.csv")[1];
+  formats::Scene scene = static_scene(6);
+  formats::BeamBodySpec beam = beam_body(100.0 * Vector3d(std::sin(pi / 4), std::cos(pi / 4) - 1.0, 0), 8);
+  beam.through = 100.0 * Vector3d(std::sin(pi / 8), std::cos(pi / 8) - 1.0, 0);
+  beam.section = test::rectangle(1.0, 1.0, row[0] / 5e6, 5.0 / 6.0);
+  beam.material = test::material(1e7, 0.0, 1.0);
+  scene.bodies.push_back(beam);
+  scene.joints.push_back(test_support::joint("clamp", JointKind::fixed, "ground", "beam/start", {0, 0, 0}, {0, 0, 1}));
+  scene.loads.push_back(test_support::constant_load("tip", LoadKind::force, "beam/end", {0, 0, 600}));
+  Simulation run(scene, {});
+  const Vector3d before = run.position("beam/16");
+  const StaticsReport report = solve(run);
+  ASSERT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
+  EXPECT_LT((run.position("beam/16") - before - Vector3d(row[1], row[2], row[3])).norm(), 1e-3 * 60);
+}
+
+// A moment 2 π E I/L rolls a cantilever into a circle: the tip comes back to the clamp after a full turn.
+TEST(BeamScene, RollUp) {
+  formats::Scene scene = static_scene(10);
+  formats::BeamBodySpec beam = beam_body({10, 0, 0}, 10);
+  beam.section = test::rectangle(1.0, 0.5, 0.1, 5.0 / 6.0);
+  beam.material = test::material(1e6, 0.3, 1.0);
+  scene.bodies.push_back(beam);
+  scene.joints.push_back(test_support::joint("clamp", JointKind::fixed, "ground", "beam/start", {0, 0, 0}, {0, 0, 1}));
+  const double EI = 1e6 * beam.section.second_moment_y;  // the section's y axis is the world's y
+  scene.loads.push_back(test_support::constant_load("tip", LoadKind::moment, "beam/end", {0, -2 * pi * EI / 10, 0}));
+  Simulation run(scene, {});
+  const StaticsReport report = solve(run);
+  ASSERT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
+  EXPECT_LT(run.position("beam/20").norm(), 1e-2);
+  // Half way round stands the circle's opposite point: diameter L/π.
+  EXPECT_NEAR(run.position("beam/10").norm(), 10 / pi, 1e-2);
+}
+
+TEST(SceneThatCanMove, IsAnOutcomeThatNamesTheDirection) {
+  Cantilever c(Eigen::Quaterniond::Identity(), {0, 1, 0});
+  c.scene.joints[0] = test_support::joint("hinge", JointKind::revolute, "ground", "beam/base", {0, 0, 0}, {0, 0, 1});
+  Simulation hinged(c.scene, c.files);
+  StaticsReport report = solve(hinged);
+  EXPECT_EQ(report.outcome, StepOutcome::singular);
+  EXPECT_THAT(report.explanation, testing::HasSubstr("can move freely"));
+  EXPECT_THAT(report.explanation, testing::AnyOf(testing::HasSubstr("translation y"), testing::HasSubstr("about its z axis")));
+
+  c.scene.joints.clear();
+  Simulation free(c.scene, c.files);
+  report = solve(free);
+  EXPECT_EQ(report.outcome, StepOutcome::singular);
+  EXPECT_THAT(report.explanation, testing::HasSubstr("beam/"));
+}
+
+// Gravity alone: a clamped beam of weight W hangs through by less than W L³/(8 E I) (the weight acts through the centre of
+// mass of the body, two equal shares at the nodes of a Guyan element) and the clamp carries W and W L/2.
+TEST(SuperelementCantilever, ClampCarriesWeightAndItsMoment) {
+  Cantilever c(Eigen::Quaterniond::Identity(), {0, 0, 0});
+  c.scene.gravity = {0, 0, -9.81};
+  c.scene.loads.clear();
+  Simulation run(c.scene, c.files);
+  const StaticsReport report = solve(run);
+  ASSERT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
+  evaluate(run.model(), run.state(), run.workspace);
+  const JointReaction r = joint_reaction(run.model().joints[0], NodeMotion{}, run.workspace.motion[0], run.state().lambda().data());
+  const double W = 9.81 * c.data.density * c.data.area * c.data.length;
+  EXPECT_LT((r.force - Vector3d(0, 0, W)).norm(), 1e-8 * W);
+  EXPECT_NEAR(r.moment.y() / (-W * c.data.length / 2), 1.0, 1e-3);  // the arm shortens with the square of the deflection
+}
+
+}  // namespace
+}  // namespace tisserand::mechanism
