@@ -13,9 +13,9 @@ set mytics 10
 set grid back lc rgb '#DDDDDD' lt 1 lw 0.7
 set border 3 lc rgb '#444444'
 set tics nomirror
-set xrange [0.001:6]
-set yrange [joint eq 'revolute' ? 3e-3 : 3e-3 : joint eq 'revolute' ? 0.6 : 3]
-set key at graph 0.99, 0.98 right top Left reverse samplen 2 spacing 1.05 font ',13'
+set xrange [0.004:8]
+set yrange [2e-3:(joint eq 'revolute' ? 0.4 : 2)]
+set key at graph 0.02, 0.03 left bottom Left reverse samplen 2 spacing 1.05 font ',13'
 row(family, parts, modes) = (strcol(1) eq joint && strcol(2) eq family && $3 == parts && $4 == modes && strcol(12) eq 'completed')
 relative(family, parts, modes) = row(family, parts, modes) ? $10 / rms_of_signal : NaN
 array modes[5] = [0, 2, 4, 6, 8]
