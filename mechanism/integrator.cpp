@@ -38,14 +38,15 @@ struct Norms {
   double constraint = 0.0;
   int worst_coordinate = -1;
   int worst_constraint = -1;
+  bool finite() const { return std::isfinite(force_ratio) && std::isfinite(constraint_ratio); }
   double worst() const { return std::max(force_ratio, constraint_ratio); }
 };
 
+/// The first NaN stays.
 void raise(double& value, int& at, double candidate, int index) {
-  if (!(candidate <= value)) {  // also NaN
-    value = candidate;
-    at = index;
-  }
+  if (candidate <= value || std::isnan(value)) return;
+  value = candidate;
+  at = index;
 }
 
 /// Largest residuals against the running maxima of forces, moments and internal forces; largest violations against the
@@ -108,11 +109,12 @@ double size_of(const Model& model, const Eigen::VectorXd& increment) {
 
 void predict(const Model& model, const AlphaParameters& alpha, double step, State& state, Workspace& workspace) {
   const State& last = workspace.previous;
-  workspace.displacement = step * last.v() + (0.5 * step * step) * last.algorithmic();
+  // state: that of `last`, with the acceleration rebuilt for this step.
+  workspace.displacement = step * last.v() + (0.5 * step * step) * state.algorithmic();
   workspace.position_correction.setZero();
   workspace.correction.setZero();
-  state.v() = last.v() + step * last.algorithmic();
-  state.vdot() = (last.algorithmic() - alpha.alpha_f * last.vdot()) / (1.0 - alpha.alpha_f);
+  state.v() = last.v() + step * state.algorithmic();
+  state.vdot() = (state.algorithmic() - alpha.alpha_f * last.vdot()) / (1.0 - alpha.alpha_f);
   retract(model, last, workspace.displacement, state);
 }
 
@@ -160,10 +162,10 @@ void accept(const Model& model, double step, State& state, Workspace& workspace)
       angle += std::remainder(hinge_angle(joint, at(joint.a.node), at(joint.b.node)) - angle, 2.0 * EIGEN_PI);
     }
   for (int k = 0; k < 3; ++k) state.force_scale(k) = std::max(state.force_scale(k), workspace.force_scale[k]);
-  state.work() += 0.5 * step * (workspace.previous_load_power + workspace.load_power);
-  state.dissipated() += 0.5 * step * (workspace.previous_damping_power + workspace.damping_power);
-  workspace.previous_load_power = workspace.load_power;
-  workspace.previous_damping_power = workspace.damping_power;
+  state.work() += 0.5 * step * (state.load_power() + workspace.load_power);
+  state.dissipated() += 0.5 * step * (state.damping_power() + workspace.damping_power);
+  state.load_power() = workspace.load_power;
+  state.damping_power() = workspace.damping_power;
 }
 
 /// What the factors of a step are made of.
@@ -193,18 +195,18 @@ void renew(const Model& model, const IterationMatrix& matrix, const State& state
 bool converged(const Model& model, const IntegratorSpec& options, double step, int iterations, const State& state, Workspace& workspace,
                StepReport& report) {
   const Norms norms = measure(model, options, step, state, workspace);
-  const bool force_is_worse = norms.force_ratio >= norms.constraint_ratio;
+  const bool force_is_worse = norms.force_ratio >= norms.constraint_ratio || !std::isfinite(norms.force_ratio);
   report.force_ratio = norms.force_ratio;
   report.constraint_ratio = norms.constraint_ratio;
   report.residual = norms.residual;
   report.constraint = norms.constraint;
   report.worst_coordinate = force_is_worse ? norms.worst_coordinate : -1;
   report.worst_constraint = force_is_worse ? -1 : norms.worst_constraint;
-  if (norms.worst() <= 1.0) return true;
-  if (!std::isfinite(norms.worst())) {
+  if (!norms.finite()) {
     report.outcome = StepOutcome::diverged;
     return false;
   }
+  if (norms.worst() <= 1.0) return true;
   if (iterations > 0 && size_of(model, workspace.increment) < increment_floor &&
       size_of(model, workspace.correction) < increment_floor)
     return true;
@@ -228,6 +230,7 @@ struct Iteration {
 /// converges. Gives up kept factors as soon as they contract slowly, without an outcome of its own.
 bool iterate(const Iteration& it, Factors factors, State& state, Workspace& workspace, StepReport& report) {
   state.block() = workspace.previous.block();
+  if (state.step() != it.step) rebuild_algorithmic_acceleration(it.step, state);
   state.time() = it.end.time;
   state.load_time() = it.end.load_time;
   predict(it.model, it.alpha, it.step, state, workspace);
@@ -279,7 +282,6 @@ StepReport advance(const Model& model, const IntegratorSpec& options, const Step
   // Steps of one size differ in the last digits of their ends: they keep their factors.
   const double difference = end.time - state.time();
   const double step = std::abs(difference - state.step()) <= same_step * difference ? state.step() : difference;
-  if (state.step() != step) rebuild_algorithmic_acceleration(step, state);
   workspace.previous.block() = state.block();
   const Iteration iteration{model, options, alpha, iteration_matrix(options, alpha, step), step, end};
 

@@ -74,8 +74,8 @@ void begin(const Model& model, State& state, Workspace& workspace) {
   evaluate(model, state, workspace);
   state.work() = state.dissipated() = 0.0;
   state.initial_energy() = evaluate_energy(model, workspace).total();
-  workspace.previous_load_power = workspace.load_power;
-  workspace.previous_damping_power = workspace.damping_power;
+  state.load_power() = workspace.load_power;
+  state.damping_power() = workspace.damping_power;
   for (int k = 0; k < 3; ++k) state.force_scale(k) = workspace.force_scale[static_cast<std::size_t>(k)];
   for (const Joint& joint : model.joints)
     if (joint.hinge >= 0) {
@@ -101,8 +101,8 @@ void pass_breakpoint(const Model& model, const formats::Scene& scene, State& sta
   const AlphaParameters alpha = alpha_parameters(scene.integrator);
   start_algorithmic_acceleration(model, alpha.alpha_m - alpha.alpha_f, scene.integrator.step, scene.file, state, workspace);
   evaluate(model, state, workspace);
-  workspace.previous_load_power = workspace.load_power;
-  workspace.previous_damping_power = workspace.damping_power;
+  state.load_power() = workspace.load_power;
+  state.damping_power() = workspace.damping_power;
 }
 
 }  // namespace tisserand::mechanism

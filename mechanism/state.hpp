@@ -57,6 +57,11 @@ class State {
   /// Running maxima of forces, moments and internal forces, which the tests of Newton's iteration refer to.
   double& force_scale(int kind) { return block_[scalars_ + 6 + kind]; }
   double force_scale(int kind) const { return block_[scalars_ + 6 + kind]; }
+  /// Powers of loads and of damping at the last accepted step, for the trapezoidal rule.
+  double& load_power() { return block_[scalars_ + 9]; }
+  double load_power() const { return block_[scalars_ + 9]; }
+  double& damping_power() { return block_[scalars_ + 10]; }
+  double damping_power() const { return block_[scalars_ + 10]; }
 
   using Map = Eigen::Map<Eigen::VectorXd>;
   using ConstMap = Eigen::Map<const Eigen::VectorXd>;

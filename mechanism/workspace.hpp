@@ -28,6 +28,13 @@ struct FactorReuse {
 
 struct Workspace {
   explicit Workspace(const Model& model);
+  /// As new: the next step factors and learns from the start, so that a run continued from a copy of the state in a
+  /// workspace of its own takes bit-equal steps.
+  void forget() {
+    solver.forget();
+    has_factors = false;
+    reuse = {};
+  }
 
   // evaluate()
   std::vector<NodeMotion> motion;            ///< of every node; one more at the end: ground
@@ -60,8 +67,6 @@ struct Workspace {
   Eigen::VectorXd element_boundary;          ///< of one superelement
   Eigen::VectorXd element_internal;
   State previous;                            ///< the last accepted state
-  double previous_load_power = 0.0;
-  double previous_damping_power = 0.0;
 };
 
 }  // namespace tisserand::mechanism
