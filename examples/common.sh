@@ -64,7 +64,8 @@ simulate() {
     2>"$out/$name.cpu"
   cat "$out/$name.cpu" >>"$out/$name.log"
   rm "$out/$name.cpu"
-  return $code
+  [ "$code" = 0 ] || printf 'mechanism run %s failed (exit code %d); see %s\n' "$scene" "$code" "$out/$name.log" >&2
+  return "$code"
 }
 
 # cost <name>: "coordinates steps iterations CPU-seconds" of a run
