@@ -134,9 +134,11 @@ void add_joints(const Model& model, const State& state, Workspace& workspace) {
     Eigen::Matrix<double, 12, 1> velocity;
     velocity << a.xd, a.Omega, b.xd, b.Omega;
     workspace.constraint.segment(joint.row, size) = terms.phi.head(size);
-    workspace.constraint_rate.segment(joint.row, size).noalias() = terms.B.topRows(size).lazyProduct(velocity);
-    Eigen::Matrix<double, 12, 1> force;
-    force.noalias() = terms.B.topRows(size).transpose().lazyProduct(state.lambda().segment(joint.row, size));
+    const Vector6d rate = terms.B * velocity;  // rows beyond the joint's size are zero
+    workspace.constraint_rate.segment(joint.row, size) = rate.head(size);
+    Vector6d lambda = Vector6d::Zero();
+    for (int k = 0; k < size; ++k) lambda[k] = state.lambda()[joint.row + k];
+    const Eigen::Matrix<double, 12, 1> force = terms.B.transpose() * lambda;
     scatter(model.joint_maps[i], force, workspace.residual);
     note_scale(force, workspace);
   }

@@ -8,8 +8,8 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Below this size a dense factorisation is faster than KLU (measured, tests/benchmarks).
-constexpr int dense_limit = 48;
+/// Up to this size an iteration with new dense factors is faster than with KLU (tests/benchmarks, solvers_*).
+constexpr int dense_limit = 72;
 
 using Position = SparsePattern::Position;
 

@@ -76,15 +76,13 @@ void solve_correction(const Model& model, const Eigen::Ref<const Eigen::VectorXd
   workspace.solver.solve({workspace.unknowns.data(), static_cast<std::size_t>(workspace.unknowns.size())});
   workspace.correction.head(n) = workspace.unknowns.head(n);
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    // expand() is affine in d_B, since it carries the internal residual: its linear part is a difference.
+    // expand() is affine in d_B: −D⁻¹ (r_I + A_IB d_B); the correction is its linear part.
     const SuperelementBody& body = model.superelements[i];
     SuperelementScratch& scratch = workspace.superelements[i];
     double* internal = workspace.correction.data() + n + model.internal_offset[i];
     gather(model, i, workspace.correction, workspace);
     expand(body, scratch, workspace.element_boundary.data(), internal);
-    workspace.element_boundary.setZero();
-    expand(body, scratch, workspace.element_boundary.data(), workspace.element_internal.data());
-    for (int k = 0; k < body.modes; ++k) internal[k] -= workspace.element_internal[k];
+    for (int k = 0; k < body.modes; ++k) internal[k] += scratch.tangent.inverse_D[k] * scratch.forces.r_I[k];
   }
 }
 
@@ -109,8 +107,9 @@ void apply_jacobian(const Model& model, const Workspace& workspace, const Eigen:
     for (int k = 0; k < 12; ++k) local[k] = coordinates[static_cast<std::size_t>(k)] < 0 ? 0.0 : d[coordinates[static_cast<std::size_t>(k)]];
     local.segment<3>(3) = turn_increment(model, workspace, model.joints[i].a.node, local.segment<3>(3));
     local.segment<3>(9) = turn_increment(model, workspace, model.joints[i].b.node, local.segment<3>(9));
+    const Vector6d product = workspace.joints[i].B * local;  // rows beyond the joint's size are zero
     const int size = joint_size(model.joints[i].kind);
-    rows.segment(model.joints[i].row, size).noalias() = workspace.joints[i].B.topRows(size).lazyProduct(local);
+    rows.segment(model.joints[i].row, size) = product.head(size);
   }
 }
 

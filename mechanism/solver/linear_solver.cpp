@@ -1,13 +1,16 @@
-// KLU for sparse patterns, LAPACK-style partial pivoting for small dense ones.
+// KLU for sparse patterns, LU with partial pivoting for small dense ones.
 #include "mechanism/solver/linear_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <klu.h>
 
 #include "common/error.hpp"
+#include "mechanism/bodies/column_kernels.hpp"
 
 namespace tisserand::mechanism {
 
@@ -89,30 +92,81 @@ struct LinearSolver::Klu {
   }
 };
 
+/// LU with partial pivoting by rank-one updates of whole registers. Columns are padded to multiples of four rows; the zeros
+/// of L and U beside their triangles let every update start and end at a full register.
 struct LinearSolver::Dense {
-  Eigen::PartialPivLU<Eigen::MatrixXd> lu;
-  Eigen::VectorXd permuted;  // Eigen's permutation in place allocates
-  bool factored = false;
+  int n = 0;
+  int rows = 0;                    ///< leading dimension
+  std::vector<double> lower;       ///< L without its unit diagonal, zeros elsewhere
+  std::vector<double> upper;       ///< U without its diagonal, zeros elsewhere
+  std::vector<double> diagonal;    ///< pivots, then their reciprocals
+  std::vector<int> exchange;       ///< row k was exchanged with row exchange[k]
+  std::vector<double> work;        ///< right-hand side
 
-  explicit Dense(int n) : lu(n), permuted(n) {}
+  explicit Dense(int size)
+      : n(size),
+        rows((size + 3) / 4 * 4),
+        lower(static_cast<std::size_t>(rows) * static_cast<std::size_t>(size), 0.0),
+        upper(lower),
+        diagonal(static_cast<std::size_t>(size), 0.0),
+        exchange(static_cast<std::size_t>(size), 0),
+        work(static_cast<std::size_t>(rows), 0.0) {}
 
-  FactorReport factor(int n, const double* values) {
-    lu.compute(Eigen::Map<const Eigen::MatrixXd>(values, n, n));
-    const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-    const double largest = n ? pivots.maxCoeff() : 1.0;
-    Eigen::Index at = 0;
-    const double smallest = n ? pivots.minCoeff(&at) : 1.0;
-    factored = true;
-    const bool regular = std::isfinite(largest) && smallest > 0.0;
-    return {regular, regular ? smallest / largest : 0.0, regular ? -1 : static_cast<int>(at)};
+  /// y -= factor x in the registers that hold rows begin ... end - 1.
+  static void subtract(double factor, const double* x, int begin, int end, double* y) {
+    using column_kernels::load, column_kernels::store;
+    for (int i = begin / 4 * 4; i < end; i += 4) store(y + i, load(y + i) - factor * load(x + i));
   }
 
-  void solve(double* right_hand_side) {
-    Eigen::Map<Eigen::VectorXd> b(right_hand_side, permuted.size());
-    permuted.noalias() = lu.permutationP() * b;
-    lu.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(permuted);
-    lu.matrixLU().triangularView<Eigen::Upper>().solveInPlace(permuted);
-    b = permuted;
+  double* lower_column(int k) { return lower.data() + static_cast<std::ptrdiff_t>(rows) * k; }
+  double* upper_column(int k) { return upper.data() + static_cast<std::ptrdiff_t>(rows) * k; }
+
+  /// Brings the largest entry of column k to row k, in L and in what is left of the matrix.
+  void exchange_rows(int k) {
+    const double* a = upper_column(k);
+    int largest = k;
+    for (int i = k + 1; i < n; ++i)
+      if (std::abs(a[i]) > std::abs(a[largest])) largest = i;
+    exchange[static_cast<std::size_t>(k)] = largest;
+    if (largest == k) return;
+    for (int j = 0; j < k; ++j) std::swap(lower_column(j)[k], lower_column(j)[largest]);
+    for (int j = k; j < n; ++j) std::swap(upper_column(j)[k], upper_column(j)[largest]);
+  }
+
+  FactorReport factor(const double* values) {
+    for (int j = 0; j < n; ++j) std::copy_n(values + static_cast<std::ptrdiff_t>(n) * j, n, upper_column(j));
+    double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
+    int weakest = -1;
+    for (int k = 0; k < n; ++k) {
+      exchange_rows(k);
+      double *u = upper_column(k), *l = lower_column(k);
+      const double pivot = u[k], size = std::abs(pivot);
+      if (!(size > 0.0) || !std::isfinite(size)) return {false, 0.0, k};
+      if (size < smallest) {
+        smallest = size;
+        weakest = k;
+      }
+      largest = std::max(largest, size);
+      diagonal[static_cast<std::size_t>(k)] = 1.0 / pivot;
+      std::fill_n(l, k + 1, 0.0);
+      for (int i = k + 1; i < n; ++i) l[i] = u[i] / pivot;
+      std::fill_n(u + k, n - k, 0.0);
+      for (int j = k + 1; j < n; ++j)
+        if (const double entry = upper_column(j)[k]; entry != 0.0) subtract(entry, l, k + 1, n, upper_column(j));
+    }
+    const double ratio = smallest / largest;
+    return {ratio > 0.0, ratio, ratio > 0.0 ? -1 : weakest};
+  }
+
+  void solve(double* b) {
+    std::copy_n(b, n, work.data());
+    for (int k = 0; k < n; ++k) std::swap(work[static_cast<std::size_t>(k)], work[static_cast<std::size_t>(exchange[static_cast<std::size_t>(k)])]);
+    for (int k = 0; k < n; ++k) subtract(work[static_cast<std::size_t>(k)], lower_column(k), k + 1, n, work.data());
+    for (int k = n - 1; k >= 0; --k) {
+      const double x = work[static_cast<std::size_t>(k)] * diagonal[static_cast<std::size_t>(k)];
+      subtract(x, upper_column(k), 0, k, work.data());
+      b[k] = x;
+    }
   }
 };
 
@@ -130,9 +184,9 @@ LinearSolver& LinearSolver::operator=(LinearSolver&&) noexcept = default;
 FactorReport LinearSolver::numeric(std::span<const double> values) {
   TISSERAND_ENSURE(static_cast<int>(values.size()) == pattern_->values(), "{} values", values.size());
   if (pattern_->size() == 0) return {true, 1.0, -1};
-  for (const double value : values)
-    if (!std::isfinite(value)) return {};
-  if (dense_) return dense_->factor(pattern_->size(), values.data());
+  // 0 if all are finite, else NaN.
+  if ((0.0 * Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Eigen::Index>(values.size()))).sum() != 0.0) return {};
+  if (dense_) return dense_->factor(values.data());
   return klu_->factor(*pattern_, const_cast<double*>(values.data()));
 }
 
