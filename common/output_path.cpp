@@ -58,7 +58,8 @@ void require_output(const std::string& path, const std::vector<std::string>& inp
     if (fs::equivalent(input, path, ignored))
       throw Error("the output would replace its own input", path, "give -o another name");
   if (replaces == Replaces::hdf5_only && is_of_another_kind(path))
-    throw Error("exists and is a file of another kind (not HDF5)", path, "give -o another name, or remove that file first");
+    throw Error("exists and is a file of another kind (not HDF5)", path,
+                "give -o another name, or remove that file first");
 }
 
 }  // namespace tisserand

@@ -9,8 +9,9 @@ namespace tisserand {
 /// What an existing file must be, so that it may be replaced.
 enum class Replaces { anything, hdf5_only };
 
-/// Throws Error if `path` is empty, a folder, a device, in a folder that is missing or not writable, one of the `inputs` of
-/// the same command, or (hdf5_only) an existing file of another kind, which was hardly meant to be replaced.
+/// Throws Error if `path` is empty, a folder, a device, in a folder that is missing or not writable, one of the
+/// `inputs` of the same command, or (hdf5_only) an existing file of another kind, which was hardly meant to be
+/// replaced.
 void require_output(const std::string& path, const std::vector<std::string>& inputs, Replaces replaces);
 
 /// Whether text written to `path` goes through it rather than into it: /dev/stdout, a device, a pipe.

@@ -164,7 +164,11 @@ struct ResultsWriter::Impl {
   bool broken = false;            ///< a write failed: the file on disk stays as the last good write left it
   bool finished = false;
 
-  void require_space() const;
+  std::string shortage;           ///< why rows were given up, or empty
+
+  std::uint64_t bytes_needed(std::size_t rows) const;
+  std::size_t rows_that_fit();
+  void write_rows(std::size_t rows);
   void write_waiting();
   void flush();
   void close();
@@ -172,52 +176,67 @@ struct ResultsWriter::Impl {
   void rename_to_final() const;
 };
 
-/// HDF5 cannot give up cleanly on a full disk, so that ours asks first.
-void ResultsWriter::Impl::require_space() const {
+/// Bytes that the next `rows` rows may take, with new chunks and what closing the file takes.
+std::uint64_t ResultsWriter::Impl::bytes_needed(std::size_t rows) const {
+  std::uint64_t needed = disk_reserve + rows * bytes_per_row;
+  for (const Column& column : columns) {
+    const std::size_t chunk = chunk_rows(column.block);
+    const bool opens_chunk = written % chunk == 0 || written % chunk + rows > chunk;
+    if (opens_chunk) needed += chunk * column.block.width() * sizeof(double);
+  }
+  return needed;
+}
+
+/// HDF5 cannot give up cleanly on a full disk, so that ours asks first: of the waiting rows the number that fits.
+std::size_t ResultsWriter::Impl::rows_that_fit() {
   struct statvfs disk {};
   struct stat status {};
-  if (::statvfs(part.c_str(), &disk) != 0 || ::stat(part.c_str(), &status) != 0) return;
-  std::uint64_t needed = disk_reserve + waiting * bytes_per_row;
-  for (const Column& column : columns) {
-    const std::size_t rows = chunk_rows(column.block);
-    const bool opens_chunk = written % rows == 0 || written % rows + waiting > rows;
-    if (opens_chunk) needed += rows * column.block.width() * sizeof(double);
-  }
+  if (::statvfs(part.c_str(), &disk) != 0 || ::stat(part.c_str(), &status) != 0) return waiting;
   const std::uint64_t free = static_cast<std::uint64_t>(disk.f_bavail) * disk.f_frsize;
   struct rlimit limit {};
   const bool limited = ::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
-  if (limited && static_cast<std::uint64_t>(status.st_size) + needed > limit.rlim_cur)
-    throw Error(fmt::format("the file may not grow beyond {} kB (limit of the shell, `ulimit -f`); the next {} rows need {} kB",
-                            limit.rlim_cur / 1024, waiting, needed / 1024),
-                part, "raise the limit, or store fewer channels or instants");
-  if (free < needed)
-    throw Error(fmt::format("the disk is full: {} kB are free, the next {} rows need {} kB", free / 1024, waiting, needed / 1024),
-                part, "free some space, write to another disk, or store fewer channels");
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  const std::uint64_t growth = !limited ? free : limit.rlim_cur > size ? limit.rlim_cur - size : 0;
+  const std::uint64_t needed = bytes_needed(waiting);
+  if (needed <= std::min(free, growth)) return waiting;
+  shortage = growth < free ? fmt::format("the file may not grow beyond {} kB (`ulimit -f`), the next {} rows need {} kB more",
+                                         limit.rlim_cur / 1024, waiting, needed / 1024)
+                           : fmt::format("the disk is full: {} kB are free, the next {} rows need {} kB", free / 1024, waiting,
+                                         needed / 1024);
+  std::size_t rows = waiting;
+  while (rows > 0 && bytes_needed(rows) > std::min(free, growth)) rows /= 2;
+  return rows;
 }
 
 void ResultsWriter::Impl::write_waiting() {
   if (waiting == 0) return;
-  require_space();
+  const std::size_t rows = rows_that_fit();
+  write_rows(rows);
+  waiting = 0;
+  if (!shortage.empty()) throw Error(shortage, part, "free some space, write to another disk, or store fewer channels");
+}
+
+void ResultsWriter::Impl::write_rows(std::size_t rows) {
+  if (rows == 0) return;
   for (Column& column : columns) {
-    std::vector<hsize_t> extent{written + waiting}, start{written}, count{waiting};
+    std::vector<hsize_t> extent{written + rows}, start{written}, count{rows};
     for (const std::uint64_t e : column.block.shape) {
       extent.push_back(e);
       start.push_back(0);
       count.push_back(e);
     }
-    const hsize_t total = waiting * column.block.width();
+    const hsize_t total = rows * column.block.width();
     bool ok = H5Dset_extent(column.dataset.id(), extent.data()) >= 0;
     const hdf5::Handle space(H5Dget_space(column.dataset.id()), close_space), memory(H5Screate_simple(1, &total, nullptr), close_space);
     ok = ok && H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0;
     ok = ok && H5Dwrite(column.dataset.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT, column.waiting.data()) >= 0;
     if (!ok) {
       broken = true;
-      throw hdf5::last_error(fmt::format("cannot write rows {} to {} of {}", written, written + waiting, column.block.dataset),
+      throw hdf5::last_error(fmt::format("cannot write rows {} to {} of {}", written, written + rows, column.block.dataset),
                              part, "choose another place for the results");
     }
   }
-  written += waiting;
-  waiting = 0;
+  written += rows;
 }
 
 void ResultsWriter::Impl::flush() {
@@ -299,7 +318,7 @@ void ResultsWriter::append(const ResultsRow& row) {
 void ResultsWriter::finish(bool completed, const std::string& reason, const std::string& report_json) {
   TISSERAND_ENSURE(!impl_->finished, "finish() twice of {}", impl_->path);
   impl_->finished = true;
-  std::string problem;
+  std::string problem = impl_->shortage;
   try {
     if (!impl_->broken) impl_->flush();
   } catch (const Error& error) {

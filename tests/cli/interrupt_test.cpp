@@ -1,0 +1,125 @@
+// Runs that end before their end: Ctrl-C, kill, sudden death, and steps that do not converge.
+#include <chrono>
+#include <cstdlib>
+#include <random>
+#include <thread>
+
+#include "tests/cli/scenes.hpp"
+
+namespace tisserand::cli {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Interrupt : public Folder {
+ protected:
+  /// A run of hours.
+  pid_t start_long_run() const {
+    return start({program("mechanism"), "run", "arm.scene.yaml", "-o", "long.h5", "--set", "integrator.end=1e5"},
+                 where);
+  }
+  /// Waits until the results have appeared and some steps are done.
+  void wait_for_results() const {
+    for (int i = 0; i < 1000 && !std::filesystem::exists(file("long.h5.part")); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  void expect_every_command_reads(const std::string& results) const {
+    const Outcome channels = mechanism({"channels", results});
+    EXPECT_EQ(channels.code, 0) << channels.error;
+    EXPECT_THAT(channels.out, HasSubstr("not completed: "));
+    EXPECT_EQ(mechanism({"export", results, "-o", "long.csv"}).code, 0);
+    EXPECT_THAT(read_text(file("long.csv")), HasSubstr("time [s],"));
+  }
+};
+
+TEST_F(Interrupt, SignalsLeaveResultsUpToThenAndExit130) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const pid_t child = start_long_run();
+    wait_for_results();
+    ::kill(child, signal);
+    const Outcome outcome = finish(child, where);
+    EXPECT_EQ(outcome.code, 130) << outcome.error;
+    EXPECT_THAT(outcome.out, HasSubstr("interrupted at t = "));
+    EXPECT_FALSE(std::filesystem::exists(file("long.h5.part")));
+    EXPECT_THAT(mechanism({"channels", "long.h5"}).out, HasSubstr("not completed: interrupted at t = "));
+    expect_every_command_reads("long.h5");
+    EXPECT_EQ(mechanism({"plot", "long.h5", "-c", "energy/total", "-o", "long.svg"}).code, 0);
+  }
+}
+
+TEST_F(Interrupt, TellsProgressAfterASecondOnTheErrorStream) {
+  const pid_t child = start_long_run();
+  std::this_thread::sleep_for(std::chrono::milliseconds(2000));
+  ::kill(child, SIGINT);
+  const Outcome outcome = finish(child, where);
+  EXPECT_THAT(outcome.error, HasSubstr("simulating: 0 %"));
+  EXPECT_THAT(outcome.out, Not(HasSubstr("simulating")));
+  EXPECT_THAT(mechanism({"run", "arm.scene.yaml", "-o", "short.h5"}).error, Not(HasSubstr("simulating")));
+}
+
+/// TISSERAND_KILLS=100 kills as often as one likes; the writer alone is killed in tests/formats/results_kill_test.cpp.
+TEST_F(Interrupt, FilesOfKilledRunsAreRead) {
+  const char* wish = std::getenv("TISSERAND_KILLS");
+  const int kills = wish == nullptr ? 20 : std::atoi(wish);
+  std::mt19937 random(8);
+  std::uniform_int_distribution<int> microseconds(0, 150'000);
+  int read = 0;
+  for (int k = 0; k < kills; ++k) {
+    std::filesystem::remove(file("long.h5.part"));
+    const pid_t child = start_long_run();
+    std::this_thread::sleep_for(std::chrono::microseconds(microseconds(random)));
+    ::kill(child, SIGKILL);
+    EXPECT_EQ(finish(child, where).code, 1000 + SIGKILL);
+    if (!std::filesystem::exists(file("long.h5.part"))) continue;  // killed before the first row
+    SCOPED_TRACE(k);
+    expect_every_command_reads("long.h5.part");
+    ++read;
+  }
+  if (kills >= 20) {
+    EXPECT_GT(read, 0);
+  }
+  // The next run of the same name goes its way.
+  EXPECT_EQ(mechanism({"run", "arm.scene.yaml", "-o", "long.h5"}).code, 0);
+}
+
+TEST_F(Interrupt, ResultsOfSeveralSecondsSurviveSuddenDeath) {
+  const pid_t child = start_long_run();
+  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+  ::kill(child, SIGKILL);
+  finish(child, where);
+  expect_every_command_reads("long.h5.part");
+  EXPECT_THAT(mechanism({"channels", "long.h5"}).out, HasSubstr("instants from 0 to"));  // finds the .part
+  EXPECT_EQ(mechanism({"plot", "long.h5.part", "-c", "energy/total", "-o", "long.svg"}).code, 0);
+}
+
+TEST_F(Interrupt, StepThatCannotConvergeIsExplained) {
+  // No step of this size turns the block so far within two iterations.
+  const Outcome outcome = mechanism({"run", "arm.scene.yaml", "-o", "stuck.h5", "--set",
+                                     "loads.push.value.2={table: [[0, 0], [0.05, 0], [0.06, 1e7]]}", "--set",
+                                     "integrator.max_iterations=2", "--set", "integrator.max_halvings=3"});
+  EXPECT_EQ(outcome.code, 3) << outcome.out << outcome.error;
+  EXPECT_THAT(outcome.error,
+              AllOf(HasSubstr("did not converge"), HasSubstr("worst at "), HasSubstr("the step is too long")));
+  EXPECT_THAT(outcome.error,
+              AllOf(HasSubstr("after 3 halvings"), ::testing::ContainsRegex("(translation|rotation|axis)")));
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("taken again"), HasSubstr("not converged: ")));
+  EXPECT_THAT(mechanism({"channels", "stuck.h5"}).out, HasSubstr("not completed: t = "));
+  EXPECT_EQ(mechanism({"export", "stuck.h5", "-o", "stuck.csv"}).code, 0);
+}
+
+TEST_F(Interrupt, FormulaThatIsNoNumberEndsTheRunByName) {
+  for (const char* formula : {"1/(t-0.05)", "sqrt(0.05-t)"}) {
+    const Outcome outcome = mechanism({"run", "arm.scene.yaml", "-o", "nan.h5", "--set", "integrator.step=0.0125",
+                                       "--set", std::string("loads.push.value.2=\"") + formula + "\""});
+    EXPECT_EQ(outcome.code, 3) << outcome.out << outcome.error;
+    EXPECT_THAT(outcome.error,
+                AllOf(HasSubstr("load 'push', z component"), HasSubstr(formula), HasSubstr("not a finite number")));
+    EXPECT_THAT(mechanism({"channels", "nan.h5"}).out, HasSubstr("not completed: load 'push'"));
+  }
+}
+
+}  // namespace
+}  // namespace tisserand::cli

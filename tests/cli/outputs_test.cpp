@@ -1,0 +1,163 @@
+// Outputs that cannot or must not be written, results of a wrong kind, words that are no commands.
+#include <unistd.h>
+
+#include "tests/cli/scenes.hpp"
+
+namespace tisserand::cli {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+class Outputs : public Folder {
+ protected:
+  void make_results() { ASSERT_EQ(mechanism({"run", "arm.scene.yaml", "-o", "arm.results.h5"}).code, 0); }
+};
+
+TEST_F(Outputs, PlaceIsLookedAtBeforeTheRun) {
+  expect_error(mechanism({"run", "arm.scene.yaml", "-o", "none/x.h5"}), {"none/", "No such file", "create it first"});
+  expect_error(mechanism({"run", "arm.scene.yaml", "-o", "."}), {"is a folder"});
+  expect_error(mechanism({"run", "arm.scene.yaml", "-o", "none/"}), {"is a folder"});
+  expect_error(mechanism({"run", "arm.scene.yaml", "-o", "/dev/null"}), {"/dev/null", "device"});
+}
+
+TEST_F(Outputs, InputsAndFilesOfOtherKindsAreNotReplaced) {
+  const std::string scene = read_text(file("arm.scene.yaml")), element = read_text(file("se.superelement.h5"));
+  expect_error(mechanism({"run", "arm.scene.yaml", "-o", "arm.scene.yaml"}), {"replace its own input", "another name"});
+  expect_error(mechanism({"run", "arm.scene.yaml", "-o", "./se.superelement.h5"}), {"replace its own input"});
+  write_text(file("letter.txt"), "dear reader");
+  expect_error(mechanism({"run", "arm.scene.yaml", "-o", "letter.txt"}), {"letter.txt", "another kind"});
+  EXPECT_EQ(read_text(file("arm.scene.yaml")), scene);
+  EXPECT_EQ(read_text(file("se.superelement.h5")), element);
+  EXPECT_EQ(read_text(file("letter.txt")), "dear reader");
+  make_results();
+  make_results();  // older results are
+  expect_error(mechanism({"export", "arm.results.h5", "-o", "arm.results.h5"}), {"replace its own input"});
+  expect_error(mechanism({"plot", "arm.results.h5", "-c", "energy/total", "-o", "none/x.png"}),
+               {"none/", "No such file"});
+  expect_error(mechanism({"plot", "arm.results.h5", "-c", "energy/total", "-o", "x.pdf"}), {"x.pdf", ".png or .svg"});
+  expect_error(mechanism({"export", "arm.results.h5", "-o", "none/x.csv"}), {"none/", "No such file"});
+  EXPECT_EQ(mechanism({"channels", "arm.results.h5"}).code, 0);
+}
+
+TEST_F(Outputs, FolderWithoutPermissionIsTold) {
+  if (::geteuid() == 0) {  // root may write everywhere
+    std::filesystem::permissions(folder.path(), std::filesystem::perms::all);
+    where.user = 65534;
+    if (mechanism({"--version"}).code == 127) GTEST_SKIP() << "the user nobody cannot reach " << program("mechanism");
+  }
+  std::filesystem::create_directory(file("locked"));
+  std::filesystem::permissions(file("locked"), static_cast<std::filesystem::perms>(0555));
+  expect_error(mechanism({"run", "arm.scene.yaml", "-o", "locked/x.h5"}),
+               {"locked/", "Permission denied", "may write"});
+  write_text(file("secret.yaml"), arm_scene);
+  std::filesystem::permissions(file("secret.yaml"), std::filesystem::perms::none);
+  expect_error(mechanism({"run", "secret.yaml"}), {"secret.yaml", "Permission denied"});
+}
+
+TEST_F(Outputs, FullDiskIsTold) {
+  make_results();
+  expect_error(mechanism({"export", "arm.results.h5", "-o", "/dev/full"}),
+               {"/dev/full", "No space left", "free some space"});
+  Surroundings full = where;
+  full.standard_output = "/dev/full";
+  expect_error(call({program("mechanism"), "channels", "arm.results.h5"}, full), {"standard output", "No space left"});
+}
+
+TEST_F(Outputs, LimitOfTheFileSizeEndsTheRunWithReadableResults) {
+  where.file_size = 700'000;
+  const Outcome outcome = mechanism({"run", "arm.scene.yaml", "-o", "big.h5", "--set", "integrator.end=30", "--set",
+                                     "integrator.step=0.001", "--set", "integrator.tolerance=1e-4"});
+  expect_error(outcome, {"big.h5", "may not grow beyond", "store fewer channels"});
+  where.file_size = RLIM_INFINITY;
+  const Outcome channels = mechanism({"channels", "big.h5"});
+  EXPECT_EQ(channels.code, 0) << channels.error;
+  EXPECT_THAT(channels.out,
+              AllOf(HasSubstr("not completed"), HasSubstr("instants from 0 to"), HasSubstr("may not grow beyond")));
+  EXPECT_EQ(mechanism({"export", "big.h5", "-c", "energy", "-o", "big.csv"}).code, 0);
+}
+
+TEST_F(Outputs, ExportGoesToStandardOutput) {
+  make_results();
+  const Outcome outcome = mechanism({"export", "arm.results.h5", "-c", "energy/total", "-o", "/dev/stdout"});
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("time [s],energy/total [J]\n"), HasSubstr("\n0.05,")));
+}
+
+TEST_F(Outputs, ReaderThatLeavesEarlyIsNoError) {
+  make_results();
+  // The shell closes the pipe after one line; PIPESTATUS-free: the error stream and the code of mechanism are kept
+  // apart.
+  const std::string command =
+      "(" + program("mechanism") + " channels arm.results.h5; echo $? > code) 2> errors | head -1 > first";
+  ASSERT_EQ(call({"/bin/sh", "-c", command}, where).code, 0);
+  EXPECT_THAT(read_text(file("first")), HasSubstr("scene 'arm'"));
+  EXPECT_THAT(read_text(file("errors")), IsEmpty());
+  EXPECT_EQ(read_text(file("code")), "0\n");
+}
+
+TEST_F(Outputs, ResultsOfAWrongKindAreRefused) {
+  make_results();
+  for (const char* command : {"channels", "export", "plot"}) {
+    std::vector<std::string> rest{"-c", "energy/total"};
+    if (std::string(command) != "channels") rest.insert(rest.end(), {"-o", "x.svg"});
+    const auto refused = [&](const std::string& input, const std::vector<std::string>& words) {
+      std::vector<std::string> all{command, input};
+      all.insert(all.end(), rest.begin(), rest.end());
+      expect_error(mechanism(all), words);
+    };
+    refused("se.superelement.h5", {"kind 'tisserand-superelement'", "*.results.h5"});
+    refused("arm.scene.yaml", {"is not an HDF5 file"});
+    refused("none.results.h5", {"none.results.h5", "No such file"});
+    rest[1] = "energy/totl";
+    refused("arm.results.h5", {"no channel 'energy/totl'", "did you mean 'energy/total'?"});
+    rest[1] = "nodes/positon";
+    refused("arm.results.h5", {"no channel 'nodes/positon'", "did you mean 'nodes/position'?"});
+  }
+  expect_error(with("check", {"bodies.se.file=arm.results.h5"}), {"arm.results.h5", "tisserand-results"});
+  EXPECT_FALSE(std::filesystem::exists(file("x.svg")));
+}
+
+TEST_F(Outputs, RhythmOfOutput) {
+  const auto times = [&](const std::vector<std::string>& settings) {
+    std::vector<std::string> words{"run", "arm.scene.yaml", "-o", "o.h5"};
+    for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+    EXPECT_EQ(mechanism(words).code, 0);
+    return mechanism({"export", "o.h5", "-c", "time", "-o", "/dev/stdout"}).out;
+  };
+  EXPECT_EQ(times({"output.every=4"}), "time [s]\n0\n0.04\n0.08\n0.1\n");  // the last instant always
+  EXPECT_EQ(times({"output={every: 4, from: 0.05}"}), "time [s]\n0.08\n0.1\n");
+  EXPECT_EQ(times({"output={interval: 0.05}"}), "time [s]\n0\n0.05\n0.1\n");
+  times({"output.channels=[energy, nodes/position]"});
+  const std::string channels = mechanism({"channels", "o.h5"}).out;
+  EXPECT_THAT(channels,
+              AllOf(HasSubstr("energy/total"), HasSubstr("nodes/position/rod/1/x"), Not(HasSubstr("velocity"))));
+}
+
+TEST_F(Outputs, UsageErrorsAreTwoAndHelpTeaches) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{},
+                                             {"rnu"},
+                                             {"run"},
+                                             {"run", "arm.scene.yaml", "--nonsense"},
+                                             {"run", "a", "b"},
+                                             {"export", "arm.results.h5"}}) {
+    const Outcome outcome = mechanism(words);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.error, AllOf(HasSubstr("mechanism: "), HasSubstr("--help` explains")));
+  }
+  EXPECT_THAT(mechanism({"rnu"}).error, HasSubstr("there is no command 'rnu'; did you mean 'run'?"));
+  for (const char* command : {"run", "check", "export", "channels", "plot", "compare"}) {
+    const Outcome outcome = mechanism({command, "--help"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.out, HasSubstr(std::string("\n  mechanism ") + command));  // an example
+  }
+  EXPECT_THAT(mechanism({"--help"}).out, AllOf(HasSubstr("Examples:"), HasSubstr("Exit codes:"), HasSubstr("Units")));
+  EXPECT_THAT(mechanism({"--version"}).out, HasSubstr("tisserand mechanism " TISSERAND_VERSION));
+}
+
+}  // namespace
+}  // namespace tisserand::cli

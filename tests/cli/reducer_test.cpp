@@ -1,0 +1,95 @@
+// The faults of parts and of reduced files, told by `reducer`; skipped where that program is not built.
+#include "tests/cli/scenes.hpp"
+
+namespace tisserand::cli {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr const char* beam_part = R"yaml(part: beam
+materials: {steel: {E: 2.1e11, nu: 0.3, density: 7850}}
+sections: {tube: {shape: circle, radius: 0.03}}
+points: {base: [0, 0, 0], tip: [2, 0, 0]}
+beams: {spar: {from: base, to: tip, section: tube, material: steel, elements: 6}}
+boundary: {base: all, tip: all}
+modes: 2
+)yaml";
+
+class Reducer : public Folder {
+ protected:
+  void SetUp() override {
+    if (!std::filesystem::exists(program("reducer"))) GTEST_SKIP() << "built without reducer";
+    write_text(file("beam.part.yaml"), beam_part);
+  }
+  Outcome reducer(std::vector<std::string> words) const {
+    words.insert(words.begin(), program("reducer"));
+    return call(words, where);
+  }
+};
+
+TEST_F(Reducer, FaultsOfAPartAreToldAndLeaveNothing) {
+  struct Fault {
+    std::vector<std::string> settings, words;
+  };
+  const std::vector<Fault> faults = {
+      {{"mods=3"}, {"unknown key 'mods'", "did you mean 'modes'?"}},
+      {{"modes=three"}, {"modes", "'three'"}},
+      {{"boundary={}"}, {"has no boundary node"}},
+      {{"boundary={bse: all}"}, {"no point 'bse'", "did you mean 'base'?"}},
+      {{"modes=1000"}, {"1000 internal modes asked for, but only 30 exist"}},  // 5 inner nodes with six each
+      {{"points.tip=[0, 0, 0]"}, {"beam 'spar'", "zero length"}},
+      {{"sections.tube.radius=-1", "materials.steel.density=-7850"},
+       {"radius -1", "density -7850", "must be positive"}},
+      {{"beams.spar.section=tub"}, {"no section 'tub'", "did you mean 'tube'?"}},
+      {{"points.far=[0, 0, 1]", "points.end=[0, 0, 2]",
+        "beams.loose={from: far, to: end, section: tube, material: steel, elements: 2}"},
+       {"2 pieces that no beam connects", "nearest nodes are far and base"}},
+  };
+  for (const Fault& fault : faults) {
+    std::vector<std::string> words{"run", "beam.part.yaml"};
+    for (const std::string& setting : fault.settings) words.insert(words.end(), {"--set", setting});
+    expect_error(reducer(words), fault.words);
+    EXPECT_FALSE(std::filesystem::exists(file("beam.superelement.h5")));
+    EXPECT_FALSE(std::filesystem::exists(file("beam.certificate.json")));
+  }
+}
+
+TEST_F(Reducer, FilesOfOtherKindsAreNamed) {
+  expect_error(reducer({"run", "arm.scene.yaml"}), {"arm.scene.yaml:1:", "a scene, not a part"});
+  expect_error(reducer({"run", "se.superelement.h5"}), {"another kind of file"});
+  expect_error(reducer({"run", "none.yaml"}), {"none.yaml", "No such file"});
+  expect_error(reducer({"show", "arm.scene.yaml"}), {"is not an HDF5 file"});
+  expect_error(reducer({"show", "none.h5"}), {"No such file"});
+  ASSERT_EQ(mechanism({"run", "arm.scene.yaml", "-o", "arm.results.h5"}).code, 0);
+  expect_error(reducer({"show", "arm.results.h5"}), {"tisserand-results"});
+}
+
+TEST_F(Reducer, OutputsAreLookedAtBeforeTheWork) {
+  expect_error(reducer({"run", "beam.part.yaml", "-o", "none/x.h5"}), {"none/", "No such file"});
+  expect_error(reducer({"run", "beam.part.yaml", "-o", "beam.part.yaml"}), {"replace its own input"});
+  expect_error(reducer({"run", "beam.part.yaml", "-o", "arm.scene.yaml"}), {"another kind"});
+  expect_error(reducer({"run", "beam.part.yaml", "-o", "/dev/null"}), {"device"});
+  expect_error(reducer({"mesh", "beam.part.yaml", "-o", "none/x.msh"}), {"none/", "No such file"});
+  EXPECT_EQ(read_text(file("beam.part.yaml")), beam_part);
+  Surroundings full = where;
+  full.standard_output = "/dev/full";
+  expect_error(call({program("reducer"), "show", "se.superelement.h5"}, full), {"standard output", "No space left"});
+  where.file_size = 2000;
+  expect_error(reducer({"run", "beam.part.yaml"}), {"beam.superelement.h5"});
+  EXPECT_FALSE(std::filesystem::exists(file("beam.superelement.h5")));
+}
+
+TEST_F(Reducer, UsageErrorsAreTwoAndHelpTeaches) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{}, {"shw"}, {"run"}, {"run", "beam.part.yaml", "--nope"}})
+    EXPECT_EQ(reducer(words).code, 2);
+  EXPECT_THAT(reducer({"shw"}).error, HasSubstr("there is no command 'shw'; did you mean 'show'?"));
+  for (const char* command : {"run", "show", "mesh"})
+    EXPECT_THAT(reducer({command, "--help"}).out, HasSubstr(std::string("\n  reducer ") + command));
+  EXPECT_THAT(reducer({"--help"}).out, AllOf(HasSubstr("Examples:"), HasSubstr("Exit codes:"), HasSubstr("Units")));
+  EXPECT_THAT(reducer({"--version"}).out, HasSubstr("reducer " TISSERAND_VERSION));
+}
+
+}  // namespace
+}  // namespace tisserand::cli
