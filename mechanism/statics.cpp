@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -51,13 +52,16 @@ StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options,
     report.residual = largest_residual(model, workspace);
     report.constraint = model.sizes.constraints > 0 ? workspace.constraint.cwiseAbs().maxCoeff() : 0.0;
     const double force = std::max(workspace.force_scale[0], workspace.force_scale[1] / model.length);
-    const bool forces = report.residual <= options.tolerance * force &&
+    // Positions are rounded to ε length, which the stiffness turns into forces that no iteration can remove.
+    const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
+    const bool forces = report.residual <= std::max(options.tolerance * force, round_off) &&
                         largest_internal_residual(workspace) <= options.tolerance * workspace.force_scale[2];
     if (iteration > 0 && forces && report.constraint <= options.tolerance * model.length) return StepOutcome::accepted;
     if (!std::isfinite(report.residual)) return StepOutcome::diverged;
     if (iteration == options.max_iterations) return StepOutcome::too_many_iterations;
     report.explanation = free_direction(model, state, workspace);
-    if (!report.explanation.empty()) return StepOutcome::singular;
+    // Only the first state is one of equilibrium: a later one may be singular because the load step is too long.
+    if (!report.explanation.empty()) return iteration == 0 ? StepOutcome::singular : StepOutcome::diverged;
     workspace.bias = -workspace.constraint;
     solve_increment(model, workspace.bias, workspace);
     state.lambda() += workspace.unknowns.tail(model.sizes.constraints);
@@ -110,17 +114,15 @@ StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& opti
   }
   workspace.load_factor = 1.0;
   workspace.has_factors = false;
-  switch (report.outcome) {
-    case StepOutcome::accepted: break;
-    case StepOutcome::singular:
-      report.explanation = fmt::format("the scene can move freely: nothing holds {}", report.explanation);
-      break;
-    case StepOutcome::diverged:
-    case StepOutcome::too_many_iterations:
-      report.explanation = fmt::format("no equilibrium was found beyond {:.3g} of the load (residual {:.2e})", reached,
-                                       report.residual);
-      break;
-  }
+  if (report.outcome == StepOutcome::singular)
+    report.explanation = reached == 0.0
+                             ? fmt::format("the scene can move freely: nothing holds {}", report.explanation)
+                             : fmt::format("the structure loses its stability at {:.3g} of the load: nothing holds {}", reached,
+                                           report.explanation);
+  if (report.outcome == StepOutcome::diverged || report.outcome == StepOutcome::too_many_iterations)
+    report.explanation = fmt::format("no equilibrium was found beyond {:.3g} of the load (residual {:.2e}, smallest load step "
+                                     "{:.2g}): the load is too large, or the structure loses its stability", reached,
+                                     report.residual, size);
   return report;
 }
 
