@@ -1,4 +1,6 @@
 // Parts of an iteration, their share of a step, and the two linear solvers.
+#include <utility>
+
 #include <benchmark/benchmark.h>
 
 #include "mechanism/bodies/superelement_evaluate.hpp"
@@ -130,6 +132,25 @@ BENCHMARK_CAPTURE(shares, hinged_beam_index3, 0)->Iterations(1)->Repetitions(5);
 BENCHMARK_CAPTURE(shares, hinged_beam_stabilised_index2, 1)->Iterations(1)->Repetitions(5);
 BENCHMARK_CAPTURE(shares, ten_nonlinear_beams, 2)->Iterations(1)->Repetitions(5);
 BENCHMARK_CAPTURE(shares, chain_of_100, 3)->Iterations(1)->Repetitions(5);
+
+/// Both models in turn, so that the ratios see one machine. Runs differ in how often they factor; the kernels of one
+/// iteration with new factors do not.
+void internal_modes(benchmark::State& state) {
+  const Case none = hinged_beam(0, Formulation::stabilised_index2);
+  const Case some = hinged_beam(static_cast<int>(state.range(0)), Formulation::stabilised_index2);
+  Stopped stopped_none(none, half_time(none)), stopped_some(some, half_time(some));
+  const auto iteration = [](const Kernels& time) { return time.evaluate + time.tangent + time.factor + 2.0 * time.solve; };
+  for (auto _ : state) {
+    const Cost a = run(none), b = run(some);
+    const Kernels kernels_a = measure(stopped_none), kernels_b = measure(stopped_some);
+    state.counters["a: us/step"] = 1e6 * b.seconds() / static_cast<double>(b.steps);
+    state.counters["b: step, relative to 0 modes"] = b.seconds() / a.seconds();
+    state.counters["c: iteration with new factors, relative to 0 modes"] = iteration(kernels_b) / iteration(kernels_a);
+    state.counters["d: iterations/step"] = static_cast<double>(b.iterations) / static_cast<double>(b.steps);
+    state.counters["e: factorisations/step"] = static_cast<double>(b.factorisations) / static_cast<double>(b.steps);
+  }
+}
+BENCHMARK(internal_modes)->Arg(0)->Arg(8)->Arg(32)->Arg(100)->Iterations(1)->Repetitions(5);
 
 /// Factorisation and solution with both solvers, for the limit in mechanism/model.cpp.
 void compare_solvers(Case input, benchmark::State& state) {

@@ -1,4 +1,4 @@
-// Whole runs: the hinged beam in all models, the cost of internal modes, chains.
+// Whole runs: the hinged beam in all models, chains.
 #include <benchmark/benchmark.h>
 
 #include "scenes.hpp"
@@ -41,21 +41,6 @@ void nonlinear_beams_of_3_nodes(benchmark::State& state) {
   run_beam(nonlinear_beam(static_cast<int>(state.range(0)), 3), "beam/0", state);
 }
 BENCHMARK(nonlinear_beams_of_3_nodes)->Arg(5)->Iterations(1)->Repetitions(5);
-
-/// Both models in turn, so that the ratio sees one machine.
-void internal_modes(benchmark::State& state) {
-  const Case none = hinged_beam(0, Formulation::stabilised_index2);
-  const Case some = hinged_beam(static_cast<int>(state.range(0)), Formulation::stabilised_index2);
-  for (auto _ : state) {
-    const Cost a = run(none), b = run(some);
-    const double iterations_a = static_cast<double>(a.iterations), iterations_b = static_cast<double>(b.iterations);
-    state.counters["a: us/step"] = 1e6 * b.seconds() / static_cast<double>(b.steps);
-    state.counters["b: step, relative to 0 modes"] = b.seconds() / a.seconds();
-    state.counters["c: iteration, relative to 0 modes"] = (b.seconds() / iterations_b) / (a.seconds() / iterations_a);
-    state.counters["d: iterations/step"] = iterations_b / static_cast<double>(b.steps);
-  }
-}
-BENCHMARK(internal_modes)->Arg(0)->Arg(8)->Arg(32)->Arg(100)->Iterations(1)->Repetitions(5);
 
 void chain_of_superelements(benchmark::State& state) {
   const auto elements = static_cast<double>(state.range(0));

@@ -150,11 +150,11 @@ Cost run_and_visit(const Case& input, Visit visit) {
   mechanism::Workspace workspace(built.model);
   const double built_at = cpu_seconds();
   (void)mechanism::start(scene, built.model, built.state, workspace);
+  cost.seconds_model = built_at - at_start;
+  cost.seconds_start = cpu_seconds() - built_at;
   mechanism::Schedule schedule(scene, built.model.breakpoints);
   Output output(built.model, scene);
   const double begin = cpu_seconds();
-  cost.seconds_model = built_at - at_start;
-  cost.seconds_start = begin - built_at;
   while (!schedule.finished(built.state.time())) {
     const double before = built.state.time();
     const mechanism::StepReport step =
