@@ -237,14 +237,12 @@ Workspace::Workspace(const Model& model)
       position_correction(increment),
       multipliers(constraint),
       previous(model.sizes) {
-  int boundary = 0, internal = 0;
+  int boundary = 0;
   for (const SuperelementBody& body : model.superelements) {
     superelements.push_back(make_scratch(body));
     boundary = std::max(boundary, body.boundary_size);
-    internal = std::max(internal, body.modes);
   }
   element_boundary.setZero(boundary);
-  element_internal.setZero(internal);
   for (JointTerms& terms : joints) {
     terms.phi.setZero();
     terms.B.setZero();

@@ -65,7 +65,6 @@ struct Workspace {
   Eigen::VectorXd position_correction;       ///< total correction over the step
   Eigen::VectorXd multipliers;               ///< increment of λ of the current iteration
   Eigen::VectorXd element_boundary;          ///< of one superelement
-  Eigen::VectorXd element_internal;
   State previous;                            ///< the last accepted state
 };
 
