@@ -24,6 +24,8 @@ constexpr double same_step = 1e-9;
 constexpr double frame_tolerance = 1e-10;
 /// Kept factors are given up when an increment is not smaller than this times the one before.
 constexpr double slow_rate = 0.25;
+/// New factors serve the next iteration of the same step too if the residual fell below this times the one before.
+constexpr double quick_rate = 0.02;
 /// Factors that served this many steps are worth keeping.
 constexpr int long_life = 8;
 /// Most steps with new factors in every iteration before kept ones are tried again.
@@ -226,7 +228,8 @@ struct Iteration {
   StepEnd end;
 };
 
-/// Newton's iteration from the prediction, with the factors that are there or with new ones in every iteration. True if it
+/// Newton's iteration from the prediction, with the factors that are there or with new ones (again in every iteration
+/// that does not converge quickly). True if it
 /// converges. Gives up kept factors as soon as they contract slowly, without an outcome of its own.
 bool iterate(const Iteration& it, Factors factors, State& state, Workspace& workspace, StepReport& report) {
   state.block() = workspace.previous.block();
@@ -234,14 +237,18 @@ bool iterate(const Iteration& it, Factors factors, State& state, Workspace& work
   state.time() = it.end.time;
   state.load_time() = it.end.load_time;
   predict(it.model, it.alpha, it.step, state, workspace);
-  double last = 0.0;
+  double last = 0.0, last_residual = 0.0, last_constraint_ratio = 0.0;
   for (int count = 0;; ++count) {
     evaluate(it.model, state, workspace);
     if (converged(it.model, it.options, it.step, count, state, workspace, report)) return true;
     if (report.outcome != StepOutcome::accepted) return false;
     if (factors == Factors::fresh) {
-      renew(it.model, it.matrix, state, workspace, report);
+      const bool quick = count > 0 && report.residual <= quick_rate * last_residual &&
+                         report.constraint_ratio <= std::max(1.0, quick_rate * last_constraint_ratio);
+      if (!quick) renew(it.model, it.matrix, state, workspace, report);
       if (report.outcome != StepOutcome::accepted) return false;
+      last_residual = report.residual;
+      last_constraint_ratio = report.constraint_ratio;
     } else if (count > 0) {
       const double size = size_of(it.model, workspace.increment);
       if (count > 1 && size > slow_rate * last) return false;
