@@ -34,7 +34,8 @@ struct Run {
 
   static std::vector<std::string> effects(const Model& model) {
     std::vector<std::string> list;
-    const auto add = [&list](std::size_t count, const char* what) {
+    const auto add = [&list](std::size_t count, std::string what) {
+      if (count == 1) what = what == "rigid bodies" ? "rigid body" : what.substr(0, what.size() - 1);
       if (count > 0) list.push_back(fmt::format("{} {}", count, what));
     };
     add(model.superelements.size(), "superelements");
@@ -100,12 +101,22 @@ void write_row(Run& run, const StepReport& step, double size, formats::ResultsRo
   report.seconds_output += run.seconds() - before;
 }
 
+/// The last accepted state of a run that ends early, if the schedule has not stored it.
+void write_last_row(Run& run, const StepReport& step, double size, formats::ResultsRow& row, formats::ResultsWriter& writer) {
+  const double time = run.built.state.time();
+  if (run.report.steps == 0 || row.time == time || time < run.scene.output.from) return;
+  run.workspace.displacement.setZero();
+  write_row(run, step, size, row, writer);
+}
+
 /// Takes the steps of the schedule; a step that fails is taken again in halves.
 void integrate(Run& run, formats::ResultsRow& row, formats::ResultsWriter& writer) {
   const Model& model = run.built.model;
   State& state = run.built.state;
   RunReport& report = run.report;
   Schedule schedule(run.scene, model.breakpoints);
+  StepReport last;
+  double last_size = 0.0;
   if (schedule.output_at_start()) write_row(run, {}, 0.0, row, writer);
   while (!schedule.finished(state.time())) {
     if (run.control.interrupted && run.control.interrupted()) {
@@ -130,13 +141,16 @@ void integrate(Run& run, formats::ResultsRow& row, formats::ResultsWriter& write
       break;
     }
     ++report.steps;
+    last = step;
+    last_size = state.time() - before;
     report.largest_constraint = std::max(report.largest_constraint, step.constraint);
     const Schedule::Event event = schedule.accept(state.time());
-    if (event.output) write_row(run, step, state.time() - before, row, writer);
+    if (event.output) write_row(run, step, last_size, row, writer);
     if (event.breakpoint) pass_breakpoint(model, run.scene, state, run.workspace);
     if (run.control.progress) run.control.progress(state.time());
   }
   report.time = state.time();
+  if (report.outcome != RunOutcome::completed) write_last_row(run, last, last_size, row, writer);
 }
 
 void equilibrate(Run& run, formats::ResultsRow& row, formats::ResultsWriter& writer) {

@@ -110,6 +110,13 @@ TEST_F(Interrupt, StepThatCannotConvergeIsExplained) {
   EXPECT_EQ(mechanism({"export", "stuck.h5", "-o", "stuck.csv"}).code, 0);
 }
 
+TEST_F(Interrupt, LastInstantOfAFailedRunIsStored) {
+  const Outcome outcome = mechanism({"run", "arm.scene.yaml", "-o", "nan.h5", "--set",
+                                     "loads.push.value.2=\"sqrt(0.0601-t)\"", "--set", "output.every=5"});
+  EXPECT_EQ(outcome.code, 3) << outcome.error;
+  EXPECT_EQ(mechanism({"export", "nan.h5", "-c", "time", "-o", "/dev/stdout"}).out, "time [s]\n0\n0.05\n0.06\n");
+}
+
 TEST_F(Interrupt, FormulaThatIsNoNumberEndsTheRunByName) {
   for (const char* formula : {"1/(t-0.05)", "sqrt(0.05-t)"}) {
     const Outcome outcome = mechanism({"run", "arm.scene.yaml", "-o", "nan.h5", "--set", "integrator.step=0.0125",

@@ -276,7 +276,7 @@ INSTANTIATE_TEST_SUITE_P(Bodies, BadScene, testing::Values(
 INSTANTIATE_TEST_SUITE_P(JointsAndLoads, BadScene, testing::Values(
   BadText{"b: beam/base", "b: ^bem/base", "^: joint 'hinge': there is no body 'bem'; did you mean 'beam'?"},
   BadText{"a: ground", "a: ^grund", "^: joint 'hinge': there is no body 'grund'; did you mean 'ground'?"},
-  BadText{"a: rod/end", "a: ^rod/ende", "^: joint 'ball': body 'rod': there is no node 'ende'; its nodes are 0 to 2, start and end"},
+  BadText{"a: rod/end", "a: ^rod/ende", "^: joint 'ball': body 'rod': there is no node 'ende'; did you mean 'end'? its nodes are 0 to 2, start and end"},
   BadText{"a: rod/end", "a: ^rod/3", "^: joint 'ball': body 'rod': there is no node '3'; its nodes are 0 to 2, start and end"},
   BadText{"a: rod/end", "a: ^rod", "^: joint 'ball': body 'rod' is flexible; 'rod' names no node; write rod/<node>, for example rod/end"},
   BadText{"b: block/hook", "b: ^block/hok", "^: joint 'ball': body 'block': there is no node 'hok'; did you mean 'hook'?"},
