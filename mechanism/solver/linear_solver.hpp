@@ -47,7 +47,7 @@ struct FactorReport {
   int singular_column = -1;   ///< where the elimination broke down, if known
 };
 
-/// The only door to SuiteSparse (KLU) and LAPACK. No allocation in numeric() and solve() after the first numeric().
+/// The only door to SuiteSparse (KLU); small dense systems are solved here. No allocation in numeric() and solve() after the first numeric().
 class LinearSolver {
  public:
   explicit LinearSolver(const SparsePattern& pattern);   ///< symbolic

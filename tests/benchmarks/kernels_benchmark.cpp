@@ -7,7 +7,7 @@
 #include "mechanism/evaluate.hpp"
 #include "mechanism/integrator.hpp"
 #include "mechanism/newton.hpp"
-#include "scenes.hpp"
+#include "tests/benchmarks/scenes.hpp"
 
 namespace tisserand::benchmarks {
 namespace {

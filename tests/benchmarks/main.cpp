@@ -5,7 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "table.hpp"
+#include "tests/benchmarks/table.hpp"
 
 int main(int count, char** arguments) {
   benchmark::Initialize(&count, arguments);

@@ -1,7 +1,7 @@
 // Whole runs: the hinged beam in all models, chains.
 #include <benchmark/benchmark.h>
 
-#include "scenes.hpp"
+#include "tests/benchmarks/scenes.hpp"
 
 namespace tisserand::benchmarks {
 namespace {

@@ -1,5 +1,5 @@
 // Superelements by static condensation and fixed-boundary modes of a chain of beam elements; the loop of a run with clocks.
-#include "scenes.hpp"
+#include "tests/benchmarks/scenes.hpp"
 
 #include <time.h>
 #include <unistd.h>

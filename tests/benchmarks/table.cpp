@@ -1,5 +1,5 @@
 // Prints medians; a new heading whenever the counters differ from those of the line before.
-#include "table.hpp"
+#include "tests/benchmarks/table.hpp"
 
 #include <ostream>
 
