@@ -31,7 +31,8 @@ std::string start_error(const formats::Scene& scene) {
   return {};
 }
 
-/// A square of bars of length 1 in the x-y plane, hinged about z at (0,0), (0,1), (1,1), (1,0); `last`: kind of its last joint.
+/// A square of bars of length 1 in the x-y plane, hinged about z at (0,0), (0,1), (1,1), (1,0); `last`: kind of its
+/// last joint.
 formats::Scene four_bar(JointKind last) {
   formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
   scene.gravity = {0, -9.81, 0};
@@ -57,7 +58,8 @@ TEST(Mobility, IsCounted) {
     JointKind kind;
     int constraints, freedom;
   };
-  for (const Case& c : {Case{JointKind::revolute, 5, 1}, Case{JointKind::spherical, 3, 3}, Case{JointKind::fixed, 6, 0}}) {
+  for (const Case& c :
+       {Case{JointKind::revolute, 5, 1}, Case{JointKind::spherical, 3, 3}, Case{JointKind::fixed, 6, 0}}) {
     formats::Scene scene = test_support::pendulum_scene(1e-3, 1.0);
     scene.joints[0].kind = c.kind;
     Simulation run(scene, {});
@@ -69,8 +71,8 @@ TEST(Mobility, IsCounted) {
   }
 }
 
-// Three bars with 18 coordinates move with one degree of freedom: 20 equations of four hinges have rank 17; with a ball in
-// place of the last hinge two of three superfluous equations go (and the translation along z stays).
+// Three bars with 18 coordinates move with one degree of freedom: 20 equations of four hinges have rank 17; with a ball
+// in place of the last hinge two of three superfluous equations go (and the translation along z stays).
 TEST(Mobility, OfAFourBarLinkage) {
   Simulation run(four_bar(JointKind::revolute), {});
   const Mobility mobility = count_mobility(run.model(), run.state(), run.workspace);
@@ -120,8 +122,8 @@ TEST(MasslessDirection, IsAnErrorThatNamesIt) {
   EXPECT_THAT(start_error(scene), testing::HasSubstr("needle, rotation about its y axis"));
 }
 
-// A small gap and a small wrong velocity along the line between two bodies are taken away in the mass norm: both move, in
-// proportion to the inverse masses (3 to 1).
+// A small gap and a small wrong velocity along the line between two bodies are taken away in the mass norm: both move,
+// in proportion to the inverse masses (3 to 1).
 TEST(Projection, ClosesSmallGapsInTheMassNorm) {
   formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
   scene.initial_tolerance = 1e-2;
@@ -145,8 +147,8 @@ TEST(Projection, ClosesSmallGapsInTheMassNorm) {
   EXPECT_NEAR(run.velocity("heavy").x(), 1.003, 1e-12);
 }
 
-// v̇ and λ of the pendulum at rest in the horizontal: angular acceleration −m g d/J_0 ... at (−d, 0) it falls, so that it turns
-// with +m g d/J_0 about z; the hinge carries m (g − d · acceleration) upwards.
+// v̇ and λ of the pendulum at rest in the horizontal: angular acceleration −m g d/J_0 ... at (−d, 0) it falls, so that
+// it turns with +m g d/J_0 about z; the hinge carries m (g − d · acceleration) upwards.
 TEST(Accelerations, OfAPendulumAtRest) {
   using test_support::Pendulum;
   Simulation run(test_support::pendulum_scene(1e-3, 1.0), {});

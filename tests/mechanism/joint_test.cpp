@@ -87,12 +87,16 @@ class EveryJoint : public testing::TestWithParam<JointKind> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Joints, EveryJoint, testing::Values(JointKind::fixed, JointKind::revolute, JointKind::spherical),
+INSTANTIATE_TEST_SUITE_P(Joints, EveryJoint,
+                         testing::Values(JointKind::fixed, JointKind::revolute, JointKind::spherical),
                          [](const testing::TestParamInfo<JointKind>& kind) {
                            switch (kind.param) {
-                             case JointKind::fixed: return "fixed";
-                             case JointKind::revolute: return "revolute";
-                             case JointKind::spherical: return "spherical";
+                             case JointKind::fixed:
+                               return "fixed";
+                             case JointKind::revolute:
+                               return "revolute";
+                             case JointKind::spherical:
+                               return "spherical";
                            }
                            return "";
                          });
@@ -141,7 +145,9 @@ TEST_P(EveryJoint, StiffnessIsTheDerivativeOfTheReactions) {
     Pair pair(GetParam(), seed, 0.7);
     pair.open(seed);
     const Eigen::VectorXd lambda = multipliers(seed);
-    const auto force = [&](const Pair& p) -> Vector12d { return p.terms().B.topRows(size()).transpose() * lambda.head(size()); };
+    const auto force = [&](const Pair& p) -> Vector12d {
+      return p.terms().B.topRows(size()).transpose() * lambda.head(size());
+    };
     Eigen::Matrix<double, 12, 12> K;
     joint_stiffness(pair.joint, pair.a, pair.b, lambda.data(), K);
     for (int j = 0; j < 12; ++j) {
@@ -161,14 +167,15 @@ TEST_P(EveryJoint, RateGradientIsTheDerivativeOfTheRate) {
     joint_rate_gradient(pair.joint, pair.a, pair.b, N);
     for (int j = 0; j < 12; ++j) {
       const Vector12d d = step * Vector12d::Unit(j);
-      const Eigen::VectorXd difference = ((pair.moved(d).terms().B - pair.moved(-d).terms().B) * v).head(size()) / (2 * step);
+      const Eigen::VectorXd difference =
+          ((pair.moved(d).terms().B - pair.moved(-d).terms().B) * v).head(size()) / (2 * step);
       EXPECT_LT((N.col(j).head(size()) - difference).cwiseAbs().maxCoeff(), 3 * accuracy) << "column " << j;
     }
   }
 }
 
-// The reported wrench, applied to B at B's origin and reversed to A, is the generalised force −Bᵀλ of the equations, and has
-// no power on velocities that the joint admits.
+// The reported wrench, applied to B at B's origin and reversed to A, is the generalised force −Bᵀλ of the equations,
+// and has no power on velocities that the joint admits.
 TEST_P(EveryJoint, ReportedReactionIsTheForceOfTheEquationsAndDoesNoWork) {
   for (unsigned seed = 0; seed < states; ++seed) {
     const Pair pair(GetParam(), seed, 0.7);
@@ -224,8 +231,11 @@ TEST_P(EveryJoint, RigidMotionOfTheWorldChangesNothing) {
 JointReaction world_reaction(test_support::Simulation& run) {
   const Joint& joint = run.model().joints.front();
   evaluate(run.model(), run.state(), run.workspace);
-  const auto motion = [&](int node) { return node < 0 ? NodeMotion{} : run.workspace.motion[static_cast<std::size_t>(node)]; };
-  const JointReaction r = joint_reaction(joint, motion(joint.a.node), motion(joint.b.node), run.state().lambda().data() + joint.row);
+  const auto motion = [&](int node) {
+    return node < 0 ? NodeMotion{} : run.workspace.motion[static_cast<std::size_t>(node)];
+  };
+  const JointReaction r =
+      joint_reaction(joint, motion(joint.a.node), motion(joint.b.node), run.state().lambda().data() + joint.row);
   const Matrix3d R = marker_rotation(joint.a, motion(joint.a.node));
   return {R * r.force, R * r.moment};
 }
@@ -236,8 +246,8 @@ TEST_P(EveryJoint, SwappingTheBodiesFlipsTheReactions) {
     formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
     scene.gravity = {0.4, -0.3, -9.81};
     for (const std::string name : {"one", "two"}) {
-      formats::RigidBodySpec body = test_support::rigid_body(name, name == "one" ? 2.0 : 3.0, {0.4, 0.1, name == "one" ? 0.2 : -0.3},
-                                                             {0.2, 0.3, 0.4});
+      formats::RigidBodySpec body = test_support::rigid_body(name, name == "one" ? 2.0 : 3.0,
+                                                             {0.4, 0.1, name == "one" ? 0.2 : -0.3}, {0.2, 0.3, 0.4});
       body.start.angular_velocity = {1.0, -2.0, 0.5};
       scene.bodies.push_back(body);
     }
@@ -254,20 +264,23 @@ TEST_P(EveryJoint, SwappingTheBodiesFlipsTheReactions) {
   EXPECT_LT((forth.moment + back.moment).norm(), 1e-11);
 }
 
-// A body of weight 2·9.81 N clamped to ground 0.3 m beside its centre of mass: ground carries the weight and, by r × W + M = 0
-// with r = 0.3 e_x, W = −2·9.81 e_z, the moment −0.3·2·9.81 e_y; expressed in A's axes, which are turned by 90 degrees about x.
+// A body of weight 2·9.81 N clamped to ground 0.3 m beside its centre of mass: ground carries the weight and, by r × W
+// + M = 0 with r = 0.3 e_x, W = −2·9.81 e_z, the moment −0.3·2·9.81 e_y; expressed in A's axes, which are turned by 90
+// degrees about x.
 TEST(JointReaction, SignAgainstAStaticCalculationByHand) {
   formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
   scene.gravity = {0, 0, -9.81};
   scene.bodies.push_back(test_support::rigid_body("body", 2.0, {0.3, 0, 0}, {0.1, 0.2, 0.3}));
-  formats::JointSpec clamp = test_support::joint("clamp", JointKind::fixed, "ground", "body", Vector3d::Zero(), Vector3d::UnitZ());
+  formats::JointSpec clamp =
+      test_support::joint("clamp", JointKind::fixed, "ground", "body", Vector3d::Zero(), Vector3d::UnitZ());
   clamp.axis.reset();
   clamp.a.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Vector3d::UnitX()));
   scene.joints.push_back(clamp);
   test_support::Simulation run(scene, {});
   run.start();
   evaluate(run.model(), run.state(), run.workspace);
-  const JointReaction r = joint_reaction(run.model().joints[0], NodeMotion{}, run.workspace.motion[0], run.state().lambda().data());
+  const JointReaction r =
+      joint_reaction(run.model().joints[0], NodeMotion{}, run.workspace.motion[0], run.state().lambda().data());
   const double weight = 2.0 * 9.81;
   // A's axes: y along world z, z along world −y.
   EXPECT_LT((r.force - Vector3d(0, weight, 0)).norm(), 1e-12 * weight);
@@ -281,8 +294,10 @@ TEST(Hinge, AngleIsRightHandedAboutZOfA) {
     const double h = 1e-5;
     const Vector12d v = pair.velocity();
     const Pair before = pair.moved(-h * v), after = pair.moved(h * v);
-    // The bodies turn freely here, so the rate of the angle about z of A holds to first order in the tilt: at Φ = 0 exactly.
-    const double difference = (hinge_angle(pair.joint, after.a, after.b) - hinge_angle(pair.joint, before.a, before.b)) / (2 * h);
+    // The bodies turn freely here, so the rate of the angle about z of A holds to first order in the tilt: at Φ = 0
+    // exactly.
+    const double difference =
+        (hinge_angle(pair.joint, after.a, after.b) - hinge_angle(pair.joint, before.a, before.b)) / (2 * h);
     EXPECT_NEAR(hinge_rate(pair.joint, pair.a, pair.b), difference, 1e-8);
   }
 }

@@ -5,8 +5,8 @@
 #include <limits>
 #include <random>
 
-#include <Eigen/Core>
 #include <gtest/gtest.h>
+#include <Eigen/Core>
 
 #include "tests/support/allocation_counter.hpp"
 
@@ -67,8 +67,8 @@ TEST_P(BothSolvers, SolveAndSolveAgainWithNewValues) {
   }
 }
 
-// Kept pivots that have become poor must not spoil the answer: first a matrix whose pivots lie on the diagonal, then one
-// whose diagonal is 1e-9 of the rest.
+// Kept pivots that have become poor must not spoil the answer: first a matrix whose pivots lie on the diagonal, then
+// one whose diagonal is 1e-9 of the rest.
 TEST_P(BothSolvers, RefactorisationChoosesNewPivotsWhereTheOldOnesArePoor) {
   const int n = 30;
   const SparsePattern pattern(n, positions(n), GetParam());

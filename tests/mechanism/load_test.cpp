@@ -1,4 +1,5 @@
-// Applied forces and moments: virtual power of the applied wrench, stiffness against central differences, work of a run.
+// Applied forces and moments: virtual power of the applied wrench, stiffness against central differences, work of a
+// run.
 #include "mechanism/forces/load.hpp"
 
 #include <random>
@@ -44,7 +45,8 @@ class EveryLoad : public testing::TestWithParam<Case> {
 
 INSTANTIATE_TEST_SUITE_P(Loads, EveryLoad,
                          testing::Values(Case{LoadKind::force, LoadAxes::world}, Case{LoadKind::force, LoadAxes::body},
-                                         Case{LoadKind::moment, LoadAxes::world}, Case{LoadKind::moment, LoadAxes::body}),
+                                         Case{LoadKind::moment, LoadAxes::world},
+                                         Case{LoadKind::moment, LoadAxes::body}),
                          [](const testing::TestParamInfo<Case>& info) {
                            return std::string(info.param.kind == LoadKind::force ? "Force" : "Moment") +
                                   (info.param.axes == LoadAxes::world ? "World" : "Body");
@@ -94,8 +96,9 @@ formats::Scene loaded_body(double step) {
   return scene;
 }
 
-// A dead force at a point of a body does the work F · displacement of that point. Work is summed by the trapezoidal rule:
-// second order, quartered when the step is halved, so the extrapolated value must be that of the extrapolated displacement.
+// A dead force at a point of a body does the work F · displacement of that point. Work is summed by the trapezoidal
+// rule: second order, quartered when the step is halved, so the extrapolated value must be that of the extrapolated
+// displacement.
 TEST(Work, OfADeadForceIsForceTimesDisplacement) {
   const Vector3d force(1.0, -2.0, 3.0), place(0.4, 0.5, 0.6);
   const auto difference = [&](double step) {

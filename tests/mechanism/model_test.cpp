@@ -20,8 +20,8 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 using test_support::random_vector;
 
-/// Superelement, two-node and three-node beams, rigid body, all joints, all loads, gravity; no internal modes, so that the
-/// matrix is not condensed.
+/// Superelement, two-node and three-node beams, rigid body, all joints, all loads, gravity; no internal modes, so that
+/// the matrix is not condensed.
 formats::Scene mixed_scene() {
   formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
   scene.gravity = {0.3, -2.0, -9.81};
@@ -83,7 +83,8 @@ struct Mixed {
     const int n = pattern.size(), boundary = run.model().sizes.boundary;
     MatrixXd A = MatrixXd::Zero(n, n);
     for (int j = 0; j < n; ++j)
-      for (int k = pattern.column_start()[static_cast<std::size_t>(j)]; k < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++k) {
+      for (int k = pattern.column_start()[static_cast<std::size_t>(j)];
+           k < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++k) {
         const int i = pattern.rows()[static_cast<std::size_t>(k)];
         A(i, j) = run.workspace.values[static_cast<std::size_t>(pattern.slot(i, j))];
       }
@@ -93,9 +94,12 @@ struct Mixed {
 };
 
 /// Largest difference of columns, relative to the largest entry of the column block.
-double difference(const MatrixXd& a, const MatrixXd& b) { return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff(); }
+double difference(const MatrixXd& a, const MatrixXd& b) {
+  return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
+}
 
-// Central differences: the residual is at most quadratic in v and linear in v̇, so the differences have no truncation error.
+// Central differences: the residual is at most quadratic in v and linear in v̇, so the differences have no truncation
+// error.
 TEST(MixedScene, MassAndDampingAreDerivativesOfTheResidual) {
   Mixed mixed;
   const int n = mixed.run.model().sizes.boundary;
@@ -168,8 +172,8 @@ TEST(MixedScene, PositionRowsAreDerivativesByTheRotationVectorOfTheStep) {
   EXPECT_LT(difference(A.bottomLeftCorner(m, n), B), 1e-8);
 }
 
-// One whole Newton step: eliminated inside the element against the uncondensed system assembled here, index 3, both kinds of
-// tangent. Iterates to 1e-12 of their largest component.
+// One whole Newton step: eliminated inside the element against the uncondensed system assembled here, index 3, both
+// kinds of tangent. Iterates to 1e-12 of their largest component.
 TEST(Condensation, NewtonStepOfTheWholeSystemEqualsTheUncondensedOne) {
   SuperelementFiles files;
   test_support::add_file("frame", test_support::test_superelement("frame"), files);
@@ -181,8 +185,8 @@ TEST(Condensation, NewtonStepOfTheWholeSystemEqualsTheUncondensedOne) {
       spec.inertia = option;
       spec.damping = {.mass = 0.1, .stiffness = 1e-3, .ratio = 0.02, .ratios = {}};
       scene.bodies.push_back(spec);
-      scene.joints.push_back(
-          test_support::joint("hinge", formats::JointKind::revolute, "ground", "frame/n0", Vector3d::Zero(), {0, 0, 1}));
+      scene.joints.push_back(test_support::joint("hinge", formats::JointKind::revolute, "ground", "frame/n0",
+                                                 Vector3d::Zero(), {0, 0, 1}));
       test_support::Simulation run(scene, files);
       const Model& model = run.model();
       std::mt19937 random(4);
@@ -197,12 +201,13 @@ TEST(Condensation, NewtonStepOfTheWholeSystemEqualsTheUncondensedOne) {
       const TangentCoefficients c{4e4, 2e2, 1.0};
       const int nb = model.sizes.boundary, n = model.sizes.velocities(), m = model.sizes.constraints;
       MatrixXd whole = MatrixXd::Zero(n + m, n + m), element;
-      uncondensed_tangent(model.superelements[0], run.workspace.superelements[0], run.workspace.motion, scene.gravity, c, kind,
-                          element);
+      uncondensed_tangent(model.superelements[0], run.workspace.superelements[0], run.workspace.motion, scene.gravity,
+                          c, kind, element);
       whole.topLeftCorner(n, n) = element;  // the only body: its coordinates are the global ones in order
       Eigen::Matrix<double, 12, 12> K;
       const Joint& joint = model.joints[0];
-      joint_stiffness(joint, NodeMotion{}, run.workspace.motion[static_cast<std::size_t>(joint.b.node)], state.lambda().data(), K);
+      joint_stiffness(joint, NodeMotion{}, run.workspace.motion[static_cast<std::size_t>(joint.b.node)],
+                      state.lambda().data(), K);
       whole.topLeftCorner(6, 6) += c.stiffness * K.bottomRightCorner(6, 6);
       whole.block(n, 0, m, 6) = run.workspace.joints[0].B.topRightCorner(m, 6);
       whole.block(0, n, 6, m) = run.workspace.joints[0].B.topRightCorner(m, 6).transpose();
@@ -234,8 +239,8 @@ TEST(Names, OfCoordinatesAndConstraints) {
   EXPECT_EQ(constraint_name(model, 9), "hinge, z axis of B normal to x axis of A");
 }
 
-// Sums over the pools: the rate of the total energy is the power of the loads minus nothing else, on free motion (no joints
-// act, since the state here is open): evaluated as v · r with the loads' part.
+// Sums over the pools: the rate of the total energy is the power of the loads minus nothing else, on free motion (no
+// joints act, since the state here is open): evaluated as v · r with the loads' part.
 TEST(MixedScene, PowerOfTheResidualIsTheRateOfEnergyMinusThePowerOfLoads) {
   Mixed mixed;
   State& state = mixed.run.state();

@@ -21,7 +21,8 @@
 namespace tisserand::test_support {
 
 /// A checked element under its name, as read_superelements() would give it for a file of that name.
-inline void add_file(const std::string& name, const formats::Superelement& element, mechanism::SuperelementFiles& files) {
+inline void add_file(const std::string& name, const formats::Superelement& element,
+                     mechanism::SuperelementFiles& files) {
   files[name] = {element, formats::check(element, name)};
 }
 
@@ -52,8 +53,8 @@ inline formats::SuperelementBodySpec superelement_body(const std::string& name, 
 }
 
 /// From a to b; world position and z axis of both markers where the nodes leave them open.
-inline formats::JointSpec joint(const std::string& name, formats::JointKind kind, const std::string& a, const std::string& b,
-                                const Eigen::Vector3d& position, const Eigen::Vector3d& axis) {
+inline formats::JointSpec joint(const std::string& name, formats::JointKind kind, const std::string& a,
+                                const std::string& b, const Eigen::Vector3d& position, const Eigen::Vector3d& axis) {
   formats::JointSpec spec;
   spec.name = name;
   spec.kind = kind;
@@ -74,8 +75,8 @@ inline formats::LoadSpec constant_load(const std::string& name, formats::LoadKin
   return load;
 }
 
-/// Physical pendulum: mass 1.5, centre of mass 0.8 from the hinge about z, inertia 0.2 about it; starts at rest with the
-/// centre of mass at (-0.8, 0), gravity 9.81 along -y.
+/// Physical pendulum: mass 1.5, centre of mass 0.8 from the hinge about z, inertia 0.2 about it; starts at rest with
+/// the centre of mass at (-0.8, 0), gravity 9.81 along -y.
 struct Pendulum {
   static constexpr double mass = 1.5, arm = 0.8, inertia = 0.2, gravity = 9.81;
   static double inertia_about_hinge() { return inertia + mass * arm * arm; }
@@ -88,10 +89,11 @@ struct Pendulum {
 inline formats::Scene pendulum_scene(double step, double end) {
   formats::Scene scene = empty_scene(step, end);
   scene.gravity = {0, -Pendulum::gravity, 0};
-  formats::RigidBodySpec body = rigid_body("pendulum", Pendulum::mass, {-Pendulum::arm, 0, 0}, {0.05, 0.2, Pendulum::inertia});
+  formats::RigidBodySpec body =
+      rigid_body("pendulum", Pendulum::mass, {-Pendulum::arm, 0, 0}, {0.05, 0.2, Pendulum::inertia});
   scene.bodies.push_back(body);
-  scene.joints.push_back(
-      joint("hinge", formats::JointKind::revolute, "ground", "pendulum", Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()));
+  scene.joints.push_back(joint("hinge", formats::JointKind::revolute, "ground", "pendulum", Eigen::Vector3d::Zero(),
+                               Eigen::Vector3d::UnitZ()));
   return scene;
 }
 
@@ -102,8 +104,8 @@ inline formats::Scene heavy_top_scene(double step, double end) {
   formats::RigidBodySpec top = rigid_body("top", 15.0, {0, 1, 0}, {0.234375, 0.46875, 0.234375});
   top.start.angular_velocity = {0, 150, -4.61538};
   scene.bodies.push_back(top);
-  scene.joints.push_back(
-      joint("pivot", formats::JointKind::spherical, "ground", "top", Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()));
+  scene.joints.push_back(joint("pivot", formats::JointKind::spherical, "ground", "top", Eigen::Vector3d::Zero(),
+                               Eigen::Vector3d::UnitZ()));
   return scene;
 }
 

@@ -1,4 +1,5 @@
-// Static equilibrium of scenes: cantilevers of superelements and nonlinear beams, large rotations, scenes that can move.
+// Static equilibrium of scenes: cantilevers of superelements and nonlinear beams, large rotations, scenes that can
+// move.
 #include "mechanism/statics.hpp"
 
 #include <cmath>
@@ -50,8 +51,8 @@ struct Cantilever {
   }
 };
 
-// P L³/(3 E I) and P L²/(2 E I); a force of 0.1 N turns the tip by 5e-5, whose square is the nonlinear remainder; positions
-// rounded to 1e-16 are 1e-8 N.
+// P L³/(3 E I) and P L²/(2 E I); a force of 0.1 N turns the tip by 5e-5, whose square is the nonlinear remainder;
+// positions rounded to 1e-16 are 1e-8 N.
 TEST(SuperelementCantilever, TipDeflectionIsTheAnalyticOne) {
   const double P = 0.1;
   Cantilever c(Eigen::Quaterniond::Identity(), {0, P, 0});
@@ -63,7 +64,8 @@ TEST(SuperelementCantilever, TipDeflectionIsTheAnalyticOne) {
   EXPECT_NEAR(2 * run.rotation("beam/tip").z() / (P * L * L / (2 * EI)), 1.0, 1e-6);
   // The clamp carries −P and −P L about z.
   evaluate(run.model(), run.state(), run.workspace);
-  const JointReaction r = joint_reaction(run.model().joints[0], NodeMotion{}, run.workspace.motion[0], run.state().lambda().data());
+  const JointReaction r =
+      joint_reaction(run.model().joints[0], NodeMotion{}, run.workspace.motion[0], run.state().lambda().data());
   EXPECT_LT((r.force - Vector3d(0, -P, 0)).norm(), 1e-6 * P);
   EXPECT_LT((r.moment - Vector3d(0, 0, -P * L)).norm(), 1e-6 * P * L);
 }
@@ -80,8 +82,8 @@ TEST(SuperelementCantilever, PulledAndTurnedByNinetyDegrees) {
   EXPECT_LT(run.rotation("beam/tip").angularDistance(run.rotation("beam/base")), 1e-9);
 }
 
-// A moment bends a single superelement of two nodes into a rotation of 90 degrees: its linear law for the relative rotation,
-// θ = M L/(E I), holds at any size because the frame turns with it.
+// A moment bends a single superelement of two nodes into a rotation of 90 degrees: its linear law for the relative
+// rotation, θ = M L/(E I), holds at any size because the frame turns with it.
 TEST(SuperelementCantilever, MomentTurnsTheTipByNinetyDegrees) {
   Cantilever c(Eigen::Quaterniond::Identity(), {0, 0, 0});
   const double M = pi / 2 * c.data.young * c.data.Iz / c.data.length;
@@ -148,7 +150,8 @@ TEST(SceneThatCanMove, IsAnOutcomeThatNamesTheDirection) {
   StaticsReport report = solve(hinged);
   EXPECT_EQ(report.outcome, StepOutcome::singular);
   EXPECT_THAT(report.explanation, testing::HasSubstr("can move freely"));
-  EXPECT_THAT(report.explanation, testing::AnyOf(testing::HasSubstr("translation y"), testing::HasSubstr("about its z axis")));
+  EXPECT_THAT(report.explanation,
+              testing::AnyOf(testing::HasSubstr("translation y"), testing::HasSubstr("about its z axis")));
 
   c.scene.joints.clear();
   Simulation free(c.scene, c.files);
@@ -157,8 +160,8 @@ TEST(SceneThatCanMove, IsAnOutcomeThatNamesTheDirection) {
   EXPECT_THAT(report.explanation, testing::HasSubstr("beam/"));
 }
 
-// Gravity alone: a clamped beam of weight W hangs through by less than W L³/(8 E I) (the weight acts through the centre of
-// mass of the body, two equal shares at the nodes of a Guyan element) and the clamp carries W and W L/2.
+// Gravity alone: a clamped beam of weight W hangs through by less than W L³/(8 E I) (the weight acts through the centre
+// of mass of the body, two equal shares at the nodes of a Guyan element) and the clamp carries W and W L/2.
 TEST(SuperelementCantilever, ClampCarriesWeightAndItsMoment) {
   Cantilever c(Eigen::Quaterniond::Identity(), {0, 0, 0});
   c.scene.gravity = {0, 0, -9.81};
@@ -167,10 +170,12 @@ TEST(SuperelementCantilever, ClampCarriesWeightAndItsMoment) {
   const StaticsReport report = solve(run);
   ASSERT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
   evaluate(run.model(), run.state(), run.workspace);
-  const JointReaction r = joint_reaction(run.model().joints[0], NodeMotion{}, run.workspace.motion[0], run.state().lambda().data());
+  const JointReaction r =
+      joint_reaction(run.model().joints[0], NodeMotion{}, run.workspace.motion[0], run.state().lambda().data());
   const double W = 9.81 * c.data.density * c.data.area * c.data.length;
   EXPECT_LT((r.force - Vector3d(0, 0, W)).norm(), 1e-8 * W);
-  EXPECT_NEAR(r.moment.y() / (-W * c.data.length / 2), 1.0, 1e-3);  // the arm shortens with the square of the deflection
+  EXPECT_NEAR(r.moment.y() / (-W * c.data.length / 2), 1.0,
+              1e-3);  // the arm shortens with the square of the deflection
 }
 
 }  // namespace
