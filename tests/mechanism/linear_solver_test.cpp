@@ -46,8 +46,8 @@ std::vector<double> values(const SparsePattern& pattern, const Eigen::MatrixXd& 
 
 class BothSolvers : public testing::TestWithParam<Storage> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, BothSolvers, testing::Values(Storage::sparse, Storage::dense),
-                         [](const testing::TestParamInfo<Storage>& info) {
-                           return info.param == Storage::sparse ? "Klu" : "Dense";
+                         [](const testing::TestParamInfo<Storage>& given) {
+                           return given.param == Storage::sparse ? "Klu" : "Dense";
                          });
 
 TEST_P(BothSolvers, SolveAndSolveAgainWithNewValues) {

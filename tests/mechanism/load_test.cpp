@@ -47,9 +47,9 @@ INSTANTIATE_TEST_SUITE_P(Loads, EveryLoad,
                          testing::Values(Case{LoadKind::force, LoadAxes::world}, Case{LoadKind::force, LoadAxes::body},
                                          Case{LoadKind::moment, LoadAxes::world},
                                          Case{LoadKind::moment, LoadAxes::body}),
-                         [](const testing::TestParamInfo<Case>& info) {
-                           return std::string(info.param.kind == LoadKind::force ? "Force" : "Moment") +
-                                  (info.param.axes == LoadAxes::world ? "World" : "Body");
+                         [](const testing::TestParamInfo<Case>& given) {
+                           return std::string(given.param.kind == LoadKind::force ? "Force" : "Moment") +
+                                  (given.param.axes == LoadAxes::world ? "World" : "Body");
                          });
 
 // The power on any velocity is F · (velocity of the point of application) or M · ω, in world axes.

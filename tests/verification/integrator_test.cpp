@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(Schemes, EveryScheme,
                                                 Formulation::stabilised_index2},
                                          Scheme{"HhtIndex3", Method::hht, Formulation::index3},
                                          Scheme{"HhtStabilised", Method::hht, Formulation::stabilised_index2}),
-                         [](const testing::TestParamInfo<Scheme>& info) { return info.param.name; });
+                         [](const testing::TestParamInfo<Scheme>& given) { return given.param.name; });
 
 double order(double coarse, double fine) { return std::log2(coarse / fine); }
 

@@ -69,8 +69,8 @@ Vector3d angular_momentum(Simulation& run) {
 // J_t = ρAL³/12 + ρIL = 8/12 + 0.6.
 class FreeTop : public testing::TestWithParam<InertiaOption> {};
 INSTANTIATE_TEST_SUITE_P(Options, FreeTop, testing::Values(InertiaOption::A, InertiaOption::B),
-                         [](const testing::TestParamInfo<InertiaOption>& info) {
-                           return info.param == InertiaOption::A ? "A" : "B";
+                         [](const testing::TestParamInfo<InertiaOption>& given) {
+                           return given.param == InertiaOption::A ? "A" : "B";
                          });
 
 TEST_P(FreeTop, OfASuperelementConvergesToTheAnalyticMotionWithOrderTwo) {
