@@ -134,11 +134,11 @@ void add_joints(const Model& model, const State& state, Workspace& workspace) {
     Eigen::Matrix<double, 12, 1> velocity;
     velocity << a.xd, a.Omega, b.xd, b.Omega;
     workspace.constraint.segment(joint.row, size) = terms.phi.head(size);
-    const Vector6d rate = terms.B * velocity;  // rows beyond the joint's size are zero
-    workspace.constraint_rate.segment(joint.row, size) = rate.head(size);
+    const Vector6d rate = terms.B.lazyProduct(velocity);  // rows beyond the joint's size are zero
+    for (int k = 0; k < size; ++k) workspace.constraint_rate[joint.row + k] = rate[k];
     Vector6d lambda = Vector6d::Zero();
     for (int k = 0; k < size; ++k) lambda[k] = state.lambda()[joint.row + k];
-    const Eigen::Matrix<double, 12, 1> force = terms.B.transpose() * lambda;
+    const Eigen::Matrix<double, 12, 1> force = terms.B.transpose().lazyProduct(lambda);
     scatter(model.joint_maps[i], force, workspace.residual);
     note_scale(force, workspace);
   }

@@ -107,9 +107,9 @@ void apply_jacobian(const Model& model, const Workspace& workspace, const Eigen:
     for (int k = 0; k < 12; ++k) local[k] = coordinates[static_cast<std::size_t>(k)] < 0 ? 0.0 : d[coordinates[static_cast<std::size_t>(k)]];
     local.segment<3>(3) = turn_increment(model, workspace, model.joints[i].a.node, local.segment<3>(3));
     local.segment<3>(9) = turn_increment(model, workspace, model.joints[i].b.node, local.segment<3>(9));
-    const Vector6d product = workspace.joints[i].B * local;  // rows beyond the joint's size are zero
+    const Vector6d product = workspace.joints[i].B.lazyProduct(local);  // rows beyond the joint's size are zero
     const int size = joint_size(model.joints[i].kind);
-    rows.segment(model.joints[i].row, size) = product.head(size);
+    for (int k = 0; k < size; ++k) rows[model.joints[i].row + k] = product[k];
   }
 }
 
