@@ -19,6 +19,12 @@ IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
   spec.method = map.choice("method", {Choice<Method>{"generalised_alpha", Method::generalised_alpha}, {"hht", Method::hht}}, spec.method);
   spec.rho = map.number("rho", spec.rho);
   spec.alpha = map.number("alpha", spec.alpha);
+  if (const YamlNode* rho = map.find("rho"); rho != nullptr && spec.method == Method::hht)
+    map.context().fail(rho->key_place, "'rho' has no effect with method: hht",
+                       "give alpha, or method: generalised_alpha");
+  if (const YamlNode* alpha = map.find("alpha"); alpha != nullptr && spec.method == Method::generalised_alpha)
+    map.context().fail(alpha->key_place, "'alpha' has no effect with method: generalised_alpha",
+                       "give rho, or method: hht");
   spec.formulation = map.choice("formulation", {Choice<Formulation>{"index3", Formulation::index3},
                                                 {"stabilised_index2", Formulation::stabilised_index2}}, spec.formulation);
   if (analysis == AnalysisKind::dynamics) {
@@ -46,12 +52,13 @@ StaticsSpec read_statics(const MapReader& map) {
   return spec;
 }
 
-OutputSpec read_output(const MapReader& map) {
+/// `start` is that of the integrator: all is stored unless the file says otherwise.
+OutputSpec read_output(const MapReader& map, double start) {
   OutputSpec spec;
   if (map.has("every") && map.has("interval")) map.fail("both 'every' and 'interval' are given", "give one of them");
   spec.every = map.integer("every", spec.every);
   if (map.has("interval")) spec.interval = map.number("interval");
-  spec.from = map.number("from", spec.from);
+  spec.from = map.number("from", start);
   const YamlNode* channels = map.find("channels");
   if (channels == nullptr) return spec;
   if (channels->kind != YamlKind::sequence) {
@@ -73,8 +80,9 @@ void read_settings(const MapReader& map, Scene& scene) {
     scene.integrator = read_integrator(MapReader(context("integrator"), *integrator, "integrator", "integrator."), scene.analysis);
   if (const YamlNode* statics = map.find("statics"))
     scene.statics = read_statics(MapReader(context("statics"), *statics, "statics", "statics."));
+  scene.output.from = scene.integrator.start;
   if (const YamlNode* output = map.find("output"))
-    scene.output = read_output(MapReader(context("output"), *output, "output", "output."));
+    scene.output = read_output(MapReader(context("output"), *output, "output", "output."), scene.integrator.start);
 }
 
 Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {

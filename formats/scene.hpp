@@ -108,7 +108,7 @@ struct JointSpec {
   MarkerSpec a;
   MarkerSpec b;
   /// Where both markers are placed at the start, world frame: position (absent: at marker b, or a if b is ground) and axis
-  /// (z of both markers; revolute needs it unless the markers carry orientations).
+  /// (z of both markers; revolute needs it unless a marker carries an orientation).
   std::optional<Eigen::Vector3d> position;
   std::optional<Eigen::Vector3d> axis;
   std::string where;
@@ -167,7 +167,7 @@ struct StaticsSpec {
 struct OutputSpec {
   int every = 1;
   std::optional<double> interval;
-  double from = 0.0;
+  double from = 0.0;                 ///< the reader's default is integrator.start
   std::vector<std::string> channels; ///< groups or datasets such as "nodes", "nodes/position", "energy"; empty: all
 };
 

@@ -62,6 +62,14 @@ Damping read_damping(const MapReader& map) {
   return damping;
 }
 
+/// Keys of a flexible superelement, which would be ignored where the body is rigid.
+void refuse_flexible_keys(const MapReader& map) {
+  for (const char* key : {"modes", "cutoff", "inertia", "frame", "weights", "damping"})
+    if (const YamlNode* node = map.find(key))
+      map.context().fail(node->key_place, fmt::format("'{}' has no effect with use: rigid", key),
+                         "remove it, or give use: flexible");
+}
+
 /// The context of a map inside a body: "body 'beam': damping".
 Context inside(const Context& context, const std::string& what) {
   return {context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
@@ -75,6 +83,7 @@ SuperelementBodySpec read_superelement(const Context& context, const YamlNode& n
   body.file = resolve(definitions.folder, map.text("file"));
   body.start = read_start(map);
   body.rigid = map.choice("use", {Choice<bool>{"flexible", false}, {"rigid", true}}, false);
+  if (body.rigid) refuse_flexible_keys(map);
   if (map.has("modes")) body.modes = map.integer("modes", 0);
   if (map.has("cutoff")) body.cutoff = map.number("cutoff");
   if (body.modes && body.cutoff) map.context().fail(map.find("cutoff")->key_place, "both 'modes' and 'cutoff' are given", "give one of them");

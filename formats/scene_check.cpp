@@ -61,6 +61,10 @@ void check_body(const SuperelementBodySpec& body, const std::string& subject, Fa
     faults.add(body.where, "cutoff", fmt::format("{}: cutoff {:g} must be positive", subject, *body.cutoff), "");
   if (body.frame == FrameKind::node && body.frame_node.empty())
     faults.add(body.where, "frame", fmt::format("{}: frame has no node", subject), "write frame: {node: name}");
+  if (body.frame == FrameKind::node && !(body.position_weights.empty() && body.rotation_weights.empty()))
+    faults.add(body.where, "weights",
+               fmt::format("{}: weights have no effect on a frame that is attached to node '{}'", subject, body.frame_node),
+               "remove them, or give frame: karcher or paper");
   check_weights(body.position_weights, subject, body.where, "weights.positions", faults);
   check_weights(body.rotation_weights, subject, body.where, "weights.rotations", faults);
   check_damping(body.damping, subject, body.where, faults);
@@ -170,10 +174,16 @@ void check_joint(const Scene& scene, const JointSpec& joint, Faults& faults) {
     faults.add(joint.where, "axis", fmt::format("{}: axis must be finite", subject), "");
   else if (joint.axis && joint.axis->stableNorm() == 0.0)
     faults.add(joint.where, "axis", fmt::format("{}: axis has zero length", subject), "give a direction, for example [0, 0, 1]");
-  const bool oriented = joint.a.orientation && joint.b.orientation;
-  if (joint.kind == JointKind::revolute && !joint.axis && !oriented)
+  if (joint.position && joint.a.position && joint.b.position)
+    faults.add(joint.where, "position", fmt::format("{}: position has no effect, since both a and b have one", subject),
+               "remove it, or the position of a or b");
+  if (joint.axis && joint.a.orientation && joint.b.orientation)
+    faults.add(joint.where, "axis",
+               fmt::format("{}: axis has no effect, since both a and b have an orientation", subject),
+               "remove it, or the orientation of a or b");
+  if (joint.kind == JointKind::revolute && !joint.axis && !joint.a.orientation && !joint.b.orientation)
     faults.add(joint.where, "", fmt::format("{}: a revolute joint needs an axis", subject),
-               "give axis: [x, y, z], or an orientation to both a and b");
+               "give axis: [x, y, z], or an orientation to a or b");
 }
 
 void check_load(const Scene& scene, const LoadSpec& load, Faults& faults) {

@@ -60,6 +60,10 @@ void check_settings(const Scene& scene, Faults& faults) {
   output.at_least("every", scene.output.every, 1);
   if (scene.output.interval) output.positive("interval", *scene.output.interval);
   if (!std::isfinite(scene.output.from)) output.add("from", "from must be finite", "");
+  if (scene.analysis == AnalysisKind::dynamics && scene.output.from > spec.end && spec.end > spec.start)
+    output.add("from",
+               fmt::format("from {:g} is later than the end {:g} of the integrator", scene.output.from, spec.end),
+               "nothing would be stored; give an earlier time");
   for (const std::string& channel : scene.output.channels)
     if (channel.empty())
       output.add("channels", "a channel has no name", "");

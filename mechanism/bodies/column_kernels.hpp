@@ -10,7 +10,7 @@ namespace column_kernels {
 /// Four doubles, the unit of all loops here (one register of AVX, two of SSE).
 using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
 
-inline Four load(const double* p) { return *reinterpret_cast<const Four*>(p); }
+inline const Four& load(const double* p) { return *reinterpret_cast<const Four*>(p); }
 inline void store(double* p, const Four& v) { *reinterpret_cast<Four*>(p) = v; }
 
 enum class Write { assign, add };

@@ -95,14 +95,13 @@ TEST(Scene, ReadsEveryValueAndSetsDefaults) {
 TEST(Scene, EverySetting) {
   const Scene scene = read(replaced(swing, "integrator: {step: 0.01, end: 20}",
     "units: consistent\nanalysis: dynamics\n"
-    "integrator: {method: hht, rho: 0.5, alpha: 0.1, formulation: index3, step: 0.5, start: -1, end: 1, tolerance: 1e-7,\n"
+    "integrator: {method: hht, alpha: 0.1, formulation: index3, step: 0.5, start: -1, end: 1, tolerance: 1e-7,\n"
     "  constraint_tolerance: 1e-9, max_iterations: 7, max_halvings: 3, linear_solver: dense}\n"
     "statics: {load_steps: 4, tolerance: 1e-8, max_iterations: 11}\n"
     "output: {interval: 0.1, channels: [nodes/position, energy], from: 0.5}\n"
     "initial_tolerance: 1e-4"));
   EXPECT_FALSE(scene.units.named());
   EXPECT_EQ(scene.integrator.method, Method::hht);
-  EXPECT_EQ(scene.integrator.rho, 0.5);
   EXPECT_EQ(scene.integrator.alpha, 0.1);
   EXPECT_EQ(scene.integrator.formulation, Formulation::index3);
   EXPECT_EQ(scene.integrator.start, -1.0);
@@ -119,6 +118,21 @@ TEST(Scene, EverySetting) {
   EXPECT_EQ(scene.output.channels, (std::vector<std::string>{"nodes/position", "energy"}));
   EXPECT_EQ(scene.initial_tolerance, 1e-4);
   EXPECT_EQ(read(replaced(swing, "integrator: {step: 0.01, end: 20}", "analysis: statics")).analysis, AnalysisKind::statics);
+}
+
+TEST(Scene, StoresFromTheStartUnlessToldOtherwise) {
+  EXPECT_EQ(read(replaced(swing, "end: 20", "end: 20, start: -1")).output.from, -1.0);
+  EXPECT_EQ(read(replaced(swing, "end: 20}", "end: 20, start: 2}\noutput: {every: 3}")).output.from, 2.0);
+  EXPECT_EQ(read(replaced(swing, "end: 20}", "end: 20}\noutput: {from: 20}")).output.from, 20.0);  // the last instant
+}
+
+TEST(Scene, OneOrientedMarkerGivesARevoluteJointItsAxis) {
+  for (const char* markers : {"a: {node: ground, orientation: [0, 1, 0, 0]}, b: beam/base",
+                              "a: ground, b: {node: beam/base, orientation: [0, 1, 0, 0]}"}) {
+    const JointSpec hinge = read(replaced(swing, "a: ground, b: beam/base, axis: [0, 0, 1]", markers)).joints[0];
+    EXPECT_FALSE(hinge.axis) << markers;
+    EXPECT_NE(hinge.a.orientation.has_value(), hinge.b.orientation.has_value()) << markers;
+  }
 }
 
 TEST(Scene, SuperelementInAllItsNotations) {
@@ -249,6 +263,14 @@ INSTANTIATE_TEST_SUITE_P(Bodies, BadScene, testing::Values(
   BadText{"frame: paper", "cutoff: ^0", "^: body 'beam': cutoff 0 must be positive"},
   BadText{"frame: paper", "modes: 3, ^cutoff: 10", "^: body 'beam': both 'modes' and 'cutoff' are given; give one of them"},
   BadText{"frame: paper", "weights: {positions: ^{base: 0.5, tip: 0.6}}", "^: body 'beam': weights.positions have the sum 1.1; their sum must be 1"},
+  BadText{"frame: paper", "use: rigid, ^modes: 0", "^: body 'beam': 'modes' has no effect with use: rigid; remove it, or give use: flexible"},
+  BadText{"frame: paper", "use: rigid, ^cutoff: 10", "^: body 'beam': 'cutoff' has no effect with use: rigid; remove it, or give use: flexible"},
+  BadText{"frame: paper", "use: rigid, ^inertia: B", "^: body 'beam': 'inertia' has no effect with use: rigid; remove it, or give use: flexible"},
+  BadText{"frame: paper", "use: rigid, ^frame: karcher", "^: body 'beam': 'frame' has no effect with use: rigid; remove it, or give use: flexible"},
+  BadText{"frame: paper", "use: rigid, ^weights: {}", "^: body 'beam': 'weights' has no effect with use: rigid; remove it, or give use: flexible"},
+  BadText{"frame: paper", "use: rigid, ^damping: {ratio: 0}", "^: body 'beam': 'damping' has no effect with use: rigid; remove it, or give use: flexible"},
+  BadText{"frame: paper", "frame: {node: base}, weights: ^{rotations: {tip: 1}}",
+          "^: body 'beam': weights have no effect on a frame that is attached to node 'base'; remove them, or give frame: karcher or paper"},
   BadText{"frame: paper", "damping: {ratio: ^-0.01}", "^: body 'beam': damping: ratio -0.01 must not be negative"},
   BadText{"frame: paper", "damping: {^rato: 0.01}", "^: body 'beam': damping: unknown key 'rato'; did you mean 'ratio'?"},
   BadText{"frame: paper", "velocity: ^[1, 2]", "^: body 'beam': velocity has 2 numbers instead of 3; write it as [x, y, z]"},
@@ -283,7 +305,11 @@ INSTANTIATE_TEST_SUITE_P(JointsAndLoads, BadScene, testing::Values(
   BadText{"b: block/hook", "b: ^rod/end", "^: joint 'ball': joins 'rod/end' to itself; name two different nodes"},
   BadText{"axis: [0, 0, 1]", "axis: ^[0, 0, 0]", "^: joint 'hinge': axis has zero length; give a direction, for example [0, 0, 1]"},
   BadText{"hinge: {type: revolute, a: ground, b: beam/base, axis: [0, 0, 1]}", "^hinge: {type: revolute, a: ground, b: beam/base}",
-          "^: joint 'hinge': a revolute joint needs an axis; give axis: [x, y, z], or an orientation to both a and b"},
+          "^: joint 'hinge': a revolute joint needs an axis; give axis: [x, y, z], or an orientation to a or b"},
+  BadText{"a: ground, b: beam/base, axis: [0, 0, 1]", "a: {node: ground, orientation: [1, 0, 0, 0]}, b: {node: beam/base, orientation: [1, 0, 0, 0]}, axis: ^[0, 0, 1]",
+          "^: joint 'hinge': axis has no effect, since both a and b have an orientation; remove it, or the orientation of a or b"},
+  BadText{"a: rod/end, b: block/hook", "a: {node: rod/end, position: [0, 0, 0]}, b: {node: block/hook, position: [0, 0, 0]}, position: ^[2, 0, 0]",
+          "^: joint 'ball': position has no effect, since both a and b have one; remove it, or the position of a or b"},
   BadText{"type: revolute", "type: ^revolut", "^: joint 'hinge': unknown type 'revolut'; did you mean 'revolute'?"},
   BadText{"a: ground", "a: {node: ground, ^postion: [1, 0, 0]}", "^: joint 'hinge': a: unknown key 'postion'; did you mean 'position'?"},
   BadText{"torque: {type: moment, at: beam/base", "torque: {type: moment, at: ^ground", "^: load 'torque': acts on the ground; name a node of a body"},
@@ -305,7 +331,10 @@ INSTANTIATE_TEST_SUITE_P(Settings, BadScene, testing::Values(
   BadText{"end: 20", "end: ^0", "^: integrator: end 0 must be later than start 0"},
   BadText{"end: 20", "start: 2, end: ^1", "^: integrator: end 1 must be later than start 2"},
   BadText{"end: 20", "end: 20, rho: ^1.5", "^: integrator: rho 1.5 must lie between 0 and 1"},
-  BadText{"end: 20", "end: 20, alpha: ^0.4", "^: integrator: alpha 0.4 must lie between 0 and 0.3333"},
+  BadText{"end: 20", "end: 20, method: hht, alpha: ^0.4", "^: integrator: alpha 0.4 must lie between 0 and 0.3333"},
+  BadText{"end: 20", "end: 20, method: hht, ^rho: 0.8", "^: integrator: 'rho' has no effect with method: hht; give alpha, or method: generalised_alpha"},
+  BadText{"end: 20", "end: 20, ^alpha: 0.1", "^: integrator: 'alpha' has no effect with method: generalised_alpha; give rho, or method: hht"},
+  BadText{"end: 20}", "end: 20}\noutput: {from: ^20.5}", "^: output: from 20.5 is later than the end 20 of the integrator; nothing would be stored; give an earlier time"},
   BadText{"end: 20", "end: 20, max_iterations: ^0", "^: integrator: max_iterations 0 must be 1 or more"},
   BadText{"end: 20", "end: 20, method: ^newmark", "^: integrator: unknown method 'newmark'; known are generalised_alpha, hht"},
   BadText{"end: 20}", "end: 20}\nstatics: {load_steps: ^0}", "^: statics: load_steps 0 must be 1 or more"},
