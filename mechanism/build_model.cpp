@@ -197,11 +197,16 @@ class Builder {
   }
 
   void check_marker(const formats::JointSpec& spec, const formats::MarkerSpec& place, const Marker& marker) const {
-    if (marker.node < 0 || model_.nodes[static_cast<std::size_t>(marker.node)].rotation >= 0) return;
+    if (marker.node < 0) return;
+    const Node& node = model_.nodes[static_cast<std::size_t>(marker.node)];
+    if (node.translation < 0)
+      throw Error(fmt::format("joint '{}' holds the position of node '{}', which has no translations", spec.name, place.node),
+                  place.where, "keep the translations of that node in the superelement");
+    if (node.rotation >= 0) return;
     if (spec.kind != formats::JointKind::spherical)
       throw Error(fmt::format("joint '{}' holds the rotation of node '{}', which has none", spec.name, place.node), place.where,
                   "use a spherical joint, or keep the rotations of that node in the superelement");
-    if (marker.p.norm() > 1e-12)
+    if (marker.p.norm() > 1e-12 * model_.length)
       throw Error(fmt::format("joint '{}' is {:.3g} away from node '{}', which has no rotations to carry the offset", spec.name,
                               marker.p.norm(), place.node),
                   place.where, "put the joint at the node, or keep the rotations of that node in the superelement");
@@ -261,6 +266,13 @@ class Builder {
     if (spec.kind == formats::LoadKind::moment && node.rotation < 0)
       throw Error(fmt::format("moment '{}' acts on node '{}', which has no rotations", spec.name, node.name), spec.where,
                   "use forces, or keep the rotations of that node in the superelement");
+    if (spec.kind == formats::LoadKind::force && node.translation < 0)
+      throw Error(fmt::format("force '{}' acts on node '{}', which has no translations", spec.name, node.name), spec.where,
+                  "use moments, or keep the translations of that node in the superelement");
+    if (node.rotation < 0 && (spec.axes == formats::LoadAxes::body || load.at.p.norm() > 1e-12 * model_.length))
+      throw Error(fmt::format("force '{}' {} node '{}', which has no rotations", spec.name,
+                              spec.axes == formats::LoadAxes::body ? "follows" : "acts away from", node.name),
+                  spec.where, "apply it at the node in world axes, or keep the rotations of that node in the superelement");
     for (const formats::TimeFunctionSpec& component : spec.components) {
       TimeFunction check(component);  // reports syntax errors now
       for (const double t : breakpoints(component)) breakpoints_.insert(t);

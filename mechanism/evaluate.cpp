@@ -19,10 +19,6 @@ std::vector<std::array<TimeFunction, 3>> compile_loads(const Model& model) {
   return functions;
 }
 
-const NodeMotion& motion_of(const Workspace& workspace, int node) {
-  return node < 0 ? workspace.motion.back() : workspace.motion[static_cast<std::size_t>(node)];
-}
-
 void update_motion(const Model& model, const State& state, Workspace& workspace) {
   const auto x = state.x();
   const auto Q = state.Q();
@@ -327,6 +323,15 @@ Energy evaluate_energy(const Model& model, Workspace& workspace) {
     sum.potential += gravity_potential(body, node, model.gravity);
   }
   return sum;
+}
+
+void unwrap_hinges(const Model& model, const Workspace& workspace, State& state) {
+  for (const Joint& joint : model.joints) {
+    if (joint.hinge < 0) continue;
+    double& angle = state.hinges()[joint.hinge];
+    const double now = hinge_angle(joint, motion_of(workspace, joint.a.node), motion_of(workspace, joint.b.node));
+    angle += std::remainder(now - angle, 2.0 * EIGEN_PI);
+  }
 }
 
 }  // namespace tisserand::mechanism

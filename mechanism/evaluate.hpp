@@ -33,4 +33,7 @@ void evaluate_tangent(const Model& model, const State& state, const TangentCoeff
 /// At the state of the last evaluate().
 Energy evaluate_energy(const Model& model, Workspace& workspace);
 
+/// Adds to each stored hinge angle the difference, less than half a turn, to the angle at the last evaluate().
+void unwrap_hinges(const Model& model, const Workspace& workspace, State& state);
+
 }  // namespace tisserand::mechanism

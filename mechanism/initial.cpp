@@ -83,6 +83,20 @@ void require_factors(const Model& model, const FactorReport& factors, const std:
               "give the body mass or inertia there, or hold the direction with a joint");
 }
 
+/// The equations of a joint are also met by axes that point the other way: z_A·z_B > 0 for hinges, all axes for fixed ones.
+void require_facing(const Model& model, const std::string& where, const Workspace& workspace) {
+  for (const Joint& joint : model.joints) {
+    const Eigen::Matrix3d R_AB = marker_rotation(joint.a, motion_of(workspace, joint.a.node)).transpose() *
+                                 marker_rotation(joint.b, motion_of(workspace, joint.b.node));
+    const bool hinge = joint.kind == JointKind::revolute && R_AB(2, 2) <= 0.0;
+    const bool fixed = joint.kind == JointKind::fixed && R_AB.diagonal().minCoeff() <= 0.0;
+    if (!hinge && !fixed) continue;
+    throw Error(hinge ? fmt::format("the z axes of the markers of revolute joint '{}' point in opposite directions", joint.name)
+                      : fmt::format("the axes of the markers of fixed joint '{}' are turned against each other", joint.name),
+                where, "turn the orientation of one marker, so that the axes of both agree at the start");
+  }
+}
+
 }  // namespace
 
 Mobility count_mobility(const Model& model, const State& state, Workspace& workspace) {
@@ -150,6 +164,7 @@ Projection project_initial_state(const Model& model, double tolerance, double st
   if (!(left.value <= 1e-9))
     throw Error(fmt::format("the joints cannot be closed: '{}' stays open by {:.3g}", constraint_name(model, left.row), left.value),
                 where, "correct the poses of the bodies");
+  require_facing(model, where, workspace);
   const double velocity = largest_velocity(model, state);
   const Violation worst = largest_violation(model, workspace.constraint_rate);
   projection.velocity = velocity > 0.0 ? worst.value / velocity : 0.0;

@@ -154,15 +154,8 @@ void accept(const Model& model, double step, State& state, Workspace& workspace)
   for (Eigen::Index i = 0; i < Q.cols(); ++i) Q.col(i).normalize();
   auto frames = state.frames();
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    frames.col(static_cast<Eigen::Index>(i)) = wxyz(Eigen::Quaterniond(workspace.superelements[i].motion.R0));
-  for (const Joint& joint : model.joints)
-    if (joint.hinge >= 0) {
-      double& angle = state.hinges()[joint.hinge];
-      const auto at = [&workspace](int node) -> const NodeMotion& {
-        return node < 0 ? workspace.motion.back() : workspace.motion[static_cast<std::size_t>(node)];
-      };
-      angle += std::remainder(hinge_angle(joint, at(joint.a.node), at(joint.b.node)) - angle, 2.0 * EIGEN_PI);
-    }
+    frames.col(static_cast<Eigen::Index>(i)) = wxyz(Eigen::Quaterniond(workspace.superelements[i].motion.R0).normalized());
+  unwrap_hinges(model, workspace, state);
   for (int k = 0; k < 3; ++k) state.force_scale(k) = std::max(state.force_scale(k), workspace.force_scale[k]);
   state.work() += 0.5 * step * (state.load_power() + workspace.load_power);
   state.dissipated() += 0.5 * step * (state.damping_power() + workspace.damping_power);

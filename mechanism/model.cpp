@@ -64,6 +64,23 @@ void for_each_map(Model& model, Visit visit) {
     for (ElementMap& map : *maps) visit(map);
 }
 
+void scale_equations(Model& model) {
+  const SparsePattern& pattern = *model.pattern;
+  model.equation_scale.setOnes(pattern.size());
+  for (const Node& node : model.nodes)
+    if (node.rotation >= 0) model.equation_scale.segment<3>(node.rotation) = 1.0 / model.length;
+  for (const Joint& joint : model.joints)
+    for (int k = 3; k < joint_size(joint.kind); ++k)
+      model.equation_scale[model.sizes.boundary + joint.row + k] = model.length;
+  model.value_scale.setOnes(pattern.values());
+  for (int j = 0; j < pattern.size(); ++j)
+    for (int at = pattern.column_start()[static_cast<std::size_t>(j)];
+         at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
+      const int i = pattern.rows()[static_cast<std::size_t>(at)];
+      model.value_scale[pattern.slot(i, j)] = model.equation_scale[i] * model.equation_scale[j];
+    }
+}
+
 }  // namespace
 
 void finish_model(Model& model, formats::LinearSolver solver) {
@@ -104,6 +121,7 @@ void finish_model(Model& model, formats::LinearSolver solver) {
       }
     model.constraint_maps.push_back(std::move(map));
   }
+  scale_equations(model);
 }
 
 std::string coordinate_name(const Model& model, int coordinate) {

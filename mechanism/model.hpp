@@ -73,6 +73,10 @@ struct Model {
   std::vector<ElementMap> load_maps;
   std::vector<double> breakpoints;           ///< ascending, of all loads
 
+  /// Factor of each equation and unknown of the iteration matrix: 1/length for rotations and length for constraints of
+  /// angles, so that pivots do not depend on the unit of length; and the product for each stored value.
+  Eigen::ArrayXd equation_scale;
+  Eigen::ArrayXd value_scale;
   std::unique_ptr<SparsePattern> pattern;    ///< of [A Bᵀ; B 0], boundary coordinates then multipliers
 };
 

@@ -33,11 +33,19 @@ void gather(const Model& model, std::size_t i, const Eigen::VectorXd& boundary, 
     workspace.element_boundary[static_cast<Eigen::Index>(k)] = boundary[coordinates[k]];
 }
 
+/// Solves with the factors of the scaled matrix, unknowns in place.
+void solve_scaled(const Model& model, Workspace& workspace) {
+  workspace.unknowns.array() *= model.equation_scale;
+  workspace.solver.solve({workspace.unknowns.data(), static_cast<std::size_t>(workspace.unknowns.size())});
+  workspace.unknowns.array() *= model.equation_scale;
+}
+
 }  // namespace
 
 FactorReport factor(const Model& model, const State& state, const TangentCoefficients& coefficients, TangentKind kind,
                     const ConstraintRows& rows, Workspace& workspace) {
   evaluate_tangent(model, state, coefficients, kind, rows, workspace);
+  Eigen::Map<Eigen::ArrayXd>(workspace.values.data(), model.value_scale.size()) *= model.value_scale;
   const FactorReport report = workspace.solver.numeric(workspace.values);
   workspace.factored = coefficients;
   workspace.has_factors = report.regular;
@@ -59,7 +67,7 @@ void solve_increment(const Model& model, const Eigen::Ref<const Eigen::VectorXd>
   }
   boundary /= workspace.matrix_scale;
   workspace.unknowns.tail(model.sizes.constraints) = rows;
-  workspace.solver.solve({workspace.unknowns.data(), static_cast<std::size_t>(workspace.unknowns.size())});
+  solve_scaled(model, workspace);
   workspace.increment.head(n) = workspace.unknowns.head(n);
   workspace.unknowns.tail(model.sizes.constraints) *= workspace.matrix_scale;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
@@ -73,7 +81,7 @@ void solve_correction(const Model& model, const Eigen::Ref<const Eigen::VectorXd
   const int n = model.sizes.boundary;
   workspace.unknowns.head(n).setZero();
   workspace.unknowns.tail(model.sizes.constraints) = rows;
-  workspace.solver.solve({workspace.unknowns.data(), static_cast<std::size_t>(workspace.unknowns.size())});
+  solve_scaled(model, workspace);
   workspace.correction.head(n) = workspace.unknowns.head(n);
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     // expand() is affine in d_B: −D⁻¹ (r_I + A_IB d_B); the correction is its linear part.
@@ -90,7 +98,7 @@ std::string weakest_equation(const Model& model, Workspace& workspace) {
   workspace.unknowns.setOnes();
   Eigen::Index at = 0;
   for (int i = 0; i < 2; ++i) {
-    workspace.solver.solve({workspace.unknowns.data(), static_cast<std::size_t>(workspace.unknowns.size())});
+    solve_scaled(model, workspace);
     const double largest = workspace.unknowns.cwiseAbs().maxCoeff(&at);
     if (!(largest > 0.0) || !std::isfinite(largest)) break;
     workspace.unknowns /= largest;

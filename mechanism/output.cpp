@@ -8,8 +8,20 @@
 namespace tisserand::mechanism {
 namespace {
 
-const NodeMotion& motion_of(const Workspace& workspace, int node) {
-  return node < 0 ? workspace.motion.back() : workspace.motion[static_cast<std::size_t>(node)];
+/// A node that owns no translations or no rotations has none to report.
+void blank_missing(const Model& model, const Marker& marker, Eigen::Index column, formats::ResultsRow& row) {
+  const Node& node = model.nodes[static_cast<std::size_t>(marker.node)];
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  if (node.translation < 0) {
+    row.node_position.col(column).setConstant(none);
+    row.node_velocity.col(column).setConstant(none);
+    row.node_acceleration.col(column).setConstant(none);
+  }
+  if (node.rotation < 0) {
+    row.node_rotation.col(column).setConstant(none);
+    row.node_angular_velocity.col(column).setConstant(none);
+    row.node_angular_acceleration.col(column).setConstant(none);
+  }
 }
 
 void fill_places(const Model& model, const Workspace& workspace, formats::ResultsRow& row) {
@@ -24,6 +36,7 @@ void fill_places(const Model& model, const Workspace& workspace, formats::Result
     row.node_acceleration.col(column) =
         node.xdd + node.R * (node.Omegad.cross(marker.p) + node.Omega.cross(node.Omega.cross(marker.p)));
     row.node_angular_acceleration.col(column) = node.R * node.Omegad;
+    blank_missing(model, marker, column, row);
   }
 }
 

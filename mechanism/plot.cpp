@@ -187,6 +187,22 @@ std::string terminal_of(const std::string& picture, std::size_t panels) {
               "give -o a name that ends in .png or .svg");
 }
 
+/// gnuplot cannot draw axes around nothing, as where a node has no rotations or a joint no coordinate.
+void check_finite(const std::vector<Series>& series) {
+  const auto has_value = [&series](std::size_t index) {
+    const Series& one = series[index];
+    for (std::size_t i = 0; i < one.x.size(); ++i)
+      if (std::isfinite(one.x[i]) && std::isfinite(one.y[i])) return true;
+    return false;
+  };
+  for (const Panel& panel : panels_of(series)) {
+    if (std::any_of(panel.members.begin(), panel.members.end(), has_value)) continue;
+    const Series& first = series[panel.members.front()];
+    throw Error(fmt::format("channel '{}' holds no finite value", first.channel), first.source,
+                "choose another channel");
+  }
+}
+
 struct FileCloser {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
@@ -302,6 +318,7 @@ std::string gnuplot_script(const std::vector<Series>& series, const PlotOptions&
 void plot(const std::vector<Series>& series, const PlotOptions& options) {
   const bool has_points = std::any_of(series.begin(), series.end(), [](const Series& s) { return !s.x.empty(); });
   if (!has_points) throw Error("nothing to draw: the chosen channels hold no instant", "plot", "choose another run");
+  check_finite(series);
   terminal_of(options.output, 1);  // throws for another ending before anything is done
   const std::filesystem::path output(options.output);
   const std::string folder = output.has_parent_path() ? output.parent_path().string() : ".";

@@ -23,6 +23,11 @@ double relative_balance(const RunReport& report) {
   return report.energy_reference > 0.0 ? report.largest_balance / report.energy_reference : 0.0;
 }
 
+/// Work is counted in dynamics only, and the balance seen at stored instants only.
+bool has_balance(const RunReport& report) {
+  return report.analysis == formats::AnalysisKind::dynamics && report.rows > 0;
+}
+
 }  // namespace
 
 std::string report_json(const RunReport& report) {
@@ -36,7 +41,8 @@ std::string report_json(const RunReport& report) {
   json["rejected_steps"] = report.rejected;
   json["rejections"] = report.rejections;
   json["largest_constraint_violation"] = report.largest_constraint;
-  json["energy"] = {{"balance", report.balance},
+  json["stored_instants"] = report.rows;
+  if (has_balance(report)) json["energy"] = {{"balance", report.balance},
                     {"largest_balance", report.largest_balance},
                     {"reference", report.energy_reference},
                     {"largest_relative_balance", relative_balance(report)}};
@@ -76,7 +82,8 @@ std::string report_text(const RunReport& report, const Units& units) {
   if (report.rejected > static_cast<long>(shown))
     line("", fmt::format("and {} more; the report in the results file lists the first {}",
                          report.rejected - static_cast<long>(shown), report.rejections.size()));
-  line("energy", fmt::format("largest balance error {:.2e} of the largest energy or work", relative_balance(report)));
+  if (has_balance(report))
+    line("energy", fmt::format("largest balance error {:.2e} of the largest energy or work, at stored instants", relative_balance(report)));
   line("constraints", fmt::format("largest violation {:.2e}", report.largest_constraint));
   line("seconds", fmt::format("{:.3f} model, {:.3f} start, {:.3f} steps, {:.3f} output", report.seconds_model,
                               report.seconds_start, report.seconds_steps, report.seconds_output));

@@ -3,16 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mechanism/evaluate.hpp"
 #include "mechanism/initial.hpp"
 
 namespace tisserand::mechanism {
+namespace {
+
+/// Instants closer than this are the same: a small part of the step, but no less than rounding of the time itself.
+double instant_tolerance(double step, double time) {
+  return std::max(1e-9 * step, 8.0 * std::numeric_limits<double>::epsilon() * std::abs(time));
+}
+
+}  // namespace
 
 Schedule::Schedule(const formats::Scene& scene, const std::vector<double>& breakpoints)
     : integrator_(scene.integrator), output_(scene.output), breakpoints_(breakpoints) {
-  // Instants closer than this are the same.
-  round_off_ = 1e-9 * integrator_.step;
+  round_off_ = instant_tolerance(integrator_.step, std::max(std::abs(integrator_.start), std::abs(integrator_.end)));
   while (breakpoint_ < breakpoints_.size() && breakpoints_[breakpoint_] <= integrator_.start + round_off_) ++breakpoint_;
 }
 
@@ -33,7 +41,7 @@ StepEnd Schedule::next(double time) const {
   double t = target();
   if (fraction_ > 0.0 && time + fraction_ < t - round_off_) t = time + fraction_;
   const bool at_breakpoint = breakpoint_ < breakpoints_.size() && reached(t, breakpoints_[breakpoint_]);
-  return {t, at_breakpoint ? t - round_off_ : t};
+  return {t, at_breakpoint ? t - instant_tolerance(integrator_.step, t) : t};
 }
 
 bool Schedule::halve(double time) {
@@ -77,25 +85,18 @@ void begin(const Model& model, State& state, Workspace& workspace) {
   state.load_power() = workspace.load_power;
   state.damping_power() = workspace.damping_power;
   for (int k = 0; k < 3; ++k) state.force_scale(k) = workspace.force_scale[static_cast<std::size_t>(k)];
-  for (const Joint& joint : model.joints)
-    if (joint.hinge >= 0) {
-      const auto at = [&workspace](int node) -> const NodeMotion& {
-        return node < 0 ? workspace.motion.back() : workspace.motion[static_cast<std::size_t>(node)];
-      };
-      state.hinges()[joint.hinge] = hinge_angle(joint, at(joint.a.node), at(joint.b.node));
-    }
+  unwrap_hinges(model, workspace, state);
 }
 
 void pass_breakpoint(const Model& model, const formats::Scene& scene, State& state, Workspace& workspace) {
-  const double side = 1e-9 * scene.integrator.step;
-  double jump = 0.0, size = 0.0;
+  const double side = instant_tolerance(scene.integrator.step, state.time());
+  bool jumps = false;
   for (std::size_t i = 0; i < model.loads.size(); ++i)
     for (auto& function : workspace.load_functions[i]) {
       const double before = function(state.time() - side), after = function(state.time() + side);
-      jump = std::max(jump, std::abs(after - before));
-      size = std::max({size, std::abs(after), std::abs(before)});
+      jumps = jumps || std::abs(after - before) > 1e-6 * std::max(std::abs(after), std::abs(before));
     }
-  if (jump <= 1e-6 * size) return;
+  if (!jumps) return;
   state.load_time() = state.time() + side;
   solve_accelerations(model, scene.integrator.step, scene.file, state, workspace);
   const AlphaParameters alpha = alpha_parameters(scene.integrator);

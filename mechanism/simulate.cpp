@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "common/error.hpp"
 #include "formats/results.hpp"
@@ -25,6 +26,7 @@ struct Run {
 
   Run(const formats::Scene& scene_, const RunControl& control_)
       : scene(scene_), control(control_), built(build_model(scene_, read_superelements(scene_))), workspace(built.model) {
+    report.analysis = scene.analysis;
     report.notes = built.notes;
     report.solver = workspace.solver.name();
     report.unknowns = built.model.pattern->size();
@@ -93,8 +95,11 @@ void write_row(Run& run, const StepReport& step, double size, formats::ResultsRo
   row.iterations = step.iterations;
   row.residual = step.residual;
   row.constraint = step.constraint;
+  if (run.report.analysis == formats::AnalysisKind::statics)
+    row.work = row.dissipated = row.balance = std::numeric_limits<double>::quiet_NaN();
   writer.append(row);
   RunReport& report = run.report;
+  ++report.rows;
   report.balance = row.balance;
   report.largest_balance = std::max(report.largest_balance, std::abs(row.balance));
   report.energy_reference = std::max(report.energy_reference, std::abs(row.kinetic) + std::abs(row.strain) + std::abs(row.work));

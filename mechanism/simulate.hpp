@@ -24,6 +24,7 @@ struct RunControl {
 enum class RunOutcome { completed, not_converged, interrupted };
 
 struct RunReport {
+  formats::AnalysisKind analysis = formats::AnalysisKind::dynamics;
   RunOutcome outcome = RunOutcome::completed;
   std::string reason;                               ///< of a run that did not complete
   std::string results;                              ///< path of the results file
@@ -34,8 +35,9 @@ struct RunReport {
   long rejected = 0;                                ///< steps taken again with half the size
   std::vector<std::string> rejections;              ///< the first ones: when and why
   double largest_constraint = 0.0;                  ///< over all steps
-  double balance = 0.0;                             ///< energy balance at the end (output instants)
-  double largest_balance = 0.0;
+  long rows = 0;                                    ///< stored instants
+  double balance = 0.0;                             ///< energy balance at the last stored instant
+  double largest_balance = 0.0;                     ///< over the stored instants
   double energy_reference = 0.0;                    ///< largest kinetic + strain + |work|
   Mobility mobility;
   Projection projection;

@@ -17,21 +17,28 @@ namespace {
 constexpr double free_motion_condition = 1e-14;
 constexpr int most_halvings = 12;
 
+/// Largest magnitude; NaN if any entry is not finite (a maximum would drop it).
+double largest_of(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  if (!values.allFinite()) return std::numeric_limits<double>::quiet_NaN();
+  return values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0.0;
+}
+
 double largest_residual(const Model& model, const Workspace& workspace) {
+  if (!workspace.residual.allFinite()) return std::numeric_limits<double>::quiet_NaN();
   double largest = 0.0;
   for (const Node& node : model.nodes) {
-    if (node.translation >= 0)
-      largest = std::max(largest, workspace.residual.segment<3>(node.translation).cwiseAbs().maxCoeff());
-    if (node.rotation >= 0)
-      largest = std::max(largest, workspace.residual.segment<3>(node.rotation).cwiseAbs().maxCoeff() / model.length);
+    if (node.translation >= 0) largest = std::max(largest, largest_of(workspace.residual.segment<3>(node.translation)));
+    if (node.rotation >= 0) largest = std::max(largest, largest_of(workspace.residual.segment<3>(node.rotation)) / model.length);
   }
   return largest;
 }
 
 double largest_internal_residual(const Workspace& workspace) {
   double largest = 0.0;
-  for (const SuperelementScratch& scratch : workspace.superelements)
-    if (scratch.forces.r_I.size() > 0) largest = std::max(largest, scratch.forces.r_I.cwiseAbs().maxCoeff());
+  for (const SuperelementScratch& scratch : workspace.superelements) {
+    const double r = largest_of(scratch.forces.r_I);
+    if (!(r <= largest)) largest = r;
+  }
   return largest;
 }
 
@@ -50,7 +57,7 @@ StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options,
   for (int iteration = 0;; ++iteration) {
     evaluate(model, state, workspace);
     report.residual = largest_residual(model, workspace);
-    report.constraint = model.sizes.constraints > 0 ? workspace.constraint.cwiseAbs().maxCoeff() : 0.0;
+    report.constraint = largest_of(workspace.constraint);
     const double force = std::max(workspace.force_scale[0], workspace.force_scale[1] / model.length);
     // Positions are rounded to ε length, which the stiffness turns into forces that no iteration can remove.
     const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
@@ -76,6 +83,7 @@ void update_frames(const Model& model, State& state, const Workspace& workspace)
     state.frames().col(static_cast<Eigen::Index>(i)) =
         wxyz(Eigen::Quaterniond(workspace.superelements[i].motion.R0).normalized());
   for (Eigen::Index i = 0; i < state.Q().cols(); ++i) state.Q().col(i).normalize();
+  unwrap_hinges(model, workspace, state);
 }
 
 }  // namespace

@@ -68,4 +68,9 @@ struct Workspace {
   State previous;                            ///< the last accepted state
 };
 
+/// Motion of a node at the last evaluate(); −1: ground.
+inline const NodeMotion& motion_of(const Workspace& workspace, int node) {
+  return node < 0 ? workspace.motion.back() : workspace.motion[static_cast<std::size_t>(node)];
+}
+
 }  // namespace tisserand::mechanism

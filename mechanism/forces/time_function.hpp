@@ -11,7 +11,8 @@ namespace tisserand::mechanism {
 /// Evaluates a formats::TimeFunctionSpec. Tables are linear between points and constant outside.
 class TimeFunction {
  public:
-  /// Throws Error at the place of the expression if it cannot be parsed or is not finite at t = 0.
+  /// Throws Error at the place of the expression if it cannot be parsed. Its values may still not be finite: simulate()
+  /// examines those at the start, the integrator those of every step.
   explicit TimeFunction(const formats::TimeFunctionSpec& spec);
   ~TimeFunction();
   TimeFunction(TimeFunction&&) noexcept;
