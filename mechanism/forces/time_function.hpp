@@ -12,7 +12,7 @@ namespace tisserand::mechanism {
 class TimeFunction {
  public:
   /// Throws Error at the place of the expression if it cannot be parsed. Its values may still not be finite: simulate()
-  /// examines those at the start, the integrator those of every step.
+  /// examines them at the start and where a step fails.
   explicit TimeFunction(const formats::TimeFunctionSpec& spec);
   ~TimeFunction();
   TimeFunction(TimeFunction&&) noexcept;
