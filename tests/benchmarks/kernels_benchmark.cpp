@@ -18,13 +18,14 @@ using mechanism::TangentKind;
 /// CPU time of one call [us].
 template <class Action>
 double microseconds(Action action) {
-  int count = 64;
-  while (true) {
+  for (long count = 64;; count *= 2) {
     const double begin = cpu_seconds();
-    for (int i = 0; i < count; ++i) action();
+    for (long i = 0; i < count; ++i) {
+      action();
+      benchmark::ClobberMemory();
+    }
     const double seconds = cpu_seconds() - begin;
-    if (seconds > 5e-3) return 1e6 * seconds / count;
-    count *= 2;
+    if (seconds > 5e-3 || count > 10'000'000) return 1e6 * seconds / static_cast<double>(count);  // an empty action takes no time
   }
 }
 
