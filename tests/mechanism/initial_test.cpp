@@ -108,6 +108,17 @@ TEST(MarkerTilt, IsAnErrorThatNamesJointAndEquation) {
   EXPECT_THAT(text, testing::HasSubstr("hinge, z axis of B normal to y axis of A"));
 }
 
+TEST(OppositeMarkers, AreAnErrorAlthoughTheyMeetTheEquations) {
+  formats::Scene scene = test_support::pendulum_scene(1e-3, 1.0);
+  scene.joints[0].axis.reset();
+  scene.joints[0].a.orientation = Eigen::Quaterniond::Identity();
+  scene.joints[0].b.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(EIGEN_PI, Vector3d::UnitX()));
+  EXPECT_THAT(start_error(scene), testing::HasSubstr("point in opposite directions"));
+  scene.joints[0].kind = formats::JointKind::fixed;
+  scene.joints[0].b.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(2.0 * EIGEN_PI / 3.0, Vector3d::Ones().normalized()));
+  EXPECT_THAT(start_error(scene), testing::HasSubstr("turned against each other"));
+}
+
 TEST(InconsistentVelocity, IsAnErrorThatNamesJointAndEquation) {
   formats::Scene scene = test_support::pendulum_scene(1e-3, 1.0);
   std::get<formats::RigidBodySpec>(scene.bodies[0]).start.velocity = {0, 0, 0.5};

@@ -178,5 +178,26 @@ TEST(SuperelementCantilever, ClampCarriesWeightAndItsMoment) {
               1e-3);  // the arm shortens with the square of the deflection
 }
 
+// 1e200 N overflow: no number may come out, and no state of rest that is none.
+TEST(SuperelementCantilever, OverflowIsNoEquilibrium) {
+  Cantilever cantilever(Eigen::Quaterniond::Identity(), {0, 0, 1e200});
+  Simulation run(cantilever.scene, cantilever.files);
+  EXPECT_NE(solve(run).outcome, StepOutcome::accepted);
+  EXPECT_TRUE(run.state().x().allFinite());
+}
+
+// A hinge with a torsion bar: a beam clamped at its far end is twisted about the hinge, whose angle is T L/(G J) = 1e-4.
+TEST(SuperelementCantilever, HingeAngleIsReportedInStatics) {
+  const BeamData data;
+  Cantilever cantilever(Eigen::Quaterniond::Identity(), Vector3d::Zero());
+  const double torque = 1e-4 * data.shear_modulus * data.J / data.length;
+  cantilever.scene.joints.push_back(
+      test_support::joint("hinge", JointKind::revolute, "ground", "beam/tip", {data.length, 0, 0}, {1, 0, 0}));
+  cantilever.scene.loads = {test_support::constant_load("twist", LoadKind::moment, "beam/tip", {torque, 0, 0})};
+  Simulation run(cantilever.scene, cantilever.files);
+  ASSERT_EQ(solve(run).outcome, StepOutcome::accepted);
+  EXPECT_NEAR(run.state().hinges()[0], 1e-4, 1e-10);
+}
+
 }  // namespace
 }  // namespace tisserand::mechanism
