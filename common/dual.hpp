@@ -17,10 +17,26 @@ struct Dual {
   Dual(double v) : value(v) {}  // NOLINT(google-explicit-constructor): constants mix with duals in formulas
   Dual(double v, double d) : value(v), derivative(d) {}
 
-  Dual& operator+=(const Dual& b) { value += b.value; derivative += b.derivative; return *this; }
-  Dual& operator-=(const Dual& b) { value -= b.value; derivative -= b.derivative; return *this; }
-  Dual& operator*=(const Dual& b) { derivative = derivative * b.value + value * b.derivative; value *= b.value; return *this; }
-  Dual& operator/=(const Dual& b) { value /= b.value; derivative = (derivative - value * b.derivative) / b.value; return *this; }
+  Dual& operator+=(const Dual& b) {
+    value += b.value;
+    derivative += b.derivative;
+    return *this;
+  }
+  Dual& operator-=(const Dual& b) {
+    value -= b.value;
+    derivative -= b.derivative;
+    return *this;
+  }
+  Dual& operator*=(const Dual& b) {
+    derivative = derivative * b.value + value * b.derivative;
+    value *= b.value;
+    return *this;
+  }
+  Dual& operator/=(const Dual& b) {
+    value /= b.value;
+    derivative = (derivative - value * b.derivative) / b.value;
+    return *this;
+  }
 };
 
 inline Dual operator-(const Dual& a) { return {-a.value, -a.derivative}; }
@@ -35,7 +51,10 @@ inline bool operator>=(const Dual& a, const Dual& b) { return a.value >= b.value
 inline bool operator==(const Dual& a, const Dual& b) { return a.value == b.value; }
 inline bool operator!=(const Dual& a, const Dual& b) { return a.value != b.value; }
 
-inline Dual sqrt(const Dual& a) { const double r = std::sqrt(a.value); return {r, 0.5 * a.derivative / r}; }
+inline Dual sqrt(const Dual& a) {
+  const double r = std::sqrt(a.value);
+  return {r, 0.5 * a.derivative / r};
+}
 inline Dual sin(const Dual& a) { return {std::sin(a.value), std::cos(a.value) * a.derivative}; }
 inline Dual cos(const Dual& a) { return {std::cos(a.value), -std::sin(a.value) * a.derivative}; }
 inline Dual atan2(const Dual& y, const Dual& x) {
@@ -66,10 +85,22 @@ struct NumTraits<tisserand::Dual> : NumTraits<double> {
   using NonInteger = tisserand::Dual;
   using Nested = tisserand::Dual;
   using Literal = double;
-  enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 1, ReadCost = 2, AddCost = 2, MulCost = 4 };
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 2,
+    AddCost = 2,
+    MulCost = 4
+  };
 };
 template <typename BinaryOp>
-struct ScalarBinaryOpTraits<tisserand::Dual, double, BinaryOp> { using ReturnType = tisserand::Dual; };
+struct ScalarBinaryOpTraits<tisserand::Dual, double, BinaryOp> {
+  using ReturnType = tisserand::Dual;
+};
 template <typename BinaryOp>
-struct ScalarBinaryOpTraits<double, tisserand::Dual, BinaryOp> { using ReturnType = tisserand::Dual; };
+struct ScalarBinaryOpTraits<double, tisserand::Dual, BinaryOp> {
+  using ReturnType = tisserand::Dual;
+};
 }  // namespace Eigen

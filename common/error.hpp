@@ -37,8 +37,8 @@ Error merge_errors(const std::vector<Error>& errors);
 }  // namespace tisserand
 
 /// An invariant of the program itself; `...` is a fmt format string with the values to print. On in every build.
-#define TISSERAND_ENSURE(condition, ...)                                                                  \
-  do {                                                                                                    \
-    if (!(condition)) [[unlikely]]                                                                        \
-      ::tisserand::ensure_failed(#condition, __FILE__, __LINE__, ::fmt::format(__VA_ARGS__));             \
+#define TISSERAND_ENSURE(condition, ...)                                                      \
+  do {                                                                                        \
+    if (!(condition)) [[unlikely]]                                                            \
+      ::tisserand::ensure_failed(#condition, __FILE__, __LINE__, ::fmt::format(__VA_ARGS__)); \
   } while (false)

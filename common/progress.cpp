@@ -13,7 +13,7 @@ namespace tisserand {
 
 namespace {
 
-constexpr double first_after = 1.0;      // seconds
+constexpr double first_after = 1.0;  // seconds
 constexpr double on_terminal = 0.1;
 constexpr double elsewhere = 10.0;
 
@@ -26,15 +26,18 @@ std::string duration(double seconds) {
 }  // namespace
 
 ProgressOutput standard_progress() {
-  return {stderr, ::isatty(::fileno(stderr)) == 1, [] {
-            return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-          }};
+  return {stderr, ::isatty(::fileno(stderr)) == 1,
+          [] { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }};
 }
 
 Progress::Progress(std::string name, double total) : Progress(std::move(name), total, standard_progress()) {}
 
 Progress::Progress(std::string name, double total, ProgressOutput output)
-    : name_(std::move(name)), total_(total), output_(std::move(output)), start_(output_.clock()), next_(start_ + first_after) {}
+    : name_(std::move(name)),
+      total_(total),
+      output_(std::move(output)),
+      start_(output_.clock()),
+      next_(start_ + first_after) {}
 
 Progress::~Progress() { finish(); }
 

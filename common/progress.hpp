@@ -10,7 +10,7 @@ namespace tisserand {
 /// Where progress goes and by which clock [s].
 struct ProgressOutput {
   std::FILE* stream;
-  bool terminal;                    ///< one line rewritten ten times a second; else a line of its own every ten seconds
+  bool terminal;  ///< one line rewritten ten times a second; else a line of its own every ten seconds
   std::function<double()> clock;
 };
 

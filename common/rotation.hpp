@@ -51,10 +51,12 @@ struct AngleFunctions {
     if (real_part(a2) < 1e-2) {
       s = 1.0 - a2 / 6.0 * (1.0 - a2 / 20.0 * (1.0 - a2 / 42.0 * (1.0 - a2 / 72.0 * (1.0 - a2 / 110.0))));
       c = 0.5 * (1.0 - a2 / 12.0 * (1.0 - a2 / 30.0 * (1.0 - a2 / 56.0 * (1.0 - a2 / 90.0 * (1.0 - a2 / 132.0)))));
-      d = 1.0 / 6.0 * (1.0 - a2 / 20.0 * (1.0 - a2 / 42.0 * (1.0 - a2 / 72.0 * (1.0 - a2 / 110.0 * (1.0 - a2 / 156.0)))));
+      d = 1.0 / 6.0 *
+          (1.0 - a2 / 20.0 * (1.0 - a2 / 42.0 * (1.0 - a2 / 72.0 * (1.0 - a2 / 110.0 * (1.0 - a2 / 156.0)))));
       e = 1.0 / 12.0 +
-          a2 * (1.0 / 720.0 + a2 * (1.0 / 30240.0 + a2 * (1.0 / 1209600.0 + a2 * (1.0 / 47900160.0 +
-               a2 * (691.0 / 1307674368000.0 + a2 / 74724249600.0)))));
+          a2 * (1.0 / 720.0 +
+                a2 * (1.0 / 30240.0 + a2 * (1.0 / 1209600.0 + a2 * (1.0 / 47900160.0 + a2 * (691.0 / 1307674368000.0 +
+                                                                                             a2 / 74724249600.0)))));
     } else {
       const S a = sqrt(a2);
       const S sine_half = sin(0.5 * a);
@@ -90,8 +92,8 @@ Mat3<S> inverse_tangent_so3(const Vec3<S>& psi) {
   return Mat3<S>::Identity() + 0.5 * P + f.e * (P * P);
 }
 
-/// Unit quaternion [w, x, y, z] of a rotation matrix by the largest of four pivots (Shepperd 1978): no loss of digits at
-/// any angle. Works for complex and dual scalars (the pivot is chosen by real parts).
+/// Unit quaternion [w, x, y, z] of a rotation matrix by the largest of four pivots (Shepperd 1978): no loss of digits
+/// at any angle. Works for complex and dual scalars (the pivot is chosen by real parts).
 template <class S>
 Eigen::Matrix<S, 4, 1> quaternion_wxyz(const Mat3<S>& R) {
   using std::sqrt;

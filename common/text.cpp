@@ -48,7 +48,8 @@ std::optional<std::string> nearest(const std::string& word, const std::vector<st
   std::size_t smallest = 0;
   for (const std::string& candidate : known) {
     const std::size_t limit = std::clamp<std::size_t>(std::max(word.size(), candidate.size()) / 3, 1, 3);
-    const std::size_t longer = std::max(word.size(), candidate.size()), shorter = std::min(word.size(), candidate.size());
+    const std::size_t longer = std::max(word.size(), candidate.size()),
+                      shorter = std::min(word.size(), candidate.size());
     if (longer - shorter > limit) continue;
     const std::size_t distance = edit_distance(word, candidate);
     if (distance <= limit && (!best || distance < smallest)) {
@@ -142,7 +143,8 @@ void TextFile::write(const std::string& text) {
 
 void TextFile::publish() {
   if (::fsync(file_) != 0 && errno != EINVAL && errno != EROFS) fail("cannot write the file", path_, errno);
-  if (!temporary_.empty() && ::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot move the complete file to its name", path_, errno);
+  if (!temporary_.empty() && ::rename(temporary_.c_str(), path_.c_str()) != 0)
+    fail("cannot move the complete file to its name", path_, errno);
   ::close(file_);
   file_ = -1;
 }

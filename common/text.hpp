@@ -40,10 +40,12 @@ class TextFile {
   int file_ = -1;
 };
 
-/// Writes `text` beside `path` and renames: the file appears whole or not at all. Throws Error (no permission, disk full).
+/// Writes `text` beside `path` and renames: the file appears whole or not at all. Throws Error (no permission, disk
+/// full).
 void write_text_file(const std::string& path, const std::string& text);
 
-/// Name of the temporary file that write helpers use beside `path` until it is complete (same folder, unique per process).
+/// Name of the temporary file that write helpers use beside `path` until it is complete (same folder, unique per
+/// process).
 std::string temporary_beside(const std::string& path);
 
 /// Renames `from` to `to` after the data of `from` have reached the disk. Throws Error and removes `from` on failure.

@@ -33,7 +33,8 @@ struct UnitConversion {
 /// Throws Error if exactly one of the two is unnamed; `where` names the file that is converted.
 UnitConversion convert_units(const Units& from, const Units& to, const std::string& where);
 
-/// Units by label: length m mm cm km in ft; mass kg g t (tonne) lb slug; time s ms. Throws Error (with the known labels).
+/// Units by label: length m mm cm km in ft; mass kg g t (tonne) lb slug; time s ms. Throws Error (with the known
+/// labels).
 Unit length_unit(const std::string& label);
 Unit mass_unit(const std::string& label);
 Unit time_unit(const std::string& label);

@@ -42,7 +42,8 @@ std::ifstream open(const std::string& path) {
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
     throw Error("is not a regular file", path, "give a csv file with the columns time and value");
   std::ifstream stream(path);
-  if (!stream) throw Error(fmt::format("cannot open the table: {}", std::strerror(errno)), path, "check path and permission");
+  if (!stream)
+    throw Error(fmt::format("cannot open the table: {}", std::strerror(errno)), path, "check path and permission");
   return stream;
 }
 

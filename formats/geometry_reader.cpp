@@ -30,8 +30,9 @@ Eigen::Quaterniond from_matrix(const Context& context, const YamlNode& node, con
 Eigen::Quaterniond from_numbers(const Context& context, const YamlNode& node, const std::string& what) {
   const std::vector<double> q = read_numbers(context, node, what);
   if (q.size() != 4) {
-    context.fail(node.place, fmt::format("{} has {} numbers", what, q.size()),
-                 "give a quaternion [w, x, y, z], three rows of a matrix, {axis: [..], angle_deg: ..} or {x: [..], y: [..]}");
+    context.fail(
+        node.place, fmt::format("{} has {} numbers", what, q.size()),
+        "give a quaternion [w, x, y, z], three rows of a matrix, {axis: [..], angle_deg: ..} or {x: [..], y: [..]}");
     return Eigen::Quaterniond::Identity();
   }
   const Eigen::Quaterniond quaternion(q[0], q[1], q[2], q[3]);
@@ -126,8 +127,8 @@ Eigen::Matrix3d read_matrix(const Context& context, const YamlNode& node, const 
 }
 
 Eigen::Matrix3d read_inertia(const Context& context, const YamlNode& node, const std::string& what) {
-  const bool rows = node.kind == YamlKind::sequence && !node.children.empty() &&
-                    node.children.front().kind == YamlKind::sequence;
+  const bool rows =
+      node.kind == YamlKind::sequence && !node.children.empty() && node.children.front().kind == YamlKind::sequence;
   if (rows) return read_matrix(context, node, what);
   const std::vector<double> v = read_numbers(context, node, what);
   if (v.size() == 3) return Eigen::Vector3d(v[0], v[1], v[2]).asDiagonal();
@@ -146,13 +147,14 @@ Eigen::Quaterniond read_orientation(const Context& context, const YamlNode& node
     const Context inner{context.reader, context.subject.empty() ? what : context.subject + ": " + what, context.entry};
     const MapReader map(inner, node, "orientation", what + ".");
     if (map.has("axis") || map.has("angle_deg")) {
-      if (map.has("x") || map.has("y") || map.has("z")) map.fail("both axis and angle and two axes are given", "give one form");
+      if (map.has("x") || map.has("y") || map.has("z"))
+        map.fail("both axis and angle and two axes are given", "give one form");
       return from_axis_and_angle(map);
     }
     return from_axes(map);
   }
-  const bool rows = node.kind == YamlKind::sequence && !node.children.empty() &&
-                    node.children.front().kind == YamlKind::sequence;
+  const bool rows =
+      node.kind == YamlKind::sequence && !node.children.empty() && node.children.front().kind == YamlKind::sequence;
   return rows ? from_matrix(context, node, what) : from_numbers(context, node, what);
 }
 

@@ -19,7 +19,8 @@ std::optional<Eigen::Vector3d> read_optional_vector(const MapReader& map, std::s
 /// Three rows of three numbers.
 Eigen::Matrix3d read_matrix(const Context& context, const YamlNode& node, const std::string& what);
 
-/// [Ixx, Iyy, Izz], [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] (entries of the tensor, thus minus the products ∫xy dm) or three rows.
+/// [Ixx, Iyy, Izz], [Ixx, Iyy, Izz, Ixy, Ixz, Iyz] (entries of the tensor, thus minus the products ∫xy dm) or three
+/// rows.
 Eigen::Matrix3d read_inertia(const Context& context, const YamlNode& node, const std::string& what);
 
 /// Rotation from the axes described to the axes in which they are written: a quaternion [w, x, y, z], a rotation matrix

@@ -206,8 +206,8 @@ InputFile::InputFile(const std::string& path, Completeness completeness) : path_
     if (!file_.valid()) file_ = open_copy_of_killed(path);
   }
   if (!file_.valid())
-    throw last_error("is an HDF5 file, but it is damaged, cut short, or was not closed by the program that wrote it", path,
-                     "write or copy it again");
+    throw last_error("is an HDF5 file, but it is damaged, cut short, or was not closed by the program that wrote it",
+                     path, "write or copy it again");
 }
 
 std::string InputFile::place(const std::string& object) const {
@@ -242,7 +242,8 @@ Handle InputFile::open_object(const std::string& object) const {
 
 std::vector<std::string> InputFile::members(const std::string& group) const {
   const Handle object = open_object(group);
-  if (H5Iget_type(object.id()) != H5I_GROUP) throw Error("is not a group", place(group), "compare with the specification");
+  if (H5Iget_type(object.id()) != H5I_GROUP)
+    throw Error("is not a group", place(group), "compare with the specification");
   std::vector<std::string> names;
   if (H5Literate(object.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &names) < 0)
     throw last_error("its members cannot be listed", place(group), "the file is damaged; write it again");
@@ -278,7 +279,8 @@ std::string InputFile::text_attribute(const std::string& object, const std::stri
     if (text != nullptr) H5free_memory(text);
     return value;
   }
-  if (size > max_text) throw Error(fmt::format("has {} bytes, at most {} are allowed", size, max_text), where, "shorten it");
+  if (size > max_text)
+    throw Error(fmt::format("has {} bytes, at most {} are allowed", size, max_text), where, "shorten it");
   std::vector<char> buffer(size + 1, '\0');
   if (H5Aread(attribute.id(), type.id(), buffer.data()) < 0)
     throw last_error("cannot be read", where, "the file is damaged; write it again");
@@ -332,7 +334,8 @@ DatasetInfo InputFile::info(const std::string& dataset) const {
   return result;
 }
 
-void InputFile::require(const std::string& dataset, ElementKind kind, const Shape& shape, const std::string& meaning) const {
+void InputFile::require(const std::string& dataset, ElementKind kind, const Shape& shape,
+                        const std::string& meaning) const {
   const DatasetInfo found = info(dataset);
   if (found.kind != kind)
     throw Error(fmt::format("holds {}, expected {}", found.type_text, kind_in_words(kind)), place(dataset),
@@ -350,7 +353,8 @@ void InputFile::read(const std::string& dataset, const Shape& shape, const std::
     throw last_error("cannot be read", place(dataset), "the file is damaged or uses a filter that is not installed");
 }
 
-void InputFile::read(const std::string& dataset, const Shape& shape, const std::string& meaning, std::int64_t* values) const {
+void InputFile::read(const std::string& dataset, const Shape& shape, const std::string& meaning,
+                     std::int64_t* values) const {
   require(dataset, ElementKind::integer, shape, meaning);
   if (H5Dread(open_dataset(dataset).id(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
     throw last_error("cannot be read", place(dataset), "the file is damaged or uses a filter that is not installed");
@@ -364,15 +368,17 @@ std::vector<std::string> InputFile::read_all_texts(Id dataset, std::uint64_t cou
   if (H5Tis_variable_str(type.id()) > 0) {
     std::vector<char*> pointers(count, nullptr);
     const bool ok = H5Dread(dataset, type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) >= 0;
-    for (const char* text : pointers) texts.emplace_back(text == nullptr ? "" : std::string(text, ::strnlen(text, max_report)));
+    for (const char* text : pointers)
+      texts.emplace_back(text == nullptr ? "" : std::string(text, ::strnlen(text, max_report)));
     H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, pointers.data());
     if (!ok) throw last_error("cannot be read", where, damaged);
     return texts;
   }
   const std::size_t size = H5Tget_size(type.id());
   if (size > max_report / count)
-    throw Error(fmt::format("{} strings of {} bytes are too long, at most {} bytes are allowed", count, size, max_report), where,
-                "shorten them");
+    throw Error(
+        fmt::format("{} strings of {} bytes are too long, at most {} bytes are allowed", count, size, max_report),
+        where, "shorten them");
   std::vector<char> buffer(size * count + 1, '\0');
   if (H5Dread(dataset, type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer.data()) < 0)
     throw last_error("cannot be read", where, damaged);
@@ -396,8 +402,8 @@ void InputFile::read_rows(const std::string& dataset, std::uint64_t first, std::
   const Handle handle = open_dataset(dataset), space(H5Dget_space(handle.id()), close_space);
   std::vector<hsize_t> start(8, 0), extent;
   for (const std::uint64_t e : shape_of(space.id())) extent.push_back(e);
-  TISSERAND_ENSURE(!extent.empty() && extent.size() <= 8 && first + count <= extent[0], "rows {} + {} of {}", first, count,
-                   dataset);
+  TISSERAND_ENSURE(!extent.empty() && extent.size() <= 8 && first + count <= extent[0], "rows {} + {} of {}", first,
+                   count, dataset);
   start[0] = first;
   extent[0] = count;
   const hsize_t total = count_of(Shape(extent.begin(), extent.end()));
@@ -407,7 +413,8 @@ void InputFile::read_rows(const std::string& dataset, std::uint64_t first, std::
     throw last_error("cannot be read", place(dataset), "the file is damaged or uses a filter that is not installed");
 }
 
-void InputFile::read_column(const std::string& dataset, std::uint64_t column, std::uint64_t count, double* values) const {
+void InputFile::read_column(const std::string& dataset, std::uint64_t column, std::uint64_t count,
+                            double* values) const {
   const Handle handle = open_dataset(dataset), space(H5Dget_space(handle.id()), close_space);
   const Shape shape = shape_of(space.id());
   TISSERAND_ENSURE(!shape.empty() && count <= shape[0], "column of {} rows of {}", count, dataset);

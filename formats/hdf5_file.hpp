@@ -1,4 +1,5 @@
-// Small owner of HDF5 objects: every read is bounded, typed and checked before memory is taken, every failure is an Error.
+// Small owner of HDF5 objects: every read is bounded, typed and checked before memory is taken, every failure is an
+// Error.
 //
 // Files are untrusted input. Nothing of hdf5.h is seen outside hdf5_*.cpp; identifiers are HDF5's 64-bit hid_t.
 #pragma once
@@ -48,13 +49,15 @@ struct DatasetInfo {
   std::uint64_t stored_bytes = 0;
 };
 
-/// Which files may be opened: only those that were closed properly, or also those of a run that still writes or was killed.
+/// Which files may be opened: only those that were closed properly, or also those of a run that still writes or was
+/// killed.
 enum class Completeness { closed, any };
 
 /// "12 x 3"; "scalar" if empty.
 std::string shape_text(const Shape& shape);
 
-/// The Error of the HDF5 call that just failed: `action`, the reason of the operating system if there is one, the remedy.
+/// The Error of the HDF5 call that just failed: `action`, the reason of the operating system if there is one, the
+/// remedy.
 Error last_error(const std::string& action, const std::string& where, const std::string& remedy);
 
 /// A file opened for reading. Object names are absolute paths; `object` = "/" is the root group.
@@ -80,10 +83,12 @@ class InputFile {
   /// Throws Error if the dataset is missing, is a group, a link to elsewhere, or stored outside of this file.
   DatasetInfo info(const std::string& dataset) const;
 
-  // Each of these throws Error unless kind and shape are as asked. `meaning` says in messages what the shape stands for.
+  // Each of these throws Error unless kind and shape are as asked. `meaning` says in messages what the shape stands
+  // for.
   void read(const std::string& dataset, const Shape& shape, const std::string& meaning, double* values) const;
   void read(const std::string& dataset, const Shape& shape, const std::string& meaning, std::int64_t* values) const;
-  std::vector<std::string> read_texts(const std::string& dataset, std::uint64_t count, const std::string& meaning) const;
+  std::vector<std::string> read_texts(const std::string& dataset, std::uint64_t count,
+                                      const std::string& meaning) const;
   /// A scalar string dataset (at most 64 MiB).
   std::string read_text(const std::string& dataset) const;
 
@@ -104,19 +109,21 @@ class InputFile {
   Handle file_;
 };
 
-/// Runs `read` in a child process first, because HDF5 itself can crash on damaged files. Throws Error if the child dies or
-/// needs ten times the processor time of an ordinary read (HDF5 can also loop for ever); what `read` throws is left to be met again when the caller reads.
+/// Runs `read` in a child process first, because HDF5 itself can crash on damaged files. Throws Error if the child dies
+/// or needs ten times the processor time of an ordinary read (HDF5 can also loop for ever); what `read` throws is left
+/// to be met again when the caller reads.
 void rehearse(const std::string& path, const std::function<void()>& read);
 
-// Writing, used by the writers of superelements and results. `file` is a file or group identifier; missing groups on the way
-// are made. Texts are UTF-8. All throw Error with `where` in front.
+// Writing, used by the writers of superelements and results. `file` is a file or group identifier; missing groups on
+// the way are made. Texts are UTF-8. All throw Error with `where` in front.
 void write_text_attribute(Id file, const std::string& object, const std::string& name, const std::string& value,
                           const std::string& where);
 void write_number_attribute(Id file, const std::string& object, const std::string& name, double value,
                             const std::string& where);
 void write_integer_attribute(Id file, const std::string& object, const std::string& name, std::int32_t value,
                              const std::string& where);
-void write_dataset(Id file, const std::string& dataset, const Shape& shape, const double* values, const std::string& where);
+void write_dataset(Id file, const std::string& dataset, const Shape& shape, const double* values,
+                   const std::string& where);
 void write_dataset(Id file, const std::string& dataset, const Shape& shape, const std::int32_t* values,
                    const std::string& where);
 /// Fixed-length, zero-padded strings (longest value decides), shape [values.size()].

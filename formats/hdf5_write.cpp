@@ -78,7 +78,8 @@ void write_integer_attribute(Id file, const std::string& object, const std::stri
   write_attribute(file, object, name, H5T_STD_I32LE, H5T_NATIVE_INT32, &value, where);
 }
 
-void write_dataset(Id file, const std::string& dataset, const Shape& shape, const double* values, const std::string& where) {
+void write_dataset(Id file, const std::string& dataset, const Shape& shape, const double* values,
+                   const std::string& where) {
   write_values(file, dataset, simple_space(shape).id(), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values, where);
 }
 
@@ -87,11 +88,13 @@ void write_dataset(Id file, const std::string& dataset, const Shape& shape, cons
   write_values(file, dataset, simple_space(shape).id(), H5T_STD_I32LE, H5T_NATIVE_INT32, values, where);
 }
 
-void write_texts(Id file, const std::string& dataset, const std::vector<std::string>& values, const std::string& where) {
+void write_texts(Id file, const std::string& dataset, const std::vector<std::string>& values,
+                 const std::string& where) {
   std::size_t size = 1;
   for (const std::string& value : values) size = std::max(size, value.size());
   std::vector<char> buffer(size * values.size() + 1, '\0');
-  for (std::size_t i = 0; i < values.size(); ++i) std::memcpy(buffer.data() + i * size, values[i].data(), values[i].size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    std::memcpy(buffer.data() + i * size, values[i].data(), values[i].size());
   const Handle type = text_type(size);
   write_values(file, dataset, simple_space({values.size()}).id(), type.id(), type.id(), buffer.data(), where);
 }

@@ -26,18 +26,21 @@ void check_line(const LineToCheck& line, Faults& faults) {
   if (!chord.allFinite()) return;
   const double scale = std::max(line.from.cwiseAbs().maxCoeff(), line.to.cwiseAbs().maxCoeff());
   if (chord.stableNorm() <= 1e-12 * scale) {
-    faults.add(line.where, "", fmt::format("{}: has zero length: both ends are at {}", line.subject, text_of(line.from)),
+    faults.add(line.where, "",
+               fmt::format("{}: has zero length: both ends are at {}", line.subject, text_of(line.from)),
                "move one end");
     return;
   }
   if (line.through && line.through->allFinite() &&
       (parallel(*line.through - line.from, chord) || parallel(*line.through - line.to, chord)))
     faults.add(line.where, "through",
-               fmt::format("{}: the point {} of the arc lies on the line through its ends", line.subject, text_of(*line.through)),
+               fmt::format("{}: the point {} of the arc lies on the line through its ends", line.subject,
+                           text_of(*line.through)),
                "move it off the line, or remove 'through' for a straight beam");
   if (!line.orientation || !line.orientation->allFinite()) return;
   if (line.orientation->stableNorm() == 0.0) {
-    faults.add(line.where, "orientation", fmt::format("{}: orientation has zero length", line.subject), "give the direction of the local y axis");
+    faults.add(line.where, "orientation", fmt::format("{}: orientation has zero length", line.subject),
+               "give the direction of the local y axis");
   } else if (!line.through && parallel(*line.orientation, chord)) {
     faults.add(line.where, "orientation",
                fmt::format("{}: orientation {} is parallel to the beam", line.subject, text_of(*line.orientation)),
@@ -48,8 +51,10 @@ void check_line(const LineToCheck& line, Faults& faults) {
 void check_mass(const MassToCheck& body, MassSign sign, Faults& faults) {
   const bool zero_allowed = sign == MassSign::zero_allowed;
   if (!std::isfinite(body.mass) || body.mass < 0.0 || (body.mass == 0.0 && !zero_allowed))
-    faults.add(body.where, "mass",
-               fmt::format("{}: mass {:g} must {}", body.subject, body.mass, zero_allowed ? "not be negative" : "be positive"), "");
+    faults.add(
+        body.where, "mass",
+        fmt::format("{}: mass {:g} must {}", body.subject, body.mass, zero_allowed ? "not be negative" : "be positive"),
+        "");
   if (!body.inertia.allFinite()) {
     faults.add(body.where, "inertia", fmt::format("{}: inertia must be finite", body.subject), "");
     return;
@@ -61,16 +66,20 @@ void check_mass(const MassToCheck& body, MassSign sign, Faults& faults) {
     return;
   }
   const Eigen::Matrix3d scaled = body.inertia / scale;
-  const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::Vector3d principal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
   constexpr double slack = 1e-9;
   const Eigen::Vector3d shown = scale * principal;
   if (principal[0] < -slack) {
-    faults.add(body.where, "inertia", fmt::format("{}: inertia has the negative principal moment {:g}", body.subject, shown[0]), "");
-  } else if (principal[2] > principal[0] + principal[1] + slack) {
     faults.add(body.where, "inertia",
-               fmt::format("{}: principal moments of inertia {:g}, {:g}, {:g}: the largest exceeds the sum of the others, "
-                           "which no body can have", body.subject, shown[0], shown[1], shown[2]),
-               "check values, order and units");
+               fmt::format("{}: inertia has the negative principal moment {:g}", body.subject, shown[0]), "");
+  } else if (principal[2] > principal[0] + principal[1] + slack) {
+    faults.add(
+        body.where, "inertia",
+        fmt::format("{}: principal moments of inertia {:g}, {:g}, {:g}: the largest exceeds the sum of the others, "
+                    "which no body can have",
+                    body.subject, shown[0], shown[1], shown[2]),
+        "check values, order and units");
   }
 }
 

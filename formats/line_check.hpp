@@ -33,7 +33,8 @@ struct MassToCheck {
 
 enum class MassSign { positive, zero_allowed };
 
-/// Sign of the mass; inertia finite, symmetric, positive semidefinite, and no principal moment above the sum of the others.
+/// Sign of the mass; inertia finite, symmetric, positive semidefinite, and no principal moment above the sum of the
+/// others.
 void check_mass(const MassToCheck& body, MassSign sign, Faults& faults);
 
 }  // namespace tisserand::formats

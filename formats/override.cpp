@@ -59,8 +59,9 @@ YamlNode& enter_map(const Walk& walk, YamlNode& node, std::size_t i) {
     for (const YamlNode& child : node.children) known.push_back(child.key);
     const auto close = nearest(step, known);
     walk.fail(fmt::format("'{}' has no entry '{}'", walk.path_to(i), step),
-              close ? fmt::format("did you mean '{}'?", *close)
-              : known.empty() ? "" : fmt::format("entries are {}", join(known, ", ")));
+              close           ? fmt::format("did you mean '{}'?", *close)
+              : known.empty() ? ""
+                              : fmt::format("entries are {}", join(known, ", ")));
   }
   YamlNode child;
   child.key = step;
@@ -83,7 +84,8 @@ YamlNode& enter_list(const Walk& walk, YamlNode& node, std::size_t i) {
               fmt::format("use an index from 0 to {}", std::max<std::size_t>(node.children.size(), 1) - 1));
   if (index >= node.children.size())
     walk.fail(fmt::format("'{}' has {} entries; there is no index {}", walk.path_to(i), node.children.size(), index),
-              node.children.empty() ? "set the whole list" : fmt::format("use an index from 0 to {}", node.children.size() - 1));
+              node.children.empty() ? "set the whole list"
+                                    : fmt::format("use an index from 0 to {}", node.children.size() - 1));
   return node.children[index];
 }
 
@@ -124,7 +126,8 @@ Override parse_override(const std::string& text) {
   if (equals == std::string::npos) throw Error("has no '='", where, "write --set path.to.key=value");
   Override change{text.substr(0, equals), text.substr(equals + 1)};
   for (const std::string& step : split(change.path))
-    if (step.empty()) throw Error(fmt::format("path '{}' has an empty step", change.path), where, "write --set path.to.key=value");
+    if (step.empty())
+      throw Error(fmt::format("path '{}' has an empty step", change.path), where, "write --set path.to.key=value");
   return change;
 }
 

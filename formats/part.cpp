@@ -40,7 +40,8 @@ void read_division(const MapReader& map, BeamLine& beam) {
              "give one of them");
   if (const YamlNode* node = map.find("elements")) {
     beam.elements = read_integer(map.context(), *node, "elements").value_or(1);
-    if (beam.elements < 1) map.context().fail(node->place, fmt::format("elements {} must be 1 or more", beam.elements), "");
+    if (beam.elements < 1)
+      map.context().fail(node->place, fmt::format("elements {} must be 1 or more", beam.elements), "");
   }
   if (map.has("size")) beam.size = map.number("size");
 }
@@ -57,10 +58,13 @@ BeamLine read_beam(const Context& context, const YamlNode& node, const Part& par
   beam.material = map.text("material");
   read_division(map, beam);
   beam.orientation = read_optional_vector(map, "orientation");
-  beam.theory = map.choice("theory", {Choice<BeamTheory>{"timoshenko", BeamTheory::timoshenko},
-                                      {"euler_bernoulli", BeamTheory::euler_bernoulli}}, BeamTheory::timoshenko);
-  beam.mass_matrix = map.choice("mass_matrix", {Choice<MassMatrix>{"consistent", MassMatrix::consistent},
-                                                {"lumped", MassMatrix::lumped}}, MassMatrix::consistent);
+  beam.theory = map.choice(
+      "theory",
+      {Choice<BeamTheory>{"timoshenko", BeamTheory::timoshenko}, {"euler_bernoulli", BeamTheory::euler_bernoulli}},
+      BeamTheory::timoshenko);
+  beam.mass_matrix = map.choice(
+      "mass_matrix", {Choice<MassMatrix>{"consistent", MassMatrix::consistent}, {"lumped", MassMatrix::lumped}},
+      MassMatrix::consistent);
   beam.rotary_inertia =
       map.choice("rotary_inertia", {Choice<bool>{"on", true}, {"off", false}, {"true", true}, {"false", false}}, true);
   return beam;
@@ -108,7 +112,8 @@ std::vector<BoundaryNode> read_boundary(const MapReader& map) {
 ModeSelection read_modes(const MapReader& map) {
   ModeSelection modes;
   const bool both = map.has("modes") && map.has("cutoff");
-  if (both) map.context().fail(map.find("cutoff")->key_place, "both 'modes' and 'cutoff' are given", "give one of them");
+  if (both)
+    map.context().fail(map.find("cutoff")->key_place, "both 'modes' and 'cutoff' are given", "give one of them");
   modes.where = map.context().entry;
   modes.count = map.integer("modes", 0);
   if (map.has("cutoff")) modes.cutoff = map.number("cutoff");

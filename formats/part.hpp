@@ -31,8 +31,8 @@ struct BeamLine {
   std::optional<Eigen::Vector3d> through;  ///< a third point of the circular arc; absent: straight
   std::string section;
   std::string material;
-  int elements = 0;                        ///< > 0, or 0: from size
-  double size = 0.0;                       ///< largest element length if elements == 0
+  int elements = 0;   ///< > 0, or 0: from size
+  double size = 0.0;  ///< largest element length if elements == 0
   /// Direction whose part normal to the axis is the local y axis of the section; absent: a global axis chosen by the
   /// rule of PART.md (the one most nearly normal to the axis).
   std::optional<Eigen::Vector3d> orientation;
@@ -44,15 +44,15 @@ struct BeamLine {
 
 struct PointMass {
   std::string name;
-  std::string at;                                        ///< point
+  std::string at;  ///< point
   double mass = 0.0;
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();     ///< about the point, part axes
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the point, part axes
   std::string where;
 };
 
 struct BoundaryNode {
   std::string name;
-  std::string at;                ///< point
+  std::string at;  ///< point
   bool translations = true;
   bool rotations = true;
   std::string where;
@@ -67,7 +67,7 @@ struct ModeSelection {
 
 struct Part {
   std::string name;
-  std::string file;   ///< path it was read from
+  std::string file;  ///< path it was read from
   Units units;
   std::vector<Material> materials;
   std::vector<Section> sections;

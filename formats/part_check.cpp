@@ -46,7 +46,8 @@ void check_beam(const Part& part, const BeamLine& beam, const Names& names, Faul
   check_reference(subject, "point", beam.to, names.points, beam.where, "to", faults);
   check_reference(subject, "section", beam.section, names.sections, beam.where, "section", faults);
   check_reference(subject, "material", beam.material, names.materials, beam.where, "material", faults);
-  if (beam.elements < 0) faults.add(beam.where, "elements", fmt::format("{}: elements {} must be 1 or more", subject, beam.elements), "");
+  if (beam.elements < 0)
+    faults.add(beam.where, "elements", fmt::format("{}: elements {} must be 1 or more", subject, beam.elements), "");
   if (beam.elements == 0 && !(beam.size > 0.0 && std::isfinite(beam.size)))
     faults.add(beam.where, "size", fmt::format("{}: size {:g} must be positive", subject, beam.size), "");
   const auto section = std::ranges::find(part.sections, beam.section, &Section::name);
@@ -62,27 +63,32 @@ void check_beam(const Part& part, const BeamLine& beam, const Names& names, Faul
   const double count = (to->position - from->position).norm() / beam.size;
   constexpr double most = 1e6;
   if (count > most)
-    faults.add(beam.where, "size", fmt::format("{}: size {:g} makes {:.3g} elements; the limit is {:g}", subject, beam.size, count, most),
+    faults.add(beam.where, "size",
+               fmt::format("{}: size {:g} makes {:.3g} elements; the limit is {:g}", subject, beam.size, count, most),
                "give a larger size");
 }
 
 void check_modes(const Part& part, Faults& faults) {
   const ModeSelection& modes = part.modes;
   if (modes.count < 0)
-    faults.add(modes.where, "modes", fmt::format("modes {} must not be negative", modes.count), "modes: 0 gives Guyan reduction");
+    faults.add(modes.where, "modes", fmt::format("modes {} must not be negative", modes.count),
+               "modes: 0 gives Guyan reduction");
   if (modes.cutoff && !(*modes.cutoff > 0.0 && std::isfinite(*modes.cutoff)))
     faults.add(modes.where, "cutoff", fmt::format("cutoff {:g} must be positive", *modes.cutoff), "");
 }
 
 void check_boundary(const Part& part, const Names& names, Faults& faults) {
   if (part.boundary.empty())
-    faults.add(part.file, "boundary", "the part has no boundary node", "list the points at which it is joined or loaded, boundary: [base, tip]");
+    faults.add(part.file, "boundary", "the part has no boundary node",
+               "list the points at which it is joined or loaded, boundary: [base, tip]");
   std::vector<std::string> seen;
   for (const BoundaryNode& node : part.boundary) {
     check_name("boundary node", node.name, node.where, seen, faults);
-    check_reference(fmt::format("boundary node '{}'", node.name), "point", node.at, names.points, node.where, "", faults);
+    check_reference(fmt::format("boundary node '{}'", node.name), "point", node.at, names.points, node.where, "",
+                    faults);
     if (!node.translations && !node.rotations)
-      faults.add(node.where, "", fmt::format("boundary node '{}': keeps neither translations nor rotations", node.name), "");
+      faults.add(node.where, "", fmt::format("boundary node '{}': keeps neither translations nor rotations", node.name),
+                 "");
   }
 }
 

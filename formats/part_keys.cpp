@@ -7,7 +7,8 @@ namespace tisserand::formats {
 
 std::vector<KeySet> part_key_sets() {
   std::vector<KeySet> sets{
-      {"part", {"part", "units", "materials", "sections", "points", "beams", "point_masses", "boundary", "modes", "cutoff"}},
+      {"part",
+       {"part", "units", "materials", "sections", "points", "beams", "point_masses", "boundary", "modes", "cutoff"}},
       {"units", {"length", "mass", "time"}},
       {"beam",
        {"from", "to", "through", "section", "material", "elements", "size", "orientation", "theory", "mass_matrix",

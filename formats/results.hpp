@@ -13,40 +13,41 @@ namespace tisserand::formats {
 
 /// What a run stores; fixed before the first row.
 struct ResultsLayout {
-  std::string scene;                         ///< name of the scene
+  std::string scene;  ///< name of the scene
   std::string producer;
   Units units;
   std::vector<std::string> nodes;
   std::vector<std::string> superelements;
-  std::vector<int> modes_offset;             ///< superelements.size() + 1; into the columns of y
-  std::vector<int> boundary_offset;          ///< superelements.size() + 1; into the rows of boundary_force
-  std::vector<std::string> boundary_nodes;   ///< boundary_offset.back() names of the rows of boundary_force; empty: numbers
+  std::vector<int> modes_offset;     ///< superelements.size() + 1; into the columns of y
+  std::vector<int> boundary_offset;  ///< superelements.size() + 1; into the rows of boundary_force
+  std::vector<std::string>
+      boundary_nodes;  ///< boundary_offset.back() names of the rows of boundary_force; empty: numbers
   std::vector<std::string> joints;
-  std::vector<std::string> channels;         ///< selection, as in OutputSpec; empty: all
+  std::vector<std::string> channels;  ///< selection, as in OutputSpec; empty: all
   std::vector<std::string> superelement_content_ids;
 };
 
-/// One instant. World frame unless said; sized once by resize(layout). Joint force and moment: what A's body exerts on B's
-/// body, at B's origin, in A's axes. Boundary force: wrench that each boundary node receives from the rest of the
+/// One instant. World frame unless said; sized once by resize(layout). Joint force and moment: what A's body exerts on
+/// B's body, at B's origin, in A's axes. Boundary force: wrench that each boundary node receives from the rest of the
 /// mechanism, world axes.
 struct ResultsRow {
   double time = 0.0;
   Eigen::Matrix3Xd node_position, node_velocity, node_angular_velocity, node_acceleration, node_angular_acceleration;
-  Eigen::Matrix4Xd node_rotation;            ///< w x y z, Q_WN
+  Eigen::Matrix4Xd node_rotation;  ///< w x y z, Q_WN
   Eigen::Matrix3Xd frame_position;
   Eigen::Matrix4Xd frame_rotation;
-  Eigen::VectorXd y;                         ///< all superelements, file coordinates, modes_offset
+  Eigen::VectorXd y;                                        ///< all superelements, file coordinates, modes_offset
   Eigen::Matrix<double, 6, Eigen::Dynamic> boundary_force;  ///< [force; moment]
   Eigen::Matrix3Xd joint_force, joint_moment;
-  Eigen::VectorXd joint_coordinate, joint_rate;             ///< NaN where the joint has none (not revolute)
+  Eigen::VectorXd joint_coordinate, joint_rate;  ///< NaN where the joint has none (not revolute)
   double kinetic = 0.0, strain = 0.0, potential = 0.0, work = 0.0, dissipated = 0.0, total = 0.0, balance = 0.0;
   double step = 0.0, iterations = 0.0, residual = 0.0, constraint = 0.0;
 
   void resize(const ResultsLayout& layout);
 };
 
-/// Appends rows to <path>.part, flushes about every second, renames to path in finish(). The destructor of an unfinished
-/// writer closes the file as a partial one (completed = 0) and leaves it under `path`.
+/// Appends rows to <path>.part, flushes about every second, renames to path in finish(). The destructor of an
+/// unfinished writer closes the file as a partial one (completed = 0) and leaves it under `path`.
 class ResultsWriter {
  public:
   ResultsWriter(const std::string& path, const ResultsLayout& layout);
@@ -72,10 +73,10 @@ struct Channel {
 
 class ResultsReader {
  public:
-  explicit ResultsReader(const std::string& path);   ///< accepts partial files
+  explicit ResultsReader(const std::string& path);  ///< accepts partial files
   ~ResultsReader();
 
-  std::string path() const;   ///< of the file that is read; ends in .part if only that is there
+  std::string path() const;  ///< of the file that is read; ends in .part if only that is there
   bool completed() const;
   std::string reason() const;
   std::string report_json() const;
@@ -93,7 +94,8 @@ class ResultsReader {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Names of the channels that a selection means: exact names, groups and datasets ("nodes", "nodes/position"), patterns with
+/// Names of the channels that a selection means: exact names, groups and datasets ("nodes", "nodes/position"), patterns
+/// with
 /// * (any run of characters, also /). Empty: all. In the order of the file. Throws Error for an entry that means none.
 std::vector<Channel> select_channels(const std::vector<Channel>& channels, const std::vector<std::string>& selection,
                                      const std::string& where);

@@ -17,8 +17,9 @@ const std::vector<std::string> wrench{"force_x", "force_y", "force_z", "moment_x
 std::string with_radian(const std::string& unit) { return unit.empty() ? "" : "rad " + unit; }
 
 /// Items x components, column "item/component", one unit for all.
-Block vectors(const std::string& dataset, const std::vector<std::string>& items, const std::vector<std::string>& components,
-              const std::string& unit, const double* (*values)(const ResultsRow&)) {
+Block vectors(const std::string& dataset, const std::vector<std::string>& items,
+              const std::vector<std::string>& components, const std::string& unit,
+              const double* (*values)(const ResultsRow&)) {
   Block block{dataset, {items.size(), components.size()}, {}, {}, unit, values};
   for (const std::string& item : items)
     for (const std::string& component : components) block.columns.push_back(item + "/" + component);
@@ -63,7 +64,8 @@ void add_nodes(const ResultsLayout& layout, std::vector<Block>& blocks) {
   add("position", xyz, unit_label(u, 1, 0, 0), [](Row r) { return r.node_position.data(); });
   add("rotation", wxyz, "1", [](Row r) { return r.node_rotation.data(); });
   add("velocity", xyz, unit_label(u, 1, 0, -1), [](Row r) { return r.node_velocity.data(); });
-  add("angular_velocity", xyz, with_radian(unit_label(u, 0, 0, -1)), [](Row r) { return r.node_angular_velocity.data(); });
+  add("angular_velocity", xyz, with_radian(unit_label(u, 0, 0, -1)),
+      [](Row r) { return r.node_angular_velocity.data(); });
   add("acceleration", xyz, unit_label(u, 1, 0, -2), [](Row r) { return r.node_acceleration.data(); });
   add("angular_acceleration", xyz, with_radian(unit_label(u, 0, 0, -2)),
       [](Row r) { return r.node_angular_acceleration.data(); });
@@ -81,7 +83,8 @@ void add_superelements(const ResultsLayout& layout, std::vector<Block>& blocks) 
                            [](Row r) { return r.y.data(); }));
   Block boundary = vectors("/superelements/boundary_force", boundary_names(layout), wrench,
                            force.empty() ? "" : force + ", " + moment, [](Row r) { return r.boundary_force.data(); });
-  for (std::size_t column = 0; column < boundary.width(); ++column) boundary.units[column] = column % 6 < 3 ? force : moment;
+  for (std::size_t column = 0; column < boundary.width(); ++column)
+    boundary.units[column] = column % 6 < 3 ? force : moment;
   blocks.push_back(boundary);
 }
 
@@ -92,7 +95,8 @@ void add_joints(const ResultsLayout& layout, std::vector<Block>& blocks) {
                            [](Row r) { return r.joint_force.data(); }));
   blocks.push_back(vectors("/joints/moment", layout.joints, xyz, unit_label(u, 2, 1, -2),
                            [](Row r) { return r.joint_moment.data(); }));
-  blocks.push_back(scalars("/joints/coordinate", layout.joints, "rad", [](Row r) { return r.joint_coordinate.data(); }));
+  blocks.push_back(
+      scalars("/joints/coordinate", layout.joints, "rad", [](Row r) { return r.joint_coordinate.data(); }));
   blocks.push_back(scalars("/joints/rate", layout.joints, with_radian(unit_label(u, 0, 0, -1)),
                            [](Row r) { return r.joint_rate.data(); }));
 }
@@ -127,8 +131,8 @@ void ResultsRow::resize(const ResultsLayout& layout) {
   const auto superelements = static_cast<Eigen::Index>(layout.superelements.size());
   const auto joints = static_cast<Eigen::Index>(layout.joints.size());
   const auto last = [](const std::vector<int>& offset) { return offset.empty() ? 0 : offset.back(); };
-  for (Eigen::Matrix3Xd* block : {&node_position, &node_velocity, &node_angular_velocity, &node_acceleration,
-                                  &node_angular_acceleration})
+  for (Eigen::Matrix3Xd* block :
+       {&node_position, &node_velocity, &node_angular_velocity, &node_acceleration, &node_angular_acceleration})
     block->setZero(3, nodes);
   const Eigen::Vector4d no_rotation(1, 0, 0, 0);
   node_rotation = no_rotation.replicate(1, nodes);
@@ -143,7 +147,8 @@ void ResultsRow::resize(const ResultsLayout& layout) {
 }
 
 std::vector<Block> all_blocks(const ResultsLayout& layout) {
-  std::vector<Block> blocks{scalar("/time", unit_label(layout.units, 0, 0, 1), [](const ResultsRow& r) { return &r.time; })};
+  std::vector<Block> blocks{
+      scalar("/time", unit_label(layout.units, 0, 0, 1), [](const ResultsRow& r) { return &r.time; })};
   add_nodes(layout, blocks);
   add_superelements(layout, blocks);
   add_joints(layout, blocks);
@@ -163,7 +168,8 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
     known.push_back(name);
     if (std::find(known.begin(), known.end(), group) == known.end()) known.push_back(group);
   }
-  if (std::any_of(known.begin(), known.end(), [&](const std::string& name) { return chooses(entry, "/" + name); })) return {};
+  if (std::any_of(known.begin(), known.end(), [&](const std::string& name) { return chooses(entry, "/" + name); }))
+    return {};
   const std::optional<std::string> near = nearest(entry, known);
   return {{fmt::format("output channel '{}' does not exist", entry),
            near ? fmt::format("did you mean '{}'?", *near) : "choose among " + join(known, ", ")}};

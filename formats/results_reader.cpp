@@ -21,14 +21,16 @@ constexpr std::uint64_t max_rows = std::uint64_t{1} << 40;
 /// The file itself, or its unfinished form if only that is there.
 std::string existing_path(const std::string& path) {
   std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored) && std::filesystem::exists(path + ".part", ignored)) return path + ".part";
+  if (!std::filesystem::exists(path, ignored) && std::filesystem::exists(path + ".part", ignored))
+    return path + ".part";
   return path;
 }
 
 std::uint64_t bounded_length(const hdf5::InputFile& file, const std::string& dataset) {
   const hdf5::DatasetInfo info = file.info(dataset);
   if (info.shape.size() != 1 || info.shape[0] > max_names)
-    throw Error(fmt::format("has shape {}, expected one dimension of at most {} entries", hdf5::shape_text(info.shape), max_names),
+    throw Error(fmt::format("has shape {}, expected one dimension of at most {} entries", hdf5::shape_text(info.shape),
+                            max_names),
                 fmt::format("{}: {}", file.path(), dataset), "compare the file with formats/RESULTS.md");
   return info.shape[0];
 }
@@ -75,8 +77,9 @@ ResultsLayout read_layout(const hdf5::InputFile& file) {
 void check_format(const hdf5::InputFile& file) {
   const std::string format = file.has_attribute("/", "format") ? file.text_attribute("/", "format") : "";
   if (format != "tisserand-results")
-    throw Error(format.empty() ? "is an HDF5 file, but not a results file (it has no attribute 'format')"
-                               : fmt::format("is a file of the kind '{}', expected 'tisserand-results'", format.substr(0, 60)),
+    throw Error(format.empty()
+                    ? "is an HDF5 file, but not a results file (it has no attribute 'format')"
+                    : fmt::format("is a file of the kind '{}', expected 'tisserand-results'", format.substr(0, 60)),
                 file.path(), "give a *.results.h5 file, as `mechanism run` writes it");
   const std::string version = file.text_attribute("/", "version");
   if (!version.starts_with("1."))
@@ -181,8 +184,10 @@ std::vector<double> ResultsReader::read(const std::string& channel) const {
   return values;
 }
 
-Eigen::MatrixXd ResultsReader::read_rows(const std::vector<std::string>& channels, std::size_t first, std::size_t count) const {
-  TISSERAND_ENSURE(first <= impl_->rows && count <= impl_->rows - first, "rows {} + {} of {}", first, count, impl_->rows);
+Eigen::MatrixXd ResultsReader::read_rows(const std::vector<std::string>& channels, std::size_t first,
+                                         std::size_t count) const {
+  TISSERAND_ENSURE(first <= impl_->rows && count <= impl_->rows - first, "rows {} + {} of {}", first, count,
+                   impl_->rows);
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto rows = static_cast<Eigen::Index>(count);
   Eigen::MatrixXd values(rows, static_cast<Eigen::Index>(channels.size()));
@@ -202,7 +207,8 @@ Eigen::MatrixXd ResultsReader::read_rows(const std::vector<std::string>& channel
 
 namespace {
 
-/// The names and all that they begin with: "nodes/position/a/x" also gives "nodes", "nodes/position", "nodes/position/a".
+/// The names and all that they begin with: "nodes/position/a/x" also gives "nodes", "nodes/position",
+/// "nodes/position/a".
 std::vector<std::string> with_groups(std::vector<std::string> names) {
   std::set<std::string> groups;
   for (const std::string& name : names)

@@ -1,7 +1,8 @@
 // From rows of a running analysis to *.results.h5, such that a killed run leaves a readable file.
 //
-// The file appears as <path>.part when its head is complete, and is then open in HDF5's single-writer mode, whose order of
-// writes keeps the file on disk consistent at every moment. Between writes rows wait in memory that was taken at the start.
+// The file appears as <path>.part when its head is complete, and is then open in HDF5's single-writer mode, whose order
+// of writes keeps the file on disk consistent at every moment. Between writes rows wait in memory that was taken at the
+// start.
 #include <hdf5.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -25,8 +26,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds flush_interval{1000};
-constexpr std::size_t buffer_bytes = 4u << 20;   // of all waiting rows together
-constexpr std::size_t chunk_bytes = 64u << 10;   // of one chunk on disk, unless one row is larger
+constexpr std::size_t buffer_bytes = 4u << 20;  // of all waiting rows together
+constexpr std::size_t chunk_bytes = 64u << 10;  // of one chunk on disk, unless one row is larger
 constexpr std::size_t max_chunk_rows = 256;
 constexpr std::uint64_t disk_reserve = 256u << 10;  // left for the report and for closing the file
 
@@ -55,11 +56,12 @@ void create_growing(hdf5::Id file, const Block& block, const std::string& where)
   H5Pset_obj_track_times(creation.id(), false);
   H5Pset_chunk(creation.id(), rank, chunk.data());
   H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
-  const hdf5::Handle dataset(H5Dcreate2(file, block.dataset.c_str(), H5T_IEEE_F64LE, space.id(), links.id(), creation.id(),
-                                        H5P_DEFAULT),
-                             close_dataset);
+  const hdf5::Handle dataset(
+      H5Dcreate2(file, block.dataset.c_str(), H5T_IEEE_F64LE, space.id(), links.id(), creation.id(), H5P_DEFAULT),
+      close_dataset);
   if (!dataset.valid())
-    throw hdf5::last_error("cannot create dataset " + block.dataset, where, "name fewer nodes or choose fewer channels");
+    throw hdf5::last_error("cannot create dataset " + block.dataset, where,
+                           "name fewer nodes or choose fewer channels");
   hdf5::write_text_attribute(file, block.dataset, "unit", block.unit, where);
 }
 
@@ -72,8 +74,8 @@ void check_layout(const ResultsLayout& l) {
   const std::size_t n = l.superelements.size();
   TISSERAND_ENSURE(l.modes_offset.size() == (n == 0 && l.modes_offset.empty() ? 0 : n + 1), "{} modes_offset of {}",
                    l.modes_offset.size(), n);
-  TISSERAND_ENSURE(l.boundary_offset.size() == (n == 0 && l.boundary_offset.empty() ? 0 : n + 1), "{} boundary_offset of {}",
-                   l.boundary_offset.size(), n);
+  TISSERAND_ENSURE(l.boundary_offset.size() == (n == 0 && l.boundary_offset.empty() ? 0 : n + 1),
+                   "{} boundary_offset of {}", l.boundary_offset.size(), n);
   const std::size_t boundary = l.boundary_offset.empty() ? 0 : static_cast<std::size_t>(l.boundary_offset.back());
   TISSERAND_ENSURE(l.boundary_nodes.empty() || l.boundary_nodes.size() == boundary, "{} boundary_nodes of {}",
                    l.boundary_nodes.size(), boundary);
@@ -88,8 +90,10 @@ hdf5::Handle access_properties() {
   return access;
 }
 
-/// A file with everything that does not change during the run. The names of a group are stored if any of its datasets is.
-void create_head(const std::string& path, const ResultsLayout& layout, const std::vector<Block>& blocks, const std::string& where) {
+/// A file with everything that does not change during the run. The names of a group are stored if any of its datasets
+/// is.
+void create_head(const std::string& path, const ResultsLayout& layout, const std::vector<Block>& blocks,
+                 const std::string& where) {
   const hdf5::Handle access = access_properties();  // lives on: closing it would forget why H5Fcreate failed
   hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), close_file);
   if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
@@ -156,15 +160,15 @@ struct ResultsWriter::Impl {
   std::string part;
   hdf5::Handle file;
   std::vector<Column> columns;
-  std::size_t capacity = 0;       ///< rows that can wait
-  std::size_t waiting = 0;        ///< rows that do
-  std::uint64_t written = 0;      ///< rows in the file
+  std::size_t capacity = 0;   ///< rows that can wait
+  std::size_t waiting = 0;    ///< rows that do
+  std::uint64_t written = 0;  ///< rows in the file
   std::uint64_t bytes_per_row = 0;
   Clock::time_point last_flush = Clock::now();
-  bool broken = false;            ///< a write failed: the file on disk stays as the last good write left it
+  bool broken = false;  ///< a write failed: the file on disk stays as the last good write left it
   bool finished = false;
 
-  std::string shortage;           ///< why rows were given up, or empty
+  std::string shortage;  ///< why rows were given up, or empty
 
   std::uint64_t bytes_needed(std::size_t rows) const;
   std::size_t rows_that_fit();
@@ -199,10 +203,11 @@ std::size_t ResultsWriter::Impl::rows_that_fit() {
   const std::uint64_t growth = !limited ? free : limit.rlim_cur > size ? limit.rlim_cur - size : 0;
   const std::uint64_t needed = bytes_needed(waiting);
   if (needed <= std::min(free, growth)) return waiting;
-  shortage = growth < free ? fmt::format("the file may not grow beyond {} kB (`ulimit -f`), the next {} rows need {} kB more",
-                                         limit.rlim_cur / 1024, waiting, needed / 1024)
-                           : fmt::format("the disk is full: {} kB are free, the next {} rows need {} kB", free / 1024, waiting,
-                                         needed / 1024);
+  shortage = growth < free
+                 ? fmt::format("the file may not grow beyond {} kB (`ulimit -f`), the next {} rows need {} kB more",
+                               limit.rlim_cur / 1024, waiting, needed / 1024)
+                 : fmt::format("the disk is full: {} kB are free, the next {} rows need {} kB", free / 1024, waiting,
+                               needed / 1024);
   std::size_t rows = waiting;
   while (rows > 0 && bytes_needed(rows) > std::min(free, growth)) rows /= 2;
   return rows;
@@ -227,13 +232,16 @@ void ResultsWriter::Impl::write_rows(std::size_t rows) {
     }
     const hsize_t total = rows * column.block.width();
     bool ok = H5Dset_extent(column.dataset.id(), extent.data()) >= 0;
-    const hdf5::Handle space(H5Dget_space(column.dataset.id()), close_space), memory(H5Screate_simple(1, &total, nullptr), close_space);
+    const hdf5::Handle space(H5Dget_space(column.dataset.id()), close_space),
+        memory(H5Screate_simple(1, &total, nullptr), close_space);
     ok = ok && H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0;
-    ok = ok && H5Dwrite(column.dataset.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT, column.waiting.data()) >= 0;
+    ok = ok && H5Dwrite(column.dataset.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT,
+                        column.waiting.data()) >= 0;
     if (!ok) {
       broken = true;
-      throw hdf5::last_error(fmt::format("cannot write rows {} to {} of {}", written, written + rows, column.block.dataset),
-                             part, "choose another place for the results");
+      throw hdf5::last_error(
+          fmt::format("cannot write rows {} to {} of {}", written, written + rows, column.block.dataset), part,
+          "choose another place for the results");
     }
   }
   written += rows;
@@ -265,7 +273,8 @@ void ResultsWriter::Impl::write_end(int completed, const std::string& reason, co
   hdf5::write_text(end.id(), "/report", report_json, part);
   hdf5::write_text_attribute(end.id(), "/", "reason", reason.substr(0, 4096), part);
   hdf5::write_integer_attribute(end.id(), "/", "completed", completed, part);
-  if (end.reset() < 0) throw hdf5::last_error("cannot write the run report", part, "choose another place for the results");
+  if (end.reset() < 0)
+    throw hdf5::last_error("cannot write the run report", part, "choose another place for the results");
 }
 
 void ResultsWriter::Impl::rename_to_final() const {
@@ -289,7 +298,8 @@ ResultsWriter::ResultsWriter(const std::string& path, const ResultsLayout& layou
   impl_->capacity = std::clamp<std::size_t>(buffer_bytes / impl_->bytes_per_row, 1, 4096);
   for (const Block& block : blocks) {
     hdf5::Handle dataset(H5Dopen2(impl_->file.id(), block.dataset.c_str(), H5P_DEFAULT), close_dataset);
-    if (!dataset.valid()) throw hdf5::last_error("cannot open dataset " + block.dataset, impl_->part, "choose another place");
+    if (!dataset.valid())
+      throw hdf5::last_error("cannot open dataset " + block.dataset, impl_->part, "choose another place");
     impl_->columns.push_back({block, std::move(dataset), std::vector<double>(impl_->capacity * block.width())});
   }
 }
@@ -309,7 +319,8 @@ void ResultsWriter::append(const ResultsRow& row) {
   if (impl_->waiting == impl_->capacity) impl_->flush();
   for (Column& column : impl_->columns) {
     const std::size_t width = column.block.width();
-    std::copy_n(column.block.values(row), width, column.waiting.begin() + static_cast<std::ptrdiff_t>(impl_->waiting * width));
+    std::copy_n(column.block.values(row), width,
+                column.waiting.begin() + static_cast<std::ptrdiff_t>(impl_->waiting * width));
   }
   ++impl_->waiting;
   if (Clock::now() - impl_->last_flush >= flush_interval) impl_->flush();

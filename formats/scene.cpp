@@ -16,7 +16,8 @@ namespace {
 
 IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
   IntegratorSpec spec;
-  spec.method = map.choice("method", {Choice<Method>{"generalised_alpha", Method::generalised_alpha}, {"hht", Method::hht}}, spec.method);
+  spec.method = map.choice(
+      "method", {Choice<Method>{"generalised_alpha", Method::generalised_alpha}, {"hht", Method::hht}}, spec.method);
   spec.rho = map.number("rho", spec.rho);
   spec.alpha = map.number("alpha", spec.alpha);
   if (const YamlNode* rho = map.find("rho"); rho != nullptr && spec.method == Method::hht)
@@ -25,8 +26,10 @@ IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
   if (const YamlNode* alpha = map.find("alpha"); alpha != nullptr && spec.method == Method::generalised_alpha)
     map.context().fail(alpha->key_place, "'alpha' has no effect with method: generalised_alpha",
                        "give rho, or method: hht");
-  spec.formulation = map.choice("formulation", {Choice<Formulation>{"index3", Formulation::index3},
-                                                {"stabilised_index2", Formulation::stabilised_index2}}, spec.formulation);
+  spec.formulation = map.choice(
+      "formulation",
+      {Choice<Formulation>{"index3", Formulation::index3}, {"stabilised_index2", Formulation::stabilised_index2}},
+      spec.formulation);
   if (analysis == AnalysisKind::dynamics) {
     spec.step = map.number("step");
     spec.end = map.number("end");
@@ -39,8 +42,11 @@ IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
   spec.constraint_tolerance = map.number("constraint_tolerance", spec.constraint_tolerance);
   spec.max_iterations = map.integer("max_iterations", spec.max_iterations);
   spec.max_halvings = map.integer("max_halvings", spec.max_halvings);
-  spec.linear_solver = map.choice("linear_solver", {Choice<LinearSolver>{"auto", LinearSolver::automatic},
-                                                    {"klu", LinearSolver::klu}, {"dense", LinearSolver::dense}}, spec.linear_solver);
+  spec.linear_solver = map.choice("linear_solver",
+                                  {Choice<LinearSolver>{"auto", LinearSolver::automatic},
+                                   {"klu", LinearSolver::klu},
+                                   {"dense", LinearSolver::dense}},
+                                  spec.linear_solver);
   return spec;
 }
 
@@ -62,10 +68,12 @@ OutputSpec read_output(const MapReader& map, double start) {
   const YamlNode* channels = map.find("channels");
   if (channels == nullptr) return spec;
   if (channels->kind != YamlKind::sequence) {
-    map.context().fail(channels->place, fmt::format("channels must be a list, not {}", describe(*channels)), "write it as [nodes, energy]");
+    map.context().fail(channels->place, fmt::format("channels must be a list, not {}", describe(*channels)),
+                       "write it as [nodes, energy]");
     return spec;
   }
-  for (const YamlNode& channel : channels->children) spec.channels.push_back(read_text(map.context(), channel, "a channel"));
+  for (const YamlNode& channel : channels->children)
+    spec.channels.push_back(read_text(map.context(), channel, "a channel"));
   return spec;
 }
 
@@ -73,11 +81,14 @@ OutputSpec read_output(const MapReader& map, double start) {
 void read_settings(const MapReader& map, Scene& scene) {
   YamlReader& reader = map.context().reader;
   const auto context = [&](const std::string& subject) { return Context{reader, subject, scene.file}; };
-  scene.analysis = map.choice("analysis", {Choice<AnalysisKind>{"dynamics", AnalysisKind::dynamics},
-                                           {"statics", AnalysisKind::statics}}, AnalysisKind::dynamics);
-  const YamlNode* integrator = scene.analysis == AnalysisKind::dynamics ? map.require("integrator") : map.find("integrator");
+  scene.analysis = map.choice(
+      "analysis", {Choice<AnalysisKind>{"dynamics", AnalysisKind::dynamics}, {"statics", AnalysisKind::statics}},
+      AnalysisKind::dynamics);
+  const YamlNode* integrator =
+      scene.analysis == AnalysisKind::dynamics ? map.require("integrator") : map.find("integrator");
   if (integrator != nullptr)
-    scene.integrator = read_integrator(MapReader(context("integrator"), *integrator, "integrator", "integrator."), scene.analysis);
+    scene.integrator =
+        read_integrator(MapReader(context("integrator"), *integrator, "integrator", "integrator."), scene.analysis);
   if (const YamlNode* statics = map.find("statics"))
     scene.statics = read_statics(MapReader(context("statics"), *statics, "statics", "statics."));
   scene.output.from = scene.integrator.start;
@@ -92,8 +103,8 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
   scene.name = map.text("scene");
   scene.units = read_units(map);
   scene.gravity = read_vector(map, "gravity", scene.gravity);
-  const SceneDefinitions definitions{std::filesystem::path(path).parent_path().string(), scene.units, read_materials(map),
-                                     read_sections(map, scene.units)};
+  const SceneDefinitions definitions{std::filesystem::path(path).parent_path().string(), scene.units,
+                                     read_materials(map), read_sections(map, scene.units)};
   check_definitions(definitions.materials, definitions.sections, faults);
   scene.bodies = read_bodies(map, definitions);
   scene.joints = read_joints(map);

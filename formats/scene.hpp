@@ -38,22 +38,22 @@ struct NodeWeight {
 };
 
 struct Damping {
-  double mass = 0.0;                 ///< a of a M̄
-  double stiffness = 0.0;            ///< b of b S̄
-  double ratio = 0.0;                ///< of every internal mode
-  std::vector<double> ratios;        ///< of the first modes; overrides `ratio`
+  double mass = 0.0;           ///< a of a M̄
+  double stiffness = 0.0;      ///< b of b S̄
+  double ratio = 0.0;          ///< of every internal mode
+  std::vector<double> ratios;  ///< of the first modes; overrides `ratio`
 };
 
 struct SuperelementBodySpec {
   std::string name;
-  std::string file;                  ///< resolved path
+  std::string file;  ///< resolved path
   InitialMotion start;
-  bool rigid = false;                ///< use: rigid
-  std::optional<int> modes;          ///< absent: all in the file
-  std::optional<double> cutoff;      ///< [1/time of the scene]
+  bool rigid = false;            ///< use: rigid
+  std::optional<int> modes;      ///< absent: all in the file
+  std::optional<double> cutoff;  ///< [1/time of the scene]
   InertiaOption inertia = InertiaOption::B;
   FrameKind frame = FrameKind::karcher;
-  std::string frame_node;            ///< for FrameKind::node
+  std::string frame_node;                    ///< for FrameKind::node
   std::vector<NodeWeight> position_weights;  ///< empty: from the file's centre of mass
   std::vector<NodeWeight> rotation_weights;
   Damping damping;
@@ -62,15 +62,15 @@ struct SuperelementBodySpec {
 
 struct RigidNodeSpec {
   std::string name;
-  Pose pose;                         ///< in the part frame
+  Pose pose;  ///< in the part frame
 };
 
 struct RigidBodySpec {
   std::string name;
   InitialMotion start;
   double mass = 0.0;
-  Eigen::Vector3d center_of_mass = Eigen::Vector3d::Zero();      ///< part frame
-  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();             ///< about the centre of mass, part axes
+  Eigen::Vector3d center_of_mass = Eigen::Vector3d::Zero();  ///< part frame
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();         ///< about the centre of mass, part axes
   std::vector<RigidNodeSpec> nodes;  ///< named places for joints and loads; the part frame itself is `<body>`
   std::string where;
 };
@@ -79,12 +79,12 @@ struct RigidBodySpec {
 struct BeamBodySpec {
   std::string name;
   InitialMotion start;
-  Eigen::Vector3d from = Eigen::Vector3d::Zero();                ///< part frame
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< part frame
   Eigen::Vector3d to = Eigen::Vector3d::Zero();
-  std::optional<Eigen::Vector3d> through;                        ///< a third point of the circular arc
-  std::optional<Eigen::Vector3d> orientation;                    ///< direction of the section's y axis
+  std::optional<Eigen::Vector3d> through;      ///< a third point of the circular arc
+  std::optional<Eigen::Vector3d> orientation;  ///< direction of the section's y axis
   int elements = 1;
-  int nodes_per_element = 2;                                     ///< 2 or 3
+  int nodes_per_element = 2;  ///< 2 or 3
   Section section;
   Material material;
   std::string where;
@@ -97,7 +97,7 @@ enum class JointKind { fixed, revolute, spherical };
 /// A place on a body: "ground", "<body>" (rigid), "<body>/<node>"; position and orientation in the node's axes.
 struct MarkerSpec {
   std::string node;
-  std::optional<Eigen::Vector3d> position;                       ///< absent: the node itself (ground: from the joint)
+  std::optional<Eigen::Vector3d> position;  ///< absent: the node itself (ground: from the joint)
   std::optional<Eigen::Quaterniond> orientation;
   std::string where;
 };
@@ -107,8 +107,8 @@ struct JointSpec {
   JointKind kind = JointKind::spherical;
   MarkerSpec a;
   MarkerSpec b;
-  /// Where both markers are placed at the start, world frame: position (absent: at marker b, or a if b is ground) and axis
-  /// (z of both markers; revolute needs it unless a marker carries an orientation).
+  /// Where both markers are placed at the start, world frame: position (absent: at marker b, or a if b is ground) and
+  /// axis (z of both markers; revolute needs it unless a marker carries an orientation).
   std::optional<Eigen::Vector3d> position;
   std::optional<Eigen::Vector3d> axis;
   std::string where;
@@ -121,7 +121,7 @@ struct TimeTable {
 };
 struct TimeExpression {
   std::string text;
-  std::vector<double> breakpoints;   ///< steps end here
+  std::vector<double> breakpoints;  ///< steps end here
   std::string where;
 };
 using TimeFunctionSpec = std::variant<double, TimeTable, TimeExpression>;
@@ -133,7 +133,7 @@ struct LoadSpec {
   std::string name;
   LoadKind kind = LoadKind::force;
   MarkerSpec at;
-  LoadAxes axes = LoadAxes::world;   ///< body: follows the node
+  LoadAxes axes = LoadAxes::world;  ///< body: follows the node
   std::array<TimeFunctionSpec, 3> components;
   std::string where;
 };
@@ -145,13 +145,13 @@ enum class LinearSolver { automatic, klu, dense };
 
 struct IntegratorSpec {
   Method method = Method::generalised_alpha;
-  double rho = 0.9;                  ///< spectral radius at infinity (generalised alpha)
-  double alpha = 0.05;               ///< HHT, 0 <= alpha <= 1/3
+  double rho = 0.9;     ///< spectral radius at infinity (generalised alpha)
+  double alpha = 0.05;  ///< HHT, 0 <= alpha <= 1/3
   Formulation formulation = Formulation::stabilised_index2;
   double step = 0.0;
   double start = 0.0;
   double end = 0.0;
-  double tolerance = 1e-8;           ///< Newton, relative to the running maximum of the forces
+  double tolerance = 1e-8;              ///< Newton, relative to the running maximum of the forces
   double constraint_tolerance = 1e-10;  ///< relative to the characteristic length
   int max_iterations = 20;
   int max_halvings = 10;
@@ -167,8 +167,8 @@ struct StaticsSpec {
 struct OutputSpec {
   int every = 1;
   std::optional<double> interval;
-  double from = 0.0;                 ///< the reader's default is integrator.start
-  std::vector<std::string> channels; ///< groups or datasets such as "nodes", "nodes/position", "energy"; empty: all
+  double from = 0.0;                  ///< the reader's default is integrator.start
+  std::vector<std::string> channels;  ///< groups or datasets such as "nodes", "nodes/position", "energy"; empty: all
 };
 
 struct Scene {
@@ -183,7 +183,8 @@ struct Scene {
   IntegratorSpec integrator;
   StaticsSpec statics;
   OutputSpec output;
-  double initial_tolerance = 1e-6;   ///< largest correction of initial positions (times characteristic length) and velocities
+  double initial_tolerance =
+      1e-6;  ///< largest correction of initial positions (times characteristic length) and velocities
 };
 
 /// Reads scene.yaml with the overrides applied, then checks. Paths in it are relative to its folder. Throws all errors

@@ -18,7 +18,8 @@ Pose read_pose(const Context& context, const YamlNode& node, const std::string& 
   const MapReader map(context, node, "pose", prefix);
   Pose pose;
   pose.position = read_vector(map, "position", pose.position);
-  if (const YamlNode* orientation = map.find("orientation")) pose.orientation = read_orientation(context, *orientation, "orientation");
+  if (const YamlNode* orientation = map.find("orientation"))
+    pose.orientation = read_orientation(context, *orientation, "orientation");
   return pose;
 }
 
@@ -75,7 +76,8 @@ Context inside(const Context& context, const std::string& what) {
   return {context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
 }
 
-SuperelementBodySpec read_superelement(const Context& context, const YamlNode& node, const SceneDefinitions& definitions) {
+SuperelementBodySpec read_superelement(const Context& context, const YamlNode& node,
+                                       const SceneDefinitions& definitions) {
   const MapReader map(context, node, "body_superelement");
   SuperelementBodySpec body;
   body.name = node.key;
@@ -86,8 +88,10 @@ SuperelementBodySpec read_superelement(const Context& context, const YamlNode& n
   if (body.rigid) refuse_flexible_keys(map);
   if (map.has("modes")) body.modes = map.integer("modes", 0);
   if (map.has("cutoff")) body.cutoff = map.number("cutoff");
-  if (body.modes && body.cutoff) map.context().fail(map.find("cutoff")->key_place, "both 'modes' and 'cutoff' are given", "give one of them");
-  body.inertia = map.choice("inertia", {Choice<InertiaOption>{"A", InertiaOption::A}, {"B", InertiaOption::B}}, InertiaOption::B);
+  if (body.modes && body.cutoff)
+    map.context().fail(map.find("cutoff")->key_place, "both 'modes' and 'cutoff' are given", "give one of them");
+  body.inertia =
+      map.choice("inertia", {Choice<InertiaOption>{"A", InertiaOption::A}, {"B", InertiaOption::B}}, InertiaOption::B);
   if (const YamlNode* frame = map.find("frame")) read_frame(context, *frame, body);
   if (const YamlNode* weights = map.find("weights")) {
     const MapReader inner(inside(context, "weights"), *weights, "weights", "weights.");
@@ -99,7 +103,8 @@ SuperelementBodySpec read_superelement(const Context& context, const YamlNode& n
   return body;
 }
 
-SuperelementBodySpec read_rigid_from(const Context& context, const YamlNode& node, const SceneDefinitions& definitions) {
+SuperelementBodySpec read_rigid_from(const Context& context, const YamlNode& node,
+                                     const SceneDefinitions& definitions) {
   const MapReader map(context, node, "body_rigid_from");
   SuperelementBodySpec body;
   body.name = node.key;
@@ -193,8 +198,10 @@ std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& 
     const Context context = entry_context(map.context().reader, "body", *node);
     const YamlNode* type = find_child(*node, "type");
     if (type == nullptr) {
-      context.fail(node->key_place, node->kind == YamlKind::map ? "missing key 'type'" : fmt::format("must be a map, not {}", describe(*node)),
-                   "give type: superelement, rigid or beam");
+      context.fail(
+          node->key_place,
+          node->kind == YamlKind::map ? "missing key 'type'" : fmt::format("must be a map, not {}", describe(*node)),
+          "give type: superelement, rigid or beam");
       bodies.emplace_back(unreadable_body(context, *node));
       continue;
     }

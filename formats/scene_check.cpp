@@ -31,7 +31,9 @@ void check_start(const InitialMotion& start, const std::string& subject, const s
   finite(start.angular_velocity, "angular_velocity");
   if (!(std::abs(start.pose.orientation.norm() - 1.0) < 1e-9))
     faults.add(where, "pose.orientation",
-               fmt::format("{}: the quaternion of the orientation has length {:g}, not 1", subject, start.pose.orientation.norm()), "");
+               fmt::format("{}: the quaternion of the orientation has length {:g}, not 1", subject,
+                           start.pose.orientation.norm()),
+               "");
 }
 
 void check_weights(const std::vector<NodeWeight>& weights, const std::string& subject, const std::string& where,
@@ -45,7 +47,8 @@ void check_weights(const std::vector<NodeWeight>& weights, const std::string& su
 void check_damping(const Damping& damping, const std::string& subject, const std::string& where, Faults& faults) {
   const auto not_negative = [&](double value, const char* key) {
     if (!(value >= 0.0) || !std::isfinite(value))
-      faults.add(where, fmt::format("damping.{}", key), fmt::format("{}: damping: {} {:g} must not be negative", subject, key, value), "");
+      faults.add(where, fmt::format("damping.{}", key),
+                 fmt::format("{}: damping: {} {:g} must not be negative", subject, key, value), "");
   };
   not_negative(damping.mass, "mass");
   not_negative(damping.stiffness, "stiffness");
@@ -56,15 +59,17 @@ void check_damping(const Damping& damping, const std::string& subject, const std
 void check_body(const SuperelementBodySpec& body, const std::string& subject, Faults& faults) {
   if (body.file.empty()) faults.add(body.where, "file", fmt::format("{}: has no superelement file", subject), "");
   if (body.modes && *body.modes < 0)
-    faults.add(body.where, "modes", fmt::format("{}: modes {} must not be negative", subject, *body.modes), "modes: 0 uses none");
+    faults.add(body.where, "modes", fmt::format("{}: modes {} must not be negative", subject, *body.modes),
+               "modes: 0 uses none");
   if (body.cutoff && !(*body.cutoff > 0.0 && std::isfinite(*body.cutoff)))
     faults.add(body.where, "cutoff", fmt::format("{}: cutoff {:g} must be positive", subject, *body.cutoff), "");
   if (body.frame == FrameKind::node && body.frame_node.empty())
     faults.add(body.where, "frame", fmt::format("{}: frame has no node", subject), "write frame: {node: name}");
   if (body.frame == FrameKind::node && !(body.position_weights.empty() && body.rotation_weights.empty()))
-    faults.add(body.where, "weights",
-               fmt::format("{}: weights have no effect on a frame that is attached to node '{}'", subject, body.frame_node),
-               "remove them, or give frame: karcher or paper");
+    faults.add(
+        body.where, "weights",
+        fmt::format("{}: weights have no effect on a frame that is attached to node '{}'", subject, body.frame_node),
+        "remove them, or give frame: karcher or paper");
   check_weights(body.position_weights, subject, body.where, "weights.positions", faults);
   check_weights(body.rotation_weights, subject, body.where, "weights.rotations", faults);
   check_damping(body.damping, subject, body.where, faults);
@@ -78,7 +83,8 @@ void check_body(const RigidBodySpec& body, const std::string& subject, Faults& f
   for (const RigidNodeSpec& node : body.nodes) {
     check_name(subject + ": node", node.name, body.where, names, faults);
     if (!node.pose.position.allFinite())
-      faults.add(body.where, fmt::format("nodes.{}.position", node.name), fmt::format("{}: node '{}': position must be finite", subject, node.name), "");
+      faults.add(body.where, fmt::format("nodes.{}.position", node.name),
+                 fmt::format("{}: node '{}': position must be finite", subject, node.name), "");
   }
 }
 
@@ -87,9 +93,11 @@ void check_body(const BeamBodySpec& body, const std::string& subject, Faults& fa
   if (!body.to.allFinite()) faults.add(body.where, "to", fmt::format("{}: to must be finite", subject), "");
   check_line({subject, body.where, body.from, body.to, body.through, body.orientation}, faults);
   if (body.elements < 1 || body.elements > most_elements)
-    faults.add(body.where, "elements", fmt::format("{}: elements {} must lie between 1 and {}", subject, body.elements, most_elements), "");
+    faults.add(body.where, "elements",
+               fmt::format("{}: elements {} must lie between 1 and {}", subject, body.elements, most_elements), "");
   if (body.nodes_per_element != 2 && body.nodes_per_element != 3)
-    faults.add(body.where, "nodes_per_element", fmt::format("{}: nodes_per_element {} must be 2 or 3", subject, body.nodes_per_element), "");
+    faults.add(body.where, "nodes_per_element",
+               fmt::format("{}: nodes_per_element {} must be 2 or 3", subject, body.nodes_per_element), "");
   const Section& section = body.section;
   const Material& material = body.material;
   check_section(section, section.name.empty() ? subject + ": section" : fmt::format("section '{}'", section.name),
@@ -101,7 +109,8 @@ void check_body(const BeamBodySpec& body, const std::string& subject, Faults& fa
                "give shear_area_y and shear_area_z");
 }
 
-/// Whether a beam has the node: 0 to N, start or end. Beams whose numbers are wrong already are given the benefit of doubt.
+/// Whether a beam has the node: 0 to N, start or end. Beams whose numbers are wrong already are given the benefit of
+/// doubt.
 bool has_node(const BeamBodySpec& beam, const std::string& node) {
   if (node == "start" || node == "end" || beam.elements < 1 || beam.elements > most_elements) return true;
   int index = -1;
@@ -111,8 +120,8 @@ bool has_node(const BeamBodySpec& beam, const std::string& node) {
 }
 
 /// Nodes of superelements stand in their files and are checked when those are read.
-void check_node_of_body(const BodySpec& body, const std::string& node, const std::string& subject, const std::string& where,
-                        const std::string& key, Faults& faults) {
+void check_node_of_body(const BodySpec& body, const std::string& node, const std::string& subject,
+                        const std::string& where, const std::string& key, Faults& faults) {
   if (const RigidBodySpec* rigid = std::get_if<RigidBodySpec>(&body)) {
     std::vector<std::string> names;
     for (const RigidNodeSpec& one : rigid->nodes) names.push_back(one.name);
@@ -120,8 +129,9 @@ void check_node_of_body(const BodySpec& body, const std::string& node, const std
   } else if (const BeamBodySpec* beam = std::get_if<BeamBodySpec>(&body); beam != nullptr && !has_node(*beam, node)) {
     const auto near = nearest(node, {"start", "end"});
     const std::string hint = near ? fmt::format("did you mean '{}'? ", *near) : "";
-    faults.add(where, key, fmt::format("{}: body '{}': there is no node '{}'", subject, beam->name, node),
-               fmt::format("{}its nodes are 0 to {}, start and end", hint, beam->elements * (beam->nodes_per_element - 1)));
+    faults.add(
+        where, key, fmt::format("{}: body '{}': there is no node '{}'", subject, beam->name, node),
+        fmt::format("{}its nodes are 0 to {}, start and end", hint, beam->elements * (beam->nodes_per_element - 1)));
   }
 }
 
@@ -146,20 +156,24 @@ void check_node(const Scene& scene, const MarkerSpec& marker, const std::string&
   const bool rigid = std::holds_alternative<RigidBodySpec>(body) || (element != nullptr && element->rigid);
   const bool beam = std::holds_alternative<BeamBodySpec>(body);
   if (!rigid)
-    faults.add(where, key, fmt::format("{}: body '{}' is flexible; '{}' names no node", subject, body_name, marker.node),
+    faults.add(where, key,
+               fmt::format("{}: body '{}' is flexible; '{}' names no node", subject, body_name, marker.node),
                fmt::format("write {}/<node>{}", body_name, beam ? fmt::format(", for example {}/end", body_name) : ""));
 }
 
 void check_marker(const Scene& scene, const MarkerSpec& marker, const std::string& subject, const std::string& where,
                   const std::string& key, Faults& faults) {
   const bool at_ground = marker.node == "ground";
-  if (at_ground && key == "at") faults.add(where, key, fmt::format("{}: acts on the ground", subject), "name a node of a body");
+  if (at_ground && key == "at")
+    faults.add(where, key, fmt::format("{}: acts on the ground", subject), "name a node of a body");
   if (!at_ground) check_node(scene, marker, subject, where, key, faults);
   if (marker.position && !marker.position->allFinite())
     faults.add(where, key + ".position", fmt::format("{}: {}: position must be finite", subject, key), "");
   if (marker.orientation && !(std::abs(marker.orientation->norm() - 1.0) < 1e-9))
     faults.add(where, key + ".orientation",
-               fmt::format("{}: {}: the quaternion of the orientation has length {:g}, not 1", subject, key, marker.orientation->norm()), "");
+               fmt::format("{}: {}: the quaternion of the orientation has length {:g}, not 1", subject, key,
+                           marker.orientation->norm()),
+               "");
 }
 
 void check_joint(const Scene& scene, const JointSpec& joint, Faults& faults) {
@@ -167,13 +181,15 @@ void check_joint(const Scene& scene, const JointSpec& joint, Faults& faults) {
   check_marker(scene, joint.a, subject, joint.where, "a", faults);
   check_marker(scene, joint.b, subject, joint.where, "b", faults);
   if (joint.a.node == joint.b.node)
-    faults.add(joint.where, "b", fmt::format("{}: joins '{}' to itself", subject, joint.a.node), "name two different nodes");
+    faults.add(joint.where, "b", fmt::format("{}: joins '{}' to itself", subject, joint.a.node),
+               "name two different nodes");
   if (joint.position && !joint.position->allFinite())
     faults.add(joint.where, "position", fmt::format("{}: position must be finite", subject), "");
   if (joint.axis && !joint.axis->allFinite())
     faults.add(joint.where, "axis", fmt::format("{}: axis must be finite", subject), "");
   else if (joint.axis && joint.axis->stableNorm() == 0.0)
-    faults.add(joint.where, "axis", fmt::format("{}: axis has zero length", subject), "give a direction, for example [0, 0, 1]");
+    faults.add(joint.where, "axis", fmt::format("{}: axis has zero length", subject),
+               "give a direction, for example [0, 0, 1]");
   if (joint.position && joint.a.position && joint.b.position)
     faults.add(joint.where, "position", fmt::format("{}: position has no effect, since both a and b have one", subject),
                "remove it, or the position of a or b");
@@ -215,13 +231,16 @@ Faults find_faults(const Scene& scene) {
   if (scene.bodies.empty()) faults.add(scene.file, "bodies", "the scene has no bodies", "");
   std::vector<std::string> bodies, joints, loads;
   for (const BodySpec& body : scene.bodies) {
-    std::visit([&](const auto& spec) {
-      const std::string subject = fmt::format("body '{}'", spec.name);
-      check_name("body", spec.name, spec.where, bodies, faults);
-      if (spec.name == "ground") faults.add(spec.where, "", "body 'ground': the name is taken by the fixed world", "rename it");
-      check_start(spec.start, subject, spec.where, faults);
-      check_body(spec, subject, faults);
-    }, body);
+    std::visit(
+        [&](const auto& spec) {
+          const std::string subject = fmt::format("body '{}'", spec.name);
+          check_name("body", spec.name, spec.where, bodies, faults);
+          if (spec.name == "ground")
+            faults.add(spec.where, "", "body 'ground': the name is taken by the fixed world", "rename it");
+          check_start(spec.start, subject, spec.where, faults);
+          check_body(spec, subject, faults);
+        },
+        body);
   }
   for (const JointSpec& joint : scene.joints) {
     check_name("joint", joint.name, joint.where, joints, faults);

@@ -23,7 +23,8 @@ MarkerSpec read_marker(const MapReader& map, const std::string& key) {
   marker.node = inner.text("node");
   if (const YamlNode* place = inner.find("node")) marker.where = context.reader.where(place->place);
   marker.position = read_optional_vector(inner, "position");
-  if (const YamlNode* orientation = inner.find("orientation")) marker.orientation = read_orientation(context, *orientation, "orientation");
+  if (const YamlNode* orientation = inner.find("orientation"))
+    marker.orientation = read_orientation(context, *orientation, "orientation");
   return marker;
 }
 
@@ -33,8 +34,11 @@ JointSpec read_joint(const Context& context, const YamlNode& node) {
   joint.name = node.key;
   joint.where = context.entry;
   map.require("type");
-  joint.kind = map.choice("type", {Choice<JointKind>{"fixed", JointKind::fixed}, {"revolute", JointKind::revolute},
-                                   {"spherical", JointKind::spherical}}, JointKind::spherical);
+  joint.kind = map.choice("type",
+                          {Choice<JointKind>{"fixed", JointKind::fixed},
+                           {"revolute", JointKind::revolute},
+                           {"spherical", JointKind::spherical}},
+                          JointKind::spherical);
   joint.a = read_marker(map, "a");
   joint.b = read_marker(map, "b");
   joint.axis = read_optional_vector(map, "axis");
@@ -48,9 +52,11 @@ LoadSpec read_load(const Context& context, const YamlNode& node, const SceneDefi
   load.name = node.key;
   load.where = context.entry;
   map.require("type");
-  load.kind = map.choice("type", {Choice<LoadKind>{"force", LoadKind::force}, {"moment", LoadKind::moment}}, LoadKind::force);
+  load.kind =
+      map.choice("type", {Choice<LoadKind>{"force", LoadKind::force}, {"moment", LoadKind::moment}}, LoadKind::force);
   load.at = read_marker(map, "at");
-  load.axes = map.choice("axes", {Choice<LoadAxes>{"world", LoadAxes::world}, {"body", LoadAxes::body}}, LoadAxes::world);
+  load.axes =
+      map.choice("axes", {Choice<LoadAxes>{"world", LoadAxes::world}, {"body", LoadAxes::body}}, LoadAxes::world);
   const YamlNode* value = map.require("value");
   if (value == nullptr) return load;
   if (value->kind != YamlKind::sequence || value->children.size() != 3) {

@@ -11,7 +11,7 @@ namespace tisserand::formats {
 
 /// What bodies may refer to.
 struct SceneDefinitions {
-  std::string folder;                ///< of the scene file: paths are relative to it
+  std::string folder;  ///< of the scene file: paths are relative to it
   Units units;
   std::vector<Material> materials;
   std::vector<Section> sections;

@@ -115,7 +115,8 @@ Material read_material(const Context& context, const YamlNode& node, const std::
 
 Section read_section(const Context& context, const YamlNode& node, const Units& units, const std::string& prefix) {
   const YamlNode* shape = find_child(node, "shape");
-  Section section = shape != nullptr ? read_shape(context, node, *shape, units, prefix) : read_constants(context, node, prefix);
+  Section section =
+      shape != nullptr ? read_shape(context, node, *shape, units, prefix) : read_constants(context, node, prefix);
   section.name = node.key;
   section.where = context.entry;
   return section;
@@ -154,7 +155,8 @@ void check_section(const Section& section, const std::string& subject, const std
   };
   const auto positive_or_zero = [&](const char* key, double value) {
     if (!(value >= 0.0) || !std::isfinite(value))
-      faults.add(section.where, prefix + key, fmt::format("{}: {} {:g} must be positive or 0", subject, key, value), "");
+      faults.add(section.where, prefix + key, fmt::format("{}: {} {:g} must be positive or 0", subject, key, value),
+                 "");
   };
   positive("A", section.area);
   positive("Iy", section.second_moment_y);
@@ -168,7 +170,8 @@ void check_section(const Section& section, const std::string& subject, const std
                "give both, or neither for beams without shear deformation");
   const double polar = section.second_moment_y + section.second_moment_z;
   if (polar > 0.0 && std::abs(section.polar_moment - polar) > 1e-9 * polar)
-    faults.add(section.where, "", fmt::format("{}: polar moment {:g} is not Iy + Iz = {:g}", subject, section.polar_moment, polar), "");
+    faults.add(section.where, "",
+               fmt::format("{}: polar moment {:g} is not Iy + Iz = {:g}", subject, section.polar_moment, polar), "");
 }
 
 }  // namespace tisserand::formats

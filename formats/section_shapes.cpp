@@ -16,7 +16,8 @@ double tube_shear_factor(double m) {
 /// For shear along the side `depth` of the middle line.
 double box_shear_factor(double depth, double breadth) {
   const double n = breadth / depth, n3 = n * n * n;
-  return 10.0 * (1.0 + 3.0 * n) * (1.0 + 3.0 * n) / (12.0 + 72.0 * n + 150.0 * n * n + 90.0 * n3 + 30.0 * n3 * (1.0 + n));
+  return 10.0 * (1.0 + 3.0 * n) * (1.0 + 3.0 * n) /
+         (12.0 + 72.0 * n + 150.0 * n * n + 90.0 * n3 + 30.0 * n3 * (1.0 + n));
 }
 
 double rectangle_torsion_constant(double width, double height) {

@@ -22,7 +22,8 @@ struct Group {
     if (!(value > 0.0) || !std::isfinite(value)) add(key, fmt::format("{} {:g} must be positive", key, value), "");
   }
   void between(const std::string& key, double value, double low, double high) const {
-    if (!(value >= low && value <= high)) add(key, fmt::format("{} {:g} must lie between {:g} and {:.4g}", key, value, low, high), "");
+    if (!(value >= low && value <= high))
+      add(key, fmt::format("{} {:g} must lie between {:g} and {:.4g}", key, value, low, high), "");
   }
   void at_least(const std::string& key, int value, int low) const {
     if (value < low) add(key, fmt::format("{} {} must be {} or more", key, value, low), "");
@@ -39,13 +40,15 @@ void check_times(const IntegratorSpec& spec, const Group& group) {
   const double steps = (spec.end - spec.start) / spec.step;
   constexpr double most = 1e12;
   if (spec.step > 0.0 && steps > most)
-    group.add("step", fmt::format("step {:g} makes {:.3g} steps; the limit is {:g}", spec.step, steps, most), "give a larger step");
+    group.add("step", fmt::format("step {:g} makes {:.3g} steps; the limit is {:g}", spec.step, steps, most),
+              "give a larger step");
 }
 
 }  // namespace
 
 void check_settings(const Scene& scene, Faults& faults) {
-  const Group integrator{scene, "integrator", faults}, statics{scene, "statics", faults}, output{scene, "output", faults};
+  const Group integrator{scene, "integrator", faults}, statics{scene, "statics", faults},
+      output{scene, "output", faults};
   const IntegratorSpec& spec = scene.integrator;
   if (scene.analysis == AnalysisKind::dynamics) check_times(spec, integrator);
   integrator.between("rho", spec.rho, 0.0, 1.0);

@@ -26,15 +26,17 @@ using RowMajor3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 constexpr const char* format_name = "tisserand-superelement";
 constexpr std::size_t max_label = 255;
 
-const std::vector<std::string> known_attributes{"format",           "version",   "name",            "method",
-                                                "producer",         "length_unit", "mass_unit",     "time_unit",
-                                                "length_unit_label", "mass_unit_label", "time_unit_label", "content_id"};
+const std::vector<std::string> known_attributes{"format",          "version",         "name",
+                                                "method",          "producer",        "length_unit",
+                                                "mass_unit",       "time_unit",       "length_unit_label",
+                                                "mass_unit_label", "time_unit_label", "content_id"};
 
 void check_format(const hdf5::InputFile& file) {
   const std::string format = file.has_attribute("/", "format") ? file.text_attribute("/", "format") : "";
   if (format != format_name)
-    throw Error(format.empty() ? "is an HDF5 file, but not a superelement file (it has no attribute 'format')"
-                               : fmt::format("is a file of the kind '{}', expected '{}'", format.substr(0, 60), format_name),
+    throw Error(format.empty()
+                    ? "is an HDF5 file, but not a superelement file (it has no attribute 'format')"
+                    : fmt::format("is a file of the kind '{}', expected '{}'", format.substr(0, 60), format_name),
                 file.path(), "give a *.superelement.h5 file, as `reducer run` writes it");
   const std::string version = file.text_attribute("/", "version");
   int major = -1, minor = -1;
@@ -47,7 +49,8 @@ void check_format(const hdf5::InputFile& file) {
                 file.path() + ": attribute 'version'", "correct the version");
   if (major != 1)
     throw Error(fmt::format("is {}, this program reads versions 1.x", version.substr(0, 20)),
-                file.path() + ": attribute 'version'", "reduce the part again with a program of the same major version");
+                file.path() + ": attribute 'version'",
+                "reduce the part again with a program of the same major version");
 }
 
 Unit read_unit(const hdf5::InputFile& file, const std::string& name) {
@@ -88,8 +91,9 @@ std::vector<int> read_integers(const hdf5::InputFile& file, const std::string& d
 Eigen::MatrixXd read_matrix(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n) {
   const hdf5::Shape found = file.info(dataset).shape;
   if (found != hdf5::Shape{n, n})
-    throw Error(fmt::format("has shape {}, expected {} x {} (n = {} entries of /dof/node)", hdf5::shape_text(found), n, n, n),
-                fmt::format("{}: {}", file.path(), dataset), "compare the file with formats/SUPERELEMENT.md");
+    throw Error(
+        fmt::format("has shape {}, expected {} x {} (n = {} entries of /dof/node)", hdf5::shape_text(found), n, n, n),
+        fmt::format("{}: {}", file.path(), dataset), "compare the file with formats/SUPERELEMENT.md");
   RowMajor values(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(n));
   file.read(dataset, {n, n}, fmt::format("n x n, n = {} entries of /dof/node", n), values.data());
   return values;
@@ -100,7 +104,8 @@ std::string unknown_items(const hdf5::InputFile& file) {
   std::vector<std::string> unknown;
   const auto note = [&](const std::string& group, const std::vector<std::string>& known) {
     for (const std::string& name : file.members(group))
-      if (std::find(known.begin(), known.end(), name) == known.end()) unknown.push_back((group == "/" ? "/" : group + "/") + name);
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        unknown.push_back((group == "/" ? "/" : group + "/") + name);
   };
   note("/", {"boundary", "dof", "stiffness", "mass"});
   note("/boundary", {"name", "position"});
@@ -184,7 +189,8 @@ void check_labels(const Superelement& e, const std::string& where) {
     bool clean = value.size() <= max_label;
     for (const char c : value) clean = clean && static_cast<unsigned char>(c) >= 32 && c != 127;
     if (!clean)
-      throw Error(fmt::format("has {} bytes or control characters, expected one line of at most {} bytes", value.size(), max_label),
+      throw Error(fmt::format("has {} bytes or control characters, expected one line of at most {} bytes", value.size(),
+                              max_label),
                   fmt::format("{}: attribute '{}'", where, name), "shorten it");
   };
   check_label("name", e.name);
@@ -222,7 +228,8 @@ LoadedSuperelement read_superelement(const std::string& path) {
   if (stated != e.content_id)
     throw Error(fmt::format("is {}..., but the contents have {}...: the file was changed after it was written",
                             stated.substr(0, 12), e.content_id.substr(0, 12)),
-                path + ": attribute 'content_id'", "reduce the part again, or compute the attribute anew after a change by hand");
+                path + ": attribute 'content_id'",
+                "reduce the part again, or compute the attribute anew after a change by hand");
   if (!file.content_id)
     loaded.report.warnings.push_back(path + ": has no attribute 'content_id', so that damage cannot be noticed.");
   if (!file.unknown.empty()) loaded.report.warnings.push_back(file.unknown);
@@ -230,8 +237,8 @@ LoadedSuperelement read_superelement(const std::string& path) {
     filter_rigid_motions(e);
     loaded.report.filtered = true;
     loaded.report.warnings.push_back(fmt::format(
-        "{}: rigid motions strain the part (relative force {:.3e}); this was removed from /stiffness by projection.", path,
-        loaded.report.rigid_residual));
+        "{}: rigid motions strain the part (relative force {:.3e}); this was removed from /stiffness by projection.",
+        path, loaded.report.rigid_residual));
   }
   return loaded;
 }

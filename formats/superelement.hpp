@@ -13,22 +13,23 @@ namespace tisserand::formats {
 /// Reduced stiffness and mass and what names their rows. n coordinates, nB boundary nodes; any order of rows.
 struct Superelement {
   std::string name;
-  std::string method;     ///< "craig_bampton", "guyan", ... free text for the reader, no meaning to the numerics
-  std::string producer;   ///< program and version
+  std::string method;    ///< "craig_bampton", "guyan", ... free text for the reader, no meaning to the numerics
+  std::string producer;  ///< program and version
   Units units;
-  std::string content_id; ///< SHA-256 (hex); filled by read and by write
+  std::string content_id;  ///< SHA-256 (hex); filled by read and by write
 
-  std::vector<std::string> node_name;                          ///< nB, unique
-  Eigen::Matrix<double, Eigen::Dynamic, 3> node_position;      ///< nB x 3, part frame
-  std::vector<int> dof_node;                                   ///< n; row of the boundary node, -1: internal coordinate
-  std::vector<int> dof_component;                              ///< n; 0-2 translations, 3-5 rotations; internal: its number
-  Eigen::MatrixXd stiffness;                                   ///< n x n, S̄
-  Eigen::MatrixXd mass;                                        ///< n x n, M̄
+  std::vector<std::string> node_name;                      ///< nB, unique
+  Eigen::Matrix<double, Eigen::Dynamic, 3> node_position;  ///< nB x 3, part frame
+  std::vector<int> dof_node;                               ///< n; row of the boundary node, -1: internal coordinate
+  std::vector<int> dof_component;                          ///< n; 0-2 translations, 3-5 rotations; internal: its number
+  Eigen::MatrixXd stiffness;                               ///< n x n, S̄
+  Eigen::MatrixXd mass;                                    ///< n x n, M̄
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(dof_node.size()); }
 };
 
-/// Mass, centre of mass and inertia about it (part frame) that M̄ represents: [Car00] 3.1 step 1, from the rigid motions.
+/// Mass, centre of mass and inertia about it (part frame) that M̄ represents: [Car00] 3.1 step 1, from the rigid
+/// motions.
 struct RigidProperties {
   double mass = 0.0;
   Eigen::Vector3d center_of_mass = Eigen::Vector3d::Zero();
@@ -49,8 +50,8 @@ struct LoadedSuperelement {
   SuperelementReport report;
 };
 
-/// The six rigid motions on the rows of `element` (n x 6): unit translations, then (e_k x X_a, e_k) about the part origin
-/// shifted to `origin`; zero in the internal coordinates.
+/// The six rigid motions on the rows of `element` (n x 6): unit translations, then (e_k x X_a, e_k) about the part
+/// origin shifted to `origin`; zero in the internal coordinates.
 Eigen::MatrixXd rigid_motions(const Superelement& element, const Eigen::Vector3d& origin);
 
 /// From M̄ alone.

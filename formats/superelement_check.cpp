@@ -16,12 +16,12 @@ namespace tisserand::formats {
 
 namespace {
 
-constexpr double symmetry_tolerance = 1e-9;       // of scaled entries: a hundred times what double sums of 1e5 terms lose
-constexpr double semidefinite_tolerance = 1e-9;   // of scaled eigenvalues
-constexpr double rigid_mass_tolerance = 1e-6;     // of the mass: lumping and unit conversion keep much more
-constexpr double triangle_accepted = 0.01;        // of the largest principal moment, with a warning
-constexpr double collinear_tolerance = 1e-6;      // of the characteristic length
-constexpr double largest_value = 1e100;           // products of three such values and a length stay finite
+constexpr double symmetry_tolerance = 1e-9;  // of scaled entries: a hundred times what double sums of 1e5 terms lose
+constexpr double semidefinite_tolerance = 1e-9;  // of scaled eigenvalues
+constexpr double rigid_mass_tolerance = 1e-6;    // of the mass: lumping and unit conversion keep much more
+constexpr double triangle_accepted = 0.01;       // of the largest principal moment, with a warning
+constexpr double collinear_tolerance = 1e-6;     // of the characteristic length
+constexpr double largest_value = 1e100;          // products of three such values and a length stay finite
 constexpr Eigen::Index max_size_for_eigenvectors = 2000;
 
 struct Place {
@@ -47,15 +47,18 @@ void check_sizes(const Superelement& e, const Place& place) {
   const auto fail = [&](const std::string& dataset, const std::string& what, const std::string& remedy) {
     throw Error(what, place.dataset(dataset), remedy);
   };
-  if (nodes < 1) fail("/boundary/name", "there is no boundary node", "name at least one node at which the part can be joined");
+  if (nodes < 1)
+    fail("/boundary/name", "there is no boundary node", "name at least one node at which the part can be joined");
   if (n < 1) fail("/dof/node", "there are no coordinates", "write one entry per row of /stiffness");
   if (n > max_coordinates)
-    fail("/dof/node", fmt::format("{} coordinates, at most {} are allowed", n, max_coordinates), "keep fewer nodes or modes");
+    fail("/dof/node", fmt::format("{} coordinates, at most {} are allowed", n, max_coordinates),
+         "keep fewer nodes or modes");
   if (e.node_position.rows() != nodes)
     fail("/boundary/position", fmt::format("{} rows for {} names in /boundary/name", e.node_position.rows(), nodes),
          "write one row x, y, z per name");
   if (static_cast<Eigen::Index>(e.dof_component.size()) != n)
-    fail("/dof/component", fmt::format("{} entries for {} in /dof/node", e.dof_component.size(), n), "write one per row");
+    fail("/dof/component", fmt::format("{} entries for {} in /dof/node", e.dof_component.size(), n),
+         "write one per row");
   if (e.stiffness.rows() != n || e.stiffness.cols() != n)
     fail("/stiffness", fmt::format("has shape {} x {}, expected {} x {}", e.stiffness.rows(), e.stiffness.cols(), n, n),
          "write one row and column per entry of /dof/node");
@@ -83,18 +86,20 @@ void check_dof_table(const Superelement& e, const Place& place) {
   std::vector<std::array<int, 6>> owner(e.node_name.size(), {-1, -1, -1, -1, -1, -1});
   std::vector<int> internal_owner(static_cast<std::size_t>(internal), -1);
   for (int row = 0; row < n; ++row) {
-    const int node = e.dof_node[static_cast<std::size_t>(row)], component = e.dof_component[static_cast<std::size_t>(row)];
+    const int node = e.dof_node[static_cast<std::size_t>(row)],
+              component = e.dof_component[static_cast<std::size_t>(row)];
     if (node < -1 || node >= nodes)
-      throw Error(fmt::format("entry {} is {}, expected -1 (internal coordinate) or the row 0 to {} of a boundary node", row,
-                              node, nodes - 1),
+      throw Error(fmt::format("entry {} is {}, expected -1 (internal coordinate) or the row 0 to {} of a boundary node",
+                              row, node, nodes - 1),
                   place.dataset("/dof/node"), "correct the number");
     const int limit = node < 0 ? internal : 6;
     if (component < 0 || component >= limit)
-      throw Error(node < 0 ? fmt::format("entry {} is {}, expected the number 0 to {} of an internal coordinate", row, component,
-                                         limit - 1)
-                           : fmt::format("entry {} is {}, expected 0 to 2 (translation x, y, z) or 3 to 5 (rotation x, y, z)",
-                                         row, component),
-                  place.dataset("/dof/component"), "correct the number");
+      throw Error(
+          node < 0 ? fmt::format("entry {} is {}, expected the number 0 to {} of an internal coordinate", row,
+                                 component, limit - 1)
+                   : fmt::format("entry {} is {}, expected 0 to 2 (translation x, y, z) or 3 to 5 (rotation x, y, z)",
+                                 row, component),
+          place.dataset("/dof/component"), "correct the number");
     int& slot = node < 0 ? internal_owner[static_cast<std::size_t>(component)]
                          : owner[static_cast<std::size_t>(node)][static_cast<std::size_t>(component)];
     if (slot >= 0)
@@ -110,19 +115,21 @@ void check_dof_table(const Superelement& e, const Place& place) {
     }
     const bool whole = (translations == 0 || translations == 3) && (rotations == 0 || rotations == 3);
     if (!whole || translations + rotations == 0)
-      throw Error(fmt::format("node '{}' has {} translations and {} rotations, expected three of a kind or none of it, and "
-                              "at least one kind",
-                              e.node_name[node], translations, rotations),
-                  place.dataset("/dof/component"), "keep x, y and z of a node together");
+      throw Error(
+          fmt::format("node '{}' has {} translations and {} rotations, expected three of a kind or none of it, and "
+                      "at least one kind",
+                      e.node_name[node], translations, rotations),
+          place.dataset("/dof/component"), "keep x, y and z of a node together");
   }
 }
 
-void check_finite_matrix(const Superelement& e, const Eigen::MatrixXd& matrix, const std::string& name, const Place& place) {
+void check_finite_matrix(const Superelement& e, const Eigen::MatrixXd& matrix, const std::string& name,
+                         const Place& place) {
   for (Eigen::Index j = 0; j < matrix.cols(); ++j)
     for (Eigen::Index i = 0; i < matrix.rows(); ++i)
       if (!(std::abs(matrix(i, j)) < largest_value))
-        throw Error(fmt::format("[{}, {}] = {} is not a usable number: {}, column of {}", i, j, matrix(i, j), row_text(e, i),
-                                row_text(e, j)),
+        throw Error(fmt::format("[{}, {}] = {} is not a usable number: {}, column of {}", i, j, matrix(i, j),
+                                row_text(e, i), row_text(e, j)),
                     place.dataset(name), "write finite numbers");
 }
 
@@ -140,8 +147,9 @@ void check_finite(const Superelement& e, const Place& place) {
 void check_diagonal(const Superelement& e, const Eigen::MatrixXd& matrix, const std::string& name, const Place& place) {
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
     if (matrix(i, i) < 0.0 && e.dof_node[static_cast<std::size_t>(i)] < 0)
-      throw Error(fmt::format("is not positive semidefinite: [{}, {}] = {} < 0, {}", i, i, matrix(i, i), row_text(e, i)),
-                  place.dataset(name), "check the reduction that made the file");
+      throw Error(
+          fmt::format("is not positive semidefinite: [{}, {}] = {} < 0, {}", i, i, matrix(i, i), row_text(e, i)),
+          place.dataset(name), "check the reduction that made the file");
 }
 
 /// `scaled` is D A D / scale.
@@ -157,7 +165,8 @@ void check_symmetry(const Superelement& e, const Eigen::MatrixXd& matrix, const 
 }
 
 /// Cholesky of A + tolerance 1; only on failure the eigenvector that says where.
-void check_semidefinite(const Superelement& e, const Eigen::MatrixXd& scaled, const std::string& name, const Place& place) {
+void check_semidefinite(const Superelement& e, const Eigen::MatrixXd& scaled, const std::string& name,
+                        const Place& place) {
   const Eigen::Index n = scaled.rows();
   Eigen::MatrixXd shifted = 0.5 * (scaled + scaled.transpose());
   shifted.diagonal().array() += semidefinite_tolerance;
@@ -182,8 +191,10 @@ void check_rigid_rank(const Superelement& e, const Place& place) {
   for (Eigen::Index row = 0; row < e.size(); ++row) {
     const int node = e.dof_node[static_cast<std::size_t>(row)];
     if (node < 0) continue;
-    if (e.dof_component[static_cast<std::size_t>(row)] < 3) has_translation[static_cast<std::size_t>(node)] = true;
-    else rotations = true;
+    if (e.dof_component[static_cast<std::size_t>(row)] < 3)
+      has_translation[static_cast<std::size_t>(node)] = true;
+    else
+      rotations = true;
   }
   for (std::size_t i = 0; i < count; ++i)
     if (has_translation[i]) translating.push_back(static_cast<Eigen::Index>(i));
@@ -217,15 +228,16 @@ void check_rigid_rank(const Superelement& e, const Place& place) {
 /// max |S R| in scaled coordinates; throws above the limit of the filter.
 double check_rigid_residual(const Superelement& e, const Eigen::MatrixXd& scaled, const Eigen::MatrixXd& R,
                             const Place& place) {
-  static constexpr const char* motions[] = {"moving in x",    "moving in y",    "moving in z",
+  static constexpr const char* motions[] = {"moving in x",     "moving in y",     "moving in z",
                                             "turning about x", "turning about y", "turning about z"};
   Eigen::Index row = 0, motion = 0;
   const double residual = (scaled * R).cwiseAbs().maxCoeff(&row, &motion);
   if (residual <= rigid_residual_filtered) return residual;
-  throw Error(fmt::format("the part resists rigid motion: {} gives a relative force of {:.3e} (at most {:g}) in {}",
-                          motions[motion], residual, rigid_residual_filtered, row_text(e, row)),
-              place.dataset("/stiffness"),
-              "check signs, rotation parametrisation and units of positions, or whether the part was fixed to the ground");
+  throw Error(
+      fmt::format("the part resists rigid motion: {} gives a relative force of {:.3e} (at most {:g}) in {}",
+                  motions[motion], residual, rigid_residual_filtered, row_text(e, row)),
+      place.dataset("/stiffness"),
+      "check signs, rotation parametrisation and units of positions, or whether the part was fixed to the ground");
 }
 
 void check_rigid_mass(const Superelement& e, double length, const Place& place) {
@@ -261,7 +273,8 @@ void check_inertia(const Superelement& e, double length, SuperelementReport& rep
     throw Error(fmt::format("the inertia about the centre of mass has the negative principal moment {}", I[0]),
                 place.dataset("/mass"), "check positions and the signs of rotations");
   const std::string no_body = fmt::format(
-      "the principal moments of inertia {}, {}, {} belong to no body: the largest exceeds the sum of the others", I[0], I[1], I[2]);
+      "the principal moments of inertia {}, {}, {} belong to no body: the largest exceeds the sum of the others", I[0],
+      I[1], I[2]);
   if (!(I[0] + I[1] >= (1.0 - triangle_accepted) * I[2] - 3 * zero))
     throw Error(no_body, place.dataset("/mass"),
                 "check the mass matrix; a short part without rotary inertia of bending does this");
@@ -270,11 +283,11 @@ void check_inertia(const Superelement& e, double length, SuperelementReport& rep
   for (int k = 0; k < 3; ++k) {
     if (I[k] > 1e-12 * scale) continue;
     const Eigen::Vector3d axis = eigen.eigenvectors().col(k) * (eigen.eigenvectors().col(k).sum() < 0 ? -1.0 : 1.0);
-    report.warnings.push_back(
-        fmt::format("The part has no inertia about the axis ({:.6g}, {:.6g}, {:.6g}) through its centre of mass ({:.6g}, {:.6g}, "
-                    "{:.6g}); a mechanism must hold it against turning about this axis.",
-                    axis[0] + 0.0, axis[1] + 0.0, axis[2] + 0.0, rigid.center_of_mass[0], rigid.center_of_mass[1],
-                    rigid.center_of_mass[2]));
+    report.warnings.push_back(fmt::format(
+        "The part has no inertia about the axis ({:.6g}, {:.6g}, {:.6g}) through its centre of mass ({:.6g}, {:.6g}, "
+        "{:.6g}); a mechanism must hold it against turning about this axis.",
+        axis[0] + 0.0, axis[1] + 0.0, axis[2] + 0.0, rigid.center_of_mass[0], rigid.center_of_mass[1],
+        rigid.center_of_mass[2]));
   }
 }
 
@@ -315,7 +328,8 @@ SuperelementReport check(const Superelement& element, const std::string& where) 
   check_diagonal(element, element.mass, "/mass", place);
 
   const ScaledMatrices s = scale(element);
-  Eigen::MatrixXd S = s.stiffness_row.asDiagonal() * element.stiffness * s.stiffness_row.asDiagonal() / s.stiffness_scale;
+  Eigen::MatrixXd S =
+      s.stiffness_row.asDiagonal() * element.stiffness * s.stiffness_row.asDiagonal() / s.stiffness_scale;
   const Eigen::MatrixXd M = s.mass_row.asDiagonal() * element.mass * s.mass_row.asDiagonal() / s.mass_scale;
   const Eigen::MatrixXd R = scaled_rigid_motions(element, s.stiffness_row, s.length);
   if (!S.allFinite() || !M.allFinite() || !R.allFinite())

@@ -12,7 +12,9 @@ namespace tisserand::formats {
 
 namespace {
 
-Eigen::Vector3d mean_of_nodes(const Superelement& element) { return element.node_position.colwise().mean().transpose(); }
+Eigen::Vector3d mean_of_nodes(const Superelement& element) {
+  return element.node_position.colwise().mean().transpose();
+}
 
 }  // namespace
 
@@ -38,7 +40,8 @@ RigidProperties rigid_properties(const Superelement& element) {
   rigid.mass = M.topLeftCorner<3, 3>().trace() / 3.0;
   if (!(rigid.mass > 0.0)) return rigid;
   const Eigen::Matrix3d C = M.topRightCorner<3, 3>();  // Φ_Tᵀ M Φ_R = −m c~
-  const Eigen::Vector3d c = Eigen::Vector3d(C(1, 2) - C(2, 1), C(2, 0) - C(0, 2), C(0, 1) - C(1, 0)) / (2.0 * rigid.mass);
+  const Eigen::Vector3d c =
+      Eigen::Vector3d(C(1, 2) - C(2, 1), C(2, 0) - C(0, 2), C(0, 1) - C(1, 0)) / (2.0 * rigid.mass);
   rigid.center_of_mass = origin + c;
   const Eigen::Matrix3d c_skew = skew<double>(c);
   const Eigen::Matrix3d I = M.bottomRightCorner<3, 3>() + rigid.mass * c_skew * c_skew;
@@ -61,7 +64,8 @@ ScaledMatrices scale(const Superelement& element) {
   for (Eigen::Index row = 0; row < n; ++row) {
     if (element.dof_node[static_cast<std::size_t>(row)] < 0) continue;
     boundary.push_back(row);
-    if (element.dof_component[static_cast<std::size_t>(row)] >= 3) s.stiffness_row[row] = s.mass_row[row] = 1.0 / s.length;
+    if (element.dof_component[static_cast<std::size_t>(row)] >= 3)
+      s.stiffness_row[row] = s.mass_row[row] = 1.0 / s.length;
   }
   double largest_S = 0.0, largest_M = 0.0;
   for (const Eigen::Index i : boundary)
@@ -79,7 +83,8 @@ ScaledMatrices scale(const Superelement& element) {
   s.mass_scale = largest_M > 0.0 ? largest_M : 1.0;
   for (Eigen::Index row = 0; row < n; ++row) {
     if (element.dof_node[static_cast<std::size_t>(row)] >= 0) continue;
-    if (element.stiffness(row, row) > 0.0) s.stiffness_row[row] = std::sqrt(s.stiffness_scale / element.stiffness(row, row));
+    if (element.stiffness(row, row) > 0.0)
+      s.stiffness_row[row] = std::sqrt(s.stiffness_scale / element.stiffness(row, row));
     if (element.mass(row, row) > 0.0) s.mass_row[row] = std::sqrt(s.mass_scale / element.mass(row, row));
   }
   return s;
@@ -116,7 +121,8 @@ std::string row_text(const Superelement& element, Eigen::Index row) {
   const int node = element.dof_node[static_cast<std::size_t>(row)];
   const int component = element.dof_component[static_cast<std::size_t>(row)];
   if (node < 0) return fmt::format("row {} (internal coordinate {})", row, component);
-  return fmt::format("row {} (node '{}', {})", row, element.node_name[static_cast<std::size_t>(node)], components[component]);
+  return fmt::format("row {} (node '{}', {})", row, element.node_name[static_cast<std::size_t>(node)],
+                     components[component]);
 }
 
 }  // namespace tisserand::formats

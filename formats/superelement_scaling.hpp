@@ -19,9 +19,10 @@ double characteristic_length(const Superelement& element);
 /// Diagonal congruences D S̄ D / s and D M̄ D / m that make entries comparable in any consistent units: translations 1,
 /// rotations 1/l, internal coordinates such that their diagonal equals that of the largest boundary entry.
 struct ScaledMatrices {
-  double length = 1.0;          ///< l
-  double stiffness_scale = 1.0; ///< s: max |D S̄ D| over boundary rows, or m ω² of the softest internal coordinate if larger
-  double mass_scale = 1.0;      ///< m: max |D M̄ D| over boundary rows
+  double length = 1.0;  ///< l
+  double stiffness_scale =
+      1.0;  ///< s: max |D S̄ D| over boundary rows, or m ω² of the softest internal coordinate if larger
+  double mass_scale = 1.0;        ///< m: max |D M̄ D| over boundary rows
   Eigen::VectorXd stiffness_row;  ///< D of S̄, n
   Eigen::VectorXd mass_row;       ///< D of M̄, n
 };

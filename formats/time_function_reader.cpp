@@ -13,7 +13,8 @@ namespace {
 TimeTable read_table(const Context& context, const YamlNode& node) {
   TimeTable table;
   if (node.kind != YamlKind::sequence) {
-    context.fail(node.place, fmt::format("table must be a list of pairs, not {}", describe(node)), "write it as [[0, 0], [0.2, 200]]");
+    context.fail(node.place, fmt::format("table must be a list of pairs, not {}", describe(node)),
+                 "write it as [[0, 0], [0.2, 200]]");
     return table;
   }
   for (std::size_t i = 0; i < node.children.size(); ++i) {
@@ -22,7 +23,8 @@ TimeTable read_table(const Context& context, const YamlNode& node) {
       table.time.push_back(pair[0]);
       table.value.push_back(pair[1]);
     } else if (node.children[i].kind == YamlKind::sequence) {
-      context.fail(node.children[i].place, fmt::format("table[{}] has {} numbers instead of 2", i, pair.size()), "write [time, value]");
+      context.fail(node.children[i].place, fmt::format("table[{}] has {} numbers instead of 2", i, pair.size()),
+                   "write [time, value]");
     }
   }
   return table;
@@ -63,8 +65,10 @@ void check_times(const std::vector<double>& times, const std::string& noun, cons
     }
   for (std::size_t i = 1; i < times.size(); ++i) {
     if (times[i] > times[i - 1]) continue;
-    faults.add(where, key, fmt::format("{}: times of the {} must increase, but {:g} follows {:g}", subject, noun, times[i], times[i - 1]),
-               times[i] == times[i - 1] ? "for a jump, use two close times" : "");
+    faults.add(
+        where, key,
+        fmt::format("{}: times of the {} must increase, but {:g} follows {:g}", subject, noun, times[i], times[i - 1]),
+        times[i] == times[i - 1] ? "for a jump, use two close times" : "");
     return;
   }
 }
@@ -88,15 +92,20 @@ void check_time_function(const TimeFunctionSpec& function, const std::string& su
     if (!std::isfinite(*constant)) faults.add(where, key, fmt::format("{}: {} must be finite", subject, key), "");
   } else if (const TimeTable* table = std::get_if<TimeTable>(&function)) {
     if (table->time.empty() || table->time.size() != table->value.size()) {
-      faults.add(where, key, fmt::format("{}: the table has {} times and {} values", subject, table->time.size(), table->value.size()), "");
+      faults.add(
+          where, key,
+          fmt::format("{}: the table has {} times and {} values", subject, table->time.size(), table->value.size()),
+          "");
       return;
     }
     check_times(table->time, "table", subject, where, key, faults);
     for (const double value : table->value)
-      if (!std::isfinite(value)) faults.add(where, key, fmt::format("{}: values of the table must be finite", subject), "");
+      if (!std::isfinite(value))
+        faults.add(where, key, fmt::format("{}: values of the table must be finite", subject), "");
   } else if (const TimeExpression* expression = std::get_if<TimeExpression>(&function)) {
     if (expression->text.find_first_not_of(" \t\n") == std::string::npos)
-      faults.add(where, key, fmt::format("{}: {} is an empty expression", subject, key), "write an expression in t, or 0");
+      faults.add(where, key, fmt::format("{}: {} is an empty expression", subject, key),
+                 "write an expression in t, or 0");
     check_times(expression->breakpoints, "breakpoints", subject, where, key, faults);
   }
 }

@@ -8,8 +8,8 @@
 
 namespace tisserand::formats {
 
-/// A number, a text (expression in t), {expression: .., breakpoints: [..]}, {table: [[t, value], ..]} or {file: table.csv}
-/// (relative to `folder`).
+/// A number, a text (expression in t), {expression: .., breakpoints: [..]}, {table: [[t, value], ..]} or {file:
+/// table.csv} (relative to `folder`).
 TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node, const std::string& what,
                                     const std::string& folder);
 

@@ -187,9 +187,11 @@ MapReader::MapReader(Context context, const YamlNode& node, std::string_view nou
   for (const YamlNode& child : node.children) {
     const auto [first, is_new] = seen.try_emplace(child.key, child.key_place);
     if (std::ranges::find(keys_.keys, child.key) == keys_.keys.end())
-      context_.fail(child.key_place, fmt::format("unknown key '{}'", child.key), suggestion(child.key, words_of(keys_)));
+      context_.fail(child.key_place, fmt::format("unknown key '{}'", child.key),
+                    suggestion(child.key, words_of(keys_)));
     else if (!is_new)
-      context_.fail(child.key_place, fmt::format("key '{}' is given twice (first in line {})", child.key, first->second.line),
+      context_.fail(child.key_place,
+                    fmt::format("key '{}' is given twice (first in line {})", child.key, first->second.line),
                     "remove one");
     context_.reader.note(context_.entry, prefix + child.key, child);
   }
@@ -232,7 +234,8 @@ std::vector<const YamlNode*> MapReader::entries(std::string_view key, const std:
     if (is_new) {
       list.push_back(&child);
     } else {
-      context_.fail(child.key_place, fmt::format("{} '{}' is given twice (first in line {})", noun, child.key, first->second.line),
+      context_.fail(child.key_place,
+                    fmt::format("{} '{}' is given twice (first in line {})", noun, child.key, first->second.line),
                     "rename or remove one");
     }
   }

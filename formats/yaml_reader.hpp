@@ -93,8 +93,8 @@ struct Choice {
 std::optional<std::size_t> read_word(const Context& context, const YamlNode& node, const std::string& what,
                                      const std::vector<std::string>& words);
 
-/// One map with known keys. The constructor reports unknown and double keys; asking for a key that its KeySet lacks is a
-/// fault of the program.
+/// One map with known keys. The constructor reports unknown and double keys; asking for a key that its KeySet lacks is
+/// a fault of the program.
 class MapReader {
  public:
   /// `prefix` ("damping.") precedes the keys in findings of the check when the map is part of a larger entry.

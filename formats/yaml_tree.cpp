@@ -51,9 +51,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnDocumentStart(const YAML::Mark&) override {}
   void OnDocumentEnd() override {}
 
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
-    finish(make(YamlKind::null, mark), anchor);
-  }
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override { finish(make(YamlKind::null, mark), anchor); }
 
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     const auto found = anchors_.find(anchor);
@@ -195,8 +193,10 @@ std::size_t character_length(const std::string& text, std::size_t i) {
   const unsigned char first = byte(i);
   if (first < 0x20) return first == '\t' || first == '\n' || first == '\r' ? 1 : 0;
   if (first < 0x7f) return 1;
-  const std::size_t length = first >= 0xf0 && first < 0xf5 ? 4 : first >= 0xe0 && first < 0xf0 ? 3
-                             : first >= 0xc2 && first < 0xe0 ? 2 : 0;
+  const std::size_t length = first >= 0xf0 && first < 0xf5   ? 4
+                             : first >= 0xe0 && first < 0xf0 ? 3
+                             : first >= 0xc2 && first < 0xe0 ? 2
+                                                             : 0;
   if (length == 0 || i + length > text.size()) return 0;
   for (std::size_t k = i + 1; k < i + length; ++k)
     if ((byte(k) & 0xc0) != 0x80) return 0;
@@ -258,9 +258,11 @@ YamlDocument load_yaml(const std::string& path) {
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
     throw Error("is not a regular file", path, "give a text file");
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw Error(fmt::format("cannot open the file: {}", std::strerror(errno)), path, "check path and permission");
+  if (!stream)
+    throw Error(fmt::format("cannot open the file: {}", std::strerror(errno)), path, "check path and permission");
   std::string text, piece(1u << 16, '\0');
-  while (text.size() <= most_bytes && stream.read(piece.data(), static_cast<std::streamsize>(piece.size())).gcount() > 0)
+  while (text.size() <= most_bytes &&
+         stream.read(piece.data(), static_cast<std::streamsize>(piece.size())).gcount() > 0)
     text.append(piece, 0, static_cast<std::size_t>(stream.gcount()));
   if (stream.bad()) throw Error(fmt::format("cannot read the file: {}", std::strerror(errno)), path, "");
   return parse_yaml(text, path);

@@ -21,10 +21,10 @@ struct YamlPlace {
 /// A value; in a map it carries its key. Children are in the order of the file, double keys included.
 struct YamlNode {
   YamlKind kind = YamlKind::null;
-  bool quoted = false;       ///< scalar in quotes: text, never a number
-  std::string text;          ///< of a scalar
+  bool quoted = false;  ///< scalar in quotes: text, never a number
+  std::string text;     ///< of a scalar
   YamlPlace place;
-  std::string key;           ///< in a map
+  std::string key;  ///< in a map
   YamlPlace key_place;
   std::vector<YamlNode> children;
 };

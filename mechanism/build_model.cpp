@@ -84,10 +84,11 @@ class Builder {
     const formats::Superelement& element = file.superelement;
     const UnitConversion units = convert_units(element.units, scene_.units, spec.file);
     if (element.units.named() && (units.length != 1.0 || units.mass != 1.0 || units.time != 1.0))
-      notes_.push_back(fmt::format("body '{}': converted from {}, {}, {} to {}, {}, {}", spec.name, element.units.length.label,
-                                   element.units.mass.label, element.units.time.label, scene_.units.length.label,
-                                   scene_.units.mass.label, scene_.units.time.label));
-    for (const std::string& warning : file.report.warnings) notes_.push_back(fmt::format("body '{}': {}", spec.name, warning));
+      notes_.push_back(fmt::format("body '{}': converted from {}, {}, {} to {}, {}, {}", spec.name,
+                                   element.units.length.label, element.units.mass.label, element.units.time.label,
+                                   scene_.units.length.label, scene_.units.mass.label, scene_.units.time.label));
+    for (const std::string& warning : file.report.warnings)
+      notes_.push_back(fmt::format("body '{}': {}", spec.name, warning));
     if (spec.rigid) {
       add_rigid_superelement(spec, file, units);
       return;
@@ -190,7 +191,8 @@ class Builder {
   NodeMotion motion(int node) const { return node < 0 ? NodeMotion{} : motion_[static_cast<std::size_t>(node)]; }
 
   /// Gives the marker the world pose (position, R) where the scene leaves it open.
-  void place_marker(const formats::MarkerSpec& spec, const Vector3d& position, const Matrix3d& R, Marker& marker) const {
+  void place_marker(const formats::MarkerSpec& spec, const Vector3d& position, const Matrix3d& R,
+                    Marker& marker) const {
     const NodeMotion carrier = motion(marker.node);
     if (!spec.position) marker.p = carrier.R.transpose() * (position - carrier.x);
     if (!spec.orientation) marker.R = carrier.R.transpose() * R;
@@ -200,15 +202,16 @@ class Builder {
     if (marker.node < 0) return;
     const Node& node = model_.nodes[static_cast<std::size_t>(marker.node)];
     if (node.translation < 0)
-      throw Error(fmt::format("joint '{}' holds the position of node '{}', which has no translations", spec.name, place.node),
-                  place.where, "keep the translations of that node in the superelement");
+      throw Error(
+          fmt::format("joint '{}' holds the position of node '{}', which has no translations", spec.name, place.node),
+          place.where, "keep the translations of that node in the superelement");
     if (node.rotation >= 0) return;
     if (spec.kind != formats::JointKind::spherical)
-      throw Error(fmt::format("joint '{}' holds the rotation of node '{}', which has none", spec.name, place.node), place.where,
-                  "use a spherical joint, or keep the rotations of that node in the superelement");
+      throw Error(fmt::format("joint '{}' holds the rotation of node '{}', which has none", spec.name, place.node),
+                  place.where, "use a spherical joint, or keep the rotations of that node in the superelement");
     if (marker.p.norm() > 1e-12 * model_.length)
-      throw Error(fmt::format("joint '{}' is {:.3g} away from node '{}', which has no rotations to carry the offset", spec.name,
-                              marker.p.norm(), place.node),
+      throw Error(fmt::format("joint '{}' is {:.3g} away from node '{}', which has no rotations to carry the offset",
+                              spec.name, marker.p.norm(), place.node),
                   place.where, "put the joint at the node, or keep the rotations of that node in the superelement");
   }
 
@@ -264,15 +267,16 @@ class Builder {
       throw Error(fmt::format("load '{}' acts on ground", spec.name), spec.where, "name a node of a body");
     const Node& node = model_.nodes[static_cast<std::size_t>(load.at.node)];
     if (spec.kind == formats::LoadKind::moment && node.rotation < 0)
-      throw Error(fmt::format("moment '{}' acts on node '{}', which has no rotations", spec.name, node.name), spec.where,
-                  "use forces, or keep the rotations of that node in the superelement");
+      throw Error(fmt::format("moment '{}' acts on node '{}', which has no rotations", spec.name, node.name),
+                  spec.where, "use forces, or keep the rotations of that node in the superelement");
     if (spec.kind == formats::LoadKind::force && node.translation < 0)
-      throw Error(fmt::format("force '{}' acts on node '{}', which has no translations", spec.name, node.name), spec.where,
-                  "use moments, or keep the translations of that node in the superelement");
+      throw Error(fmt::format("force '{}' acts on node '{}', which has no translations", spec.name, node.name),
+                  spec.where, "use moments, or keep the translations of that node in the superelement");
     if (node.rotation < 0 && (spec.axes == formats::LoadAxes::body || load.at.p.norm() > 1e-12 * model_.length))
       throw Error(fmt::format("force '{}' {} node '{}', which has no rotations", spec.name,
                               spec.axes == formats::LoadAxes::body ? "follows" : "acts away from", node.name),
-                  spec.where, "apply it at the node in world axes, or keep the rotations of that node in the superelement");
+                  spec.where,
+                  "apply it at the node in world axes, or keep the rotations of that node in the superelement");
     for (const formats::TimeFunctionSpec& component : spec.components) {
       TimeFunction check(component);  // reports syntax errors now
       for (const double t : breakpoints(component)) breakpoints_.insert(t);
@@ -312,7 +316,8 @@ class Builder {
       if (model.nodes[i].translation >= 0) state.v().segment<3>(model.nodes[i].translation) = m.xd;
       if (model.nodes[i].rotation >= 0) state.v().segment<3>(model.nodes[i].rotation) = m.Omega;
     }
-    for (std::size_t i = 0; i < frames_.size(); ++i) state.frames().col(static_cast<Eigen::Index>(i)) = wxyz(frames_[i]);
+    for (std::size_t i = 0; i < frames_.size(); ++i)
+      state.frames().col(static_cast<Eigen::Index>(i)) = wxyz(frames_[i]);
     scale(model, state);
     return state;
   }
@@ -345,7 +350,7 @@ class Builder {
   const formats::Scene& scene_;
   const SuperelementFiles& files_;
   Model model_;
-  std::vector<NodeMotion> motion_;              ///< start of each node
+  std::vector<NodeMotion> motion_;  ///< start of each node
   std::vector<Eigen::Quaterniond> frames_;
   std::map<std::string, Marker> places_;
   std::set<double> breakpoints_;
@@ -355,6 +360,8 @@ class Builder {
 
 }  // namespace
 
-BuiltModel build_model(const formats::Scene& scene, const SuperelementFiles& files) { return Builder(scene, files).build(); }
+BuiltModel build_model(const formats::Scene& scene, const SuperelementFiles& files) {
+  return Builder(scene, files).build();
+}
 
 }  // namespace tisserand::mechanism

@@ -16,8 +16,8 @@ using SuperelementFiles = std::map<std::string, formats::LoadedSuperelement>;
 
 struct BuiltModel {
   Model model;
-  State state;                      ///< positions and velocities of the scene, not yet projected on the constraints
-  std::vector<std::string> notes;   ///< conversions, cut modes, warnings: whole sentences
+  State state;                     ///< positions and velocities of the scene, not yet projected on the constraints
+  std::vector<std::string> notes;  ///< conversions, cut modes, warnings: whole sentences
 };
 
 /// Throws Error (all that are found) for names that do not exist, joints on nodes without rotations, and so on.

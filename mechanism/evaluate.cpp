@@ -15,7 +15,8 @@ using Eigen::Vector3d;
 std::vector<std::array<TimeFunction, 3>> compile_loads(const Model& model) {
   std::vector<std::array<TimeFunction, 3>> functions;
   for (const Load& load : model.loads)
-    functions.push_back({TimeFunction(load.components[0]), TimeFunction(load.components[1]), TimeFunction(load.components[2])});
+    functions.push_back(
+        {TimeFunction(load.components[0]), TimeFunction(load.components[1]), TimeFunction(load.components[2])});
   return functions;
 }
 
@@ -61,7 +62,8 @@ template <class Vector>
 void note_scale(const Vector& local, Workspace& workspace) {
   for (Eigen::Index i = 0; i < local.size(); i += 6) {
     workspace.force_scale[0] = std::max(workspace.force_scale[0], local.template segment<3>(i).cwiseAbs().maxCoeff());
-    workspace.force_scale[1] = std::max(workspace.force_scale[1], local.template segment<3>(i + 3).cwiseAbs().maxCoeff());
+    workspace.force_scale[1] =
+        std::max(workspace.force_scale[1], local.template segment<3>(i + 3).cwiseAbs().maxCoeff());
   }
 }
 
@@ -71,7 +73,8 @@ void note_scale(const SuperelementBody& body, const SuperelementScratch& scratch
   const auto note = [&workspace, &forces](int kind, int row) {
     if (row < 0) return;
     double& scale = workspace.force_scale[static_cast<std::size_t>(kind)];
-    scale = std::max({scale, forces.f_B.segment<3>(row).cwiseAbs().maxCoeff(), forces.s_B.segment<3>(row).cwiseAbs().maxCoeff()});
+    scale = std::max(
+        {scale, forces.f_B.segment<3>(row).cwiseAbs().maxCoeff(), forces.s_B.segment<3>(row).cwiseAbs().maxCoeff()});
   };
   for (const SuperelementNode& node : body.node) {
     note(0, node.translation_row);
@@ -164,7 +167,8 @@ Eigen::Matrix<double, 6, 12> constraint_rows(const Model& model, const Joint& jo
                                              const ConstraintRows& kind, const Workspace& workspace) {
   Eigen::Matrix<double, 6, 12> rows = terms.B;
   switch (kind.kind) {
-    case ConstraintRows::Kind::plain: break;
+    case ConstraintRows::Kind::plain:
+      break;
     case ConstraintRows::Kind::position:
       rows.block<6, 3>(0, 3) = terms.B.block<6, 3>(0, 3) * step_tangent(model, workspace, joint.a.node);
       rows.block<6, 3>(0, 9) = terms.B.block<6, 3>(0, 9) * step_tangent(model, workspace, joint.b.node);
@@ -276,7 +280,9 @@ void evaluate_tangent(const Model& model, const State& state, const TangentCoeff
   std::fill(workspace.values.begin(), workspace.values.end(), 0.0);
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     switch (kind) {
-      case TangentKind::step: tangent(model.superelements[i], workspace.superelements[i], coefficients); break;
+      case TangentKind::step:
+        tangent(model.superelements[i], workspace.superelements[i], coefficients);
+        break;
       case TangentKind::exact:
         exact_tangent(model.superelements[i], workspace.superelements[i], workspace.motion,
                       workspace.load_factor * model.gravity, coefficients);

@@ -7,8 +7,8 @@
 
 namespace tisserand::mechanism {
 
-/// Fills r = G_iner + G_int + G_damp + Bᵀλ − F (boundary coordinates; internal ones stay in the superelements' scratch),
-/// Φ, B v + Φ_t, the force scales and the powers of loads and damping.
+/// Fills r = G_iner + G_int + G_damp + Bᵀλ − F (boundary coordinates; internal ones stay in the superelements'
+/// scratch), Φ, B v + Φ_t, the force scales and the powers of loads and damping.
 void evaluate(const Model& model, const State& state, Workspace& workspace);
 
 /// Fills Ḃ v (Φ̈ = B v̇ + Ḃ v) for the state of the last evaluate().
@@ -19,7 +19,8 @@ struct ConstraintRows {
   enum class Kind {
     plain,     ///< B: Φ for material increments
     position,  ///< B T(displacement of the step): Φ for increments of the rotation vector of the step
-    velocity   ///< B + rate_factor ∂(B v)/∂q: rate_factor times B v for increments whose velocity is 1/rate_factor of them
+    velocity  ///< B + rate_factor ∂(B v)/∂q: rate_factor times B v for increments whose velocity is 1/rate_factor of
+              ///< them
   };
   Kind kind = Kind::plain;
   double rate_factor = 0.0;

@@ -83,7 +83,8 @@ void require_factors(const Model& model, const FactorReport& factors, const std:
               "give the body mass or inertia there, or hold the direction with a joint");
 }
 
-/// The equations of a joint are also met by axes that point the other way: z_A·z_B > 0 for hinges, all axes for fixed ones.
+/// The equations of a joint are also met by axes that point the other way: z_A·z_B > 0 for hinges, all axes for fixed
+/// ones.
 void require_facing(const Model& model, const std::string& where, const Workspace& workspace) {
   for (const Joint& joint : model.joints) {
     const Eigen::Matrix3d R_AB = marker_rotation(joint.a, motion_of(workspace, joint.a.node)).transpose() *
@@ -91,9 +92,10 @@ void require_facing(const Model& model, const std::string& where, const Workspac
     const bool hinge = joint.kind == JointKind::revolute && R_AB(2, 2) <= 0.0;
     const bool fixed = joint.kind == JointKind::fixed && R_AB.diagonal().minCoeff() <= 0.0;
     if (!hinge && !fixed) continue;
-    throw Error(hinge ? fmt::format("the z axes of the markers of revolute joint '{}' point in opposite directions", joint.name)
-                      : fmt::format("the axes of the markers of fixed joint '{}' are turned against each other", joint.name),
-                where, "turn the orientation of one marker, so that the axes of both agree at the start");
+    throw Error(
+        hinge ? fmt::format("the z axes of the markers of revolute joint '{}' point in opposite directions", joint.name)
+              : fmt::format("the axes of the markers of fixed joint '{}' are turned against each other", joint.name),
+        where, "turn the orientation of one marker, so that the axes of both agree at the start");
   }
 }
 
@@ -107,7 +109,8 @@ Mobility count_mobility(const Model& model, const State& state, Workspace& works
   const Eigen::SparseMatrix<double> B = scaled_jacobian(model, workspace);
   const auto count = [&mobility](auto rank, const auto& permutation) {
     mobility.rank = static_cast<int>(rank);
-    for (Eigen::Index k = rank; k < mobility.constraints; ++k) mobility.redundant.push_back(static_cast<int>(permutation[k]));
+    for (Eigen::Index k = rank; k < mobility.constraints; ++k)
+      mobility.redundant.push_back(static_cast<int>(permutation[k]));
   };
   if (mobility.constraints > 0 && mobility.constraints <= dense_rank_limit) {
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
@@ -123,9 +126,8 @@ Mobility count_mobility(const Model& model, const State& state, Workspace& works
   std::sort(mobility.redundant.begin(), mobility.redundant.end());
   mobility.degrees_of_freedom = mobility.coordinates - mobility.rank;
   const int elements = static_cast<int>(model.beams2.size() + model.beams3.size());
-  mobility.rigid_mobility = elements > 0 ? -1
-                                         : 6 * static_cast<int>(model.superelements.size() + model.rigid_bodies.size()) -
-                                               mobility.rank;
+  mobility.rigid_mobility =
+      elements > 0 ? -1 : 6 * static_cast<int>(model.superelements.size() + model.rigid_bodies.size()) - mobility.rank;
   return mobility;
 }
 
@@ -133,13 +135,13 @@ void require_independent_constraints(const Model& model, const Mobility& mobilit
   if (mobility.redundant.empty()) return;
   std::vector<std::string> names;
   for (const int row : mobility.redundant) names.push_back("'" + constraint_name(model, row) + "'");
-  throw Error(fmt::format("{} of {} constraint equations repeat what the others already demand: {}", mobility.redundant.size(),
-                          mobility.constraints, join(names, ", ")),
+  throw Error(fmt::format("{} of {} constraint equations repeat what the others already demand: {}",
+                          mobility.redundant.size(), mobility.constraints, join(names, ", ")),
               where, "replace a joint by one that holds less, for example a revolute by a spherical joint");
 }
 
-Projection project_initial_state(const Model& model, double tolerance, double step, const std::string& where, State& state,
-                                 Workspace& workspace) {
+Projection project_initial_state(const Model& model, double tolerance, double step, const std::string& where,
+                                 State& state, Workspace& workspace) {
   Projection projection;
   workspace.displacement.setZero();
   for (int iteration = 0;; ++iteration) {
@@ -148,13 +150,15 @@ Projection project_initial_state(const Model& model, double tolerance, double st
     if (iteration == 0) {
       projection.position = worst.value;
       if (!(worst.value <= tolerance))
-        throw Error(fmt::format("joint '{}' is not met at the start: off by {:.3g} {} (initial_tolerance allows {:.3g})",
-                                constraint_name(model, worst.row),
-                                worst.value, "of the characteristic length or radians", tolerance),
-                    where, "correct poses or markers, or raise initial_tolerance to let the program move the bodies");
+        throw Error(
+            fmt::format("joint '{}' is not met at the start: off by {:.3g} {} (initial_tolerance allows {:.3g})",
+                        constraint_name(model, worst.row), worst.value, "of the characteristic length or radians",
+                        tolerance),
+            where, "correct poses or markers, or raise initial_tolerance to let the program move the bodies");
     }
     if (worst.value <= 1e-14 || iteration == 20) break;
-    require_factors(model, factor(model, state, {1.0, 0.0, step * step}, TangentKind::step, {}, workspace), where, workspace);
+    require_factors(model, factor(model, state, {1.0, 0.0, step * step}, TangentKind::step, {}, workspace), where,
+                    workspace);
     solve_correction(model, -workspace.constraint, workspace);
     const State before = state;
     retract(model, before, workspace.correction, state);
@@ -162,18 +166,22 @@ Projection project_initial_state(const Model& model, double tolerance, double st
   }
   const Violation left = largest_violation(model, workspace.constraint);
   if (!(left.value <= 1e-9))
-    throw Error(fmt::format("the joints cannot be closed: '{}' stays open by {:.3g}", constraint_name(model, left.row), left.value),
+    throw Error(fmt::format("the joints cannot be closed: '{}' stays open by {:.3g}", constraint_name(model, left.row),
+                            left.value),
                 where, "correct the poses of the bodies");
   require_facing(model, where, workspace);
   const double velocity = largest_velocity(model, state);
   const Violation worst = largest_violation(model, workspace.constraint_rate);
   projection.velocity = velocity > 0.0 ? worst.value / velocity : 0.0;
   if (!(projection.velocity <= tolerance))
-    throw Error(fmt::format("initial velocities violate joint '{}': {:.3g} of the largest velocity (initial_tolerance allows {:.3g})",
-                            constraint_name(model, worst.row), projection.velocity, tolerance),
-                where, "give velocities that agree with the joints, or raise initial_tolerance to let the program change them");
+    throw Error(
+        fmt::format(
+            "initial velocities violate joint '{}': {:.3g} of the largest velocity (initial_tolerance allows {:.3g})",
+            constraint_name(model, worst.row), projection.velocity, tolerance),
+        where, "give velocities that agree with the joints, or raise initial_tolerance to let the program change them");
   if (worst.value > 0.0) {
-    require_factors(model, factor(model, state, {1.0, 0.0, step * step}, TangentKind::step, {}, workspace), where, workspace);
+    require_factors(model, factor(model, state, {1.0, 0.0, step * step}, TangentKind::step, {}, workspace), where,
+                    workspace);
     solve_correction(model, -workspace.constraint_rate, workspace);
     state.v() += workspace.correction;
   }
@@ -181,7 +189,8 @@ Projection project_initial_state(const Model& model, double tolerance, double st
   return projection;
 }
 
-bool solve_accelerations(const Model& model, double step, const std::string& where, State& state, Workspace& workspace) {
+bool solve_accelerations(const Model& model, double step, const std::string& where, State& state,
+                         Workspace& workspace) {
   workspace.displacement.setZero();
   state.vdot().setZero();
   state.lambda().setZero();
@@ -206,8 +215,8 @@ bool solve_accelerations(const Model& model, double step, const std::string& whe
   return massless;
 }
 
-void start_algorithmic_acceleration(const Model& model, double shift, double step, const std::string& where, State& state,
-                                    Workspace& workspace) {
+void start_algorithmic_acceleration(const Model& model, double shift, double step, const std::string& where,
+                                    State& state, Workspace& workspace) {
   state.algorithmic() = state.vdot();
   state.step() = step;
   if (shift == 0.0) return;
@@ -220,9 +229,10 @@ void start_algorithmic_acceleration(const Model& model, double shift, double ste
   ahead.v() += epsilon * state.vdot();
   evaluate(model, ahead, workspace);
   evaluate_bias(model, workspace);
-  // With M + h/2 C + h²/4 K in place of M: equal to it up to O(h) where the step resolves the motion; elsewhere the rate of
-  // the acceleration would grow with the frequency squared and mean nothing.
-  const FactorReport factors = factor(model, ahead, {1.0, 0.5 * step, 0.25 * step * step}, TangentKind::step, {}, workspace);
+  // With M + h/2 C + h²/4 K in place of M: equal to it up to O(h) where the step resolves the motion; elsewhere the
+  // rate of the acceleration would grow with the frequency squared and mean nothing.
+  const FactorReport factors =
+      factor(model, ahead, {1.0, 0.5 * step, 0.25 * step * step}, TangentKind::step, {}, workspace);
   require_factors(model, factors, where, workspace);
   apply_jacobian(model, workspace, ahead.vdot(), workspace.multipliers);
   workspace.bias = -workspace.bias - workspace.multipliers;

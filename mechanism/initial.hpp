@@ -13,12 +13,13 @@ namespace tisserand::mechanism {
 
 /// Counts of a model at a state.
 struct Mobility {
-  int coordinates = 0;       ///< boundary and internal
+  int coordinates = 0;  ///< boundary and internal
   int constraints = 0;
-  int rank = 0;              ///< of the constraint Jacobian
-  int degrees_of_freedom = 0;///< coordinates − rank
-  int rigid_mobility = 0;    ///< degrees of freedom if every flexible body were rigid (Gruebler, by bodies and constraints)
-  std::vector<int> redundant;///< constraint rows that depend on the others
+  int rank = 0;                ///< of the constraint Jacobian
+  int degrees_of_freedom = 0;  ///< coordinates − rank
+  int rigid_mobility =
+      0;  ///< degrees of freedom if every flexible body were rigid (Gruebler, by bodies and constraints)
+  std::vector<int> redundant;  ///< constraint rows that depend on the others
 };
 
 /// Rank of B by a rank-revealing QR (rotations scaled with the characteristic length).
@@ -34,25 +35,25 @@ struct Projection {
   double velocity = 0.0;
 };
 
-/// Moves positions and velocities onto the constraints in the mass norm. Throws Error that names joint and equation if more
-/// than `tolerance` has to be corrected. `step`: regularises massless directions with step² times the stiffness.
-Projection project_initial_state(const Model& model, double tolerance, double step, const std::string& where, State& state,
-                                 Workspace& workspace);
+/// Moves positions and velocities onto the constraints in the mass norm. Throws Error that names joint and equation if
+/// more than `tolerance` has to be corrected. `step`: regularises massless directions with step² times the stiffness.
+Projection project_initial_state(const Model& model, double tolerance, double step, const std::string& where,
+                                 State& state, Workspace& workspace);
 
 /// v̇ and λ from [M Bᵀ; B 0][v̇; λ] = [F − G; −Ḃ v]. A singular mass matrix is regularised with step² times the stiffness
-/// (its massless directions are in static equilibrium then); returns whether it was. Throws Error that names a direction
-/// without mass, stiffness and constraint.
+/// (its massless directions are in static equilibrium then); returns whether it was. Throws Error that names a
+/// direction without mass, stiffness and constraint.
 bool solve_accelerations(const Model& model, double step, const std::string& where, State& state, Workspace& workspace);
 
 /// a_0 = v̇_0 + (α_m − α_f) h v̈_0 with v̈_0 by differences along the motion [ABC15]: the start that gives multipliers of
 /// order 2. Needs consistent v̇.
-void start_algorithmic_acceleration(const Model& model, double shift, double step, const std::string& where, State& state,
-                                    Workspace& workspace);
+void start_algorithmic_acceleration(const Model& model, double shift, double step, const std::string& where,
+                                    State& state, Workspace& workspace);
 
 struct StartReport {
   Mobility mobility;
   Projection projection;
-  bool massless = false;   ///< the mass matrix was regularised
+  bool massless = false;  ///< the mass matrix was regularised
 };
 
 /// All of the above for the analysis of the scene; dynamics: also the consistent start and energies counted from here.

@@ -53,7 +53,8 @@ void raise(double& value, int& at, double candidate, int index) {
 
 /// Largest residuals against the running maxima of forces, moments and internal forces; largest violations against the
 /// characteristic length (rates: against length/step).
-Norms measure(const Model& model, const IntegratorSpec& options, double step, const State& state, Workspace& workspace) {
+Norms measure(const Model& model, const IntegratorSpec& options, double step, const State& state,
+              Workspace& workspace) {
   Norms norms;
   double scale[3];
   for (int k = 0; k < 3; ++k) scale[k] = std::max(state.force_scale(k), workspace.force_scale[k]);
@@ -154,7 +155,8 @@ void accept(const Model& model, double step, State& state, Workspace& workspace)
   for (Eigen::Index i = 0; i < Q.cols(); ++i) Q.col(i).normalize();
   auto frames = state.frames();
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    frames.col(static_cast<Eigen::Index>(i)) = wxyz(Eigen::Quaterniond(workspace.superelements[i].motion.R0).normalized());
+    frames.col(static_cast<Eigen::Index>(i)) =
+        wxyz(Eigen::Quaterniond(workspace.superelements[i].motion.R0).normalized());
   unwrap_hinges(model, workspace, state);
   for (int k = 0; k < 3; ++k) state.force_scale(k) = std::max(state.force_scale(k), workspace.force_scale[k]);
   state.work() += 0.5 * step * (state.load_power() + workspace.load_power);
@@ -177,7 +179,8 @@ IterationMatrix iteration_matrix(const IntegratorSpec& options, const AlphaParam
 }
 
 /// Factors anew at the state of the last evaluate().
-void renew(const Model& model, const IterationMatrix& matrix, const State& state, Workspace& workspace, StepReport& report) {
+void renew(const Model& model, const IterationMatrix& matrix, const State& state, Workspace& workspace,
+           StepReport& report) {
   const FactorReport factors = factor(model, state, matrix.coefficients, TangentKind::step, matrix.rows, workspace);
   ++report.factorisations;
   if (factors.regular && factors.reciprocal_condition >= singular_condition) return;
@@ -185,10 +188,10 @@ void renew(const Model& model, const IterationMatrix& matrix, const State& state
   report.singular_column = factors.singular_column;
 }
 
-/// Notes the norms of the last evaluate() in the report; true if they, or the last increments, are small enough. Sets the
-/// outcome when the iteration cannot go on.
-bool converged(const Model& model, const IntegratorSpec& options, double step, int iterations, const State& state, Workspace& workspace,
-               StepReport& report) {
+/// Notes the norms of the last evaluate() in the report; true if they, or the last increments, are small enough. Sets
+/// the outcome when the iteration cannot go on.
+bool converged(const Model& model, const IntegratorSpec& options, double step, int iterations, const State& state,
+               Workspace& workspace, StepReport& report) {
   const Norms norms = measure(model, options, step, state, workspace);
   const bool force_is_worse = norms.force_ratio >= norms.constraint_ratio || !std::isfinite(norms.force_ratio);
   report.force_ratio = norms.force_ratio;
@@ -312,7 +315,8 @@ StepReport advance(const Model& model, const IntegratorSpec& options, const Step
 }
 
 void rebuild_algorithmic_acceleration(double step, State& state) {
-  if (state.step() > 0.0) state.algorithmic() = state.vdot() + (step / state.step()) * (state.algorithmic() - state.vdot());
+  if (state.step() > 0.0)
+    state.algorithmic() = state.vdot() + (step / state.step()) * (state.algorithmic() - state.vdot());
   state.step() = step;
 }
 
@@ -327,17 +331,24 @@ std::string explain(const Model& model, const StepReport& report) {
   else if (report.worst_coordinate >= 0)
     place = coordinate_name(model, report.worst_coordinate);
   switch (report.outcome) {
-    case StepOutcome::accepted: return "accepted";
+    case StepOutcome::accepted:
+      return "accepted";
     case StepOutcome::singular:
-      return fmt::format("the iteration matrix is singular{}{}: a direction without mass, stiffness or constraint, or "
-                         "redundant constraints", place.empty() ? "" : " at ", place);
+      return fmt::format(
+          "the iteration matrix is singular{}{}: a direction without mass, stiffness or constraint, or "
+          "redundant constraints",
+          place.empty() ? "" : " at ", place);
     case StepOutcome::diverged:
-      return fmt::format("the iteration left the range of numbers, first at {}: the step is too long for the motion, or "
-                         "a load is not finite", place);
+      return fmt::format(
+          "the iteration left the range of numbers, first at {}: the step is too long for the motion, or "
+          "a load is not finite",
+          place);
     case StepOutcome::too_many_iterations:
-      return fmt::format("Newton's iteration does not converge, worst at {} (residual {:.1e} times the tolerance, "
-                         "constraint {:.1e} times): the step is too long, or parts turn so far that their elements are "
-                         "no longer small", place, report.force_ratio, report.constraint_ratio);
+      return fmt::format(
+          "Newton's iteration does not converge, worst at {} (residual {:.1e} times the tolerance, "
+          "constraint {:.1e} times): the step is too long, or parts turn so far that their elements are "
+          "no longer small",
+          place, report.force_ratio, report.constraint_ratio);
   }
   return {};
 }

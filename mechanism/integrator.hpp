@@ -34,10 +34,10 @@ struct StepReport {
   int factorisations = 0;
   double force_ratio = 0.0;
   double constraint_ratio = 0.0;
-  double residual = 0.0;     ///< largest |r| of force rows, of moment rows / length
-  double constraint = 0.0;   ///< largest |Φ| (positions, and angles times length)
-  int worst_coordinate = -1; ///< of the largest residual, when not accepted
-  int worst_constraint = -1; ///< of the largest violation, when not accepted and larger in ratio
+  double residual = 0.0;      ///< largest |r| of force rows, of moment rows / length
+  double constraint = 0.0;    ///< largest |Φ| (positions, and angles times length)
+  int worst_coordinate = -1;  ///< of the largest residual, when not accepted
+  int worst_constraint = -1;  ///< of the largest violation, when not accepted and larger in ratio
   int singular_column = -1;
 };
 

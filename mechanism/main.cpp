@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "common/console.hpp"
 #include "common/error.hpp"
@@ -87,14 +87,16 @@ close the file with what was reached and the reason; `channels`, `export` and `p
 and in --set count from the folder of the scene; <output> counts from this folder.
 Exit codes: 0 done, 1 error, 2 wrong usage, 3 did not converge, 130 interrupted.)help";
 
-constexpr const char* about_check = R"help(Reads everything, counts coordinates, constraints and mobility, says what is wrong, runs nothing.
+constexpr const char* about_check =
+    R"help(Reads everything, counts coordinates, constraints and mobility, says what is wrong, runs nothing.
 
   mechanism check arm.scene.yaml
   mechanism check arm.scene.yaml --set bodies.arm.modes=2
 
 Exit codes: 0 no errors found, 1 errors, 2 wrong usage.)help";
 
-constexpr const char* about_export = R"help(Writes channels of a results file as CSV: time, then one column per channel, with units.
+constexpr const char* about_export =
+    R"help(Writes channels of a results file as CSV: time, then one column per channel, with units.
 
   mechanism export arm.results.h5 -o arm.csv
   mechanism export arm.results.h5 -c nodes/position -c 'joints/*/hinge/*' -o arm.csv
@@ -105,13 +107,15 @@ constexpr const char* about_channels = R"help(Lists the channels of a results fi
   mechanism channels arm.results.h5
   mechanism channels arm.results.h5 -c 'nodes/position/arm/*')help";
 
-constexpr const char* about_plot = R"help(Draws channels of results files over one another, one panel per unit (png or svg, by gnuplot).
+constexpr const char* about_plot =
+    R"help(Draws channels of results files over one another, one panel per unit (png or svg, by gnuplot).
 
   mechanism plot arm.results.h5 -c nodes/position/arm/tip/z -o tip.png
   mechanism plot coarse.results.h5 fine.results.h5 --label coarse --label fine -c energy/total -o energy.svg --range 0 2
   mechanism plot arm.results.h5 -c nodes/position/arm/tip/z --reference 'measured.csv:t:z:measured' -o tip.png)help";
 
-constexpr const char* about_compare = R"help(Measures channels against a reference history: largest and root-mean-square deviation.
+constexpr const char* about_compare =
+    R"help(Measures channels against a reference history: largest and root-mean-square deviation.
 
   mechanism compare arm.results.h5 -c nodes/position/arm/tip/z --reference reference.csv:t:z --from 1 --to 5)help";
 
@@ -159,11 +163,13 @@ int run(const RunArguments& arguments) {
   say(fmt::format("{}: {}\n{}  {:<16} {}\n", arguments.scene, scene.name, mechanism::report_text(report, scene.units),
                   "results", report.results));
   switch (report.outcome) {
-    case mechanism::RunOutcome::completed: return 0;
+    case mechanism::RunOutcome::completed:
+      return 0;
     case mechanism::RunOutcome::not_converged:
       fmt::print(stderr, "mechanism: did not converge: {}\n", report.reason);
       return exit_not_converged;
-    case mechanism::RunOutcome::interrupted: return exit_interrupted;
+    case mechanism::RunOutcome::interrupted:
+      return exit_interrupted;
   }
   return exit_error;
 }
@@ -171,13 +177,16 @@ int run(const RunArguments& arguments) {
 int check(const RunArguments& arguments) {
   const formats::Scene scene = read(arguments);
   const mechanism::RunReport report = mechanism::inspect(scene, {});
-  say(fmt::format("{}: {}: no errors found\n{}", arguments.scene, scene.name, mechanism::report_text(report, scene.units)));
+  say(fmt::format("{}: {}: no errors found\n{}", arguments.scene, scene.name,
+                  mechanism::report_text(report, scene.units)));
   return 0;
 }
 
 void add_run_arguments(CLI::App& command, RunArguments& arguments) {
   command.add_option("scene", arguments.scene, "scene file (formats/SCENE.md)")->required();
-  command.add_option("--set", arguments.settings, "change a value of the scene, e.g. integrator.step=0.005; may be repeated")
+  command
+      .add_option("--set", arguments.settings,
+                  "change a value of the scene, e.g. integrator.step=0.005; may be repeated")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
 }
@@ -189,10 +198,13 @@ struct SeriesArguments {
 
 void add_series_arguments(CLI::App& command, SeriesArguments& arguments) {
   command.add_option("results", arguments.request.files, "results files, also of interrupted runs");
-  command.add_option("--channel,-c", arguments.request.channels, "channel, group or pattern, e.g. nodes/position/beam/tip/*")
+  command
+      .add_option("--channel,-c", arguments.request.channels,
+                  "channel, group or pattern, e.g. nodes/position/beam/tip/*")
       ->allow_extra_args(false);
   command.add_option("--label", arguments.request.labels, "label of each file, in order")->allow_extra_args(false);
-  command.add_option("--reference", arguments.references, "history from a CSV file: file.csv:x column:y column[:label]")
+  command
+      .add_option("--reference", arguments.references, "history from a CSV file: file.csv:x column:y column[:label]")
       ->allow_extra_args(false);
 }
 
@@ -241,12 +253,12 @@ int command_line(int argc, char** argv) {
   RunArguments run_arguments;
   CLI::App* run_command = app.add_subcommand("run", first_line(about_run));
   add_run_arguments(*run_command, run_arguments);
-  run_command->add_option("-o,--output", run_arguments.output, "results file; default: <scene>.results.h5 in this folder");
+  run_command->add_option("-o,--output", run_arguments.output,
+                          "results file; default: <scene>.results.h5 in this folder");
   run_command->callback([&] { code = run(run_arguments); });
 
   RunArguments check_arguments;
-  CLI::App* check_command =
-      app.add_subcommand("check", first_line(about_check));
+  CLI::App* check_command = app.add_subcommand("check", first_line(about_check));
   add_run_arguments(*check_command, check_arguments);
   check_command->callback([&] { code = check(check_arguments); });
 
@@ -254,7 +266,8 @@ int command_line(int argc, char** argv) {
   std::vector<std::string> export_channels;
   CLI::App* export_command = app.add_subcommand("export", first_line(about_export));
   export_command->add_option("results", export_file, "results file, also of an interrupted run")->required();
-  export_command->add_option("--channel,-c", export_channels, "channel, group or pattern; default: all")->allow_extra_args(false);
+  export_command->add_option("--channel,-c", export_channels, "channel, group or pattern; default: all")
+      ->allow_extra_args(false);
   export_command->add_option("-o,--output", export_output, "CSV file, or /dev/stdout")->required();
   export_command->callback([&] {
     if (!is_stream(export_output)) require_output(export_output, {export_file}, Replaces::anything);
@@ -265,7 +278,8 @@ int command_line(int argc, char** argv) {
   std::vector<std::string> channels_patterns;
   CLI::App* channels_command = app.add_subcommand("channels", first_line(about_channels));
   channels_command->add_option("results", channels_file, "results file, also of an interrupted run")->required();
-  channels_command->add_option("--channel,-c", channels_patterns, "group or pattern; default: all")->allow_extra_args(false);
+  channels_command->add_option("--channel,-c", channels_patterns, "group or pattern; default: all")
+      ->allow_extra_args(false);
   channels_command->callback([&] { say(mechanism::channels_table(channels_file, channels_patterns)); });
 
   SeriesArguments plot_arguments;
@@ -279,10 +293,12 @@ int command_line(int argc, char** argv) {
   plot_command->add_option("--y-range", plot_y_range, "lowest and highest ordinate")->expected(2);
   plot_command->add_option("--x-label", plot_options.x_label, "default: name and unit of the abscissa");
   plot_command->add_option("--y-label", plot_options.y_label, "default: quantity and unit of the channels");
-  plot_command->add_flag_callback("--log-x", [&] { plot_options.x_scale = mechanism::AxisScale::logarithmic; }, "logarithmic abscissa");
-  plot_command->add_flag_callback("--log-y", [&] { plot_options.y_scale = mechanism::AxisScale::logarithmic; }, "logarithmic ordinate");
-  plot_command->add_flag_callback("--points", [&] { plot_options.mark = mechanism::Mark::line_with_points; },
-                                  "mark the points");
+  plot_command->add_flag_callback(
+      "--log-x", [&] { plot_options.x_scale = mechanism::AxisScale::logarithmic; }, "logarithmic abscissa");
+  plot_command->add_flag_callback(
+      "--log-y", [&] { plot_options.y_scale = mechanism::AxisScale::logarithmic; }, "logarithmic ordinate");
+  plot_command->add_flag_callback(
+      "--points", [&] { plot_options.mark = mechanism::Mark::line_with_points; }, "mark the points");
   plot_command->callback([&] {
     if (plot_range.size() == 2) plot_options.x_range = {{plot_range[0], plot_range[1]}};
     if (plot_y_range.size() == 2) plot_options.y_range = {{plot_y_range[0], plot_y_range[1]}};
@@ -300,8 +316,14 @@ int command_line(int argc, char** argv) {
   compare_command->callback(
       [&] { say(mechanism::deviations_table(mechanism::compare(complete(compare_arguments), window))); });
 
-  describe(app, {{"run", about_run}, {"check", about_check}, {"export", about_export}, {"channels", about_channels},
-                 {"plot", about_plot}, {"compare", about_compare}}, argc, argv);
+  describe(app,
+           {{"run", about_run},
+            {"check", about_check},
+            {"export", about_export},
+            {"channels", about_channels},
+            {"plot", about_plot},
+            {"compare", about_compare}},
+           argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,4 +1,5 @@
-// Marker: a place and an orientation carried by a node (or by ground), which is all that joints and loads see of a body.
+// Marker: a place and an orientation carried by a node (or by ground), which is all that joints and loads see of a
+// body.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,8 +27,6 @@ inline Eigen::Vector3d marker_velocity(const Marker& marker, const NodeMotion& c
 }
 
 /// R_WM.
-inline Eigen::Matrix3d marker_rotation(const Marker& marker, const NodeMotion& carrier) {
-  return carrier.R * marker.R;
-}
+inline Eigen::Matrix3d marker_rotation(const Marker& marker, const NodeMotion& carrier) { return carrier.R * marker.R; }
 
 }  // namespace tisserand::mechanism

@@ -30,8 +30,7 @@ void add_block(const std::vector<int>& coordinates, std::vector<Position>& posit
 void fill_slots(const SparsePattern& pattern, ElementMap& map) {
   map.slots.clear();
   for (const int column : map.coordinates)
-    for (const int row : map.coordinates)
-      map.slots.push_back(row >= 0 && column >= 0 ? pattern.slot(row, column) : -1);
+    for (const int row : map.coordinates) map.slots.push_back(row >= 0 && column >= 0 ? pattern.slot(row, column) : -1);
 }
 
 /// The coordinates of all elements; every list of maps gets one entry per element of its pool.
@@ -105,8 +104,8 @@ void finish_model(Model& model, formats::LinearSolver solver) {
         positions.push_back({row, coordinate});
         positions.push_back({coordinate, row});
       }
-  const bool dense = solver == formats::LinearSolver::dense ||
-                     (solver == formats::LinearSolver::automatic && size <= dense_limit);
+  const bool dense =
+      solver == formats::LinearSolver::dense || (solver == formats::LinearSolver::automatic && size <= dense_limit);
   model.pattern = std::make_unique<SparsePattern>(
       size, std::move(positions), dense ? SparsePattern::Storage::dense : SparsePattern::Storage::sparse);
 

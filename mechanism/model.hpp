@@ -21,8 +21,8 @@ namespace tisserand::mechanism {
 /// The unit of state: translations and/or rotations at one place.
 struct Node {
   std::string name;
-  int translation = -1;   ///< first velocity coordinate of ẋ, −1 if the node owns no translations
-  int rotation = -1;      ///< first velocity coordinate of Ω, −1 if the node owns no rotations
+  int translation = -1;  ///< first velocity coordinate of ẋ, −1 if the node owns no translations
+  int rotation = -1;     ///< first velocity coordinate of Ω, −1 if the node owns no rotations
 };
 
 /// A named place whose motion is reported; a marker, so that rigid bodies can have many.
@@ -48,9 +48,9 @@ struct Model {
   std::string name;
   Units units;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
-  double length = 1.0;            ///< characteristic length: extent of the nodes (1 if they coincide)
-  double stiffness_scale = 1.0;   ///< largest diagonal entry of ∂r/∂q at the start
-  double mass_scale = 1.0;        ///< largest diagonal entry of ∂r/∂v̇ at the start
+  double length = 1.0;           ///< characteristic length: extent of the nodes (1 if they coincide)
+  double stiffness_scale = 1.0;  ///< largest diagonal entry of ∂r/∂q at the start
+  double mass_scale = 1.0;       ///< largest diagonal entry of ∂r/∂v̇ at the start
 
   Sizes sizes;
   std::vector<Node> nodes;
@@ -58,7 +58,7 @@ struct Model {
 
   std::vector<SuperelementBody> superelements;
   std::vector<ElementMap> superelement_maps;
-  std::vector<int> internal_offset;          ///< superelements + 1; into the internal coordinates
+  std::vector<int> internal_offset;  ///< superelements + 1; into the internal coordinates
   std::vector<std::string> superelement_content_ids;
   std::vector<RigidBody> rigid_bodies;
   std::vector<ElementMap> rigid_maps;
@@ -71,13 +71,13 @@ struct Model {
   std::vector<ConstraintMap> constraint_maps;
   std::vector<Load> loads;
   std::vector<ElementMap> load_maps;
-  std::vector<double> breakpoints;           ///< ascending, of all loads
+  std::vector<double> breakpoints;  ///< ascending, of all loads
 
   /// Factor of each equation and unknown of the iteration matrix: 1/length for rotations and length for constraints of
   /// angles, so that pivots do not depend on the unit of length; and the product for each stored value.
   Eigen::ArrayXd equation_scale;
   Eigen::ArrayXd value_scale;
-  std::unique_ptr<SparsePattern> pattern;    ///< of [A Bᵀ; B 0], boundary coordinates then multipliers
+  std::unique_ptr<SparsePattern> pattern;  ///< of [A Bᵀ; B 0], boundary coordinates then multipliers
 };
 
 /// "beam/tip, rotation y": velocity coordinate (boundary) or constraint row by name, for messages.

@@ -23,7 +23,8 @@ Eigen::Quaterniond exp_quaternion(const Eigen::Vector3d& turn) {
 /// Material increment T(θ) d of a node's rotation for an increment d of the rotation vector θ of the step.
 Eigen::Vector3d turn_increment(const Model& model, const Workspace& workspace, int node, const Eigen::Vector3d& d) {
   if (node < 0 || model.nodes[static_cast<std::size_t>(node)].rotation < 0) return d;
-  return tangent_so3<double>(workspace.displacement.segment<3>(model.nodes[static_cast<std::size_t>(node)].rotation)) * d;
+  return tangent_so3<double>(workspace.displacement.segment<3>(model.nodes[static_cast<std::size_t>(node)].rotation)) *
+         d;
 }
 
 /// d_B of superelement i from the boundary coordinates.
@@ -112,7 +113,8 @@ void apply_jacobian(const Model& model, const Workspace& workspace, const Eigen:
   Eigen::Matrix<double, 12, 1> local;
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const std::vector<int>& coordinates = model.joint_maps[i].coordinates;
-    for (int k = 0; k < 12; ++k) local[k] = coordinates[static_cast<std::size_t>(k)] < 0 ? 0.0 : d[coordinates[static_cast<std::size_t>(k)]];
+    for (int k = 0; k < 12; ++k)
+      local[k] = coordinates[static_cast<std::size_t>(k)] < 0 ? 0.0 : d[coordinates[static_cast<std::size_t>(k)]];
     local.segment<3>(3) = turn_increment(model, workspace, model.joints[i].a.node, local.segment<3>(3));
     local.segment<3>(9) = turn_increment(model, workspace, model.joints[i].b.node, local.segment<3>(9));
     const Vector6d product = workspace.joints[i].B.lazyProduct(local);  // rows beyond the joint's size are zero

@@ -28,7 +28,8 @@ void solve_correction(const Model& model, const Eigen::Ref<const Eigen::VectorXd
 std::string weakest_equation(const Model& model, Workspace& workspace);
 
 /// B T(displacement of the step) d for the Jacobian of the last evaluate(), d in boundary coordinates.
-void apply_jacobian(const Model& model, const Workspace& workspace, const Eigen::VectorXd& d, Eigen::Ref<Eigen::VectorXd> rows);
+void apply_jacobian(const Model& model, const Workspace& workspace, const Eigen::VectorXd& d,
+                    Eigen::Ref<Eigen::VectorXd> rows);
 
 /// x += d, Q <- Q exp(dΘ/2), y += d from the positions of `from`; the only update of positions in the program.
 void retract(const Model& model, const State& from, const Eigen::VectorXd& d, State& to);

@@ -12,9 +12,12 @@ namespace {
 
 const char* outcome_name(RunOutcome outcome) {
   switch (outcome) {
-    case RunOutcome::completed: return "completed";
-    case RunOutcome::not_converged: return "not converged";
-    case RunOutcome::interrupted: return "interrupted";
+    case RunOutcome::completed:
+      return "completed";
+    case RunOutcome::not_converged:
+      return "not converged";
+    case RunOutcome::interrupted:
+      return "interrupted";
   }
   return "";
 }
@@ -42,10 +45,11 @@ std::string report_json(const RunReport& report) {
   json["rejections"] = report.rejections;
   json["largest_constraint_violation"] = report.largest_constraint;
   json["stored_instants"] = report.rows;
-  if (has_balance(report)) json["energy"] = {{"balance", report.balance},
-                    {"largest_balance", report.largest_balance},
-                    {"reference", report.energy_reference},
-                    {"largest_relative_balance", relative_balance(report)}};
+  if (has_balance(report))
+    json["energy"] = {{"balance", report.balance},
+                      {"largest_balance", report.largest_balance},
+                      {"reference", report.energy_reference},
+                      {"largest_relative_balance", relative_balance(report)}};
   json["mobility"] = {{"coordinates", report.mobility.coordinates},
                       {"constraints", report.mobility.constraints},
                       {"rank", report.mobility.rank},
@@ -64,12 +68,14 @@ std::string report_json(const RunReport& report) {
 std::string report_text(const RunReport& report, const Units& units) {
   const std::string time = unit_label(units, 0, 0, 1);
   std::string text;
-  const auto line = [&text](const char* name, const std::string& value) { text += fmt::format("  {:<16} {}\n", name, value); };
+  const auto line = [&text](const char* name, const std::string& value) {
+    text += fmt::format("  {:<16} {}\n", name, value);
+  };
   for (const std::string& note : report.notes) line("note", note);
   line("model", join(report.effects, ", "));
   line("mobility", fmt::format("{} degrees of freedom: {} coordinates, {} constraints of rank {}",
-                               report.mobility.degrees_of_freedom, report.mobility.coordinates, report.mobility.constraints,
-                               report.mobility.rank));
+                               report.mobility.degrees_of_freedom, report.mobility.coordinates,
+                               report.mobility.constraints, report.mobility.rank));
   line("solver", fmt::format("{}, {} unknowns, {} nonzeros", report.solver, report.unknowns, report.nonzeros));
   if (report.steps == 0 && report.outcome == RunOutcome::completed) return text;
   line("outcome", report.reason.empty() ? outcome_name(report.outcome)
@@ -83,7 +89,8 @@ std::string report_text(const RunReport& report, const Units& units) {
     line("", fmt::format("and {} more; the report in the results file lists the first {}",
                          report.rejected - static_cast<long>(shown), report.rejections.size()));
   if (has_balance(report))
-    line("energy", fmt::format("largest balance error {:.2e} of the largest energy or work, at stored instants", relative_balance(report)));
+    line("energy", fmt::format("largest balance error {:.2e} of the largest energy or work, at stored instants",
+                               relative_balance(report)));
   line("constraints", fmt::format("largest violation {:.2e}", report.largest_constraint));
   line("seconds", fmt::format("{:.3f} model, {:.3f} start, {:.3f} steps, {:.3f} output", report.seconds_model,
                               report.seconds_start, report.seconds_steps, report.seconds_output));

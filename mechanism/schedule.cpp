@@ -21,7 +21,8 @@ double instant_tolerance(double step, double time) {
 Schedule::Schedule(const formats::Scene& scene, const std::vector<double>& breakpoints)
     : integrator_(scene.integrator), output_(scene.output), breakpoints_(breakpoints) {
   round_off_ = instant_tolerance(integrator_.step, std::max(std::abs(integrator_.start), std::abs(integrator_.end)));
-  while (breakpoint_ < breakpoints_.size() && breakpoints_[breakpoint_] <= integrator_.start + round_off_) ++breakpoint_;
+  while (breakpoint_ < breakpoints_.size() && breakpoints_[breakpoint_] <= integrator_.start + round_off_)
+    ++breakpoint_;
 }
 
 bool Schedule::output_at_start() const { return integrator_.start >= output_.from - round_off_; }
@@ -100,7 +101,8 @@ void pass_breakpoint(const Model& model, const formats::Scene& scene, State& sta
   state.load_time() = state.time() + side;
   solve_accelerations(model, scene.integrator.step, scene.file, state, workspace);
   const AlphaParameters alpha = alpha_parameters(scene.integrator);
-  start_algorithmic_acceleration(model, alpha.alpha_m - alpha.alpha_f, scene.integrator.step, scene.file, state, workspace);
+  start_algorithmic_acceleration(model, alpha.alpha_m - alpha.alpha_f, scene.integrator.step, scene.file, state,
+                                 workspace);
   evaluate(model, state, workspace);
   state.load_power() = workspace.load_power;
   state.damping_power() = workspace.damping_power;

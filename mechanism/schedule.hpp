@@ -12,8 +12,8 @@
 
 namespace tisserand::mechanism {
 
-/// Steps end at start + k·step, at breakpoints and at the end; after a failure the step is divided by 2, 4, ... until the
-/// next point of the grid.
+/// Steps end at start + k·step, at breakpoints and at the end; after a failure the step is divided by 2, 4, ... until
+/// the next point of the grid.
 class Schedule {
  public:
   Schedule(const formats::Scene& scene, const std::vector<double>& breakpoints);
@@ -40,17 +40,18 @@ class Schedule {
   formats::OutputSpec output_;
   std::vector<double> breakpoints_;
   double round_off_ = 0.0;
-  long grid_ = 1;                 ///< the next point of the grid
-  std::size_t breakpoint_ = 0;    ///< the next breakpoint
+  long grid_ = 1;               ///< the next point of the grid
+  std::size_t breakpoint_ = 0;  ///< the next breakpoint
   int halvings_ = 0;
-  double fraction_ = 0.0;         ///< step after halving, 0: to the target
-  long rows_ = 1;                 ///< output instants passed (interval)
+  double fraction_ = 0.0;  ///< step after halving, 0: to the target
+  long rows_ = 1;          ///< output instants passed (interval)
 };
 
 /// Work, dissipation and energy start from zero here.
 void begin(const Model& model, State& state, Workspace& workspace);
 
-/// After a step that ended on a breakpoint: where loads jump, accelerations and multipliers are solved anew on its far side.
+/// After a step that ended on a breakpoint: where loads jump, accelerations and multipliers are solved anew on its far
+/// side.
 void pass_breakpoint(const Model& model, const formats::Scene& scene, State& state, Workspace& workspace);
 
 }  // namespace tisserand::mechanism

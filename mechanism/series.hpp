@@ -45,9 +45,9 @@ ReferenceColumn parse_reference(const std::string& text);
 /// are left out. Throws Error with file:line:column, or with the names of the columns there are.
 Series read_reference(const ReferenceColumn& column);
 
-/// All series of a request: files in order, in each its channels, then the references. A channel may be missing in some of
-/// the files (a node has other names in other models), not in all of them, and no file may be without any. Throws Error
-/// otherwise, or if nothing is asked for.
+/// All series of a request: files in order, in each its channels, then the references. A channel may be missing in some
+/// of the files (a node has other names in other models), not in all of them, and no file may be without any. Throws
+/// Error otherwise, or if nothing is asked for.
 std::vector<Series> read_series(const SeriesRequest& request);
 
 /// File name without folders and without ".results.h5", ".csv" and the like.

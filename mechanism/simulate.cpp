@@ -25,7 +25,10 @@ struct Run {
   Workspace workspace;
 
   Run(const formats::Scene& scene_, const RunControl& control_)
-      : scene(scene_), control(control_), built(build_model(scene_, read_superelements(scene_))), workspace(built.model) {
+      : scene(scene_),
+        control(control_),
+        built(build_model(scene_, read_superelements(scene_))),
+        workspace(built.model) {
     report.analysis = scene.analysis;
     report.notes = built.notes;
     report.solver = workspace.solver.name();
@@ -80,7 +83,8 @@ void start(Run& run) {
   run.report.mobility = report.mobility;
   run.report.projection = report.projection;
   if (report.massless)
-    run.report.notes.push_back("the mass matrix is singular: accelerations of its massless directions come from statics");
+    run.report.notes.push_back(
+        "the mass matrix is singular: accelerations of its massless directions come from statics");
   if (run.scene.analysis != formats::AnalysisKind::statics) return;
   const std::string free = free_motion(run.built.model, run.built.state, run.workspace);
   if (!free.empty())
@@ -88,7 +92,8 @@ void start(Run& run) {
                 "hold it with a joint, or use `analysis: dynamics`");
 }
 
-void write_row(Run& run, const StepReport& step, double size, formats::ResultsRow& row, formats::ResultsWriter& writer) {
+void write_row(Run& run, const StepReport& step, double size, formats::ResultsRow& row,
+               formats::ResultsWriter& writer) {
   const double before = run.seconds();
   fill_row(run.built.model, run.built.state, run.workspace, row);
   row.step = size;
@@ -102,12 +107,14 @@ void write_row(Run& run, const StepReport& step, double size, formats::ResultsRo
   ++report.rows;
   report.balance = row.balance;
   report.largest_balance = std::max(report.largest_balance, std::abs(row.balance));
-  report.energy_reference = std::max(report.energy_reference, std::abs(row.kinetic) + std::abs(row.strain) + std::abs(row.work));
+  report.energy_reference =
+      std::max(report.energy_reference, std::abs(row.kinetic) + std::abs(row.strain) + std::abs(row.work));
   report.seconds_output += run.seconds() - before;
 }
 
 /// The last accepted state of a run that ends early, if the schedule has not stored it.
-void write_last_row(Run& run, const StepReport& step, double size, formats::ResultsRow& row, formats::ResultsWriter& writer) {
+void write_last_row(Run& run, const StepReport& step, double size, formats::ResultsRow& row,
+                    formats::ResultsWriter& writer) {
   const double time = run.built.state.time();
   if (run.report.steps == 0 || row.time == time || time < run.scene.output.from) return;
   run.workspace.displacement.setZero();
@@ -136,13 +143,15 @@ void integrate(Run& run, formats::ResultsRow& row, formats::ResultsWriter& write
     report.factorisations += step.factorisations;
     if (step.outcome != StepOutcome::accepted) {
       ++report.rejected;
-      const std::string why = fmt::format("t = {:.6g}, step {:.3g}: {}", before, target.time - before, explain(model, step));
+      const std::string why =
+          fmt::format("t = {:.6g}, step {:.3g}: {}", before, target.time - before, explain(model, step));
       if (report.rejections.size() < 20) report.rejections.push_back(why);
       const std::string load = nonfinite_load(run, target.load_time);
       if (load.empty() && schedule.halve(before)) continue;
       report.outcome = RunOutcome::not_converged;
-      report.reason = load.empty() ? fmt::format("{} (after {} halvings of the step)", why, run.scene.integrator.max_halvings)
-                                   : load + "; correct the formula or end the run before";
+      report.reason = load.empty()
+                          ? fmt::format("{} (after {} halvings of the step)", why, run.scene.integrator.max_halvings)
+                          : load + "; correct the formula or end the run before";
       break;
     }
     ++report.steps;
@@ -205,8 +214,12 @@ RunReport simulate(const formats::Scene& scene, const std::string& path, const R
   row.resize(layout);
   formats::ResultsWriter writer(path, layout);
   switch (scene.analysis) {
-    case formats::AnalysisKind::dynamics: integrate(run, row, writer); break;
-    case formats::AnalysisKind::statics: equilibrate(run, row, writer); break;
+    case formats::AnalysisKind::dynamics:
+      integrate(run, row, writer);
+      break;
+    case formats::AnalysisKind::statics:
+      equilibrate(run, row, writer);
+      break;
   }
   RunReport& report = run.report;
   report.results = path;

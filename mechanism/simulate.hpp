@@ -16,9 +16,9 @@ namespace tisserand::mechanism {
 
 /// What the outside world tells a run and hears of it.
 struct RunControl {
-  std::function<bool()> interrupted;                ///< polled once per step
-  std::function<void(double time)> progress;        ///< after every accepted step
-  std::function<double()> clock;                    ///< seconds, for the report
+  std::function<bool()> interrupted;          ///< polled once per step
+  std::function<void(double time)> progress;  ///< after every accepted step
+  std::function<double()> clock;              ///< seconds, for the report
 };
 
 enum class RunOutcome { completed, not_converged, interrupted };
@@ -26,23 +26,23 @@ enum class RunOutcome { completed, not_converged, interrupted };
 struct RunReport {
   formats::AnalysisKind analysis = formats::AnalysisKind::dynamics;
   RunOutcome outcome = RunOutcome::completed;
-  std::string reason;                               ///< of a run that did not complete
-  std::string results;                              ///< path of the results file
-  double time = 0.0;                                ///< reached
+  std::string reason;   ///< of a run that did not complete
+  std::string results;  ///< path of the results file
+  double time = 0.0;    ///< reached
   long steps = 0;
   long iterations = 0;
   long factorisations = 0;
-  long rejected = 0;                                ///< steps taken again with half the size
-  std::vector<std::string> rejections;              ///< the first ones: when and why
-  double largest_constraint = 0.0;                  ///< over all steps
-  long rows = 0;                                    ///< stored instants
-  double balance = 0.0;                             ///< energy balance at the last stored instant
-  double largest_balance = 0.0;                     ///< over the stored instants
-  double energy_reference = 0.0;                    ///< largest kinetic + strain + |work|
+  long rejected = 0;                    ///< steps taken again with half the size
+  std::vector<std::string> rejections;  ///< the first ones: when and why
+  double largest_constraint = 0.0;      ///< over all steps
+  long rows = 0;                        ///< stored instants
+  double balance = 0.0;                 ///< energy balance at the last stored instant
+  double largest_balance = 0.0;         ///< over the stored instants
+  double energy_reference = 0.0;        ///< largest kinetic + strain + |work|
   Mobility mobility;
   Projection projection;
   std::vector<std::string> notes;
-  std::vector<std::string> effects;                 ///< what the model contains: pools and terms that are on
+  std::vector<std::string> effects;  ///< what the model contains: pools and terms that are on
   std::string solver;
   int unknowns = 0, nonzeros = 0;
   double seconds_model = 0.0, seconds_start = 0.0, seconds_steps = 0.0, seconds_output = 0.0;

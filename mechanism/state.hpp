@@ -27,8 +27,8 @@ struct StateField {
   int size = 0;
 };
 
-/// Positions are x (world) and a unit quaternion Q_WN [w x y z] per node and the internal coordinates y; velocities, their
-/// rates and the algorithmic accelerations are [ẋ world; Ω material] per node, then ẏ.
+/// Positions are x (world) and a unit quaternion Q_WN [w x y z] per node and the internal coordinates y; velocities,
+/// their rates and the algorithmic accelerations are [ẋ world; Ω material] per node, then ẏ.
 class State {
  public:
   static constexpr int version = 1;

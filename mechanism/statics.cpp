@@ -28,7 +28,8 @@ double largest_residual(const Model& model, const Workspace& workspace) {
   double largest = 0.0;
   for (const Node& node : model.nodes) {
     if (node.translation >= 0) largest = std::max(largest, largest_of(workspace.residual.segment<3>(node.translation)));
-    if (node.rotation >= 0) largest = std::max(largest, largest_of(workspace.residual.segment<3>(node.rotation)) / model.length);
+    if (node.rotation >= 0)
+      largest = std::max(largest, largest_of(workspace.residual.segment<3>(node.rotation)) / model.length);
   }
   return largest;
 }
@@ -98,7 +99,8 @@ std::string free_motion(const Model& model, State state, Workspace& workspace) {
   return direction;
 }
 
-StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, State& state, Workspace& workspace) {
+StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, State& state,
+                            Workspace& workspace) {
   StaticsReport report;
   state.v().setZero();
   state.vdot().setZero();
@@ -125,12 +127,13 @@ StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& opti
   if (report.outcome == StepOutcome::singular)
     report.explanation = reached == 0.0
                              ? fmt::format("the scene can move freely: nothing holds {}", report.explanation)
-                             : fmt::format("the structure loses its stability at {:.3g} of the load: nothing holds {}", reached,
-                                           report.explanation);
+                             : fmt::format("the structure loses its stability at {:.3g} of the load: nothing holds {}",
+                                           reached, report.explanation);
   if (report.outcome == StepOutcome::diverged || report.outcome == StepOutcome::too_many_iterations)
-    report.explanation = fmt::format("no equilibrium was found beyond {:.3g} of the load (residual {:.2e}, smallest load step "
-                                     "{:.2g}): the load is too large, or the structure loses its stability", reached,
-                                     report.residual, size);
+    report.explanation = fmt::format(
+        "no equilibrium was found beyond {:.3g} of the load (residual {:.2e}, smallest load step "
+        "{:.2g}): the load is too large, or the structure loses its stability",
+        reached, report.residual, size);
   return report;
 }
 

@@ -14,17 +14,18 @@ namespace tisserand::mechanism {
 struct StaticsReport {
   StepOutcome outcome = StepOutcome::accepted;
   int iterations = 0;
-  int load_steps = 0;        ///< taken, after halvings
-  double residual = 0.0;     ///< largest force, largest moment / length
+  int load_steps = 0;     ///< taken, after halvings
+  double residual = 0.0;  ///< largest force, largest moment / length
   double constraint = 0.0;
-  std::string explanation;   ///< of a failure: equation and likely cause
+  std::string explanation;  ///< of a failure: equation and likely cause
 };
 
 /// The coordinate that moves most in a motion of the state at rest that nothing holds, or empty.
 std::string free_motion(const Model& model, State state, Workspace& workspace);
 
-/// Equilibrium under loads (at the state's time) and gravity, from `state` with all velocities zero, in load steps that are
-/// halved where the iteration fails. A scene that can move freely is an outcome `singular` that names the direction.
+/// Equilibrium under loads (at the state's time) and gravity, from `state` with all velocities zero, in load steps that
+/// are halved where the iteration fails. A scene that can move freely is an outcome `singular` that names the
+/// direction.
 [[nodiscard]] StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, State& state,
                                           Workspace& workspace);
 

@@ -15,14 +15,14 @@ namespace tisserand::mechanism {
 struct Energy {
   double kinetic = 0.0;
   double strain = 0.0;
-  double potential = 0.0;      ///< of gravity
+  double potential = 0.0;  ///< of gravity
   double total() const { return kinetic + strain + potential; }
 };
 
 /// When factors are kept: learnt from how long they served. Forgotten at checkpoints together with the factors.
 struct FactorReuse {
-  int kept = 0;        ///< steps that the present factors have served
-  int fresh = 0;       ///< steps to take with new factors after the latest failure
+  int kept = 0;   ///< steps that the present factors have served
+  int fresh = 0;  ///< steps to take with new factors after the latest failure
   int fresh_left = 0;
 };
 
@@ -37,35 +37,35 @@ struct Workspace {
   }
 
   // evaluate()
-  std::vector<NodeMotion> motion;            ///< of every node; one more at the end: ground
+  std::vector<NodeMotion> motion;  ///< of every node; one more at the end: ground
   std::vector<SuperelementScratch> superelements;
   std::vector<JointTerms> joints;
   std::vector<std::array<TimeFunction, 3>> load_functions;
   std::vector<Eigen::Vector3d> load_values;
-  Eigen::VectorXd residual;                  ///< r, boundary coordinates (uncondensed)
-  Eigen::VectorXd constraint;                ///< Φ
-  Eigen::VectorXd constraint_rate;           ///< B v + Φ_t
-  Eigen::VectorXd bias;                      ///< Ḃ v
-  std::array<double, 3> force_scale{};       ///< largest force, moment and internal force of any single term
-  double load_factor = 1.0;                  ///< of loads and gravity (load steps of statics)
+  Eigen::VectorXd residual;             ///< r, boundary coordinates (uncondensed)
+  Eigen::VectorXd constraint;           ///< Φ
+  Eigen::VectorXd constraint_rate;      ///< B v + Φ_t
+  Eigen::VectorXd bias;                 ///< Ḃ v
+  std::array<double, 3> force_scale{};  ///< largest force, moment and internal force of any single term
+  double load_factor = 1.0;             ///< of loads and gravity (load steps of statics)
   double load_power = 0.0;
   double damping_power = 0.0;
-  std::vector<double> values;                ///< of the iteration matrix [A/s Bᵀ; B 0]
-  double matrix_scale = 1.0;                 ///< s
+  std::vector<double> values;  ///< of the iteration matrix [A/s Bᵀ; B 0]
+  double matrix_scale = 1.0;   ///< s
 
   // Newton's iteration
   LinearSolver solver;
-  TangentCoefficients factored;              ///< coefficients of the factors that are kept
+  TangentCoefficients factored;  ///< coefficients of the factors that are kept
   bool has_factors = false;
   FactorReuse reuse;
-  Eigen::VectorXd unknowns;                  ///< right-hand side and solution of the global system
-  Eigen::VectorXd increment;                 ///< of the velocity coordinates, boundary and internal
-  Eigen::VectorXd correction;                ///< the same for the position correction of stabilised index 2
-  Eigen::VectorXd displacement;              ///< total increment of the positions over the step
-  Eigen::VectorXd position_correction;       ///< total correction over the step
-  Eigen::VectorXd multipliers;               ///< increment of λ of the current iteration
-  Eigen::VectorXd element_boundary;          ///< of one superelement
-  State previous;                            ///< the last accepted state
+  Eigen::VectorXd unknowns;             ///< right-hand side and solution of the global system
+  Eigen::VectorXd increment;            ///< of the velocity coordinates, boundary and internal
+  Eigen::VectorXd correction;           ///< the same for the position correction of stabilised index 2
+  Eigen::VectorXd displacement;         ///< total increment of the positions over the step
+  Eigen::VectorXd position_correction;  ///< total correction over the step
+  Eigen::VectorXd multipliers;          ///< increment of λ of the current iteration
+  Eigen::VectorXd element_boundary;     ///< of one superelement
+  State previous;                       ///< the last accepted state
 };
 
 /// Motion of a node at the last evaluate(); −1: ground.

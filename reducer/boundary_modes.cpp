@@ -3,8 +3,8 @@
 
 #include <array>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
+#include <Eigen/QR>
 
 #include "common/error.hpp"
 #include "common/rotation.hpp"

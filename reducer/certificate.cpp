@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 
 #include "common/error.hpp"
 #include "common/text.hpp"

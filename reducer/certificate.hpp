@@ -14,14 +14,14 @@ namespace tisserand::reducer {
 /// What S̄ and M̄ alone tell. Frequencies in 1/time of the units.
 struct FileCertificate {
   formats::RigidProperties rigid;
-  double rigid_residual = 0.0;                 ///< max |S̄ R|/|S̄|, rotations scaled
+  double rigid_residual = 0.0;  ///< max |S̄ R|/|S̄|, rotations scaled
   double characteristic_length = 1.0;
-  std::vector<double> fixed_frequency;         ///< all internal coordinates, boundary held
-  std::vector<double> free_frequency;          ///< elastic, nothing held; at most 20
-  std::string free_frequency_note;             ///< why there are none
-  double stiffness_condition = 0.0;            ///< largest over smallest eigenvalue ≠ 0 of the scaled S̄
-  double mass_condition = 0.0;                 ///< likewise of M̄
-  std::vector<std::string> massless;           ///< directions that move no mass
+  std::vector<double> fixed_frequency;  ///< all internal coordinates, boundary held
+  std::vector<double> free_frequency;   ///< elastic, nothing held; at most 20
+  std::string free_frequency_note;      ///< why there are none
+  double stiffness_condition = 0.0;     ///< largest over smallest eigenvalue ≠ 0 of the scaled S̄
+  double mass_condition = 0.0;          ///< likewise of M̄
+  std::vector<std::string> massless;    ///< directions that move no mass
   std::vector<std::string> warnings;
 };
 
@@ -30,19 +30,19 @@ struct ModelCertificate {
   std::string content_id;
   std::string part;
   int nodes = 0, elements = 0, coordinates = 0;
-  formats::RigidProperties rigid;              ///< of the mesh, from its full mass matrix
+  formats::RigidProperties rigid;  ///< of the mesh, from its full mass matrix
   int modes_requested = 0, modes_kept = 0, modes_available = 0;
   std::optional<double> cutoff;
   std::optional<double> first_dropped_frequency;
   std::string eigenvalue_solver;
   double mode_residual = 0.0;
   int modes_counted = 0;
-  double boundary_rigid_defect = 0.0;          ///< before rigid motions were made exact
+  double boundary_rigid_defect = 0.0;  ///< before rigid motions were made exact
   double rigid_residual_before_projection = 0.0;
   double stiffness_coupling = 0.0;
   double orthonormality = 0.0;
-  std::vector<double> free_frequency;          ///< elastic frequencies of the full model; empty for large parts
-  std::vector<std::string> notes;              ///< whole sentences, for example about a completed cluster
+  std::vector<double> free_frequency;  ///< elastic frequencies of the full model; empty for large parts
+  std::vector<std::string> notes;      ///< whole sentences, for example about a completed cluster
 };
 
 /// `report` is what check() returned for `element`.

@@ -122,8 +122,9 @@ std::string frequency_table(const FileCertificate& file, const std::vector<doubl
   const std::size_t count = std::max(file.fixed_frequency.size(), file.free_frequency.size());
   if (count == 0) return "";
   const std::string unit = units.named() ? (units.time.factor == 1.0 ? "Hz" : "1/" + units.time.label) : "1/time";
-  std::string text = fmt::format("frequencies [{}]\n  {:>4} {:>16} {:>16} {:>16} {:>10}\n", unit, "mode", "boundary fixed",
-                                 "free, reduced", full.empty() ? "" : "free, full", full.empty() ? "" : "error");
+  std::string text =
+      fmt::format("frequencies [{}]\n  {:>4} {:>16} {:>16} {:>16} {:>10}\n", unit, "mode", "boundary fixed",
+                  "free, reduced", full.empty() ? "" : "free, full", full.empty() ? "" : "error");
   const auto cell = [](const std::vector<double>& v, std::size_t k) {
     return k < v.size() ? fmt::format("{:.8g}", v[k]) : std::string("-");
   };
@@ -139,10 +140,10 @@ std::string frequency_table(const FileCertificate& file, const std::vector<doubl
 }
 
 std::string model_text(const ModelCertificate& c) {
-  std::string text = fmt::format("{:<19}{} nodes, {} elements, {} coordinates ({})\n", "full model", c.nodes, c.elements,
-                                 c.coordinates, c.part);
-  text += fmt::format("{:<19}{} kept ({} asked for, {} exist), {} counted below the cut", "internal modes", c.modes_kept,
-                      c.modes_requested, c.modes_available, c.modes_counted);
+  std::string text = fmt::format("{:<19}{} nodes, {} elements, {} coordinates ({})\n", "full model", c.nodes,
+                                 c.elements, c.coordinates, c.part);
+  text += fmt::format("{:<19}{} kept ({} asked for, {} exist), {} counted below the cut", "internal modes",
+                      c.modes_kept, c.modes_requested, c.modes_available, c.modes_counted);
   if (c.first_dropped_frequency) text += fmt::format(", first dropped at {:.8g}", *c.first_dropped_frequency);
   text += "\n";
   if (!c.eigenvalue_solver.empty())
@@ -179,7 +180,8 @@ std::optional<ModelCertificate> read_certificate(const std::string& superelement
 
 std::string certificate_text(const formats::Superelement& element, const FileCertificate& file,
                              const std::optional<ModelCertificate>& model) {
-  std::string text = fmt::format("{:<19}{} ({}, by {})\n", "superelement", element.name, element.method, element.producer);
+  std::string text =
+      fmt::format("{:<19}{} ({}, by {})\n", "superelement", element.name, element.method, element.producer);
   text += fmt::format("{:<19}{}\n", "content id", element.content_id.substr(0, 16));
   const auto internal = static_cast<Eigen::Index>(file.fixed_frequency.size());
   text += fmt::format("{:<19}{} ({} coordinates) and {} internal coordinates\n", "boundary nodes",

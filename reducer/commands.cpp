@@ -29,7 +29,8 @@ std::vector<formats::Override> overrides(const Arguments& arguments) {
 /// The input's path without .part.yaml or .yaml, plus `ending`.
 std::string beside(const std::string& input, const std::string& ending) {
   for (const std::string known : {".part.yaml", ".part.yml", ".yaml", ".yml"})
-    if (input.size() > known.size() && input.ends_with(known)) return input.substr(0, input.size() - known.size()) + ending;
+    if (input.size() > known.size() && input.ends_with(known))
+      return input.substr(0, input.size() - known.size()) + ending;
   return input + ending;
 }
 
@@ -64,7 +65,8 @@ int mesh(const Arguments& arguments) {
   const std::string output = arguments.output.empty() ? beside(arguments.input, ".msh") : arguments.output;
   require_output(output, {arguments.input}, Replaces::anything);
   const Mesh result = write_gmsh_file(part, output);
-  say(fmt::format("{} nodes, {} elements\nwritten {} (open it with gmsh)\n", result.nodes(), result.beams.size(), output));
+  say(fmt::format("{} nodes, {} elements\nwritten {} (open it with gmsh)\n", result.nodes(), result.beams.size(),
+                  output));
   return 0;
 }
 
@@ -74,9 +76,12 @@ int perform(const Arguments& arguments, char** argv) {
   prepare_environment();
   restart_if_blas_is_slow(argv);
   switch (arguments.command) {
-    case Command::run: return run(arguments);
-    case Command::show: return show(arguments);
-    case Command::mesh: return mesh(arguments);
+    case Command::run:
+      return run(arguments);
+    case Command::show:
+      return show(arguments);
+    case Command::mesh:
+      return mesh(arguments);
   }
   return 1;
 }

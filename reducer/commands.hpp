@@ -15,8 +15,9 @@ struct Arguments {
   std::vector<std::string> set;  ///< path=value
 };
 
-/// Returns the exit code; throws Error. Two definitions: commands.cpp does the work (program reducer-solver), launch.cpp
-/// hands over to that program (program reducer), so that help and usage errors need not wait for 180 shared libraries.
+/// Returns the exit code; throws Error. Two definitions: commands.cpp does the work (program reducer-solver),
+/// launch.cpp hands over to that program (program reducer), so that help and usage errors need not wait for 180 shared
+/// libraries.
 int perform(const Arguments& arguments, char** argv);
 
 }  // namespace tisserand::reducer

@@ -17,9 +17,9 @@ Factor::Factor(const Matrix& A) {
   MatFactorInfo info;
   petsc_check(MatFactorInfoInitialize(&info));
   petsc_check(MatGetFactor(A.get(), MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factor_.out()));
-  petsc_check(MatMumpsSetIcntl(factor_.get(), 24, 1));      // null pivots are found, not fatal
-  petsc_check(MatMumpsSetCntl(factor_.get(), 3, 1e-14));    // ... below this share of the scaled matrix's norm
-  petsc_check(MatMumpsSetIcntl(factor_.get(), 14, 60));     // per cent of memory beyond the estimate, for pivoting
+  petsc_check(MatMumpsSetIcntl(factor_.get(), 24, 1));    // null pivots are found, not fatal
+  petsc_check(MatMumpsSetCntl(factor_.get(), 3, 1e-14));  // ... below this share of the scaled matrix's norm
+  petsc_check(MatMumpsSetIcntl(factor_.get(), 14, 60));   // per cent of memory beyond the estimate, for pivoting
   petsc_check(MatCholeskyFactorSymbolic(factor_.get(), A.get(), nullptr, &info));
   petsc_check(MatCholeskyFactorNumeric(factor_.get(), A.get(), &info));
   MatFactorError failure = MAT_FACTOR_NOERROR;

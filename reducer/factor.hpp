@@ -1,4 +1,5 @@
-// Factorisation L D Lᵀ of a sparse symmetric matrix (MUMPS through PETSc): solve blocks, count signs, find null vectors.
+// Factorisation L D Lᵀ of a sparse symmetric matrix (MUMPS through PETSc): solve blocks, count signs, find null
+// vectors.
 #pragma once
 
 #include <Eigen/Core>

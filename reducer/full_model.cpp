@@ -14,7 +14,8 @@
 namespace tisserand::reducer {
 namespace {
 
-Eigen::Matrix<double, 6, 6> rigid_mass_about(const SystemMatrices& system, const Mesh& mesh, const Eigen::Vector3d& point) {
+Eigen::Matrix<double, 6, 6> rigid_mass_about(const SystemMatrices& system, const Mesh& mesh,
+                                             const Eigen::Vector3d& point) {
   Eigen::MatrixXd R = rigid_motions(mesh);
   R.rightCols<3>() += R.leftCols<3>() * skew<double>(point);
   return R.transpose() * multiply(system.mass, R);

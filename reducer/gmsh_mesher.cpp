@@ -4,9 +4,9 @@
 #include <map>
 #include <unordered_map>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <gmsh.h>
+#include <Eigen/Geometry>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
@@ -38,7 +38,8 @@ auto with_gmsh(const std::string& where, Work work) {
   }
 }
 
-/// X(s), s in [0, 1] at constant speed: a straight line, or a circular arc center + r (cos(s angle) e1 + sin(s angle) e2).
+/// X(s), s in [0, 1] at constant speed: a straight line, or a circular arc center + r (cos(s angle) e1 + sin(s angle)
+/// e2).
 struct Curve {
   Eigen::Vector3d from, to;
   double angle = 0.0;  ///< 0: straight
@@ -58,8 +59,8 @@ Curve circle_arc(const Eigen::Vector3d& from, const Eigen::Vector3d& through, co
   const Eigen::Vector3d a = through - from, b = to - from;
   const Eigen::Vector3d n = a.cross(b);
   if (!(n.norm() > 1e-9 * a.norm() * b.norm()))
-    throw Error(fmt::format("beam '{}': the points of the arc are on a straight line or coincide", line.name), line.where,
-                "move `through` off the line between `from` and `to`, or leave it out for a straight beam");
+    throw Error(fmt::format("beam '{}': the points of the arc are on a straight line or coincide", line.name),
+                line.where, "move `through` off the line between `from` and `to`, or leave it out for a straight beam");
   Curve curve{from, to};
   curve.center = from + (b.squaredNorm() * n.cross(a) - a.squaredNorm() * n.cross(b)) / (2.0 * n.squaredNorm());
   curve.radius = (from - curve.center).norm();
@@ -110,8 +111,9 @@ Curve curve_of(const PointTable& points, const formats::BeamLine& line) {
   const Eigen::Vector3d from = find_point(points, line.from, user, line.where).position;
   const Eigen::Vector3d to = find_point(points, line.to, user, line.where).position;
   if (!((to - from).norm() > 1e-12 * (1.0 + from.norm() + to.norm())))
-    throw Error(fmt::format("beam '{}' has zero length: '{}' and '{}' are at the same place", line.name, line.from, line.to),
-                line.where, "move one of the points (a full circle is drawn as two arcs)");
+    throw Error(
+        fmt::format("beam '{}' has zero length: '{}' and '{}' are at the same place", line.name, line.from, line.to),
+        line.where, "move one of the points (a full circle is drawn as two arcs)");
   return line.through ? circle_arc(from, *line.through, to, line) : Curve{from, to};
 }
 
@@ -148,8 +150,7 @@ MeshedLine add_line(const PointTable& points, const formats::BeamLine& line, Gms
   const Curve& curve = result.curve;
   result.elements = element_count(curve, line);
   for (const std::string& name : {line.from, line.to})
-    if (!model.point_tag.contains(name))
-      model.point_tag[name] = gmsh_point(points.at(name)->position);
+    if (!model.point_tag.contains(name)) model.point_tag[name] = gmsh_point(points.at(name)->position);
   const int first = model.point_tag[line.from], last = model.point_tag[line.to];
   if (curve.angle == 0.0) {
     result.curve_tags = {gmsh::model::geo::addLine(first, last)};
@@ -242,8 +243,8 @@ void append_beams(const formats::Part& part, const formats::BeamLine& line, cons
     const Eigen::Vector3d axis = mesh.position.col(nodes[e + 1]) - mesh.position.col(nodes[e]);
     const std::optional<Eigen::Matrix3d> R_PE = beam_axes(axis, orientation);
     if (!R_PE)
-      throw Error(fmt::format("beam '{}': orientation ({:g}, {:g}, {:g}) is parallel to the beam at element {}", line.name,
-                              orientation.x(), orientation.y(), orientation.z(), e + 1),
+      throw Error(fmt::format("beam '{}': orientation ({:g}, {:g}, {:g}) is parallel to the beam at element {}",
+                              line.name, orientation.x(), orientation.y(), orientation.z(), e + 1),
                   line.where, "give an orientation that is nowhere parallel to the beam");
     mesh.beams.push_back({nodes[e], nodes[e + 1], *R_PE, property});
   }
@@ -271,7 +272,8 @@ void append_masses_and_boundary(const formats::Part& part, const std::map<std::s
   for (const formats::BoundaryNode& b : part.boundary) {
     const std::string user = fmt::format("boundary node '{}'", b.name);
     if (!b.translations && !b.rotations)
-      throw Error(user + " retains neither translations nor rotations", b.where, "retain one of them or remove the node");
+      throw Error(user + " retains neither translations nor rotations", b.where,
+                  "retain one of them or remove the node");
     const int n = node_of_point(points, node, b.at, user, b.where);
     if (const auto [other, fresh] = used.emplace(n, b.name); !fresh)
       throw Error(fmt::format("{} is at the same point as boundary node '{}'", user, other->second), b.where,

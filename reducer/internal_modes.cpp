@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 
 #include "common/error.hpp"
 #include "common/rotation.hpp"
@@ -14,16 +14,16 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Fixed numbers without simple ratios: equal roles of x, y and z become unequal. Rotations ascend, so that bending in x-y
-/// (translation y, rotation z) comes before bending in x-z.
-const Eigen::Matrix<double, 6, 1> component_weight = (Eigen::Matrix<double, 6, 1>() << 1.0, 0.83, 0.67, 0.31, 0.41,
-                                                      0.53).finished();
+/// Fixed numbers without simple ratios: equal roles of x, y and z become unequal. Rotations ascend, so that bending in
+/// x-y (translation y, rotation z) comes before bending in x-z.
+const Eigen::Matrix<double, 6, 1> component_weight =
+    (Eigen::Matrix<double, 6, 1>() << 1.0, 0.83, 0.67, 0.31, 0.41, 0.53).finished();
 
 /// Fixed functions that choose a basis inside clusters and signs; all depend on the body, none on its node numbers.
 struct Gauge {
-  Eigen::MatrixXd rigid;    ///< n_I x 6: (M R)_I, weighted; R about the centre of mass, rotations scaled
-  Eigen::VectorXd square;   ///< n_I: weights of a quadratic form
-  Eigen::VectorXd linear;   ///< n_I: weights of a linear form
+  Eigen::MatrixXd rigid;   ///< n_I x 6: (M R)_I, weighted; R about the centre of mass, rotations scaled
+  Eigen::VectorXd square;  ///< n_I: weights of a quadratic form
+  Eigen::VectorXd linear;  ///< n_I: weights of a linear form
   double mass = 0.0;
 };
 
@@ -54,7 +54,8 @@ Gauge make_gauge(const InternalProblem& problem) {
   for (Eigen::Index i = 0; i < p.n_I(); ++i) {
     const Eigen::Vector3d x = (mesh.position.col(p.internal[i] / 6) - center) / length;
     const int component = p.internal[i] % 6;
-    const double place = x.dot(Eigen::Vector3d(0.9, 0.7, 0.5));  // exp: all powers, so no symmetry of a mode hides from it
+    const double place =
+        x.dot(Eigen::Vector3d(0.9, 0.7, 0.5));  // exp: all powers, so no symmetry of a mode hides from it
     gauge.square[i] = mass[i] * component_weight[component] * std::exp(place);
     gauge.linear[i] = gauge.square[i] * (component < 3 ? 1.0 : 1.0 / length);
   }
@@ -88,7 +89,9 @@ void fix_sign(const Gauge& gauge, Eigen::Ref<Eigen::VectorXd> phi) {
   Eigen::Index largest = 0;
   phi.cwiseAbs().maxCoeff(&largest);
   const double limit = 1e-5 * std::sqrt(gauge.mass);
-  const double decisive = std::abs(participation) > limit ? participation : std::abs(place) > limit ? place : phi[largest];
+  const double decisive = std::abs(participation) > limit ? participation
+                          : std::abs(place) > limit       ? place
+                                                          : phi[largest];
   if (decisive < 0.0) phi = -phi;
 }
 
@@ -139,7 +142,8 @@ int finite_mode_count(const Mesh& mesh, const Partition& p) {
       std::copy_if(components.begin(), components.end(), std::back_inserter(part),
                    [low](int c) { return c >= low && c < low + 3; });
       if (part.empty()) continue;
-      const Eigen::VectorXd value = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(block[node](part, part)).eigenvalues();
+      const Eigen::VectorXd value =
+          Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(block[node](part, part)).eigenvalues();
       count += static_cast<int>((value.array() > 1e-12 * value.maxCoeff()).count());
     }
   }

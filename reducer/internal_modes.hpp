@@ -11,14 +11,14 @@
 namespace tisserand::reducer {
 
 struct InternalModes {
-  Eigen::VectorXd lambda;               ///< m; ω², ascending; equal within a cluster
-  Eigen::MatrixXd Phi;                  ///< n_I x m, Φᵀ M_II Φ = 1
+  Eigen::VectorXd lambda;  ///< m; ω², ascending; equal within a cluster
+  Eigen::MatrixXd Phi;     ///< n_I x m, Φᵀ M_II Φ = 1
   int requested = 0;
   int available = 0;                    ///< finite eigenvalues of (S_II, M_II)
   std::optional<double> first_dropped;  ///< ω² of the lowest mode left out
   std::string solver;
-  double residual = 0.0;                ///< Spectrum::residual
-  int counted = 0;                      ///< Spectrum::counted
+  double residual = 0.0;  ///< Spectrum::residual
+  int counted = 0;        ///< Spectrum::counted
 };
 
 /// What the internal modes are computed from.
@@ -37,8 +37,8 @@ int finite_mode_count(const Mesh& mesh, const Partition& p);
 InternalModes internal_modes(const InternalProblem& problem, const formats::ModeSelection& selection);
 
 /// Fixes order and signs: inside a cluster the basis diagonalises the participation of the six rigid
-/// motions with fixed unequal weights, and if that is not unique, a fixed function of place; signs by the same functions.
-/// Cluster members share their mean eigenvalue.
+/// motions with fixed unequal weights, and if that is not unique, a fixed function of place; signs by the same
+/// functions. Cluster members share their mean eigenvalue.
 void fix_basis(const InternalProblem& problem, Eigen::VectorXd& lambda, Eigen::MatrixXd& Phi);
 
 }  // namespace tisserand::reducer

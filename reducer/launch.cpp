@@ -1,4 +1,5 @@
-// The quick front: sets the environment that the libraries of the solver read while they are loaded, then becomes the solver.
+// The quick front: sets the environment that the libraries of the solver read while they are loaded, then becomes the
+// solver.
 #include <unistd.h>
 
 #include <array>

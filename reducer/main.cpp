@@ -1,12 +1,13 @@
-// The command line of stage 1: reducer run, show, mesh. Linked twice: into the quick front and into the solver behind it.
+// The command line of stage 1: reducer run, show, mesh. Linked twice: into the quick front and into the solver behind
+// it.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "common/console.hpp"
 #include "common/error.hpp"
@@ -84,7 +85,8 @@ int main(int argc, char** argv) {
   CLI::App* const run_command = add_command(app, "run", about_run, asked);
   run_command->add_option("part", arguments.input, "part.yaml")->required();
   run_command->add_option("-o,--output", arguments.output, "superelement file (default: beside the part)");
-  run_command->add_option("--set", arguments.set, "path=value: override a value of the part, e.g. modes=4")->allow_extra_args(false);
+  run_command->add_option("--set", arguments.set, "path=value: override a value of the part, e.g. modes=4")
+      ->allow_extra_args(false);
   CLI::App* const show_command = add_command(app, "show", about_show, asked);
   show_command->add_option("file", arguments.input, "name.superelement.h5")->required();
   CLI::App* const mesh_command = add_command(app, "mesh", about_mesh, asked);
@@ -96,9 +98,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return error.get_exit_code() == 0 ? app.exit(error) : tell_usage(error, asked);
   }
-  arguments.command = run_command->parsed()    ? Command::run
-                      : show_command->parsed() ? Command::show
-                                               : Command::mesh;
+  arguments.command = run_command->parsed() ? Command::run : show_command->parsed() ? Command::show : Command::mesh;
   try {
     return tisserand::reducer::perform(arguments, argv);
   } catch (const tisserand::Error& error) {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numeric>
 
+#include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
-#include <fmt/format.h>
 
 #include "common/error.hpp"
 #include "common/rotation.hpp"
@@ -51,7 +51,8 @@ NearestPair nearest_pair(const Mesh& mesh, const std::vector<int>& piece, int ch
       if (mesh.position(0, b) - mesh.position(0, a) > best.distance) break;
       if ((piece[a] == chosen) == (piece[b] == chosen)) continue;
       const double distance = (mesh.position.col(a) - mesh.position.col(b)).norm();
-      if (distance < best.distance) best = piece[a] == chosen ? NearestPair{a, b, distance} : NearestPair{b, a, distance};
+      if (distance < best.distance)
+        best = piece[a] == chosen ? NearestPair{a, b, distance} : NearestPair{b, a, distance};
     }
   return best;
 }
@@ -89,7 +90,9 @@ std::string motion_text(const Eigen::Matrix<double, 6, 1>& motion, const Eigen::
 std::string boundary_text(const Mesh& mesh) {
   std::vector<std::string> words;
   for (const MeshBoundary& b : mesh.boundary)
-    words.push_back(b.name + (b.translations && b.rotations ? "" : b.translations ? " (translations)" : " (rotations)"));
+    words.push_back(b.name + (b.translations && b.rotations ? ""
+                              : b.translations              ? " (translations)"
+                                                            : " (rotations)"));
   return join(words, ", ");
 }
 
@@ -122,10 +125,11 @@ void check_connected(const Mesh& mesh, const std::string& where) {
                                 std::count(piece.begin(), piece.end(), first[i])));
   if (first.size() > names.size()) names.push_back("...");
   const NearestPair gap = nearest_pair(mesh, piece, first[1]);
-  throw Error(fmt::format("the part is in {} pieces that no beam connects: {}", first.size(), join(names, ", ")), where,
-              fmt::format("connect them: the nearest nodes are {} and {}, {:.6g} apart; beams are connected only where they "
-                          "use a point of the same name",
-                          mesh.node_label[gap.inside], mesh.node_label[gap.outside], gap.distance));
+  throw Error(
+      fmt::format("the part is in {} pieces that no beam connects: {}", first.size(), join(names, ", ")), where,
+      fmt::format("connect them: the nearest nodes are {} and {}, {:.6g} apart; beams are connected only where they "
+                  "use a point of the same name",
+                  mesh.node_label[gap.inside], mesh.node_label[gap.outside], gap.distance));
 }
 
 void check_boundary_holds(const Mesh& mesh, const std::string& where) {
@@ -134,7 +138,8 @@ void check_boundary_holds(const Mesh& mesh, const std::string& where) {
   int translational = 0;
   for (const MeshBoundary& b : mesh.boundary)
     if (b.translations) center += mesh.position.col(b.node), ++translational;
-  center = translational > 0 ? Eigen::Vector3d(center / translational) : Eigen::Vector3d(mesh.position.rowwise().mean());
+  center =
+      translational > 0 ? Eigen::Vector3d(center / translational) : Eigen::Vector3d(mesh.position.rowwise().mean());
 
   Eigen::MatrixXd seen = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(mesh.boundary.size()), 6);
   for (std::size_t b = 0; b < mesh.boundary.size(); ++b) {
@@ -152,8 +157,9 @@ void check_boundary_holds(const Mesh& mesh, const std::string& where) {
   const Eigen::MatrixXd free = echelon(svd.matrixV().rightCols(6 - rank));
   std::vector<std::string> words;
   for (Eigen::Index k = 0; k < free.cols(); ++k) words.push_back(motion_text(free.col(k), center, length));
-  throw Error(fmt::format("the boundary {} does not hold the part; still free: {}", boundary_text(mesh), join(words, "; ")),
-              where, "retain more coordinates: a boundary node with translations and rotations, or more boundary nodes");
+  throw Error(
+      fmt::format("the boundary {} does not hold the part; still free: {}", boundary_text(mesh), join(words, "; ")),
+      where, "retain more coordinates: a boundary node with translations and rotations, or more boundary nodes");
 }
 
 }  // namespace tisserand::reducer

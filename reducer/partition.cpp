@@ -17,7 +17,8 @@ struct SplitMatrix {
 /// II as a symmetric matrix again (upper triangle): the coordinates of a node may be torn apart, so blocks of one.
 Matrix internal_block(Mat full, const Partition& p) {
   IS rows = nullptr;
-  petsc_check(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(p.n_I()), p.internal.data(), PETSC_COPY_VALUES, &rows));
+  petsc_check(
+      ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(p.n_I()), p.internal.data(), PETSC_COPY_VALUES, &rows));
   Matrix general, symmetric;
   petsc_check(MatCreateSubMatrix(full, rows, rows, MAT_INITIAL_MATRIX, general.out()));
   ISDestroy(&rows);
@@ -40,8 +41,10 @@ SplitMatrix split_one(const Matrix& matrix, const Partition& p) {
     const PetscScalar* value = nullptr;
     petsc_check(MatGetRow(full.get(), p.boundary[b], &count, &column, &value));
     for (PetscInt k = 0; k < count; ++k) {
-      if (boundary_row[column[k]] >= 0) result.BB(b, boundary_row[column[k]]) = value[k];
-      else coupling.emplace_back(internal_row[column[k]], b, value[k]);
+      if (boundary_row[column[k]] >= 0)
+        result.BB(b, boundary_row[column[k]]) = value[k];
+      else
+        coupling.emplace_back(internal_row[column[k]], b, value[k]);
     }
     petsc_check(MatRestoreRow(full.get(), p.boundary[b], &count, &column, &value));
   }

@@ -1,4 +1,5 @@
-// Which coordinates other bodies will see (boundary, B) and which are condensed (internal, I), and the blocks of S and M.
+// Which coordinates other bodies will see (boundary, B) and which are condensed (internal, I), and the blocks of S and
+// M.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,5 @@
-// The thin layer over PETSc and SLEPc: start and end, owned matrices, errors as exceptions. Their headers stay in .cpp files.
+// The thin layer over PETSc and SLEPc: start and end, owned matrices, errors as exceptions. Their headers stay in .cpp
+// files.
 #pragma once
 
 #include <string>

@@ -61,7 +61,8 @@ void Phases::watch() {
     const std::size_t phase = phases_.size();
     const Clock::time_point start = phases_.back().start;
     const auto is_over = [&] { return finished_ || !running_ || phases_.size() != phase; };
-    for (int wait_ms = 1000; !changed_.wait_until(lock, start + std::chrono::milliseconds(wait_ms), is_over); wait_ms *= 2)
+    for (int wait_ms = 1000; !changed_.wait_until(lock, start + std::chrono::milliseconds(wait_ms), is_over);
+         wait_ms *= 2)
       fmt::print(stderr, "{} ... {} s\n", phases_.back().name, wait_ms / 1000);
   }
 }

@@ -13,7 +13,7 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr int small_part = 6000;      ///< coordinates up to which the full model's free frequencies are computed too
+constexpr int small_part = 6000;  ///< coordinates up to which the full model's free frequencies are computed too
 constexpr int compared_frequencies = 12;
 
 double frequency(double lambda) { return std::sqrt(lambda) / (2.0 * EIGEN_PI); }

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 // clang-format off: the LAPACK header does not compile before the others
-#include <slepceps.h>
 #include <petscblaslapack.h>
+#include <slepceps.h>
 // clang-format on
 
 #include "common/error.hpp"
@@ -76,7 +76,8 @@ class KrylovSchur {
     EigenPairs pairs{Eigen::VectorXd(converged), Eigen::MatrixXd(size, converged)};
     for (PetscInt k = 0; k < converged; ++k) {
       Vec x = nullptr;
-      petsc_check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(size), pairs.vector.col(k).data(), &x));
+      petsc_check(
+          VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(size), pairs.vector.col(k).data(), &x));
       petsc_check(EPSGetEigenpair(eps_, k, &pairs.value[k], nullptr, x, nullptr));
       VecDestroy(&x);
     }
@@ -107,8 +108,8 @@ void append(const EigenPairs& more, EigenPairs& pairs) {
   pairs.vector.rightCols(added) = more.vector;
 }
 
-/// Drops pairs whose 1/(λ − shift) is round-off beside that of the first: nearly massless coordinates have such. Expects
-/// and leaves ascending order.
+/// Drops pairs whose 1/(λ − shift) is round-off beside that of the first: nearly massless coordinates have such.
+/// Expects and leaves ascending order.
 void discard_unresolved(double shift, EigenPairs& pairs) {
   constexpr double resolved = 1e-13;
   const Eigen::ArrayXd mu = (pairs.value.array() - shift).inverse();
@@ -119,9 +120,9 @@ void discard_unresolved(double shift, EigenPairs& pairs) {
   pairs.vector = Eigen::MatrixXd(pairs.vector(Eigen::all, good));
 }
 
-/// One step of inverse iteration, y = (S − shift M)⁻¹ M x, with λ − shift = yᵀMx/yᵀMy: removes from x what nearly massless
-/// coordinates hide from the solver, whose inner product is that of M. Not for the pairs far above the first, where the
-/// step would amplify the round-off along the first. Then sorts and normalises.
+/// One step of inverse iteration, y = (S − shift M)⁻¹ M x, with λ − shift = yᵀMx/yᵀMy: removes from x what nearly
+/// massless coordinates hide from the solver, whose inner product is that of M. Not for the pairs far above the first,
+/// where the step would amplify the round-off along the first. Then sorts and normalises.
 void purify(const Pencil& pencil, EigenPairs& pairs) {
   constexpr double far = 1e4;
   discard_unresolved(pencil.shift, pairs);
@@ -206,8 +207,7 @@ Spectrum krylov_spectrum(const Pencil& pencil, int count, int available) {
 
 int cluster_end(const Eigen::VectorXd& value, int count, double shift) {
   int end = count;
-  while (end > 0 && end < value.size() &&
-         value[end] - value[end - 1] <= cluster_tolerance * (value[end] - shift))
+  while (end > 0 && end < value.size() && value[end] - value[end - 1] <= cluster_tolerance * (value[end] - shift))
     ++end;
   return end;
 }
@@ -248,8 +248,8 @@ EigenPairs dense_lowest(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, doub
     work.resize(static_cast<std::size_t>(lwork));
   }
   if (info != 0 || found != count)
-    throw Error(fmt::format("LAPACK dsygvx found {} of {} eigenpairs (info {})", found, count, info), "eigenvalue solver",
-                "the stiffness is not positive definite: check sections and boundary");
+    throw Error(fmt::format("LAPACK dsygvx found {} of {} eigenpairs (info {})", found, count, info),
+                "eigenvalue solver", "the stiffness is not positive definite: check sections and boundary");
   EigenPairs pairs{Eigen::VectorXd(count), Eigen::MatrixXd(n, count)};
   for (int k = 0; k < count; ++k) {
     const double m = mu[count - 1 - k];

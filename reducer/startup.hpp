@@ -3,9 +3,9 @@
 
 namespace tisserand::reducer {
 
-/// OpenBLAS 0.3.21 takes processors that it does not know for the oldest (4-5 times slower) and reads OPENBLAS_CORETYPE only
-/// while it is loaded; OpenMPI starts a daemon per process unless told otherwise. Sets the variables for this processor;
-/// those that the user has set stay.
+/// OpenBLAS 0.3.21 takes processors that it does not know for the oldest (4-5 times slower) and reads OPENBLAS_CORETYPE
+/// only while it is loaded; OpenMPI starts a daemon per process unless told otherwise. Sets the variables for this
+/// processor; those that the user has set stay.
 void prepare_environment();
 
 /// If OpenBLAS has chosen its oldest kernels on a better processor all the same: starts this program once more in place

@@ -1,4 +1,5 @@
-// Column operations on small dense matrices of fixed or free number of rows: the arithmetic of the superelement tangent.
+// Column operations on small dense matrices of fixed or free number of rows: the arithmetic of the superelement
+// tangent.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +16,8 @@ inline void store(double* p, const Four& v) { *reinterpret_cast<Four*>(p) = v; }
 
 enum class Write { assign, add };
 
-/// out (rows x 3) = or += in (rows x 3) B; `rows` is the leading dimension of both. Rows: their number, or Eigen::Dynamic.
+/// out (rows x 3) = or += in (rows x 3) B; `rows` is the leading dimension of both. Rows: their number, or
+/// Eigen::Dynamic.
 template <int Rows, Write write>
 inline void multiply3(const double* in, const Eigen::Matrix3d& B, int free_rows, double* out) {
   const int rows = Rows == Eigen::Dynamic ? free_rows : Rows;
@@ -46,8 +48,10 @@ inline void transpose(const double* in, int free_rows, double* out) {
     for (int i = 0; i < blocked; i += 4) {
       const double* p = in + j * rows + i;
       const Four a = load(p), b = load(p + rows), c = load(p + 2 * rows), d = load(p + 3 * rows);
-      const Four ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-      const Four cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+      const Four ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6),
+                 ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+      const Four cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6),
+                 cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
       double* q = out + i * rows + j;
       store(q, __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5));
       store(q + rows, __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5));

@@ -26,7 +26,8 @@ int find_node(const SuperelementBody& body, const std::string& name, const std::
     if (body.node[i].name == name) return static_cast<int>(i);
   std::vector<std::string> names;
   for (const SuperelementNode& node : body.node) names.push_back(node.name);
-  throw Error(fmt::format("superelement '{}' has no node '{}'", body.name, name), where, "its nodes are " + node_list(names));
+  throw Error(fmt::format("superelement '{}' has no node '{}'", body.name, name), where,
+              "its nodes are " + node_list(names));
 }
 
 /// Rows of the boundary vector per node [x, Θ] and the file's row of each; internal rows in the order of their numbers.
@@ -39,7 +40,8 @@ void order_rows(const formats::Superelement& element, const std::string& where, 
       body.file.internal_row.push_back(static_cast<int>(i));
       continue;
     }
-    TISSERAND_ENSURE(node < static_cast<int>(nodes) && component >= 0 && component < 6, "node {} component {}", node, component);
+    TISSERAND_ENSURE(node < static_cast<int>(nodes) && component >= 0 && component < 6, "node {} component {}", node,
+                     component);
     row[static_cast<std::size_t>(node)][static_cast<std::size_t>(component)] = static_cast<int>(i);
   }
   std::stable_sort(body.file.internal_row.begin(), body.file.internal_row.end(), [&](int a, int b) {
@@ -52,8 +54,9 @@ void order_rows(const formats::Superelement& element, const std::string& where, 
       const auto first = row[i].begin() + 3 * part;
       const auto present = 3 - std::count(first, first + 3, -1);
       if (present != 0 && present != 3)
-        throw Error(fmt::format("node '{}' has {} of three {}", node.name, present, part == 0 ? "translations" : "rotations"),
-                    where, "a boundary node keeps all three translations or none, all three rotations or none");
+        throw Error(
+            fmt::format("node '{}' has {} of three {}", node.name, present, part == 0 ? "translations" : "rotations"),
+            where, "a boundary node keeps all three translations or none, all three rotations or none");
       if (present == 0) continue;
       (part == 0 ? node.translation_row : node.rotation_row) = body.boundary_size;
       (part == 0 ? body.translation_nodes : body.rotation_nodes).push_back(static_cast<int>(i));
@@ -69,15 +72,17 @@ void order_rows(const formats::Superelement& element, const std::string& where, 
     throw Error("no boundary node has translations", where, "keep the translations of at least one boundary node");
 }
 
-/// Boundary rows first, in units of the scene: S with energy/(unit of row · unit of column), M with mass instead. Internal
-/// coordinates keep their numbers.
-PartitionedMatrices partition(const formats::Superelement& element, const UnitConversion& units, const SuperelementBody& body) {
+/// Boundary rows first, in units of the scene: S with energy/(unit of row · unit of column), M with mass instead.
+/// Internal coordinates keep their numbers.
+PartitionedMatrices partition(const formats::Superelement& element, const UnitConversion& units,
+                              const SuperelementBody& body) {
   const Eigen::Index nb = body.boundary_size, n = element.size();
   std::vector<int> rows = body.file.boundary_row;
   rows.insert(rows.end(), body.file.internal_row.begin(), body.file.internal_row.end());
   Eigen::VectorXd unit = Eigen::VectorXd::Ones(n);
   for (Eigen::Index i = 0; i < nb; ++i)
-    if (element.dof_component[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])] < 3) unit[i] = 1.0 / units.length;
+    if (element.dof_component[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])] < 3)
+      unit[i] = 1.0 / units.length;
   const double inertia = units.mass * units.length * units.length;
   const double energy = inertia / (units.time * units.time);
   PartitionedMatrices out;
@@ -91,12 +96,13 @@ Eigen::Index modes_to_keep(const Eigen::VectorXd& eigenvalue, const Superelement
   Eigen::Index wanted = eigenvalue.size();
   if (options.modes) {
     if (*options.modes < 0 || *options.modes > eigenvalue.size())
-      throw Error(fmt::format("{} modes asked for, the superelement has {}", *options.modes, eigenvalue.size()), options.where,
-                  fmt::format("choose 0 to {}", eigenvalue.size()));
+      throw Error(fmt::format("{} modes asked for, the superelement has {}", *options.modes, eigenvalue.size()),
+                  options.where, fmt::format("choose 0 to {}", eigenvalue.size()));
     wanted = *options.modes;
   }
   if (options.cutoff) {
-    if (!(*options.cutoff >= 0.0)) throw Error(fmt::format("cutoff is {:g}", *options.cutoff), options.where, "choose a frequency above 0");
+    if (!(*options.cutoff >= 0.0))
+      throw Error(fmt::format("cutoff is {:g}", *options.cutoff), options.where, "choose a frequency above 0");
     const double limit = std::pow(2.0 * std::numbers::pi * *options.cutoff, 2);
     wanted = std::min<Eigen::Index>(wanted, (eigenvalue.array() <= limit).count());
   }
@@ -107,10 +113,12 @@ void cut_modes(const SuperelementOptions& options, CanonicalMatrices& matrices, 
   const Eigen::Index wanted = modes_to_keep(matrices.S_II, options);
   const Eigen::Index kept = complete_cluster(matrices.S_II, wanted);
   if (kept != wanted)
-    body.notes.push_back(fmt::format("{} internal modes are kept instead of {}: mode {} has the same frequency as mode {}.", kept,
-                                     wanted, wanted + 1, wanted));
+    body.notes.push_back(
+        fmt::format("{} internal modes are kept instead of {}: mode {} has the same frequency as mode {}.", kept,
+                    wanted, wanted + 1, wanted));
   if (matrices.massless > 0)
-    body.notes.push_back(fmt::format("{} internal coordinates have no mass and were eliminated statically.", matrices.massless));
+    body.notes.push_back(
+        fmt::format("{} internal coordinates have no mass and were eliminated statically.", matrices.massless));
   body.modes = static_cast<int>(kept);
   body.S_BB = matrices.S_BB;
   body.M_BB = matrices.M_BB;
@@ -122,9 +130,9 @@ void cut_modes(const SuperelementOptions& options, CanonicalMatrices& matrices, 
 }
 
 /// alpha of the nodes in `members`: by the user, by the frame node, or from the centre of mass.
-Eigen::VectorXd choose_weights(const std::vector<int>& members, const std::vector<formats::NodeWeight>& given, int frame_node,
-                               const Eigen::Matrix3Xd& position, const Eigen::Vector3d& center, const char* what,
-                               const std::string& where, SuperelementBody& body) {
+Eigen::VectorXd choose_weights(const std::vector<int>& members, const std::vector<formats::NodeWeight>& given,
+                               int frame_node, const Eigen::Matrix3Xd& position, const Eigen::Vector3d& center,
+                               const char* what, const std::string& where, SuperelementBody& body) {
   const auto count = static_cast<Eigen::Index>(members.size());
   Eigen::VectorXd alpha = Eigen::VectorXd::Zero(count);
   const auto place = [&](int node, const std::string& name) {
@@ -139,17 +147,21 @@ Eigen::VectorXd choose_weights(const std::vector<int>& members, const std::vecto
     return alpha;
   }
   if (!given.empty()) {
-    for (const formats::NodeWeight& weight : given) alpha[place(find_node(body, weight.node, where), weight.node)] += weight.weight;
+    for (const formats::NodeWeight& weight : given)
+      alpha[place(find_node(body, weight.node, where), weight.node)] += weight.weight;
     const double sum = alpha.sum();
     if (!(std::abs(sum - 1.0) < 1e-6))
-      throw Error(fmt::format("weights of {} of '{}' have the sum {:.9g}", what, body.name, sum), where, "their sum must be 1");
+      throw Error(fmt::format("weights of {} of '{}' have the sum {:.9g}", what, body.name, sum), where,
+                  "their sum must be 1");
     return alpha / sum;
   }
   const Eigen::Matrix3Xd points = position(Eigen::all, members);
   const Weights weights = frame_weights(points, center);
   if (weights.flat)
-    body.notes.push_back(fmt::format("the nodes of '{}' lie nearly in one plane or on one line: the {} weights put the frame there, "
-                                     "not at the centre of mass.", body.name, what));
+    body.notes.push_back(
+        fmt::format("the nodes of '{}' lie nearly in one plane or on one line: the {} weights put the frame there, "
+                    "not at the centre of mass.",
+                    body.name, what));
   return weights.alpha;
 }
 
@@ -157,10 +169,11 @@ void set_polar_weights(const SuperelementOptions& options, const Eigen::Matrix3X
   const auto count = static_cast<Eigen::Index>(body.translation_nodes.size());
   Eigen::VectorXd w = Eigen::VectorXd::Constant(count, 1.0 / static_cast<double>(count));
   if (!options.rotation_weights.empty())
-    w = choose_weights(body.translation_nodes, options.rotation_weights, -1, position, Eigen::Vector3d::Zero(), "translation",
-                       options.where, body);
+    w = choose_weights(body.translation_nodes, options.rotation_weights, -1, position, Eigen::Vector3d::Zero(),
+                       "translation", options.where, body);
   if ((w.array() < 0.0).any())
-    throw Error("a rotation weight is negative", options.where, "a body whose nodes have no rotations needs weights of 0 or more");
+    throw Error("a rotation weight is negative", options.where,
+                "a body whose nodes have no rotations needs weights of 0 or more");
   const Eigen::Matrix3Xd points = position(Eigen::all, body.translation_nodes);
   const Eigen::Vector3d mean = points * w;
   Eigen::Matrix3d D = Eigen::Matrix3d::Zero();
@@ -178,15 +191,17 @@ void set_polar_weights(const SuperelementOptions& options, const Eigen::Matrix3X
 void choose_frame(const SuperelementOptions& options, SuperelementBody& body) {
   if (body.rotation_nodes.empty()) {
     if (options.frame == formats::FrameKind::node)
-      throw Error(fmt::format("frame node '{}' has no rotations", options.frame_node), options.where, "use frame: karcher");
+      throw Error(fmt::format("frame node '{}' has no rotations", options.frame_node), options.where,
+                  "use frame: karcher");
     body.frame = FrameAlgorithm::polar;
     return;
   }
   for (const int i : body.rotation_nodes)
     if (std::abs(body.node[static_cast<std::size_t>(i)].alpha_rotation - 1.0) < 1e-15) body.frame_node = i;
-  const bool single = body.frame_node >= 0 && std::all_of(body.rotation_nodes.begin(), body.rotation_nodes.end(), [&](int i) {
-    return i == body.frame_node || body.node[static_cast<std::size_t>(i)].alpha_rotation == 0.0;
-  });
+  const bool single =
+      body.frame_node >= 0 && std::all_of(body.rotation_nodes.begin(), body.rotation_nodes.end(), [&](int i) {
+        return i == body.frame_node || body.node[static_cast<std::size_t>(i)].alpha_rotation == 0.0;
+      });
   if (single) {
     body.frame = FrameAlgorithm::single_node;
     return;
@@ -198,14 +213,14 @@ void choose_frame(const SuperelementOptions& options, SuperelementBody& body) {
     body.frame = body.rotation_nodes.size() == 2 ? FrameAlgorithm::pair : FrameAlgorithm::karcher;
 }
 
-void set_frame(const formats::Superelement& element, const formats::RigidProperties& rigid, const SuperelementOptions& options,
-               SuperelementBody& body) {
+void set_frame(const formats::Superelement& element, const formats::RigidProperties& rigid,
+               const SuperelementOptions& options, SuperelementBody& body) {
   const Eigen::Matrix3Xd position = options.units.length * element.node_position.transpose();
   const Eigen::Vector3d center = options.units.length * rigid.center_of_mass;
   const int attached =
       options.frame == formats::FrameKind::node ? find_node(body, options.frame_node, options.where) : -1;
-  const Eigen::VectorXd alpha = choose_weights(body.translation_nodes, options.position_weights, attached, position, center,
-                                               "translation", options.where, body);
+  const Eigen::VectorXd alpha = choose_weights(body.translation_nodes, options.position_weights, attached, position,
+                                               center, "translation", options.where, body);
   for (std::size_t k = 0; k < body.translation_nodes.size(); ++k) {
     const int i = body.translation_nodes[k];
     body.node[static_cast<std::size_t>(i)].alpha = alpha[static_cast<Eigen::Index>(k)];
@@ -216,10 +231,11 @@ void set_frame(const formats::Superelement& element, const formats::RigidPropert
   if (body.rotation_nodes.empty()) {
     set_polar_weights(options, position, body);
   } else {
-    const Eigen::VectorXd alpha_rotation = choose_weights(body.rotation_nodes, options.rotation_weights, attached, position, center,
-                                                          "rotation", options.where, body);
+    const Eigen::VectorXd alpha_rotation = choose_weights(body.rotation_nodes, options.rotation_weights, attached,
+                                                          position, center, "rotation", options.where, body);
     for (std::size_t k = 0; k < body.rotation_nodes.size(); ++k)
-      body.node[static_cast<std::size_t>(body.rotation_nodes[k])].alpha_rotation = alpha_rotation[static_cast<Eigen::Index>(k)];
+      body.node[static_cast<std::size_t>(body.rotation_nodes[k])].alpha_rotation =
+          alpha_rotation[static_cast<Eigen::Index>(k)];
   }
   choose_frame(options, body);
   body.mass = options.units.mass * rigid.mass;
@@ -239,20 +255,23 @@ void set_gravity_constants(SuperelementBody& body) {
 void set_damping(const SuperelementOptions& options, SuperelementBody& body) {
   const formats::Damping& given = options.damping;
   const auto require = [&](double value, const char* what) {
-    if (!(value >= 0.0)) throw Error(fmt::format("damping: {} is {:g}", what, value), options.where, "choose 0 or more");
+    if (!(value >= 0.0))
+      throw Error(fmt::format("damping: {} is {:g}", what, value), options.where, "choose 0 or more");
   };
   require(given.mass, "mass");
   require(given.stiffness, "stiffness");
   require(given.ratio, "ratio");
   for (const double ratio : given.ratios) require(ratio, "ratio of a mode");
   if (given.ratios.size() > body.file.internal_row.size())
-    throw Error(fmt::format("damping: {} ratios for {} internal modes", given.ratios.size(), body.file.internal_row.size()),
-                options.where, "give at most one ratio per mode");
+    throw Error(
+        fmt::format("damping: {} ratios for {} internal modes", given.ratios.size(), body.file.internal_row.size()),
+        options.where, "give at most one ratio per mode");
   body.damping.mass = given.mass;
   body.damping.stiffness = given.stiffness;
   body.damping.internal.resize(body.modes);
   for (Eigen::Index k = 0; k < body.modes; ++k) {
-    const double ratio = k < static_cast<Eigen::Index>(given.ratios.size()) ? given.ratios[static_cast<std::size_t>(k)] : given.ratio;
+    const double ratio =
+        k < static_cast<Eigen::Index>(given.ratios.size()) ? given.ratios[static_cast<std::size_t>(k)] : given.ratio;
     body.damping.internal[k] = given.mass + given.stiffness * body.S_II[k] + 2.0 * ratio * std::sqrt(body.S_II[k]);
   }
   body.damping.active = given.mass > 0.0 || given.stiffness > 0.0 || (body.damping.internal.array() > 0.0).any();

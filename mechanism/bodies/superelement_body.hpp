@@ -16,15 +16,15 @@ namespace tisserand::mechanism {
 /// What the scene says about one use of a superelement file.
 struct SuperelementOptions {
   formats::FrameKind frame = formats::FrameKind::karcher;
-  std::string frame_node;                            ///< for FrameKind::node
+  std::string frame_node;  ///< for FrameKind::node
   formats::InertiaOption inertia = formats::InertiaOption::B;
-  std::optional<int> modes;                          ///< absent: all in the file
-  std::optional<double> cutoff;                      ///< frequency ω/2π [1/time of the scene]
-  std::vector<formats::NodeWeight> position_weights; ///< empty: from the centre of mass
+  std::optional<int> modes;                           ///< absent: all in the file
+  std::optional<double> cutoff;                       ///< frequency ω/2π [1/time of the scene]
+  std::vector<formats::NodeWeight> position_weights;  ///< empty: from the centre of mass
   std::vector<formats::NodeWeight> rotation_weights;
   formats::Damping damping;
-  UnitConversion units;                              ///< file -> scene
-  std::string where;                                 ///< place of the body in the scene, for messages
+  UnitConversion units;  ///< file -> scene
+  std::string where;     ///< place of the body in the scene, for messages
 };
 
 /// How R₀ follows from the nodes. The first four are [Car00] (14)-(16) with the Karcher mean in place of the
@@ -40,12 +40,12 @@ enum class FrameAlgorithm {
 /// One boundary node: where its coordinates stand in the boundary vector, and its constants in the floating frame.
 struct SuperelementNode {
   std::string name;
-  int translation_row = -1;  ///< first of three rows [x], -1: no translations
-  int rotation_row = -1;     ///< first of three rows [Θ], -1: no rotations
-  double alpha = 0.0;            ///< weight of the position, Σ = 1
-  double alpha_rotation = 0.0;   ///< weight of the rotation, Σ = 1
-  Eigen::Vector3d X = Eigen::Vector3d::Zero();  ///< reference position relative to x₀ = Σ αⱼ Xⱼ
-  double polar_weight = 0.0;                    ///< w of FrameAlgorithm::polar
+  int translation_row = -1;                           ///< first of three rows [x], -1: no translations
+  int rotation_row = -1;                              ///< first of three rows [Θ], -1: no rotations
+  double alpha = 0.0;                                 ///< weight of the position, Σ = 1
+  double alpha_rotation = 0.0;                        ///< weight of the rotation, Σ = 1
+  Eigen::Vector3d X = Eigen::Vector3d::Zero();        ///< reference position relative to x₀ = Σ αⱼ Xⱼ
+  double polar_weight = 0.0;                          ///< w of FrameAlgorithm::polar
   Eigen::Vector3d X_polar = Eigen::Vector3d::Zero();  ///< X relative to Σ w X
 
   bool has_translation() const { return translation_row >= 0; }
@@ -86,9 +86,9 @@ struct SuperelementBody {
 
   formats::InertiaOption inertia = formats::InertiaOption::B;
   FrameAlgorithm frame = FrameAlgorithm::pair;
-  int frame_node = -1;                ///< local node of FrameAlgorithm::single_node
-  std::vector<int> rotation_nodes;    ///< local nodes that own rotations
-  std::vector<int> translation_nodes; ///< local nodes that own translations
+  int frame_node = -1;                 ///< local node of FrameAlgorithm::single_node
+  std::vector<int> rotation_nodes;     ///< local nodes that own rotations
+  std::vector<int> translation_nodes;  ///< local nodes that own translations
 
   Eigen::Vector3d reference_origin = Eigen::Vector3d::Zero();  ///< x₀ of the reference configuration, part frame
   double mass = 0.0;
@@ -100,8 +100,8 @@ struct SuperelementBody {
   std::vector<std::string> notes;  ///< what the user should know, whole sentences
 };
 
-/// Canonical form by congruence, modes cut, units converted, weights. Node poses of the reference configuration are those of
-/// the file. Throws Error.
+/// Canonical form by congruence, modes cut, units converted, weights. Node poses of the reference configuration are
+/// those of the file. Throws Error.
 SuperelementBody build_superelement_body(const formats::Superelement& element, const formats::RigidProperties& rigid,
                                          const SuperelementOptions& options);
 

@@ -27,10 +27,11 @@ void check_internal_stiffness(const Eigen::MatrixXd& S_II, const std::string& wh
   if (smallest > kSmallestScaledEigenvalue) return;
   Eigen::Index row = 0;
   solver.eigenvectors().col(0).cwiseAbs().maxCoeff(&row);
-  throw Error(fmt::format("internal stiffness S_II is {} (smallest eigenvalue {:.3g} of the scaled matrix, mostly internal "
-                          "coordinate {})",
-                          smallest < -kSmallestScaledEigenvalue ? "indefinite" : "singular", smallest, row + 1),
-              where, "remove the dependent or rigid internal coordinates from the file");
+  throw Error(
+      fmt::format("internal stiffness S_II is {} (smallest eigenvalue {:.3g} of the scaled matrix, mostly internal "
+                  "coordinate {})",
+                  smallest < -kSmallestScaledEigenvalue ? "indefinite" : "singular", smallest, row + 1),
+      where, "remove the dependent or rigid internal coordinates from the file");
 }
 
 }  // namespace
@@ -83,7 +84,8 @@ CanonicalMatrices canonical_form(const PartitionedMatrices& matrices, const std:
 
 Eigen::Index complete_cluster(const Eigen::VectorXd& eigenvalue, Eigen::Index wanted) {
   Eigen::Index kept = wanted;
-  while (kept > 0 && kept < eigenvalue.size() && eigenvalue[kept] - eigenvalue[kept - 1] < 1e-6 * eigenvalue[kept]) ++kept;
+  while (kept > 0 && kept < eigenvalue.size() && eigenvalue[kept] - eigenvalue[kept - 1] < 1e-6 * eigenvalue[kept])
+    ++kept;
   return kept;
 }
 

@@ -23,11 +23,12 @@ struct CanonicalMatrices {
   Eigen::VectorXd S_II;
   Eigen::MatrixXd static_part;
   Eigen::MatrixXd modal_part;
-  Eigen::Index massless = 0;  ///< internal directions without mass: they carry no inertia and no weight and are left out
+  Eigen::Index massless =
+      0;  ///< internal directions without mass: they carry no inertia and no weight and are left out
 };
 
-/// Congruence with y_I = −S_II⁻¹ S_IB y_B + Q η, where S_II Q = M_II Q Λ and QᵀM_II Q = 1. Nothing is zeroed. Throws Error
-/// (at `where`) if S_II is not safely positive definite or M_II is indefinite.
+/// Congruence with y_I = −S_II⁻¹ S_IB y_B + Q η, where S_II Q = M_II Q Λ and QᵀM_II Q = 1. Nothing is zeroed. Throws
+/// Error (at `where`) if S_II is not safely positive definite or M_II is indefinite.
 CanonicalMatrices canonical_form(const PartitionedMatrices& matrices, const std::string& where);
 
 /// Number of modes to keep of `eigenvalue` (ascending) so that at least `wanted` are kept and no cluster of eigenvalues

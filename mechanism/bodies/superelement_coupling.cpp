@@ -33,7 +33,8 @@ Vector3d frame_rotation(const SuperelementBody& body, const SuperelementTangent&
 
 }  // namespace
 
-void apply_upsilon(const SuperelementBody& body, const SuperelementTangent& tangent, const double* v, Eigen::VectorXd& out) {
+void apply_upsilon(const SuperelementBody& body, const SuperelementTangent& tangent, const double* v,
+                   Eigen::VectorXd& out) {
   const Vector3d rotation = frame_rotation(body, tangent, v);
   Vector3d origin = Vector3d::Zero();
   for (const int j : body.translation_nodes) {
@@ -44,9 +45,11 @@ void apply_upsilon(const SuperelementBody& body, const SuperelementTangent& tang
     const SuperelementNode& node = body.node[i];
     const LocalNode<double>& local = tangent.node[i];
     if (node.has_translation())
-      out.segment<3>(node.translation_row) = tangent.R0.transpose() * (segment3(v, node.translation_row) - origin) + local.xh.cross(rotation);
+      out.segment<3>(node.translation_row) =
+          tangent.R0.transpose() * (segment3(v, node.translation_row) - origin) + local.xh.cross(rotation);
     if (node.has_rotation())
-      out.segment<3>(node.rotation_row) = local.Tinv * segment3(v, node.rotation_row) - local.Tinv.transpose() * rotation;
+      out.segment<3>(node.rotation_row) =
+          local.Tinv * segment3(v, node.rotation_row) - local.Tinv.transpose() * rotation;
   }
 }
 
@@ -63,7 +66,8 @@ void apply_Z(const SuperelementBody& body, const SuperelementTangent& tangent, c
     const LocalNode<double>& local = tangent.node[i];
     if (node.has_translation()) {
       const Vector3d x = tangent.R0.transpose() * segment3(v, node.translation_row);
-      out.segment<3>(node.translation_row) += c.mass * x + c.damping * (x.cross(tangent.Omega0) + local.xd.cross(rotation));
+      out.segment<3>(node.translation_row) +=
+          c.mass * x + c.damping * (x.cross(tangent.Omega0) + local.xd.cross(rotation));
     }
     if (!node.has_rotation()) continue;
     const Vector3d theta = rotation_part(body, local, segment3(v, node.rotation_row));
@@ -73,7 +77,8 @@ void apply_Z(const SuperelementBody& body, const SuperelementTangent& tangent, c
   }
 }
 
-void apply_W(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t, Eigen::VectorXd& out) {
+void apply_W(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
+             Eigen::VectorXd& out) {
   const TangentCoefficients& c = tangent.coefficients;
   const double a = c.damping * body.damping.mass;
   const bool option_A = body.inertia == formats::InertiaOption::A;
@@ -124,9 +129,15 @@ void condense(const SuperelementBody& body, SuperelementScratch& scratch) {
   }
   tangent.boundary_1.setZero();
   switch (body.boundary_size) {
-    case 12: multiply_add<12, double>(body.M_BI, tangent.internal_1, tangent.boundary_1); break;
-    case 18: multiply_add<18, double>(body.M_BI, tangent.internal_1, tangent.boundary_1); break;
-    default: multiply_add<Eigen::Dynamic, double>(body.M_BI, tangent.internal_1, tangent.boundary_1); break;
+    case 12:
+      multiply_add<12, double>(body.M_BI, tangent.internal_1, tangent.boundary_1);
+      break;
+    case 18:
+      multiply_add<18, double>(body.M_BI, tangent.internal_1, tangent.boundary_1);
+      break;
+    default:
+      multiply_add<Eigen::Dynamic, double>(body.M_BI, tangent.internal_1, tangent.boundary_1);
+      break;
   }
   apply_W(body, tangent, tangent.boundary_1, tangent.boundary_2);
   scratch.r_B_condensed -= tangent.boundary_2;

@@ -8,12 +8,14 @@
 namespace tisserand::mechanism {
 
 /// out = Υ v (boundary rows) at the state of the latest tangent. v in coordinates of r_B, out in local coordinates.
-void apply_upsilon(const SuperelementBody& body, const SuperelementTangent& tangent, const double* v, Eigen::VectorXd& out);
+void apply_upsilon(const SuperelementBody& body, const SuperelementTangent& tangent, const double* v,
+                   Eigen::VectorXd& out);
 
 /// out = Z v, Z = c_m P + c_c (O₀ᵀ P + V U + a Υ).
 void apply_Z(const SuperelementBody& body, const SuperelementTangent& tangent, const double* v, Eigen::VectorXd& out);
 
 /// out = W t, W = c_m Pᵀ + c_c (Pᵀ (O₀ ∓ O_B) − UᵀVᵀ + a Υᵀ).
-void apply_W(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t, Eigen::VectorXd& out);
+void apply_W(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
+             Eigen::VectorXd& out);
 
 }  // namespace tisserand::mechanism

@@ -17,7 +17,8 @@ SuperelementScratch make_scratch(const SuperelementBody& body) {
   tangent.Omega0.setZero();
   tangent.node = scratch.motion.node;
   tangent.U.setZero(3, nb);
-  for (Eigen::MatrixXd* matrix : {&tangent.Q, &tangent.N, &tangent.work_1, &tangent.work_2, &tangent.work_3}) matrix->setZero(nb, nb);
+  for (Eigen::MatrixXd* matrix : {&tangent.Q, &tangent.N, &tangent.work_1, &tangent.work_2, &tangent.work_3})
+    matrix->setZero(nb, nb);
   tangent.thin_1.setZero(nb, 3);
   tangent.thin_2.setZero(nb, 3);
   tangent.thin_3.setZero(nb, 3);
@@ -27,8 +28,9 @@ SuperelementScratch make_scratch(const SuperelementBody& body) {
   return scratch;
 }
 
-void update_kinematics(const SuperelementBody& body, std::span<const NodeMotion> all_nodes, const double* y, const double* yd,
-                       const double* ydd, const Eigen::Matrix3d& R0_reference, SuperelementScratch& scratch) {
+void update_kinematics(const SuperelementBody& body, std::span<const NodeMotion> all_nodes, const double* y,
+                       const double* yd, const double* ydd, const Eigen::Matrix3d& R0_reference,
+                       SuperelementScratch& scratch) {
   LocalMotion<double>& motion = scratch.motion;
   if (body.modes > 0) {
     motion.y_I = Eigen::Map<const Eigen::VectorXd>(y, body.modes);
@@ -42,9 +44,15 @@ void update_kinematics(const SuperelementBody& body, std::span<const NodeMotion>
 
 void residual(const SuperelementBody& body, SuperelementScratch& scratch, const Eigen::Vector3d& gravity) {
   switch (body.boundary_size) {
-    case 12: superelement_forces<12>(body, scratch.motion, gravity, scratch.forces); break;
-    case 18: superelement_forces<18>(body, scratch.motion, gravity, scratch.forces); break;
-    default: superelement_forces<Eigen::Dynamic>(body, scratch.motion, gravity, scratch.forces); break;
+    case 12:
+      superelement_forces<12>(body, scratch.motion, gravity, scratch.forces);
+      break;
+    case 18:
+      superelement_forces<18>(body, scratch.motion, gravity, scratch.forces);
+      break;
+    default:
+      superelement_forces<Eigen::Dynamic>(body, scratch.motion, gravity, scratch.forces);
+      break;
   }
 }
 
@@ -64,7 +72,8 @@ double coupling_form(const Eigen::MatrixXd& A, const Eigen::VectorXd& row, const
 
 }  // namespace
 
-SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratch& scratch, const Eigen::Vector3d& gravity) {
+SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratch& scratch,
+                          const Eigen::Vector3d& gravity) {
   const LocalMotion<double>& motion = scratch.motion;
   SuperelementEnergy result;
   result.kinetic = 0.5 * (quadratic_form(body.M_BB, motion.rate_B) + motion.rate_I.squaredNorm()) +
@@ -88,7 +97,8 @@ Eigen::Index file_coordinate_count(const SuperelementBody& body) {
   return static_cast<Eigen::Index>(body.file.boundary_row.size() + body.file.internal_row.size());
 }
 
-void file_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch, Eigen::Ref<Eigen::VectorXd> out) {
+void file_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
+                      Eigen::Ref<Eigen::VectorXd> out) {
   const LocalMotion<double>& motion = scratch.motion;
   for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i)
     out[body.file.boundary_row[i]] = motion.y_B[static_cast<Eigen::Index>(i)];

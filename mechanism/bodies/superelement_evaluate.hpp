@@ -1,4 +1,5 @@
-// The functions through which the mechanism evaluates a superelement body: residual, tangent, elimination of y_I, energy.
+// The functions through which the mechanism evaluates a superelement body: residual, tangent, elimination of y_I,
+// energy.
 #pragma once
 
 #include <span>
@@ -12,8 +13,8 @@
 
 namespace tisserand::mechanism {
 
-/// Constants of the elimination of y_I for the latest coefficients, the state at which the latest tangent was formed, and
-/// matrices to work in.
+/// Constants of the elimination of y_I for the latest coefficients, the state at which the latest tangent was formed,
+/// and matrices to work in.
 struct SuperelementTangent {
   TangentCoefficients coefficients;  ///< for which D, Q, N hold
   bool constants_valid = false;
@@ -30,37 +31,40 @@ struct SuperelementTangent {
   Eigen::MatrixXd A_BI;         ///< nb x m
   Eigen::MatrixXd A_IB;         ///< m x nb
 
-  Eigen::MatrixXd work_1, work_2, work_3;                 ///< nb x nb
-  Eigen::Matrix<double, Eigen::Dynamic, 3> thin_1, thin_2, thin_3; ///< nb x 3
+  Eigen::MatrixXd work_1, work_2, work_3;                           ///< nb x nb
+  Eigen::Matrix<double, Eigen::Dynamic, 3> thin_1, thin_2, thin_3;  ///< nb x 3
   Eigen::VectorXd boundary_1, boundary_2, internal_1;
 };
 
 /// Scratch of one body, sized once.
 struct SuperelementScratch {
-  LocalMotion<double> motion;          ///< current x₀, R₀, Ω₀, y (update_kinematics)
-  Eigen::Matrix3d R0_reference;        ///< as given to update_kinematics
-  SuperelementForces<double> forces;   ///< r_B, r_I (residual)
-  Eigen::VectorXd r_B_condensed;       ///< r_B − A_BI A_II⁻¹ r_I (condense)
-  Eigen::MatrixXd A_BB;                ///< nb x nb, y_I eliminated (tangent)
+  LocalMotion<double> motion;         ///< current x₀, R₀, Ω₀, y (update_kinematics)
+  Eigen::Matrix3d R0_reference;       ///< as given to update_kinematics
+  SuperelementForces<double> forces;  ///< r_B, r_I (residual)
+  Eigen::VectorXd r_B_condensed;      ///< r_B − A_BI A_II⁻¹ r_I (condense)
+  Eigen::MatrixXd A_BB;               ///< nb x nb, y_I eliminated (tangent)
   SuperelementTangent tangent;
 };
 
 SuperelementScratch make_scratch(const SuperelementBody& body);
 
-/// Frame, y, ẏ, ÿ of the body. R0_reference: karcher and polar start from it (the latest R₀), the incremental frame uses it as
-/// R_ref (R₀ at the end of the latest accepted step); pair and single_node ignore it. y, yd, ydd: m canonical internal
-/// coordinates and rates. scratch.motion.frame_error tells whether an iterated frame converged (≤ 1e-14 rad normally).
-void update_kinematics(const SuperelementBody& body, std::span<const NodeMotion> all_nodes, const double* y, const double* yd,
-                       const double* ydd, const Eigen::Matrix3d& R0_reference, SuperelementScratch& scratch);
+/// Frame, y, ẏ, ÿ of the body. R0_reference: karcher and polar start from it (the latest R₀), the incremental frame
+/// uses it as R_ref (R₀ at the end of the latest accepted step); pair and single_node ignore it. y, yd, ydd: m
+/// canonical internal coordinates and rates. scratch.motion.frame_error tells whether an iterated frame converged (≤
+/// 1e-14 rad normally).
+void update_kinematics(const SuperelementBody& body, std::span<const NodeMotion> all_nodes, const double* y,
+                       const double* yd, const double* ydd, const Eigen::Matrix3d& R0_reference,
+                       SuperelementScratch& scratch);
 
-/// scratch.forces.r_B, r_I: G_iner + G_int + G_damp − gravity, after update_kinematics(). r_B is what the boundary nodes receive
-/// from the rest of the mechanism. gravity: acceleration in world axes.
+/// scratch.forces.r_B, r_I: G_iner + G_int + G_damp − gravity, after update_kinematics(). r_B is what the boundary
+/// nodes receive from the rest of the mechanism. gravity: acceleration in world axes.
 void residual(const SuperelementBody& body, SuperelementScratch& scratch, const Eigen::Vector3d& gravity);
 
 /// Step tangent after residual(): scratch.A_BB = A_BB − W Q Z with the boundary part of
 ///   c_m Pᵀ M̄ P + c_c (C₁ + C₂ + C₃ + Υᵀ D Υ) + c_k Υᵀ S̄ Υ          ([Car00] (31), (49)-(51), (61)-(63), corrected)
-/// (the derivatives of Υ, of U and of the weight are left out), and what condense() and expand() need. The elimination of
-/// y_I is exact: C has no I-I block, so D = A_II is a constant diagonal and Q = M_BI D⁻¹ M_IB is kept while the coefficients stay.
+/// (the derivatives of Υ, of U and of the weight are left out), and what condense() and expand() need. The elimination
+/// of y_I is exact: C has no I-I block, so D = A_II is a constant diagonal and Q = M_BI D⁻¹ M_IB is kept while the
+/// coefficients stay.
 void tangent(const SuperelementBody& body, SuperelementScratch& scratch, const TangentCoefficients& coefficients);
 
 /// The same with the exact combination c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q by dual numbers. Allocates.
@@ -74,9 +78,9 @@ void condense(const SuperelementBody& body, SuperelementScratch& scratch);
 void expand(const SuperelementBody& body, SuperelementScratch& scratch, const double* dq_B, double* dy_I);
 
 /// The whole (nb + m)² tangent, y_I not eliminated; after residual(). Allocates.
-void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch& scratch, std::span<const NodeMotion> all_nodes,
-                         const Eigen::Vector3d& gravity, const TangentCoefficients& coefficients, TangentKind kind,
-                         Eigen::MatrixXd& A);
+void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch& scratch,
+                         std::span<const NodeMotion> all_nodes, const Eigen::Vector3d& gravity,
+                         const TangentCoefficients& coefficients, TangentKind kind, Eigen::MatrixXd& A);
 
 struct SuperelementEnergy {
   double kinetic = 0.0;            ///< ½ ẏᵀ M̄ ẏ
@@ -86,11 +90,13 @@ struct SuperelementEnergy {
 };
 
 /// After update_kinematics().
-SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratch& scratch, const Eigen::Vector3d& gravity);
+SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratch& scratch,
+                          const Eigen::Vector3d& gravity);
 
-/// y in the coordinates and the order of rows of the file (lengths in units of the scene). out: boundary_size + internal
-/// coordinates of the file. After update_kinematics().
-void file_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch, Eigen::Ref<Eigen::VectorXd> out);
+/// y in the coordinates and the order of rows of the file (lengths in units of the scene). out: boundary_size +
+/// internal coordinates of the file. After update_kinematics().
+void file_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
+                      Eigen::Ref<Eigen::VectorXd> out);
 
 /// Number of coordinates of the file, the size of `out` above.
 Eigen::Index file_coordinate_count(const SuperelementBody& body);

@@ -23,8 +23,10 @@ Mat3<Dual> with_derivative(const Eigen::Matrix3d& value, const Eigen::Matrix3d& 
   return out;
 }
 
-/// Node motion at v̇ + ε c_m d, v + ε c_c d, q + ε c_k d with the direction d of one node (translation, material rotation).
-Node perturbed(const NodeMotion& node, const Eigen::Vector3d& x, const Eigen::Vector3d& theta, const TangentCoefficients& c) {
+/// Node motion at v̇ + ε c_m d, v + ε c_c d, q + ε c_k d with the direction d of one node (translation, material
+/// rotation).
+Node perturbed(const NodeMotion& node, const Eigen::Vector3d& x, const Eigen::Vector3d& theta,
+               const TangentCoefficients& c) {
   Node out;
   out.x = with_derivative(node.x, c.stiffness * x);
   out.R = with_derivative(node.R, node.R * skew<double>(c.stiffness * theta));
@@ -35,10 +37,11 @@ Node perturbed(const NodeMotion& node, const Eigen::Vector3d& x, const Eigen::Ve
   return out;
 }
 
-/// Column by column: the derivative of (r_B, r_I) in each direction. R₀ at entry: the converged one for iterated frames, the
-/// same reference as update_kinematics() had for the incremental one.
-void exact_columns(const SuperelementBody& body, const SuperelementScratch& scratch, std::span<const NodeMotion> all_nodes,
-                   const Eigen::Vector3d& gravity, const TangentCoefficients& c, Eigen::MatrixXd& A) {
+/// Column by column: the derivative of (r_B, r_I) in each direction. R₀ at entry: the converged one for iterated
+/// frames, the same reference as update_kinematics() had for the incremental one.
+void exact_columns(const SuperelementBody& body, const SuperelementScratch& scratch,
+                   std::span<const NodeMotion> all_nodes, const Eigen::Vector3d& gravity, const TangentCoefficients& c,
+                   Eigen::MatrixXd& A) {
   const int nb = body.boundary_size, n = nb + body.modes;
   A.resize(n, n);
   LocalMotion<Dual> motion = make_local_motion<Dual>(body);
@@ -51,8 +54,10 @@ void exact_columns(const SuperelementBody& body, const SuperelementScratch& scra
     for (std::size_t i = 0; i < body.node.size(); ++i) {
       const SuperelementNode& node = body.node[i];
       const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-      const Eigen::Vector3d x = node.has_translation() ? Eigen::Vector3d(direction.segment<3>(node.translation_row)) : zero;
-      const Eigen::Vector3d theta = node.has_rotation() ? Eigen::Vector3d(direction.segment<3>(node.rotation_row)) : zero;
+      const Eigen::Vector3d x =
+          node.has_translation() ? Eigen::Vector3d(direction.segment<3>(node.translation_row)) : zero;
+      const Eigen::Vector3d theta =
+          node.has_rotation() ? Eigen::Vector3d(direction.segment<3>(node.rotation_row)) : zero;
       nodes[i] = perturbed(all_nodes[static_cast<std::size_t>(body.nodes[i])], x, theta, c);
       index[i] = static_cast<int>(i);
     }
@@ -106,8 +111,17 @@ void set_node_blocks(const SuperelementBody& body, const SuperelementScratch& sc
 DenseForm dense_form(const SuperelementBody& body, const SuperelementScratch& scratch) {
   const int nb = body.boundary_size, m = body.modes, n = nb + m;
   const auto zero = [](int rows, int cols) { return Eigen::MatrixXd(Eigen::MatrixXd::Zero(rows, cols)); };
-  DenseForm d{zero(n, n), zero(n, n), zero(n, n), Eigen::MatrixXd::Identity(n, n), Eigen::MatrixXd::Identity(n, n),
-              zero(n, 3), zero(n, 3), zero(3, n), zero(n, n), zero(n, n), zero(n, n)};
+  DenseForm d{zero(n, n),
+              zero(n, n),
+              zero(n, n),
+              Eigen::MatrixXd::Identity(n, n),
+              Eigen::MatrixXd::Identity(n, n),
+              zero(n, 3),
+              zero(n, 3),
+              zero(3, n),
+              zero(n, n),
+              zero(n, n),
+              zero(n, n)};
   d.S.topLeftCorner(nb, nb) = body.S_BB;
   d.S.bottomRightCorner(m, m) = body.S_II.asDiagonal();
   d.M << body.M_BB, body.M_BI, body.M_IB, Eigen::MatrixXd::Identity(m, m);
@@ -128,8 +142,9 @@ DenseForm dense_form(const SuperelementBody& body, const SuperelementScratch& sc
 
 }  // namespace
 
-void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch& scratch, std::span<const NodeMotion> all_nodes,
-                         const Eigen::Vector3d& gravity, const TangentCoefficients& c, TangentKind kind, Eigen::MatrixXd& A) {
+void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch& scratch,
+                         std::span<const NodeMotion> all_nodes, const Eigen::Vector3d& gravity,
+                         const TangentCoefficients& c, TangentKind kind, Eigen::MatrixXd& A) {
   if (kind == TangentKind::exact) {
     exact_columns(body, scratch, all_nodes, gravity, c, A);
     return;
@@ -141,7 +156,8 @@ void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch
   const double sign = body.inertia == formats::InertiaOption::A ? -1.0 : 1.0;
   const Eigen::MatrixXd C3 = sign * PT * (d.OB * d.M - d.momentum) * d.P;
   const Eigen::MatrixXd UpsilonT = d.Upsilon.transpose();
-  A = c.mass * PT * d.M * d.P + c.damping * (C1 + C2 + C3 + UpsilonT * d.D * d.Upsilon) + c.stiffness * UpsilonT * d.S * d.Upsilon;
+  A = c.mass * PT * d.M * d.P + c.damping * (C1 + C2 + C3 + UpsilonT * d.D * d.Upsilon) +
+      c.stiffness * UpsilonT * d.S * d.Upsilon;
 }
 
 void exact_tangent(const SuperelementBody& body, SuperelementScratch& scratch, std::span<const NodeMotion> all_nodes,

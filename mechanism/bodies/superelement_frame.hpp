@@ -54,7 +54,7 @@ struct LocalMotion {
   Vector deformation_rate_B;  ///< Υ q̇ = ẏ_B; only with damping
   Vector y_I, rate_I, acceleration_I;
   int frame_iterations = 0;
-  double frame_error = 0.0;   ///< last correction of an iterated frame [rad]
+  double frame_error = 0.0;  ///< last correction of an iterated frame [rad]
 };
 
 template <class S>
@@ -141,7 +141,8 @@ void karcher_variation(const SuperelementBody& body, LocalMotion<S>& motion) {
 /// Two rotation nodes: with φ = log(R₁ᵀR₂), R₀ = R₁ exp(α₂ φ), ψ₁ = −α₂ φ, ψ₂ = α₁ φ.
 template <class S, class Node>
 void pair(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
-  const auto i1 = static_cast<std::size_t>(body.rotation_nodes[0]), i2 = static_cast<std::size_t>(body.rotation_nodes[1]);
+  const auto i1 = static_cast<std::size_t>(body.rotation_nodes[0]),
+             i2 = static_cast<std::size_t>(body.rotation_nodes[1]);
   LocalNode<S>&n1 = motion.node[i1], &n2 = motion.node[i2];
   const Mat3<S> relative = nodes[i1].R.transpose() * nodes[i2].R;
   const Vec3<S> phi = log_so3<S>(relative);
@@ -176,7 +177,8 @@ void karcher(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMot
   karcher_variation(body, motion);
 }
 
-/// [Car00] (16), (19): R₀ = R_ref exp(b₀), b₀ = Σ αⱼ bⱼ, bⱼ = log(R_refᵀRⱼ); Uⱼ = T(b₀) αⱼ T⁻¹(bⱼ). R_ref is the R₀ in `motion`.
+/// [Car00] (16), (19): R₀ = R_ref exp(b₀), b₀ = Σ αⱼ bⱼ, bⱼ = log(R_refᵀRⱼ); Uⱼ = T(b₀) αⱼ T⁻¹(bⱼ). R_ref is the R₀ in
+/// `motion`.
 template <class S, class Node>
 void incremental(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   const Mat3<S> R_ref = motion.R0;
@@ -239,11 +241,21 @@ void floating_frame(const SuperelementBody& body, const NodeView<Node>& nodes, L
   motion.frame_iterations = 0;
   motion.frame_error = 0.0;
   switch (body.frame) {
-    case FrameAlgorithm::single_node: frame::single_node(body, nodes, motion); break;
-    case FrameAlgorithm::pair: frame::pair(body, nodes, motion); break;
-    case FrameAlgorithm::karcher: frame::karcher(body, nodes, motion); break;
-    case FrameAlgorithm::incremental: frame::incremental(body, nodes, motion); break;
-    case FrameAlgorithm::polar: frame::polar(body, nodes, motion); break;
+    case FrameAlgorithm::single_node:
+      frame::single_node(body, nodes, motion);
+      break;
+    case FrameAlgorithm::pair:
+      frame::pair(body, nodes, motion);
+      break;
+    case FrameAlgorithm::karcher:
+      frame::karcher(body, nodes, motion);
+      break;
+    case FrameAlgorithm::incremental:
+      frame::incremental(body, nodes, motion);
+      break;
+    case FrameAlgorithm::polar:
+      frame::polar(body, nodes, motion);
+      break;
   }
 }
 

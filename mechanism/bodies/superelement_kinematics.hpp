@@ -19,7 +19,8 @@ void deformation_rates(const SuperelementBody& body, const NodeView<Node>& nodes
     const SuperelementNode& node = body.node[i];
     const LocalNode<S>& local = motion.node[i];
     if (node.has_translation())
-      motion.deformation_rate_B.template segment<3>(node.translation_row) = local.xd - x0d + cross<S>(local.xh, motion.Omega0);
+      motion.deformation_rate_B.template segment<3>(node.translation_row) =
+          local.xd - x0d + cross<S>(local.xh, motion.Omega0);
     if (node.has_rotation())
       motion.deformation_rate_B.template segment<3>(node.rotation_row) =
           local.Tinv * nodes[i].Omega - local.Tinv.transpose() * motion.Omega0;
@@ -46,7 +47,8 @@ void local_rates(const SuperelementBody& body, const NodeView<Node>& nodes, Loca
       motion.y_B.template segment<3>(row) = local.psi;
       if (option_A) {
         local.Omega = local.E * nodes[i].Omega;
-        motion.acceleration_B.template segment<3>(row) = local.E * nodes[i].Omegad + cross<S>(local.Omega, motion.Omega0);
+        motion.acceleration_B.template segment<3>(row) =
+            local.E * nodes[i].Omegad + cross<S>(local.Omega, motion.Omega0);
       } else {
         local.Omega = nodes[i].Omega;
         motion.acceleration_B.template segment<3>(row) = nodes[i].Omegad;
@@ -56,7 +58,8 @@ void local_rates(const SuperelementBody& body, const NodeView<Node>& nodes, Loca
   }
 }
 
-/// Everything of LocalMotion except the internal coordinates, which the caller copies in. motion.R0 as in floating_frame().
+/// Everything of LocalMotion except the internal coordinates, which the caller copies in. motion.R0 as in
+/// floating_frame().
 template <class S, class Node>
 void local_motion(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   floating_frame(body, nodes, motion);

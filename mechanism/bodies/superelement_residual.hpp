@@ -31,7 +31,8 @@ SuperelementForces<S> make_forces(const SuperelementBody& body) {
 
 /// y += A x with constant A (column major) and vectors of any scalar; Rows is the number of rows, or Eigen::Dynamic.
 template <int Rows, class S>
-void multiply_add(const Eigen::MatrixXd& A, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x, Eigen::Matrix<S, Eigen::Dynamic, 1>& y) {
+void multiply_add(const Eigen::MatrixXd& A, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x,
+                  Eigen::Matrix<S, Eigen::Dynamic, 1>& y) {
   if constexpr (!std::is_same_v<S, double>) {
     for (Eigen::Index k = 0; k < A.cols(); ++k)
       for (Eigen::Index i = 0; i < A.rows(); ++i) y[i] += A(i, k) * x[k];
@@ -62,7 +63,8 @@ void local_forces(const SuperelementBody& body, const LocalMotion<S>& motion, Su
   const double a = body.damping.mass, b = body.damping.stiffness;
   const auto& rate = motion.deformation_rate_B;
   for (Eigen::Index k = 0; k < body.boundary_size; ++k)
-    for (Eigen::Index i = 0; i < body.boundary_size; ++i) out.s_B[i] += (a * body.M_BB(i, k) + b * body.S_BB(i, k)) * rate[k];
+    for (Eigen::Index i = 0; i < body.boundary_size; ++i)
+      out.s_B[i] += (a * body.M_BB(i, k) + b * body.S_BB(i, k)) * rate[k];
   for (Eigen::Index k = 0; k < body.modes; ++k) {
     out.r_I[k] += body.damping.internal[k] * motion.rate_I[k];
     for (Eigen::Index i = 0; i < body.boundary_size; ++i) {
@@ -85,7 +87,8 @@ Vec3<S> deformed_center_of_mass(const SuperelementBody& body, const LocalMotion<
 
 /// The part of the exact variation of V_g = −m g·x_cm that acts through y: s −= Γᵀ R₀ᵀg; returns the moment m c × R₀ᵀg.
 template <class S>
-Vec3<S> apply_gravity(const SuperelementBody& body, const LocalMotion<S>& motion, const Vec3<S>& g, SuperelementForces<S>& out) {
+Vec3<S> apply_gravity(const SuperelementBody& body, const LocalMotion<S>& motion, const Vec3<S>& g,
+                      SuperelementForces<S>& out) {
   for (Eigen::Index k = 0; k < body.boundary_size; ++k)
     for (int i = 0; i < 3; ++i) out.s_B[k] -= body.Gamma_B(i, k) * g[i];
   for (Eigen::Index k = 0; k < body.modes; ++k)
@@ -93,8 +96,8 @@ Vec3<S> apply_gravity(const SuperelementBody& body, const LocalMotion<S>& motion
   return body.mass * cross<S>(deformed_center_of_mass(body, motion), g);
 }
 
-/// r = Pᵀ M̄ ÿ + [Pᵀ(O₀ ∓ O_B) − UᵀVᵀ] p + Υᵀ(S̄ y + D ẏ) − gravity; − O_B in option A ([Car00] (45)), + in B ((60)), with the
-/// sign of UᵀVᵀ corrected (the print has +, which contradicts its own derivation and Lagrange's equations).
+/// r = Pᵀ M̄ ÿ + [Pᵀ(O₀ ∓ O_B) − UᵀVᵀ] p + Υᵀ(S̄ y + D ẏ) − gravity; − O_B in option A ([Car00] (45)), + in B ((60)),
+/// with the sign of UᵀVᵀ corrected (the print has +, which contradicts its own derivation and Lagrange's equations).
 template <int NB, class S>
 void superelement_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Eigen::Vector3d& gravity,
                          SuperelementForces<S>& out) {
@@ -129,8 +132,8 @@ void superelement_forces(const SuperelementBody& body, const LocalMotion<S>& mot
     if (node.has_translation()) {
       const int row = node.translation_row;
       const Vec3<S> p = out.p_B.template segment<3>(row);
-      const Vec3<S> f = out.f_B.template segment<3>(row) + cross<S>(motion.Omega0, p) + out.s_B.template segment<3>(row) -
-                        node.alpha * total;
+      const Vec3<S> f = out.f_B.template segment<3>(row) + cross<S>(motion.Omega0, p) +
+                        out.s_B.template segment<3>(row) - node.alpha * total;
       out.r_B.template segment<3>(row).noalias() = motion.R0 * f;
       if (polar) out.r_B.template segment<3>(row) += local.U_x.transpose() * moment;
     }

@@ -83,9 +83,11 @@ void multiply_V(const SuperelementBody& body, const SuperelementTangent& work, c
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     if (node.has_translation())
-      multiply3<NB, Write::add>(column_data(matrix, node.translation_row), skew<double>(work.node[i].xd), body.boundary_size, out.data());
+      multiply3<NB, Write::add>(column_data(matrix, node.translation_row), skew<double>(work.node[i].xd),
+                                body.boundary_size, out.data());
     if (node.has_rotation() && body.inertia == InertiaOption::A)
-      multiply3<NB, Write::add>(column_data(matrix, node.rotation_row), skew<double>(work.node[i].Omega), body.boundary_size, out.data());
+      multiply3<NB, Write::add>(column_data(matrix, node.rotation_row), skew<double>(work.node[i].Omega),
+                                body.boundary_size, out.data());
   }
 }
 
@@ -103,12 +105,14 @@ void add_times_U(const SuperelementBody& body, const SuperelementTangent& work, 
 
 /// out += c X O₀ᵀ.
 template <int NB, class X>
-void add_times_O0(const SuperelementBody& body, const SuperelementTangent& work, double c, const X& matrix, Square<NB>& out) {
+void add_times_O0(const SuperelementBody& body, const SuperelementTangent& work, double c, const X& matrix,
+                  Square<NB>& out) {
   const int nb = body.boundary_size;
   const Eigen::Matrix3d O0 = skew<double>(-c * work.Omega0);
   for (const SuperelementNode& node : body.node) {
     if (node.has_translation())
-      multiply3<NB, Write::add>(column_data(matrix, node.translation_row), O0, nb, column_data(out, node.translation_row));
+      multiply3<NB, Write::add>(column_data(matrix, node.translation_row), O0, nb,
+                                column_data(out, node.translation_row));
     if (node.has_rotation() && body.inertia == InertiaOption::A)
       multiply3<NB, Write::add>(column_data(matrix, node.rotation_row), O0, nb, column_data(out, node.rotation_row));
   }
@@ -116,24 +120,29 @@ void add_times_O0(const SuperelementBody& body, const SuperelementTangent& work,
 
 /// out += c X (O₀ ∓ O_B)ᵀ.
 template <int NB, class X>
-void add_times_O(const SuperelementBody& body, const SuperelementTangent& work, double c, const X& matrix, Square<NB>& out) {
+void add_times_O(const SuperelementBody& body, const SuperelementTangent& work, double c, const X& matrix,
+                 Square<NB>& out) {
   const int nb = body.boundary_size;
   const Eigen::Matrix3d O0 = skew<double>(-c * work.Omega0);
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     if (node.has_translation())
-      multiply3<NB, Write::add>(column_data(matrix, node.translation_row), O0, nb, column_data(out, node.translation_row));
+      multiply3<NB, Write::add>(column_data(matrix, node.translation_row), O0, nb,
+                                column_data(out, node.translation_row));
     if (!node.has_rotation()) continue;
     const Eigen::Vector3d& Omega = work.node[i].Omega;
-    const Eigen::Vector3d rate = body.inertia == InertiaOption::A ? Eigen::Vector3d(Omega - work.Omega0) : Eigen::Vector3d(-Omega);
-    multiply3<NB, Write::add>(column_data(matrix, node.rotation_row), skew<double>(c * rate), nb, column_data(out, node.rotation_row));
+    const Eigen::Vector3d rate =
+        body.inertia == InertiaOption::A ? Eigen::Vector3d(Omega - work.Omega0) : Eigen::Vector3d(-Omega);
+    multiply3<NB, Write::add>(column_data(matrix, node.rotation_row), skew<double>(c * rate), nb,
+                              column_data(out, node.rotation_row));
   }
 }
 
 /// Υᵀ S' Υ with S' = k S_BB, Υ = B + H U (S' has no stiffness against translation, so the weights of x₀ drop out):
 /// G = Bᵀ S' B = (S' B)ᵀ B, J = Bᵀ S' H + ½ Uᵀ (Hᵀ S' H); then Υᵀ S' Υ = G + J U + (J U)ᵀ. `SB` is work space.
 template <int NB>
-void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& work, double k, Square<NB>& SB, Square<NB>& G, Thin<NB>& J) {
+void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& work, double k, Square<NB>& SB,
+                     Square<NB>& G, Thin<NB>& J) {
   const int nb = body.boundary_size;
   const ConstSquare<NB> S(body.S_BB.data(), nb, nb);
   SB = k * S;
@@ -145,7 +154,8 @@ void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& wo
       multiply3<NB, Write::add>(column_data(S, node.translation_row), skew<double>(k * local.xh), nb, J.data());
     if (!node.has_rotation()) continue;
     const double* S_columns = column_data(S, node.rotation_row);
-    multiply3<NB, Write::assign>(S_columns, k * rotation_map(body.inertia, local), nb, column_data(SB, node.rotation_row));
+    multiply3<NB, Write::assign>(S_columns, k * rotation_map(body.inertia, local), nb,
+                                 column_data(SB, node.rotation_row));
     multiply3<NB, Write::add>(S_columns, -k * local.Tinv.transpose(), nb, J.data());
   }
   column_kernels::transpose<NB>(SB.data(), nb, G.data());
@@ -153,7 +163,8 @@ void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& wo
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     const LocalNode<double>& local = work.node[i];
-    if (node.has_translation()) HSH.noalias() -= skew<double>(local.xh) * J.template middleRows<3>(node.translation_row);
+    if (node.has_translation())
+      HSH.noalias() -= skew<double>(local.xh) * J.template middleRows<3>(node.translation_row);
     if (!node.has_rotation()) continue;
     const int row = node.rotation_row;
     const Eigen::Matrix3d B = rotation_map(body.inertia, local), SH = J.template middleRows<3>(row);
@@ -173,10 +184,12 @@ void multiply_P(const SuperelementBody& body, const SuperelementTangent& work, c
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     if (node.has_translation())
-      multiply3<NB, Write::assign>(column_data(X, node.translation_row), R0T, nb, column_data(out, node.translation_row));
+      multiply3<NB, Write::assign>(column_data(X, node.translation_row), R0T, nb,
+                                   column_data(out, node.translation_row));
     if (!node.has_rotation()) continue;
     if (body.inertia == InertiaOption::A)
-      multiply3<NB, Write::assign>(column_data(X, node.rotation_row), work.node[i].E, nb, column_data(out, node.rotation_row));
+      multiply3<NB, Write::assign>(column_data(X, node.rotation_row), work.node[i].E, nb,
+                                   column_data(out, node.rotation_row));
     else
       columns(out, node.rotation_row) = columns(X, node.rotation_row);
   }
@@ -278,9 +291,15 @@ void tangent(const SuperelementBody& body, SuperelementScratch& scratch, const T
   const bool mass_damping = body.damping.mass > 0.0;
   const bool eliminate = body.modes > 0 && !mass_damping;
   switch (body.boundary_size) {
-    case 12: condensed_tangent<12>(body, scratch, eliminate); break;
-    case 18: condensed_tangent<18>(body, scratch, eliminate); break;
-    default: condensed_tangent<Eigen::Dynamic>(body, scratch, eliminate); break;
+    case 12:
+      condensed_tangent<12>(body, scratch, eliminate);
+      break;
+    case 18:
+      condensed_tangent<18>(body, scratch, eliminate);
+      break;
+    default:
+      condensed_tangent<Eigen::Dynamic>(body, scratch, eliminate);
+      break;
   }
   if (mass_damping) add_mass_damping(body, scratch);
 }

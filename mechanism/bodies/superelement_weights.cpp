@@ -7,7 +7,8 @@ namespace tisserand::mechanism {
 
 namespace {
 
-Eigen::VectorXd truncated_solution(const Eigen::JacobiSVD<Eigen::MatrixXd>& svd, const Eigen::Vector3d& c, double tolerance) {
+Eigen::VectorXd truncated_solution(const Eigen::JacobiSVD<Eigen::MatrixXd>& svd, const Eigen::Vector3d& c,
+                                   double tolerance) {
   const Eigen::VectorXd& sigma = svd.singularValues();
   Eigen::VectorXd coefficient = svd.matrixU().transpose() * c;
   for (Eigen::Index k = 0; k < sigma.size(); ++k)

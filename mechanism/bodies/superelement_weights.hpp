@@ -11,12 +11,12 @@ struct Weights {
   bool flat = false;  ///< the set is nearly flat: the weights were limited instead of meeting the centre of mass
 };
 
-/// Weights with Σ αⱼ = 1 and Σ αⱼ xⱼ = the point of the affine hull of the nodes nearest to `center`; of these the ones with
-/// least |α|. points: 3 x n, n ≥ 1.
+/// Weights with Σ αⱼ = 1 and Σ αⱼ xⱼ = the point of the affine hull of the nodes nearest to `center`; of these the ones
+/// with least |α|. points: 3 x n, n ≥ 1.
 ///   α = e/n + Y⁺ c,  Y = (xⱼ − x̄)/l,  c = (center − x̄)/l,  l = maxⱼ |xⱼ − x̄|
-/// Differs from [Car00] (21)-(22), whose sum is 1 only if `center` lies in the hull and which depends on origin and length
-/// unit otherwise. Where nodes are so nearly in one plane or on one line that some |α| > 2, the thin direction is given up
-/// (singular values below 0.05 relative) and `flat` is set.
+/// Differs from [Car00] (21)-(22), whose sum is 1 only if `center` lies in the hull and which depends on origin and
+/// length unit otherwise. Where nodes are so nearly in one plane or on one line that some |α| > 2, the thin direction
+/// is given up (singular values below 0.05 relative) and `flat` is set.
 Weights frame_weights(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& center);
 
 }  // namespace tisserand::mechanism

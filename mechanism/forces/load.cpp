@@ -11,7 +11,8 @@ using formats::LoadKind;
 
 Vector6d load_force(const Load& load, const NodeMotion& node, const Vector3d& value) {
   // `material`: the load in node axes.
-  const Vector3d material = load.axes == LoadAxes::body ? Vector3d(load.at.R * value) : Vector3d(node.R.transpose() * value);
+  const Vector3d material =
+      load.axes == LoadAxes::body ? Vector3d(load.at.R * value) : Vector3d(node.R.transpose() * value);
   Vector6d force = Vector6d::Zero();
   if (load.kind == LoadKind::force) {
     force.head<3>() = node.R * material;

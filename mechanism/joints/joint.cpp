@@ -28,9 +28,12 @@ struct Pairs {
 
 Pairs normal_pairs(JointKind kind) {
   switch (kind) {
-    case JointKind::fixed: return {fixed_pairs.data(), 3};
-    case JointKind::revolute: return {revolute_pairs.data(), 2};
-    case JointKind::spherical: return {nullptr, 0};
+    case JointKind::fixed:
+      return {fixed_pairs.data(), 3};
+    case JointKind::revolute:
+      return {revolute_pairs.data(), 2};
+    case JointKind::spherical:
+      return {nullptr, 0};
   }
   return {nullptr, 0};
 }
@@ -84,7 +87,8 @@ void joint_bias(const Joint& joint, const NodeMotion& a, const NodeMotion& b, Jo
   }
 }
 
-void joint_rate_gradient(const Joint& joint, const NodeMotion& a, const NodeMotion& b, Eigen::Matrix<double, 6, 12>& N) {
+void joint_rate_gradient(const Joint& joint, const NodeMotion& a, const NodeMotion& b,
+                         Eigen::Matrix<double, 6, 12>& N) {
   N.setZero();
   N.block<3, 3>(0, 3).noalias() = a.R * skew<double>(a.Omega.cross(joint.a.p));
   N.block<3, 3>(0, 9).noalias() = -b.R * skew<double>(b.Omega.cross(joint.b.p));

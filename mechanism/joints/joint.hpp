@@ -1,4 +1,5 @@
-// Joints between two markers: constraints Φ, their Jacobian B, the bias of Φ̈ and the geometric stiffness of the reactions.
+// Joints between two markers: constraints Φ, their Jacobian B, the bias of Φ̈ and the geometric stiffness of the
+// reactions.
 #pragma once
 
 #include <string>
@@ -21,8 +22,8 @@ struct Joint {
   JointKind kind = JointKind::spherical;
   Marker a;
   Marker b;
-  int row = 0;          ///< first multiplier
-  int hinge = -1;       ///< index of the unwrapped angle (revolute)
+  int row = 0;     ///< first multiplier
+  int hinge = -1;  ///< index of the unwrapped angle (revolute)
 };
 
 /// Number of equations: 6, 5 or 3.
@@ -35,7 +36,7 @@ std::string joint_equation_name(JointKind kind, int equation);
 struct JointTerms {
   Eigen::Matrix<double, 6, 1> phi;
   Eigen::Matrix<double, 6, 12> B;
-  Eigen::Matrix<double, 6, 1> bias;          ///< Ḃ v: Φ̈ = B v̇ + bias
+  Eigen::Matrix<double, 6, 1> bias;  ///< Ḃ v: Φ̈ = B v̇ + bias
 };
 
 /// Φ and B.

@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/Core>
 #include <klu.h>
+#include <Eigen/Core>
 
 #include "common/error.hpp"
 #include "mechanism/bodies/column_kernels.hpp"
@@ -19,9 +19,10 @@ SparsePattern::SparsePattern(int size, std::vector<Position> positions, Storage 
   std::sort(positions.begin(), positions.end(), [](const Position& a, const Position& b) {
     return a.column != b.column ? a.column < b.column : a.row < b.row;
   });
-  positions.erase(std::unique(positions.begin(), positions.end(),
-                              [](const Position& a, const Position& b) { return a.row == b.row && a.column == b.column; }),
-                  positions.end());
+  positions.erase(
+      std::unique(positions.begin(), positions.end(),
+                  [](const Position& a, const Position& b) { return a.row == b.row && a.column == b.column; }),
+      positions.end());
   nonzeros_ = static_cast<int>(positions.size());
   column_start_.assign(static_cast<std::size_t>(size) + 1, 0);
   rows_.reserve(positions.size());
@@ -92,16 +93,16 @@ struct LinearSolver::Klu {
   }
 };
 
-/// LU with partial pivoting by rank-one updates of whole registers. Columns are padded to multiples of four rows; the zeros
-/// of L and U beside their triangles let every update start and end at a full register.
+/// LU with partial pivoting by rank-one updates of whole registers. Columns are padded to multiples of four rows; the
+/// zeros of L and U beside their triangles let every update start and end at a full register.
 struct LinearSolver::Dense {
   int n = 0;
-  int rows = 0;                    ///< leading dimension
-  std::vector<double> lower;       ///< L without its unit diagonal, zeros elsewhere
-  std::vector<double> upper;       ///< U without its diagonal, zeros elsewhere
-  std::vector<double> diagonal;    ///< pivots, then their reciprocals
-  std::vector<int> exchange;       ///< row k was exchanged with row exchange[k]
-  std::vector<double> work;        ///< right-hand side
+  int rows = 0;                  ///< leading dimension
+  std::vector<double> lower;     ///< L without its unit diagonal, zeros elsewhere
+  std::vector<double> upper;     ///< U without its diagonal, zeros elsewhere
+  std::vector<double> diagonal;  ///< pivots, then their reciprocals
+  std::vector<int> exchange;     ///< row k was exchanged with row exchange[k]
+  std::vector<double> work;      ///< right-hand side
 
   explicit Dense(int size)
       : n(size),
@@ -160,7 +161,9 @@ struct LinearSolver::Dense {
 
   void solve(double* b) {
     std::copy_n(b, n, work.data());
-    for (int k = 0; k < n; ++k) std::swap(work[static_cast<std::size_t>(k)], work[static_cast<std::size_t>(exchange[static_cast<std::size_t>(k)])]);
+    for (int k = 0; k < n; ++k)
+      std::swap(work[static_cast<std::size_t>(k)],
+                work[static_cast<std::size_t>(exchange[static_cast<std::size_t>(k)])]);
     for (int k = 0; k < n; ++k) subtract(work[static_cast<std::size_t>(k)], lower_column(k), k + 1, n, work.data());
     for (int k = n - 1; k >= 0; --k) {
       const double x = work[static_cast<std::size_t>(k)] * diagonal[static_cast<std::size_t>(k)];
@@ -185,7 +188,8 @@ FactorReport LinearSolver::numeric(std::span<const double> values) {
   TISSERAND_ENSURE(static_cast<int>(values.size()) == pattern_->values(), "{} values", values.size());
   if (pattern_->size() == 0) return {true, 1.0, -1};
   // 0 if all are finite, else NaN.
-  if ((0.0 * Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Eigen::Index>(values.size()))).sum() != 0.0) return {};
+  if ((0.0 * Eigen::Map<const Eigen::ArrayXd>(values.data(), static_cast<Eigen::Index>(values.size()))).sum() != 0.0)
+    return {};
   if (dense_) return dense_->factor(values.data());
   return klu_->factor(*pattern_, const_cast<double*>(values.data()));
 }

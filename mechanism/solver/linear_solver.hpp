@@ -44,13 +44,14 @@ class SparsePattern {
 struct FactorReport {
   bool regular = false;
   double reciprocal_condition = 0.0;
-  int singular_column = -1;   ///< where the elimination broke down, if known
+  int singular_column = -1;  ///< where the elimination broke down, if known
 };
 
-/// The only door to SuiteSparse (KLU); small dense systems are solved here. No allocation in numeric() and solve() after the first numeric().
+/// The only door to SuiteSparse (KLU); small dense systems are solved here. No allocation in numeric() and solve()
+/// after the first numeric().
 class LinearSolver {
  public:
-  explicit LinearSolver(const SparsePattern& pattern);   ///< symbolic
+  explicit LinearSolver(const SparsePattern& pattern);  ///< symbolic
   ~LinearSolver();
   LinearSolver(LinearSolver&&) noexcept;
   LinearSolver& operator=(LinearSolver&&) noexcept;

@@ -12,8 +12,8 @@ namespace {
 using Matrix4 = Eigen::Matrix4d;
 using Vector4 = Eigen::Vector4d;
 
-/// Where the four coordinates (deflection, slope, deflection, slope) of a bending plane stand among the twelve. In x-z the
-/// slope w' is −θy.
+/// Where the four coordinates (deflection, slope, deflection, slope) of a bending plane stand among the twelve. In x-z
+/// the slope w' is −θy.
 struct BendingPlane {
   std::array<int, 4> index;
   double slope_sign;
@@ -111,7 +111,8 @@ Matrix12 lumped_mass(const BeamElementData& beam) {
 ShearFlexibility shear_flexibility(const BeamElementData& beam) {
   ShearFlexibility phi;
   if (beam.theory == formats::BeamTheory::euler_bernoulli) return phi;
-  const double factor = 12.0 * beam.material.youngs_modulus / (beam.material.shear_modulus() * beam.length * beam.length);
+  const double factor =
+      12.0 * beam.material.youngs_modulus / (beam.material.shear_modulus() * beam.length * beam.length);
   const formats::Section& s = beam.section;
   if (s.shear_area_y > 0.0) phi.xy = factor * s.second_moment_z / s.shear_area_y;
   if (s.shear_area_z > 0.0) phi.xz = factor * s.second_moment_y / s.shear_area_z;
@@ -134,8 +135,10 @@ Matrix12 beam_stiffness(const BeamElementData& beam) {
 
 Matrix12 beam_mass(const BeamElementData& beam) {
   switch (beam.mass_matrix) {
-    case formats::MassMatrix::consistent: return consistent_mass(beam);
-    case formats::MassMatrix::lumped: return lumped_mass(beam);
+    case formats::MassMatrix::consistent:
+      return consistent_mass(beam);
+    case formats::MassMatrix::lumped:
+      return lumped_mass(beam);
   }
   return Matrix12::Zero();
 }

@@ -25,7 +25,8 @@ double microseconds(Action action) {
       benchmark::ClobberMemory();
     }
     const double seconds = cpu_seconds() - begin;
-    if (seconds > 5e-3 || count > 10'000'000) return 1e6 * seconds / static_cast<double>(count);  // an empty action takes no time
+    if (seconds > 5e-3 || count > 10'000'000)
+      return 1e6 * seconds / static_cast<double>(count);  // an empty action takes no time
   }
 }
 
@@ -36,7 +37,7 @@ struct Kernels {
   double evaluate = 0.0;         ///< all of evaluate(), elements included
   double tangent = 0.0;          ///< all of evaluate_tangent(), elements included
   double factor = 0.0;
-  double solve = 0.0;            ///< with condensation and expansion of internal coordinates
+  double solve = 0.0;  ///< with condensation and expansion of internal coordinates
 };
 
 Kernels measure(Stopped& run) {
@@ -56,7 +57,8 @@ Kernels measure(Stopped& run) {
       const int internal = model.internal_offset[i], first = model.sizes.boundary + internal;
       mechanism::update_kinematics(model.superelements[i], workspace.motion, state.y().data() + internal,
                                    state.v().data() + first, state.vdot().data() + first,
-                                   Eigen::Matrix3d(workspace.superelements[i].R0_reference), workspace.superelements[i]);
+                                   Eigen::Matrix3d(workspace.superelements[i].R0_reference),
+                                   workspace.superelements[i]);
       mechanism::residual(model.superelements[i], workspace.superelements[i], model.gravity);
     }
   });
@@ -72,7 +74,8 @@ Kernels measure(Stopped& run) {
   time.element_tangent += microseconds([&] {
     Eigen::Matrix<double, 12, 1> r;
     Eigen::Matrix<double, 12, 12> A;
-    for (const auto& beam : model.beams2) mechanism::residual_and_tangent(beam, workspace.motion, model.gravity, c, r, A);
+    for (const auto& beam : model.beams2)
+      mechanism::residual_and_tangent(beam, workspace.motion, model.gravity, c, r, A);
     benchmark::DoNotOptimize(A);
   });
   return time;
@@ -80,10 +83,14 @@ Kernels measure(Stopped& run) {
 
 Case chosen(int which) {
   switch (which) {
-    case 0: return hinged_beam(4, Formulation::index3);
-    case 1: return hinged_beam(4, Formulation::stabilised_index2);
-    case 2: return nonlinear_beam(10, 2);
-    default: return chain(100, 20);
+    case 0:
+      return hinged_beam(4, Formulation::index3);
+    case 1:
+      return hinged_beam(4, Formulation::stabilised_index2);
+    case 2:
+      return nonlinear_beam(10, 2);
+    default:
+      return chain(100, 20);
   }
 }
 
@@ -140,7 +147,9 @@ void internal_modes(benchmark::State& state) {
   const Case none = hinged_beam(0, Formulation::stabilised_index2);
   const Case some = hinged_beam(static_cast<int>(state.range(0)), Formulation::stabilised_index2);
   Stopped stopped_none(none, half_time(none)), stopped_some(some, half_time(some));
-  const auto iteration = [](const Kernels& time) { return time.evaluate + time.tangent + time.factor + 2.0 * time.solve; };
+  const auto iteration = [](const Kernels& time) {
+    return time.evaluate + time.tangent + time.factor + 2.0 * time.solve;
+  };
   for (auto _ : state) {
     const Cost a = run(none), b = run(some);
     const Kernels kernels_a = measure(stopped_none), kernels_b = measure(stopped_some);

@@ -30,7 +30,9 @@ void hinged_beam_4_modes(benchmark::State& state, Formulation formulation) {
   run_beam(hinged_beam(4, formulation), "beam/base", state);
 }
 BENCHMARK_CAPTURE(hinged_beam_4_modes, index3, Formulation::index3)->Iterations(1)->Repetitions(5);
-BENCHMARK_CAPTURE(hinged_beam_4_modes, stabilised_index2, Formulation::stabilised_index2)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(hinged_beam_4_modes, stabilised_index2, Formulation::stabilised_index2)
+    ->Iterations(1)
+    ->Repetitions(5);
 
 void nonlinear_beams_of_2_nodes(benchmark::State& state) {
   run_beam(nonlinear_beam(static_cast<int>(state.range(0)), 2), "beam/0", state);
@@ -51,7 +53,8 @@ void chain_of_superelements(benchmark::State& state) {
     state.counters["a: us/step/element"] = per * cost.seconds() / static_cast<double>(cost.steps);
     state.counters["b: us/iteration/element"] = per * cost.seconds() / static_cast<double>(cost.iterations);
     state.counters["c: iterations/step"] = static_cast<double>(cost.iterations) / static_cast<double>(cost.steps);
-    state.counters["d: factorisations/step"] = static_cast<double>(cost.factorisations) / static_cast<double>(cost.steps);
+    state.counters["d: factorisations/step"] =
+        static_cast<double>(cost.factorisations) / static_cast<double>(cost.steps);
     state.counters["e: model us/element"] = per * cost.seconds_model;
     state.counters["f: start us/element"] = per * cost.seconds_start;
   }

@@ -1,4 +1,5 @@
-// Superelements by static condensation and fixed-boundary modes of a chain of beam elements; the loop of a run with clocks.
+// Superelements by static condensation and fixed-boundary modes of a chain of beam elements; the loop of a run with
+// clocks.
 #include "tests/benchmarks/scenes.hpp"
 
 #include <time.h>
@@ -92,9 +93,10 @@ formats::Superelement reduced_beam(const BeamData& beam, int pieces, int modes) 
 }
 
 void add_hinge_and_torque(const std::string& base, formats::Scene& scene) {
-  scene.joints.push_back(test_support::joint("hinge", formats::JointKind::revolute, "ground", base, Eigen::Vector3d::Zero(),
-                                             Eigen::Vector3d::UnitZ()));
-  formats::LoadSpec torque = test_support::constant_load("torque", formats::LoadKind::moment, base, Eigen::Vector3d::Zero());
+  scene.joints.push_back(test_support::joint("hinge", formats::JointKind::revolute, "ground", base,
+                                             Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()));
+  formats::LoadSpec torque =
+      test_support::constant_load("torque", formats::LoadKind::moment, base, Eigen::Vector3d::Zero());
   torque.components[2] = formats::TimeTable{{0.0, 0.2, 10.0, 10.2}, {0.0, 200.0, 200.0, 0.0}};
   scene.loads.push_back(torque);
   scene.output.every = 10;
@@ -116,7 +118,8 @@ std::map<long, double> reference_rates(double step) {
 
 /// Results file of one run, removed at the end.
 struct Output {
-  std::string path = (std::filesystem::temp_directory_path() / fmt::format("benchmark-{}.results.h5", ::getpid())).string();
+  std::string path =
+      (std::filesystem::temp_directory_path() / fmt::format("benchmark-{}.results.h5", ::getpid())).string();
   formats::ResultsLayout layout;
   formats::ResultsRow row;
   std::unique_ptr<formats::ResultsWriter> writer;
@@ -130,8 +133,8 @@ struct Output {
     std::error_code ignored;
     std::filesystem::remove(path, ignored);
   }
-  void write(const mechanism::Model& model, const mechanism::StepReport& step, double size, const mechanism::State& state,
-             mechanism::Workspace& workspace) {
+  void write(const mechanism::Model& model, const mechanism::StepReport& step, double size,
+             const mechanism::State& state, mechanism::Workspace& workspace) {
     mechanism::fill_row(model, state, workspace, row);
     row.step = size;
     row.iterations = step.iterations;
@@ -199,7 +202,8 @@ Case nonlinear_beam(int elements, int nodes_per_element) {
   body.to = {beam.length, 0.0, 0.0};
   body.elements = elements;
   body.nodes_per_element = nodes_per_element;
-  body.section = {"square", beam.area, beam.Iy, beam.Iz, beam.J, beam.Iy + beam.Iz, beam.shear_area_y, beam.shear_area_z, ""};
+  body.section = {"square",          beam.area,         beam.Iy,           beam.Iz, beam.J,
+                  beam.Iy + beam.Iz, beam.shear_area_y, beam.shear_area_z, ""};
   body.material = {"steel", beam.young, 0.3, beam.density, ""};
   input.scene.bodies.push_back(body);
   add_hinge_and_torque("beam/start", input.scene);
@@ -219,9 +223,9 @@ Case chain(int elements, int steps) {
     formats::SuperelementBodySpec body = test_support::superelement_body(fmt::format("link{}", i), "link");
     body.start.pose.position = {i * length, 0.0, 0.0};
     scene.bodies.push_back(body);
-    scene.joints.push_back(test_support::joint(fmt::format("joint{}", i), formats::JointKind::spherical,
-                                               i == 0 ? "ground" : fmt::format("link{}/tip", i - 1), fmt::format("link{}/base", i),
-                                               {i * length, 0.0, 0.0}, Eigen::Vector3d::UnitZ()));
+    scene.joints.push_back(test_support::joint(
+        fmt::format("joint{}", i), formats::JointKind::spherical, i == 0 ? "ground" : fmt::format("link{}/tip", i - 1),
+        fmt::format("link{}/base", i), {i * length, 0.0, 0.0}, Eigen::Vector3d::UnitZ()));
   }
   return input;
 }
@@ -262,8 +266,10 @@ Stopped::Stopped(const Case& input, double time)
   (void)mechanism::start(scene, built.model, built.state, workspace);
   mechanism::Schedule schedule(scene, built.model.breakpoints);
   while (built.state.time() < time) {
-    const auto step = mechanism::advance(built.model, scene.integrator, schedule.next(built.state.time()), built.state, workspace);
-    if (step.outcome != mechanism::StepOutcome::accepted) throw std::runtime_error(mechanism::explain(built.model, step));
+    const auto step =
+        mechanism::advance(built.model, scene.integrator, schedule.next(built.state.time()), built.state, workspace);
+    if (step.outcome != mechanism::StepOutcome::accepted)
+      throw std::runtime_error(mechanism::explain(built.model, step));
     (void)schedule.accept(built.state.time());
   }
 }

@@ -17,15 +17,15 @@ struct Case {
   mechanism::SuperelementFiles files;
 };
 
-/// Hinged beam of [Car00] 8.1, moment 200, 2000 steps of 0.01, as one reduced body: 24 beam elements, boundary nodes base and
-/// tip, `modes` (at most 138) modes with fixed boundary; frame karcher, inertia B.
+/// Hinged beam of [Car00] 8.1, moment 200, 2000 steps of 0.01, as one reduced body: 24 beam elements, boundary nodes
+/// base and tip, `modes` (at most 138) modes with fixed boundary; frame karcher, inertia B.
 Case hinged_beam(int modes, formats::Formulation formulation);
 
 /// The same beam as geometrically exact elements of two or three nodes.
 Case nonlinear_beam(int elements, int nodes_per_element);
 
-/// Horizontal chain of superelements (one metre of steel each, 4 modes) that falls from rest under gravity, the first one held
-/// by ground; all joints spherical. Steps of 1 ms.
+/// Horizontal chain of superelements (one metre of steel each, 4 modes) that falls from rest under gravity, the first
+/// one held by ground; all joints spherical. Steps of 1 ms.
 Case chain(int elements, int steps);
 
 /// CPU time of this process [s].
@@ -34,15 +34,16 @@ double cpu_seconds();
 /// What a run cost and how well it did.
 struct Cost {
   double seconds_model = 0.0, seconds_start = 0.0;
-  double seconds_steps = 0.0;      ///< without output
+  double seconds_steps = 0.0;  ///< without output
   double seconds_output = 0.0;
   long steps = 0, iterations = 0, factorisations = 0, rejected = 0;
-  double error = 0.0;              ///< largest of the base's angular velocity about z against the converged reference
+  double error = 0.0;  ///< largest of the base's angular velocity about z against the converged reference
   double error_rms = 0.0;
   double seconds() const { return seconds_steps + seconds_output; }
 };
 
-/// Builds, starts and runs; writes every tenth step to a results file in the folder for temporary files. Throws if a step fails.
+/// Builds, starts and runs; writes every tenth step to a results file in the folder for temporary files. Throws if a
+/// step fails.
 Cost run(const Case& input);
 
 /// As above, with errors against the reference of the hinged beam: the node named `base`.

@@ -1,7 +1,7 @@
 // Start-up of the programs: CPU and wall time of their own first words.
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <fcntl.h>
 #include <time.h>
 #include <unistd.h>
 

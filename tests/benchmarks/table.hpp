@@ -13,7 +13,7 @@ class TableReporter : public benchmark::BenchmarkReporter {
   void ReportRuns(const std::vector<Run>& runs) override;
 
  private:
-  std::string columns_;   ///< counters of the table that is being printed
+  std::string columns_;  ///< counters of the table that is being printed
 };
 
 }  // namespace tisserand::benchmarks

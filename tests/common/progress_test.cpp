@@ -47,7 +47,8 @@ TEST(Progress, RewritesOneLineOnATerminalAndRemovesIt) {
   progress.update(5.0, "");
   progress.finish();
   progress.finish();
-  EXPECT_EQ(recorder.text(), "\rrunning: 25 %, t = 2.5 s, 1 s gone, 4 s to go\x1b[K\rrunning: 50 %, 2 s gone, 2 s to go\x1b[K\r\x1b[K");
+  EXPECT_EQ(recorder.text(),
+            "\rrunning: 25 %, t = 2.5 s, 1 s gone, 4 s to go\x1b[K\rrunning: 50 %, 2 s gone, 2 s to go\x1b[K\r\x1b[K");
 }
 
 TEST(Progress, WritesALineEveryTenSecondsElsewhere) {

@@ -1,4 +1,5 @@
-// Rotations: every function against long double over all magnitudes of the angle, identities of exp, log and T, derivatives.
+// Rotations: every function against long double over all magnitudes of the angle, identities of exp, log and T,
+// derivatives.
 #include "common/rotation.hpp"
 
 #include <algorithm>
@@ -8,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 namespace tisserand {
 namespace {
@@ -22,13 +23,15 @@ using Wide = long double;
 constexpr double eps = std::numeric_limits<double>::epsilon();
 const double pi = std::acos(-1.0);
 
-/// Angles from 1e-12 to `largest`, twenty per decade, and both sides of the switches of rotation.hpp: |ψ| = 0.1 (a² < 1e-2)
-/// and half angle with sin² = 1e-6 (log).
+/// Angles from 1e-12 to `largest`, twenty per decade, and both sides of the switches of rotation.hpp: |ψ| = 0.1 (a² <
+/// 1e-2) and half angle with sin² = 1e-6 (log).
 std::vector<double> sweep(double largest) {
   std::vector<double> angles;
-  for (double exponent = -12.0; std::pow(10.0, exponent) < largest; exponent += 0.05) angles.push_back(std::pow(10.0, exponent));
+  for (double exponent = -12.0; std::pow(10.0, exponent) < largest; exponent += 0.05)
+    angles.push_back(std::pow(10.0, exponent));
   for (const double centre : {0.1, 2.0 * std::asin(1e-3)})
-    for (const double offset : {-1e-3, -1e-9, -1e-15, 0.0, 1e-15, 1e-9, 1e-3}) angles.push_back(centre * (1.0 + offset));
+    for (const double offset : {-1e-3, -1e-9, -1e-15, 0.0, 1e-15, 1e-9, 1e-3})
+      angles.push_back(centre * (1.0 + offset));
   for (const double gap : {0.5, 0.1, 1e-2, 1e-3}) angles.push_back(largest - gap);
   return angles;
 }
@@ -41,8 +44,8 @@ std::vector<Vector3> directions() {
   return list;
 }
 
-/// Σ_k (−1)^k a^(2k)/(2k + first)!: sin a/a, (1 − cos a)/a², (a − sin a)/a³ for first = 1, 2, 3. Below a = 1 the largest term
-/// is the first, so that the sum has all digits of long double.
+/// Σ_k (−1)^k a^(2k)/(2k + first)!: sin a/a, (1 − cos a)/a², (a − sin a)/a³ for first = 1, 2, 3. Below a = 1 the
+/// largest term is the first, so that the sum has all digits of long double.
 Wide alternating_series(Wide a, int first) {
   Wide term = 1.0L / std::tgamma(static_cast<Wide>(first) + 1.0L), sum = 0.0L;
   for (int k = 0; k < 40; ++k) {
@@ -56,7 +59,8 @@ struct WideFunctions {
   Wide s, c, d, e;
 };
 
-/// e = (1 − s/(2c))/a² = (2c − s)/(2 c a²), and with c = 1/2 − a² f, f = Σ (−1)^k a^(2k)/(2k + 4)!: 2c − s = a² (d − 2f).
+/// e = (1 − s/(2c))/a² = (2c − s)/(2 c a²), and with c = 1/2 − a² f, f = Σ (−1)^k a^(2k)/(2k + 4)!: 2c − s = a² (d −
+/// 2f).
 WideFunctions wide_functions(Wide a) {
   if (a >= 1.0L) {
     const Wide s = std::sin(a) / a, c = (1.0L - std::cos(a)) / (a * a);
@@ -76,8 +80,8 @@ TEST(Rotation, FunctionsOfTheAngleHaveNoLossAtAnyMagnitude) {
   for (const double a : sweep(2 * pi)) {
     const AngleFunctions<double> f(a * a);
     const WideFunctions w = wide_functions(a);
-    // s, c a², d a², e a² are what enters exp, T and T⁻¹ beside 1: errors of a few roundings of 1, or of e a² itself where
-    // it grows towards 2π (there tan(a/2) multiplies the rounding of a by |e a²|).
+    // s, c a², d a², e a² are what enters exp, T and T⁻¹ beside 1: errors of a few roundings of 1, or of e a² itself
+    // where it grows towards 2π (there tan(a/2) multiplies the rounding of a by |e a²|).
     const double growth = std::max(1.0, std::abs(static_cast<double>(w.e) * a * a));
     EXPECT_NEAR(f.s, static_cast<double>(w.s), 4 * eps) << a;
     EXPECT_NEAR(f.c * a * a, static_cast<double>(w.c) * a * a, 8 * eps) << a;
@@ -116,7 +120,8 @@ TEST(Rotation, LogarithmInvertsTheExponential) {
     for (const Vector3& n : directions()) {
       const Vector3 psi = a * n;
       // Rounding of R by eps turns by eps: absolute error of a few eps, and relative where R holds ψ to first order.
-      EXPECT_LT((log_so3<double>(exp_so3<double>(psi)) - psi).norm(), 16 * eps * std::max(a, std::min(1.0, a * 16))) << a;
+      EXPECT_LT((log_so3<double>(exp_so3<double>(psi)) - psi).norm(), 16 * eps * std::max(a, std::min(1.0, a * 16)))
+          << a;
     }
 }
 
@@ -150,7 +155,8 @@ TEST(Rotation, IdentitiesOfTheTangent) {
   for (const double a : sweep(2 * pi))
     for (const Vector3& n : directions()) {
       const Vector3 psi = a * n;
-      const Matrix3 T = tangent_so3<double>(psi), T_inverse = inverse_tangent_so3<double>(psi), R = exp_so3<double>(psi);
+      const Matrix3 T = tangent_so3<double>(psi), T_inverse = inverse_tangent_so3<double>(psi),
+                    R = exp_so3<double>(psi);
       const double size = std::max(1.0, T_inverse.norm());  // grows as 1/(2π − a)
       EXPECT_LT((T * T_inverse - Matrix3::Identity()).cwiseAbs().maxCoeff(), 32 * eps * size * size) << a;
       EXPECT_LT((inverse_tangent_so3<double>(-psi) - T_inverse.transpose()).norm(), 8 * eps * size) << a;
@@ -199,7 +205,8 @@ TEST(Rotation, DerivativeOfTheExponentialIsTheTangentByDualAndComplex) {
       const Matrix3 expected = exp_so3<double>(psi) * skew<double>(tangent_so3<double>(psi) * d_psi);
       const Matrix3 dual = derivatives(exp_so3<Dual>(along<Dual>(psi, d_psi)));
       const Matrix3 complex = derivatives(exp_so3<Complex>(along<Complex>(psi, d_psi)));
-      // The closed forms differentiate c = 2 sin²(a/2)/a² at a ≥ 0.1: rounding of c is multiplied by 2/a ≤ 20 and |ψ~²| ≤ a².
+      // The closed forms differentiate c = 2 sin²(a/2)/a² at a ≥ 0.1: rounding of c is multiplied by 2/a ≤ 20 and |ψ~²|
+      // ≤ a².
       EXPECT_LT((dual - expected).cwiseAbs().maxCoeff(), 64 * eps) << a;
       EXPECT_LT((complex - expected).cwiseAbs().maxCoeff(), 64 * eps) << a;
       EXPECT_LT((dual - complex).cwiseAbs().maxCoeff(), 64 * eps) << a;
@@ -236,7 +243,9 @@ TEST(Rotation, DerivativeOfTheTangentAgreesBetweenDualAndComplexAcrossTheSwitch)
       };
       // (1 − s)/a² and (1 − s/(2c))/a² lose eps/a² when they are differentiated: at most 1e2 × 2/a × a² there.
       const double scale = 400 * eps * std::max(1.0, inverse_tangent_so3<double>(psi).squaredNorm());
-      EXPECT_LT(difference(tangent_so3<Dual>(along<Dual>(psi, d_psi)), tangent_so3<Complex>(along<Complex>(psi, d_psi))), scale)
+      EXPECT_LT(
+          difference(tangent_so3<Dual>(along<Dual>(psi, d_psi)), tangent_so3<Complex>(along<Complex>(psi, d_psi))),
+          scale)
           << a;
       EXPECT_LT(difference(inverse_tangent_so3<Dual>(along<Dual>(psi, d_psi)),
                            inverse_tangent_so3<Complex>(along<Complex>(psi, d_psi))),

@@ -62,7 +62,8 @@ TEST(Text, FileIsReplacedAsAWhole) {
   write_text_file(path, "old");
   write_text_file(path, text);
   EXPECT_EQ(text_of(path), text);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()), 1);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()),
+            1);
 }
 
 TEST(Text, UnpublishedFileLeavesNothing) {
@@ -86,11 +87,13 @@ TEST(Text, UnwritablePlacesAreErrorsWithRemedy) {
     }
     return "no error";
   };
-  EXPECT_THAT(error_of(folder.file("missing/a")), testing::HasSubstr("No such file or directory; choose a folder that exists"));
+  EXPECT_THAT(error_of(folder.file("missing/a")),
+              testing::HasSubstr("No such file or directory; choose a folder that exists"));
   EXPECT_THAT(error_of(folder.file("file/a")), testing::HasSubstr("Not a directory; choose a folder that exists"));
   EXPECT_THAT(error_of(folder.file("folder")), testing::HasSubstr("Is a directory; give the name of a file"));
   EXPECT_THAT(error_of("/proc/self/a"), testing::HasSubstr("/proc/self/a: cannot create the file"));
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()), 2);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()),
+            2);
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ TEST(Units, UnknownLabelListsTheKnownOnes) {
     static_cast<void>(length_unit("yard"));
     ADD_FAILURE();
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("'yard'"), testing::HasSubstr("m, mm, cm, km, in, ft")));
+    EXPECT_THAT(error.what(),
+                testing::AllOf(testing::HasSubstr("'yard'"), testing::HasSubstr("m, mm, cm, km, in, ft")));
   }
 }
 
@@ -41,12 +42,14 @@ TEST(Units, MillimetreTonneSecondToSiKeepsTheNewton) {
 
 TEST(Units, UnnamedMixOnlyWithUnnamed) {
   EXPECT_EQ(convert_units(Units::consistent(), Units::consistent(), "x").force(), 1.0);
-  for (const auto& [from, to] : {std::pair{Units::si(), Units::consistent()}, std::pair{Units::consistent(), Units::si()}}) {
+  for (const auto& [from, to] :
+       {std::pair{Units::si(), Units::consistent()}, std::pair{Units::consistent(), Units::si()}}) {
     try {
       static_cast<void>(convert_units(from, to, "beam.superelement.h5"));
       ADD_FAILURE();
     } catch (const Error& error) {
-      EXPECT_THAT(error.what(), testing::AllOf(testing::HasSubstr("beam.superelement.h5"), testing::HasSubstr("unnamed")));
+      EXPECT_THAT(error.what(),
+                  testing::AllOf(testing::HasSubstr("beam.superelement.h5"), testing::HasSubstr("unnamed")));
     }
   }
 }

@@ -27,7 +27,8 @@ using test_support::example_layout;
 using test_support::fill_row;
 using test_support::TemporaryFolder;
 
-/// Writes one run after the other at full speed, so that most moments are in the middle of a write or of an end of a run.
+/// Writes one run after the other at full speed, so that most moments are in the middle of a write or of an end of a
+/// run.
 [[noreturn]] void write_forever(const std::string& path, const ResultsLayout& layout) {
   ResultsRow row;
   row.resize(layout);
@@ -55,7 +56,8 @@ void expect_true_rows(const std::string& path, const ResultsLayout& layout) {
     fill_row(static_cast<int>(t), row);
     ASSERT_EQ(time[t], row.time) << path << " row " << t << " of " << reader.rows();
     ASSERT_EQ(constraint[t], row.constraint) << path << " row " << t;
-    // Values ascend by one from column to column in the order of the file, but for time and the joint without coordinate.
+    // Values ascend by one from column to column in the order of the file, but for time and the joint without
+    // coordinate.
     for (Eigen::Index j = 2; j < values.cols(); ++j) {
       const double step = values(static_cast<Eigen::Index>(t), j) - values(static_cast<Eigen::Index>(t), j - 1);
       ASSERT_TRUE(step == 1.0 || std::isnan(step)) << path << " row " << t << " " << names[static_cast<std::size_t>(j)];
@@ -89,8 +91,10 @@ TEST(ResultsKill, FilesOfKilledRunsOpenAndHoldTrueRows) {
       try {
         expect_true_rows(candidate, layout);
         const ResultsReader reader(candidate);
-        if (reader.completed()) ++whole;
-        else ++partial;
+        if (reader.completed())
+          ++whole;
+        else
+          ++partial;
         if (!reader.completed() && reader.rows() > 0) ++with_rows;
       } catch (const Error& error) {
         ADD_FAILURE() << "kill " << k << ": " << error.what();

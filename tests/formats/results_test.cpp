@@ -75,7 +75,8 @@ TEST(Results, EveryChannelComesBackBitEqual) {
   EXPECT_EQ(reader.rows(), 700u);
   std::map<std::string, std::string> unit;
   for (const Channel& channel : reader.channels()) unit[channel.name] = channel.unit;
-  // 1 time, 3 nodes x (5 x 3 + 4), 2 frames x 7, 5 coordinates y, 3 boundary nodes x 6, 2 joints x 8, 7 energies, 4 of solver.
+  // 1 time, 3 nodes x (5 x 3 + 4), 2 frames x 7, 5 coordinates y, 3 boundary nodes x 6, 2 joints x 8, 7 energies, 4 of
+  // solver.
   EXPECT_EQ(unit.size(), 1u + 57 + 14 + 5 + 18 + 16 + 7 + 4);
   ResultsRow row;
   row.resize(layout);
@@ -141,7 +142,8 @@ TEST(Results, OnlyChosenChannelsAreStored) {
   write_rows(folder.file("a.h5"), layout, 3);
   const ResultsReader reader(folder.file("a.h5"));
   std::map<std::string, int> groups;
-  for (const Channel& channel : reader.channels()) ++groups[channel.name.substr(0, channel.name.rfind('/', channel.name.find('/') + 15))];
+  for (const Channel& channel : reader.channels())
+    ++groups[channel.name.substr(0, channel.name.rfind('/', channel.name.find('/') + 15))];
   EXPECT_EQ(reader.channels().size(), 1u + 9 + 7 + 14);
   EXPECT_THAT(error_of([&] { static_cast<void>(reader.read("nodes/velocity/hub/x")); }), HasSubstr("has no channel"));
   const hdf5::InputFile file(folder.file("a.h5"), hdf5::Completeness::closed);
@@ -305,8 +307,8 @@ TEST(Results, PlaceThatCannotBeWrittenIsAnErrorAtTheStart) {
               HasSubstr("No such file or directory"));
 }
 
-/// The child writes under a limit of the file size (in place of a full disk) until that is an Error, which must name the
-/// reason; it must end by itself, and its rows until then must be readable.
+/// The child writes under a limit of the file size (in place of a full disk) until that is an Error, which must name
+/// the reason; it must end by itself, and its rows until then must be readable.
 TEST(Results, FileThatCannotGrowIsAnErrorAndKeepsWhatItHas) {
   const TemporaryFolder folder;
   const std::string path = folder.file("a.h5");
@@ -321,7 +323,9 @@ TEST(Results, FileThatCannotGrowIsAnErrorAndKeepsWhatItHas) {
     } catch (const Error& error) {
       text = error.what();
     }
-    std::exit(text.find("the file may not grow beyond 16384 kB") != std::string::npos ? 7 : 8);  // exit() runs HDF5's own end as well
+    std::exit(text.find("the file may not grow beyond 16384 kB") != std::string::npos
+                  ? 7
+                  : 8);  // exit() runs HDF5's own end as well
   }
   int status = 0;
   ::waitpid(child, &status, 0);

@@ -87,8 +87,10 @@ class Validator {
       return std::ranges::any_of(rule, [&](const json& type) { return has_type(value, type); });
     }
     if (value.is_number()) return obeys_number(word, rule, value.get<double>());
-    if (word == "pattern" || word == "minLength") return !value.is_string() || obeys_text(word, rule, value.get<std::string>());
-    if (word == "items" || word == "minItems" || word == "maxItems") return !value.is_array() || obeys_list(word, rule, value);
+    if (word == "pattern" || word == "minLength")
+      return !value.is_string() || obeys_text(word, rule, value.get<std::string>());
+    if (word == "items" || word == "minItems" || word == "maxItems")
+      return !value.is_array() || obeys_list(word, rule, value);
     return !value.is_object() || obeys_object(schema, word, rule, value);
   }
 
@@ -111,7 +113,8 @@ class Validator {
   bool obeys_object(const json& schema, const std::string& word, const json& rule, const json& value) const {
     if (word == "minProperties") return value.size() >= rule.get<std::size_t>();
     if (word == "maxProperties") return value.size() <= rule.get<std::size_t>();
-    if (word == "required") return std::ranges::all_of(rule, [&](const json& key) { return value.contains(key.get<std::string>()); });
+    if (word == "required")
+      return std::ranges::all_of(rule, [&](const json& key) { return value.contains(key.get<std::string>()); });
     for (const auto& [key, item] : value.items()) {
       const bool listed = schema.contains("properties") && schema.at("properties").contains(key);
       if (word == "properties" && listed && !accepts(rule.at(key), item)) return false;
@@ -165,7 +168,8 @@ std::vector<Example> examples(const std::string& kind) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(source + "/examples")) {
     if (entry.path().extension() != ".yaml") continue;
     const YamlDocument document = load_yaml(entry.path().string());
-    if (find_child(document.root, kind) != nullptr) list.push_back({entry.path().string(), content(entry.path().string())});
+    if (find_child(document.root, kind) != nullptr)
+      list.push_back({entry.path().string(), content(entry.path().string())});
   }
   return list;
 }

@@ -9,8 +9,8 @@
 namespace tisserand::formats {
 namespace {
 
-/// Area and ∫z² dA of a section that is symmetric about z = 0 with width b(z), |z| <= h, by the midpoint rule with n strips
-/// (error of order n^-1.5 where b falls like a square root, else n^-2 or one strip at a jump).
+/// Area and ∫z² dA of a section that is symmetric about z = 0 with width b(z), |z| <= h, by the midpoint rule with n
+/// strips (error of order n^-1.5 where b falls like a square root, else n^-2 or one strip at a jump).
 struct Integrals {
   double area = 0.0, second_moment = 0.0;
 };
@@ -47,9 +47,11 @@ TEST(SectionShapes, Circle) {
 TEST(SectionShapes, HollowCircle) {
   for (const double t : {0.02, 0.1, 0.15, 0.25}) {
     const double r = 0.3, inner = r - t;
-    const Integrals integrals = integrate([&](double z) {
-      return 2.0 * (std::sqrt(r * r - z * z) - (z < inner ? std::sqrt(inner * inner - z * z) : 0.0));
-    }, r);
+    const Integrals integrals = integrate(
+        [&](double z) {
+          return 2.0 * (std::sqrt(r * r - z * z) - (z < inner ? std::sqrt(inner * inner - z * z) : 0.0));
+        },
+        r);
     const Section section = hollow_circle_section(r, t);
     SCOPED_TRACE(t);
     expect_equal(section, integrals, integrals);
@@ -83,15 +85,16 @@ TEST(SectionShapes, TorsionOfRectangles) {
   for (const double h : {1.0, 1.3, 2.0, 5.0})
     EXPECT_NEAR(rectangle_section(1.0, h).torsion_constant / torsion_by_the_other_side(1.0, h), 1.0, 1e-10) << h;
   EXPECT_DOUBLE_EQ(rectangle_section(2.0, 5.0).torsion_constant, rectangle_section(5.0, 2.0).torsion_constant);
-  // Timoshenko and Goodier, Theory of Elasticity, 3rd ed., section 109, table of k1: J = k1 a³ b, printed to 3 or 4 digits.
+  // Timoshenko and Goodier, Theory of Elasticity, 3rd ed., section 109, table of k1: J = k1 a³ b, printed to 3 or 4
+  // digits.
   EXPECT_NEAR(rectangle_section(1.0, 1.0).torsion_constant, 0.1406, 5e-5);
   EXPECT_NEAR(rectangle_section(1.0, 2.0).torsion_constant / 2.0, 0.229, 5e-4);
   EXPECT_NEAR(rectangle_section(1.0, 10.0).torsion_constant / 10.0, 0.312, 5e-4);
 }
 
-/// A_s/A = I²/(A ∫S²/t ds) of a thin box under shear along `depth`, from the shear flow S t: it grows from the middle of
-/// the flange to the corner, S = y h/2 · t, and on to the middle of the web, S = (b h/4 + (h²/4 − z²)/2) t. Simpson is exact
-/// for the first and the midpoint rule has an error of n^-2 for the second.
+/// A_s/A = I²/(A ∫S²/t ds) of a thin box under shear along `depth`, from the shear flow S t: it grows from the middle
+/// of the flange to the corner, S = y h/2 · t, and on to the middle of the web, S = (b h/4 + (h²/4 − z²)/2) t. Simpson
+/// is exact for the first and the midpoint rule has an error of n^-2 for the second.
 double shear_factor_from_flow(double h, double b) {
   constexpr int n = 10'000;
   double energy = 4.0 * (h * h / 4.0) * (b * b * b / 24.0);

@@ -1,4 +1,5 @@
-// Superelement files: bit-equal round trip, foreign and damaged files, units, versions, unknown items, unwritable places.
+// Superelement files: bit-equal round trip, foreign and damaged files, units, versions, unknown items, unwritable
+// places.
 #include <hdf5.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -204,18 +205,32 @@ TEST_P(SpoiledFile, IsRejectedWithDatasetAndMeaning) {
 std::vector<BadFile> bad_files() {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   return {
-      {"Format", [](hid_t f) { hdf5::write_text_attribute(f, "/", "format", "tisserand-results", ""); },
+      {"Format",
+       [](hid_t f) { hdf5::write_text_attribute(f, "/", "format", "tisserand-results", ""); },
        {"of the kind 'tisserand-results', expected 'tisserand-superelement'"}},
       {"NoFormat", [](hid_t f) { H5Adelete(f, "format"); }, {"not a superelement file"}},
-      {"FormatNumber", [](hid_t f) { hdf5::write_number_attribute(f, "/", "format", 3, ""); }, {"attribute 'format'", "expected a string"}},
-      {"MajorVersion", [](hid_t f) { hdf5::write_text_attribute(f, "/", "version", "2.0", ""); }, {"attribute 'version'", "is 2.0"}},
-      {"BadVersion", [](hid_t f) { hdf5::write_text_attribute(f, "/", "version", "one", ""); }, {"attribute 'version'", "'one'"}},
-      {"HalfVersion", [](hid_t f) { hdf5::write_text_attribute(f, "/", "version", "1.", ""); }, {"attribute 'version'", "'1.'"}},
+      {"FormatNumber",
+       [](hid_t f) { hdf5::write_number_attribute(f, "/", "format", 3, ""); },
+       {"attribute 'format'", "expected a string"}},
+      {"MajorVersion",
+       [](hid_t f) { hdf5::write_text_attribute(f, "/", "version", "2.0", ""); },
+       {"attribute 'version'", "is 2.0"}},
+      {"BadVersion",
+       [](hid_t f) { hdf5::write_text_attribute(f, "/", "version", "one", ""); },
+       {"attribute 'version'", "'one'"}},
+      {"HalfVersion",
+       [](hid_t f) { hdf5::write_text_attribute(f, "/", "version", "1.", ""); },
+       {"attribute 'version'", "'1.'"}},
       {"NoUnit", [](hid_t f) { H5Adelete(f, "mass_unit"); }, {"attribute 'mass_unit'", "is missing"}},
-      {"UnitText", [](hid_t f) { hdf5::write_text_attribute(f, "/", "mass_unit", "kg", ""); }, {"attribute 'mass_unit'", "expected a number"}},
+      {"UnitText",
+       [](hid_t f) { hdf5::write_text_attribute(f, "/", "mass_unit", "kg", ""); },
+       {"attribute 'mass_unit'", "expected a number"}},
       {"NoLabel", [](hid_t f) { H5Adelete(f, "mass_unit_label"); }, {"attribute 'mass_unit_label'", "is missing"}},
-      {"LongName", [](hid_t f) { hdf5::write_text_attribute(f, "/", "name", std::string(300, 'x'), ""); }, {"attribute 'name'", "300 bytes"}},
-      {"ContentId", [](hid_t f) { hdf5::write_text_attribute(f, "/", "content_id", std::string(64, 'a'), ""); },
+      {"LongName",
+       [](hid_t f) { hdf5::write_text_attribute(f, "/", "name", std::string(300, 'x'), ""); },
+       {"attribute 'name'", "300 bytes"}},
+      {"ContentId",
+       [](hid_t f) { hdf5::write_text_attribute(f, "/", "content_id", std::string(64, 'a'), ""); },
        {"attribute 'content_id'", "aaaaaaaaaaaa", "changed after it was written"}},
       {"NoStiffness", [](hid_t f) { H5Ldelete(f, "/stiffness", H5P_DEFAULT); }, {"/stiffness: is missing"}},
       {"NoBoundary", [](hid_t f) { H5Ldelete(f, "/boundary", H5P_DEFAULT); }, {"/boundary/name: is missing"}},
@@ -225,26 +240,56 @@ std::vector<BadFile> bad_files() {
          H5Gclose(H5Gcreate2(f, "/mass", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
        },
        {"/mass: is not a dataset"}},
-      {"NanStiffness", [nan](hid_t f) { replace_by_doubles(f, "/stiffness", {14, 14}, nan); },
+      {"NanStiffness",
+       [nan](hid_t f) {
+         replace_by_doubles(f, "/stiffness", {14, 14}, nan);
+       },
        {"/stiffness", "[0, 0] = nan", "row 0 (node 'base', translation x)"}},
-      {"Rank", [](hid_t f) { replace_by_doubles(f, "/mass", {196}, 1.0); }, {"/mass", "has shape 196, expected 14 x 14"}},
-      {"ShapeOfMass", [](hid_t f) { replace_by_doubles(f, "/mass", {14, 13}, 1.0); }, {"/mass", "has shape 14 x 13, expected 14 x 14"}},
-      {"ShapeOfPosition", [](hid_t f) { replace_by_doubles(f, "/boundary/position", {3, 2}, 1.0); },
+      {"Rank",
+       [](hid_t f) { replace_by_doubles(f, "/mass", {196}, 1.0); },
+       {"/mass", "has shape 196, expected 14 x 14"}},
+      {"ShapeOfMass",
+       [](hid_t f) {
+         replace_by_doubles(f, "/mass", {14, 13}, 1.0);
+       },
+       {"/mass", "has shape 14 x 13, expected 14 x 14"}},
+      {"ShapeOfPosition",
+       [](hid_t f) {
+         replace_by_doubles(f, "/boundary/position", {3, 2}, 1.0);
+       },
        {"/boundary/position", "has shape 3 x 2, expected 2 x 3"}},
-      {"TypeOfNode", [](hid_t f) { replace_by_doubles(f, "/dof/node", {14}, 0.0); }, {"/dof/node", "holds 64-bit floating numbers, expected integers"}},
+      {"TypeOfNode",
+       [](hid_t f) { replace_by_doubles(f, "/dof/node", {14}, 0.0); },
+       {"/dof/node", "holds 64-bit floating numbers, expected integers"}},
       {"ScalarNode", [](hid_t f) { replace_by_doubles(f, "/dof/node", {}, 0.0); }, {"/dof/node", "has shape scalar"}},
       {"SinglePrecision",
-       [](hid_t f) { replace_by_claim(f, "/mass", H5T_IEEE_F32LE, {14, 14}); },
+       [](hid_t f) {
+         replace_by_claim(f, "/mass", H5T_IEEE_F32LE, {14, 14});
+       },
        {"/mass", "holds 32-bit floating numbers, expected 64-bit"}},
-      {"Strings", [](hid_t f) { replace_by_doubles(f, "/boundary/name", {2}, 1.0); }, {"/boundary/name", "expected strings"}},
-      {"NeverWritten", [](hid_t f) { replace_by_claim(f, "/mass", H5T_IEEE_F64LE, {14, 14}); }, {"/mass", "not all of its values were written"}},
-      {"HugeMatrix", [](hid_t f) { replace_by_claim(f, "/mass", H5T_IEEE_F64LE, {1u << 30, 1u << 30}); },
+      {"Strings",
+       [](hid_t f) { replace_by_doubles(f, "/boundary/name", {2}, 1.0); },
+       {"/boundary/name", "expected strings"}},
+      {"NeverWritten",
+       [](hid_t f) {
+         replace_by_claim(f, "/mass", H5T_IEEE_F64LE, {14, 14});
+       },
+       {"/mass", "not all of its values were written"}},
+      {"HugeMatrix",
+       [](hid_t f) {
+         replace_by_claim(f, "/mass", H5T_IEEE_F64LE, {1u << 30, 1u << 30});
+       },
        {"/mass", "has shape 1073741824 x 1073741824, expected 14 x 14"}},
-      {"HugeTable", [](hid_t f) { replace_by_claim(f, "/dof/node", H5T_STD_I32LE, {hsize_t(1) << 40}); },
+      {"HugeTable",
+       [](hid_t f) { replace_by_claim(f, "/dof/node", H5T_STD_I32LE, {hsize_t(1) << 40}); },
        {"/dof/node", "has 1099511627776 entries, expected 1 to 10000"}},
-      {"EmptyTable", [](hid_t f) { hdf5::Shape none{0}; H5Ldelete(f, "/dof/node", H5P_DEFAULT);
+      {"EmptyTable",
+       [](hid_t f) {
+         hdf5::Shape none{0};
+         H5Ldelete(f, "/dof/node", H5P_DEFAULT);
          const std::int32_t value = 0;
-         hdf5::write_dataset(f, "/dof/node", none, &value, ""); },
+         hdf5::write_dataset(f, "/dof/node", none, &value, "");
+       },
        {"/dof/node", "has 0 entries"}},
       {"WideInteger",
        [](hid_t f) {
@@ -357,7 +402,8 @@ TEST(SuperelementFile, DamagedStringsOfVariableLengthNeverCrash) {
   ASSERT_EQ(error_of(folder.file("a.h5")), "no error");
   std::ifstream in(folder.file("a.h5"), std::ios::binary);
   std::string bytes(std::istreambuf_iterator<char>(in), {});
-  // The global heap: signature GCOL, 16 bytes of header, then per object index, count, reserved and size before its text.
+  // The global heap: signature GCOL, 16 bytes of header, then per object index, count, reserved and size before its
+  // text.
   const std::size_t heap = bytes.find("GCOL"), text = bytes.find(mark);
   ASSERT_NE(heap, std::string::npos);
   ASSERT_EQ(text, heap + 32);
@@ -403,10 +449,12 @@ TEST(SuperelementFile, WriteChecksAndLeavesNothingBehind) {
       EXPECT_THAT(error.what(), AllOf(HasSubstr(place), HasSubstr("folder that exists")));
     }
   }
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()), 1);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()),
+            1);
 }
 
-/// Text of the Error that `action` throws in a child whose files may not exceed `bytes`; stands for a full disk anywhere.
+/// Text of the Error that `action` throws in a child whose files may not exceed `bytes`; stands for a full disk
+/// anywhere.
 std::string error_with_file_limit(rlim_t bytes, const std::function<void()>& action) {
   int channel[2];
   if (::pipe(channel) != 0) return "no pipe";

@@ -5,9 +5,9 @@
 #include <functional>
 #include <limits>
 
-#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "common/error.hpp"
 #include "tests/support/beam_superelement.hpp"
@@ -56,7 +56,8 @@ Superelement spring_truss(const std::vector<Eigen::Vector3d>& points, double sti
       e.dof_component.push_back(k);
     }
     for (Eigen::Index j = 0; j < i; ++j) {
-      const Eigen::Vector3d d = (points[static_cast<std::size_t>(i)] - points[static_cast<std::size_t>(j)]).normalized();
+      const Eigen::Vector3d d =
+          (points[static_cast<std::size_t>(i)] - points[static_cast<std::size_t>(j)]).normalized();
       const Eigen::Matrix3d k = stiffness * d * d.transpose();
       e.stiffness.block<3, 3>(3 * i, 3 * i) += k;
       e.stiffness.block<3, 3>(3 * j, 3 * j) += k;
@@ -179,7 +180,8 @@ TEST(Superelement, SmallRigidResidualIsFilteredByProjection) {
   Superelement e = exact;
   Eigen::MatrixXd noise = Eigen::MatrixXd::Zero(e.size(), e.size());
   for (Eigen::Index i = 0; i < 12; ++i)
-    for (Eigen::Index j = 0; j < 12; ++j) noise(i, j) = std::sin(1.0 + 3.0 * static_cast<double>(i * j)) + (i == j ? 20 : 0);
+    for (Eigen::Index j = 0; j < 12; ++j)
+      noise(i, j) = std::sin(1.0 + 3.0 * static_cast<double>(i * j)) + (i == j ? 20 : 0);
   noise = (0.5 * (noise + noise.transpose())).eval();
   e.stiffness += 1e-7 * exact.stiffness.cwiseAbs().maxCoeff() / 20 * noise;
   EXPECT_GT(check(e, "x").rigid_residual, 1e-8);
@@ -205,8 +207,8 @@ TEST_P(SpoiledSuperelement, IsRejectedWithDatasetValueAndMeaning) {
   Superelement e = craig_bampton_beam({}, 2);  // rows 0-5 base, 6-11 tip, 12, 13 internal
   ASSERT_EQ(error_of(e), "no error");
   GetParam().spoil(e);
-  EXPECT_THAT(error_of(e), AllOf(HasSubstr("part.superelement.h5: "), HasSubstr(GetParam().dataset),
-                                 HasSubstr(GetParam().message)));
+  EXPECT_THAT(error_of(e),
+              AllOf(HasSubstr("part.superelement.h5: "), HasSubstr(GetParam().dataset), HasSubstr(GetParam().message)));
 }
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -214,69 +216,73 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<BadSuperelement> bad_superelements() {
   return {
-        BadSuperelement{"NegativeUnit", [](Superelement& e) { e.units.mass.factor = -1; }, "mass_unit", "is -1"},
-        BadSuperelement{"NanUnit", [](Superelement& e) { e.units.time.factor = nan; }, "time_unit", "is nan"},
-        BadSuperelement{"HalfNamedUnits", [](Superelement& e) { e.units.time.factor = 0; }, "time_unit", "although length_unit is 1"},
-        BadSuperelement{"LabelContradictsFactor", [](Superelement& e) { e.units.length.label = "mm"; }, "length_unit",
-                        "label 'mm' means 0.001"},
-        BadSuperelement{"NoNodes", [](Superelement& e) { e.node_name.clear(); }, "/boundary/name", "no boundary node"},
-        BadSuperelement{"NoCoordinates", [](Superelement& e) { e.dof_node.clear(); }, "/dof/node", "no coordinates"},
-        BadSuperelement{"ShortTable", [](Superelement& e) { e.dof_component.pop_back(); }, "/dof/component",
-                        "13 entries for 14"},
-        BadSuperelement{"Positions", [](Superelement& e) { e.node_position.conservativeResize(1, 3); }, "/boundary/position",
-                        "1 rows for 2 names"},
-        BadSuperelement{"StiffnessShape", [](Superelement& e) { e.stiffness.conservativeResize(13, 14); }, "/stiffness",
-                        "shape 13 x 14, expected 14 x 14"},
-        BadSuperelement{"MassShape", [](Superelement& e) { e.mass.conservativeResize(14, 1); }, "/mass",
-                        "shape 14 x 1, expected 14 x 14"},
-        BadSuperelement{"EmptyName", [](Superelement& e) { e.node_name[1].clear(); }, "/boundary/name", "entry 1 is ''"},
-        BadSuperelement{"NameWithSlash", [](Superelement& e) { e.node_name[0] = "a/b"; }, "/boundary/name", "'a/b'"},
-        BadSuperelement{"NameTwice", [](Superelement& e) { e.node_name[1] = "base"; }, "/boundary/name", "earlier node"},
-        BadSuperelement{"NodeNumber", [](Superelement& e) { e.dof_node[3] = 2; }, "/dof/node", "entry 3 is 2"},
-        BadSuperelement{"NodeBelow", [](Superelement& e) { e.dof_node[3] = -2; }, "/dof/node", "entry 3 is -2"},
-        BadSuperelement{"Component", [](Superelement& e) { e.dof_component[3] = 6; }, "/dof/component", "entry 3 is 6"},
-        BadSuperelement{"InternalNumber", [](Superelement& e) { e.dof_component[13] = 2; }, "/dof/component",
-                        "entry 13 is 2, expected the number 0 to 1"},
-        BadSuperelement{"Duplicate", [](Superelement& e) { e.dof_component[3] = 4; }, "/dof/component",
-                        "rows 3 and 4 are the same coordinate: row 4 (node 'base', rotation y)"},
-        BadSuperelement{"TwoRotations", [](Superelement& e) { e = keep_rows(e, [](int n, int c) { return n != 1 || c != 4; }); },
-                        "/dof/component", "node 'tip' has 3 translations and 2 rotations"},
-        BadSuperelement{"NodeWithoutRows", [](Superelement& e) { e = keep_rows(e, [](int n, int) { return n != 1; }); },
-                        "/dof/component", "node 'tip' has 0 translations and 0 rotations"},
-        BadSuperelement{"NanPosition", [](Superelement& e) { e.node_position(1, 2) = nan; }, "/boundary/position",
-                        "[1, 2] = nan is not a usable number: z of node 'tip'"},
-        BadSuperelement{"NanStiffness", [](Superelement& e) { e.stiffness(2, 7) = nan; }, "/stiffness",
-                        "[2, 7] = nan is not a usable number: row 2 (node 'base', translation z)"},
-        BadSuperelement{"InfiniteMass", [](Superelement& e) { e.mass(13, 0) = infinity; }, "/mass",
-                        "[13, 0] = inf is not a usable number: row 13 (internal coordinate 1)"},
-        BadSuperelement{"HugeStiffness", [](Superelement& e) { e.stiffness(0, 0) = 1e300; }, "/stiffness", "[0, 0] = 1e+300"},
-        BadSuperelement{"AsymmetricStiffness", [](Superelement& e) { e.stiffness(1, 5) *= 1.001; }, "/stiffness",
-                        "is not symmetric: [1, 5]"},
-        BadSuperelement{"AsymmetricMass", [](Superelement& e) { e.mass(0, 12) += 0.1; }, "/mass", "is not symmetric: [0, 12]"},
-        BadSuperelement{"GroundedStiffness", [](Superelement& e) { e.stiffness(6, 6) *= 1.001; }, "/stiffness",
-                        "resists rigid motion: moving in x"},
-        BadSuperelement{"NegativeStiffness", [](Superelement& e) { e.stiffness *= -1; }, "/stiffness",
-                        "not positive semidefinite"},
-        BadSuperelement{"NegativeInternalStiffness", [](Superelement& e) { e.stiffness(12, 12) *= -1; }, "/stiffness",
-                        "not positive semidefinite: [12, 12]"},
-        BadSuperelement{"IndefiniteStiffness", [](Superelement& e) { e.stiffness(12, 13) = e.stiffness(13, 12) = 2 * e.stiffness(13, 13); },
-                        "/stiffness", "not positive semidefinite: scaled eigenvalue"},
-        BadSuperelement{"IndefiniteMass", [](Superelement& e) { e.mass(12, 13) = e.mass(13, 12) = 1.01; }, "/mass",
-                        "not positive semidefinite: scaled eigenvalue"},
-        BadSuperelement{"NegativeMass", [](Superelement& e) { e.mass *= -1; }, "/mass", "not positive semidefinite"},
-        BadSuperelement{"NoMass", [](Superelement& e) { e.mass.setZero(); }, "/mass", "mass of the rigid part is 0"},
-        BadSuperelement{"MassOfOneDirection", [](Superelement& e) { e.mass(1, 1) += 1.0; }, "/mass",
-                        "not the same in all directions"},
-        BadSuperelement{"TriangleInequality",
-                        [](Superelement& e) { e.mass(3, 3) += 1e3; }, "/mass", "belong to no body"},
-        BadSuperelement{"MirroredRotations",
-                        [](Superelement& e) {
-                          for (const int row : {5, 11}) {
-                            e.mass.row(row) *= -1;
-                            e.mass.col(row) *= -1;
-                          }
-                        },
-                        "/mass", "is"}};
+      BadSuperelement{"NegativeUnit", [](Superelement& e) { e.units.mass.factor = -1; }, "mass_unit", "is -1"},
+      BadSuperelement{"NanUnit", [](Superelement& e) { e.units.time.factor = nan; }, "time_unit", "is nan"},
+      BadSuperelement{"HalfNamedUnits", [](Superelement& e) { e.units.time.factor = 0; }, "time_unit",
+                      "although length_unit is 1"},
+      BadSuperelement{"LabelContradictsFactor", [](Superelement& e) { e.units.length.label = "mm"; }, "length_unit",
+                      "label 'mm' means 0.001"},
+      BadSuperelement{"NoNodes", [](Superelement& e) { e.node_name.clear(); }, "/boundary/name", "no boundary node"},
+      BadSuperelement{"NoCoordinates", [](Superelement& e) { e.dof_node.clear(); }, "/dof/node", "no coordinates"},
+      BadSuperelement{"ShortTable", [](Superelement& e) { e.dof_component.pop_back(); }, "/dof/component",
+                      "13 entries for 14"},
+      BadSuperelement{"Positions", [](Superelement& e) { e.node_position.conservativeResize(1, 3); },
+                      "/boundary/position", "1 rows for 2 names"},
+      BadSuperelement{"StiffnessShape", [](Superelement& e) { e.stiffness.conservativeResize(13, 14); }, "/stiffness",
+                      "shape 13 x 14, expected 14 x 14"},
+      BadSuperelement{"MassShape", [](Superelement& e) { e.mass.conservativeResize(14, 1); }, "/mass",
+                      "shape 14 x 1, expected 14 x 14"},
+      BadSuperelement{"EmptyName", [](Superelement& e) { e.node_name[1].clear(); }, "/boundary/name", "entry 1 is ''"},
+      BadSuperelement{"NameWithSlash", [](Superelement& e) { e.node_name[0] = "a/b"; }, "/boundary/name", "'a/b'"},
+      BadSuperelement{"NameTwice", [](Superelement& e) { e.node_name[1] = "base"; }, "/boundary/name", "earlier node"},
+      BadSuperelement{"NodeNumber", [](Superelement& e) { e.dof_node[3] = 2; }, "/dof/node", "entry 3 is 2"},
+      BadSuperelement{"NodeBelow", [](Superelement& e) { e.dof_node[3] = -2; }, "/dof/node", "entry 3 is -2"},
+      BadSuperelement{"Component", [](Superelement& e) { e.dof_component[3] = 6; }, "/dof/component", "entry 3 is 6"},
+      BadSuperelement{"InternalNumber", [](Superelement& e) { e.dof_component[13] = 2; }, "/dof/component",
+                      "entry 13 is 2, expected the number 0 to 1"},
+      BadSuperelement{"Duplicate", [](Superelement& e) { e.dof_component[3] = 4; }, "/dof/component",
+                      "rows 3 and 4 are the same coordinate: row 4 (node 'base', rotation y)"},
+      BadSuperelement{"TwoRotations",
+                      [](Superelement& e) { e = keep_rows(e, [](int n, int c) { return n != 1 || c != 4; }); },
+                      "/dof/component", "node 'tip' has 3 translations and 2 rotations"},
+      BadSuperelement{"NodeWithoutRows", [](Superelement& e) { e = keep_rows(e, [](int n, int) { return n != 1; }); },
+                      "/dof/component", "node 'tip' has 0 translations and 0 rotations"},
+      BadSuperelement{"NanPosition", [](Superelement& e) { e.node_position(1, 2) = nan; }, "/boundary/position",
+                      "[1, 2] = nan is not a usable number: z of node 'tip'"},
+      BadSuperelement{"NanStiffness", [](Superelement& e) { e.stiffness(2, 7) = nan; }, "/stiffness",
+                      "[2, 7] = nan is not a usable number: row 2 (node 'base', translation z)"},
+      BadSuperelement{"InfiniteMass", [](Superelement& e) { e.mass(13, 0) = infinity; }, "/mass",
+                      "[13, 0] = inf is not a usable number: row 13 (internal coordinate 1)"},
+      BadSuperelement{"HugeStiffness", [](Superelement& e) { e.stiffness(0, 0) = 1e300; }, "/stiffness",
+                      "[0, 0] = 1e+300"},
+      BadSuperelement{"AsymmetricStiffness", [](Superelement& e) { e.stiffness(1, 5) *= 1.001; }, "/stiffness",
+                      "is not symmetric: [1, 5]"},
+      BadSuperelement{"AsymmetricMass", [](Superelement& e) { e.mass(0, 12) += 0.1; }, "/mass",
+                      "is not symmetric: [0, 12]"},
+      BadSuperelement{"GroundedStiffness", [](Superelement& e) { e.stiffness(6, 6) *= 1.001; }, "/stiffness",
+                      "resists rigid motion: moving in x"},
+      BadSuperelement{"NegativeStiffness", [](Superelement& e) { e.stiffness *= -1; }, "/stiffness",
+                      "not positive semidefinite"},
+      BadSuperelement{"NegativeInternalStiffness", [](Superelement& e) { e.stiffness(12, 12) *= -1; }, "/stiffness",
+                      "not positive semidefinite: [12, 12]"},
+      BadSuperelement{"IndefiniteStiffness",
+                      [](Superelement& e) { e.stiffness(12, 13) = e.stiffness(13, 12) = 2 * e.stiffness(13, 13); },
+                      "/stiffness", "not positive semidefinite: scaled eigenvalue"},
+      BadSuperelement{"IndefiniteMass", [](Superelement& e) { e.mass(12, 13) = e.mass(13, 12) = 1.01; }, "/mass",
+                      "not positive semidefinite: scaled eigenvalue"},
+      BadSuperelement{"NegativeMass", [](Superelement& e) { e.mass *= -1; }, "/mass", "not positive semidefinite"},
+      BadSuperelement{"NoMass", [](Superelement& e) { e.mass.setZero(); }, "/mass", "mass of the rigid part is 0"},
+      BadSuperelement{"MassOfOneDirection", [](Superelement& e) { e.mass(1, 1) += 1.0; }, "/mass",
+                      "not the same in all directions"},
+      BadSuperelement{"TriangleInequality", [](Superelement& e) { e.mass(3, 3) += 1e3; }, "/mass", "belong to no body"},
+      BadSuperelement{"MirroredRotations",
+                      [](Superelement& e) {
+                        for (const int row : {5, 11}) {
+                          e.mass.row(row) *= -1;
+                          e.mass.col(row) *= -1;
+                        }
+                      },
+                      "/mass", "is"}};
 }
 
 INSTANTIATE_TEST_SUITE_P(Rules, SpoiledSuperelement, testing::ValuesIn(bad_superelements()),
@@ -296,7 +302,8 @@ TEST(Superelement, ZeroAxialInertiaIsAWarningThatNamesTheAxis) {
 }
 
 TEST(Superelement, PrincipalMomentsThatSlightlyBreakTheTriangleAreAWarning) {
-  // Without torsional inertia, moments 0, m L²/12 + ρ Iy L, m L²/12 + ρ Iz L break it by ρ (Iz − Iy) L / (m L²/12) = 4e-5.
+  // Without torsional inertia, moments 0, m L²/12 + ρ Iy L, m L²/12 + ρ Iz L break it by ρ (Iz − Iy) L / (m L²/12) =
+  // 4e-5.
   Superelement e = beam_superelement({});
   for (const int row : {3, 9}) {
     e.mass.row(row).setZero();

@@ -66,8 +66,8 @@ inline Marked take_mark(const std::string& text, const std::string& file) {
   return {text.substr(0, at) + text.substr(at + 1), fmt::format("{}:{}:{}", file, line, at - begin + 1)};
 }
 
-/// A change of a good text and the whole error text that it must give; ^ in the change (which is taken out) is the place
-/// that stands for ^ in the error.
+/// A change of a good text and the whole error text that it must give; ^ in the change (which is taken out) is the
+/// place that stands for ^ in the error.
 struct BadText {
   std::string from;
   std::string to;
@@ -91,7 +91,8 @@ std::string error_of(const Folder& folder, const Read& read) {
   } catch (const Error& error) {
     std::string text = error.what();
     const std::string prefix = folder.path() + "/";
-    for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) text.erase(at, prefix.size());
+    for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix))
+      text.erase(at, prefix.size());
     return text;
   }
   return "";

@@ -40,10 +40,13 @@ TEST(YamlTree, ResolvesAliasesByCopy) {
 TEST(YamlTree, RejectsWhatIsNoDocument) {
   EXPECT_EQ(error(""), "a.yaml: the file is empty");
   EXPECT_EQ(error("# only a comment\n"), "a.yaml: the file is empty");
-  EXPECT_EQ(error("a: 1\n---\nb: 2\n"), "a.yaml:3:1: a second YAML document begins after '---'; keep one document per file");
+  EXPECT_EQ(error("a: 1\n---\nb: 2\n"),
+            "a.yaml:3:1: a second YAML document begins after '---'; keep one document per file");
   EXPECT_THAT(error("a: [1\nb: 2\n"), StartsWith("a.yaml:2:2: not valid YAML: "));
-  EXPECT_EQ(error("b: 1\na: \"open \\\" \n"), "a.yaml:2:4: not valid YAML: the quote that opens here is never closed; close it");
-  EXPECT_EQ(error("a: 'it''s open\nb: 3\n"), "a.yaml:1:4: not valid YAML: the quote that opens here is never closed; close it");
+  EXPECT_EQ(error("b: 1\na: \"open \\\" \n"),
+            "a.yaml:2:4: not valid YAML: the quote that opens here is never closed; close it");
+  EXPECT_EQ(error("a: 'it''s open\nb: 3\n"),
+            "a.yaml:1:4: not valid YAML: the quote that opens here is never closed; close it");
   EXPECT_EQ(error("a: 'it''s'\nb: \"\\\"\"\nc: |\n  it's\n"), "");
   EXPECT_THAT(error("a: 1\n\tb: 2\n"), HasSubstr("not valid YAML"));
   EXPECT_THAT(error("a: node: b\n"), HasSubstr("not valid YAML"));
@@ -54,8 +57,10 @@ TEST(YamlTree, RejectsWhatIsNoDocument) {
 }
 
 TEST(YamlTree, RejectsOtherKindsOfFiles) {
-  EXPECT_EQ(error(std::string("\x89HDF\r\n\x1a\n", 8)), "a.yaml:1:1: byte 0x89 is not text in UTF-8; is this another kind of file? Save it as UTF-8 text");
-  EXPECT_EQ(error(std::string("a: 1\nb: \0", 9)), "a.yaml:2:4: byte 0x00 is not text in UTF-8; is this another kind of file? Save it as UTF-8 text");
+  EXPECT_EQ(error(std::string("\x89HDF\r\n\x1a\n", 8)),
+            "a.yaml:1:1: byte 0x89 is not text in UTF-8; is this another kind of file? Save it as UTF-8 text");
+  EXPECT_EQ(error(std::string("a: 1\nb: \0", 9)),
+            "a.yaml:2:4: byte 0x00 is not text in UTF-8; is this another kind of file? Save it as UTF-8 text");
   const Folder folder;
   EXPECT_EQ(error_of(folder, [&] { load_yaml(folder.path() + "/none.yaml"); }),
             "none.yaml: cannot open the file: No such file or directory; check path and permission");

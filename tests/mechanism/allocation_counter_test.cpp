@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include <Eigen/Core>
 #include <gtest/gtest.h>
+#include <Eigen/Core>
 
 namespace {
 thread_local std::size_t count = 0;

@@ -115,7 +115,8 @@ TEST(OppositeMarkers, AreAnErrorAlthoughTheyMeetTheEquations) {
   scene.joints[0].b.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(EIGEN_PI, Vector3d::UnitX()));
   EXPECT_THAT(start_error(scene), testing::HasSubstr("point in opposite directions"));
   scene.joints[0].kind = formats::JointKind::fixed;
-  scene.joints[0].b.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(2.0 * EIGEN_PI / 3.0, Vector3d::Ones().normalized()));
+  scene.joints[0].b.orientation =
+      Eigen::Quaterniond(Eigen::AngleAxisd(2.0 * EIGEN_PI / 3.0, Vector3d::Ones().normalized()));
   EXPECT_THAT(start_error(scene), testing::HasSubstr("turned against each other"));
 }
 

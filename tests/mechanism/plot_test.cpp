@@ -198,7 +198,9 @@ TEST_F(Picture, FaultsAreToldAndLeaveNothing) {
   EXPECT_THAT(error_of([&] { plot({wave("a", "energy/total", "J", 0)}, options); }), HasSubstr("nothing to draw"));
   Series empty = wave("a", "nodes/rotation/beam/tip/w", "", 5);
   empty.y.assign(empty.y.size(), std::numeric_limits<double>::quiet_NaN());
-  EXPECT_EQ(error_of([&] { plot({series, empty}, options); }),
+  EXPECT_EQ(error_of([&] {
+              plot({series, empty}, options);
+            }),
             "a: channel 'nodes/rotation/beam/tip/w' holds no finite value; choose another channel");
   options.x_range = {1.0, 1.0};
   options.y_range = {5.0, 5.0};

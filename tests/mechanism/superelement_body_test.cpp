@@ -1,11 +1,12 @@
-// Building a superelement body: weights, canonical form, units, cut of modes, order of nodes, errors; no allocation later.
+// Building a superelement body: weights, canonical form, units, cut of modes, order of nodes, errors; no allocation
+// later.
 #include <cstdlib>
 #include <numeric>
 #include <random>
 
-#include <Eigen/QR>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/QR>
 
 #include "common/error.hpp"
 #include "mechanism/bodies/superelement_weights.hpp"
@@ -84,12 +85,14 @@ TEST(SuperelementBuild, GivesTheCanonicalForm) {
   EXPECT_LT(relative_difference(body.M_BB, element.mass.topLeftCorner(18, 18)), 1e-12);
 }
 
-// A congruence y = T y' of the internal coordinates and their coupling to the boundary, as free-boundary methods write it.
+// A congruence y = T y' of the internal coordinates and their coupling to the boundary, as free-boundary methods write
+// it.
 formats::Superelement in_other_form(formats::Superelement element, int nb) {
   std::mt19937 random(5);
   const Eigen::Index n = element.size(), m = n - nb;
   Eigen::MatrixXd T = Eigen::MatrixXd::Identity(n, n);
-  for (Eigen::Index k = 0; k < m; ++k) T.bottomRightCorner(m, m).col(k) += test_support::random_vector_n(random, m, 0.4);
+  for (Eigen::Index k = 0; k < m; ++k)
+    T.bottomRightCorner(m, m).col(k) += test_support::random_vector_n(random, m, 0.4);
   // y_I = K S_BB y_B + ...: rigid motions of the boundary stay zero in the internal coordinates.
   Eigen::MatrixXd K(m, nb);
   for (Eigen::Index k = 0; k < nb; ++k) K.col(k) = test_support::random_vector_n(random, m, 1e-3);
@@ -99,8 +102,8 @@ formats::Superelement in_other_form(formats::Superelement element, int nb) {
   return element;
 }
 
-// Same forces and same elastic energy from the same physics; the modes may differ in sign, so the internal state is zero
-// except in rates that are mapped.
+// Same forces and same elastic energy from the same physics; the modes may differ in sign, so the internal state is
+// zero except in rates that are mapped.
 TEST(SuperelementBuild, AcceptsEveryForm) {
   for (const std::string name : {"beam", "frame", "mixed"}) {
     const formats::Superelement element = test_support::test_superelement(name);
@@ -225,7 +228,8 @@ TEST(SuperelementBuild, TakesWeightsOfTheUser) {
   EXPECT_EQ(body.frame_node, 1);
   options.position_weights[0].weight = 0.5;
   options.where = "scene.yaml:7:3";
-  EXPECT_THAT(error_of(element, options), testing::AllOf(testing::HasSubstr("sum 1.25"), testing::HasSubstr("scene.yaml:7:3")));
+  EXPECT_THAT(error_of(element, options),
+              testing::AllOf(testing::HasSubstr("sum 1.25"), testing::HasSubstr("scene.yaml:7:3")));
 }
 
 TEST(SuperelementBuild, NamesWhatIsWrong) {
@@ -236,7 +240,8 @@ TEST(SuperelementBuild, NamesWhatIsWrong) {
   options = {};
   options.frame = FrameKind::node;
   options.frame_node = "tip";
-  EXPECT_THAT(error_of(element, options), testing::AllOf(testing::HasSubstr("no node 'tip'"), testing::HasSubstr("n0, n2, n5")));
+  EXPECT_THAT(error_of(element, options),
+              testing::AllOf(testing::HasSubstr("no node 'tip'"), testing::HasSubstr("n0, n2, n5")));
   options = {};
   options.damping.ratios.assign(6, 0.01);
   EXPECT_THAT(error_of(element, options), testing::HasSubstr("6 ratios for 5 internal modes"));
@@ -248,7 +253,8 @@ TEST(SuperelementBuild, NamesWhatIsWrong) {
   singular.stiffness.col(22) = singular.stiffness.col(21);
   EXPECT_THAT(error_of(singular, {}), testing::HasSubstr("S_II is singular"));
   formats::Superelement indefinite = element;
-  indefinite.stiffness(21, 22) = indefinite.stiffness(22, 21) = 2.0 * std::sqrt(element.stiffness(21, 21) * element.stiffness(22, 22));
+  indefinite.stiffness(21, 22) = indefinite.stiffness(22, 21) =
+      2.0 * std::sqrt(element.stiffness(21, 21) * element.stiffness(22, 22));
   EXPECT_THAT(error_of(indefinite, {}), testing::HasSubstr("S_II is indefinite"));
   formats::Superelement incomplete = test_support::permute_rows(element, [&] {
     std::vector<int> rows(static_cast<std::size_t>(element.size()) - 1);

@@ -16,7 +16,8 @@ using test_support::relative_difference;
 using test_support::to_matrix;
 using test_support::to_vector;
 
-// The references agree between two programs to 7e-15; conditioning of the congruence and of the frame costs two digits more.
+// The references agree between two programs to 7e-15; conditioning of the congruence and of the frame costs two digits
+// more.
 constexpr double kTolerance = 1e-11;
 
 class KnownAnswers : public testing::TestWithParam<std::tuple<std::string, FrameKind, InertiaOption>> {
@@ -110,7 +111,8 @@ TEST_P(KnownAnswers, TangentProducts) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cardona, KnownAnswers,
-                         testing::Combine(testing::Values("beam2", "lframe3"), testing::Values(FrameKind::karcher, FrameKind::paper),
+                         testing::Combine(testing::Values("beam2", "lframe3"),
+                                          testing::Values(FrameKind::karcher, FrameKind::paper),
                                           testing::Values(InertiaOption::A, InertiaOption::B)));
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Forces of the superelement body against Lagrange's equations on deformed states, and the balances that follow from them.
+// Forces of the superelement body against Lagrange's equations on deformed states, and the balances that follow from
+// them.
 #include <complex>
 #include <string>
 
@@ -65,7 +66,8 @@ ComplexState to_complex(const BodyState& state) {
 }
 
 /// q <- q + c dq (material rotation increments), v <- v + d dv.
-void move(const SuperelementBody& body, const Eigen::VectorXd& dq, Complex c, const Eigen::VectorXd& dv, Complex d, ComplexState& state) {
+void move(const SuperelementBody& body, const Eigen::VectorXd& dq, Complex c, const Eigen::VectorXd& dv, Complex d,
+          ComplexState& state) {
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     ComplexNode& n = state.nodes[i];
@@ -87,13 +89,16 @@ struct Energies {
 };
 
 /// T = ½ ẏᵀ M̄ ẏ and V = ½ yᵀ S̄ y − m g·x_cm, straight from their definitions.
-Energies energies(const SuperelementBody& body, const ComplexState& state, const Eigen::Matrix3d& R0, const Eigen::Vector3d& gravity) {
+Energies energies(const SuperelementBody& body, const ComplexState& state, const Eigen::Matrix3d& R0,
+                  const Eigen::Vector3d& gravity) {
   auto motion = make_local_motion<Complex>(body);
   motion.R0 = R0.cast<Complex>();
   motion.y_I = state.y;
   motion.rate_I = state.yd;
   local_motion<Complex>(body, NodeView<ComplexNode>{state.nodes.data(), body.nodes.data()}, motion);
-  const auto form = [](const auto& a, const Eigen::MatrixXd& A, const auto& b) { return (a.transpose() * (A * b))(0, 0); };
+  const auto form = [](const auto& a, const Eigen::MatrixXd& A, const auto& b) {
+    return (a.transpose() * (A * b))(0, 0);
+  };
   Energies e;
   e.kinetic = 0.5 * form(motion.rate_B, body.M_BB, motion.rate_B) + 0.5 * (state.yd.transpose() * state.yd)(0, 0);
   e.potential = 0.5 * form(motion.y_B, body.S_BB, motion.y_B);
@@ -106,8 +111,8 @@ Energies energies(const SuperelementBody& body, const ComplexState& state, const
   return e;
 }
 
-Eigen::VectorXd pack(const SuperelementBody& body, const BodyState& state, Eigen::Vector3d NodeMotion::*x, Eigen::Vector3d NodeMotion::*theta,
-                     const Eigen::VectorXd& internal) {
+Eigen::VectorXd pack(const SuperelementBody& body, const BodyState& state, Eigen::Vector3d NodeMotion::*x,
+                     Eigen::Vector3d NodeMotion::*theta, const Eigen::VectorXd& internal) {
   Eigen::VectorXd out(body.boundary_size + body.modes);
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     if (body.node[i].has_translation()) out.segment<3>(body.node[i].translation_row) = state.nodes[i].*x;
@@ -117,8 +122,8 @@ Eigen::VectorXd pack(const SuperelementBody& body, const BodyState& state, Eigen
   return out;
 }
 
-/// d/dt ∂T/∂v + Ω × ∂T/∂Ω (rotations) − ∂T/∂q + ∂V/∂q. T is quadratic in v, so the central difference of ∂T/∂v is exact; time
-/// and q derivatives are complex steps.
+/// d/dt ∂T/∂v + Ω × ∂T/∂Ω (rotations) − ∂T/∂q + ∂V/∂q. T is quadratic in v, so the central difference of ∂T/∂v is
+/// exact; time and q derivatives are complex steps.
 Eigen::VectorXd lagrange(const SuperelementBody& body, const BodyState& state, const Eigen::Matrix3d& R0) {
   const Eigen::VectorXd v = pack(body, state, &NodeMotion::xd, &NodeMotion::Omega, state.yd);
   const Eigen::VectorXd a = pack(body, state, &NodeMotion::xdd, &NodeMotion::Omegad, state.ydd);
@@ -167,8 +172,8 @@ TEST_P(SuperelementForcesOf, MeetLagrangesEquations) {
   EXPECT_LT(relative_difference(r, lagrange(body_, state_, R0)), 1e-12);
 }
 
-// The same motion seen from a turned world: material quantities and energies stay, world vectors turn. The incremental frame
-// is not objective within a step (its R_ref would have to turn too), which is done here.
+// The same motion seen from a turned world: material quantities and energies stay, world vectors turn. The incremental
+// frame is not objective within a step (its R_ref would have to turn too), which is done here.
 TEST_P(SuperelementForcesOf, TurnWithASuperposedRotation) {
   const Eigen::Matrix3d Q = exp_so3<double>(Eigen::Vector3d(1.1, -0.4, 1.9));
   const Eigen::Vector3d shift(3.0, -2.0, 5.0);
@@ -182,7 +187,8 @@ TEST_P(SuperelementForcesOf, TurnWithASuperposedRotation) {
     node.xdd = Q * node.xdd;
   }
   if (GetParam().frame == FrameKind::paper) state_.R0_reference = Q * state_.R0_reference;
-  if (body_.frame == FrameAlgorithm::polar) state_.R0_reference = Q * state_.R0_reference;  // a start within the right basin
+  if (body_.frame == FrameAlgorithm::polar)
+    state_.R0_reference = Q * state_.R0_reference;  // a start within the right basin
   test_support::evaluate(body_, state_, Q * kGravity, scratch_);
   const SuperelementEnergy after = energy(body_, scratch_, Eigen::Vector3d::Zero());
   EXPECT_NEAR(after.strain, before.strain, 1e-12 * before.strain);
@@ -199,11 +205,16 @@ TEST_P(SuperelementForcesOf, TurnWithASuperposedRotation) {
 // ẋ = c + ω × r and its derivative on every node: no internal force, and resultants of Newton and Euler.
 TEST_P(SuperelementForcesOf, RigidMotionObeysNewtonAndEuler) {
   const Eigen::Matrix3d R = exp_so3<double>(Eigen::Vector3d(0.3, 1.2, -0.8));
-  const Eigen::Vector3d x0(1, 2, 3), v(0.4, -0.7, 0.2), omega(1.5, -2.0, 0.9), vd(0.3, 0.1, -0.6), omegad(-0.8, 0.5, 1.1);
+  const Eigen::Vector3d x0(1, 2, 3), v(0.4, -0.7, 0.2), omega(1.5, -2.0, 0.9), vd(0.3, 0.1, -0.6),
+      omegad(-0.8, 0.5, 1.1);
   for (std::size_t i = 0; i < body_.node.size(); ++i) {
     const Eigen::Vector3d arm = R * body_.node[i].X;
-    state_.nodes[i] = {x0 + arm, R, v + omega.cross(arm), R.transpose() * omega,
-                       vd + omegad.cross(arm) + omega.cross(omega.cross(arm)), R.transpose() * omegad};
+    state_.nodes[i] = {x0 + arm,
+                       R,
+                       v + omega.cross(arm),
+                       R.transpose() * omega,
+                       vd + omegad.cross(arm) + omega.cross(omega.cross(arm)),
+                       R.transpose() * omegad};
   }
   state_.y.setZero();
   state_.yd.setZero();
@@ -255,8 +266,8 @@ TEST_P(SuperelementForcesOf, InternalForcesAreInEquilibrium) {
   }
 }
 
-// Work of the weight along a closed loop through deformed states: exact potential, so only quadrature error remains; the
-// trapezoid rule on a periodic analytic path converges faster than any power, 200 points reach round-off.
+// Work of the weight along a closed loop through deformed states: exact potential, so only quadrature error remains;
+// the trapezoid rule on a periodic analytic path converges faster than any power, 200 points reach round-off.
 TEST_P(SuperelementForcesOf, WeightDoesNoWorkAlongAClosedLoop) {
   if (GetParam().frame == FrameKind::paper) return;  // R_ref changes from step to step: no potential over several steps
   const BodyState start = state_;
@@ -266,12 +277,14 @@ TEST_P(SuperelementForcesOf, WeightDoesNoWorkAlongAClosedLoop) {
   const int points = 200;
   for (int k = 0; k < points; ++k) {
     const double t = 2.0 * 3.14159265358979323846 * k / points;
-    const Eigen::VectorXd offset = 0.3 * (std::cos(t) * p + std::sin(t) * q), rate = 0.3 * (-std::sin(t) * p + std::cos(t) * q);
+    const Eigen::VectorXd offset = 0.3 * (std::cos(t) * p + std::sin(t) * q),
+                          rate = 0.3 * (-std::sin(t) * p + std::cos(t) * q);
     Eigen::VectorXd increment = rate;
     state_ = start;
     for (std::size_t i = 0; i < body_.node.size(); ++i) {
       const SuperelementNode& node = body_.node[i];
-      state_.nodes[i].xd = state_.nodes[i].Omega = state_.nodes[i].xdd = state_.nodes[i].Omegad = Eigen::Vector3d::Zero();
+      state_.nodes[i].xd = state_.nodes[i].Omega = state_.nodes[i].xdd = state_.nodes[i].Omegad =
+          Eigen::Vector3d::Zero();
       if (node.has_translation()) state_.nodes[i].x += offset.segment<3>(node.translation_row);
       if (!node.has_rotation()) continue;
       const Eigen::Vector3d psi = offset.segment<3>(node.rotation_row);

@@ -3,8 +3,8 @@
 #include <string>
 #include <tuple>
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/superelement_cases.hpp"
@@ -29,8 +29,8 @@ struct Case {
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& c) {
-  return out << c.element << " frame " << static_cast<int>(c.frame) << (c.inertia == InertiaOption::A ? " A" : " B") << " damping "
-             << c.damping;
+  return out << c.element << " frame " << static_cast<int>(c.frame) << (c.inertia == InertiaOption::A ? " A" : " B")
+             << " damping " << c.damping;
 }
 
 SuperelementBody make_body(const Case& c) {
@@ -43,7 +43,8 @@ SuperelementBody make_body(const Case& c) {
   return build_superelement_body(element, formats::rigid_properties(element), options);
 }
 
-NodeMotionOf<Complex> moved(const NodeMotion& node, const Eigen::Vector3d& x, const Eigen::Vector3d& theta, const TangentCoefficients& c) {
+NodeMotionOf<Complex> moved(const NodeMotion& node, const Eigen::Vector3d& x, const Eigen::Vector3d& theta,
+                            const TangentCoefficients& c) {
   const Complex i(0.0, kStep);
   NodeMotionOf<Complex> out;
   out.x = node.x + i * c.stiffness * x;
@@ -61,7 +62,8 @@ struct Derivatives {
 };
 
 /// c_m ∂/∂v̇ + c_c ∂/∂v + c_k ∂/∂q of the residual and of y_B by complex steps through the kernels.
-Derivatives complex_step(const SuperelementBody& body, const BodyState& state, const Eigen::Matrix3d& R0, const TangentCoefficients& c) {
+Derivatives complex_step(const SuperelementBody& body, const BodyState& state, const Eigen::Matrix3d& R0,
+                         const TangentCoefficients& c) {
   const int nb = body.boundary_size, n = nb + body.modes;
   Derivatives result{Eigen::MatrixXd(n, n), Eigen::MatrixXd(nb, n)};
   auto motion = make_local_motion<Complex>(body);
@@ -72,8 +74,9 @@ Derivatives complex_step(const SuperelementBody& body, const BodyState& state, c
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const SuperelementNode& node = body.node[i];
       const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-      nodes[i] = moved(state.nodes[i], node.has_translation() ? Eigen::Vector3d(d.segment<3>(node.translation_row)) : zero,
-                       node.has_rotation() ? Eigen::Vector3d(d.segment<3>(node.rotation_row)) : zero, c);
+      nodes[i] =
+          moved(state.nodes[i], node.has_translation() ? Eigen::Vector3d(d.segment<3>(node.translation_row)) : zero,
+                node.has_rotation() ? Eigen::Vector3d(d.segment<3>(node.rotation_row)) : zero, c);
     }
     const Complex i(0.0, kStep);
     motion.y_I = state.y + i * c.stiffness * d.tail(body.modes);
@@ -101,7 +104,9 @@ class SuperelementTangents : public testing::TestWithParam<Case> {
     uncondensed_tangent(body_, scratch_, state_.nodes, kGravity, c, kind, A);
     return A;
   }
-  Eigen::Matrix3d start_of_frame() const { return GetParam().frame == FrameKind::paper ? state_.R0_reference : scratch_.motion.R0; }
+  Eigen::Matrix3d start_of_frame() const {
+    return GetParam().frame == FrameKind::paper ? state_.R0_reference : scratch_.motion.R0;
+  }
   Derivatives reference(const TangentCoefficients& c) const { return complex_step(body_, state_, start_of_frame(), c); }
 
   SuperelementBody body_;
@@ -110,7 +115,8 @@ class SuperelementTangents : public testing::TestWithParam<Case> {
 };
 
 TEST_P(SuperelementTangents, ExactKindIsTheDerivativeOfTheResidual) {
-  for (const TangentCoefficients& c : {TangentCoefficients{.mass = 1}, {.damping = 1}, {.stiffness = 1}, {1.0, 3.0, 20.0}})
+  for (const TangentCoefficients& c :
+       {TangentCoefficients{.mass = 1}, {.damping = 1}, {.stiffness = 1}, {1.0, 3.0, 20.0}})
     EXPECT_LT(relative_difference(tangent_of(c, TangentKind::exact), reference(c).residual), 1e-12);
 }
 
@@ -129,9 +135,11 @@ TEST_P(SuperelementTangents, StepStiffnessUsesTheExactProjector) {
 }
 
 /// Schur complement, condensed residual and both parts of the solution against a dense solve of the whole system.
-void expect_condensed_equals_whole(const SuperelementBody& body, SuperelementScratch& scratch, const Eigen::MatrixXd& A) {
+void expect_condensed_equals_whole(const SuperelementBody& body, SuperelementScratch& scratch,
+                                   const Eigen::MatrixXd& A) {
   const Eigen::Index nb = body.boundary_size, m = body.modes;
-  const Eigen::MatrixXd A_BI = A.topRightCorner(nb, m), A_IB = A.bottomLeftCorner(m, nb), A_II = A.bottomRightCorner(m, m);
+  const Eigen::MatrixXd A_BI = A.topRightCorner(nb, m), A_IB = A.bottomLeftCorner(m, nb),
+                        A_II = A.bottomRightCorner(m, m);
   EXPECT_LT(relative_difference(scratch.A_BB, A.topLeftCorner(nb, nb) - A_BI * A_II.inverse() * A_IB), 1e-12);
   Eigen::VectorXd r(nb + m);
   r << scratch.forces.r_B, scratch.forces.r_I;

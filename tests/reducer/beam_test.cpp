@@ -91,10 +91,12 @@ TEST_P(BeamLaws, MassIsPositiveExceptWhatIsLeftOut) {
 
 TEST_P(BeamLaws, EnergiesDoNotDependOnTheAxes) {
   const Eigen::VectorXd S = Eigen::SelfAdjointEigenSolver<Matrix12>(beam_stiffness(beam)).eigenvalues();
-  const Eigen::VectorXd turned = Eigen::SelfAdjointEigenSolver<Matrix12>(to_part_axes(beam_stiffness(beam), R_PE)).eigenvalues();
+  const Eigen::VectorXd turned =
+      Eigen::SelfAdjointEigenSolver<Matrix12>(to_part_axes(beam_stiffness(beam), R_PE)).eigenvalues();
   EXPECT_LT((S - turned).cwiseAbs().maxCoeff(), 1e-13 * S.maxCoeff());
   const Eigen::VectorXd M = Eigen::SelfAdjointEigenSolver<Matrix12>(beam_mass(beam)).eigenvalues();
-  const Eigen::VectorXd mass = Eigen::SelfAdjointEigenSolver<Matrix12>(to_part_axes(beam_mass(beam), R_PE)).eigenvalues();
+  const Eigen::VectorXd mass =
+      Eigen::SelfAdjointEigenSolver<Matrix12>(to_part_axes(beam_mass(beam), R_PE)).eigenvalues();
   EXPECT_LT((M - mass).cwiseAbs().maxCoeff(), 1e-13 * M.maxCoeff());
 }
 

@@ -47,8 +47,9 @@ TEST(Frequencies, EulerBernoulliCantilever) {
   }
 }
 
-/// Pinned at both ends, mode n, k = nπ/L: ω⁴ ρI ρA/(GA_s) − ω² (ρA + k² (ρI + ρA EI/(GA_s))) + EI k⁴ = 0. The error is of
-/// order 2 where shear counts: its fourth-order remainder is what extrapolation leaves, (kh)⁴ × shear share 0.07 < 1e-6.
+/// Pinned at both ends, mode n, k = nπ/L: ω⁴ ρI ρA/(GA_s) − ω² (ρA + k² (ρI + ρA EI/(GA_s))) + EI k⁴ = 0. The error is
+/// of order 2 where shear counts: its fourth-order remainder is what extrapolation leaves, (kh)⁴ × shear share 0.07 <
+/// 1e-6.
 TEST(Frequencies, PinnedTimoshenkoBeam) {
   Eigen::VectorXd omega[2];
   for (int i = 0; i < 2; ++i) {
@@ -118,7 +119,8 @@ TEST(Frequencies, TorsionAndAxialOfALumpedBeamConvergeFromBelow) {
     std::vector<int> keep;
     for (int a = 1; a < full.mesh.nodes(); ++a) keep.push_back(6 * a + component);
     const double c = component == 0 ? std::sqrt(E / rho) : std::sqrt(E / 2.6 * 6e-7 / (rho * 11e-7));
-    EXPECT_NEAR(angular_frequencies(full.S, full.M, keep)[0] / (2.0 * c / h * std::sin(EIGEN_PI * h / (4.0 * L))), 1.0, 1e-12);
+    EXPECT_NEAR(angular_frequencies(full.S, full.M, keep)[0] / (2.0 * c / h * std::sin(EIGEN_PI * h / (4.0 * L))), 1.0,
+                1e-12);
   }
 }
 

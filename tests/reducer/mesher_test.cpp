@@ -15,9 +15,9 @@
 namespace tisserand::testing {
 namespace {
 
+using Eigen::Vector3d;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using Eigen::Vector3d;
 
 template <class Action>
 std::string error_of(Action action) {
@@ -96,7 +96,8 @@ TEST(Mesher, GmshFileHasNamesAndAllNodes) {
   std::ifstream file(path);
   std::stringstream text;
   text << file.rdbuf();
-  EXPECT_THAT(text.str(), AllOf(HasSubstr("$MeshFormat\n4.1"), HasSubstr("\"bow\""), HasSubstr("\"A\""), HasSubstr("\"lump\"")));
+  EXPECT_THAT(text.str(),
+              AllOf(HasSubstr("$MeshFormat\n4.1"), HasSubstr("\"bow\""), HasSubstr("\"A\""), HasSubstr("\"lump\"")));
   EXPECT_EQ(mesh.nodes(), 18);
   std::remove(path.c_str());
 }

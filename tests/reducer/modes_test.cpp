@@ -15,10 +15,10 @@
 namespace tisserand::testing {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 std::string error_of(const formats::Part& part) {
   try {
@@ -81,7 +81,8 @@ TEST(MassLessCoordinates, OnlyFiniteModesExist) {
   part.modes.count = 0;  // without modes the boundary carries the inside along
   EXPECT_EQ(reduce(part).file.massless.size(), 0u);
   part.modes.count = 17;
-  EXPECT_THAT(error_of(part), AllOf(HasSubstr("17 internal modes asked for, but only 16 exist"), HasSubstr("rotary inertia")));
+  EXPECT_THAT(error_of(part),
+              AllOf(HasSubstr("17 internal modes asked for, but only 16 exist"), HasSubstr("rotary inertia")));
 }
 
 TEST(MassLessCoordinates, ManyNodesOnTheIterativePath) {

@@ -54,8 +54,10 @@ formats::Part space_frame(int modes) {
   part.file = "frame.part.yaml";
   part.materials.push_back({"light", 7e10, 0.33, 2700.0, ""});
   part.sections.push_back({"stout", 5e-3, 4e-6, 2e-6, 3e-6, 6e-6, 0.0, 3e-3, ""});
-  part.points = {{"a", Vector3d(0.1, -0.2, 0.3), ""}, {"b", Vector3d(2.0, 0.3, 0.1), ""},
-                 {"c", Vector3d(0.7, 1.6, 0.9), ""},  {"hub", Vector3d(0.9, 0.5, 0.4), ""},
+  part.points = {{"a", Vector3d(0.1, -0.2, 0.3), ""},
+                 {"b", Vector3d(2.0, 0.3, 0.1), ""},
+                 {"c", Vector3d(0.7, 1.6, 0.9), ""},
+                 {"hub", Vector3d(0.9, 0.5, 0.4), ""},
                  {"end", Vector3d(1.3, 1.1, -0.6), ""}};
   const formats::BeamLine line = part.beams[0];
   part.beams.clear();

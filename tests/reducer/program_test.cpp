@@ -25,8 +25,9 @@ struct Outcome {
 
 class Program : public ::testing::Test {
  protected:
-  std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) /
-                                 ("reducer_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+  std::filesystem::path folder =
+      std::filesystem::path(::testing::TempDir()) /
+      ("reducer_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
   std::string part = (folder / "beam.part.yaml").string();
 
   void SetUp() override {

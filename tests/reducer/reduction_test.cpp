@@ -15,11 +15,11 @@
 namespace tisserand::testing {
 namespace {
 
-using ::testing::HasSubstr;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using formats::Superelement;
+using ::testing::HasSubstr;
 
 /// A shift of the size of the first elastic eigenvalues of the frame.
 constexpr double shift = -1e4;
@@ -86,8 +86,8 @@ TEST(Reduction, InternalModesAreThoseOfTheHeldPart) {
   EXPECT_EQ(r.model.modes_counted, 12);
 }
 
-/// benchmarks of component modes: Ritz values are above the full ones, fall with every mode, obey the bound of Elssel and
-/// Voss (2006) (λ_CB − λ)/λ ≤ λ/(λ_c − λ), λ_c the first dropped, and meet the full ones with all modes.
+/// benchmarks of component modes: Ritz values are above the full ones, fall with every mode, obey the bound of Elssel
+/// and Voss (2006) (λ_CB − λ)/λ ≤ λ/(λ_c − λ), λ_c the first dropped, and meet the full ones with all modes.
 TEST(Reduction, FreeFrequenciesComeFromAboveAndMeetTheFullModel) {
   const FullModel full = full_model(space_frame(0));
   const int all = static_cast<int>(reducer::partition(full.mesh).n_I());
@@ -101,7 +101,8 @@ TEST(Reduction, FreeFrequenciesComeFromAboveAndMeetTheFullModel) {
       EXPECT_GE(lambda[k], exact[k] * (1.0 - 1e-10)) << modes << " modes, frequency " << k;
       EXPECT_LE(lambda[k], last[k] * (1.0 + 1e-10)) << modes << " modes, frequency " << k;
       if (exact[k] < dropped) {
-        EXPECT_LE(lambda[k] / exact[k] - 1.0, exact[k] / (dropped - exact[k]) + 1e-9) << modes << " modes, frequency " << k;
+        EXPECT_LE(lambda[k] / exact[k] - 1.0, exact[k] / (dropped - exact[k]) + 1e-9)
+            << modes << " modes, frequency " << k;
       }
     }
     last = lambda.head(18);
@@ -144,7 +145,8 @@ TEST(Reduction, BoundaryNodesMayRetainTranslationsOnly) {
   std::vector<int> kept, gone;
   for (int i = 0; i < 18; ++i) (i % 6 < 3 ? kept : gone).push_back(i);
   const MatrixXd S = all.stiffness;
-  const MatrixXd expected = S(kept, kept) - S(kept, gone) * MatrixXd(S(gone, gone)).ldlt().solve(MatrixXd(S(gone, kept)));
+  const MatrixXd expected =
+      S(kept, kept) - S(kept, gone) * MatrixXd(S(gone, gone)).ldlt().solve(MatrixXd(S(gone, kept)));
   EXPECT_LT(relative_difference(e.stiffness, expected), 1e-9);
 }
 

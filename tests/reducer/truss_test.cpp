@@ -40,8 +40,8 @@ std::vector<std::vector<double>> read_csv(const std::string& name) {
 /// Bars without shear flexibility, consistent mass without rotary inertia of bending.
 void add_component(const json& component, const std::string& prefix, formats::Part& part) {
   for (const auto& [id, m] : component.at("mat1").items())
-    part.materials.push_back({prefix + id, m.at("E"), m.at("E").get<double>() / (2.0 * m.at("G").get<double>()) - 1.0,
-                              m.at("rho"), ""});
+    part.materials.push_back(
+        {prefix + id, m.at("E"), m.at("E").get<double>() / (2.0 * m.at("G").get<double>()) - 1.0, m.at("rho"), ""});
   for (const auto& [id, s] : component.at("pbar").items()) {
     const double I = s.at("I1"), I2 = s.at("I2");
     part.sections.push_back({prefix + id, s.at("A"), I, I2, s.at("J"), I + I2, 0.0, 0.0, ""});
@@ -86,7 +86,8 @@ Eigen::VectorXd assembled_frequencies(int inboard_modes, int outboard_modes) {
   const auto add = [&](const formats::Superelement& e, Eigen::Index first_mode) {
     std::vector<Eigen::Index> row(static_cast<std::size_t>(e.size()));
     for (std::size_t i = 0; i < row.size(); ++i)
-      row[i] = static_cast<Eigen::Index>(i) < 24 ? static_cast<Eigen::Index>(i) : first_mode + static_cast<Eigen::Index>(i) - 24;
+      row[i] = static_cast<Eigen::Index>(i) < 24 ? static_cast<Eigen::Index>(i)
+                                                 : first_mode + static_cast<Eigen::Index>(i) - 24;
     S(row, row) += e.stiffness;
     M(row, row) += e.mass;
   };
@@ -115,7 +116,8 @@ TEST(Truss, FixedBoundaryFrequenciesAreThoseOfNastran) {
     const json& nastran = expected.at(std::string(component) + "_fixed_interface_below_50_Hz");
     ASSERT_EQ(nastran.size(), f.size());
     // NASTRAN leaves the torsional inertia out: up to 1.2e-4 in the system's modes.
-    for (std::size_t k = 0; k < f.size(); ++k) EXPECT_NEAR(f[k] / nastran[k].get<double>(), 1.0, 2e-4) << component << k;
+    for (std::size_t k = 0; k < f.size(); ++k)
+      EXPECT_NEAR(f[k] / nastran[k].get<double>(), 1.0, 2e-4) << component << k;
   }
 }
 

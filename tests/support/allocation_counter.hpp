@@ -5,8 +5,8 @@
 
 namespace tisserand::test_support {
 
-/// Calls of malloc (operator new and Eigen included) by this thread since it started. Always 0 under the address sanitizer,
-/// which has a malloc of its own.
+/// Calls of malloc (operator new and Eigen included) by this thread since it started. Always 0 under the address
+/// sanitizer, which has a malloc of its own.
 std::size_t allocation_count();
 
 }  // namespace tisserand::test_support

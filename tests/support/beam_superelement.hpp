@@ -20,11 +20,11 @@ struct BeamData {
   double shear_modulus = 8.0e10;
   double density = 7800.0;
   double area = 4.0e-4;
-  double Iy = 1.5e-8;      ///< second moment that resists bending in the x-z plane
-  double Iz = 2.0e-8;      ///< second moment that resists bending in the x-y plane
-  double J = 3.0e-8;       ///< torsion constant
-  double shear_area_y = 0.0;  ///< 0: Euler-Bernoulli in the x-y plane
-  double shear_area_z = 0.0;  ///< 0: Euler-Bernoulli in the x-z plane
+  double Iy = 1.5e-8;          ///< second moment that resists bending in the x-z plane
+  double Iz = 2.0e-8;          ///< second moment that resists bending in the x-y plane
+  double J = 3.0e-8;           ///< torsion constant
+  double shear_area_y = 0.0;   ///< 0: Euler-Bernoulli in the x-y plane
+  double shear_area_z = 0.0;   ///< 0: Euler-Bernoulli in the x-z plane
   bool rotary_inertia = true;  ///< of the bending terms; the torsional one ρ (Iy + Iz) always stays
 };
 
@@ -35,9 +35,9 @@ using Matrix4 = Eigen::Matrix4d;
 /// Bending stiffness for (w1, θ1, w2, θ2) with θ = +dw/dx; φ = 12 E I/(G A_s L²): Przemieniecki 1968, section 5.6.
 inline Matrix4 bending_stiffness(double EI, double L, double phi) {
   Matrix4 k;
-  k << 12, 6 * L, -12, 6 * L,                                //
-      6 * L, (4 + phi) * L * L, -6 * L, (2 - phi) * L * L,   //
-      -12, -6 * L, 12, -6 * L,                               //
+  k << 12, 6 * L, -12, 6 * L,                               //
+      6 * L, (4 + phi) * L * L, -6 * L, (2 - phi) * L * L,  //
+      -12, -6 * L, 12, -6 * L,                              //
       6 * L, (2 - phi) * L * L, -6 * L, (4 + phi) * L * L;
   return EI / ((1 + phi) * L * L * L) * k;
 }
@@ -45,13 +45,13 @@ inline Matrix4 bending_stiffness(double EI, double L, double phi) {
 /// ∫ ρA N Nᵀ + ρI N' N'ᵀ with Hermite cubics, for (w1, θ1, w2, θ2): Przemieniecki 1968, section 11.
 inline Matrix4 bending_mass(double rho_A, double rho_I, double L) {
   Matrix4 translation, rotation;
-  translation << 156, 22 * L, 54, -13 * L,            //
-      22 * L, 4 * L * L, 13 * L, -3 * L * L,          //
-      54, 13 * L, 156, -22 * L,                       //
+  translation << 156, 22 * L, 54, -13 * L,    //
+      22 * L, 4 * L * L, 13 * L, -3 * L * L,  //
+      54, 13 * L, 156, -22 * L,               //
       -13 * L, -3 * L * L, -22 * L, 4 * L * L;
-  rotation << 36, 3 * L, -36, 3 * L,                  //
-      3 * L, 4 * L * L, -3 * L, -L * L,               //
-      -36, -3 * L, 36, -3 * L,                        //
+  rotation << 36, 3 * L, -36, 3 * L,     //
+      3 * L, 4 * L * L, -3 * L, -L * L,  //
+      -36, -3 * L, 36, -3 * L,           //
       3 * L, -L * L, -3 * L, 4 * L * L;
   return rho_A * L / 420 * translation + rho_I / (30 * L) * rotation;
 }
@@ -144,7 +144,8 @@ inline formats::Superelement permute_nodes(const formats::Superelement& element,
 }
 
 /// Free beam of four equal elements, its three inner nodes reduced by Craig-Bampton: rows base, tip as in
-/// beam_superelement(), then the internal coordinates 0 ... modes − 1 (modes ≤ 18), unit modal mass, ascending, S_BI = 0.
+/// beam_superelement(), then the internal coordinates 0 ... modes − 1 (modes ≤ 18), unit modal mass, ascending, S_BI =
+/// 0.
 inline formats::Superelement craig_bampton_beam(const BeamData& beam, int modes) {
   BeamData piece = beam;
   piece.length = beam.length / 4;

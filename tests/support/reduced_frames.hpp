@@ -45,7 +45,8 @@ inline formats::Superelement craig_bampton(const FullModel& model, const std::ve
   }
   const auto nb = static_cast<Eigen::Index>(boundary.size()), ni = static_cast<Eigen::Index>(internal.size());
   e.node_position = model.position(boundary_nodes, Eigen::all);
-  for (std::size_t i = 0; i < boundary_nodes.size(); ++i) e.node_name.push_back("n" + std::to_string(boundary_nodes[i]));
+  for (std::size_t i = 0; i < boundary_nodes.size(); ++i)
+    e.node_name.push_back("n" + std::to_string(boundary_nodes[i]));
   for (int k = 0; k < modes; ++k) {
     e.dof_node.push_back(-1);
     e.dof_component.push_back(k);
@@ -81,7 +82,8 @@ inline BeamData soft_beam() {
   return beam;
 }
 
-/// A frame that is not flat: nodes 0 to 5 on the path (0,0,0) (0.8,0,0) (1.5,0,0) (1.5,0.5,0) (1.5,1,0) (1.5,1,0.7) of beams.
+/// A frame that is not flat: nodes 0 to 5 on the path (0,0,0) (0.8,0,0) (1.5,0,0) (1.5,0.5,0) (1.5,1,0) (1.5,1,0.7) of
+/// beams.
 inline FullModel bent_frame() {
   FullModel model;
   model.position.resize(6, 3);
@@ -125,14 +127,15 @@ inline FullModel spring_network() {
   return model;
 }
 
-/// The cases of the tests: two nodes (12 boundary coordinates); three nodes (18); nodes with translations or rotations only
-/// (21); no rotations at all (12).
+/// The cases of the tests: two nodes (12 boundary coordinates); three nodes (18); nodes with translations or rotations
+/// only (21); no rotations at all (12).
 inline formats::Superelement test_superelement(const std::string& name) {
   using enum Keep;
   if (name == "beam") return craig_bampton_beam(soft_beam(), 4);
   if (name == "frame") return craig_bampton(bent_frame(), {all, nothing, all, nothing, nothing, all}, 5);
   if (name == "guyan") return craig_bampton(bent_frame(), {all, nothing, all, nothing, nothing, all}, 0);
-  if (name == "mixed") return craig_bampton(bent_frame(), {all, nothing, rotations, translations, translations, all}, 6);
+  if (name == "mixed")
+    return craig_bampton(bent_frame(), {all, nothing, rotations, translations, translations, all}, 6);
   return craig_bampton(spring_network(), {all, all, all, all, nothing, nothing}, 6);  // "network"
 }
 

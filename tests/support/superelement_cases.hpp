@@ -58,12 +58,14 @@ inline BodyState random_state(const mechanism::SuperelementBody& body, unsigned 
 /// update_kinematics() and residual() in one go.
 inline void evaluate(const mechanism::SuperelementBody& body, const BodyState& state, const Eigen::Vector3d& gravity,
                      mechanism::SuperelementScratch& scratch) {
-  mechanism::update_kinematics(body, state.nodes, state.y.data(), state.yd.data(), state.ydd.data(), state.R0_reference, scratch);
+  mechanism::update_kinematics(body, state.nodes, state.y.data(), state.yd.data(), state.ydd.data(), state.R0_reference,
+                               scratch);
   mechanism::residual(body, scratch, gravity);
 }
 
 /// (r_B, r_I) of a state.
-inline Eigen::VectorXd residual_vector(const mechanism::SuperelementBody& body, const BodyState& state, const Eigen::Vector3d& gravity) {
+inline Eigen::VectorXd residual_vector(const mechanism::SuperelementBody& body, const BodyState& state,
+                                       const Eigen::Vector3d& gravity) {
   mechanism::SuperelementScratch scratch = mechanism::make_scratch(body);
   evaluate(body, state, gravity, scratch);
   Eigen::VectorXd r(body.boundary_size + body.modes);

@@ -56,7 +56,8 @@ inline KnownAnswer known_answer(const std::string& name) {
   known.rigid.center_of_mass = to_vector(known.entry["xcm"]);
   const Eigen::Matrix3d about_origin = to_matrix(known.entry["inertia_about_origin"]);
   const Eigen::Vector3d c = known.rigid.center_of_mass;
-  known.rigid.inertia = about_origin - known.rigid.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+  known.rigid.inertia =
+      about_origin - known.rigid.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
   return known;
 }
 

@@ -186,7 +186,8 @@ TEST(SuperelementCantilever, OverflowIsNoEquilibrium) {
   EXPECT_TRUE(run.state().x().allFinite());
 }
 
-// A hinge with a torsion bar: a beam clamped at its far end is twisted about the hinge, whose angle is T L/(G J) = 1e-4.
+// A hinge with a torsion bar: a beam clamped at its far end is twisted about the hinge, whose angle is T L/(G J) =
+// 1e-4.
 TEST(SuperelementCantilever, HingeAngleIsReportedInStatics) {
   const BeamData data;
   Cantilever cantilever(Eigen::Quaterniond::Identity(), Vector3d::Zero());

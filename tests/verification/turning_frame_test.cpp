@@ -32,17 +32,18 @@ formats::Superelement element(const std::string& name) {
   using test_support::Keep;
   if (name == "beam") return test_support::craig_bampton_beam(test_support::soft_beam(), 2);
   if (name == "three")
-    return test_support::craig_bampton(test_support::bent_frame(),
-                                       {Keep::all, Keep::nothing, Keep::all, Keep::nothing, Keep::nothing, Keep::all}, 2);
+    return test_support::craig_bampton(
+        test_support::bent_frame(), {Keep::all, Keep::nothing, Keep::all, Keep::nothing, Keep::nothing, Keep::all}, 2);
   return test_support::craig_bampton(
       test_support::spring_network(),
-      {Keep::translations, Keep::translations, Keep::translations, Keep::translations, Keep::nothing, Keep::nothing}, 2);
+      {Keep::translations, Keep::translations, Keep::translations, Keep::translations, Keep::nothing, Keep::nothing},
+      2);
 }
 
-// A free body that starts turned by 60 degrees and turns on at 1 rad/s, all the way round in 6.28 s. A reference rotation whose
-// length drifts (by tan²(θ/2) a step) makes the energy explode between 90 and 120 degrees; the deformed rotating
-// body keeps it but for the numerical dissipation of its start, which is of the size of its strain energy: (ω/ω₁)² of
-// the kinetic energy.
+// A free body that starts turned by 60 degrees and turns on at 1 rad/s, all the way round in 6.28 s. A reference
+// rotation whose length drifts (by tan²(θ/2) a step) makes the energy explode between 90 and 120 degrees; the deformed
+// rotating body keeps it but for the numerical dissipation of its start, which is of the size of its strain energy:
+// (ω/ω₁)² of the kinetic energy.
 TEST_P(TurningFrame, KeepsEnergyAllTheWayRound) {
   SuperelementFiles files;
   test_support::add_file("body", element(GetParam().element), files);
