@@ -7,10 +7,10 @@
 #include <vector>
 
 #include <fmt/format.h>
-// clang-format off: the LAPACK header does not compile before the others
-#include <petscblaslapack.h>
 #include <slepceps.h>
-// clang-format on
+
+// Does not compile before the others, so it has a block of its own.
+#include <petscblaslapack.h>
 
 #include "common/error.hpp"
 
