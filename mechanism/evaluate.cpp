@@ -234,7 +234,6 @@ Workspace::Workspace(const Model& model)
       increment(Eigen::VectorXd::Zero(model.sizes.velocities())),
       correction(increment),
       displacement(increment),
-      position_correction(increment),
       multipliers(constraint),
       previous(model.sizes) {
   int boundary = 0;

@@ -114,7 +114,6 @@ void predict(const Model& model, const AlphaParameters& alpha, double step, Stat
   const State& last = workspace.previous;
   // state: that of `last`, with the acceleration rebuilt for this step.
   workspace.displacement = step * last.v() + (0.5 * step * step) * state.algorithmic();
-  workspace.position_correction.setZero();
   workspace.correction.setZero();
   state.v() = last.v() + step * state.algorithmic();
   state.vdot() = (state.algorithmic() - alpha.alpha_f * last.vdot()) / (1.0 - alpha.alpha_f);
@@ -128,7 +127,6 @@ void correct(const Model& model, const AlphaParameters& alpha, double step, Stat
   state.v() += c.damping * workspace.increment;
   state.vdot() += c.mass * workspace.increment;
   workspace.displacement += workspace.increment + workspace.correction;
-  workspace.position_correction += workspace.correction;
   state.lambda() += workspace.unknowns.tail(model.sizes.constraints);
   retract(model, workspace.previous, workspace.displacement, state);
 }

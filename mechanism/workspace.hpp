@@ -62,7 +62,6 @@ struct Workspace {
   Eigen::VectorXd increment;            ///< of the velocity coordinates, boundary and internal
   Eigen::VectorXd correction;           ///< the same for the position correction of stabilised index 2
   Eigen::VectorXd displacement;         ///< total increment of the positions over the step
-  Eigen::VectorXd position_correction;  ///< total correction over the step
   Eigen::VectorXd multipliers;          ///< increment of λ of the current iteration
   Eigen::VectorXd element_boundary;     ///< of one superelement
   State previous;                       ///< the last accepted state
