@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/timer.hpp"
 
 namespace tisserand {
 namespace {
@@ -60,24 +59,6 @@ TEST(Progress, WritesALineEveryTenSecondsElsewhere) {
   }
   progress.finish();
   EXPECT_EQ(recorder.text(), "modes: 1 s gone\nmodes: 11 s gone\nmodes: 21 s gone\nmodes: done in 25 s\n");
-}
-
-TEST(PhaseTimer, AddsUpPhasesInTheOrderOfTheirFirstStart) {
-  PhaseTimer timer;
-  timer.start("mesh");
-  timer.start("modes");
-  timer.start("mesh");
-  const auto begin = std::chrono::steady_clock::now();
-  while (std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(20)) {
-  }
-  timer.stop();
-  timer.stop();
-  ASSERT_EQ(timer.phases().size(), 2u);
-  EXPECT_EQ(timer.phases()[0].name, "mesh");
-  EXPECT_EQ(timer.phases()[1].name, "modes");
-  EXPECT_GE(timer.phases()[0].seconds, 0.02);  // the loop was inside it
-  EXPECT_LT(timer.phases()[1].seconds, timer.phases()[0].seconds);
-  EXPECT_DOUBLE_EQ(timer.total(), timer.phases()[0].seconds + timer.phases()[1].seconds);
 }
 
 }  // namespace
