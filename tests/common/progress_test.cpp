@@ -1,4 +1,4 @@
-// Tests of the progress line with a clock that the test turns, and of the phase timer.
+// Tests of the progress line with a clock that the test turns.
 #include "common/progress.hpp"
 
 #include <string>
