@@ -1,0 +1,112 @@
+// Shells and solids of part.yaml: what they consist of, on which groups, and geometry that the part file draws itself.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace tisserand::formats {
+
+enum class MassMatrix { consistent, lumped };
+
+/// Engineering constants in the axes of a ply: 1 along the fibres, 2 across, 3 normal.
+struct OrthotropicMaterial {
+  std::string name;
+  double E1 = 0.0;
+  double E2 = 0.0;
+  double nu12 = 0.0;
+  double G12 = 0.0;
+  double G13 = 0.0;
+  double G23 = 0.0;
+  double density = 0.0;
+  std::string where;
+};
+
+/// One layer of a laminate; the angle turns from the x axis of the laminate to direction 1, right-handed about the
+/// normal [rad].
+struct Ply {
+  std::string material;  ///< isotropic or orthotropic
+  double thickness = 0.0;
+  double angle = 0.0;
+};
+
+/// A shell across its thickness: one layer of `material` with `thickness`, or the plies from the side opposite to the
+/// normal to the side of the normal.
+struct ShellLayout {
+  double thickness = 0.0;
+  std::string material;
+  std::vector<Ply> plies;            ///< empty: one layer
+  double offset = 0.0;               ///< of the middle surface from the mesh along the normal
+  std::optional<Eigen::Vector3d> x;  ///< its projection is the x axis of the laminate; absent: first edge of an element
+  MassMatrix mass_matrix = MassMatrix::consistent;
+};
+
+/// Shells on groups of faces.
+struct ShellGroup {
+  std::string name;
+  std::vector<std::string> on;  ///< groups, "face 3" or "all"
+  ShellLayout layout;
+  std::string where;
+};
+
+/// Solids on groups of volumes.
+struct SolidGroup {
+  std::string name;
+  std::vector<std::string> on;  ///< groups, "volume 1" or "all"
+  std::string material;         ///< isotropic
+  MassMatrix mass_matrix = MassMatrix::consistent;
+  std::string where;
+};
+
+/// Four corners, counter-clockwise seen from the tip of the normal; bilinear between them.
+struct Plate {
+  std::vector<Eigen::Vector3d> corners;
+};
+
+/// A circular disc or ring; divisions: around, radial. `start` is where the angle begins.
+struct Disc {
+  Eigen::Vector3d center, normal;
+  std::optional<Eigen::Vector3d> start;
+  double radius = 0.0;
+  double inner_radius = 0.0;
+};
+
+/// The wall of a cylinder or cone, or a segment of it; the normal points outwards. Divisions: around, along.
+struct Cylinder {
+  Eigen::Vector3d from, to;
+  double radius = 0.0;
+  double end_radius = 0.0;               ///< at `to`
+  std::optional<Eigen::Vector3d> start;  ///< direction from the axis to angle 0
+  double angle = 0.0;                    ///< (0, 2 pi]
+};
+
+/// Turning about an axis through a point [rad].
+struct ArcPath {
+  Eigen::Vector3d through, axis;
+  double angle = 0.0;
+};
+
+/// A polyline drawn along a vector or an arc. The normal is (direction of the polyline) x (direction of the path).
+/// Divisions: each segment of the polyline, along.
+struct Extrusion {
+  std::vector<Eigen::Vector3d> section;  ///< closed if the last point is the first one
+  std::variant<Eigen::Vector3d, ArcPath> path;
+};
+
+enum class Cells { quadrilaterals, triangles };
+
+/// A wall that the part file draws. It makes the group of faces `name` and groups of edges (PART.md).
+struct ShellPatch {
+  std::string name;
+  std::variant<Plate, Disc, Cylinder, Extrusion> shape;
+  std::vector<int> elements;  ///< two counts, or empty: from size
+  double size = 0.0;          ///< largest length of an element's edge
+  Cells cells = Cells::quadrilaterals;
+  std::optional<ShellLayout> layout;  ///< absent: from a ShellGroup on it
+  std::string where;
+};
+
+}  // namespace tisserand::formats
