@@ -42,8 +42,8 @@ Names check_definitions(const Part& part, Faults& faults) {
 
 void check_beam(const Part& part, const BeamLine& beam, const Names& names, Faults& faults) {
   const std::string subject = fmt::format("beam '{}'", beam.name);
-  check_reference(subject, "point", beam.from, names.points, beam.where, "from", faults);
-  check_reference(subject, "point", beam.to, names.points, beam.where, "to", faults);
+  check_reference(subject, "point", beam.from.name, names.points, beam.where, "from", faults);
+  check_reference(subject, "point", beam.to.name, names.points, beam.where, "to", faults);
   check_reference(subject, "section", beam.section, names.sections, beam.where, "section", faults);
   check_reference(subject, "material", beam.material, names.materials, beam.where, "material", faults);
   if (beam.elements < 0)
@@ -55,8 +55,8 @@ void check_beam(const Part& part, const BeamLine& beam, const Names& names, Faul
       section->area > 0.0 && section->shear_area_z == 0.0)
     faults.add(beam.where, "section", fmt::format("{}: section '{}' has no shear areas", subject, section->name),
                "give shear_area_y and shear_area_z, or set theory: euler_bernoulli");
-  const NamedPoint* from = find_point(part, beam.from);
-  const NamedPoint* to = find_point(part, beam.to);
+  const NamedPoint* from = find_point(part, beam.from.name);
+  const NamedPoint* to = find_point(part, beam.to.name);
   if (from == nullptr || to == nullptr) return;
   check_line({subject, beam.where, from->position, to->position, beam.through, beam.orientation}, faults);
   if (beam.elements != 0 || !(beam.size > 0.0)) return;
@@ -84,7 +84,7 @@ void check_boundary(const Part& part, const Names& names, Faults& faults) {
   std::vector<std::string> seen;
   for (const BoundaryNode& node : part.boundary) {
     check_name("boundary node", node.name, node.where, seen, faults);
-    check_reference(fmt::format("boundary node '{}'", node.name), "point", node.at, names.points, node.where, "",
+    check_reference(fmt::format("boundary node '{}'", node.name), "point", node.at.name, names.points, node.where, "",
                     faults);
     if (!node.translations && !node.rotations)
       faults.add(node.where, "", fmt::format("boundary node '{}': keeps neither translations nor rotations", node.name),
@@ -107,7 +107,7 @@ Faults find_faults(const Part& part) {
   for (const PointMass& mass : part.point_masses) {
     const std::string subject = fmt::format("point mass '{}'", mass.name);
     check_name("point mass", mass.name, mass.where, masses, faults);
-    check_reference(subject, "point", mass.at, names.points, mass.where, "at", faults);
+    check_reference(subject, "point", mass.at.name, names.points, mass.where, "at", faults);
     check_mass({subject, mass.where, mass.mass, mass.inertia}, MassSign::zero_allowed, faults);
   }
   check_boundary(part, names, faults);
