@@ -108,11 +108,11 @@ const Named& find_named(const std::vector<Named>& all, const std::string& name, 
 
 Curve curve_of(const PointTable& points, const formats::BeamLine& line) {
   const std::string user = fmt::format("beam '{}'", line.name);
-  const Eigen::Vector3d from = find_point(points, line.from, user, line.where).position;
-  const Eigen::Vector3d to = find_point(points, line.to, user, line.where).position;
+  const Eigen::Vector3d from = find_point(points, line.from.name, user, line.where).position;
+  const Eigen::Vector3d to = find_point(points, line.to.name, user, line.where).position;
   if (!((to - from).norm() > 1e-12 * (1.0 + from.norm() + to.norm())))
     throw Error(
-        fmt::format("beam '{}' has zero length: '{}' and '{}' are at the same place", line.name, line.from, line.to),
+        fmt::format("beam '{}' has zero length: '{}' and '{}' are at the same place", line.name, line.from.name, line.to.name),
         line.where, "move one of the points (a full circle is drawn as two arcs)");
   return line.through ? circle_arc(from, *line.through, to, line) : Curve{from, to};
 }
@@ -149,9 +149,9 @@ MeshedLine add_line(const PointTable& points, const formats::BeamLine& line, Gms
   MeshedLine result{curve_of(points, line), 0, {}};
   const Curve& curve = result.curve;
   result.elements = element_count(curve, line);
-  for (const std::string& name : {line.from, line.to})
+  for (const std::string& name : {line.from.name, line.to.name})
     if (!model.point_tag.contains(name)) model.point_tag[name] = gmsh_point(points.at(name)->position);
-  const int first = model.point_tag[line.from], last = model.point_tag[line.to];
+  const int first = model.point_tag[line.from.name], last = model.point_tag[line.to.name];
   if (curve.angle == 0.0) {
     result.curve_tags = {gmsh::model::geo::addLine(first, last)};
     divisions.emplace_back(result.curve_tags[0], result.elements);
@@ -236,9 +236,9 @@ BeamElementData element_data(const formats::Part& part, const formats::BeamLine&
 void append_beams(const formats::Part& part, const formats::BeamLine& line, const MeshedLine& meshed,
                   const std::vector<int>& nodes, Mesh& mesh) {
   const Eigen::Vector3d orientation = section_orientation(line, meshed.curve, meshed.elements);
-  const int property = static_cast<int>(mesh.properties.size());
+  const int property = static_cast<int>(mesh.beam_properties.size());
   const double length = (mesh.position.col(nodes[1]) - mesh.position.col(nodes[0])).norm();
-  mesh.properties.push_back({element_data(part, line, length), line.name});
+  mesh.beam_properties.push_back({element_data(part, line, length), line.name});
   for (int e = 0; e < meshed.elements; ++e) {
     const Eigen::Vector3d axis = mesh.position.col(nodes[e + 1]) - mesh.position.col(nodes[e]);
     const std::optional<Eigen::Matrix3d> R_PE = beam_axes(axis, orientation);
@@ -264,7 +264,7 @@ int node_of_point(const PointTable& points, const std::map<std::string, int>& no
 void append_masses_and_boundary(const formats::Part& part, const std::map<std::string, int>& node, Mesh& mesh) {
   const PointTable points = point_table(part);
   for (const formats::PointMass& mass : part.point_masses)
-    mesh.masses.push_back({node_of_point(points, node, mass.at, fmt::format("point mass '{}'", mass.name), mass.where),
+    mesh.masses.push_back({node_of_point(points, node, mass.at.name, fmt::format("point mass '{}'", mass.name), mass.where),
                            mass.mass, mass.inertia});
   if (part.boundary.empty())
     throw Error("the part has no boundary node", part.file, "name at least one point under `boundary`");
@@ -274,7 +274,7 @@ void append_masses_and_boundary(const formats::Part& part, const std::map<std::s
     if (!b.translations && !b.rotations)
       throw Error(user + " retains neither translations nor rotations", b.where,
                   "retain one of them or remove the node");
-    const int n = node_of_point(points, node, b.at, user, b.where);
+    const int n = node_of_point(points, node, b.at.name, user, b.where);
     if (const auto [other, fresh] = used.emplace(n, b.name); !fresh)
       throw Error(fmt::format("{} is at the same point as boundary node '{}'", user, other->second), b.where,
                   "keep one of the two");
@@ -297,13 +297,13 @@ Mesh collect(const formats::Part& part, const GmshModel& model) {
   std::vector<std::vector<int>> line_nodes;
   for (std::size_t i = 0; i < model.lines.size(); ++i) {
     const std::vector<std::size_t> tags = nodes_along(model.lines[i]);
-    std::vector<int> nodes{node.at(part.beams[i].from)};
+    std::vector<int> nodes{node.at(part.beams[i].from.name)};
     for (std::size_t k = 1; k + 1 < tags.size(); ++k) {
       nodes.push_back(static_cast<int>(position.size()));
       position.push_back(model.lines[i].curve.at(static_cast<double>(k) / model.lines[i].elements));
       mesh.node_label.push_back(fmt::format("{}[{}]", part.beams[i].name, k));
     }
-    nodes.push_back(node.at(part.beams[i].to));
+    nodes.push_back(node.at(part.beams[i].to.name));
     line_nodes.push_back(nodes);
   }
   mesh.position.resize(3, static_cast<Eigen::Index>(position.size()));
@@ -320,8 +320,8 @@ void add_physical_groups(const formats::Part& part, const GmshModel& model) {
   const auto mark = [&model](const std::string& point, const std::string& name) {
     gmsh::model::setPhysicalName(0, gmsh::model::addPhysicalGroup(0, {model.point_tag.at(point)}), name);
   };
-  for (const formats::BoundaryNode& b : part.boundary) mark(b.at, b.name);
-  for (const formats::PointMass& m : part.point_masses) mark(m.at, m.name);
+  for (const formats::BoundaryNode& b : part.boundary) mark(b.at.name, b.name);
+  for (const formats::PointMass& m : part.point_masses) mark(m.at.name, m.name);
 }
 
 void check_has_beams(const formats::Part& part) {
