@@ -6,6 +6,9 @@
 
 #include <petscmat.h>
 
+#include "common/rotation.hpp"
+#include "reducer/elements/element_matrices.hpp"
+
 namespace tisserand::reducer {
 namespace {
 
@@ -45,18 +48,25 @@ void finish(const Matrix& matrix) {
 
 }  // namespace
 
+int coordinate_count(const Mesh& mesh) { return 6 * mesh.nodes(); }
+
+Eigen::MatrixXd rigid_motions(const Mesh& mesh) {
+  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(coordinate_count(mesh), 6);
+  for (int a = 0; a < mesh.nodes(); ++a) {
+    R.block<6, 6>(6 * a, 0).setIdentity();
+    R.block<3, 3>(6 * a, 3) = -skew<double>(mesh.position.col(a));
+  }
+  return R;
+}
+
 SystemMatrices assemble(const Mesh& mesh) {
   const std::vector<PetscInt> blocks = upper_blocks(mesh);
   SystemMatrices system{empty_matrix(mesh.nodes(), blocks), empty_matrix(mesh.nodes(), blocks)};
-  std::vector<Matrix12> stiffness, mass;
-  for (const BeamProperty& property : mesh.properties) {
-    stiffness.push_back(beam_stiffness(property.data));
-    mass.push_back(beam_mass(property.data));
-  }
+  ElementMatrices element;
   for (const BeamElement& beam : mesh.beams) {
-    const auto property = static_cast<std::size_t>(beam.property);
-    add(system.stiffness, beam, to_part_axes(stiffness[property], beam.R_PE));
-    add(system.mass, beam, to_part_axes(mass[property], beam.R_PE));
+    element_matrices(mesh, beam, element);
+    add(system.stiffness, beam, element.S);
+    add(system.mass, beam, element.M);
   }
   for (const NodalMass& point : mesh.masses) {
     Block6 block = Block6::Zero();

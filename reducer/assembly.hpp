@@ -13,6 +13,12 @@ struct SystemMatrices {
   Matrix mass;
 };
 
+/// Coordinates of the whole part: six per node.
+int coordinate_count(const Mesh& mesh);
+
+/// The six rigid motions (coordinates x 6): unit translations, then (e_k × X_a, e_k) about the part origin.
+Eigen::MatrixXd rigid_motions(const Mesh& mesh);
+
 /// Sum of the elements and of the nodal masses; memory is reserved exactly from the node graph.
 SystemMatrices assemble(const Mesh& mesh);
 

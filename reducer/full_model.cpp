@@ -43,7 +43,7 @@ std::vector<double> full_free_frequencies(const SystemMatrices& system, const Me
   if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(scaled).eigenvalues()[0] < 1e-12) return {};
 
   Partition all;
-  all.internal.resize(static_cast<std::size_t>(mesh.dofs()));
+  all.internal.resize(static_cast<std::size_t>(coordinate_count(mesh)));
   std::iota(all.internal.begin(), all.internal.end(), 0);
   const int available = finite_mode_count(mesh, all);
   const int wanted = std::min(available, 6 + count);
@@ -52,7 +52,7 @@ std::vector<double> full_free_frequencies(const SystemMatrices& system, const Me
   const Factor factor(combine(system.stiffness, -shift, system.mass));
   try {
     const Spectrum spectrum = lowest_pairs({system.stiffness, system.mass, factor, shift}, wanted, available,
-                                           choose_solver(mesh.dofs(), wanted));
+                                           choose_solver(coordinate_count(mesh), wanted));
     std::vector<double> result;
     for (int k = 6; k < wanted; ++k)
       result.push_back(std::sqrt(std::max(0.0, spectrum.pairs.value[k])) / (2.0 * EIGEN_PI));

@@ -10,6 +10,7 @@
 
 #include "common/error.hpp"
 #include "common/rotation.hpp"
+#include "reducer/elements/element_matrices.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -114,13 +115,15 @@ int wanted_modes(const InternalProblem& problem, const formats::ModeSelection& s
 int finite_mode_count(const Mesh& mesh, const Partition& p) {
   std::vector<bool> full(static_cast<std::size_t>(mesh.nodes()), false);
   std::vector<Eigen::Matrix<double, 6, 6>> block(full.size(), Eigen::Matrix<double, 6, 6>::Zero());
+  ElementMatrices matrices;
   for (const BeamElement& beam : mesh.beams) {
-    const BeamElementData& data = mesh.properties[static_cast<std::size_t>(beam.property)].data;
+    const BeamElementData& data = mesh.beam_properties[static_cast<std::size_t>(beam.property)].data;
     const bool consistent = data.mass_matrix == formats::MassMatrix::consistent && data.material.density > 0.0;
-    const Matrix12 M = consistent ? Matrix12(Matrix12::Zero()) : to_part_axes(beam_mass(data), beam.R_PE);
+    element_matrices(mesh, beam, matrices);
+    if (consistent) matrices.M.setZero();
     for (const auto& [node, first] : {std::pair{beam.first, 0}, std::pair{beam.second, 6}}) {
       if (consistent) full[static_cast<std::size_t>(node)] = true;
-      block[static_cast<std::size_t>(node)] += M.block<6, 6>(first, first);
+      block[static_cast<std::size_t>(node)] += matrices.M.block<6, 6>(first, first);
     }
   }
   for (const NodalMass& point : mesh.masses) {

@@ -104,15 +104,6 @@ double characteristic_length(const Mesh& mesh) {
   return length > 0.0 ? length : 1.0;
 }
 
-Eigen::MatrixXd rigid_motions(const Mesh& mesh) {
-  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(mesh.dofs(), 6);
-  for (int a = 0; a < mesh.nodes(); ++a) {
-    R.block<6, 6>(6 * a, 0).setIdentity();
-    R.block<3, 3>(6 * a, 3) = -skew<double>(mesh.position.col(a));
-  }
-  return R;
-}
-
 void check_connected(const Mesh& mesh, const std::string& where) {
   const std::vector<int> piece = pieces(mesh);
   std::vector<int> first;

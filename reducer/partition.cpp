@@ -57,7 +57,7 @@ SplitMatrix split_one(const Matrix& matrix, const Partition& p) {
 
 Partition partition(const Mesh& mesh) {
   Partition p;
-  std::vector<bool> retained(static_cast<std::size_t>(mesh.dofs()), false);
+  std::vector<bool> retained(static_cast<std::size_t>(coordinate_count(mesh)), false);
   for (std::size_t b = 0; b < mesh.boundary.size(); ++b)
     for (int component = 0; component < 6; ++component) {
       if (!(component < 3 ? mesh.boundary[b].translations : mesh.boundary[b].rotations)) continue;
@@ -66,7 +66,7 @@ Partition partition(const Mesh& mesh) {
       p.boundary_component.push_back(component);
       retained[p.boundary.back()] = true;
     }
-  for (int i = 0; i < mesh.dofs(); ++i)
+  for (int i = 0; i < coordinate_count(mesh); ++i)
     if (!retained[i]) p.internal.push_back(i);
   return p;
 }

@@ -23,8 +23,8 @@ ModelCertificate describe(const formats::Part& part, const Mesh& mesh, const Bou
   ModelCertificate c;
   c.part = part.file;
   c.nodes = mesh.nodes();
-  c.elements = static_cast<int>(mesh.beams.size());
-  c.coordinates = mesh.dofs();
+  c.elements = mesh.elements();
+  c.coordinates = coordinate_count(mesh);
   c.modes_requested = internal.requested;
   c.modes_kept = static_cast<int>(internal.lambda.size());
   c.modes_available = internal.available;
@@ -76,7 +76,7 @@ Reduction reduce(const formats::Part& part, const PhaseListener& begin) {
   result.file = certify(result.superelement, formats::check(result.superelement, part.name));
   result.model = describe(part, mesh, boundary, internal, projection.defects);
   result.model.rigid = full_rigid_properties(system, mesh);
-  if (mesh.dofs() <= small_part && internal.available > 0) {
+  if (coordinate_count(mesh) <= small_part && internal.available > 0) {
     const double scale = internal.lambda.size() > 0 ? internal.lambda[0] : internal.first_dropped.value_or(0.0);
     result.model.free_frequency = full_free_frequencies(system, mesh, scale, compared_frequencies);
   }

@@ -193,7 +193,7 @@ TEST(Solvers, DenseAndKrylovAgreeOnAGridWithDoubleFrequencies) {
 
 TEST(Solvers, FiveThousandCoordinatesNoneMissed) {
   const Pieces p = pieces_of(grid(8, 6));
-  EXPECT_GT(p.mesh.dofs(), 4500);
+  EXPECT_GT(reducer::coordinate_count(p.mesh), 4500);
   const reducer::Pencil pencil{p.blocks.S_II, p.blocks.M_II, p.factor, 0.0};
   const reducer::Spectrum s = reducer::lowest_pairs(pencil, 40, reducer::finite_mode_count(p.mesh, p.partition),
                                                     reducer::choose_solver(p.partition.n_I(), 40));

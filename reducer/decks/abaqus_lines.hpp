@@ -1,0 +1,90 @@
+// First step of read_abaqus(): from the text of a deck and of the files it includes to blocks of one keyword each.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/error.hpp"
+
+namespace tisserand::reducer::abaqus {
+
+/// Errors of one deck, the first fifty in words and the rest as a number.
+class Findings {
+ public:
+  void add(std::string what, std::string where, std::string remedy);
+  /// Throws all of them together if there are any.
+  void raise() const;
+  bool empty() const { return errors_.empty(); }
+
+ private:
+  std::vector<Error> errors_;
+  std::size_t more_ = 0;
+};
+
+/// One data line; the text lives in Input::texts.
+struct Line {
+  std::string_view text;
+  std::uint32_t file = 0;  ///< row of Input::paths
+  std::uint32_t number = 0;
+};
+
+/// REF NODE=7 is {"REFNODE", "7"}.
+struct Parameter {
+  std::string name;   ///< upper case without blanks
+  std::string value;  ///< as written, without quotes and without blanks around it
+};
+
+/// A keyword line with its parameters, and the data lines up to the next keyword.
+struct Block {
+  std::string keyword;  ///< upper case without blanks: "SHELLSECTION"
+  std::string title;    ///< as shown in messages: "*SHELL SECTION"
+  std::vector<Parameter> parameters;
+  std::vector<Line> data;
+  std::uint32_t file = 0;
+  std::uint32_t line = 0;
+
+  /// Value of a parameter ("" if it stands alone), nullptr if absent.
+  const std::string* find(std::string_view name) const;
+  /// The value in lower case, "" if absent: for names of sets, materials, parts.
+  std::string name_of(std::string_view parameter) const;
+};
+
+struct Input {
+  std::vector<std::string> paths;
+  std::vector<std::unique_ptr<std::string>> texts;
+  std::vector<Block> blocks;
+
+  std::string where(const Block& block) const;
+  std::string where(const Line& line) const;
+};
+
+/// Reads the deck with *INCLUDE and INPUT= parameters (paths relative to the file that names them). ** comments and
+/// blank lines are dropped, keyword lines that end in a comma continued.
+Input read_input(const std::string& path, Findings& findings);
+
+/// The fields of a data line between commas, blanks around them removed; no field after a last comma.
+class Fields {
+ public:
+  explicit Fields(std::string_view line) : rest_(line) {}
+  /// False at the end of the line.
+  bool next(std::string_view& field);
+
+ private:
+  std::string_view rest_;
+};
+
+std::vector<std::string_view> split(std::string_view line);
+
+/// Decimal numbers, also with Fortran's exponents ("1.5D+3"); nothing for text, infinities and NaN.
+std::optional<double> to_number(std::string_view field);
+std::optional<long> to_integer(std::string_view field);
+
+std::string lower(std::string_view text);
+std::string upper_without_blanks(std::string_view text);
+std::string_view trim(std::string_view text);
+
+}  // namespace tisserand::reducer::abaqus
