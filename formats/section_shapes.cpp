@@ -35,6 +35,8 @@ Section circle_section(double radius) {
   section.second_moment_y = section.second_moment_z = 0.25 * M_PI * std::pow(radius, 4);
   section.torsion_constant = section.polar_moment = 2.0 * section.second_moment_y;
   section.shear_area_y = section.shear_area_z = 6.0 / 7.0 * section.area;
+  section.shape = "circle";
+  section.sizes = {radius};
   return section;
 }
 
@@ -45,6 +47,8 @@ Section hollow_circle_section(double radius, double thickness) {
   section.second_moment_y = section.second_moment_z = 0.25 * section.area * (radius * radius + inner * inner);
   section.torsion_constant = section.polar_moment = 2.0 * section.second_moment_y;
   section.shear_area_y = section.shear_area_z = tube_shear_factor(inner / radius) * section.area;
+  section.shape = "hollow_circle";
+  section.sizes = {radius, thickness};
   return section;
 }
 
@@ -56,6 +60,8 @@ Section rectangle_section(double width, double height) {
   section.polar_moment = section.second_moment_y + section.second_moment_z;
   section.torsion_constant = rectangle_torsion_constant(width, height);
   section.shear_area_y = section.shear_area_z = 5.0 / 6.0 * section.area;
+  section.shape = "rectangle";
+  section.sizes = {width, height};
   return section;
 }
 
@@ -70,6 +76,8 @@ Section hollow_rectangle_section(double width, double height, double thickness) 
   section.torsion_constant = 2.0 * thickness * wm * wm * hm * hm / (wm + hm);
   section.shear_area_y = box_shear_factor(wm, hm) * section.area;
   section.shear_area_z = box_shear_factor(hm, wm) * section.area;
+  section.shape = "hollow_rectangle";
+  section.sizes = {width, height, thickness};
   return section;
 }
 
