@@ -1,0 +1,16 @@
+// Mass matrix of a point mass whose centre of mass may lie beside its node.
+#include "common/rotation.hpp"
+#include "reducer/elements/element_matrices.hpp"
+
+namespace tisserand::reducer {
+
+/// From the velocity v + ω × c of the centre of mass: [m 1, −m skew(c); m skew(c), J_c − m skew(c)²].
+Eigen::Matrix<double, 6, 6> nodal_mass_matrix(const NodalMass& mass) {
+  const Eigen::Matrix3d c = skew<double>(mass.offset);
+  Eigen::Matrix<double, 6, 6> M;
+  M << mass.mass * Eigen::Matrix3d::Identity(), -mass.mass * c, mass.mass * c,
+      0.5 * (mass.inertia + mass.inertia.transpose()) - mass.mass * c * c;
+  return M;
+}
+
+}  // namespace tisserand::reducer
