@@ -1,6 +1,7 @@
 // Two-node spatial beam element: closed-form stiffness, Gauss-integrated mass.
 #include "reducer/elements/beam.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -117,6 +118,19 @@ ShearFlexibility shear_flexibility(const BeamElementData& beam) {
   if (s.shear_area_y > 0.0) phi.xy = factor * s.second_moment_z / s.shear_area_y;
   if (s.shear_area_z > 0.0) phi.xz = factor * s.second_moment_y / s.shear_area_z;
   return phi;
+}
+
+bool is_plain(const BeamElementData& beam) {
+  const formats::Section& s = beam.section;
+  const AddedMass& added = beam.added_mass;
+  return beam.stations.empty() && s.second_moment_yz == 0.0 && s.shear_coupling == 0.0 && s.centroid_y == 0.0 &&
+         s.centroid_z == 0.0 && s.shear_center_y == 0.0 && s.shear_center_z == 0.0 && added.first == 0.0 &&
+         added.second == 0.0 && added.inertia == 0.0 && !is_rod(beam);
+}
+
+bool is_rod(const BeamElementData& beam) {
+  const auto bends = [](const formats::Section& s) { return s.second_moment_y != 0.0 || s.second_moment_z != 0.0; };
+  return beam.stations.empty() ? !bends(beam.section) : std::none_of(beam.stations.begin(), beam.stations.end(), bends);
 }
 
 Matrix12 beam_stiffness(const BeamElementData& beam) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -15,8 +16,17 @@ using Matrix12 = Eigen::Matrix<double, 12, 12>;
 /// Whether bending turns mass: `without` drops ρI θ'² of bending and keeps the torsional inertia ρ(Iy + Iz).
 enum class RotaryInertia { with, without };
 
-/// All that decides the matrices of one element. The twelve coordinates are [u v w θx θy θz] of node 1, then of node 2,
-/// in the element's axes: x from node 1 to node 2, y and z the principal axes of the section.
+/// Mass that loads the beam and does not stiffen it, from its first to its second end (linear between).
+struct AddedMass {
+  double first = 0.0;  ///< per length, at the first end
+  double second = 0.0;
+  double inertia = 0.0;   ///< about x through its own centre, per length, constant
+  double offset_y = 0.0;  ///< of its centre from the axis
+  double offset_z = 0.0;
+};
+
+/// All that decides the matrices of one element. The twelve coordinates are [u v w θx θy θz] of end 1, then of end 2,
+/// in the element's axes: x from end 1 to end 2, y and z the axes of the section.
 struct BeamElementData {
   formats::Section section;
   formats::Material material;
@@ -24,6 +34,10 @@ struct BeamElementData {
   formats::BeamTheory theory = formats::BeamTheory::timoshenko;
   formats::MassMatrix mass_matrix = formats::MassMatrix::consistent;
   RotaryInertia rotary_inertia = RotaryInertia::with;
+  /// Tapered: sections at equal distances from end 1 to end 2 (at least two), whose constants are joined by the
+  /// polynomial through all of them (elements/beam_taper.hpp makes them). Empty: `section` everywhere.
+  std::vector<formats::Section> stations;
+  AddedMass added_mass;
 };
 
 /// Φ = 12 E I/(G A_s L²) of the two bending planes; 0 for Euler-Bernoulli and for a shear area of 0 ([Prz68] 5.6).
@@ -32,6 +46,13 @@ struct ShearFlexibility {
   double xz = 0.0;  ///< bending in x-z: Iy and shear_area_z
 };
 ShearFlexibility shear_flexibility(const BeamElementData& beam);
+
+/// Whether the beam is prismatic, its axis that of centroids and shear centres, its axes principal, without added mass:
+/// beam_stiffness() and beam_mass() are for such a beam, elements/beam_general.hpp is for any.
+bool is_plain(const BeamElementData& beam);
+
+/// Whether no section of the beam resists bending (Iy = Iz = 0): a rod.
+bool is_rod(const BeamElementData& beam);
 
 /// Stiffness of the straight prismatic beam, exact for loads at its ends ([Prz68] 5.6, eq. (5.116)).
 Matrix12 beam_stiffness(const BeamElementData& beam);
