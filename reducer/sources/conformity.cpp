@@ -1,0 +1,112 @@
+// Whether the edges of patches and beams that touch have the same nodes.
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "reducer/sources/patches.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A straight edge of an element; owner: the patch, or -1 for a beam.
+struct Segment {
+  int first = 0;
+  int second = 0;
+  int owner = -1;
+};
+
+/// All edges of the faces, and the nodes of those that belong to one face only.
+struct FaceEdges {
+  std::vector<Segment> segments;
+  std::vector<int> free_nodes;
+};
+
+FaceEdges face_edges(const CellMesh& patches) {
+  FaceEdges result;
+  std::map<std::pair<int, int>, int> uses;
+  int owner = 0;
+  for (const Entity& entity : patches.entities) {
+    if (entity.dimension != 2) continue;
+    for (std::size_t c = entity.first; c < entity.first + entity.count; ++c) {
+      const Cell& cell = patches.cells[2][c];
+      const int corners = form_of(cell.shape).corners;
+      for (int k = 0; k < corners; ++k) {
+        const int a = cell.nodes[static_cast<std::size_t>(k)],
+                  b = cell.nodes[static_cast<std::size_t>((k + 1) % corners)];
+        if (++uses[std::minmax(a, b)] == 1) result.segments.push_back({a, b, owner});
+      }
+    }
+    ++owner;
+  }
+  for (const auto& [edge, count] : uses)
+    if (count == 1) result.free_nodes.insert(result.free_nodes.end(), {edge.first, edge.second});
+  std::ranges::sort(result.free_nodes);
+  const auto rest = std::ranges::unique(result.free_nodes);
+  result.free_nodes.erase(rest.begin(), rest.end());
+  return result;
+}
+
+[[noreturn]] void refuse(const formats::Part& part, const OwnLines& lines, const Segment& segment, int node) {
+  const auto label = [&lines](int n) { return lines.label[static_cast<std::size_t>(n)]; };
+  const bool patch = segment.owner >= 0;
+  const std::string where = patch ? part.patches[static_cast<std::size_t>(segment.owner)].where : part.file;
+  throw Error(fmt::format("node {} lies on the edge from {} to {} without being one of its nodes", label(node),
+                          label(segment.first), label(segment.second)),
+              where,
+              "edges that touch need the same divisions: give both the same number of elements, or cut one where "
+              "the other ends");
+}
+
+/// Throws if one of the nodes in the grid lies inside the segment.
+void check_segment(const formats::Part& part, const OwnLines& lines, const Segment& segment, const NodeGrid& grid,
+                   double step) {
+  const Vector3d a = lines.position[static_cast<std::size_t>(segment.first)];
+  const Vector3d d = lines.position[static_cast<std::size_t>(segment.second)] - a;
+  const double length = d.norm();
+  const int samples = static_cast<int>(length / step) + 1;
+  for (int k = 0; k <= samples; ++k)
+    grid.near(a + d * (static_cast<double>(k) / samples), [&](int node) {
+      if (node == segment.first || node == segment.second) return;
+      const Vector3d x = lines.position[static_cast<std::size_t>(node)] - a;
+      const double s = x.dot(d) / (length * length);
+      constexpr double slack = 1e-3;  // closer than this to an edge without a node there is no intention
+      if (s > -slack && s < 1.0 + slack && (x - std::clamp(s, 0.0, 1.0) * d).norm() < slack * length)
+        refuse(part, lines, segment, node);
+    });
+}
+
+double mean_length(const OwnLines& lines, const std::vector<Segment>& segments) {
+  double sum = 0.0;
+  for (const Segment& s : segments)
+    sum +=
+        (lines.position[static_cast<std::size_t>(s.second)] - lines.position[static_cast<std::size_t>(s.first)]).norm();
+  return sum / static_cast<double>(segments.size());
+}
+
+}  // namespace
+
+void check_conformity(const formats::Part& part, const CellMesh& patches, const OwnLines& lines) {
+  if (part.patches.empty() || (part.patches.size() == 1 && lines.beams.empty())) return;
+  const FaceEdges faces = face_edges(patches);
+  std::vector<Segment> beams;
+  for (const std::vector<int>& beam : lines.beams)
+    for (std::size_t k = 0; k + 1 < beam.size(); ++k) beams.push_back({beam[k], beam[k + 1], -1});
+  if (faces.segments.empty()) return;
+  const double step = mean_length(lines, faces.segments);
+  NodeGrid of_patches(step), of_all(step);
+  for (const int node : faces.free_nodes) {
+    of_patches.add(lines.position[static_cast<std::size_t>(node)], node);
+    of_all.add(lines.position[static_cast<std::size_t>(node)], node);
+  }
+  for (const std::vector<int>& beam : lines.beams)
+    for (const int node : beam) of_all.add(lines.position[static_cast<std::size_t>(node)], node);
+  for (const Segment& segment : faces.segments) check_segment(part, lines, segment, of_all, step);
+  for (const Segment& segment : beams) check_segment(part, lines, segment, of_patches, step);
+}
+
+}  // namespace tisserand::reducer

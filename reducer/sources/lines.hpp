@@ -1,0 +1,35 @@
+// Lines and arcs of part.yaml as curves, and the axes of beams along them.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/part.hpp"
+
+namespace tisserand::reducer {
+
+/// X(s), s in [0, 1] at constant speed: a straight line, or a circular arc center + r (cos(s angle) e1 + sin(s angle)
+/// e2).
+struct Curve {
+  Eigen::Vector3d from, to;
+  double angle = 0.0;  ///< 0: straight
+  double radius = 0.0;
+  Eigen::Vector3d center = Eigen::Vector3d::Zero(), e1 = Eigen::Vector3d::Zero(), e2 = Eigen::Vector3d::Zero();
+
+  double length() const;
+  Eigen::Vector3d at(double s) const;
+};
+
+/// The curve of a beam between the positions of its ends. Throws Error for zero length and points of an arc on a line.
+Curve curve_of(const formats::BeamLine& line, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+/// Number of equal elements: the given one, or from the size. Throws Error if there are too many, or too few for an
+/// arc.
+int element_count(const Curve& curve, const formats::BeamLine& line);
+
+/// By the rule of PART.md the global axis that is most nearly normal to all of the unit vectors (ties: y before z
+/// before x).
+Eigen::Vector3d default_orientation(const std::vector<Eigen::Vector3d>& tangents);
+
+}  // namespace tisserand::reducer

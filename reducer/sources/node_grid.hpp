@@ -1,0 +1,62 @@
+// Points in space by place: which node is here, and which are near.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace tisserand::reducer {
+
+/// A hash of cubes of edge `step`; each holds the numbers of the points inside.
+class NodeGrid {
+ public:
+  explicit NodeGrid(double step) : step_(step) {}
+
+  void add(const Eigen::Vector3d& x, int number);
+  /// Calls visit(number) for every point that can be within `step` of x.
+  template <class Visit>
+  void near(const Eigen::Vector3d& x, Visit visit) const {
+    const Cube c = cube(x);
+    for (std::int64_t i = -1; i <= 1; ++i)
+      for (std::int64_t j = -1; j <= 1; ++j)
+        for (std::int64_t k = -1; k <= 1; ++k) {
+          const auto found = cubes_.find({c.i + i, c.j + j, c.k + k});
+          if (found == cubes_.end()) continue;
+          for (const int number : found->second) visit(number);
+        }
+  }
+
+ private:
+  struct Cube {
+    std::int64_t i, j, k;
+    bool operator==(const Cube&) const = default;
+  };
+  struct Hash {
+    std::size_t operator()(const Cube& c) const;
+  };
+  Cube cube(const Eigen::Vector3d& x) const;
+
+  double step_;
+  std::unordered_map<Cube, std::vector<int>, Hash> cubes_;
+};
+
+/// Nodes of which no two are at the same place within `tolerance`.
+class MergedNodes {
+ public:
+  explicit MergedNodes(double tolerance) : tolerance_(tolerance), grid_(tolerance) {}
+
+  /// The node at x, or -1.
+  int find(const Eigen::Vector3d& x) const;
+  /// The node at x, a new one if there is none.
+  int at(const Eigen::Vector3d& x);
+  const std::vector<Eigen::Vector3d>& position() const { return position_; }
+
+ private:
+  double tolerance_;
+  NodeGrid grid_;
+  std::vector<Eigen::Vector3d> position_;
+};
+
+}  // namespace tisserand::reducer
