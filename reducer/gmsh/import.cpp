@@ -1,0 +1,273 @@
+// A file opened, meshed if it is a geometry, and read out of gmsh.
+#include "reducer/gmsh/import.hpp"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <unordered_map>
+#include <unordered_set>
+
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "reducer/gmsh/session.hpp"
+#include "reducer/sources/mesh_file.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+constexpr const char* remedy = "open it with gmsh to see what is wrong";
+
+/// gmsh's number of an element type, or nothing for kinds that have no element here.
+std::optional<CellShape> shape_of(int gmsh_type) {
+  switch (gmsh_type) {
+    case 1:
+      return CellShape::line2;
+    case 8:
+      return CellShape::line3;
+    case 2:
+      return CellShape::triangle3;
+    case 9:
+      return CellShape::triangle6;
+    case 3:
+      return CellShape::quadrilateral4;
+    case 16:
+      return CellShape::quadrilateral8;
+    case 4:
+      return CellShape::tetrahedron4;
+    case 11:
+      return CellShape::tetrahedron10;
+    case 5:
+      return CellShape::hexahedron8;
+    case 17:
+      return CellShape::hexahedron20;
+    case 6:
+      return CellShape::prism6;
+    case 18:
+      return CellShape::prism15;
+    default:
+      return std::nullopt;
+  }
+}
+
+void set_option(const char* name, double value) { gmsh::option::setNumber(name, value); }
+
+/// The unit into which OpenCASCADE converts STEP and IGES; files without named units stay in millimetres.
+std::string target_unit(const Units& units) {
+  static const std::map<std::string, std::string> known{{"m", "M"},   {"mm", "MM"}, {"cm", "CM"},
+                                                        {"km", "KM"}, {"in", "IN"}, {"ft", "FT"}};
+  const auto found = known.find(units.length.label);
+  return found == known.end() ? "MM" : found->second;
+}
+
+void set_sizes(const ImportRequest& request) {
+  const formats::MeshFile& settings = request.settings;
+  const double to_file = 1.0 / settings.scale;  // coordinates are scaled after meshing
+  set_option("Mesh.SecondOrderIncomplete", 1);
+  if (settings.size > 0.0) set_option("Mesh.MeshSizeMax", settings.size * to_file);
+  if (settings.smallest > 0.0) set_option("Mesh.MeshSizeMin", settings.smallest * to_file);
+  if (settings.curvature > 0) set_option("Mesh.MeshSizeFromCurvature", settings.curvature);
+  if (settings.order > 0) set_option("Mesh.ElementOrder", settings.order);
+  if (settings.cells && *settings.cells == formats::Cells::quadrilaterals) {
+    set_option("Mesh.RecombineAll", 1);
+    set_option("Mesh.RecombinationAlgorithm", 1);
+  }
+}
+
+/// Local sizes at the points around the entities; inside, sizes follow from the boundary.
+void set_local_sizes(const ImportRequest& request) {
+  for (const SizedEntity& sized : request.sizes) {
+    gmsh::vectorpair points;
+    gmsh::model::getBoundary({{sized.dimension, sized.number}}, points, false, false, true);
+    gmsh::model::mesh::setSize(points, sized.size / request.settings.scale);
+  }
+}
+
+bool has_cells(int dimension, int tag) {
+  std::vector<int> types;
+  gmsh::model::mesh::getElementTypes(types, dimension, tag);
+  return !types.empty();
+}
+
+/// Meshes the geometry, unless the file has done so itself.
+void generate(const ImportRequest& request, const GmshSession& session) {
+  const std::string& file = request.settings.file;
+  const int dimension = std::min(request.dimension, gmsh::model::getDimension());
+  gmsh::vectorpair entities;
+  gmsh::model::getEntities(entities, dimension);
+  if (entities.empty())
+    throw Error(fmt::format("the geometry has no {}s", dimension_word(request.dimension)), file, remedy);
+  const bool meshed = std::ranges::all_of(entities, [](const auto& e) { return has_cells(e.first, e.second); });
+  if (!meshed) {
+    set_local_sizes(request);
+    gmsh::model::mesh::generate(dimension);
+  }
+  check_gmsh_messages(session, file, "check the geometry with gmsh, heal it in the CAD program, or change mesh: size");
+  for (const auto& [d, tag] : entities)
+    if (!has_cells(d, tag))
+      throw Error(fmt::format("{} {} has no mesh: gmsh could not mesh it", dimension_word(d), tag), file,
+                  "check the geometry there, or change mesh: size");
+}
+
+/// Columns of the nodes by gmsh's numbers.
+class NodeTable {
+ public:
+  NodeTable(CellMesh& mesh, double scale) {
+    std::vector<std::size_t> tags;
+    std::vector<double> coordinates, unused;
+    gmsh::model::mesh::getNodes(tags, coordinates, unused, -1, -1, false, false);
+    mesh.position.reserve(tags.size());
+    mesh.node_id.reserve(tags.size());
+    row_.reserve(tags.size());
+    for (std::size_t i = 0; i < tags.size(); ++i) {
+      if (!row_.emplace(tags[i], static_cast<int>(mesh.position.size())).second) continue;
+      mesh.position.push_back(scale *
+                              Eigen::Vector3d(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]));
+      mesh.node_id.push_back(static_cast<long>(tags[i]));
+    }
+  }
+  int at(std::size_t tag, const std::string& file) const {
+    const auto found = row_.find(tag);
+    if (found == row_.end())
+      throw Error(fmt::format("an element refers to node {}, which does not exist", tag), file,
+                  "the file is damaged: write it again");
+    return found->second;
+  }
+
+ private:
+  std::unordered_map<std::size_t, int> row_;
+};
+
+struct NodesHash {
+  std::size_t operator()(const std::array<int, 20>& nodes) const {
+    std::uint64_t hash = 0;
+    for (const int node : nodes) hash = (hash ^ static_cast<std::uint64_t>(node)) * 0x100000001b3ULL;
+    return hash ^ (hash >> 29);
+  }
+};
+
+/// Cells entity by entity; what has the same nodes as an earlier cell (an element that is written once for each of its
+/// physical groups) is left out.
+class Reader {
+ public:
+  Reader(const ImportRequest& request, CellMesh& mesh)
+      : request_(request), mesh_(mesh), nodes_(mesh, request.settings.scale) {}
+
+  void read_entity(int dimension, int tag) {
+    Entity entity{dimension, tag, "", mesh_.cells[static_cast<std::size_t>(dimension)].size(), 0};
+    gmsh::model::getEntityName(dimension, tag, entity.label);
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> ids, nodes;
+    gmsh::model::mesh::getElements(types, ids, nodes, dimension, tag);
+    for (std::size_t t = 0; t < types.size(); ++t) read_cells(entity, types[t], ids[t], nodes[t]);
+    row_of_[{dimension, tag}] = static_cast<int>(mesh_.entities.size());
+    mesh_.entities.push_back(entity);
+  }
+
+  void read_groups(int dimension) {
+    gmsh::vectorpair groups;
+    gmsh::model::getPhysicalGroups(groups, dimension);
+    for (const auto& [d, tag] : groups) {
+      EntityGroup group;
+      group.dimension = d;
+      gmsh::model::getPhysicalName(d, tag, group.name);
+      if (group.name.empty()) group.name = fmt::format("physical {}", tag);
+      std::vector<int> entities;
+      gmsh::model::getEntitiesForPhysicalGroup(d, tag, entities);
+      for (const int entity : entities)
+        if (const auto row = row_of_.find({d, entity}); row != row_of_.end()) group.entities.push_back(row->second);
+      mesh_.groups.push_back(std::move(group));
+    }
+  }
+
+ private:
+  void read_cells(Entity& entity, int type, const std::vector<std::size_t>& ids,
+                  const std::vector<std::size_t>& nodes) {
+    const std::optional<CellShape> shape = shape_of(type);
+    if (!shape) refuse(type);
+    const auto count = static_cast<std::size_t>(form_of(*shape).nodes);
+    auto& cells = mesh_.cells[static_cast<std::size_t>(entity.dimension)];
+    for (std::size_t e = 0; e < ids.size(); ++e) {
+      Cell cell;
+      cell.shape = *shape;
+      cell.id = static_cast<long>(ids[e]);
+      cell.nodes.fill(-1);
+      for (std::size_t k = 0; k < count; ++k) cell.nodes[k] = nodes_.at(nodes[e * count + k], request_.settings.file);
+      std::array<int, 20> sorted = cell.nodes;
+      std::ranges::sort(sorted);
+      if (!seen_.insert(sorted).second) {
+        ++duplicates;
+        continue;
+      }
+      cells.push_back(cell);
+      ++entity.count;
+    }
+  }
+
+  [[noreturn]] void refuse(int type) const {
+    std::string name;
+    int dimension = 0, order = 0, count = 0, primary = 0;
+    std::vector<double> local;
+    gmsh::model::mesh::getElementProperties(type, name, dimension, order, count, local, primary);
+    throw Error(fmt::format("elements of kind '{}' ({} nodes) are not supported", name, count), request_.settings.file,
+                count == 9 || count == 27 || count == 18
+                    ? "write the mesh with Mesh.SecondOrderIncomplete = 1"
+                    : "known are lines, triangles, quadrilaterals, tetrahedra, hexahedra and prisms of order 1 and 2");
+  }
+
+ public:
+  std::size_t duplicates = 0;
+
+ private:
+  const ImportRequest& request_;
+  CellMesh& mesh_;
+  NodeTable nodes_;
+  std::map<std::pair<int, int>, int> row_of_;
+  std::unordered_set<std::array<int, 20>, NodesHash> seen_;
+};
+
+CellMesh read_out(const ImportRequest& request, bool is_geometry) {
+  CellMesh mesh;
+  Reader reader(request, mesh);
+  const int highest = is_geometry ? std::min(request.dimension, 3) : 3;
+  for (int dimension = 1; dimension <= highest; ++dimension) {
+    gmsh::vectorpair entities;
+    gmsh::model::getEntities(entities, dimension);
+    for (const auto& [d, tag] : entities) reader.read_entity(d, tag);
+    reader.read_groups(dimension);
+  }
+  if (mesh.cells[1].empty() && mesh.cells[2].empty() && mesh.cells[3].empty())
+    throw Error("the mesh has no elements", request.settings.file,
+                "mesh the geometry before writing the file, and save all elements (Mesh.SaveAll) or physical groups");
+  if (reader.duplicates > 0)
+    mesh.warnings.push_back(fmt::format("{}: {} elements that have the same nodes as another one are left out",
+                                        request.settings.file, reader.duplicates));
+  return mesh;
+}
+
+}  // namespace
+
+CellMesh import_with_gmsh(const ImportRequest& request) {
+  const std::string& file = request.settings.file;
+  return with_gmsh(file, remedy, [&] {
+    const GmshSession session;
+    const MeshFileKind kind = mesh_file_kind(file, request.settings.where);
+    set_sizes(request);
+    gmsh::option::setString("Geometry.OCCTargetUnit", target_unit(request.units));
+    gmsh::open(file);
+    check_gmsh_messages(session, file, remedy);
+    const bool is_geometry = kind != MeshFileKind::msh;
+    if (is_geometry) {
+      set_sizes(request);  // a .geo file may have set its own; what the part file gives counts
+      generate(request, session);
+    }
+    CellMesh mesh = read_out(request, is_geometry);
+    for (const std::string& warning : session.messages("Warning")) mesh.warnings.push_back("gmsh: " + warning);
+    return mesh;
+  });
+}
+
+}  // namespace tisserand::reducer
