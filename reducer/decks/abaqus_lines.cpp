@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -71,7 +72,7 @@ Block make_block(std::string_view line) {
 /// Turns files into blocks; keeps the chain of open files to see circles.
 class Reader {
  public:
-  Reader(Input& input, Findings& findings) : input_(input), findings_(findings) {}
+  explicit Reader(Input& input) : input_(input) {}
 
   void read_file(const fs::path& path) { read_lines(path, load(path, "")); }
 
@@ -110,15 +111,16 @@ class Reader {
       const std::string_view line = trim(rest.substr(0, end));
       rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
       ++number;
-      if (line.empty() || line.starts_with("**")) continue;
-      if (!continued.empty() || line.front() == '*') {
+      if (line.starts_with("**") || (line.empty() && !keeps_blank_lines())) continue;
+      if (!continued.empty() || line.starts_with('*')) {
         if (continued.empty()) continued_from = number;
         continued += line;
         if (continued.back() == ',' && !rest.empty()) continue;
         keyword_line(continued, path, file, continued_from);
         continued.clear();
       } else if (input_.blocks.empty()) {
-        throw Error(fmt::format("'{}' stands before the first keyword", shown(line)), input_.where({line, file, number}),
+        throw Error(fmt::format("'{}' stands before the first keyword", shown(line)),
+                    input_.where({line, file, number}),
                     "an Abaqus deck begins with a keyword such as *HEADING or *NODE; is the file of another format?");
       } else {
         input_.blocks.back().data.push_back({line, file, number});
@@ -127,6 +129,9 @@ class Reader {
     if (!continued.empty()) keyword_line(continued, path, file, continued_from);
     open_.pop_back();
   }
+
+  /// A blank data line of a beam section means "as usual"; everywhere else it means nothing.
+  bool keeps_blank_lines() const { return !input_.blocks.empty() && input_.blocks.back().keyword.starts_with("BEAM"); }
 
   void keyword_line(const std::string& line, const fs::path& path, std::uint32_t file, std::uint32_t number) {
     Block block = make_block(line);
@@ -148,7 +153,6 @@ class Reader {
   }
 
   Input& input_;
-  Findings& findings_;
   std::vector<fs::path> open_;
 };
 
@@ -183,9 +187,9 @@ std::string Block::name_of(std::string_view parameter) const {
 std::string Input::where(const Block& block) const { return fmt::format("{}:{}", paths[block.file], block.line); }
 std::string Input::where(const Line& line) const { return fmt::format("{}:{}", paths[line.file], line.number); }
 
-Input read_input(const std::string& path, Findings& findings) {
+Input read_input(const std::string& path) {
   Input input;
-  Reader(input, findings).read_file(path);
+  Reader(input).read_file(path);
   if (input.blocks.empty())
     throw Error("no keyword in the file", path, "an Abaqus deck begins with a keyword such as *HEADING or *NODE");
   return input;

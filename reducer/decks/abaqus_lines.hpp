@@ -64,7 +64,8 @@ struct Input {
 
 /// Reads the deck with *INCLUDE and INPUT= parameters (paths relative to the file that names them). ** comments and
 /// blank lines are dropped, keyword lines that end in a comma continued.
-Input read_input(const std::string& path, Findings& findings);
+/// Throws Error for files that cannot be read and for texts that are no deck.
+Input read_input(const std::string& path);
 
 /// The fields of a data line between commas, blanks around them removed; no field after a last comma.
 class Fields {
