@@ -8,10 +8,15 @@
 #include <numeric>
 
 #include "common/error.hpp"
-#include "mechanism/bodies/superelement_canonical.hpp"
+#include "formats/superelement_canonical.hpp"
 #include "mechanism/bodies/superelement_weights.hpp"
 
 namespace tisserand::mechanism {
+
+using formats::canonical_form;
+using formats::CanonicalMatrices;
+using formats::complete_cluster;
+using formats::PartitionedMatrices;
 
 namespace {
 

@@ -1,4 +1,4 @@
-// Canonical form of reduced matrices by congruence: between reading a superelement file and building the body.
+// Canonical form of reduced matrices by congruence: between a superelement of any form and its use.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-namespace tisserand::mechanism {
+namespace tisserand::formats {
 
 /// Reduced matrices with boundary rows first. Any form on input.
 struct PartitionedMatrices {
@@ -35,4 +35,4 @@ CanonicalMatrices canonical_form(const PartitionedMatrices& matrices, const std:
 /// closer than 1e-6 (relative) is split.
 Eigen::Index complete_cluster(const Eigen::VectorXd& eigenvalue, Eigen::Index wanted);
 
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::formats

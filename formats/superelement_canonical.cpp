@@ -1,12 +1,12 @@
 // Congruence to the canonical form and the cut of modes without splitting double frequencies.
-#include "mechanism/bodies/superelement_canonical.hpp"
+#include "formats/superelement_canonical.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include "common/error.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::formats {
 
 namespace {
 
@@ -89,4 +89,4 @@ Eigen::Index complete_cluster(const Eigen::VectorXd& eigenvalue, Eigen::Index wa
   return kept;
 }
 
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::formats
