@@ -26,11 +26,11 @@ bool starts_with_word(std::string_view line, std::string_view word) {
 
 /// One physical line, cut into fields.
 struct Line {
-  std::string_view name;   ///< trimmed; with the sign + or * of a continuation
+  std::string_view name;  ///< trimmed; with the sign + or * of a continuation
   std::array<std::string_view, 8> fields;
-  int count = 0;           ///< four or eight
+  int count = 0;  ///< four or eight
   bool continuation = false;
-  std::string_view mark;   ///< what the next line must carry, without its first character
+  std::string_view mark;  ///< what the next line must carry, without its first character
 };
 
 class CardReader {
@@ -57,10 +57,10 @@ class CardReader {
   std::uintmax_t bytes_ = 0;
   std::uint32_t file_ = 0;
   std::uint32_t line_ = 0;
-  std::string_view text_;      ///< of the present file from the next line on
-  std::size_t position_ = 0;   ///< fields of the last card, blank ones included
-  bool has_card_ = false;      ///< a continuation may follow
-  std::string_view mark_;      ///< of the last line
+  std::string_view text_;     ///< of the present file from the next line on
+  std::size_t position_ = 0;  ///< fields of the last card, blank ones included
+  bool has_card_ = false;     ///< a continuation may follow
+  std::string_view mark_;     ///< of the last line
   bool ended_ = false;
 };
 
@@ -81,7 +81,8 @@ std::string_view CardReader::load(const std::string& path, const std::string& fr
   return *cards_.texts.back();
 }
 
-/// Where the bulk data begin: after the line BEGIN BULK, or at the start if there is none. `line` counts the lines before.
+/// Where the bulk data begin: after the line BEGIN BULK, or at the start if there is none. `line` counts the lines
+/// before.
 std::size_t bulk_start(std::string_view text, std::size_t& line) {
   std::size_t number = 0;
   for (std::size_t at = 0; at < text.size(); ++number) {
@@ -145,7 +146,7 @@ void CardReader::read_line(std::string_view raw) {
     return;
   }
   Line fields;
-  if (line.find('\t') != std::string_view::npos) line = expand_tabs(line);
+  if (line.find('\t') != std::string_view::npos && line.find(',') == std::string_view::npos) line = expand_tabs(line);
   if (split(line, fields)) append(fields);
 }
 

@@ -36,8 +36,8 @@ struct NastranCards {
 };
 
 /// Reads `path` and what it includes. With BEGIN BULK only what follows it in the same file counts; ENDDATA ends it.
-/// Faults of single lines go to `faults`; a file that cannot be read, INCLUDE in a circle (or deeper than 20 levels, more
-/// than 2000 files) and more than 4 GiB of text throw Error.
+/// Faults of single lines go to `faults`; a file that cannot be read, INCLUDE in a circle (or deeper than 20 levels,
+/// more than 2000 files) and more than 4 GiB of text throw Error.
 NastranCards read_nastran_cards(const std::string& path, NastranFaults& faults);
 
 /// `text` without blanks at both ends.

@@ -1,0 +1,42 @@
+// Coordinate systems of a Nastran deck: from the chain of CORD cards to origins and axes in the part frame.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace tisserand::reducer {
+
+/// Coordinates: x y z; r θ z; ρ θ φ with θ from the z axis. Angles in degrees.
+enum class FrameKind { rectangular, cylindrical, spherical };
+
+struct NastranFrame {
+  FrameKind kind = FrameKind::rectangular;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();    ///< part frame
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: x, y, z in part axes
+};
+
+/// Position in the part frame of a point with these coordinates.
+Eigen::Vector3d frame_point(const NastranFrame& frame, const Eigen::Vector3d& coordinates);
+
+/// Axes (columns, part axes) in which components of vectors at a position are given: x y z; e_r e_θ e_z; e_ρ e_θ e_φ.
+/// On the z axis of a cylindrical or spherical system, where they are not defined, those of the half-plane θ = 0 (φ =
+/// 0).
+Eigen::Matrix3d frame_axes_at(const NastranFrame& frame, const Eigen::Vector3d& position);
+
+/// Row 0 is the basic system: the part frame.
+struct NastranFrames {
+  std::vector<NastranFrame> frames{NastranFrame{}};
+  std::map<long, int> row_of_id{{0, 0}};
+
+  /// The row, or −1.
+  int find(long id) const {
+    const auto found = row_of_id.find(id);
+    return found == row_of_id.end() ? -1 : found->second;
+  }
+};
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,57 @@
+// Numbers of a Nastran deck (grid points, properties) to rows: dense where the numbers are, sorted elsewhere.
+#pragma once
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace tisserand::reducer {
+
+class IdTable {
+ public:
+  /// ids[row] -> row. Returns the rows whose id an earlier row has.
+  std::vector<int> build(const std::vector<long>& ids) {
+    sorted_.clear();
+    sorted_.reserve(ids.size());
+    for (std::size_t row = 0; row < ids.size(); ++row) sorted_.emplace_back(ids[row], static_cast<int>(row));
+    std::sort(sorted_.begin(), sorted_.end());
+    std::vector<int> again;
+    for (std::size_t i = 1; i < sorted_.size(); ++i)
+      if (sorted_[i].first == sorted_[i - 1].first) again.push_back(sorted_[i].second);
+    fill_dense();
+    return again;
+  }
+
+  /// The (first) row, or −1.
+  int find(long id) const {
+    if (!dense_.empty())
+      return id < 0 || id >= static_cast<long>(dense_.size()) ? -1 : dense_[static_cast<std::size_t>(id)];
+    const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair<long, int>(id, 0));
+    return at != sorted_.end() && at->first == id ? at->second : -1;
+  }
+
+  /// Appends the ids from first to last that there are.
+  void between(long first, long last, std::vector<long>& ids) const {
+    auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair<long, int>(first, 0));
+    for (long before = first - 1; at != sorted_.end() && at->first <= last; ++at) {
+      if (at->first != before) ids.push_back(at->first);
+      before = at->first;
+    }
+  }
+
+ private:
+  void fill_dense() {
+    dense_.clear();
+    if (sorted_.empty() || sorted_.front().first < 0) return;
+    const auto largest = static_cast<std::size_t>(sorted_.back().first);
+    if (largest > 8 * sorted_.size() + 1000) return;
+    dense_.assign(largest + 1, -1);
+    for (auto at = sorted_.rbegin(); at != sorted_.rend(); ++at)
+      dense_[static_cast<std::size_t>(at->first)] = at->second;
+  }
+
+  std::vector<std::pair<long, int>> sorted_;
+  std::vector<int> dense_;
+};
+
+}  // namespace tisserand::reducer
