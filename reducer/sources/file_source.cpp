@@ -1,0 +1,174 @@
+// The mesh file of a part: cells of a geometry or mesh, or the elements of a deck, after the part file's own nodes.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "reducer/gmsh/import.hpp"
+#include "reducer/sources/mesh_builder.hpp"
+#include "reducer/sources/mesh_file.hpp"
+#include "reducer/sources/selection.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+/// Geometry is meshed as far as the part file needs it.
+int wanted_dimension(const formats::Part& part) {
+  if (!part.solids.empty()) return 3;
+  if (!part.shells.empty()) return 2;
+  return 1;
+}
+
+void append_cells(MeshBuilder& builder, const CellMesh& file) {
+  CellMesh& all = builder.cells;
+  const int shift = static_cast<int>(all.position.size());
+  const int entity_shift = static_cast<int>(all.entities.size());
+  builder.first_file_node = shift;
+  all.position.insert(all.position.end(), file.position.begin(), file.position.end());
+  all.node_id.insert(all.node_id.end(), file.node_id.begin(), file.node_id.end());
+  for (std::size_t n = 0; n < file.position.size(); ++n) {
+    builder.node_of_id[file.node_id[n]] = shift + static_cast<int>(n);
+    builder.label.push_back(fmt::format("node {}", file.node_id[n]));
+  }
+  std::array<std::size_t, 4> first{};
+  for (std::size_t d = 0; d < 4; ++d) {
+    first[d] = all.cells[d].size();
+    all.cells[d].reserve(first[d] + file.cells[d].size());
+    for (Cell cell : file.cells[d]) {
+      for (int k = 0; k < form_of(cell.shape).nodes; ++k) cell.nodes[static_cast<std::size_t>(k)] += shift;
+      all.cells[d].push_back(cell);
+    }
+  }
+  for (Entity entity : file.entities) {
+    entity.first += first[static_cast<std::size_t>(entity.dimension)];
+    all.entities.push_back(entity);
+  }
+  for (EntityGroup group : file.groups) {
+    for (int& entity : group.entities) entity += entity_shift;
+    all.groups.push_back(std::move(group));
+  }
+  builder.last_file_node = static_cast<int>(all.position.size());
+  builder.mesh.warnings.insert(builder.mesh.warnings.end(), file.warnings.begin(), file.warnings.end());
+}
+
+/// Sizes of groups need their entities, which a coarse first mesh tells.
+std::vector<SizedEntity> sized_entities(const MeshBuilder& builder, const ImportRequest& request) {
+  const formats::MeshFile& settings = builder.part.mesh;
+  std::vector<SizedEntity> sizes;
+  if (settings.sizes.empty()) return sizes;
+  MeshBuilder coarse(builder.part);
+  append_cells(coarse, import_with_gmsh({request.settings, request.units, std::min(request.dimension, 2), {}}));
+  coarse.used.assign(coarse.cells.position.size(), 1);
+  for (const formats::MeshFile::LocalSize& local : settings.sizes) {
+    const User user{"mesh: sizes", local.where};
+    for (const int e : select(coarse, local.group, -1, user).entities) {
+      const Entity& entity = coarse.cells.entities[static_cast<std::size_t>(e)];
+      sizes.push_back({entity.dimension, entity.number, local.size});
+    }
+  }
+  // The smallest size last: points between two faces get it.
+  std::ranges::sort(sizes, [](const SizedEntity& a, const SizedEntity& b) { return a.size > b.size; });
+  return sizes;
+}
+
+void refuse_settings(const formats::Part& part, const char* kind) {
+  const formats::MeshFile& mesh = part.mesh;
+  const char* key = mesh.size > 0.0          ? "size"
+                    : mesh.smallest > 0.0    ? "smallest"
+                    : mesh.curvature > 0     ? "curvature"
+                    : !mesh.sizes.empty()    ? "sizes"
+                    : mesh.order > 0         ? "order"
+                    : mesh.cells.has_value() ? "cells"
+                                             : nullptr;
+  if (key != nullptr)
+    throw Error(fmt::format("mesh: '{}' has no effect on {}, which is meshed already", key, kind), mesh.where,
+                "remove it, or give the geometry (.geo, .step, .iges, .brep)");
+}
+
+template <class T>
+void append(std::vector<T>& to, std::vector<T>& from) {
+  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+/// Nodes and properties of a deck come after those that are there.
+void shift_deck(Mesh& deck, int nodes, const Mesh& before) {
+  const auto shift = [](int& value, std::size_t by) { value += static_cast<int>(by); };
+  const auto by = static_cast<std::size_t>(nodes);
+  for (BeamElement& e : deck.beams)
+    shift(e.first, by), shift(e.second, by), shift(e.property, before.beam_properties.size());
+  for (ShellElement& e : deck.shells) {
+    for (int k = 0; k < e.corners(); ++k) shift(e.nodes[static_cast<std::size_t>(k)], by);
+    shift(e.property, before.shell_properties.size());
+  }
+  for (SolidElement& e : deck.solids) {
+    for (int k = 0; k < node_count(e.shape); ++k) shift(e.nodes[static_cast<std::size_t>(k)], by);
+    shift(e.property, before.solid_properties.size());
+  }
+  for (Spring& e : deck.springs) shift(e.first, by), shift(e.second, by);
+  for (NodalMass& e : deck.masses) shift(e.node, by);
+  for (Spider& e : deck.spiders) {
+    shift(e.reference, by);
+    for (int& node : e.nodes) shift(node, by);
+  }
+  for (TieEquation& e : deck.equations)
+    for (TieTerm& term : e.terms) shift(term.node, by);
+  for (MeshBoundary& e : deck.boundary) shift(e.node, by);
+}
+
+/// The deck's nodes, elements, sets and boundary.
+void append_deck(MeshBuilder& builder, Deck& deck) {
+  const int shift = static_cast<int>(builder.cells.position.size());
+  builder.first_file_node = shift;
+  for (int n = 0; n < deck.mesh.nodes(); ++n)
+    builder.add_node(deck.mesh.position.col(n), std::move(deck.mesh.node_label[static_cast<std::size_t>(n)]));
+  builder.last_file_node = static_cast<int>(builder.cells.position.size());
+  for (const auto& [id, node] : deck.node_of_id) builder.node_of_id[id] = node + shift;
+  for (auto& [name, nodes] : deck.node_sets)
+    for (int& node : nodes) node += shift;
+  builder.node_sets = std::move(deck.node_sets);
+  builder.element_sets = std::move(deck.element_sets);  // the deck's elements come first in the mesh
+  Mesh& mesh = builder.mesh;
+  shift_deck(deck.mesh, shift, mesh);
+  append(mesh.beam_properties, deck.mesh.beam_properties);
+  append(mesh.beams, deck.mesh.beams);
+  append(mesh.shell_properties, deck.mesh.shell_properties);
+  append(mesh.shells, deck.mesh.shells);
+  append(mesh.solid_properties, deck.mesh.solid_properties);
+  append(mesh.solids, deck.mesh.solids);
+  append(mesh.springs, deck.mesh.springs);
+  append(mesh.masses, deck.mesh.masses);
+  append(mesh.spiders, deck.mesh.spiders);
+  append(mesh.equations, deck.mesh.equations);
+  append(mesh.boundary, deck.mesh.boundary);
+  append(mesh.warnings, deck.mesh.warnings);
+}
+
+void add_deck(MeshBuilder& builder, MeshFileKind kind) {
+  const formats::MeshFile& settings = builder.part.mesh;
+  refuse_settings(builder.part, "a deck");
+  if (settings.scale != 1.0)
+    throw Error("mesh: 'scale' has no effect on a deck: its properties and materials are in its own units",
+                settings.where, "give the units of the deck under units");
+  const DeckOptions options{settings.unknown == formats::UnknownContent::ignore ? UnknownCards::ignore
+                                                                                : UnknownCards::refuse};
+  Deck deck =
+      kind == MeshFileKind::nastran ? read_nastran(settings.file, options) : read_abaqus(settings.file, options);
+  if (deck.mesh.elements() == 0 && deck.mesh.masses.empty()) throw Error("the deck has no elements", settings.file, "");
+  append_deck(builder, deck);
+}
+
+}  // namespace
+
+void add_mesh_file(MeshBuilder& builder) {
+  const formats::Part& part = builder.part;
+  if (part.mesh.file.empty()) return;
+  check_mesh_file(part.mesh.file, part.mesh.where);
+  const MeshFileKind kind = mesh_file_kind(part.mesh.file, part.mesh.where);
+  if (kind == MeshFileKind::nastran || kind == MeshFileKind::abaqus) return add_deck(builder, kind);
+  if (kind == MeshFileKind::msh) refuse_settings(part, "a .msh file");
+  ImportRequest request{part.mesh, part.units, wanted_dimension(part), {}};
+  request.sizes = sized_entities(builder, request);
+  append_cells(builder, import_with_gmsh(request));
+}
+
+}  // namespace tisserand::reducer

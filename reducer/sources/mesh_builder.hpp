@@ -1,0 +1,69 @@
+// A mesh in the making: what build_mesh() and its steps have in common.
+#pragma once
+
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "formats/part.hpp"
+#include "reducer/decks/deck.hpp"
+#include "reducer/mesh.hpp"
+#include "reducer/sources/cells.hpp"
+#include "reducer/sources/patches.hpp"
+
+namespace tisserand::reducer {
+
+/// Nodes are rows of cells.position and label; mesh.position follows at the end.
+struct MeshBuilder {
+  explicit MeshBuilder(const formats::Part& source) : part(source) {}
+
+  const formats::Part& part;
+  Mesh mesh;
+  CellMesh cells;                  ///< of the patches, then of the mesh file
+  std::vector<std::string> label;  ///< of every node
+  MergedNodes patch_nodes{1.0};
+  int first_file_node = 0;  ///< nodes of the mesh file: [first, last)
+  int last_file_node = 0;
+  std::unordered_map<long, int> node_of_id;           ///< of the mesh file
+  std::map<std::string, std::vector<int>> node_sets;  ///< of a deck, names in lower case
+  std::map<std::string, ElementSet> element_sets;
+  std::vector<std::string> property_of_entity;  ///< name of what has taken the entity, or empty
+  std::unordered_map<std::string, int> point_node;
+  std::unordered_map<std::string, int> spider_node;
+  std::vector<std::vector<int>> beam_nodes;  ///< along each line of part.beams; empty for beams on groups
+  std::vector<int> used;                     ///< by elements: 1
+
+  int add_node(const Eigen::Vector3d& x, std::string name);
+  const Eigen::Vector3d& position(int node) const { return cells.position[static_cast<std::size_t>(node)]; }
+};
+
+// In this order:
+void add_patches(MeshBuilder& builder);         ///< sources/own_geometry.cpp
+void add_points(MeshBuilder& builder);          ///< those of part.yaml that something ends at
+void add_mesh_file(MeshBuilder& builder);       ///< sources/file_source.cpp
+void add_group_elements(MeshBuilder& builder);  ///< sources/group_elements.cpp: shells, solids, beams on groups
+void add_spider_nodes(MeshBuilder& builder);    ///< sources/attachments.cpp
+void add_beams(MeshBuilder& builder);           ///< sources/own_geometry.cpp
+void add_attachments(MeshBuilder& builder);     ///< springs, masses, spiders, boundary
+void finish(MeshBuilder& builder);              ///< positions; nodes that nothing uses leave
+
+/// Marks the nodes of all elements in builder.used.
+void mark_used_nodes(MeshBuilder& builder);
+
+/// Section, material and theory of a beam line; length stays open.
+BeamElementData beam_data(const formats::Part& part, const formats::BeamLine& line);
+
+/// The element between two nodes, with the line's offsets at its own ends (`first` and `last` say whether they are the
+/// line's), its angle and orientation. Throws Error if the orientation is parallel to it.
+struct BeamPlace {
+  int first_node = 0;
+  int second_node = 0;
+  double from = 0.0;  ///< of the line's length
+  double to = 1.0;
+  int number = 1;  ///< for messages
+};
+BeamElement beam_element(const MeshBuilder& builder, const formats::BeamLine& line, const BeamPlace& place,
+                         const Eigen::Vector3d& orientation);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,28 @@
+// Places of part.yaml as nodes of the mesh.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "reducer/sources/mesh_builder.hpp"
+
+namespace tisserand::reducer {
+
+/// Who asks, for messages: "boundary node 'tip'" at file:line.
+struct User {
+  std::string name;
+  std::string where;
+};
+
+/// The node of a place; positions and centroids make a new one. Throws Error naming the user.
+int find_place(MeshBuilder& builder, const formats::Place& place, const User& user);
+
+/// The node with this number in the mesh file. Throws Error with the range of numbers.
+int find_file_node(const MeshBuilder& builder, long number, const User& user);
+
+/// The node of the mesh file nearest to x, of those that elements use. Throws Error if it is farther than the tolerance
+/// (absent: 1e-3 of the extent of the file's nodes), or if two are equally near.
+int nearest_file_node(const MeshBuilder& builder, const Eigen::Vector3d& x, std::optional<double> tolerance,
+                      const User& user);
+
+}  // namespace tisserand::reducer
