@@ -1,0 +1,127 @@
+// Spiders, springs, point masses and boundary nodes at their places.
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "reducer/elements/spring.hpp"
+#include "reducer/sources/mesh_builder.hpp"
+#include "reducer/sources/places.hpp"
+#include "reducer/sources/selection.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+User user_of(const formats::SpiderLine& spider) { return {fmt::format("spider '{}'", spider.name), spider.where}; }
+
+/// The legs of a spider with their weights.
+std::map<int, double> legs_of(const MeshBuilder& builder, const formats::SpiderLine& line) {
+  const User user = user_of(line);
+  std::map<int, double> legs;
+  for (const std::string& name : line.on)
+    for (const auto& [node, weight] : node_weights(builder, select(builder, name, -1, user))) legs[node] += weight;
+  Selection numbered;
+  for (const long number : line.nodes) numbered.nodes.push_back(find_file_node(builder, number, user));
+  if (!numbered.nodes.empty())
+    for (const auto& [node, weight] : node_weights(builder, numbered)) legs[node] += weight;
+  std::erase_if(legs, [&](const auto& leg) { return builder.used[static_cast<std::size_t>(leg.first)] == 0; });
+  if (legs.empty())
+    throw Error(user.name + " grabs nothing: no element has a node there", user.where,
+                "name a group of faces or edges that carry elements; `reducer groups` lists them");
+  if (line.weights == formats::SpiderWeights::equal)
+    for (auto& [node, weight] : legs) weight = 1.0;
+  return legs;
+}
+
+Eigen::Vector3d mean(const MeshBuilder& builder, const std::map<int, double>& legs) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double total = 0.0;
+  for (const auto& [node, weight] : legs) sum += weight * builder.position(node), total += weight;
+  return sum / total;
+}
+
+void add_spider(MeshBuilder& builder, const formats::SpiderLine& line) {
+  const std::map<int, double> legs = legs_of(builder, line);
+  Spider spider;
+  spider.kind = line.type == formats::SpiderType::rigid ? SpiderKind::rigid : SpiderKind::averaging;
+  spider.name = line.name;
+  const bool own_centroid = line.at.kind == formats::PlaceKind::centroid && line.at.name.empty();
+  spider.reference =
+      own_centroid ? builder.add_node(mean(builder, legs), line.name) : find_place(builder, line.at, user_of(line));
+  if (line.at.kind == formats::PlaceKind::position) builder.label.back() = line.name;
+  // Mean rotations follow from translations; those of single nodes would count twice.
+  if (spider.kind == SpiderKind::averaging) spider.node_components = translations_only;
+  for (const auto& [node, weight] : legs) {
+    if (node == spider.reference) continue;
+    spider.nodes.push_back(node);
+    if (spider.kind == SpiderKind::averaging) spider.weight.push_back(weight);
+  }
+  if (spider.nodes.empty())
+    throw Error(fmt::format("spider '{}' grabs nothing but its own node", line.name), line.where,
+                "name a larger group");
+  builder.spider_node[line.name] = spider.reference;
+  builder.mesh.spiders.push_back(std::move(spider));
+}
+
+void add_springs(MeshBuilder& builder) {
+  for (const formats::SpringLine& line : builder.part.springs) {
+    const User user{fmt::format("spring '{}'", line.name), line.where};
+    Spring spring;
+    spring.name = line.name;
+    spring.first = find_place(builder, line.from, user);
+    spring.second = find_place(builder, line.to, user);
+    if (spring.first == spring.second)
+      throw Error(user.name + " begins and ends at the same node", line.where,
+                  "name two places with nodes of their own");
+    BushingPlace place;  // in the middle between the nodes
+    place.first_arm = 0.5 * (builder.position(spring.second) - builder.position(spring.first));
+    place.second_arm = -place.first_arm;
+    place.R_PB = line.axes;
+    spring.stiffness = bushing(line.stiffness, place);
+    builder.mesh.springs.push_back(std::move(spring));
+  }
+}
+
+void add_masses(MeshBuilder& builder) {
+  for (const formats::PointMass& line : builder.part.point_masses) {
+    const User user{fmt::format("point mass '{}'", line.name), line.where};
+    builder.mesh.masses.push_back(
+        {find_place(builder, line.at, user), line.mass, line.inertia, line.offset, line.name});
+  }
+}
+
+void add_boundary(MeshBuilder& builder) {
+  const formats::Part& part = builder.part;
+  if (!part.boundary.empty()) builder.mesh.boundary.clear();
+  if (part.boundary.empty() && builder.mesh.boundary.empty())
+    throw Error("the part has no boundary node", part.file,
+                part.mesh.file.empty() ? "name at least one point under `boundary`"
+                                       : "name places under `boundary`: tip: {near: [x, y, z]}, or {node: 4711}");
+  std::map<int, std::string> used;
+  for (const formats::BoundaryNode& b : part.boundary) {
+    const User user{fmt::format("boundary node '{}'", b.name), b.where};
+    if (!b.translations && !b.rotations)
+      throw Error(user.name + " retains neither translations nor rotations", b.where,
+                  "retain one of them or remove the node");
+    const int n = find_place(builder, b.at, user);
+    if (const auto [other, fresh] = used.emplace(n, b.name); !fresh)
+      throw Error(fmt::format("{} is at the same point as boundary node '{}'", user.name, other->second), b.where,
+                  "keep one of the two");
+    builder.mesh.boundary.push_back({b.name, n, b.translations, b.rotations});
+  }
+}
+
+}  // namespace
+
+void add_spider_nodes(MeshBuilder& builder) {
+  for (const formats::SpiderLine& line : builder.part.spiders) add_spider(builder, line);
+}
+
+void add_attachments(MeshBuilder& builder) {
+  add_springs(builder);
+  add_masses(builder);
+  add_boundary(builder);
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,15 @@
+// Layouts and materials of part.yaml as sections of shells and materials of solids.
+#pragma once
+
+#include "formats/part.hpp"
+#include "reducer/mesh.hpp"
+
+namespace tisserand::reducer {
+
+/// `user` ("shell 'skin'") and `where` are for messages.
+ShellProperty shell_property(const formats::Part& part, const formats::ShellLayout& layout, const std::string& user,
+                             const std::string& where);
+
+SolidProperty solid_property(const formats::Part& part, const formats::SolidGroup& solid);
+
+}  // namespace tisserand::reducer
