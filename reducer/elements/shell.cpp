@@ -1,0 +1,74 @@
+// Shell elements for assembly: from mesh and element to stiffness and mass in part axes about the nodes.
+#include <Eigen/Core>
+
+#include "reducer/elements/element_matrices.hpp"
+#include "reducer/elements/shell_geometry.hpp"
+#include "reducer/elements/shell_mass.hpp"
+#include "reducer/elements/shell_stiffness.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+/// Moves the coordinates of each corner along the normal: the matrix belongs to points `arm[i]` above the new ones,
+/// u_above = u + θ × arm ẑ = u + arm [θy, −θx, 0].
+template <int Corners>
+void move_along_normal(const Eigen::Matrix<double, Corners, 1>& arm,
+                       Eigen::Matrix<double, 6 * Corners, 6 * Corners>& K) {
+  for (int i = 0; i < Corners; ++i) {
+    K.col(6 * i + 4) += arm[i] * K.col(6 * i);
+    K.col(6 * i + 3) -= arm[i] * K.col(6 * i + 1);
+  }
+  for (int i = 0; i < Corners; ++i) {
+    K.row(6 * i + 4) += arm[i] * K.row(6 * i);
+    K.row(6 * i + 3) -= arm[i] * K.row(6 * i + 1);
+  }
+}
+
+/// R K Rᵀ block by block, exactly symmetric.
+template <int Corners>
+void turn(const Eigen::Matrix3d& R_PE, const Eigen::Matrix<double, 6 * Corners, 6 * Corners>& K, Eigen::MatrixXd& out) {
+  out.resize(6 * Corners, 6 * Corners);
+  for (int i = 0; i < 2 * Corners; ++i)
+    for (int j = i; j < 2 * Corners; ++j) {
+      const Eigen::Matrix3d half = K.template block<3, 3>(3 * i, 3 * j) * R_PE.transpose();
+      const Eigen::Matrix3d block = R_PE * half;
+      if (i == j) {
+        out.block<3, 3>(3 * i, 3 * i) = 0.5 * (block + block.transpose());
+      } else {
+        out.block<3, 3>(3 * i, 3 * j) = block;
+        out.block<3, 3>(3 * j, 3 * i) = block.transpose();
+      }
+    }
+}
+
+Eigen::Matrix<double, 24, 24> local_stiffness(const ShellGeometry<4>& geometry, const ShellSection& section) {
+  return quad_stiffness(geometry, section, usual_drilling);
+}
+Eigen::Matrix<double, 18, 18> local_stiffness(const ShellGeometry<3>& geometry, const ShellSection& section) {
+  return triangle_stiffness(geometry, section);
+}
+
+template <int Corners>
+void matrices(const Mesh& mesh, const ShellElement& shell, ElementMatrices& out) {
+  using Arms = Eigen::Matrix<double, Corners, 1>;
+  const ShellProperty& property = mesh.shell_properties[static_cast<std::size_t>(shell.property)];
+  const ShellGeometry<Corners> geometry = shell_geometry<Corners>(mesh, shell);
+  Eigen::Matrix<double, 6 * Corners, 6 * Corners> K = local_stiffness(geometry, property.section);
+  move_along_normal<Corners>(Arms(Arms::Constant(shell.offset) - geometry.height), K);
+  turn<Corners>(geometry.R_PE, K, out.S);
+  K = property.mass_matrix == formats::MassMatrix::consistent ? consistent_shell_mass(geometry, property.section)
+                                                              : lumped_shell_mass(geometry, property.section);
+  move_along_normal<Corners>(Arms::Constant(shell.offset), K);
+  turn<Corners>(geometry.R_PE, K, out.M);
+}
+
+}  // namespace
+
+void element_matrices(const Mesh& mesh, const ShellElement& shell, ElementMatrices& out) {
+  if (shell.corners() == 3)
+    matrices<3>(mesh, shell, out);
+  else
+    matrices<4>(mesh, shell, out);
+}
+
+}  // namespace tisserand::reducer
