@@ -45,6 +45,19 @@ struct ModelCertificate {
   std::vector<std::string> notes;      ///< whole sentences, for example about a completed cluster
 };
 
+/// What is only known while importing matrices of another program: how far they were from what is written.
+struct ImportCertificate {
+  std::string format;
+  std::string source;
+  double stiffness_asymmetry = 0.0;  ///< max |a_ij − a_ji| / √(a_ii a_jj)
+  double mass_asymmetry = 0.0;
+  double rigid_residual = 0.0;      ///< max |S R| / max |S|, rotations scaled, before rigid motions were projected out
+  bool filtered = false;            ///< they were
+  double stiffness_coupling = 0.0;  ///< max |S_BI| / max |S|
+  bool canonical = false;           ///< S_BI = 0, M_II = 1, S_II diagonal and ascending: nothing to do
+  int massless_dropped = 0;         ///< internal directions without mass, condensed statically
+};
+
 /// `report` is what check() returned for `element`.
 FileCertificate certify(const formats::Superelement& element, const formats::SuperelementReport& report);
 
@@ -54,6 +67,9 @@ std::string certificate_path(const std::string& superelement_path);
 /// JSON beside the file, whole or not at all.
 void write_certificate(const std::string& superelement_path, const formats::Superelement& element,
                        const FileCertificate& file, const ModelCertificate& model);
+
+void write_certificate(const std::string& superelement_path, const formats::Superelement& element,
+                       const FileCertificate& file, const ImportCertificate& import);
 
 /// The reduction's part of the JSON beside the file, if it exists and quotes the same content.
 std::optional<ModelCertificate> read_certificate(const std::string& superelement_path, const std::string& content_id);

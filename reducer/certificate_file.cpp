@@ -75,6 +75,27 @@ json model_json(const ModelCertificate& c) {
           {"notes", c.notes}};
 }
 
+json import_json(const ImportCertificate& c) {
+  return {{"format", c.format},
+          {"source", c.source},
+          {"stiffness_asymmetry", c.stiffness_asymmetry},
+          {"mass_asymmetry", c.mass_asymmetry},
+          {"rigid_residual", c.rigid_residual},
+          {"filtered", c.filtered},
+          {"stiffness_coupling", c.stiffness_coupling},
+          {"canonical", c.canonical},
+          {"massless_dropped", c.massless_dropped}};
+}
+
+/// What every certificate begins with.
+json base_json(const formats::Superelement& element, const FileCertificate& file) {
+  return {{"format", "tisserand-certificate"},
+          {"content_id", element.content_id},
+          {"name", element.name},
+          {"producer", element.producer},
+          {"file", file_json(file)}};
+}
+
 ModelCertificate model_from(const json& j) {
   ModelCertificate c;
   c.part = j.at("part");
@@ -159,8 +180,15 @@ std::string model_text(const ModelCertificate& c) {
 
 void write_certificate(const std::string& superelement_path, const formats::Superelement& element,
                        const FileCertificate& file, const ModelCertificate& model) {
-  const json j{{"format", "tisserand-certificate"}, {"content_id", element.content_id}, {"name", element.name},
-               {"producer", element.producer},      {"file", file_json(file)},          {"model", model_json(model)}};
+  json j = base_json(element, file);
+  j["model"] = model_json(model);
+  write_text_file(certificate_path(superelement_path), j.dump(2) + "\n");
+}
+
+void write_certificate(const std::string& superelement_path, const formats::Superelement& element,
+                       const FileCertificate& file, const ImportCertificate& import) {
+  json j = base_json(element, file);
+  j["import"] = import_json(import);
   write_text_file(certificate_path(superelement_path), j.dump(2) + "\n");
 }
 

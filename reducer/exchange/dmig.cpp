@@ -1,0 +1,212 @@
+// DMIG header and column cards to matrices, and back.
+#include "reducer/exchange/dmig.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "reducer/decks/nastran_model.hpp"
+#include "reducer/exchange/places.hpp"
+#include "reducer/exchange/text_lines.hpp"
+
+namespace tisserand::reducer::exchange {
+namespace {
+
+constexpr long first_scalar_point = 1000001;
+constexpr int first_term = 4;  ///< fields 0 to 3 are name, GJ, CJ, blank; then four for each term
+constexpr long largest_range = 100000;
+
+/// What the cards say about the points: grids have places, scalar points have none.
+struct Points {
+  Places places;
+  std::set<long> scalar;
+};
+
+void read_scalar_points(NastranModel& model, Points& points) {
+  const auto all = [](long first, long last, std::vector<long>& ids) {
+    for (long id = first; id <= last && id - first < largest_range; ++id) ids.push_back(id);
+  };
+  for (const char* name : {"SPOINT", "EPOINT"})
+    model.for_each(name, [&](CardFields& fields) {
+      for (const long id : fields.id_list(0, "ID", all)) points.scalar.insert(id);
+    });
+}
+
+struct Reader {
+  NastranModel& model;
+  const Points& points;
+  std::map<std::string, TextMatrix> matrices;  ///< by name in capitals
+
+  void header(CardFields& fields, const std::string& name);
+  void column(CardFields& fields, const std::string& name);
+  RowKey key(CardFields& fields, int index);
+};
+
+void Reader::header(CardFields& fields, const std::string& name) {
+  const long form = fields.integer(2, "IFO", 0), type = fields.integer(3, "TIN", 0);
+  const long polar = fields.integer(5, "POLAR", 0);
+  if (!fields.ok()) return;
+  if (form != 1 && form != 6)
+    return fields.fault(fmt::format("IFO is {}, expected 6 (symmetric) or 1 (square)", form),
+                        "a reduced stiffness or mass matrix is square");
+  if ((type != 1 && type != 2) || polar != 0)
+    return fields.fault(fmt::format("TIN is {}, POLAR {}: expected a real matrix, TIN 1 or 2", type, polar),
+                        "export stiffness and mass without damping");
+  TextMatrix matrix{
+      name, model.cards.files[fields.card().file], form == 6 ? Storage::one_triangle : Storage::square, {}};
+  if (!matrices.emplace(name, std::move(matrix)).second)
+    fields.fault(fmt::format("matrix {} has a header already", name), "keep one matrix of that name in the file");
+}
+
+RowKey Reader::key(CardFields& fields, int index) {
+  const long id = fields.id(index, "G");
+  const long component = fields.integer(index + 1, "C", 0);
+  if (!fields.ok()) return {};
+  const bool grid = points.places.contains(id);
+  const bool scalar = points.scalar.contains(id) || (points.scalar.empty() && !grid && component == 0);
+  if (scalar && component <= 1) return {id, scalar_component};
+  if (component < 1 || component > 6) {
+    fields.fault(grid ? fmt::format("component {} of GRID {}, expected 1 to 6", component, id)
+                      : fmt::format("point {} with component {} is no SPOINT or EPOINT", id, component),
+                 grid ? "correct the component" : "add the SPOINT card, here or in the file of positions");
+    return {};
+  }
+  if (scalar) fields.fault(fmt::format("component {} of scalar point {}", component, id), "a scalar point has one");
+  return {id, static_cast<int>(component) - 1};
+}
+
+void Reader::column(CardFields& fields, const std::string& name) {
+  const auto found = matrices.find(name);
+  if (found == matrices.end())
+    return fields.fault(fmt::format("column of {} before its header", name),
+                        "begin the matrix with a card DMIG, name, 0, IFO, TIN");
+  const RowKey column = key(fields, 1);
+  for (int i = first_term; i < fields.size() && fields.ok(); i += 4) {
+    if (fields.blank(i) && fields.blank(i + 1) && fields.blank(i + 2)) continue;
+    const RowKey row = key(fields, i);
+    const double value = fields.real(i + 2, "A"), imaginary = fields.real(i + 3, "B", 0.0);
+    if (fields.ok() && imaginary != 0.0) fields.fault("has an imaginary part", "export real matrices");
+    if (fields.ok()) add_entry(found->second, {row, column, value, fields.card().line});
+  }
+}
+
+const TextMatrix& find_matrix(const Reader& reader, const std::string& wanted, const std::string& path) {
+  const auto found = reader.matrices.find(capitals(wanted));
+  if (found != reader.matrices.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [name, matrix] : reader.matrices) names.push_back(name);
+  throw Error(fmt::format("holds no DMIG matrix {}{}", wanted,
+                          names.empty() ? std::string() : fmt::format(", but {}", join(names, ", "))),
+              path, "name the matrices with --stiffness and --mass");
+}
+
+std::string table(const std::vector<long>& values, const std::string& card, const std::string& before) {
+  std::string text;
+  for (std::size_t i = 0; i < values.size(); i += 6) {
+    text += fmt::format("{:<8}{}", card, before);
+    for (std::size_t k = i; k < std::min(i + 6, values.size()); ++k) text += fmt::format("{:>8}", values[k]);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string matrix_text(const std::string& name, const Eigen::MatrixXd& A, const std::vector<RowKey>& keys) {
+  std::string text = fmt::format("DMIG    {:<8}{:>8}{:>8}{:>8}{:>8}\n", name, 0, 6, 2, 0);
+  for (Eigen::Index j = 0; j < A.cols(); ++j) {
+    std::string column;
+    for (Eigen::Index i = j; i < A.rows(); ++i) {
+      const RowKey& row = keys[static_cast<std::size_t>(i)];
+      if (A(i, j) != 0.0)
+        column += fmt::format("*       {:>16}{:>16}{:>16}\n", row.node, row.component + 1, real_field(A(i, j), 'D'));
+    }
+    const RowKey& key = keys[static_cast<std::size_t>(j)];
+    if (!column.empty())
+      text += fmt::format("DMIG*   {:<16}{:>16}{:>16}\n{}", name, key.node, key.component + 1, column);
+  }
+  return text;
+}
+
+}  // namespace
+
+ReducedMatrices read_dmig(const DmigSource& source) {
+  NastranModel model;
+  read_cards(source.path, model);
+  Points points{places_of(model), {}};
+  read_scalar_points(model, points);
+  if (!source.positions.empty()) {
+    NastranModel second;
+    read_cards(source.positions, second);
+    points.places.merge(places_of(second));
+    read_scalar_points(second, points);
+    second.faults.raise();
+  }
+  for (const long id : points.scalar)
+    if (points.places.contains(id))
+      throw Error(fmt::format("point {} is a GRID and a scalar point", id), source.path, "remove one of the cards");
+
+  Reader reader{model, points, {}};
+  model.for_each("DMIG", [&](CardFields& fields) {
+    const std::string name = capitals(fields.text(0));
+    if (name.empty()) return fields.fault("has no name", "give the matrix a name");
+    if (fields.text(1) == "0")
+      reader.header(fields, name);
+    else
+      reader.column(fields, name);
+  });
+  model.faults.raise();
+  ReducedMatrices matrices;
+  matrices.format = "dmig";
+  matrices.source = source.path;
+  matrices.places = points.places;
+  const TextMatrix& stiffness = find_matrix(reader, source.stiffness, source.path);
+  assemble(stiffness, find_matrix(reader, source.mass, source.path), matrices);
+  return matrices;
+}
+
+std::string real_field(double value, char letter) {
+  for (int digits = 16; digits >= 0; --digits) {
+    const std::string text = fmt::format("{:.{}e}", value, digits);
+    const std::size_t e = text.find('e');
+    std::string mantissa = text.substr(0, e);
+    if (mantissa.find('.') == std::string::npos) mantissa += ".0";
+    while (mantissa.back() == '0' && mantissa[mantissa.size() - 2] != '.') mantissa.pop_back();
+    const std::string field = fmt::format("{}{}{}", mantissa, letter, std::atoi(text.c_str() + e + 1));
+    if (field.size() <= 16) return field;
+  }
+  return "";
+}
+
+std::string dmig_text(const formats::Superelement& element) {
+  std::vector<RowKey> keys;
+  std::vector<long> scalar;
+  for (std::size_t i = 0; i < element.dof_node.size(); ++i) {
+    const int node = element.dof_node[i];
+    keys.push_back(node >= 0 ? RowKey{node + 1, element.dof_component[i]}
+                             : RowKey{first_scalar_point + element.dof_component[i], scalar_component});
+    if (node < 0) scalar.push_back(keys.back().node);
+  }
+  std::string text = fmt::format("$ {}, by {}\n$ units: {}\n", element.name, element.producer,
+                                 element.units.named() ? fmt::format("{}, {}, {}", element.units.length.label,
+                                                                     element.units.mass.label, element.units.time.label)
+                                                       : "consistent, without names");
+  for (std::size_t b = 0; b < element.node_name.size(); ++b) {
+    const Eigen::RowVector3d x = element.node_position.row(static_cast<Eigen::Index>(b));
+    text += fmt::format("$ node {}\nGRID*   {:>16}{:>16}{:>16}{:>16}\n*       {:>16}\n", element.node_name[b], b + 1,
+                        "", real_field(x[0], 'E'), real_field(x[1], 'E'), real_field(x[2], 'E'));
+  }
+  text += table(scalar, "SPOINT", "");
+  for (std::size_t b = 0; b < element.node_name.size(); ++b) {
+    std::string components;
+    for (std::size_t i = 0; i < keys.size(); ++i)
+      if (element.dof_node[i] == static_cast<int>(b)) components += static_cast<char>('1' + element.dof_component[i]);
+    std::sort(components.begin(), components.end());
+    text += fmt::format("ASET1   {:>8}{:>8}\n", components, b + 1);
+  }
+  text += table(scalar, "ASET1", "        ");
+  return text + matrix_text("KAAX", element.stiffness, keys) + matrix_text("MAAX", element.mass, keys);
+}
+
+}  // namespace tisserand::reducer::exchange

@@ -1,0 +1,30 @@
+// Nastran DMIG cards, the punch form of reduced matrices: in and out.
+#pragma once
+
+#include <string>
+
+#include "formats/superelement.hpp"
+#include "reducer/exchange/reduced_matrices.hpp"
+
+namespace tisserand::reducer::exchange {
+
+struct DmigSource {
+  std::string path;
+  std::string positions;  ///< second file with GRID and CORD cards, may be empty
+  std::string stiffness = "KAAX";
+  std::string mass = "MAAX";
+};
+
+/// Reads the two matrices (IFO 1 or 6, TIN 1 or 2; small, large and free field), GRID with coordinate systems, SPOINT
+/// and EPOINT. Without SPOINT and EPOINT in the files, a point with component 0 that is no GRID is a scalar point.
+/// Throws Error.
+ReducedMatrices read_dmig(const DmigSource& source);
+
+/// Bulk data with GRID (numbers 1, 2, ...), SPOINT (from 1000001), ASET1 and DMIG KAAX and MAAX, IFO 6, TIN 2, large
+/// field. A value keeps as many digits as 16 characters hold, 10 to 14.
+std::string dmig_text(const formats::Superelement& element);
+
+/// `value` in at most 16 characters with exponent letter `letter` (E or D).
+std::string real_field(double value, char letter);
+
+}  // namespace tisserand::reducer::exchange

@@ -1,0 +1,113 @@
+// The story of `reducer export`: from a superelement file to files of another program.
+#include <algorithm>
+#include <list>
+#include <numeric>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "common/console.hpp"
+#include "common/error.hpp"
+#include "common/output_path.hpp"
+#include "common/text.hpp"
+#include "formats/superelement.hpp"
+#include "reducer/exchange/dmig.hpp"
+#include "reducer/exchange/fmx.hpp"
+#include "reducer/exchange/matrix_market.hpp"
+#include "reducer/exchange/mbdyn.hpp"
+#include "reducer/exchange/request.hpp"
+#include "reducer/exchange/rows_table.hpp"
+#include "reducer/exchange/text_lines.hpp"
+
+namespace tisserand::reducer::exchange {
+namespace {
+
+struct OutputFile {
+  std::string path;
+  std::string bytes;
+};
+
+struct Outcome {
+  std::vector<OutputFile> files;
+  std::string remark;  ///< what is kept and what is lost
+};
+
+/// `path` without the first of the endings that it has.
+std::string without(const std::string& path, const std::vector<std::string>& endings) {
+  for (const std::string& ending : endings)
+    if (path.size() > ending.size() && path.ends_with(ending)) return path.substr(0, path.size() - ending.size());
+  return path;
+}
+
+/// Rows by node and component, internal coordinates by number behind them: the order that FEDEM expects.
+formats::Superelement ordered(const formats::Superelement& element) {
+  std::vector<Eigen::Index> rows(static_cast<std::size_t>(element.size()));
+  std::iota(rows.begin(), rows.end(), 0);
+  const auto key = [&element](Eigen::Index row) {
+    const auto i = static_cast<std::size_t>(row);
+    const int node = element.dof_node[i];
+    return std::make_tuple(node < 0, node, element.dof_component[i]);
+  };
+  std::sort(rows.begin(), rows.end(), [&](Eigen::Index a, Eigen::Index b) { return key(a) < key(b); });
+  formats::Superelement result = element;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    result.dof_node[i] = element.dof_node[static_cast<std::size_t>(rows[i])];
+    result.dof_component[i] = element.dof_component[static_cast<std::size_t>(rows[i])];
+  }
+  result.stiffness = element.stiffness(rows, rows);
+  result.mass = element.mass(rows, rows);
+  return result;
+}
+
+Outcome to_matrix_market(const formats::Superelement& element, const std::string& base) {
+  const std::string comment = fmt::format("{}, content {}", element.name, element.content_id.substr(0, 16));
+  return {{{base + ".S.mtx", matrix_market_text(element.stiffness, "stiffness of " + comment)},
+           {base + ".M.mtx", matrix_market_text(element.mass, "mass of " + comment)},
+           {base + ".rows.csv", rows_text(element)}},
+          "17 digits: nothing is lost, except names of units and of the part"};
+}
+
+Outcome to_fmx(const formats::Superelement& given, const std::string& base) {
+  const formats::Superelement element = ordered(given);
+  const Eigen::MatrixXd gravity = element.mass * formats::rigid_motions(element, Eigen::Vector3d::Zero()).leftCols<3>();
+  return {{{base + "_S.fmx", fmx_bytes(FmxKind::stiffness, 0, element.stiffness)},
+           {base + "_M.fmx", fmx_bytes(FmxKind::mass, 0, element.mass)},
+           {base + "_G.fmx", fmx_bytes(FmxKind::gravity, 0, gravity)},
+           {base + ".rows.csv", rows_text(element)}},
+          "binary: nothing is lost; rows are those of the triads in the order of the table, then component modes"};
+}
+
+Outcome convert(const ExportRequest& request, const formats::Superelement& element) {
+  const std::string base = without(request.output.empty() ? request.input : request.output,
+                                   {".superelement.h5", ".h5", ".S.mtx", "_S.fmx", ".mtx", ".fmx", ".pch", ".fem"});
+  const bool asked = !request.output.empty();
+  if (request.to == "dmig")
+    return {{{asked ? request.output : base + ".pch", dmig_text(element)}},
+            "10 to 14 digits, as 16 characters hold; nodes are numbered 1, 2, ..., modes from 1000001"};
+  if (request.to == "mbdyn")
+    return {
+        {{asked ? request.output : base + ".fem", mbdyn_text(element, request.input)}},
+        "free elastic modes in mean axes: stiffness and inertia of small motions are kept; effects of deformation on "
+        "the inertia of large motions are not, as MBDyn takes them from lumped masses, which a superelement has not"};
+  if (request.to == "matrixmarket") return to_matrix_market(element, base);
+  if (request.to == "fmx") return to_fmx(element, base);
+  throw Error(fmt::format("'{}' is no format", shown(request.to)), "--to",
+              "choose one of dmig, matrixmarket, fmx, mbdyn");
+}
+
+}  // namespace
+
+void export_matrices(const ExportRequest& request) {
+  const formats::LoadedSuperelement loaded = formats::read_superelement(request.input);
+  const Outcome outcome = convert(request, loaded.superelement);
+  for (const OutputFile& file : outcome.files) require_output(file.path, {request.input}, Replaces::anything);
+  std::list<TextFile> open;
+  for (const OutputFile& file : outcome.files) open.emplace_back(file.path).write(file.bytes);
+  for (TextFile& file : open) file.publish();
+  std::string text;
+  for (const OutputFile& file : outcome.files)
+    text += fmt::format("{:<19}{}\n", text.empty() ? "written" : "", file.path);
+  say(text + fmt::format("{:<19}{}\n", "kept", outcome.remark));
+}
+
+}  // namespace tisserand::reducer::exchange

@@ -1,0 +1,28 @@
+// FEDEM's binary files of reduced matrices (*.fmx): in and out, bit for bit.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "reducer/exchange/reduced_matrices.hpp"
+
+namespace tisserand::reducer::exchange {
+
+struct FmxSource {
+  std::string stiffness;  ///< ..._S.fmx
+  std::string mass;       ///< ..._M.fmx
+  std::string rows;       ///< table of rows
+};
+
+/// Throws Error.
+ReducedMatrices read_fmx(const FmxSource& source);
+
+enum class FmxKind { stiffness, mass, gravity };
+
+/// The bytes of a file: tag of 30 characters "#FEDEM stiffness matrix", the 16-bit number 0x1234 that shows the order
+/// of bytes, two 32-bit numbers 0 and `checksum`, the line ";1.0;", then the values column by column.
+std::string fmx_bytes(FmxKind kind, std::uint32_t checksum, const Eigen::MatrixXd& values);
+
+}  // namespace tisserand::reducer::exchange

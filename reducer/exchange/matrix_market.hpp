@@ -1,0 +1,24 @@
+// Matrix Market files (*.mtx) with a table of rows: in and out, bit for bit.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "reducer/exchange/reduced_matrices.hpp"
+
+namespace tisserand::reducer::exchange {
+
+struct MarketSource {
+  std::string stiffness;
+  std::string mass;
+  std::string rows;
+};
+
+/// Reads coordinate and array files, real or integer, symmetric or general, and the table of rows. Throws Error.
+ReducedMatrices read_matrix_market(const MarketSource& source);
+
+/// Coordinate, real, symmetric: the lower triangle without zeros, column by column, 17 digits.
+std::string matrix_market_text(const Eigen::MatrixXd& A, const std::string& comment);
+
+}  // namespace tisserand::reducer::exchange

@@ -1,0 +1,115 @@
+// Positions of nodes from GRID cards, from *NODE blocks, or from a table.
+#include "reducer/exchange/places.hpp"
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "reducer/decks/abaqus_lines.hpp"
+#include "reducer/decks/nastran_model.hpp"
+#include "reducer/exchange/text_lines.hpp"
+
+namespace tisserand::reducer::exchange {
+namespace {
+
+void add(Places& places, long node, NodePlace place, const std::string& where) {
+  if (!places.emplace(node, std::move(place)).second)
+    throw Error(fmt::format("node {} has a position already", node), where, "give every node one position");
+}
+
+Places read_table(TextLines& lines) {
+  Places places;
+  std::string_view line;
+  bool first = true;
+  while (lines.next(line)) {
+    line = line.substr(0, line.find('#'));
+    const std::vector<std::string_view> words = words_of(line);
+    if (words.empty()) continue;
+    const bool heading = first && !parse_integer(words[0]);
+    first = false;
+    if (heading) continue;
+    if (words.size() != 4 && words.size() != 5)
+      throw Error(fmt::format("has {} fields, expected number, x, y, z and perhaps a name", words.size()),
+                  lines.where(), "give lines such as 101, 0.5, 0, 1.2, tip");
+    NodePlace place;
+    for (std::size_t k = 0; k < 3; ++k)
+      place.position[static_cast<Eigen::Index>(k)] = number_of(words[k + 1], "a coordinate", lines);
+    if (words.size() == 5) place.name = words[4];
+    add(places, integer_of(words[0], "the number of a node", lines), place, lines.where());
+  }
+  return places;
+}
+
+void read_node_block(const abaqus::Input& input, const abaqus::Block& block, Places& places) {
+  const std::string* system = block.find("SYSTEM");
+  if (system != nullptr && abaqus::lower(*system) != "r")
+    throw Error(fmt::format("*NODE with SYSTEM={} is not read here", shown(*system)), input.where(block),
+                "give Cartesian positions, or a table of lines number, x, y, z");
+  for (const abaqus::Line& line : block.data) {
+    const std::vector<std::string_view> fields = abaqus::split(line.text);
+    const std::optional<long> id = fields.empty() ? std::nullopt : abaqus::to_integer(fields[0]);
+    NodePlace place;
+    bool good = id && *id > 0 && fields.size() <= 4;
+    for (std::size_t k = 1; good && k < fields.size(); ++k) {
+      if (fields[k].empty()) continue;
+      const std::optional<double> value = abaqus::to_number(fields[k]);
+      good = value.has_value();
+      if (good) place.position[static_cast<Eigen::Index>(k - 1)] = *value;
+    }
+    if (!good)
+      throw Error(fmt::format("'{}' is no node", shown(line.text)), input.where(line),
+                  "give its number and up to three coordinates");
+    add(places, *id, place, input.where(line));
+  }
+}
+
+Places read_abaqus_nodes(const std::string& path) {
+  const abaqus::Input input = abaqus::read_input(path);
+  Places places;
+  for (const abaqus::Block& block : input.blocks) {
+    if (block.keyword == "INSTANCE" || block.keyword == "SYSTEM" || block.keyword == "NGEN")
+      throw Error(fmt::format("{} moves or makes nodes, which is not followed here", block.title), input.where(block),
+                  "give the positions as a flat list of *NODE lines, or as a table of lines number, x, y, z");
+    if (block.keyword == "NODE") read_node_block(input, block, places);
+  }
+  return places;
+}
+
+}  // namespace
+
+void read_cards(const std::string& path, NastranModel& model) {
+  model.cards = read_nastran_cards(path, model.faults);
+  model.faults.raise();
+  for (std::size_t i = 0; i < model.cards.cards.size(); ++i)
+    model.rows[capitals(model.cards.cards[i].name)].push_back(i);
+}
+
+Places places_of(NastranModel& model) {
+  if (!model.rows.contains("GRID")) return {};
+  place_grids(model);
+  model.faults.raise();
+  Places places;
+  for (std::size_t i = 0; i < model.grid_id.size(); ++i) {
+    const int node = static_cast<int>(i);
+    places.emplace(model.grid_id[i], NodePlace{"", model.position(node), model.displacement_axes(node)});
+  }
+  return places;
+}
+
+Places read_places(const std::string& path) {
+  TextLines lines(path);
+  Places places;
+  if (has_line(lines.text(), "*NODE")) {
+    places = read_abaqus_nodes(path);
+  } else if (has_line(lines.text(), "GRID")) {
+    NastranModel model;
+    read_cards(path, model);
+    places = places_of(model);
+  } else {
+    places = read_table(lines);
+  }
+  if (places.empty())
+    throw Error("holds no positions of nodes", path, "give a deck with GRID or *NODE, or lines number, x, y, z");
+  return places;
+}
+
+}  // namespace tisserand::reducer::exchange

@@ -1,0 +1,34 @@
+// What the command line asks of import and export, between main() and the work.
+#pragma once
+
+#include <string>
+
+namespace tisserand::reducer::exchange {
+
+struct ImportRequest {
+  std::string input;
+  std::string output;     ///< empty: beside the input
+  std::string from;       ///< dmig, abaqus, calculix, matrixmarket, fmx; empty: by content
+  std::string units;      ///< "mm,t,s" or "consistent"
+  std::string name;       ///< empty: from the name of the input
+  std::string matrices;   ///< DMIG names: "KAAX,MAAX"
+  std::string mass;       ///< file of the mass matrix
+  std::string rows;       ///< table of rows
+  std::string positions;  ///< file of positions
+  std::string names;      ///< "101=base,102=tip"
+  std::string modal;      ///< "1001-1008,2000"
+};
+
+struct ExportRequest {
+  std::string input;
+  std::string output;  ///< empty: beside the input
+  std::string to;      ///< dmig, matrixmarket, fmx, mbdyn
+};
+
+/// Reads, checks, writes the superelement and its certificate, tells. Throws Error.
+void import_matrices(const ImportRequest& request);
+
+/// Reads a superelement, writes the files of the other program, tells what they hold. Throws Error.
+void export_matrices(const ExportRequest& request);
+
+}  // namespace tisserand::reducer::exchange

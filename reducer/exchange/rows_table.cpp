@@ -1,0 +1,116 @@
+// Lines of the table of rows to keys and places, and back.
+#include "reducer/exchange/rows_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "formats/name_check.hpp"
+#include "reducer/decks/nastran_cards.hpp"
+#include "reducer/decks/nastran_fields.hpp"
+#include "reducer/exchange/text_lines.hpp"
+
+namespace tisserand::reducer::exchange {
+namespace {
+
+constexpr std::array<const char*, 6> component_words{"x", "y", "z", "rx", "ry", "rz"};
+constexpr const char* mode_word = "mode";
+constexpr const char* heading = "row,node,component,x,y,z";
+
+/// 0 to 5, scalar_component, or nothing.
+std::optional<int> component_of(std::string_view cell) {
+  if (same_word(cell, mode_word)) return scalar_component;
+  for (std::size_t k = 0; k < component_words.size(); ++k)
+    if (same_word(cell, component_words[k])) return static_cast<int>(k);
+  const std::optional<long> number = parse_integer(cell);
+  if (number && *number >= 1 && *number <= 6) return static_cast<int>(*number) - 1;
+  return std::nullopt;
+}
+
+struct Reader {
+  const TextLines& lines;
+  ReducedMatrices& matrices;
+  std::map<std::string, long> number_of_name;
+
+  void row(const std::vector<std::string_view>& cells);
+  long node(const std::vector<std::string_view>& cells);
+};
+
+/// Number of the node, from 1 in the order of the table; its place is entered once and must not change.
+long Reader::node(const std::vector<std::string_view>& cells) {
+  const std::optional<long> number = parse_integer(cells[1]);
+  const std::string name = number ? fmt::format("n{}", *number) : std::string(cells[1]);
+  if (!formats::is_name(name))
+    throw Error(fmt::format("'{}' is no name of a node", shown(cells[1])), lines.where(),
+                "use letters, digits, _ and -, beginning with a letter or _, or a whole number");
+  NodePlace place;
+  place.name = name;
+  if (cells.size() != 6)
+    throw Error(fmt::format("has {} cells, expected 6: {}", cells.size(), heading), lines.where(), "complete the line");
+  for (std::size_t k = 0; k < 3; ++k)
+    place.position[static_cast<Eigen::Index>(k)] = number_of(cells[k + 3], "a coordinate", lines);
+  const auto [found, is_new] = number_of_name.emplace(name, static_cast<long>(number_of_name.size()) + 1);
+  if (is_new)
+    matrices.places.emplace(found->second, place);
+  else if (matrices.places.at(found->second).position != place.position)
+    throw Error(fmt::format("node '{}' had another position before", name), lines.where(),
+                "give a node one position in all its rows");
+  return found->second;
+}
+
+void Reader::row(const std::vector<std::string_view>& cells) {
+  const std::size_t expected = matrices.rows.size() + 1;
+  if (cells.size() < 3)
+    throw Error(fmt::format("has {} cells, expected 6: {}", cells.size(), heading), lines.where(), "complete the line");
+  if (integer_of(cells[0], "the number of the row", lines) != static_cast<long>(expected))
+    throw Error(fmt::format("is row {}, expected {}", shown(cells[0]), expected), lines.where(),
+                "give the rows in order, from 1");
+  if (expected > most_rows)
+    throw Error(fmt::format("more than {} rows", most_rows), lines.where(), "give reduced matrices");
+  const std::optional<int> component = component_of(cells[2]);
+  if (!component)
+    throw Error(fmt::format("component '{}', expected x, y, z, rx, ry, rz or mode", shown(cells[2])), lines.where(),
+                "correct the component");
+  if (*component == scalar_component)
+    matrices.rows.push_back({static_cast<long>(expected), scalar_component});
+  else
+    matrices.rows.push_back({node(cells), *component});
+}
+
+}  // namespace
+
+void read_rows(const std::string& path, ReducedMatrices& matrices) {
+  TextLines lines(path);
+  Reader reader{lines, matrices, {}};
+  std::string_view line;
+  bool first = true;
+  while (lines.next(line)) {
+    line = trimmed(line.substr(0, line.find('#')));
+    if (line.empty()) continue;
+    const std::vector<std::string_view> cells = cells_of(line);
+    const bool is_heading = first && same_word(cells[0], "row");
+    first = false;
+    if (!is_heading) reader.row(cells);
+  }
+  if (matrices.rows.empty()) throw Error("has no rows", path, fmt::format("give lines {}", heading));
+}
+
+std::string rows_text(const formats::Superelement& element) {
+  std::string text = fmt::format("{}\n", heading);
+  for (std::size_t i = 0; i < element.dof_node.size(); ++i) {
+    const int node = element.dof_node[i];
+    if (node < 0) {
+      text += fmt::format("{},,{},,,\n", i + 1, mode_word);
+      continue;
+    }
+    const Eigen::RowVector3d x = element.node_position.row(node);
+    text += fmt::format("{},{},{},{:.17g},{:.17g},{:.17g}\n", i + 1, element.node_name[static_cast<std::size_t>(node)],
+                        component_words[static_cast<std::size_t>(element.dof_component[i])], x[0], x[1], x[2]);
+  }
+  return text;
+}
+
+}  // namespace tisserand::reducer::exchange
