@@ -85,7 +85,7 @@ std::pair<std::vector<int>, std::vector<int>> inside(const MeshBuilder& builder,
   std::pair<std::vector<int>, std::vector<int>> found;
   for (const Holds& holds : tests) {
     if (dimension == 0) {
-      for (std::size_t n = 0; n < builder.cells.position.size(); ++n)
+      for (std::size_t n = 0; n < builder.used.size(); ++n)
         if (builder.used[n] != 0 && holds(builder.cells.position[n])) found.second.push_back(static_cast<int>(n));
       continue;
     }

@@ -33,11 +33,12 @@ int node_of_name(MeshBuilder& builder, const std::string& name, const User& user
     return builder.point_node[name] = node;
   }
   if (point != builder.part.points.end())
-    throw Error(fmt::format("{}: nothing that the part file draws has a node at point '{}'", user.name, name),
-                user.where,
-                builder.part.mesh.file.empty()
-                    ? "end a beam there, or use a point where one ends"
-                    : fmt::format("to take the nearest node of the mesh file, write {{near: {}}}", name));
+    throw Error(
+        fmt::format("{}: no beam ends at point '{}', and no plate, spring or spider has a node there", user.name, name),
+        user.where,
+        builder.part.mesh.file.empty()
+            ? "end a beam there, or use a point that has a node"
+            : fmt::format("to take the nearest node of the mesh file, write {{near: {}}}", name));
   std::vector<std::string> known = place_names(builder);
   const std::optional<std::string> guess = nearest(name, known);
   if (known.size() > 20) known.resize(20), known.push_back("...");
