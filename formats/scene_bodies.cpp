@@ -4,6 +4,7 @@
 
 #include "formats/geometry_reader.hpp"
 #include "formats/scene_reader.hpp"
+#include "formats/section_axis.hpp"
 #include "formats/section_reader.hpp"
 
 namespace tisserand::formats {
@@ -150,6 +151,11 @@ void read_properties(const MapReader& map, const SceneDefinitions& definitions, 
     } else if (const Section* found = find_named(context, *node, "section", definitions.sections)) {
       body.section = *found;
     }
+    if (const auto text = off_axis_text(body.section))
+      context.fail(
+          node->place, "the section does not fit a nonlinear beam: " + *text,
+          "use a section with two axes of symmetry, give `Iy`, `Iz` about principal axes without `shear_center`, "
+          "or reduce the beam with `reducer` to a superelement");
   }
   if (const YamlNode* node = map.require("material")) {
     if (node->kind == YamlKind::map) {

@@ -92,7 +92,7 @@ std::vector<Corner> corners_of(const std::vector<Polyline>& rings, std::size_t r
   return corners;
 }
 
-/// Halves the piece from a to b (graded towards sharp ends) until it is short against its distance to sharp corners.
+/// Divides the piece from a to b (graded towards sharp ends) until it is short against its distance to sharp corners.
 void divide(Complex a, Complex b, double smallest_a, double smallest_b, const std::vector<Corner>& sharp,
             double opening, std::vector<Panel>& panels) {
   const double length = std::abs(b - a);
@@ -132,13 +132,14 @@ std::vector<Panel> graded_panels(const std::vector<Polyline>& rings, const Gradi
 }
 
 std::vector<Panel> make_panels(const std::vector<Polyline>& rings) {
-  constexpr std::size_t most = 500;
+  constexpr std::size_t most = 400;
   Grading grading;
   std::vector<Panel> panels = graded_panels(rings, grading);
   for (int coarser = 0; coarser < 6 && panels.size() > most; ++coarser) {
     grading = {2.0 * grading.opening, 4.0 * grading.re_entrant, 2.0 * grading.convex};
     panels = graded_panels(rings, grading);
   }
+  if (panels.size() > 2 * most) panels = graded_panels(rings, {INFINITY, INFINITY, INFINITY});
   return panels;
 }
 

@@ -162,7 +162,19 @@ Section polygon_section(const SectionPolygon& polygon) {
   section.shear_coupling = flow.shear_compliance(0, 1);
   section.shear_center_y = flow.shear_center.x();
   section.shear_center_z = flow.shear_center.y();
+  drop_round_off(section);
   return section;
+}
+
+void drop_round_off(Section& section) {
+  const auto drop = [](double& value, double scale) {
+    if (std::abs(value) < 1e-9 * scale) value = 0.0;
+  };
+  const double radius = std::sqrt(section.polar_moment / section.area);
+  drop(section.second_moment_yz, std::sqrt(section.second_moment_y * section.second_moment_z));
+  drop(section.shear_coupling, 1.0 / section.area);
+  drop(section.shear_center_y, radius);
+  drop(section.shear_center_z, radius);
 }
 
 }  // namespace tisserand::formats

@@ -20,7 +20,7 @@ struct SectionPolygon {
 };
 
 /// Largest number of corners of a section, holes included: the boundary equations grow with its square.
-inline constexpr std::size_t largest_polygon = 250;
+inline constexpr std::size_t largest_polygon = 200;
 
 /// What is wrong with it, or nothing: fewer than three corners, corners that coincide, sides that cross or touch, a
 /// hole that is not inside, more than `largest_polygon` corners.
@@ -40,5 +40,9 @@ AreaMoments area_moments(const SectionPolygon& polygon);
 /// All constants of the section, about its centroid: area moments exact; J, shear centre and shear compliance from
 /// saint_venant() of section_flow.hpp. The polygon has no fault.
 Section polygon_section(const SectionPolygon& polygon);
+
+/// Sets Iyz, shear coupling and shear centre to zero where they are round-off (1e-9 of what they are measured with), so
+/// that symmetric sections are exactly symmetric.
+void drop_round_off(Section& section);
 
 }  // namespace tisserand::formats

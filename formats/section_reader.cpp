@@ -1,82 +1,13 @@
-// Sections by constants or by shape, and materials.
+// Sections by constants, materials, and the checks of both.
 #include "formats/section_reader.hpp"
 
 #include <cmath>
-#include <optional>
 
-#include "formats/section_shapes.hpp"
+#include "formats/section_shape_reader.hpp"
 
 namespace tisserand::formats {
 
 namespace {
-
-const std::vector<std::string> shapes{"circle", "hollow_circle", "rectangle", "hollow_rectangle"};
-
-std::string with_unit(double value, const Units& units) {
-  const std::string label = unit_label(units, 1, 0, 0);
-  return label.empty() ? fmt::format("{:g}", value) : fmt::format("{:g} {}", value, label);
-}
-
-/// A size of a shape; nothing after an error.
-std::optional<double> size(const MapReader& map, std::string_view key, const Units& units) {
-  const double value = map.number(key);
-  if (std::isnan(value)) return std::nullopt;
-  if (value > 0.0) return value;
-  map.context().fail(map.find(key)->place, fmt::format("{} {} must be positive", key, with_unit(value, units)), "");
-  return std::nullopt;
-}
-
-Section read_circle(const MapReader& map, const Units& units) {
-  const auto radius = size(map, "radius", units);
-  return radius ? circle_section(*radius) : Section{};
-}
-
-Section read_hollow_circle(const MapReader& map, const Units& units) {
-  const auto radius = size(map, "radius", units), thickness = size(map, "thickness", units);
-  if (!radius || !thickness) return {};
-  if (*thickness < *radius) return hollow_circle_section(*radius, *thickness);
-  map.context().fail(map.find("thickness")->place,
-                     fmt::format("thickness {} {} radius {}", with_unit(*thickness, units),
-                                 *thickness > *radius ? "exceeds" : "equals", with_unit(*radius, units)),
-                     "use a solid section or reduce thickness");
-  return {};
-}
-
-Section read_rectangle(const MapReader& map, const Units& units) {
-  const auto width = size(map, "width", units), height = size(map, "height", units);
-  return width && height ? rectangle_section(*width, *height) : Section{};
-}
-
-Section read_hollow_rectangle(const MapReader& map, const Units& units) {
-  const auto width = size(map, "width", units), height = size(map, "height", units);
-  const auto thickness = size(map, "thickness", units);
-  if (!width || !height || !thickness) return {};
-  const double half = 0.5 * std::min(*width, *height);
-  if (*thickness < half) return hollow_rectangle_section(*width, *height, *thickness);
-  map.context().fail(map.find("thickness")->place,
-                     fmt::format("thickness {} {} half of the {} {}", with_unit(*thickness, units),
-                                 *thickness > half ? "exceeds" : "equals", *width <= *height ? "width" : "height",
-                                 with_unit(2.0 * half, units)),
-                     "use a solid section or reduce thickness");
-  return {};
-}
-
-Section read_shape(const Context& context, const YamlNode& node, const YamlNode& shape, const Units& units,
-                   const std::string& prefix) {
-  const auto index = read_word(context, shape, "shape", shapes);
-  if (!index) return {};
-  const MapReader map(context, node, "section_" + shapes[*index], prefix);
-  switch (*index) {
-    case 0:
-      return read_circle(map, units);
-    case 1:
-      return read_hollow_circle(map, units);
-    case 2:
-      return read_rectangle(map, units);
-    default:
-      return read_hollow_rectangle(map, units);
-  }
-}
 
 Section read_constants(const Context& context, const YamlNode& node, const std::string& prefix) {
   const MapReader map(context, node, "section_constants", prefix);
@@ -88,18 +19,30 @@ Section read_constants(const Context& context, const YamlNode& node, const std::
   section.polar_moment = section.second_moment_y + section.second_moment_z;
   section.shear_area_y = map.number("shear_area_y", 0.0);
   section.shear_area_z = map.number("shear_area_z", 0.0);
+  section.second_moment_yz = map.number("Iyz", 0.0);
+  const auto pair = [&map](std::string_view key, double& y, double& z) {
+    const YamlNode* entry = map.find(key);
+    if (entry == nullptr) return;
+    const std::vector<double> numbers = read_numbers(map.context(), *entry, std::string(key));
+    if (numbers.size() == 2)
+      y = numbers[0], z = numbers[1];
+    else if (!numbers.empty())
+      map.context().fail(entry->place, fmt::format("{} has {} numbers", key, numbers.size()), "give [y, z]");
+  };
+  pair("centroid", section.centroid_y, section.centroid_z);
+  pair("shear_center", section.shear_center_y, section.shear_center_z);
   return section;
 }
 
 }  // namespace
 
 std::vector<KeySet> section_key_sets() {
-  return {{"material", {"E", "nu", "density"}},
-          {"section_constants", {"A", "Iy", "Iz", "J", "shear_area_y", "shear_area_z"}},
-          {"section_circle", {"shape", "radius"}},
-          {"section_hollow_circle", {"shape", "radius", "thickness"}},
-          {"section_rectangle", {"shape", "width", "height"}},
-          {"section_hollow_rectangle", {"shape", "width", "height", "thickness"}}};
+  std::vector<KeySet> sets{
+      {"material", {"E", "nu", "density"}},
+      {"section_constants", {"A", "Iy", "Iz", "J", "Iyz", "shear_area_y", "shear_area_z", "centroid", "shear_center"}}};
+  const std::vector<KeySet> shapes = shape_key_sets();
+  sets.insert(sets.end(), shapes.begin(), shapes.end());
+  return sets;
 }
 
 Material read_material(const Context& context, const YamlNode& node, const std::string& prefix) {
@@ -159,9 +102,20 @@ void check_section(const Section& section, const std::string& subject, const std
                  "");
   };
   positive("A", section.area);
+  if (section.shape == "rod") {
+    positive_or_zero("J", section.torsion_constant);
+    return;
+  }
   positive("Iy", section.second_moment_y);
   positive("Iz", section.second_moment_z);
   positive("J", section.torsion_constant);
+  const double Iyz = section.second_moment_yz, product = section.second_moment_y * section.second_moment_z;
+  if (!(Iyz * Iyz < product) && product > 0.0)
+    faults.add(section.where, prefix + "Iyz",
+               fmt::format("{}: Iyz {:g} is not less than sqrt(Iy Iz) {:g}", subject, Iyz, std::sqrt(product)), "");
+  for (const double value : {section.centroid_y, section.centroid_z, section.shear_center_y, section.shear_center_z})
+    if (!std::isfinite(value))
+      faults.add(section.where, "", fmt::format("{}: centroid or shear centre is not finite", subject), "");
   positive_or_zero("shear_area_y", section.shear_area_y);
   positive_or_zero("shear_area_z", section.shear_area_z);
   if ((section.shear_area_y == 0.0) != (section.shear_area_z == 0.0))

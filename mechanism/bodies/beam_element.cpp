@@ -2,6 +2,7 @@
 #include "mechanism/bodies/beam_element.hpp"
 
 #include "common/error.hpp"
+#include "formats/section_axis.hpp"
 #include "mechanism/bodies/beam_kernels.hpp"
 
 namespace tisserand::mechanism {
@@ -37,6 +38,9 @@ void check_data(const formats::Section& section, const formats::Material& materi
                             section.name, section.shear_area_y, section.shear_area_z),
                 section.where,
                 "give both shear areas (about 5/6 of the area for a rectangle, 0.9 for a solid circle) or a shape");
+  if (const auto text = formats::off_axis_text(section))
+    throw Error(fmt::format("section '{}' does not fit a nonlinear beam: {}", section.name, *text), section.where,
+                "use a section with two axes of symmetry, or a superelement of this beam");
   require_positive(section.area, "area of the section", section.where);
   require_positive(section.second_moment_y, "second moment of area Iy of the section", section.where);
   require_positive(section.second_moment_z, "second moment of area Iz of the section", section.where);
