@@ -245,7 +245,7 @@ int add_rod_property(NastranModel& model, CardFields& f, int material_index, con
   property.data.material = {m->label, m->E, nu, m->density, m->where};
   property.data.added_mass.first = property.data.added_mass.second = rod.mass_per_length * model.mass_scale;
   property.data.theory = formats::BeamTheory::euler_bernoulli;
-  property.data.mass_matrix = formats::MassMatrix::lumped;
+  property.data.mass_matrix = model.mass_matrix;
   property.data.rotary_inertia = RotaryInertia::without;
   return add_property(model, property);
 }
