@@ -84,7 +84,7 @@ Section i_section(Model& model, const Block& block) {
     throw Error("SECTION=I needs seven sizes", model.input.where(block), "give l, h, b1, b2, t1, t2, t3");
   std::array<double, 7> s{};
   if (!read_numbers(model, block, block.data[0], s)) return {};
-  const std::vector<double> sizes = {s[1], s[3], s[5], s[6], s[2], s[4]};
+  const std::vector<double> sizes = {s[1], s[3], s[6], s[5], s[2], s[4]};
   check_profile(model, block, "I", sizes);
   Section section = formats::profile_section("I", sizes);
   const formats::SectionPolygon polygon = formats::profile_polygon("I", sizes);

@@ -41,8 +41,8 @@ struct RefusedType {
 };
 RefusedType refused_type(const std::string& name);
 
-/// For each node of the gmsh element its place in the order of Abaqus ([Abaqus element library; gmsh documentation,
-/// "Node ordering"]).
+/// For each node of the gmsh element its place in the order of Abaqus (element library of Abaqus; gmsh documentation,
+/// "Node ordering").
 std::span<const int> gmsh_order(SolidShape shape);
 
 /// Nodes of a face (0: S1, ...) in the order of Abaqus: corners around, then the middle nodes of the edges between

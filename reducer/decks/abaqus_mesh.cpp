@@ -53,12 +53,25 @@ int add_shell(Model& model, const RawElement& element, const SectionUse& use) {
   return static_cast<int>(model.deck.mesh.shells.size()) - 1;
 }
 
-int add_beam(Model& model, const RawElement& element, const SectionUse& use) {
+/// One section may serve B31 and B33.
+int beam_property(Model& model, const RawElement& element, SectionUse& use) {
+  if (element.type->kind == ElementKind::truss || element.type->theory == formats::BeamTheory::timoshenko)
+    return use.property;
+  if (use.slender_property < 0) {
+    BeamProperty slender = model.deck.mesh.beam_properties[static_cast<std::size_t>(use.property)];
+    slender.data.theory = formats::BeamTheory::euler_bernoulli;
+    use.slender_property = static_cast<int>(model.deck.mesh.beam_properties.size());
+    model.deck.mesh.beam_properties.push_back(std::move(slender));
+  }
+  return use.slender_property;
+}
+
+int add_beam(Model& model, const RawElement& element, SectionUse& use) {
   const int* nodes = nodes_of(model, element);
   BeamElement beam;
   beam.first = nodes[0];
   beam.second = nodes[1];
-  beam.property = use.property;
+  beam.property = beam_property(model, element, use);
   beam.id = short_id(element.id);
   const Eigen::Vector3d axis = position(model, nodes[1]) - position(model, nodes[0]);
   Eigen::Vector3d n1 = use.direction;
@@ -136,7 +149,7 @@ void add_point(Model& model, const RawElement& element, const SectionUse& use) {
 }
 
 /// Row in the vector of its kind, -1 for masses and for faulty elements.
-int add_element(Model& model, const RawElement& element, const SectionUse& use) {
+int add_element(Model& model, const RawElement& element, SectionUse& use) {
   switch (element.type->kind) {
     case ElementKind::shell:
       return add_shell(model, element, use);
@@ -212,7 +225,8 @@ void fill_elements(Model& model) {
     if (element.section >= 0) {
       element.row = add_element(model, element, model.sections[static_cast<std::size_t>(element.section)]);
     } else if (element.type->kind == ElementKind::ground_spring) {
-      element.row = add_element(model, element, {});
+      SectionUse none;
+      element.row = add_element(model, element, none);
     } else {
       model.findings.add(fmt::format("{} has no section", model.element_text(element)), model.where(element),
                          "name its set in *SHELL SECTION, *SOLID SECTION, *BEAM SECTION, *MASS, *ROTARY INERTIA or "

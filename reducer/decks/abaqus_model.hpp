@@ -85,9 +85,10 @@ struct AbaqusMaterial {
 /// A section keyword, read: which elements it may serve and what it gives them.
 struct SectionUse {
   ElementKind kind = ElementKind::shell;
-  int property = -1;                                    ///< row of the properties of its kind in the mesh
-  double offset = 0.0;                                  ///< shells: of the middle surface along the normal
-  bool has_direction = false;                           ///< shells: anisotropic, so that material_x matters
+  int property = -1;           ///< row of the properties of its kind in the mesh
+  int slender_property = -1;   ///< beams: the same without shear, made when the first B33 asks for it
+  double offset = 0.0;         ///< shells: of the middle surface along the normal
+  bool has_direction = false;  ///< shells: anisotropic, so that material_x matters
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< shells: material x; zero: Abaqus' default. Beams: n1
   double mass = 0.0;                                    ///< MASS
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();    ///< ROTARYI, part axes
