@@ -229,6 +229,11 @@ bool CardReader::split_free(std::string_view line, Line& out) {
     mark = part[tail];
     out.fields[tail - 1] = {};
   }
+  if (!mark.empty() && mark.find_first_of("0123456789.-") == 0) {
+    faults_.add(fmt::format("'{}' stands where a continuation mark belongs", mark), here(),
+                "continue on the next line");
+    return false;
+  }
   if (!mark.empty()) out.mark = mark.substr(1);
   return true;
 }

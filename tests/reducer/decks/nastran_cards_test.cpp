@@ -65,6 +65,8 @@ TEST(NastranCards, ContinuationsOutOfPlaceAreFaults) {
   EXPECT_THAT(fault_of("PBAR,1,2,,,,,,,+A\n+B,1.\n" + bar_deck()),
               HasSubstr("main.bdf:2: continuation '+B' follows a line that asks for '+A'"));
   EXPECT_THAT(fault_of("PBAR,1,2,,,,,,,+A,1.\n" + bar_deck()), HasSubstr("more than 10 fields"));
+  EXPECT_THAT(fault_of("RBE2,30,3,123,1,2,3,4,5,6\n" + bar_deck()),
+              HasSubstr("'6' stands where a continuation mark belongs"));
 }
 
 TEST(NastranCards, OnlyTheBulkSectionCounts) {
