@@ -24,7 +24,7 @@ Matrix3d strain_in_fibre_axes(double angle) {
   return T;
 }
 
-/// Reduced stiffness of plane stress in the laminate's axes ([Jon99] (2.70), (2.85)).
+/// Reduced stiffness of plane stress in the laminate's axes ([Jon99] chapter 2).
 Matrix3d in_plane_stiffness(const Ply& ply) {
   const double factor = 1.0 - ply.nu12 * ply.nu12 * ply.E2 / ply.E1;
   Matrix3d Q = Matrix3d::Zero();
@@ -45,7 +45,7 @@ Matrix2d shear_compliance(const Ply& ply) {
 }
 
 /// ∫ fᵀ G⁻¹ f dz inverted. F(z) = a(z) A⁻¹B − b(z) with a = ∫ Q dz, b = ∫ Q z dz from the bottom up to z, then
-/// F (D − B A⁻¹ B)⁻¹ turns moment gradients into shear stress ([RR97] (13)); of its entries those of M_x,x and M_y,y
+/// F (D − B A⁻¹ B)⁻¹ turns moment gradients into shear stress ([RR97]); of its entries those of M_x,x and M_y,y
 /// remain: f = [F11 F32; F31 F22]. f is quadratic in z, so three points per ply are exact.
 Matrix2d shear_stiffness(const std::vector<Ply>& plies, double bottom, const ShellSection& section) {
   constexpr std::array<std::pair<double, double>, 3> gauss{

@@ -25,9 +25,9 @@ struct Ply {
 ShellSection isotropic_shell(double youngs_modulus, double poisson_ratio, double density, double thickness,
                              double shear_correction);
 
-/// Classical lamination theory ([Jon99] (4.22)-(4.24)) about the reference surface z = 0, the first ply lowest, from
+/// Classical lamination theory ([Jon99] chapter 4) about the reference surface z = 0, the first ply lowest, from
 /// z = `bottom` up (bottom = -thickness/2: the middle). Transverse shear from the complementary energy of the stresses
-/// that equilibrium gives in cylindrical bending along x and along y ([RR97] (9)-(16)): τ(z) = f(z) Q, and
+/// that equilibrium gives in cylindrical bending along x and along y ([RR97]): τ(z) = f(z) Q, and
 /// As = (∫ fᵀ G⁻¹ f dz)⁻¹; 5/6 G t for a homogeneous sheet. Plies must have passed check_plies.
 ShellSection laminate(const std::vector<Ply>& plies, double bottom);
 

@@ -51,7 +51,7 @@ std::array<MassPoint<4>, 9> mass_points(const ShellGeometry<4>& geometry) {
   return points;
 }
 
-/// Six points, exact to degree 4 ([Dun85], table 4).
+/// Six points, exact to degree 4 ([Cow73]).
 std::array<MassPoint<3>, 6> mass_points(const ShellGeometry<3>& geometry) {
   struct Orbit {
     double weight, near, far;

@@ -1,4 +1,4 @@
-// Stiffness of the four-node shell element: assumed membrane stress with drilling rotations, DKMQ bending and shear.
+// Stiffness of the four-node shell element: assumed membrane stress with drilling rotations, MITC4 plate.
 //
 // Membrane forces N are a field of their own (Hellinger-Reissner), curvatures and shear strains follow from rotations
 // and deflections:
@@ -8,8 +8,10 @@
 // two quadratic ones and the mean drilling rotation complete the rank. The quadratic ones carry a small factor:
 // drilling rotations that alternate around an element are those of a doubly curved shell in bending, which must not
 // stretch it. Nodes and projected corners are tied by rigid arms, so rigid motions give no force, warped or not.
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -38,7 +40,7 @@ StressModes stress_modes(const Eigen::Vector2d& p) {
 }
 
 /// ∮ (P n)ᵀ u ds: work of each mode on the corner displacements; along edge i → j with d = x_j − x_i:
-/// u(s) = (1−s) u_i + s u_j + ½ s(1−s) (θ_j − θ_i) [d_y, −d_x] ([All84] (4)), exact with three points.
+/// u(s) = (1−s) u_i + s u_j + ½ s(1−s) (θ_j − θ_i) [d_y, −d_x] ([All84]), exact with three points.
 ModeRows edge_work(const Eigen::Matrix<double, 2, 4>& corner, double size) {
   ModeRows G = ModeRows::Zero();
   for (int i = 0; i < 4; ++i) {
@@ -92,32 +94,32 @@ Eigen::Matrix<double, 24, 1> mean_drilling(const ShellGeometry<4>& geometry) {
   return row;
 }
 
-/// ξ, η slopes of the shape functions of the rotations Δβ at the middles of the edges ([Kat93] part II, (8)).
-Eigen::Matrix<double, 2, 4> bulge_slopes(double xi, double eta) {
-  const double a = 0.5 * (1.0 - xi * xi), b = 0.5 * (1.0 - eta * eta);
-  Eigen::Matrix<double, 2, 4> slope;
-  slope << -xi * (1.0 - eta), b, -xi * (1.0 + eta), -b, -a, -eta * (1.0 + xi), a, -eta * (1.0 - xi);
-  return slope;
-}
-
-/// The edges with their Δβ and their covariant shear strain γ_s L/2 along +ξ or +η.
-struct QuadSides {
-  std::array<PlateSide, 4> side;
-  Eigen::Matrix<double, 4, 12> bulge;
-  Eigen::Matrix<double, 4, 12> shear;
-};
-
-QuadSides quad_sides(const Eigen::Matrix<double, 2, 4>& corner, const Eigen::Matrix3d& D, const Eigen::Matrix2d& As) {
-  QuadSides sides;
-  for (int i = 0; i < 4; ++i) {
-    const int j = (i + 1) % 4;
-    PlateSide& side = sides.side[static_cast<std::size_t>(i)];
-    side = plate_side(corner.col(j) - corner.col(i), D, As);
-    sides.bulge.row(i) = side_bulge<4>(side, i, j);
-    const double orientation = i < 2 ? 1.0 : -1.0;  // the third and fourth edge run against ξ and η
-    sides.shear.row(i) = -orientation / 3.0 * side.phi * side.length * sides.bulge.row(i);
+/// Covariant shear strains of MITC4 at the middles of the edges, (w_j − w_i)/2 + d/4 · Σ [θy, −θx], along ξ at η = −1
+/// and 1, along η at ξ = −1 and 1 ([DB84]), times the root of φ/(φ + 0.35) with φ = 12 D_ss/(As_ss ℓ²), ℓ the
+/// shortest edge: the shear stiffness is that of the sheet in series with a residual flexibility of bending ([LSV93]:
+/// t²/(t² + α ℓ²); 0.35 is α = 0.1 for isotropic sheets). It vanishes with the element size, and in constant bending
+/// there is no shear.
+Eigen::Matrix<double, 4, 12> edge_shear(const Eigen::Matrix<double, 2, 4>& corner, const Eigen::Matrix3d& D,
+                                        const Eigen::Matrix2d& As) {
+  constexpr double residual = 0.35;
+  constexpr std::array<std::array<int, 2>, 4> edges{{{0, 1}, {3, 2}, {0, 3}, {1, 2}}};
+  std::array<PlateSide, 4> sides;
+  double shortest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 4; ++k) {
+    sides[k] = plate_side(corner.col(edges[k][1]) - corner.col(edges[k][0]), D, As);
+    shortest = std::min(shortest, sides[k].length);
   }
-  return sides;
+  Eigen::Matrix<double, 4, 12> rows = Eigen::Matrix<double, 4, 12>::Zero();
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double aspect = sides[k].length / shortest, phi = sides[k].phi * aspect * aspect;
+    const double factor = std::sqrt(phi / (phi + residual));
+    const Eigen::Vector2d d = 0.25 * factor * sides[k].length * sides[k].direction;
+    const auto row = static_cast<Eigen::Index>(k);
+    rows(row, 3 * edges[k][0]) = -0.5 * factor;
+    rows(row, 3 * edges[k][1]) = 0.5 * factor;
+    for (int corner_number : edges[k]) rows.block<1, 2>(row, 3 * corner_number + 1) << -d.y(), d.x();
+  }
+  return rows;
 }
 
 struct PlatePart {
@@ -125,31 +127,31 @@ struct PlatePart {
   Eigen::Matrix<double, modes, 12> coupling = Eigen::Matrix<double, modes, 12>::Zero();  ///< ∫ Pᵀ A⁻¹ B κ dA
 };
 
-/// Bending and transverse shear of DKMQ ([Kat93] part II) with the bending stiffness D − B A⁻¹ B that is left when N is
-/// a field of its own; 2 x 2 points.
+/// Bending and assumed transverse shear ([DB84]) with the bending stiffness D − B A⁻¹ B that is left when N is a field
+/// of its own; 2 x 2 points.
 PlatePart plate_part(const ShellGeometry<4>& geometry, const ShellSection& section, const Eigen::Matrix3d& A_inverse,
                      double size) {
   const Eigen::Matrix<double, 2, 4>& corner = geometry.corner;
   const Eigen::Matrix3d A_inverse_B = A_inverse * section.B;
   const Eigen::Matrix3d D = section.D - section.B * A_inverse_B;
-  const QuadSides sides = quad_sides(corner, D, section.As);
+  const Eigen::Matrix<double, 4, 12> edge = edge_shear(corner, D, section.As);
   PlatePart part;
   for (const GaussPoint& a : gauss2)
     for (const GaussPoint& b : gauss2) {
       const BilinearShape shape = bilinear_shape(a.at, b.at);
       const Eigen::Matrix2d J = shape.slope * corner.transpose(), J_inverse = J.inverse();
       const double dA = a.weight * b.weight * J.determinant();
-      Eigen::Matrix<double, 3, 12> kappa = curvature_rows<4>(J_inverse * shape.slope);
-      const Eigen::Matrix<double, 2, 4> g = J_inverse * bulge_slopes(a.at, b.at);
-      for (int k = 0; k < 4; ++k)
-        kappa.noalias() += side_curvature(sides.side[static_cast<std::size_t>(k)], g.col(k)) * sides.bulge.row(k);
-      Eigen::Matrix<double, 2, 12> covariant;  // linear between opposite edges, as in [DB84] (8)
-      covariant.row(0) = 0.5 * (1.0 - b.at) * sides.shear.row(0) + 0.5 * (1.0 + b.at) * sides.shear.row(2);
-      covariant.row(1) = 0.5 * (1.0 - a.at) * sides.shear.row(3) + 0.5 * (1.0 + a.at) * sides.shear.row(1);
+      const Eigen::Matrix<double, 3, 12> kappa = curvature_rows<4>(J_inverse * shape.slope);
+      Eigen::Matrix<double, 2, 12> covariant;
+      covariant.row(0) = 0.5 * (1.0 - b.at) * edge.row(0) + 0.5 * (1.0 + b.at) * edge.row(1);
+      covariant.row(1) = 0.5 * (1.0 - a.at) * edge.row(2) + 0.5 * (1.0 + a.at) * edge.row(3);
       const Eigen::Matrix<double, 2, 12> gamma = J_inverse * covariant;
-      part.K.noalias() += kappa.transpose() * (dA * D * kappa) + gamma.transpose() * (dA * section.As * gamma);
-      const StressModes P = stress_modes(corner * shape.N / size);
-      part.coupling.noalias() += P.transpose() * (dA * A_inverse_B * kappa);
+      const Eigen::Matrix<double, 3, 12> M = dA * D * kappa;
+      const Eigen::Matrix<double, 2, 12> Q = dA * section.As * gamma;
+      part.K += kappa.transpose().lazyProduct(M) + gamma.transpose().lazyProduct(Q);
+      if (section.B.isZero(0.0)) continue;
+      const Eigen::Matrix<double, 3, 12> stretch = dA * A_inverse_B * kappa;
+      part.coupling += stress_modes(corner * shape.N / size).transpose().lazyProduct(stretch);
     }
   return part;
 }

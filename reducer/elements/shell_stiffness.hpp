@@ -19,7 +19,7 @@ struct DrillingFactors {
 inline constexpr DrillingFactors usual_drilling{1.0, 1e-3};
 
 /// Four corners, [u v w θx θy θz] each, at the projected corners (geometry.corner) of the middle surface.
-/// Membrane: assumed stress with Allman's edges; bending and shear: DKMQ; see the source file.
+/// Membrane: assumed stress with Allman's edges; bending and shear: stabilised MITC4; see the source file.
 QuadMatrix quad_stiffness(const ShellGeometry<4>& geometry, const ShellSection& section,
                           const DrillingFactors& drilling);
 

@@ -19,7 +19,7 @@ using Corners = Eigen::Matrix<double, 2, 3>;
 using MembraneRows = Eigen::Matrix<double, 3, 9>;  ///< coordinates [u v θz] per corner
 using PlateRows = Eigen::Matrix<double, 3, 9>;     ///< coordinates [w θx θy] per corner
 
-/// Mean strain Lᵀ/V of the basic part, with the factor 3/2 of the drilling rotations ([Fel03] (16), (25)).
+/// Mean strain Lᵀ/V of the basic part, with the factor 3/2 of the drilling rotations ([Fel03], basic stiffness).
 MembraneRows basic_strain(const Corners& corner, double area) {
   constexpr double alpha = 1.5;
   MembraneRows rows;
@@ -43,7 +43,7 @@ double mean_poisson_ratio(const Eigen::Matrix3d& A) {
 }
 
 /// Natural strains along the edges 2-1, 3-2, 1-3 at corner 1 of a unit of each deviation of a drilling rotation from
-/// the mean rotation, with the optimal β of [Fel03] (table 2); corners 2 and 3 by cyclic exchange ([Fel03] (19)).
+/// the mean rotation, with the optimal β of [Fel03]; corners 2 and 3 by cyclic exchange.
 std::array<Eigen::Matrix3d, 3> natural_rows(const Eigen::Vector3d& length2, double area) {
   Eigen::Matrix3d Q1, Q2, Q3;
   Q1 << 1, 2, 1, 0, 1, -1, -1, -1, -2;
@@ -53,7 +53,8 @@ std::array<Eigen::Matrix3d, 3> natural_rows(const Eigen::Vector3d& length2, doub
   return {factor.asDiagonal() * Q1, factor.asDiagonal() * Q2, factor.asDiagonal() * Q3};
 }
 
-/// Stiffness of the higher part: ¾ β₀ Tᵀ K_θ T ([Fel03] (18)-(22)), integrated at the middles of the edges.
+/// Stiffness of the higher part: ¾ β₀ Tᵀ K_θ T ([Fel03], higher-order stiffness), integrated at the middles of the
+/// edges.
 Eigen::Matrix<double, 9, 9> higher_stiffness(const Corners& corner, double area, const Eigen::Matrix3d& A) {
   const double nu = mean_poisson_ratio(A);
   const double beta = std::max(0.5 * (1.0 - 4.0 * nu * nu), 0.01);
@@ -86,6 +87,20 @@ Eigen::Matrix<double, 9, 9> higher_stiffness(const Corners& corner, double area,
   return 0.75 * beta * T.transpose() * K_theta * T;
 }
 
+/// Rotation at the middle of side i → j beyond the linear one:
+/// Δβ_s = −3/(2 L (1 + φ)) [w_j − w_i + L/2 (β_si + β_sj)] with β = [θy, −θx] ([Kat93]). The shear strain along
+/// the side is γ_s = −⅔ φ Δβ_s by its equilibrium, and the mean of w,s + β_s is γ_s.
+Eigen::Matrix<double, 1, 9> side_bulge(const PlateSide& side, int i, int j) {
+  const double factor = -1.5 / (side.length * (1.0 + side.phi));
+  const Eigen::Vector2d half = 0.5 * factor * side.length * side.direction;
+  Eigen::Matrix<double, 1, 9> row = Eigen::Matrix<double, 1, 9>::Zero();
+  row[3 * i] = -factor;
+  row[3 * j] = factor;
+  row[3 * i + 1] = row[3 * j + 1] = -half.y();
+  row[3 * i + 2] = row[3 * j + 2] = half.x();
+  return row;
+}
+
 struct TriangleSides {
   std::array<PlateSide, 3> side;
   std::array<Eigen::Matrix<double, 1, 9>, 3> bulge;
@@ -97,12 +112,12 @@ TriangleSides triangle_sides(const Corners& corner, const ShellSection& section)
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
     sides.side[k] = plate_side(corner.col((i + 1) % 3) - corner.col(i), D, section.As);
-    sides.bulge[k] = side_bulge<3>(sides.side[k], i, (i + 1) % 3);
+    sides.bulge[k] = side_bulge(sides.side[k], i, (i + 1) % 3);
   }
   return sides;
 }
 
-/// Shear strains at the corners from those along the two sides that meet there, −⅔ φ Δβ_s ([Kat93] (23)).
+/// Shear strains at the corners from those along the two sides that meet there, −⅔ φ Δβ_s ([Kat93]).
 std::array<Eigen::Matrix<double, 2, 9>, 3> corner_shear(const TriangleSides& sides) {
   std::array<Eigen::Matrix<double, 2, 9>, 3> gamma;
   for (std::size_t after = 0; after < 3; ++after) {
@@ -115,6 +130,12 @@ std::array<Eigen::Matrix<double, 2, 9>, 3> corner_shear(const TriangleSides& sid
     gamma[after] = directions.inverse() * along;
   }
   return gamma;
+}
+
+/// κ of a unit Δβ_s whose shape function has the slope g.
+Eigen::Vector3d side_curvature(const PlateSide& side, const Eigen::Vector2d& g) {
+  const Eigen::Vector2d& s = side.direction;
+  return {g.x() * s.x(), g.y() * s.y(), g.y() * s.x() + g.x() * s.y()};
 }
 
 /// κ of β = Σ λ_i β_i + Σ 4 λ_i λ_j Δβ_s s at area coordinates λ.
