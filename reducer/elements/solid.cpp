@@ -9,7 +9,6 @@
 // ([TBW76]; [SR90] section 4 shows that this is the enhanced strain of the Hu-Washizu principle).
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "common/error.hpp"
@@ -151,17 +150,18 @@ Eigen::Matrix<double, 3 * Functions, 3 * Functions> contract(
   return S;
 }
 
-/// Stiffness of the nodes alone: S_uu − S_ua S_aa⁻¹ S_au.
-template <int Nodes, int Modes>
-Eigen::Matrix<double, 3 * Nodes, 3 * Nodes> condense(
-    const Eigen::Matrix<double, 3 * (Nodes + Modes), 3 * (Nodes + Modes)>& S) {
-  using Inner = Eigen::Matrix<double, 3 * Modes, 3 * Modes>;
-  const Eigen::LLT<Inner> factors(S.template bottomRightCorner<3 * Modes, 3 * Modes>());
-  Eigen::Matrix<double, 3 * Modes, 3 * Nodes> X = S.template bottomLeftCorner<3 * Modes, 3 * Nodes>();
-  factors.matrixL().solveInPlace(X);
-  Eigen::Matrix<double, 3 * Nodes, 3 * Nodes> result = S.template topLeftCorner<3 * Nodes, 3 * Nodes>();
-  result.noalias() -= X.transpose() * X;
-  return result;
+/// Eliminates the rows from `kept` on, last first: leaves S_uu − S_ua S_aa⁻¹ S_au of the nodes in the leading rows.
+template <int Size>
+void eliminate_modes(int kept, Eigen::Matrix<double, Size, Size>& S) {
+  for (int p = Size - 1; p >= kept; --p) {
+    const Eigen::Matrix<double, Size, 1> pivot = S.col(p);
+    for (int j = 0; j < p; ++j) S.col(j).head(p) -= (pivot[j] / pivot[p]) * pivot.head(p);
+  }
+}
+
+/// H = G Gᵀ; not a template, so that the compiler sees one matrix product instead of six.
+void gram(const Eigen::Ref<const Eigen::MatrixXd>& G, Eigen::Ref<Eigen::MatrixXd> H) {
+  H.noalias() = G * G.transpose();
 }
 
 template <SolidShape shape>
@@ -171,11 +171,10 @@ void stiffness(const NodePositions<static_cast<int>(SolidBasis<shape>::nodes.siz
   constexpr int modes = static_cast<int>(IncompatibleModes<shape>::size), functions = nodes + modes;
   const auto G = weighted_gradients<shape>(x, id);
   Eigen::Matrix<double, 3 * functions, 3 * functions> H;
-  H.noalias() = G * G.transpose();
-  if constexpr (modes == 0)
-    S = contract<functions>(C, H);
-  else
-    S = condense<nodes, modes>(contract<functions>(C, H));
+  gram(G, H);
+  Eigen::Matrix<double, 3 * functions, 3 * functions> all = contract<functions>(C, H);
+  if constexpr (modes > 0) eliminate_modes(3 * nodes, all);
+  S = all.template topLeftCorner<3 * nodes, 3 * nodes>();
   for (int j = 0; j < 3 * nodes; ++j)
     for (int i = 0; i < j; ++i) S(i, j) = S(j, i);
 }
@@ -198,7 +197,7 @@ void mass(const NodePositions<static_cast<int>(SolidBasis<shape>::nodes.size())>
   Eigen::Matrix<double, nodes, nodes> m;
   switch (property.mass_matrix) {
     case formats::MassMatrix::consistent:
-      m.noalias() = N * dm.asDiagonal() * N.transpose();
+      gram(N * dm.cwiseSqrt().asDiagonal(), m);
       break;
     case formats::MassMatrix::lumped:
       m = Eigen::Matrix<double, nodes, 1>(N.cwiseAbs2() * dm).asDiagonal();
