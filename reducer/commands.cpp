@@ -82,6 +82,12 @@ int perform(const Arguments& arguments, char** argv) {
       return show(arguments);
     case Command::mesh:
       return mesh(arguments);
+    case Command::import_matrices:
+      exchange::import_matrices(arguments.import_request);
+      return 0;
+    case Command::export_matrices:
+      exchange::export_matrices(arguments.export_request);
+      return 0;
   }
   return 1;
 }

@@ -4,15 +4,19 @@
 #include <string>
 #include <vector>
 
+#include "reducer/exchange/request.hpp"
+
 namespace tisserand::reducer {
 
-enum class Command { run, show, mesh };
+enum class Command { run, show, mesh, import_matrices, export_matrices };
 
 struct Arguments {
   Command command = Command::run;
   std::string input;
   std::string output;            ///< empty: beside the input
   std::vector<std::string> set;  ///< path=value
+  exchange::ImportRequest import_request;
+  exchange::ExportRequest export_request;
 };
 
 /// Returns the exit code; throws Error. Two definitions: commands.cpp does the work (program reducer-solver),

@@ -1,5 +1,5 @@
-// The command line of stage 1: reducer run, show, mesh. Linked twice: into the quick front and into the solver behind
-// it.
+// The command line of stage 1: reducer run, show, mesh, import, export. Linked twice: into the quick front and into the
+// solver behind it.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -56,14 +56,61 @@ constexpr const char* about_mesh = R"help(Meshes a part and writes a gmsh file t
 
   reducer mesh beam.part.yaml -o beam.msh && gmsh beam.msh)help";
 
+constexpr const char* about_import =
+    R"help(Reduced matrices of another program become a superelement file with certificate.
+
+  reducer import crank.pch --units mm,t,s                            Nastran DMIG KAAX, MAAX with GRID, SPOINT
+  reducer import crank.pch --positions crank.bdf --matrices KGG,MGG --names 101=base,102=pin --units mm,t,s
+  reducer import sub.mtx --positions nodes.inp --units mm,t,s        Abaqus *SUBSTRUCTURE MATRIX OUTPUT
+  reducer import job_STIF1.mtx --mass job_MASS1.mtx --positions nodes.csv --modal 9001-9008 --units m,kg,s
+  reducer import job.sti --positions job.inp --units mm,t,s          CalculiX, with job.mas and job.dof beside it
+  reducer import arm.S.mtx --mass arm.M.mtx --rows arm.rows.csv --units m,kg,s      Matrix Market
+  reducer import arm_S.fmx --rows arm.rows.csv --units m,kg,s        FEDEM, with arm_M.fmx beside it
+
+The result is in canonical form, free of strain in rigid motions. reducer/exchange/EXCHANGE.md has the formats.
+Exit codes: 0 done, 1 error, 2 wrong usage.)help";
+
+constexpr const char* about_export = R"help(Writes a superelement file in the form of another program.
+
+  reducer export arm.superelement.h5 --to dmig            arm.pch: GRID, SPOINT, ASET1, DMIG KAAX and MAAX
+  reducer export arm.superelement.h5 --to matrixmarket    arm.S.mtx, arm.M.mtx, arm.rows.csv: nothing is lost
+  reducer export arm.superelement.h5 --to fmx             arm_S.fmx, arm_M.fmx, arm_G.fmx, arm.rows.csv: FEDEM
+  reducer export arm.superelement.h5 --to mbdyn -o a.fem  data file of MBDyn's modal joint
+
+It says what the format cannot hold. reducer/exchange/EXCHANGE.md has the formats.)help";
+
 /// The list of commands shows one line of each; its own help shows all.
 CLI::App* add_command(CLI::App& app, const std::string& name, const std::string& about, const std::string& asked) {
   return app.add_subcommand(name, asked == name ? about + "\n" : about.substr(0, about.find('\n')));
 }
 
+CLI::App* add_import(CLI::App& app, const std::string& asked, tisserand::reducer::exchange::ImportRequest& request) {
+  CLI::App* const command = add_command(app, "import", about_import, asked);
+  command->add_option("file", request.input, "matrices, or the stiffness matrix")->required();
+  command->add_option("--units", request.units, "length,mass,time of the file, e.g. mm,t,s; or consistent")->required();
+  command->add_option("-o,--output", request.output, "superelement file (default: beside the input)");
+  command->add_option("--from", request.from, "dmig, abaqus, calculix, matrixmarket, fmx (default: by content)");
+  command->add_option("--mass", request.mass, "file of the mass matrix");
+  command->add_option("--rows", request.rows, "table of rows: row,node,component,x,y,z");
+  command->add_option("--positions", request.positions, "deck with GRID or *NODE, or lines number,x,y,z");
+  command->add_option("--matrices", request.matrices, "names of DMIG matrices (default: KAAX,MAAX)");
+  command->add_option("--names", request.names, "names of nodes: 101=base,102=tip (default: n101, n102)");
+  command->add_option("--modal", request.modal, "nodes that carry modes: 9001-9008,9100");
+  command->add_option("--name", request.name, "name of the superelement (default: that of the file)");
+  return command;
+}
+
+CLI::App* add_export(CLI::App& app, const std::string& asked, tisserand::reducer::exchange::ExportRequest& request) {
+  CLI::App* const command = add_command(app, "export", about_export, asked);
+  command->add_option("file", request.input, "name.superelement.h5")->required();
+  command->add_option("--to", request.to, "dmig, matrixmarket, fmx, mbdyn")->required();
+  command->add_option("-o,--output", request.output, "file, or first of the files (default: beside the input)");
+  return command;
+}
+
 /// Prints what is wrong with the words of the command line.
 int tell_usage(const CLI::ParseError& error, const std::string& asked) {
-  const std::vector<std::string> commands{"run", "show", "mesh"};
+  const std::vector<std::string> commands{"run", "show", "mesh", "import", "export"};
   const bool known = std::find(commands.begin(), commands.end(), asked) != commands.end();
   const bool is_word = !asked.empty() && asked[0] != '-';
   fmt::print(stderr, "reducer: {}\n`reducer {}--help` explains.\n",
@@ -93,12 +140,16 @@ int main(int argc, char** argv) {
   mesh_command->add_option("part", arguments.input, "part.yaml")->required();
   mesh_command->add_option("-o,--output", arguments.output, "gmsh file (default: beside the part)");
   mesh_command->add_option("--set", arguments.set, "path=value: override a value of the part")->allow_extra_args(false);
+  CLI::App* const import_command = add_import(app, asked, arguments.import_request);
+  CLI::App* const export_command = add_export(app, asked, arguments.export_request);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return error.get_exit_code() == 0 ? app.exit(error) : tell_usage(error, asked);
   }
   arguments.command = run_command->parsed() ? Command::run : show_command->parsed() ? Command::show : Command::mesh;
+  if (import_command->parsed()) arguments.command = Command::import_matrices;
+  if (export_command->parsed()) arguments.command = Command::export_matrices;
   try {
     return tisserand::reducer::perform(arguments, argv);
   } catch (const tisserand::Error& error) {
