@@ -114,12 +114,13 @@ TEST(SolidBenchmark, NafemsFv52) {
 }
 
 /// The same plate held as Mindlin's solution is: bending against the exact three-dimensional frequencies, 45.971 and
-/// 109.857 Hz. Six cells a side err by 0.42 and 1.33 %; eight must err (6/8)⁴ = 0.32 times as much.
+/// 109.857 Hz. From 6 x 6 x 1 (0.42, 1.33 %) and 8 x 8 x 1 elements (0.35, 0.91 %) with order 4: 0.11 and 0.62 % come
+/// from six cells a side, 0.32 and 0.71 % from one across the thickness, a sixteenth of that from two.
 TEST(SolidBenchmark, ThickPlateHasTheRayleighLambFrequencies) {
-  const SmallModel model = held_plate(SolidShape::hexahedron20, {8, 8, 1}, 1.0, formats::MassMatrix::consistent);
+  const SmallModel model = held_plate(SolidShape::hexahedron20, {6, 6, 2}, 1.0, formats::MassMatrix::consistent);
   const Eigen::VectorXd f = modes_small(model, 3, 8e4).hertz();
   EXPECT_NEAR(f[0], rayleigh_lamb(pi / 10.0 * std::sqrt(2.0), 0.5, 200e9, 0.3, 8000.0), 2e-3 * f[0]);
-  EXPECT_NEAR(f[1], rayleigh_lamb(pi / 10.0 * std::sqrt(5.0), 0.5, 200e9, 0.3, 8000.0), 6e-3 * f[1]);
+  EXPECT_NEAR(f[1], rayleigh_lamb(pi / 10.0 * std::sqrt(5.0), 0.5, 200e9, 0.3, 8000.0), 9e-3 * f[1]);
   EXPECT_NEAR(f[2], f[1], 1e-6 * f[1]);
 }
 
