@@ -146,12 +146,18 @@ Section read_polygon(const MapReader& map) {
   const std::optional<Ring> outer = read_ring(map.context(), *outline, "outline");
   if (!outer) return {};
   SectionPolygon polygon{*outer, {}};
-  if (const YamlNode* holes = map.find("holes"))
+  if (const YamlNode* holes = map.find("holes")) {
+    if (holes->kind != YamlKind::sequence) {
+      map.context().fail(holes->place, "holes is not a list of holes",
+                         "write [[[0.01, 0.01], [0.02, 0.01], [0.01, 0.02]]]");
+      return {};
+    }
     for (const YamlNode& child : holes->children) {
       const std::optional<Ring> hole = read_ring(map.context(), child, "holes");
       if (!hole) return {};
       polygon.holes.push_back(*hole);
     }
+  }
   if (const auto fault = polygon_fault(polygon)) {
     map.context().fail(outline->place, *fault, "give the corners in order, sides that do not cross, holes inside");
     return {};
