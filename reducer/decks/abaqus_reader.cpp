@@ -1,4 +1,4 @@
-// read_abaqus(): from the path of a deck to its mesh and names, in seven steps.
+// read_abaqus(): from the path of a deck to its mesh and names, step by step.
 #include <fmt/format.h>
 
 #include "common/text.hpp"
@@ -74,6 +74,7 @@ Deck read_abaqus(const std::string& path, const DeckOptions& options) {
   findings.raise();
   abaqus::publish_sets(model);
   if (model.positions.empty()) throw Error("the deck has no nodes", path, "is it an Abaqus or CalculiX deck?");
+  abaqus::remove_unused_nodes(model.deck);
   return std::move(model.deck);
 }
 

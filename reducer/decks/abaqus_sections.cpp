@@ -65,40 +65,13 @@ bool read_shell_direction(Model& model, int scope, const Block& block, SectionUs
   return true;
 }
 
-/// thickness, points, material, angle of one layer; points do not matter.
-std::optional<Ply> read_ply(Model& model, const Block& block, const Line& line) {
-  const std::vector<std::string_view> fields = split(line.text);
-  const std::string where = model.input.where(line);
-  const std::optional<double> thickness = fields.empty() ? std::nullopt : to_number(fields[0]);
-  if (!thickness || !(*thickness > 0.0) || fields.size() < 3) {
-    model.findings.add(fmt::format("{}: '{}' is no layer", block.title, line.text.substr(0, 60)), where,
-                       "write thickness, number of points, material, angle in degrees");
-    return std::nullopt;
-  }
-  const AbaqusMaterial* material = find_material(model, std::string(fields[2]), where);
-  if (material == nullptr) return std::nullopt;
-  Ply ply = ply_of(*material);
-  ply.thickness = *thickness;
-  const bool has_angle = fields.size() > 3 && !fields[3].empty();
-  const std::optional<double> angle = has_angle ? to_number(fields[3]) : 0.0;
-  if (!angle && material->kind != Kind::isotropic) {
-    model.findings.add(fmt::format("layer with orientation '{}' is not understood", fields[3]), where,
-                       "give the angle in degrees from the ORIENTATION of the section");
-    return std::nullopt;
-  }
-  ply.angle = angle.value_or(0.0) * M_PI / 180.0;
-  return ply;
-}
-
-std::optional<ShellSection> read_composite(Model& model, const Block& block) {
-  std::vector<Ply> plies;
-  for (const Line& line : block.data)
-    if (const std::optional<Ply> ply = read_ply(model, block, line)) plies.push_back(*ply);
-  if (plies.empty() || plies.size() != block.data.size()) return std::nullopt;
+std::optional<ShellSection> read_composite(Model& model, int scope, const Block& block, SectionUse& use) {
+  const std::optional<Layers> layers = read_layers(model, scope, block);
+  if (!layers) return std::nullopt;
   double thickness = 0.0;
-  for (const Ply& ply : plies) thickness += ply.thickness;
-  check_plies(plies, model.input.where(block));
-  return laminate(plies, -0.5 * thickness);
+  for (const Ply& ply : layers->plies) thickness += ply.thickness;
+  use.direction = layers->x;
+  return laminate(layers->plies, -0.5 * thickness);
 }
 
 std::optional<ShellSection> read_sheet(Model& model, const Block& block, bool& has_direction) {
@@ -136,7 +109,7 @@ void read_shell_section(Model& model, int scope, std::size_t index) {
   use.kind = ElementKind::shell;
   use.has_direction = block.find("COMPOSITE") != nullptr;
   std::optional<ShellSection> section =
-      use.has_direction ? read_composite(model, block) : read_sheet(model, block, use.has_direction);
+      use.has_direction ? read_composite(model, scope, block, use) : read_sheet(model, block, use.has_direction);
   if (!section) return;
   if (index + 1 < blocks.size() && blocks[index + 1]->keyword == "TRANSVERSESHEARSTIFFNESS") {
     read_shear(model, *blocks[index + 1], *section);

@@ -11,6 +11,14 @@ void read_sections(Model& model, int scope);
 /// *BEAM SECTION or *BEAM GENERAL SECTION, the block at `index` of the scope; the next ones may belong to it.
 void read_beam_section(Model& model, int scope, std::size_t index);
 
+/// The layers of *SHELL SECTION, COMPOSITE, angles from `x`, which is zero without orientations.
+struct Layers {
+  std::vector<Ply> plies;
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();
+};
+/// Nothing, with findings, if a layer is faulty. Throws Error for orientations that cannot be used.
+std::optional<Layers> read_layers(Model& model, int scope, const Block& block);
+
 /// Appends the section and gives it to the elements of its set that are of its kind; finds elements of other kinds and
 /// those with two sections.
 void give_section(Model& model, int scope, const Block& block, const SectionUse& use);

@@ -78,6 +78,29 @@ TEST(AbaqusSections, CompositeIsALaminateInTheAxesOfItsOrientation) {
   EXPECT_LT((deck.mesh.shells[0].material_x - Eigen::Vector3d(-s, c, 0.0)).norm(), 1e-15);
 }
 
+TEST(AbaqusSections, LayersWithOrientationsOfTheirOwn) {
+  const std::string layers =
+      carbon() +
+      "*ORIENTATION, NAME=o1\n0., 1., 0., -1., 0., 0.\n3, 0.\n*ORIENTATION, NAME=o2\n0., 1., 0., -1., 0., 0.\n3, 30.\n"
+      "*SHELL SECTION, ELSET=plate, COMPOSITE\n0.2, , ply, o1\n0.1, , ply, o2\n";
+  const auto expected = [](double angle) {
+    std::vector<Ply> plies(2, {140e3, 9e3, 0.3, 5e3, 4e3, 3e3, 1.6e-9, 0.2, 0.0});
+    plies[1].thickness = 0.1;
+    plies[1].angle = angle;
+    return laminate(plies, -0.15);
+  };
+  const Deck deck = abaqus_deck(plate(layers));
+  EXPECT_LT((deck.mesh.shells[0].material_x - Eigen::Vector3d::UnitY()).norm(), 1e-15);
+  EXPECT_LT((deck.mesh.shell_properties[0].section.A - expected(M_PI / 6.0).A).norm(), 1e-9);
+  // Seen from the other side the same fibres turn the other way.
+  std::string turned = plate(layers);
+  turned.replace(turned.find("1, 1, 2, 3, 4"), 13, "1, 4, 3, 2, 1");
+  const Deck other = abaqus_deck(turned);
+  EXPECT_LT((other.mesh.shell_properties[0].section.A - expected(-M_PI / 6.0).A).norm(), 1e-9);
+  const std::string both = "*ELEMENT, TYPE=S4, ELSET=plate\n2, 4, 3, 2, 1\n";
+  EXPECT_THAT(abaqus_error(plate(both + layers)), HasSubstr("both sides"));
+}
+
 TEST(AbaqusSections, LaminaWithoutOrientationLiesAlongTheGlobalX) {
   const Deck deck = abaqus_deck(plate(carbon() + "*SHELL SECTION, ELSET=plate, MATERIAL=ply\n0.5\n"));
   EXPECT_EQ(deck.mesh.shells[0].material_x, Eigen::Vector3d::UnitX());
