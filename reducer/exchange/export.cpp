@@ -83,7 +83,7 @@ Outcome convert(const ExportRequest& request, const formats::Superelement& eleme
   const bool asked = !request.output.empty();
   if (request.to == "dmig")
     return {{{asked ? request.output : base + ".pch", dmig_text(element)}},
-            "10 to 14 digits, as 16 characters hold; nodes are numbered 1, 2, ..., modes from 1000001"};
+            "10 to 13 digits, as 16 characters hold; nodes are numbered 1, 2, ..., modes from 1000001"};
   if (request.to == "mbdyn")
     return {
         {{asked ? request.output : base + ".fem", mbdyn_text(element, request.input)}},

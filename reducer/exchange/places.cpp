@@ -46,9 +46,9 @@ void read_node_block(const abaqus::Input& input, const abaqus::Block& block, Pla
                 "give Cartesian positions, or a table of lines number, x, y, z");
   for (const abaqus::Line& line : block.data) {
     const std::vector<std::string_view> fields = abaqus::split(line.text);
-    const std::optional<long> id = fields.empty() ? std::nullopt : abaqus::to_integer(fields[0]);
+    const long id = fields.empty() ? 0 : abaqus::to_integer(fields[0]).value_or(0);
     NodePlace place;
-    bool good = id && *id > 0 && fields.size() <= 4;
+    bool good = id > 0 && fields.size() <= 4;
     for (std::size_t k = 1; good && k < fields.size(); ++k) {
       if (fields[k].empty()) continue;
       const std::optional<double> value = abaqus::to_number(fields[k]);
@@ -58,7 +58,7 @@ void read_node_block(const abaqus::Input& input, const abaqus::Block& block, Pla
     if (!good)
       throw Error(fmt::format("'{}' is no node", shown(line.text)), input.where(line),
                   "give its number and up to three coordinates");
-    add(places, *id, place, input.where(line));
+    add(places, id, place, input.where(line));
   }
 }
 
