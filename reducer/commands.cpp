@@ -10,12 +10,14 @@
 #include "formats/override.hpp"
 #include "formats/part.hpp"
 #include "formats/superelement.hpp"
+#include "reducer/build_mesh.hpp"
 #include "reducer/certificate.hpp"
-#include "reducer/mesher.hpp"
+#include "reducer/gmsh/write.hpp"
 #include "reducer/petsc.hpp"
 #include "reducer/phases.hpp"
 #include "reducer/reduce.hpp"
 #include "reducer/startup.hpp"
+#include "reducer/survey.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -60,13 +62,43 @@ int show(const Arguments& arguments) {
   return 0;
 }
 
+/// "12 beams, 340 shells": what there is.
+std::string count_text(const Mesh& mesh) {
+  std::vector<std::string> words{fmt::format("{} nodes", mesh.nodes())};
+  const auto add = [&words](std::size_t count, const char* noun) {
+    if (count > 0) words.push_back(fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s"));
+  };
+  add(mesh.beams.size(), "beam");
+  add(mesh.shells.size(), "shell");
+  add(mesh.solids.size(), "solid");
+  add(mesh.springs.size(), "spring");
+  add(mesh.masses.size(), "point mass");
+  add(mesh.spiders.size(), "spider");
+  return join(words, ", ");
+}
+
+/// part.yaml, or a mesh, geometry or deck alone.
+formats::Part part_or_file(const Arguments& arguments) {
+  if (arguments.input.ends_with(".yaml") || arguments.input.ends_with(".yml"))
+    return formats::read_part(arguments.input, overrides(arguments));
+  return part_of_file(arguments.input);
+}
+
 int mesh(const Arguments& arguments) {
   const formats::Part part = formats::read_part(arguments.input, overrides(arguments));
   const std::string output = arguments.output.empty() ? beside(arguments.input, ".msh") : arguments.output;
-  require_output(output, {arguments.input}, Replaces::anything);
-  const Mesh result = write_gmsh_file(part, output);
-  say(fmt::format("{} nodes, {} elements\nwritten {} (open it with gmsh)\n", result.nodes(), result.beams.size(),
-                  output));
+  std::vector<std::string> inputs{arguments.input};
+  if (!part.mesh.file.empty()) inputs.push_back(part.mesh.file);
+  require_output(output, inputs, Replaces::anything);
+  const Mesh result = build_mesh(part);
+  write_gmsh_file(result, output);
+  for (const std::string& warning : result.warnings) say(fmt::format("warning: {}\n", warning));
+  say(fmt::format("{}\nwritten {} (open it with gmsh)\n", count_text(result), output));
+  return 0;
+}
+
+int groups(const Arguments& arguments) {
+  say(survey(part_or_file(arguments)));
   return 0;
 }
 
@@ -82,6 +114,8 @@ int perform(const Arguments& arguments, char** argv) {
       return show(arguments);
     case Command::mesh:
       return mesh(arguments);
+    case Command::groups:
+      return groups(arguments);
     case Command::import_matrices:
       exchange::import_matrices(arguments.import_request);
       return 0;

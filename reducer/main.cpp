@@ -1,5 +1,5 @@
-// The command line of stage 1: reducer run, show, mesh, import, export. Linked twice: into the quick front and into the
-// solver behind it.
+// The command line of stage 1: reducer run, show, mesh, groups, import, export. Linked twice: into the quick front and
+// into the solver behind it.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -16,7 +16,7 @@
 namespace {
 
 constexpr const char* description =
-    R"(reducer: from a part (beams, masses, boundary nodes) to a superelement file.
+    R"(reducer: from a part (beams, shells, solids; drawn, or from CAD, meshes and decks) to a superelement file.
 
     part.yaml -> mesh -> S, M -> modes -> name.superelement.h5
 
@@ -26,6 +26,7 @@ Examples:
   reducer run beam.part.yaml --set modes=4       any value of the part can be set from here
   reducer show beam.superelement.h5              the certificate: mass, frequencies, checks
   reducer mesh beam.part.yaml                    writes beam.msh, to look at with gmsh
+  reducer groups bracket.step                    faces, edges, volumes and groups with numbers, sizes and boxes
 
 A part in ten lines:
   part: beam
@@ -35,6 +36,13 @@ A part in ten lines:
   beams: {spar: {from: base, to: tip, section: tube, material: steel, elements: 40}}
   boundary: {base: all, tip: all}
   modes: 8
+
+A CAD file as a shell or solid (also .geo, .msh, .iges, .brep, Nastran .bdf, Abaqus .inp):
+  mesh: {file: bracket.step, size: 4, order: 2}
+  solids: {body: {on: all, material: steel}}
+  groups: {bore: {faces: [12, 13]}}
+  spiders: {pin: {kind: rigid, on: bore}}
+  boundary: [pin]
 
 Units are those that the part names, by default m, kg, s; frequencies in 1/time (Hz).
 Exit codes: 0 done, 1 error, 2 wrong usage.)";
@@ -54,7 +62,16 @@ constexpr const char* about_show = R"help(Prints the certificate of a supereleme
 
 constexpr const char* about_mesh = R"help(Meshes a part and writes a gmsh file to look at.
 
-  reducer mesh beam.part.yaml -o beam.msh && gmsh beam.msh)help";
+  reducer mesh beam.part.yaml -o beam.msh && gmsh beam.msh
+
+Whatever the source (drawn, CAD, mesh, deck). Physical groups: properties, springs, spiders, boundary nodes, masses.)help";
+
+constexpr const char* about_groups = R"help(Lists faces, edges, volumes, groups and sets with numbers, sizes and boxes.
+
+  reducer groups bracket.step
+  reducer groups bracket.part.yaml        also plates, ... and groups that the part file defines
+
+These are the names and numbers for `on:` and `groups:` in part.yaml: face 12, 'left_hole', ...)help";
 
 constexpr const char* about_import =
     R"help(Reduced matrices of another program become a superelement file with certificate.
@@ -110,7 +127,7 @@ CLI::App* add_export(CLI::App& app, const std::string& asked, tisserand::reducer
 
 /// Prints what is wrong with the words of the command line.
 int tell_usage(const CLI::ParseError& error, const std::string& asked) {
-  const std::vector<std::string> commands{"run", "show", "mesh", "import", "export"};
+  const std::vector<std::string> commands{"run", "show", "mesh", "groups", "import", "export"};
   const bool known = std::find(commands.begin(), commands.end(), asked) != commands.end();
   const bool is_word = !asked.empty() && asked[0] != '-';
   fmt::print(stderr, "reducer: {}\n`reducer {}--help` explains.\n",
@@ -140,6 +157,10 @@ int main(int argc, char** argv) {
   mesh_command->add_option("part", arguments.input, "part.yaml")->required();
   mesh_command->add_option("-o,--output", arguments.output, "gmsh file (default: beside the part)");
   mesh_command->add_option("--set", arguments.set, "path=value: override a value of the part")->allow_extra_args(false);
+  CLI::App* const groups_command = add_command(app, "groups", about_groups, asked);
+  groups_command->add_option("file", arguments.input, "part.yaml, or a mesh, geometry or deck")->required();
+  groups_command->add_option("--set", arguments.set, "path=value: override a value of the part")
+      ->allow_extra_args(false);
   CLI::App* const import_command = add_import(app, asked, arguments.import_request);
   CLI::App* const export_command = add_export(app, asked, arguments.export_request);
   try {
@@ -147,7 +168,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return error.get_exit_code() == 0 ? app.exit(error) : tell_usage(error, asked);
   }
-  arguments.command = run_command->parsed() ? Command::run : show_command->parsed() ? Command::show : Command::mesh;
+  arguments.command = run_command->parsed()    ? Command::run
+                      : show_command->parsed() ? Command::show
+                      : mesh_command->parsed() ? Command::mesh
+                                               : Command::groups;
   if (import_command->parsed()) arguments.command = Command::import_matrices;
   if (export_command->parsed()) arguments.command = Command::export_matrices;
   try {

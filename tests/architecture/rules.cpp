@@ -97,7 +97,7 @@ struct LibraryRule {
 constexpr std::size_t kAny = 1000000;
 const std::array kLibraryRules = {
     LibraryRule{"^(petsc|slepc).*", "^(tests/)?reducer/.*", kAny, "PETSc and SLEPc stay in reducer"},
-    LibraryRule{"^gmshc?\\.h.*", "^reducer/.*", 1, "gmsh stays in one file of reducer"},
+    LibraryRule{"^gmshc?\\.h.*", "^reducer/gmsh/.*", kAny, "gmsh stays in reducer/gmsh"},
     LibraryRule{"^(suitesparse/)?klu\\.h", "^mechanism/.*", 1, "KLU stays in one file of mechanism"},
     LibraryRule{"^(suitesparse/)?(cholmod|umfpack|amd|colamd|SuiteSparse.*)\\.h.*", "^reducer/.*", 1,
                 "CHOLMOD stays in one file of reducer"},

@@ -21,7 +21,7 @@ class PlantedTree : public ::testing::Test {
     plant("common/a.hpp", "#pragma once\n#include <vector>\n");
     plant("formats/b.hpp", "#pragma once\n#include \"common/a.hpp\"\n");
     plant("formats/b.cpp", "#include \"formats/b.hpp\"\n#include <hdf5.h>\n#include <yaml-cpp/yaml.h>\n");
-    plant("reducer/mesh.cpp", "#include <gmsh.h>\n#include \"formats/b.hpp\"\n");
+    plant("reducer/gmsh/mesh.cpp", "#include <gmsh.h>\n#include \"formats/b.hpp\"\n");
     plant("mechanism/solver/klu.cpp", "#include <klu.h>\n#include \"formats/b.hpp\"\n");
     plant("mechanism/main.cpp", "#include <CLI/CLI.hpp>\n");
     plant("README.md", "[a](common/a.hpp) and [b](https://example.org/x)\n");
@@ -71,8 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"tests/mechanism/x_test.cpp", "#include \"reducer/m.hpp\"\n", "tests/mechanism/x_test.cpp:1"},
         Planted{"mechanism/x.cpp", "#include <petscksp.h>\n", "PETSc and SLEPc stay in reducer"},
         Planted{"formats/x.cpp", "#include <slepceps.h>\n", "PETSc and SLEPc stay in reducer"},
-        Planted{"reducer/other.cpp", "#include <gmsh.h>\n", "gmsh stays in one file"},
-        Planted{"mechanism/gmsh.cpp", "#include <gmsh.h>\n", "gmsh stays in one file"},
+        Planted{"reducer/other.cpp", "#include <gmsh.h>\n", "gmsh stays in reducer/gmsh"},
+        Planted{"mechanism/gmsh.cpp", "#include <gmsh.h>\n", "gmsh stays in reducer/gmsh"},
         Planted{"mechanism/solver/other.cpp", "#include <suitesparse/klu.h>\n", "KLU stays in one file"},
         Planted{"mechanism/x.cpp", "#include <cholmod.h>\n", "CHOLMOD stays in one file of reducer"},
         Planted{"mechanism/x.cpp", "#include <CLI/App.hpp>\n", "only main.cpp sees"},

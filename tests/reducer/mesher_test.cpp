@@ -1,5 +1,5 @@
 // Meshing of lines and arcs: places, connections, orientation, and the gmsh file.
-#include "reducer/mesher.hpp"
+#include "reducer/build_mesh.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "common/error.hpp"
+#include "reducer/gmsh/write.hpp"
 #include "tests/reducer/parts.hpp"
 
 namespace tisserand::testing {
@@ -38,7 +39,7 @@ formats::Part arc(double degrees, int elements) {
 
 TEST(Mesher, StraightLineIsDividedEqually) {
   const Vector3d from(1, 2, 3), to(4, 0, -1);
-  const reducer::Mesh mesh = reducer::mesh_part(plain_beam(from, to, 7, 0));
+  const reducer::Mesh mesh = reducer::build_mesh(plain_beam(from, to, 7, 0));
   ASSERT_EQ(mesh.nodes(), 8);
   ASSERT_EQ(mesh.beams.size(), 7u);
   for (std::size_t e = 0; e < 7; ++e) {
@@ -53,7 +54,7 @@ class Arcs : public ::testing::TestWithParam<double> {};
 
 TEST_P(Arcs, NodesAreOnTheCircleAtEqualDistances) {
   const int n = 12;
-  const reducer::Mesh mesh = reducer::mesh_part(arc(GetParam(), n));
+  const reducer::Mesh mesh = reducer::build_mesh(arc(GetParam(), n));
   ASSERT_EQ(mesh.nodes(), n + 1);
   const double chord = 2.0 * 0.8 * std::sin(0.5 * GetParam() * EIGEN_PI / 180.0 / n);
   for (const reducer::BeamElement& beam : mesh.beams) {
@@ -69,14 +70,14 @@ INSTANTIATE_TEST_SUITE_P(Degrees, Arcs, ::testing::Values(20.0, 90.0, 179.0, 180
 TEST(Mesher, SizeGivesTheNumberOfElements) {
   formats::Part part = plain_beam(Vector3d::Zero(), Vector3d(0, 1, 0), 0, 0);
   part.beams[0].size = 0.25;
-  EXPECT_EQ(reducer::mesh_part(part).beams.size(), 4u);  // 1/0.25 exactly, not one more by round-off
+  EXPECT_EQ(reducer::build_mesh(part).beams.size(), 4u);  // 1/0.25 exactly, not one more by round-off
   part.beams[0].size = 0.24;
-  EXPECT_EQ(reducer::mesh_part(part).beams.size(), 5u);
+  EXPECT_EQ(reducer::build_mesh(part).beams.size(), 5u);
 }
 
 TEST(Mesher, DefaultOrientationIsTheGlobalAxisMostNearlyNormal) {
   const auto y_axis = [](const Vector3d& to) {
-    return Vector3d(reducer::mesh_part(plain_beam(Vector3d::Zero(), to, 1, 0)).beams[0].R_PE.col(1));
+    return Vector3d(reducer::build_mesh(plain_beam(Vector3d::Zero(), to, 1, 0)).beams[0].R_PE.col(1));
   };
   EXPECT_LT((y_axis(Vector3d(1, 0, 0)) - Vector3d::UnitY()).norm(), 1e-15);
   EXPECT_LT((y_axis(Vector3d(0, 1, 0)) - Vector3d::UnitZ()).norm(), 1e-15);
@@ -85,14 +86,15 @@ TEST(Mesher, DefaultOrientationIsTheGlobalAxisMostNearlyNormal) {
 }
 
 TEST(Mesher, PointsOfOneNameAreOneNode) {
-  const reducer::Mesh mesh = reducer::mesh_part(space_frame(0));
+  const reducer::Mesh mesh = reducer::build_mesh(space_frame(0));
   EXPECT_EQ(mesh.nodes(), 5 + 3 + 2 + 2 + 4 + 2);
   reducer::check_connected(mesh, "frame");
 }
 
 TEST(Mesher, GmshFileHasNamesAndAllNodes) {
   const std::string path = ::testing::TempDir() + "frame.msh";
-  const reducer::Mesh mesh = reducer::write_gmsh_file(space_frame(0), path);
+  const reducer::Mesh mesh = reducer::build_mesh(space_frame(0));
+  reducer::write_gmsh_file(mesh, path);
   std::ifstream file(path);
   std::stringstream text;
   text << file.rdbuf();
@@ -104,11 +106,11 @@ TEST(Mesher, GmshFileHasNamesAndAllNodes) {
 
 TEST(BadParts, SayWhatIsWrong) {
   const Vector3d zero = Vector3d::Zero(), x = Vector3d::UnitX();
-  const auto message = [](const formats::Part& part) { return error_of([&] { reducer::mesh_part(part); }); };
+  const auto message = [](const formats::Part& part) { return error_of([&] { reducer::build_mesh(part); }); };
   EXPECT_THAT(message(plain_beam(zero, zero, 3, 0)), HasSubstr("beam 'rod' has zero length"));
   formats::Part part = plain_beam(zero, x, 3, 0);
   part.beams.clear();
-  EXPECT_THAT(message(part), HasSubstr("no beams"));
+  EXPECT_THAT(message(part), HasSubstr("no elements"));
   part = plain_beam(zero, x, 3, 0);
   part.boundary.clear();
   EXPECT_THAT(message(part), HasSubstr("no boundary node"));
@@ -142,7 +144,7 @@ TEST(BadParts, LoosePieceIsNamedWithItsNearestNeighbour) {
   part.beams[1].name = "second";
   part.beams[1].from = "near";
   part.beams[1].to = "far";
-  const reducer::Mesh mesh = reducer::mesh_part(part);
+  const reducer::Mesh mesh = reducer::build_mesh(part);
   EXPECT_THAT(error_of([&] { reducer::check_connected(mesh, "p.yaml"); }),
               AllOf(HasSubstr("2 pieces"), HasSubstr("nearest nodes are near and tip, 1e-07 apart")));
 }
@@ -151,7 +153,7 @@ TEST(BadParts, MotionsThatTheBoundaryLeavesFreeAreNamed) {
   formats::Part part = plain_beam(Vector3d(1, 0, 0), Vector3d(3, 0, 0), 4, 0);
   for (formats::BoundaryNode& b : part.boundary) b.rotations = false;
   const auto message = [](const formats::Part& p) {
-    const reducer::Mesh mesh = reducer::mesh_part(p);
+    const reducer::Mesh mesh = reducer::build_mesh(p);
     return error_of([&] { reducer::check_boundary_holds(mesh, "p.yaml"); });
   };
   EXPECT_THAT(message(part), AllOf(HasSubstr("base (translations), tip (translations)"),
