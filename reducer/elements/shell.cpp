@@ -24,21 +24,17 @@ void move_along_normal(const Eigen::Matrix<double, Corners, 1>& arm,
   }
 }
 
-/// R K Rᵀ block by block, exactly symmetric.
+/// R K Rᵀ block by block; the upper triangle is computed and copied, so the result is exactly symmetric.
 template <int Corners>
 void turn(const Eigen::Matrix3d& R_PE, const Eigen::Matrix<double, 6 * Corners, 6 * Corners>& K, Eigen::MatrixXd& out) {
   out.resize(6 * Corners, 6 * Corners);
   for (int i = 0; i < 2 * Corners; ++i)
     for (int j = i; j < 2 * Corners; ++j) {
       const Eigen::Matrix3d half = K.template block<3, 3>(3 * i, 3 * j) * R_PE.transpose();
-      const Eigen::Matrix3d block = R_PE * half;
-      if (i == j) {
-        out.block<3, 3>(3 * i, 3 * i) = 0.5 * (block + block.transpose());
-      } else {
-        out.block<3, 3>(3 * i, 3 * j) = block;
-        out.block<3, 3>(3 * j, 3 * i) = block.transpose();
-      }
+      out.block<3, 3>(3 * i, 3 * j).noalias() = R_PE * half;
     }
+  for (int j = 0; j < 6 * Corners; ++j)
+    for (int i = 0; i < j; ++i) out(j, i) = out(i, j);
 }
 
 Eigen::Matrix<double, 24, 24> local_stiffness(const ShellGeometry<4>& geometry, const ShellSection& section) {

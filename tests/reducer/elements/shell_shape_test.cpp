@@ -1,0 +1,96 @@
+// Bad shapes of shell elements are told with their measures.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/reducer/elements/shell_cases.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+ShapeFindings findings_of(const Mesh& mesh) {
+  ShapeFindings findings;
+  check_shape(mesh, mesh.shells[0], findings);
+  return findings;
+}
+
+Eigen::Matrix3Xd moved(int corner, double x, double y, double z) {
+  Eigen::Matrix3Xd X = square();
+  X.col(corner) << x, y, z;
+  return X;
+}
+
+TEST(ShellShape, GoodElementsAreSilent) {
+  for (const Eigen::Matrix3Xd& corners : {square(), distorted_quad(), triangle()}) {
+    const ShapeFindings findings = findings_of(one_shell(somewhere(corners), steel(0.05)));
+    EXPECT_THAT(findings.errors, IsEmpty());
+    EXPECT_THAT(findings.warnings, IsEmpty());
+  }
+}
+
+TEST(ShellShape, CollapsedEdgeNamesItsNodes) {
+  const ShapeFindings findings = findings_of(one_shell(moved(1, 0.0, 0.0, 0.0), steel(0.05)));
+  EXPECT_THAT(findings.errors, ElementsAre(HasSubstr("collapsed: edge 0 long between node 1 and node 2")));
+}
+
+TEST(ShellShape, CollapsedAreaIsAnError) {
+  Eigen::Matrix3Xd X = triangle();
+  X.col(2) = 0.5 * (X.col(0) + X.col(1));
+  EXPECT_THAT(findings_of(one_shell(X, steel(0.05))).errors, ElementsAre(HasSubstr("collapsed: area")));
+}
+
+TEST(ShellShape, ConcaveAndCrossedElementsAreErrors) {
+  const ShapeFindings concave = findings_of(one_shell(moved(2, 0.3, 0.3, 0.0), steel(0.05)));
+  ASSERT_THAT(concave.errors, ElementsAre(HasSubstr("at node 3: the element is concave or its nodes cross")));
+  EXPECT_THAT(concave.errors[0], HasSubstr("inner angle 223.6°"));  // 360° - acos(-0.42/0.58)
+  Eigen::Matrix3Xd crossed = distorted_quad();
+  crossed.col(2).swap(crossed.col(3));
+  EXPECT_THAT(findings_of(one_shell(crossed, steel(0.05))).errors, ::testing::Not(IsEmpty()));
+}
+
+TEST(ShellShape, SharpAnglesAreWarnedAndFlatOnesAreErrors) {
+  Eigen::Matrix3Xd X = triangle();
+  X.col(2) << 0.5, 0.1, 0.0;
+  EXPECT_THAT(findings_of(one_shell(X, steel(0.01))).warnings, ::testing::Contains(HasSubstr("inner angle")));
+  X.col(2) << 0.5, 0.05, 0.0;
+  EXPECT_THAT(findings_of(one_shell(X, steel(0.01))).errors, ::testing::Contains(HasSubstr("allowed: 1° to 179°")));
+}
+
+/// Corner 3 lifted by z: the corners are z/4 off the mean plane of the nearly unchanged unit square.
+TEST(ShellShape, WarpIsWarnedAboveFivePercentAndAnErrorAboveThirty) {
+  EXPECT_THAT(findings_of(one_shell(moved(2, 1.0, 1.0, 0.16), steel(0.01))).warnings, IsEmpty());
+  EXPECT_THAT(findings_of(one_shell(moved(2, 1.0, 1.0, 0.24), steel(0.01))).warnings,
+              ElementsAre(HasSubstr("warped: corners 0.05")));
+  Eigen::Matrix3Xd X = square();
+  X.row(2) << 0.35, -0.35, 0.35, -0.35;  // off the plane by 0.35 of the side
+  EXPECT_THAT(findings_of(one_shell(X, steel(0.01))).errors, ElementsAre(HasSubstr("warped: corners 0.35")));
+}
+
+TEST(ShellShape, AspectAndThicknessAreWarned) {
+  Eigen::Matrix3Xd X = square();
+  X.row(0) *= 30.0;
+  EXPECT_THAT(findings_of(one_shell(X, steel(0.01))).warnings, ElementsAre(HasSubstr("aspect ratio 30")));
+  EXPECT_THAT(findings_of(one_shell(square(), steel(1.5))).warnings,
+              ElementsAre(HasSubstr("thickness 1.5 exceeds the longest edge 1")));
+}
+
+TEST(ShellShape, MaterialDirectionMustNotBeTheNormal) {
+  Mesh mesh = one_shell(square(), steel(0.05));
+  mesh.shells[0].material_x = Eigen::Vector3d(0.0, 0.0, 2.0);
+  EXPECT_THAT(findings_of(mesh).errors, ElementsAre(HasSubstr("material direction (0, 0, 2) is normal")));
+}
+
+TEST(ShellShape, CoordinatesMustBeFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (const double bad : {nan, inf})
+    EXPECT_THAT(findings_of(one_shell(moved(3, bad, 0.0, 0.0), steel(0.05))).errors,
+                ElementsAre(HasSubstr("not finite")));
+}
+
+}  // namespace
+}  // namespace tisserand::reducer
