@@ -60,12 +60,12 @@ TEST(Part, ReadsEveryValue) {
   EXPECT_EQ(part.points[1].position, Eigen::Vector3d(141.42, 0, 0));
   EXPECT_THAT(part.points[1].where, HasSubstr("part.yaml:6:27"));
   const BeamLine& rod = part.beams.at(0);
-  EXPECT_EQ(rod.from + rod.to + rod.section + rod.material, "basetipownsteel");
+  EXPECT_EQ(rod.from.name + rod.to.name + rod.section + rod.material, "basetipownsteel");
   EXPECT_EQ(rod.elements, 40);
   EXPECT_THAT(rod.where, HasSubstr("part.yaml:8:3"));
   EXPECT_EQ(part.point_masses.at(0).inertia, Eigen::Matrix3d(Eigen::Vector3d(1, 2, 2.5).asDiagonal()));
   ASSERT_EQ(part.boundary.size(), 2u);
-  EXPECT_EQ(part.boundary[1].at, "tip");
+  EXPECT_EQ(part.boundary[1].at.name, "tip");
   EXPECT_EQ(part.boundary[1].name, "tip");
   EXPECT_TRUE(part.boundary[1].translations && part.boundary[1].rotations);
   EXPECT_EQ(part.modes.count, 4);
@@ -230,8 +230,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{
             "[base, tip]", "^[]",
             "^: the part has no boundary node; list the points at which it is joined or loaded, boundary: [base, tip]"},
-        BadText{"  rod: {from: base, to: tip, section: own, material: steel, elements: 40}\n", "",
-                "part.yaml:7:1: the part has no beams"},
+        BadText{
+            "  rod: {from: base, to: tip, section: own, material: steel, elements: 40}\n", "",
+            "part.yaml:7:1: the part has no elements; give beams, plates, discs, cylinders, extrusions, or a mesh file "
+            "(mesh: {file: ...})"},
         BadText{"to: tip", "to: base",
                 "part.yaml:8:3: beam 'rod': has zero length: both ends are at (0, 0, 0); move one end"},
         BadText{"elements: 40", "elements: ^0", "^: beam 'rod': elements 0 must be 1 or more"},

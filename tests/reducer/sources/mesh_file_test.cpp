@@ -1,0 +1,200 @@
+// Geometry and mesh files: the same plate through every way in gives the same matrices; CAD files; damaged files.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <numeric>
+#include <tuple>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "reducer/gmsh/write.hpp"
+#include "reducer/survey.hpp"
+#include "tests/reducer/sources/part_text.hpp"
+#include "tests/support/small_model.hpp"
+
+namespace tisserand::testing {
+namespace {
+
+using Eigen::Vector3d;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+const std::string meshes = std::string(TISSERAND_SOURCE_DIR) + "/meshes/";
+
+std::string content(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Dense S and M with the nodes sorted by place, so that numbering has no influence.
+struct Sorted {
+  Eigen::MatrixXd S, M;
+};
+
+Sorted sorted_matrices(const reducer::Mesh& mesh) {
+  std::vector<int> order(static_cast<std::size_t>(mesh.nodes()));
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&mesh](int n) {
+    return std::lround(mesh.position(0, n) * 1e6) * 10'000'000 + std::lround(mesh.position(1, n) * 1e6);
+  };
+  std::ranges::sort(order, {}, key);
+  const reducer::SmallMatrices small = reducer::assemble_small(mesh);
+  const Eigen::MatrixXd S = small.S, M = small.M;
+  std::vector<int> rows;
+  for (const int n : order)
+    for (int c = 0; c < 6; ++c) rows.push_back(6 * n + c);
+  return {S(rows, rows), M(rows, rows)};
+}
+
+class SamePlate : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(SamePlate, GivesTheSameMatrices) {
+  const Sorted drawn = sorted_matrices(
+      mesh_of("plates: {deck: {corners: [[0, 0, 0], [0.6, 0, 0], [0.6, 0.4, 0], [0, 0.4, 0]], elements: [6, 4], "
+              "thickness: 0.01, material: steel}}\npoints: {o: [0, 0, 0]}\nboundary: [o]\n"));
+  const reducer::Mesh mesh =
+      mesh_of("mesh: {file: " + meshes + GetParam() +
+              "}\nshells: {s: {on: all, thickness: 0.01, material: steel}}\nboundary: {o: {node: 1}}\n");
+  ASSERT_EQ(mesh.shells.size(), 24u);
+  const Sorted read = sorted_matrices(mesh);
+  ASSERT_EQ(read.S.rows(), drawn.S.rows());
+  // gmsh places inner nodes to about 1e-10 of the lengths, and text files hold 16 digits.
+  EXPECT_LT((read.S - drawn.S).norm(), 1e-8 * drawn.S.norm());
+  EXPECT_LT((read.M - drawn.M).norm(), 1e-8 * drawn.M.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, SamePlate,
+                         ::testing::Values("plate.geo", "plate-2.2.msh", "plate-4.1.msh", "plate-2.2-binary.msh",
+                                           "plate-4.1-binary.msh"));
+
+TEST(Step, FaceIsConvertedToTheUnitsOfThePart) {
+  for (const auto& [unit, size, length] : {std::tuple{"mm", 60.0, 600.0}, {"m", 0.06, 0.6}, {"cm", 6.0, 60.0}}) {
+    const reducer::Mesh mesh = mesh_of(fmt::format(
+        "units: {{length: {}, mass: kg, time: s}}\nmesh: {{file: {}square.step, size: {}, cells: quadrilaterals}}\n"
+        "shells: {{s: {{on: face 1, thickness: {}, material: steel}}}}\nboundary: {{o: {{near: [0, 0, 0]}}}}\n",
+        unit, meshes, size, 0.01 * size));
+    EXPECT_NEAR(mesh.position.row(0).maxCoeff(), length, 1e-9 * length);
+    EXPECT_NEAR(mesh.position.row(1).maxCoeff(), length / 1.5, 1e-9 * length);
+    EXPECT_GE(mesh.shells.size(), 70u) << "600/60 x 400/60 elements";
+    EXPECT_LE(mesh.shells.size(), 160u);
+  }
+}
+
+/// The bracket is a block of 40 x 20 x 10 with a bore of radius 4: volume 8000 - 160 pi.
+std::string bracket(const std::string& file, const std::string& mesh, const std::string& more) {
+  return "units: {length: mm, mass: t, time: s}\nmesh: {file: " + meshes + file + ", " + mesh +
+         "}\nsolids: {body: {on: all, material: steel}}\n"
+         "groups: {bore: {of: faces, cylinder: {from: [20, 10, 0], to: [20, 10, 10], radius: 4}}}\n"
+         "spiders: {pin: {kind: averaging, on: bore}}\nboundary: [pin]\n" +
+         more;
+}
+
+double volume(const reducer::Mesh& mesh) {
+  double sum = 0.0;
+  for (const reducer::SolidElement& e : mesh.solids) {
+    const auto at = [&](std::size_t k) -> Vector3d { return mesh.position.col(e.nodes[k]); };
+    sum += (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0)) / 6.0;
+  }
+  return sum;
+}
+
+class Bracket : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Bracket, IsMeshedWithSolidsAndHeldAtItsBore) {
+  const reducer::Mesh mesh = mesh_of(bracket(GetParam(), "size: 5, curvature: 12", ""));
+  EXPECT_EQ(mesh.solids[0].shape, reducer::SolidShape::tetrahedron4);
+  // The bore is a polygon of 12 sides, whose area lies by 4.5 % below that of the circle.
+  EXPECT_NEAR(volume(mesh), 8000.0 - 160.0 * EIGEN_PI, 0.06 * 160.0 * EIGEN_PI);
+  const reducer::Spider& pin = mesh.spiders[0];
+  EXPECT_LT((mesh.position.col(pin.reference) - Vector3d(20, 10, 5)).norm(), 0.2);
+  for (const int n : pin.nodes)
+    EXPECT_NEAR((mesh.position.col(n).head<2>() - Eigen::Vector2d(20, 10)).norm(), 4.0, 1e-6);
+  // Area of the bore's wall, 2 pi r h, of a polygon of 12 sides.
+  EXPECT_NEAR(std::accumulate(pin.weight.begin(), pin.weight.end(), 0.0), 80.0 * EIGEN_PI, 0.03 * 80.0 * EIGEN_PI);
+  reducer::check_connected(mesh, "part");
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, Bracket, ::testing::Values("bracket.step", "bracket.brep", "bracket.geo"));
+
+TEST(Geometry, OrderSizesAndScaleAreObeyed) {
+  const reducer::Mesh coarse = mesh_of(bracket("bracket.step", "size: 8", ""));
+  const reducer::Mesh second = mesh_of(bracket("bracket.step", "size: 8, order: 2", ""));
+  EXPECT_EQ(second.solids[0].shape, reducer::SolidShape::tetrahedron10);
+  EXPECT_EQ(second.solids.size(), coarse.solids.size());
+  const reducer::Mesh fine = mesh_of(bracket("bracket.step", "size: 8, sizes: {bore: 1.5}", ""));
+  EXPECT_GT(fine.spiders[0].nodes.size(), 3 * coarse.spiders[0].nodes.size());
+  const reducer::Mesh larger =
+      mesh_of("mesh: {file: " + meshes +
+              "plate-4.1.msh, scale: 1000}\n"
+              "shells: {s: {on: deck, thickness: 10, material: steel}}\nboundary: {o: {near: [600, 400, 0]}}\n");
+  EXPECT_NEAR(larger.position.maxCoeff(), 600.0, 1e-9);
+  EXPECT_THAT(error_of("mesh: {file: " + meshes +
+                       "plate-4.1.msh, size: 1}\n"
+                       "shells: {s: {on: deck, thickness: 10, material: steel}}\nboundary: {o: {node: 1}}\n"),
+              HasSubstr("'size' has no effect on a .msh file"));
+}
+
+TEST(Geometry, SecondOrderFacesAreNoShells) {
+  EXPECT_THAT(error_of("mesh: {file: " + meshes +
+                       "square.step, order: 2}\n"
+                       "shells: {s: {on: all, thickness: 10, material: steel}}\nboundary: {o: {near: [0, 0, 0]}}\n"),
+              AllOf(HasSubstr("is of second order (6 nodes)"), HasSubstr("order: 1")));
+}
+
+/// The error for a file with this content and name.
+std::string error_of_file(const std::string& name, const std::string& text) {
+  const PartText part("mesh: {file: " + name +
+                      "}\nshells: {s: {on: all, thickness: 1, material: steel}}\nboundary: {o: {node: 1}}\n");
+  if (!text.empty()) write_text_file(part.file(name), text);
+  return part.error();
+}
+
+TEST(DamagedFiles, AreNamedWithWhatIsWrong) {
+  const std::string msh = content(meshes + "plate-4.1.msh"), old = content(meshes + "plate-2.2.msh");
+  const std::string step = content(meshes + "square.step"), brep = content(meshes + "bracket.brep");
+  EXPECT_THAT(error_of_file("no.msh", ""), AllOf(HasSubstr("cannot open mesh file"), HasSubstr("No such file")));
+  EXPECT_THAT(error_of_file("no.txt", "x"), HasSubstr("the ending '.txt' is unknown"));
+  EXPECT_THAT(error_of_file("a.msh", msh.substr(0, msh.size() * 2 / 3)), HasSubstr("the file is truncated"));
+  EXPECT_THAT(error_of_file("a.msh", old.substr(0, old.size() / 3)), HasSubstr("the file is truncated"));
+  EXPECT_THAT(error_of_file("a.msh", step), HasSubstr("no $MeshFormat"));
+  EXPECT_THAT(error_of_file("a.msh", "$MeshFormat\n3.0 0 8\n$EndMeshFormat\n"), HasSubstr("has version 3.0"));
+  EXPECT_THAT(
+      error_of_file("a.msh", "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n99999999999\n$EndNodes\n$Elements\n"),
+      HasSubstr("99999999999 Nodes in"));
+  EXPECT_THAT(error_of_file("a.step", step.substr(0, step.size() / 2)), HasSubstr("END-ISO-10303-21 is missing"));
+  EXPECT_THAT(error_of_file("a.step", msh), HasSubstr("this is no STEP file"));
+  EXPECT_THAT(error_of_file("a.igs", step), HasSubstr("this is no IGES file"));
+  EXPECT_THAT(error_of_file("a.brep", msh), HasSubstr("this is no BREP file"));
+  EXPECT_THAT(error_of_file("a.brep", brep.substr(0, 300)), HasSubstr("TShapes is missing"));
+  EXPECT_THAT(error_of_file("a.geo", "Point(1) = {0, 0, 0};\nSystemCall \"ls\";\n"),
+              HasSubstr("the command SystemCall"));
+  EXPECT_THAT(error_of_file("a.geo", "// Exit\nPoint(1) = {0, 0, 0;\n"), HasSubstr("gmsh: "));
+  EXPECT_THAT(error_of_file("a.geo", "Point(1) = {0, 0, 0};\n"), HasSubstr("the geometry has no faces"));
+}
+
+TEST(MeshOfAnySource, IsWrittenToLookAtAndReadAgain) {
+  const PartText part(bracket("bracket.step", "size: 8", "point_masses: {m: {at: pin, mass: 1}}\n"));
+  const reducer::Mesh mesh = part.mesh();
+  reducer::write_gmsh_file(mesh, part.file("out.msh"));
+  EXPECT_THAT(content(part.file("out.msh")),
+              AllOf(HasSubstr("\"pin\""), HasSubstr("\"m\""), HasSubstr("$MeshFormat\n4.1")));
+  const PartText again("mesh: {file: " + part.file("out.msh") +
+                       ", ignore: [pin]}\nsolids: {body: {on: body, "
+                       "material: steel}}\nboundary: {a: {node: 1}}\n");
+  EXPECT_EQ(again.mesh().solids.size(), mesh.solids.size());
+}
+
+TEST(Survey, ListsFacesGroupsAndSizes) {
+  EXPECT_THAT(reducer::survey(reducer::part_of_file(meshes + "bracket.step")),
+              AllOf(HasSubstr("face 7"), HasSubstr("edge 1"), HasSubstr("mm")));
+  const PartText part("mesh: {file: " + meshes +
+                      "plate-2.2.msh}\ngroups: {g: {edges: [2, 4]}}\nboundary: {a: {node: 1}}\n");
+  EXPECT_THAT(reducer::survey(part.read()), AllOf(HasSubstr("deck        face           24        0.24  [0.3, 0.2, 0]"),
+                                                  HasSubstr("g           edge            8"),
+                                                  HasSubstr("left        edge            4         0.4")));
+}
+
+}  // namespace
+}  // namespace tisserand::testing
