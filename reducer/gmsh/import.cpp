@@ -98,8 +98,7 @@ void generate(const ImportRequest& request, const GmshSession& session) {
   const int dimension = std::min(request.dimension, gmsh::model::getDimension());
   gmsh::vectorpair entities;
   gmsh::model::getEntities(entities, dimension);
-  if (entities.empty())
-    throw Error(fmt::format("the geometry has no {}s", dimension_word(request.dimension)), file, remedy);
+  if (entities.empty() || dimension < 1) throw Error("the geometry has no edges, faces or volumes", file, remedy);
   const bool meshed = std::ranges::all_of(entities, [](const auto& e) { return has_cells(e.first, e.second); });
   if (!meshed) {
     set_local_sizes(request);

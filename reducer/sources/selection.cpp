@@ -103,8 +103,8 @@ Selection by_label(const MeshBuilder& builder, const std::string& name, int dime
 Selection by_physical_group(const MeshBuilder& builder, const std::string& name, int dimension) {
   const EntityGroup* best = nullptr;
   for (const EntityGroup& group : builder.cells.groups) {
-    if (group.name != name || (dimension > 0 && group.dimension != dimension)) continue;
-    if (best == nullptr || group.dimension > best->dimension) best = &group;
+    if (group.name != name || (best != nullptr && best->dimension == dimension)) continue;
+    if (best == nullptr || group.dimension == dimension || group.dimension > best->dimension) best = &group;
   }
   return best == nullptr ? Selection{} : Selection{best->entities, {}, {}};
 }
@@ -178,7 +178,10 @@ Selection by_name(const MeshBuilder& builder, const std::string& name, int dimen
   return selection;
 }
 
-[[noreturn]] void refuse_name(const MeshBuilder& builder, const std::string& name, const User& user) {
+[[noreturn]] void refuse_name(const MeshBuilder& builder, const std::string& name, int dimension, const User& user) {
+  if (name == "all" && dimension > 0)
+    throw Error(fmt::format("{}: there are no {}s", user.name, dimension_word(dimension)), user.where,
+                "`reducer groups` lists what there is");
   std::vector<std::string> known = group_names(builder);
   const std::optional<std::string> guess = nearest(name, known);
   if (known.size() > 20) known.resize(20), known.push_back("...");
@@ -208,7 +211,7 @@ Selection select(const MeshBuilder& builder, const std::string& name, int dimens
   make_unique(selection.elements.beams);
   make_unique(selection.elements.shells);
   make_unique(selection.elements.solids);
-  if (is_empty(selection)) refuse_name(builder, name, user);
+  if (is_empty(selection)) refuse_name(builder, name, dimension, user);
   for (const int e : selection.entities) {
     const Entity& entity = builder.cells.entities[static_cast<std::size_t>(e)];
     if (dimension > 0 && entity.dimension != dimension)

@@ -180,7 +180,7 @@ TEST_P(BadWayIn, SaysWhat) {
 
 INSTANTIATE_TEST_SUITE_P(
     MeshGroupsPlaces, BadWayIn,
-    testing::Values(Change{"size: 4", "size: -4", "part.yaml:2:33: mesh: size -4 must be positive"},
+    testing::Values(Change{"size: 4", "size: -4", "part.yaml:2:32: mesh: size -4 must be positive"},
                     Change{"order: 2", "order: 3", "mesh: order 3 must be 1 or 2"},
                     Change{"curvature: 12", "curvature: 5000", "curvature 5000 must be between 0 and 1000"},
                     Change{"scale: 2", "scale: 0", "scale 0 must be positive"},

@@ -171,7 +171,8 @@ TEST(DamagedFiles, AreNamedWithWhatIsWrong) {
   EXPECT_THAT(error_of_file("a.geo", "Point(1) = {0, 0, 0};\nSystemCall \"ls\";\n"),
               HasSubstr("the command SystemCall"));
   EXPECT_THAT(error_of_file("a.geo", "// Exit\nPoint(1) = {0, 0, 0;\n"), HasSubstr("gmsh: "));
-  EXPECT_THAT(error_of_file("a.geo", "Point(1) = {0, 0, 0};\n"), HasSubstr("the geometry has no faces"));
+  EXPECT_THAT(error_of_file("a.geo", "Point(1) = {0, 0, 0};\n"),
+              HasSubstr("the geometry has no edges, faces or volumes"));
 }
 
 TEST(MeshOfAnySource, IsWrittenToLookAtAndReadAgain) {
