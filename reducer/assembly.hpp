@@ -1,25 +1,14 @@
-// From the mesh to the sparse matrices S and M of the whole part.
+// From the mesh to the sparse matrices S and M of all its coordinates, ties not yet regarded.
 #pragma once
 
+#include "reducer/coordinates.hpp"
 #include "reducer/mesh.hpp"
-#include "reducer/petsc.hpp"
+#include "reducer/symmetric_pair.hpp"
 
 namespace tisserand::reducer {
 
-/// S and M of all 6 N coordinates (node by node: three translations, three rotations, part axes), stored as symmetric
-/// 6 x 6 blocks (SBAIJ), both with the pattern of the node graph.
-struct SystemMatrices {
-  Matrix stiffness;
-  Matrix mass;
-};
-
-/// Coordinates of the whole part: six per node.
-int coordinate_count(const Mesh& mesh);
-
-/// The six rigid motions (coordinates x 6): unit translations, then (e_k × X_a, e_k) about the part origin.
-Eigen::MatrixXd rigid_motions(const Mesh& mesh);
-
-/// Sum of the elements and of the nodal masses; memory is reserved exactly from the node graph.
-SystemMatrices assemble(const Mesh& mesh);
+/// Sum of the elements and of the nodal masses. Memory is reserved exactly from the graph of the nodes. Every entry is
+/// summed in the order of the elements, so the result is the same for any number of threads.
+SymmetricPair assemble(const Mesh& mesh, const Coordinates& coordinates, int threads);
 
 }  // namespace tisserand::reducer

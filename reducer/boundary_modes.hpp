@@ -17,10 +17,11 @@ struct BoundaryModes {
 };
 
 /// Throws Error that names nodes and directions if S_II is singular: a mechanism inside the part.
-void check_no_mechanism(const Factor& S_II, const Mesh& mesh, const Partition& p, const std::string& where);
+void check_no_mechanism(const Factor& S_II, const Mesh& mesh, const System& system, const Partition& p,
+                        const std::string& where);
 
 /// Solves in blocks, then adds (R_I − Ψ R_B) R_B⁺ so that rigid motions of the boundary move the inside rigidly to the
-/// last digit; R are the rigid motions about the middle of the part with rotations scaled by its characteristic length.
-BoundaryModes boundary_modes(const Factor& S_II, const Blocks& blocks, const Mesh& mesh, const Partition& p);
+/// last digit; R = System::R.
+BoundaryModes boundary_modes(const Factor& S_II, const Blocks& blocks, const System& system, const Partition& p);
 
 }  // namespace tisserand::reducer

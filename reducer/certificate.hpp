@@ -29,8 +29,14 @@ struct FileCertificate {
 struct ModelCertificate {
   std::string content_id;
   std::string part;
-  int nodes = 0, elements = 0, coordinates = 0;
-  formats::RigidProperties rigid;  ///< of the mesh, from its full mass matrix
+  int nodes = 0, elements = 0;
+  int beams = 0, shells = 0, solids = 0, springs = 0, masses = 0;
+  int coordinates = 0;  ///< independent ones
+  int spiders = 0;
+  int eliminated = 0;                 ///< coordinates that spiders and equations made dependent
+  int redundant = 0;                  ///< equations of theirs that others imply
+  std::vector<std::string> inactive;  ///< coordinates without stiffness and mass, removed
+  formats::RigidProperties rigid;     ///< of the mesh, from its full mass matrix
   int modes_requested = 0, modes_kept = 0, modes_available = 0;
   std::optional<double> cutoff;
   std::optional<double> first_dropped_frequency;
@@ -43,6 +49,7 @@ struct ModelCertificate {
   double orthonormality = 0.0;
   std::vector<double> free_frequency;  ///< elastic frequencies of the full model; empty for large parts
   std::vector<std::string> notes;      ///< whole sentences, for example about a completed cluster
+  std::vector<std::string> warnings;   ///< of the way in and of the checks of the mesh
 };
 
 /// What is only known while importing matrices of another program: how far they were from what is written.

@@ -72,7 +72,17 @@ json model_json(const ModelCertificate& c) {
           {"stiffness_coupling", c.stiffness_coupling},
           {"orthonormality", c.orthonormality},
           {"free_frequency", c.free_frequency},
-          {"notes", c.notes}};
+          {"notes", c.notes},
+          {"beams", c.beams},
+          {"shells", c.shells},
+          {"solids", c.solids},
+          {"springs", c.springs},
+          {"masses", c.masses},
+          {"spiders", c.spiders},
+          {"eliminated", c.eliminated},
+          {"redundant", c.redundant},
+          {"inactive", c.inactive},
+          {"warnings", c.warnings}};
 }
 
 json import_json(const ImportCertificate& c) {
@@ -117,6 +127,16 @@ ModelCertificate model_from(const json& j) {
   c.orthonormality = j.at("orthonormality");
   c.free_frequency = j.at("free_frequency").get<std::vector<double>>();
   c.notes = j.at("notes").get<std::vector<std::string>>();
+  c.beams = j.at("beams");
+  c.shells = j.at("shells");
+  c.solids = j.at("solids");
+  c.springs = j.at("springs");
+  c.masses = j.at("masses");
+  c.spiders = j.at("spiders");
+  c.eliminated = j.at("eliminated");
+  c.redundant = j.at("redundant");
+  c.inactive = j.at("inactive").get<std::vector<std::string>>();
+  c.warnings = j.at("warnings").get<std::vector<std::string>>();
   return c;
 }
 
@@ -160,9 +180,33 @@ std::string frequency_table(const FileCertificate& file, const std::vector<doubl
   return text;
 }
 
+/// Kinds of elements, ties, and coordinates without stiffness and mass; nothing for parts of beams alone.
+std::string contents_text(const ModelCertificate& c) {
+  std::vector<std::string> kinds;
+  for (const auto& [count, name] : {std::pair{c.beams, "beams"},
+                                    {c.shells, "shells"},
+                                    {c.solids, "solids"},
+                                    {c.springs, "springs"},
+                                    {c.masses, "masses"}})
+    if (count > 0) kinds.push_back(fmt::format("{} {}", count, name));
+  std::string text = kinds.size() > 1 || c.beams == 0 ? fmt::format("{:<19}{}\n", "", join(kinds, ", ")) : "";
+  if (c.eliminated > 0)
+    text += fmt::format("{:<19}{} spiders, {} coordinates eliminated, {} redundant equations\n", "ties", c.spiders,
+                        c.eliminated, c.redundant);
+  if (!c.inactive.empty()) {
+    constexpr std::size_t most = 5;
+    const std::vector<std::string> first(c.inactive.begin(),
+                                         c.inactive.begin() + static_cast<long>(std::min(most, c.inactive.size())));
+    text += fmt::format("{:<19}{} coordinates without stiffness and mass: {}{}\n", "inactive", c.inactive.size(),
+                        join(first, ", "), c.inactive.size() > most ? ", ..." : "");
+  }
+  return text;
+}
+
 std::string model_text(const ModelCertificate& c) {
   std::string text = fmt::format("{:<19}{} nodes, {} elements, {} coordinates ({})\n", "full model", c.nodes,
                                  c.elements, c.coordinates, c.part);
+  text += contents_text(c);
   text += fmt::format("{:<19}{} kept ({} asked for, {} exist), {} counted below the cut", "internal modes",
                       c.modes_kept, c.modes_requested, c.modes_available, c.modes_counted);
   if (c.first_dropped_frequency) text += fmt::format(", first dropped at {:.8g}", *c.first_dropped_frequency);
@@ -173,6 +217,7 @@ std::string model_text(const ModelCertificate& c) {
                       "round-off removed", c.boundary_rigid_defect, c.rigid_residual_before_projection,
                       c.stiffness_coupling, c.orthonormality);
   for (const std::string& note : c.notes) text += fmt::format("{:<19}{}\n", "note", note);
+  for (const std::string& warning : c.warnings) text += fmt::format("{:<19}{}\n", "warning", warning);
   return text;
 }
 

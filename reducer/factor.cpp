@@ -10,7 +10,7 @@
 
 namespace tisserand::reducer {
 
-Factor::Factor(const Matrix& A) {
+Factor::Factor(const Matrix& A, double null_pivot) {
   PetscInt n = 0;
   petsc_check(MatGetSize(A.get(), &n, nullptr));
   size_ = n;
@@ -18,7 +18,7 @@ Factor::Factor(const Matrix& A) {
   petsc_check(MatFactorInfoInitialize(&info));
   petsc_check(MatGetFactor(A.get(), MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, factor_.out()));
   petsc_check(MatMumpsSetIcntl(factor_.get(), 24, 1));    // null pivots are found, not fatal
-  petsc_check(MatMumpsSetCntl(factor_.get(), 3, 1e-14));  // ... below this share of the scaled matrix's norm
+  petsc_check(MatMumpsSetCntl(factor_.get(), 3, null_pivot));  // ... below this share of the scaled matrix's norm
   petsc_check(MatMumpsSetIcntl(factor_.get(), 14, 60));   // per cent of memory beyond the estimate, for pivoting
   petsc_check(MatCholeskyFactorSymbolic(factor_.get(), A.get(), nullptr, &info));
   petsc_check(MatCholeskyFactorNumeric(factor_.get(), A.get(), &info));

@@ -13,7 +13,8 @@ class Factor {
  public:
   Factor() = default;  ///< of a matrix without rows
   /// Factors A; pivots below 1e-14 of the largest (after scaling) count as null and do not fail.
-  explicit Factor(const Matrix& A);
+  explicit Factor(const Matrix& A) : Factor(A, 1e-14) {}
+  Factor(const Matrix& A, double null_pivot);
 
   int negative() const { return negative_; }
   int null() const { return null_; }

@@ -3,56 +3,50 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include <Eigen/Eigenvalues>
 
 #include "common/error.hpp"
-#include "common/rotation.hpp"
 #include "reducer/internal_modes.hpp"
 
 namespace tisserand::reducer {
 namespace {
 
-Eigen::Matrix<double, 6, 6> rigid_mass_about(const SystemMatrices& system, const Mesh& mesh,
-                                             const Eigen::Vector3d& point) {
-  Eigen::MatrixXd R = rigid_motions(mesh);
-  R.rightCols<3>() += R.leftCols<3>() * skew<double>(point);
-  return R.transpose() * multiply(system.mass, R);
+Eigen::Matrix<double, 6, 6> rigid_mass_about(const System& system, const Eigen::Vector3d& point) {
+  const Eigen::MatrixXd R = rigid_motions_about(system, point);
+  return R.transpose() * multiply(system.matrices, system.matrices.M, R);
 }
 
 }  // namespace
 
-formats::RigidProperties full_rigid_properties(const SystemMatrices& system, const Mesh& mesh) {
-  const Eigen::Vector3d mean = mesh.position.rowwise().mean();
-  const Eigen::Matrix<double, 6, 6> about_mean = rigid_mass_about(system, mesh, mean);
+formats::RigidProperties full_rigid_properties(const System& system) {
+  const Eigen::Vector3d& mean = system.middle;
+  const Eigen::Matrix<double, 6, 6> about_mean = rigid_mass_about(system, mean);
   formats::RigidProperties rigid;
   rigid.mass = about_mean.topLeftCorner<3, 3>().trace() / 3.0;
   if (!(rigid.mass > 0.0)) return rigid;
   const Eigen::Matrix3d C = about_mean.topRightCorner<3, 3>() / rigid.mass;  // −skew(center − mean)
   rigid.center_of_mass = mean + 0.5 * Eigen::Vector3d(C(1, 2) - C(2, 1), C(2, 0) - C(0, 2), C(0, 1) - C(1, 0));
-  rigid.inertia = rigid_mass_about(system, mesh, rigid.center_of_mass).bottomRightCorner<3, 3>();
+  rigid.inertia = rigid_mass_about(system, rigid.center_of_mass).bottomRightCorner<3, 3>();
   return rigid;
 }
 
-std::vector<double> full_free_frequencies(const SystemMatrices& system, const Mesh& mesh, double scale, int count) {
-  const Eigen::Matrix<double, 6, 6> rigid = rigid_mass_about(system, mesh, mesh.position.rowwise().mean());
+std::vector<double> full_free_frequencies(const System& system, double scale, int count) {
+  const Eigen::Matrix<double, 6, 6> rigid = rigid_mass_about(system, system.middle);
   Eigen::Matrix<double, 6, 1> unit = rigid.diagonal().cwiseMax(0.0).cwiseSqrt().cwiseInverse();
   if (!unit.allFinite()) return {};
   const Eigen::Matrix<double, 6, 6> scaled = unit.asDiagonal() * rigid * unit.asDiagonal();
   if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(scaled).eigenvalues()[0] < 1e-12) return {};
 
-  Partition all;
-  all.internal.resize(static_cast<std::size_t>(coordinate_count(mesh)));
-  std::iota(all.internal.begin(), all.internal.end(), 0);
-  const int available = finite_mode_count(mesh, all);
+  const SystemMatrices matrices = to_petsc(system.matrices);
+  const int available = finite_mode_count(matrices.mass);
   const int wanted = std::min(available, 6 + count);
   if (wanted <= 6) return {};
   const double shift = -0.1 * scale;
-  const Factor factor(combine(system.stiffness, -shift, system.mass));
+  const Factor factor(combine(matrices.stiffness, -shift, matrices.mass));
   try {
-    const Spectrum spectrum = lowest_pairs({system.stiffness, system.mass, factor, shift}, wanted, available,
-                                           choose_solver(coordinate_count(mesh), wanted));
+    const Spectrum spectrum = lowest_pairs({matrices.stiffness, matrices.mass, factor, shift}, wanted, available,
+                                           choose_solver(system.size(), wanted));
     std::vector<double> result;
     for (int k = 6; k < wanted; ++k)
       result.push_back(std::sqrt(std::max(0.0, spectrum.pairs.value[k])) / (2.0 * EIGEN_PI));

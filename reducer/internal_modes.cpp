@@ -9,8 +9,6 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/error.hpp"
-#include "common/rotation.hpp"
-#include "reducer/elements/element_matrices.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -23,44 +21,48 @@ const Eigen::Matrix<double, 6, 1> component_weight =
 /// Fixed functions that choose a basis inside clusters and signs; all depend on the body, none on its node numbers.
 struct Gauge {
   Eigen::MatrixXd rigid;   ///< n_I x 6: (M R)_I, weighted; R about the centre of mass, rotations scaled
-  Eigen::VectorXd square;  ///< n_I: weights of a quadratic form
-  Eigen::VectorXd linear;  ///< n_I: weights of a linear form
+  Eigen::VectorXd square;  ///< coordinates of the mesh: weights of a quadratic form
+  Eigen::VectorXd linear;  ///< coordinates of the mesh: weights of a linear form
   double mass = 0.0;
 };
 
-Gauge make_gauge(const InternalProblem& problem) {
-  const Mesh& mesh = problem.mesh;
-  const Partition& p = problem.partition;
-  const double length = characteristic_length(mesh);
-  Eigen::MatrixXd R = rigid_motions(mesh);
-  const auto mass_times = [&](const Eigen::MatrixXd& all) {
-    return Eigen::MatrixXd(multiply(problem.blocks.M_II, rows(all, p.internal)) +
-                           problem.blocks.M_IB * rows(all, p.boundary));
-  };
-  const Eigen::MatrixXd R_B = rows(R, p.boundary);
-  const Eigen::MatrixXd R_I = rows(R, p.internal);
-  const Eigen::MatrixXd at_boundary = problem.blocks.M_IB.transpose() * R_I + problem.blocks.M_BB * R_B;
-  const Eigen::MatrixXd rigid_mass = R_I.transpose() * mass_times(R) + R_B.transpose() * at_boundary;
-  Gauge gauge;
-  gauge.mass = rigid_mass(0, 0);
-  const Eigen::Matrix3d first = rigid_mass.topRightCorner<3, 3>() / gauge.mass;  // −skew(center)
-  const Eigen::Vector3d center(first(1, 2), first(2, 0), first(0, 1));
-  R.rightCols<3>() += R.leftCols<3>() * skew<double>(center);
-  R.rightCols<3>() /= length;
-  gauge.rigid = mass_times(R) * component_weight.asDiagonal();
-
-  const Eigen::VectorXd mass = diagonal(problem.blocks.M_II);
-  gauge.square.resize(p.n_I());
-  gauge.linear.resize(p.n_I());
-  for (Eigen::Index i = 0; i < p.n_I(); ++i) {
-    const Eigen::Vector3d x = (mesh.position.col(p.internal[i] / 6) - center) / length;
-    const int component = p.internal[i] % 6;
+/// Weights by place, on the coordinates of the mesh: which of them ties made dependent plays no role.
+void set_place_weights(const InternalProblem& problem, const Eigen::Vector3d& center, Gauge& gauge) {
+  const System& system = problem.system;
+  gauge.square.resize(system.coordinates.count());
+  gauge.linear.resize(system.coordinates.count());
+  for (int x = 0; x < system.coordinates.count(); ++x) {
+    const auto k = static_cast<std::size_t>(x);
+    const Eigen::Vector3d X = (problem.mesh.position.col(system.coordinates.node[k]) - center) / system.length;
+    const int component = system.coordinates.component[k];
     const double place =
-        x.dot(Eigen::Vector3d(0.9, 0.7, 0.5));  // exp: all powers, so no symmetry of a mode hides from it
-    gauge.square[i] = mass[i] * component_weight[component] * std::exp(place);
-    gauge.linear[i] = gauge.square[i] * (component < 3 ? 1.0 : 1.0 / length);
+        X.dot(Eigen::Vector3d(0.9, 0.7, 0.5));  // exp: all powers, so no symmetry of a mode hides from it
+    gauge.square[x] = system.mesh_mass[x] * component_weight[component] * std::exp(place);
+    gauge.linear[x] = gauge.square[x] * (component < 3 ? 1.0 : 1.0 / system.length);
   }
+}
+
+Gauge make_gauge(const InternalProblem& problem) {
+  const System& system = problem.system;
+  const Partition& p = problem.partition;
+  Gauge gauge;
+  Eigen::MatrixXd R = rigid_motions_about(system, system.middle);
+  const Eigen::MatrixXd rigid_mass = R.transpose() * multiply(system.matrices, system.matrices.M, R);
+  gauge.mass = rigid_mass(0, 0);
+  const Eigen::Matrix3d first = rigid_mass.topRightCorner<3, 3>() / gauge.mass;  // −skew(center − middle)
+  const Eigen::Vector3d center = system.middle + Eigen::Vector3d(first(1, 2), first(2, 0), first(0, 1));
+  R = rigid_motions_about(system, center);
+  R.rightCols<3>() /= system.length;
+  gauge.rigid = rows(multiply(system.matrices, system.matrices.M, R), p.internal) * component_weight.asDiagonal();
+  set_place_weights(problem, center, gauge);
   return gauge;
+}
+
+/// Motion of the mesh's coordinates when the inside moves by `Phi` and the boundary is held.
+Eigen::MatrixXd mesh_motion(const InternalProblem& problem, const Eigen::MatrixXd& Phi) {
+  Eigen::MatrixXd q = Eigen::MatrixXd::Zero(problem.system.size(), Phi.cols());
+  q(problem.partition.internal, Eigen::all) = Phi;
+  return expand(problem.system.T, q).topRows(problem.system.coordinates.count());
 }
 
 /// Orthogonal basis (k x k) that diagonalises `form`, largest value first, and those values.
@@ -69,7 +71,7 @@ std::pair<Eigen::MatrixXd, Eigen::VectorXd> descending_basis(const Eigen::Matrix
   return {solver.eigenvectors().rowwise().reverse(), solver.eigenvalues().reverse()};
 }
 
-void rotate_cluster(const Gauge& gauge, Eigen::Ref<Eigen::MatrixXd> Phi) {
+void rotate_cluster(const InternalProblem& problem, const Gauge& gauge, Eigen::Ref<Eigen::MatrixXd> Phi) {
   const Eigen::MatrixXd L = Phi.transpose() * gauge.rigid;
   const auto [basis, value] = descending_basis(L * L.transpose());
   Phi = (Phi * basis).eval();
@@ -78,22 +80,24 @@ void rotate_cluster(const Gauge& gauge, Eigen::Ref<Eigen::MatrixXd> Phi) {
     while (end < Phi.cols() && value[first] - value[end] < 1e-6 * gauge.mass) ++end;
     if (end - first > 1) {
       auto equal = Phi.middleCols(first, end - first);
-      equal = (equal * descending_basis(equal.transpose() * gauge.square.asDiagonal() * equal).first).eval();
+      const Eigen::MatrixXd moved = mesh_motion(problem, equal);
+      equal = (equal * descending_basis(moved.transpose() * gauge.square.asDiagonal() * moved).first).eval();
     }
     first = end;
   }
 }
 
-void fix_sign(const Gauge& gauge, Eigen::Ref<Eigen::VectorXd> phi) {
-  const double participation = (gauge.rigid.transpose() * phi).sum();
-  const double place = gauge.linear.dot(phi);
-  Eigen::Index largest = 0;
-  phi.cwiseAbs().maxCoeff(&largest);
+/// The number whose sign a mode takes: the first of participation, place and largest entry that is not close to 0.
+double decisive_number(const InternalProblem& problem, const Gauge& gauge, const Eigen::VectorXd& phi) {
   const double limit = 1e-5 * std::sqrt(gauge.mass);
-  const double decisive = std::abs(participation) > limit ? participation
-                          : std::abs(place) > limit       ? place
-                                                          : phi[largest];
-  if (decisive < 0.0) phi = -phi;
+  const double participation = (gauge.rigid.transpose() * phi).sum();
+  if (std::abs(participation) > limit) return participation;
+  const Eigen::VectorXd moved = mesh_motion(problem, phi);
+  const double place = gauge.linear.dot(moved);
+  if (std::abs(place) > limit) return place;
+  Eigen::Index largest = 0;
+  moved.cwiseAbs().maxCoeff(&largest);
+  return moved[largest];
 }
 
 /// Number of modes to compute, from the selection.
@@ -112,45 +116,14 @@ int wanted_modes(const InternalProblem& problem, const formats::ModeSelection& s
 
 }  // namespace
 
-int finite_mode_count(const Mesh& mesh, const Partition& p) {
-  std::vector<bool> full(static_cast<std::size_t>(mesh.nodes()), false);
-  std::vector<Eigen::Matrix<double, 6, 6>> block(full.size(), Eigen::Matrix<double, 6, 6>::Zero());
-  ElementMatrices matrices;
-  for (const BeamElement& beam : mesh.beams) {
-    const BeamElementData& data = mesh.beam_properties[static_cast<std::size_t>(beam.property)].data;
-    const bool consistent = data.mass_matrix == formats::MassMatrix::consistent && data.material.density > 0.0;
-    element_matrices(mesh, beam, matrices);
-    if (consistent) matrices.M.setZero();
-    for (const auto& [node, first] : {std::pair{beam.first, 0}, std::pair{beam.second, 6}}) {
-      if (consistent) full[static_cast<std::size_t>(node)] = true;
-      block[static_cast<std::size_t>(node)] += matrices.M.block<6, 6>(first, first);
-    }
-  }
-  for (const NodalMass& point : mesh.masses) {
-    block[static_cast<std::size_t>(point.node)].topLeftCorner<3, 3>().diagonal().array() += point.mass;
-    block[static_cast<std::size_t>(point.node)].bottomRightCorner<3, 3>() += point.inertia;
-  }
-  int count = 0;
-  for (std::size_t i = 0; i < p.internal.size();) {
-    const std::size_t node = static_cast<std::size_t>(p.internal[i] / 6);
-    std::vector<int> components;
-    for (; i < p.internal.size() && p.internal[i] / 6 == static_cast<int>(node); ++i)
-      components.push_back(p.internal[i] % 6);
-    if (full[node]) {
-      count += static_cast<int>(components.size());
-      continue;
-    }
-    for (const int low : {0, 3}) {
-      std::vector<int> part;
-      std::copy_if(components.begin(), components.end(), std::back_inserter(part),
-                   [low](int c) { return c >= low && c < low + 3; });
-      if (part.empty()) continue;
-      const Eigen::VectorXd value =
-          Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(block[node](part, part)).eigenvalues();
-      count += static_cast<int>((value.array() > 1e-12 * value.maxCoeff()).count());
-    }
-  }
-  return count;
+int finite_mode_count(const Matrix& M) {
+  constexpr Eigen::Index factored = 20000;
+  constexpr double null_pivot = 1e-10;
+  const Eigen::VectorXd mass = diagonal(M);
+  const auto with_mass = static_cast<int>((mass.array() > 0.0).count());
+  if (with_mass == 0 || mass.size() > factored) return with_mass;
+  const Eigen::VectorXd scale = (mass.array() > 0.0).select(mass.cwiseMax(1e-300).cwiseSqrt().cwiseInverse(), 1.0);
+  return static_cast<int>(mass.size()) - Factor(scaled(M, scale), null_pivot).null();
 }
 
 void fix_basis(const InternalProblem& problem, Eigen::VectorXd& lambda, Eigen::MatrixXd& Phi) {
@@ -159,10 +132,11 @@ void fix_basis(const InternalProblem& problem, Eigen::VectorXd& lambda, Eigen::M
   for (int first = 0; first < lambda.size();) {
     const int end = cluster_end(lambda, first + 1, 0.0);
     if (end - first > 1) {
-      rotate_cluster(gauge, Phi.middleCols(first, end - first));
+      rotate_cluster(problem, gauge, Phi.middleCols(first, end - first));
       lambda.segment(first, end - first).setConstant(lambda.segment(first, end - first).mean());
     }
-    for (int k = first; k < end; ++k) fix_sign(gauge, Phi.col(k));
+    for (int k = first; k < end; ++k)
+      if (decisive_number(problem, gauge, Phi.col(k)) < 0.0) Phi.col(k) = -Phi.col(k);
     first = end;
   }
 }
@@ -170,7 +144,7 @@ void fix_basis(const InternalProblem& problem, Eigen::VectorXd& lambda, Eigen::M
 InternalModes internal_modes(const InternalProblem& problem, const formats::ModeSelection& selection) {
   InternalModes modes;
   const Eigen::Index n_I = problem.partition.n_I();
-  modes.available = finite_mode_count(problem.mesh, problem.partition);
+  modes.available = n_I > 0 ? finite_mode_count(problem.blocks.M_II) : 0;
   modes.requested = wanted_modes(problem, selection, modes.available);
   modes.Phi.resize(n_I, 0);
   if (modes.available == 0) return modes;

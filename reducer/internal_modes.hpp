@@ -24,14 +24,18 @@ struct InternalModes {
 /// What the internal modes are computed from.
 struct InternalProblem {
   const Mesh& mesh;
+  const System& system;
   const Partition& partition;
   const Blocks& blocks;
   const Factor& S_II;
   std::string where;
 };
 
-/// Rank of M_II: the number of finite eigenvalues. Lumped masses without rotary inertia leave rotations massless.
-int finite_mode_count(const Mesh& mesh, const Partition& p);
+/// Rank of M: the number of finite eigenvalues, since S is regular. Lumped masses without rotary inertia leave
+/// rotations massless. Up to 20 000 coordinates by the null pivots (below 1e-10) of M scaled to unit diagonal, which
+/// element size and density do not make ill-conditioned; above, where nobody asks for so many modes, the number of
+/// coordinates with mass.
+int finite_mode_count(const Matrix& M);
 
 /// By number or by cut-off frequency. Throws Error if more modes are asked for than exist.
 InternalModes internal_modes(const InternalProblem& problem, const formats::ModeSelection& selection);

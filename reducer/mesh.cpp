@@ -12,11 +12,12 @@
 #include "common/error.hpp"
 #include "common/rotation.hpp"
 #include "common/text.hpp"
+#include "reducer/coordinates.hpp"
 
 namespace tisserand::reducer {
 namespace {
 
-/// Piece number of every node, numbered by their first nodes; nodes joined by an element are in one piece.
+/// Piece number of every node, numbered by their first nodes; nodes joined by an element or a tie are in one piece.
 std::vector<int> pieces(const Mesh& mesh) {
   std::vector<int> parent(mesh.nodes());
   std::iota(parent.begin(), parent.end(), 0);
@@ -24,10 +25,18 @@ std::vector<int> pieces(const Mesh& mesh) {
     while (parent[i] != i) i = parent[i] = parent[parent[i]];
     return i;
   };
-  for (const BeamElement& beam : mesh.beams) {
-    const int a = root(beam.first), b = root(beam.second);
+  const auto connect = [&](int m, int n) {
+    const int a = root(m), b = root(n);
     parent[std::max(a, b)] = std::min(a, b);
+  };
+  for (int e = 0; e < mesh.elements(); ++e) {
+    const ElementNodes nodes = element_nodes(mesh, e);
+    for (int i = 1; i < nodes.count; ++i) connect(nodes.node[0], nodes.node[i]);
   }
+  for (const Spider& spider : mesh.spiders)
+    for (const int n : spider.nodes) connect(spider.reference, n);
+  for (const TieEquation& equation : mesh.equations)
+    for (const TieTerm& term : equation.terms) connect(equation.terms[0].node, term.node);
   std::vector<int> result(mesh.nodes());
   for (int i = 0; i < mesh.nodes(); ++i) result[i] = root(i);
   return result;
@@ -117,9 +126,9 @@ void check_connected(const Mesh& mesh, const std::string& where) {
   if (first.size() > names.size()) names.push_back("...");
   const NearestPair gap = nearest_pair(mesh, piece, first[1]);
   throw Error(
-      fmt::format("the part is in {} pieces that no beam connects: {}", first.size(), join(names, ", ")), where,
-      fmt::format("connect them: the nearest nodes are {} and {}, {:.6g} apart; beams are connected only where they "
-                  "use a point of the same name",
+      fmt::format("the part is in {} pieces that no element connects: {}", first.size(), join(names, ", ")), where,
+      fmt::format("connect them: the nearest nodes are {} and {}, {:.6g} apart; elements are connected only where they "
+                  "share a node (beams: a point of the same name), or by a spider",
                   mesh.node_label[gap.inside], mesh.node_label[gap.outside], gap.distance));
 }
 

@@ -7,11 +7,11 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "reducer/assembly.hpp"
+#include "reducer/system.hpp"
 
 namespace tisserand::reducer {
 
-/// Coordinate numbers of the whole part. Boundary: in the order of the boundary nodes, translations before rotations.
+/// Numbers of the system's coordinates q. Boundary: in the order of the boundary nodes, translations before rotations.
 /// Internal: ascending; coordinates that a boundary node does not retain are among them.
 struct Partition {
   std::vector<int> boundary;
@@ -23,7 +23,7 @@ struct Partition {
   Eigen::Index n_I() const { return static_cast<Eigen::Index>(internal.size()); }
 };
 
-Partition partition(const Mesh& mesh);
+Partition partition(const Mesh& mesh, const System& system);
 
 /// S_II, M_II symmetric sparse; S_IB, M_IB (n_I x n_B); S_BB, M_BB.
 struct Blocks {
@@ -32,7 +32,7 @@ struct Blocks {
   Eigen::MatrixXd S_BB, M_BB;
 };
 
-Blocks split(const SystemMatrices& system, const Partition& p);
+Blocks split(const SymmetricPair& matrices, const Partition& p);
 
 /// Rows of a matrix over all coordinates.
 Eigen::MatrixXd rows(const Eigen::MatrixXd& all, const std::vector<int>& which);

@@ -92,6 +92,16 @@ Eigen::MatrixXd dense(const Matrix& A) {
   return multiply(A, Eigen::MatrixXd::Identity(n, n));
 }
 
+Matrix scaled(const Matrix& A, const Eigen::VectorXd& d) {
+  Matrix result;
+  petsc_check(MatDuplicate(A.get(), MAT_COPY_VALUES, result.out()));
+  Vec factor = nullptr;
+  petsc_check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(d.size()), d.data(), &factor));
+  petsc_check(MatDiagonalScale(result.get(), factor, factor));
+  VecDestroy(&factor);
+  return result;
+}
+
 Matrix combine(const Matrix& A, double factor, const Matrix& B) {
   Matrix sum;
   petsc_check(MatDuplicate(A.get(), MAT_COPY_VALUES, sum.out()));

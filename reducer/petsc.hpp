@@ -2,6 +2,7 @@
 // files.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 
@@ -24,14 +25,16 @@ class SolverSession {
 /// Throws Error with PETSc's own text if `code` is not 0.
 void petsc_check(int code);
 
-/// Owner of a PETSc Mat.
+/// Owner of a PETSc Mat, and of the arrays that a Mat made "with arrays" only points to.
 class Matrix {
  public:
   Matrix() = default;
   explicit Matrix(_p_Mat* mat) : mat_(mat) {}
-  Matrix(Matrix&& other) noexcept : mat_(std::exchange(other.mat_, nullptr)) {}
+  Matrix(Matrix&& other) noexcept
+      : mat_(std::exchange(other.mat_, nullptr)), arrays_(std::exchange(other.arrays_, nullptr)) {}
   Matrix& operator=(Matrix&& other) noexcept {
     std::swap(mat_, other.mat_);
+    std::swap(arrays_, other.arrays_);
     return *this;
   }
   Matrix(const Matrix&) = delete;
@@ -40,9 +43,11 @@ class Matrix {
 
   _p_Mat* get() const { return mat_; }
   _p_Mat** out() { return &mat_; }  ///< for PETSc functions that create
+  void keep_alive(std::shared_ptr<const void> arrays) { arrays_ = std::move(arrays); }
 
  private:
   _p_Mat* mat_ = nullptr;
+  std::shared_ptr<const void> arrays_;
 };
 
 /// A X for symmetric A (n x n) and dense X (n x k).
@@ -53,6 +58,9 @@ Eigen::VectorXd diagonal(const Matrix& A);
 
 /// A as a dense matrix, both triangles.
 Eigen::MatrixXd dense(const Matrix& A);
+
+/// diag(d) A diag(d).
+Matrix scaled(const Matrix& A, const Eigen::VectorXd& d);
 
 /// A + factor B; the pattern of B is within that of A or is added.
 Matrix combine(const Matrix& A, double factor, const Matrix& B);

@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "common/error.hpp"
+#include "reducer/build_mesh.hpp"
+#include "reducer/checks.hpp"
 #include "reducer/full_model.hpp"
-#include "reducer/mesher.hpp"
 #include "reducer/project.hpp"
 
 namespace tisserand::reducer {
@@ -18,13 +20,25 @@ constexpr int compared_frequencies = 12;
 
 double frequency(double lambda) { return std::sqrt(lambda) / (2.0 * EIGEN_PI); }
 
-ModelCertificate describe(const formats::Part& part, const Mesh& mesh, const BoundaryModes& boundary,
-                          const InternalModes& internal, const ProjectionDefects& defects) {
-  ModelCertificate c;
-  c.part = part.file;
+void describe_mesh(const Mesh& mesh, const System& system, ModelCertificate& c) {
   c.nodes = mesh.nodes();
   c.elements = mesh.elements();
-  c.coordinates = coordinate_count(mesh);
+  c.beams = static_cast<int>(mesh.beams.size());
+  c.shells = static_cast<int>(mesh.shells.size());
+  c.solids = static_cast<int>(mesh.solids.size());
+  c.springs = static_cast<int>(mesh.springs.size());
+  c.masses = static_cast<int>(mesh.masses.size());
+  c.coordinates = system.size();
+  c.spiders = static_cast<int>(mesh.spiders.size());
+  c.eliminated = system.eliminated;
+  c.redundant = system.redundant;
+  for (const int x : system.inactive) c.inactive.push_back(coordinate_name(mesh, system, x));
+}
+
+ModelCertificate describe(const formats::Part& part, const BoundaryModes& boundary, const InternalModes& internal,
+                          const ProjectionDefects& defects) {
+  ModelCertificate c;
+  c.part = part.file;
   c.modes_requested = internal.requested;
   c.modes_kept = static_cast<int>(internal.lambda.size());
   c.modes_available = internal.available;
@@ -43,28 +57,51 @@ ModelCertificate describe(const formats::Part& part, const Mesh& mesh, const Bou
   return c;
 }
 
+/// Throws for elements of bad shape; returns all warnings about the mesh.
+std::vector<std::string> check_mesh(const Mesh& mesh, const formats::Part& part) {
+  std::vector<std::string> warnings = mesh.warnings;
+  for (const auto& more : {check_shapes(mesh, part.file), plausibility_warnings(mesh, part.units)})
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  return warnings;
+}
+
+formats::RigidProperties require_mass(const System& system, const std::string& where) {
+  const formats::RigidProperties rigid = full_rigid_properties(system);
+  if (!(rigid.mass > 0.0))
+    throw Error(fmt::format("the part has a mass of {:g}", rigid.mass), where,
+                "give its materials a density, or add point masses");
+  return rigid;
+}
+
 }  // namespace
 
 Reduction reduce(const formats::Part& part, const PhaseListener& begin) {
   begin("mesh");
-  const Mesh mesh = mesh_part(part);
+  return reduce_mesh(build_mesh(part), part, begin);
+}
+
+Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin) {
+  begin("checks");
+  check_used(mesh, part.file);
   check_connected(mesh, part.file);
   check_boundary_holds(mesh, part.file);
+  const std::vector<std::string> warnings = check_mesh(mesh, part);
 
   begin("assembly");
-  const SystemMatrices system = assemble(mesh);
-  const Partition coordinates = partition(mesh);
-  const Blocks blocks = split(system, coordinates);
+  const System system = build_system(mesh, part.file);
+  const formats::RigidProperties rigid = require_mass(system, part.file);
+  const Partition coordinates = partition(mesh, system);
+  const Blocks blocks = split(system.matrices, coordinates);
 
   begin("factorisation");
   const Factor S_II = coordinates.n_I() > 0 ? Factor(blocks.S_II) : Factor();
-  check_no_mechanism(S_II, mesh, coordinates, part.file);
+  check_no_mechanism(S_II, mesh, system, coordinates, part.file);
 
   begin("boundary modes");
-  const BoundaryModes boundary = boundary_modes(S_II, blocks, mesh, coordinates);
+  const BoundaryModes boundary = boundary_modes(S_II, blocks, system, coordinates);
 
   begin("internal modes");
-  const InternalProblem problem{mesh, coordinates, blocks, S_II, part.file};
+  const InternalProblem problem{mesh, system, coordinates, blocks, S_II, part.file};
   const InternalModes internal = internal_modes(problem, part.modes);
 
   begin("projection");
@@ -74,11 +111,13 @@ Reduction reduce(const formats::Part& part, const PhaseListener& begin) {
   Reduction result;
   result.superelement = std::move(projection.superelement);
   result.file = certify(result.superelement, formats::check(result.superelement, part.name));
-  result.model = describe(part, mesh, boundary, internal, projection.defects);
-  result.model.rigid = full_rigid_properties(system, mesh);
-  if (coordinate_count(mesh) <= small_part && internal.available > 0) {
+  result.model = describe(part, boundary, internal, projection.defects);
+  describe_mesh(mesh, system, result.model);
+  result.model.warnings = warnings;
+  result.model.rigid = rigid;
+  if (system.size() <= small_part && internal.available > 0) {
     const double scale = internal.lambda.size() > 0 ? internal.lambda[0] : internal.first_dropped.value_or(0.0);
-    result.model.free_frequency = full_free_frequencies(system, mesh, scale, compared_frequencies);
+    result.model.free_frequency = full_free_frequencies(system, scale, compared_frequencies);
   }
   return result;
 }

@@ -7,6 +7,7 @@
 #include "formats/part.hpp"
 #include "formats/superelement.hpp"
 #include "reducer/certificate.hpp"
+#include "reducer/mesh.hpp"
 
 namespace tisserand::reducer {
 
@@ -21,5 +22,8 @@ using PhaseListener = std::function<void(const std::string& phase)>;
 
 /// Needs a SolverSession. Throws Error for whatever is wrong with the part.
 Reduction reduce(const formats::Part& part, const PhaseListener& begin);
+
+/// The same from a mesh on; `part` gives name, units and the choice of modes.
+Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin);
 
 }  // namespace tisserand::reducer

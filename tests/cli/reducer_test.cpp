@@ -44,7 +44,7 @@ TEST_F(Reducer, FaultsOfAPartAreToldAndLeaveNothing) {
       {{"beams.spar.section=tub"}, {"no section 'tub'", "did you mean 'tube'?"}},
       {{"points.far=[0, 0, 1]", "points.end=[0, 0, 2]",
         "beams.loose={from: far, to: end, section: tube, material: steel, elements: 2}"},
-       {"2 pieces that no beam connects", "nearest nodes are far and base"}},
+       {"2 pieces that no element connects", "nearest nodes are far and base"}},
   };
   for (const Fault& fault : faults) {
     std::vector<std::string> words{"run", "beam.part.yaml"};

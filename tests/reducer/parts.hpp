@@ -9,6 +9,7 @@
 #include "formats/part.hpp"
 #include "reducer/mesh.hpp"
 #include "reducer/reduce.hpp"
+#include "reducer/system.hpp"
 
 namespace tisserand::testing {
 
@@ -34,6 +35,7 @@ reducer::Reduction reduce(const formats::Part& part);
 /// Dense S and M of all coordinates of the part's mesh.
 struct FullModel {
   reducer::Mesh mesh;
+  reducer::System system;
   Eigen::MatrixXd S, M;
 };
 FullModel full_model(const formats::Part& part);

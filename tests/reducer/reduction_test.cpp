@@ -28,7 +28,7 @@ TEST(Reduction, RigidBodyIsThatOfTheMesh) {
   for (const int modes : {0, 6}) {
     const reducer::Reduction r = reduce(space_frame(modes));
     const FullModel full = full_model(space_frame(modes));
-    const MatrixXd R = reducer::rigid_motions(full.mesh);
+    const MatrixXd R = reducer::rigid_motions_about(full.system, Vector3d::Zero());
     const Superelement& e = r.superelement;
     const MatrixXd R_reduced = formats::rigid_motions(e, Vector3d::Zero());
     // Exact with any number of modes: T R_B = R. Round-off of some hundred terms.
@@ -43,12 +43,12 @@ TEST(Reduction, RigidBodyIsThatOfTheMesh) {
 
 TEST(Reduction, StaticResponseOfTheBoundaryIsThatOfTheFullModel) {
   const FullModel full = full_model(space_frame(0));
-  const reducer::Partition p = reducer::partition(full.mesh);
+  const reducer::Partition p = reducer::partition(full.mesh, full.system);
   const Superelement e = reduce(space_frame(0)).superelement;
   // Boundary node A held, unit loads on B and C.
   std::vector<int> free;
   const std::vector<int> held(p.boundary.begin(), p.boundary.begin() + 6);
-  for (int i = 0; i < reducer::coordinate_count(full.mesh); ++i)
+  for (int i = 0; i < full.system.size(); ++i)
     if (std::find(held.begin(), held.end(), i) == held.end()) free.push_back(i);
   const MatrixXd flexibility = MatrixXd(full.S(free, free)).ldlt().solve(MatrixXd::Identity(free.size(), free.size()));
   std::vector<int> loaded;
@@ -75,7 +75,7 @@ TEST(Reduction, FormIsCanonicalExactly) {
 
 TEST(Reduction, InternalModesAreThoseOfTheHeldPart) {
   const FullModel full = full_model(space_frame(0));
-  const VectorXd omega = angular_frequencies(full.S, full.M, reducer::partition(full.mesh).internal);
+  const VectorXd omega = angular_frequencies(full.S, full.M, reducer::partition(full.mesh, full.system).internal);
   const reducer::Reduction r = reduce(space_frame(12));
   for (int k = 0; k < 12; ++k) {
     EXPECT_NEAR(std::sqrt(r.superelement.stiffness(18 + k, 18 + k)) / omega[k], 1.0, 1e-9);
@@ -90,7 +90,7 @@ TEST(Reduction, InternalModesAreThoseOfTheHeldPart) {
 /// and Voss (2006) (λ_CB − λ)/λ ≤ λ/(λ_c − λ), λ_c the first dropped, and meet the full ones with all modes.
 TEST(Reduction, FreeFrequenciesComeFromAboveAndMeetTheFullModel) {
   const FullModel full = full_model(space_frame(0));
-  const int all = static_cast<int>(reducer::partition(full.mesh).n_I());
+  const int all = static_cast<int>(reducer::partition(full.mesh, full.system).n_I());
   const VectorXd exact = eigenvalues(full.S, full.M, shift);
   VectorXd last = VectorXd::Constant(18, INFINITY);
   for (const int modes : {0, 1, 4, 10, 20, 40, all}) {
@@ -115,7 +115,7 @@ TEST(Reduction, FreeFrequenciesComeFromAboveAndMeetTheFullModel) {
 /// With all modes kept, Σ_k M̄_Bkᵀ M̄_kB is the mass that the modes carry: Xᵀ M_II⁻¹ X with X = M_IB + M_II Ψ.
 TEST(Reduction, EffectiveMassesOfAllModesAddUp) {
   const FullModel full = full_model(space_frame(0));
-  const reducer::Partition p = reducer::partition(full.mesh);
+  const reducer::Partition p = reducer::partition(full.mesh, full.system);
   const MatrixXd S_II = full.S(p.internal, p.internal), M_II = full.M(p.internal, p.internal);
   const MatrixXd S_IB = full.S(p.internal, p.boundary), M_IB = full.M(p.internal, p.boundary);
   const MatrixXd X = M_IB - M_II * S_II.ldlt().solve(S_IB);

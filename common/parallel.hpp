@@ -1,0 +1,45 @@
+// Work on consecutive shares of a range, one share per thread: for loops over elements and nodes.
+#pragma once
+
+#include <algorithm>
+#include <exception>
+#include <thread>
+#include <vector>
+
+namespace tisserand {
+
+/// Cores of this machine, at most 16: more do not help loops bound by memory.
+inline int core_count() { return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 16); }
+
+/// The share of `count` items with which thread `share` of `shares` works.
+struct Share {
+  int first = 0;
+  int end = 0;
+};
+inline Share share_of(int count, int share, int shares) {
+  const auto at = [&](int k) { return static_cast<int>(static_cast<long>(count) * k / shares); };
+  return {at(share), at(share + 1)};
+}
+
+/// work(k) for k = 0 ... threads − 1, each on a thread of its own; waits for all. The exception of the lowest k that
+/// threw one is thrown again.
+template <class Work>
+void on_threads(int threads, const Work& work) {
+  std::vector<std::exception_ptr> failure(static_cast<std::size_t>(threads));
+  const auto guarded = [&](int k) {
+    try {
+      work(k);
+    } catch (...) {
+      failure[static_cast<std::size_t>(k)] = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (int k = 1; k < threads; ++k) others.emplace_back(guarded, k);
+    guarded(0);
+  }
+  for (const std::exception_ptr& f : failure)
+    if (f) std::rethrow_exception(f);
+}
+
+}  // namespace tisserand

@@ -1,0 +1,250 @@
+// Elimination of ties in reduced row echelon form.
+#include "reducer/ties/elimination.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+constexpr double redundant = 1e-9;    ///< share of an equation's largest term below which what is left is round-off
+constexpr double negligible = 1e-13;  ///< share of a row's largest entry below which an entry is round-off
+constexpr double decisive = 1e-7;     ///< smallest pivot beside the largest entry of a row
+
+/// A dependent coordinate as a sum over coordinates that are independent so far.
+struct Row {
+  int coordinate = 0;
+  std::vector<Term> terms;
+  std::vector<int> ties;  ///< that led to it, ascending
+};
+
+/// Sparse sum with dense look-up, reused from row to row.
+class Accumulator {
+ public:
+  explicit Accumulator(int size) : value_(static_cast<std::size_t>(size)), magnitude_(value_), used_(value_.size()) {}
+
+  void add(int coordinate, double amount) {
+    const auto k = static_cast<std::size_t>(coordinate);
+    if (!used_[k]) {
+      used_[k] = true;
+      touched_.push_back(coordinate);
+    }
+    value_[k] += amount;
+    magnitude_[k] += std::abs(amount);
+  }
+
+  /// The terms larger than the round-off of their sum, and forgets all.
+  std::vector<Term> take() {
+    std::vector<Term> terms;
+    for (const int coordinate : touched_) {
+      const auto k = static_cast<std::size_t>(coordinate);
+      if (std::abs(value_[k]) > negligible * magnitude_[k]) terms.push_back({coordinate, value_[k]});
+      value_[k] = magnitude_[k] = 0.0;
+      used_[k] = false;
+    }
+    touched_.clear();
+    return terms;
+  }
+
+ private:
+  std::vector<double> value_, magnitude_;
+  std::vector<bool> used_;
+  std::vector<int> touched_;
+};
+
+class Eliminator {
+ public:
+  Eliminator(const TieSystem& ties, const std::vector<int>& boundary, const CoordinateNames& name,
+             const std::string& where)
+      : ties_(ties),
+        name_(name),
+        where_(where),
+        sum_(ties.coordinates),
+        row_of_(ties.scale.size(), -1),
+        kept_(ties.scale.size(), false) {
+    for (const int b : boundary) kept_[static_cast<std::size_t>(b)] = true;
+  }
+
+  void add(const LinearEquation& equation) {
+    Row row;
+    row.ties = {equation.tie};
+    double size = 0.0;
+    for (const Term& term : equation.terms) {
+      size = std::max(size, scaled(term));
+      add_expanded(term, row.ties);
+    }
+    row.terms = sum_.take();
+    double largest = 0.0;
+    for (const Term& term : row.terms) largest = std::max(largest, scaled(term));
+    if (largest <= redundant * size) {
+      ++redundant_;
+      return;
+    }
+    const Term pivot = choose_pivot(row.terms, equation);
+    if (!(scaled(pivot) > decisive * largest)) fail(row, largest);
+    solve_for(pivot, largest, row);
+    substitute(row);
+    keep(std::move(row));
+  }
+
+  Elimination result() const {
+    Elimination result;
+    result.redundant = redundant_;
+    result.T.row.resize(row_of_.size());
+    for (std::size_t x = 0; x < row_of_.size(); ++x) {
+      result.T.row[x] = row_of_[x] < 0 ? result.T.independent++ : -1 - row_of_[x];
+      if (row_of_[x] < 0) result.T.source.push_back(static_cast<int>(x));
+    }
+    for (const Row& row : rows_) {
+      std::vector<Term> terms = row.terms;
+      for (Term& term : terms) term.coordinate = result.T.row[static_cast<std::size_t>(term.coordinate)];
+      std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.coordinate < b.coordinate; });
+      result.T.dependent.push_back(std::move(terms));
+    }
+    return result;
+  }
+
+ private:
+  /// Size of a coefficient of the coordinate taken as a length.
+  double scaled(const Term& term) const {
+    return std::abs(term.coefficient) / ties_.scale[static_cast<std::size_t>(term.coordinate)];
+  }
+
+  void add_expanded(const Term& term, std::vector<int>& sources) {
+    const int row = row_of_[static_cast<std::size_t>(term.coordinate)];
+    if (row < 0) return sum_.add(term.coordinate, term.coefficient);
+    const Row& known = rows_[static_cast<std::size_t>(row)];
+    for (const Term& t : known.terms) sum_.add(t.coordinate, term.coefficient * t.coefficient);
+    merge(known.ties, sources);
+  }
+
+  static void merge(const std::vector<int>& more, std::vector<int>& ties) {
+    if (more == ties) return;
+    std::vector<int> all;
+    std::set_union(ties.begin(), ties.end(), more.begin(), more.end(), std::back_inserter(all));
+    ties = std::move(all);
+  }
+
+  /// Coefficient 0 if only boundary coordinates are left.
+  Term choose_pivot(const std::vector<Term>& terms, const LinearEquation& equation) const {
+    Term best, preferred, last_resort;
+    for (const Term& term : terms) {
+      if (kept_[static_cast<std::size_t>(term.coordinate)]) continue;
+      if (equation.last_resort >= 0 && term.coordinate >= equation.last_resort) {
+        if (scaled(term) > scaled(last_resort)) last_resort = term;
+        continue;
+      }
+      if (best.coefficient == 0.0 || scaled(term) > scaled(best)) best = term;
+      if (term.coordinate == equation.preferred) preferred = term;
+    }
+    if (best.coefficient == 0.0) return last_resort;
+    if (last_resort.coefficient != 0.0 && scaled(best) < 1e-3 * scaled(last_resort)) return last_resort;
+    return preferred.coefficient != 0.0 && scaled(preferred) > 0.1 * scaled(best) ? preferred : best;
+  }
+
+  /// Σ c x = 0 becomes x_pivot = Σ −c/c_pivot x.
+  void solve_for(const Term& pivot, double largest, Row& row) const {
+    row.coordinate = pivot.coordinate;
+    std::erase_if(row.terms,
+                  [&](const Term& t) { return t.coordinate == pivot.coordinate || scaled(t) < negligible * largest; });
+    for (Term& term : row.terms) term.coefficient /= -pivot.coefficient;
+  }
+
+  /// Puts the new row into the rows that contain its coordinate.
+  void substitute(const Row& row) {
+    const auto users = users_.find(row.coordinate);
+    if (users == users_.end()) return;
+    const std::vector<int> affected = std::move(users->second);
+    users_.erase(users);
+    for (const int k : affected) {
+      Row& other = rows_[static_cast<std::size_t>(k)];
+      double factor = 0.0;
+      std::vector<int> before;
+      for (const Term& term : other.terms) {
+        before.push_back(term.coordinate);
+        if (term.coordinate == row.coordinate)
+          factor = term.coefficient;
+        else
+          sum_.add(term.coordinate, term.coefficient);
+      }
+      for (const Term& term : row.terms) sum_.add(term.coordinate, factor * term.coefficient);
+      other.terms = sum_.take();
+      merge(row.ties, other.ties);
+      std::sort(before.begin(), before.end());
+      for (const Term& term : other.terms)
+        if (!std::binary_search(before.begin(), before.end(), term.coordinate)) users_[term.coordinate].push_back(k);
+      forget(before, other.terms, row.coordinate, k);
+    }
+  }
+
+  /// Removes row k from the users of coordinates that cancelled.
+  void forget(const std::vector<int>& before, const std::vector<Term>& now, int pivot, int k) {
+    std::vector<int> left;
+    for (const Term& term : now) left.push_back(term.coordinate);
+    std::sort(left.begin(), left.end());
+    for (const int coordinate : before)
+      if (coordinate != pivot && !std::binary_search(left.begin(), left.end(), coordinate))
+        std::erase(users_[coordinate], k);
+  }
+
+  void keep(Row row) {
+    const int k = static_cast<int>(rows_.size());
+    row_of_[static_cast<std::size_t>(row.coordinate)] = k;
+    for (const Term& term : row.terms) users_[term.coordinate].push_back(k);
+    rows_.push_back(std::move(row));
+  }
+
+  [[noreturn]] void fail(const Row& row, double largest) const {
+    std::vector<std::string> coordinates, ties;
+    for (const Term& term : row.terms)
+      if (scaled(term) > redundant * largest && coordinates.size() < 6) coordinates.push_back(name_(term.coordinate));
+    for (const int tie : row.ties) ties.push_back(ties_.name[static_cast<std::size_t>(tie)]);
+    if (ties.size() > 6) ties.resize(6), ties.push_back("...");
+    throw Error(
+        fmt::format("{} {} {}", join(ties, ", "), coordinates.size() == 1 ? "fix" : "tie together rigidly",
+                    join(coordinates, ", ") + ", which the boundary retains"),
+        where_,
+        "boundary coordinates must be free to move: keep only one boundary node per rigid piece, or retain fewer "
+        "components");
+  }
+
+  const TieSystem& ties_;
+  const CoordinateNames& name_;
+  const std::string& where_;
+  Accumulator sum_;
+  std::vector<int> row_of_;  ///< per coordinate: row that gives it, −1: independent
+  std::vector<bool> kept_;
+  std::vector<Row> rows_;
+  std::unordered_map<int, std::vector<int>> users_;  ///< rows that contain an independent coordinate
+  int redundant_ = 0;
+};
+
+}  // namespace
+
+Elimination eliminate(const TieSystem& ties, const std::vector<int>& boundary, const CoordinateNames& name,
+                      const std::string& where) {
+  Eliminator eliminator(ties, boundary, name, where);
+  for (const LinearEquation& equation : ties.equations) eliminator.add(equation);
+  return eliminator.result();
+}
+
+Eigen::MatrixXd expand(const Transformation& T, const Eigen::MatrixXd& q) {
+  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(T.row.size()), q.cols());
+  for (std::size_t i = 0; i < T.row.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    if (T.row[i] >= 0)
+      x.row(row) = q.row(T.row[i]);
+    else
+      for (const Term& term : T.dependent[static_cast<std::size_t>(-1 - T.row[i])])
+        x.row(row) += term.coefficient * q.row(term.coordinate);
+  }
+  return x;
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,126 @@
+// Equations of rigid spiders and of the mesh's own ones; averaging spiders have a file of their own.
+#include "reducer/ties/equations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "reducer/ties/averaging.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+TieSystem start(const Mesh& mesh, const Coordinates& coordinates) {
+  TieSystem ties;
+  ties.mesh_coordinates = ties.coordinates = coordinates.count();
+  const double length = characteristic_length(mesh);
+  Eigen::MatrixXd R = rigid_motions(mesh, coordinates, mesh.position.rowwise().mean());
+  R.rightCols<3>() /= length;
+  for (int i = 0; i < coordinates.count(); ++i) {
+    ties.rigid.push_back(R.row(i).transpose());
+    ties.scale.push_back(coordinates.component[static_cast<std::size_t>(i)] < 3 ? 1.0 : length);
+  }
+  return ties;
+}
+
+void add_term(int coordinate, double coefficient, LinearEquation& equation) {
+  if (coefficient != 0.0) equation.terms.push_back({coordinate, coefficient});
+}
+
+/// Component c of a node at r from the reference follows it: e·u − e·u_ref − (r × e)·θ_ref = 0, or e·θ − e·θ_ref = 0.
+LinearEquation follow(const Coordinates& coordinates, const Spider& spider, int node, const Eigen::Vector3d& r, int c,
+                      int tie) {
+  const Eigen::Vector3d e = spider.axes.col(c % 3);
+  const int base = c < 3 ? 0 : 3;
+  LinearEquation equation{{}, -1, -1, tie};
+  for (int k = 0; k < 3; ++k) {
+    add_term(coordinates.of(node, base + k), e[k], equation);
+    add_term(coordinates.of(spider.reference, base + k), -e[k], equation);
+    if (std::abs(e[k]) == 1.0) equation.preferred = coordinates.of(node, base + k);
+  }
+  const Eigen::Vector3d arm = r.cross(e);
+  for (int k = 0; k < 3 && c < 3; ++k) add_term(coordinates.of(spider.reference, 3 + k), -arm[k], equation);
+  return equation;
+}
+
+void append_rigid(const Mesh& mesh, const Coordinates& coordinates, const Spider& spider, int tie, TieSystem& ties) {
+  for (const int n : spider.nodes) {
+    if (n == spider.reference) continue;
+    const Eigen::Vector3d r = mesh.position.col(n) - mesh.position.col(spider.reference);
+    for (int c = 0; c < (coordinates.rotates(n) ? 6 : 3); ++c)
+      if (((spider.node_components >> c) & 1) != 0) ties.equations.push_back(follow(coordinates, spider, n, r, c, tie));
+  }
+}
+
+LinearEquation own_equation(const Coordinates& coordinates, const TieEquation& tie, int number) {
+  LinearEquation equation{{}, -1, -1, number};
+  for (const TieTerm& term : tie.terms) add_term(coordinates.of(term.node, term.component), term.coefficient, equation);
+  if (!equation.terms.empty()) equation.preferred = equation.terms.front().coordinate;
+  return equation;
+}
+
+/// Throws if a rigid motion of the part does not fulfil the equation. Coefficients of decks have about seven digits.
+void check_rigid(const Mesh& mesh, const Coordinates& coordinates, const TieSystem& ties,
+                 const LinearEquation& equation, const std::string& where) {
+  Vector6 sum = Vector6::Zero();
+  double size = 0.0;
+  for (const Term& term : equation.terms) {
+    const auto k = static_cast<std::size_t>(term.coordinate);
+    sum += term.coefficient * ties.rigid[k];
+    size += std::abs(term.coefficient) / ties.scale[k];
+  }
+  if (sum.cwiseAbs().maxCoeff() <= 1e-6 * size) return;
+  std::vector<std::string> words, motions;
+  for (std::size_t i = 0; i < std::min<std::size_t>(equation.terms.size(), 6); ++i)
+    words.push_back(coordinate_text(mesh, coordinates, ties, equation.terms[i].coordinate));
+  for (int k = 0; k < 6; ++k)
+    if (std::abs(sum[k]) > 1e-6 * size) motions.push_back(component_text(k));
+  throw Error(
+      fmt::format("{} between {}{} stops the part as a whole from moving: {}",
+                  ties.name[static_cast<std::size_t>(equation.tie)], join(words, ", "),
+                  equation.terms.size() > 6 ? ", ..." : "", join(motions, ", ")),
+      where,
+      "a superelement floats: use a spider, which allows for the distance between the nodes, or put the support "
+      "into the scene");
+}
+
+}  // namespace
+
+TieSystem collect_ties(const Mesh& mesh, const Coordinates& coordinates, const std::string& where) {
+  TieSystem ties = start(mesh, coordinates);
+  for (const Spider& spider : mesh.spiders) {
+    const int tie = static_cast<int>(ties.name.size());
+    ties.name.push_back(fmt::format("spider '{}'", spider.name));
+    if (spider.nodes.empty())
+      throw Error(ties.name.back() + " grabs no node", where, "name a set of nodes that is not empty");
+    if (spider.kind == SpiderKind::rigid)
+      append_rigid(mesh, coordinates, spider, tie, ties);
+    else
+      append_averaging(mesh, coordinates, spider, tie, where, ties);
+  }
+  for (const TieEquation& equation : mesh.equations) {
+    const int tie = static_cast<int>(ties.name.size());
+    ties.name.push_back(fmt::format("equation '{}'", equation.name));
+    ties.equations.push_back(own_equation(coordinates, equation, tie));
+    check_rigid(mesh, coordinates, ties, ties.equations.back(), where);
+  }
+  return ties;
+}
+
+std::string coordinate_text(const Mesh& mesh, const Coordinates& coordinates, const TieSystem& ties, int coordinate) {
+  const auto k = static_cast<std::size_t>(coordinate);
+  if (coordinate >= ties.mesh_coordinates) {
+    const int tie = ties.auxiliary_tie[k - static_cast<std::size_t>(ties.mesh_coordinates)];
+    return "a group of nodes of " + ties.name[static_cast<std::size_t>(tie)];
+  }
+  return fmt::format("{} ({})", mesh.node_label[static_cast<std::size_t>(coordinates.node[k])],
+                     component_text(coordinates.component[k]));
+}
+
+}  // namespace tisserand::reducer

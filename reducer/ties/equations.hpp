@@ -1,0 +1,47 @@
+// Spiders and equations of a mesh as linear equations between its coordinates: between the mesh and elimination.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reducer/coordinates.hpp"
+
+namespace tisserand::reducer {
+
+struct Term {
+  int coordinate = 0;
+  double coefficient = 0.0;
+};
+
+/// Σ coefficient x(coordinate) = 0.
+struct LinearEquation {
+  std::vector<Term> terms;
+  int preferred = -1;    ///< made dependent unless its coefficient is small beside another one
+  int last_resort = -1;  ///< coordinates from this number on are made dependent only if nothing else can be; −1: none
+  int tie = 0;           ///< row of TieSystem::name
+};
+
+/// The coordinates of the mesh and, behind them, auxiliary ones: weighted sums over groups of an averaging spider's
+/// nodes, which keep the equations of large spiders short.
+struct TieSystem {
+  int mesh_coordinates = 0;
+  int coordinates = 0;  ///< auxiliary ones included
+  std::vector<LinearEquation> equations;
+  std::vector<std::string> name;   ///< of each spider and equation: "spider 'hub'"
+  std::vector<int> auxiliary_tie;  ///< of each auxiliary coordinate
+  /// Rigid motions of all coordinates about the mean of the nodes, rotations divided by the characteristic length l.
+  std::vector<Eigen::Matrix<double, 6, 1>> rigid;
+  /// Of a coordinate, the factor to a length: l for rotations, 1 otherwise.
+  std::vector<double> scale;
+};
+
+/// Collects the equations of all spiders and of Mesh::equations. Throws Error for spiders that grab nothing or cannot
+/// define a component of their reference, and for equations that stop a rigid motion of the whole part.
+TieSystem collect_ties(const Mesh& mesh, const Coordinates& coordinates, const std::string& where);
+
+/// Node and component, or the group of a spider, for messages.
+std::string coordinate_text(const Mesh& mesh, const Coordinates& coordinates, const TieSystem& ties, int coordinate);
+
+}  // namespace tisserand::reducer
