@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "common/error.hpp"
-#include "reducer/mesher.hpp"
+#include "reducer/build_mesh.hpp"
 #include "tests/reducer/parts.hpp"
 
 namespace tisserand::testing {
@@ -159,6 +159,7 @@ formats::Part grid(int n, int elements) {
 
 struct Pieces {
   reducer::Mesh mesh;
+  reducer::System system;
   reducer::Partition partition;
   reducer::Blocks blocks;
   reducer::Factor factor;
@@ -166,9 +167,10 @@ struct Pieces {
 
 Pieces pieces_of(const formats::Part& part) {
   start_solvers();
-  Pieces p{reducer::mesh_part(part), {}, {}, {}};
-  p.partition = reducer::partition(p.mesh);
-  p.blocks = reducer::split(reducer::assemble(p.mesh), p.partition);
+  Pieces p{reducer::build_mesh(part), {}, {}, {}, {}};
+  p.system = reducer::build_system(p.mesh, "grid");
+  p.partition = reducer::partition(p.mesh, p.system);
+  p.blocks = reducer::split(p.system.matrices, p.partition);
   p.factor = reducer::Factor(p.blocks.S_II);
   return p;
 }
@@ -176,14 +178,14 @@ Pieces pieces_of(const formats::Part& part) {
 TEST(Solvers, DenseAndKrylovAgreeOnAGridWithDoubleFrequencies) {
   const Pieces p = pieces_of(grid(4, 3));
   const reducer::Pencil pencil{p.blocks.S_II, p.blocks.M_II, p.factor, 0.0};
-  const int available = reducer::finite_mode_count(p.mesh, p.partition);
+  const int available = reducer::finite_mode_count(p.blocks.M_II);
   const reducer::Spectrum a = reducer::lowest_pairs(pencil, 25, available, reducer::EigenSolver::dense);
   const reducer::Spectrum b = reducer::lowest_pairs(pencil, 25, available, reducer::EigenSolver::krylov_schur);
   ASSERT_EQ(a.kept, b.kept);
   for (int k = 0; k < a.kept; ++k) EXPECT_NEAR(b.pairs.value[k] / a.pairs.value[k], 1.0, 1e-9) << "mode " << k;
   EXPECT_EQ(b.counted, b.kept);
   // The same basis after both, although each solver returns its own vectors of the double frequencies.
-  const reducer::InternalProblem problem{p.mesh, p.partition, p.blocks, p.factor, "grid"};
+  const reducer::InternalProblem problem{p.mesh, p.system, p.partition, p.blocks, p.factor, "grid"};
   Eigen::VectorXd lambda_a = a.pairs.value.head(a.kept), lambda_b = b.pairs.value.head(b.kept);
   MatrixXd Phi_a = a.pairs.vector.leftCols(a.kept), Phi_b = b.pairs.vector.leftCols(b.kept);
   reducer::fix_basis(problem, lambda_a, Phi_a);
@@ -193,9 +195,9 @@ TEST(Solvers, DenseAndKrylovAgreeOnAGridWithDoubleFrequencies) {
 
 TEST(Solvers, FiveThousandCoordinatesNoneMissed) {
   const Pieces p = pieces_of(grid(8, 6));
-  EXPECT_GT(reducer::coordinate_count(p.mesh), 4500);
+  EXPECT_GT(p.system.size(), 4500);
   const reducer::Pencil pencil{p.blocks.S_II, p.blocks.M_II, p.factor, 0.0};
-  const reducer::Spectrum s = reducer::lowest_pairs(pencil, 40, reducer::finite_mode_count(p.mesh, p.partition),
+  const reducer::Spectrum s = reducer::lowest_pairs(pencil, 40, reducer::finite_mode_count(p.blocks.M_II),
                                                     reducer::choose_solver(p.partition.n_I(), 40));
   EXPECT_EQ(s.solver, reducer::EigenSolver::krylov_schur);
   EXPECT_EQ(s.counted, s.kept);

@@ -5,8 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "reducer/assembly.hpp"
-#include "reducer/mesher.hpp"
+#include "reducer/build_mesh.hpp"
 #include "reducer/petsc.hpp"
 #include "reducer/startup.hpp"
 
@@ -107,10 +106,11 @@ reducer::Reduction reduce(const formats::Part& part) {
 
 FullModel full_model(const formats::Part& part) {
   start_solvers();
-  FullModel full{reducer::mesh_part(part), {}, {}};
-  const reducer::SystemMatrices system = reducer::assemble(full.mesh);
-  full.S = reducer::dense(system.stiffness);
-  full.M = reducer::dense(system.mass);
+  FullModel full{reducer::build_mesh(part), {}, {}, {}};
+  full.system = reducer::build_system(full.mesh, part.file);
+  const reducer::SystemMatrices matrices = reducer::to_petsc(full.system.matrices);
+  full.S = reducer::dense(matrices.stiffness);
+  full.M = reducer::dense(matrices.mass);
   return full;
 }
 
