@@ -1,7 +1,12 @@
 // A file opened, meshed if it is a geometry, and read out of gmsh.
 #include "reducer/gmsh/import.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cstdio>
+#include <iostream>
 #include <map>
 #include <optional>
 #include <set>
@@ -54,6 +59,35 @@ std::optional<CellShape> shape_of(int gmsh_type) {
 }
 
 void set_option(const char* name, double value) { gmsh::option::setNumber(name, value); }
+
+/// OpenCASCADE tells about its translations on the standard output, whatever gmsh says; results of commands go there.
+class QuietOutput {
+ public:
+  QuietOutput() : output_(::dup(STDOUT_FILENO)), nowhere_(::open("/dev/null", O_WRONLY | O_CLOEXEC)) {
+    switch_to(nowhere_);
+  }
+  ~QuietOutput() {
+    switch_to(output_);
+    for (const int file : {output_, nowhere_})
+      if (file >= 0) ::close(file);
+  }
+  QuietOutput(const QuietOutput&) = delete;
+  QuietOutput& operator=(const QuietOutput&) = delete;
+
+ private:
+  void switch_to(int file) const {
+    std::cout.flush();
+    std::fflush(stdout);
+    if (output_ >= 0 && file >= 0) ::dup2(file, STDOUT_FILENO);
+  }
+  int output_;
+  int nowhere_;
+};
+
+void open_quietly(const std::string& file) {
+  const QuietOutput quiet;
+  gmsh::open(file);
+}
 
 /// The unit into which OpenCASCADE converts STEP and IGES; files without named units stay in millimetres.
 std::string target_unit(const Units& units) {
@@ -256,7 +290,7 @@ CellMesh import_with_gmsh(const ImportRequest& request) {
     const MeshFileKind kind = mesh_file_kind(file, request.settings.where);
     set_sizes(request);
     gmsh::option::setString("Geometry.OCCTargetUnit", target_unit(request.units));
-    gmsh::open(file);
+    open_quietly(file);
     check_gmsh_messages(session, file, remedy);
     const bool is_geometry = kind != MeshFileKind::msh;
     if (is_geometry) {

@@ -69,17 +69,26 @@ INSTANTIATE_TEST_SUITE_P(Files, SamePlate,
                          ::testing::Values("plate.geo", "plate-2.2.msh", "plate-4.1.msh", "plate-2.2-binary.msh",
                                            "plate-4.1-binary.msh"));
 
-TEST(Step, FaceIsConvertedToTheUnitsOfThePart) {
-  for (const auto& [unit, size, length] : {std::tuple{"mm", 60.0, 600.0}, {"m", 0.06, 0.6}, {"cm", 6.0, 60.0}}) {
+TEST(Cad, FaceIsConvertedToTheUnitsOfThePart) {
+  for (const auto& [file, unit, size, length] : {std::tuple{"square.step", "mm", 60.0, 600.0},
+                                                 {"square.step", "m", 0.06, 0.6},
+                                                 {"square.igs", "cm", 6.0, 60.0}}) {
     const reducer::Mesh mesh = mesh_of(fmt::format(
-        "units: {{length: {}, mass: kg, time: s}}\nmesh: {{file: {}square.step, size: {}, cells: quadrilaterals}}\n"
+        "units: {{length: {}, mass: kg, time: s}}\nmesh: {{file: {}{}, size: {}, cells: quadrilaterals}}\n"
         "shells: {{s: {{on: face 1, thickness: {}, material: steel}}}}\nboundary: {{o: {{near: [0, 0, 0]}}}}\n",
-        unit, meshes, size, 0.01 * size));
-    EXPECT_NEAR(mesh.position.row(0).maxCoeff(), length, 1e-9 * length);
+        unit, meshes, file, size, 0.01 * size));
+    EXPECT_NEAR(mesh.position.row(0).maxCoeff(), length, 1e-9 * length) << file;
     EXPECT_NEAR(mesh.position.row(1).maxCoeff(), length / 1.5, 1e-9 * length);
     EXPECT_GE(mesh.shells.size(), 70u) << "600/60 x 400/60 elements";
     EXPECT_LE(mesh.shells.size(), 160u);
   }
+}
+
+TEST(Cad, FacesByLabel) {
+  const std::string text = "mesh: {file: " + meshes + "square.igs, size: 0.1}\nboundary: {o: {near: [0, 0, 0]}}\n";
+  EXPECT_GT(mesh_of(text + "shells: {s: {on: FACE(0), thickness: 0.1, material: steel}}\n").shells.size(), 0u);
+  EXPECT_THAT(error_of(text + "shells: {s: {on: FACE(1), thickness: 0.1, material: steel}}\n"),
+              HasSubstr("there is no group 'FACE(1)'"));
 }
 
 /// The bracket is a block of 40 x 20 x 10 with a bore of radius 4: volume 8000 - 160 pi.
