@@ -23,7 +23,12 @@ struct ResultsLayout {
   std::vector<std::string>
       boundary_nodes;  ///< boundary_offset.back() names of the rows of boundary_force; empty: numbers
   std::vector<std::string> joints;
-  std::vector<std::string> channels;  ///< selection, as in OutputSpec; empty: all
+  struct Coordinate {
+    std::string name;     ///< "hinge", or "slide/z" of a joint with several
+    bool length = false;  ///< or an angle
+  };
+  std::vector<Coordinate> coordinates;  ///< joint coordinates
+  std::vector<std::string> channels;    ///< selection, as in OutputSpec; empty: all
   std::vector<std::string> superelement_content_ids;
 };
 
@@ -39,7 +44,7 @@ struct ResultsRow {
   Eigen::VectorXd y;                                        ///< all superelements, file coordinates, modes_offset
   Eigen::Matrix<double, 6, Eigen::Dynamic> boundary_force;  ///< [force; moment]
   Eigen::Matrix3Xd joint_force, joint_moment;
-  Eigen::VectorXd joint_coordinate, joint_rate;  ///< NaN where the joint has none (not revolute)
+  Eigen::VectorXd joint_coordinate, joint_rate;  ///< of layout.coordinates
   double kinetic = 0.0, strain = 0.0, potential = 0.0, work = 0.0, dissipated = 0.0, total = 0.0, balance = 0.0;
   double step = 0.0, iterations = 0.0, residual = 0.0, constraint = 0.0;
 

@@ -95,10 +95,22 @@ void add_joints(const ResultsLayout& layout, std::vector<Block>& blocks) {
                            [](Row r) { return r.joint_force.data(); }));
   blocks.push_back(vectors("/joints/moment", layout.joints, xyz, unit_label(u, 2, 1, -2),
                            [](Row r) { return r.joint_moment.data(); }));
-  blocks.push_back(
-      scalars("/joints/coordinate", layout.joints, "rad", [](Row r) { return r.joint_coordinate.data(); }));
-  blocks.push_back(scalars("/joints/rate", layout.joints, with_radian(unit_label(u, 0, 0, -1)),
-                           [](Row r) { return r.joint_rate.data(); }));
+  Block coordinate{
+      "/joints/coordinate", {layout.coordinates.size()}, {}, {}, "", [](Row r) {
+                     return r.joint_coordinate.data(); }};
+  Block rate{"/joints/rate", {layout.coordinates.size()}, {}, {}, "", [](Row r) { return r.joint_rate.data(); }};
+  for (const ResultsLayout::Coordinate& c : layout.coordinates) {
+    coordinate.columns.push_back(c.name);
+    coordinate.units.push_back(c.length ? unit_label(u, 1, 0, 0) : "rad");
+    rate.units.push_back(c.length ? unit_label(u, 1, 0, -1) : with_radian(unit_label(u, 0, 0, -1)));
+  }
+  rate.columns = coordinate.columns;
+  for (Block* block : {&coordinate, &rate}) {
+    const bool same =
+        std::equal(block->units.begin() + (block->units.empty() ? 0 : 1), block->units.end(), block->units.begin());
+    block->unit = block->units.empty() || !same ? "" : block->units.front();
+    blocks.push_back(*block);
+  }
 }
 
 void add_scalars(const ResultsLayout& layout, std::vector<Block>& blocks) {
@@ -130,6 +142,7 @@ void ResultsRow::resize(const ResultsLayout& layout) {
   const auto nodes = static_cast<Eigen::Index>(layout.nodes.size());
   const auto superelements = static_cast<Eigen::Index>(layout.superelements.size());
   const auto joints = static_cast<Eigen::Index>(layout.joints.size());
+  const auto coordinates = static_cast<Eigen::Index>(layout.coordinates.size());
   const auto last = [](const std::vector<int>& offset) { return offset.empty() ? 0 : offset.back(); };
   for (Eigen::Matrix3Xd* block :
        {&node_position, &node_velocity, &node_angular_velocity, &node_acceleration, &node_angular_acceleration})
@@ -142,8 +155,8 @@ void ResultsRow::resize(const ResultsLayout& layout) {
   boundary_force.setZero(6, last(layout.boundary_offset));
   joint_force.setZero(3, joints);
   joint_moment.setZero(3, joints);
-  joint_coordinate.setZero(joints);
-  joint_rate.setZero(joints);
+  joint_coordinate.setZero(coordinates);
+  joint_rate.setZero(coordinates);
 }
 
 std::vector<Block> all_blocks(const ResultsLayout& layout) {
@@ -162,6 +175,7 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
   std::vector<std::string> known{"time"};
   ResultsLayout full;
   full.nodes = full.superelements = full.joints = {"a"};
+  full.coordinates = {{"a", false}};
   full.modes_offset = full.boundary_offset = {0, 1};
   for (const Block& block : all_blocks(full)) {
     const std::string name = block.dataset.substr(1), group = name.substr(0, name.find('/'));

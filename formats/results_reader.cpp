@@ -64,6 +64,13 @@ ResultsLayout read_layout(const hdf5::InputFile& file) {
   l.units = {read_unit(file, "length_unit"), read_unit(file, "mass_unit"), read_unit(file, "time_unit")};
   l.nodes = names(file, "/nodes/name");
   l.joints = names(file, "/joints/name");
+  const std::vector<std::string> coordinates = names(file, "/joints/coordinate_name");
+  std::vector<std::string> kinds = names(file, "/joints/coordinate_kind");
+  kinds.resize(coordinates.size(), "angle");
+  for (std::size_t i = 0; i < coordinates.size(); ++i) l.coordinates.push_back({coordinates[i], kinds[i] == "length"});
+  // Version 1.0 had one angle per joint, not-a-number where the joint has none.
+  if (coordinates.empty() && file.text_attribute("/", "version") == "1.0")
+    for (const std::string& joint : l.joints) l.coordinates.push_back({joint, false});
   l.superelements = names(file, "/superelements/name");
   l.superelement_content_ids = names(file, "/superelements/content_id");
   l.modes_offset = offsets(file, "/superelements/offset", l.superelements.size());

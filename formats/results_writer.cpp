@@ -98,7 +98,7 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
   hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), close_file);
   if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
   hdf5::write_text_attribute(file.id(), "/", "format", "tisserand-results", where);
-  hdf5::write_text_attribute(file.id(), "/", "version", "1.0", where);
+  hdf5::write_text_attribute(file.id(), "/", "version", "1.1", where);
   hdf5::write_text_attribute(file.id(), "/", "scene", layout.scene, where);
   hdf5::write_text_attribute(file.id(), "/", "producer", layout.producer, where);
   write_unit(file.id(), "length_unit", layout.units.length, where);
@@ -111,7 +111,16 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
     return std::any_of(blocks.begin(), blocks.end(), [&](const Block& b) { return b.dataset.starts_with(group); });
   };
   if (stores("/nodes/")) hdf5::write_texts(file.id(), "/nodes/name", layout.nodes, where);
-  if (stores("/joints/")) hdf5::write_texts(file.id(), "/joints/name", layout.joints, where);
+  if (stores("/joints/")) {
+    std::vector<std::string> names, kinds;
+    for (const ResultsLayout::Coordinate& c : layout.coordinates) {
+      names.push_back(c.name);
+      kinds.push_back(c.length ? "length" : "angle");
+    }
+    hdf5::write_texts(file.id(), "/joints/name", layout.joints, where);
+    hdf5::write_texts(file.id(), "/joints/coordinate_name", names, where);
+    hdf5::write_texts(file.id(), "/joints/coordinate_kind", kinds, where);
+  }
   if (stores("/superelements/")) {
     const auto offsets = [&](const char* name, const std::vector<int>& offset) {
       hdf5::write_dataset(file.id(), std::string("/superelements/") + name, {offset.size()}, offset.data(), where);

@@ -107,7 +107,9 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
                                      read_materials(map), read_sections(map, scene.units)};
   check_definitions(definitions.materials, definitions.sections, faults);
   scene.bodies = read_bodies(map, definitions);
-  scene.joints = read_joints(map);
+  read_joints(map, scene);
+  scene.motions = read_motions(map, definitions);
+  scene.springs = read_springs(map, definitions);
   scene.loads = read_loads(map, definitions);
   read_settings(map, scene);
   scene.initial_tolerance = map.number("initial_tolerance", scene.initial_tolerance);
@@ -118,7 +120,8 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
 
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
   YamlDocument document = load_yaml(path);
-  apply_overrides(document, overrides, {"materials", "sections", "bodies", "joints", "loads", "nodes"});
+  apply_overrides(document, overrides,
+                  {"materials", "sections", "bodies", "joints", "motions", "springs", "loads", "nodes"});
   YamlReader reader(document, scene_key_sets());
   require_kind(reader, "scene", "part", "make a superelement of it with `reducer run`");
   Faults faults;

@@ -92,7 +92,26 @@ struct BeamBodySpec {
 
 using BodySpec = std::variant<SuperelementBodySpec, RigidBodySpec, BeamBodySpec>;
 
-enum class JointKind { fixed, revolute, spherical };
+enum class JointKind {
+  fixed,
+  revolute,
+  spherical,
+  universal,
+  constant_velocity,
+  cylindrical,
+  screw,
+  prismatic,
+  planar,
+  point_on_line,
+  point_on_plane,
+  distance,
+  constant_orientation,
+  parallel_axes,
+  generic
+};
+
+/// The word of a kind in scene.yaml.
+std::string joint_word(JointKind kind);
 
 /// A place on a body: "ground", "<body>" (rigid), "<body>/<node>"; position and orientation in the node's axes.
 struct MarkerSpec {
@@ -111,6 +130,25 @@ struct JointSpec {
   /// axis (z of both markers; revolute needs it unless a marker carries an orientation).
   std::optional<Eigen::Vector3d> position;
   std::optional<Eigen::Vector3d> axis;
+  std::optional<Eigen::Vector3d> x_axis;  ///< its part across `axis` is x of both markers; absent: any
+  std::array<bool, 6> hold{};             ///< generic: x y z rx ry rz of A that are held
+  double pitch = 0.0;                     ///< screw: advance per turn [length]
+  std::optional<double> length;           ///< distance: absent: that at the start
+  std::string where;
+};
+
+/// A coordinate of a joint: "hinge", or "slide/z" if the joint has several.
+struct CoordinateRef {
+  std::string name;
+  std::string where;
+};
+
+/// Gear or rack and pinion: change of `second` = ratio × change of `first` since the start.
+struct GearSpec {
+  std::string name;
+  CoordinateRef first;
+  CoordinateRef second;
+  double ratio = 1.0;  ///< rack and pinion: the radius (length per radian)
   std::string where;
 };
 
@@ -135,6 +173,29 @@ struct LoadSpec {
   MarkerSpec at;
   LoadAxes axes = LoadAxes::world;  ///< body: follows the node
   std::array<TimeFunctionSpec, 3> components;
+  std::string where;
+};
+
+/// A coordinate that follows a function of time.
+struct MotionSpec {
+  std::string name;
+  CoordinateRef coordinate;
+  TimeFunctionSpec value = 0.0;
+  std::string where;
+};
+
+/// Along a coordinate of a joint, or along the distance of two markers: Q = −k (q − free) − c q̇ + stops + force.
+struct SpringSpec {
+  std::string name;
+  std::optional<CoordinateRef> coordinate;
+  MarkerSpec a, b;  ///< if there is no coordinate
+  double stiffness = 0.0;
+  double damping = 0.0;
+  std::optional<double> free;  ///< value without force; absent: that at the start
+  std::optional<double> lower, upper;
+  double stop_stiffness = 0.0;
+  double stop_damping = 0.0;
+  std::optional<TimeFunctionSpec> force;  ///< positive along the positive coordinate
   std::string where;
 };
 
@@ -178,6 +239,9 @@ struct Scene {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   std::vector<BodySpec> bodies;
   std::vector<JointSpec> joints;
+  std::vector<GearSpec> gears;
+  std::vector<MotionSpec> motions;
+  std::vector<SpringSpec> springs;
   std::vector<LoadSpec> loads;
   AnalysisKind analysis = AnalysisKind::dynamics;
   IntegratorSpec integrator;

@@ -176,6 +176,30 @@ void check_marker(const Scene& scene, const MarkerSpec& marker, const std::strin
                "");
 }
 
+/// Kinds whose directions matter.
+bool needs_axis(const JointSpec& joint) {
+  switch (joint.kind) {
+    case JointKind::revolute:
+    case JointKind::universal:
+    case JointKind::constant_velocity:
+    case JointKind::cylindrical:
+    case JointKind::screw:
+    case JointKind::prismatic:
+    case JointKind::planar:
+    case JointKind::point_on_line:
+    case JointKind::point_on_plane:
+    case JointKind::parallel_axes:
+      return true;
+    case JointKind::fixed:
+    case JointKind::spherical:
+    case JointKind::distance:
+    case JointKind::constant_orientation:
+    case JointKind::generic:
+      return false;
+  }
+  return false;
+}
+
 void check_joint(const Scene& scene, const JointSpec& joint, Faults& faults) {
   const std::string subject = fmt::format("joint '{}'", joint.name);
   check_marker(scene, joint.a, subject, joint.where, "a", faults);
@@ -197,9 +221,78 @@ void check_joint(const Scene& scene, const JointSpec& joint, Faults& faults) {
     faults.add(joint.where, "axis",
                fmt::format("{}: axis has no effect, since both a and b have an orientation", subject),
                "remove it, or the orientation of a or b");
-  if (joint.kind == JointKind::revolute && !joint.axis && !joint.a.orientation && !joint.b.orientation)
-    faults.add(joint.where, "", fmt::format("{}: a revolute joint needs an axis", subject),
+  if (needs_axis(joint) && !joint.axis && !joint.a.orientation && !joint.b.orientation)
+    faults.add(joint.where, "", fmt::format("{}: a {} joint needs an axis", subject, joint_word(joint.kind)),
                "give axis: [x, y, z], or an orientation to a or b");
+  if (joint.x_axis && !joint.axis)
+    faults.add(joint.where, "x_axis", fmt::format("{}: x_axis has no effect without axis", subject),
+               "give axis too, or an orientation to a or b");
+  if (joint.x_axis && joint.axis &&
+      !(joint.axis->cross(*joint.x_axis).stableNorm() > 1e-6 * joint.axis->stableNorm() * joint.x_axis->stableNorm()))
+    faults.add(joint.where, "x_axis", fmt::format("{}: x_axis is zero or parallel to axis", subject),
+               "give a direction across the axis");
+  if (!std::isfinite(joint.pitch) || (joint.kind == JointKind::screw && joint.pitch == 0.0))
+    faults.add(joint.where, "pitch",
+               fmt::format("{}: pitch {:g} must be a finite length that is not zero", subject, joint.pitch),
+               "use a revolute joint for no advance");
+  if (joint.length && !(*joint.length > 0.0 && std::isfinite(*joint.length)))
+    faults.add(joint.where, "length", fmt::format("{}: length {:g} must be positive", subject, *joint.length),
+               "use a spherical joint for a distance of zero");
+  if (joint.kind == JointKind::generic &&
+      std::none_of(joint.hold.begin(), joint.hold.end(), [](bool held) { return held; }))
+    faults.add(joint.where, "hold", fmt::format("{}: holds no direction", subject), "name some of x, y, z, rx, ry, rz");
+}
+
+void check_coordinate(const CoordinateRef& coordinate, const Scene& scene, const std::string& subject,
+                      const std::string& where, const std::string& key, Faults& faults) {
+  const std::string joint = coordinate.name.substr(0, coordinate.name.find('/'));
+  std::vector<std::string> names;
+  for (const JointSpec& spec : scene.joints) names.push_back(spec.name);
+  if (std::find(names.begin(), names.end(), joint) != names.end()) return;
+  const auto near = nearest(joint, names);
+  faults.add(where, key, fmt::format("{}: there is no joint '{}'", subject, joint),
+             near ? fmt::format("did you mean '{}'?", *near) : "name a joint, or joint/coordinate as in slide/z");
+}
+
+void check_gear(const Scene& scene, const GearSpec& gear, Faults& faults) {
+  const std::string subject = fmt::format("joint '{}'", gear.name);
+  check_coordinate(gear.first, scene, subject, gear.where, "between", faults);
+  check_coordinate(gear.second, scene, subject, gear.where, "between", faults);
+  if (!std::isfinite(gear.ratio) || gear.ratio == 0.0)
+    faults.add(gear.where, "ratio", fmt::format("{}: ratio {:g} must be finite and not zero", subject, gear.ratio), "");
+}
+
+void check_motion(const Scene& scene, const MotionSpec& motion, Faults& faults) {
+  const std::string subject = fmt::format("motion '{}'", motion.name);
+  check_coordinate(motion.coordinate, scene, subject, motion.where, "coordinate", faults);
+  check_time_function(motion.value, subject, motion.where, "value", faults);
+}
+
+void check_spring(const Scene& scene, const SpringSpec& spring, Faults& faults) {
+  const std::string subject = fmt::format("spring '{}'", spring.name);
+  if (spring.coordinate) {
+    check_coordinate(*spring.coordinate, scene, subject, spring.where, "coordinate", faults);
+  } else {
+    check_marker(scene, spring.a, subject, spring.where, "a", faults);
+    check_marker(scene, spring.b, subject, spring.where, "b", faults);
+  }
+  const auto not_negative = [&](double value, const char* key) {
+    if (!(value >= 0.0 && std::isfinite(value)))
+      faults.add(spring.where, key, fmt::format("{}: {} {:g} must not be negative", subject, key, value), "");
+  };
+  if (!std::isfinite(spring.stiffness))
+    faults.add(spring.where, "stiffness", fmt::format("{}: stiffness must be finite", subject), "");
+  not_negative(spring.damping, "damping");
+  not_negative(spring.stop_damping, "stop_damping");
+  if ((spring.lower || spring.upper) && !(spring.stop_stiffness > 0.0 && std::isfinite(spring.stop_stiffness)))
+    faults.add(spring.where, "stop_stiffness", fmt::format("{}: stop_stiffness must be positive", subject), "");
+  if (spring.lower && spring.upper && !(*spring.lower < *spring.upper))
+    faults.add(
+        spring.where, "lower",
+        fmt::format("{}: lower stop {:g} is not below the upper one {:g}", subject, *spring.lower, *spring.upper), "");
+  if (spring.stiffness == 0.0 && spring.damping == 0.0 && !spring.lower && !spring.upper && !spring.force)
+    faults.add(spring.where, "", fmt::format("{}: does nothing", subject), "give stiffness, damping, stops or force");
+  if (spring.force) check_time_function(*spring.force, subject, spring.where, "force", faults);
 }
 
 void check_load(const Scene& scene, const LoadSpec& load, Faults& faults) {
@@ -229,7 +322,7 @@ Faults find_faults(const Scene& scene) {
   if (scene.name.empty()) faults.add(scene.file, "scene", "the scene has no name", "scene: <name>");
   if (!scene.gravity.allFinite()) faults.add(scene.file, "gravity", "gravity must be finite", "");
   if (scene.bodies.empty()) faults.add(scene.file, "bodies", "the scene has no bodies", "");
-  std::vector<std::string> bodies, joints, loads;
+  std::vector<std::string> bodies, joints, motions, springs, loads;
   for (const BodySpec& body : scene.bodies) {
     std::visit(
         [&](const auto& spec) {
@@ -245,6 +338,18 @@ Faults find_faults(const Scene& scene) {
   for (const JointSpec& joint : scene.joints) {
     check_name("joint", joint.name, joint.where, joints, faults);
     check_joint(scene, joint, faults);
+  }
+  for (const GearSpec& gear : scene.gears) {
+    check_name("joint", gear.name, gear.where, joints, faults);
+    check_gear(scene, gear, faults);
+  }
+  for (const MotionSpec& motion : scene.motions) {
+    check_name("motion", motion.name, motion.where, motions, faults);
+    check_motion(scene, motion, faults);
+  }
+  for (const SpringSpec& spring : scene.springs) {
+    check_name("spring", spring.name, spring.where, springs, faults);
+    check_spring(scene, spring, faults);
   }
   for (const LoadSpec& load : scene.loads) {
     check_name("load", load.name, load.where, loads, faults);

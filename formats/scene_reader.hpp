@@ -1,4 +1,4 @@
-// Parts of reading scene.yaml: what stands below `bodies`, `joints` and `loads`.
+// Parts of reading scene.yaml: what stands below `bodies`, `joints`, `motions`, `springs` and `loads`.
 #pragma once
 
 #include <string>
@@ -18,7 +18,10 @@ struct SceneDefinitions {
 };
 
 std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& definitions);
-std::vector<JointSpec> read_joints(const MapReader& map);
+/// `joints`: joints, and gears and racks between their coordinates.
+void read_joints(const MapReader& map, Scene& scene);
+std::vector<MotionSpec> read_motions(const MapReader& map, const SceneDefinitions& definitions);
+std::vector<SpringSpec> read_springs(const MapReader& map, const SceneDefinitions& definitions);
 std::vector<LoadSpec> read_loads(const MapReader& map, const SceneDefinitions& definitions);
 
 }  // namespace tisserand::formats

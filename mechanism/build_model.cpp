@@ -10,6 +10,7 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "mechanism/bodies/beam_mesh.hpp"
+#include "mechanism/build_joints.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/newton.hpp"
 
@@ -33,7 +34,12 @@ class Builder {
     }
     throw_errors();
     initial_motion();
-    for (const formats::JointSpec& joint : scene_.joints) collect([&] { add_joint(joint); });
+    JointBuilder joints(markers_, model_, breakpoints_);
+    for (const formats::JointSpec& joint : scene_.joints) collect([&] { joints.add(joint); });
+    throw_errors();
+    for (const formats::GearSpec& gear : scene_.gears) collect([&] { joints.add(gear); });
+    for (const formats::MotionSpec& motion : scene_.motions) collect([&] { joints.add(motion); });
+    for (const formats::SpringSpec& spring : scene_.springs) collect([&] { joints.add(spring); });
     for (const formats::LoadSpec& load : scene_.loads) collect([&] { add_load(load); });
     throw_errors();
     finish();
@@ -70,13 +76,13 @@ class Builder {
     motion.x = start.pose.position + arm;
     motion.xd = start.velocity + start.angular_velocity.cross(arm);
     motion.Omega = motion.R.transpose() * start.angular_velocity;
-    motion_.push_back(motion);
+    markers_.start.push_back(motion);
     return static_cast<int>(model_.nodes.size()) - 1;
   }
 
   void add_place(const std::string& name, const Marker& marker) {
     model_.places.push_back({name, marker});
-    places_[name] = marker;
+    markers_.places[name] = marker;
   }
 
   void add_body(const formats::SuperelementBodySpec& spec) {
@@ -155,8 +161,8 @@ class Builder {
       nodes.push_back(add_node(name, spec.start, mesh.position[i], 1, 1));
       add_place(name, {nodes.back(), Vector3d::Zero(), Matrix3d::Identity()});
     }
-    places_[spec.name + "/start"] = {nodes.front(), Vector3d::Zero(), Matrix3d::Identity()};
-    places_[spec.name + "/end"] = {nodes.back(), Vector3d::Zero(), Matrix3d::Identity()};
+    markers_.places[spec.name + "/start"] = {nodes.front(), Vector3d::Zero(), Matrix3d::Identity()};
+    markers_.places[spec.name + "/end"] = {nodes.back(), Vector3d::Zero(), Matrix3d::Identity()};
     const auto append = [&nodes](const auto& elements, auto& pool) {
       for (auto element : elements) {
         for (int& node : element.nodes) node = nodes[static_cast<std::size_t>(node)];
@@ -167,100 +173,14 @@ class Builder {
     append(mesh.elements3, model_.beams3);
   }
 
-  // ---- joints and loads ---------------------------------------------------------------------------------------------
-  /// The place that a marker names (without the marker's own offset).
-  Marker find_place(const formats::MarkerSpec& spec) const {
-    if (spec.node == "ground") return {};
-    const auto found = places_.find(spec.node);
-    if (found != places_.end()) return found->second;
-    std::vector<std::string> names{"ground"};
-    for (const auto& [name, marker] : places_) names.push_back(name);
-    const auto suggestion = nearest(spec.node, names);
-    if (names.size() > 12) names = {names.begin(), names.begin() + 12};
-    throw Error(fmt::format("there is no node '{}'", spec.node), spec.where,
-                suggestion ? fmt::format("did you mean '{}'?", *suggestion)
-                           : "the scene has " + join(names, ", ") + (places_.size() > 11 ? ", ..." : ""));
-  }
-
-  Marker with_offset(Marker marker, const formats::MarkerSpec& spec) const {
-    if (spec.position) marker.p += marker.R * *spec.position;
-    if (spec.orientation) marker.R *= spec.orientation->normalized().toRotationMatrix();
-    return marker;
-  }
-
-  NodeMotion motion(int node) const { return node < 0 ? NodeMotion{} : motion_[static_cast<std::size_t>(node)]; }
-
-  /// Gives the marker the world pose (position, R) where the scene leaves it open.
-  void place_marker(const formats::MarkerSpec& spec, const Vector3d& position, const Matrix3d& R,
-                    Marker& marker) const {
-    const NodeMotion carrier = motion(marker.node);
-    if (!spec.position) marker.p = carrier.R.transpose() * (position - carrier.x);
-    if (!spec.orientation) marker.R = carrier.R.transpose() * R;
-  }
-
-  void check_marker(const formats::JointSpec& spec, const formats::MarkerSpec& place, const Marker& marker) const {
-    if (marker.node < 0) return;
-    const Node& node = model_.nodes[static_cast<std::size_t>(marker.node)];
-    if (node.translation < 0)
-      throw Error(
-          fmt::format("joint '{}' holds the position of node '{}', which has no translations", spec.name, place.node),
-          place.where, "keep the translations of that node in the superelement");
-    if (node.rotation >= 0) return;
-    if (spec.kind != formats::JointKind::spherical)
-      throw Error(fmt::format("joint '{}' holds the rotation of node '{}', which has none", spec.name, place.node),
-                  place.where, "use a spherical joint, or keep the rotations of that node in the superelement");
-    if (marker.p.norm() > 1e-12 * model_.length)
-      throw Error(fmt::format("joint '{}' is {:.3g} away from node '{}', which has no rotations to carry the offset",
-                              spec.name, marker.p.norm(), place.node),
-                  place.where, "put the joint at the node, or keep the rotations of that node in the superelement");
-  }
-
-  void add_joint(const formats::JointSpec& spec) {
-    Joint joint;
-    joint.name = spec.name;
-    joint.kind = spec.kind;
-    joint.a = with_offset(find_place(spec.a), spec.a);
-    joint.b = with_offset(find_place(spec.b), spec.b);
-    if (joint.a.node == joint.b.node)
-      throw Error(fmt::format("joint '{}' connects '{}' and '{}', which are {}", spec.name, spec.a.node, spec.b.node,
-                              joint.a.node < 0 ? "both ground" : "on one and the same node"),
-                  spec.where, "connect two different nodes");
-    // Where the scene leaves it open: at b, or at a if b is ground; explicit markers first.
-    const bool at_a = spec.b.node == "ground" || (spec.a.position && !spec.b.position);
-    const Marker& known = at_a ? joint.a : joint.b;
-    const Vector3d position = spec.position ? *spec.position : marker_position(known, motion(known.node));
-    const bool turned_a = spec.a.orientation.has_value(), turned_b = spec.b.orientation.has_value();
-    Matrix3d R = Matrix3d::Identity();
-    if (spec.axis)
-      R = frame_with_z(*spec.axis);
-    else if (turned_a || turned_b)
-      R = turned_a ? marker_rotation(joint.a, motion(joint.a.node)) : marker_rotation(joint.b, motion(joint.b.node));
-    else if (spec.kind == formats::JointKind::revolute)
-      throw Error(fmt::format("revolute joint '{}' has no axis", spec.name), spec.where,
-                  "give `axis: [x, y, z]` in the world frame at the start, or orientations of its markers");
-    place_marker(spec.a, position, R, joint.a);
-    place_marker(spec.b, position, R, joint.b);
-    check_marker(spec, spec.a, joint.a);
-    check_marker(spec, spec.b, joint.b);
-    model_.joints.push_back(std::move(joint));
-  }
-
-  static Matrix3d frame_with_z(const Vector3d& axis) {
-    const Vector3d z = axis.normalized();
-    Eigen::Index smallest = 0;
-    z.cwiseAbs().minCoeff(&smallest);
-    const Vector3d x = (Vector3d::Unit(smallest) - z[smallest] * z).normalized();
-    Matrix3d R;
-    R << x, z.cross(x), z;
-    return R;
-  }
-
+  // ---- loads
+  // ---------------------------------------------------------------------------------------------------------
   void add_load(const formats::LoadSpec& spec) {
     Load load;
     load.name = spec.name;
     load.kind = spec.kind;
     load.axes = spec.axes;
-    load.at = with_offset(find_place(spec.at), spec.at);
+    load.at = markers_.find(spec.at);
     load.components = spec.components;
     load.where = spec.where;
     if (load.at.node < 0)
@@ -286,9 +206,9 @@ class Builder {
 
   // ---- the whole ----------------------------------------------------------------------------------------------------
   void initial_motion() {
-    if (motion_.empty()) throw Error("the scene has no bodies", scene_.file, "add a body under `bodies:`");
-    Vector3d low = motion_.front().x, high = low;
-    for (const NodeMotion& m : motion_) {
+    if (markers_.start.empty()) throw Error("the scene has no bodies", scene_.file, "add a body under `bodies:`");
+    Vector3d low = markers_.start.front().x, high = low;
+    for (const NodeMotion& m : markers_.start) {
       low = low.cwiseMin(m.x);
       high = high.cwiseMax(m.x);
     }
@@ -302,6 +222,7 @@ class Builder {
     model_.sizes.internal = model_.internal_offset.back();
     model_.sizes.superelements = static_cast<int>(model_.superelements.size());
     model_.breakpoints.assign(breakpoints_.begin(), breakpoints_.end());
+    if (scene_.integrator.step > 0.0) model_.motion_spacing = 0.25 * scene_.integrator.step;
     finish_model(model_, scene_.integrator.linear_solver);
   }
 
@@ -309,7 +230,7 @@ class Builder {
     State state(model.sizes);
     state.time() = state.load_time() = scene_.integrator.start;
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-      const NodeMotion& m = motion_[i];
+      const NodeMotion& m = markers_.start[i];
       const auto column = static_cast<Eigen::Index>(i);
       state.x().col(column) = m.x;
       state.Q().col(column) = wxyz(Eigen::Quaterniond(m.R).normalized());
@@ -318,8 +239,23 @@ class Builder {
     }
     for (std::size_t i = 0; i < frames_.size(); ++i)
       state.frames().col(static_cast<Eigen::Index>(i)) = wxyz(frames_[i]);
+    measure_start(model, state);
     scale(model, state);
     return state;
+  }
+
+  /// Angles at the start, and the constants that are values at the start.
+  static void measure_start(Model& model, State& state) {
+    Workspace workspace(model);
+    evaluate(model, state, workspace);
+    unwrap_hinges(model, workspace, state);
+    evaluate_coordinates(model, state, workspace);
+    for (Coupling& coupling : model.couplings)
+      for (const CouplingTerm& term : coupling.terms)
+        if (coupling.from_start)
+          coupling.constant += term.factor * workspace.coordinates[static_cast<std::size_t>(term.coordinate)].value;
+    for (Spring& spring : model.springs)
+      if (spring.free_at_start) spring.free = workspace.coordinates[static_cast<std::size_t>(spring.coordinate)].value;
   }
 
   /// Largest diagonal entries of mass and stiffness, which the iteration matrix is scaled with.
@@ -350,9 +286,8 @@ class Builder {
   const formats::Scene& scene_;
   const SuperelementFiles& files_;
   Model model_;
-  std::vector<NodeMotion> motion_;  ///< start of each node
+  MarkerTable markers_;
   std::vector<Eigen::Quaterniond> frames_;
-  std::map<std::string, Marker> places_;
   std::set<double> breakpoints_;
   std::vector<std::string> notes_;
   std::vector<Error> errors_;

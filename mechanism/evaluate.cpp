@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/rotation.hpp"
+#include "mechanism/evaluate_terms.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -17,6 +17,19 @@ std::vector<std::array<TimeFunction, 3>> compile_loads(const Model& model) {
   for (const Load& load : model.loads)
     functions.push_back(
         {TimeFunction(load.components[0]), TimeFunction(load.components[1]), TimeFunction(load.components[2])});
+  return functions;
+}
+
+std::vector<MotionFunction> compile_motions(const Model& model) {
+  std::vector<MotionFunction> functions;
+  for (const formats::TimeFunctionSpec& motion : model.motions) functions.emplace_back(motion, model.motion_spacing);
+  return functions;
+}
+
+std::vector<std::optional<TimeFunction>> compile_spring_forces(const Model& model) {
+  std::vector<std::optional<TimeFunction>> functions(model.springs.size());
+  for (std::size_t i = 0; i < model.springs.size(); ++i)
+    if (model.springs[i].has_force) functions[i].emplace(model.springs[i].force);
   return functions;
 }
 
@@ -39,31 +52,6 @@ void update_motion(const Model& model, const State& state, Workspace& workspace)
       motion.Omega = v.segment<3>(node.rotation);
       motion.Omegad = vdot.segment<3>(node.rotation);
     }
-  }
-}
-
-template <class Vector>
-void scatter(const ElementMap& map, const Vector& local, Eigen::VectorXd& global) {
-  for (std::size_t i = 0; i < map.coordinates.size(); ++i)
-    if (map.coordinates[i] >= 0) global[map.coordinates[i]] += local[static_cast<Eigen::Index>(i)];
-}
-
-template <class Matrix>
-void scatter_matrix(const ElementMap& map, const Matrix& local, double factor, std::vector<double>& values) {
-  const double* entry = local.data();
-  for (const int slot : map.slots) {
-    if (slot >= 0) values[static_cast<std::size_t>(slot)] += factor * *entry;
-    ++entry;
-  }
-}
-
-/// Force and moment rows of nodes with six coordinates.
-template <class Vector>
-void note_scale(const Vector& local, Workspace& workspace) {
-  for (Eigen::Index i = 0; i < local.size(); i += 6) {
-    workspace.force_scale[0] = std::max(workspace.force_scale[0], local.template segment<3>(i).cwiseAbs().maxCoeff());
-    workspace.force_scale[1] =
-        std::max(workspace.force_scale[1], local.template segment<3>(i + 3).cwiseAbs().maxCoeff());
   }
 }
 
@@ -122,27 +110,6 @@ void add_rigid_bodies(const Model& model, const Vector3d& gravity, Workspace& wo
   }
 }
 
-void add_joints(const Model& model, const State& state, Workspace& workspace) {
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const Joint& joint = model.joints[i];
-    const int size = joint_size(joint.kind);
-    const NodeMotion& a = motion_of(workspace, joint.a.node);
-    const NodeMotion& b = motion_of(workspace, joint.b.node);
-    JointTerms& terms = workspace.joints[i];
-    joint_constraints(joint, a, b, terms);
-    Eigen::Matrix<double, 12, 1> velocity;
-    velocity << a.xd, a.Omega, b.xd, b.Omega;
-    workspace.constraint.segment(joint.row, size) = terms.phi.head(size);
-    const Vector6d rate = terms.B.lazyProduct(velocity);  // rows beyond the joint's size are zero
-    for (int k = 0; k < size; ++k) workspace.constraint_rate[joint.row + k] = rate[k];
-    Vector6d lambda = Vector6d::Zero();
-    for (int k = 0; k < size; ++k) lambda[k] = state.lambda()[joint.row + k];
-    const Eigen::Matrix<double, 12, 1> force = terms.B.transpose().lazyProduct(lambda);
-    scatter(model.joint_maps[i], force, workspace.residual);
-    note_scale(force, workspace);
-  }
-}
-
 void add_loads(const Model& model, const State& state, Workspace& workspace) {
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
@@ -156,52 +123,19 @@ void add_loads(const Model& model, const State& state, Workspace& workspace) {
   }
 }
 
-/// T(dΘ) of a node's rotation over the step, 1 for ground or a node that has not turned.
-Matrix3d step_tangent(const Model& model, const Workspace& workspace, int node) {
-  if (node < 0 || model.nodes[static_cast<std::size_t>(node)].rotation < 0) return Matrix3d::Identity();
-  const Vector3d turn = workspace.displacement.segment<3>(model.nodes[static_cast<std::size_t>(node)].rotation);
-  return turn.isZero(0.0) ? Matrix3d(Matrix3d::Identity()) : tangent_so3<double>(turn);
-}
-
-Eigen::Matrix<double, 6, 12> constraint_rows(const Model& model, const Joint& joint, const JointTerms& terms,
-                                             const ConstraintRows& kind, const Workspace& workspace) {
-  Eigen::Matrix<double, 6, 12> rows = terms.B;
-  switch (kind.kind) {
-    case ConstraintRows::Kind::plain:
-      break;
-    case ConstraintRows::Kind::position:
-      rows.block<6, 3>(0, 3) = terms.B.block<6, 3>(0, 3) * step_tangent(model, workspace, joint.a.node);
-      rows.block<6, 3>(0, 9) = terms.B.block<6, 3>(0, 9) * step_tangent(model, workspace, joint.b.node);
-      break;
-    case ConstraintRows::Kind::velocity: {
-      Eigen::Matrix<double, 6, 12> gradient;
-      joint_rate_gradient(joint, motion_of(workspace, joint.a.node), motion_of(workspace, joint.b.node), gradient);
-      rows += kind.rate_factor * gradient;
-      break;
+/// Rows and columns of constraints that others imply: δλ = 0.
+void deactivate_rows(const Model& model, const State& state, Workspace& workspace) {
+  const SparsePattern& pattern = *model.pattern;
+  for (int row = 0; row < model.sizes.constraints; ++row) {
+    if (state.active()[row] != 0.0) continue;
+    const int j = model.sizes.boundary + row;
+    for (int at = pattern.column_start()[static_cast<std::size_t>(j)];
+         at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
+      const int i = pattern.rows()[static_cast<std::size_t>(at)];
+      workspace.values[static_cast<std::size_t>(pattern.slot(i, j))] = 0.0;
+      workspace.values[static_cast<std::size_t>(pattern.slot(j, i))] = 0.0;
     }
-  }
-  return rows;
-}
-
-void add_joint_tangents(const Model& model, const State& state, double stiffness, const ConstraintRows& kind,
-                        Workspace& workspace) {
-  Eigen::Matrix<double, 12, 12> K;
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const Joint& joint = model.joints[i];
-    const JointTerms& terms = workspace.joints[i];
-    joint_stiffness(joint, motion_of(workspace, joint.a.node), motion_of(workspace, joint.b.node),
-                    state.lambda().data() + joint.row, K);
-    scatter_matrix(model.joint_maps[i], K, stiffness, workspace.values);
-    const Eigen::Matrix<double, 6, 12> rows = constraint_rows(model, joint, terms, kind, workspace);
-    const ConstraintMap& map = model.constraint_maps[i];
-    const int size = joint_size(joint.kind);
-    for (int j = 0; j < 12; ++j)
-      for (int k = 0; k < size; ++k) {
-        const auto at = static_cast<std::size_t>(k + size * j);
-        if (map.lower[at] < 0) continue;
-        workspace.values[static_cast<std::size_t>(map.lower[at])] += rows(k, j);
-        workspace.values[static_cast<std::size_t>(map.upper[at])] += terms.B(k, j);
-      }
+    workspace.values[static_cast<std::size_t>(pattern.slot(j, j))] = 1.0;
   }
 }
 
@@ -222,12 +156,17 @@ void add_beam_tangents(const Pool& beams, const std::vector<ElementMap>& maps, c
 Workspace::Workspace(const Model& model)
     : motion(model.nodes.size() + 1),
       joints(model.joints.size()),
+      coordinates(model.coordinates.size()),
+      motions(compile_motions(model)),
+      motion_values(model.motions.size()),
+      spring_forces(compile_spring_forces(model)),
       load_functions(compile_loads(model)),
       load_values(model.loads.size(), Vector3d::Zero()),
       residual(Eigen::VectorXd::Zero(model.sizes.boundary)),
       constraint(Eigen::VectorXd::Zero(model.sizes.constraints)),
       constraint_rate(constraint),
       bias(constraint),
+      active(constraint),
       values(static_cast<std::size_t>(model.pattern->values()), 0.0),
       solver(*model.pattern),
       unknowns(Eigen::VectorXd::Zero(model.pattern->size())),
@@ -255,21 +194,16 @@ void evaluate(const Model& model, const State& state, Workspace& workspace) {
   workspace.force_scale.fill(0.0);
   workspace.load_power = 0.0;
   workspace.damping_power = 0.0;
+  workspace.spring_energy = 0.0;
+  workspace.active = state.active();
   const Vector3d gravity = workspace.load_factor * model.gravity;
   add_superelements(model, state, gravity, workspace);
   add_beams(model.beams2, model.beam2_maps, gravity, workspace);
   add_beams(model.beams3, model.beam3_maps, gravity, workspace);
   add_rigid_bodies(model, gravity, workspace);
   add_joints(model, state, workspace);
+  add_coordinates(model, state, workspace);
   add_loads(model, state, workspace);
-}
-
-void evaluate_bias(const Model& model, Workspace& workspace) {
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const Joint& joint = model.joints[i];
-    joint_bias(joint, motion_of(workspace, joint.a.node), motion_of(workspace, joint.b.node), workspace.joints[i]);
-    workspace.bias.segment(joint.row, joint_size(joint.kind)) = workspace.joints[i].bias.head(joint_size(joint.kind));
-  }
 }
 
 void evaluate_tangent(const Model& model, const State& state, const TangentCoefficients& coefficients, TangentKind kind,
@@ -302,6 +236,8 @@ void evaluate_tangent(const Model& model, const State& state, const TangentCoeff
     scatter_matrix(model.load_maps[i], A, -coefficients.stiffness * factor, workspace.values);
   }
   add_joint_tangents(model, state, coefficients.stiffness * factor, rows, workspace);
+  add_coordinate_tangents(model, state, coefficients, factor, rows, workspace);
+  deactivate_rows(model, state, workspace);
 }
 
 Energy evaluate_energy(const Model& model, Workspace& workspace) {
@@ -327,16 +263,8 @@ Energy evaluate_energy(const Model& model, Workspace& workspace) {
     sum.kinetic += kinetic_energy(body, node);
     sum.potential += gravity_potential(body, node, model.gravity);
   }
+  sum.strain += workspace.spring_energy;
   return sum;
-}
-
-void unwrap_hinges(const Model& model, const Workspace& workspace, State& state) {
-  for (const Joint& joint : model.joints) {
-    if (joint.hinge < 0) continue;
-    double& angle = state.hinges()[joint.hinge];
-    const double now = hinge_angle(joint, motion_of(workspace, joint.a.node), motion_of(workspace, joint.b.node));
-    angle += std::remainder(now - angle, 2.0 * EIGEN_PI);
-  }
 }
 
 }  // namespace tisserand::mechanism

@@ -11,7 +11,10 @@ namespace tisserand::mechanism {
 /// scratch), Φ, B v + Φ_t, the force scales and the powers of loads and damping.
 void evaluate(const Model& model, const State& state, Workspace& workspace);
 
-/// Fills Ḃ v (Φ̈ = B v̇ + Ḃ v) for the state of the last evaluate().
+/// All joint coordinates, also those that nothing uses, at the state of the last evaluate(): for output.
+void evaluate_coordinates(const Model& model, const State& state, Workspace& workspace);
+
+/// Fills Ḃ v + Φ_tt (Φ̈ = B v̇ + Ḃ v + Φ_tt) for the state of the last evaluate().
 void evaluate_bias(const Model& model, Workspace& workspace);
 
 /// What the constraint rows of the iteration matrix are derivatives of.
@@ -34,7 +37,7 @@ void evaluate_tangent(const Model& model, const State& state, const TangentCoeff
 /// At the state of the last evaluate().
 Energy evaluate_energy(const Model& model, Workspace& workspace);
 
-/// Adds to each stored hinge angle the difference, less than half a turn, to the angle at the last evaluate().
+/// Moves each stored angle by less than half a turn to that at the last evaluate().
 void unwrap_hinges(const Model& model, const Workspace& workspace, State& state);
 
 }  // namespace tisserand::mechanism

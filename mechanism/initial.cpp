@@ -28,17 +28,24 @@ constexpr int dense_rank_limit = 400;
 /// Bᵀ with rotation rows divided by the characteristic length and angle columns multiplied with it.
 Eigen::SparseMatrix<double> scaled_jacobian(const Model& model, const Workspace& workspace) {
   std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const Joint& joint = model.joints[i];
-    const std::vector<int>& coordinates = model.joint_maps[i].coordinates;
-    for (int k = 0; k < joint_size(joint.kind); ++k)
-      for (int j = 0; j < 12; ++j) {
-        const double value = workspace.joints[i].B(k, j);
-        if (coordinates[static_cast<std::size_t>(j)] < 0 || value == 0.0) continue;
-        const double scale = (j % 6 < 3 ? 1.0 : 1.0 / model.length) * (k < 3 ? 1.0 : model.length);
-        entries.emplace_back(coordinates[static_cast<std::size_t>(j)], joint.row + k, value * scale);
-      }
-  }
+  const auto add = [&](const std::vector<int>& coordinates, int row, const auto& values) {
+    for (std::size_t j = 0; j < coordinates.size(); ++j) {
+      const double value = values[static_cast<Eigen::Index>(j)];
+      if (coordinates[j] < 0 || value == 0.0) continue;
+      const double scale = (j % 6 < 3 ? 1.0 : 1.0 / model.length) *
+                           (model.length_row[static_cast<std::size_t>(row)] ? 1.0 : model.length);
+      entries.emplace_back(coordinates[j], row, value * scale);
+    }
+  };
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    for (int k = 0; k < model.joints[i].size(); ++k)
+      add(model.joint_maps[i].coordinates, model.joints[i].row + k, workspace.joints[i].B.row(k));
+  for (const Coupling& coupling : model.couplings)
+    for (const CouplingTerm& term : coupling.terms) {
+      const auto at = static_cast<std::size_t>(term.coordinate);
+      const Row12 row = term.factor * workspace.coordinates[at].G;
+      add(model.coordinate_maps[at].coordinates, coupling.row, row);
+    }
   Eigen::SparseMatrix<double> B(model.sizes.boundary, model.sizes.constraints);
   B.setFromTriplets(entries.begin(), entries.end());
   B.makeCompressed();
@@ -53,11 +60,10 @@ struct Violation {
 
 Violation largest_violation(const Model& model, const Eigen::VectorXd& rows) {
   Violation worst;
-  for (const Joint& joint : model.joints)
-    for (int k = 0; k < joint_size(joint.kind); ++k) {
-      const double value = std::abs(rows[joint.row + k]) / (k < 3 ? model.length : 1.0);
-      if (!(value <= worst.value)) worst = {value, joint.row + k};
-    }
+  for (int row = 0; row < model.sizes.constraints; ++row) {
+    const double value = std::abs(rows[row]) / (model.length_row[static_cast<std::size_t>(row)] ? model.length : 1.0);
+    if (!(value <= worst.value)) worst = {value, row};
+  }
   return worst;
 }
 
@@ -89,13 +95,15 @@ void require_facing(const Model& model, const std::string& where, const Workspac
   for (const Joint& joint : model.joints) {
     const Eigen::Matrix3d R_AB = marker_rotation(joint.a, motion_of(workspace, joint.a.node)).transpose() *
                                  marker_rotation(joint.b, motion_of(workspace, joint.b.node));
-    const bool hinge = joint.kind == JointKind::revolute && R_AB(2, 2) <= 0.0;
-    const bool fixed = joint.kind == JointKind::fixed && R_AB.diagonal().minCoeff() <= 0.0;
+    const int axis = aligned_axis(joint);
+    const bool hinge = axis >= 0 && R_AB(axis, axis) <= 0.0;
+    const bool fixed = keeps_orientation(joint) && R_AB.diagonal().minCoeff() <= 0.0;
     if (!hinge && !fixed) continue;
-    throw Error(
-        hinge ? fmt::format("the z axes of the markers of revolute joint '{}' point in opposite directions", joint.name)
-              : fmt::format("the axes of the markers of fixed joint '{}' are turned against each other", joint.name),
-        where, "turn the orientation of one marker, so that the axes of both agree at the start");
+    throw Error(hinge ? fmt::format("the {} axes of the markers of {} joint '{}' point in opposite directions",
+                                    "xyz"[axis], formats::joint_word(joint.kind), joint.name)
+                      : fmt::format("the axes of the markers of {} joint '{}' are turned against each other",
+                                    formats::joint_word(joint.kind), joint.name),
+                where, "turn the orientation of one marker, so that the axes of both agree at the start");
   }
 }
 
@@ -129,15 +137,6 @@ Mobility count_mobility(const Model& model, const State& state, Workspace& works
   mobility.rigid_mobility =
       elements > 0 ? -1 : 6 * static_cast<int>(model.superelements.size() + model.rigid_bodies.size()) - mobility.rank;
   return mobility;
-}
-
-void require_independent_constraints(const Model& model, const Mobility& mobility, const std::string& where) {
-  if (mobility.redundant.empty()) return;
-  std::vector<std::string> names;
-  for (const int row : mobility.redundant) names.push_back("'" + constraint_name(model, row) + "'");
-  throw Error(fmt::format("{} of {} constraint equations repeat what the others already demand: {}",
-                          mobility.redundant.size(), mobility.constraints, join(names, ", ")),
-              where, "replace a joint by one that holds less, for example a revolute by a spherical joint");
 }
 
 Projection project_initial_state(const Model& model, double tolerance, double step, const std::string& where,
@@ -248,7 +247,7 @@ StartReport start(const formats::Scene& scene, const Model& model, State& state,
   const double step = dynamics ? scene.integrator.step : 1e-3;
   StartReport report;
   report.mobility = count_mobility(model, state, workspace);
-  require_independent_constraints(model, report.mobility, where);
+  for (const int row : report.mobility.redundant) state.active()[row] = 0.0;
   report.projection = project_initial_state(model, scene.initial_tolerance, step, where, state, workspace);
   if (!dynamics) return report;
   report.massless = solve_accelerations(model, step, where, state, workspace);

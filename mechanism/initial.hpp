@@ -25,9 +25,6 @@ struct Mobility {
 /// Rank of B by a rank-revealing QR (rotations scaled with the characteristic length).
 Mobility count_mobility(const Model& model, const State& state, Workspace& workspace);
 
-/// Throws Error that names the redundant equations, if any.
-void require_independent_constraints(const Model& model, const Mobility& mobility, const std::string& where);
-
 /// Largest corrections that the projection made: |Φ| before it relative to the characteristic length (angles as they
 /// are), |B v| relative to the largest velocity.
 struct Projection {
@@ -56,7 +53,8 @@ struct StartReport {
   bool massless = false;  ///< the mass matrix was regularised
 };
 
-/// All of the above for the analysis of the scene; dynamics: also the consistent start and energies counted from here.
+/// All of the above, with rows that others imply made inactive, for the analysis of the scene; dynamics: also the
+/// consistent start and energies counted from here.
 StartReport start(const formats::Scene& scene, const Model& model, State& state, Workspace& workspace);
 
 }  // namespace tisserand::mechanism

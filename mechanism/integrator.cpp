@@ -85,17 +85,16 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
           model.superelement_maps[i].coordinates.front());
   }
   const double rate_tolerance = options.constraint_tolerance / step;
-  for (const Joint& joint : model.joints)
-    for (int k = 0; k < joint_size(joint.kind); ++k) {
-      const double length = k < 3 ? model.length : 1.0;
-      const int row = joint.row + k;
-      norms.constraint = std::max(norms.constraint, std::abs(workspace.constraint[row]) / length * model.length);
+  for (int row = 0; row < model.sizes.constraints; ++row) {
+    const double length = model.length_row[static_cast<std::size_t>(row)] ? model.length : 1.0;
+    norms.constraint = std::max(norms.constraint, std::abs(workspace.constraint[row]) / length * model.length);
+    if (workspace.active[row] == 0.0) continue;
+    raise(norms.constraint_ratio, norms.worst_constraint,
+          std::abs(workspace.constraint[row]) / (length * options.constraint_tolerance), row);
+    if (options.formulation == Formulation::stabilised_index2)
       raise(norms.constraint_ratio, norms.worst_constraint,
-            std::abs(workspace.constraint[row]) / (length * options.constraint_tolerance), row);
-      if (options.formulation == Formulation::stabilised_index2)
-        raise(norms.constraint_ratio, norms.worst_constraint,
-              std::abs(workspace.constraint_rate[row]) / (length * rate_tolerance), row);
-    }
+            std::abs(workspace.constraint_rate[row]) / (length * rate_tolerance), row);
+  }
   return norms;
 }
 

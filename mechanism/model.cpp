@@ -54,6 +54,50 @@ void number_elements(Model& model) {
   for (const BeamElement3& beam : model.beams3) add(model.beam3_maps, beam.nodes[0], beam.nodes[1], beam.nodes[2]);
   for (const Joint& joint : model.joints) add(model.joint_maps, joint.a.node, joint.b.node);
   for (const Load& load : model.loads) add(model.load_maps, load.at.node);
+  for (const Coordinate& c : model.coordinates) add(model.coordinate_maps, c.a.node, c.b.node);
+  for (const Coupling& coupling : model.couplings) {
+    ElementMap map;
+    for (const CouplingTerm& term : coupling.terms) {
+      const std::vector<int>& columns = model.coordinate_maps[static_cast<std::size_t>(term.coordinate)].coordinates;
+      map.coordinates.insert(map.coordinates.end(), columns.begin(), columns.end());
+    }
+    model.coupling_maps.push_back(std::move(map));
+  }
+}
+
+/// B and Bᵀ of `size` rows from `row` on.
+void add_constraint(const ElementMap& map, int first, int size, std::vector<Position>& positions) {
+  for (const int coordinate : map.coordinates)
+    for (int k = 0; k < size && coordinate >= 0; ++k) {
+      positions.push_back({first + k, coordinate});
+      positions.push_back({coordinate, first + k});
+    }
+}
+
+ConstraintMap constraint_slots(const SparsePattern& pattern, const ElementMap& map, int first, int size) {
+  ConstraintMap result;
+  for (const int coordinate : map.coordinates)
+    for (int k = 0; k < size; ++k) {
+      result.lower.push_back(coordinate < 0 ? -1 : pattern.slot(first + k, coordinate));
+      result.upper.push_back(coordinate < 0 ? -1 : pattern.slot(coordinate, first + k));
+    }
+  return result;
+}
+
+void number_constraints(Model& model) {
+  model.length_row.clear();
+  for (Joint& joint : model.joints) {
+    joint.row = static_cast<int>(model.length_row.size());
+    for (int k = 0; k < joint.size(); ++k) model.length_row.push_back(is_length(joint, k));
+  }
+  for (Coupling& coupling : model.couplings) {
+    coupling.row = static_cast<int>(model.length_row.size());
+    model.length_row.push_back(coupling.length);
+  }
+  model.sizes.constraints = static_cast<int>(model.length_row.size());
+  model.sizes.hinges = 0;
+  for (Coordinate& coordinate : model.coordinates)
+    coordinate.turn = coordinate.relation.kind == RelationKind::angle ? model.sizes.hinges++ : -1;
 }
 
 template <class Visit>
@@ -61,6 +105,8 @@ void for_each_map(Model& model, Visit visit) {
   for (auto* maps : {&model.superelement_maps, &model.rigid_maps, &model.beam2_maps, &model.beam3_maps,
                      &model.joint_maps, &model.load_maps})
     for (ElementMap& map : *maps) visit(map);
+  for (std::size_t i = 0; i < model.coordinates.size(); ++i)
+    if (model.coordinates[i].active) visit(model.coordinate_maps[i]);
 }
 
 void scale_equations(Model& model) {
@@ -68,9 +114,9 @@ void scale_equations(Model& model) {
   model.equation_scale.setOnes(pattern.size());
   for (const Node& node : model.nodes)
     if (node.rotation >= 0) model.equation_scale.segment<3>(node.rotation) = 1.0 / model.length;
-  for (const Joint& joint : model.joints)
-    for (int k = 3; k < joint_size(joint.kind); ++k)
-      model.equation_scale[model.sizes.boundary + joint.row + k] = model.length;
+  for (int row = 0; row < model.sizes.constraints; ++row)
+    if (!model.length_row[static_cast<std::size_t>(row)])
+      model.equation_scale[model.sizes.boundary + row] = model.length;
   model.value_scale.setOnes(pattern.values());
   for (int j = 0; j < pattern.size(); ++j)
     for (int at = pattern.column_start()[static_cast<std::size_t>(j)];
@@ -83,13 +129,7 @@ void scale_equations(Model& model) {
 }  // namespace
 
 void finish_model(Model& model, formats::LinearSolver solver) {
-  model.sizes.constraints = 0;
-  model.sizes.hinges = 0;
-  for (Joint& joint : model.joints) {
-    joint.row = model.sizes.constraints;
-    model.sizes.constraints += joint_size(joint.kind);
-    joint.hinge = joint.kind == JointKind::revolute ? model.sizes.hinges++ : -1;
-  }
+  number_constraints(model);
   number_elements(model);
 
   const int boundary = model.sizes.boundary;
@@ -98,28 +138,21 @@ void finish_model(Model& model, formats::LinearSolver solver) {
   for (int i = 0; i < size; ++i) positions.push_back({i, i});
   for_each_map(model, [&positions](const ElementMap& map) { add_block(map.coordinates, positions); });
   for (std::size_t j = 0; j < model.joints.size(); ++j)
-    for (const int coordinate : model.joint_maps[j].coordinates)
-      for (int k = 0; k < joint_size(model.joints[j].kind) && coordinate >= 0; ++k) {
-        const int row = boundary + model.joints[j].row + k;
-        positions.push_back({row, coordinate});
-        positions.push_back({coordinate, row});
-      }
+    add_constraint(model.joint_maps[j], boundary + model.joints[j].row, model.joints[j].size(), positions);
+  for (std::size_t j = 0; j < model.couplings.size(); ++j)
+    add_constraint(model.coupling_maps[j], boundary + model.couplings[j].row, 1, positions);
   const bool dense =
       solver == formats::LinearSolver::dense || (solver == formats::LinearSolver::automatic && size <= dense_limit);
   model.pattern = std::make_unique<SparsePattern>(
       size, std::move(positions), dense ? SparsePattern::Storage::dense : SparsePattern::Storage::sparse);
 
   for_each_map(model, [&model](ElementMap& map) { fill_slots(*model.pattern, map); });
-  for (std::size_t j = 0; j < model.joints.size(); ++j) {
-    ConstraintMap map;
-    for (const int coordinate : model.joint_maps[j].coordinates)
-      for (int k = 0; k < joint_size(model.joints[j].kind); ++k) {
-        const int row = boundary + model.joints[j].row + k;
-        map.lower.push_back(coordinate < 0 ? -1 : model.pattern->slot(row, coordinate));
-        map.upper.push_back(coordinate < 0 ? -1 : model.pattern->slot(coordinate, row));
-      }
-    model.constraint_maps.push_back(std::move(map));
-  }
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    model.constraint_maps.push_back(
+        constraint_slots(*model.pattern, model.joint_maps[j], boundary + model.joints[j].row, model.joints[j].size()));
+  for (std::size_t j = 0; j < model.couplings.size(); ++j)
+    model.coupling_constraint_maps.push_back(
+        constraint_slots(*model.pattern, model.coupling_maps[j], boundary + model.couplings[j].row, 1));
   scale_equations(model);
 }
 
@@ -140,8 +173,10 @@ std::string coordinate_name(const Model& model, int coordinate) {
 
 std::string constraint_name(const Model& model, int row) {
   for (const Joint& joint : model.joints)
-    if (row >= joint.row && row < joint.row + joint_size(joint.kind))
-      return fmt::format("{}, {}", joint.name, joint_equation_name(joint.kind, row - joint.row));
+    if (row >= joint.row && row < joint.row + joint.size())
+      return fmt::format("{}, {}", joint.name, joint_equation_name(joint, row - joint.row));
+  for (const Coupling& coupling : model.couplings)
+    if (row == coupling.row) return coupling.name;
   return fmt::format("constraint {}", row);
 }
 

@@ -12,6 +12,8 @@
 #include "mechanism/bodies/rigid_body.hpp"
 #include "mechanism/bodies/superelement_body.hpp"
 #include "mechanism/forces/load.hpp"
+#include "mechanism/forces/spring.hpp"
+#include "mechanism/joints/coordinate.hpp"
 #include "mechanism/joints/joint.hpp"
 #include "mechanism/solver/linear_solver.hpp"
 #include "mechanism/state.hpp"
@@ -38,7 +40,7 @@ struct ElementMap {
   std::vector<int> slots;
 };
 
-/// Slots of the constraint rows of a joint: B at (row k, column j) and Bᵀ at (j, k), index k + size·j.
+/// Slots of the rows of a joint or a coupling: B at (row k, column j) and Bᵀ at (j, k), index k + size·j.
 struct ConstraintMap {
   std::vector<int> lower;
   std::vector<int> upper;
@@ -69,12 +71,21 @@ struct Model {
   std::vector<Joint> joints;
   std::vector<ElementMap> joint_maps;
   std::vector<ConstraintMap> constraint_maps;
+  std::vector<Coordinate> coordinates;
+  std::vector<ElementMap> coordinate_maps;
+  std::vector<Coupling> couplings;
+  std::vector<ElementMap> coupling_maps;  ///< coordinates of all terms one after the other; no slots
+  std::vector<ConstraintMap> coupling_constraint_maps;
+  std::vector<formats::TimeFunctionSpec> motions;  ///< f(t) of driven coordinates
+  double motion_spacing = 1e-4;                    ///< of the differences that give their rates
+  std::vector<Spring> springs;
   std::vector<Load> loads;
   std::vector<ElementMap> load_maps;
   std::vector<double> breakpoints;  ///< ascending, of all loads
 
   /// Factor of each equation and unknown of the iteration matrix: 1/length for rotations and length for constraints of
   /// angles, so that pivots do not depend on the unit of length; and the product for each stored value.
+  std::vector<bool> length_row;  ///< per constraint: a length, or a number of order one
   Eigen::ArrayXd equation_scale;
   Eigen::ArrayXd value_scale;
   std::unique_ptr<SparsePattern> pattern;  ///< of [A Bᵀ; B 0], boundary coordinates then multipliers

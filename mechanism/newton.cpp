@@ -67,7 +67,7 @@ void solve_increment(const Model& model, const Eigen::Ref<const Eigen::VectorXd>
     }
   }
   boundary /= workspace.matrix_scale;
-  workspace.unknowns.tail(model.sizes.constraints) = rows;
+  workspace.unknowns.tail(model.sizes.constraints) = rows.cwiseProduct(workspace.active);
   solve_scaled(model, workspace);
   workspace.increment.head(n) = workspace.unknowns.head(n);
   workspace.unknowns.tail(model.sizes.constraints) *= workspace.matrix_scale;
@@ -81,7 +81,7 @@ void solve_increment(const Model& model, const Eigen::Ref<const Eigen::VectorXd>
 void solve_correction(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& rows, Workspace& workspace) {
   const int n = model.sizes.boundary;
   workspace.unknowns.head(n).setZero();
-  workspace.unknowns.tail(model.sizes.constraints) = rows;
+  workspace.unknowns.tail(model.sizes.constraints) = rows.cwiseProduct(workspace.active);
   solve_scaled(model, workspace);
   workspace.correction.head(n) = workspace.unknowns.head(n);
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
@@ -111,15 +111,25 @@ std::string weakest_equation(const Model& model, Workspace& workspace) {
 void apply_jacobian(const Model& model, const Workspace& workspace, const Eigen::VectorXd& d,
                     Eigen::Ref<Eigen::VectorXd> rows) {
   Eigen::Matrix<double, 12, 1> local;
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const std::vector<int>& coordinates = model.joint_maps[i].coordinates;
+  const auto gather_local = [&](const std::vector<int>& coordinates, const auto& pair) {
     for (int k = 0; k < 12; ++k)
       local[k] = coordinates[static_cast<std::size_t>(k)] < 0 ? 0.0 : d[coordinates[static_cast<std::size_t>(k)]];
-    local.segment<3>(3) = turn_increment(model, workspace, model.joints[i].a.node, local.segment<3>(3));
-    local.segment<3>(9) = turn_increment(model, workspace, model.joints[i].b.node, local.segment<3>(9));
+    local.segment<3>(3) = turn_increment(model, workspace, pair.a.node, local.segment<3>(3));
+    local.segment<3>(9) = turn_increment(model, workspace, pair.b.node, local.segment<3>(9));
+  };
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    gather_local(model.joint_maps[i].coordinates, model.joints[i]);
     const Vector6d product = workspace.joints[i].B.lazyProduct(local);  // rows beyond the joint's size are zero
-    const int size = joint_size(model.joints[i].kind);
-    for (int k = 0; k < size; ++k) rows[model.joints[i].row + k] = product[k];
+    for (int k = 0; k < model.joints[i].size(); ++k) rows[model.joints[i].row + k] = product[k];
+  }
+  for (const Coupling& coupling : model.couplings) {
+    double sum = 0.0;
+    for (const CouplingTerm& term : coupling.terms) {
+      const auto at = static_cast<std::size_t>(term.coordinate);
+      gather_local(model.coordinate_maps[at].coordinates, model.coordinates[at]);
+      sum += term.factor * workspace.coordinates[at].G.dot(local);
+    }
+    rows[coupling.row] = sum;
   }
 }
 

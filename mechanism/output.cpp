@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "mechanism/evaluate.hpp"
+#include "mechanism/redundancy.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -63,18 +64,22 @@ void fill_superelements(const Model& model, Workspace& workspace, formats::Resul
   }
 }
 
-void fill_joints(const Model& model, const State& state, const Workspace& workspace, formats::ResultsRow& row) {
+void fill_joints(const Model& model, const State& state, Workspace& workspace, formats::ResultsRow& row) {
+  evaluate_coordinates(model, state, workspace);
+  const Eigen::VectorXd lambda = is_overconstrained(state) ? least_norm_multipliers(model, workspace, state.lambda())
+                                                           : Eigen::VectorXd(state.lambda());
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
     const NodeMotion& a = motion_of(workspace, joint.a.node);
     const NodeMotion& b = motion_of(workspace, joint.b.node);
-    const JointReaction reaction = joint_reaction(joint, a, b, state.lambda().data() + joint.row);
+    const JointReaction reaction = joint_reaction(joint, a, b, lambda.data() + joint.row);
     const auto column = static_cast<Eigen::Index>(i);
     row.joint_force.col(column) = reaction.force;
     row.joint_moment.col(column) = reaction.moment;
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    row.joint_coordinate[column] = joint.hinge < 0 ? none : state.hinges()[joint.hinge];
-    row.joint_rate[column] = joint.hinge < 0 ? none : hinge_rate(joint, a, b);
+  }
+  for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
+    row.joint_coordinate[static_cast<Eigen::Index>(i)] = workspace.coordinates[i].value;
+    row.joint_rate[static_cast<Eigen::Index>(i)] = workspace.coordinates[i].rate;
   }
 }
 
@@ -95,6 +100,8 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
     for (const SuperelementNode& node : body.node) layout.boundary_nodes.push_back(node.name);
   }
   for (const Joint& joint : model.joints) layout.joints.push_back(joint.name);
+  for (const Coordinate& c : model.coordinates)
+    layout.coordinates.push_back({c.name, c.relation.kind != RelationKind::angle});
   layout.channels = scene.output.channels;
   layout.superelement_content_ids = model.superelement_content_ids;
   return layout;

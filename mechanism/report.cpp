@@ -50,6 +50,7 @@ std::string report_json(const RunReport& report) {
                       {"largest_balance", report.largest_balance},
                       {"reference", report.energy_reference},
                       {"largest_relative_balance", relative_balance(report)}};
+  json["reactions_not_unique"] = report.not_unique;
   json["mobility"] = {{"coordinates", report.mobility.coordinates},
                       {"constraints", report.mobility.constraints},
                       {"rank", report.mobility.rank},

@@ -7,9 +7,11 @@
 #include <limits>
 
 #include "common/error.hpp"
+#include "common/text.hpp"
 #include "formats/results.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/output.hpp"
+#include "mechanism/redundancy.hpp"
 #include "mechanism/schedule.hpp"
 #include "mechanism/statics.hpp"
 
@@ -47,6 +49,8 @@ struct Run {
     add(model.rigid_bodies.size(), "rigid bodies");
     add(model.beams2.size() + model.beams3.size(), "nonlinear beam elements");
     add(model.joints.size(), "joints");
+    add(model.couplings.size(), "couplings");
+    add(model.springs.size(), "springs");
     add(model.loads.size(), "loads");
     if (!model.gravity.isZero(0.0)) list.push_back("gravity");
     const bool damped = std::any_of(model.superelements.begin(), model.superelements.end(),
@@ -77,11 +81,27 @@ void require_finite_loads(Run& run) {
   if (!bad.empty()) throw Error(bad, run.scene.file, "correct the formula, for example with t > 0 ? .. : ..");
 }
 
+/// Which equations repeat what others demand, and whose reactions are not unique for that reason.
+void note_redundancy(Run& run) {
+  const Mobility& mobility = run.report.mobility;
+  if (mobility.redundant.empty()) return;
+  std::vector<std::string> rows;
+  for (const int row : mobility.redundant) rows.push_back("'" + constraint_name(run.built.model, row) + "'");
+  if (rows.size() > 20) rows.resize(20), rows.push_back("...");
+  evaluate(run.built.model, run.built.state, run.workspace);
+  run.report.not_unique = joints_without_unique_reaction(run.built.model, run.workspace);
+  run.report.notes.push_back(fmt::format(
+      "{} of {} constraint equations repeat what the others already demand: {}. The motion is right; the "
+      "reactions of {} are not unique, those of least norm are stored",
+      mobility.redundant.size(), mobility.constraints, join(rows, ", "), join(run.report.not_unique, ", ")));
+}
+
 void start(Run& run) {
   require_finite_loads(run);
   const StartReport report = start(run.scene, run.built.model, run.built.state, run.workspace);
   run.report.mobility = report.mobility;
   run.report.projection = report.projection;
+  note_redundancy(run);
   if (report.massless)
     run.report.notes.push_back(
         "the mass matrix is singular: accelerations of its massless directions come from statics");

@@ -40,6 +40,7 @@ struct RunReport {
   double largest_balance = 0.0;         ///< over the stored instants
   double energy_reference = 0.0;        ///< largest kinetic + strain + |work|
   Mobility mobility;
+  std::vector<std::string> not_unique;  ///< joints whose reactions are not unique: those of least norm are stored
   Projection projection;
   std::vector<std::string> notes;
   std::vector<std::string> effects;  ///< what the model contains: pools and terms that are on

@@ -14,7 +14,9 @@ State::State(const Sizes& sizes) : sizes_(sizes) {
   lambda_ = add("lambda", sizes.constraints);
   frames_ = add("frames", 4 * sizes.superelements);
   hinges_ = add("hinges", sizes.hinges);
-  block_.assign(static_cast<std::size_t>(hinges_ + sizes.hinges), 0.0);
+  active_ = add("active", sizes.constraints);
+  block_.assign(static_cast<std::size_t>(active_ + sizes.constraints), 0.0);
+  active().setOnes();
   Q().row(0).setOnes();
   frames().row(0).setOnes();
 }

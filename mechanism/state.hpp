@@ -16,7 +16,7 @@ struct Sizes {
   int internal = 0;       ///< internal coordinates of superelements, eliminated inside the element
   int constraints = 0;    ///< multipliers λ
   int superelements = 0;  ///< floating frames
-  int hinges = 0;         ///< joint angles that are unwrapped
+  int hinges = 0;         ///< joint coordinates that are angles, unwrapped
   int velocities() const { return boundary + internal; }
 };
 
@@ -31,7 +31,7 @@ struct StateField {
 /// their rates and the algorithmic accelerations are [ẋ world; Ω material] per node, then ẏ.
 class State {
  public:
-  static constexpr int version = 1;
+  static constexpr int version = 2;
 
   explicit State(const Sizes& sizes);
 
@@ -87,7 +87,10 @@ class State {
   /// Rotation of each floating frame at the last accepted step [w x y z] (reference of the incremental mean, eq. (15)).
   Map4 frames() { return {block_.data() + frames_, 4, sizes_.superelements}; }
   ConstMap4 frames() const { return {block_.data() + frames_, 4, sizes_.superelements}; }
-  /// Unwrapped angle of each hinge at the last accepted step.
+  /// 1: the constraint row is solved for; 0: it repeats what the others demand, and its multiplier is 0.
+  Map active() { return {block_.data() + active_, sizes_.constraints}; }
+  ConstMap active() const { return {block_.data() + active_, sizes_.constraints}; }
+  /// Unwrapped angle of each coordinate that is an angle, at the last accepted step.
   Map hinges() { return {block_.data() + hinges_, sizes_.hinges}; }
   ConstMap hinges() const { return {block_.data() + hinges_, sizes_.hinges}; }
 
@@ -97,7 +100,7 @@ class State {
   Sizes sizes_;
   std::vector<StateField> fields_;
   std::vector<double> block_;
-  int scalars_ = 0, x_ = 0, Q_ = 0, y_ = 0, v_ = 0, vdot_ = 0, a_ = 0, lambda_ = 0, frames_ = 0, hinges_ = 0;
+  int scalars_ = 0, x_ = 0, Q_ = 0, y_ = 0, v_ = 0, vdot_ = 0, a_ = 0, lambda_ = 0, frames_ = 0, hinges_ = 0, active_ = 0;
 };
 
 /// [w x y z] of Q, and back.

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "mechanism/bodies/superelement_evaluate.hpp"
+#include "mechanism/forces/motion_function.hpp"
 #include "mechanism/model.hpp"
 
 namespace tisserand::mechanism {
@@ -14,7 +16,7 @@ namespace tisserand::mechanism {
 /// Sums over the bodies at one instant.
 struct Energy {
   double kinetic = 0.0;
-  double strain = 0.0;
+  double strain = 0.0;     ///< of bodies and springs
   double potential = 0.0;  ///< of gravity
   double total() const { return kinetic + strain + potential; }
 };
@@ -40,16 +42,22 @@ struct Workspace {
   std::vector<NodeMotion> motion;  ///< of every node; one more at the end: ground
   std::vector<SuperelementScratch> superelements;
   std::vector<JointTerms> joints;
+  std::vector<CoordinateTerms> coordinates;  ///< active ones; all of them after evaluate_coordinates()
+  std::vector<MotionFunction> motions;
+  std::vector<MotionFunction::Value> motion_values;
+  std::vector<std::optional<TimeFunction>> spring_forces;
   std::vector<std::array<TimeFunction, 3>> load_functions;
   std::vector<Eigen::Vector3d> load_values;
   Eigen::VectorXd residual;             ///< r, boundary coordinates (uncondensed)
   Eigen::VectorXd constraint;           ///< Φ
   Eigen::VectorXd constraint_rate;      ///< B v + Φ_t
   Eigen::VectorXd bias;                 ///< Ḃ v
+  Eigen::VectorXd active;               ///< of the state of the last evaluate(): 1, or 0 for rows that others imply
   std::array<double, 3> force_scale{};  ///< largest force, moment and internal force of any single term
   double load_factor = 1.0;             ///< of loads and gravity (load steps of statics)
   double load_power = 0.0;
   double damping_power = 0.0;
+  double spring_energy = 0.0;  ///< strain energy of springs and stops
   std::vector<double> values;  ///< of the iteration matrix [A/s Bᵀ; B 0]
   double matrix_scale = 1.0;   ///< s
 
@@ -58,13 +66,13 @@ struct Workspace {
   TangentCoefficients factored;  ///< coefficients of the factors that are kept
   bool has_factors = false;
   FactorReuse reuse;
-  Eigen::VectorXd unknowns;             ///< right-hand side and solution of the global system
-  Eigen::VectorXd increment;            ///< of the velocity coordinates, boundary and internal
-  Eigen::VectorXd correction;           ///< the same for the position correction of stabilised index 2
-  Eigen::VectorXd displacement;         ///< total increment of the positions over the step
-  Eigen::VectorXd multipliers;          ///< increment of λ of the current iteration
-  Eigen::VectorXd element_boundary;     ///< of one superelement
-  State previous;                       ///< the last accepted state
+  Eigen::VectorXd unknowns;          ///< right-hand side and solution of the global system
+  Eigen::VectorXd increment;         ///< of the velocity coordinates, boundary and internal
+  Eigen::VectorXd correction;        ///< the same for the position correction of stabilised index 2
+  Eigen::VectorXd displacement;      ///< total increment of the positions over the step
+  Eigen::VectorXd multipliers;       ///< increment of λ of the current iteration
+  Eigen::VectorXd element_boundary;  ///< of one superelement
+  State previous;                    ///< the last accepted state
 };
 
 /// Motion of a node at the last evaluate(); −1: ground.

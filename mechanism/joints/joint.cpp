@@ -1,9 +1,11 @@
-// Joint equations as pairs of coincident points and pairs of normal vectors.
+// The table of joints, and sums over their relations.
 #include "mechanism/joints/joint.hpp"
 
-#include <array>
-#include <cmath>
+#include <initializer_list>
 
+#include <fmt/format.h>
+
+#include "common/error.hpp"
 #include "common/rotation.hpp"
 
 namespace tisserand::mechanism {
@@ -12,134 +14,265 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Columns of the marker orientations that stay normal: column `a` of A to column `b` of B.
-struct NormalPair {
-  int a;
-  int b;
-};
+constexpr Relation along(int i) { return {RelationKind::along, static_cast<std::uint8_t>(i), 0}; }
+constexpr Relation normal(int i, int j) {
+  return {RelationKind::normal, static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)};
+}
+constexpr Relation angle(int i) { return {RelationKind::angle, static_cast<std::uint8_t>(i), 0}; }
+constexpr Relation twist{RelationKind::twist, 0, 0};
+constexpr Relation distance{RelationKind::distance, 0, 0};
 
-constexpr std::array<NormalPair, 2> revolute_pairs{{{0, 2}, {1, 2}}};
-constexpr std::array<NormalPair, 3> fixed_pairs{{{0, 1}, {1, 2}, {2, 0}}};
-
-struct Pairs {
-  const NormalPair* pair;
-  int count;
-};
-
-Pairs normal_pairs(JointKind kind) {
-  switch (kind) {
-    case JointKind::fixed:
-      return {fixed_pairs.data(), 3};
-    case JointKind::revolute:
-      return {revolute_pairs.data(), 2};
-    case JointKind::spherical:
-      return {nullptr, 0};
-  }
-  return {nullptr, 0};
+void hold(Joint& joint, std::initializer_list<Relation> relations) {
+  for (const Relation& relation : relations)
+    joint.relations[static_cast<std::size_t>(joint.relation_count++)] = relation;
 }
 
-/// a·b with a = R_A α, b = R_B β: u = R_Aᵀ b, w = R_Bᵀ a, so δ(a·b) = (α × u)·δΘ_A + (β × w)·δΘ_B.
-struct Normal {
-  Vector3d alpha, beta, u, w;
-  Normal(const Joint& joint, NormalPair pair, const NodeMotion& a, const NodeMotion& b)
-      : alpha(joint.a.R.col(pair.a)),
-        beta(joint.b.R.col(pair.b)),
-        u(a.R.transpose() * (b.R * beta)),
-        w(b.R.transpose() * (a.R * alpha)) {}
-};
+/// No turn: x_A ⟂ y_B, y_A ⟂ z_B, z_A ⟂ x_B.
+void hold_orientation(Joint& joint) { hold(joint, {normal(0, 1), normal(1, 2), normal(2, 0)}); }
+
+/// The axis `k` of B stays along that of A.
+void hold_axis(Joint& joint, int k) { hold(joint, {normal((k + 1) % 3, k), normal((k + 2) % 3, k)}); }
+
+void hold_chosen(const std::array<bool, 6>& held, Joint& joint) {
+  joint.coincident = held[0] && held[1] && held[2];
+  for (int i = 0; i < 3 && !joint.coincident; ++i)
+    if (held[static_cast<std::size_t>(i)]) hold(joint, {along(i)});
+  const int turns = held[3] + held[4] + held[5];
+  if (turns == 3) hold_orientation(joint);
+  for (int k = 0; k < 3; ++k) {
+    const bool this_one = held[static_cast<std::size_t>(3 + k)];
+    if (turns == 2 && !this_one) hold_axis(joint, k);
+    if (turns == 1 && this_one) hold(joint, {normal((k + 1) % 3, (k + 2) % 3)});
+  }
+}
+
+const Relation& relation_of(const Joint& joint, int equation) {
+  return joint.relations[static_cast<std::size_t>(equation - (joint.coincident ? 3 : 0))];
+}
+
+constexpr std::array<const char*, 3> axis_name{"x", "y", "z"};
 
 }  // namespace
 
-int joint_size(JointKind kind) { return 3 + normal_pairs(kind).count; }
+bool is_length(const Joint& joint, int equation) {
+  return (joint.coincident && equation < 3) || is_length(relation_of(joint, equation));
+}
 
-std::string joint_equation_name(JointKind kind, int equation) {
-  static const char* const axis[] = {"x", "y", "z"};
-  if (equation < 3) return std::string("translation ") + axis[equation];
-  const NormalPair pair = normal_pairs(kind).pair[equation - 3];
-  return std::string(axis[pair.b]) + " axis of B normal to " + axis[pair.a] + " axis of A";
+namespace {
+int count_normals(const Joint& joint, int column) {
+  int count = 0;
+  for (int k = 0; k < joint.relation_count; ++k) {
+    const Relation& r = joint.relations[static_cast<std::size_t>(k)];
+    count += r.kind == RelationKind::normal && (column < 0 || r.j == column);
+  }
+  return count;
+}
+}  // namespace
+
+int aligned_axis(const Joint& joint) {
+  for (int k = 0; k < 3; ++k)
+    if (count_normals(joint, k) == 2) return k;
+  return -1;
+}
+bool keeps_orientation(const Joint& joint) { return count_normals(joint, -1) == 3; }
+
+void set_relations(JointKind kind, const std::array<bool, 6>& held, Joint& joint) {
+  joint.kind = kind;
+  joint.relation_count = 0;
+  joint.coincident = false;
+  switch (kind) {
+    case JointKind::fixed:
+      joint.coincident = true;
+      hold_orientation(joint);
+      return;
+    case JointKind::revolute:
+      joint.coincident = true;
+      hold_axis(joint, 2);
+      return;
+    case JointKind::spherical:
+      joint.coincident = true;
+      return;
+    case JointKind::universal:
+      joint.coincident = true;
+      hold(joint, {normal(0, 1)});
+      return;
+    case JointKind::constant_velocity:
+      joint.coincident = true;
+      hold(joint, {twist});
+      return;
+    case JointKind::cylindrical:
+    case JointKind::screw:
+      hold(joint, {along(0), along(1)});
+      hold_axis(joint, 2);
+      return;
+    case JointKind::prismatic:
+      hold(joint, {along(0), along(1)});
+      hold_orientation(joint);
+      return;
+    case JointKind::planar:
+      hold(joint, {along(2)});
+      hold_axis(joint, 2);
+      return;
+    case JointKind::point_on_line:
+      hold(joint, {along(0), along(1)});
+      return;
+    case JointKind::point_on_plane:
+      hold(joint, {along(2)});
+      return;
+    case JointKind::distance:
+      hold(joint, {distance});
+      return;
+    case JointKind::constant_orientation:
+      hold_orientation(joint);
+      return;
+    case JointKind::parallel_axes:
+      hold_axis(joint, 2);
+      return;
+    case JointKind::generic:
+      hold_chosen(held, joint);
+      return;
+  }
+  TISSERAND_ENSURE(false, "joint of kind {}", static_cast<int>(kind));
+}
+
+std::vector<NamedRelation> free_coordinates(const Joint& joint) {
+  switch (joint.kind) {
+    case JointKind::revolute:
+      return {{"angle", angle(2)}};
+    case JointKind::cylindrical:
+    case JointKind::screw:
+      return {{"angle", angle(2)}, {"z", along(2)}};
+    case JointKind::prismatic:
+    case JointKind::point_on_line:
+      return {{"z", along(2)}};
+    case JointKind::planar:
+      return {{"x", along(0)}, {"y", along(1)}, {"angle", angle(2)}};
+    case JointKind::universal:
+      return {{"angle_x", angle(0)}, {"angle_y", angle(1)}};
+    case JointKind::point_on_plane:
+      return {{"x", along(0)}, {"y", along(1)}};
+    case JointKind::constant_orientation:
+      return {{"x", along(0)}, {"y", along(1)}, {"z", along(2)}};
+    case JointKind::parallel_axes:
+      return {{"x", along(0)}, {"y", along(1)}, {"z", along(2)}, {"angle", angle(2)}};
+    case JointKind::generic: {
+      std::vector<NamedRelation> free;
+      for (int i = 0; i < 3 && !joint.coincident; ++i) {
+        bool held = false;
+        for (int k = 0; k < joint.relation_count; ++k) {
+          const Relation& r = joint.relations[static_cast<std::size_t>(k)];
+          held = held || (r.kind == RelationKind::along && r.i == i);
+        }
+        if (!held) free.push_back({axis_name[static_cast<std::size_t>(i)], along(i)});
+      }
+      int normals = 0, axis = 0;
+      for (int k = 0; k < joint.relation_count; ++k)
+        if (const Relation& r = joint.relations[static_cast<std::size_t>(k)]; r.kind == RelationKind::normal)
+          ++normals, axis = r.j;
+      if (normals == 2 && axis == 2) free.push_back({"angle", angle(2)});
+      return free;
+    }
+    case JointKind::fixed:
+    case JointKind::spherical:
+    case JointKind::constant_velocity:
+    case JointKind::distance:
+      return {};
+  }
+  return {};
+}
+
+std::string joint_equation_name(const Joint& joint, int equation) {
+  if (joint.coincident && equation < 3)
+    return std::string("translation ") + axis_name[static_cast<std::size_t>(equation)];
+  const Relation& r = relation_of(joint, equation);
+  switch (r.kind) {
+    case RelationKind::along:
+      return fmt::format("translation along {} of A", axis_name[r.i]);
+    case RelationKind::normal:
+      return fmt::format("{} axis of B normal to {} axis of A", axis_name[r.j], axis_name[r.i]);
+    case RelationKind::twist:
+      return "equal turn of A and B";
+    case RelationKind::distance:
+      return "distance";
+    case RelationKind::angle:
+      return fmt::format("turn about {} of A", axis_name[r.i]);
+  }
+  return {};
 }
 
 void joint_constraints(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms) {
-  terms.phi.head<3>() = marker_position(joint.b, b) - marker_position(joint.a, a);
-  terms.B.block<3, 3>(0, 0) = -Matrix3d::Identity();
-  terms.B.block<3, 3>(0, 3).noalias() = a.R * skew<double>(joint.a.p);
-  terms.B.block<3, 3>(0, 6).setIdentity();
-  terms.B.block<3, 3>(0, 9).noalias() = -b.R * skew<double>(joint.b.p);
-  const Pairs pairs = normal_pairs(joint.kind);
-  for (int k = 0; k < pairs.count; ++k) {
-    const Normal n(joint, pairs.pair[k], a, b);
-    terms.phi[3 + k] = n.alpha.dot(n.u);
-    terms.B.block<1, 3>(3 + k, 0).setZero();
-    terms.B.block<1, 3>(3 + k, 3) = n.alpha.cross(n.u).transpose();
-    terms.B.block<1, 3>(3 + k, 6).setZero();
-    terms.B.block<1, 3>(3 + k, 9) = n.beta.cross(n.w).transpose();
+  int row = 0;
+  if (joint.coincident) {
+    terms.phi.head<3>() = marker_position(joint.b, b) - marker_position(joint.a, a);
+    terms.B.block<3, 3>(0, 0) = -Matrix3d::Identity();
+    terms.B.block<3, 3>(0, 3).noalias() = a.R * skew<double>(joint.a.p);
+    terms.B.block<3, 3>(0, 6).setIdentity();
+    terms.B.block<3, 3>(0, 9).noalias() = -b.R * skew<double>(joint.b.p);
+    row = 3;
+  }
+  const MarkerPair pair{joint.a, joint.b, a, b};
+  for (int k = 0; k < joint.relation_count; ++k, ++row) {
+    const RelationTerms relation = evaluate(joint.relations[static_cast<std::size_t>(k)], pair);
+    terms.phi[row] = relation.value - joint.constant;
+    terms.B.row(row) = relation.G;
   }
 }
 
 void joint_bias(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms) {
-  terms.bias.head<3>() = b.R * b.Omega.cross(b.Omega.cross(joint.b.p)) - a.R * a.Omega.cross(a.Omega.cross(joint.a.p));
-  const Pairs pairs = normal_pairs(joint.kind);
-  for (int k = 0; k < pairs.count; ++k) {
-    const Normal n(joint, pairs.pair[k], a, b);
-    const Vector3d u_dot = n.u.cross(a.Omega) + a.R.transpose() * (b.R * b.Omega.cross(n.beta));
-    const Vector3d w_dot = n.w.cross(b.Omega) + b.R.transpose() * (a.R * a.Omega.cross(n.alpha));
-    terms.bias[3 + k] = a.Omega.dot(n.alpha.cross(u_dot)) + b.Omega.dot(n.beta.cross(w_dot));
+  int row = 0;
+  if (joint.coincident) {
+    terms.bias.head<3>() =
+        b.R * b.Omega.cross(b.Omega.cross(joint.b.p)) - a.R * a.Omega.cross(a.Omega.cross(joint.a.p));
+    row = 3;
   }
+  const MarkerPair pair{joint.a, joint.b, a, b};
+  for (int k = 0; k < joint.relation_count; ++k, ++row)
+    terms.bias[row] = bias(joint.relations[static_cast<std::size_t>(k)], pair);
 }
 
 void joint_rate_gradient(const Joint& joint, const NodeMotion& a, const NodeMotion& b,
                          Eigen::Matrix<double, 6, 12>& N) {
   N.setZero();
-  N.block<3, 3>(0, 3).noalias() = a.R * skew<double>(a.Omega.cross(joint.a.p));
-  N.block<3, 3>(0, 9).noalias() = -b.R * skew<double>(b.Omega.cross(joint.b.p));
-  const Pairs pairs = normal_pairs(joint.kind);
-  for (int k = 0; k < pairs.count; ++k) {
-    const Normal n(joint, pairs.pair[k], a, b);
-    const Vector3d alpha_dot = a.Omega.cross(n.alpha), beta_dot = b.Omega.cross(n.beta);
-    N.block<1, 3>(3 + k, 3) = (alpha_dot.cross(n.u) + n.alpha.cross(a.R.transpose() * (b.R * beta_dot))).transpose();
-    N.block<1, 3>(3 + k, 9) = (beta_dot.cross(n.w) + n.beta.cross(b.R.transpose() * (a.R * alpha_dot))).transpose();
+  int row = 0;
+  if (joint.coincident) {
+    N.block<3, 3>(0, 3).noalias() = a.R * skew<double>(a.Omega.cross(joint.a.p));
+    N.block<3, 3>(0, 9).noalias() = -b.R * skew<double>(b.Omega.cross(joint.b.p));
+    row = 3;
   }
+  const MarkerPair pair{joint.a, joint.b, a, b};
+  for (int k = 0; k < joint.relation_count; ++k, ++row)
+    N.row(row) = rate_gradient(joint.relations[static_cast<std::size_t>(k)], pair);
 }
 
-void joint_stiffness(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda,
-                     Eigen::Matrix<double, 12, 12>& K) {
+void joint_stiffness(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda, Square12& K) {
   K.setZero();
-  const Eigen::Map<const Vector3d> f(lambda);
-  // Rows Θ of Bᵀλ: −p_A~ R_Aᵀ f for A and +p_B~ R_Bᵀ f for B; δ(Rᵀ f) = (Rᵀ f)~ δΘ.
-  K.block<3, 3>(3, 3) = -skew<double>(joint.a.p) * skew<double>(a.R.transpose() * f);
-  K.block<3, 3>(9, 9) = skew<double>(joint.b.p) * skew<double>(b.R.transpose() * f);
-  const Pairs pairs = normal_pairs(joint.kind);
-  for (int k = 0; k < pairs.count; ++k) {
-    const Normal n(joint, pairs.pair[k], a, b);
-    const double m = lambda[3 + k];
-    const Matrix3d alpha = skew<double>(n.alpha), beta = skew<double>(n.beta);
-    const Matrix3d R_AB = a.R.transpose() * b.R;
-    K.block<3, 3>(3, 3) += m * alpha * skew<double>(n.u);
-    K.block<3, 3>(3, 9) -= m * alpha * R_AB * beta;
-    K.block<3, 3>(9, 9) += m * beta * skew<double>(n.w);
-    K.block<3, 3>(9, 3) -= m * beta * R_AB.transpose() * alpha;
+  int row = 0;
+  if (joint.coincident) {
+    const Eigen::Map<const Vector3d> f(lambda);
+    // Rows Θ of Bᵀλ: −p_A~ R_Aᵀ f for A and +p_B~ R_Bᵀ f for B; δ(Rᵀ f) = (Rᵀ f)~ δΘ.
+    K.block<3, 3>(3, 3) = -skew<double>(joint.a.p) * skew<double>(a.R.transpose() * f);
+    K.block<3, 3>(9, 9) = skew<double>(joint.b.p) * skew<double>(b.R.transpose() * f);
+    row = 3;
   }
+  const MarkerPair pair{joint.a, joint.b, a, b};
+  for (int k = 0; k < joint.relation_count; ++k, ++row)
+    add_stiffness(joint.relations[static_cast<std::size_t>(k)], pair, lambda[row], K);
+}
+
+JointReaction reaction_of(const Row12& pulled_back, const MarkerPair& pair) {
+  const Vector3d force = -pulled_back.segment<3>(6).transpose();                           // on B, world
+  const Vector3d about_node = -pulled_back.segment<3>(9).transpose();                      // axes of node B
+  const Vector3d moment = about_node - pair.b.p.cross(pair.node_b.R.transpose() * force);  // about marker B
+  const Matrix3d to_A = marker_rotation(pair.a, pair.node_a).transpose();
+  return {to_A * force, to_A * (pair.node_b.R * moment)};
 }
 
 JointReaction joint_reaction(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda) {
-  const Matrix3d R_A = marker_rotation(joint.a, a);
-  Vector3d moment = Vector3d::Zero();  // on B, axes of node B
-  const Pairs pairs = normal_pairs(joint.kind);
-  for (int k = 0; k < pairs.count; ++k) {
-    const Normal n(joint, pairs.pair[k], a, b);
-    moment -= lambda[3 + k] * n.beta.cross(n.w);
-  }
-  return {-R_A.transpose() * Eigen::Map<const Vector3d>(lambda), R_A.transpose() * (b.R * moment)};
-}
-
-double hinge_angle(const Joint& joint, const NodeMotion& a, const NodeMotion& b) {
-  const Matrix3d R_AB = marker_rotation(joint.a, a).transpose() * marker_rotation(joint.b, b);
-  return std::atan2(R_AB(1, 0) - R_AB(0, 1), R_AB(0, 0) + R_AB(1, 1));
-}
-
-double hinge_rate(const Joint& joint, const NodeMotion& a, const NodeMotion& b) {
-  const Vector3d axis = marker_rotation(joint.a, a).col(2);
-  return axis.dot(b.R * b.Omega - a.R * a.Omega);
+  JointTerms terms;
+  joint_constraints(joint, a, b, terms);
+  Row12 sum = Row12::Zero();
+  for (int k = 0; k < joint.size(); ++k) sum += lambda[k] * terms.B.row(k);
+  return reaction_of(sum, {joint.a, joint.b, a, b});
 }
 
 }  // namespace tisserand::mechanism

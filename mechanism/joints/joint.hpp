@@ -1,38 +1,60 @@
-// Joints between two markers: constraints Φ, their Jacobian B, the bias of Φ̈ and the geometric stiffness of the
-// reactions.
+// Joints between two markers: which relations each kind holds at zero, with constraints Φ, Jacobian B, the bias of Φ̈
+// and the geometric stiffness of the reactions.
 #pragma once
 
+#include <array>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
 #include "formats/scene.hpp"
-#include "mechanism/marker.hpp"
-#include "mechanism/motion.hpp"
+#include "mechanism/joints/relation.hpp"
 
 namespace tisserand::mechanism {
 
-/// Equations of a joint from marker A to marker B. Translations (always): Φ = x_B − x_A, world axes. Rotations: Φ = a·b
-/// for pairs of unit vectors a of A, b of B that stay normal to each other (revolute 2: x_A·z_B, y_A·z_B; fixed 3:
-/// x_A·y_B, y_A·z_B, z_A·x_B).
 using formats::JointKind;
 
+/// First, if the joint keeps the origins together, Φ = x_B − x_A in world axes; then the relations, minus `constant`.
 struct Joint {
   std::string name;
   JointKind kind = JointKind::spherical;
   Marker a;
   Marker b;
-  int row = 0;     ///< first multiplier
-  int hinge = -1;  ///< index of the unwrapped angle (revolute)
+  bool coincident = true;
+  std::array<Relation, 6> relations{};
+  int relation_count = 0;
+  double constant = 0.0;  ///< length of a joint of constant distance; 0 for all others
+  int row = 0;            ///< first multiplier
+
+  int size() const { return (coincident ? 3 : 0) + relation_count; }
 };
 
-/// Number of equations: 6, 5 or 3.
-int joint_size(JointKind kind);
+/// Whether equation `k` of the joint is a length (or a number of order one: angles, products of unit vectors).
+bool is_length(const Joint& joint, int equation);
 
-/// Name of one equation for messages, e.g. "translation x" or "z of B normal to x of A".
-std::string joint_equation_name(JointKind kind, int equation);
+/// The axis that both markers keep parallel (−1: none), and whether they keep all three: products of axes are also met
+/// by axes that point the other way.
+int aligned_axis(const Joint& joint);
+bool keeps_orientation(const Joint& joint);
 
-/// Values of one joint; the first joint_size rows count. Columns of B: [x_A Θ_A x_B Θ_B] (material rotations).
+/// Coincidence and relations of the joint from its kind; for JointKind::generic from `held`, [x y z rx ry rz] in axes
+/// of A, of which all, two, one or none of the turns may be held.
+void set_relations(JointKind kind, const std::array<bool, 6>& held, Joint& joint);
+
+/// What the joint lets move, by name: "angle" (revolute, screw), "z" (prismatic, point on line), "z" and "angle"
+/// (cylindrical), "x", "y" and "angle" (planar), "angle_x" and "angle_y" (universal), "x" and "y" (point on plane),
+/// "distance"; empty for those whose freedom has no coordinates of this kind.
+struct NamedRelation {
+  std::string name;
+  Relation relation;
+};
+std::vector<NamedRelation> free_coordinates(const Joint& joint);
+
+/// Name of one equation for messages, e.g. "translation x" or "z axis of B normal to x axis of A".
+std::string joint_equation_name(const Joint& joint, int equation);
+
+/// Values of one joint; the first size() rows count. Columns of B: [x_A Θ_A x_B Θ_B] (material rotations).
 struct JointTerms {
   Eigen::Matrix<double, 6, 1> phi;
   Eigen::Matrix<double, 6, 12> B;
@@ -45,22 +67,19 @@ void joint_constraints(const Joint& joint, const NodeMotion& a, const NodeMotion
 /// Ḃ v.
 void joint_bias(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms);
 
-/// ∂(B v)/∂(x_A Θ_A x_B Θ_B) at fixed ẋ and Ω; the first joint_size rows count.
+/// ∂(B v)/∂(x_A Θ_A x_B Θ_B) at fixed ẋ and Ω; the first size() rows count.
 void joint_rate_gradient(const Joint& joint, const NodeMotion& a, const NodeMotion& b, Eigen::Matrix<double, 6, 12>& N);
 
 /// ∂(Bᵀλ)/∂(x_A Θ_A x_B Θ_B), not symmetric with material increments.
-void joint_stiffness(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda,
-                     Eigen::Matrix<double, 12, 12>& K);
+void joint_stiffness(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda, Square12& K);
 
 /// What A's body exerts on B's body, at B's origin, in A's axes.
 struct JointReaction {
-  Eigen::Vector3d force;
-  Eigen::Vector3d moment;
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
 };
+/// The reaction of constraint or applied forces with gradients G (rows of [x_A Θ_A x_B Θ_B]): −Gᵀ λ on B.
+JointReaction reaction_of(const Row12& pulled_back, const MarkerPair& pair);
 JointReaction joint_reaction(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda);
-
-/// Angle of B relative to A about z of A, right-handed, in (−π, π], and its rate (revolute).
-double hinge_angle(const Joint& joint, const NodeMotion& a, const NodeMotion& b);
-double hinge_rate(const Joint& joint, const NodeMotion& a, const NodeMotion& b);
 
 }  // namespace tisserand::mechanism

@@ -251,7 +251,7 @@ TEST(Results, CsvHoldsTheSelection) {
   std::getline(lines, first);
   EXPECT_EQ(header,
             "time [s],nodes/position/beam/tip/x [m],nodes/position/beam/tip/y [m],nodes/position/beam/tip/z [m],"
-            "joints/coordinate/hinge [rad],joints/coordinate/slide [rad],energy/kinetic [J]");
+            "joints/coordinate/hinge [rad],joints/coordinate/slide [m],energy/kinetic [J]");
   ResultsRow row;
   row.resize(layout);
   fill_row(0, row);

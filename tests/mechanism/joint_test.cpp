@@ -29,6 +29,52 @@ NodeMotion random_motion(std::mt19937& random) {
   return motion;
 }
 
+Matrix3d turn(int axis, double angle) { return exp_so3<double>(Vector3d(angle * Vector3d::Unit(axis))); }
+
+/// Where B stands in the axes of A when the joint is met, with something in every direction that is free.
+struct Placement {
+  Vector3d d = Vector3d::Zero();
+  Matrix3d R = Matrix3d::Identity();
+};
+
+Placement placement(JointKind kind, double angle, std::mt19937& random) {
+  const Vector3d d = random_vector(random, 1.0);
+  const Matrix3d any = exp_so3<double>(random_vector(random, 2.0));
+  switch (kind) {
+    case JointKind::fixed:
+      return {};
+    case JointKind::revolute:
+      return {Vector3d::Zero(), turn(2, angle)};
+    case JointKind::spherical:
+      return {Vector3d::Zero(), any};
+    case JointKind::universal:
+      return {Vector3d::Zero(), turn(0, angle) * turn(1, -0.4)};
+    case JointKind::constant_velocity:  // a turn about an axis in the x-y plane has no part about the bisector of the z
+                                        // axes
+      return {Vector3d::Zero(), exp_so3<double>(Vector3d(d.x(), d.y(), 0))};
+    case JointKind::cylindrical:
+    case JointKind::screw:
+      return {{0, 0, d.z()}, turn(2, angle)};
+    case JointKind::prismatic:
+      return {{0, 0, d.z()}, Matrix3d::Identity()};
+    case JointKind::planar:
+      return {{d.x(), d.y(), 0}, turn(2, angle)};
+    case JointKind::point_on_line:
+      return {{0, 0, d.z()}, any};
+    case JointKind::point_on_plane:
+      return {{d.x(), d.y(), 0}, any};
+    case JointKind::distance:
+      return {d, any};
+    case JointKind::constant_orientation:
+      return {d, Matrix3d::Identity()};
+    case JointKind::parallel_axes:
+      return {d, turn(2, angle)};
+    case JointKind::generic:  // holds x, z, rx, rz
+      return {{0, d.y(), 0}, turn(1, angle)};
+  }
+  return {};
+}
+
 /// Two bodies with offset markers; `closed`: B stands so that the joint is met.
 struct Pair {
   Joint joint;
@@ -36,16 +82,15 @@ struct Pair {
 
   Pair(JointKind kind, unsigned seed, double angle) {
     std::mt19937 random(seed);
-    joint.kind = kind;
     joint.a = {0, random_vector(random, 1.0), exp_so3<double>(random_vector(random, 2.0))};
     joint.b = {1, random_vector(random, 1.0), exp_so3<double>(random_vector(random, 2.0))};
+    set_relations(kind, {true, false, true, true, false, true}, joint);
     a = random_motion(random);
     b = random_motion(random);
-    Matrix3d relative = Matrix3d::Identity();
-    if (kind == JointKind::revolute) relative = exp_so3<double>(Vector3d(0, 0, angle));
-    if (kind == JointKind::spherical) relative = exp_so3<double>(random_vector(random, 2.0));
-    b.R = marker_rotation(joint.a, a) * relative * joint.b.R.transpose();
-    b.x = marker_position(joint.a, a) - b.R * joint.b.p;
+    const Placement p = placement(kind, angle, random);
+    if (kind == JointKind::distance) joint.constant = p.d.norm();
+    b.R = marker_rotation(joint.a, a) * p.R * joint.b.R.transpose();
+    b.x = marker_position(joint.a, a) + marker_rotation(joint.a, a) * p.d - b.R * joint.b.p;
   }
   /// Leaves the constraint, so that derivatives are tested away from Φ = 0 too.
   void open(unsigned seed) {
@@ -80,7 +125,7 @@ struct Pair {
 
 class EveryJoint : public testing::TestWithParam<JointKind> {
  protected:
-  int size() const { return joint_size(GetParam()); }
+  int size() const { return Pair(GetParam(), 0, 0.7).joint.size(); }
   Eigen::VectorXd multipliers(unsigned seed) const {
     std::mt19937 random(seed + 100);
     return test_support::random_vector_n(random, 6, 1.0);
@@ -88,18 +133,12 @@ class EveryJoint : public testing::TestWithParam<JointKind> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Joints, EveryJoint,
-                         testing::Values(JointKind::fixed, JointKind::revolute, JointKind::spherical),
-                         [](const testing::TestParamInfo<JointKind>& kind) {
-                           switch (kind.param) {
-                             case JointKind::fixed:
-                               return "fixed";
-                             case JointKind::revolute:
-                               return "revolute";
-                             case JointKind::spherical:
-                               return "spherical";
-                           }
-                           return "";
-                         });
+                         testing::Values(JointKind::fixed, JointKind::revolute, JointKind::spherical,
+                                         JointKind::universal, JointKind::constant_velocity, JointKind::cylindrical,
+                                         JointKind::screw, JointKind::prismatic, JointKind::planar,
+                                         JointKind::point_on_line, JointKind::point_on_plane, JointKind::distance,
+                                         JointKind::constant_orientation, JointKind::parallel_axes, JointKind::generic),
+                         [](const testing::TestParamInfo<JointKind>& kind) { return formats::joint_word(kind.param); });
 
 // Central differences with d = 1e-5 of functions of size one: truncation 1e-10, round-off 1e-11.
 constexpr double step = 1e-5;
@@ -213,15 +252,17 @@ TEST_P(EveryJoint, RigidMotionOfTheWorldChangesNothing) {
       motion->xd = Q * motion->xd;
     }
     const JointTerms before = pair.terms(), after = turned.terms();
-    EXPECT_LT((after.phi.head<3>() - Q * before.phi.head<3>()).norm(), 1e-14);
-    EXPECT_LT((after.bias.head<3>() - Q * before.bias.head<3>()).norm(), 1e-14);
-    for (int k = 3; k < size(); ++k) {
-      EXPECT_NEAR(after.phi[k], before.phi[k], 1e-14);
-      EXPECT_NEAR(after.bias[k], before.bias[k], 1e-14);
+    if (pair.joint.coincident) {
+      EXPECT_LT((after.phi.head<3>() - Q * before.phi.head<3>()).norm(), 1e-14);
+      EXPECT_LT((after.bias.head<3>() - Q * before.bias.head<3>()).norm(), 1e-13);
+    }
+    for (int k = pair.joint.coincident ? 3 : 0; k < size(); ++k) {
+      EXPECT_NEAR(after.phi[k], before.phi[k], 1e-13);  // positions of size 10
+      EXPECT_NEAR(after.bias[k], before.bias[k], 1e-12);
     }
     Eigen::VectorXd lambda = multipliers(seed);
     const JointReaction r = joint_reaction(pair.joint, pair.a, pair.b, lambda.data());
-    lambda.head<3>() = (Q * lambda.head<3>()).eval();
+    if (pair.joint.coincident) lambda.head<3>() = (Q * lambda.head<3>()).eval();
     const JointReaction s = joint_reaction(turned.joint, turned.a, turned.b, lambda.data());
     EXPECT_LT((r.force - s.force).norm() + (r.moment - s.moment).norm(), 1e-13);
   }
@@ -251,14 +292,22 @@ TEST_P(EveryJoint, SwappingTheBodiesFlipsTheReactions) {
       body.start.angular_velocity = {1.0, -2.0, 0.5};
       scene.bodies.push_back(body);
     }
-    scene.joints.push_back(test_support::joint("j", GetParam(), a, b, Vector3d::Zero(), {0.3, 0.5, 1.0}));
+    formats::JointSpec spec = test_support::joint("j", GetParam(), a, b, Vector3d::Zero(), {0.3, 0.5, 1.0});
+    if (GetParam() == JointKind::generic) spec.hold = {true, false, true, true, false, true};
+    if (GetParam() == JointKind::screw) spec.pitch = 0.2;
+    if (GetParam() == JointKind::distance) {
+      spec.position.reset();
+      (a == "one" ? spec.a : spec.b).position = Vector3d(0.5, 0.2, -0.3);
+      (a == "one" ? spec.b : spec.a).position = Vector3d(-0.3, 0.6, 0.1);
+    }
+    scene.joints.push_back(spec);
     scene.loads.push_back(test_support::constant_load("m", formats::LoadKind::moment, "one", {2, 3, -4}));
     test_support::Simulation run(scene, {});
     run.start();
     return world_reaction(run);
   };
   const JointReaction forth = reaction("one", "two"), back = reaction("two", "one");
-  EXPECT_GT(forth.force.norm(), 0.1);
+  EXPECT_GT(forth.force.norm() + forth.moment.norm(), 0.1);
   // Accelerations of size 10 and a condition number of about 100.
   EXPECT_LT((forth.force + back.force).norm(), 1e-11);
   EXPECT_LT((forth.moment + back.moment).norm(), 1e-11);
@@ -287,19 +336,62 @@ TEST(JointReaction, SignAgainstAStaticCalculationByHand) {
   EXPECT_LT((r.moment - Vector3d(0, 0, 0.3 * weight)).norm(), 1e-12 * weight);
 }
 
-TEST(Hinge, AngleIsRightHandedAboutZOfA) {
+/// Value and gradient of the coordinate of that name.
+RelationTerms coordinate(const Pair& pair, const std::string& name) {
+  for (const NamedRelation& free : free_coordinates(pair.joint))
+    if (free.name == name) return evaluate(free.relation, {pair.joint.a, pair.joint.b, pair.a, pair.b});
+  ADD_FAILURE() << "no coordinate " << name;
+  return {};
+}
+
+// What placement() put in: the turn about z, the shift along the axes of A, and R = R_x(angle) R_y(−0.4).
+TEST(JointCoordinate, MeasuresThePlacement) {
   for (const double angle : {-3.0, -1.2, 0.0, 0.4, 2.9}) {
-    const Pair pair(JointKind::revolute, 3, angle);
-    EXPECT_NEAR(hinge_angle(pair.joint, pair.a, pair.b), angle, 1e-14);
-    const double h = 1e-5;
-    const Vector12d v = pair.velocity();
-    const Pair before = pair.moved(-h * v), after = pair.moved(h * v);
-    // The bodies turn freely here, so the rate of the angle about z of A holds to first order in the tilt: at Φ = 0
-    // exactly.
-    const double difference =
-        (hinge_angle(pair.joint, after.a, after.b) - hinge_angle(pair.joint, before.a, before.b)) / (2 * h);
-    EXPECT_NEAR(hinge_rate(pair.joint, pair.a, pair.b), difference, 1e-8);
+    for (const JointKind kind :
+         {JointKind::revolute, JointKind::cylindrical, JointKind::screw, JointKind::planar, JointKind::parallel_axes})
+      EXPECT_NEAR(coordinate(Pair(kind, 3, angle), "angle").value, angle, 1e-14) << formats::joint_word(kind);
+    EXPECT_NEAR(coordinate(Pair(JointKind::universal, 3, angle), "angle_x").value, angle, 1e-14);
+    EXPECT_NEAR(coordinate(Pair(JointKind::universal, 3, angle), "angle_y").value, -0.4, 1e-14);
   }
+  for (const JointKind kind : {JointKind::prismatic, JointKind::planar, JointKind::constant_orientation}) {
+    const Pair pair(kind, 4, 0.3);
+    const Vector3d d = marker_rotation(pair.joint.a, pair.a).transpose() *
+                       (marker_position(pair.joint.b, pair.b) - marker_position(pair.joint.a, pair.a));
+    for (const NamedRelation& free : free_coordinates(pair.joint))
+      if (free.relation.kind == RelationKind::along) {
+        EXPECT_NEAR(coordinate(pair, free.name).value, d[free.relation.i], 1e-14) << formats::joint_word(kind);
+      }
+  }
+}
+
+// The four derivatives of every relation, away from the constraint, against central differences.
+TEST(Relation, DerivativesAreThoseOfTheValue) {
+  const std::vector<Relation> all{{RelationKind::along, 0, 0},    {RelationKind::along, 2, 0},
+                                  {RelationKind::normal, 1, 2},   {RelationKind::twist, 0, 0},
+                                  {RelationKind::distance, 0, 0}, {RelationKind::angle, 0, 0},
+                                  {RelationKind::angle, 1, 0},    {RelationKind::angle, 2, 0}};
+  for (const Relation& relation : all)
+    for (unsigned seed = 0; seed < states; ++seed) {
+      SCOPED_TRACE(testing::Message() << "kind " << static_cast<int>(relation.kind) << ", axis " << int{relation.i});
+      Pair pair(JointKind::cylindrical, seed, 0.7);
+      pair.open(seed);
+      const auto at = [&](const Pair& p) { return evaluate(relation, {p.joint.a, p.joint.b, p.a, p.b}); };
+      const MarkerPair markers{pair.joint.a, pair.joint.b, pair.a, pair.b};
+      const Vector12d v = pair.velocity();
+      const Row12 G = at(pair).G, N = rate_gradient(relation, markers);
+      Square12 K = Square12::Zero();
+      add_stiffness(relation, markers, 1.3, K);
+      for (int j = 0; j < 12; ++j) {
+        const Vector12d d = step * Vector12d::Unit(j);
+        const RelationTerms after = at(pair.moved(d)), before = at(pair.moved(-d));
+        EXPECT_NEAR(G[j], (after.value - before.value) / (2 * step), accuracy);
+        const Row12 change = (after.G - before.G) / (2 * step);
+        EXPECT_NEAR(N[j], change.dot(v), 10 * accuracy);
+        EXPECT_LT((K.col(j) - 1.3 * change.transpose()).cwiseAbs().maxCoeff(), 10 * accuracy);
+      }
+      const double change = (at(pair.moved(step * v)).G - at(pair.moved(-step * v)).G).dot(v) / (2 * step);
+      EXPECT_NEAR(bias(relation, markers), change, 100 * accuracy);
+    }
 }
 
 // A free rotor at 20 rad/s: 3.2 turns in a second, both ways.

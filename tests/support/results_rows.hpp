@@ -19,6 +19,7 @@ inline formats::ResultsLayout example_layout() {
   layout.boundary_offset = {0, 2, 3};
   layout.boundary_nodes = {"base", "tip", "foot"};
   layout.joints = {"hinge", "slide"};
+  layout.coordinates = {{"hinge", false}, {"slide", true}};
   layout.superelement_content_ids = {std::string(64, 'a'), std::string(64, 'b')};
   return layout;
 }
@@ -26,7 +27,7 @@ inline formats::ResultsLayout example_layout() {
 /// Value number k of the row number t: all different, all exact in double.
 inline double row_value(int t, int k) { return static_cast<double>(t) * 1024.0 + static_cast<double>(k) + 0.25; }
 
-/// Fills a row of any size. The second joint has no coordinate.
+/// Fills a row of any size. The second coordinate is not a number.
 inline void fill_row(int t, formats::ResultsRow& row) {
   int k = 0;
   const auto fill = [&](auto& block) {

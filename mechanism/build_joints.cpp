@@ -1,0 +1,205 @@
+// Joints between markers, their coordinates, and what acts along these.
+#include "mechanism/build_joints.hpp"
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+
+namespace tisserand::mechanism {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+void JointBuilder::place_marker(const formats::MarkerSpec& spec, const Vector3d& position, const Matrix3d& R,
+                                Marker& marker) const {
+  const NodeMotion carrier = markers_.motion(marker.node);
+  if (!spec.position) marker.p = carrier.R.transpose() * (position - carrier.x);
+  if (!spec.orientation) marker.R = carrier.R.transpose() * R;
+}
+
+bool JointBuilder::uses_axes(const Joint& joint) {
+  for (int k = 0; k < joint.relation_count; ++k)
+    if (joint.relations[static_cast<std::size_t>(k)].kind != RelationKind::distance) return true;
+  return false;
+}
+
+void JointBuilder::add(const formats::JointSpec& spec) {
+  Joint joint;
+  joint.name = spec.name;
+  joint.a = markers_.find(spec.a);
+  joint.b = markers_.find(spec.b);
+  set_relations(spec.kind, spec.hold, joint);
+  if (joint.a.node == joint.b.node)
+    throw Error(fmt::format("joint '{}' connects '{}' and '{}', which are {}", spec.name, spec.a.node, spec.b.node,
+                            joint.a.node < 0 ? "both ground" : "on one and the same node"),
+                spec.where, "connect two different nodes");
+  if (spec.kind != JointKind::distance) place_markers(spec, joint);
+  const std::string subject = fmt::format("joint '{}'", spec.name);
+  const MarkerUse use = uses_axes(joint) ? MarkerUse::position_and_axes : MarkerUse::position;
+  check_marker(model_, subject, use, spec.a, joint.a);
+  check_marker(model_, subject, use, spec.b, joint.b);
+  if (spec.kind == JointKind::distance) set_length(spec, joint);
+  add_coordinates(joint);
+  if (spec.kind == JointKind::screw) add_screw(spec);
+  model_.joints.push_back(std::move(joint));
+}
+
+void JointBuilder::place_markers(const formats::JointSpec& spec, Joint& joint) const {
+  const bool at_a = spec.b.node == "ground" || (spec.a.position && !spec.b.position);
+  const Marker& known = at_a ? joint.a : joint.b;
+  const Vector3d position = spec.position ? *spec.position : markers_.position(known);
+  const bool turned_a = spec.a.orientation.has_value(), turned_b = spec.b.orientation.has_value();
+  Matrix3d R = Matrix3d::Identity();
+  if (spec.axis)
+    R = frame_with_z(*spec.axis, spec.x_axis);
+  else if (turned_a || turned_b)
+    R = turned_a ? marker_rotation(joint.a, markers_.motion(joint.a.node))
+                 : marker_rotation(joint.b, markers_.motion(joint.b.node));
+  else if (spec.kind == JointKind::revolute)
+    throw Error(fmt::format("revolute joint '{}' has no axis", spec.name), spec.where,
+                "give `axis: [x, y, z]` in the world frame at the start, or orientations of its markers");
+  place_marker(spec.a, position, R, joint.a);
+  place_marker(spec.b, position, R, joint.b);
+}
+
+void JointBuilder::set_length(const formats::JointSpec& spec, Joint& joint) const {
+  const double start = distance_at_start(joint.a, joint.b);
+  joint.constant = spec.length.value_or(start);
+  if (!(start > 1e-9 * model_.length))
+    throw Error(fmt::format("joint '{}' holds the distance of two markers at the same place", spec.name), spec.where,
+                "use a spherical joint, or give the markers different positions");
+}
+
+double JointBuilder::distance_at_start(const Marker& a, const Marker& b) const {
+  return (markers_.position(b) - markers_.position(a)).norm();
+}
+
+void JointBuilder::add_coordinates(const Joint& joint) {
+  const std::vector<NamedRelation> all = free_coordinates(joint);
+  for (const NamedRelation& free : all) {
+    Coordinate coordinate;
+    coordinate.name = all.size() == 1 ? joint.name : joint.name + "/" + free.name;
+    coordinate.a = joint.a;
+    coordinate.b = joint.b;
+    coordinate.relation = free.relation;
+    coordinate_[joint.name + "/" + free.name] = static_cast<int>(model_.coordinates.size());
+    if (all.size() == 1) coordinate_[joint.name] = static_cast<int>(model_.coordinates.size());
+    model_.coordinates.push_back(std::move(coordinate));
+  }
+}
+
+void JointBuilder::add_screw(const formats::JointSpec& spec) {
+  Coupling screw;
+  screw.name = spec.name + ", advance with the turn";
+  screw.length = true;
+  screw.from_start = true;
+  const int angle = coordinate_.at(spec.name + "/angle"), z = coordinate_.at(spec.name + "/z");
+  screw.terms = {{z, 1.0}, {angle, static_cast<double>(-spec.pitch / (2.0 * EIGEN_PI))}};
+  activate(screw);
+}
+
+void JointBuilder::activate(Coupling& coupling) {
+  for (const CouplingTerm& term : coupling.terms)
+    model_.coordinates[static_cast<std::size_t>(term.coordinate)].active = true;
+  model_.couplings.push_back(std::move(coupling));
+}
+
+int JointBuilder::find_coordinate(const formats::CoordinateRef& ref) const {
+  const auto found = coordinate_.find(ref.name);
+  if (found != coordinate_.end()) return found->second;
+  std::vector<std::string> of_joint, all;
+  const std::string joint = ref.name.substr(0, ref.name.find('/'));
+  for (const auto& [name, index] : coordinate_) {
+    all.push_back(name);
+    if (name.starts_with(joint + "/")) of_joint.push_back(name);
+  }
+  throw Error(fmt::format("there is no joint coordinate '{}'", ref.name), ref.where,
+              !of_joint.empty() ? fmt::format("joint '{}' has {}", joint, join(of_joint, ", "))
+                                : "coordinates of this scene: " + (all.empty() ? "none" : join(all, ", ")));
+}
+
+bool JointBuilder::is_length_coordinate(int coordinate) const {
+  return is_length(model_.coordinates[static_cast<std::size_t>(coordinate)].relation);
+}
+
+void JointBuilder::add(const formats::GearSpec& spec) {
+  Coupling gear;
+  gear.name = spec.name;
+  gear.from_start = true;
+  const int first = find_coordinate(spec.first), second = find_coordinate(spec.second);
+  if (first == second)
+    throw Error(fmt::format("joint '{}' couples '{}' to itself", spec.name, spec.first.name), spec.where,
+                "name two different coordinates");
+  gear.length = is_length_coordinate(second);
+  gear.terms = {{second, 1.0}, {first, -spec.ratio}};
+  activate(gear);
+}
+
+void JointBuilder::add(const formats::MotionSpec& spec) {
+  Coupling motion;
+  motion.name = fmt::format("motion {}", spec.name);
+  const int coordinate = find_coordinate(spec.coordinate);
+  motion.length = is_length_coordinate(coordinate);
+  motion.terms = {{coordinate, 1.0}};
+  motion.motion = static_cast<int>(model_.motions.size());
+  TimeFunction check(spec.value);  // reports syntax errors now
+  for (const double t : breakpoints(spec.value)) breakpoints_.insert(t);
+  model_.motions.push_back(spec.value);
+  activate(motion);
+}
+
+void JointBuilder::add(const formats::SpringSpec& spec) {
+  Spring spring;
+  spring.name = spec.name;
+  spring.coordinate = spec.coordinate ? find_coordinate(*spec.coordinate) : add_distance(spec);
+  model_.coordinates[static_cast<std::size_t>(spring.coordinate)].active = true;
+  spring.stiffness = spec.stiffness;
+  spring.damping = spec.damping;
+  spring.free = spec.free.value_or(0.0);
+  spring.free_at_start = !spec.free;
+  spring.lower = spec.lower;
+  spring.upper = spec.upper;
+  spring.stop_stiffness = spec.stop_stiffness;
+  spring.stop_damping = spec.stop_damping;
+  spring.has_force = spec.force.has_value();
+  if (spec.force) {
+    spring.force = *spec.force;
+    TimeFunction check(spring.force);
+    for (const double t : breakpoints(spring.force)) breakpoints_.insert(t);
+  }
+  model_.springs.push_back(std::move(spring));
+}
+
+int JointBuilder::add_distance(const formats::SpringSpec& spec) {
+  Coordinate coordinate;
+  coordinate.name = spec.name;
+  coordinate.a = markers_.find(spec.a);
+  coordinate.b = markers_.find(spec.b);
+  coordinate.relation = {RelationKind::distance, 0, 0};
+  const std::string subject = fmt::format("spring '{}'", spec.name);
+  if (coordinate.a.node == coordinate.b.node)
+    throw Error(fmt::format("{} connects '{}' and '{}', which do not move against each other", subject, spec.a.node,
+                            spec.b.node),
+                spec.where, "connect two different nodes");
+  check_marker(model_, subject, MarkerUse::position, spec.a, coordinate.a);
+  check_marker(model_, subject, MarkerUse::position, spec.b, coordinate.b);
+  if (!(distance_at_start(coordinate.a, coordinate.b) > 1e-9 * model_.length))
+    throw Error(fmt::format("{} has no direction: its ends are at the same place", subject), spec.where,
+                "move one end, or use springs along the coordinates of a joint");
+  model_.coordinates.push_back(std::move(coordinate));
+  return static_cast<int>(model_.coordinates.size()) - 1;
+}
+
+Matrix3d JointBuilder::frame_with_z(const Vector3d& axis, const std::optional<Vector3d>& x_axis) {
+  const Vector3d z = axis.normalized();
+  Eigen::Index smallest = 0;
+  z.cwiseAbs().minCoeff(&smallest);
+  const Vector3d across = x_axis ? *x_axis : Vector3d(Vector3d::Unit(smallest));
+  const Vector3d x = (across - z.dot(across) * z).normalized();
+  Matrix3d R;
+  R << x, z.cross(x), z;
+  return R;
+}
+
+}  // namespace tisserand::mechanism

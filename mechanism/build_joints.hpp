@@ -1,0 +1,50 @@
+// From the joints, gears, motions and springs of a scene to those of a model.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "mechanism/build_markers.hpp"
+
+namespace tisserand::mechanism {
+
+/// Adds to the pools of `model`; all nodes are there, and its characteristic length.
+class JointBuilder {
+ public:
+  JointBuilder(const MarkerTable& markers, Model& model, std::set<double>& breakpoints)
+      : markers_(markers), model_(model), breakpoints_(breakpoints) {}
+
+  void add(const formats::JointSpec& spec);
+  void add(const formats::GearSpec& spec);
+  void add(const formats::MotionSpec& spec);
+  void add(const formats::SpringSpec& spec);
+
+ private:
+  /// Gives the marker the world pose (position, R) where the scene leaves it open.
+  void place_marker(const formats::MarkerSpec& spec, const Eigen::Vector3d& position, const Eigen::Matrix3d& R,
+                    Marker& marker) const;
+  /// Whether the joint uses directions of the marker.
+  static bool uses_axes(const Joint& joint);
+  /// Where the scene leaves it open: at b, or at a if b is ground; explicit markers first.
+  void place_markers(const formats::JointSpec& spec, Joint& joint) const;
+  void set_length(const formats::JointSpec& spec, Joint& joint) const;
+  double distance_at_start(const Marker& a, const Marker& b) const;
+  void add_coordinates(const Joint& joint);
+  /// z = pitch angle/(2π), with the values at the start as the reference.
+  void add_screw(const formats::JointSpec& spec);
+  void activate(Coupling& coupling);
+  int find_coordinate(const formats::CoordinateRef& ref) const;
+  bool is_length_coordinate(int coordinate) const;
+  /// The distance of the two markers of a spring.
+  int add_distance(const formats::SpringSpec& spec);
+  static Eigen::Matrix3d frame_with_z(const Eigen::Vector3d& axis, const std::optional<Eigen::Vector3d>& x_axis);
+
+  const MarkerTable& markers_;
+  Model& model_;
+  std::set<double>& breakpoints_;
+  std::map<std::string, int> coordinate_;  ///< "hinge", "slide/z" -> row of Model::coordinates
+};
+
+}  // namespace tisserand::mechanism

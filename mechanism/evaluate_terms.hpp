@@ -1,0 +1,52 @@
+// Parts of evaluate(): scattering of local vectors and matrices, and the loops over joints and their coordinates.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "mechanism/evaluate.hpp"
+
+namespace tisserand::mechanism {
+
+/// Adds the local vector to the global one.
+template <class Vector>
+void scatter(const ElementMap& map, const Vector& local, Eigen::VectorXd& global) {
+  for (std::size_t i = 0; i < map.coordinates.size(); ++i)
+    if (map.coordinates[i] >= 0) global[map.coordinates[i]] += local[static_cast<Eigen::Index>(i)];
+}
+
+/// Adds factor times the local matrix to the stored values.
+template <class Matrix>
+void scatter_matrix(const ElementMap& map, const Matrix& local, double factor, std::vector<double>& values) {
+  const double* entry = local.data();
+  for (const int slot : map.slots) {
+    if (slot >= 0) values[static_cast<std::size_t>(slot)] += factor * *entry;
+    ++entry;
+  }
+}
+
+/// Force and moment rows of nodes with six coordinates.
+template <class Vector>
+void note_scale(const Vector& local, Workspace& workspace) {
+  for (Eigen::Index i = 0; i < local.size(); i += 6) {
+    workspace.force_scale[0] = std::max(workspace.force_scale[0], local.template segment<3>(i).cwiseAbs().maxCoeff());
+    workspace.force_scale[1] =
+        std::max(workspace.force_scale[1], local.template segment<3>(i + 3).cwiseAbs().maxCoeff());
+  }
+}
+
+/// Φ, its rate and Bᵀλ of the joints.
+void add_joints(const Model& model, const State& state, Workspace& workspace);
+
+/// The active coordinates; Φ, its rate and Bᵀλ of couplings and motions, and the forces of springs.
+void add_coordinates(const Model& model, const State& state, Workspace& workspace);
+
+/// Rows, columns and geometric stiffness (times `stiffness`) of the joints.
+void add_joint_tangents(const Model& model, const State& state, double stiffness, const ConstraintRows& kind,
+                        Workspace& workspace);
+
+/// The same for couplings and motions, and the tangents of springs times `factor`.
+void add_coordinate_tangents(const Model& model, const State& state, const TangentCoefficients& coefficients,
+                             double factor, const ConstraintRows& kind, Workspace& workspace);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,32 @@
+// Prescribed motion of a coordinate: value, rate and acceleration over time.
+#pragma once
+
+#include <vector>
+
+#include "mechanism/forces/time_function.hpp"
+
+namespace tisserand::mechanism {
+
+/// f, ḟ, f̈ of a formats::TimeFunctionSpec. Tables become a natural cubic spline (twice differentiable; outside the
+/// table it goes on with its last slope); expressions are differentiated by central differences of order six with a
+/// spacing that the caller chooses (a quarter of the step resolves all that the step resolves).
+class MotionFunction {
+ public:
+  MotionFunction(const formats::TimeFunctionSpec& spec, double spacing);
+
+  struct Value {
+    double value = 0.0;
+    double rate = 0.0;
+    double acceleration = 0.0;
+  };
+  Value operator()(double t);
+
+ private:
+  Value spline(double t) const;
+
+  TimeFunction function_;
+  double spacing_;
+  std::vector<double> time_, value_, curvature_;  ///< of the spline; empty: function_
+};
+
+}  // namespace tisserand::mechanism

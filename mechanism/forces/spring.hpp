@@ -1,0 +1,63 @@
+// Spring, damper, stops and friction along one coordinate.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "formats/scene.hpp"
+
+namespace tisserand::mechanism {
+
+/// Generalised force on a coordinate q: Q = −k (q − q_free) − c q̇ + Q_stop + F(t), where a stop that is passed by
+/// g > 0 pushes back with k_s g (1 + d ġ), never pulling ([HC75] with exponent 1).
+struct Spring {
+  std::string name;
+  int coordinate = 0;  ///< row of Model::coordinates
+  double stiffness = 0.0;
+  double damping = 0.0;
+  double free = 0.0;
+  bool free_at_start = false;  ///< `free` is the value at the start
+  std::optional<double> lower, upper;
+  double stop_stiffness = 0.0;
+  double stop_damping = 0.0;  ///< d, time/length (or time/rad)
+  formats::TimeFunctionSpec force = 0.0;
+  bool has_force = false;
+};
+
+struct SpringForce {
+  double Q = 0.0;
+  double dQ_dq = 0.0;
+  double dQ_dqd = 0.0;
+  double energy = 0.0;      ///< of spring and stops
+  double dissipated = 0.0;  ///< power taken out by damper and stops
+};
+
+/// `applied`: F(t).
+inline SpringForce spring_force(const Spring& s, double q, double qd, double applied) {
+  SpringForce f;
+  const double stretch = q - s.free;
+  f.Q = applied - s.stiffness * stretch - s.damping * qd;
+  f.dQ_dq = -s.stiffness;
+  f.dQ_dqd = -s.damping;
+  f.energy = 0.5 * s.stiffness * stretch * stretch;
+  f.dissipated = s.damping * qd * qd;
+  const auto stop = [&](double limit, double side) {
+    const double g = side * (q - limit), gd = side * qd;
+    if (g <= 0.0) return;
+    f.energy += 0.5 * s.stop_stiffness * g * g;
+    const double factor = 1.0 + s.stop_damping * gd;
+    if (factor <= 0.0) {  // leaves faster than the stop can follow: no contact force
+      f.dissipated += -s.stop_stiffness * g * gd;
+      return;
+    }
+    f.Q -= side * s.stop_stiffness * g * factor;
+    f.dQ_dq -= s.stop_stiffness * factor;
+    f.dQ_dqd -= s.stop_stiffness * g * s.stop_damping;
+    f.dissipated += s.stop_stiffness * g * s.stop_damping * gd * gd;
+  };
+  if (s.lower) stop(*s.lower, -1.0);
+  if (s.upper) stop(*s.upper, 1.0);
+  return f;
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,47 @@
+// Joint coordinates: relations that are measured, driven, coupled or loaded, with angles unwrapped over turns.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "mechanism/joints/relation.hpp"
+
+namespace tisserand::mechanism {
+
+struct Coordinate {
+  std::string name;  ///< "hinge", "slide/z": the joint, and which of its coordinates if there are several
+  Marker a;
+  Marker b;
+  Relation relation;
+  int turn = -1;        ///< angles: index of the unwrapped value in the state
+  bool active = false;  ///< used by a coupling, a motion or a spring: evaluated in every step
+};
+
+/// Of one coordinate at one instant; angles unwrapped.
+struct CoordinateTerms {
+  double value = 0.0;
+  double rate = 0.0;
+  Row12 G = Row12::Zero();
+};
+
+/// The angle nearest to `near` that differs from `angle` by whole turns.
+inline double unwrapped(double angle, double near) { return near + std::remainder(angle - near, 2.0 * EIGEN_PI); }
+
+/// Φ = Σ factor · coordinate − constant − f(t): a gear, a rack and pinion, a screw (two terms), a driven coordinate
+/// (one).
+struct CouplingTerm {
+  int coordinate = 0;  ///< row of Model::coordinates
+  double factor = 1.0;
+};
+struct Coupling {
+  std::string name;
+  std::vector<CouplingTerm> terms;
+  double constant = 0.0;
+  int motion = -1;          ///< index of f in Workspace::motions, −1: none
+  bool length = false;      ///< whether Φ is a length
+  bool from_start = false;  ///< the constant is the value at the start: gears hold changes only
+  int row = 0;              ///< its multiplier
+};
+
+}  // namespace tisserand::mechanism

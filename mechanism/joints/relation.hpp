@@ -1,0 +1,61 @@
+// Scalar relations between two markers: what joints hold at zero, and what joint coordinates measure.
+#pragma once
+
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "mechanism/marker.hpp"
+#include "mechanism/motion.hpp"
+
+namespace tisserand::mechanism {
+
+/// d = x_B − x_A between the origins of the markers; a_i, b_j: axes of A and B (0 x, 1 y, 2 z).
+enum class RelationKind : std::uint8_t {
+  along,     ///< a_i · d: displacement of B along axis i of A
+  normal,    ///< a_i · b_j: 0 while the axes are normal to each other
+  twist,     ///< x_A · y_B − y_A · x_B: 0 while B turns as much as A (constant velocity)
+  distance,  ///< |d|
+  angle,     ///< turn of B about axis i of A, right-handed, in (−π, π]; see angle_terms() for what "about" means
+};
+
+struct Relation {
+  RelationKind kind = RelationKind::along;
+  std::uint8_t i = 0;
+  std::uint8_t j = 0;
+};
+
+/// Whether its value is a length (or a number of order one: an angle or a product of unit vectors).
+inline bool is_length(const Relation& relation) {
+  return relation.kind == RelationKind::along || relation.kind == RelationKind::distance;
+}
+
+/// Both markers with the motion of their carriers.
+struct MarkerPair {
+  const Marker& a;
+  const Marker& b;
+  const NodeMotion& node_a;
+  const NodeMotion& node_b;
+};
+
+/// Columns [x_A Θ_A x_B Θ_B]: world translations and material rotations of the two carriers.
+using Row12 = Eigen::Matrix<double, 1, 12>;
+using Square12 = Eigen::Matrix<double, 12, 12>;
+
+/// Value and gradient G: δ value = G δq, and rate = G v.
+struct RelationTerms {
+  double value = 0.0;
+  Row12 G = Row12::Zero();
+};
+RelationTerms evaluate(const Relation& relation, const MarkerPair& pair);
+
+/// Ġ v: the second derivative of the value is G v̇ + Ġ v.
+double bias(const Relation& relation, const MarkerPair& pair);
+
+/// ∂(G v)/∂q at fixed ẋ and Ω.
+Row12 rate_gradient(const Relation& relation, const MarkerPair& pair);
+
+/// K += weight ∂(Gᵀ)/∂q; not symmetric with material increments.
+void add_stiffness(const Relation& relation, const MarkerPair& pair, double weight, Square12& K);
+
+}  // namespace tisserand::mechanism
