@@ -22,8 +22,7 @@ struct SaintVenant {
 /// With ψ = h + particular polynomial all unknowns are harmonic and every integral over the area becomes one over the
 /// sides. They are solved by collocation of Green's formula ½u + ∫∂G/∂n u ds = ∫G ∂u/∂n ds with cubic polynomials
 /// between four Gauss points per panel, whose integrals are closed; panels shrink towards corners. Relative error about
-/// 1e-5 for compact sections; J of open walls loses (length / thickness)² of it, so that walls thinner than
-/// 1/100 of their length are better given as `walls` (section_walls.hpp). Cost: 5 to 50 ms.
+/// 1e-5, also of J of walls as thin as 1/1000 of their length; spikes are beyond it (is_resolved()). Cost: 2 to 50 ms.
 SaintVenant saint_venant(const SectionPolygon& polygon);
 
 }  // namespace tisserand::formats

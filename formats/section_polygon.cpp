@@ -166,6 +166,11 @@ Section polygon_section(const SectionPolygon& polygon) {
   return section;
 }
 
+bool is_resolved(const Section& section) {
+  return section.torsion_constant > 1e-8 * section.polar_moment && section.shear_area_y > 0.0 &&
+         section.shear_area_z > 0.0 && std::isfinite(section.torsion_constant) && section.area > 0.0;
+}
+
 void drop_round_off(Section& section) {
   const auto drop = [](double& value, double scale) {
     if (std::abs(value) < 1e-9 * scale) value = 0.0;

@@ -41,6 +41,10 @@ AreaMoments area_moments(const SectionPolygon& polygon);
 /// saint_venant() of section_flow.hpp. The polygon has no fault.
 Section polygon_section(const SectionPolygon& polygon);
 
+/// Whether J and shear areas are positive and J is not below 1e-8 (Iy + Iz), where round-off decides about it: false
+/// for spikes and walls thinner than about 1/5000 of their length.
+bool is_resolved(const Section& section);
+
 /// Sets Iyz, shear coupling and shear centre to zero where they are round-off (1e-9 of what they are measured with), so
 /// that symmetric sections are exactly symmetric.
 void drop_round_off(Section& section);

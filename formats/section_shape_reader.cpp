@@ -102,6 +102,14 @@ constexpr Choice<AxisPoint> axis_choices[] = {
 constexpr Choice<AxisPoint> profile_axis_choices[] = {{"centroid", AxisPoint::centroid},
                                                       {"shear_center", AxisPoint::shear_center}};
 
+/// Records an error if the section is too thin for its constants to be found.
+bool resolved(const MapReader& map, const Section& section) {
+  if (is_resolved(section)) return true;
+  map.fail("parts of the section are too thin or too small against the whole for its torsion constant to be found",
+           "give it as `walls`, or give its constants");
+  return false;
+}
+
 Section read_profile(const MapReader& map, const Profile& profile, const Units& units) {
   std::vector<double> sizes;
   for (const std::string_view key : profile.keys) {
@@ -116,6 +124,7 @@ Section read_profile(const MapReader& map, const Profile& profile, const Units& 
     return {};
   }
   Section section = profile_section(profile.shape, sizes);
+  if (!resolved(map, section)) return {};
   move_axis(axis, Eigen::Vector2d::Zero(), section);
   return section;
 }
@@ -163,6 +172,7 @@ Section read_polygon(const MapReader& map) {
     return {};
   }
   Section section = polygon_section(polygon);
+  if (!resolved(map, section)) return {};
   move_axis(axis, area_moments(polygon).centroid, section);
   return section;
 }

@@ -144,6 +144,7 @@ Section pbarl_section(std::string_view type, const Sizes& sizes, const std::stri
     section = formats::rectangle_section(sizes[1], sizes[0]);
   } else {
     section = formats::polygon_section(polygon_of(type, sizes, where));
+    if (!formats::is_resolved(section)) refuse(type, sizes, "the walls are too thin for its torsion constant", where);
   }
   section.where = where;
   return section;

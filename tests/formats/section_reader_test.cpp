@@ -110,6 +110,9 @@ TEST(SectionReader, FaultsAreNamed) {
   EXPECT_NE(error("{shape: polygon, outline: [[0, 0], [1, 0], [1, 1]], holes: 3}"), "");
   EXPECT_NE(error("{shape: polygon, outline: [[0, 0], [1e200, 0], [1e200, 1e200]]}"), "");
   EXPECT_NE(error("{shape: polygon, outline: [[0, 0], [1e-200, 0], [1e-200, 1e-200]]}"), "");
+  EXPECT_EQ(error("{shape: polygon, outline: [[0, 0], [1, 0], [1, 1e-7]]}"),
+            "p.yaml:4:3: section 's': parts of the section are too thin or too small against the whole for its torsion "
+            "constant to be found; give it as `walls`, or give its constants");
   EXPECT_EQ(error("{A: 1, Iy: 2, Iz: 3, J: 4, Iyz: 3, shear_area_y: 1, shear_area_z: 1}"),
             "p.yaml:4:38: section 's': Iyz 3 is not less than sqrt(Iy Iz) 2.44949");
   EXPECT_EQ(error("{A: 1, Iy: 2, Iz: 3, J: 4, centroid: [3], shear_area_y: 1, shear_area_z: 1}"),
