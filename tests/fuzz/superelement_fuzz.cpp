@@ -3,12 +3,22 @@
 // must be read.
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <string>
 
 #include "common/error.hpp"
+#include "formats/hdf5_file.hpp"
 #include "formats/superelement.hpp"
 #include "tests/formats/superelement_container.hpp"
 #include "text_file.hpp"
+
+namespace tisserand::formats::hdf5 {
+
+/// In place of the child process of formats/hdf5_rehearsal.cpp, which would hide a crash behind an Error and costs a
+/// fork: the containers are sound, so nothing may crash here.
+void rehearse(const std::string&, const std::function<void()>&) {}
+
+}  // namespace tisserand::formats::hdf5
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace tisserand;
@@ -17,12 +27,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     formats::check(formats::read_superelement(path).superelement, path);
   } catch (const Error& error) {
-    // The child process of hdf5::rehearse() has died, though the container is sound.
-    const bool has_crashed = std::string(error.what()).find("HDF5 cannot read it") != std::string::npos;
-    if (has_crashed || size == 0) {
-      std::fprintf(stderr, "%s\n", error.what());
-      std::abort();
-    }
+    if (size > 0) return 0;
+    std::fprintf(stderr, "the sound superelement is refused: %s\n", error.what());
+    std::abort();
   }
   return 0;
 }
