@@ -85,10 +85,10 @@ Outcome convert(const ExportRequest& request, const formats::Superelement& eleme
     return {{{asked ? request.output : base + ".pch", dmig_text(element)}},
             "10 to 13 digits, as 16 characters hold; nodes are numbered 1, 2, ..., modes from 1000001"};
   if (request.to == "mbdyn")
-    return {
-        {{asked ? request.output : base + ".fem", mbdyn_text(element, request.input)}},
-        "free elastic modes in mean axes: stiffness and inertia of small motions are kept; effects of deformation on "
-        "the inertia of large motions are not, as MBDyn takes them from lumped masses, which a superelement has not"};
+    return {{{asked ? request.output : base + ".fem", mbdyn_text(element, request.input)}},
+            "free elastic modes in mean axes: stiffness and inertia of small motions are kept; centrifugal loads on "
+            "the modes are "
+            "not, as MBDyn takes them from lumped masses, which a superelement does not have"};
   if (request.to == "matrixmarket") return to_matrix_market(element, base);
   if (request.to == "fmx") return to_fmx(element, base);
   throw Error(fmt::format("'{}' is no format", shown(request.to)), "--to",

@@ -17,8 +17,8 @@ struct ElasticModes {
 };
 
 /// The coordinates y with Rᵀ M̄ y = 0 (R: rigid motions; for a motion without inertia, Rᵀ y = 0), diagonalised:
-/// S̄ y = ω² M̄ y. With the rigid motions they span all of the superelement, so nothing is lost; inertia couples them to
-/// rigid motions in second order only. Throws Error (at `where`) if the superelement has no elastic stiffness.
+/// S̄ y = ω² M̄ y. With the rigid motions they span all of the superelement, so nothing is lost; they carry no
+/// momentum. Throws Error (at `where`) if the superelement has no elastic stiffness.
 ElasticModes elastic_modes(const formats::Superelement& element, const std::string& where);
 
 /// Record groups 1 to 10 and 12 of the MBDyn input manual, appendix "FEM File Format". FEM nodes are the boundary
