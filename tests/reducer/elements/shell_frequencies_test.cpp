@@ -81,7 +81,7 @@ TEST(ShellFrequencies, SquareInItsPlane) {
 /// Clamped cylinder R 0.1, L 0.4, t 0.01 m: 1701 Hz (FinEtoolsFlexStructures, commit d7ccda5, from ADINA), a double
 /// mode.
 TEST(ShellFrequencies, ClampedCylinder) {
-  for (const auto& [facets, n, error] : {std::tuple{quads, 4, 0.03}, {quads, 8, 0.01}, {triangles, 8, 0.015}}) {
+  for (const auto& [facets, n, error] : {std::tuple{quads, 4, 0.03}, {quads, 8, 0.01}, {triangles, 6, 0.025}}) {
     SmallModel model(shell_grid(
         {4 * n, 2 * n, facets, true},
         [](double a, double b) { return Vector3d(0.1 * std::cos(2 * pi * a), 0.1 * std::sin(2 * pi * a), 0.4 * b); },
