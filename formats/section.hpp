@@ -34,10 +34,10 @@ struct Section {
   double centroid_z = 0.0;
   double shear_center_y = 0.0;  ///< of the shear centre from the centroid
   double shear_center_z = 0.0;
-  double shear_coupling = 0.0;    ///< c [1/area]: G γ = [1/A_sy c; c 1/A_sz] Q
-  double warping_constant = 0.0;  ///< about the shear centre; for reports, no element uses it
-  std::string shape;              ///< word of PART.md with which `sizes` made the constants; empty: by constants
-  std::vector<double> sizes;      ///< in the order of the table in PART.md
+  double shear_coupling = 0.0;     ///< c [1/area]: G γ = [1/A_sy c; c 1/A_sz] Q
+  double warping_constant = 0.0;   ///< about the shear centre; for reports, no element uses it
+  std::string shape = {};          ///< word of PART.md with which `sizes` made the constants; empty: by constants
+  std::vector<double> sizes = {};  ///< in the order of the table in PART.md
 };
 
 }  // namespace tisserand::formats
