@@ -75,7 +75,7 @@ SolidProperty solid_property(const formats::Part& part, const formats::SolidGrou
   const formats::Material* material = isotropic(part, solid.material);
   if (material == nullptr) refuse_material(solid.material, user, solid.where);
   return {isotropic_solid(material->youngs_modulus, material->poisson_ratio, material->density), solid.mass_matrix,
-          user};
+          solid.name};
 }
 
 }  // namespace tisserand::reducer

@@ -12,7 +12,7 @@
 #include "reducer/gmsh/write.hpp"
 #include "reducer/survey.hpp"
 #include "tests/reducer/sources/part_text.hpp"
-#include "tests/support/small_model.hpp"
+#include "tests/reducer/sources/sorted_matrices.hpp"
 
 namespace tisserand::testing {
 namespace {
@@ -28,32 +28,10 @@ std::string content(const std::string& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// Dense S and M with the nodes sorted by place, so that numbering has no influence.
-struct Sorted {
-  Eigen::MatrixXd S, M;
-};
-
-Sorted sorted_matrices(const reducer::Mesh& mesh) {
-  std::vector<int> order(static_cast<std::size_t>(mesh.nodes()));
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&mesh](int n) {
-    return std::lround(mesh.position(0, n) * 1e6) * 10'000'000 + std::lround(mesh.position(1, n) * 1e6);
-  };
-  std::ranges::sort(order, {}, key);
-  const reducer::SmallMatrices small = reducer::assemble_small(mesh);
-  const Eigen::MatrixXd S = small.S, M = small.M;
-  std::vector<int> rows;
-  for (const int n : order)
-    for (int c = 0; c < 6; ++c) rows.push_back(6 * n + c);
-  return {S(rows, rows), M(rows, rows)};
-}
-
 class SamePlate : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(SamePlate, GivesTheSameMatrices) {
-  const Sorted drawn = sorted_matrices(
-      mesh_of("plates: {deck: {corners: [[0, 0, 0], [0.6, 0, 0], [0.6, 0.4, 0], [0, 0.4, 0]], elements: [6, 4], "
-              "thickness: 0.01, material: steel}}\npoints: {o: [0, 0, 0]}\nboundary: [o]\n"));
+  const Sorted drawn = sorted_matrices(mesh_of(drawn_plate));
   const reducer::Mesh mesh =
       mesh_of("mesh: {file: " + meshes + GetParam() +
               "}\nshells: {s: {on: all, thickness: 0.01, material: steel}}\nboundary: {o: {node: 1}}\n");
