@@ -19,7 +19,7 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "reducer/gmsh/session.hpp"
-#include "reducer/sources/mesh_file.hpp"
+#include "reducer/mesh_file.hpp"
 
 namespace tisserand::reducer {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "common/units.hpp"
 #include "formats/part.hpp"
-#include "reducer/sources/cells.hpp"
+#include "reducer/cells.hpp"
 
 namespace tisserand::reducer {
 

@@ -5,8 +5,8 @@
 
 #include "common/error.hpp"
 #include "reducer/gmsh/import.hpp"
+#include "reducer/mesh_file.hpp"
 #include "reducer/sources/mesh_builder.hpp"
-#include "reducer/sources/mesh_file.hpp"
 #include "reducer/sources/selection.hpp"
 
 namespace tisserand::reducer {

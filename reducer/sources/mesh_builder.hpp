@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "formats/part.hpp"
+#include "reducer/cells.hpp"
 #include "reducer/decks/deck.hpp"
 #include "reducer/mesh.hpp"
-#include "reducer/sources/cells.hpp"
 #include "reducer/sources/patches.hpp"
 
 namespace tisserand::reducer {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "formats/part.hpp"
-#include "reducer/sources/cells.hpp"
+#include "reducer/cells.hpp"
 #include "reducer/sources/node_grid.hpp"
 
 namespace tisserand::reducer {

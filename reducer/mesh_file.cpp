@@ -1,5 +1,5 @@
 // First look at mesh and geometry files: kind, beginning and end.
-#include "reducer/sources/mesh_file.hpp"
+#include "reducer/mesh_file.hpp"
 
 #include <algorithm>
 #include <array>

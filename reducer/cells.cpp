@@ -1,5 +1,5 @@
 // Forms, sizes and nodal shares of cells.
-#include "reducer/sources/cells.hpp"
+#include "reducer/cells.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
