@@ -127,25 +127,27 @@ TEST_P(BadPart, SaysWhatAndWhere) {
 
 INSTANTIATE_TEST_SUITE_P(
     Keys, BadPart,
-    testing::Values(BadText{"modes: 4", "mods: 4", "part.yaml:11:1: unknown key 'mods'; did you mean 'modes'?"},
-                    BadText{"modes: 4", "colour: red",
-                            "part.yaml:11:1: unknown key 'colour'; known are part, units, materials, sections, points, "
-                            "beams, point_masses, boundary, modes, cutoff"},
-                    BadText{"elements: 40", "elements: 40, ^elements: 41",
-                            "^: beam 'rod': key 'elements' is given twice (first in line 8); remove one"},
-                    BadText{"up: [0, 10, 0]", "^tip: [0, 10, 0]",
-                            "^: point 'tip' is given twice (first in line 6); rename or remove one"},
-                    BadText{"from: base, ", "", "part.yaml:8:3: beam 'rod': missing key 'from'"},
-                    BadText{"E: 2.1e5, ", "", "part.yaml:3:13: material 'steel': missing key 'E'"},
-                    BadText{"part: beam\n", "", "part.yaml:1:1: missing key 'part'"},
-                    BadText{"boundary: [base, tip]\n", "", "part.yaml:1:1: missing key 'boundary'"},
-                    BadText{", time: s", "", "part.yaml:2:1: units: missing key 'time'"},
-                    BadText{"elements: 40", "rotary_inertia: on",
-                            "part.yaml:8:3: beam 'rod': neither 'elements' nor 'size' is given; give one of them"},
-                    BadText{"elements: 40", "elements: 40, size: 1",
-                            "part.yaml:8:3: beam 'rod': both 'elements' and 'size' are given; give one of them"},
-                    BadText{"modes: 4", "modes: 4\ncutoff: 500",
-                            "part.yaml:12:1: both 'modes' and 'cutoff' are given; give one of them"}));
+    testing::Values(
+        BadText{"modes: 4", "mods: 4", "part.yaml:11:1: unknown key 'mods'; did you mean 'modes'?"},
+        BadText{"modes: 4", "colour: red",
+                "part.yaml:11:1: unknown key 'colour'; known are part, units, mesh, materials, sections, points, "
+                "groups, plates, discs, cylinders, extrusions, shells, solids, beams, point_masses, "
+                "springs, spiders, boundary, modes, cutoff"},
+        BadText{"elements: 40", "elements: 40, ^elements: 41",
+                "^: beam 'rod': key 'elements' is given twice (first in line 8); remove one"},
+        BadText{"up: [0, 10, 0]", "^tip: [0, 10, 0]",
+                "^: point 'tip' is given twice (first in line 6); rename or remove one"},
+        BadText{"from: base, ", "", "part.yaml:8:3: beam 'rod': missing key 'from'"},
+        BadText{"E: 2.1e5, ", "", "part.yaml:3:13: material 'steel': missing key 'E'"},
+        BadText{"part: beam\n", "", "part.yaml:1:1: missing key 'part'"},
+        BadText{"boundary: [base, tip]\n", "", "part.yaml:1:1: missing key 'boundary'"},
+        BadText{", time: s", "", "part.yaml:2:1: units: missing key 'time'"},
+        BadText{"elements: 40", "rotary_inertia: on",
+                "part.yaml:8:3: beam 'rod': neither 'elements' nor 'size' is given; give one of them"},
+        BadText{"elements: 40", "elements: 40, size: 1",
+                "part.yaml:8:3: beam 'rod': both 'elements' and 'size' are given; give one of them"},
+        BadText{"modes: 4", "modes: 4\ncutoff: 500",
+                "part.yaml:12:1: both 'modes' and 'cutoff' are given; give one of them"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Types, BadPart,
@@ -170,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"[0, 10, 0]", "^7",
                 "^: point 'up': position must be a list of numbers, not '7'; write it as [1, 2, 3]"},
         BadText{"[0, 10, 0]", "[0, ^ten, 0]", "^: point 'up': position[1] must be a number, not 'ten'"},
-        BadText{"from: base", "from: ^[0, 0, 0]", "^: beam 'rod': from must be text, not a list of 3"},
+        BadText{"from: base", "from: ^[0, 0]", "^: beam 'rod': from has 2 numbers instead of 3; write it as [x, y, z]"},
         BadText{"elements: 40", "elements: 40, theory: ^timoschenko",
                 "^: beam 'rod': unknown theory 'timoschenko'; did you mean 'timoshenko'?"},
         BadText{"[1, 2, 2.5]", "^[1, 2]",
