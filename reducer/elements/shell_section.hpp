@@ -5,8 +5,8 @@
 
 namespace tisserand::reducer {
 
-/// [N; M; Q] = [A B 0; B D 0; 0 0 As] [ε; κ; γ] in the axes of the laminate, per unit length; engineering shear strains.
-/// z from the middle surface along the normal; B = ∫ z Q dz.
+/// [N; M; Q] = [A B 0; B D 0; 0 0 As] [ε; κ; γ] in the axes of the laminate, per unit length; engineering shear
+/// strains. z from the middle surface along the normal; B = ∫ z Q dz.
 struct ShellSection {
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();   ///< force / length
   Eigen::Matrix3d B = Eigen::Matrix3d::Zero();   ///< force
