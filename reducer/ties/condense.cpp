@@ -132,6 +132,11 @@ class RowSum {
 SymmetricPair condensed_rows(const Problem& problem, Share share) {
   SymmetricPair result;
   const SymmetricPair& full = problem.full;
+  const std::size_t expected = full.column.size() / static_cast<std::size_t>(std::max(problem.T.independent, 1)) *
+                               static_cast<std::size_t>(share.end - share.first);
+  result.column.reserve(expected);
+  result.S.reserve(expected);
+  result.M.reserve(expected);
   RowSum sum(problem, 0);
   for (int q = share.first; q < share.end; ++q) {
     const int x = problem.T.source[q];

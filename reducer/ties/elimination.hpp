@@ -33,7 +33,7 @@ using CoordinateNames = std::function<std::string(int coordinate)>;
 Elimination eliminate(const TieSystem& ties, const std::vector<int>& boundary, const CoordinateNames& name,
                       const std::string& where);
 
-/// Rows `rows` (sums over x) of T applied to columns: values of x for given values of q.
+/// T q: values of x (one column per column of q).
 Eigen::MatrixXd expand(const Transformation& T, const Eigen::MatrixXd& q);
 
 }  // namespace tisserand::reducer
