@@ -10,11 +10,10 @@
 #include <Eigen/Geometry>
 
 #include "reducer/mesh.hpp"
+#include "tests/support/shell_mesh.hpp"
 #include "tests/support/small_model.hpp"
 
 namespace tisserand::reducer {
-
-enum class Facets { quadrilaterals, triangles };
 
 /// Cells along a and b, and what they are made of. A closed grid joins a = 1 to a = 0.
 struct GridShape {
