@@ -97,6 +97,21 @@ std::string target_unit(const Units& units) {
   return found == known.end() ? "MM" : found->second;
 }
 
+/// OpenCASCADE knows its target unit only after a STEP reader has been made; gmsh makes none for IGES. Reading a STEP
+/// file that is not there makes one and fails, once per process, in a session of its own.
+void make_step_reader() {
+  static const bool made = [] {
+    const GmshSession session;
+    try {
+      gmsh::vectorpair shapes;
+      gmsh::model::occ::importShapes("none.step", shapes);
+    } catch (const std::string&) {
+    }
+    return true;
+  }();
+  static_cast<void>(made);
+}
+
 void set_sizes(const ImportRequest& request) {
   const formats::MeshFile& settings = request.settings;
   const double to_file = 1.0 / settings.scale;  // coordinates are scaled after meshing
@@ -286,8 +301,9 @@ CellMesh read_out(const ImportRequest& request, bool is_geometry) {
 CellMesh import_with_gmsh(const ImportRequest& request) {
   const std::string& file = request.settings.file;
   return with_gmsh(file, remedy, [&] {
-    const GmshSession session;
     const MeshFileKind kind = mesh_file_kind(file, request.settings.where);
+    if (kind == MeshFileKind::iges) make_step_reader();
+    const GmshSession session;
     set_sizes(request);
     gmsh::option::setString("Geometry.OCCTargetUnit", target_unit(request.units));
     open_quietly(file);
