@@ -165,57 +165,6 @@ TEST(BeamShape, FaultsAreNamed) {
   EXPECT_NE(findings_of().errors.at(0).find("principal second moment"), std::string::npos);
 }
 
-/// NAFEMS FV3, free square frame, in plane: sides 10 m, section 0.25 m square; target (NAFEMS, from memory of the
-/// report) and what another program of Euler beams gives with ten per side. Acceptance of the benchmark: 0.5 %.
-TEST(BeamBenchmarks, FreeSquareFrame) {
-  const int n = 10;
-  Mesh mesh;
-  mesh.position = Eigen::Matrix3Xd::Zero(3, 4 * n);
-  mesh.beam_properties.push_back(property(formats::rectangle_section(0.25, 0.25), BeamTheory::euler_bernoulli));
-  const Vector3d corner[] = {{0, 0, 0}, {10, 0, 0}, {10, 10, 0}, {0, 10, 0}, {0, 0, 0}};
-  for (int i = 0; i < 4 * n; ++i) {
-    const double xi = static_cast<double>(i % n) / n;
-    mesh.position.col(i) = (1.0 - xi) * corner[i / n] + xi * corner[i / n + 1];
-    BeamElement beam{i, (i + 1) % (4 * n)};
-    beam.R_PE = *beam_axes(corner[i / n + 1] - corner[i / n], Vector3d::UnitZ());
-    mesh.beams.push_back(beam);
-  }
-  SmallModel model(mesh);
-  for (int i = 0; i < 4 * n; ++i) model.hold(i, uz | rx | ry);
-  const Eigen::VectorXd hertz = modes_small(model, 11, 400.0).hertz();
-  const double expected[] = {3.262, 5.665, 11.143, 11.143, 12.821, 24.603, 28.671, 28.671};
-  EXPECT_LT(hertz[2], 1e-3);
-  for (int k = 0; k < 8; ++k) EXPECT_NEAR(hertz[3 + k] / expected[k], 1.0, 5e-3) << k;
-}
-
-SmallModes deep_beam(const Section& section, int elements, int count) {
-  Mesh mesh = line_mesh(property(section, BeamTheory::timoshenko), 10.0, elements);
-  SmallModel model(mesh);
-  model.hold(0, ux | uy | uz | rx);
-  model.hold(elements, uy | uz);
-  return modes_small(model, count, 0.0);
-}
-
-/// NAFEMS FV5 (J = Iy + Iz) and R0016 test 5 (true J): pinned deep beam 10 x 2 x 2 m. Exact: Timoshenko's frequency
-/// equation with 5/6 for bending (each twice), √(GJ/ρIp)/4L (2n − 1) for torsion, √(E/ρ)/4L axially. NAFEMS's own
-/// targets are 0.1 to 0.8 % above in bending. Errors fall with the square of the element length.
-TEST(BeamBenchmarks, DeepBeam) {
-  const double twist = std::sqrt(G / rho) / 40.0, J = std::sqrt(0.140577 * 6.0);
-  for (const bool true_torsion : {false, true}) {
-    Section s = formats::rectangle_section(2.0, 2.0);
-    if (!true_torsion) s.torsion_constant = s.polar_moment;
-    const double t = true_torsion ? J * twist : twist;
-    const double exact[] = {42.60872, 42.60872, t, 125.0, 147.78601, 147.78601, 3 * t, 282.36338, 282.36338};
-    const Eigen::VectorXd coarse = deep_beam(s, 20, 9).hertz(), fine = deep_beam(s, 40, 9).hertz();
-    for (int k = 0; k < 9; ++k) {
-      EXPECT_NEAR(fine[k] / exact[k], 1.0, 5e-3) << k;
-      const double order = std::log2((coarse[k] - exact[k]) / (fine[k] - exact[k]));
-      EXPECT_NEAR(order, 2.0, 0.15) << k;
-    }
-  }
-  EXPECT_NEAR(J * twist, 71.196, 1e-3);  // reference data of R0016
-}
-
 /// Beam with fork supports whose centroid lies e above its line of shear centres: bending aside and torsion move
 /// together. With v, θ ~ sin kx, k = nπ/L (Gere and Lin, Coupled vibrations of thin-walled beams of open cross section,
 /// J. Appl. Mech. 25 (1958) 373, without warping): det[EIz k⁴ − mω², meω²; meω², GJk² − (ρIp + me²)ω²] = 0.

@@ -1,0 +1,96 @@
+// Beams of the page of verification: NAFEMS problems and exact solutions of Euler and Timoshenko.
+#include <functional>
+
+#include "tests/problems/beam_vibration.hpp"
+#include "tests/tables/page.hpp"
+
+namespace tisserand::tables {
+namespace {
+
+using namespace reducer;
+
+struct Mode {
+  std::string quantity;
+  int place;
+  double target;
+};
+
+void add_rows(Problem& problem, Target kind, const std::vector<int>& elements,
+              const std::function<Eigen::VectorXd(int)>& ours, const std::vector<Mode>& modes) {
+  std::vector<Eigen::VectorXd> values;
+  for (const int n : elements) values.push_back(ours(n));
+  for (const Mode& mode : modes) {
+    Row row{mode.quantity, "", mode.target, kind, {}};
+    for (const Eigen::VectorXd& v : values) row.ours.push_back(v[mode.place]);
+    problem.rows.push_back(row);
+  }
+}
+
+Problem deep_beam_problem(const std::string& title, DeepBeamTorsion torsion, const std::string& targets) {
+  Problem problem{
+      title,
+      "10 x 2 x 2 m, E 200e9, nu 0.3, rho 8000; A: x, y, z and turn about x held, B: y, z held [Hz]. Targets: exact "
+      "Timoshenko beam (5/6), recomputed. " +
+          targets,
+      {"10", "20", "40"},
+      {},
+      ""};
+  const Eigen::VectorXd exact = deep_beam_exact(torsion);
+  add_rows(problem, Target::exact, {10, 20, 40}, [&](int n) { return deep_beam(torsion, n); },
+           {{"1 and 2, bending", 0, exact[0]},
+            {"3, torsion", 2, exact[2]},
+            {"4, axial", 3, exact[3]},
+            {"5 and 6, bending", 4, exact[4]},
+            {"7, torsion", 6, exact[6]},
+            {"8 and 9, bending", 7, exact[7]}});
+  return problem;
+}
+
+}  // namespace
+
+std::vector<Problem> beam_problems() {
+  Problem frame{
+      "NAFEMS FV3, free square frame",
+      "Sides 10 m, section 0.25 m square, in plane, E 200e9, nu 0.3, rho 8000; Euler beams with rotary inertia; "
+      "elements per side [Hz]. Targets: another program of Euler beams, 10 per side, computed. NAFEMS (from "
+      "memory): 3.261 5.668 11.136 12.849 24.570 28.695.",
+      {"5", "10", "20"},
+      {},
+      ""};
+  add_rows(frame, Target::published, {5, 10, 20}, free_square_frame,
+           {{"4", 3, 3.262},
+            {"5", 4, 5.665},
+            {"6 and 7", 5, 11.143},
+            {"8", 7, 12.821},
+            {"9", 8, 24.603},
+            {"10 and 11", 9, 28.671}});
+  Problem euler{"Euler beams", "Beta L without rotary inertia, exact (cos cosh = -1 or 1).", {"4", "8", "16"}, {}, ""};
+  const auto roots = [](BeamEnds ends) { return [ends](int n) { return euler_beam_roots(ends, n); }; };
+  add_rows(
+      euler, Target::exact, {4, 8, 16}, roots(BeamEnds::clamped_free),
+      {{"clamped-free 1", 0, 1.8751040687}, {"clamped-free 2", 1, 4.6940911330}, {"clamped-free 3", 2, 7.8547574382}});
+  add_rows(euler, Target::exact, {4, 8, 16}, roots(BeamEnds::clamped_clamped),
+           {{"clamped-clamped 1", 0, 4.7300407449},
+            {"clamped-clamped 2", 1, 7.8532046241},
+            {"clamped-clamped 3", 2, 10.9956078380}});
+  add_rows(euler, Target::exact, {4, 8, 16}, roots(BeamEnds::free_free),
+           {{"free-free 1", 0, 4.7300407449}, {"free-free 2", 1, 7.8532046241}, {"free-free 3", 2, 10.9956078380}});
+  Problem timoshenko{"Timoshenko beam, simply supported",
+                     "1 x 0.1 x 0.1 m steel [rad/s]; exact: smaller root of Timoshenko's frequency equation.",
+                     {"10", "20", "40"},
+                     {},
+                     ""};
+  const Eigen::VectorXd exact = pinned_timoshenko_exact();
+  add_rows(timoshenko, Target::exact, {10, 20, 40}, pinned_timoshenko_beam,
+           {{"1", 0, exact[0]}, {"2", 1, exact[1]}, {"3", 2, exact[2]}});
+  return {frame,
+          deep_beam_problem(
+              "NAFEMS FV5, deep simply supported beam", DeepBeamTorsion::polar_moment,
+              "J = Iy + Iz, as the report assumes. NAFEMS prints 42.649 77.542 125.00 148.31 233.10 284.55: 0.1, "
+              "0.35 and 0.8 % above the exact bending."),
+          deep_beam_problem("R0016 test 5, the same with its true torsion", DeepBeamTorsion::torsion_constant,
+                            "J = 0.140577 a^4. R0016 prints 42.650 71.200 125.00 148.15 213.61 283.47."),
+          euler, timoshenko};
+}
+
+}  // namespace tisserand::tables
