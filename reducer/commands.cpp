@@ -9,6 +9,7 @@
 #include "common/text.hpp"
 #include "formats/override.hpp"
 #include "formats/part.hpp"
+#include "formats/section_report.hpp"
 #include "formats/superelement.hpp"
 #include "reducer/build_mesh.hpp"
 #include "reducer/certificate.hpp"
@@ -102,6 +103,13 @@ int groups(const Arguments& arguments) {
   return 0;
 }
 
+int section(const Arguments& arguments) {
+  const formats::Part part = formats::read_part(arguments.input, overrides(arguments));
+  if (part.sections.empty()) throw Error("the part has no sections", arguments.input, "give some under `sections:`");
+  say(formats::section_report(part.sections, part.units));
+  return 0;
+}
+
 }  // namespace
 
 int perform(const Arguments& arguments, char** argv) {
@@ -116,6 +124,8 @@ int perform(const Arguments& arguments, char** argv) {
       return mesh(arguments);
     case Command::groups:
       return groups(arguments);
+    case Command::section:
+      return section(arguments);
     case Command::import_matrices:
       exchange::import_matrices(arguments.import_request);
       return 0;

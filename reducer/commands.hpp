@@ -8,7 +8,7 @@
 
 namespace tisserand::reducer {
 
-enum class Command { run, show, mesh, groups, import_matrices, export_matrices };
+enum class Command { run, show, mesh, groups, section, import_matrices, export_matrices };
 
 struct Arguments {
   Command command = Command::run;

@@ -27,6 +27,7 @@ Examples:
   reducer show beam.superelement.h5              the certificate: mass, frequencies, checks
   reducer mesh beam.part.yaml                    writes beam.msh, to look at with gmsh
   reducer groups bracket.step                    faces, edges, volumes and groups with numbers, sizes and boxes
+  reducer section beam.part.yaml                 constants of its sections
 
 A part in ten lines:
   part: beam
@@ -72,6 +73,11 @@ constexpr const char* about_groups = R"help(Lists faces, edges, volumes, groups 
   reducer groups bracket.part.yaml        also plates, ... and groups that the part file defines
 
 These are the names and numbers for `on:` and `groups:` in part.yaml: face 12, 'left_hole', ...)help";
+
+constexpr const char* about_section =
+    R"help(Prints all constants of the sections of a part: areas, moments, torsion, shear centre.
+
+  reducer section frame.part.yaml)help";
 
 constexpr const char* about_import =
     R"help(Reduced matrices of another program become a superelement file with certificate.
@@ -127,7 +133,7 @@ CLI::App* add_export(CLI::App& app, const std::string& asked, tisserand::reducer
 
 /// Prints what is wrong with the words of the command line.
 int tell_usage(const CLI::ParseError& error, const std::string& asked) {
-  const std::vector<std::string> commands{"run", "show", "mesh", "groups", "import", "export"};
+  const std::vector<std::string> commands{"run", "show", "mesh", "groups", "section", "import", "export"};
   const bool known = std::find(commands.begin(), commands.end(), asked) != commands.end();
   const bool is_word = !asked.empty() && asked[0] != '-';
   fmt::print(stderr, "reducer: {}\n`reducer {}--help` explains.\n",
@@ -161,6 +167,10 @@ int main(int argc, char** argv) {
   groups_command->add_option("file", arguments.input, "part.yaml, or a mesh, geometry or deck")->required();
   groups_command->add_option("--set", arguments.set, "path=value: override a value of the part")
       ->allow_extra_args(false);
+  CLI::App* const section_command = add_command(app, "section", about_section, asked);
+  section_command->add_option("part", arguments.input, "part.yaml")->required();
+  section_command->add_option("--set", arguments.set, "path=value: override a value of the part")
+      ->allow_extra_args(false);
   CLI::App* const import_command = add_import(app, asked, arguments.import_request);
   CLI::App* const export_command = add_export(app, asked, arguments.export_request);
   try {
@@ -172,6 +182,7 @@ int main(int argc, char** argv) {
                       : show_command->parsed() ? Command::show
                       : mesh_command->parsed() ? Command::mesh
                                                : Command::groups;
+  if (section_command->parsed()) arguments.command = Command::section;
   if (import_command->parsed()) arguments.command = Command::import_matrices;
   if (export_command->parsed()) arguments.command = Command::export_matrices;
   try {

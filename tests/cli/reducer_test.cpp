@@ -80,12 +80,20 @@ TEST_F(Reducer, OutputsAreLookedAtBeforeTheWork) {
   EXPECT_FALSE(std::filesystem::exists(file("beam.superelement.h5")));
 }
 
+// A circle of radius 0.03: area pi 0.0009.
+TEST_F(Reducer, SectionPrintsTheConstants) {
+  const Outcome outcome = reducer({"section", "beam.part.yaml"});
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("tube"), HasSubstr("0.00282743")));
+  expect_error(reducer({"section", "beam.part.yaml", "--set", "sections.tube.radius=-1"}), {"radius -1"});
+}
+
 TEST_F(Reducer, UsageErrorsAreTwoAndHelpTeaches) {
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{}, {"shw"}, {"run"}, {"run", "beam.part.yaml", "--nope"}})
     EXPECT_EQ(reducer(words).code, 2);
   EXPECT_THAT(reducer({"shw"}).error, HasSubstr("there is no command 'shw'; did you mean 'show'?"));
-  for (const char* command : {"run", "show", "mesh"})
+  for (const char* command : {"run", "show", "mesh", "section"})
     EXPECT_THAT(reducer({command, "--help"}).out, HasSubstr(std::string("\n  reducer ") + command));
   EXPECT_THAT(reducer({"--help"}).out, AllOf(HasSubstr("Examples:"), HasSubstr("Exit codes:"), HasSubstr("Units")));
   EXPECT_THAT(reducer({"--version"}).out, HasSubstr("reducer " TISSERAND_VERSION));
