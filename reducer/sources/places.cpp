@@ -94,6 +94,7 @@ int find_place(MeshBuilder& builder, const formats::Place& place, const User& us
     case formats::PlaceKind::near:
       return nearest_file_node(builder, place.position, place.tolerance, user);
     case formats::PlaceKind::position:
+      if (const int on_patch = builder.patch_nodes.find(place.position); on_patch >= 0) return on_patch;
       return builder.add_node(place.position, fmt::format("{} at {}", user.name, text(place.position)));
     case formats::PlaceKind::centroid:
       break;

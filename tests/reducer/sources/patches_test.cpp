@@ -72,6 +72,16 @@ TEST(Plates, ThatShareAnEdgeAreConnectedThereAlsoWithBeams) {
   reducer::check_connected(mesh, "part");
 }
 
+// A place given by coordinates on a node of the plate is that node, as a point would be.
+TEST(Plates, CarryBeamsBetweenPlacesOnTheirNodes) {
+  const reducer::Mesh mesh =
+      mesh_of("plates: {" + plate("p", "[[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]", "[2, 2]") +
+              "}\nbeams: {rib: {from: [0.5, 0, 0], to: [0.5, 1, 0], section: rod, material: steel, elements: 2}}\n"
+              "points: {o: [0, 0, 0]}\nboundary: [o]\n");
+  EXPECT_EQ(mesh.nodes(), 9);
+  EXPECT_EQ(mesh.beams.size(), 2u);
+}
+
 TEST(Plates, ThatTouchWithOtherDivisionsAreRefused) {
   const std::string points =
       "points: {a: [0, 0, 0], b: [1, 0, 0], c: [1, 1, 0], d: [0, 1, 0], e: [1, 0, 1], f: [1, 1, 1]}\n";
