@@ -1,6 +1,8 @@
 // The commands of stage 1: read, work, write, tell.
 #include "reducer/commands.hpp"
 
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "common/console.hpp"
@@ -67,7 +69,11 @@ int show(const Arguments& arguments) {
 std::string count_text(const Mesh& mesh) {
   std::vector<std::string> words{fmt::format("{} nodes", mesh.nodes())};
   const auto add = [&words](std::size_t count, const char* noun) {
-    if (count > 0) words.push_back(fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s"));
+    if (count > 0)
+      words.push_back(fmt::format("{} {}{}", count, noun,
+                                  count == 1                              ? ""
+                                  : std::string_view(noun).ends_with('s') ? "es"
+                                                                          : "s"));
   };
   add(mesh.beams.size(), "beam");
   add(mesh.shells.size(), "shell");
