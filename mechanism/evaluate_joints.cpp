@@ -81,25 +81,23 @@ void add_couplings(const Model& model, const State& state, Workspace& workspace)
   }
 }
 
-SpringForce force_of(const Model& model, std::size_t i, double time, Workspace& workspace) {
-  const Spring& spring = model.springs[i];
-  const CoordinateTerms& c = workspace.coordinates[static_cast<std::size_t>(spring.coordinate)];
-  const double applied = spring.has_force ? workspace.load_factor * (*workspace.spring_forces[i])(time) : 0.0;
-  return spring_force(spring, c.value, c.rate, applied);
+/// F(t) of the spring, scaled as loads are.
+double applied_force(const Model& model, std::size_t i, double time, Workspace& workspace) {
+  return model.springs[i].has_force ? workspace.load_factor * (*workspace.spring_forces[i])(time) : 0.0;
 }
 
 void add_springs(const Model& model, const State& state, Workspace& workspace) {
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
     const auto at = static_cast<std::size_t>(model.springs[i].coordinate);
     const CoordinateTerms& c = workspace.coordinates[at];
-    const SpringForce f = force_of(model, i, state.load_time(), workspace);
+    const double applied = applied_force(model, i, state.load_time(), workspace);
+    const SpringForce f = spring_force(model.springs[i], c.value, c.rate, applied);
     const Vector12 force = -f.Q * c.G.transpose();
     scatter(model.coordinate_maps[at], force, workspace.residual);
     note_scale(force, workspace);
     workspace.spring_energy += f.energy;
     workspace.damping_power += f.dissipated;
-    if (model.springs[i].has_force)
-      workspace.load_power += workspace.load_factor * (*workspace.spring_forces[i])(state.load_time()) * c.rate;
+    workspace.load_power += applied * c.rate;
   }
 }
 
@@ -207,8 +205,10 @@ void add_coordinate_tangents(const Model& model, const State& state, const Tange
     const auto at = static_cast<std::size_t>(model.springs[i].coordinate);
     const Coordinate& c = model.coordinates[at];
     const MarkerPair pair = markers_of(c, workspace);
-    const Row12& G = workspace.coordinates[at].G;
-    const SpringForce f = force_of(model, i, state.load_time(), workspace);
+    const CoordinateTerms& terms = workspace.coordinates[at];
+    const Row12& G = terms.G;
+    const double applied = applied_force(model, i, state.load_time(), workspace);
+    const SpringForce f = spring_force(model.springs[i], terms.value, terms.rate, applied);
     K.noalias() = -(coefficients.stiffness * f.dQ_dq + coefficients.damping * f.dQ_dqd) * G.transpose() * G;
     K.noalias() -= (coefficients.stiffness * f.dQ_dqd) * G.transpose() * rate_gradient(c.relation, pair);
     add_stiffness(c.relation, pair, -coefficients.stiffness * f.Q, K);

@@ -92,11 +92,14 @@ void begin(const Model& model, State& state, Workspace& workspace) {
 void pass_breakpoint(const Model& model, const formats::Scene& scene, State& state, Workspace& workspace) {
   const double side = instant_tolerance(scene.integrator.step, state.time());
   bool jumps = false;
-  for (std::size_t i = 0; i < model.loads.size(); ++i)
-    for (auto& function : workspace.load_functions[i]) {
-      const double before = function(state.time() - side), after = function(state.time() + side);
-      jumps = jumps || std::abs(after - before) > 1e-6 * std::max(std::abs(after), std::abs(before));
-    }
+  const auto look_at = [&](TimeFunction& function) {
+    const double before = function(state.time() - side), after = function(state.time() + side);
+    jumps = jumps || std::abs(after - before) > 1e-6 * std::max(std::abs(after), std::abs(before));
+  };
+  for (auto& components : workspace.load_functions)
+    for (TimeFunction& function : components) look_at(function);
+  for (std::optional<TimeFunction>& function : workspace.spring_forces)
+    if (function) look_at(*function);
   if (!jumps) return;
   state.load_time() = state.time() + side;
   solve_accelerations(model, scene.integrator.step, scene.file, state, workspace);

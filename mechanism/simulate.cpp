@@ -62,17 +62,38 @@ struct Run {
   double seconds() const { return control.clock ? control.clock() : 0.0; }
 };
 
-/// A component of a load that is no number at `time`, with its formula, or empty.
+/// "load 'motor', x component": the value at `time`, with its formula, if it is no finite number.
+std::string nonfinite_text(const std::string& what, const formats::TimeFunctionSpec& spec, double time, double value) {
+  if (std::isfinite(value)) return {};
+  const auto* expression = std::get_if<formats::TimeExpression>(&spec);
+  return fmt::format("{}{}: the value at t = {:.6g} is {}, not a finite number", what,
+                     expression == nullptr ? "" : " '" + expression->text + "'", time, value);
+}
+
+/// The first load, force of a spring or motion that is no number at `time`, or empty.
 std::string nonfinite_load(Run& run, double time) {
-  const std::vector<Load>& loads = run.built.model.loads;
-  for (std::size_t i = 0; i < loads.size(); ++i)
+  const Model& model = run.built.model;
+  Workspace& workspace = run.workspace;
+  for (std::size_t i = 0; i < model.loads.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
-      const double value = run.workspace.load_functions[i][k](time);
-      if (std::isfinite(value)) continue;
-      const auto* expression = std::get_if<formats::TimeExpression>(&loads[i].components[k]);
-      return fmt::format("load '{}', {} component{}: the value at t = {:.6g} is {}, not a finite number", loads[i].name,
-                         "xyz"[k], expression == nullptr ? "" : " '" + expression->text + "'", time, value);
+      const std::string what = fmt::format("load '{}', {} component", model.loads[i].name, "xyz"[k]);
+      const std::string text =
+          nonfinite_text(what, model.loads[i].components[k], time, workspace.load_functions[i][k](time));
+      if (!text.empty()) return text;
     }
+  for (std::size_t i = 0; i < model.springs.size(); ++i) {
+    if (!workspace.spring_forces[i]) continue;
+    const std::string what = fmt::format("spring '{}', force", model.springs[i].name);
+    const std::string text = nonfinite_text(what, model.springs[i].force, time, (*workspace.spring_forces[i])(time));
+    if (!text.empty()) return text;
+  }
+  for (const Coupling& coupling : model.couplings) {
+    if (coupling.motion < 0) continue;
+    const auto at = static_cast<std::size_t>(coupling.motion);
+    const MotionFunction::Value f = workspace.motions[at](time);
+    const std::string text = nonfinite_text(coupling.name, model.motions[at], time, f.value + f.rate + f.acceleration);
+    if (!text.empty()) return text;
+  }
   return {};
 }
 
