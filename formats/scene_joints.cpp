@@ -143,6 +143,12 @@ LoadSpec read_load(const Context& context, const YamlNode& node, const SceneDefi
   return load;
 }
 
+TimeFunctionSpec read_function(const MapReader& map, const YamlNode& node, const std::string& key,
+                               const SceneDefinitions& definitions) {
+  map.context().reader.note(map.context().entry, key, node);
+  return read_time_function(map.context(), node, key, definitions.folder);
+}
+
 }  // namespace
 
 std::string joint_word(JointKind kind) {
@@ -172,10 +178,8 @@ std::vector<MotionSpec> read_motions(const MapReader& map, const SceneDefinition
     motion.where = context.entry;
     if (const YamlNode* coordinate = inner.require("coordinate"))
       motion.coordinate = read_coordinate(inner, *coordinate, "coordinate");
-    if (const YamlNode* value = inner.require("value")) {
-      context.reader.note(context.entry, "value", *value);
-      motion.value = read_time_function(context, *value, "value", definitions.folder);
-    }
+    if (const YamlNode* value = inner.require("value"))
+      motion.value = read_function(inner, *value, "value", definitions);
     motions.push_back(std::move(motion));
   }
   return motions;
@@ -204,10 +208,7 @@ std::vector<SpringSpec> read_springs(const MapReader& map, const SceneDefinition
     if (inner.has("upper")) spring.upper = inner.number("upper");
     if (spring.lower || spring.upper) spring.stop_stiffness = inner.number("stop_stiffness");
     spring.stop_damping = inner.number("stop_damping", 0.0);
-    if (const YamlNode* force = inner.find("force")) {
-      context.reader.note(context.entry, "force", *force);
-      spring.force = read_time_function(context, *force, "force", definitions.folder);
-    }
+    if (const YamlNode* force = inner.find("force")) spring.force = read_function(inner, *force, "force", definitions);
     springs.push_back(std::move(spring));
   }
   return springs;

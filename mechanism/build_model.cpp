@@ -239,14 +239,14 @@ class Builder {
     }
     for (std::size_t i = 0; i < frames_.size(); ++i)
       state.frames().col(static_cast<Eigen::Index>(i)) = wxyz(frames_[i]);
-    measure_start(model, state);
-    scale(model, state);
+    Workspace workspace(model);
+    measure_start(model, state, workspace);
+    scale(model, state, workspace);
     return state;
   }
 
   /// Angles at the start, and the constants that are values at the start.
-  static void measure_start(Model& model, State& state) {
-    Workspace workspace(model);
+  static void measure_start(Model& model, State& state, Workspace& workspace) {
     evaluate(model, state, workspace);
     unwrap_hinges(model, workspace, state);
     evaluate_coordinates(model, state, workspace);
@@ -259,8 +259,7 @@ class Builder {
   }
 
   /// Largest diagonal entries of mass and stiffness, which the iteration matrix is scaled with.
-  static void scale(Model& model, const State& state) {
-    Workspace workspace(model);
+  static void scale(Model& model, const State& state, Workspace& workspace) {
     evaluate(model, state, workspace);
     const auto largest_diagonal = [&](const TangentCoefficients& c) {
       model.mass_scale = model.stiffness_scale = 1.0;

@@ -66,13 +66,14 @@ void fill_superelements(const Model& model, Workspace& workspace, formats::Resul
 
 void fill_joints(const Model& model, const State& state, Workspace& workspace, formats::ResultsRow& row) {
   evaluate_coordinates(model, state, workspace);
-  const Eigen::VectorXd lambda = is_overconstrained(state) ? least_norm_multipliers(model, workspace, state.lambda())
-                                                           : Eigen::VectorXd(state.lambda());
+  Eigen::VectorXd least;
+  if (is_overconstrained(state)) least = least_norm_multipliers(model, workspace, state.lambda());
+  const double* lambda = least.size() > 0 ? least.data() : state.lambda().data();
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
     const NodeMotion& a = motion_of(workspace, joint.a.node);
     const NodeMotion& b = motion_of(workspace, joint.b.node);
-    const JointReaction reaction = joint_reaction(joint, a, b, lambda.data() + joint.row);
+    const JointReaction reaction = joint_reaction(joint, a, b, lambda + joint.row);
     const auto column = static_cast<Eigen::Index>(i);
     row.joint_force.col(column) = reaction.force;
     row.joint_moment.col(column) = reaction.moment;
