@@ -1,4 +1,4 @@
-// Spring, damper, stops and friction along one coordinate.
+// Spring, damper and stops along one coordinate.
 #pragma once
 
 #include <optional>
