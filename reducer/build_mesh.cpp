@@ -3,7 +3,10 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "common/error.hpp"
+#include "common/text.hpp"
 #include "reducer/sources/mesh_builder.hpp"
 
 namespace tisserand::reducer {
@@ -28,6 +31,20 @@ void for_nodes(Mesh& mesh, Visit visit) {
   for (MeshBoundary& e : mesh.boundary) visit(e.node);
 }
 
+/// A deck may hold nodes by mistake, a geometry always holds points.
+void tell_left_out(MeshBuilder& builder, const std::vector<int>& row) {
+  constexpr int most_told = 5;
+  std::vector<std::string> told;
+  int count = 0;
+  for (int n = builder.first_file_node; n < builder.last_file_node; ++n)
+    if (row[static_cast<std::size_t>(n)] < 0 && count++ < most_told)
+      told.push_back(builder.label[static_cast<std::size_t>(n)]);
+  if (count > 0)
+    builder.mesh.warnings.push_back(fmt::format("{} nodes of {} without elements, masses and ties are left out: {}{}",
+                                                count, builder.part.mesh.file, join(told, ", "),
+                                                count > most_told ? ", ..." : ""));
+}
+
 }  // namespace
 
 /// Nodes that nothing refers to (points of a geometry, orientation nodes of a deck) leave; the others keep their order.
@@ -35,6 +52,7 @@ void finish(MeshBuilder& builder) {
   Mesh& mesh = builder.mesh;
   std::vector<int> row(builder.cells.position.size(), -1);
   for_nodes(mesh, [&row](int& node) { row[static_cast<std::size_t>(node)] = 0; });
+  if (builder.file_is_deck) tell_left_out(builder, row);
   int count = 0;
   for (int& r : row)
     if (r == 0) r = count++;
@@ -62,6 +80,7 @@ Mesh build_mesh(const formats::Part& part) {
   if (builder.mesh.elements() == 0)
     throw Error("the mesh has no elements with a property", part.file,
                 "say what the groups of the mesh file are: under shells, solids or beams");
+  tell_unjoined_beams(builder);
   finish(builder);
   return std::move(builder.mesh);
 }

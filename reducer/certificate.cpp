@@ -15,7 +15,8 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr double massless_limit = 1e-12;  ///< share of the largest eigenvalue of the scaled M̄
+constexpr double massless_limit = 1e-12;    ///< share of the largest eigenvalue of the scaled M̄
+constexpr double unresisted_limit = 1e-13;  ///< the same of S̄
 constexpr int most_frequencies = 20;
 
 double frequency(double lambda) { return std::sqrt(std::max(lambda, 0.0)) / (2.0 * EIGEN_PI); }
@@ -95,6 +96,12 @@ FileCertificate certify(const formats::Superelement& element, const formats::Sup
     for (Eigen::Index i = 0; i < direction.size(); ++i)
       if (direction[i] > 0.5 * direction.maxCoeff()) words.push_back(coordinate_text(element, i));
     c.massless.push_back(join(words, " with "));
+  }
+  const auto free = (S.eigenvalues().array() < unresisted_limit * S.eigenvalues().maxCoeff()).count();
+  if (free > 6) {
+    c.free_frequency_note =
+        fmt::format("{} motions meet no stiffness where a rigid body has six: something in it is loose", free);
+    return c;
   }
   try {
     c.free_frequency = free_frequencies(element, massless);

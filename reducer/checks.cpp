@@ -129,9 +129,10 @@ std::vector<std::string> check_shapes(const Mesh& mesh, const std::string& where
   check_all(mesh, mesh.shells, report);
   check_all(mesh, mesh.solids, report);
   if (report.errors.count > 0)
-    throw Error(fmt::format("{} faults of element shapes: {}{}", report.errors.count, join(report.errors.told, "; "),
-                            report.errors.count > report.errors.told.size() ? "; ..." : ""),
-                where, "repair these elements in the mesh or the program that made it");
+    throw Error(
+        fmt::format("{} fault{} of element shapes: {}{}", report.errors.count, report.errors.count == 1 ? "" : "s",
+                    join(report.errors.told, "; "), report.errors.count > report.errors.told.size() ? "; ..." : ""),
+        where, "repair these elements in the mesh or the program that made it");
   if (report.warnings.count > report.warnings.told.size())
     report.warnings.told.push_back(fmt::format("... and {} more element shapes of this kind",
                                                report.warnings.count - report.warnings.told.size()));

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/text.hpp"
 #include "reducer/build_mesh.hpp"
 #include "reducer/checks.hpp"
 #include "reducer/full_model.hpp"
@@ -57,12 +58,18 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
   return c;
 }
 
-/// Throws for elements of bad shape; returns all warnings about the mesh.
-std::vector<std::string> check_mesh(const Mesh& mesh, const formats::Part& part) {
-  std::vector<std::string> warnings = mesh.warnings;
-  for (const auto& more : {check_shapes(mesh, part.file), plausibility_warnings(mesh, part.units)})
-    warnings.insert(warnings.end(), more.begin(), more.end());
-  return warnings;
+/// What is doubtful about the mesh; `numbers`: of the plausibility of its numbers alone.
+struct Doubts {
+  std::vector<std::string> all;
+  std::vector<std::string> numbers;
+};
+
+/// Throws for elements of bad shape.
+Doubts check_mesh(const Mesh& mesh, const formats::Part& part) {
+  Doubts doubts{mesh.warnings, plausibility_warnings(mesh, part.units)};
+  for (const auto& more : {check_shapes(mesh, part.file), doubts.numbers})
+    doubts.all.insert(doubts.all.end(), more.begin(), more.end());
+  return doubts;
 }
 
 formats::RigidProperties require_mass(const System& system, const std::string& where) {
@@ -73,20 +80,7 @@ formats::RigidProperties require_mass(const System& system, const std::string& w
   return rigid;
 }
 
-}  // namespace
-
-Reduction reduce(const formats::Part& part, const PhaseListener& begin) {
-  begin("mesh");
-  return reduce_mesh(build_mesh(part), part, begin);
-}
-
-Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin) {
-  begin("checks");
-  check_used(mesh, part.file);
-  check_connected(mesh, part.file);
-  check_boundary_holds(mesh, part.file);
-  const std::vector<std::string> warnings = check_mesh(mesh, part);
-
+Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin) {
   begin("assembly");
   const System system = build_system(mesh, part.file);
   const formats::RigidProperties rigid = require_mass(system, part.file);
@@ -113,13 +107,35 @@ Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseLi
   result.file = certify(result.superelement, formats::check(result.superelement, part.name));
   result.model = describe(part, boundary, internal, projection.defects);
   describe_mesh(mesh, system, result.model);
-  result.model.warnings = warnings;
   result.model.rigid = rigid;
   if (system.size() <= small_part && internal.available > 0) {
     const double scale = internal.lambda.size() > 0 ? internal.lambda[0] : internal.first_dropped.value_or(0.0);
     result.model.free_frequency = full_free_frequencies(system, scale, compared_frequencies);
   }
   return result;
+}
+
+}  // namespace
+
+Reduction reduce(const formats::Part& part, const PhaseListener& begin) {
+  begin("mesh");
+  return reduce_mesh(build_mesh(part), part, begin);
+}
+
+Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin) {
+  begin("checks");
+  check_used(mesh, part.file);
+  check_connected(mesh, part.file);
+  check_boundary_holds(mesh, part.file);
+  const Doubts doubts = check_mesh(mesh, part);
+  try {
+    Reduction result = reduce_checked(mesh, part, begin);
+    result.model.warnings = doubts.all;
+    return result;
+  } catch (const Error& error) {
+    if (doubts.numbers.empty()) throw;
+    throw Error(error.message(), error.where(), error.remedy() + "; a likely cause: " + join(doubts.numbers, "; "));
+  }
 }
 
 }  // namespace tisserand::reducer

@@ -11,7 +11,4 @@ void fill_nodes(Model& model);
 /// All elements, with findings for those without a section.
 void fill_elements(Model& model);
 
-/// Nodes to which nothing refers, with a warning that names the first ones; sets and numbers follow.
-void remove_unused_nodes(Deck& deck);
-
 }  // namespace tisserand::reducer::abaqus

@@ -74,7 +74,6 @@ Deck read_abaqus(const std::string& path, const DeckOptions& options) {
   findings.raise();
   abaqus::publish_sets(model);
   if (model.positions.empty()) throw Error("the deck has no nodes", path, "is it an Abaqus or CalculiX deck?");
-  abaqus::remove_unused_nodes(model.deck);
   return std::move(model.deck);
 }
 

@@ -22,9 +22,9 @@ struct ElementSet {
 };
 
 struct Deck {
-  Mesh mesh;                                           ///< boundary: ASET, BSET or nothing
-  std::map<long, int> node_of_id;                      ///< grid or node number -> column of Mesh::position
-  std::map<std::string, std::vector<int>> node_sets;   ///< names in lower case
+  Mesh mesh;  ///< with all nodes, also those that nothing of the deck uses; boundary: ASET, BSET or nothing
+  std::map<long, int> node_of_id;                     ///< grid or node number -> column of Mesh::position
+  std::map<std::string, std::vector<int>> node_sets;  ///< names in lower case
   std::map<std::string, ElementSet> element_sets;
 };
 

@@ -52,7 +52,7 @@ std::optional<ShellSection> pshell_section(NastranModel& model, CardFields& f, d
   if (shear != nullptr && bending != nullptr) s.As = (ratio > 0.0 ? ratio : 5.0 / 6.0) * T * shear->shear;
   const double density = membrane != nullptr ? membrane->density : bending->density;
   s.mass = density * T + nsm * model.mass_scale;
-  s.rotary_inertia = density * T * T * T / 12.0;
+  if (bending != nullptr) s.rotary_inertia = density * T * T * T / 12.0;  // else its rotations stay free of all
   return s;
 }
 

@@ -44,12 +44,35 @@ Eigen::Matrix<double, 18, 18> local_stiffness(const ShellGeometry<3>& geometry, 
   return triangle_stiffness(geometry, section);
 }
 
+/// A sheet without membrane or without bending stiffness (PSHELL with MID1 or MID2 blank): the elements divide by what
+/// is missing, so a unit sheet takes its place and its rows and columns are cleared; B = 0 keeps both parts apart.
+template <int Corners>
+Eigen::Matrix<double, 6 * Corners, 6 * Corners> stiffness(const ShellGeometry<Corners>& geometry,
+                                                          const ShellSection& section) {
+  const bool has_membrane = !section.A.isZero(0.0), has_bending = !section.D.isZero(0.0);
+  if (has_membrane && has_bending) return local_stiffness(geometry, section);
+  ShellSection whole = section;
+  if (!has_membrane) whole.A.setIdentity();
+  if (!has_bending) {
+    whole.D.setIdentity();
+    whole.As.setIdentity();
+  }
+  Eigen::Matrix<double, 6 * Corners, 6 * Corners> K = local_stiffness(geometry, whole);
+  for (int i = 0; i < 6 * Corners; ++i) {
+    const bool in_plane = i % 6 < 2 || i % 6 == 5;
+    if (in_plane ? has_membrane : has_bending) continue;
+    K.row(i).setZero();
+    K.col(i).setZero();
+  }
+  return K;
+}
+
 template <int Corners>
 void matrices(const Mesh& mesh, const ShellElement& shell, ElementMatrices& out) {
   using Arms = Eigen::Matrix<double, Corners, 1>;
   const ShellProperty& property = mesh.shell_properties[static_cast<std::size_t>(shell.property)];
   const ShellGeometry<Corners> geometry = shell_geometry<Corners>(mesh, shell);
-  Eigen::Matrix<double, 6 * Corners, 6 * Corners> K = local_stiffness(geometry, property.section);
+  Eigen::Matrix<double, 6 * Corners, 6 * Corners> K = stiffness<Corners>(geometry, property.section);
   move_along_normal<Corners>(Arms(Arms::Constant(shell.offset) - geometry.height), K);
   turn<Corners>(geometry.R_PE, K, out.S);
   K = property.mass_matrix == formats::MassMatrix::consistent ? consistent_shell_mass(geometry, property.section)

@@ -18,6 +18,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "reducer/gmsh/curved.hpp"
 #include "reducer/gmsh/session.hpp"
 #include "reducer/mesh_file.hpp"
 
@@ -141,8 +142,22 @@ bool has_cells(int dimension, int tag) {
   return !types.empty();
 }
 
+/// Nodes on curved faces fold coarse cells of second order.
+void unfold(const std::string& file, std::vector<std::string>& warnings) {
+  const Unfolding cells = unfold_cells();
+  if (cells.before == 0) return;
+  if (cells.after > 0)
+    throw Error(
+        fmt::format("{} volume elements of second order are folded over themselves by curved faces", cells.after), file,
+        "choose a smaller mesh: size (or curvature, or sizes for the faces), or order: 1");
+  warnings.push_back(
+      fmt::format("{}: curved faces had folded {} elements of second order; their nodes were moved inside. A smaller "
+                  "mesh: size makes better elements",
+                  file, cells.before));
+}
+
 /// Meshes the geometry, unless the file has done so itself.
-void generate(const ImportRequest& request, const GmshSession& session) {
+void generate(const ImportRequest& request, const GmshSession& session, std::vector<std::string>& warnings) {
   const std::string& file = request.settings.file;
   const int dimension = std::min(request.dimension, gmsh::model::getDimension());
   gmsh::vectorpair entities;
@@ -158,6 +173,7 @@ void generate(const ImportRequest& request, const GmshSession& session) {
     if (!has_cells(d, tag))
       throw Error(fmt::format("{} {} has no mesh: gmsh could not mesh it", dimension_word(d), tag), file,
                   "check the geometry there, or change mesh: size");
+  if (!meshed && dimension == 3) unfold(file, warnings);
 }
 
 /// Columns of the nodes by gmsh's numbers.
@@ -309,11 +325,13 @@ CellMesh import_with_gmsh(const ImportRequest& request) {
     open_quietly(file);
     check_gmsh_messages(session, file, remedy);
     const bool is_geometry = kind != MeshFileKind::msh;
+    std::vector<std::string> warnings;
     if (is_geometry) {
       set_sizes(request);  // a .geo file may have set its own; what the part file gives counts
-      generate(request, session);
+      generate(request, session, warnings);
     }
     CellMesh mesh = read_out(request, is_geometry);
+    mesh.warnings.insert(mesh.warnings.begin(), warnings.begin(), warnings.end());
     for (const std::string& warning : session.messages("Warning")) mesh.warnings.push_back("gmsh: " + warning);
     return mesh;
   });

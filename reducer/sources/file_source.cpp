@@ -122,6 +122,7 @@ void append_deck(MeshBuilder& builder, Deck& deck) {
   for (int n = 0; n < deck.mesh.nodes(); ++n)
     builder.add_node(deck.mesh.position.col(n), std::move(deck.mesh.node_label[static_cast<std::size_t>(n)]));
   builder.last_file_node = static_cast<int>(builder.cells.position.size());
+  builder.file_is_deck = true;
   for (const auto& [id, node] : deck.node_of_id) builder.node_of_id[id] = node + shift;
   for (auto& [name, nodes] : deck.node_sets)
     for (int& node : nodes) node += shift;

@@ -25,6 +25,7 @@ struct MeshBuilder {
   MergedNodes patch_nodes{1.0};
   int first_file_node = 0;  ///< nodes of the mesh file: [first, last)
   int last_file_node = 0;
+  bool file_is_deck = false;
   std::unordered_map<long, int> node_of_id;           ///< of the mesh file
   std::map<std::string, std::vector<int>> node_sets;  ///< of a deck, names in lower case
   std::map<std::string, ElementSet> element_sets;
@@ -39,14 +40,15 @@ struct MeshBuilder {
 };
 
 // In this order:
-void add_patches(MeshBuilder& builder);         ///< sources/own_geometry.cpp
-void add_points(MeshBuilder& builder);          ///< those of part.yaml that something ends at
-void add_mesh_file(MeshBuilder& builder);       ///< sources/file_source.cpp
-void add_group_elements(MeshBuilder& builder);  ///< sources/group_elements.cpp: shells, solids, beams on groups
-void add_spider_nodes(MeshBuilder& builder);    ///< sources/attachments.cpp
-void add_beams(MeshBuilder& builder);           ///< sources/own_geometry.cpp
-void add_attachments(MeshBuilder& builder);     ///< springs, masses, spiders, boundary
-void finish(MeshBuilder& builder);              ///< positions; nodes that nothing uses leave
+void add_patches(MeshBuilder& builder);          ///< sources/own_geometry.cpp
+void add_points(MeshBuilder& builder);           ///< those of part.yaml that something ends at
+void add_mesh_file(MeshBuilder& builder);        ///< sources/file_source.cpp
+void add_group_elements(MeshBuilder& builder);   ///< sources/group_elements.cpp: shells, solids, beams on groups
+void add_spider_nodes(MeshBuilder& builder);     ///< sources/attachments.cpp
+void add_beams(MeshBuilder& builder);            ///< sources/own_geometry.cpp
+void add_attachments(MeshBuilder& builder);      ///< springs, masses, spiders, boundary
+void tell_unjoined_beams(MeshBuilder& builder);  ///< sources/unjoined.cpp: warnings
+void finish(MeshBuilder& builder);               ///< positions; nodes that nothing uses leave
 
 /// Marks the nodes of all elements in builder.used.
 void mark_used_nodes(MeshBuilder& builder);

@@ -101,8 +101,8 @@ VectorXd euler_beam_roots(BeamEnds ends, int elements) {
   const double unit = rho * section.area / (E * section.second_moment_z);
   const double shift = ends == BeamEnds::free_free ? 500.0 / unit : 0.0;  // the first βL is 4.73, its fourth power 500
   const int rigid = ends == BeamEnds::free_free ? 2 : 0;
-  const VectorXd omega2 = modes_small(model, rigid + 3, shift).omega2;
-  return (unit * omega2.tail(3)).array().sqrt().sqrt();
+  const VectorXd omega2 = modes_small(model, rigid + 4, shift).omega2;
+  return (unit * omega2.tail(4)).array().sqrt().sqrt();
 }
 
 VectorXd pinned_timoshenko_beam(int elements) {

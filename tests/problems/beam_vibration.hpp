@@ -19,7 +19,7 @@ Eigen::VectorXd deep_beam(DeepBeamTorsion torsion, int elements);
 /// torsion, √(E/ρ)/(4L) axially.
 Eigen::VectorXd deep_beam_exact(DeepBeamTorsion torsion);
 
-/// βL of the first three modes of an Euler beam without rotary inertia.
+/// βL of the first four modes of an Euler beam without rotary inertia.
 enum class BeamEnds { clamped_free, clamped_clamped, free_free };
 Eigen::VectorXd euler_beam_roots(BeamEnds ends, int elements);
 

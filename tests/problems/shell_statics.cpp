@@ -202,7 +202,7 @@ double z_section_stress(const ShellMesh& mesh) {
 /// The sections turn about the x axis without changing their shape at both ends and warp freely, as in the exact
 /// solution (Morris; NAFEMS P12): circumferential C x/R, axial -C φ, radial 0, T = 4π D (1-ν) C/R. The turn of the far
 /// end is prescribed; the displacement found is scaled to the torque that does the same work.
-double slit_cylinder_warping(const ShellMesh& mesh) {
+SlitCylinder slit_cylinder(const ShellMesh& mesh) {
   const double R = 300.0, L = 900.0, turn = 1e-3, T = 1000.0;
   const GridShape grid{16 * mesh.n, 4 * mesh.n, mesh.facets, false};
   const auto angle = [](double a) { return 2.0 * pi * (a - 0.5); };
@@ -221,7 +221,7 @@ double slit_cylinder_warping(const ShellMesh& mesh) {
   const double torque = u.dot(assemble_small(model.mesh).S * u) / turn;
   const int middle = grid.nb / 2;
   const double jump = u[6 * grid_node(grid, 0, middle)] - u[6 * grid_node(grid, grid.na, middle)];
-  return 0.5 * jump * T / torque;
+  return {0.5 * jump * T / torque, turn * R * T / torque};
 }
 
 }  // namespace tisserand::reducer

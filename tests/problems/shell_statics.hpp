@@ -47,7 +47,11 @@ double plate_deflection(const ShellMesh& mesh, const RectangularPlate& plate);
 /// NAFEMS LE5, Z section under a torque: axial stress [Pa] at a tip of a flange, x = 2.5; 8n x 4n cells.
 double z_section_stress(const ShellMesh& mesh);
 
-/// Slit cylinder turned by T = 1000: axial displacement of the edges of the slit; 16n x 4n cells.
-double slit_cylinder_warping(const ShellMesh& mesh);
+/// Slit cylinder turned by T = 1000; 16n x 4n cells.
+struct SlitCylinder {
+  double axial = 0.0;            ///< displacement of the edges of the slit
+  double circumferential = 0.0;  ///< displacement at the turned end
+};
+SlitCylinder slit_cylinder(const ShellMesh& mesh);
 
 }  // namespace tisserand::reducer

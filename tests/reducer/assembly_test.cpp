@@ -252,7 +252,7 @@ TEST(BadMeshes, AreErrorsThatNameNodesAndElements) {
   mesh = hubbed_bar(2);
   std::swap(mesh.solids[3].nodes[0], mesh.solids[3].nodes[1]);
   EXPECT_THAT(error_of([&] { reducer::check_shapes(mesh, "p.yaml"); }),
-              AllOf(HasSubstr("1 faults of element shapes"), HasSubstr("solid 4 of 'bar'")));
+              AllOf(HasSubstr("1 fault of element shapes"), HasSubstr("solid 4 of 'bar'")));
 
   mesh = hubbed_bar(2);
   mesh.solid_properties[0].material.density = 0.0;

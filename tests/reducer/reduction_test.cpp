@@ -139,5 +139,20 @@ TEST(Reduction, PartOfTheExampleIsConverged) {
   for (int k = 0; k < 8; ++k) EXPECT_NEAR(coarse[k] / fine[k], 1.0, 1e-4) << "mode " << k;
 }
 
+/// A hinge between the two boundary nodes: nothing inside is loose, but the whole folds freely.
+TEST(Reduction, CertificateTellsASeventhFreeMotion) {
+  formats::Part part = plain_beam(Vector3d::Zero(), Vector3d(2.0, 0.0, 0.0), 2, 0);
+  part.points.push_back({"middle", Vector3d(1.0, 0.0, 0.0), ""});
+  formats::BeamLine second = part.beams[0];
+  part.beams[0].to = "middle";
+  second.name = "second";
+  second.from = "middle";
+  second.releases.start = 0b010000;  // the moment about y
+  part.beams.push_back(second);
+  const reducer::Reduction r = reduce(part);
+  EXPECT_THAT(r.file.free_frequency_note, HasSubstr("7 motions meet no stiffness where a rigid body has six"));
+  EXPECT_TRUE(r.file.free_frequency.empty());
+}
+
 }  // namespace
 }  // namespace tisserand::testing

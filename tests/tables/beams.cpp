@@ -66,9 +66,11 @@ std::vector<Problem> beam_problems() {
             {"10 and 11", 9, 28.671}});
   Problem euler{"Euler beams", "Beta L without rotary inertia, exact (cos cosh = -1 or 1).", {"4", "8", "16"}, {}, ""};
   const auto roots = [](BeamEnds ends) { return [ends](int n) { return euler_beam_roots(ends, n); }; };
-  add_rows(
-      euler, Target::exact, {4, 8, 16}, roots(BeamEnds::clamped_free),
-      {{"clamped-free 1", 0, 1.8751040687}, {"clamped-free 2", 1, 4.6940911330}, {"clamped-free 3", 2, 7.8547574382}});
+  add_rows(euler, Target::exact, {4, 8, 16}, roots(BeamEnds::clamped_free),
+           {{"clamped-free 1", 0, 1.8751040687},
+            {"clamped-free 2", 1, 4.6940911330},
+            {"clamped-free 3", 2, 7.8547574382},
+            {"clamped-free 4", 3, 10.9955407349}});
   add_rows(euler, Target::exact, {4, 8, 16}, roots(BeamEnds::clamped_clamped),
            {{"clamped-clamped 1", 0, 4.7300407449},
             {"clamped-clamped 2", 1, 7.8532046241},

@@ -9,6 +9,7 @@
 
 #include "reducer/elements/laminate.hpp"
 #include "tests/reducer/decks/nastran_deck.hpp"
+#include "tests/support/small_model.hpp"
 
 namespace tisserand::testing {
 namespace {
@@ -197,6 +198,22 @@ TEST(NastranSolidProperties, IsotropicAndAnisotropic) {
                turned);
   EXPECT_THAT(fault_of(tetra + mat9(a) + "PSOLID,5,7,8\n"), HasSubstr("PSOLID 5: CORDM names coordinate system 8"));
   EXPECT_THAT(fault_of(tetra + mat9(-a) + "PSOLID,5,7\n"), HasSubstr("PSOLID 5: MAT9 7"));
+}
+
+/// MID2 blank: no bending; MID1 blank: no membrane. Each has its part of the stiffness of the whole sheet.
+TEST(NastranShellProperties, MembraneOrBendingAlone) {
+  const auto stiffness = [](const std::string& property) {
+    return Eigen::MatrixXd(
+        assemble_small(read_deck(grids + steel + property + "CQUAD4,11,5,1,2,3,4\nCTRIA3,12,5,1,2,3\n").mesh).S);
+  };
+  const Eigen::MatrixXd whole = stiffness("PSHELL,5,7,.1,7\n"), membrane = stiffness("PSHELL,5,7,.1\n"),
+                        bending = stiffness("PSHELL,5,,.1,7\n");
+  EXPECT_LT((membrane + bending - whole).norm(), 1e-14 * whole.norm());
+  for (Eigen::Index i = 0; i < whole.rows(); ++i) {
+    const bool in_plane = i % 6 < 2 || i % 6 == 5;
+    EXPECT_EQ((in_plane ? bending : membrane).row(i).norm(), 0.0) << i;
+    EXPECT_GT((in_plane ? membrane : bending).row(i).norm(), 0.0) << i;
+  }
 }
 
 }  // namespace

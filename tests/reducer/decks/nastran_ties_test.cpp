@@ -106,17 +106,6 @@ TEST(NastranBoundary, AsetInEveryForm) {
   EXPECT_THAT(fault_of(base + "ASET1,123,9\n"), HasSubstr("ID names GRID 9, which is missing"));
 }
 
-TEST(NastranBoundary, FreePointsLeaveTheMesh) {
-  const Deck deck = read_deck("GRID,100,,7.,7.,7.\n" + base + "ASET1,123456,1\n");
-  EXPECT_EQ(deck.mesh.nodes(), 3);
-  EXPECT_EQ(deck.mesh.node_label[0], "node 1");
-  EXPECT_EQ(deck.node_of_id.at(1), 0);
-  EXPECT_FALSE(deck.node_of_id.contains(100));
-  EXPECT_EQ(deck.mesh.beams[1].second, 2);
-  EXPECT_EQ(deck.mesh.boundary[0].node, 0);
-  EXPECT_TRUE(warns(deck, "left out: 100, 4, 5"));
-}
-
 TEST(NastranBoundary, SupportsAreFaultsWhereSomethingIsHeld) {
   EXPECT_THAT(fault_of(base + "SPC1,1,123,1,THRU,3\n"),
               HasSubstr("SPC1 1: holds GRID 1 (123), 2 (123), 3 (123) to ground"));

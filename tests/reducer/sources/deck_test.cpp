@@ -65,6 +65,25 @@ TEST(Decks, SetsCarrySpidersAndDrawnBeamsJoinNodes) {
   reducer::check_connected(mesh, "part");
 }
 
+/// A point that nothing of the deck uses is there for the part file, and leaves if that does not use it either.
+TEST(Decks, FreePointsServeThePartFile) {
+  const PartText part(
+      "mesh: {file: free.bdf}\nspiders: {e: {kind: rigid, at: {node: 100}, on: [1, 4]}}\nboundary: [e]\n");
+  const auto write = [&part](const std::string& cards) {
+    write_text_file(part.file("free.bdf"),
+                    "GRID,100,,7.,7.,7.\nGRID,99,,8.\nGRID,1\nGRID,2,,2.\nGRID,3,,2.,2.\nGRID,4,,0.,2.\n"
+                    "MAT1,7,2.1+11,,.3,7800.\nPSHELL,5,7,.1,7\nCQUAD4,11,5,1,2,3,4\n" +
+                        cards);
+    return part.mesh();
+  };
+  const reducer::Mesh mesh = write("");
+  ASSERT_EQ(mesh.nodes(), 5);
+  EXPECT_EQ(mesh.node_label[static_cast<std::size_t>(mesh.spiders.at(0).reference)], "node 100");
+  EXPECT_EQ(mesh.boundary.at(0).node, mesh.spiders[0].reference);
+  EXPECT_THAT(mesh.warnings, ::testing::Contains(HasSubstr("1 nodes of")));
+  EXPECT_THAT(mesh.warnings, ::testing::Contains(HasSubstr("are left out: node 99")));
+}
+
 TEST(Decks, BringTheirProperties) {
   EXPECT_THAT(
       error_of(deck("plate.inp", "shells: {s: {on: deck, thickness: 1, material: steel}}\nboundary: {o: {node: 1}}\n")),

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "reducer/checks.hpp"
 #include "reducer/gmsh/write.hpp"
 #include "reducer/survey.hpp"
 #include "tests/reducer/sources/part_text.hpp"
@@ -104,6 +105,15 @@ TEST_P(Bracket, IsMeshedWithSolidsAndHeldAtItsBore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, Bracket, ::testing::Values("bracket.step", "bracket.brep", "bracket.geo"));
+
+/// Two of 684 tetrahedra of second order are folded when the bores of the crank are meshed with edges of 25 mm.
+TEST(Geometry, ElementsThatCurvedFacesFoldAreUnfolded) {
+  const reducer::Mesh mesh = mesh_of("units: {length: mm, mass: t, time: s}\nmesh: {file: " + meshes +
+                                     "crank.step, size: 25, order: 2}\nsolids: {body: {on: all, material: steel}}\n"
+                                     "boundary: {o: {near: [-62, 0, 0], tolerance: 100}}\n");
+  EXPECT_THAT(mesh.warnings, ::testing::Contains(HasSubstr("elements of second order; their nodes were moved")));
+  EXPECT_NO_THROW(reducer::check_shapes(mesh, "part"));
+}
 
 TEST(Geometry, OrderSizesAndScaleAreObeyed) {
   const reducer::Mesh coarse = mesh_of(bracket("bracket.step", "size: 8", ""));
