@@ -102,7 +102,8 @@ void warn_wave_speed(const WaveSpeed& wave, const Units& units, std::vector<std:
   const double speed = std::sqrt(wave.modulus / wave.density) * units.length.factor / units.time.factor;
   if (speed >= 100.0 && speed <= 20000.0) return;
   const std::string text = fmt::format(
-      "{}: E = {:.4g} and density {:.4g} in units {}, {}, {} mean a speed of sound of {:.3g} m/s; usual are "
+      "{}: a modulus of {:.4g} and a density of {:.4g} in units {}, {}, {} mean a speed of sound of {:.3g} m/s; usual "
+      "are "
       "100 to 20 000 m/s. Do length, mass, time and the material belong together (for example mm, t, s, MPa)?",
       wave.what, wave.modulus, wave.density, units.length.label, units.mass.label, units.time.label, speed);
   if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);
@@ -145,10 +146,17 @@ std::vector<std::string> plausibility_warnings(const Mesh& mesh, const Units& un
   if (!units.named()) return warnings;
   warn_wave_speeds(mesh, units, warnings);
   const double size = 2.0 * characteristic_length(mesh) * units.length.factor;
-  if (size > 1000.0 || size < 1e-5)
+  if (size > 200.0 || size < 1e-5)
     warnings.push_back(fmt::format("the part is about {:.3g} {} large, that is {:.3g} m: is {} the unit of its nodes?",
                                    2.0 * characteristic_length(mesh), units.length.label, size, units.length.label));
   return warnings;
+}
+
+std::optional<std::string> mass_doubt(double mass, const Units& units) {
+  if (!units.named() || mass * units.mass.factor < 1e6) return std::nullopt;
+  return fmt::format(
+      "the part has a mass of {:.3g} {}: is {} the unit of its nodes, and does the density belong to it?", mass,
+      units.mass.label, units.length.label);
 }
 
 }  // namespace tisserand::reducer

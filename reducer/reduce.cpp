@@ -131,6 +131,7 @@ Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseLi
   try {
     Reduction result = reduce_checked(mesh, part, begin);
     result.model.warnings = doubts.all;
+    if (const auto doubt = mass_doubt(result.model.rigid.mass, part.units)) result.model.warnings.push_back(*doubt);
     return result;
   } catch (const Error& error) {
     if (doubts.numbers.empty()) throw;

@@ -115,6 +115,7 @@ void CardReader::read_file(const std::string& path, const std::string& from) {
   file_ = static_cast<std::uint32_t>(cards_.files.size() - 1);
   std::size_t first_line = 0;
   const std::size_t start = bulk_start(text, first_line);
+  if (open_.size() == 1) cards_.complete = first_line == 0;
   read_lines(text.substr(start), first_line);
   file_ = outer_file;
   line_ = outer_line;
@@ -142,7 +143,7 @@ void CardReader::read_line(std::string_view raw) {
       (line[7] == ' ' || line[7] == '\'' || line[7] == '"' || line[7] == '\t'))
     return include(raw.substr(7));
   if (capital(line[0]) == 'E' && starts_with_word(trimmed(line), "ENDDATA")) {
-    ended_ = true;
+    ended_ = cards_.complete = true;
     return;
   }
   Line fields;

@@ -27,6 +27,7 @@ struct NastranCards {
   std::vector<std::unique_ptr<std::string>> texts;  ///< what the views point into
   std::vector<NastranCard> cards;
   std::vector<std::string_view> fields;
+  bool complete = true;  ///< false: BEGIN BULK without ENDDATA
 
   std::string_view field(const NastranCard& card, int index) const {
     return static_cast<std::uint32_t>(index) < card.count ? fields[card.first + static_cast<std::uint32_t>(index)]

@@ -20,11 +20,24 @@ void judge_ids(NastranModel& model) {
     }
 }
 
+/// Another kind of file would be told in as many faults as it has lines.
+void require_grids(const NastranModel& model, const std::string& path) {
+  const auto& cards = model.cards.cards;
+  if (std::any_of(cards.begin(), cards.end(), [](const NastranCard& card) { return same_word(card.name, "GRID"); }))
+    return;
+  if (cards.empty()) model.faults.raise();
+  const std::string first = cards.empty() ? "" : fmt::format(", which begins with '{}'", cards[0].name.substr(0, 20));
+  throw Error(fmt::format("no GRID in the deck{}", first), path, "name a file with Nastran bulk data");
+}
+
 }  // namespace
 
 Deck read_nastran(const std::string& path, const DeckOptions& options) {
   NastranModel model;
   model.cards = read_nastran_cards(path, model.faults);
+  require_grids(model, path);
+  if (!model.cards.complete)
+    model.deck.mesh.warnings.push_back(path + ": BEGIN BULK without ENDDATA: is the end of the file cut off?");
   sort_cards(options, model);
   place_grids(model);
   index_materials(model);
@@ -39,7 +52,6 @@ Deck read_nastran(const std::string& path, const DeckOptions& options) {
   add_boundary(model);
   judge_supports(model);
   judge_ids(model);
-  if (model.grid_id.empty()) model.faults.add("no GRID in the deck", path, "name a file with Nastran bulk data");
   model.faults.raise();
   finish_nodes(model);
   for (std::string& text : model.remarks.texts()) model.deck.mesh.warnings.push_back(std::move(text));

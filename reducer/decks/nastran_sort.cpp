@@ -57,7 +57,7 @@ void judge_unknown(const std::map<std::string, std::size_t>& unknown, const std:
   if (unknown.empty()) return;
   std::vector<std::string> names;
   for (const auto& [name, count] : unknown) {
-    if (names.size() == 50) {
+    if (names.size() == 20) {
       names.push_back(fmt::format("... ({} names)", unknown.size()));
       break;
     }
@@ -67,7 +67,7 @@ void judge_unknown(const std::map<std::string, std::size_t>& unknown, const std:
   if (options.unknown == UnknownCards::ignore)
     model.deck.mesh.warnings.push_back(text);
   else
-    model.faults.add(text, where, "remove them, or allow the reader to ignore them if the part can do without");
+    model.faults.add(text, where, "remove them, or write `unknown: ignore` under mesh if the part can do without");
 }
 
 }  // namespace

@@ -154,7 +154,9 @@ void add_deck(MeshBuilder& builder, MeshFileKind kind) {
                                                                                 : UnknownCards::refuse};
   Deck deck =
       kind == MeshFileKind::nastran ? read_nastran(settings.file, options) : read_abaqus(settings.file, options);
-  if (deck.mesh.elements() == 0 && deck.mesh.masses.empty()) throw Error("the deck has no elements", settings.file, "");
+  if (deck.mesh.elements() == 0 && deck.mesh.masses.empty())
+    throw Error("the deck has no elements", settings.file,
+                "name a whole deck: nodes and elements with their properties; is the end of the file cut off?");
   append_deck(builder, deck);
 }
 

@@ -275,6 +275,20 @@ TEST(Plausibility, MillimetreMeshesWithMetreMaterialsAreSuspected) {
   mesh.position *= 2e6;
   EXPECT_THAT(reducer::plausibility_warnings(mesh, mm), ElementsAre(HasSubstr("is mm the unit of its nodes?")));
   EXPECT_TRUE(reducer::plausibility_warnings(mesh, Units::consistent()).empty());
+  EXPECT_THAT(reducer::mass_doubt(5.9e7, Units::si()).value_or(""), HasSubstr("is m the unit of its nodes"));
+  EXPECT_FALSE(reducer::mass_doubt(5.9e5, Units::si()));
+  EXPECT_FALSE(reducer::mass_doubt(5.9e7, Units::consistent()));
+}
+
+TEST(Plausibility, DoubtsAreNamedWhenTheReductionFails) {
+  Mesh mesh = hubbed_bar(2);
+  mesh.position *= 1e3;
+  mesh.solid_properties[0].material.density = 0.0;
+  formats::Part part = part_of(2);
+  part.units = Units::si();
+  start_solvers();
+  EXPECT_THAT(error_of([&] { reducer::reduce_mesh(mesh, part, [](const std::string&) {}); }),
+              AllOf(HasSubstr("a mass of 0"), HasSubstr("a likely cause: the part is about")));
 }
 
 }  // namespace

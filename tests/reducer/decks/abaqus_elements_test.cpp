@@ -131,21 +131,6 @@ TEST(AbaqusElements, ShellsWithTwoEqualNeighboursAreTriangles) {
   EXPECT_EQ(deck.mesh.shells[1].nodes, (std::array<int, 4>{0, 2, 3, -1}));
 }
 
-TEST(AbaqusElements, NodesThatNothingUsesAreLeftOut) {
-  const Deck deck =
-      abaqus_deck("*NODE, NSET=extra\n90, 5., 5., 5.\n91, 6., 5., 5.\n" + abaqus_plate + "*NSET, NSET=mixed\n90, 3\n");
-  EXPECT_EQ(deck.mesh.nodes(), 4);
-  EXPECT_EQ(deck.mesh.shells[0].nodes, (std::array<int, 4>{0, 1, 2, 3}));
-  EXPECT_EQ(deck.mesh.position.col(2), Eigen::Vector3d(1.0, 1.0, 0.0));
-  EXPECT_EQ(deck.mesh.node_label[2], "node 3");
-  EXPECT_EQ(deck.node_of_id.count(90), 0u);
-  EXPECT_EQ(deck.node_of_id.at(3), 2);
-  EXPECT_EQ(deck.node_sets.at("mixed"), (std::vector<int>{2}));
-  EXPECT_TRUE(deck.node_sets.at("extra").empty());
-  ASSERT_EQ(deck.mesh.warnings.size(), 1u);
-  EXPECT_THAT(deck.mesh.warnings[0], AllOf(HasSubstr("2 nodes"), HasSubstr("node 90, node 91")));
-}
-
 TEST(AbaqusElements, ErrorsNameElementAndLine) {
   EXPECT_THAT(abaqus_error(abaqus_plate + "*NODE\n4, 9., 9., 9.\n"),
               AllOf(HasSubstr("deck.inp:16"), HasSubstr("node 4 is defined twice")));

@@ -130,6 +130,15 @@ TEST(NastranCards, UnknownCardsAreCounted) {
   EXPECT_TRUE(warns(deck, "PARAM without effect here: POST"));
 }
 
+TEST(NastranCards, DecksCutOffAndOtherFilesAreSuspected) {
+  const std::string text = "cut off";
+  EXPECT_TRUE(warns(read_deck("BEGIN BULK\n" + bar_deck()), text));
+  EXPECT_FALSE(warns(read_deck("BEGIN BULK\n" + bar_deck() + "ENDDATA\n"), text));
+  EXPECT_FALSE(warns(read_deck(bar_deck()), text)) << "bulk data alone";
+  EXPECT_EQ(fault_of("ISO-10303-21;\nHEADER;\n"),
+            "main.bdf: no GRID in the deck, which begins with 'ISO-1030'; name a file with Nastran bulk data");
+}
+
 TEST(NastranCards, ElementNumbersAreUnique) {
   EXPECT_THAT(fault_of(bar_deck() + "CONM2,12,1,,5.\n"),
               HasSubstr("main.bdf:8: CONM2 12: element 12 is given twice, first at main.bdf:5"));
