@@ -30,7 +30,7 @@ struct InitialMotion {
 };
 
 enum class FrameKind { karcher, paper, node };
-enum class InertiaOption { A, B };
+enum class InertiaOption { A, B, M };  ///< [Car00]; M: B with the exact centre of mass
 
 struct NodeWeight {
   std::string node;

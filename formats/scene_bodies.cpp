@@ -91,8 +91,9 @@ SuperelementBodySpec read_superelement(const Context& context, const YamlNode& n
   if (map.has("cutoff")) body.cutoff = map.number("cutoff");
   if (body.modes && body.cutoff)
     map.context().fail(map.find("cutoff")->key_place, "both 'modes' and 'cutoff' are given", "give one of them");
-  body.inertia =
-      map.choice("inertia", {Choice<InertiaOption>{"A", InertiaOption::A}, {"B", InertiaOption::B}}, InertiaOption::B);
+  body.inertia = map.choice(
+      "inertia", {Choice<InertiaOption>{"A", InertiaOption::A}, {"B", InertiaOption::B}, {"M", InertiaOption::M}},
+      InertiaOption::B);
   if (const YamlNode* frame = map.find("frame")) read_frame(context, *frame, body);
   if (const YamlNode* weights = map.find("weights")) {
     const MapReader inner(inside(context, "weights"), *weights, "weights", "weights.");

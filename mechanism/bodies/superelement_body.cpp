@@ -212,6 +212,9 @@ void choose_frame(const SuperelementOptions& options, SuperelementBody& body) {
     return;
   }
   body.frame_node = -1;
+  if (options.frame == formats::FrameKind::paper && options.inertia == formats::InertiaOption::M)
+    throw Error("inertia M with the incremental frame of the paper", options.where,
+                "choose 'frame: karcher' or a node, or inertia A or B");
   if (options.frame == formats::FrameKind::paper)
     body.frame = FrameAlgorithm::incremental;
   else

@@ -78,6 +78,10 @@ SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratc
   SuperelementEnergy result;
   result.kinetic = 0.5 * (quadratic_form(body.M_BB, motion.rate_B) + motion.rate_I.squaredNorm()) +
                    coupling_form(body.M_BI, motion.rate_B, motion.rate_I);
+  if (body.inertia == formats::InertiaOption::M)
+    result.kinetic +=
+        0.5 * body.mass *
+        (motion.center_velocity.squaredNorm() - mean_of<double>(body, motion.rate_B, motion.rate_I).squaredNorm());
   result.strain = 0.5 * (quadratic_form(body.S_BB, motion.y_B) + motion.y_I.cwiseAbs2().dot(body.S_II));
   if (!gravity.isZero(0.0)) {
     const Eigen::Vector3d center = motion.x0 + motion.R0 * deformed_center_of_mass<double>(body, motion);

@@ -67,7 +67,9 @@ void residual(const SuperelementBody& body, SuperelementScratch& scratch, const 
 /// coefficients stay.
 void tangent(const SuperelementBody& body, SuperelementScratch& scratch, const TangentCoefficients& coefficients);
 
-/// The same with the exact combination c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q by dual numbers. Allocates.
+/// The same with the exact combination c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q by dual numbers; the elimination of y_I takes
+/// the diagonal of A_II, which with inertia M is all of it only at rest (the step tangent of M is that of B, wrong by
+/// the deformation times the inertia). Allocates.
 void exact_tangent(const SuperelementBody& body, SuperelementScratch& scratch, std::span<const NodeMotion> all_nodes,
                    const Eigen::Vector3d& gravity, const TangentCoefficients& coefficients);
 

@@ -48,10 +48,12 @@ struct LocalMotion {
   Mat3<S> R0 = Mat3<S>::Identity();
   Vec3<S> Omega0 = Vec3<S>::Zero();  ///< material, U q̇
   std::vector<LocalNode<S>> node;
-  Vector y_B;                 ///< [u, ψ] per node
-  Vector rate_B;              ///< P q̇: the rates in the kinetic energy
-  Vector acceleration_B;      ///< P q̈ + V Ω₀
-  Vector deformation_rate_B;  ///< Υ q̇ = ẏ_B; only with damping
+  Vector y_B;                                     ///< [u, ψ] per node
+  Vector rate_B;                                  ///< P q̇: the rates in the kinetic energy
+  Vector acceleration_B;                          ///< P q̈ + V Ω₀
+  Vector deformation_rate_B;                      ///< Υ q̇ = ẏ_B; only with damping or inertia option M
+  Vec3<S> center_velocity = Vec3<S>::Zero();      ///< R₀ᵀẋ_cm; only with inertia option M
+  Vec3<S> center_acceleration = Vec3<S>::Zero();  ///< R₀ᵀẍ_cm; only with inertia option M
   Vector y_I, rate_I, acceleration_I;
   int frame_iterations = 0;
   double frame_error = 0.0;  ///< last correction of an iterated frame [rad]

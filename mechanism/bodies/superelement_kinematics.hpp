@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "mechanism/bodies/superelement_frame.hpp"
+#include "mechanism/bodies/superelement_momentum.hpp"
 
 namespace tisserand::mechanism {
 
@@ -77,7 +78,9 @@ void local_motion(const SuperelementBody& body, const NodeView<Node>& nodes, Loc
     motion.Omega0 += motion.node[i].U * nodes[i].Omega;
   }
   local_rates(body, nodes, motion);
-  if (body.damping.active) deformation_rates(body, nodes, motion);
+  const bool exact_center = body.inertia == formats::InertiaOption::M;
+  if (body.damping.active || exact_center) deformation_rates(body, nodes, motion);
+  if (exact_center) center_of_mass_motion(body, nodes, motion);
 }
 
 }  // namespace tisserand::mechanism

@@ -77,12 +77,21 @@ void local_forces(const SuperelementBody& body, const LocalMotion<S>& motion, Su
 /// Centre of mass relative to x₀, axes of the frame: X_cm + Φ_TᵀM̄ y / m.
 template <class S>
 Vec3<S> deformed_center_of_mass(const SuperelementBody& body, const LocalMotion<S>& motion) {
-  Vec3<S> first_moment = Vec3<S>::Zero();
+  return body.center_of_mass.template cast<S>() + mean_of<S>(body, motion.y_B, motion.y_I);
+}
+
+/// Option M: M̄ − M̄ Φ_T Φ_TᵀM̄/m in place of M̄, so that the interpolated motion of the centre of mass has no inertia.
+template <class S>
+void release_center_of_mass(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
+  const Vec3<S> velocity = mean_of<S>(body, motion.rate_B, motion.rate_I);
+  const Vec3<S> acceleration = mean_of<S>(body, motion.acceleration_B, motion.acceleration_I);
   for (Eigen::Index k = 0; k < body.boundary_size; ++k)
-    for (int i = 0; i < 3; ++i) first_moment[i] += body.Gamma_B(i, k) * motion.y_B[k];
+    for (int i = 0; i < 3; ++i) {
+      out.p_B[k] -= body.Gamma_B(i, k) * velocity[i];
+      out.f_B[k] -= body.Gamma_B(i, k) * acceleration[i];
+    }
   for (Eigen::Index k = 0; k < body.modes; ++k)
-    for (int i = 0; i < 3; ++i) first_moment[i] += body.Gamma_I(i, k) * motion.y_I[k];
-  return body.center_of_mass.template cast<S>() + first_moment / body.mass;
+    for (int i = 0; i < 3; ++i) out.r_I[k] -= body.Gamma_I(i, k) * acceleration[i];
 }
 
 /// The part of the exact variation of V_g = −m g·x_cm that acts through y: s −= Γᵀ R₀ᵀg; returns the moment m c × R₀ᵀg.
@@ -98,14 +107,19 @@ Vec3<S> apply_gravity(const SuperelementBody& body, const LocalMotion<S>& motion
 
 /// r = Pᵀ M̄ ÿ + [Pᵀ(O₀ ∓ O_B) − UᵀVᵀ] p + Υᵀ(S̄ y + D ẏ) − gravity; − O_B in option A ([Car00] (45)), + in B ((60)),
 /// with the sign of UᵀVᵀ corrected (the print has +, which contradicts its own derivation and Lagrange's equations).
+/// Option M is B with T = ½ ẏᵀ(M̄ − M̄ Φ_T Φ_TᵀM̄/m) ẏ + ½ m |ẋ_cm|²: the force m J_cmᵀ ẍ_cm of the last term is that of
+/// a gravity −ẍ_cm.
 template <int NB, class S>
 void superelement_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Eigen::Vector3d& gravity,
                          SuperelementForces<S>& out) {
   local_forces<NB>(body, motion, out);
   Vec3<S> moment = Vec3<S>::Zero();  // conjugate to δΘ₀
   Vec3<S> total = Vec3<S>::Zero();   // conjugate to −δx₀, axes of the frame
-  if (!gravity.isZero(0.0)) {
-    const Vec3<S> g = motion.R0.transpose() * gravity.template cast<S>();
+  const bool exact_center = body.inertia == formats::InertiaOption::M;
+  if (exact_center) release_center_of_mass(body, motion, out);
+  if (exact_center || !gravity.isZero(0.0)) {
+    Vec3<S> g = motion.R0.transpose() * gravity.template cast<S>();
+    if (exact_center) g -= motion.center_acceleration;
     moment -= apply_gravity(body, motion, g, out);
     total += body.mass * g;
   }

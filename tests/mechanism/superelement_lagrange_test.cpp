@@ -29,7 +29,7 @@ struct Case {
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& c) {
-  return out << c.element << " frame " << static_cast<int>(c.frame) << (c.inertia == InertiaOption::A ? " A" : " B");
+  return out << c.element << " frame " << static_cast<int>(c.frame) << ' ' << "ABM"[static_cast<int>(c.inertia)];
 }
 
 SuperelementBody make_body(const Case& c, const formats::Damping& damping) {
@@ -88,7 +88,8 @@ struct Energies {
   Complex kinetic, potential;
 };
 
-/// T = ½ ẏᵀ M̄ ẏ and V = ½ yᵀ S̄ y − m g·x_cm, straight from their definitions.
+/// T = ½ ẏᵀ M̄ ẏ (option M: + ½ m (|ẋ_cm|² − |Φ_TᵀM̄ ẏ/m|²)) and V = ½ yᵀ S̄ y − m g·x_cm, straight from their
+/// definitions.
 Energies energies(const SuperelementBody& body, const ComplexState& state, const Eigen::Matrix3d& R0,
                   const Eigen::Vector3d& gravity) {
   auto motion = make_local_motion<Complex>(body);
@@ -105,6 +106,11 @@ Energies energies(const SuperelementBody& body, const ComplexState& state, const
   if (body.modes > 0) {
     e.kinetic += form(motion.rate_B, body.M_BI, state.yd);
     e.potential += 0.5 * (state.y.transpose() * (body.S_II.asDiagonal() * state.y))(0, 0);
+  }
+  if (body.inertia == InertiaOption::M) {
+    const Vec3<Complex> mean = mean_of<Complex>(body, motion.rate_B, motion.rate_I);
+    e.kinetic +=
+        0.5 * body.mass * (dot3<Complex>(motion.center_velocity, motion.center_velocity) - dot3<Complex>(mean, mean));
   }
   const Vec3<Complex> center = motion.x0 + motion.R0 * deformed_center_of_mass<Complex>(body, motion);
   e.potential -= body.mass * dot3<Complex>(gravity.cast<Complex>(), center);
@@ -170,6 +176,26 @@ TEST_P(SuperelementForcesOf, MeetLagrangesEquations) {
   r << scratch_.forces.r_B, scratch_.forces.r_I;
   // T(v + e) − T(v − e) cancels one or two digits.
   EXPECT_LT(relative_difference(r, lagrange(body_, state_, R0)), 1e-12);
+}
+
+// ẋ_cm of option M is the derivative of x_cm along the motion, and ẍ_cm that of ẋ_cm.
+TEST_P(SuperelementForcesOf, ExactCentreOfMassMovesAsItsDerivatives) {
+  if (GetParam().inertia != InertiaOption::M) return;
+  test_support::evaluate(body_, state_, kGravity, scratch_);
+  const Eigen::VectorXd v = pack(body_, state_, &NodeMotion::xd, &NodeMotion::Omega, state_.yd);
+  const Eigen::VectorXd a = pack(body_, state_, &NodeMotion::xdd, &NodeMotion::Omegad, state_.ydd);
+  ComplexState moved = to_complex(state_);
+  move(body_, v, kI, a, kI, moved);
+  auto motion = make_local_motion<Complex>(body_);
+  motion.R0 = scratch_.motion.R0.cast<Complex>();
+  motion.y_I = moved.y;
+  motion.rate_I = moved.yd;
+  local_motion<Complex>(body_, NodeView<ComplexNode>{moved.nodes.data(), body_.nodes.data()}, motion);
+  const Vec3<Complex> center = motion.x0 + motion.R0 * deformed_center_of_mass<Complex>(body_, motion);
+  const Vec3<Complex> velocity = motion.R0 * motion.center_velocity;
+  const Eigen::Matrix3d R0 = scratch_.motion.R0;
+  EXPECT_LT((R0 * scratch_.motion.center_velocity - center.imag() / kStep).norm(), 1e-13);
+  EXPECT_LT((R0 * scratch_.motion.center_acceleration - velocity.imag() / kStep).norm(), 1e-12);
 }
 
 // The same motion seen from a turned world: material quantities and energies stay, world vectors turn. The incremental
@@ -339,10 +365,10 @@ TEST_P(SuperelementForcesOf, DampingLeavesRigidMotionAlone) {
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const std::string element : {"beam", "frame", "guyan", "mixed", "network"})
-    for (const InertiaOption inertia : {InertiaOption::A, InertiaOption::B}) {
+    for (const InertiaOption inertia : {InertiaOption::A, InertiaOption::B, InertiaOption::M}) {
       all.push_back({element, FrameKind::karcher, inertia});
       if (element == "network") continue;
-      all.push_back({element, FrameKind::paper, inertia});
+      if (inertia != InertiaOption::M) all.push_back({element, FrameKind::paper, inertia});
       all.push_back({element, FrameKind::node, inertia});
     }
   return all;
