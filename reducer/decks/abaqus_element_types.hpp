@@ -51,6 +51,8 @@ std::span<const int> face_nodes(SolidShape shape, int face);
 
 /// What each node of a face with these corners stands for, as a fraction of its area: equal parts for linear faces; for
 /// quadratic ones in the ratio of ∫N² (corner : middle = 1 : 16/3 for six nodes, 3 : 16 for eight), which is positive.
+/// CalculiX (couplings.f, 2.x) takes ∫N dA: the same for linear faces of parallel sides, no corners for six nodes and
+/// negative ones for eight.
 std::vector<double> face_weights(std::size_t nodes);
 
 }  // namespace tisserand::reducer::abaqus

@@ -32,7 +32,8 @@ bool refuse_parameters(Model& model, const Block& block, std::initializer_list<c
 }
 
 /// Distance of the middle surface from the nodes along the normal: OFFSET is the fraction of the thickness from the
-/// middle surface to the reference surface, which holds the nodes; SPOS = +1/2, SNEG = −1/2.
+/// middle surface to the reference surface, which holds the nodes; SPOS = +1/2, SNEG = −1/2 (CalculiX manual, *SHELL
+/// SECTION: with OFFSET=0.5 the reference surface is the top surface of the shell).
 std::optional<double> shell_offset(Model& model, const Block& block, double thickness) {
   const std::string* text = block.find("OFFSET");
   if (text == nullptr) return 0.0;
@@ -196,7 +197,8 @@ void read_mass(Model& model, int scope, const Block& block) {
   give_section(model, scope, block, use);
 }
 
-/// I11, I22, I33, I12, I13, I23; products are entries of the tensor, I12 = −∫ x1 x2 dm.
+/// I11, I22, I33, I12, I13, I23; products are taken for entries of the tensor, I12 = −∫ x1 x2 dm. No public source says
+/// so: Abaqus' pages name them "products of inertia" only.
 void read_rotary_inertia(Model& model, int scope, const Block& block) {
   std::array<double, 6> v{};
   if (block.data.empty() || !read_numbers(model, block, block.data[0], v)) return;

@@ -15,9 +15,10 @@ int pbarl_sizes(std::string_view type);
 
 /// The section as it is: constants about its centroid, which lies on the axis, Iyz and the shear centre included. Sizes
 /// as in the figures of the public Quick Reference Guides (PBARL, PBEAML); in them yelem points up and zelem to the
-/// right. Constants are exact ones of the sharp-cornered shape (formats/section_polygon.hpp), not Nastran's formulas,
-/// whose J differs by a few percent for thick walls. Throws Error{..., where, ...} for an unknown type, a wrong number
-/// of sizes or sizes that contradict each other.
+/// right; which size is which agrees with the areas of pyNastran (bdf/cards/properties/bars.py). Constants are exact
+/// ones of the sharp-cornered shape (formats/section_polygon.hpp), not Nastran's formulas, whose J differs by a few
+/// percent for thick walls. Throws Error{..., where, ...} for an unknown type, a wrong number of sizes or sizes that
+/// contradict each other.
 formats::Section pbarl_section(std::string_view type, const std::vector<double>& sizes, const std::string& where);
 
 /// For CBAR: its axis is neutral axis and line of shear centres at once, so the eccentricity is dropped.
