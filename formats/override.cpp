@@ -27,12 +27,6 @@ std::vector<std::string> split(const std::string& path) {
   return steps;
 }
 
-void mark_source(YamlNode& node, int source) {
-  node.place.source = source;
-  node.key_place.source = source;
-  for (YamlNode& child : node.children) mark_source(child, source);
-}
-
 /// One walk from the root to the value of one override.
 struct Walk {
   const Override& change;
@@ -98,7 +92,7 @@ YamlNode& enter(const Walk& walk, YamlNode& node, std::size_t i) {
 }
 
 void apply(YamlDocument& document, const Override& change, const std::vector<std::string_view>& collections) {
-  document.sources.push_back(where_of(change));
+  document.sources.push_back({YamlSourceKind::option, where_of(change), ""});
   const int source = static_cast<int>(document.sources.size()) - 1;
   YamlNode value;
   if (!change.value.empty()) {

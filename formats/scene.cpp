@@ -7,6 +7,7 @@
 #include "formats/scene_check.hpp"
 #include "formats/scene_keys.hpp"
 #include "formats/scene_reader.hpp"
+#include "formats/scene_tree.hpp"
 #include "formats/section_reader.hpp"
 #include "formats/units_reader.hpp"
 
@@ -119,9 +120,7 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
 }  // namespace
 
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
-  YamlDocument document = load_yaml(path);
-  apply_overrides(document, overrides,
-                  {"materials", "sections", "bodies", "joints", "motions", "springs", "loads", "nodes"});
+  const YamlDocument document = load_scene_tree(path, overrides);
   YamlReader reader(document, scene_key_sets());
   require_kind(reader, "scene", "part", "make a superelement of it with `reducer run`");
   Faults faults;

@@ -227,8 +227,9 @@ void check_only_one(YAML::Parser& parser, const std::string& text, const std::st
 }  // namespace
 
 std::string YamlDocument::where(const YamlPlace& place) const {
-  const std::string& source = sources.at(static_cast<std::size_t>(place.source));
-  return place.source == 0 ? fmt::format("{}:{}:{}", source, place.line, place.column) : source;
+  const YamlSource& source = sources.at(static_cast<std::size_t>(place.source));
+  return source.kind == YamlSourceKind::file ? fmt::format("{}:{}:{}", source.name, place.line, place.column)
+                                             : source.name;
 }
 
 YamlDocument parse_yaml(const std::string& text, const std::string& file) {
@@ -249,7 +250,7 @@ YamlDocument parse_yaml(const std::string& text, const std::string& file) {
                 placed ? fmt::format("{}:{}:{}", file, fault.mark.line + 1, fault.mark.column + 1) : file,
                 "check indentation, brackets, quotes and colons at and before this place");
   }
-  return {builder.take_root(), {file}};
+  return {builder.take_root(), {{YamlSourceKind::file, file, ""}}};
 }
 
 YamlDocument load_yaml(const std::string& path) {
@@ -268,10 +269,22 @@ YamlDocument load_yaml(const std::string& path) {
   return parse_yaml(text, path);
 }
 
+void mark_source(YamlNode& node, int source) {
+  node.place.source = source;
+  node.key_place.source = source;
+  for (YamlNode& child : node.children) mark_source(child, source);
+}
+
+std::size_t count_nodes(const YamlNode& node) { return measure(node).values; }
+
 const YamlNode* find_child(const YamlNode& node, std::string_view key) {
   for (const YamlNode& child : node.children)
     if (node.kind == YamlKind::map && child.key == key) return &child;
   return nullptr;
+}
+
+YamlNode* find_child(YamlNode& node, std::string_view key) {
+  return const_cast<YamlNode*>(find_child(static_cast<const YamlNode&>(node), key));
 }
 
 std::string describe(const YamlNode& node) {

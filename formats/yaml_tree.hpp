@@ -9,11 +9,11 @@ namespace tisserand::formats {
 
 enum class YamlKind { null, scalar, sequence, map };
 
-/// Line and column (1-based) in source 0 (the file) or in source k > 0 (the k-th override).
+/// Line and column (1-based) in a source of the document.
 struct YamlPlace {
   int line = 0;
   int column = 0;
-  int source = 0;
+  int source = 0;  ///< index into YamlDocument::sources
 
   bool operator==(const YamlPlace&) const = default;
 };
@@ -29,10 +29,18 @@ struct YamlNode {
   std::vector<YamlNode> children;
 };
 
-/// A tree and the names of its sources: the file and the overrides that changed it.
+/// A file, or the text of an override.
+enum class YamlSourceKind { file, option };
+struct YamlSource {
+  YamlSourceKind kind = YamlSourceKind::file;
+  std::string name;
+  std::string folder;  ///< of an included file, relative to that of the first file; "" if it is the same
+};
+
+/// A tree and its sources: first the file, then what it includes and the overrides that changed it.
 struct YamlDocument {
   YamlNode root;
-  std::vector<std::string> sources;
+  std::vector<YamlSource> sources;
 
   /// "file:line:column", or the text of the override.
   std::string where(const YamlPlace& place) const;
@@ -45,8 +53,15 @@ YamlDocument parse_yaml(const std::string& text, const std::string& file);
 /// Reads a file and parses it. Throws Error (missing, a folder, empty, binary, syntax).
 YamlDocument load_yaml(const std::string& path);
 
+/// Marks the node and all below it as read from source `source`.
+void mark_source(YamlNode& node, int source);
+
+/// The number of nodes of a tree, itself included.
+std::size_t count_nodes(const YamlNode& node);
+
 /// The value of a key of a map, or null.
 const YamlNode* find_child(const YamlNode& node, std::string_view key);
+YamlNode* find_child(YamlNode& node, std::string_view key);
 
 /// "'4.5'", "the text \"4.5\"", "a list of 3", "a map", "nothing": for messages.
 std::string describe(const YamlNode& node);

@@ -1,0 +1,76 @@
+// Formulas by muParser; only the names that a formula holds are looked up.
+#include "formats/expression.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <muParser.h>
+
+#include "common/error.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+constexpr std::size_t longest_formula = 10'000;
+constexpr int deepest_brackets = 100;  // of the recursive parser
+
+bool starts_name(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// The names of a formula; not the exponents of its numbers (1e5).
+std::set<std::string> names_of(const std::string& formula) {
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < formula.size();) {
+    std::size_t end = i;
+    const auto in_word = [&](char c) { return starts_name(c) || is_digit(c) || c == '.'; };
+    while (end < formula.size() && in_word(formula[end])) ++end;
+    if (end > i && starts_name(formula[i])) names.insert(formula.substr(i, end - i));
+    i = end > i ? end : i + 1;
+  }
+  return names;
+}
+
+void check_extent(const std::string& formula) {
+  int depth = 0, deepest = 0;
+  for (const char c : formula) {
+    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    deepest = std::max(deepest, depth);
+  }
+  if (formula.size() > longest_formula || deepest > deepest_brackets)
+    throw Error("the expression is too long or too deeply nested", "", "split it into parameters");
+}
+
+}  // namespace
+
+struct Calculator::Parser {
+  mu::Parser parser;
+};
+
+Calculator::Calculator() : parser_(std::make_unique<Parser>()) {
+  parser_->parser.DefineConst("pi", 3.14159265358979323846);
+  parser_->parser.DefineNameChars("0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+}
+Calculator::~Calculator() = default;
+
+double Calculator::operator()(const std::string& formula, const NamedValues& values) {
+  check_extent(formula);
+  std::map<std::string, double> known;  // all looked up before the parser is touched: values may be formulas themselves
+  for (const std::string& name : names_of(formula))
+    if (const std::optional<double> value = values(name)) known[name] = *value;
+  mu::Parser& parser = parser_->parser;
+  try {
+    parser.ClearVar();
+    for (auto& [name, value] : known) parser.DefineVar(name, &value);
+    parser.SetExpr(formula);
+    const double result = parser.Eval();
+    parser.ClearVar();
+    return result;
+  } catch (const mu::Parser::exception_type& error) {
+    parser.ClearVar();
+    throw Error(fmt::format("expression '{}': {}", formula, error.GetMsg()), "", "");
+  }
+}
+
+}  // namespace tisserand::formats
