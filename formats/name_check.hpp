@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 #include "formats/fault.hpp"
@@ -14,6 +15,10 @@ bool is_name(const std::string& text);
 /// A finding if the name of the entry at `where` is not a name or is in `seen`; adds it there. `noun` is "beam".
 void check_name(const std::string& noun, const std::string& name, const std::string& where,
                 std::vector<std::string>& seen, Faults& faults);
+
+/// The same for names of a scene, which may be paths of instances: "corner_fl/arm", "link[3]/bar".
+void check_path_name(const std::string& noun, const std::string& name, const std::string& where,
+                     std::unordered_set<std::string>& seen, Faults& faults);
 
 /// A finding if `name` is not in `known`, with the nearest one: "beam 'rod': there is no section 'owm'".
 void check_reference(const std::string& subject, const std::string& noun, const std::string& name,

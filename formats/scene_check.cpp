@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <unordered_set>
 
 #include "common/text.hpp"
 #include "formats/line_check.hpp"
@@ -137,11 +138,16 @@ void check_node_of_body(const BodySpec& body, const std::string& node, const std
 
 void check_node(const Scene& scene, const MarkerSpec& marker, const std::string& subject, const std::string& where,
                 const std::string& key, Faults& faults) {
-  const std::size_t slash = marker.node.find('/');
-  const std::string body_name = marker.node.substr(0, slash);
   std::vector<std::string> bodies;
   for (const BodySpec& body : scene.bodies) bodies.push_back(name_of(body));
-  const auto found = std::ranges::find(bodies, body_name);
+  // Names of bodies in assemblies hold slashes, those of nodes do not.
+  std::size_t slash = std::string::npos;
+  auto found = std::ranges::find(bodies, marker.node);
+  if (found == bodies.end()) {
+    slash = marker.node.rfind('/');
+    found = std::ranges::find(bodies, marker.node.substr(0, slash));
+  }
+  const std::string body_name = marker.node.substr(0, slash);
   if (found == bodies.end()) {
     if (key != "at") bodies.push_back("ground");
     check_reference(subject, "body", body_name, bodies, where, key, faults);
@@ -245,10 +251,11 @@ void check_joint(const Scene& scene, const JointSpec& joint, Faults& faults) {
 
 void check_coordinate(const CoordinateRef& coordinate, const Scene& scene, const std::string& subject,
                       const std::string& where, const std::string& key, Faults& faults) {
-  const std::string joint = coordinate.name.substr(0, coordinate.name.find('/'));
+  const std::string joint = coordinate.name.substr(0, coordinate.name.rfind('/'));
   std::vector<std::string> names;
   for (const JointSpec& spec : scene.joints) names.push_back(spec.name);
-  if (std::find(names.begin(), names.end(), joint) != names.end()) return;
+  for (const std::string& name : names)
+    if (name == coordinate.name || name == joint) return;
   const auto near = nearest(joint, names);
   faults.add(where, key, fmt::format("{}: there is no joint '{}'", subject, joint),
              near ? fmt::format("did you mean '{}'?", *near) : "name a joint, or joint/coordinate as in slide/z");
@@ -322,12 +329,12 @@ Faults find_faults(const Scene& scene) {
   if (scene.name.empty()) faults.add(scene.file, "scene", "the scene has no name", "scene: <name>");
   if (!scene.gravity.allFinite()) faults.add(scene.file, "gravity", "gravity must be finite", "");
   if (scene.bodies.empty()) faults.add(scene.file, "bodies", "the scene has no bodies", "");
-  std::vector<std::string> bodies, joints, motions, springs, loads;
+  std::unordered_set<std::string> bodies, joints, motions, springs, loads;
   for (const BodySpec& body : scene.bodies) {
     std::visit(
         [&](const auto& spec) {
           const std::string subject = fmt::format("body '{}'", spec.name);
-          check_name("body", spec.name, spec.where, bodies, faults);
+          check_path_name("body", spec.name, spec.where, bodies, faults);
           if (spec.name == "ground")
             faults.add(spec.where, "", "body 'ground': the name is taken by the fixed world", "rename it");
           check_start(spec.start, subject, spec.where, faults);
@@ -336,23 +343,23 @@ Faults find_faults(const Scene& scene) {
         body);
   }
   for (const JointSpec& joint : scene.joints) {
-    check_name("joint", joint.name, joint.where, joints, faults);
+    check_path_name("joint", joint.name, joint.where, joints, faults);
     check_joint(scene, joint, faults);
   }
   for (const GearSpec& gear : scene.gears) {
-    check_name("joint", gear.name, gear.where, joints, faults);
+    check_path_name("joint", gear.name, gear.where, joints, faults);
     check_gear(scene, gear, faults);
   }
   for (const MotionSpec& motion : scene.motions) {
-    check_name("motion", motion.name, motion.where, motions, faults);
+    check_path_name("motion", motion.name, motion.where, motions, faults);
     check_motion(scene, motion, faults);
   }
   for (const SpringSpec& spring : scene.springs) {
-    check_name("spring", spring.name, spring.where, springs, faults);
+    check_path_name("spring", spring.name, spring.where, springs, faults);
     check_spring(scene, spring, faults);
   }
   for (const LoadSpec& load : scene.loads) {
-    check_name("load", load.name, load.where, loads, faults);
+    check_path_name("load", load.name, load.where, loads, faults);
     check_load(scene, load, faults);
   }
   check_settings(scene, faults);

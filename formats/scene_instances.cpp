@@ -13,7 +13,7 @@ namespace tisserand::formats {
 namespace {
 
 constexpr int deepest_level = 50;
-constexpr long most_instances = 1'000'000;
+constexpr long most_instances = 200'000;
 constexpr std::size_t most_errors = 50;
 
 bool is_structure(const std::string& key) {
@@ -182,9 +182,11 @@ SceneExpander::Instance SceneExpander::read_instance(const YamlNode& node, Param
   instance.mirror = mirror_frame(map);
   if (map.has("count")) {
     instance.count = map.integer("count", 0);
-    if (instance.count < 0 || instance.count > most_instances)
+    if (instance.count < 0 || instance.count > most_instances) {
       context.fail(map.find("count")->place,
                    fmt::format("count {} must lie between 0 and {}", instance.count, most_instances), "");
+      instance.count = 0;
+    }
   } else if (map.has("step") || !instance.first.children.empty()) {
     map.fail("'step' and 'first' belong to instances that are repeated", "give count");
   }

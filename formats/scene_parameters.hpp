@@ -51,7 +51,7 @@ class ExpansionBudget {
   void take(std::size_t values, const std::string& where);
 
  private:
-  static constexpr std::size_t most_values = 10'000'000;
+  static constexpr std::size_t most_values = 3'000'000;
   std::size_t taken_ = 0;
 };
 
