@@ -67,7 +67,8 @@ struct Doubts {
 /// Throws for elements of bad shape.
 Doubts check_mesh(const Mesh& mesh, const formats::Part& part) {
   Doubts doubts{mesh.warnings, plausibility_warnings(mesh, part.units)};
-  for (const auto& more : {check_shapes(mesh, part.file), doubts.numbers})
+  const std::string& where = part.mesh.file.empty() ? part.file : part.mesh.file;
+  for (const auto& more : {check_shapes(mesh, where), doubts.numbers})
     doubts.all.insert(doubts.all.end(), more.begin(), more.end());
   return doubts;
 }

@@ -30,7 +30,7 @@ void tell_unknown(Model& model, const std::string& path, UnknownCards unknown) {
   const std::string text = fmt::format("not understood: {}", with_counts(model.unknown));
   switch (unknown) {
     case UnknownCards::refuse:
-      model.findings.add(text, path, "remove them, or say that they shall be ignored");
+      model.findings.add(text, path, "remove them, or write `unknown: ignore` under mesh if the part can do without");
       break;
     case UnknownCards::ignore:
       model.deck.mesh.warnings.push_back(text + "; ignored as wished");
