@@ -143,3 +143,41 @@ split_scene() {
       printf "integrator: {method: generalised_alpha, rho: 0.9, step: %s, end: %s}\noutput: {every: 1}\n", step, end
     }'
 }
+
+# benchmark_tables <folder with targets.csv>: runs every scene of the file with each value of `refine`; one table per scene with target,
+# results, error of the last and its order (log2 of how much the error falls when the value is halved). Columns of targets.csv: scene
+# file; the setting that is varied and its values; quantity; channel (with *: the last that matches); time; target; scale of the
+# relative error; largest error accepted by the tests (empty: none); order expected by the tests (empty: none).
+benchmark_tables() {
+  local folder="$1" scene refine values value name
+  while IFS=, read -r scene refine values; do
+    local names=()
+    for value in ${values:--}; do
+      name="${scene}_$value"
+      names+=("$name")
+      if [ "$value" = - ]; then
+        simulate "$out/$scene.scene.yaml" "$name" || true
+      else
+        simulate "$out/$scene.scene.yaml" "$name" --set "$refine=$value" || true
+      fi
+    done
+    printf '\n### %s\n%s\n\n| quantity | time | target | %s | error %% | order |\n| --- | --: | --: | %s | --: | --: |\n' \
+      "$(awk '$1 == "scene:" { sub(/^scene: */, ""); print }' "$folder/$scene.scene.yaml")" \
+      "$(awk '/^#/ { sub(/^# */, ""); print; next } { exit }' "$folder/$scene.scene.yaml")" \
+      "$([ -n "$values" ] && sed 's/ / | /g' <<<"$values" || printf 'ours')" "$(sed 's/[^ ]*/--:/g; s/ / | /g' <<<"${values:-x}")"
+    awk -F, -v scene="$scene" '$1 == scene { print $4 "," $5 "," $6 "," $7 "," $8 }' "$folder/targets.csv" |
+      while IFS=, read -r quantity channel time target scale; do
+        local results=()
+        for name in "${names[@]}"; do
+          "$mechanism" export "$out/$name.results.h5" -c "$channel" -o "$out/channel.csv" >/dev/null
+          results+=("$(awk -F, -v t="$time" 'NR > 1 { d = $1 - t; if (d < 0) d = -d; if (NR == 2 || d < best) { best = d; y = $NF } }
+            END { printf "%.9g", y }' "$out/channel.csv")")
+        done
+        awk -v q="$quantity" -v t="$time" -v target="$target" -v scale="$scale" -v ours="${results[*]}" 'BEGIN {
+          n = split(ours, y, " ")
+          for (i = 1; i <= n; i++) { e[i] = (y[i] - target) / scale; list = list " | " sprintf("%.7g", y[i]) }
+          if (n > 1 && e[n] != 0 && e[n - 1] / e[n] > 1) order = sprintf("%.1f", log(e[n - 1] / e[n]) / log(2))
+          printf "| %s | %g | %.9g%s | %+.2g | %s |\n", q, t, target, list, 100 * e[n], order }'
+      done
+  done < <(awk -F, 'NR > 1 && !seen[$1]++ { print $1 "," $2 "," $3 }' "$folder/targets.csv")
+}
