@@ -112,6 +112,9 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
   scene.motions = read_motions(map, definitions);
   scene.springs = read_springs(map, definitions);
   scene.loads = read_loads(map, definitions);
+  scene.virtual_bodies = map.choice(
+      "virtual_bodies", {Choice<VirtualBodies>{"keep", VirtualBodies::keep}, {"eliminate", VirtualBodies::eliminate}},
+      scene.virtual_bodies);
   read_settings(map, scene);
   scene.initial_tolerance = map.number("initial_tolerance", scene.initial_tolerance);
   return scene;

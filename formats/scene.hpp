@@ -75,6 +75,18 @@ struct RigidBodySpec {
   std::string where;
 };
 
+/// A body without mass: a place that joints, springs and loads share. Its place is the origin of its part frame.
+struct VirtualBodySpec {
+  std::string name;
+  InitialMotion start;
+  std::vector<RigidNodeSpec> nodes;
+  std::string where;
+};
+
+/// keep: a virtual body is a node with six coordinates, its fixed joints are constraints; eliminate: bodies that are
+/// tied by fixed joints to a virtual one follow one carrier at constant offsets (mechanism/virtual_bodies.hpp).
+enum class VirtualBodies { keep, eliminate };
+
 /// A geometrically exact beam along a line or an arc; its nodes are <name>/0 ... <name>/N (and <name>/start, /end).
 struct BeamBodySpec {
   std::string name;
@@ -90,7 +102,7 @@ struct BeamBodySpec {
   std::string where;
 };
 
-using BodySpec = std::variant<SuperelementBodySpec, RigidBodySpec, BeamBodySpec>;
+using BodySpec = std::variant<SuperelementBodySpec, RigidBodySpec, BeamBodySpec, VirtualBodySpec>;
 
 enum class JointKind {
   fixed,
@@ -112,6 +124,9 @@ enum class JointKind {
 
 /// The word of a kind in scene.yaml.
 std::string joint_word(JointKind kind);
+
+/// Whether the direction of the z axis matters to a joint of this kind, so that the scene must give it.
+bool needs_axis(JointKind kind);
 
 /// A place on a body: "ground", "<body>" (rigid), "<body>/<node>"; position and orientation in the node's axes.
 struct MarkerSpec {
@@ -243,6 +258,7 @@ struct Scene {
   std::vector<MotionSpec> motions;
   std::vector<SpringSpec> springs;
   std::vector<LoadSpec> loads;
+  VirtualBodies virtual_bodies = VirtualBodies::eliminate;
   AnalysisKind analysis = AnalysisKind::dynamics;
   IntegratorSpec integrator;
   StaticsSpec statics;

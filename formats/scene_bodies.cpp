@@ -1,4 +1,4 @@
-// `bodies` of scene.yaml: superelements, rigid bodies, beams.
+// `bodies` of scene.yaml: superelements, rigid bodies, beams, virtual bodies.
 #include <filesystem>
 #include <limits>
 
@@ -117,6 +117,16 @@ SuperelementBodySpec read_rigid_from(const Context& context, const YamlNode& nod
   return body;
 }
 
+std::vector<RigidNodeSpec> read_nodes(const MapReader& map) {
+  const Context& context = map.context();
+  std::vector<RigidNodeSpec> nodes;
+  for (const YamlNode* place : map.entries("nodes", "node")) {
+    const Context inner{context.reader, fmt::format("{}: node '{}'", context.subject, place->key), context.entry};
+    nodes.push_back({place->key, read_pose(inner, *place, fmt::format("nodes.{}.", place->key))});
+  }
+  return nodes;
+}
+
 RigidBodySpec read_rigid(const Context& context, const YamlNode& node) {
   const MapReader map(context, node, "body_rigid");
   RigidBodySpec body;
@@ -126,10 +136,17 @@ RigidBodySpec read_rigid(const Context& context, const YamlNode& node) {
   body.mass = map.number("mass");
   body.center_of_mass = read_vector(map, "center_of_mass", body.center_of_mass);
   if (const YamlNode* inertia = map.require("inertia")) body.inertia = read_inertia(context, *inertia, "inertia");
-  for (const YamlNode* place : map.entries("nodes", "node")) {
-    const Context inner{context.reader, fmt::format("{}: node '{}'", context.subject, place->key), context.entry};
-    body.nodes.push_back({place->key, read_pose(inner, *place, fmt::format("nodes.{}.", place->key))});
-  }
+  body.nodes = read_nodes(map);
+  return body;
+}
+
+VirtualBodySpec read_virtual(const Context& context, const YamlNode& node) {
+  const MapReader map(context, node, "body_virtual");
+  VirtualBodySpec body;
+  body.name = node.key;
+  body.where = context.entry;
+  body.start = read_start(map);
+  body.nodes = read_nodes(map);
   return body;
 }
 
@@ -208,11 +225,11 @@ std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& 
       context.fail(
           node->key_place,
           node->kind == YamlKind::map ? "missing key 'type'" : fmt::format("must be a map, not {}", describe(*node)),
-          "give type: superelement, rigid or beam");
+          "give type: superelement, rigid, beam or virtual");
       bodies.emplace_back(unreadable_body(context, *node));
       continue;
     }
-    switch (read_word(context, *type, "type", {"superelement", "rigid", "beam"}).value_or(3)) {
+    switch (read_word(context, *type, "type", {"superelement", "rigid", "beam", "virtual"}).value_or(4)) {
       case 0:
         bodies.emplace_back(read_superelement(context, *node, definitions));
         break;
@@ -225,6 +242,9 @@ std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& 
         break;
       case 2:
         bodies.emplace_back(read_beam(context, *node, definitions));
+        break;
+      case 3:
+        bodies.emplace_back(read_virtual(context, *node));
         break;
       default:
         bodies.emplace_back(unreadable_body(context, *node));

@@ -76,17 +76,26 @@ void check_body(const SuperelementBodySpec& body, const std::string& subject, Fa
   check_damping(body.damping, subject, body.where, faults);
 }
 
+void check_nodes(const std::vector<RigidNodeSpec>& nodes, const std::string& subject, const std::string& where,
+                 Faults& faults) {
+  std::vector<std::string> names;
+  for (const RigidNodeSpec& node : nodes) {
+    check_name(subject + ": node", node.name, where, names, faults);
+    if (!node.pose.position.allFinite())
+      faults.add(where, fmt::format("nodes.{}.position", node.name),
+                 fmt::format("{}: node '{}': position must be finite", subject, node.name), "");
+  }
+}
+
 void check_body(const RigidBodySpec& body, const std::string& subject, Faults& faults) {
   check_mass({subject, body.where, body.mass, body.inertia}, MassSign::positive, faults);
   if (!body.center_of_mass.allFinite())
     faults.add(body.where, "center_of_mass", fmt::format("{}: center_of_mass must be finite", subject), "");
-  std::vector<std::string> names;
-  for (const RigidNodeSpec& node : body.nodes) {
-    check_name(subject + ": node", node.name, body.where, names, faults);
-    if (!node.pose.position.allFinite())
-      faults.add(body.where, fmt::format("nodes.{}.position", node.name),
-                 fmt::format("{}: node '{}': position must be finite", subject, node.name), "");
-  }
+  check_nodes(body.nodes, subject, body.where, faults);
+}
+
+void check_body(const VirtualBodySpec& body, const std::string& subject, Faults& faults) {
+  check_nodes(body.nodes, subject, body.where, faults);
 }
 
 void check_body(const BeamBodySpec& body, const std::string& subject, Faults& faults) {
@@ -123,10 +132,12 @@ bool has_node(const BeamBodySpec& beam, const std::string& node) {
 /// Nodes of superelements stand in their files and are checked when those are read.
 void check_node_of_body(const BodySpec& body, const std::string& node, const std::string& subject,
                         const std::string& where, const std::string& key, Faults& faults) {
-  if (const RigidBodySpec* rigid = std::get_if<RigidBodySpec>(&body)) {
+  const RigidBodySpec* rigid = std::get_if<RigidBodySpec>(&body);
+  const VirtualBodySpec* massless = std::get_if<VirtualBodySpec>(&body);
+  if (rigid != nullptr || massless != nullptr) {
     std::vector<std::string> names;
-    for (const RigidNodeSpec& one : rigid->nodes) names.push_back(one.name);
-    check_reference(fmt::format("{}: body '{}'", subject, rigid->name), "node", node, names, where, key, faults);
+    for (const RigidNodeSpec& one : rigid != nullptr ? rigid->nodes : massless->nodes) names.push_back(one.name);
+    check_reference(fmt::format("{}: body '{}'", subject, name_of(body)), "node", node, names, where, key, faults);
   } else if (const BeamBodySpec* beam = std::get_if<BeamBodySpec>(&body); beam != nullptr && !has_node(*beam, node)) {
     const auto near = nearest(node, {"start", "end"});
     const std::string hint = near ? fmt::format("did you mean '{}'? ", *near) : "";
@@ -159,7 +170,8 @@ void check_node(const Scene& scene, const MarkerSpec& marker, const std::string&
     return;
   }
   const SuperelementBodySpec* element = std::get_if<SuperelementBodySpec>(&body);
-  const bool rigid = std::holds_alternative<RigidBodySpec>(body) || (element != nullptr && element->rigid);
+  const bool rigid = std::holds_alternative<RigidBodySpec>(body) || std::holds_alternative<VirtualBodySpec>(body) ||
+                     (element != nullptr && element->rigid);
   const bool beam = std::holds_alternative<BeamBodySpec>(body);
   if (!rigid)
     faults.add(where, key,
@@ -180,30 +192,6 @@ void check_marker(const Scene& scene, const MarkerSpec& marker, const std::strin
                fmt::format("{}: {}: the quaternion of the orientation has length {:g}, not 1", subject, key,
                            marker.orientation->norm()),
                "");
-}
-
-/// Kinds whose directions matter.
-bool needs_axis(const JointSpec& joint) {
-  switch (joint.kind) {
-    case JointKind::revolute:
-    case JointKind::universal:
-    case JointKind::constant_velocity:
-    case JointKind::cylindrical:
-    case JointKind::screw:
-    case JointKind::prismatic:
-    case JointKind::planar:
-    case JointKind::point_on_line:
-    case JointKind::point_on_plane:
-    case JointKind::parallel_axes:
-      return true;
-    case JointKind::fixed:
-    case JointKind::spherical:
-    case JointKind::distance:
-    case JointKind::constant_orientation:
-    case JointKind::generic:
-      return false;
-  }
-  return false;
 }
 
 void check_joint(const Scene& scene, const JointSpec& joint, Faults& faults) {
@@ -227,7 +215,7 @@ void check_joint(const Scene& scene, const JointSpec& joint, Faults& faults) {
     faults.add(joint.where, "axis",
                fmt::format("{}: axis has no effect, since both a and b have an orientation", subject),
                "remove it, or the orientation of a or b");
-  if (needs_axis(joint) && !joint.axis && !joint.a.orientation && !joint.b.orientation)
+  if (needs_axis(joint.kind) && !joint.axis && !joint.a.orientation && !joint.b.orientation)
     faults.add(joint.where, "", fmt::format("{}: a {} joint needs an axis", subject, joint_word(joint.kind)),
                "give axis: [x, y, z], or an orientation to a or b");
   if (joint.x_axis && !joint.axis)

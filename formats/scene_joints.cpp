@@ -157,6 +157,29 @@ std::string joint_word(JointKind kind) {
   return {};
 }
 
+bool needs_axis(JointKind kind) {
+  switch (kind) {
+    case JointKind::revolute:
+    case JointKind::universal:
+    case JointKind::constant_velocity:
+    case JointKind::cylindrical:
+    case JointKind::screw:
+    case JointKind::prismatic:
+    case JointKind::planar:
+    case JointKind::point_on_line:
+    case JointKind::point_on_plane:
+    case JointKind::parallel_axes:
+      return true;
+    case JointKind::fixed:
+    case JointKind::spherical:
+    case JointKind::distance:
+    case JointKind::constant_orientation:
+    case JointKind::generic:
+      return false;
+  }
+  return false;
+}
+
 void read_joints(const MapReader& map, Scene& scene) {
   for (const YamlNode* node : map.entries("joints", "joint")) {
     const Context context = entry_context(map.context().reader, "joint", *node);

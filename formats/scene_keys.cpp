@@ -8,9 +8,9 @@ namespace tisserand::formats {
 std::vector<KeySet> scene_key_sets() {
   std::vector<KeySet> sets{
       {"scene",
-       {"scene", "units", "gravity", "materials", "sections", "bodies", "joints", "motions", "springs", "loads",
-        "analysis", "integrator", "statics", "output", "initial_tolerance", "include", "parameters", "assemblies",
-        "instances"}},
+       {"scene",   "units",      "gravity",        "materials", "sections",   "bodies",  "joints", "motions",
+        "springs", "loads",      "virtual_bodies", "analysis",  "integrator", "statics", "output", "initial_tolerance",
+        "include", "parameters", "assemblies",     "instances"}},
       {"assembly",
        {"assembly", "parameters", "assemblies", "instances", "bodies", "joints", "motions", "springs", "loads"}},
       {"instance", {"use", "pose", "mirror", "parameters", "count", "step", "first"}},
@@ -25,6 +25,7 @@ std::vector<KeySet> scene_key_sets() {
       {"damping", {"mass", "stiffness", "ratio", "ratios"}},
       {"body_rigid", {"type", "mass", "center_of_mass", "inertia", "nodes", "pose", "velocity", "angular_velocity"}},
       {"body_rigid_from", {"type", "from", "file_mirrored", "pose", "velocity", "angular_velocity"}},
+      {"body_virtual", {"type", "nodes", "pose", "velocity", "angular_velocity"}},
       {"body_beam",
        {"type", "from", "to", "through", "orientation", "elements", "nodes_per_element", "section", "material", "pose",
         "velocity", "angular_velocity"}},

@@ -8,15 +8,7 @@
 
 namespace tisserand::mechanism {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-void JointBuilder::place_marker(const formats::MarkerSpec& spec, const Vector3d& position, const Matrix3d& R,
-                                Marker& marker) const {
-  const NodeMotion carrier = markers_.motion(marker.node);
-  if (!spec.position) marker.p = carrier.R.transpose() * (position - carrier.x);
-  if (!spec.orientation) marker.R = carrier.R.transpose() * R;
-}
 
 bool JointBuilder::uses_axes(const Joint& joint) {
   for (int k = 0; k < joint.relation_count; ++k)
@@ -33,8 +25,11 @@ void JointBuilder::add(const formats::JointSpec& spec) {
   if (joint.a.node == joint.b.node)
     throw Error(fmt::format("joint '{}' connects '{}' and '{}', which are {}", spec.name, spec.a.node, spec.b.node,
                             joint.a.node < 0 ? "both ground" : "on one and the same node"),
-                spec.where, "connect two different nodes");
-  if (spec.kind != JointKind::distance) place_markers(spec, joint);
+                spec.where,
+                joint.a.follower < 0 && joint.b.follower < 0
+                    ? "connect two different nodes"
+                    : "fixed joints tie these bodies together already: remove the joint, or one of the fixed ones");
+  if (spec.kind != JointKind::distance) place_markers(markers_, spec, joint.a, joint.b);
   const std::string subject = fmt::format("joint '{}'", spec.name);
   const MarkerUse use = uses_axes(joint) ? MarkerUse::position_and_axes : MarkerUse::position;
   check_marker(model_, subject, use, spec.a, joint.a);
@@ -43,24 +38,6 @@ void JointBuilder::add(const formats::JointSpec& spec) {
   add_coordinates(joint);
   if (spec.kind == JointKind::screw) add_screw(spec);
   model_.joints.push_back(std::move(joint));
-}
-
-void JointBuilder::place_markers(const formats::JointSpec& spec, Joint& joint) const {
-  const bool at_a = spec.b.node == "ground" || (spec.a.position && !spec.b.position);
-  const Marker& known = at_a ? joint.a : joint.b;
-  const Vector3d position = spec.position ? *spec.position : markers_.position(known);
-  const bool turned_a = spec.a.orientation.has_value(), turned_b = spec.b.orientation.has_value();
-  Matrix3d R = Matrix3d::Identity();
-  if (spec.axis)
-    R = frame_with_z(*spec.axis, spec.x_axis);
-  else if (turned_a || turned_b)
-    R = turned_a ? marker_rotation(joint.a, markers_.motion(joint.a.node))
-                 : marker_rotation(joint.b, markers_.motion(joint.b.node));
-  else if (spec.kind == JointKind::revolute)
-    throw Error(fmt::format("revolute joint '{}' has no axis", spec.name), spec.where,
-                "give `axis: [x, y, z]` in the world frame at the start, or orientations of its markers");
-  place_marker(spec.a, position, R, joint.a);
-  place_marker(spec.b, position, R, joint.b);
 }
 
 void JointBuilder::set_length(const formats::JointSpec& spec, Joint& joint) const {
@@ -189,17 +166,6 @@ int JointBuilder::add_distance(const formats::SpringSpec& spec) {
                 "move one end, or use springs along the coordinates of a joint");
   model_.coordinates.push_back(std::move(coordinate));
   return static_cast<int>(model_.coordinates.size()) - 1;
-}
-
-Matrix3d JointBuilder::frame_with_z(const Vector3d& axis, const std::optional<Vector3d>& x_axis) {
-  const Vector3d z = axis.normalized();
-  Eigen::Index smallest = 0;
-  z.cwiseAbs().minCoeff(&smallest);
-  const Vector3d across = x_axis ? *x_axis : Vector3d(Vector3d::Unit(smallest));
-  const Vector3d x = (across - z.dot(across) * z).normalized();
-  Matrix3d R;
-  R << x, z.cross(x), z;
-  return R;
 }
 
 }  // namespace tisserand::mechanism

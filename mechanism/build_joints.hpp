@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 
@@ -22,13 +21,8 @@ class JointBuilder {
   void add(const formats::SpringSpec& spec);
 
  private:
-  /// Gives the marker the world pose (position, R) where the scene leaves it open.
-  void place_marker(const formats::MarkerSpec& spec, const Eigen::Vector3d& position, const Eigen::Matrix3d& R,
-                    Marker& marker) const;
   /// Whether the joint uses directions of the marker.
   static bool uses_axes(const Joint& joint);
-  /// Where the scene leaves it open: at b, or at a if b is ground; explicit markers first.
-  void place_markers(const formats::JointSpec& spec, Joint& joint) const;
   void set_length(const formats::JointSpec& spec, Joint& joint) const;
   double distance_at_start(const Marker& a, const Marker& b) const;
   void add_coordinates(const Joint& joint);
@@ -39,7 +33,6 @@ class JointBuilder {
   bool is_length_coordinate(int coordinate) const;
   /// The distance of the two markers of a spring.
   int add_distance(const formats::SpringSpec& spec);
-  static Eigen::Matrix3d frame_with_z(const Eigen::Vector3d& axis, const std::optional<Eigen::Vector3d>& x_axis);
 
   const MarkerTable& markers_;
   Model& model_;

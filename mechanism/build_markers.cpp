@@ -9,6 +9,9 @@
 namespace tisserand::mechanism {
 namespace {
 
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
 /// The place that a marker names (without the marker's own offset).
 Marker find_place(const std::map<std::string, Marker>& places, const formats::MarkerSpec& spec) {
   if (spec.node == "ground") return {};
@@ -29,7 +32,43 @@ Marker with_offset(Marker marker, const formats::MarkerSpec& spec) {
   return marker;
 }
 
+Matrix3d frame_with_z(const Vector3d& axis, const std::optional<Vector3d>& x_axis) {
+  const Vector3d z = axis.normalized();
+  Eigen::Index smallest = 0;
+  z.cwiseAbs().minCoeff(&smallest);
+  const Vector3d across = x_axis ? *x_axis : Vector3d(Vector3d::Unit(smallest));
+  const Vector3d x = (across - z.dot(across) * z).normalized();
+  Matrix3d R;
+  R << x, z.cross(x), z;
+  return R;
+}
+
+/// Gives the marker the world pose (position, R) where the scene leaves it open.
+void place_marker(const MarkerTable& markers, const formats::MarkerSpec& spec, const Vector3d& position,
+                  const Matrix3d& R, Marker& marker) {
+  const NodeMotion carrier = markers.motion(marker.node);
+  if (!spec.position) marker.p = carrier.R.transpose() * (position - carrier.x);
+  if (!spec.orientation) marker.R = carrier.R.transpose() * R;
+}
+
 }  // namespace
+
+void place_markers(const MarkerTable& markers, const formats::JointSpec& spec, Marker& a, Marker& b) {
+  const bool at_a = spec.b.node == "ground" || (spec.a.position && !spec.b.position);
+  const Vector3d position = spec.position ? *spec.position : markers.position(at_a ? a : b);
+  Matrix3d R = Matrix3d::Identity();
+  if (spec.axis)
+    R = frame_with_z(*spec.axis, spec.x_axis);
+  else if (spec.a.orientation)
+    R = marker_rotation(a, markers.motion(a.node));
+  else if (spec.b.orientation)
+    R = marker_rotation(b, markers.motion(b.node));
+  else if (formats::needs_axis(spec.kind))
+    throw Error(fmt::format("{} joint '{}' has no axis", formats::joint_word(spec.kind), spec.name), spec.where,
+                "give `axis: [x, y, z]` in the world frame at the start, or orientations of its markers");
+  place_marker(markers, spec.a, position, R, a);
+  place_marker(markers, spec.b, position, R, b);
+}
 
 Marker MarkerTable::find(const formats::MarkerSpec& spec) const { return with_offset(find_place(places, spec), spec); }
 

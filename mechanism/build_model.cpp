@@ -13,6 +13,7 @@
 #include "mechanism/build_joints.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/newton.hpp"
+#include "mechanism/virtual_bodies.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -32,10 +33,14 @@ class Builder {
     for (const formats::BodySpec& body : scene_.bodies) {
       collect([&] { std::visit([this](const auto& spec) { add_body(spec); }, body); });
     }
+    collect([this] { add_virtual_bodies(); });
     throw_errors();
     initial_motion();
+    collect([this] { eliminate_virtual_bodies(); });
+    throw_errors();
     JointBuilder joints(markers_, model_, breakpoints_);
-    for (const formats::JointSpec& joint : scene_.joints) collect([&] { joints.add(joint); });
+    for (const formats::JointSpec& joint : scene_.joints)
+      if (!vanished_.contains(joint.name)) collect([&] { joints.add(joint); });
     throw_errors();
     for (const formats::GearSpec& gear : scene_.gears) collect([&] { joints.add(gear); });
     for (const formats::MotionSpec& motion : scene_.motions) collect([&] { joints.add(motion); });
@@ -70,14 +75,18 @@ class Builder {
     if (translations) node.translation = std::exchange(model_.sizes.boundary, model_.sizes.boundary + 3);
     if (rotations) node.rotation = std::exchange(model_.sizes.boundary, model_.sizes.boundary + 3);
     model_.nodes.push_back(node);
+    markers_.start.push_back(motion_at(start, position));
+    return static_cast<int>(model_.nodes.size()) - 1;
+  }
+
+  static NodeMotion motion_at(const formats::InitialMotion& start, const Vector3d& position) {
     NodeMotion motion;
     motion.R = start.pose.orientation.normalized().toRotationMatrix();
     const Vector3d arm = motion.R * position;
     motion.x = start.pose.position + arm;
     motion.xd = start.velocity + start.angular_velocity.cross(arm);
     motion.Omega = motion.R.transpose() * start.angular_velocity;
-    markers_.start.push_back(motion);
-    return static_cast<int>(model_.nodes.size()) - 1;
+    return motion;
   }
 
   void add_place(const std::string& name, const Marker& marker) {
@@ -173,18 +182,64 @@ class Builder {
     append(mesh.elements3, model_.beams3);
   }
 
+  void add_body(const formats::VirtualBodySpec&) {}  // after all others: add_virtual_bodies()
+
+  /// Kept ones are nodes. Those to be eliminated stand behind all nodes in the table until their carriers are known.
+  void add_virtual_bodies() {
+    for (const formats::BodySpec& body : scene_.bodies) {
+      const auto* spec = std::get_if<formats::VirtualBodySpec>(&body);
+      if (spec == nullptr) continue;
+      int node = static_cast<int>(markers_.start.size());
+      switch (scene_.virtual_bodies) {
+        case formats::VirtualBodies::keep:
+          node = add_virtual_node(*spec);
+          break;
+        case formats::VirtualBodies::eliminate:
+          markers_.start.push_back(motion_at(spec->start, Vector3d::Zero()));
+          virtual_bodies_.push_back(spec);
+          break;
+      }
+      add_place(spec->name, {node});
+      for (const formats::RigidNodeSpec& place : spec->nodes)
+        add_place(spec->name + "/" + place.name,
+                  {node, place.pose.position, place.pose.orientation.normalized().toRotationMatrix()});
+    }
+  }
+
+  int add_virtual_node(const formats::VirtualBodySpec& spec) {
+    ++model_.virtual_nodes;
+    return add_node(spec.name, spec.start, Vector3d::Zero(), 1, 1);
+  }
+
+  /// Places on virtual bodies become places on their carriers; the joints that tie them vanish.
+  void eliminate_virtual_bodies() {
+    if (virtual_bodies_.empty()) return;
+    const int first = static_cast<int>(model_.nodes.size());
+    TiedBodies tied = tie_virtual_bodies(scene_, model_, first, markers_);
+    markers_.start.resize(static_cast<std::size_t>(first));
+    std::map<int, int> node_of_root;
+    for (const int root : tied.roots)
+      node_of_root[first + root] = add_virtual_node(*virtual_bodies_[static_cast<std::size_t>(root)]);
+    const auto renumber = [&](Marker& marker) {
+      if (marker.node >= first) marker.node = node_of_root.at(marker.node);
+    };
+    for (Marker& pose : tied.pose) renumber(pose);
+    for (Tie& tie : tied.ties) {
+      renumber(tie.a);
+      renumber(tie.b);
+    }
+    const auto move = [&](Marker& place) {
+      if (place.node >= first) place = composed(tied.pose[static_cast<std::size_t>(place.node - first)], place);
+    };
+    for (Place& place : model_.places) move(place.marker);
+    for (auto& [name, place] : markers_.places) move(place);
+    model_.ties = std::move(tied.ties);
+    vanished_ = std::move(tied.vanished);
+  }
+
   // ---- loads
   // ---------------------------------------------------------------------------------------------------------
-  void add_load(const formats::LoadSpec& spec) {
-    Load load;
-    load.name = spec.name;
-    load.kind = spec.kind;
-    load.axes = spec.axes;
-    load.at = markers_.find(spec.at);
-    load.components = spec.components;
-    load.where = spec.where;
-    if (load.at.node < 0)
-      throw Error(fmt::format("load '{}' acts on ground", spec.name), spec.where, "name a node of a body");
+  void check_load_node(const formats::LoadSpec& spec, const Load& load) const {
     const Node& node = model_.nodes[static_cast<std::size_t>(load.at.node)];
     if (spec.kind == formats::LoadKind::moment && node.rotation < 0)
       throw Error(fmt::format("moment '{}' acts on node '{}', which has no rotations", spec.name, node.name),
@@ -197,6 +252,19 @@ class Builder {
                               spec.axes == formats::LoadAxes::body ? "follows" : "acts away from", node.name),
                   spec.where,
                   "apply it at the node in world axes, or keep the rotations of that node in the superelement");
+  }
+
+  void add_load(const formats::LoadSpec& spec) {
+    Load load;
+    load.name = spec.name;
+    load.kind = spec.kind;
+    load.axes = spec.axes;
+    load.at = markers_.find(spec.at);
+    load.components = spec.components;
+    load.where = spec.where;
+    if (load.at.node < 0 && load.at.follower < 0)
+      throw Error(fmt::format("load '{}' acts on ground", spec.name), spec.where, "name a node of a body");
+    if (load.at.node >= 0) check_load_node(spec, load);
     for (const formats::TimeFunctionSpec& component : spec.components) {
       TimeFunction check(component);  // reports syntax errors now
       for (const double t : breakpoints(component)) breakpoints_.insert(t);
@@ -287,6 +355,8 @@ class Builder {
   Model model_;
   MarkerTable markers_;
   std::vector<Eigen::Quaterniond> frames_;
+  std::vector<const formats::VirtualBodySpec*> virtual_bodies_;  ///< to be eliminated
+  std::set<std::string> vanished_;                               ///< joints
   std::set<double> breakpoints_;
   std::vector<std::string> notes_;
   std::vector<Error> errors_;

@@ -162,6 +162,7 @@ Workspace::Workspace(const Model& model)
       spring_forces(compile_spring_forces(model)),
       load_functions(compile_loads(model)),
       load_values(model.loads.size(), Vector3d::Zero()),
+      tie_wrenches(model.ties.size(), Vector6d::Zero()),
       residual(Eigen::VectorXd::Zero(model.sizes.boundary)),
       constraint(Eigen::VectorXd::Zero(model.sizes.constraints)),
       constraint_rate(constraint),

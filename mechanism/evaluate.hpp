@@ -14,6 +14,14 @@ void evaluate(const Model& model, const State& state, Workspace& workspace);
 /// All joint coordinates, also those that nothing uses, at the state of the last evaluate(): for output.
 void evaluate_coordinates(const Model& model, const State& state, Workspace& workspace);
 
+/// Wrench that each tie transmits to its follower, from the equilibrium of the massless bodies that hang on it: minus
+/// the sum of what joints, couplings, springs and loads exert on them. At the state of the last evaluate(), with the
+/// multipliers `lambda`.
+void evaluate_ties(const Model& model, const State& state, const double* lambda, Workspace& workspace);
+
+/// Reaction of tie i, as of a joint, after evaluate_ties().
+JointReaction tie_reaction(const Model& model, std::size_t i, const Workspace& workspace);
+
 /// Fills Ḃ v + Φ_tt (Φ̈ = B v̇ + Ḃ v + Φ_tt) for the state of the last evaluate().
 void evaluate_bias(const Model& model, Workspace& workspace);
 

@@ -81,11 +81,6 @@ void add_couplings(const Model& model, const State& state, Workspace& workspace)
   }
 }
 
-/// F(t) of the spring, scaled as loads are.
-double applied_force(const Model& model, std::size_t i, double time, Workspace& workspace) {
-  return model.springs[i].has_force ? workspace.load_factor * (*workspace.spring_forces[i])(time) : 0.0;
-}
-
 void add_springs(const Model& model, const State& state, Workspace& workspace) {
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
     const auto at = static_cast<std::size_t>(model.springs[i].coordinate);
@@ -102,6 +97,10 @@ void add_springs(const Model& model, const State& state, Workspace& workspace) {
 }
 
 }  // namespace
+
+double applied_force(const Model& model, std::size_t i, double time, Workspace& workspace) {
+  return model.springs[i].has_force ? workspace.load_factor * (*workspace.spring_forces[i])(time) : 0.0;
+}
 
 void add_joints(const Model& model, const State& state, Workspace& workspace) {
   for (std::size_t i = 0; i < model.joints.size(); ++i) {

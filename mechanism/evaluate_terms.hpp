@@ -35,6 +35,9 @@ void note_scale(const Vector& local, Workspace& workspace) {
   }
 }
 
+/// F(t) of spring i at the load time, scaled as loads are.
+double applied_force(const Model& model, std::size_t i, double time, Workspace& workspace);
+
 /// Φ, its rate and Bᵀλ of the joints.
 void add_joints(const Model& model, const State& state, Workspace& workspace);
 

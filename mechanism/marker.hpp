@@ -14,7 +14,13 @@ struct Marker {
   int node = -1;
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  int follower = -1;  ///< eliminated virtual body that the marker is on (a row of Model::ties), −1: none
 };
+
+/// `inner`, a pose on a body that is placed as `outer` on its carrier, as a pose on that carrier.
+inline Marker composed(const Marker& outer, const Marker& inner) {
+  return {outer.node, outer.p + outer.R * inner.p, outer.R * inner.R, outer.follower};
+}
 
 /// World position of the marker's origin.
 inline Eigen::Vector3d marker_position(const Marker& marker, const NodeMotion& carrier) {

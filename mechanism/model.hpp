@@ -27,10 +27,25 @@ struct Node {
   int rotation = -1;     ///< first velocity coordinate of Ω, −1 if the node owns no rotations
 };
 
+/// Whether bodies can follow the node at constant offsets.
+inline bool can_carry(const Node& node) { return node.translation >= 0 && node.rotation >= 0; }
+
 /// A named place whose motion is reported; a marker, so that rigid bodies can have many.
 struct Place {
   std::string name;
   Marker marker;
+};
+
+/// A fixed joint between virtual bodies, or of one with its carrier, which vanished when the model was built: both
+/// markers are on the carrier. The first ties hold one follower each, after those that they hang on.
+struct Tie {
+  enum class Side { a, b };
+  std::string name;
+  Marker a;
+  Marker b;
+  int parent = -1;       ///< the follower that this one hangs on, −1: the carrier itself
+  Side child = Side::b;  ///< the side of the joint that follows
+  bool is_loop = false;  ///< closes a loop of ties and holds no follower: left without force
 };
 
 /// Where the local rows and columns of an element go: coordinate −1 is absent (ground, or not owned by the node).
@@ -57,6 +72,8 @@ struct Model {
   Sizes sizes;
   std::vector<Node> nodes;
   std::vector<Place> places;
+  int virtual_nodes = 0;  ///< nodes of virtual bodies
+  std::vector<Tie> ties;  ///< of eliminated virtual bodies: row i holds follower i, rows that close loops at the end
 
   std::vector<SuperelementBody> superelements;
   std::vector<ElementMap> superelement_maps;

@@ -11,6 +11,7 @@ namespace {
 
 /// A node that owns no translations or no rotations has none to report.
 void blank_missing(const Model& model, const Marker& marker, Eigen::Index column, formats::ResultsRow& row) {
+  if (marker.node < 0) return;
   const Node& node = model.nodes[static_cast<std::size_t>(marker.node)];
   const double none = std::numeric_limits<double>::quiet_NaN();
   if (node.translation < 0) {
@@ -64,6 +65,19 @@ void fill_superelements(const Model& model, Workspace& workspace, formats::Resul
   }
 }
 
+/// Reactions of the fixed joints that vanished, behind those of the joints.
+void fill_ties(const Model& model, const State& state, const double* lambda, Workspace& workspace,
+               formats::ResultsRow& row) {
+  if (model.ties.empty()) return;
+  evaluate_ties(model, state, lambda, workspace);
+  for (std::size_t i = 0; i < model.ties.size(); ++i) {
+    const JointReaction reaction = tie_reaction(model, i, workspace);
+    const auto column = static_cast<Eigen::Index>(model.joints.size() + i);
+    row.joint_force.col(column) = reaction.force;
+    row.joint_moment.col(column) = reaction.moment;
+  }
+}
+
 void fill_joints(const Model& model, const State& state, Workspace& workspace, formats::ResultsRow& row) {
   evaluate_coordinates(model, state, workspace);
   Eigen::VectorXd least;
@@ -78,6 +92,7 @@ void fill_joints(const Model& model, const State& state, Workspace& workspace, f
     row.joint_force.col(column) = reaction.force;
     row.joint_moment.col(column) = reaction.moment;
   }
+  fill_ties(model, state, lambda, workspace, row);
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
     row.joint_coordinate[static_cast<Eigen::Index>(i)] = workspace.coordinates[i].value;
     row.joint_rate[static_cast<Eigen::Index>(i)] = workspace.coordinates[i].rate;
@@ -101,6 +116,7 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
     for (const SuperelementNode& node : body.node) layout.boundary_nodes.push_back(node.name);
   }
   for (const Joint& joint : model.joints) layout.joints.push_back(joint.name);
+  for (const Tie& tie : model.ties) layout.joints.push_back(tie.name);
   for (const Coordinate& c : model.coordinates)
     layout.coordinates.push_back({c.name, c.relation.kind != RelationKind::angle});
   layout.channels = scene.output.channels;

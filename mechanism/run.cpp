@@ -19,12 +19,17 @@ namespace {
 std::vector<std::string> effects(const Model& model) {
   std::vector<std::string> list;
   const auto add = [&list](std::size_t count, std::string what) {
-    if (count == 1) what = what == "rigid bodies" ? "rigid body" : what.substr(0, what.size() - 1);
+    if (count == 1)
+      what = what.ends_with("bodies") ? what.replace(what.size() - 3, 3, "y") : what.substr(0, what.size() - 1);
     if (count > 0) list.push_back(fmt::format("{} {}", count, what));
   };
   add(model.superelements.size(), "superelements");
   add(model.rigid_bodies.size(), "rigid bodies");
   add(model.beams2.size() + model.beams3.size(), "nonlinear beam elements");
+  const auto followers =
+      std::count_if(model.ties.begin(), model.ties.end(), [](const Tie& tie) { return !tie.is_loop; });
+  add(static_cast<std::size_t>(model.virtual_nodes), "virtual bodies");
+  add(static_cast<std::size_t>(followers), "eliminated virtual bodies");
   add(model.joints.size(), "joints");
   add(model.couplings.size(), "couplings");
   add(model.springs.size(), "springs");

@@ -48,6 +48,7 @@ struct Workspace {
   std::vector<std::optional<TimeFunction>> spring_forces;
   std::vector<std::array<TimeFunction, 3>> load_functions;
   std::vector<Eigen::Vector3d> load_values;
+  std::vector<Vector6d> tie_wrenches;   ///< on each follower [force world; moment about the carrier, its axes]
   Eigen::VectorXd residual;             ///< r, boundary coordinates (uncondensed)
   Eigen::VectorXd constraint;           ///< Φ
   Eigen::VectorXd constraint_rate;      ///< B v + Φ_t

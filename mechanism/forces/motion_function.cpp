@@ -50,7 +50,14 @@ MotionFunction::Value MotionFunction::spline(double t) const {
 }
 
 MotionFunction::Value MotionFunction::operator()(double t) {
-  if (!time_.empty()) return spline(t);
+  if (t != last_time_) {
+    last_ = time_.empty() ? differences(t) : spline(t);
+    last_time_ = t;
+  }
+  return last_;
+}
+
+MotionFunction::Value MotionFunction::differences(double t) {
   const double d = spacing_;
   const double f0 = function_(t);
   const std::array<double, 3> ahead{function_(t + d), function_(t + 2.0 * d), function_(t + 3.0 * d)};

@@ -1,6 +1,7 @@
 // Prescribed motion of a coordinate: value, rate and acceleration over time.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "mechanism/forces/time_function.hpp"
@@ -19,13 +20,17 @@ class MotionFunction {
     double rate = 0.0;
     double acceleration = 0.0;
   };
+  /// Remembers the last instant: the iterations of a step ask for the same.
   Value operator()(double t);
 
  private:
   Value spline(double t) const;
+  Value differences(double t);
 
   TimeFunction function_;
   double spacing_;
+  double last_time_ = std::numeric_limits<double>::quiet_NaN();
+  Value last_;
   std::vector<double> time_, value_, curvature_;  ///< of the spline; empty: function_
 };
 
