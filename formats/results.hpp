@@ -28,6 +28,7 @@ struct ResultsLayout {
     bool length = false;  ///< or an angle
   };
   std::vector<Coordinate> coordinates;  ///< joint coordinates
+  std::vector<Coordinate> motions;      ///< driven coordinates, by the name of the drive
   std::vector<std::string> channels;    ///< selection, as in OutputSpec; empty: all
   std::vector<std::string> superelement_content_ids;
 };
@@ -42,13 +43,24 @@ struct ResultsRow {
   Eigen::Matrix3Xd frame_position;
   Eigen::Matrix4Xd frame_rotation;
   Eigen::VectorXd y;                                        ///< all superelements, file coordinates, modes_offset
+  Eigen::VectorXd y_rate;                                   ///< of y
   Eigen::Matrix<double, 6, Eigen::Dynamic> boundary_force;  ///< [force; moment]
   Eigen::Matrix3Xd joint_force, joint_moment;
   Eigen::VectorXd joint_coordinate, joint_rate;  ///< of layout.coordinates
+  Eigen::VectorXd motion_force;  ///< of layout.motions: force or moment of the drive along its coordinate
   double kinetic = 0.0, strain = 0.0, potential = 0.0, work = 0.0, dissipated = 0.0, total = 0.0, balance = 0.0;
   double step = 0.0, iterations = 0.0, residual = 0.0, constraint = 0.0;
 
   void resize(const ResultsLayout& layout);
+};
+
+/// Modes of a linearised scene: per mode (column) the complex shape of each node of the layout, world axes.
+struct ModesTable {
+  Eigen::VectorXcd eigenvalue;  ///< [1/time]
+  Eigen::VectorXd frequency;    ///< |eigenvalue|/2π
+  Eigen::VectorXd damping_ratio;
+  Eigen::MatrixXcd translation;  ///< 3 nodes x modes
+  Eigen::MatrixXcd rotation;
 };
 
 /// Appends rows to <path>.part, flushes about every second, renames to path in finish(). The destructor of an
@@ -62,6 +74,8 @@ class ResultsWriter {
 
   /// No heap allocation between flushes. Throws Error (disk full, ...).
   void append(const ResultsRow& row);
+  /// Keeps modes for finish() to write.
+  void set_modes(ModesTable modes);
   /// Writes the run report (JSON text), sets completed and reason ("" if completed), closes and renames.
   void finish(bool completed, const std::string& reason, const std::string& report_json);
 

@@ -81,6 +81,8 @@ void add_superelements(const ResultsLayout& layout, std::vector<Block>& blocks) 
                            [](Row r) { return r.frame_rotation.data(); }));
   blocks.push_back(scalars("/superelements/y", numbered(layout.superelements, layout.modes_offset), "",
                            [](Row r) { return r.y.data(); }));
+  blocks.push_back(scalars("/superelements/y_rate", numbered(layout.superelements, layout.modes_offset), "",
+                           [](Row r) { return r.y_rate.data(); }));
   Block boundary = vectors("/superelements/boundary_force", boundary_names(layout), wrench,
                            force.empty() ? "" : force + ", " + moment, [](Row r) { return r.boundary_force.data(); });
   for (std::size_t column = 0; column < boundary.width(); ++column)
@@ -111,6 +113,18 @@ void add_joints(const ResultsLayout& layout, std::vector<Block>& blocks) {
     block->unit = block->units.empty() || !same ? "" : block->units.front();
     blocks.push_back(*block);
   }
+}
+
+void add_motions(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  const Units& u = layout.units;
+  Block force{
+      "/motions/force", {layout.motions.size()}, {}, {}, "", [](const ResultsRow& r) {
+                return r.motion_force.data(); }};
+  for (const ResultsLayout::Coordinate& motion : layout.motions) {
+    force.columns.push_back(motion.name);
+    force.units.push_back(unit_label(u, motion.length ? 1 : 2, 1, -2));
+  }
+  blocks.push_back(force);
 }
 
 void add_scalars(const ResultsLayout& layout, std::vector<Block>& blocks) {
@@ -152,11 +166,13 @@ void ResultsRow::resize(const ResultsLayout& layout) {
   frame_position.setZero(3, superelements);
   frame_rotation = no_rotation.replicate(1, superelements);
   y.setZero(last(layout.modes_offset));
+  y_rate.setZero(last(layout.modes_offset));
   boundary_force.setZero(6, last(layout.boundary_offset));
   joint_force.setZero(3, joints);
   joint_moment.setZero(3, joints);
   joint_coordinate.setZero(coordinates);
   joint_rate.setZero(coordinates);
+  motion_force.setZero(static_cast<Eigen::Index>(layout.motions.size()));
 }
 
 std::vector<Block> all_blocks(const ResultsLayout& layout) {
@@ -165,6 +181,7 @@ std::vector<Block> all_blocks(const ResultsLayout& layout) {
   add_nodes(layout, blocks);
   add_superelements(layout, blocks);
   add_joints(layout, blocks);
+  add_motions(layout, blocks);
   add_scalars(layout, blocks);
   std::erase_if(blocks, [](const Block& block) { return block.width() == 0; });
   return blocks;
@@ -175,7 +192,7 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
   std::vector<std::string> known{"time"};
   ResultsLayout full;
   full.nodes = full.superelements = full.joints = {"a"};
-  full.coordinates = {{"a", false}};
+  full.coordinates = full.motions = {{"a", false}};
   full.modes_offset = full.boundary_offset = {0, 1};
   for (const Block& block : all_blocks(full)) {
     const std::string name = block.dataset.substr(1), group = name.substr(0, name.find('/'));

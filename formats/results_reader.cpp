@@ -57,6 +57,16 @@ Unit read_unit(const hdf5::InputFile& file, const std::string& name) {
   return {file.number_attribute("/", name), file.text_attribute("/", name + "_label")};
 }
 
+/// Names and kinds of coordinates below `before` ("/joints/coordinate_").
+std::vector<ResultsLayout::Coordinate> read_coordinates(const hdf5::InputFile& file, const std::string& before) {
+  const std::vector<std::string> words = names(file, before + "name");
+  std::vector<std::string> kinds = names(file, before + "kind");
+  kinds.resize(words.size(), "angle");
+  std::vector<ResultsLayout::Coordinate> list;
+  for (std::size_t i = 0; i < words.size(); ++i) list.push_back({words[i], kinds[i] == "length"});
+  return list;
+}
+
 ResultsLayout read_layout(const hdf5::InputFile& file) {
   ResultsLayout l;
   l.scene = file.text_attribute("/", "scene");
@@ -64,12 +74,10 @@ ResultsLayout read_layout(const hdf5::InputFile& file) {
   l.units = {read_unit(file, "length_unit"), read_unit(file, "mass_unit"), read_unit(file, "time_unit")};
   l.nodes = names(file, "/nodes/name");
   l.joints = names(file, "/joints/name");
-  const std::vector<std::string> coordinates = names(file, "/joints/coordinate_name");
-  std::vector<std::string> kinds = names(file, "/joints/coordinate_kind");
-  kinds.resize(coordinates.size(), "angle");
-  for (std::size_t i = 0; i < coordinates.size(); ++i) l.coordinates.push_back({coordinates[i], kinds[i] == "length"});
+  l.coordinates = read_coordinates(file, "/joints/coordinate_");
+  l.motions = read_coordinates(file, "/motions/");
   // Version 1.0 had one angle per joint, not-a-number where the joint has none.
-  if (coordinates.empty() && file.text_attribute("/", "version") == "1.0")
+  if (l.coordinates.empty() && file.text_attribute("/", "version") == "1.0")
     for (const std::string& joint : l.joints) l.coordinates.push_back({joint, false});
   l.superelements = names(file, "/superelements/name");
   l.superelement_content_ids = names(file, "/superelements/content_id");

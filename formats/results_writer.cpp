@@ -12,8 +12,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <complex>
 #include <cstdio>
 #include <cstring>
+#include <optional>
+#include <utility>
 
 #include "common/text.hpp"
 #include "formats/hdf5_file.hpp"
@@ -98,7 +101,7 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
   hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), close_file);
   if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
   hdf5::write_text_attribute(file.id(), "/", "format", "tisserand-results", where);
-  hdf5::write_text_attribute(file.id(), "/", "version", "1.1", where);
+  hdf5::write_text_attribute(file.id(), "/", "version", "1.2", where);
   hdf5::write_text_attribute(file.id(), "/", "scene", layout.scene, where);
   hdf5::write_text_attribute(file.id(), "/", "producer", layout.producer, where);
   write_unit(file.id(), "length_unit", layout.units.length, where);
@@ -111,16 +114,20 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
     return std::any_of(blocks.begin(), blocks.end(), [&](const Block& b) { return b.dataset.starts_with(group); });
   };
   if (stores("/nodes/")) hdf5::write_texts(file.id(), "/nodes/name", layout.nodes, where);
-  if (stores("/joints/")) {
+  const auto coordinates = [&](const std::string& before, const std::vector<ResultsLayout::Coordinate>& list) {
     std::vector<std::string> names, kinds;
-    for (const ResultsLayout::Coordinate& c : layout.coordinates) {
+    for (const ResultsLayout::Coordinate& c : list) {
       names.push_back(c.name);
       kinds.push_back(c.length ? "length" : "angle");
     }
+    hdf5::write_texts(file.id(), before + "name", names, where);
+    hdf5::write_texts(file.id(), before + "kind", kinds, where);
+  };
+  if (stores("/joints/")) {
     hdf5::write_texts(file.id(), "/joints/name", layout.joints, where);
-    hdf5::write_texts(file.id(), "/joints/coordinate_name", names, where);
-    hdf5::write_texts(file.id(), "/joints/coordinate_kind", kinds, where);
+    coordinates("/joints/coordinate_", layout.coordinates);
   }
+  if (stores("/motions/")) coordinates("/motions/", layout.motions);
   if (stores("/superelements/")) {
     const auto offsets = [&](const char* name, const std::vector<int>& offset) {
       hdf5::write_dataset(file.id(), std::string("/superelements/") + name, {offset.size()}, offset.data(), where);
@@ -155,6 +162,22 @@ hdf5::Handle open_for_writing(const std::string& path, unsigned mode) {
   return file;
 }
 
+/// /modes: eigenvalues [real, imaginary], frequencies, damping ratios and shapes, modes x nodes x 3 x [real,
+/// imaginary].
+void write_modes(hdf5::Id file, const ModesTable& table, const std::string& where) {
+  const auto modes = static_cast<std::uint64_t>(table.eigenvalue.size());
+  const auto nodes = static_cast<std::uint64_t>(table.translation.rows() / 3);
+  const auto complex = [&](const char* name, hdf5::Shape shape, const std::complex<double>* values) {
+    shape.push_back(2);
+    hdf5::write_dataset(file, std::string("/modes/") + name, shape, reinterpret_cast<const double*>(values), where);
+  };
+  complex("eigenvalue", {modes}, table.eigenvalue.data());
+  hdf5::write_dataset(file, "/modes/frequency", {modes}, table.frequency.data(), where);
+  hdf5::write_dataset(file, "/modes/damping_ratio", {modes}, table.damping_ratio.data(), where);
+  complex("translation", {modes, nodes, 3}, table.translation.data());
+  complex("rotation", {modes, nodes, 3}, table.rotation.data());
+}
+
 /// A block with its open dataset and its waiting rows.
 struct Column {
   Block block;
@@ -177,6 +200,7 @@ struct ResultsWriter::Impl {
   bool broken = false;  ///< a write failed: the file on disk stays as the last good write left it
   bool finished = false;
 
+  std::optional<ModesTable> modes;
   std::string shortage;  ///< why rows were given up, or empty
 
   std::uint64_t bytes_needed(std::size_t rows) const;
@@ -280,6 +304,7 @@ void ResultsWriter::Impl::close() {
 void ResultsWriter::Impl::write_end(int completed, const std::string& reason, const std::string& report_json) const {
   hdf5::Handle end = open_for_writing(part, 0);
   hdf5::write_text(end.id(), "/report", report_json, part);
+  if (modes) write_modes(end.id(), *modes, part);
   hdf5::write_text_attribute(end.id(), "/", "reason", reason.substr(0, 4096), part);
   hdf5::write_integer_attribute(end.id(), "/", "completed", completed, part);
   if (end.reset() < 0)
@@ -334,6 +359,8 @@ void ResultsWriter::append(const ResultsRow& row) {
   ++impl_->waiting;
   if (Clock::now() - impl_->last_flush >= flush_interval) impl_->flush();
 }
+
+void ResultsWriter::set_modes(ModesTable modes) { impl_->modes = std::move(modes); }
 
 void ResultsWriter::finish(bool completed, const std::string& reason, const std::string& report_json) {
   TISSERAND_ENSURE(!impl_->finished, "finish() twice of {}", impl_->path);

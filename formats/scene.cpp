@@ -15,6 +15,16 @@ namespace tisserand::formats {
 
 namespace {
 
+RotationSpec read_rotation(const MapReader& map, const YamlNode& node) {
+  const Context context{map.context().reader, map.context().subject + ": rotation", map.context().entry};
+  const MapReader inner(context, node, "steady_rotation", "statics.rotation.");
+  RotationSpec spec;
+  if (inner.require("angular_velocity") != nullptr)
+    spec.angular_velocity = read_vector(inner, "angular_velocity", spec.angular_velocity);
+  spec.about = read_vector(inner, "about", spec.about);
+  return spec;
+}
+
 IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
   IntegratorSpec spec;
   spec.method = map.choice(
@@ -31,7 +41,7 @@ IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
       "formulation",
       {Choice<Formulation>{"index3", Formulation::index3}, {"stabilised_index2", Formulation::stabilised_index2}},
       spec.formulation);
-  if (analysis == AnalysisKind::dynamics) {
+  if (takes_steps(analysis)) {
     spec.step = map.number("step");
     spec.end = map.number("end");
   } else {
@@ -53,9 +63,25 @@ IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
 
 StaticsSpec read_statics(const MapReader& map) {
   StaticsSpec spec;
+  if (const YamlNode* rotation = map.find("rotation")) spec.rotation = read_rotation(map, *rotation);
   spec.load_steps = map.integer("load_steps", spec.load_steps);
   spec.tolerance = map.number("tolerance", spec.tolerance);
   spec.max_iterations = map.integer("max_iterations", spec.max_iterations);
+  return spec;
+}
+
+ModesSpec read_modes(const MapReader& map) {
+  ModesSpec spec;
+  spec.count = map.integer("count", spec.count);
+  if (map.has("rotation")) spec.rotation = read_vector(map, "rotation", Eigen::Vector3d::Zero());
+  return spec;
+}
+
+CheckpointSpec read_checkpoint(const MapReader& map) {
+  CheckpointSpec spec;
+  if (map.has("every") && map.has("interval")) map.fail("both 'every' and 'interval' are given", "give one of them");
+  if (map.has("every")) spec.every = map.integer("every", 1);
+  if (map.has("interval")) spec.interval = map.number("interval");
   return spec;
 }
 
@@ -78,25 +104,6 @@ OutputSpec read_output(const MapReader& map, double start) {
   return spec;
 }
 
-/// The settings below `integrator`, `statics` and `output`.
-void read_settings(const MapReader& map, Scene& scene) {
-  YamlReader& reader = map.context().reader;
-  const auto context = [&](const std::string& subject) { return Context{reader, subject, scene.file}; };
-  scene.analysis = map.choice(
-      "analysis", {Choice<AnalysisKind>{"dynamics", AnalysisKind::dynamics}, {"statics", AnalysisKind::statics}},
-      AnalysisKind::dynamics);
-  const YamlNode* integrator =
-      scene.analysis == AnalysisKind::dynamics ? map.require("integrator") : map.find("integrator");
-  if (integrator != nullptr)
-    scene.integrator =
-        read_integrator(MapReader(context("integrator"), *integrator, "integrator", "integrator."), scene.analysis);
-  if (const YamlNode* statics = map.find("statics"))
-    scene.statics = read_statics(MapReader(context("statics"), *statics, "statics", "statics."));
-  scene.output.from = scene.integrator.start;
-  if (const YamlNode* output = map.find("output"))
-    scene.output = read_output(MapReader(context("output"), *output, "output", "output."), scene.integrator.start);
-}
-
 Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
   const MapReader map(Context{reader, "", path}, reader.root(), "scene");
   Scene scene;
@@ -115,12 +122,33 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
   scene.virtual_bodies = map.choice(
       "virtual_bodies", {Choice<VirtualBodies>{"keep", VirtualBodies::keep}, {"eliminate", VirtualBodies::eliminate}},
       scene.virtual_bodies);
-  read_settings(map, scene);
+  read_analyses(map, scene);
   scene.initial_tolerance = map.number("initial_tolerance", scene.initial_tolerance);
   return scene;
 }
 
 }  // namespace
+
+void read_groups(const MapReader& map, const Context& entry, std::optional<double> start, Analysis& analysis) {
+  const std::string before = entry.subject.empty() ? "" : entry.subject + ": ";
+  const auto group = [&](std::string_view key, const YamlNode& node) {
+    return MapReader(Context{entry.reader, fmt::format("{}{}", before, key), entry.entry}, node, key,
+                     fmt::format("{}.", key));
+  };
+  const YamlNode* integrator = takes_steps(analysis.kind) ? map.require("integrator") : map.find("integrator");
+  if (start) analysis.integrator.start = *start;
+  if (integrator != nullptr) {
+    const MapReader inner = group("integrator", *integrator);
+    analysis.integrator = read_integrator(inner, analysis.kind);
+    if (start && !inner.has("start")) analysis.integrator.start = *start;
+  }
+  if (const YamlNode* node = map.find("statics")) analysis.statics = read_statics(group("statics", *node));
+  if (const YamlNode* node = map.find("modes")) analysis.modes = read_modes(group("modes", *node));
+  if (const YamlNode* node = map.find("checkpoint")) analysis.checkpoint = read_checkpoint(group("checkpoint", *node));
+  analysis.output.from = analysis.integrator.start;
+  if (const YamlNode* node = map.find("output"))
+    analysis.output = read_output(group("output", *node), analysis.integrator.start);
+}
 
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
   const YamlDocument document = load_scene_tree(path, overrides);

@@ -214,7 +214,13 @@ struct SpringSpec {
   std::string where;
 };
 
-enum class AnalysisKind { dynamics, statics };
+enum class AnalysisKind { dynamics, statics, assembly, kinematics, inverse_dynamics, modes };
+
+/// The word of a kind in scene.yaml.
+std::string analysis_word(AnalysisKind kind);
+/// Whether it goes through time in the steps of the integrator.
+bool takes_steps(AnalysisKind kind);
+
 enum class Method { generalised_alpha, hht };
 enum class Formulation { index3, stabilised_index2 };
 enum class LinearSolver { automatic, klu, dense };
@@ -234,7 +240,14 @@ struct IntegratorSpec {
   LinearSolver linear_solver = LinearSolver::automatic;
 };
 
+/// Steady turn of the whole scene about an axis through a point, world frame.
+struct RotationSpec {
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d about = Eigen::Vector3d::Zero();
+};
+
 struct StaticsSpec {
+  std::optional<RotationSpec> rotation;  ///< equilibrium in a steady rotation instead of at rest
   int load_steps = 1;
   double tolerance = 1e-9;
   int max_iterations = 50;
@@ -245,6 +258,30 @@ struct OutputSpec {
   std::optional<double> interval;
   double from = 0.0;                  ///< the reader's default is integrator.start
   std::vector<std::string> channels;  ///< groups or datasets such as "nodes", "nodes/position", "energy"; empty: all
+};
+
+struct ModesSpec {
+  int count = 20;                           ///< the lowest ones that are stored
+  std::optional<Eigen::Vector3d> rotation;  ///< of the axes in which the state is steady; absent: that of `from`, or 0
+};
+
+/// Where a run can be taken up again; neither: never.
+struct CheckpointSpec {
+  std::optional<int> every;        ///< accepted steps
+  std::optional<double> interval;  ///< [time]
+};
+
+/// One entry of `analyses`, complete: groups that it does not give are those of the scene.
+struct Analysis {
+  std::string name;
+  AnalysisKind kind = AnalysisKind::dynamics;
+  std::string from;  ///< an analysis before it, whose end it starts from; empty: the poses of the scene
+  IntegratorSpec integrator;
+  StaticsSpec statics;
+  ModesSpec modes;
+  OutputSpec output;
+  CheckpointSpec checkpoint;
+  std::string where;
 };
 
 struct Scene {
@@ -262,7 +299,10 @@ struct Scene {
   AnalysisKind analysis = AnalysisKind::dynamics;
   IntegratorSpec integrator;
   StaticsSpec statics;
+  ModesSpec modes;
   OutputSpec output;
+  CheckpointSpec checkpoint;
+  std::vector<Analysis> analyses;  ///< by name, in the order of the file; empty: `analysis` alone
   double initial_tolerance =
       1e-6;  ///< largest correction of initial positions (times characteristic length) and velocities
 };
@@ -270,6 +310,9 @@ struct Scene {
 /// Reads scene.yaml with the overrides applied, then checks. Paths in it are relative to its folder. Throws all errors
 /// together, each with file:line:column or the text of the override.
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides);
+
+/// The scene with the kind and the settings of one of its analyses.
+Scene scene_of(const Scene& scene, const Analysis& analysis);
 
 /// Names, references, signs and ranges (SCENE.md), without opening superelement files. Throws all findings together.
 void check(const Scene& scene);

@@ -7,13 +7,14 @@ namespace tisserand::formats {
 
 std::vector<KeySet> scene_key_sets() {
   std::vector<KeySet> sets{
-      {"scene",
-       {"scene",   "units",      "gravity",        "materials", "sections",   "bodies",  "joints", "motions",
-        "springs", "loads",      "virtual_bodies", "analysis",  "integrator", "statics", "output", "initial_tolerance",
-        "include", "parameters", "assemblies",     "instances"}},
+      {"scene", {"scene",      "units",      "gravity",        "materials",  "sections",   "bodies",
+                 "joints",     "motions",    "springs",        "loads",      "analysis",   "analyses",
+                 "integrator", "statics",    "modes",          "output",     "checkpoint", "initial_tolerance",
+                 "include",    "parameters", "virtual_bodies", "assemblies", "instances"}},
       {"assembly",
        {"assembly", "parameters", "assemblies", "instances", "bodies", "joints", "motions", "springs", "loads"}},
       {"instance", {"use", "pose", "mirror", "parameters", "count", "step", "first"}},
+      {"analysis", {"type", "from", "integrator", "statics", "modes", "output", "checkpoint"}},
       {"units", {"length", "mass", "time"}},
       {"pose", {"position", "orientation"}},
       {"orientation", {"axis", "angle_deg", "x", "y", "z"}},
@@ -42,7 +43,10 @@ std::vector<KeySet> scene_key_sets() {
       {"integrator",
        {"method", "rho", "alpha", "formulation", "step", "start", "end", "tolerance", "constraint_tolerance",
         "max_iterations", "max_halvings", "linear_solver"}},
-      {"statics", {"load_steps", "tolerance", "max_iterations"}},
+      {"statics", {"rotation", "load_steps", "tolerance", "max_iterations"}},
+      {"steady_rotation", {"angular_velocity", "about"}},
+      {"modes", {"count", "rotation"}},
+      {"checkpoint", {"every", "interval"}},
       {"output", {"every", "interval", "from", "channels"}}};
   for (KeySet& set : section_key_sets()) sets.push_back(std::move(set));
   return sets;

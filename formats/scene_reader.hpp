@@ -1,6 +1,7 @@
-// Parts of reading scene.yaml: what stands below `bodies`, `joints`, `motions`, `springs` and `loads`.
+// Parts of reading scene.yaml: what stands below `bodies`, `joints`, `motions`, `springs`, `loads` and `analyses`.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,5 +24,10 @@ void read_joints(const MapReader& map, Scene& scene);
 std::vector<MotionSpec> read_motions(const MapReader& map, const SceneDefinitions& definitions);
 std::vector<SpringSpec> read_springs(const MapReader& map, const SceneDefinitions& definitions);
 std::vector<LoadSpec> read_loads(const MapReader& map, const SceneDefinitions& definitions);
+/// `analysis` and its groups, or `analyses`.
+void read_analyses(const MapReader& map, Scene& scene);
+/// The groups of settings below `map`, which belong to `entry`: the scene, or one analysis of the given kind. `start`:
+/// of the integrator, if it gives none.
+void read_groups(const MapReader& map, const Context& entry, std::optional<double> start, Analysis& analysis);
 
 }  // namespace tisserand::formats

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "formats/name_check.hpp"
 #include "formats/results_blocks.hpp"
 
 namespace tisserand::formats {
@@ -11,12 +12,12 @@ namespace {
 
 /// The settings of one group in messages and keys.
 struct Group {
-  const Scene& scene;
+  const std::string& where;
   std::string name;  ///< "integrator", or "" for the top level
   Faults& faults;
 
   void add(const std::string& key, const std::string& what, const std::string& remedy) const {
-    faults.add(scene.file, name.empty() ? key : name + "." + key, name.empty() ? what : name + ": " + what, remedy);
+    faults.add(where, name.empty() ? key : name + "." + key, name.empty() ? what : name + ": " + what, remedy);
   }
   void positive(const std::string& key, double value) const {
     if (!(value > 0.0) || !std::isfinite(value)) add(key, fmt::format("{} {:g} must be positive", key, value), "");
@@ -44,13 +45,12 @@ void check_times(const IntegratorSpec& spec, const Group& group) {
               "give a larger step");
 }
 
-}  // namespace
-
-void check_settings(const Scene& scene, Faults& faults) {
-  const Group integrator{scene, "integrator", faults}, statics{scene, "statics", faults},
-      output{scene, "output", faults};
+/// The settings of the scene, or of one of its analyses, where that stands.
+void check_groups(const Scene& scene, const std::string& where, Faults& faults) {
+  const Group integrator{where, "integrator", faults}, statics{where, "statics", faults},
+      output{where, "output", faults};
   const IntegratorSpec& spec = scene.integrator;
-  if (scene.analysis == AnalysisKind::dynamics) check_times(spec, integrator);
+  if (takes_steps(scene.analysis)) check_times(spec, integrator);
   integrator.between("rho", spec.rho, 0.0, 1.0);
   integrator.between("alpha", spec.alpha, 0.0, 1.0 / 3.0);
   integrator.positive("tolerance", spec.tolerance);
@@ -63,7 +63,7 @@ void check_settings(const Scene& scene, Faults& faults) {
   output.at_least("every", scene.output.every, 1);
   if (scene.output.interval) output.positive("interval", *scene.output.interval);
   if (!std::isfinite(scene.output.from)) output.add("from", "from must be finite", "");
-  if (scene.analysis == AnalysisKind::dynamics && scene.output.from > spec.end && spec.end > spec.start)
+  if (takes_steps(scene.analysis) && scene.output.from > spec.end && spec.end > spec.start)
     output.add("from",
                fmt::format("from {:g} is later than the end {:g} of the integrator", scene.output.from, spec.end),
                "nothing would be stored; give an earlier time");
@@ -72,7 +72,26 @@ void check_settings(const Scene& scene, Faults& faults) {
       output.add("channels", "a channel has no name", "");
     else if (const auto fault = fault_of_selection(channel))
       output.add("channels", fault->first, fault->second);
-  Group{scene, "", faults}.positive("initial_tolerance", scene.initial_tolerance);
+  const Group modes{where, "modes", faults}, checkpoint{where, "checkpoint", faults};
+  if (const auto& rotation = scene.statics.rotation)
+    if (!rotation->angular_velocity.allFinite() || !rotation->about.allFinite())
+      statics.add("rotation", "rotation must be finite", "");
+  modes.at_least("count", scene.modes.count, 1);
+  if (scene.modes.rotation && !scene.modes.rotation->allFinite()) modes.add("rotation", "rotation must be finite", "");
+  if (scene.checkpoint.every) checkpoint.at_least("every", *scene.checkpoint.every, 1);
+  if (scene.checkpoint.interval) checkpoint.positive("interval", *scene.checkpoint.interval);
+}
+
+}  // namespace
+
+void check_settings(const Scene& scene, Faults& faults) {
+  std::vector<std::string> names;
+  for (const Analysis& analysis : scene.analyses) {
+    check_name("analysis", analysis.name, analysis.where, names, faults);
+    check_groups(scene_of(scene, analysis), analysis.where, faults);
+  }
+  if (scene.analyses.empty()) check_groups(scene, scene.file, faults);
+  Group{scene.file, "", faults}.positive("initial_tolerance", scene.initial_tolerance);
 }
 
 }  // namespace tisserand::formats

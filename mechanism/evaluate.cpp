@@ -151,6 +151,32 @@ void add_beam_tangents(const Pool& beams, const std::vector<ElementMap>& maps, c
   }
 }
 
+void clear_tangent(const Model& model, const TangentCoefficients& coefficients, Workspace& workspace) {
+  workspace.matrix_scale = coefficients.mass * model.mass_scale + coefficients.stiffness * model.stiffness_scale;
+  if (!(workspace.matrix_scale > 0.0)) workspace.matrix_scale = 1.0;  // damping alone, or no stiffness
+  std::fill(workspace.values.begin(), workspace.values.end(), 0.0);
+}
+
+/// Of everything that acts on nodes without internal coordinates.
+void add_node_tangents(const Model& model, const State& state, const TangentCoefficients& coefficients,
+                       const ConstraintRows& rows, Workspace& workspace) {
+  const double factor = 1.0 / workspace.matrix_scale;
+  add_beam_tangents(model.beams2, model.beam2_maps, model.gravity, coefficients, factor, workspace);
+  add_beam_tangents(model.beams3, model.beam3_maps, model.gravity, coefficients, factor, workspace);
+  Matrix6d A;
+  for (std::size_t i = 0; i < model.rigid_bodies.size(); ++i) {
+    tangent(model.rigid_bodies[i], motion_of(workspace, model.rigid_bodies[i].node), coefficients, A);
+    scatter_matrix(model.rigid_maps[i], A, factor, workspace.values);
+  }
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    const Load& load = model.loads[i];
+    A = load_stiffness(load, motion_of(workspace, load.at.node), workspace.load_values[i]);
+    scatter_matrix(model.load_maps[i], A, -coefficients.stiffness * factor, workspace.values);
+  }
+  add_joint_tangents(model, state, coefficients.stiffness * factor, rows, workspace);
+  add_coordinate_tangents(model, state, coefficients, factor, rows, workspace);
+}
+
 }  // namespace
 
 Workspace::Workspace(const Model& model)
@@ -209,9 +235,8 @@ void evaluate(const Model& model, const State& state, Workspace& workspace) {
 
 void evaluate_tangent(const Model& model, const State& state, const TangentCoefficients& coefficients, TangentKind kind,
                       const ConstraintRows& rows, Workspace& workspace) {
-  workspace.matrix_scale = coefficients.mass * model.mass_scale + coefficients.stiffness * model.stiffness_scale;
+  clear_tangent(model, coefficients, workspace);
   const double factor = 1.0 / workspace.matrix_scale;
-  std::fill(workspace.values.begin(), workspace.values.end(), 0.0);
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     switch (kind) {
       case TangentKind::step:
@@ -224,20 +249,15 @@ void evaluate_tangent(const Model& model, const State& state, const TangentCoeff
     }
     scatter_matrix(model.superelement_maps[i], workspace.superelements[i].A_BB, factor, workspace.values);
   }
-  add_beam_tangents(model.beams2, model.beam2_maps, model.gravity, coefficients, factor, workspace);
-  add_beam_tangents(model.beams3, model.beam3_maps, model.gravity, coefficients, factor, workspace);
-  Matrix6d A;
-  for (std::size_t i = 0; i < model.rigid_bodies.size(); ++i) {
-    tangent(model.rigid_bodies[i], motion_of(workspace, model.rigid_bodies[i].node), coefficients, A);
-    scatter_matrix(model.rigid_maps[i], A, factor, workspace.values);
-  }
-  for (std::size_t i = 0; i < model.loads.size(); ++i) {
-    const Load& load = model.loads[i];
-    A = load_stiffness(load, motion_of(workspace, load.at.node), workspace.load_values[i]);
-    scatter_matrix(model.load_maps[i], A, -coefficients.stiffness * factor, workspace.values);
-  }
-  add_joint_tangents(model, state, coefficients.stiffness * factor, rows, workspace);
-  add_coordinate_tangents(model, state, coefficients, factor, rows, workspace);
+  add_node_tangents(model, state, coefficients, rows, workspace);
+  deactivate_rows(model, state, workspace);
+}
+
+void evaluate_tangent_without_superelements(const Model& model, const State& state,
+                                            const TangentCoefficients& coefficients, const ConstraintRows& rows,
+                                            Workspace& workspace) {
+  clear_tangent(model, coefficients, workspace);
+  add_node_tangents(model, state, coefficients, rows, workspace);
   deactivate_rows(model, state, workspace);
 }
 

@@ -38,6 +38,11 @@ void note_scale(const Vector& local, Workspace& workspace) {
 /// F(t) of spring i at the load time, scaled as loads are.
 double applied_force(const Model& model, std::size_t i, double time, Workspace& workspace);
 
+/// evaluate_tangent() without the superelements, whose internal coordinates a caller may want to keep; exact.
+void evaluate_tangent_without_superelements(const Model& model, const State& state,
+                                            const TangentCoefficients& coefficients, const ConstraintRows& rows,
+                                            Workspace& workspace);
+
 /// Φ, its rate and Bᵀλ of the joints.
 void add_joints(const Model& model, const State& state, Workspace& workspace);
 

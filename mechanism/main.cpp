@@ -4,7 +4,10 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -16,6 +19,7 @@
 #include "common/progress.hpp"
 #include "formats/override.hpp"
 #include "formats/scene.hpp"
+#include "mechanism/analyses.hpp"
 #include "mechanism/plot.hpp"
 #include "mechanism/simulate.hpp"
 #include "mechanism/tables.hpp"
@@ -49,7 +53,7 @@ double wall_clock() {
 }
 
 constexpr const char* about =
-    R"help(mechanism: dynamics and statics of flexible mechanisms from superelement files.
+    R"help(mechanism: dynamics, statics, kinematics and vibrations of flexible mechanisms from superelement files.
 
   superelement.h5 + scene.yaml -> model -> steps -> results.h5 -> pictures and tables
 
@@ -81,6 +85,16 @@ constexpr const char* about_run = R"help(Simulates a scene and writes its result
   mechanism run arm.scene.yaml
   mechanism run arm.scene.yaml -o fine.results.h5 --set integrator.step=0.001
   mechanism run arm.scene.yaml --set 'loads.push.value=[0, 0, "5 * t"]' --set output.channels='[nodes/position, energy]'
+
+A scene with several `analyses` runs them all in order, each into <scene>.<analysis>.results.h5; --analysis runs one of them,
+and before it those that it starts from.
+
+  mechanism run arm.scene.yaml --analysis tones
+  mechanism run arm.scene.yaml --set checkpoint.every=1000
+  mechanism run arm.scene.yaml --restart arm.checkpoint.h5 -o arm2.results.h5
+
+A run that goes on from a checkpoint is bit-equal to one that was never interrupted (same machine and program); from an
+instant of a results file it is accurate to the tolerance.
 
 While it runs the results grow in <output>.part, readable at any time. Ctrl-C, a step that does not converge and a full disk
 close the file with what was reached and the reason; `channels`, `export` and `plot` accept it. Names of files in the scene
@@ -130,6 +144,9 @@ std::string default_results(const std::string& scene) {
 struct RunArguments {
   std::string scene;
   std::string output;
+  std::string analysis;
+  std::string restart;
+  std::optional<double> at;
   std::vector<std::string> settings;
 };
 
@@ -147,21 +164,7 @@ std::vector<std::string> inputs(const formats::Scene& scene) {
   return files;
 }
 
-int run(const RunArguments& arguments) {
-  const formats::Scene scene = read(arguments);
-  const std::string path = arguments.output.empty() ? default_results(arguments.scene) : arguments.output;
-  require_output(path, inputs(scene), Replaces::hdf5_only);
-  listen_for_interrupts();
-  const double start = scene.integrator.start;
-  Progress progress("simulating", scene.integrator.end - start);
-  mechanism::RunControl control;
-  control.interrupted = [] { return interrupt_requested.load(std::memory_order_relaxed); };
-  control.clock = wall_clock;
-  control.progress = [&progress, start](double t) { progress.update(t - start, ""); };
-  const mechanism::RunReport report = mechanism::simulate(scene, path, control);
-  progress.finish();
-  say(fmt::format("{}: {}\n{}  {:<16} {}\n", arguments.scene, scene.name, mechanism::report_text(report, scene.units),
-                  "results", report.results));
+int exit_code(const mechanism::RunReport& report) {
   switch (report.outcome) {
     case mechanism::RunOutcome::completed:
       return 0;
@@ -174,11 +177,55 @@ int run(const RunArguments& arguments) {
   return exit_error;
 }
 
+mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunRequest& request,
+                          const std::string& name) {
+  const double start = request.scene.integrator.start;
+  Progress progress(name.empty() ? "simulating" : name, request.scene.integrator.end - start);
+  mechanism::RunControl control;
+  control.interrupted = [] { return interrupt_requested.load(std::memory_order_relaxed); };
+  control.clock = wall_clock;
+  control.progress = [&progress, start](double t) { progress.update(t - start, ""); };
+  mechanism::RunEnd end = mechanism::simulate(request, control);
+  progress.finish();
+  say(fmt::format("{}: {}{}\n{}  {:<16} {}\n", arguments.scene, request.scene.name,
+                  name.empty() ? "" : fmt::format(": {}", name),
+                  mechanism::report_text(end.report, request.scene.units), "results", end.report.results));
+  return end;
+}
+
+int run(const RunArguments& arguments) {
+  const formats::Scene scene = read(arguments);
+  const bool restarts = !arguments.restart.empty();
+  if (restarts && arguments.output.empty())
+    throw Error("--restart needs a results file of its own", "",
+                "name it with -o, so that what was computed before is kept");
+  const bool chosen = !arguments.output.empty();
+  const std::vector<mechanism::PlannedAnalysis> planned = mechanism::plan(
+      scene, arguments.analysis, {chosen ? arguments.output : default_results(arguments.scene), chosen});
+  for (const mechanism::PlannedAnalysis& one : planned) require_output(one.results, inputs(scene), Replaces::hdf5_only);
+  listen_for_interrupts();
+  const mechanism::SuperelementFiles files = mechanism::read_superelements(scene);
+  std::map<std::string, mechanism::State> ends;
+  for (const mechanism::PlannedAnalysis& one : planned) {
+    std::optional<mechanism::State> begin;
+    if (!one.from.empty()) begin = ends.at(one.from);
+    mechanism::RunEnd end = run_one(
+        arguments, {one.scene, files, std::move(begin), one.results, arguments.restart, arguments.at}, one.name);
+    if (const int code = exit_code(end.report); code != 0) return code;
+    ends.insert_or_assign(one.name, std::move(end.state));
+  }
+  return 0;
+}
+
 int check(const RunArguments& arguments) {
   const formats::Scene scene = read(arguments);
-  const mechanism::RunReport report = mechanism::inspect(scene, {});
-  say(fmt::format("{}: {}: no errors found\n{}", arguments.scene, scene.name,
-                  mechanism::report_text(report, scene.units)));
+  for (const mechanism::PlannedAnalysis& one : mechanism::plan(scene, "", {})) {
+    if (!one.from.empty()) continue;  // starts where another one ends
+    const mechanism::RunReport report = mechanism::inspect(one.scene, {});
+    say(fmt::format("{}: {}{}: no errors found\n{}", arguments.scene, scene.name,
+                    one.name.empty() ? "" : fmt::format(": {}", one.name),
+                    mechanism::report_text(report, scene.units)));
+  }
   return 0;
 }
 
@@ -255,6 +302,12 @@ int command_line(int argc, char** argv) {
   add_run_arguments(*run_command, run_arguments);
   run_command->add_option("-o,--output", run_arguments.output,
                           "results file; default: <scene>.results.h5 in this folder");
+  run_command->add_option("--analysis", run_arguments.analysis,
+                          "one of the scene's `analyses`, after those that it starts from; default: all, in order");
+  run_command->add_option("--restart", run_arguments.restart,
+                          "go on from a checkpoint, or from an instant of a results file; needs -o");
+  run_command->add_option("--at", run_arguments.at,
+                          "with --restart: a stored instant of a results file; default: the last");
   run_command->callback([&] { code = run(run_arguments); });
 
   RunArguments check_arguments;

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "mechanism/bodies/superelement_rates.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/redundancy.hpp"
 
@@ -52,6 +53,7 @@ void fill_superelements(const Model& model, Workspace& workspace, formats::Resul
     row.frame_rotation.col(column) = wxyz(Eigen::Quaterniond(scratch.motion.R0));
     const Eigen::Index count = file_coordinate_count(body);
     file_coordinates(body, scratch, row.y.segment(y, count));
+    file_rates(body, scratch, workspace.motion, row.y_rate.segment(y, count));
     y += count;
     for (std::size_t j = 0; j < body.node.size(); ++j, ++boundary) {
       const SuperelementNode& node = body.node[j];
@@ -99,6 +101,13 @@ void fill_joints(const Model& model, const State& state, Workspace& workspace, f
   }
 }
 
+/// What drives exert along their coordinates.
+void fill_motions(const Model& model, const State& state, formats::ResultsRow& row) {
+  Eigen::Index at = 0;
+  for (const Coupling& coupling : model.couplings)
+    if (coupling.motion >= 0) row.motion_force[at++] = -state.lambda()[coupling.row] * coupling.terms.front().factor;
+}
+
 }  // namespace
 
 formats::ResultsLayout results_layout(const Model& model, const formats::Scene& scene) {
@@ -119,6 +128,9 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
   for (const Tie& tie : model.ties) layout.joints.push_back(tie.name);
   for (const Coordinate& c : model.coordinates)
     layout.coordinates.push_back({c.name, c.relation.kind != RelationKind::angle});
+  for (const Coupling& coupling : model.couplings)
+    if (coupling.motion >= 0)
+      layout.motions.push_back({scene.motions.at(static_cast<std::size_t>(coupling.motion)).name, coupling.length});
   layout.channels = scene.output.channels;
   layout.superelement_content_ids = model.superelement_content_ids;
   return layout;
@@ -130,6 +142,7 @@ void fill_row(const Model& model, const State& state, Workspace& workspace, form
   fill_places(model, workspace, row);
   fill_superelements(model, workspace, row);
   fill_joints(model, state, workspace, row);
+  fill_motions(model, state, row);
   const Energy energy = evaluate_energy(model, workspace);
   row.kinetic = energy.kinetic;
   row.strain = energy.strain;

@@ -59,6 +59,7 @@ std::string report_json(const RunReport& report) {
   json["linear_solver"] = {{"name", report.solver}, {"unknowns", report.unknowns}, {"nonzeros", report.nonzeros}};
   json["effects"] = report.effects;
   json["notes"] = report.notes;
+  if (!report.table.empty()) json["table"] = {{"title", report.table_title}, {"lines", report.table}};
   json["seconds"] = {{"model", report.seconds_model},
                      {"start", report.seconds_start},
                      {"steps", report.seconds_steps},
@@ -93,6 +94,8 @@ std::string report_text(const RunReport& report, const Units& units) {
     line("energy", fmt::format("largest balance error {:.2e} of the largest energy or work, at stored instants",
                                relative_balance(report)));
   line("constraints", fmt::format("largest violation {:.2e}", report.largest_constraint));
+  if (!report.table.empty()) text += fmt::format("  {}\n", report.table_title);
+  for (const std::string& row : report.table) text += fmt::format("    {}\n", row);
   line("seconds", fmt::format("{:.3f} model, {:.3f} start, {:.3f} steps, {:.3f} output", report.seconds_model,
                               report.seconds_start, report.seconds_steps, report.seconds_output));
   return text;

@@ -8,12 +8,16 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/kinematics.hpp"
 #include "mechanism/output.hpp"
 #include "mechanism/redundancy.hpp"
 #include "mechanism/statics.hpp"
 
 namespace tisserand::mechanism {
 namespace {
+
+/// Regularises massless directions where there is no step: their accelerations come from statics.
+constexpr double massless_step = 1e-3;
 
 /// What the model contains: pools and terms that are on.
 std::vector<std::string> effects(const Model& model) {
@@ -72,7 +76,11 @@ void note_redundancy(Run& run) {
 }  // namespace
 
 Run::Run(const formats::Scene& scene_to_run, const SuperelementFiles& files, const RunControl& run_control)
-    : scene(scene_to_run), control(run_control), built(build_model(scene_to_run, files)), workspace(built.model) {
+    : scene(scene_to_run),
+      control(run_control),
+      built(build_model(scene_to_run, files)),
+      workspace(built.model),
+      at_start(built.state) {
   report.analysis = scene.analysis;
   report.notes = built.notes;
   report.solver = workspace.solver.name();
@@ -107,8 +115,45 @@ std::string nonfinite_load(Run& run, double time) {
   return {};
 }
 
+namespace {
+
+/// What the kind of the analysis needs besides a state on the constraints.
+void prepare(Run& run) {
+  switch (run.scene.analysis) {
+    case formats::AnalysisKind::dynamics:
+    case formats::AnalysisKind::assembly:
+      break;
+    case formats::AnalysisKind::statics: {
+      const std::string free = free_motion(run.built.model, run.built.state, run.workspace);
+      if (!free.empty())
+        throw Error(fmt::format("statics: the scene can move freely: nothing holds {}", free), run.scene.file,
+                    "hold it with a joint, or use `analysis: dynamics`");
+      break;
+    }
+    case formats::AnalysisKind::kinematics:
+    case formats::AnalysisKind::inverse_dynamics:
+      require_determined(run.built.model, run.report.mobility, run.scene.file, run.built.state, run.workspace);
+      break;
+    case formats::AnalysisKind::modes:
+      solve_accelerations(run.built.model, massless_step, run.scene.file, run.built.state, run.workspace);
+      break;
+  }
+}
+
+}  // namespace
+
+void begin_from(Run& run, const State& end) {
+  State& state = run.built.state;
+  TISSERAND_ENSURE(end.block().size() == state.block().size(), "{} numbers for {}", end.block().size(),
+                   state.block().size());
+  state.block() = end.block();
+  state.time() = state.load_time() = run.scene.integrator.start;
+  state.active().setOnes();
+}
+
 void start(Run& run) {
   require_finite_loads(run);
+  if (run.scene.analysis == formats::AnalysisKind::assembly) return;  // it makes what the others need
   const StartReport report = start(run.scene, run.built.model, run.built.state, run.workspace);
   run.report.mobility = report.mobility;
   run.report.projection = report.projection;
@@ -116,14 +161,12 @@ void start(Run& run) {
   if (report.massless)
     run.report.notes.push_back(
         "the mass matrix is singular: accelerations of its massless directions come from statics");
-  if (run.scene.analysis != formats::AnalysisKind::statics) return;
-  const std::string free = free_motion(run.built.model, run.built.state, run.workspace);
-  if (!free.empty())
-    throw Error(fmt::format("statics: the scene can move freely: nothing holds {}", free), run.scene.file,
-                "hold it with a joint, or use `analysis: dynamics`");
+  prepare(run);
 }
 
-void write_row(Run& run, const StepReport& step, double size, RowWriter& out) {
+void write_row(Run& run, const StepReport& step, double size, RowWriter& out) { write_row(run, step, size, out, {}); }
+
+void write_row(Run& run, const StepReport& step, double size, RowWriter& out, const RowEdit& edit) {
   formats::ResultsRow& row = out.row;
   const double before = run.seconds();
   fill_row(run.built.model, run.built.state, run.workspace, row);
@@ -133,6 +176,7 @@ void write_row(Run& run, const StepReport& step, double size, RowWriter& out) {
   row.constraint = step.constraint;
   if (run.report.analysis == formats::AnalysisKind::statics)
     row.work = row.dissipated = row.balance = std::numeric_limits<double>::quiet_NaN();
+  if (edit) edit(row);
   out.writer.append(row);
   RunReport& report = run.report;
   ++report.rows;

@@ -1,7 +1,9 @@
 // What one run of an analysis owns, and what all analyses do alike: start, and rows of results.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "formats/results.hpp"
 #include "mechanism/build_model.hpp"
@@ -16,6 +18,8 @@ struct Run {
   RunReport report;
   BuiltModel built;
   Workspace workspace;
+  State at_start;                       ///< as the model was built, before anything moved
+  std::vector<double> schedule_memory;  ///< of a run that goes on from a file; empty: it begins
 
   Run(const formats::Scene& scene_to_run, const SuperelementFiles& files, const RunControl& run_control);
   double seconds() const { return control.clock ? control.clock() : 0.0; }
@@ -24,6 +28,9 @@ struct Run {
 /// The first load, force of a spring or motion that is no number at `time`, with its formula, or empty.
 std::string nonfinite_load(Run& run, double time);
 
+/// Positions and velocities of the end of another analysis of the same scene in place of the poses of its bodies.
+void begin_from(Run& run, const State& end);
+
 /// Rank, projection and what the analysis needs to begin; notes for the report. Throws Error.
 void start(Run& run);
 
@@ -31,9 +38,19 @@ void start(Run& run);
 struct RowWriter {
   formats::ResultsRow& row;
   formats::ResultsWriter& writer;
+  const std::string& results;  ///< path of the file
 };
+
+/// What an analysis changes in a row before it is stored.
+using RowEdit = std::function<void(formats::ResultsRow&)>;
 
 /// Stores the present state.
 void write_row(Run& run, const StepReport& step, double size, RowWriter& out);
+void write_row(Run& run, const StepReport& step, double size, RowWriter& out, const RowEdit& edit);
+
+/// Kinematics and inverse dynamics: through the steps of the integrator along the driven motion.
+void move_along(Run& run, RowWriter& out);
+void assemble(Run& run, RowWriter& out);
+void find_modes(Run& run, RowWriter& out);
 
 }  // namespace tisserand::mechanism

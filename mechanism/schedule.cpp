@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/error.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/initial.hpp"
 
@@ -77,6 +78,29 @@ Schedule::Event Schedule::accept(double time) {
   }
   if (on_grid) ++grid_;
   return event;
+}
+
+std::vector<double> Schedule::memory() const {
+  return {static_cast<double>(grid_), static_cast<double>(breakpoint_), static_cast<double>(halvings_), fraction_,
+          static_cast<double>(rows_)};
+}
+
+void Schedule::restore(const std::vector<double>& memory) {
+  TISSERAND_ENSURE(memory.size() == 5, "{} numbers of a schedule", memory.size());
+  grid_ = static_cast<long>(memory[0]);
+  breakpoint_ = static_cast<std::size_t>(memory[1]);
+  halvings_ = static_cast<int>(memory[2]);
+  fraction_ = memory[3];
+  rows_ = static_cast<long>(memory[4]);
+}
+
+void Schedule::skip_to(double time) {
+  const auto passed = [&](double spacing) {
+    return static_cast<long>(std::floor((time - integrator_.start + round_off_) / spacing)) + 1;
+  };
+  grid_ = passed(integrator_.step);
+  if (output_.interval) rows_ = passed(*output_.interval);
+  while (breakpoint_ < breakpoints_.size() && reached(time, breakpoints_[breakpoint_])) ++breakpoint_;
 }
 
 void begin(const Model& model, State& state, Workspace& workspace) {

@@ -32,6 +32,12 @@ class Schedule {
   /// A step has ended at `time`.
   Event accept(double time);
 
+  /// All that accept() and halve() have counted, and back: for checkpoints.
+  std::vector<double> memory() const;
+  void restore(const std::vector<double>& memory);
+  /// As if the steps until `time` had been taken.
+  void skip_to(double time);
+
  private:
   bool reached(double time, double target) const;
   double target() const;

@@ -2,10 +2,12 @@
 #include "mechanism/simulate.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "formats/results.hpp"
+#include "mechanism/checkpoint.hpp"
 #include "mechanism/output.hpp"
 #include "mechanism/run.hpp"
 #include "mechanism/schedule.hpp"
@@ -28,9 +30,11 @@ void integrate(Run& run, RowWriter& out) {
   State& state = run.built.state;
   RunReport& report = run.report;
   Schedule schedule(run.scene, model.breakpoints);
+  Checkpoints checkpoints(run.scene, out.results, state.time());
   StepReport last;
   double last_size = 0.0;
-  if (schedule.output_at_start()) write_row(run, {}, 0.0, out);
+  if (!run.schedule_memory.empty()) schedule.restore(run.schedule_memory);
+  if (schedule.output_at_start() || !run.schedule_memory.empty()) write_row(run, {}, 0.0, out);
   while (!schedule.finished(state.time())) {
     if (run.control.interrupted && run.control.interrupted()) {
       report.outcome = RunOutcome::interrupted;
@@ -62,6 +66,7 @@ void integrate(Run& run, RowWriter& out) {
     const Schedule::Event event = schedule.accept(state.time());
     if (event.output) write_row(run, step, last_size, out);
     if (event.breakpoint) pass_breakpoint(model, run.scene, state, run.workspace);
+    checkpoints.after_step(model, schedule, state, run.workspace);
     if (run.control.progress) run.control.progress(state.time());
   }
   report.time = state.time();
@@ -69,14 +74,15 @@ void integrate(Run& run, RowWriter& out) {
 }
 
 void equilibrate(Run& run, RowWriter& out) {
-  const StaticsReport statics = solve_statics(run.built.model, run.scene.statics, run.built.state, run.workspace);
+  const StaticsReport statics =
+      solve_statics(run.built.model, run.scene.statics, run.control.interrupted, run.built.state, run.workspace);
   run.report.steps = statics.load_steps;
   run.report.iterations = run.report.factorisations = statics.iterations;
   run.report.largest_constraint = statics.constraint;
   run.report.time = run.built.state.time();
   if (statics.outcome != StepOutcome::accepted) {
-    run.report.outcome = RunOutcome::not_converged;
-    run.report.reason = statics.explanation;
+    run.report.outcome = statics.interrupted ? RunOutcome::interrupted : RunOutcome::not_converged;
+    run.report.reason = statics.interrupted ? "interrupted" : statics.explanation;
     return;
   }
   StepReport step;
@@ -104,32 +110,51 @@ SuperelementFiles read_superelements(const formats::Scene& scene) {
   return files;
 }
 
-RunReport simulate(const formats::Scene& scene, const std::string& path, const RunControl& control) {
+RunEnd simulate(const RunRequest& request, const RunControl& control) {
   const double begin_model = control.clock ? control.clock() : 0.0;
-  Run run(scene, read_superelements(scene), control);
+  Run run(request.scene, request.files, control);
   const double begin_start = run.seconds();
-  start(run);
+  if (request.begin) begin_from(run, *request.begin);
+  if (request.restart.empty())
+    start(run);
+  else
+    resume(run, request.restart, request.at);
   const double begin_steps = run.seconds();
-  const formats::ResultsLayout layout = results_layout(run.built.model, scene);
+  const formats::ResultsLayout layout = results_layout(run.built.model, run.scene);
   formats::ResultsRow row;
   row.resize(layout);
-  formats::ResultsWriter writer(path, layout);
-  RowWriter out{row, writer};
-  switch (scene.analysis) {
+  formats::ResultsWriter writer(request.path, layout);
+  RowWriter out{row, writer, request.path};
+  switch (run.scene.analysis) {
     case formats::AnalysisKind::dynamics:
       integrate(run, out);
       break;
     case formats::AnalysisKind::statics:
       equilibrate(run, out);
       break;
+    case formats::AnalysisKind::assembly:
+      assemble(run, out);
+      break;
+    case formats::AnalysisKind::kinematics:
+    case formats::AnalysisKind::inverse_dynamics:
+      move_along(run, out);
+      break;
+    case formats::AnalysisKind::modes:
+      find_modes(run, out);
+      break;
   }
   RunReport& report = run.report;
-  report.results = path;
+  report.results = request.path;
   report.seconds_model = begin_start - begin_model;
   report.seconds_start = begin_steps - begin_start;
   report.seconds_steps = run.seconds() - begin_steps - report.seconds_output;
   writer.finish(report.outcome == RunOutcome::completed, report.reason, report_json(report));
-  return report;
+  return {std::move(report), std::move(run.built.state)};
+}
+
+RunReport simulate(const formats::Scene& scene, const std::string& path, const RunControl& control) {
+  const SuperelementFiles files = read_superelements(scene);
+  return simulate(RunRequest{scene, files, std::nullopt, path, "", std::nullopt}, control).report;
 }
 
 RunReport inspect(const formats::Scene& scene, const RunControl& control) {

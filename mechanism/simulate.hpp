@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ struct RunReport {
   Mobility mobility;
   std::vector<std::string> not_unique;  ///< joints whose reactions are not unique: those of least norm are stored
   Projection projection;
+  std::string table_title;  ///< of the lines that only this analysis has: poses, modes
+  std::vector<std::string> table;
   std::vector<std::string> notes;
   std::vector<std::string> effects;  ///< what the model contains: pools and terms that are on
   std::string solver;
@@ -52,7 +55,25 @@ struct RunReport {
 /// Reads the superelement files of a scene, each once.
 SuperelementFiles read_superelements(const formats::Scene& scene);
 
-/// Builds the model, starts, integrates (or finds equilibrium) and writes `path`. Throws Error for faults of the input.
+/// One analysis of a scene: what it reads and starts from, and where its rows go.
+struct RunRequest {
+  const formats::Scene& scene;  ///< with the kind and the settings of this analysis (formats::scene_of)
+  const SuperelementFiles& files;
+  std::optional<State> begin;  ///< end of another analysis of the same scene, in place of the poses of the bodies
+  std::string path;            ///< of the results
+  std::string restart;         ///< checkpoint or results file to go on from; empty: none
+  std::optional<double> at;    ///< instant in a results file; absent: the last one
+};
+
+struct RunEnd {
+  RunReport report;
+  State state;
+};
+
+/// Builds the model, starts, runs the analysis and writes its results. Throws Error for faults of the input.
+RunEnd simulate(const RunRequest& request, const RunControl& control);
+
+/// The same for a scene of one analysis.
 RunReport simulate(const formats::Scene& scene, const std::string& path, const RunControl& control);
 
 /// Builds and starts but runs nothing: counts and notes.

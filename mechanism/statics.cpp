@@ -9,6 +9,7 @@
 
 #include "mechanism/evaluate.hpp"
 #include "mechanism/newton.hpp"
+#include "mechanism/steady_rotation.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -53,8 +54,8 @@ std::string free_direction(const Model& model, const State& state, Workspace& wo
 }
 
 /// Newton's iteration for one load factor.
-StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options, State& state, Workspace& workspace,
-                        StaticsReport& report) {
+StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
+                        State& state, Workspace& workspace, StaticsReport& report) {
   for (int iteration = 0;; ++iteration) {
     evaluate(model, state, workspace);
     report.residual = largest_residual(model, workspace);
@@ -66,7 +67,8 @@ StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options,
                         largest_internal_residual(workspace) <= options.tolerance * workspace.force_scale[2];
     if (iteration > 0 && forces && report.constraint <= options.tolerance * model.length) return StepOutcome::accepted;
     if (!std::isfinite(report.residual)) return StepOutcome::diverged;
-    if (iteration == options.max_iterations) return StepOutcome::too_many_iterations;
+    report.interrupted = interrupted && interrupted();
+    if (iteration == options.max_iterations || report.interrupted) return StepOutcome::too_many_iterations;
     report.explanation = free_direction(model, state, workspace);
     // Only the first state is one of equilibrium: a later one may be singular because the load step is too long.
     if (!report.explanation.empty()) return iteration == 0 ? StepOutcome::singular : StepOutcome::diverged;
@@ -79,15 +81,15 @@ StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options,
   }
 }
 
-void update_frames(const Model& model, State& state, const Workspace& workspace) {
+}  // namespace
+
+void accept_equilibrium(const Model& model, State& state, const Workspace& workspace) {
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
     state.frames().col(static_cast<Eigen::Index>(i)) =
         wxyz(Eigen::Quaterniond(workspace.superelements[i].motion.R0).normalized());
   for (Eigen::Index i = 0; i < state.Q().cols(); ++i) state.Q().col(i).normalize();
   unwrap_hinges(model, workspace, state);
 }
-
-}  // namespace
 
 std::string free_motion(const Model& model, State state, Workspace& workspace) {
   state.v().setZero();
@@ -99,8 +101,27 @@ std::string free_motion(const Model& model, State state, Workspace& workspace) {
   return direction;
 }
 
+void explain_statics(double reached, double step, StaticsReport& report) {
+  if (report.outcome == StepOutcome::singular)
+    report.explanation = reached == 0.0
+                             ? fmt::format("the scene can move freely: nothing holds {}", report.explanation)
+                             : fmt::format("the structure loses its stability at {:.3g} of the load: nothing holds {}",
+                                           reached, report.explanation);
+  if (report.outcome == StepOutcome::diverged || report.outcome == StepOutcome::too_many_iterations)
+    report.explanation = fmt::format(
+        "no equilibrium was found beyond {:.3g} of the load (residual {:.2e}, smallest load step "
+        "{:.2g}): the load is too large, or the structure loses its stability",
+        reached, report.residual, step);
+}
+
 StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, State& state,
                             Workspace& workspace) {
+  return solve_statics(model, options, {}, state, workspace);
+}
+
+StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
+                            State& state, Workspace& workspace) {
+  if (options.rotation) return solve_steady_rotation(model, options, interrupted, state, workspace);
   StaticsReport report;
   state.v().setZero();
   state.vdot().setZero();
@@ -111,29 +132,20 @@ StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& opti
   while (reached < 1.0) {
     const State before = state;
     workspace.load_factor = std::min(1.0, reached + size);
-    report.outcome = equilibrate(model, options, state, workspace, report);
+    report.outcome = equilibrate(model, options, interrupted, state, workspace, report);
     if (report.outcome == StepOutcome::accepted) {
       reached = workspace.load_factor;
-      update_frames(model, state, workspace);
+      accept_equilibrium(model, state, workspace);
       ++report.load_steps;
       continue;
     }
     state = before;
-    if (report.outcome == StepOutcome::singular || ++halvings > most_halvings) break;
+    if (report.interrupted || report.outcome == StepOutcome::singular || ++halvings > most_halvings) break;
     size *= 0.5;
   }
   workspace.load_factor = 1.0;
   workspace.has_factors = false;
-  if (report.outcome == StepOutcome::singular)
-    report.explanation = reached == 0.0
-                             ? fmt::format("the scene can move freely: nothing holds {}", report.explanation)
-                             : fmt::format("the structure loses its stability at {:.3g} of the load: nothing holds {}",
-                                           reached, report.explanation);
-  if (report.outcome == StepOutcome::diverged || report.outcome == StepOutcome::too_many_iterations)
-    report.explanation = fmt::format(
-        "no equilibrium was found beyond {:.3g} of the load (residual {:.2e}, smallest load step "
-        "{:.2g}): the load is too large, or the structure loses its stability",
-        reached, report.residual, size);
+  explain_statics(reached, size, report);
   return report;
 }
 

@@ -1,6 +1,7 @@
 // Static equilibrium of a scene: Newton's iteration with exact tangents and load steps.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "formats/scene.hpp"
@@ -11,12 +12,16 @@
 
 namespace tisserand::mechanism {
 
+/// Polled before every iteration; true ends the analysis.
+using Interrupt = std::function<bool()>;
+
 struct StaticsReport {
   StepOutcome outcome = StepOutcome::accepted;
   int iterations = 0;
   int load_steps = 0;     ///< taken, after halvings
   double residual = 0.0;  ///< largest force, largest moment / length
   double constraint = 0.0;
+  bool interrupted = false;
   std::string explanation;  ///< of a failure: equation and likely cause
 };
 
@@ -24,9 +29,17 @@ struct StaticsReport {
 std::string free_motion(const Model& model, State state, Workspace& workspace);
 
 /// Equilibrium under loads (at the state's time) and gravity, from `state` with all velocities zero, in load steps that
-/// are halved where the iteration fails. A scene that can move freely is an outcome `singular` that names the
-/// direction.
+/// are halved where the iteration fails; in the steady rotation of the options, if there is one. A scene that can move
+/// freely is an outcome `singular` that names the direction.
+[[nodiscard]] StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options,
+                                          const Interrupt& interrupted, State& state, Workspace& workspace);
 [[nodiscard]] StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, State& state,
                                           Workspace& workspace);
+
+/// Takes the positions of the last evaluate() as those that floating frames and angles go on from.
+void accept_equilibrium(const Model& model, State& state, const Workspace& workspace);
+
+/// Completes the explanation of an outcome other than accepted: `reached` of the load, smallest load step.
+void explain_statics(double reached, double step, StaticsReport& report);
 
 }  // namespace tisserand::mechanism

@@ -20,6 +20,7 @@ inline formats::ResultsLayout example_layout() {
   layout.boundary_nodes = {"base", "tip", "foot"};
   layout.joints = {"hinge", "slide"};
   layout.coordinates = {{"hinge", false}, {"slide", true}};
+  layout.motions = {{"drive", false}, {"push", true}};
   layout.superelement_content_ids = {std::string(64, 'a'), std::string(64, 'b')};
   return layout;
 }
@@ -43,11 +44,13 @@ inline void fill_row(int t, formats::ResultsRow& row) {
   fill(row.frame_position);
   fill(row.frame_rotation);
   fill(row.y);
+  fill(row.y_rate);
   fill(row.boundary_force);
   fill(row.joint_force);
   fill(row.joint_moment);
   fill(row.joint_coordinate);
   fill(row.joint_rate);
+  fill(row.motion_force);
   for (double* value : {&row.kinetic, &row.strain, &row.potential, &row.work, &row.dissipated, &row.total, &row.balance,
                         &row.step, &row.iterations, &row.residual, &row.constraint})
     *value = row_value(t, k++);

@@ -1,0 +1,28 @@
+// Checkpoint file *.checkpoint.h5: all that a run needs to go on (formats/RESULTS.md).
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tisserand::formats {
+
+struct Checkpoint {
+  std::string scene;        ///< name
+  std::string producer;     ///< program and version
+  std::string fingerprint;  ///< of the model: names, sizes, superelements
+  int state_version = 0;
+  double time = 0.0;
+  std::vector<double> state;     ///< the state block
+  std::vector<double> schedule;  ///< where steps and output stand
+};
+
+/// The file appears whole or not at all, also where it replaces an older one. Throws Error (disk full, ...).
+void write_checkpoint(const std::string& path, const Checkpoint& checkpoint);
+
+/// Throws Error: missing, cut short, of another kind or version, damaged.
+Checkpoint read_checkpoint(const std::string& path);
+
+/// Whether a file says of itself that it is a checkpoint. Throws Error if it cannot be opened.
+bool is_checkpoint(const std::string& path);
+
+}  // namespace tisserand::formats

@@ -1,0 +1,16 @@
+// Rates of a superelement's coordinates as its file numbers them, for output.
+#pragma once
+
+#include <span>
+
+#include <Eigen/Core>
+
+#include "mechanism/bodies/superelement_evaluate.hpp"
+
+namespace tisserand::mechanism {
+
+/// Rates of file_coordinates(). After update_kinematics() with the same nodes.
+void file_rates(const SuperelementBody& body, SuperelementScratch& scratch, std::span<const NodeMotion> all_nodes,
+                Eigen::Ref<Eigen::VectorXd> out);
+
+}  // namespace tisserand::mechanism
