@@ -64,7 +64,9 @@ std::string fingerprint(const Model& model, const State& state) {
   add(fmt::format("state {}", State::version));
   for (const StateField& field : state.fields()) add(fmt::format("{} {} {}", field.name, field.offset, field.size));
   for (const Node& node : model.nodes) add(fmt::format("{} {} {}", node.name, node.translation, node.rotation));
-  for (int row = 0; row < model.sizes.constraints; ++row) add(constraint_name(model, row));
+  for (const Joint& joint : model.joints)
+    add(fmt::format("{} {} {}", joint.name, formats::joint_word(joint.kind), joint.row));
+  for (const Coupling& coupling : model.couplings) add(fmt::format("{} {}", coupling.name, coupling.row));
   for (const Coordinate& coordinate : model.coordinates) add(coordinate.name);
   for (const std::string& id : model.superelement_content_ids) add(id);
   return sha.hex();

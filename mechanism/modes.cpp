@@ -9,6 +9,7 @@
 #include <Eigen/QR>
 
 #include "common/error.hpp"
+#include "common/rotation.hpp"
 
 extern "C" void dgeev_(const char* left, const char* right, const int* n, double* A, const int* lda, double* real,
                        double* imaginary, double* VL, const int* ldvl, double* VR, const int* ldvr, double* work,

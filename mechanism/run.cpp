@@ -153,7 +153,10 @@ void begin_from(Run& run, const State& end) {
 
 void start(Run& run) {
   require_finite_loads(run);
-  if (run.scene.analysis == formats::AnalysisKind::assembly) return;  // it makes what the others need
+  if (run.scene.analysis == formats::AnalysisKind::assembly) {  // makes what the others start from
+    run.report.mobility = count_mobility(run.built.model, run.built.state, run.workspace);
+    return;
+  }
   const StartReport report = start(run.scene, run.built.model, run.built.state, run.workspace);
   run.report.mobility = report.mobility;
   run.report.projection = report.projection;

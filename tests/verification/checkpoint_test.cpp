@@ -1,0 +1,199 @@
+// Checkpoints: a run that goes on from one is bit-equal to a run that was never interrupted; from results to the
+// tolerance; bad files are refused.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/error.hpp"
+#include "mechanism/checkpoint.hpp"
+#include "mechanism/simulate.hpp"
+#include "tests/support/beam_superelement.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Vector3d;
+using formats::JointKind;
+using test_support::joint;
+using test_support::TemporaryFolder;
+using ::testing::HasSubstr;
+
+const Vector3d y = Vector3d::UnitY();
+
+/// Superelement with damping on a hinge, a rigid bob on its tip, a spring with a moment over time: all that has memory.
+formats::Scene swing() {
+  formats::Scene scene = test_support::empty_scene(0.004, 0.4);
+  scene.gravity = {0, 0, -9.81};
+  formats::SuperelementBodySpec beam = test_support::superelement_body("beam", "beam");
+  beam.damping.ratio = 0.01;
+  beam.frame = formats::FrameKind::paper;
+  scene.bodies.push_back(beam);
+  formats::RigidBodySpec bob = test_support::rigid_body("bob", 3.0, {0.1, 0, 0}, {0.02, 0.02, 0.02});
+  bob.start.pose.position = {2, 0, 0};
+  scene.bodies.push_back(bob);
+  scene.joints.push_back(joint("hinge", JointKind::revolute, "ground", "beam/base", Vector3d::Zero(), y));
+  scene.joints.push_back(joint("bob", JointKind::spherical, "beam/tip", "bob", {2, 0, 0}, y));
+  formats::SpringSpec motor;
+  motor.name = "motor";
+  motor.coordinate = formats::CoordinateRef{"hinge", ""};
+  motor.damping = 0.5;
+  motor.force = formats::TimeTable{{0.0, 0.15, 0.3}, {0.0, 40.0, -20.0}};
+  scene.springs.push_back(motor);
+  return scene;
+}
+
+/// Nonlinear beam, driven about a hinge.
+formats::Scene whip() {
+  formats::Scene scene = test_support::empty_scene(0.005, 0.3);
+  scene.integrator.formulation = formats::Formulation::index3;
+  formats::BeamBodySpec beam;
+  beam.name = "whip";
+  beam.to = {1, 0, 0};
+  beam.elements = 4;
+  beam.section.area = 1e-4;
+  beam.section.second_moment_y = beam.section.second_moment_z = 1e-9;
+  beam.section.polar_moment = 2e-9;
+  beam.section.torsion_constant = 1.7e-9;
+  beam.section.shear_area_y = beam.section.shear_area_z = 8e-5;
+  beam.material.youngs_modulus = 2e10;
+  beam.material.poisson_ratio = 0.3;
+  beam.material.density = 2000.0;
+  scene.bodies.push_back(beam);
+  scene.joints.push_back(joint("hinge", JointKind::revolute, "ground", "whip/start", Vector3d::Zero(), y));
+  formats::MotionSpec drive;
+  drive.name = "drive";
+  drive.coordinate.name = "hinge";
+  drive.value = formats::TimeExpression{"3 * t^2", {}, ""};
+  scene.motions.push_back(drive);
+  return scene;
+}
+
+/// A parallelogram of hinges: overconstrained.
+formats::Scene parallelogram() {
+  formats::Scene scene = test_support::empty_scene(0.005, 0.5);
+  scene.gravity = {0, 0, -9.81};
+  const auto link = [&scene](const std::string& name, const Vector3d& at, const Vector3d& center) {
+    formats::RigidBodySpec body = test_support::rigid_body(name, 1.0, center, {0.1, 0.1, 0.1});
+    body.start.pose.position = at;
+    scene.bodies.push_back(body);
+  };
+  link("left", {0, 0, 0}, {0.2, 0, -0.4});
+  link("right", {1, 0, 0}, {0.2, 0, -0.4});
+  link("floor", {0.4, 0, -0.8}, {0.5, 0, 0});
+  scene.joints.push_back(joint("a", JointKind::revolute, "ground", "left", {0, 0, 0}, y));
+  scene.joints.push_back(joint("b", JointKind::revolute, "ground", "right", {1, 0, 0}, y));
+  scene.joints.push_back(joint("c", JointKind::revolute, "left", "floor", {0.4, 0, -0.8}, y));
+  scene.joints.push_back(joint("d", JointKind::revolute, "right", "floor", {1.4, 0, -0.8}, y));
+  return scene;
+}
+
+SuperelementFiles files() {
+  SuperelementFiles list;
+  test_support::add_file("beam", test_support::craig_bampton_beam({}, 3), list);
+  return list;
+}
+
+RunRequest request(const formats::Scene& scene, const SuperelementFiles& list, const std::string& path) {
+  return {scene, list, std::nullopt, path, "", std::nullopt};
+}
+
+struct Case {
+  const char* name;
+  formats::Scene (*scene)();
+};
+void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
+
+class Checkpoint : public testing::TestWithParam<Case> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, Checkpoint,
+                         testing::Values(Case{"swing", swing}, Case{"whip", whip},
+                                         Case{"parallelogram", parallelogram}),
+                         [](const testing::TestParamInfo<Case>& given) { return given.param.name; });
+
+// The first run goes through a second checkpoint, which both runs pass alike; the file kept is that of the first.
+TEST_P(Checkpoint, GoesOnBitEqual) {
+  TemporaryFolder folder;
+  const SuperelementFiles list = files();
+  formats::Scene scene = GetParam().scene();
+  scene.checkpoint.every = 30;
+  const std::string kept = folder.file("kept.h5");
+  RunControl control;
+  control.progress = [&](double) {
+    const std::string written = folder.file("a.checkpoint.h5");
+    if (std::filesystem::exists(written) && !std::filesystem::exists(kept)) std::filesystem::copy_file(written, kept);
+  };
+  const RunEnd whole = simulate(request(scene, list, folder.file("a.results.h5")), control);
+  RunRequest again = request(scene, list, folder.file("b.results.h5"));
+  again.restart = kept;
+  const RunEnd rest = simulate(again, {});
+  EXPECT_EQ(whole.report.outcome, RunOutcome::completed) << whole.report.reason;
+  EXPECT_EQ(rest.report.steps, whole.report.steps - 30);
+  EXPECT_EQ(rest.state.block(), whole.state.block());
+  // And not because nothing is left to differ: without checkpoints the run keeps other factors.
+  EXPECT_GT(rest.state.v().norm(), 0.0);
+}
+
+TEST_P(Checkpoint, GoesOnFromAStoredInstantToTheTolerance) {
+  TemporaryFolder folder;
+  const SuperelementFiles list = files();
+  const formats::Scene scene = GetParam().scene();
+  const RunEnd whole = simulate(request(scene, list, folder.file("a.results.h5")), {});
+  RunRequest again = request(scene, list, folder.file("b.results.h5"));
+  again.restart = folder.file("a.results.h5");
+  again.at = 0.2;
+  const RunEnd rest = simulate(again, {});
+  // The algorithmic acceleration is built anew, which differs by O(h²) as the start of any run does.
+  EXPECT_LT((rest.state.x() - whole.state.x()).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_NEAR(rest.state.time(), whole.state.time(), 1e-12);
+  EXPECT_LT((rest.state.hinges() - whole.state.hinges()).cwiseAbs().sum(), 1e-2);
+}
+
+std::string refusal(const formats::Scene& scene, const std::string& file, const std::string& results) {
+  const SuperelementFiles list = files();
+  RunRequest again = request(scene, list, results);
+  again.restart = file;
+  try {
+    static_cast<void>(simulate(again, {}));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CheckpointFile, IsRefusedIfItIsNotOfThisSceneOrNotWhole) {
+  TemporaryFolder folder;
+  const SuperelementFiles list = files();
+  formats::Scene scene = parallelogram();
+  scene.checkpoint.interval = 0.1;
+  static_cast<void>(simulate(request(scene, list, folder.file("a.results.h5")), {}));
+  const std::string file = folder.file("a.checkpoint.h5"), out = folder.file("b.results.h5");
+  EXPECT_THAT(refusal(scene, file, out), HasSubstr("raise integrator.end"));  // its last instant is the end
+  scene.integrator.end = 1.0;
+  EXPECT_EQ(refusal(scene, file, out), "");
+  EXPECT_THAT(refusal(swing(), file, out), HasSubstr("other bodies, joints or superelements"));
+  formats::Scene renamed = scene;
+  renamed.joints[0].name = "other";
+  EXPECT_THAT(refusal(renamed, file, out), HasSubstr("other bodies, joints or superelements"));
+  EXPECT_THAT(refusal(scene, folder.file("none.h5"), out), HasSubstr("none.h5"));
+  const auto size = std::filesystem::file_size(file);
+  std::filesystem::copy_file(file, folder.file("short.h5"));
+  std::filesystem::resize_file(folder.file("short.h5"), size - 100);
+  EXPECT_NE(refusal(scene, folder.file("short.h5"), out), "");
+  std::ifstream in(file, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const double time = 0.5;  // one number of the state changed: the instant
+  const std::string pattern(reinterpret_cast<const char*>(&time), sizeof time);
+  const std::size_t at = bytes.rfind(pattern);
+  ASSERT_NE(at, std::string::npos);
+  bytes[at] ^= 1;
+  std::ofstream(folder.file("bent.h5"), std::ios::binary) << bytes;
+  EXPECT_THAT(refusal(scene, folder.file("bent.h5"), out), HasSubstr("damaged"));
+}
+
+}  // namespace
+}  // namespace tisserand::mechanism

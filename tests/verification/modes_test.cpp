@@ -1,0 +1,315 @@
+// Linearised modes against closed formulas and published frequencies: pendulums, tops, cantilevers at rest and turning.
+#include <cmath>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "mechanism/modes.hpp"
+#include "mechanism/statics.hpp"
+#include "tests/support/beam_superelement.hpp"
+#include "tests/support/reference_table.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Vector3d;
+using formats::JointKind;
+using test_support::empty_scene;
+using test_support::joint;
+using test_support::rigid_body;
+using test_support::Simulation;
+
+const Vector3d z = Vector3d::UnitZ();
+
+ModesReport modes_of(Simulation& run, const formats::ModesSpec& spec) {
+  solve_accelerations(run.model(), 1e-3, "test", run.state(), run.workspace);
+  return solve_modes(run.model(), run.state(), spec, run.workspace);
+}
+
+/// Of the scene as it stands.
+ModesReport modes_of(const formats::Scene& scene, const SuperelementFiles& files) {
+  Simulation run(scene, files);
+  run.start();
+  return modes_of(run, {});
+}
+
+std::vector<double> angular_frequencies(const ModesReport& report) {
+  std::vector<double> list;
+  for (const Mode& mode : report.modes) list.push_back(std::abs(mode.eigenvalue));
+  return list;
+}
+
+/// A body that hangs (1) or stands (−1) on a hinge about z in gravity along −y.
+formats::Scene hanging(double side) {
+  formats::Scene scene = empty_scene(1e-3, 1.0);
+  scene.gravity = {0, -9.81, 0};
+  scene.bodies.push_back(rigid_body("arm", 1.5, {0, -0.8 * side, 0}, {0.05, 0.2, 0.2}));
+  scene.joints.push_back(joint("hinge", JointKind::revolute, "ground", "arm", Vector3d::Zero(), z));
+  return scene;
+}
+
+// ω² = m g a / (J + m a²).
+const double pendulum_frequency = std::sqrt(1.5 * 9.81 * 0.8 / (0.2 + 1.5 * 0.64));
+
+TEST(Modes, OfAPendulum) {
+  const ModesReport report = modes_of(hanging(1.0), {});
+  ASSERT_EQ(report.modes.size(), 1u);
+  EXPECT_EQ(report.degrees_of_freedom, 1);
+  EXPECT_NEAR(std::abs(report.modes[0].eigenvalue), pendulum_frequency, 1e-10 * pendulum_frequency);
+  EXPECT_NEAR(report.modes[0].damping_ratio(), 0.0, 1e-9);
+  EXPECT_FALSE(report.modes[0].unstable);
+  EXPECT_LT(report.largest_acceleration, 1e-12);
+}
+
+TEST(Modes, OfAStandingPendulumGrow) {
+  const ModesReport report = modes_of(hanging(-1.0), {});
+  ASSERT_EQ(report.modes.size(), 2u);
+  for (const Mode& mode : report.modes) {
+    EXPECT_NEAR(std::abs(mode.eigenvalue.real()), pendulum_frequency, 1e-9 * pendulum_frequency);
+    EXPECT_EQ(mode.unstable, mode.eigenvalue.real() > 0.0);
+  }
+  EXPECT_NE(report.modes[0].unstable, report.modes[1].unstable);
+}
+
+// J θ'' + c θ' + (k + m g a) θ = 0.
+TEST(Modes, SeeSpringsAndDampers) {
+  formats::Scene scene = hanging(1.0);
+  formats::SpringSpec spring;
+  spring.name = "spring";
+  spring.coordinate = formats::CoordinateRef{"hinge", ""};
+  spring.stiffness = 30.0;
+  spring.damping = 1.7;
+  scene.springs.push_back(spring);
+  const ModesReport report = modes_of(scene, {});
+  ASSERT_EQ(report.modes.size(), 1u);
+  const double J = 0.2 + 1.5 * 0.64, k = 30.0 + 1.5 * 9.81 * 0.8, omega = std::sqrt(k / J);
+  EXPECT_NEAR(std::abs(report.modes[0].eigenvalue), omega, 1e-9 * omega);
+  EXPECT_NEAR(report.modes[0].damping_ratio(), 1.7 / (2.0 * std::sqrt(k * J)), 1e-9);
+}
+
+// Two equal uniform rods of length a: ω² = (3 ∓ 6/√7) g/a.
+TEST(Modes, OfADoublePendulumOfRods) {
+  formats::Scene scene = empty_scene(1e-3, 1.0);
+  scene.gravity = {0, -9.81, 0};
+  for (int i = 0; i < 2; ++i) {
+    formats::RigidBodySpec rod = rigid_body("rod" + std::to_string(i), 2.0, {0, -0.5, 0}, {1.0 / 6, 1e-3, 1.0 / 6});
+    rod.start.pose.position = {0, -1.0 * i, 0};
+    scene.bodies.push_back(rod);
+  }
+  scene.joints.push_back(joint("top", JointKind::revolute, "ground", "rod0", Vector3d::Zero(), z));
+  scene.joints.push_back(joint("knee", JointKind::revolute, "rod0", "rod1", {0, -1, 0}, z));
+  const std::vector<double> omega = angular_frequencies(modes_of(scene, {}));
+  ASSERT_EQ(omega.size(), 2u);
+  EXPECT_NEAR(omega[0], std::sqrt((3.0 - 6.0 / std::sqrt(7.0)) * 9.81), 1e-9);
+  EXPECT_NEAR(omega[1], std::sqrt((3.0 + 6.0 / std::sqrt(7.0)) * 9.81), 1e-9);
+}
+
+// ---- sleeping top: A ζ'' − i C n ζ' − m g l ζ = 0 for the complex tilt ζ -------------------------------------------
+
+struct Top {
+  static constexpr double mass = 2.0, arm = 0.3, J = 0.05, C = 0.08, g = 9.81;
+  static double A() { return J + mass * arm * arm; }
+  /// C n ± √(C² n² − 4 A m g l) over 2 A.
+  static double root(double n) { return std::sqrt(C * C * n * n - 4.0 * A() * mass * g * arm); }
+  static double least_spin() { return std::sqrt(4.0 * A() * mass * g * arm) / C; }
+
+  static formats::Scene scene(double spin) {
+    formats::Scene scene = empty_scene(1e-3, 1.0);
+    scene.gravity = {0, 0, -g};
+    formats::RigidBodySpec top = rigid_body("top", mass, {0, 0, arm}, {J, J, C});
+    top.start.angular_velocity = {0, 0, spin};
+    scene.bodies.push_back(top);
+    scene.joints.push_back(joint("pivot", JointKind::spherical, "ground", "top", Vector3d::Zero(), z));
+    return scene;
+  }
+};
+
+TEST(Modes, OfASleepingTopInAxesAtRest) {
+  const double n = 1.5 * Top::least_spin();
+  const ModesReport report = modes_of(Top::scene(n), {});
+  ASSERT_EQ(report.modes.size(), 3u);
+  EXPECT_EQ(report.rigid, 1);  // the spin
+  const double slow = (Top::C * n - Top::root(n)) / (2.0 * Top::A()),
+               fast = (Top::C * n + Top::root(n)) / (2.0 * Top::A());
+  EXPECT_NEAR(std::abs(report.modes[1].eigenvalue), slow, 1e-8 * fast);
+  EXPECT_NEAR(std::abs(report.modes[2].eigenvalue), fast, 1e-8 * fast);
+  for (const Mode& mode : report.modes) EXPECT_FALSE(mode.unstable);
+}
+
+// In axes that turn with the top every frequency ω becomes |ω − n|.
+TEST(Modes, OfASleepingTopInAxesThatTurnWithIt) {
+  const double n = 1.5 * Top::least_spin();
+  Simulation run(Top::scene(n), {});
+  run.start();
+  formats::ModesSpec spec;
+  spec.rotation = Vector3d(0, 0, n);
+  std::vector<double> omega = angular_frequencies(modes_of(run, spec));
+  ASSERT_EQ(omega.size(), 3u);
+  std::vector<double> expected{std::abs((Top::C * n - Top::root(n)) / (2.0 * Top::A()) - n),
+                               std::abs((Top::C * n + Top::root(n)) / (2.0 * Top::A()) - n)};
+  std::sort(expected.begin(), expected.end());
+  EXPECT_NEAR(omega[1], expected[0], 1e-8 * n);
+  EXPECT_NEAR(omega[2], expected[1], 1e-8 * n);
+}
+
+TEST(Modes, OfATopThatSpinsTooSlowlyGrow) {
+  const double n = 0.5 * Top::least_spin();
+  const ModesReport report = modes_of(Top::scene(n), {});
+  // λ = i C n/2A ± √(4 A m g l − C² n²)/2A
+  const double growth =
+      std::sqrt(4.0 * Top::A() * Top::mass * Top::g * Top::arm - Top::C * Top::C * n * n) / (2.0 * Top::A());
+  double largest = 0.0;
+  for (const Mode& mode : report.modes)
+    if (mode.unstable) largest = std::max(largest, mode.eigenvalue.real());
+  EXPECT_NEAR(largest, growth, 1e-8 * growth);
+}
+
+// ---- cantilevers ---------------------------------------------------------------------------------------------------
+
+/// Slender square bar of unit length: EA L²/EI = 1.2e5, so that shear, rotary inertia and stretch stay below 1e-3.
+struct Bar {
+  static constexpr double side = 0.01, young = 2e11, density = 8000.0;
+  static double area() { return side * side; }
+  static double inertia() { return side * side * side * side / 12.0; }
+  /// √(EI/ρA)/L²: the unit of the frequencies.
+  static double unit() { return std::sqrt(young * inertia() / (density * area())); }
+
+  static formats::BeamBodySpec beam(int elements) {
+    formats::BeamBodySpec beam;
+    beam.name = "bar";
+    beam.to = {1, 0, 0};
+    beam.elements = elements;
+    beam.nodes_per_element = 3;
+    beam.section.area = area();
+    beam.section.second_moment_y = beam.section.second_moment_z = inertia();
+    beam.section.polar_moment = 2.0 * inertia();
+    beam.section.torsion_constant = 1.69 * inertia();
+    beam.section.shear_area_y = beam.section.shear_area_z = area() / 1.2;
+    beam.material.youngs_modulus = young;
+    beam.material.poisson_ratio = 0.3;
+    beam.material.density = density;
+    return beam;
+  }
+
+  /// A piece of 1/count of the length, with internal modes.
+  static formats::Superelement piece(int count) {
+    test_support::BeamData data;
+    data.length = 1.0 / count;
+    data.young = young;
+    data.shear_modulus = young / 2.6;
+    data.density = density;
+    data.area = area();
+    data.Iy = data.Iz = inertia();
+    data.J = 1.69 * inertia();
+    return test_support::craig_bampton_beam(data, 4);
+  }
+
+  static void add_pieces(int count, formats::Scene& scene, SuperelementFiles& files) {
+    test_support::add_file("piece", piece(count), files);
+    for (int i = 0; i < count; ++i) {
+      formats::SuperelementBodySpec body = test_support::superelement_body("p" + std::to_string(i), "piece");
+      body.start.pose.position = {i * (1.0 / count), 0, 0};
+      scene.bodies.push_back(body);
+      if (i > 0)
+        scene.joints.push_back(joint("weld" + std::to_string(i), JointKind::fixed, "p" + std::to_string(i - 1) + "/tip",
+                                     "p" + std::to_string(i) + "/base", {i * (1.0 / count), 0, 0}, z));
+    }
+  }
+};
+
+// β² = 3.51602, 22.0345, 61.6972 (Euler-Bernoulli), each twice for the square section.
+TEST(Modes, OfACantileverOfNonlinearBeams) {
+  formats::Scene scene = empty_scene(1e-3, 1.0);
+  scene.bodies.push_back(Bar::beam(10));
+  scene.joints.push_back(joint("wall", JointKind::fixed, "ground", "bar/start", Vector3d::Zero(), z));
+  const std::vector<double> omega = angular_frequencies(modes_of(scene, {}));
+  ASSERT_GE(omega.size(), 4u);
+  // Shear and rotary inertia lower the second by 22² (1 + 2.6 · 1.2) 8.3e-6 / 2 = 8e-4; ten quadratic elements less.
+  for (const int k : {0, 1}) EXPECT_NEAR(omega[static_cast<std::size_t>(k)] / Bar::unit(), 3.516015, 3.516015 * 5e-4);
+  for (const int k : {2, 3}) EXPECT_NEAR(omega[static_cast<std::size_t>(k)] / Bar::unit(), 22.034492, 22.034492 * 2e-3);
+}
+
+TEST(Modes, OfACantileverOfOneSuperelement) {
+  formats::Scene scene = empty_scene(1e-3, 1.0);
+  SuperelementFiles files;
+  Bar::add_pieces(1, scene, files);
+  scene.joints.push_back(joint("wall", JointKind::fixed, "ground", "p0/base", Vector3d::Zero(), z));
+  const std::vector<double> omega = angular_frequencies(modes_of(scene, files));
+  ASSERT_GE(omega.size(), 4u);
+  // Ritz: from above. The mesh of four cubic elements has 1e-4 in the second frequency, four modes (two a plane) 1e-3.
+  for (const int k : {0, 1}) EXPECT_NEAR(omega[static_cast<std::size_t>(k)] / Bar::unit(), 3.516015, 3.516015 * 5e-4);
+  for (const int k : {2, 3}) EXPECT_NEAR(omega[static_cast<std::size_t>(k)] / Bar::unit(), 22.034492, 22.034492 * 5e-3);
+}
+
+/// Chordwise 1, flap 1 and flap 2 [Bar::unit()] of the bar on a driven hinge about z, in steady rotation with γ = 6.
+struct Turning {
+  double chord = 0.0, flap = 0.0, second_flap = 0.0;
+};
+
+Turning turning_bar(formats::Scene scene, const SuperelementFiles& files, const std::string& root) {
+  const double rate = 6.0 * Bar::unit();
+  scene.analysis = formats::AnalysisKind::statics;
+  scene.joints.push_back(joint("hub", JointKind::revolute, "ground", root, Vector3d::Zero(), z));
+  formats::MotionSpec drive;
+  drive.name = "drive";
+  drive.coordinate.name = "hub";
+  drive.value = formats::TimeExpression{fmt::format("{:.17g} * t", rate), {}, ""};
+  scene.motions.push_back(drive);
+  scene.statics.rotation = formats::RotationSpec{Vector3d(0, 0, rate), Vector3d::Zero()};
+  Simulation run(scene, files);
+  run.start();
+  const StaticsReport statics = solve_statics(run.model(), scene.statics, run.state(), run.workspace);
+  EXPECT_EQ(statics.outcome, StepOutcome::accepted) << statics.explanation;
+  formats::ModesSpec spec;
+  spec.rotation = Vector3d(0, 0, rate);
+  const ModesReport report = modes_of(run, spec);
+  EXPECT_LT(report.largest_acceleration, 1e-5 * rate * rate);
+  Turning result;
+  for (const Mode& mode : report.modes) {
+    const Node& tip = run.model().nodes.back();
+    const Eigen::Vector3cd shape = mode.shape.segment<3>(tip.translation);
+    const bool flapping = std::abs(shape.z()) > std::abs(shape.y());
+    const double omega = std::abs(mode.eigenvalue) / Bar::unit();
+    double& wanted = !flapping ? result.chord : result.flap == 0.0 ? result.flap : result.second_flap;
+    if (wanted == 0.0) wanted = omega;
+  }
+  return result;
+}
+
+Turning reference_at_six() {
+  const std::vector<double> row = test_support::reference_rows("rotating_cantilever_frequencies.csv").at(6);
+  return {row.at(4), row.at(1), row.at(2)};
+}
+
+// Wright et al. 1982, Yoo and Shin 1998, recomputed (references/README.md): inextensible Euler-Bernoulli beam.
+TEST(TurningCantilever, OfNonlinearBeamsHasThePublishedFrequencies) {
+  formats::Scene scene = empty_scene(1e-3, 1.0);
+  scene.bodies.push_back(Bar::beam(10));
+  const Turning found = turning_bar(scene, {}, "bar/start"), published = reference_at_six();
+  EXPECT_NEAR(found.flap, published.flap, 1e-3 * published.flap);
+  EXPECT_NEAR(found.chord, published.chord, 1e-3 * published.chord);
+  EXPECT_NEAR(found.second_flap, published.second_flap, 2e-3 * published.second_flap);
+}
+
+double flap_error(int pieces) {
+  formats::Scene scene = empty_scene(1e-3, 1.0);
+  SuperelementFiles files;
+  Bar::add_pieces(pieces, scene, files);
+  return turning_bar(scene, files, "p0/base").flap / reference_at_six().flap - 1.0;
+}
+
+// One linear body lacks the stiffening by its own tension; N of them carry it in the turn of each, error ~ 1/N².
+TEST(TurningCantilever, NeedsSeveralSuperelements) {
+  const double one = flap_error(1), two = flap_error(2), four = flap_error(4), eight = flap_error(8);
+  EXPECT_LT(one, -0.05);
+  EXPECT_LT(std::abs(four), 0.02);
+  const double order = std::log2(four / eight);
+  EXPECT_GT(order, 1.5);
+  EXPECT_LT(order, 2.5);
+  EXPECT_LT(std::abs(two), std::abs(one));
+}
+
+}  // namespace
+}  // namespace tisserand::mechanism
