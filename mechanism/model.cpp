@@ -21,16 +21,27 @@ void append_coordinates(const Model& model, int node, std::vector<int>& coordina
   }
 }
 
-void add_block(const std::vector<int>& coordinates, std::vector<Position>& positions) {
-  for (const int column : coordinates)
-    for (const int row : coordinates)
-      if (row >= 0 && column >= 0) positions.push_back({row, column});
+/// Visits (row, column) of the global matrix for each entry of the local one, column by column; absent ones are −1.
+template <class Visit>
+void for_each_entry(const ElementMap& map, Visit visit) {
+  std::size_t at = 0;
+  for (const int column : map.coordinates)
+    for (const int row : map.coordinates) {
+      const bool held = row >= 0 && column >= 0 && (map.entries.empty() || map.entries[at]);
+      ++at;
+      held ? visit(row, column) : visit(-1, -1);
+    }
+}
+
+void add_block(const ElementMap& map, std::vector<Position>& positions) {
+  for_each_entry(map, [&](int row, int column) {
+    if (row >= 0) positions.push_back({row, column});
+  });
 }
 
 void fill_slots(const SparsePattern& pattern, ElementMap& map) {
   map.slots.clear();
-  for (const int column : map.coordinates)
-    for (const int row : map.coordinates) map.slots.push_back(row >= 0 && column >= 0 ? pattern.slot(row, column) : -1);
+  for_each_entry(map, [&](int row, int column) { map.slots.push_back(row < 0 ? -1 : pattern.slot(row, column)); });
 }
 
 /// The coordinates of all elements; every list of maps gets one entry per element of its pool.
@@ -49,10 +60,16 @@ void number_elements(Model& model) {
     (append_coordinates(model, nodes, map.coordinates), ...);
     maps.push_back(std::move(map));
   };
-  for (const RigidBody& body : model.rigid_bodies) add(model.rigid_maps, body.node);
+  for (const RigidBody& body : model.rigid_bodies) {
+    add(model.rigid_maps, body.node);
+    model.rigid_maps.back().entries = rigid_entries();
+  }
   for (const BeamElement2& beam : model.beams2) add(model.beam2_maps, beam.nodes[0], beam.nodes[1]);
   for (const BeamElement3& beam : model.beams3) add(model.beam3_maps, beam.nodes[0], beam.nodes[1], beam.nodes[2]);
-  for (const Joint& joint : model.joints) add(model.joint_maps, joint.a.node, joint.b.node);
+  for (const Joint& joint : model.joints) {
+    add(model.joint_maps, joint.a.node, joint.b.node);
+    model.joint_maps.back().entries = stiffness_entries(joint);
+  }
   for (const Load& load : model.loads) add(model.load_maps, load.at.node);
   for (const Coordinate& c : model.coordinates) add(model.coordinate_maps, c.a.node, c.b.node);
   for (const Coupling& coupling : model.couplings) {
@@ -65,22 +82,43 @@ void number_elements(Model& model) {
   }
 }
 
-/// B and Bᵀ of `size` rows from `row` on.
-void add_constraint(const ElementMap& map, int first, int size, std::vector<Position>& positions) {
-  for (const int coordinate : map.coordinates)
-    for (int k = 0; k < size && coordinate >= 0; ++k) {
-      positions.push_back({first + k, coordinate});
-      positions.push_back({coordinate, first + k});
-    }
+/// Rows `first` to `first + size - 1` of B; `entries` as in gradient_entries().
+struct ConstraintBlock {
+  int first;
+  int size;
+  EntryFlags entries;
+};
+
+ConstraintBlock block_of(const Model& model, const Joint& joint) {
+  return {model.sizes.boundary + joint.row, joint.size(), gradient_entries(joint)};
+}
+ConstraintBlock block_of(const Model& model, const Coupling& coupling) {
+  return {model.sizes.boundary + coupling.row, 1, {}};
 }
 
-ConstraintMap constraint_slots(const SparsePattern& pattern, const ElementMap& map, int first, int size) {
-  ConstraintMap result;
+/// Visits (row, coordinate) of B for each entry of the block, column by column; the coordinate of absent ones is −1.
+template <class Visit>
+void for_each_entry(const ElementMap& map, const ConstraintBlock& block, Visit visit) {
+  std::size_t at = 0;
   for (const int coordinate : map.coordinates)
-    for (int k = 0; k < size; ++k) {
-      result.lower.push_back(coordinate < 0 ? -1 : pattern.slot(first + k, coordinate));
-      result.upper.push_back(coordinate < 0 ? -1 : pattern.slot(coordinate, first + k));
-    }
+    for (int k = 0; k < block.size; ++k, ++at)
+      visit(block.first + k, block.entries.empty() || block.entries[at] ? coordinate : -1);
+}
+
+void add_constraint(const ElementMap& map, const ConstraintBlock& block, std::vector<Position>& positions) {
+  for_each_entry(map, block, [&](int row, int coordinate) {
+    if (coordinate < 0) return;
+    positions.push_back({row, coordinate});
+    positions.push_back({coordinate, row});
+  });
+}
+
+ConstraintMap constraint_slots(const SparsePattern& pattern, const ElementMap& map, const ConstraintBlock& block) {
+  ConstraintMap result;
+  for_each_entry(map, block, [&](int row, int coordinate) {
+    result.lower.push_back(coordinate < 0 ? -1 : pattern.slot(row, coordinate));
+    result.upper.push_back(coordinate < 0 ? -1 : pattern.slot(coordinate, row));
+  });
   return result;
 }
 
@@ -136,11 +174,11 @@ void finish_model(Model& model, formats::LinearSolver solver) {
   const int size = boundary + model.sizes.constraints;
   std::vector<Position> positions;
   for (int i = 0; i < size; ++i) positions.push_back({i, i});
-  for_each_map(model, [&positions](const ElementMap& map) { add_block(map.coordinates, positions); });
+  for_each_map(model, [&positions](const ElementMap& map) { add_block(map, positions); });
   for (std::size_t j = 0; j < model.joints.size(); ++j)
-    add_constraint(model.joint_maps[j], boundary + model.joints[j].row, model.joints[j].size(), positions);
+    add_constraint(model.joint_maps[j], block_of(model, model.joints[j]), positions);
   for (std::size_t j = 0; j < model.couplings.size(); ++j)
-    add_constraint(model.coupling_maps[j], boundary + model.couplings[j].row, 1, positions);
+    add_constraint(model.coupling_maps[j], block_of(model, model.couplings[j]), positions);
   const bool dense =
       solver == formats::LinearSolver::dense || (solver == formats::LinearSolver::automatic && size <= dense_limit);
   model.pattern = std::make_unique<SparsePattern>(
@@ -149,10 +187,10 @@ void finish_model(Model& model, formats::LinearSolver solver) {
   for_each_map(model, [&model](ElementMap& map) { fill_slots(*model.pattern, map); });
   for (std::size_t j = 0; j < model.joints.size(); ++j)
     model.constraint_maps.push_back(
-        constraint_slots(*model.pattern, model.joint_maps[j], boundary + model.joints[j].row, model.joints[j].size()));
+        constraint_slots(*model.pattern, model.joint_maps[j], block_of(model, model.joints[j])));
   for (std::size_t j = 0; j < model.couplings.size(); ++j)
     model.coupling_constraint_maps.push_back(
-        constraint_slots(*model.pattern, model.coupling_maps[j], boundary + model.couplings[j].row, 1));
+        constraint_slots(*model.pattern, model.coupling_maps[j], block_of(model, model.couplings[j])));
   scale_equations(model);
 }
 
