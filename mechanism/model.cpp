@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/sparsity.hpp"
+
 namespace tisserand::mechanism {
 namespace {
 
@@ -23,25 +25,26 @@ void append_coordinates(const Model& model, int node, std::vector<int>& coordina
 
 /// Visits (row, column) of the global matrix for each entry of the local one, column by column; absent ones are −1.
 template <class Visit>
-void for_each_entry(const ElementMap& map, Visit visit) {
+void for_each_entry(const ElementMap& map, const EntryFlags& entries, Visit visit) {
   std::size_t at = 0;
   for (const int column : map.coordinates)
     for (const int row : map.coordinates) {
-      const bool held = row >= 0 && column >= 0 && (map.entries.empty() || map.entries[at]);
+      const bool held = row >= 0 && column >= 0 && (entries.empty() || entries[at]);
       ++at;
       held ? visit(row, column) : visit(-1, -1);
     }
 }
 
-void add_block(const ElementMap& map, std::vector<Position>& positions) {
-  for_each_entry(map, [&](int row, int column) {
+void add_block(const ElementMap& map, const EntryFlags& entries, std::vector<Position>& positions) {
+  for_each_entry(map, entries, [&](int row, int column) {
     if (row >= 0) positions.push_back({row, column});
   });
 }
 
-void fill_slots(const SparsePattern& pattern, ElementMap& map) {
+void fill_slots(const SparsePattern& pattern, const EntryFlags& entries, ElementMap& map) {
   map.slots.clear();
-  for_each_entry(map, [&](int row, int column) { map.slots.push_back(row < 0 ? -1 : pattern.slot(row, column)); });
+  for_each_entry(map, entries,
+                 [&](int row, int column) { map.slots.push_back(row < 0 ? -1 : pattern.slot(row, column)); });
 }
 
 /// The coordinates of all elements; every list of maps gets one entry per element of its pool.
@@ -60,16 +63,10 @@ void number_elements(Model& model) {
     (append_coordinates(model, nodes, map.coordinates), ...);
     maps.push_back(std::move(map));
   };
-  for (const RigidBody& body : model.rigid_bodies) {
-    add(model.rigid_maps, body.node);
-    model.rigid_maps.back().entries = rigid_entries();
-  }
+  for (const RigidBody& body : model.rigid_bodies) add(model.rigid_maps, body.node);
   for (const BeamElement2& beam : model.beams2) add(model.beam2_maps, beam.nodes[0], beam.nodes[1]);
   for (const BeamElement3& beam : model.beams3) add(model.beam3_maps, beam.nodes[0], beam.nodes[1], beam.nodes[2]);
-  for (const Joint& joint : model.joints) {
-    add(model.joint_maps, joint.a.node, joint.b.node);
-    model.joint_maps.back().entries = stiffness_entries(joint);
-  }
+  for (const Joint& joint : model.joints) add(model.joint_maps, joint.a.node, joint.b.node);
   for (const Load& load : model.loads) add(model.load_maps, load.at.node);
   for (const Coordinate& c : model.coordinates) add(model.coordinate_maps, c.a.node, c.b.node);
   for (const Coupling& coupling : model.couplings) {
@@ -138,13 +135,16 @@ void number_constraints(Model& model) {
     coordinate.turn = coordinate.relation.kind == RelationKind::angle ? model.sizes.hinges++ : -1;
 }
 
+/// Visits every map that the pattern holds a block of, with the entries that may be nonzero.
 template <class Visit>
 void for_each_map(Model& model, Visit visit) {
-  for (auto* maps : {&model.superelement_maps, &model.rigid_maps, &model.beam2_maps, &model.beam3_maps,
-                     &model.joint_maps, &model.load_maps})
-    for (ElementMap& map : *maps) visit(map);
+  const EntryFlags all, rigid = rigid_entries();
+  for (auto* maps : {&model.superelement_maps, &model.beam2_maps, &model.beam3_maps, &model.load_maps})
+    for (ElementMap& map : *maps) visit(map, all);
+  for (ElementMap& map : model.rigid_maps) visit(map, rigid);
+  for (std::size_t i = 0; i < model.joints.size(); ++i) visit(model.joint_maps[i], stiffness_entries(model.joints[i]));
   for (std::size_t i = 0; i < model.coordinates.size(); ++i)
-    if (model.coordinates[i].active) visit(model.coordinate_maps[i]);
+    if (model.coordinates[i].active) visit(model.coordinate_maps[i], all);
 }
 
 void scale_equations(Model& model) {
@@ -174,7 +174,7 @@ void finish_model(Model& model, formats::LinearSolver solver) {
   const int size = boundary + model.sizes.constraints;
   std::vector<Position> positions;
   for (int i = 0; i < size; ++i) positions.push_back({i, i});
-  for_each_map(model, [&positions](const ElementMap& map) { add_block(map, positions); });
+  for_each_map(model, [&](const ElementMap& map, const EntryFlags& entries) { add_block(map, entries, positions); });
   for (std::size_t j = 0; j < model.joints.size(); ++j)
     add_constraint(model.joint_maps[j], block_of(model, model.joints[j]), positions);
   for (std::size_t j = 0; j < model.couplings.size(); ++j)
@@ -184,7 +184,7 @@ void finish_model(Model& model, formats::LinearSolver solver) {
   model.pattern = std::make_unique<SparsePattern>(
       size, std::move(positions), dense ? SparsePattern::Storage::dense : SparsePattern::Storage::sparse);
 
-  for_each_map(model, [&model](ElementMap& map) { fill_slots(*model.pattern, map); });
+  for_each_map(model, [&](ElementMap& map, const EntryFlags& entries) { fill_slots(*model.pattern, entries, map); });
   for (std::size_t j = 0; j < model.joints.size(); ++j)
     model.constraint_maps.push_back(
         constraint_slots(*model.pattern, model.joint_maps[j], block_of(model, model.joints[j])));

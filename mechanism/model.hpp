@@ -16,7 +16,6 @@
 #include "mechanism/joints/coordinate.hpp"
 #include "mechanism/joints/joint.hpp"
 #include "mechanism/solver/linear_solver.hpp"
-#include "mechanism/sparsity.hpp"
 #include "mechanism/state.hpp"
 
 namespace tisserand::mechanism {
@@ -54,7 +53,6 @@ struct Tie {
 struct ElementMap {
   std::vector<int> coordinates;
   std::vector<int> slots;
-  EntryFlags entries;  ///< of the local matrix that the pattern holds
 };
 
 /// Slots of the rows of a joint or a coupling: B at (row k, column j) and Bᵀ at (j, k), index k + size·j.
