@@ -35,7 +35,7 @@ function(dep_simple name header suffix)
   endforeach()
 endfunction()
 
-dep_simple(klu klu.h suitesparse klu btf amd colamd suitesparseconfig)
+dep_simple(suitesparse klu.h suitesparse klu btf umfpack spqr cholmod amd colamd suitesparseconfig)
 
 set(BLA_VENDOR OpenBLAS)
 find_package(BLAS REQUIRED)
