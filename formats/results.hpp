@@ -22,6 +22,8 @@ struct ResultsLayout {
   std::vector<int> boundary_offset;  ///< superelements.size() + 1; into the rows of boundary_force
   std::vector<std::string>
       boundary_nodes;  ///< boundary_offset.back() names of the rows of boundary_force; empty: numbers
+  std::vector<std::string> modal_bodies;
+  std::vector<int> modal_offset;  ///< modal_bodies.size() + 1; into the columns of w
   std::vector<std::string> joints;
   struct Coordinate {
     std::string name;     ///< "hinge", or "slide/z" of a joint with several
@@ -45,6 +47,7 @@ struct ResultsRow {
   Eigen::VectorXd y;                                        ///< all superelements, file coordinates, modes_offset
   Eigen::VectorXd y_rate;                                   ///< of y
   Eigen::Matrix<double, 6, Eigen::Dynamic> boundary_force;  ///< [force; moment]
+  Eigen::VectorXd w;                                        ///< all modal bodies, modal_offset
   Eigen::Matrix3Xd joint_force, joint_moment;
   Eigen::VectorXd joint_coordinate, joint_rate;  ///< of layout.coordinates
   Eigen::VectorXd motion_force;  ///< of layout.motions: force or moment of the drive along its coordinate

@@ -19,6 +19,12 @@ Row12 channel_row(const Model& model, const Channel& channel, const TangentCoeff
   return coefficients.stiffness * gradient.by_position + coefficients.damping * gradient.by_velocity;
 }
 
+/// The force itself is that of the load or spring, whose own tangent holds its stiffness on moving nodes.
+template <int size>
+Eigen::Matrix<double, size, 1> no_force() {
+  return Eigen::Matrix<double, size, 1>::Zero();
+}
+
 }  // namespace
 
 void update_channels(const Model& model, Workspace& workspace) {
@@ -48,11 +54,11 @@ void add_channel_tangents(const Model& model, const State& state, const TangentC
       const Vector6d force =
           load_force(load, motion_of(workspace, load.at.node), slope * Eigen::Vector3d::Unit(use.component));
       on_load.topRightCorner<6, 12>().noalias() = -force * row;
-      scatter_matrix(model.channel_use_maps[i], on_load, factor, workspace.values);
+      add_matrix(model, model.channel_use_maps[i], on_load, factor, workspace, no_force<18>);
     } else {
       const Row12& G = workspace.coordinates[static_cast<std::size_t>(model.springs[owner].coordinate)].G;
       on_spring.topRightCorner<12, 12>().noalias() = -slope * G.transpose() * row;
-      scatter_matrix(model.channel_use_maps[i], on_spring, factor, workspace.values);
+      add_matrix(model, model.channel_use_maps[i], on_spring, factor, workspace, no_force<24>);
     }
   }
 }

@@ -10,6 +10,15 @@ LoadedJoint loaded_joint(const Model& model, const State& state, const Workspace
   return {joint, markers_of(joint, workspace), workspace.joints[at], state.lambda().data() + joint.row};
 }
 
+/// Adds the first `size` rows, transposed, beside Bᵀ.
+template <class Rows>
+void add_upper(const ConstraintMap& map, int size, const Rows& rows, std::vector<double>& values) {
+  for (Eigen::Index j = 0; j < rows.cols(); ++j)
+    for (int k = 0; k < size; ++k)
+      if (const int slot = map.upper[static_cast<std::size_t>(k + size * j)]; slot >= 0)
+        values[static_cast<std::size_t>(slot)] += rows(k, j);
+}
+
 }  // namespace
 
 void add_frictions(const Model& model, const State& state, Workspace& workspace) {
@@ -17,7 +26,7 @@ void add_frictions(const Model& model, const State& state, Workspace& workspace)
     const Friction& friction = model.frictions[i];
     FrictionTerms& terms = workspace.frictions[i];
     terms = evaluate(friction, loaded_joint(model, state, workspace, friction.joint));
-    scatter(model.joint_maps[static_cast<std::size_t>(friction.joint)], terms.force, workspace.residual);
+    add_force(model, model.joint_maps[static_cast<std::size_t>(friction.joint)], terms.force, workspace);
     note_scale(terms.force, workspace);
     workspace.damping_power += terms.power;
   }
@@ -26,17 +35,21 @@ void add_frictions(const Model& model, const State& state, Workspace& workspace)
 void add_friction_tangents(const Model& model, const State& state, const TangentCoefficients& coefficients,
                            double factor, Workspace& workspace) {
   FrictionTangent result;
-  for (const Friction& friction : model.frictions) {
+  for (std::size_t i = 0; i < model.frictions.size(); ++i) {
+    const Friction& friction = model.frictions[i];
     const auto at = static_cast<std::size_t>(friction.joint);
+    const ElementMap& map = model.joint_maps[at];
     const LoadedJoint loaded = loaded_joint(model, state, workspace, friction.joint);
     tangent(friction, loaded, coefficients, result);
-    scatter_matrix(model.joint_maps[at], result.A, factor, workspace.values);
+    add_matrix(model, map, result.A, factor, workspace,
+               [&] { return Vector12d(coefficients.stiffness * workspace.frictions[i].force); });
     const int size = loaded.joint.size();
-    for (int j = 0; j < 12; ++j)
-      for (int k = 0; k < size; ++k) {
-        const int slot = model.constraint_maps[at].upper[static_cast<std::size_t>(k + size * j)];
-        if (slot >= 0) workspace.values[static_cast<std::size_t>(slot)] += result.by_lambda(j, k);
-      }
+    const Eigen::Matrix<double, 6, 12> by_lambda = result.by_lambda.transpose();
+    if (map.carriers.empty())
+      add_upper(model.constraint_maps[at], size, by_lambda, workspace.values);
+    else
+      add_upper(model.constraint_maps[at], size,
+                pulled_rows(model, map, local_view(by_lambda), workspace, workspace.carriers.upper), workspace.values);
   }
 }
 
@@ -44,7 +57,7 @@ void add_bushings(const Model& model, Workspace& workspace) {
   for (std::size_t i = 0; i < model.bushings.size(); ++i) {
     BushingTerms& terms = workspace.bushings[i];
     evaluate(model.bushings[i], markers_of(model.bushings[i], workspace), terms);
-    scatter(model.bushing_maps[i], terms.force, workspace.residual);
+    add_force(model, model.bushing_maps[i], terms.force, workspace);
     note_scale(terms.force, workspace);
     workspace.spring_energy += terms.energy;
     workspace.damping_power += terms.dissipated;
@@ -58,7 +71,8 @@ void add_bushing_tangents(const Model& model, const TangentCoefficients& coeffic
   for (std::size_t i = 0; i < model.bushings.size(); ++i) {
     const Bushing& bushing = model.bushings[i];
     tangent(bushing, markers_of(bushing, workspace), workspace.bushings[i], coefficients, A);
-    scatter_matrix(model.bushing_maps[i], A, factor, workspace.values);
+    add_matrix(model, model.bushing_maps[i], A, factor, workspace,
+               [&] { return Vector12d(coefficients.stiffness * workspace.bushings[i].force); });
   }
 }
 

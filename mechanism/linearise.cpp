@@ -21,7 +21,7 @@ void add_superelement(const Model& model, std::size_t i, const TangentCoefficien
                       MatrixXd& A) {
   const SuperelementBody& body = model.superelements[i];
   MatrixXd local;
-  const Vector3d gravity = workspace.load_factor * model.gravity;
+  const Vector3d gravity = workspace.load_factor * body.gravity;
   uncondensed_tangent(body, workspace.superelements[i], workspace.motion, gravity, c, TangentKind::exact, local);
   std::vector<int> rows = model.superelement_maps[i].coordinates;
   for (int k = 0; k < body.modes; ++k) rows.push_back(model.sizes.boundary + model.internal_offset[i] + k);

@@ -160,7 +160,10 @@ formats::Scene read(const RunArguments& arguments) {
 std::vector<std::string> inputs(const formats::Scene& scene) {
   std::vector<std::string> files{scene.file};
   for (const formats::BodySpec& body : scene.bodies)
-    if (const auto* spec = std::get_if<formats::SuperelementBodySpec>(&body)) files.push_back(spec->file);
+    if (const auto* spec = std::get_if<formats::SuperelementBodySpec>(&body))
+      files.push_back(spec->file);
+    else if (const auto* modal = std::get_if<formats::ModalBodySpec>(&body))
+      files.push_back(modal->file);
   return files;
 }
 
@@ -204,7 +207,7 @@ int run(const RunArguments& arguments) {
       scene, arguments.analysis, {chosen ? arguments.output : default_results(arguments.scene), chosen});
   for (const mechanism::PlannedAnalysis& one : planned) require_output(one.results, inputs(scene), Replaces::hdf5_only);
   listen_for_interrupts();
-  const mechanism::SuperelementFiles files = mechanism::read_superelements(scene);
+  const mechanism::BodyFiles files = mechanism::read_body_files(scene);
   std::map<std::string, mechanism::State> ends;
   for (const mechanism::PlannedAnalysis& one : planned) {
     std::optional<mechanism::State> begin;

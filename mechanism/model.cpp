@@ -2,9 +2,11 @@
 #include "mechanism/model.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
+#include "mechanism/carriers.hpp"
 #include "mechanism/sparsity.hpp"
 
 namespace tisserand::mechanism {
@@ -14,14 +16,6 @@ namespace {
 constexpr int dense_limit = 72;
 
 using Position = SparsePattern::Position;
-
-void append_coordinates(const Model& model, int node, std::vector<int>& coordinates) {
-  const bool ground = node < 0;
-  for (int k = 0; k < 6; ++k) {
-    const int first = ground ? -1 : k < 3 ? model.nodes[node].translation : model.nodes[node].rotation;
-    coordinates.push_back(first < 0 ? -1 : first + k % 3);
-  }
-}
 
 /// Visits (row, column) of the global matrix for each entry of the local one, column by column; absent ones are −1.
 template <class Visit>
@@ -59,10 +53,13 @@ void number_elements(Model& model) {
     model.superelement_maps.push_back(std::move(map));
   }
   const auto add = [&model](std::vector<ElementMap>& maps, auto... nodes) {
-    ElementMap map;
-    (append_coordinates(model, nodes, map.coordinates), ...);
-    maps.push_back(std::move(map));
+    maps.push_back(carrier_map(model, {nodes...}));
   };
+  for (const ModalBody& body : model.modal_bodies) {
+    add(model.modal_maps, body.node);
+    for (int k = 0; k < body.modes; ++k)
+      model.modal_maps.back().coordinates.push_back(model.sizes.first_modal() + body.offset + k);
+  }
   for (const RigidBody& body : model.rigid_bodies) add(model.rigid_maps, body.node);
   for (const BeamElement2& beam : model.beams2) add(model.beam2_maps, beam.nodes[0], beam.nodes[1]);
   for (const BeamElement3& beam : model.beams3) add(model.beam3_maps, beam.nodes[0], beam.nodes[1], beam.nodes[2]);
@@ -72,13 +69,13 @@ void number_elements(Model& model) {
   for (const Coordinate& c : model.coordinates) add(model.coordinate_maps, c.a.node, c.b.node);
   for (const ChannelUse& use : model.channel_uses) {
     const auto owner = static_cast<std::size_t>(use.index);
-    ElementMap map = use.owner == ChannelUse::Owner::load
-                         ? model.load_maps[owner]
-                         : model.coordinate_maps[static_cast<std::size_t>(model.springs[owner].coordinate)];
     const Channel& channel = model.channels[static_cast<std::size_t>(use.channel)];
-    append_coordinates(model, channel.a.node, map.coordinates);
-    append_coordinates(model, channel.b.node, map.coordinates);
-    model.channel_use_maps.push_back(std::move(map));
+    if (use.owner == ChannelUse::Owner::load) {
+      add(model.channel_use_maps, model.loads[owner].at.node, channel.a.node, channel.b.node);
+    } else {
+      const Coordinate& c = model.coordinates[static_cast<std::size_t>(model.springs[owner].coordinate)];
+      add(model.channel_use_maps, c.a.node, c.b.node, channel.a.node, channel.b.node);
+    }
   }
   for (const Coupling& coupling : model.couplings) {
     ElementMap map;
@@ -97,16 +94,18 @@ struct ConstraintBlock {
   EntryFlags entries;
 };
 
-/// Friction loads every coordinate of the markers, by a force that depends on every multiplier.
-bool has_friction(const Model& model, const Joint& joint) {
-  return std::any_of(model.frictions.begin(), model.frictions.end(), [&](const Friction& friction) {
-    return &model.joints[static_cast<std::size_t>(friction.joint)] == &joint;
+/// Friction loads every coordinate of the markers, by a force that depends on every multiplier; nodes of modal bodies
+/// pass everything on to all coordinates of their body.
+bool fills_all(const Model& model, std::size_t joint) {
+  return !model.joint_maps[joint].carriers.empty() || std::ranges::any_of(model.frictions, [&](const Friction& f) {
+    return static_cast<std::size_t>(f.joint) == joint;
   });
 }
 
-ConstraintBlock block_of(const Model& model, const Joint& joint) {
+ConstraintBlock block_of(const Model& model, std::size_t at) {
+  const Joint& joint = model.joints[at];
   return {model.sizes.boundary + joint.row, joint.size(),
-          has_friction(model, joint) ? EntryFlags{} : gradient_entries(joint)};
+          fills_all(model, at) ? EntryFlags{} : gradient_entries(joint)};
 }
 ConstraintBlock block_of(const Model& model, const Coupling& coupling) {
   return {model.sizes.boundary + coupling.row, 1, {}};
@@ -158,12 +157,12 @@ void number_constraints(Model& model) {
 template <class Visit>
 void for_each_map(Model& model, Visit visit) {
   const EntryFlags all, rigid = rigid_entries();
-  for (auto* maps : {&model.superelement_maps, &model.beam2_maps, &model.beam3_maps, &model.bushing_maps,
-                     &model.load_maps, &model.channel_use_maps})
+  for (auto* maps : {&model.superelement_maps, &model.modal_maps, &model.beam2_maps, &model.beam3_maps,
+                     &model.bushing_maps, &model.load_maps, &model.channel_use_maps})
     for (ElementMap& map : *maps) visit(map, all);
   for (ElementMap& map : model.rigid_maps) visit(map, rigid);
   for (std::size_t i = 0; i < model.joints.size(); ++i)
-    visit(model.joint_maps[i], has_friction(model, model.joints[i]) ? all : stiffness_entries(model.joints[i]));
+    visit(model.joint_maps[i], fills_all(model, i) ? all : stiffness_entries(model.joints[i]));
   for (std::size_t i = 0; i < model.coordinates.size(); ++i)
     if (model.coordinates[i].active) visit(model.coordinate_maps[i], all);
 }
@@ -173,6 +172,8 @@ void scale_equations(Model& model) {
   model.equation_scale.setOnes(pattern.size());
   for (const Node& node : model.nodes)
     if (node.rotation >= 0) model.equation_scale.segment<3>(node.rotation) = 1.0 / model.length;
+  for (const ModalBody& body : model.modal_bodies)
+    model.equation_scale.segment(model.sizes.first_modal() + body.offset, body.modes) = std::sqrt(body.mass);
   for (int row = 0; row < model.sizes.constraints; ++row)
     if (!model.length_row[static_cast<std::size_t>(row)])
       model.equation_scale[model.sizes.boundary + row] = model.length;
@@ -195,9 +196,14 @@ void finish_model(Model& model, formats::LinearSolver solver) {
   const int size = boundary + model.sizes.constraints;
   std::vector<Position> positions;
   for (int i = 0; i < size; ++i) positions.push_back({i, i});
-  for_each_map(model, [&](const ElementMap& map, const EntryFlags& entries) { add_block(map, entries, positions); });
+  for_each_map(model, [&](const ElementMap& map, const EntryFlags& entries) {
+    add_block(map, entries, positions);
+    for (const int node : map.carriers)
+      if (const int modal = node < 0 ? -1 : model.nodes[static_cast<std::size_t>(node)].modal; modal >= 0)
+        model.modal_nodes[static_cast<std::size_t>(modal)].active = true;
+  });
   for (std::size_t j = 0; j < model.joints.size(); ++j)
-    add_constraint(model.joint_maps[j], block_of(model, model.joints[j]), positions);
+    add_constraint(model.joint_maps[j], block_of(model, j), positions);
   for (std::size_t j = 0; j < model.couplings.size(); ++j)
     add_constraint(model.coupling_maps[j], block_of(model, model.couplings[j]), positions);
   const bool dense =
@@ -207,12 +213,22 @@ void finish_model(Model& model, formats::LinearSolver solver) {
 
   for_each_map(model, [&](ElementMap& map, const EntryFlags& entries) { fill_slots(*model.pattern, entries, map); });
   for (std::size_t j = 0; j < model.joints.size(); ++j)
-    model.constraint_maps.push_back(
-        constraint_slots(*model.pattern, model.joint_maps[j], block_of(model, model.joints[j])));
+    model.constraint_maps.push_back(constraint_slots(*model.pattern, model.joint_maps[j], block_of(model, j)));
   for (std::size_t j = 0; j < model.couplings.size(); ++j)
     model.coupling_constraint_maps.push_back(
         constraint_slots(*model.pattern, model.coupling_maps[j], block_of(model, model.couplings[j])));
   scale_equations(model);
+}
+
+bool has_translation(const Model& model, int node) {
+  return node < 0 || model.nodes[static_cast<std::size_t>(node)].translation >= 0 ||
+         model.nodes[static_cast<std::size_t>(node)].modal >= 0;
+}
+
+bool has_rotation(const Model& model, int node) {
+  if (node < 0) return true;
+  const Node& n = model.nodes[static_cast<std::size_t>(node)];
+  return n.rotation >= 0 || (n.modal >= 0 && model.modal_nodes[static_cast<std::size_t>(n.modal)].turns);
 }
 
 std::string coordinate_name(const Model& model, int coordinate) {
@@ -223,6 +239,10 @@ std::string coordinate_name(const Model& model, int coordinate) {
     if (node.rotation >= 0 && coordinate >= node.rotation && coordinate < node.rotation + 3)
       return fmt::format("{}, rotation about its {} axis", node.name, axis[coordinate - node.rotation]);
   }
+  const int modal = coordinate - model.sizes.first_modal();
+  for (const ModalBody& body : model.modal_bodies)
+    if (modal >= body.offset && modal < body.offset + body.modes)
+      return fmt::format("{}, mode {}", body.name, modal - body.offset + 1);
   const int internal = coordinate - model.sizes.boundary;
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
     if (internal >= model.internal_offset[i] && internal < model.internal_offset[i + 1])

@@ -21,7 +21,7 @@ struct Run {
   State at_start;                       ///< as the model was built, before anything moved
   std::vector<double> schedule_memory;  ///< of a run that goes on from a file; empty: it begins
 
-  Run(const formats::Scene& scene_to_run, const SuperelementFiles& files, const RunControl& run_control);
+  Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunControl& run_control);
   double seconds() const { return control.clock ? control.clock() : 0.0; }
 };
 

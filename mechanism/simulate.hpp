@@ -53,12 +53,12 @@ struct RunReport {
 };
 
 /// Reads the superelement files of a scene, each once.
-SuperelementFiles read_superelements(const formats::Scene& scene);
+BodyFiles read_body_files(const formats::Scene& scene);
 
 /// One analysis of a scene: what it reads and starts from, and where its rows go.
 struct RunRequest {
   const formats::Scene& scene;  ///< with the kind and the settings of this analysis (formats::scene_of)
-  const SuperelementFiles& files;
+  const BodyFiles& files;
   std::optional<State> begin;  ///< end of another analysis of the same scene, in place of the poses of the bodies
   std::string path;            ///< of the results
   std::string restart;         ///< checkpoint or results file to go on from; empty: none
