@@ -41,7 +41,10 @@ std::vector<KeySet> scene_key_sets() {
       {"time_function", {"table", "file", "expression", "breakpoints"}},
       {"integrator",
        {"method", "rho", "alpha", "formulation", "step", "start", "end", "tolerance", "constraint_tolerance",
-        "max_iterations", "max_halvings", "linear_solver"}},
+        "max_iterations", "max_halvings", "linear_solver", "error_control", "relative_tolerance", "absolute_tolerance",
+        "stabilisation", "baumgarte"}},
+      {"error_control", {"tolerance", "absolute", "min_step", "max_step"}},
+      {"baumgarte", {"alpha", "beta"}},
       {"statics", {"load_steps", "tolerance", "max_iterations"}},
       {"output", {"every", "interval", "from", "channels"}}};
   for (KeySet& set : section_key_sets()) sets.push_back(std::move(set));

@@ -8,9 +8,6 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Up to this size an iteration with new dense factors is faster than with KLU (tests/benchmarks, solvers_*).
-constexpr int dense_limit = 72;
-
 using Position = SparsePattern::Position;
 
 void append_coordinates(const Model& model, int node, std::vector<int>& coordinates) {
@@ -141,10 +138,8 @@ void finish_model(Model& model, formats::LinearSolver solver) {
     add_constraint(model.joint_maps[j], boundary + model.joints[j].row, model.joints[j].size(), positions);
   for (std::size_t j = 0; j < model.couplings.size(); ++j)
     add_constraint(model.coupling_maps[j], boundary + model.couplings[j].row, 1, positions);
-  const bool dense =
-      solver == formats::LinearSolver::dense || (solver == formats::LinearSolver::automatic && size <= dense_limit);
-  model.pattern = std::make_unique<SparsePattern>(
-      size, std::move(positions), dense ? SparsePattern::Storage::dense : SparsePattern::Storage::sparse);
+  model.solver = choose_solver(SparsePattern(size, positions, SparsePattern::Storage::sparse), solver);
+  model.pattern = std::make_unique<SparsePattern>(size, std::move(positions), solver_storage(model.solver.kind));
 
   for_each_map(model, [&model](ElementMap& map) { fill_slots(*model.pattern, map); });
   for (std::size_t j = 0; j < model.joints.size(); ++j)

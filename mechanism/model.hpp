@@ -16,6 +16,7 @@
 #include "mechanism/joints/coordinate.hpp"
 #include "mechanism/joints/joint.hpp"
 #include "mechanism/solver/linear_solver.hpp"
+#include "mechanism/solver/solver_choice.hpp"
 #include "mechanism/state.hpp"
 
 namespace tisserand::mechanism {
@@ -106,6 +107,7 @@ struct Model {
   Eigen::ArrayXd equation_scale;
   Eigen::ArrayXd value_scale;
   std::unique_ptr<SparsePattern> pattern;  ///< of [A Bᵀ; B 0], boundary coordinates then multipliers
+  SolverChoice solver;
 };
 
 /// "beam/tip, rotation y": velocity coordinate (boundary) or constraint row by name, for messages.

@@ -75,7 +75,7 @@ Run::Run(const formats::Scene& scene_to_run, const SuperelementFiles& files, con
     : scene(scene_to_run), control(run_control), built(build_model(scene_to_run, files)), workspace(built.model) {
   report.analysis = scene.analysis;
   report.notes = built.notes;
-  report.solver = workspace.solver.name();
+  report.solver = describe(built.model.solver);
   report.unknowns = built.model.pattern->size();
   report.nonzeros = built.model.pattern->nonzeros();
   report.effects = effects(built.model);

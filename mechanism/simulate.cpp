@@ -6,6 +6,7 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "formats/results.hpp"
+#include "mechanism/bdf_run.hpp"
 #include "mechanism/output.hpp"
 #include "mechanism/run.hpp"
 #include "mechanism/schedule.hpp"
@@ -44,20 +45,23 @@ void integrate(Run& run, RowWriter& out) {
     report.factorisations += step.factorisations;
     if (step.outcome != StepOutcome::accepted) {
       ++report.rejected;
+      if (step.outcome == StepOutcome::inaccurate) ++report.inaccurate;
       const std::string why =
           fmt::format("t = {:.6g}, step {:.3g}: {}", before, target.time - before, explain(model, step));
       if (report.rejections.size() < 20) report.rejections.push_back(why);
       const std::string load = nonfinite_load(run, target.load_time);
-      if (load.empty() && schedule.halve(before)) continue;
+      if (load.empty() && schedule.retry(before, step)) continue;
       report.outcome = RunOutcome::not_converged;
-      report.reason = load.empty()
-                          ? fmt::format("{} (after {} halvings of the step)", why, run.scene.integrator.max_halvings)
-                          : load + "; correct the formula or end the run before";
+      report.reason = load.empty() ? fmt::format("{} ({})", why, schedule.limit())
+                                   : load + "; correct the formula or end the run before";
       break;
     }
     ++report.steps;
     last = step;
     last_size = state.time() - before;
+    report.least_step = report.steps == 1 ? last_size : std::min(report.least_step, last_size);
+    report.greatest_step = std::max(report.greatest_step, last_size);
+    schedule.adapt(step, last_size, state);
     report.largest_constraint = std::max(report.largest_constraint, step.constraint);
     const Schedule::Event event = schedule.accept(state.time());
     if (event.output) write_row(run, step, last_size, out);
@@ -117,7 +121,10 @@ RunReport simulate(const formats::Scene& scene, const std::string& path, const R
   RowWriter out{row, writer};
   switch (scene.analysis) {
     case formats::AnalysisKind::dynamics:
-      integrate(run, out);
+      if (scene.integrator.method == formats::Method::bdf)
+        integrate_bdf(run, out);
+      else
+        integrate(run, out);
       break;
     case formats::AnalysisKind::statics:
       equilibrate(run, out);
@@ -125,6 +132,7 @@ RunReport simulate(const formats::Scene& scene, const std::string& path, const R
   }
   RunReport& report = run.report;
   report.results = path;
+  report.solver_health = run.workspace.solver.health();
   report.seconds_model = begin_start - begin_model;
   report.seconds_start = begin_steps - begin_start;
   report.seconds_steps = run.seconds() - begin_steps - report.seconds_output;

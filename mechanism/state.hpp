@@ -31,7 +31,7 @@ struct StateField {
 /// their rates and the algorithmic accelerations are [ẋ world; Ω material] per node, then ẏ.
 class State {
  public:
-  static constexpr int version = 2;
+  static constexpr int version = 3;
 
   explicit State(const Sizes& sizes);
 
@@ -62,6 +62,9 @@ class State {
   double load_power() const { return block_[scalars_ + 9]; }
   double& damping_power() { return block_[scalars_ + 10]; }
   double damping_power() const { return block_[scalars_ + 10]; }
+  /// What the error control proposes for the next step; 0: nothing yet.
+  double& next_step() { return block_[scalars_ + 11]; }
+  double next_step() const { return block_[scalars_ + 11]; }
 
   using Map = Eigen::Map<Eigen::VectorXd>;
   using ConstMap = Eigen::Map<const Eigen::VectorXd>;
@@ -100,7 +103,8 @@ class State {
   Sizes sizes_;
   std::vector<StateField> fields_;
   std::vector<double> block_;
-  int scalars_ = 0, x_ = 0, Q_ = 0, y_ = 0, v_ = 0, vdot_ = 0, a_ = 0, lambda_ = 0, frames_ = 0, hinges_ = 0, active_ = 0;
+  int scalars_ = 0, x_ = 0, Q_ = 0, y_ = 0, v_ = 0, vdot_ = 0, a_ = 0, lambda_ = 0, frames_ = 0, hinges_ = 0,
+      active_ = 0;
 };
 
 /// [w x y z] of Q, and back.
