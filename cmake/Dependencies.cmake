@@ -37,6 +37,18 @@ endfunction()
 
 dep_simple(suitesparse klu.h suitesparse klu btf umfpack spqr cholmod amd colamd suitesparseconfig)
 
+# Debian's libsundials-dev drags PETSc and MPI in as packages; libsundials_cvode itself links neither.
+find_path(cvode_header cvode/cvode.h)
+if(TISSERAND_CVODE STREQUAL "AUTO" AND NOT cvode_header)
+  set(has_cvode OFF)
+else()
+  set(has_cvode ${TISSERAND_CVODE})
+endif()
+if(has_cvode)
+  dep_simple(cvode cvode/cvode.h "" sundials_cvode sundials_nvecserial sundials_sunmatrixdense sundials_sunlinsoldense
+             sundials_sunlinsolspgmr)
+endif()
+
 set(BLA_VENDOR OpenBLAS)
 find_package(BLAS REQUIRED)
 find_package(LAPACK REQUIRED)

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "formats/geometry_reader.hpp"
+#include "formats/integrator_reader.hpp"
 #include "formats/scene_check.hpp"
 #include "formats/scene_keys.hpp"
 #include "formats/scene_reader.hpp"
@@ -22,42 +23,6 @@ RotationSpec read_rotation(const MapReader& map, const YamlNode& node) {
   if (inner.require("angular_velocity") != nullptr)
     spec.angular_velocity = read_vector(inner, "angular_velocity", spec.angular_velocity);
   spec.about = read_vector(inner, "about", spec.about);
-  return spec;
-}
-
-IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
-  IntegratorSpec spec;
-  spec.method = map.choice(
-      "method", {Choice<Method>{"generalised_alpha", Method::generalised_alpha}, {"hht", Method::hht}}, spec.method);
-  spec.rho = map.number("rho", spec.rho);
-  spec.alpha = map.number("alpha", spec.alpha);
-  if (const YamlNode* rho = map.find("rho"); rho != nullptr && spec.method == Method::hht)
-    map.context().fail(rho->key_place, "'rho' has no effect with method: hht",
-                       "give alpha, or method: generalised_alpha");
-  if (const YamlNode* alpha = map.find("alpha"); alpha != nullptr && spec.method == Method::generalised_alpha)
-    map.context().fail(alpha->key_place, "'alpha' has no effect with method: generalised_alpha",
-                       "give rho, or method: hht");
-  spec.formulation = map.choice(
-      "formulation",
-      {Choice<Formulation>{"index3", Formulation::index3}, {"stabilised_index2", Formulation::stabilised_index2}},
-      spec.formulation);
-  if (takes_steps(analysis)) {
-    spec.step = map.number("step");
-    spec.end = map.number("end");
-  } else {
-    spec.step = map.number("step", spec.step);
-    spec.end = map.number("end", spec.end);
-  }
-  spec.start = map.number("start", spec.start);
-  spec.tolerance = map.number("tolerance", spec.tolerance);
-  spec.constraint_tolerance = map.number("constraint_tolerance", spec.constraint_tolerance);
-  spec.max_iterations = map.integer("max_iterations", spec.max_iterations);
-  spec.max_halvings = map.integer("max_halvings", spec.max_halvings);
-  spec.linear_solver = map.choice("linear_solver",
-                                  {Choice<LinearSolver>{"auto", LinearSolver::automatic},
-                                   {"klu", LinearSolver::klu},
-                                   {"dense", LinearSolver::dense}},
-                                  spec.linear_solver);
   return spec;
 }
 

@@ -289,9 +289,29 @@ struct InputSpec {
   std::string where;
 };
 
-enum class Method { generalised_alpha, hht };
+enum class Method { generalised_alpha, hht, bdf };
 enum class Formulation { index3, stabilised_index2 };
-enum class LinearSolver { automatic, klu, dense };
+enum class LinearSolver { automatic, klu, umfpack, dense, qr };
+
+/// Steps of generalised alpha and HHT from their local error. Steps below `min_step` end the run; 0: 1e-12 and 1/10 of
+/// the whole time.
+struct ErrorControl {
+  bool active = false;
+  double tolerance = 1e-3;  ///< of positions at the end, relative to the characteristic length; of rotations [rad]
+  double absolute = 0.0;    ///< [length] added to the tolerance of positions
+  double min_step = 0.0;
+  double max_step = 0.0;
+};
+
+enum class Stabilisation { projection, baumgarte };
+
+/// Backward differentiation of variable order on the equations of index 1.
+struct BdfSpec {
+  double relative_tolerance = 1e-6;
+  double absolute_tolerance = 1e-8;  ///< positions relative to the characteristic length; velocities per unit of time
+  Stabilisation stabilisation = Stabilisation::projection;
+  double alpha = 5.0, beta = 5.0;  ///< [1/time] Φ̈ + 2 α Φ̇ + β² Φ = 0
+};
 
 struct IntegratorSpec {
   Method method = Method::generalised_alpha;
@@ -306,6 +326,8 @@ struct IntegratorSpec {
   int max_iterations = 20;
   int max_halvings = 10;
   LinearSolver linear_solver = LinearSolver::automatic;
+  ErrorControl error_control;
+  BdfSpec bdf;
 };
 
 /// Steady turn of the whole scene about an axis through a point, world frame.

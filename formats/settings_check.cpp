@@ -2,6 +2,7 @@
 #include "formats/settings_check.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "formats/name_check.hpp"
 #include "formats/results_blocks.hpp"
@@ -45,12 +46,30 @@ void check_times(const IntegratorSpec& spec, const Group& group) {
               "give a larger step");
 }
 
+void check_accuracy(const IntegratorSpec& spec, const Group& group) {
+  const ErrorControl& control = spec.error_control;
+  group.positive("error_control.tolerance", control.tolerance);
+  for (const auto& [key, value] : {std::pair{"error_control.absolute", control.absolute},
+                                   {"error_control.min_step", control.min_step},
+                                   {"error_control.max_step", control.max_step},
+                                   {"baumgarte.alpha", spec.bdf.alpha},
+                                   {"baumgarte.beta", spec.bdf.beta}})
+    if (!(value >= 0.0) || !std::isfinite(value))
+      group.add(key, fmt::format("{} {:g} must not be negative", key, value), "");
+  if (control.max_step > 0.0 && control.max_step < control.min_step)
+    group.add("error_control.max_step",
+              fmt::format("max_step {:g} is smaller than min_step {:g}", control.max_step, control.min_step), "");
+  group.positive("relative_tolerance", spec.bdf.relative_tolerance);
+  group.positive("absolute_tolerance", spec.bdf.absolute_tolerance);
+}
+
 /// The settings of the scene, or of one of its analyses, where that stands.
 void check_groups(const Scene& scene, const std::string& where, Faults& faults) {
   const Group integrator{where, "integrator", faults}, statics{where, "statics", faults},
       output{where, "output", faults};
   const IntegratorSpec& spec = scene.integrator;
   if (takes_steps(scene.analysis)) check_times(spec, integrator);
+  check_accuracy(spec, integrator);
   integrator.between("rho", spec.rho, 0.0, 1.0);
   integrator.between("alpha", spec.alpha, 0.0, 1.0 / 3.0);
   integrator.positive("tolerance", spec.tolerance);

@@ -253,7 +253,7 @@ Workspace::Workspace(const Model& model)
       bias(constraint),
       active(constraint),
       values(static_cast<std::size_t>(model.pattern->values()), 0.0),
-      solver(*model.pattern),
+      solver(*model.pattern, model.solver.kind),
       unknowns(Eigen::VectorXd::Zero(model.pattern->size())),
       increment(Eigen::VectorXd::Zero(model.sizes.velocities())),
       correction(increment),

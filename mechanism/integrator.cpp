@@ -9,6 +9,7 @@
 
 #include "mechanism/evaluate.hpp"
 #include "mechanism/newton.hpp"
+#include "mechanism/step_control.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -152,6 +153,37 @@ void accept(const Model& model, double step, State& state, Workspace& workspace)
   state.damping_power() = workspace.damping_power;
 }
 
+/// Local error of the step just solved. After a change of step, multipliers and accelerations of index 3 carry a
+/// transient along M⁻¹Bᵀ, which no shorter step removes ("Index 3 and a change of step" in DECISIONS.md): only the part
+/// of the error that the constraints admit counts there.
+LocalError local_error(const Model& model, const IntegratorSpec& options, double step, const State& state,
+                       Workspace& workspace) {
+  estimate_error(options, step, state, workspace.previous, workspace.increment);
+  if (options.formulation == Formulation::index3 && workspace.has_factors) {
+    apply_jacobian(model, workspace, workspace.increment, workspace.bias);
+    solve_correction(model, workspace.bias, workspace);
+    workspace.increment -= workspace.correction;
+  }
+  return measure_error(model, options, step, workspace.increment);
+}
+
+/// The solution of a step becomes the state, unless its error is too large.
+void finish(const Model& model, const IntegratorSpec& options, double step, State& state, Workspace& workspace,
+            StepReport& report) {
+  if (options.error_control.active) {
+    const LocalError error = local_error(model, options, step, state, workspace);
+    report.error_ratio = error.ratio;
+    if (!(error.ratio <= 1.0)) {
+      report.outcome = StepOutcome::inaccurate;
+      report.worst_coordinate = error.worst_coordinate;
+      report.worst_constraint = -1;
+      state.block() = workspace.previous.block();
+      return;
+    }
+  }
+  accept(model, step, state, workspace);
+}
+
 /// What the factors of a step are made of.
 struct IterationMatrix {
   TangentCoefficients coefficients;
@@ -248,6 +280,7 @@ bool iterate(const Iteration& it, Factors factors, State& state, Workspace& work
 AlphaParameters alpha_parameters(const IntegratorSpec& spec) {
   AlphaParameters p;
   switch (spec.method) {
+    case formats::Method::bdf:  // its start is that of generalised alpha
     case formats::Method::generalised_alpha:
       p.alpha_m = (2.0 * spec.rho - 1.0) / (spec.rho + 1.0);
       p.alpha_f = spec.rho / (spec.rho + 1.0);
@@ -280,7 +313,7 @@ StepReport advance(const Model& model, const IntegratorSpec& options, const Step
   const bool same = workspace.has_factors && workspace.factored == iteration.matrix.coefficients;
   if (same && reuse.fresh_left == 0) {
     if (iterate(iteration, Factors::kept, state, workspace, report)) {
-      accept(model, step, state, workspace);
+      finish(model, options, step, state, workspace, report);
       ++reuse.kept;
       return report;
     }
@@ -293,7 +326,7 @@ StepReport advance(const Model& model, const IntegratorSpec& options, const Step
   }
   report.outcome = StepOutcome::accepted;
   if (iterate(iteration, Factors::fresh, state, workspace, report)) {
-    accept(model, step, state, workspace);
+    finish(model, options, step, state, workspace, report);
     return report;
   }
   workspace.has_factors = false;
@@ -320,6 +353,8 @@ std::string explain(const Model& model, const StepReport& report) {
   switch (report.outcome) {
     case StepOutcome::accepted:
       return "accepted";
+    case StepOutcome::inaccurate:
+      return fmt::format("the local error is {:.2g} times the tolerance, worst at {}", report.error_ratio, place);
     case StepOutcome::singular:
       return fmt::format(
           "the iteration matrix is singular{}{}: a direction without mass, stiffness or constraint, or "

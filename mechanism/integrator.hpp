@@ -25,7 +25,7 @@ AlphaParameters alpha_parameters(const formats::IntegratorSpec& spec);
 /// c_m, c_c, c_k for an increment of h² β a_{n+1}.
 TangentCoefficients step_coefficients(const AlphaParameters& alpha, double step);
 
-enum class StepOutcome { accepted, singular, diverged, too_many_iterations };
+enum class StepOutcome { accepted, singular, diverged, too_many_iterations, inaccurate };
 
 /// What one step did. Ratios are measured values divided by their tolerance: at most 1 when accepted.
 struct StepReport {
@@ -34,6 +34,7 @@ struct StepReport {
   int factorisations = 0;
   double force_ratio = 0.0;
   double constraint_ratio = 0.0;
+  double error_ratio = 0.0;   ///< estimated local error, where the step is controlled
   double residual = 0.0;      ///< largest |r| of force rows, of moment rows / length
   double constraint = 0.0;    ///< largest |Φ| (positions, and angles times length)
   int worst_coordinate = -1;  ///< of the largest residual, when not accepted

@@ -12,9 +12,6 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Up to this size an iteration with new dense factors is faster than with KLU (tests/benchmarks, solvers_*).
-constexpr int dense_limit = 72;
-
 using Position = SparsePattern::Position;
 
 /// Visits (row, column) of the global matrix for each entry of the local one, column by column; absent ones are −1.
@@ -206,10 +203,8 @@ void finish_model(Model& model, formats::LinearSolver solver) {
     add_constraint(model.joint_maps[j], block_of(model, j), positions);
   for (std::size_t j = 0; j < model.couplings.size(); ++j)
     add_constraint(model.coupling_maps[j], block_of(model, model.couplings[j]), positions);
-  const bool dense =
-      solver == formats::LinearSolver::dense || (solver == formats::LinearSolver::automatic && size <= dense_limit);
-  model.pattern = std::make_unique<SparsePattern>(
-      size, std::move(positions), dense ? SparsePattern::Storage::dense : SparsePattern::Storage::sparse);
+  model.solver = choose_solver(SparsePattern(size, positions, SparsePattern::Storage::sparse), solver);
+  model.pattern = std::make_unique<SparsePattern>(size, std::move(positions), solver_storage(model.solver.kind));
 
   for_each_map(model, [&](ElementMap& map, const EntryFlags& entries) { fill_slots(*model.pattern, entries, map); });
   for (std::size_t j = 0; j < model.joints.size(); ++j)

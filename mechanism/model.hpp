@@ -21,6 +21,7 @@
 #include "mechanism/joints/friction.hpp"
 #include "mechanism/joints/joint.hpp"
 #include "mechanism/solver/linear_solver.hpp"
+#include "mechanism/solver/solver_choice.hpp"
 #include "mechanism/state.hpp"
 
 namespace tisserand::mechanism {
@@ -121,6 +122,7 @@ struct Model {
   Eigen::ArrayXd equation_scale;
   Eigen::ArrayXd value_scale;
   std::unique_ptr<SparsePattern> pattern;  ///< of [A Bᵀ; B 0], boundary coordinates then multipliers
+  SolverChoice solver;
 };
 
 /// Whether a joint or load can act on the position or the orientation of a node; ground (−1) has both.

@@ -31,6 +31,17 @@ bool has_balance(const RunReport& report) {
   return report.analysis == formats::AnalysisKind::dynamics && report.rows > 0;
 }
 
+nlohmann::ordered_json solver_json(const RunReport& report) {
+  const SolverHealth& health = report.solver_health;
+  return {{"name", report.solver},
+          {"unknowns", report.unknowns},
+          {"nonzeros", report.nonzeros},
+          {"least_reciprocal_condition", health.reciprocal_condition},
+          {"least_reciprocal_pivot_growth", health.reciprocal_growth},
+          {"largest_backward_error", health.backward_error},
+          {"refined_solutions", health.refined}};
+}
+
 }  // namespace
 
 std::string report_json(const RunReport& report) {
@@ -42,6 +53,9 @@ std::string report_json(const RunReport& report) {
   json["iterations"] = report.iterations;
   json["factorisations"] = report.factorisations;
   json["rejected_steps"] = report.rejected;
+  json["rejected_for_accuracy"] = report.inaccurate;
+  json["least_step"] = report.least_step;
+  json["greatest_step"] = report.greatest_step;
   json["rejections"] = report.rejections;
   json["largest_constraint_violation"] = report.largest_constraint;
   json["stored_instants"] = report.rows;
@@ -56,7 +70,7 @@ std::string report_json(const RunReport& report) {
                       {"rank", report.mobility.rank},
                       {"degrees_of_freedom", report.mobility.degrees_of_freedom}};
   json["initial_correction"] = {{"position", report.projection.position}, {"velocity", report.projection.velocity}};
-  json["linear_solver"] = {{"name", report.solver}, {"unknowns", report.unknowns}, {"nonzeros", report.nonzeros}};
+  json["linear_solver"] = solver_json(report);
   json["effects"] = report.effects;
   json["notes"] = report.notes;
   if (!report.table.empty()) json["table"] = {{"title", report.table_title}, {"lines", report.table}};
@@ -94,6 +108,10 @@ std::string report_text(const RunReport& report, const Units& units) {
     line("energy", fmt::format("largest balance error {:.2e} of the largest energy or work, at stored instants",
                                relative_balance(report)));
   line("constraints", fmt::format("largest violation {:.2e}", report.largest_constraint));
+  line("conditioning", fmt::format("least reciprocal condition {:.1e}, pivot growth {:.1e}, backward error {:.1e}, {} "
+                                   "solutions refined",
+                                   report.solver_health.reciprocal_condition, report.solver_health.reciprocal_growth,
+                                   report.solver_health.backward_error, report.solver_health.refined));
   if (!report.table.empty()) text += fmt::format("  {}\n", report.table_title);
   for (const std::string& row : report.table) text += fmt::format("    {}\n", row);
   line("seconds", fmt::format("{:.3f} model, {:.3f} start, {:.3f} steps, {:.3f} output", report.seconds_model,

@@ -103,7 +103,7 @@ Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunCo
       at_start(built.state) {
   report.analysis = scene.analysis;
   report.notes = built.notes;
-  report.solver = workspace.solver.name();
+  report.solver = describe(built.model.solver);
   report.unknowns = built.model.pattern->size();
   report.nonzeros = built.model.pattern->nonzeros();
   report.effects = effects(built.model);

@@ -5,9 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "common/error.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/initial.hpp"
+#include "mechanism/step_control.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -24,6 +27,11 @@ Schedule::Schedule(const formats::Scene& scene, const std::vector<double>& break
   round_off_ = instant_tolerance(integrator_.step, std::max(std::abs(integrator_.start), std::abs(integrator_.end)));
   while (breakpoint_ < breakpoints_.size() && breakpoints_[breakpoint_] <= integrator_.start + round_off_)
     ++breakpoint_;
+  proposal_ = std::min(integrator_.step, greatest_step(integrator_));
+}
+
+void Schedule::resume(const State& state) {
+  if (state.next_step() > 0.0) proposal_ = state.next_step();
 }
 
 bool Schedule::output_at_start() const { return integrator_.start >= output_.from - round_off_; }
@@ -31,6 +39,17 @@ bool Schedule::output_at_start() const { return integrator_.start >= output_.fro
 bool Schedule::reached(double time, double target) const { return time >= target - round_off_; }
 
 bool Schedule::finished(double time) const { return reached(time, integrator_.end); }
+
+double Schedule::controlled_end(double time) const {
+  double t = integrator_.end;
+  if (output_.interval) t = std::min(t, integrator_.start + static_cast<double>(rows_) * *output_.interval);
+  if (integrator_.end - t < round_off_) t = integrator_.end;
+  if (breakpoint_ < breakpoints_.size()) t = std::min(t, breakpoints_[breakpoint_]);
+  // The last two steps before an instant share what is left, so that none is tiny.
+  const double left = t - time;
+  if (left <= proposal_ * (1.0 + 1e-9)) return t;
+  return time + (left < 2.0 * proposal_ ? 0.5 * left : proposal_);
+}
 
 double Schedule::target() const {
   double t = std::min(integrator_.start + static_cast<double>(grid_) * integrator_.step, integrator_.end);
@@ -40,7 +59,7 @@ double Schedule::target() const {
 }
 
 StepEnd Schedule::next(double time) const {
-  double t = target();
+  double t = controlled() ? controlled_end(time) : target();
   if (fraction_ > 0.0 && time + fraction_ < t - round_off_) t = time + fraction_;
   const bool at_breakpoint = breakpoint_ < breakpoints_.size() && reached(t, breakpoints_[breakpoint_]);
   return {t, at_breakpoint ? t - instant_tolerance(integrator_.step, t) : t};
@@ -53,6 +72,42 @@ bool Schedule::halve(double time) {
   return true;
 }
 
+bool Schedule::retry(double time, const StepReport& report) {
+  if (!controlled()) return halve(time);
+  const double size = next(time).time - time;
+  proposal_ = shorter_step(size, report.outcome == StepOutcome::inaccurate ? report.error_ratio : 0.0);
+  retried_ = true;
+  return proposal_ >= least_step(integrator_);
+}
+
+std::string Schedule::limit() const {
+  return controlled() ? fmt::format("a step below min_step, {:.3g}", least_step(integrator_))
+                      : fmt::format("after {} halvings of the step", integrator_.max_halvings);
+}
+
+void Schedule::adapt(const StepReport& report, double size, State& state) {
+  if (!controlled()) return;
+  const double next = next_step(integrator_, size, report.error_ratio);
+  // A step cut short by an instant tells nothing against the longer one that was to come; but no step is more than
+  // twice the one before, whose errors the rebuilt acceleration would multiply.
+  const bool cut = size < proposal_ * (1.0 - 1e-9);
+  const double longer = cut && next >= size ? std::min(std::max(next, proposal_), 2.0 * size) : next;
+  proposal_ = retried_ ? std::min(next, size) : longer;
+  retried_ = false;
+  state.next_step() = proposal_;
+}
+
+bool Schedule::output_due(double time, bool on_grid) {
+  if (!output_.interval) {
+    const bool due = (on_grid && grid_ % output_.every == 0) || finished(time);
+    return due && time >= output_.from - round_off_;
+  }
+  const double due = integrator_.start + static_cast<double>(rows_) * *output_.interval;
+  const bool now = reached(time, due) || finished(time);
+  while (reached(time, integrator_.start + static_cast<double>(rows_) * *output_.interval)) ++rows_;
+  return now && time >= output_.from - round_off_;
+}
+
 Schedule::Event Schedule::accept(double time) {
   Event event;
   if (breakpoint_ < breakpoints_.size() && reached(time, breakpoints_[breakpoint_])) {
@@ -60,22 +115,12 @@ Schedule::Event Schedule::accept(double time) {
     while (breakpoint_ < breakpoints_.size() && reached(time, breakpoints_[breakpoint_])) ++breakpoint_;
   }
   const double grid = integrator_.start + static_cast<double>(grid_) * integrator_.step;
-  const bool on_grid = reached(time, std::min(grid, integrator_.end));
+  const bool on_grid = controlled() || reached(time, std::min(grid, integrator_.end));
   if (on_grid) {
     halvings_ = 0;
     fraction_ = 0.0;
   }
-  if (time >= output_.from - round_off_) {
-    if (output_.interval) {
-      const double due = integrator_.start + static_cast<double>(rows_) * *output_.interval;
-      event.output = reached(time, due) || finished(time);
-      while (reached(time, integrator_.start + static_cast<double>(rows_) * *output_.interval)) ++rows_;
-    } else {
-      event.output = on_grid && (grid_ % output_.every == 0 || finished(time));
-    }
-  } else if (output_.interval) {
-    while (reached(time, integrator_.start + static_cast<double>(rows_) * *output_.interval)) ++rows_;
-  }
+  event.output = output_due(time, on_grid);
   if (on_grid) ++grid_;
   return event;
 }

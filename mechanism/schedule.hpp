@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "formats/scene.hpp"
@@ -12,8 +13,8 @@
 
 namespace tisserand::mechanism {
 
-/// Steps end at start + k·step, at breakpoints and at the end; after a failure the step is divided by 2, 4, ... until
-/// the next point of the grid.
+/// Fixed steps end at start + k·step, at breakpoints and at the end; after a failure the step is divided by 2, 4, ...
+/// until the next point of the grid. Steps with error control end at breakpoints, at instants of output and at the end.
 class Schedule {
  public:
   Schedule(const formats::Scene& scene, const std::vector<double>& breakpoints);
@@ -22,8 +23,15 @@ class Schedule {
   bool finished(double time) const;
   /// End of the step that starts at `time`.
   StepEnd next(double time) const;
-  /// Halves the step from `time`; false if that was done max_halvings times already.
-  bool halve(double time);
+  /// The step from `time` failed: a shorter one is next (without error control half of it); false if there is none:
+  /// after max_halvings, or below the smallest step.
+  bool retry(double time, const StepReport& report);
+  /// What stands in the way of a shorter step: "after 10 halvings of the step".
+  std::string limit() const;
+  /// With error control: the step of the given size was accepted; its error gives the next one, which the state keeps.
+  void adapt(const StepReport& report, double size, State& state);
+  /// Goes on from a stored state with the step that it proposes.
+  void resume(const State& state);
 
   struct Event {
     bool output = false;
@@ -40,7 +48,11 @@ class Schedule {
 
  private:
   bool reached(double time, double target) const;
+  bool controlled() const { return integrator_.error_control.active; }
   double target() const;
+  double controlled_end(double time) const;
+  bool halve(double time);
+  bool output_due(double time, bool on_grid);
 
   formats::IntegratorSpec integrator_;
   formats::OutputSpec output_;
@@ -51,6 +63,8 @@ class Schedule {
   int halvings_ = 0;
   double fraction_ = 0.0;  ///< step after halving, 0: to the target
   long rows_ = 1;          ///< output instants passed (interval)
+  double proposal_ = 0.0;  ///< next step (error control)
+  bool retried_ = false;   ///< the present step was shortened: the next one is no longer
 };
 
 /// Work, dissipation and energy start from zero here.

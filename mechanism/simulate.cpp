@@ -7,6 +7,7 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "formats/results.hpp"
+#include "mechanism/bdf_run.hpp"
 #include "mechanism/checkpoint.hpp"
 #include "mechanism/output.hpp"
 #include "mechanism/run.hpp"
@@ -48,20 +49,23 @@ void integrate(Run& run, RowWriter& out) {
     report.factorisations += step.factorisations;
     if (step.outcome != StepOutcome::accepted) {
       ++report.rejected;
+      if (step.outcome == StepOutcome::inaccurate) ++report.inaccurate;
       const std::string why =
           fmt::format("t = {:.6g}, step {:.3g}: {}", before, target.time - before, explain(model, step));
       if (report.rejections.size() < 20) report.rejections.push_back(why);
       const std::string load = nonfinite_load(run, target.load_time);
-      if (load.empty() && schedule.halve(before)) continue;
+      if (load.empty() && schedule.retry(before, step)) continue;
       report.outcome = RunOutcome::not_converged;
-      report.reason = load.empty()
-                          ? fmt::format("{} (after {} halvings of the step)", why, run.scene.integrator.max_halvings)
-                          : load + "; correct the formula or end the run before";
+      report.reason = load.empty() ? fmt::format("{} ({})", why, schedule.limit())
+                                   : load + "; correct the formula or end the run before";
       break;
     }
     ++report.steps;
     last = step;
     last_size = state.time() - before;
+    report.least_step = report.steps == 1 ? last_size : std::min(report.least_step, last_size);
+    report.greatest_step = std::max(report.greatest_step, last_size);
+    schedule.adapt(step, last_size, state);
     report.largest_constraint = std::max(report.largest_constraint, step.constraint);
     const Schedule::Event event = schedule.accept(state.time());
     if (event.output) write_row(run, step, last_size, out);
@@ -130,7 +134,10 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
   RowWriter out{row, writer, request.path};
   switch (run.scene.analysis) {
     case formats::AnalysisKind::dynamics:
-      integrate(run, out);
+      if (run.scene.integrator.method == formats::Method::bdf)
+        integrate_bdf(run, out);
+      else
+        integrate(run, out);
       break;
     case formats::AnalysisKind::statics:
       equilibrate(run, out);
@@ -148,6 +155,7 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
   }
   RunReport& report = run.report;
   report.results = request.path;
+  report.solver_health = run.workspace.solver.health();
   report.seconds_model = begin_start - begin_model;
   report.seconds_start = begin_steps - begin_start;
   report.seconds_steps = run.seconds() - begin_steps - report.seconds_output;

@@ -33,7 +33,9 @@ struct RunReport {
   long steps = 0;
   long iterations = 0;
   long factorisations = 0;
-  long rejected = 0;                    ///< steps taken again with half the size
+  long rejected = 0;    ///< steps taken again with half the size
+  long inaccurate = 0;  ///< of these, steps whose local error was too large
+  double least_step = 0.0, greatest_step = 0.0;
   std::vector<std::string> rejections;  ///< the first ones: when and why
   double largest_constraint = 0.0;      ///< over all steps
   long rows = 0;                        ///< stored instants
@@ -48,6 +50,7 @@ struct RunReport {
   std::vector<std::string> notes;
   std::vector<std::string> effects;  ///< what the model contains: pools and terms that are on
   std::string solver;
+  SolverHealth solver_health;
   int unknowns = 0, nonzeros = 0;
   double seconds_model = 0.0, seconds_start = 0.0, seconds_steps = 0.0, seconds_output = 0.0;
 };

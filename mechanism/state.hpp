@@ -65,6 +65,9 @@ class State {
   double load_power() const { return block_[scalars_ + 9]; }
   double& damping_power() { return block_[scalars_ + 10]; }
   double damping_power() const { return block_[scalars_ + 10]; }
+  /// What the error control proposes for the next step; 0: nothing yet.
+  double& next_step() { return block_[scalars_ + 11]; }
+  double next_step() const { return block_[scalars_ + 11]; }
 
   using Map = Eigen::Map<Eigen::VectorXd>;
   using ConstMap = Eigen::Map<const Eigen::VectorXd>;

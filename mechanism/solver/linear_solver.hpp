@@ -3,73 +3,59 @@
 
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
+
+#include "mechanism/solver/sparse_pattern.hpp"
 
 namespace tisserand::mechanism {
 
-/// Compressed columns of an n x n matrix. Dense storage: every position exists, slot(i, j) = i + j n.
-class SparsePattern {
- public:
-  enum class Storage { sparse, dense };
+/// What solves the systems of a model. `dense`: LU of our own for small systems, LAPACK's above.
+enum class SolverKind { klu, umfpack, dense, lapack, qr };
 
-  /// Positions may repeat; they are merged.
-  struct Position {
-    int row;
-    int column;
-  };
-  SparsePattern(int size, std::vector<Position> positions, Storage storage);
+/// "KLU", "UMFPACK", "dense LU", "dense LU (LAPACK)", "sparse QR".
+const char* solver_name(SolverKind kind);
+SparsePattern::Storage solver_storage(SolverKind kind);
 
-  int size() const { return size_; }
-  Storage storage() const { return storage_; }
-  /// Number of stored values.
-  int values() const { return values_; }
-  /// Structural nonzeros (also for dense storage).
-  int nonzeros() const { return nonzeros_; }
-  /// Index into the values of position (row, column), which must be in the pattern.
-  int slot(int row, int column) const;
-
-  const std::vector<int>& column_start() const { return column_start_; }
-  const std::vector<int>& rows() const { return rows_; }
-
- private:
-  int size_ = 0;
-  Storage storage_ = Storage::sparse;
-  int values_ = 0;
-  int nonzeros_ = 0;
-  std::vector<int> column_start_;
-  std::vector<int> rows_;
-};
-
-/// Outcome of a numeric factorisation. condition: estimate of the 1-norm condition by the ratio of pivots.
+/// Outcome of a numeric factorisation.
 struct FactorReport {
   bool regular = false;
-  double reciprocal_condition = 0.0;
-  int singular_column = -1;  ///< where the elimination broke down, if known
+  double reciprocal_condition = 0.0;  ///< cheap estimate: least over largest pivot (of QR: diagonal entry of R)
+  int singular_column = -1;           ///< where the elimination broke down, if known
+  double reciprocal_growth = 1.0;     ///< least of max|a_j|/max|u_j| over the columns; 1 where it is not looked at
 };
 
-/// The only door to SuiteSparse (KLU); small dense systems are solved here. No allocation in numeric() and solve()
-/// after the first numeric().
+/// The worst that a solver has seen since it was made. Looked at for factorisations 1, 2, 4, 8, ... and for those
+/// whose pivots look poor.
+struct SolverHealth {
+  double reciprocal_condition = 1.0;  ///< least 1/(|A|₁ |A⁻¹|₁), the second norm estimated
+  double reciprocal_growth = 1.0;     ///< least reciprocal growth of pivots; 1 with QR and UMFPACK, which do not tell
+  double backward_error = 0.0;        ///< largest |b − A x|∞/(max|a| |x|₁ + |b|∞), before refinement
+  long refined = 0;                   ///< solutions improved by a step of iterative refinement
+};
+
+/// The only door to KLU, UMFPACK, SuiteSparseQR and LAPACK. No allocation in numeric() and solve() after the first
+/// numeric(), except inside UMFPACK and SuiteSparseQR, which have no other way.
 class LinearSolver {
  public:
-  explicit LinearSolver(const SparsePattern& pattern);  ///< symbolic
+  LinearSolver(const SparsePattern& pattern, SolverKind kind);  ///< symbolic; storage of the pattern: solver_storage()
   ~LinearSolver();
   LinearSolver(LinearSolver&&) noexcept;
   LinearSolver& operator=(LinearSolver&&) noexcept;
 
+  /// `values` must stay as they are until the last solve().
   [[nodiscard]] FactorReport numeric(std::span<const double> values);
-  /// In place.
-  void solve(std::span<double> right_hand_side) const;
-  /// Forgets pivots and factors, so that the next numeric() does what the first did.
+  /// In place; with one step of iterative refinement where the backward error of these factors exceeds 1e-13.
+  void solve(std::span<double> right_hand_side);
+  /// Forgets pivots and factors, so that the next numeric() does what the first did. Counts of health stay.
   void forget();
 
-  const char* name() const;
+  SolverKind kind() const;
+  const SolverHealth& health() const;
 
  private:
-  struct Klu;
-  struct Dense;
-  const SparsePattern* pattern_;
-  std::unique_ptr<Klu> klu_;
-  std::unique_ptr<Dense> dense_;
+  struct Engine;
+  std::unique_ptr<Engine> engine_;
 };
 
 }  // namespace tisserand::mechanism

@@ -101,6 +101,8 @@ const std::array kLibraryRules = {
     LibraryRule{"^(suitesparse/)?klu\\.h", "^mechanism/.*", 1, "KLU stays in one file of mechanism"},
     LibraryRule{"^(suitesparse/)?(cholmod|umfpack|amd|colamd|SuiteSparse.*)\\.h.*", "^mechanism/solver/.*", 3,
                 "SuiteSparse stays in mechanism/solver"},
+    LibraryRule{"^(cvode|nvector|sundials|sunlinsol|sunmatrix)/.*", "^mechanism/.*", 1,
+                "SUNDIALS stays in one file of mechanism"},
     LibraryRule{"^CLI/.*", "^(reducer|mechanism)/main\\.cpp", kAny, "only main.cpp sees the command-line parser"},
     LibraryRule{"^(hdf5|H5).*\\.h.*", "^(tests/)?formats/.*", kAny, "HDF5 stays in formats"},
     LibraryRule{"^yaml-cpp/.*", "^(tests/)?formats/.*", kAny, "yaml-cpp stays in formats"},

@@ -75,6 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"mechanism/gmsh.cpp", "#include <gmsh.h>\n", "gmsh stays in reducer/gmsh"},
         Planted{"mechanism/solver/other.cpp", "#include <suitesparse/klu.h>\n", "KLU stays in one file"},
         Planted{"mechanism/x.cpp", "#include <cholmod.h>\n", "SuiteSparse stays in mechanism/solver"},
+        Planted{"reducer/x.cpp", "#include <cvode/cvode.h>\n", "SUNDIALS stays in one file"},
         Planted{"mechanism/x.cpp", "#include <CLI/App.hpp>\n", "only main.cpp sees"},
         Planted{"reducer/x.cpp", "#  include <hdf5.h>\n", "HDF5 stays in formats"},
         Planted{"mechanism/x.hpp", "#include <yaml-cpp/yaml.h>\n", "yaml-cpp stays in formats"},

@@ -140,7 +140,7 @@ Cost run_and_visit(const Case& input, Visit visit) {
     cost.factorisations += step.factorisations;
     if (step.outcome != mechanism::StepOutcome::accepted) {
       ++cost.rejected;
-      if (!schedule.halve(before)) throw std::runtime_error(mechanism::explain(built.model, step));
+      if (!schedule.retry(before, step)) throw std::runtime_error(mechanism::explain(built.model, step));
       continue;
     }
     ++cost.steps;

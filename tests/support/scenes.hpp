@@ -126,15 +126,17 @@ class Simulation {
     while (true) {
       const double before = state().time();
       report = mechanism::advance(built.model, scene.integrator, schedule.next(before), state(), workspace);
+      schedule_size = state().time() - before;
       iterations += report.iterations;
       factorisations += report.factorisations;
       if (report.outcome == mechanism::StepOutcome::accepted) break;
       ++rejected;
       failure = mechanism::explain(built.model, report);
-      if (!schedule.halve(before)) return false;
+      if (!schedule.retry(before, report)) return false;
     }
     ++steps;
     largest_constraint = std::max(largest_constraint, report.constraint);
+    schedule.adapt(report, schedule_size, state());
     if (schedule.accept(state().time()).breakpoint) mechanism::pass_breakpoint(built.model, scene, state(), workspace);
     return true;
   }
@@ -183,7 +185,7 @@ class Simulation {
   mechanism::StartReport started;
   mechanism::StepReport report;
   long steps = 0, iterations = 0, factorisations = 0, rejected = 0;
-  double largest_constraint = 0.0;
+  double largest_constraint = 0.0, schedule_size = 0.0;
   std::string failure;
 };
 

@@ -8,6 +8,7 @@
 
 #include "common/rotation.hpp"
 #include "mechanism/statics.hpp"
+#include "tests/support/andrews.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace tisserand::mechanism {
@@ -15,20 +16,15 @@ namespace {
 
 using Eigen::Vector3d;
 using formats::JointKind;
+using test_support::Andrews;
+using test_support::andrews;
+using test_support::body_at;
 using test_support::empty_scene;
 using test_support::joint;
 using test_support::rigid_body;
 using test_support::Simulation;
 
 const Vector3d z = Vector3d::UnitZ();
-
-/// A body whose centre of mass is at `center` at the start, with world axes.
-formats::RigidBodySpec body_at(const std::string& name, double mass, const Vector3d& center,
-                               const Vector3d& principal_inertia) {
-  formats::RigidBodySpec body = rigid_body(name, mass, Vector3d::Zero(), principal_inertia);
-  body.start.pose.position = center;
-  return body;
-}
 
 double coordinate(Simulation& run, const std::string& name) {
   evaluate(run.model(), run.state(), run.workspace);
@@ -109,67 +105,6 @@ TEST(FourBar, RedundantRowsAreCounted) {
 }
 
 // ---- Andrews' squeezing mechanism (Schiehlen 1990; IVP test set, F. Mazzia) ---------------------------------------
-
-struct Andrews {
-  static constexpr double d = 0.028, da = 0.0115, e = 0.02, ea = 0.01421, zf = 0.02, zt = 0.04, fa = 0.01421,
-                          rr = 0.007, ra = 0.00092, ss = 0.035, sa = 0.01874, sb = 0.01043, sc = 0.018, sd = 0.02,
-                          ta = 0.02308, tb = 0.00916, u = 0.04, ua = 0.01228, ub = 0.00449;
-  static constexpr double be = -0.0617138900142764496, th = 0.0, ga = 0.455279819163070380, ph = 0.222668390165885884,
-                          de = 0.487364979543842550, om = -0.222668390165885884, ep = 1.23054744454982119;
-  static constexpr std::array<double, 7> mass{0.04325, 0.00365, 0.02373, 0.00706, 0.07050, 0.00706, 0.05498};
-  static constexpr std::array<double, 7> inertia{2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5};
-  inline static const Vector3d A{-0.06934, -0.00227, 0}, B{-0.03635, 0.03273, 0}, C{0.014, 0.072, 0};
-};
-
-formats::Scene andrews(double step) {
-  using M = Andrews;
-  const auto c = [](double a) { return std::cos(a); };
-  const auto s = [](double a) { return std::sin(a); };
-  const std::array<Vector3d, 7> center{
-      Vector3d(M::ra * c(M::be), M::ra * s(M::be), 0),
-      Vector3d(M::rr * c(M::be) - M::da * c(M::be + M::th), M::rr * s(M::be) - M::da * s(M::be + M::th), 0),
-      M::B + Vector3d(M::sa * s(M::ga) + M::sb * c(M::ga), -M::sa * c(M::ga) + M::sb * s(M::ga), 0),
-      M::A + Vector3d(M::zt * c(M::de) + (M::e - M::ea) * s(M::ph + M::de),
-                      M::zt * s(M::de) - (M::e - M::ea) * c(M::ph + M::de), 0),
-      M::A + Vector3d(M::ta * c(M::de) - M::tb * s(M::de), M::ta * s(M::de) + M::tb * c(M::de), 0),
-      M::A + Vector3d(M::u * s(M::ep) + (M::zf - M::fa) * c(M::om + M::ep),
-                      -M::u * c(M::ep) + (M::zf - M::fa) * s(M::om + M::ep), 0),
-      M::A + Vector3d(M::ua * s(M::ep) - M::ub * c(M::ep), -M::ua * c(M::ep) - M::ub * s(M::ep), 0)};
-  const Vector3d F(M::rr * c(M::be), M::rr * s(M::be), 0);
-  const Vector3d E = M::B + Vector3d(M::ss * s(M::ga), -M::ss * c(M::ga), 0);
-  const Vector3d G = M::A + Vector3d(M::zt * c(M::de), M::zt * s(M::de), 0);
-  const Vector3d H = M::A + Vector3d(M::u * s(M::ep), -M::u * c(M::ep), 0);
-  const Vector3d D = M::B + Vector3d(M::sc * s(M::ga) + M::sd * c(M::ga), -M::sc * c(M::ga) + M::sd * s(M::ga), 0);
-
-  formats::Scene scene = empty_scene(step, 0.05);
-  for (std::size_t i = 0; i < 7; ++i)
-    scene.bodies.push_back(
-        body_at("k" + std::to_string(i + 1), M::mass[i], center[i], Vector3d::Constant(M::inertia[i])));
-  const auto hinge = [&scene](const std::string& name, const std::string& a, const std::string& b, const Vector3d& p) {
-    scene.joints.push_back(joint(name, JointKind::revolute, a, b, p, z));
-  };
-  hinge("O", "ground", "k1", Vector3d::Zero());
-  hinge("F", "k1", "k2", F);
-  hinge("E3", "k2", "k3", E);
-  hinge("E4", "k2", "k4", E);
-  hinge("E6", "k2", "k6", E);
-  hinge("B", "ground", "k3", M::B);
-  hinge("G", "k4", "k5", G);
-  hinge("H", "k6", "k7", H);
-  hinge("A5", "ground", "k5", M::A);
-  hinge("A7", "ground", "k7", M::A);
-  formats::SpringSpec spring;
-  spring.name = "spring";
-  spring.a.node = "ground";
-  spring.a.position = M::C;
-  spring.b.node = "k3";
-  spring.b.position = D - center[2];
-  spring.stiffness = 4530.0;
-  spring.free = 0.07785;
-  scene.springs.push_back(spring);
-  scene.loads.push_back(test_support::constant_load("motor", formats::LoadKind::moment, "k1", {0, 0, 0.033}));
-  return scene;
-}
 
 // beta(0.03 s) = 15.81077119629904, published reference solution of the IVP test set (deTestSet, Ex_andrews.f); the
 // crank reaches 1140 rad/s. Order 2, and at the finest step 1e-4 relative.

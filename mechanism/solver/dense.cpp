@@ -1,0 +1,147 @@
+// Dense LU behind the back-end shape: a small one of our own, and LAPACK's.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include "mechanism/bodies/column_kernels.hpp"
+#include "mechanism/solver/back_ends.hpp"
+
+extern "C" {
+void dgetrf_(const int* m, const int* n, double* a, const int* lda, int* ipiv, int* info);
+void dgetrs_(const char* trans, const int* n, const int* nrhs, const double* a, const int* lda, const int* ipiv,
+             double* b, const int* ldb, int* info);
+}
+
+namespace tisserand::mechanism::back_end {
+namespace {
+
+/// y -= factor x in the registers that hold rows begin ... end - 1.
+void subtract(double factor, const double* x, int begin, int end, double* y) {
+  using column_kernels::load, column_kernels::store;
+  for (int i = begin / 4 * 4; i < end; i += 4) store(y + i, load(y + i) - factor * load(x + i));
+}
+
+double largest(const double* column, int size) {
+  return Eigen::Map<const Eigen::ArrayXd>(column, size).abs().maxCoeff();
+}
+
+}  // namespace
+
+SmallDense::SmallDense(const SparsePattern& pattern)
+    : n_(pattern.size()),
+      rows_((n_ + 3) / 4 * 4),
+      lower_(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(n_), 0.0),
+      upper_(lower_),
+      diagonal_(static_cast<std::size_t>(n_), 0.0),
+      exchange_(static_cast<std::size_t>(n_), 0),
+      work_(static_cast<std::size_t>(rows_), 0.0) {}
+
+/// Brings the largest entry of column k to row k, in L and in what is left of the matrix.
+void SmallDense::exchange_rows(int k) {
+  const double* a = upper_column(k);
+  int pivot = k;
+  for (int i = k + 1; i < n_; ++i)
+    if (std::abs(a[i]) > std::abs(a[pivot])) pivot = i;
+  exchange_[static_cast<std::size_t>(k)] = pivot;
+  if (pivot == k) return;
+  for (int j = 0; j < k; ++j) std::swap(lower_column(j)[k], lower_column(j)[pivot]);
+  for (int j = k; j < n_; ++j) std::swap(upper_column(j)[k], upper_column(j)[pivot]);
+}
+
+FactorReport SmallDense::factor(const SparsePattern&, const double* values) {
+  for (int j = 0; j < n_; ++j) std::copy_n(values + static_cast<std::ptrdiff_t>(n_) * j, n_, upper_column(j));
+  double smallest = std::numeric_limits<double>::infinity(), greatest = 0.0;
+  int weakest = -1;
+  for (int k = 0; k < n_; ++k) {
+    exchange_rows(k);
+    double *u = upper_column(k), *l = lower_column(k);
+    const double pivot = u[k], size = std::abs(pivot);
+    if (!(size > 0.0) || !std::isfinite(size)) return {false, 0.0, k, 1.0};
+    if (size < smallest) {
+      smallest = size;
+      weakest = k;
+    }
+    greatest = std::max(greatest, size);
+    diagonal_[static_cast<std::size_t>(k)] = 1.0 / pivot;
+    std::fill_n(l, k + 1, 0.0);
+    for (int i = k + 1; i < n_; ++i) l[i] = u[i] / pivot;
+    std::fill_n(u + k, n_ - k, 0.0);
+    for (int j = k + 1; j < n_; ++j)
+      if (const double entry = upper_column(j)[k]; entry != 0.0) subtract(entry, l, k + 1, n_, upper_column(j));
+  }
+  const double ratio = smallest / greatest;
+  return {ratio > 0.0, ratio, ratio > 0.0 ? -1 : weakest, 1.0};
+}
+
+void SmallDense::solve(const SparsePattern&, const double*, double* b) {
+  std::copy_n(b, n_, work_.data());
+  for (int k = 0; k < n_; ++k)
+    std::swap(work_[static_cast<std::size_t>(k)],
+              work_[static_cast<std::size_t>(exchange_[static_cast<std::size_t>(k)])]);
+  for (int k = 0; k < n_; ++k) subtract(work_[static_cast<std::size_t>(k)], lower_column(k), k + 1, n_, work_.data());
+  for (int k = n_ - 1; k >= 0; --k) {
+    const double x = work_[static_cast<std::size_t>(k)] * diagonal_[static_cast<std::size_t>(k)];
+    subtract(x, upper_column(k), 0, k, work_.data());
+    b[k] = x;
+  }
+}
+
+void SmallDense::solve_transposed(const SparsePattern&, const double*, double* b) {
+  using ConstMap = Eigen::Map<const Eigen::VectorXd>;
+  for (int k = 0; k < n_; ++k)  // Uᵀ
+    b[k] = (b[k] - ConstMap(upper_column(k), k).dot(ConstMap(b, k))) * diagonal_[static_cast<std::size_t>(k)];
+  for (int k = n_ - 1; k >= 0; --k)  // Lᵀ
+    b[k] -= ConstMap(lower_column(k) + k + 1, n_ - k - 1).dot(ConstMap(b + k + 1, n_ - k - 1));
+  for (int k = n_ - 1; k >= 0; --k) std::swap(b[k], b[exchange_[static_cast<std::size_t>(k)]]);
+}
+
+double SmallDense::reciprocal_growth(const SparsePattern&, const double* values) {
+  double growth = 1.0;
+  for (int j = 0; j < n_; ++j) {
+    const double u = std::max(largest(upper_column(j), n_), 1.0 / std::abs(diagonal_[static_cast<std::size_t>(j)]));
+    growth = std::min(growth, largest(values + static_cast<std::ptrdiff_t>(n_) * j, n_) / u);
+  }
+  return growth;
+}
+
+Lapack::Lapack(const SparsePattern& pattern)
+    : n_(pattern.size()),
+      factors_(static_cast<std::size_t>(n_) * static_cast<std::size_t>(n_), 0.0),
+      exchange_(static_cast<std::size_t>(n_), 0) {}
+
+FactorReport Lapack::factor(const SparsePattern&, const double* values) {
+  std::copy_n(values, factors_.size(), factors_.data());
+  int info = 0;
+  dgetrf_(&n_, &n_, factors_.data(), &n_, exchange_.data(), &info);
+  if (info > 0) return {false, 0.0, info - 1, 1.0};
+  const auto pivots = Eigen::Map<const Eigen::MatrixXd>(factors_.data(), n_, n_).diagonal().array().abs();
+  Eigen::Index weakest = 0;
+  const double ratio = pivots.minCoeff(&weakest) / pivots.maxCoeff();
+  return {ratio > 0.0, ratio, ratio > 0.0 ? -1 : static_cast<int>(weakest), 1.0};
+}
+
+void Lapack::solve(const SparsePattern&, const double*, double* b) {
+  const int one = 1;
+  int info = 0;
+  dgetrs_("N", &n_, &one, factors_.data(), &n_, exchange_.data(), b, &n_, &info);
+}
+
+void Lapack::solve_transposed(const SparsePattern&, const double*, double* b) {
+  const int one = 1;
+  int info = 0;
+  dgetrs_("T", &n_, &one, factors_.data(), &n_, exchange_.data(), b, &n_, &info);
+}
+
+double Lapack::reciprocal_growth(const SparsePattern&, const double* values) {
+  double growth = 1.0;
+  for (int j = 0; j < n_; ++j) {
+    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(n_) * j;
+    growth = std::min(growth, largest(values + at, n_) / largest(factors_.data() + at, j + 1));
+  }
+  return growth;
+}
+
+}  // namespace tisserand::mechanism::back_end

@@ -1,0 +1,41 @@
+// Where the values of a matrix stand: compressed columns, fixed when the model is built.
+#pragma once
+
+#include <vector>
+
+namespace tisserand::mechanism {
+
+/// Compressed columns of an n x n matrix. Dense storage: every position exists, slot(i, j) = i + j n.
+class SparsePattern {
+ public:
+  enum class Storage { sparse, dense };
+
+  /// Positions may repeat; they are merged.
+  struct Position {
+    int row;
+    int column;
+  };
+  SparsePattern(int size, std::vector<Position> positions, Storage storage);
+
+  int size() const { return size_; }
+  Storage storage() const { return storage_; }
+  /// Number of stored values.
+  int values() const { return values_; }
+  /// Structural nonzeros (also for dense storage).
+  int nonzeros() const { return nonzeros_; }
+  /// Index into the values of position (row, column), which must be in the pattern.
+  int slot(int row, int column) const;
+
+  const std::vector<int>& column_start() const { return column_start_; }
+  const std::vector<int>& rows() const { return rows_; }
+
+ private:
+  int size_ = 0;
+  Storage storage_ = Storage::sparse;
+  int values_ = 0;
+  int nonzeros_ = 0;
+  std::vector<int> column_start_;
+  std::vector<int> rows_;
+};
+
+}  // namespace tisserand::mechanism
