@@ -231,8 +231,8 @@ TEST(ModalMotion, SmallDeformationsAgreeWithSuperelementAndNonlinearBeams) {
   beam.section.second_moment_y = beam.section.second_moment_z = properties.I;
   beam.section.torsion_constant = beam.section.polar_moment = 2.0 * properties.I;
   beam.section.shear_area_y = beam.section.shear_area_z = 0.9 * properties.area;
-  beam.material.E = properties.E;
-  beam.material.nu = 0.3;
+  beam.material.youngs_modulus = properties.E;
+  beam.material.poisson_ratio = 0.3;
   beam.material.density = properties.density;
   const VectorXd nonlinear = cantilever(beam, files, "rod/start", "rod/end");
   const double largest = full.cwiseAbs().maxCoeff(), length = rod;
