@@ -74,8 +74,11 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
   check_definitions(definitions.materials, definitions.sections, faults);
   scene.bodies = read_bodies(map, definitions);
   read_joints(map, scene);
+  scene.inputs = read_inputs(map, definitions);
+  scene.channels = read_channels(map);
   scene.motions = read_motions(map, definitions);
   scene.springs = read_springs(map, definitions);
+  scene.bushings = read_bushings(map);
   scene.loads = read_loads(map, definitions);
   scene.virtual_bodies = map.choice(
       "virtual_bodies", {Choice<VirtualBodies>{"keep", VirtualBodies::keep}, {"eliminate", VirtualBodies::eliminate}},

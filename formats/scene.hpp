@@ -57,6 +57,7 @@ struct SuperelementBodySpec {
   std::vector<NodeWeight> position_weights;  ///< empty: from the file's centre of mass
   std::vector<NodeWeight> rotation_weights;
   Damping damping;
+  std::optional<Eigen::Vector3d> gravity;  ///< absent: that of the scene
   std::string where;
 };
 
@@ -71,7 +72,8 @@ struct RigidBodySpec {
   double mass = 0.0;
   Eigen::Vector3d center_of_mass = Eigen::Vector3d::Zero();  ///< part frame
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();         ///< about the centre of mass, part axes
-  std::vector<RigidNodeSpec> nodes;  ///< named places for joints and loads; the part frame itself is `<body>`
+  std::vector<RigidNodeSpec> nodes;        ///< named places for joints and loads; the part frame itself is `<body>`
+  std::optional<Eigen::Vector3d> gravity;  ///< absent: that of the scene
   std::string where;
 };
 
@@ -99,6 +101,7 @@ struct BeamBodySpec {
   int nodes_per_element = 2;  ///< 2 or 3
   Section section;
   Material material;
+  std::optional<Eigen::Vector3d> gravity;  ///< absent: that of the scene
   std::string where;
 };
 
@@ -136,19 +139,31 @@ struct MarkerSpec {
   std::string where;
 };
 
-struct JointSpec {
-  std::string name;
-  JointKind kind = JointKind::spherical;
+/// Two markers, and where both are placed at the start where they leave it open, world frame.
+struct MarkerPairSpec {
   MarkerSpec a;
   MarkerSpec b;
-  /// Where both markers are placed at the start, world frame: position (absent: at marker b, or a if b is ground) and
-  /// axis (z of both markers; revolute needs it unless a marker carries an orientation).
-  std::optional<Eigen::Vector3d> position;
-  std::optional<Eigen::Vector3d> axis;
-  std::optional<Eigen::Vector3d> x_axis;  ///< its part across `axis` is x of both markers; absent: any
-  std::array<bool, 6> hold{};             ///< generic: x y z rx ry rz of A that are held
-  double pitch = 0.0;                     ///< screw: advance per turn [length]
-  std::optional<double> length;           ///< distance: absent: that at the start
+  std::optional<Eigen::Vector3d> position;  ///< absent: at marker b, or a if b is ground
+  std::optional<Eigen::Vector3d> axis;      ///< z of both markers
+  std::optional<Eigen::Vector3d> x_axis;    ///< its part across `axis` is x of both markers; absent: any
+};
+
+/// Coulomb friction of a joint (mechanism/joints/friction.hpp).
+struct FrictionSpec {
+  double coefficient = 0.0;
+  std::optional<double> static_coefficient;  ///< absent: the same
+  double velocity = 0.0;                     ///< below it the joint sticks [length/time]
+  double radius = 0.0;                       ///< of the contact; 0: prismatic
+  std::optional<double> arm;                 ///< distance of the supports that take moments; absent: they do not count
+};
+
+struct JointSpec : MarkerPairSpec {
+  std::string name;
+  JointKind kind = JointKind::spherical;
+  std::array<bool, 6> hold{};    ///< generic: x y z rx ry rz of A that are held
+  double pitch = 0.0;            ///< screw: advance per turn [length]
+  std::optional<double> length;  ///< distance: absent: that at the start
+  std::optional<FrictionSpec> friction;
   std::string where;
 };
 
@@ -199,18 +214,59 @@ struct MotionSpec {
   std::string where;
 };
 
-/// Along a coordinate of a joint, or along the distance of two markers: Q = −k (q − free) − c q̇ + stops + force.
-struct SpringSpec {
+/// A law between two quantities: proportional, or a table y(x) with ascending x.
+enum class Interpolation { linear, cubic };
+struct CurveSpec {
+  Interpolation interpolation = Interpolation::linear;
+  std::vector<double> x;
+  std::vector<double> y;
+};
+using LawSpec = std::variant<double, CurveSpec>;
+
+/// line: along a coordinate of a joint, or along the distance of two markers; torsion: along the angle of two markers
+/// about their z axes. Q = −f(q − free) − d(q̇) + stops + force.
+enum class SpringKind { line, torsion };
+struct SpringSpec : MarkerPairSpec {
   std::string name;
-  std::optional<CoordinateRef> coordinate;
-  MarkerSpec a, b;  ///< if there is no coordinate
-  double stiffness = 0.0;
-  double damping = 0.0;
-  std::optional<double> free;  ///< value without force; absent: that at the start
+  SpringKind kind = SpringKind::line;
+  std::optional<CoordinateRef> coordinate;  ///< instead of the markers
+  LawSpec stiffness = 0.0;                  ///< f: k, or a table of force over deflection
+  LawSpec damping = 0.0;                    ///< d: c, or a table of force over rate
+  std::optional<double> free;               ///< value without force; absent: that at the start
   std::optional<double> lower, upper;
   double stop_stiffness = 0.0;
   double stop_damping = 0.0;
   std::optional<TimeFunctionSpec> force;  ///< positive along the positive coordinate
+  std::string where;
+};
+
+/// Linear elastic and damped connection of two markers in all six directions (a field if the matrices are full).
+struct BushingSpec : MarkerPairSpec {
+  std::string name;
+  Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 6> damping = Eigen::Matrix<double, 6, 6>::Zero();
+  std::optional<Eigen::Matrix<double, 6, 1>> free;  ///< deflection without force; absent: that at the start
+  Eigen::Matrix<double, 6, 1> preload = Eigen::Matrix<double, 6, 1>::Zero();  ///< on b at the deflection `free`
+  std::string where;
+};
+
+/// A quantity of the mechanism that expressions may use by its name.
+enum class ChannelKind { coordinate, rate, position, velocity, distance };
+struct ChannelSpec {
+  std::string name;
+  ChannelKind kind = ChannelKind::coordinate;
+  CoordinateRef coordinate;  ///< of coordinate and rate
+  MarkerSpec a;              ///< of position and velocity; of distance with b
+  MarkerSpec b;
+  int axis = 0;  ///< of position and velocity, world axes: 0 x, 1 y, 2 z
+  std::string where;
+};
+
+/// A history from a file that expressions may use by its name; constant outside.
+struct InputSpec {
+  std::string name;
+  TimeTable table;
+  Interpolation interpolation = Interpolation::linear;
   std::string where;
 };
 
@@ -277,8 +333,11 @@ struct Scene {
   std::vector<BodySpec> bodies;
   std::vector<JointSpec> joints;
   std::vector<GearSpec> gears;
+  std::vector<InputSpec> inputs;
+  std::vector<ChannelSpec> channels;
   std::vector<MotionSpec> motions;
   std::vector<SpringSpec> springs;
+  std::vector<BushingSpec> bushings;
   std::vector<LoadSpec> loads;
   VirtualBodies virtual_bodies = VirtualBodies::eliminate;
   AnalysisKind analysis = AnalysisKind::dynamics;

@@ -85,6 +85,7 @@ SuperelementBodySpec read_superelement(const Context& context, const YamlNode& n
   body.where = context.entry;
   body.file = resolve(definitions.folder, map.text("file"));
   body.start = read_start(map);
+  body.gravity = read_optional_vector(map, "gravity");
   body.rigid = map.choice("use", {Choice<bool>{"flexible", false}, {"rigid", true}}, false);
   if (body.rigid) refuse_flexible_keys(map);
   if (map.has("modes")) body.modes = map.integer("modes", 0);
@@ -113,6 +114,7 @@ SuperelementBodySpec read_rigid_from(const Context& context, const YamlNode& nod
   body.where = context.entry;
   body.file = resolve(definitions.folder, map.text("from"));
   body.start = read_start(map);
+  body.gravity = read_optional_vector(map, "gravity");
   body.rigid = true;
   return body;
 }
@@ -133,6 +135,7 @@ RigidBodySpec read_rigid(const Context& context, const YamlNode& node) {
   body.name = node.key;
   body.where = context.entry;
   body.start = read_start(map);
+  body.gravity = read_optional_vector(map, "gravity");
   body.mass = map.number("mass");
   body.center_of_mass = read_vector(map, "center_of_mass", body.center_of_mass);
   if (const YamlNode* inertia = map.require("inertia")) body.inertia = read_inertia(context, *inertia, "inertia");
@@ -192,6 +195,7 @@ BeamBodySpec read_beam(const Context& context, const YamlNode& node, const Scene
   body.name = node.key;
   body.where = context.entry;
   body.start = read_start(map);
+  body.gravity = read_optional_vector(map, "gravity");
   map.require("from");
   map.require("to");
   body.from = read_vector(map, "from", absent);

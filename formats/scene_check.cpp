@@ -9,6 +9,7 @@
 #include "common/text.hpp"
 #include "formats/line_check.hpp"
 #include "formats/name_check.hpp"
+#include "formats/scene_check_parts.hpp"
 #include "formats/section_reader.hpp"
 #include "formats/settings_check.hpp"
 #include "formats/time_function_reader.hpp"
@@ -55,6 +56,12 @@ void check_damping(const Damping& damping, const std::string& subject, const std
   not_negative(damping.stiffness, "stiffness");
   not_negative(damping.ratio, "ratio");
   for (const double ratio : damping.ratios) not_negative(ratio, "ratios");
+}
+
+void check_gravity(const std::optional<Eigen::Vector3d>& gravity, const std::string& subject, const std::string& where,
+                   Faults& faults) {
+  if (gravity && !gravity->allFinite())
+    faults.add(where, "gravity", fmt::format("{}: gravity must be finite", subject), "");
 }
 
 void check_body(const SuperelementBodySpec& body, const std::string& subject, Faults& faults) {
@@ -179,6 +186,8 @@ void check_node(const Scene& scene, const MarkerSpec& marker, const std::string&
                fmt::format("write {}/<node>{}", body_name, beam ? fmt::format(", for example {}/end", body_name) : ""));
 }
 
+}  // namespace
+
 void check_marker(const Scene& scene, const MarkerSpec& marker, const std::string& subject, const std::string& where,
                   const std::string& key, Faults& faults) {
   const bool at_ground = marker.node == "ground";
@@ -194,47 +203,32 @@ void check_marker(const Scene& scene, const MarkerSpec& marker, const std::strin
                "");
 }
 
-void check_joint(const Scene& scene, const JointSpec& joint, Faults& faults) {
-  const std::string subject = fmt::format("joint '{}'", joint.name);
-  check_marker(scene, joint.a, subject, joint.where, "a", faults);
-  check_marker(scene, joint.b, subject, joint.where, "b", faults);
-  if (joint.a.node == joint.b.node)
-    faults.add(joint.where, "b", fmt::format("{}: joins '{}' to itself", subject, joint.a.node),
-               "name two different nodes");
-  if (joint.position && !joint.position->allFinite())
-    faults.add(joint.where, "position", fmt::format("{}: position must be finite", subject), "");
-  if (joint.axis && !joint.axis->allFinite())
-    faults.add(joint.where, "axis", fmt::format("{}: axis must be finite", subject), "");
-  else if (joint.axis && joint.axis->stableNorm() == 0.0)
-    faults.add(joint.where, "axis", fmt::format("{}: axis has zero length", subject),
+void check_marker_pair(const Scene& scene, const MarkerPairSpec& pair, const std::string& subject,
+                       const std::string& where, Faults& faults) {
+  check_marker(scene, pair.a, subject, where, "a", faults);
+  check_marker(scene, pair.b, subject, where, "b", faults);
+  if (pair.a.node == pair.b.node)
+    faults.add(where, "b", fmt::format("{}: joins '{}' to itself", subject, pair.a.node), "name two different nodes");
+  if (pair.position && !pair.position->allFinite())
+    faults.add(where, "position", fmt::format("{}: position must be finite", subject), "");
+  if (pair.axis && !pair.axis->allFinite())
+    faults.add(where, "axis", fmt::format("{}: axis must be finite", subject), "");
+  else if (pair.axis && pair.axis->stableNorm() == 0.0)
+    faults.add(where, "axis", fmt::format("{}: axis has zero length", subject),
                "give a direction, for example [0, 0, 1]");
-  if (joint.position && joint.a.position && joint.b.position)
-    faults.add(joint.where, "position", fmt::format("{}: position has no effect, since both a and b have one", subject),
+  if (pair.position && pair.a.position && pair.b.position)
+    faults.add(where, "position", fmt::format("{}: position has no effect, since both a and b have one", subject),
                "remove it, or the position of a or b");
-  if (joint.axis && joint.a.orientation && joint.b.orientation)
-    faults.add(joint.where, "axis",
-               fmt::format("{}: axis has no effect, since both a and b have an orientation", subject),
+  if (pair.axis && pair.a.orientation && pair.b.orientation)
+    faults.add(where, "axis", fmt::format("{}: axis has no effect, since both a and b have an orientation", subject),
                "remove it, or the orientation of a or b");
-  if (needs_axis(joint.kind) && !joint.axis && !joint.a.orientation && !joint.b.orientation)
-    faults.add(joint.where, "", fmt::format("{}: a {} joint needs an axis", subject, joint_word(joint.kind)),
-               "give axis: [x, y, z], or an orientation to a or b");
-  if (joint.x_axis && !joint.axis)
-    faults.add(joint.where, "x_axis", fmt::format("{}: x_axis has no effect without axis", subject),
+  if (pair.x_axis && !pair.axis)
+    faults.add(where, "x_axis", fmt::format("{}: x_axis has no effect without axis", subject),
                "give axis too, or an orientation to a or b");
-  if (joint.x_axis && joint.axis &&
-      !(joint.axis->cross(*joint.x_axis).stableNorm() > 1e-6 * joint.axis->stableNorm() * joint.x_axis->stableNorm()))
-    faults.add(joint.where, "x_axis", fmt::format("{}: x_axis is zero or parallel to axis", subject),
+  if (pair.x_axis && pair.axis &&
+      !(pair.axis->cross(*pair.x_axis).stableNorm() > 1e-6 * pair.axis->stableNorm() * pair.x_axis->stableNorm()))
+    faults.add(where, "x_axis", fmt::format("{}: x_axis is zero or parallel to axis", subject),
                "give a direction across the axis");
-  if (!std::isfinite(joint.pitch) || (joint.kind == JointKind::screw && joint.pitch == 0.0))
-    faults.add(joint.where, "pitch",
-               fmt::format("{}: pitch {:g} must be a finite length that is not zero", subject, joint.pitch),
-               "use a revolute joint for no advance");
-  if (joint.length && !(*joint.length > 0.0 && std::isfinite(*joint.length)))
-    faults.add(joint.where, "length", fmt::format("{}: length {:g} must be positive", subject, *joint.length),
-               "use a spherical joint for a distance of zero");
-  if (joint.kind == JointKind::generic &&
-      std::none_of(joint.hold.begin(), joint.hold.end(), [](bool held) { return held; }))
-    faults.add(joint.where, "hold", fmt::format("{}: holds no direction", subject), "name some of x, y, z, rx, ry, rz");
 }
 
 void check_coordinate(const CoordinateRef& coordinate, const Scene& scene, const std::string& subject,
@@ -249,6 +243,27 @@ void check_coordinate(const CoordinateRef& coordinate, const Scene& scene, const
              near ? fmt::format("did you mean '{}'?", *near) : "name a joint, or joint/coordinate as in slide/z");
 }
 
+namespace {
+
+void check_joint(const Scene& scene, const JointSpec& joint, Faults& faults) {
+  const std::string subject = fmt::format("joint '{}'", joint.name);
+  check_marker_pair(scene, joint, subject, joint.where, faults);
+  if (needs_axis(joint.kind) && !joint.axis && !joint.a.orientation && !joint.b.orientation)
+    faults.add(joint.where, "", fmt::format("{}: a {} joint needs an axis", subject, joint_word(joint.kind)),
+               "give axis: [x, y, z], or an orientation to a or b");
+  if (joint.friction) check_friction(joint, subject, faults);
+  if (!std::isfinite(joint.pitch) || (joint.kind == JointKind::screw && joint.pitch == 0.0))
+    faults.add(joint.where, "pitch",
+               fmt::format("{}: pitch {:g} must be a finite length that is not zero", subject, joint.pitch),
+               "use a revolute joint for no advance");
+  if (joint.length && !(*joint.length > 0.0 && std::isfinite(*joint.length)))
+    faults.add(joint.where, "length", fmt::format("{}: length {:g} must be positive", subject, *joint.length),
+               "use a spherical joint for a distance of zero");
+  if (joint.kind == JointKind::generic &&
+      std::none_of(joint.hold.begin(), joint.hold.end(), [](bool held) { return held; }))
+    faults.add(joint.where, "hold", fmt::format("{}: holds no direction", subject), "name some of x, y, z, rx, ry, rz");
+}
+
 void check_gear(const Scene& scene, const GearSpec& gear, Faults& faults) {
   const std::string subject = fmt::format("joint '{}'", gear.name);
   check_coordinate(gear.first, scene, subject, gear.where, "between", faults);
@@ -261,40 +276,6 @@ void check_motion(const Scene& scene, const MotionSpec& motion, Faults& faults) 
   const std::string subject = fmt::format("motion '{}'", motion.name);
   check_coordinate(motion.coordinate, scene, subject, motion.where, "coordinate", faults);
   check_time_function(motion.value, subject, motion.where, "value", faults);
-}
-
-void check_spring(const Scene& scene, const SpringSpec& spring, Faults& faults) {
-  const std::string subject = fmt::format("spring '{}'", spring.name);
-  if (spring.coordinate) {
-    check_coordinate(*spring.coordinate, scene, subject, spring.where, "coordinate", faults);
-  } else {
-    check_marker(scene, spring.a, subject, spring.where, "a", faults);
-    check_marker(scene, spring.b, subject, spring.where, "b", faults);
-  }
-  const auto not_negative = [&](double value, const char* key) {
-    if (!(value >= 0.0 && std::isfinite(value)))
-      faults.add(spring.where, key, fmt::format("{}: {} {:g} must not be negative", subject, key, value), "");
-  };
-  if (!std::isfinite(spring.stiffness))
-    faults.add(spring.where, "stiffness", fmt::format("{}: stiffness must be finite", subject), "");
-  not_negative(spring.damping, "damping");
-  not_negative(spring.stop_damping, "stop_damping");
-  if ((spring.lower || spring.upper) && !(spring.stop_stiffness > 0.0 && std::isfinite(spring.stop_stiffness)))
-    faults.add(spring.where, "stop_stiffness", fmt::format("{}: stop_stiffness must be positive", subject), "");
-  if (spring.lower && spring.upper && !(*spring.lower < *spring.upper))
-    faults.add(
-        spring.where, "lower",
-        fmt::format("{}: lower stop {:g} is not below the upper one {:g}", subject, *spring.lower, *spring.upper), "");
-  if (spring.stiffness == 0.0 && spring.damping == 0.0 && !spring.lower && !spring.upper && !spring.force)
-    faults.add(spring.where, "", fmt::format("{}: does nothing", subject), "give stiffness, damping, stops or force");
-  if (spring.force) check_time_function(*spring.force, subject, spring.where, "force", faults);
-}
-
-void check_load(const Scene& scene, const LoadSpec& load, Faults& faults) {
-  const std::string subject = fmt::format("load '{}'", load.name);
-  check_marker(scene, load.at, subject, load.where, "at", faults);
-  for (std::size_t i = 0; i < load.components.size(); ++i)
-    check_time_function(load.components[i], subject, load.where, fmt::format("value[{}]", i), faults);
 }
 
 }  // namespace
@@ -317,7 +298,7 @@ Faults find_faults(const Scene& scene) {
   if (scene.name.empty()) faults.add(scene.file, "scene", "the scene has no name", "scene: <name>");
   if (!scene.gravity.allFinite()) faults.add(scene.file, "gravity", "gravity must be finite", "");
   if (scene.bodies.empty()) faults.add(scene.file, "bodies", "the scene has no bodies", "");
-  std::unordered_set<std::string> bodies, joints, motions, springs, loads;
+  std::unordered_set<std::string> bodies, joints, motions, springs, bushings, loads;
   for (const BodySpec& body : scene.bodies) {
     std::visit(
         [&](const auto& spec) {
@@ -326,6 +307,7 @@ Faults find_faults(const Scene& scene) {
           if (spec.name == "ground")
             faults.add(spec.where, "", "body 'ground': the name is taken by the fixed world", "rename it");
           check_start(spec.start, subject, spec.where, faults);
+          if constexpr (requires { spec.gravity; }) check_gravity(spec.gravity, subject, spec.where, faults);
           check_body(spec, subject, faults);
         },
         body);
@@ -338,6 +320,7 @@ Faults find_faults(const Scene& scene) {
     check_path_name("joint", gear.name, gear.where, joints, faults);
     check_gear(scene, gear, faults);
   }
+  check_channels(scene, faults);
   for (const MotionSpec& motion : scene.motions) {
     check_path_name("motion", motion.name, motion.where, motions, faults);
     check_motion(scene, motion, faults);
@@ -345,6 +328,10 @@ Faults find_faults(const Scene& scene) {
   for (const SpringSpec& spring : scene.springs) {
     check_path_name("spring", spring.name, spring.where, springs, faults);
     check_spring(scene, spring, faults);
+  }
+  for (const BushingSpec& bushing : scene.bushings) {
+    check_path_name("bushing", bushing.name, bushing.where, bushings, faults);
+    check_bushing(scene, bushing, faults);
   }
   for (const LoadSpec& load : scene.loads) {
     check_path_name("load", load.name, load.where, loads, faults);

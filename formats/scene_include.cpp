@@ -69,9 +69,9 @@ void merge(const YamlDocument& document, YamlNode&& included, YamlNode& root) {
 }  // namespace
 
 const std::vector<std::string_view>& scene_collections() {
-  static const std::vector<std::string_view> collections{"materials",  "sections",   "bodies",   "joints",
-                                                         "motions",    "springs",    "loads",    "nodes",
-                                                         "parameters", "assemblies", "instances"};
+  static const std::vector<std::string_view> collections{"materials", "sections",   "bodies",     "joints",   "motions",
+                                                         "springs",   "bushings",   "inputs",     "channels", "loads",
+                                                         "nodes",     "parameters", "assemblies", "instances"};
   return collections;
 }
 

@@ -1,13 +1,9 @@
-// `joints` and `loads` of scene.yaml, and the markers that both use.
+// `joints` of scene.yaml, and the markers that joints and forces use.
 #include "formats/geometry_reader.hpp"
 #include "formats/scene_reader.hpp"
-#include "formats/time_function_reader.hpp"
 
 namespace tisserand::formats {
 
-namespace {
-
-/// "ground", "body", "body/node", or {node: .., position: .., orientation: ..}.
 MarkerSpec read_marker(const MapReader& map, const std::string& key) {
   MarkerSpec marker;
   marker.where = map.context().entry;
@@ -28,9 +24,19 @@ MarkerSpec read_marker(const MapReader& map, const std::string& key) {
   return marker;
 }
 
+void read_marker_pair(const MapReader& map, MarkerPairSpec& pair) {
+  pair.a = read_marker(map, "a");
+  pair.b = read_marker(map, "b");
+  pair.axis = read_optional_vector(map, "axis");
+  pair.x_axis = read_optional_vector(map, "x_axis");
+  pair.position = read_optional_vector(map, "position");
+}
+
 CoordinateRef read_coordinate(const MapReader& map, const YamlNode& node, const std::string& key) {
   return {read_text(map.context(), node, key), map.context().reader.where(node.place)};
 }
+
+namespace {
 
 /// `hold: [x, y, rz]`: the directions of a generic joint that are held.
 std::array<bool, 6> read_hold(const MapReader& map) {
@@ -69,6 +75,22 @@ void refuse_without(const MapReader& map, const char* key, bool used, const char
     map.context().fail(node->key_place, fmt::format("'{}' belongs to joints of type {}", key, kind), "remove it");
 }
 
+FrictionSpec read_friction(const Context& context, const YamlNode& node, JointKind kind) {
+  const MapReader map({context.reader, context.subject + ": friction", context.entry}, node, "friction", "friction.");
+  FrictionSpec friction;
+  friction.coefficient = map.number("coefficient");
+  if (map.has("static_coefficient")) friction.static_coefficient = map.number("static_coefficient");
+  friction.velocity = map.number("velocity");
+  if (kind == JointKind::prismatic) {
+    if (const YamlNode* radius = map.find("radius"))
+      map.context().fail(radius->key_place, "'radius' has no effect in a prismatic joint", "remove it");
+  } else {
+    friction.radius = map.number("radius");
+  }
+  if (map.has("arm")) friction.arm = map.number("arm");
+  return friction;
+}
+
 JointSpec read_joint(const Context& context, const YamlNode& node) {
   const MapReader map(context, node, "joint");
   JointSpec joint;
@@ -76,14 +98,11 @@ JointSpec read_joint(const Context& context, const YamlNode& node) {
   joint.where = context.entry;
   map.require("type");
   joint.kind = map.choice("type", joint_kinds, JointKind::spherical);
-  joint.a = read_marker(map, "a");
-  joint.b = read_marker(map, "b");
-  joint.axis = read_optional_vector(map, "axis");
-  joint.x_axis = read_optional_vector(map, "x_axis");
-  joint.position = read_optional_vector(map, "position");
+  read_marker_pair(map, joint);
   if (joint.kind == JointKind::generic) joint.hold = read_hold(map);
   if (joint.kind == JointKind::screw) joint.pitch = map.number("pitch");
   if (joint.kind == JointKind::distance && map.has("length")) joint.length = map.number("length");
+  if (const YamlNode* friction = map.find("friction")) joint.friction = read_friction(context, *friction, joint.kind);
   refuse_without(map, "hold", joint.kind == JointKind::generic, "generic");
   refuse_without(map, "pitch", joint.kind == JointKind::screw, "screw");
   refuse_without(map, "length", joint.kind == JointKind::distance, "distance");
@@ -115,38 +134,6 @@ std::string type_of(const YamlNode& joint) {
   for (const YamlNode& child : joint.children)
     if (child.key == "type" && child.kind == YamlKind::scalar) return child.text;
   return {};
-}
-
-LoadSpec read_load(const Context& context, const YamlNode& node, const SceneDefinitions& definitions) {
-  const MapReader map(context, node, "load");
-  LoadSpec load;
-  load.name = node.key;
-  load.where = context.entry;
-  map.require("type");
-  load.kind =
-      map.choice("type", {Choice<LoadKind>{"force", LoadKind::force}, {"moment", LoadKind::moment}}, LoadKind::force);
-  load.at = read_marker(map, "at");
-  load.axes =
-      map.choice("axes", {Choice<LoadAxes>{"world", LoadAxes::world}, {"body", LoadAxes::body}}, LoadAxes::world);
-  const YamlNode* value = map.require("value");
-  if (value == nullptr) return load;
-  if (value->kind != YamlKind::sequence || value->children.size() != 3) {
-    context.fail(value->place, fmt::format("value must have three components, not {}", describe(*value)),
-                 "write it as [0, 0, \"sin(t)\"]");
-    return load;
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::string what = fmt::format("value[{}]", i);
-    context.reader.note(context.entry, what, value->children[i]);
-    load.components[i] = read_time_function(context, value->children[i], what, definitions.folder);
-  }
-  return load;
-}
-
-TimeFunctionSpec read_function(const MapReader& map, const YamlNode& node, const std::string& key,
-                               const SceneDefinitions& definitions) {
-  map.context().reader.note(map.context().entry, key, node);
-  return read_time_function(map.context(), node, key, definitions.folder);
 }
 
 }  // namespace
@@ -189,59 +176,6 @@ void read_joints(const MapReader& map, Scene& scene) {
     else
       scene.joints.push_back(read_joint(context, *node));
   }
-}
-
-std::vector<MotionSpec> read_motions(const MapReader& map, const SceneDefinitions& definitions) {
-  std::vector<MotionSpec> motions;
-  for (const YamlNode* node : map.entries("motions", "motion")) {
-    const Context context = entry_context(map.context().reader, "motion", *node);
-    const MapReader inner(context, *node, "motion");
-    MotionSpec motion;
-    motion.name = node->key;
-    motion.where = context.entry;
-    if (const YamlNode* coordinate = inner.require("coordinate"))
-      motion.coordinate = read_coordinate(inner, *coordinate, "coordinate");
-    if (const YamlNode* value = inner.require("value"))
-      motion.value = read_function(inner, *value, "value", definitions);
-    motions.push_back(std::move(motion));
-  }
-  return motions;
-}
-
-std::vector<SpringSpec> read_springs(const MapReader& map, const SceneDefinitions& definitions) {
-  std::vector<SpringSpec> springs;
-  for (const YamlNode* node : map.entries("springs", "spring")) {
-    const Context context = entry_context(map.context().reader, "spring", *node);
-    const MapReader inner(context, *node, "spring");
-    SpringSpec spring;
-    spring.name = node->key;
-    spring.where = context.entry;
-    if (const YamlNode* coordinate = inner.find("coordinate")) {
-      spring.coordinate = read_coordinate(inner, *coordinate, "coordinate");
-      if (inner.has("a") || inner.has("b"))
-        inner.fail("both 'coordinate' and the markers 'a', 'b' are given", "give one of them");
-    } else {
-      spring.a = read_marker(inner, "a");
-      spring.b = read_marker(inner, "b");
-    }
-    spring.stiffness = inner.number("stiffness", 0.0);
-    spring.damping = inner.number("damping", 0.0);
-    if (inner.has("free")) spring.free = inner.number("free");
-    if (inner.has("lower")) spring.lower = inner.number("lower");
-    if (inner.has("upper")) spring.upper = inner.number("upper");
-    if (spring.lower || spring.upper) spring.stop_stiffness = inner.number("stop_stiffness");
-    spring.stop_damping = inner.number("stop_damping", 0.0);
-    if (const YamlNode* force = inner.find("force")) spring.force = read_function(inner, *force, "force", definitions);
-    springs.push_back(std::move(spring));
-  }
-  return springs;
-}
-
-std::vector<LoadSpec> read_loads(const MapReader& map, const SceneDefinitions& definitions) {
-  std::vector<LoadSpec> loads;
-  for (const YamlNode* node : map.entries("loads", "load"))
-    loads.push_back(read_load(entry_context(map.context().reader, "load", *node), *node, definitions));
-  return loads;
 }
 
 }  // namespace tisserand::formats

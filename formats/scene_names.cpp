@@ -20,16 +20,18 @@ struct Reference {
   Kind kind;
 };
 
-constexpr std::array<Reference, 8> references{{{"joints", "a", Kind::body},
-                                               {"joints", "b", Kind::body},
-                                               {"joints", "between", Kind::joint},
-                                               {"motions", "coordinate", Kind::joint},
-                                               {"springs", "a", Kind::body},
-                                               {"springs", "b", Kind::body},
-                                               {"springs", "coordinate", Kind::joint},
-                                               {"loads", "at", Kind::body}}};
+constexpr std::array<Reference, 10> references{{{"joints", "a", Kind::body},
+                                                {"joints", "b", Kind::body},
+                                                {"joints", "between", Kind::joint},
+                                                {"motions", "coordinate", Kind::joint},
+                                                {"springs", "a", Kind::body},
+                                                {"springs", "b", Kind::body},
+                                                {"springs", "coordinate", Kind::joint},
+                                                {"bushings", "a", Kind::body},
+                                                {"bushings", "b", Kind::body},
+                                                {"loads", "at", Kind::body}}};
 
-constexpr std::array<std::string_view, 5> instantiated{"bodies", "joints", "motions", "springs", "loads"};
+constexpr std::array<std::string_view, 6> instantiated{"bodies", "joints", "motions", "springs", "bushings", "loads"};
 
 /// "link[3]/bar/tip" -> "link[3]", and without the index "link".
 std::string first_word(const std::string& path) { return path.substr(0, path.find('/')); }
@@ -99,6 +101,7 @@ void read_names(YamlReader& reader, Assembly& assembly) {
   collect_names(reader, assembly, "instances", "instance", assembly.instances);
   collect_names(reader, assembly, "motions", "motion", others);
   collect_names(reader, assembly, "springs", "spring", others);
+  collect_names(reader, assembly, "bushings", "bushing", others);
   collect_names(reader, assembly, "loads", "load", others);
   if (const YamlNode* instances = find_child(assembly.node, "instances"))
     for (const YamlNode& instance : instances->children)

@@ -116,7 +116,10 @@ void Placement::place(const std::string& collection, YamlNode& entry) {
   if (collection == "bodies") {
     body(entry);
   } else if (collection == "joints" || collection == "springs") {
-    pair(entry);
+    pair(entry, word(entry, "type"));
+  } else if (collection == "bushings") {
+    pair(entry, "bushing");
+    if (frame_.mirrored()) mirror_field(entry);
   } else if (collection == "loads") {
     load(entry);
   }
@@ -182,10 +185,9 @@ void Placement::mirror_file(YamlNode& body) {
   }
 }
 
-/// Joints and springs: what stands in world axes, and the markers.
-void Placement::pair(YamlNode& entry) {
+/// Joints, springs and bushings: what stands in world axes, and the markers.
+void Placement::pair(YamlNode& entry, const std::string& type) {
   if (!frame_.moved()) return;
-  const std::string type = word(entry, "type");
   const Matrix3d flip = frame_.mirrored() ? axes_of_mirrored_markers(type) : Matrix3d(Matrix3d::Identity());
   for (const char* key : {"a", "b"}) marker(entry, key, flip);
   transform(entry, "position", frame_.G, frame_.p);
@@ -207,6 +209,25 @@ void Placement::pair(YamlNode& entry) {
   if (!frame_.mirrored()) return;
   if (const YamlNode* pitch = find_child(entry, "pitch"); pitch != nullptr && looks_like_number(*pitch))
     set(entry, "pitch", number_node(-read_number(context(entry), *pitch, "pitch"), pitch->place));
+}
+
+/// Deflections of a bushing in mirrored marker axes (z reversed): displacements along x, y and the turn about z keep
+/// their signs, the others change them. Diagonals stay as they are.
+void Placement::mirror_field(YamlNode& bushing) {
+  constexpr std::array<double, 6> sign{1.0, 1.0, -1.0, -1.0, -1.0, 1.0};
+  const auto turn = [&](YamlNode& row, double factor) {
+    if (row.kind != YamlKind::sequence || row.children.size() != sign.size()) return;
+    for (std::size_t i = 0; i < sign.size(); ++i)
+      if (YamlNode& number = row.children[i]; looks_like_number(number))
+        number.text = number_text(factor * sign[i] * read_number(context(bushing), number, row.key));
+  };
+  for (const char* key : {"free", "preload"})
+    if (YamlNode* six = find_child(bushing, key)) turn(*six, 1.0);
+  for (const char* key : {"stiffness", "damping"}) {
+    YamlNode* matrix = find_child(bushing, key);
+    if (matrix == nullptr || matrix->kind != YamlKind::sequence || matrix->children.size() != sign.size()) continue;
+    for (std::size_t i = 0; i < sign.size(); ++i) turn(matrix->children[i], sign[i]);
+  }
 }
 
 /// A marker on ground is in the world; on a body it is in node axes, which only a mirror changes.

@@ -1,4 +1,4 @@
-// Numbers, expressions and tables of time.
+// Numbers, expressions and tables.
 #include "formats/time_function_reader.hpp"
 
 #include <cmath>
@@ -108,6 +108,47 @@ void check_time_function(const TimeFunctionSpec& function, const std::string& su
                  "write an expression in t, or 0");
     check_times(expression->breakpoints, "breakpoints", subject, where, key, faults);
   }
+}
+
+CurveSpec read_curve(const Context& context, const YamlNode& node, const std::string& what, const std::string& folder) {
+  const Context inner{context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
+  const MapReader map(inner, node, "curve", what + ".");
+  CurveSpec curve;
+  curve.interpolation = map.choice(
+      "interpolation", {Choice<Interpolation>{"linear", Interpolation::linear}, {"cubic", Interpolation::cubic}},
+      curve.interpolation);
+  if (map.has("table") == map.has("file"))
+    map.fail("a curve needs either 'table' or 'file'", "write table: [[-1, -5], [0, 0], [1, 5]]");
+  TimeTable points;
+  if (const YamlNode* table = map.find("table"))
+    points = read_table(inner, *table);
+  else if (const YamlNode* file = map.find("file"))
+    points = read_file(inner, *file, folder);
+  curve.x = std::move(points.time);
+  curve.y = std::move(points.value);
+  return curve;
+}
+
+void check_curve(const CurveSpec& curve, const std::string& subject, const std::string& where, const std::string& key,
+                 Faults& faults) {
+  if (curve.x.size() < 2 || curve.x.size() != curve.y.size()) {
+    faults.add(where, key, fmt::format("{}: the table of {} has {} points", subject, key, curve.x.size()),
+               "give at least two");
+    return;
+  }
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) {
+      faults.add(where, key, fmt::format("{}: the table of {} must be finite", subject, key), "");
+      return;
+    }
+  for (std::size_t i = 1; i < curve.x.size(); ++i)
+    if (!(curve.x[i] > curve.x[i - 1])) {
+      faults.add(where, key,
+                 fmt::format("{}: the first column of the table of {} must increase, but {:g} follows {:g}", subject,
+                             key, curve.x[i], curve.x[i - 1]),
+                 "");
+      return;
+    }
 }
 
 }  // namespace tisserand::formats

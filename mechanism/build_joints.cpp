@@ -29,6 +29,9 @@ void JointBuilder::add(const formats::JointSpec& spec) {
                 joint.a.follower < 0 && joint.b.follower < 0
                     ? "connect two different nodes"
                     : "fixed joints tie these bodies together already: remove the joint, or one of the fixed ones");
+  if (formats::needs_axis(spec.kind) && !spec.axis && !spec.a.orientation && !spec.b.orientation)
+    throw Error(fmt::format("{} joint '{}' has no axis", formats::joint_word(spec.kind), spec.name), spec.where,
+                "give `axis: [x, y, z]` in the world frame at the start, or orientations of its markers");
   if (spec.kind != JointKind::distance) place_markers(markers_, spec, joint.a, joint.b);
   const std::string subject = fmt::format("joint '{}'", spec.name);
   const MarkerUse use = uses_axes(joint) ? MarkerUse::position_and_axes : MarkerUse::position;
@@ -37,6 +40,7 @@ void JointBuilder::add(const formats::JointSpec& spec) {
   if (spec.kind == JointKind::distance) set_length(spec, joint);
   add_coordinates(joint);
   if (spec.kind == JointKind::screw) add_screw(spec);
+  if (spec.friction) add_friction(*spec.friction);
   model_.joints.push_back(std::move(joint));
 }
 
@@ -64,6 +68,17 @@ void JointBuilder::add_coordinates(const Joint& joint) {
     if (all.size() == 1) coordinate_[joint.name] = static_cast<int>(model_.coordinates.size());
     model_.coordinates.push_back(std::move(coordinate));
   }
+}
+
+void JointBuilder::add_friction(const formats::FrictionSpec& spec) {
+  Friction friction;
+  friction.joint = static_cast<int>(model_.joints.size());
+  friction.kinetic = spec.coefficient;
+  friction.stiction = spec.static_coefficient.value_or(spec.coefficient);
+  friction.velocity = spec.velocity;
+  friction.radius = spec.radius;
+  friction.inverse_arm = spec.arm ? 1.0 / *spec.arm : 0.0;
+  model_.frictions.push_back(friction);
 }
 
 void JointBuilder::add_screw(const formats::JointSpec& spec) {
@@ -120,52 +135,14 @@ void JointBuilder::add(const formats::MotionSpec& spec) {
   motion.length = is_length_coordinate(coordinate);
   motion.terms = {{coordinate, 1.0}};
   motion.motion = static_cast<int>(model_.motions.size());
-  TimeFunction check(spec.value);  // reports syntax errors now
-  for (const double t : breakpoints(spec.value)) breakpoints_.insert(t);
+  const TimeFunction function(spec.value, model_.scope);  // reports syntax errors now
+  if (!function.channels().empty())
+    throw Error(fmt::format("motion '{}' uses channel '{}'", spec.name,
+                            model_.scope.channels[static_cast<std::size_t>(function.channels().front())]),
+                spec.where, "a motion is a function of t and inputs; forces may use channels");
+  breakpoints_.insert(function.breakpoints().begin(), function.breakpoints().end());
   model_.motions.push_back(spec.value);
   activate(motion);
-}
-
-void JointBuilder::add(const formats::SpringSpec& spec) {
-  Spring spring;
-  spring.name = spec.name;
-  spring.coordinate = spec.coordinate ? find_coordinate(*spec.coordinate) : add_distance(spec);
-  model_.coordinates[static_cast<std::size_t>(spring.coordinate)].active = true;
-  spring.stiffness = spec.stiffness;
-  spring.damping = spec.damping;
-  spring.free = spec.free.value_or(0.0);
-  spring.free_at_start = !spec.free;
-  spring.lower = spec.lower;
-  spring.upper = spec.upper;
-  spring.stop_stiffness = spec.stop_stiffness;
-  spring.stop_damping = spec.stop_damping;
-  spring.has_force = spec.force.has_value();
-  if (spec.force) {
-    spring.force = *spec.force;
-    TimeFunction check(spring.force);
-    for (const double t : breakpoints(spring.force)) breakpoints_.insert(t);
-  }
-  model_.springs.push_back(std::move(spring));
-}
-
-int JointBuilder::add_distance(const formats::SpringSpec& spec) {
-  Coordinate coordinate;
-  coordinate.name = spec.name;
-  coordinate.a = markers_.find(spec.a);
-  coordinate.b = markers_.find(spec.b);
-  coordinate.relation = {RelationKind::distance, 0, 0};
-  const std::string subject = fmt::format("spring '{}'", spec.name);
-  if (coordinate.a.node == coordinate.b.node)
-    throw Error(fmt::format("{} connects '{}' and '{}', which do not move against each other", subject, spec.a.node,
-                            spec.b.node),
-                spec.where, "connect two different nodes");
-  check_marker(model_, subject, MarkerUse::position, spec.a, coordinate.a);
-  check_marker(model_, subject, MarkerUse::position, spec.b, coordinate.b);
-  if (!(distance_at_start(coordinate.a, coordinate.b) > 1e-9 * model_.length))
-    throw Error(fmt::format("{} has no direction: its ends are at the same place", subject), spec.where,
-                "move one end, or use springs along the coordinates of a joint");
-  model_.coordinates.push_back(std::move(coordinate));
-  return static_cast<int>(model_.coordinates.size()) - 1;
 }
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// From the joints, gears, motions and springs of a scene to those of a model.
+// From the joints, gears, motions, springs and bushings of a scene to those of a model.
 #pragma once
 
 #include <map>
@@ -6,8 +6,12 @@
 #include <string>
 
 #include "mechanism/build_markers.hpp"
+#include "mechanism/forces/time_function.hpp"
 
 namespace tisserand::mechanism {
+
+/// Compiles a function of a load or spring to report errors now; notes its breakpoints and the channels that it uses.
+void note_function(const formats::TimeFunctionSpec& spec, ChannelUse use, Model& model, std::set<double>& breakpoints);
 
 /// Adds to the pools of `model`; all nodes are there, and its characteristic length.
 class JointBuilder {
@@ -19,6 +23,9 @@ class JointBuilder {
   void add(const formats::GearSpec& spec);
   void add(const formats::MotionSpec& spec);
   void add(const formats::SpringSpec& spec);
+  void add(const formats::BushingSpec& spec);
+  void add(const formats::InputSpec& spec);
+  void add(const formats::ChannelSpec& spec);
 
  private:
   /// Whether the joint uses directions of the marker.
@@ -26,13 +33,19 @@ class JointBuilder {
   void set_length(const formats::JointSpec& spec, Joint& joint) const;
   double distance_at_start(const Marker& a, const Marker& b) const;
   void add_coordinates(const Joint& joint);
+  void add_friction(const formats::FrictionSpec& spec);
   /// z = pitch angle/(2π), with the values at the start as the reference.
   void add_screw(const formats::JointSpec& spec);
   void activate(Coupling& coupling);
   int find_coordinate(const formats::CoordinateRef& ref) const;
   bool is_length_coordinate(int coordinate) const;
-  /// The distance of the two markers of a spring.
-  int add_distance(const formats::SpringSpec& spec);
+  /// The distance of the two markers of a spring, or their angle about z.
+  int add_distance(const std::string& name, const std::string& subject, const formats::MarkerPairSpec& spec,
+                   const std::string& where);
+  int add_angle(const formats::SpringSpec& spec);
+  /// Throws Error if the markers are on the same node.
+  static void require_two_nodes(const std::string& subject, const formats::MarkerPairSpec& spec,
+                                const std::string& where, const Marker& a, const Marker& b);
 
   const MarkerTable& markers_;
   Model& model_;

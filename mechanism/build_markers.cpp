@@ -53,7 +53,7 @@ void place_marker(const MarkerTable& markers, const formats::MarkerSpec& spec, c
 
 }  // namespace
 
-void place_markers(const MarkerTable& markers, const formats::JointSpec& spec, Marker& a, Marker& b) {
+void place_markers(const MarkerTable& markers, const formats::MarkerPairSpec& spec, Marker& a, Marker& b) {
   const bool at_a = spec.b.node == "ground" || (spec.a.position && !spec.b.position);
   const Vector3d position = spec.position ? *spec.position : markers.position(at_a ? a : b);
   Matrix3d R = Matrix3d::Identity();
@@ -63,9 +63,6 @@ void place_markers(const MarkerTable& markers, const formats::JointSpec& spec, M
     R = marker_rotation(a, markers.motion(a.node));
   else if (spec.b.orientation)
     R = marker_rotation(b, markers.motion(b.node));
-  else if (formats::needs_axis(spec.kind))
-    throw Error(fmt::format("{} joint '{}' has no axis", formats::joint_word(spec.kind), spec.name), spec.where,
-                "give `axis: [x, y, z]` in the world frame at the start, or orientations of its markers");
   place_marker(markers, spec.a, position, R, a);
   place_marker(markers, spec.b, position, R, b);
 }

@@ -21,10 +21,10 @@ struct MarkerTable {
   Eigen::Vector3d position(const Marker& marker) const { return marker_position(marker, motion(marker.node)); }
 };
 
-/// Gives the markers a and b of a joint, as found by name, one pose in the world at the start where the scene leaves
+/// Gives the markers a and b of a pair, as found by name, one pose in the world at the start where the scene leaves
 /// them open: its `position`, else that of b, or of a if b is ground or if only a has a position; its `axis`, else the
-/// axes of the marker that has an orientation. Throws Error if the joint needs an axis that the scene does not give.
-void place_markers(const MarkerTable& markers, const formats::JointSpec& spec, Marker& a, Marker& b);
+/// axes of the marker that has an orientation, or those of the world.
+void place_markers(const MarkerTable& markers, const formats::MarkerPairSpec& spec, Marker& a, Marker& b);
 
 /// Throws Error unless the node of the marker has translations, and rotations if the marker is away from it or `turns`:
 /// whether the axes of the marker matter.

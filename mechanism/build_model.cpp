@@ -43,8 +43,12 @@ class Builder {
       if (!vanished_.contains(joint.name)) collect([&] { joints.add(joint); });
     throw_errors();
     for (const formats::GearSpec& gear : scene_.gears) collect([&] { joints.add(gear); });
+    for (const formats::InputSpec& input : scene_.inputs) joints.add(input);
+    for (const formats::ChannelSpec& channel : scene_.channels) collect([&] { joints.add(channel); });
+    throw_errors();
     for (const formats::MotionSpec& motion : scene_.motions) collect([&] { joints.add(motion); });
     for (const formats::SpringSpec& spring : scene_.springs) collect([&] { joints.add(spring); });
+    for (const formats::BushingSpec& bushing : scene_.bushings) collect([&] { joints.add(bushing); });
     for (const formats::LoadSpec& load : scene_.loads) collect([&] { add_load(load); });
     throw_errors();
     finish();
@@ -121,6 +125,7 @@ class Builder {
     options.where = spec.where;
     SuperelementBody body = build_superelement_body(element, file.report.rigid, options);
     body.name = spec.name;
+    body.gravity = spec.gravity.value_or(scene_.gravity);
     for (const std::string& note : body.notes) notes_.push_back(fmt::format("body '{}': {}", spec.name, note));
     for (std::size_t j = 0; j < body.node.size(); ++j) {
       const std::string name = spec.name + "/" + body.node[j].name;
@@ -138,6 +143,7 @@ class Builder {
                               const UnitConversion& units) {
     formats::RigidBodySpec rigid;
     rigid.name = spec.name;
+    rigid.gravity = spec.gravity;
     rigid.start = spec.start;
     rigid.mass = file.report.rigid.mass * units.mass;
     rigid.center_of_mass = file.report.rigid.center_of_mass * units.length;
@@ -155,7 +161,7 @@ class Builder {
 
   void add_body(const formats::RigidBodySpec& spec) {
     const int node = add_node(spec.name, spec.start, spec.center_of_mass, 1, 1);
-    model_.rigid_bodies.push_back({spec.name, node, spec.mass, spec.inertia});
+    model_.rigid_bodies.push_back({spec.name, node, spec.mass, spec.inertia, spec.gravity.value_or(scene_.gravity)});
     add_place(spec.name, {node, -spec.center_of_mass, Matrix3d::Identity()});
     for (const formats::RigidNodeSpec& place : spec.nodes)
       add_place(spec.name + "/" + place.name, {node, place.pose.position - spec.center_of_mass,
@@ -172,8 +178,10 @@ class Builder {
     }
     markers_.places[spec.name + "/start"] = {nodes.front(), Vector3d::Zero(), Matrix3d::Identity()};
     markers_.places[spec.name + "/end"] = {nodes.back(), Vector3d::Zero(), Matrix3d::Identity()};
-    const auto append = [&nodes](const auto& elements, auto& pool) {
+    const Vector3d gravity = spec.gravity.value_or(scene_.gravity);
+    const auto append = [&nodes, &gravity](const auto& elements, auto& pool) {
       for (auto element : elements) {
+        element.gravity = gravity;
         for (int& node : element.nodes) node = nodes[static_cast<std::size_t>(node)];
         pool.push_back(element);
       }
@@ -265,10 +273,10 @@ class Builder {
     if (load.at.node < 0 && load.at.follower < 0)
       throw Error(fmt::format("load '{}' acts on ground", spec.name), spec.where, "name a node of a body");
     if (load.at.node >= 0) check_load_node(spec, load);
-    for (const formats::TimeFunctionSpec& component : spec.components) {
-      TimeFunction check(component);  // reports syntax errors now
-      for (const double t : breakpoints(component)) breakpoints_.insert(t);
-    }
+    const int index = static_cast<int>(model_.loads.size());
+    for (int k = 0; k < 3; ++k)
+      note_function(spec.components[static_cast<std::size_t>(k)], {ChannelUse::Owner::load, index, k, 0, 0}, model_,
+                    breakpoints_);
     model_.loads.push_back(std::move(load));
   }
 
@@ -324,6 +332,8 @@ class Builder {
           coupling.constant += term.factor * workspace.coordinates[static_cast<std::size_t>(term.coordinate)].value;
     for (Spring& spring : model.springs)
       if (spring.free_at_start) spring.free = workspace.coordinates[static_cast<std::size_t>(spring.coordinate)].value;
+    for (std::size_t i = 0; i < model.bushings.size(); ++i)
+      if (model.bushings[i].free_at_start) model.bushings[i].free = workspace.bushings[i].deflection;
   }
 
   /// Largest diagonal entries of mass and stiffness, which the iteration matrix is scaled with.

@@ -15,21 +15,22 @@ using Eigen::Vector3d;
 std::vector<std::array<TimeFunction, 3>> compile_loads(const Model& model) {
   std::vector<std::array<TimeFunction, 3>> functions;
   for (const Load& load : model.loads)
-    functions.push_back(
-        {TimeFunction(load.components[0]), TimeFunction(load.components[1]), TimeFunction(load.components[2])});
+    functions.push_back({TimeFunction(load.components[0], model.scope), TimeFunction(load.components[1], model.scope),
+                         TimeFunction(load.components[2], model.scope)});
   return functions;
 }
 
 std::vector<MotionFunction> compile_motions(const Model& model) {
   std::vector<MotionFunction> functions;
-  for (const formats::TimeFunctionSpec& motion : model.motions) functions.emplace_back(motion, model.motion_spacing);
+  for (const formats::TimeFunctionSpec& motion : model.motions)
+    functions.emplace_back(motion, model.motion_spacing, model.scope);
   return functions;
 }
 
 std::vector<std::optional<TimeFunction>> compile_spring_forces(const Model& model) {
   std::vector<std::optional<TimeFunction>> functions(model.springs.size());
   for (std::size_t i = 0; i < model.springs.size(); ++i)
-    if (model.springs[i].has_force) functions[i].emplace(model.springs[i].force);
+    if (model.springs[i].has_force) functions[i].emplace(model.springs[i].force, model.scope);
   return functions;
 }
 
@@ -74,9 +75,10 @@ void note_scale(const SuperelementBody& body, const SuperelementScratch& scratch
     internal = std::max({internal, std::abs(body.S_II[k] * motion.y_I[k]), std::abs(motion.acceleration_I[k])});
 }
 
-void add_superelements(const Model& model, const State& state, const Vector3d& gravity, Workspace& workspace) {
+void add_superelements(const Model& model, const State& state, Workspace& workspace) {
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const SuperelementBody& body = model.superelements[i];
+    const Vector3d gravity = workspace.load_factor * body.gravity;
     SuperelementScratch& scratch = workspace.superelements[i];
     const int internal = model.internal_offset[i];
     const int first = model.sizes.boundary + internal;
@@ -92,19 +94,20 @@ void add_superelements(const Model& model, const State& state, const Vector3d& g
 }
 
 template <class Pool>
-void add_beams(const Pool& beams, const std::vector<ElementMap>& maps, const Vector3d& gravity, Workspace& workspace) {
+void add_beams(const Pool& beams, const std::vector<ElementMap>& maps, Workspace& workspace) {
   Eigen::Matrix<double, Pool::value_type::dofs, 1> r;
   for (std::size_t i = 0; i < beams.size(); ++i) {
-    residual(beams[i], workspace.motion, gravity, r);
+    residual(beams[i], workspace.motion, workspace.load_factor * beams[i].gravity, r);
     scatter(maps[i], r, workspace.residual);
     note_scale(r, workspace);
   }
 }
 
-void add_rigid_bodies(const Model& model, const Vector3d& gravity, Workspace& workspace) {
+void add_rigid_bodies(const Model& model, Workspace& workspace) {
   Vector6d r;
   for (std::size_t i = 0; i < model.rigid_bodies.size(); ++i) {
-    residual(model.rigid_bodies[i], motion_of(workspace, model.rigid_bodies[i].node), gravity, r);
+    const RigidBody& body = model.rigid_bodies[i];
+    residual(body, motion_of(workspace, body.node), workspace.load_factor * body.gravity, r);
     scatter(model.rigid_maps[i], r, workspace.residual);
     note_scale(r, workspace);
   }
@@ -140,13 +143,13 @@ void deactivate_rows(const Model& model, const State& state, Workspace& workspac
 }
 
 template <class Pool>
-void add_beam_tangents(const Pool& beams, const std::vector<ElementMap>& maps, const Vector3d& gravity,
-                       const TangentCoefficients& coefficients, double factor, Workspace& workspace) {
+void add_beam_tangents(const Pool& beams, const std::vector<ElementMap>& maps, const TangentCoefficients& coefficients,
+                       double factor, Workspace& workspace) {
   constexpr int n = Pool::value_type::dofs;
   Eigen::Matrix<double, n, 1> r;
   Eigen::Matrix<double, n, n> A;
   for (std::size_t i = 0; i < beams.size(); ++i) {
-    residual_and_tangent(beams[i], workspace.motion, gravity, coefficients, r, A);
+    residual_and_tangent(beams[i], workspace.motion, beams[i].gravity, coefficients, r, A);
     scatter_matrix(maps[i], A, factor, workspace.values);
   }
 }
@@ -156,7 +159,10 @@ void add_beam_tangents(const Pool& beams, const std::vector<ElementMap>& maps, c
 Workspace::Workspace(const Model& model)
     : motion(model.nodes.size() + 1),
       joints(model.joints.size()),
+      frictions(model.frictions.size()),
+      bushings(model.bushings.size()),
       coordinates(model.coordinates.size()),
+      channels(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(model.channels.size()))),
       motions(compile_motions(model)),
       motion_values(model.motions.size()),
       spring_forces(compile_spring_forces(model)),
@@ -197,13 +203,14 @@ void evaluate(const Model& model, const State& state, Workspace& workspace) {
   workspace.damping_power = 0.0;
   workspace.spring_energy = 0.0;
   workspace.active = state.active();
-  const Vector3d gravity = workspace.load_factor * model.gravity;
-  add_superelements(model, state, gravity, workspace);
-  add_beams(model.beams2, model.beam2_maps, gravity, workspace);
-  add_beams(model.beams3, model.beam3_maps, gravity, workspace);
-  add_rigid_bodies(model, gravity, workspace);
+  add_superelements(model, state, workspace);
+  add_beams(model.beams2, model.beam2_maps, workspace);
+  add_beams(model.beams3, model.beam3_maps, workspace);
+  add_rigid_bodies(model, workspace);
   add_joints(model, state, workspace);
+  add_frictions(model, state, workspace);
   add_coordinates(model, state, workspace);
+  add_bushings(model, workspace);
   add_loads(model, state, workspace);
 }
 
@@ -219,13 +226,13 @@ void evaluate_tangent(const Model& model, const State& state, const TangentCoeff
         break;
       case TangentKind::exact:
         exact_tangent(model.superelements[i], workspace.superelements[i], workspace.motion,
-                      workspace.load_factor * model.gravity, coefficients);
+                      workspace.load_factor * model.superelements[i].gravity, coefficients);
         break;
     }
     scatter_matrix(model.superelement_maps[i], workspace.superelements[i].A_BB, factor, workspace.values);
   }
-  add_beam_tangents(model.beams2, model.beam2_maps, model.gravity, coefficients, factor, workspace);
-  add_beam_tangents(model.beams3, model.beam3_maps, model.gravity, coefficients, factor, workspace);
+  add_beam_tangents(model.beams2, model.beam2_maps, coefficients, factor, workspace);
+  add_beam_tangents(model.beams3, model.beam3_maps, coefficients, factor, workspace);
   Matrix6d A;
   for (std::size_t i = 0; i < model.rigid_bodies.size(); ++i) {
     tangent(model.rigid_bodies[i], motion_of(workspace, model.rigid_bodies[i].node), coefficients, A);
@@ -237,21 +244,25 @@ void evaluate_tangent(const Model& model, const State& state, const TangentCoeff
     scatter_matrix(model.load_maps[i], A, -coefficients.stiffness * factor, workspace.values);
   }
   add_joint_tangents(model, state, coefficients.stiffness * factor, rows, workspace);
+  add_friction_tangents(model, state, coefficients, factor, workspace);
   add_coordinate_tangents(model, state, coefficients, factor, rows, workspace);
+  add_bushing_tangents(model, coefficients, factor, workspace);
+  add_channel_tangents(model, state, coefficients, factor, workspace);
   deactivate_rows(model, state, workspace);
 }
 
 Energy evaluate_energy(const Model& model, Workspace& workspace) {
   Energy sum;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    const SuperelementEnergy part = energy(model.superelements[i], workspace.superelements[i], model.gravity);
+    const SuperelementEnergy part =
+        energy(model.superelements[i], workspace.superelements[i], model.superelements[i].gravity);
     sum.kinetic += part.kinetic;
     sum.strain += part.strain;
     sum.potential += part.gravity_potential;
   }
-  const auto add = [&sum, &workspace, &model](const auto& beams) {
+  const auto add = [&sum, &workspace](const auto& beams) {
     for (const auto& beam : beams) {
-      const BeamEnergy part = energy(beam, workspace.motion, model.gravity);
+      const BeamEnergy part = energy(beam, workspace.motion, beam.gravity);
       sum.kinetic += part.kinetic;
       sum.strain += part.strain;
       sum.potential += part.potential;
@@ -262,7 +273,7 @@ Energy evaluate_energy(const Model& model, Workspace& workspace) {
   for (const RigidBody& body : model.rigid_bodies) {
     const NodeMotion& node = motion_of(workspace, body.node);
     sum.kinetic += kinetic_energy(body, node);
-    sum.potential += gravity_potential(body, node, model.gravity);
+    sum.potential += gravity_potential(body, node, body.gravity);
   }
   sum.strain += workspace.spring_energy;
   return sum;

@@ -11,11 +11,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 
-template <class Pair>
-MarkerPair markers_of(const Pair& item, const Workspace& workspace) {
-  return {item.a, item.b, motion_of(workspace, item.a.node), motion_of(workspace, item.b.node)};
-}
-
 Vector12 velocity_of(const MarkerPair& pair) {
   Vector12 v;
   v << pair.node_a.xd, pair.node_a.Omega, pair.node_b.xd, pair.node_b.Omega;
@@ -124,6 +119,7 @@ void add_coordinates(const Model& model, const State& state, Workspace& workspac
   for (std::size_t i = 0; i < model.coordinates.size(); ++i)
     if (model.coordinates[i].active)
       evaluate_coordinate(model.coordinates[i], state, workspace, workspace.coordinates[i]);
+  update_channels(model, workspace);
   add_couplings(model, state, workspace);
   add_springs(model, state, workspace);
 }

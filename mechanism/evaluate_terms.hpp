@@ -1,4 +1,5 @@
-// Parts of evaluate(): scattering of local vectors and matrices, and the loops over joints and their coordinates.
+// Parts of evaluate(): scattering of local vectors and matrices, and the loops over joints, their coordinates and
+// what acts between two markers.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +8,12 @@
 #include "mechanism/evaluate.hpp"
 
 namespace tisserand::mechanism {
+
+/// The markers of a joint, a coordinate or a force element with the motion of their carriers.
+template <class Item>
+MarkerPair markers_of(const Item& item, const Workspace& workspace) {
+  return {item.a, item.b, motion_of(workspace, item.a.node), motion_of(workspace, item.b.node)};
+}
 
 /// Adds the local vector to the global one.
 template <class Vector>
@@ -43,6 +50,22 @@ void add_joints(const Model& model, const State& state, Workspace& workspace);
 
 /// The active coordinates; Φ, its rate and Bᵀλ of couplings and motions, and the forces of springs.
 void add_coordinates(const Model& model, const State& state, Workspace& workspace);
+
+/// Values of the channels, and their passing on to the expressions that use them; after the active coordinates.
+void update_channels(const Model& model, Workspace& workspace);
+/// Derivatives of loads and spring forces by the channels, times `factor`.
+void add_channel_tangents(const Model& model, const State& state, const TangentCoefficients& coefficients,
+                          double factor, Workspace& workspace);
+
+/// Forces of friction in joints, after add_joints(). Their tangents: A times `factor`, and ∂r/∂λ beside Bᵀ.
+void add_frictions(const Model& model, const State& state, Workspace& workspace);
+void add_friction_tangents(const Model& model, const State& state, const TangentCoefficients& coefficients,
+                           double factor, Workspace& workspace);
+
+/// Forces, energy and powers of bushings, and their tangents times `factor`.
+void add_bushings(const Model& model, Workspace& workspace);
+void add_bushing_tangents(const Model& model, const TangentCoefficients& coefficients, double factor,
+                          Workspace& workspace);
 
 /// Rows, columns and geometric stiffness (times `stiffness`) of the joints.
 void add_joint_tangents(const Model& model, const State& state, double stiffness, const ConstraintRows& kind,

@@ -34,6 +34,12 @@ void evaluate_ties(const Model& model, const State& state, const double* lambda,
     const Row12 force = spring_force(model.springs[i], c.value, c.rate, applied).Q * c.G;
     add_pair(model.coordinates[at].a, model.coordinates[at].b, force, workspace);
   }
+  for (std::size_t i = 0; i < model.frictions.size(); ++i) {
+    const Joint& joint = model.joints[static_cast<std::size_t>(model.frictions[i].joint)];
+    add_pair(joint.a, joint.b, -workspace.frictions[i].force.transpose(), workspace);
+  }
+  for (std::size_t i = 0; i < model.bushings.size(); ++i)
+    add_pair(model.bushings[i].a, model.bushings[i].b, -workspace.bushings[i].force.transpose(), workspace);
   for (std::size_t i = 0; i < model.loads.size(); ++i)
     if (const Load& load = model.loads[i]; load.at.follower >= 0)
       wrenches[static_cast<std::size_t>(load.at.follower)] +=

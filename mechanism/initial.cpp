@@ -24,6 +24,8 @@ constexpr double rank_tolerance = 1e-10;
 constexpr double mass_condition = 1e-15;
 /// Constraint Jacobians up to this size are decomposed densely.
 constexpr int dense_rank_limit = 400;
+/// Iterations for accelerations and reactions that friction couples.
+constexpr int most_refinements = 30;
 
 /// Bᵀ with rotation rows divided by the characteristic length and angle columns multiplied with it.
 Eigen::SparseMatrix<double> scaled_jacobian(const Model& model, const Workspace& workspace) {
@@ -200,15 +202,27 @@ bool solve_accelerations(const Model& model, double step, const std::string& whe
     factors = factor(model, state, {1.0, 0.0, step * step}, TangentKind::step, {}, workspace);
     require_factors(model, factors, where, workspace);
   }
-  for (int refinement = 0; refinement < 2; ++refinement) {
+  // With friction the forces depend on the multipliers: Newton's iteration, otherwise one refinement.
+  const bool rubs = !model.frictions.empty();
+  bool settled = !rubs;
+  for (int refinement = 0; refinement < (rubs ? most_refinements : 2); ++refinement) {
     if (refinement > 0) evaluate(model, state, workspace);
+    if (refinement > 0 && rubs)
+      require_factors(model,
+                      factor(model, state, {1.0, 0.0, massless ? step * step : 0.0}, TangentKind::step, {}, workspace),
+                      where, workspace);
     evaluate_bias(model, workspace);
     apply_jacobian(model, workspace, state.vdot(), workspace.multipliers);
     workspace.bias = -workspace.bias - workspace.multipliers;
     solve_increment(model, workspace.bias, workspace);
     state.vdot() += workspace.increment;
     state.lambda() += workspace.unknowns.tail(model.sizes.constraints);
+    settled = settled || workspace.unknowns.tail(model.sizes.constraints).norm() <= 1e-12 * state.lambda().norm();
+    if (rubs && settled) break;
   }
+  if (!settled)
+    throw Error("the accelerations do not settle: reactions and friction of the joints drive each other", where,
+                "reduce the coefficients of friction, or raise their velocity");
   workspace.has_factors = false;
   evaluate(model, state, workspace);
   return massless;

@@ -50,8 +50,19 @@ void number_elements(Model& model) {
   for (const BeamElement2& beam : model.beams2) add(model.beam2_maps, beam.nodes[0], beam.nodes[1]);
   for (const BeamElement3& beam : model.beams3) add(model.beam3_maps, beam.nodes[0], beam.nodes[1], beam.nodes[2]);
   for (const Joint& joint : model.joints) add(model.joint_maps, joint.a.node, joint.b.node);
+  for (const Bushing& bushing : model.bushings) add(model.bushing_maps, bushing.a.node, bushing.b.node);
   for (const Load& load : model.loads) add(model.load_maps, load.at.node);
   for (const Coordinate& c : model.coordinates) add(model.coordinate_maps, c.a.node, c.b.node);
+  for (const ChannelUse& use : model.channel_uses) {
+    const auto owner = static_cast<std::size_t>(use.index);
+    ElementMap map = use.owner == ChannelUse::Owner::load
+                         ? model.load_maps[owner]
+                         : model.coordinate_maps[static_cast<std::size_t>(model.springs[owner].coordinate)];
+    const Channel& channel = model.channels[static_cast<std::size_t>(use.channel)];
+    append_coordinates(model, channel.a.node, map.coordinates);
+    append_coordinates(model, channel.b.node, map.coordinates);
+    model.channel_use_maps.push_back(std::move(map));
+  }
   for (const Coupling& coupling : model.couplings) {
     ElementMap map;
     for (const CouplingTerm& term : coupling.terms) {
@@ -100,7 +111,7 @@ void number_constraints(Model& model) {
 template <class Visit>
 void for_each_map(Model& model, Visit visit) {
   for (auto* maps : {&model.superelement_maps, &model.rigid_maps, &model.beam2_maps, &model.beam3_maps,
-                     &model.joint_maps, &model.load_maps})
+                     &model.joint_maps, &model.bushing_maps, &model.load_maps, &model.channel_use_maps})
     for (ElementMap& map : *maps) visit(map);
   for (std::size_t i = 0; i < model.coordinates.size(); ++i)
     if (model.coordinates[i].active) visit(model.coordinate_maps[i]);

@@ -11,9 +11,13 @@
 #include "mechanism/bodies/beam_element.hpp"
 #include "mechanism/bodies/rigid_body.hpp"
 #include "mechanism/bodies/superelement_body.hpp"
+#include "mechanism/channel.hpp"
+#include "mechanism/forces/bushing.hpp"
+#include "mechanism/forces/expression_scope.hpp"
 #include "mechanism/forces/load.hpp"
 #include "mechanism/forces/spring.hpp"
 #include "mechanism/joints/coordinate.hpp"
+#include "mechanism/joints/friction.hpp"
 #include "mechanism/joints/joint.hpp"
 #include "mechanism/solver/linear_solver.hpp"
 #include "mechanism/solver/solver_choice.hpp"
@@ -65,7 +69,7 @@ struct ConstraintMap {
 struct Model {
   std::string name;
   Units units;
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< of the scene; bodies carry their own
   double length = 1.0;           ///< characteristic length: extent of the nodes (1 if they coincide)
   double stiffness_scale = 1.0;  ///< largest diagonal entry of ∂r/∂q at the start
   double mass_scale = 1.0;       ///< largest diagonal entry of ∂r/∂v̇ at the start
@@ -89,14 +93,21 @@ struct Model {
   std::vector<Joint> joints;
   std::vector<ElementMap> joint_maps;
   std::vector<ConstraintMap> constraint_maps;
+  std::vector<Friction> frictions;
   std::vector<Coordinate> coordinates;
   std::vector<ElementMap> coordinate_maps;
   std::vector<Coupling> couplings;
   std::vector<ElementMap> coupling_maps;  ///< coordinates of all terms one after the other; no slots
   std::vector<ConstraintMap> coupling_constraint_maps;
+  ExpressionScope scope;  ///< what expressions may use; its channels are those below
+  std::vector<Channel> channels;
+  std::vector<ChannelUse> channel_uses;
+  std::vector<ElementMap> channel_use_maps;        ///< rows of the owner, then [x_A Θ_A x_B Θ_B] of the channel
   std::vector<formats::TimeFunctionSpec> motions;  ///< f(t) of driven coordinates
   double motion_spacing = 1e-4;                    ///< of the differences that give their rates
   std::vector<Spring> springs;
+  std::vector<Bushing> bushings;
+  std::vector<ElementMap> bushing_maps;
   std::vector<Load> loads;
   std::vector<ElementMap> load_maps;
   std::vector<double> breakpoints;  ///< ascending, of all loads

@@ -16,6 +16,13 @@ namespace tisserand::mechanism {
 namespace {
 
 /// What the model contains: pools and terms that are on.
+bool has_gravity(const Model& model) {
+  const auto any = [](const auto& pool) {
+    return std::ranges::any_of(pool, [](const auto& body) { return !body.gravity.isZero(0.0); });
+  };
+  return any(model.superelements) || any(model.rigid_bodies) || any(model.beams2) || any(model.beams3);
+}
+
 std::vector<std::string> effects(const Model& model) {
   std::vector<std::string> list;
   const auto add = [&list](std::size_t count, std::string what) {
@@ -31,10 +38,12 @@ std::vector<std::string> effects(const Model& model) {
   add(static_cast<std::size_t>(model.virtual_nodes), "virtual bodies");
   add(static_cast<std::size_t>(followers), "eliminated virtual bodies");
   add(model.joints.size(), "joints");
+  add(model.frictions.size(), "frictional joints");
   add(model.couplings.size(), "couplings");
   add(model.springs.size(), "springs");
+  add(model.bushings.size(), "bushings");
   add(model.loads.size(), "loads");
-  if (!model.gravity.isZero(0.0)) list.push_back("gravity");
+  if (has_gravity(model)) list.push_back("gravity");
   const bool damped = std::any_of(model.superelements.begin(), model.superelements.end(),
                                   [](const SuperelementBody& body) { return body.damping.active; });
   if (damped) list.push_back("damping");
@@ -50,6 +59,7 @@ std::string nonfinite_text(const std::string& what, const formats::TimeFunctionS
 }
 
 void require_finite_loads(Run& run) {
+  if (!run.built.model.channels.empty()) evaluate(run.built.model, run.built.state, run.workspace);  // sets channels
   const std::string bad = nonfinite_load(run, run.scene.integrator.start);
   if (!bad.empty()) throw Error(bad, run.scene.file, "correct the formula, for example with t > 0 ? .. : ..");
 }
@@ -67,6 +77,13 @@ void note_redundancy(Run& run) {
       "{} of {} constraint equations repeat what the others already demand: {}. The motion is right; the "
       "reactions of {} are not unique, those of least norm are stored",
       mobility.redundant.size(), mobility.constraints, join(rows, ", "), join(run.report.not_unique, ", ")));
+  for (const Friction& friction : run.built.model.frictions) {
+    const std::string& name = run.built.model.joints[static_cast<std::size_t>(friction.joint)].name;
+    if (std::ranges::count(run.report.not_unique, name) > 0)
+      run.report.notes.push_back(fmt::format(
+          "the friction of joint '{}' follows from a reaction that is not unique: another choice of it moves otherwise",
+          name));
+  }
 }
 
 }  // namespace

@@ -42,7 +42,10 @@ struct Workspace {
   std::vector<NodeMotion> motion;  ///< of every node; one more at the end: ground
   std::vector<SuperelementScratch> superelements;
   std::vector<JointTerms> joints;
+  std::vector<FrictionTerms> frictions;
+  std::vector<BushingTerms> bushings;
   std::vector<CoordinateTerms> coordinates;  ///< active ones; all of them after evaluate_coordinates()
+  Eigen::VectorXd channels;                  ///< values
   std::vector<MotionFunction> motions;
   std::vector<MotionFunction::Value> motion_values;
   std::vector<std::optional<TimeFunction>> spring_forces;
@@ -58,7 +61,7 @@ struct Workspace {
   double load_factor = 1.0;             ///< of loads and gravity (load steps of statics)
   double load_power = 0.0;
   double damping_power = 0.0;
-  double spring_energy = 0.0;  ///< strain energy of springs and stops
+  double spring_energy = 0.0;  ///< strain energy of springs, stops and bushings
   std::vector<double> values;  ///< of the iteration matrix [A/s Bᵀ; B 0]
   double matrix_scale = 1.0;   ///< s
 

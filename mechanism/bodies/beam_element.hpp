@@ -40,6 +40,7 @@ struct BeamElement {
   std::array<Eigen::Vector3d, points> initial_kappa{};  ///< κ₀
   double mass = 0.0;                                    ///< ρ A L
   std::array<Eigen::Matrix3d, N> inertia{};             ///< rotary inertia of node i in node axes
+  Eigen::Vector3d gravity = {0, 0, 0};                  ///< of its body, for the caller to scale and pass on
 };
 
 using BeamElement2 = BeamElement<2>;

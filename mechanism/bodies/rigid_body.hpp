@@ -16,6 +16,7 @@ struct RigidBody {
   int node = 0;
   double mass = 0.0;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
 };
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;

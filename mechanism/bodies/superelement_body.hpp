@@ -96,6 +96,7 @@ struct SuperelementBody {
   Eigen::Matrix<double, 3, Eigen::Dynamic> Gamma_B;          ///< Φ_TᵀM̄, boundary columns (3 x nb)
   Eigen::Matrix<double, 3, Eigen::Dynamic> Gamma_I;          ///< Φ_TᵀM̄, internal columns (3 x m)
 
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< for the caller to scale and pass on
   FileCoordinates file;
   std::vector<std::string> notes;  ///< what the user should know, whole sentences
 };

@@ -24,8 +24,8 @@ std::vector<double> spline_curvature(const std::vector<double>& t, const std::ve
 
 }  // namespace
 
-MotionFunction::MotionFunction(const formats::TimeFunctionSpec& spec, double spacing)
-    : function_(spec), spacing_(spacing) {
+MotionFunction::MotionFunction(const formats::TimeFunctionSpec& spec, double spacing, const ExpressionScope& scope)
+    : function_(spec, scope), spacing_(spacing) {
   const auto* table = std::get_if<formats::TimeTable>(&spec);
   if (table == nullptr || table->time.size() < 2) return;
   time_ = table->time;

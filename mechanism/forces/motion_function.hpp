@@ -13,7 +13,9 @@ namespace tisserand::mechanism {
 /// spacing that the caller chooses (a quarter of the step resolves all that the step resolves).
 class MotionFunction {
  public:
-  MotionFunction(const formats::TimeFunctionSpec& spec, double spacing);
+  MotionFunction(const formats::TimeFunctionSpec& spec, double spacing, const ExpressionScope& scope);
+  MotionFunction(const formats::TimeFunctionSpec& spec, double spacing)
+      : MotionFunction(spec, spacing, ExpressionScope{}) {}
 
   struct Value {
     double value = 0.0;

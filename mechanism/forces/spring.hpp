@@ -5,16 +5,17 @@
 #include <string>
 
 #include "formats/scene.hpp"
+#include "mechanism/forces/curve.hpp"
 
 namespace tisserand::mechanism {
 
-/// Generalised force on a coordinate q: Q = −k (q − q_free) − c q̇ + Q_stop + F(t), where a stop that is passed by
+/// Generalised force on a coordinate q: Q = −f(q − q_free) − d(q̇) + Q_stop + F(t), where a stop that is passed by
 /// g > 0 pushes back with k_s g (1 + d ġ), never pulling ([HC75] with exponent 1).
 struct Spring {
   std::string name;
-  int coordinate = 0;  ///< row of Model::coordinates
-  double stiffness = 0.0;
-  double damping = 0.0;
+  int coordinate = 0;     ///< row of Model::coordinates
+  Curve stiffness = 0.0;  ///< f: k (q − q_free) or a table
+  Curve damping = 0.0;    ///< d: c q̇ or a table
   double free = 0.0;
   bool free_at_start = false;  ///< `free` is the value at the start
   std::optional<double> lower, upper;
@@ -35,12 +36,12 @@ struct SpringForce {
 /// `applied`: F(t).
 inline SpringForce spring_force(const Spring& s, double q, double qd, double applied) {
   SpringForce f;
-  const double stretch = q - s.free;
-  f.Q = applied - s.stiffness * stretch - s.damping * qd;
-  f.dQ_dq = -s.stiffness;
-  f.dQ_dqd = -s.damping;
-  f.energy = 0.5 * s.stiffness * stretch * stretch;
-  f.dissipated = s.damping * qd * qd;
+  const Curve::Value elastic = s.stiffness(q - s.free), viscous = s.damping(qd);
+  f.Q = applied - elastic.value - viscous.value;
+  f.dQ_dq = -elastic.slope;
+  f.dQ_dqd = -viscous.slope;
+  f.energy = elastic.integral;
+  f.dissipated = viscous.value * qd;
   const auto stop = [&](double limit, double side) {
     const double g = side * (q - limit), gd = side * qd;
     if (g <= 0.0) return;

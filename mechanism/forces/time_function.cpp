@@ -7,32 +7,62 @@
 #include <muParser.h>
 
 #include "common/error.hpp"
+#include "common/text.hpp"
 
 namespace tisserand::mechanism {
 
 struct TimeFunction::Expression {
+  struct UsedInput {
+    std::shared_ptr<const Input> input;
+    std::size_t variable;
+  };
   double t = 0.0;
+  std::vector<double> variables;  ///< inputs, then channels of the scope; the parser points into it
+  std::vector<UsedInput> inputs;
+  std::size_t first_channel = 0;
   mu::Parser parser;
 };
 
-TimeFunction::TimeFunction(const formats::TimeFunctionSpec& spec) {
+void TimeFunction::compile(const formats::TimeExpression& text, const ExpressionScope& scope) {
+  expression_ = std::make_unique<Expression>();
+  Expression& e = *expression_;
+  e.first_channel = scope.inputs.size();
+  e.variables.assign(scope.inputs.size() + scope.channels.size(), 0.0);
+  std::vector<std::string> names;
+  for (const auto& input : scope.inputs) names.push_back(input->name);
+  names.insert(names.end(), scope.channels.begin(), scope.channels.end());
+  try {
+    e.parser.DefineVar("t", &e.t);
+    e.parser.DefineConst("pi", 3.14159265358979323846);
+    for (std::size_t i = 0; i < names.size(); ++i) e.parser.DefineVar(names[i], &e.variables[i]);
+    e.parser.SetExpr(text.text);
+    const auto& used = e.parser.GetUsedVar();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (!used.contains(names[i])) continue;
+      if (i < e.first_channel)
+        e.inputs.push_back({scope.inputs[i], i});
+      else
+        channels_.push_back(static_cast<int>(i - e.first_channel));
+    }
+    e.parser.Eval();
+  } catch (const mu::Parser::exception_type& error) {
+    throw Error(fmt::format("expression '{}': {}", text.text, error.GetMsg()), text.where,
+                names.empty() ? "write a formula in t, for example \"10*sin(2*pi*t)\""
+                              : "write a formula in t and " + join(names, ", "));
+  }
+  breakpoints_ = text.breakpoints;
+  for (const Expression::UsedInput& used : e.inputs)
+    breakpoints_.insert(breakpoints_.end(), used.input->breakpoints.begin(), used.input->breakpoints.end());
+}
+
+TimeFunction::TimeFunction(const formats::TimeFunctionSpec& spec, const ExpressionScope& scope) {
   if (const auto* constant = std::get_if<double>(&spec)) {
     constant_ = *constant;
   } else if (const auto* table = std::get_if<formats::TimeTable>(&spec)) {
-    time_ = table->time;
+    time_ = breakpoints_ = table->time;
     value_ = table->value;
   } else {
-    const auto& text = std::get<formats::TimeExpression>(spec);
-    expression_ = std::make_unique<Expression>();
-    try {
-      expression_->parser.DefineVar("t", &expression_->t);
-      expression_->parser.DefineConst("pi", 3.14159265358979323846);
-      expression_->parser.SetExpr(text.text);
-      expression_->parser.Eval();
-    } catch (const mu::Parser::exception_type& error) {
-      throw Error(fmt::format("expression '{}': {}", text.text, error.GetMsg()), text.where,
-                  "write a formula in t, for example \"10*sin(2*pi*t)\"");
-    }
+    compile(std::get<formats::TimeExpression>(spec), scope);
   }
 }
 
@@ -43,6 +73,8 @@ TimeFunction& TimeFunction::operator=(TimeFunction&&) noexcept = default;
 double TimeFunction::operator()(double t) {
   if (expression_) {
     expression_->t = t;
+    for (const Expression::UsedInput& used : expression_->inputs)
+      expression_->variables[used.variable] = (*used.input)(t);
     return expression_->parser.Eval();
   }
   if (time_.empty()) return constant_;
@@ -54,10 +86,20 @@ double TimeFunction::operator()(double t) {
   return (1.0 - s) * value_[i - 1] + s * value_[i];
 }
 
-std::vector<double> breakpoints(const formats::TimeFunctionSpec& spec) {
-  if (const auto* table = std::get_if<formats::TimeTable>(&spec)) return table->time;
-  if (const auto* expression = std::get_if<formats::TimeExpression>(&spec)) return expression->breakpoints;
-  return {};
+void TimeFunction::set_channels(const Eigen::VectorXd& values) {
+  for (const int channel : channels_)
+    expression_->variables[expression_->first_channel + static_cast<std::size_t>(channel)] = values[channel];
+}
+
+double TimeFunction::derivative(std::size_t argument, double t) {
+  double& x = expression_->variables[expression_->first_channel + static_cast<std::size_t>(channels_[argument])];
+  const double at = x, d = 6e-6 * std::max(std::abs(at), 1e-3);
+  x = at + d;
+  const double ahead = (*this)(t), above = x;
+  x = at - d;
+  const double behind = (*this)(t), below = x;
+  x = at;
+  return (ahead - behind) / (above - below);
 }
 
 }  // namespace tisserand::mechanism

@@ -60,8 +60,8 @@ TEST(SceneJoints, EveryKeyIsRead) {
   ASSERT_EQ(scene.springs.size(), 2u);
   EXPECT_FALSE(scene.springs[0].coordinate);
   EXPECT_EQ(scene.springs[0].b.node, "b");
-  EXPECT_EQ(scene.springs[0].stiffness, 20.0);
-  EXPECT_EQ(scene.springs[0].damping, 3.0);
+  EXPECT_EQ(std::get<double>(scene.springs[0].stiffness), 20.0);
+  EXPECT_EQ(std::get<double>(scene.springs[0].damping), 3.0);
   EXPECT_EQ(scene.springs[0].free.value(), 0.4);
   EXPECT_EQ(scene.springs[1].coordinate->name, "nut/z");
   EXPECT_EQ(scene.springs[1].lower.value(), -1.0);

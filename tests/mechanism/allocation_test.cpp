@@ -39,7 +39,21 @@ formats::Scene everything() {
   scene.loads = {test_support::constant_load("force", formats::LoadKind::force, "beam2/end", {1, 2, 3}),
                  test_support::constant_load("moment", formats::LoadKind::moment, "block", {1, 0, 0})};
   scene.loads[0].components[0] = formats::TimeTable{{0.0, 10.0}, {0.0, 30.0}};
-  scene.loads[1].components[1] = formats::TimeExpression{"sin(20*t)", {}, ""};
+  scene.loads[1].components[1] = formats::TimeExpression{"sin(20*t) + drive - speed", {}, ""};
+  scene.joints[1].friction = formats::FrictionSpec{0.1, {}, 0.1, 0.02, {}};
+  scene.inputs = {{"drive", {{0.0, 0.01, 10.0}, {0.0, 1.0, 2.0}}, formats::Interpolation::cubic, ""}};
+  scene.channels.resize(1);
+  scene.channels[0].name = "speed";
+  scene.channels[0].kind = formats::ChannelKind::rate;
+  scene.channels[0].coordinate.name = "hinge";
+  scene.bushings.resize(1);
+  scene.bushings[0].a.node = "ground";
+  scene.bushings[0].b.node = "block";
+  scene.bushings[0].stiffness.diagonal().setConstant(10.0);
+  scene.springs.resize(1);
+  scene.springs[0].coordinate = formats::CoordinateRef{"hinge", ""};
+  scene.springs[0].stiffness = formats::CurveSpec{formats::Interpolation::cubic, {-1.0, 1.0}, {-3.0, 3.0}};
+  scene.springs[0].force = formats::TimeExpression{"-0.1*speed", {}, ""};
   return scene;
 }
 

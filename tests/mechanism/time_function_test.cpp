@@ -19,7 +19,7 @@ TEST(TimeFunction, Constant) {
   TimeFunction f(3.5);
   EXPECT_EQ(f(-1.0), 3.5);
   EXPECT_EQ(f(100.0), 3.5);
-  EXPECT_TRUE(breakpoints(3.5).empty());
+  EXPECT_TRUE(f.breakpoints().empty());
 }
 
 TEST(TimeFunction, TableIsLinearBetweenPointsAndConstantOutside) {
@@ -32,14 +32,14 @@ TEST(TimeFunction, TableIsLinearBetweenPointsAndConstantOutside) {
   EXPECT_DOUBLE_EQ(f(3.5), -10.0);
   EXPECT_EQ(f(4.0), -20.0);
   EXPECT_EQ(f(9.0), -20.0);
-  EXPECT_EQ(breakpoints(table), (std::vector<double>{1.0, 2.0, 4.0}));
+  EXPECT_EQ(f.breakpoints(), (std::vector<double>{1.0, 2.0, 4.0}));
 }
 
 TEST(TimeFunction, ExpressionInT) {
   TimeFunction f(TimeExpression{"10*sin(2*pi*t) + (t > 1 ? 5 : 0)", {1.0}, "scene.yaml:3:4"});
   EXPECT_NEAR(f(0.25), 10.0, 1e-14);
   EXPECT_NEAR(f(1.25), 15.0, 1e-13);
-  EXPECT_EQ(breakpoints(TimeExpression{"t", {0.5, 1.0}, ""}), (std::vector<double>{0.5, 1.0}));
+  EXPECT_EQ(TimeFunction(TimeExpression{"t", {0.5, 1.0}, ""}).breakpoints(), (std::vector<double>{0.5, 1.0}));
 }
 
 TEST(TimeFunction, BadExpressionIsAnErrorAtItsPlace) {

@@ -1,0 +1,47 @@
+// Bushing: elastic and damped connection of two markers in all directions, for rotations of any size below half a turn.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "mechanism/joints/relation.hpp"
+
+namespace tisserand::mechanism {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector12d = Eigen::Matrix<double, 12, 1>;
+
+/// Deflection d = [p; ψ]: p = R_Aᵀ(x_B − x_A), ψ = log(R_AᵀR_B), with the origins and axes of the markers. The law is
+/// w = K (d − free) + D ḋ − preload, and the virtual work of what acts on the bodies is −w·δd: a moment of T(ψ)⁻ᵀ w_ψ
+/// about the axes of B, since δψ = T(ψ)⁻¹ δΘ_AB. With K = Kᵀ it derives from V = ½(d − free)ᵀK(d − free) −
+/// preload·(d − free). Translations are in A's axes: swapping the bodies is the same law only for small rotations.
+struct Bushing {
+  std::string name;
+  Marker a;
+  Marker b;
+  Matrix6d stiffness = Matrix6d::Zero();
+  Matrix6d damping = Matrix6d::Zero();
+  Vector6d free = Vector6d::Zero();
+  bool free_at_start = false;  ///< `free` is the deflection at the start
+  Vector6d preload = Vector6d::Zero();
+};
+
+/// Values at one instant. Columns of J and rows of force: [x_A Θ_A x_B Θ_B], world translations, material rotations.
+struct BushingTerms {
+  Vector6d deflection;
+  Eigen::Matrix<double, 6, 12> J;  ///< δd = J δq, ḋ = J v
+  Vector6d w;
+  Vector12d force;          ///< Jᵀ w: contribution to the residual
+  double energy = 0.0;      ///< V with the symmetric part of K
+  double dissipated = 0.0;  ///< power ḋᵀD ḋ
+  double supplied = 0.0;    ///< power of the antisymmetric part of K: −ḋᵀ ½(K − Kᵀ)(d − free)
+};
+void evaluate(const Bushing& bushing, const MarkerPair& pair, BushingTerms& terms);
+
+/// c_c ∂(Jᵀw)/∂v + c_k ∂(Jᵀw)/∂q, exact, from the terms at the same state.
+void tangent(const Bushing& bushing, const MarkerPair& pair, const BushingTerms& terms,
+             const TangentCoefficients& coefficients, Square12& A);
+
+}  // namespace tisserand::mechanism

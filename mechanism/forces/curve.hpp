@@ -1,0 +1,38 @@
+// A law between two quantities: proportional, or a table with its slope and integral.
+#pragma once
+
+#include <vector>
+
+#include "formats/scene.hpp"
+
+namespace tisserand::mechanism {
+
+/// y(x). Tables are linear between the points or monotone cubic: in each interval the Hermite cubic with the slopes of
+/// [FB84] (2), 0 where the secants change sign, so that it has no extremum between the points; no curvature at the
+/// ends. Outside the table it goes on straight with its last slope.
+class Curve {
+ public:
+  Curve(double factor) : factor_(factor) {}  // NOLINT(google-explicit-constructor): a number is a law
+  explicit Curve(const formats::LawSpec& law);
+
+  struct Value {
+    double value = 0.0;
+    double slope = 0.0;
+    double integral = 0.0;  ///< ∫₀ˣ y dx
+  };
+  Value operator()(double x) const;
+
+ private:
+  /// value + c1 t + c2 t² + c3 t³ with t = x − start; integral: ∫ y dx from the first point to start.
+  struct Piece {
+    double start = 0.0, value = 0.0, c1 = 0.0, c2 = 0.0, c3 = 0.0, integral = 0.0;
+    Value at(double x) const;
+  };
+  const Piece& piece(double x) const;
+
+  double factor_ = 0.0;
+  double at_zero_ = 0.0;       ///< integral from the first point to 0
+  std::vector<Piece> pieces_;  ///< before the table, its intervals, behind it; empty: proportional
+};
+
+}  // namespace tisserand::mechanism

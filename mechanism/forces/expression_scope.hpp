@@ -1,0 +1,29 @@
+// What expressions may use besides t: input channels, which are functions of time, and channels of the mechanism.
+#pragma once
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "mechanism/forces/curve.hpp"
+
+namespace tisserand::mechanism {
+
+/// A measured or computed history: linear or monotone cubic between its points, constant outside.
+struct Input {
+  std::string name;
+  Curve curve;
+  double first = 0.0;
+  double last = 0.0;
+  std::vector<double> breakpoints;  ///< where its slope jumps
+
+  double operator()(double t) const { return curve(std::clamp(t, first, last)).value; }
+};
+
+struct ExpressionScope {
+  std::vector<std::shared_ptr<const Input>> inputs;
+  std::vector<std::string> channels;
+};
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,188 @@
+// Sliding velocities and normal forces of joints, with their derivatives.
+#include "mechanism/joints/friction.hpp"
+
+#include "common/error.hpp"
+#include "common/rotation.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Rows3 = Eigen::Matrix<double, 3, 12>;
+using Vector12d = Eigen::Matrix<double, 12, 1>;
+
+/// s = S v; unused rows are zero.
+struct Slip {
+  Rows3 S = Rows3::Zero();
+  Vector3d s = Vector3d::Zero();
+};
+
+/// The derivatives of a slip: ∂(S v)/∂q, and ∂(Sᵀ weight)/∂q.
+struct SlipGradient {
+  Rows3 rate = Rows3::Zero();
+  Square12 geometric = Square12::Zero();
+};
+
+constexpr Relation turn{RelationKind::angle, 2, 0};
+constexpr Relation shift{RelationKind::along, 2, 0};
+
+/// Relation and factor of each row, for joints whose slip is made of joint coordinates.
+struct SlipRow {
+  Relation relation;
+  double factor = 0.0;
+};
+std::array<SlipRow, 2> slip_rows(const Friction& friction, JointKind kind) {
+  if (kind == JointKind::revolute) return {{{turn, friction.radius}, {shift, 0.0}}};
+  if (kind == JointKind::prismatic) return {{{turn, 0.0}, {shift, 1.0}}};
+  TISSERAND_ENSURE(kind == JointKind::cylindrical, "friction in a joint of kind {}", static_cast<int>(kind));
+  return {{{turn, friction.radius}, {shift, 1.0}}};
+}
+
+Slip slip_of(const Friction& friction, const LoadedJoint& loaded) {
+  const MarkerPair& p = loaded.pair;
+  Slip slip;
+  if (loaded.joint.kind == JointKind::spherical) {  // r (Ω_B − R_BᵀR_A Ω_A)
+    slip.S.block<3, 3>(0, 3) = -friction.radius * (p.node_b.R.transpose() * p.node_a.R);
+    slip.S.block<3, 3>(0, 9) = friction.radius * Matrix3d::Identity();
+  } else {
+    const std::array<SlipRow, 2> rows = slip_rows(friction, loaded.joint.kind);
+    for (int k = 0; k < 2; ++k)
+      if (const SlipRow& row = rows[static_cast<std::size_t>(k)]; row.factor != 0.0)
+        slip.S.row(k) = row.factor * evaluate(row.relation, p).G;
+  }
+  Vector12d v;
+  v << p.node_a.xd, p.node_a.Omega, p.node_b.xd, p.node_b.Omega;
+  slip.s = slip.S.lazyProduct(v);
+  return slip;
+}
+
+SlipGradient slip_gradient(const Friction& friction, const LoadedJoint& loaded, const Vector3d& weight) {
+  const MarkerPair& p = loaded.pair;
+  SlipGradient gradient;
+  if (loaded.joint.kind == JointKind::spherical) {
+    const double r = friction.radius;
+    const Matrix3d R_BA = p.node_b.R.transpose() * p.node_a.R;
+    const Vector3d carried = R_BA.transpose() * weight;
+    gradient.rate.block<3, 3>(0, 3) = r * R_BA * skew<double>(p.node_a.Omega);
+    gradient.rate.block<3, 3>(0, 9) = -r * skew<double>(R_BA * p.node_a.Omega);
+    gradient.geometric.block<3, 3>(3, 3) = -r * skew<double>(carried);
+    gradient.geometric.block<3, 3>(3, 9) = r * R_BA.transpose() * skew<double>(weight);
+    return gradient;
+  }
+  const std::array<SlipRow, 2> rows = slip_rows(friction, loaded.joint.kind);
+  for (int k = 0; k < 2; ++k) {
+    const SlipRow& row = rows[static_cast<std::size_t>(k)];
+    if (row.factor == 0.0) continue;
+    gradient.rate.row(k) = row.factor * rate_gradient(row.relation, p);
+    add_stiffness(row.relation, p, row.factor * weight[k], gradient.geometric);
+  }
+  return gradient;
+}
+
+/// Which components of force and moment (axes of A) press the surfaces together.
+struct Pressing {
+  Vector3d force;
+  Vector3d moment;
+};
+Pressing pressing(JointKind kind) {
+  const Vector3d all = Vector3d::Ones(), across(1, 1, 0);
+  if (kind == JointKind::revolute) return {all, across};
+  if (kind == JointKind::prismatic) return {across, all};
+  if (kind == JointKind::cylindrical) return {across, across};
+  return {all, Vector3d::Zero()};
+}
+
+/// N and its derivatives by force and moment.
+struct Normal {
+  double N = 0.0;
+  Vector3d by_force = Vector3d::Zero();
+  Vector3d by_moment = Vector3d::Zero();
+};
+Normal normal_of(const Friction& friction, JointKind kind, const JointReaction& reaction) {
+  const Pressing part = pressing(kind);
+  const Vector3d f = part.force.cwiseProduct(reaction.force), m = part.moment.cwiseProduct(reaction.moment);
+  const double force = f.norm(), moment = m.norm(), factor = 2.0 * friction.inverse_arm;
+  Normal normal;
+  normal.N = force + factor * moment;
+  if (force > 0.0) normal.by_force = f / force;
+  if (moment > 0.0) normal.by_moment = factor * m / moment;
+  return normal;
+}
+
+Row12 pulled_back(const LoadedJoint& loaded) {
+  Row12 sum = Row12::Zero();
+  for (int k = 0; k < loaded.joint.size(); ++k) sum += loaded.lambda[k] * loaded.terms.B.row(k);
+  return sum;
+}
+
+/// ∂N/∂q at fixed multipliers, from that of g = Bᵀλ: f = R_MᵀR_Aᵀ(−g_x), m likewise of R_B(−g_Θ − p_B × R_Bᵀ(−g_x)).
+Row12 normal_gradient(const LoadedJoint& loaded, const Row12& g, const Normal& normal) {
+  const MarkerPair& p = loaded.pair;
+  Square12 K;
+  joint_stiffness(loaded.joint, p.node_a, p.node_b, loaded.lambda, K);
+  const Vector3d f_W = -g.segment<3>(6).transpose(), f_B = p.node_b.R.transpose() * f_W;
+  const Vector3d m_B = -g.segment<3>(9).transpose() - p.b.p.cross(f_B), m_W = p.node_b.R * m_B;
+  const Rows3 df_W = -K.middleRows<3>(6);
+  Rows3 df_B = p.node_b.R.transpose() * df_W;
+  df_B.block<3, 3>(0, 9) += skew<double>(f_B);
+  Rows3 dm_B = -K.middleRows<3>(9);
+  dm_B.noalias() -= skew<double>(p.b.p) * df_B;
+  Rows3 dm_W = p.node_b.R * dm_B;
+  dm_W.block<3, 3>(0, 9) -= p.node_b.R * skew<double>(m_B);
+  const Matrix3d to_A = p.node_a.R.transpose();
+  Rows3 df = to_A * df_W, dm = to_A * dm_W;  // in axes of node A
+  df.block<3, 3>(0, 3) += skew<double>(to_A * f_W);
+  dm.block<3, 3>(0, 3) += skew<double>(to_A * m_W);
+  return (p.a.R * normal.by_force).transpose() * df + (p.a.R * normal.by_moment).transpose() * dm;
+}
+
+}  // namespace
+
+FrictionLaw friction_law(const Friction& friction, double speed) {
+  const double v = friction.velocity;
+  if (speed <= v) return {friction.stiction * (2.0 - speed / v) / v, -friction.stiction / (v * v)};
+  double mu = friction.kinetic, slope = 0.0;
+  if (speed < 3.0 * v) {
+    const double t = (speed - v) / (2.0 * v), drop = friction.stiction - friction.kinetic;
+    mu = friction.stiction - drop * t * t * (3.0 - 2.0 * t);
+    slope = -drop * 6.0 * t * (1.0 - t) / (2.0 * v);
+  }
+  return {mu / speed, (slope - mu / speed) / speed};
+}
+
+FrictionTerms evaluate(const Friction& friction, const LoadedJoint& loaded) {
+  const Slip slip = slip_of(friction, loaded);
+  const JointReaction reaction = reaction_of(pulled_back(loaded), loaded.pair);
+  FrictionTerms terms;
+  terms.normal = normal_of(friction, loaded.joint.kind, reaction).N;
+  const double factor = terms.normal * friction_law(friction, slip.s.norm()).ratio;
+  terms.force.noalias() = slip.S.transpose().lazyProduct(factor * slip.s);
+  terms.power = factor * slip.s.squaredNorm();
+  return terms;
+}
+
+void tangent(const Friction& friction, const LoadedJoint& loaded, const TangentCoefficients& coefficients,
+             FrictionTangent& result) {
+  const Slip slip = slip_of(friction, loaded);
+  const Row12 g = pulled_back(loaded);
+  const Normal normal = normal_of(friction, loaded.joint.kind, reaction_of(g, loaded.pair));
+  const double speed = slip.s.norm();
+  const FrictionLaw law = friction_law(friction, speed);
+  Matrix3d by_slip = law.ratio * Matrix3d::Identity();  // of μ(|s|) s/|s|
+  if (speed > 0.0) by_slip += (law.slope / speed) * slip.s * slip.s.transpose();
+  const Vector3d pull = law.ratio * slip.s;
+  const SlipGradient gradient = slip_gradient(friction, loaded, pull);
+  const Rows3 ds = coefficients.damping * slip.S + coefficients.stiffness * gradient.rate;
+  const Vector12d direction = slip.S.transpose() * pull;
+  result.A.noalias() = slip.S.transpose() * (normal.N * by_slip * ds);
+  result.A += (coefficients.stiffness * normal.N) * gradient.geometric;
+  result.A.noalias() += coefficients.stiffness * direction * normal_gradient(loaded, g, normal);
+  result.by_lambda.setZero();
+  for (int k = 0; k < loaded.joint.size(); ++k) {
+    const JointReaction unit = reaction_of(loaded.terms.B.row(k), loaded.pair);
+    result.by_lambda.col(k) = (normal.by_force.dot(unit.force) + normal.by_moment.dot(unit.moment)) * direction;
+  }
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,55 @@
+// Coulomb friction in a joint, driven by its own reactions and smooth in the sliding velocity.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "mechanism/joints/joint.hpp"
+
+namespace tisserand::mechanism {
+
+/// Sliding velocity s of the contact: radius × rate of the angle (revolute), rate of z (prismatic), both (cylindrical),
+/// radius × relative angular velocity (spherical). The friction −N μ(|s|) s/|s| acts along s; the normal force is
+/// N = |f| + 2|m|/arm of the components of the reaction that press the surfaces together: f all three (revolute,
+/// spherical) or across z; m across z, all three (prismatic) or none (spherical).
+/// μ rises to the static coefficient at |s| = velocity (quadratic), falls to the kinetic one at 3 velocity (cubic) and
+/// stays: a joint that should stick creeps at (1 − √(1 − F/(μ_s N))) velocity.
+struct Friction {
+  int joint = 0;             ///< index in Model::joints
+  double kinetic = 0.0;      ///< coefficient μ
+  double stiction = 0.0;     ///< coefficient μ_s ≥ μ
+  double velocity = 0.0;     ///< [length/time]
+  double radius = 0.0;       ///< of the contact surface; prismatic: unused
+  double inverse_arm = 0.0;  ///< 1/distance of the two supports that take reaction moments; 0: they do not count
+};
+
+/// μ(s)/s and its derivative.
+struct FrictionLaw {
+  double ratio = 0.0;
+  double slope = 0.0;
+};
+FrictionLaw friction_law(const Friction& friction, double speed);
+
+/// A joint with its Jacobian and multipliers at one instant.
+struct LoadedJoint {
+  const Joint& joint;
+  MarkerPair pair;
+  const JointTerms& terms;
+  const double* lambda;
+};
+
+struct FrictionTerms {
+  Eigen::Matrix<double, 12, 1> force = Eigen::Matrix<double, 12, 1>::Zero();  ///< contribution to the residual
+  double normal = 0.0;
+  double power = 0.0;  ///< taken out, not negative
+};
+FrictionTerms evaluate(const Friction& friction, const LoadedJoint& loaded);
+
+/// A = c_c ∂force/∂v + c_k ∂force/∂q, and ∂force/∂λ (first size() columns); exact.
+struct FrictionTangent {
+  Square12 A;
+  Eigen::Matrix<double, 12, 6> by_lambda;
+};
+void tangent(const Friction& friction, const LoadedJoint& loaded, const TangentCoefficients& coefficients,
+             FrictionTangent& result);
+
+}  // namespace tisserand::mechanism
