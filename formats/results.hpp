@@ -22,6 +22,8 @@ struct ResultsLayout {
   std::vector<int> boundary_offset;  ///< superelements.size() + 1; into the rows of boundary_force
   std::vector<std::string>
       boundary_nodes;  ///< boundary_offset.back() names of the rows of boundary_force; empty: numbers
+  std::vector<std::string> modal_bodies;
+  std::vector<int> modal_offset;  ///< modal_bodies.size() + 1; into the columns of w
   std::vector<std::string> joints;
   struct Coordinate {
     std::string name;     ///< "hinge", or "slide/z" of a joint with several
@@ -43,6 +45,7 @@ struct ResultsRow {
   Eigen::Matrix4Xd frame_rotation;
   Eigen::VectorXd y;                                        ///< all superelements, file coordinates, modes_offset
   Eigen::Matrix<double, 6, Eigen::Dynamic> boundary_force;  ///< [force; moment]
+  Eigen::VectorXd w;                                        ///< all modal bodies, modal_offset
   Eigen::Matrix3Xd joint_force, joint_moment;
   Eigen::VectorXd joint_coordinate, joint_rate;  ///< of layout.coordinates
   double kinetic = 0.0, strain = 0.0, potential = 0.0, work = 0.0, dissipated = 0.0, total = 0.0, balance = 0.0;

@@ -88,6 +88,11 @@ void add_superelements(const ResultsLayout& layout, std::vector<Block>& blocks) 
   blocks.push_back(boundary);
 }
 
+void add_modal_bodies(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  blocks.push_back(scalars("/modal_bodies/w", numbered(layout.modal_bodies, layout.modal_offset), "",
+                           [](const ResultsRow& r) { return r.w.data(); }));
+}
+
 void add_joints(const ResultsLayout& layout, std::vector<Block>& blocks) {
   using Row = const ResultsRow&;
   const Units& u = layout.units;
@@ -153,6 +158,7 @@ void ResultsRow::resize(const ResultsLayout& layout) {
   frame_rotation = no_rotation.replicate(1, superelements);
   y.setZero(last(layout.modes_offset));
   boundary_force.setZero(6, last(layout.boundary_offset));
+  w.setZero(last(layout.modal_offset));
   joint_force.setZero(3, joints);
   joint_moment.setZero(3, joints);
   joint_coordinate.setZero(coordinates);
@@ -164,6 +170,7 @@ std::vector<Block> all_blocks(const ResultsLayout& layout) {
       scalar("/time", unit_label(layout.units, 0, 0, 1), [](const ResultsRow& r) { return &r.time; })};
   add_nodes(layout, blocks);
   add_superelements(layout, blocks);
+  add_modal_bodies(layout, blocks);
   add_joints(layout, blocks);
   add_scalars(layout, blocks);
   std::erase_if(blocks, [](const Block& block) { return block.width() == 0; });
@@ -174,9 +181,9 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
   // Groups and datasets that this mechanism has no member of may be chosen without effect ("joints" without joints).
   std::vector<std::string> known{"time"};
   ResultsLayout full;
-  full.nodes = full.superelements = full.joints = {"a"};
+  full.nodes = full.superelements = full.modal_bodies = full.joints = {"a"};
   full.coordinates = {{"a", false}};
-  full.modes_offset = full.boundary_offset = {0, 1};
+  full.modes_offset = full.boundary_offset = full.modal_offset = {0, 1};
   for (const Block& block : all_blocks(full)) {
     const std::string name = block.dataset.substr(1), group = name.substr(0, name.find('/'));
     known.push_back(name);

@@ -76,6 +76,8 @@ ResultsLayout read_layout(const hdf5::InputFile& file) {
   l.modes_offset = offsets(file, "/superelements/offset", l.superelements.size());
   l.boundary_offset = offsets(file, "/superelements/boundary_offset", l.superelements.size());
   l.boundary_nodes = names(file, "/superelements/boundary_name");
+  l.modal_bodies = names(file, "/modal_bodies/name");
+  l.modal_offset = offsets(file, "/modal_bodies/offset", l.modal_bodies.size());
   const std::size_t boundary = l.boundary_offset.empty() ? 0 : static_cast<std::size_t>(l.boundary_offset.back());
   if (l.boundary_nodes.size() != boundary) l.boundary_nodes.clear();
   return l;

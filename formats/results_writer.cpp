@@ -133,6 +133,11 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
     if (!layout.boundary_nodes.empty())
       hdf5::write_texts(file.id(), "/superelements/boundary_name", layout.boundary_nodes, where);
   }
+  if (stores("/modal_bodies/")) {
+    hdf5::write_texts(file.id(), "/modal_bodies/name", layout.modal_bodies, where);
+    hdf5::write_dataset(file.id(), "/modal_bodies/offset", {layout.modal_offset.size()}, layout.modal_offset.data(),
+                        where);
+  }
   if (file.reset() < 0) throw hdf5::last_error("cannot write the file", where, "choose another place or name");
 }
 

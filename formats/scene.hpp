@@ -102,7 +102,18 @@ struct BeamBodySpec {
   std::string where;
 };
 
-using BodySpec = std::variant<SuperelementBodySpec, RigidBodySpec, BeamBodySpec, VirtualBodySpec>;
+/// A floating-frame body with lumped masses from a modal body file; its nodes are `<body>/<node>`, its frame `<body>`.
+struct ModalBodySpec {
+  std::string name;
+  std::string file;  ///< resolved path
+  InitialMotion start;
+  std::optional<int> modes;      ///< absent: all in the file
+  std::optional<double> cutoff;  ///< [1/time of the scene]
+  Damping damping;               ///< beside that of the file
+  std::string where;
+};
+
+using BodySpec = std::variant<SuperelementBodySpec, RigidBodySpec, BeamBodySpec, VirtualBodySpec, ModalBodySpec>;
 
 enum class JointKind {
   fixed,

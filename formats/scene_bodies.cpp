@@ -1,4 +1,4 @@
-// `bodies` of scene.yaml: superelements, rigid bodies, beams, virtual bodies.
+// `bodies` of scene.yaml: superelements, modal bodies, rigid bodies, beams, virtual bodies.
 #include <filesystem>
 #include <limits>
 
@@ -77,6 +77,15 @@ Context inside(const Context& context, const std::string& what) {
   return {context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
 }
 
+/// `modes` or `cutoff`, not both.
+template <class Body>
+void read_mode_choice(const MapReader& map, Body& body) {
+  if (map.has("modes")) body.modes = map.integer("modes", 0);
+  if (map.has("cutoff")) body.cutoff = map.number("cutoff");
+  if (body.modes && body.cutoff)
+    map.context().fail(map.find("cutoff")->key_place, "both 'modes' and 'cutoff' are given", "give one of them");
+}
+
 SuperelementBodySpec read_superelement(const Context& context, const YamlNode& node,
                                        const SceneDefinitions& definitions) {
   const MapReader map(context, node, "body_superelement");
@@ -87,10 +96,7 @@ SuperelementBodySpec read_superelement(const Context& context, const YamlNode& n
   body.start = read_start(map);
   body.rigid = map.choice("use", {Choice<bool>{"flexible", false}, {"rigid", true}}, false);
   if (body.rigid) refuse_flexible_keys(map);
-  if (map.has("modes")) body.modes = map.integer("modes", 0);
-  if (map.has("cutoff")) body.cutoff = map.number("cutoff");
-  if (body.modes && body.cutoff)
-    map.context().fail(map.find("cutoff")->key_place, "both 'modes' and 'cutoff' are given", "give one of them");
+  read_mode_choice(map, body);
   body.inertia = map.choice(
       "inertia", {Choice<InertiaOption>{"A", InertiaOption::A}, {"B", InertiaOption::B}, {"M", InertiaOption::M}},
       InertiaOption::B);
@@ -100,6 +106,19 @@ SuperelementBodySpec read_superelement(const Context& context, const YamlNode& n
     body.position_weights = read_weights(inner, "positions");
     body.rotation_weights = read_weights(inner, "rotations");
   }
+  if (const YamlNode* damping = map.find("damping"))
+    body.damping = read_damping(MapReader(inside(context, "damping"), *damping, "damping", "damping."));
+  return body;
+}
+
+ModalBodySpec read_modal(const Context& context, const YamlNode& node, const SceneDefinitions& definitions) {
+  const MapReader map(context, node, "body_modal");
+  ModalBodySpec body;
+  body.name = node.key;
+  body.where = context.entry;
+  body.file = resolve(definitions.folder, map.text("file"));
+  body.start = read_start(map);
+  read_mode_choice(map, body);
   if (const YamlNode* damping = map.find("damping"))
     body.damping = read_damping(MapReader(inside(context, "damping"), *damping, "damping", "damping."));
   return body;
@@ -225,11 +244,11 @@ std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& 
       context.fail(
           node->key_place,
           node->kind == YamlKind::map ? "missing key 'type'" : fmt::format("must be a map, not {}", describe(*node)),
-          "give type: superelement, rigid, beam or virtual");
+          "give type: superelement, rigid, beam, virtual or modal");
       bodies.emplace_back(unreadable_body(context, *node));
       continue;
     }
-    switch (read_word(context, *type, "type", {"superelement", "rigid", "beam", "virtual"}).value_or(4)) {
+    switch (read_word(context, *type, "type", {"superelement", "rigid", "beam", "virtual", "modal"}).value_or(5)) {
       case 0:
         bodies.emplace_back(read_superelement(context, *node, definitions));
         break;
@@ -245,6 +264,9 @@ std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& 
         break;
       case 3:
         bodies.emplace_back(read_virtual(context, *node));
+        break;
+      case 4:
+        bodies.emplace_back(read_modal(context, *node, definitions));
         break;
       default:
         bodies.emplace_back(unreadable_body(context, *node));

@@ -57,13 +57,24 @@ void check_damping(const Damping& damping, const std::string& subject, const std
   for (const double ratio : damping.ratios) not_negative(ratio, "ratios");
 }
 
-void check_body(const SuperelementBodySpec& body, const std::string& subject, Faults& faults) {
-  if (body.file.empty()) faults.add(body.where, "file", fmt::format("{}: has no superelement file", subject), "");
+/// What bodies with modes from a file have in common.
+template <class Body>
+void check_modal_choice(const Body& body, const std::string& subject, const std::string& noun, Faults& faults) {
+  if (body.file.empty()) faults.add(body.where, "file", fmt::format("{}: has no {}", subject, noun), "");
   if (body.modes && *body.modes < 0)
     faults.add(body.where, "modes", fmt::format("{}: modes {} must not be negative", subject, *body.modes),
                "modes: 0 uses none");
   if (body.cutoff && !(*body.cutoff > 0.0 && std::isfinite(*body.cutoff)))
     faults.add(body.where, "cutoff", fmt::format("{}: cutoff {:g} must be positive", subject, *body.cutoff), "");
+  check_damping(body.damping, subject, body.where, faults);
+}
+
+void check_body(const ModalBodySpec& body, const std::string& subject, Faults& faults) {
+  check_modal_choice(body, subject, "modal body file", faults);
+}
+
+void check_body(const SuperelementBodySpec& body, const std::string& subject, Faults& faults) {
+  check_modal_choice(body, subject, "superelement file", faults);
   if (body.frame == FrameKind::node && body.frame_node.empty())
     faults.add(body.where, "frame", fmt::format("{}: frame has no node", subject), "write frame: {node: name}");
   if (body.frame == FrameKind::node && !(body.position_weights.empty() && body.rotation_weights.empty()))
@@ -73,7 +84,6 @@ void check_body(const SuperelementBodySpec& body, const std::string& subject, Fa
         "remove them, or give frame: karcher or paper");
   check_weights(body.position_weights, subject, body.where, "weights.positions", faults);
   check_weights(body.rotation_weights, subject, body.where, "weights.rotations", faults);
-  check_damping(body.damping, subject, body.where, faults);
 }
 
 void check_nodes(const std::vector<RigidNodeSpec>& nodes, const std::string& subject, const std::string& where,
@@ -171,7 +181,7 @@ void check_node(const Scene& scene, const MarkerSpec& marker, const std::string&
   }
   const SuperelementBodySpec* element = std::get_if<SuperelementBodySpec>(&body);
   const bool rigid = std::holds_alternative<RigidBodySpec>(body) || std::holds_alternative<VirtualBodySpec>(body) ||
-                     (element != nullptr && element->rigid);
+                     std::holds_alternative<ModalBodySpec>(body) || (element != nullptr && element->rigid);
   const bool beam = std::holds_alternative<BeamBodySpec>(body);
   if (!rigid)
     faults.add(where, key,

@@ -26,6 +26,8 @@ std::vector<KeySet> scene_key_sets() {
       {"body_rigid", {"type", "mass", "center_of_mass", "inertia", "nodes", "pose", "velocity", "angular_velocity"}},
       {"body_rigid_from", {"type", "from", "file_mirrored", "pose", "velocity", "angular_velocity"}},
       {"body_virtual", {"type", "nodes", "pose", "velocity", "angular_velocity"}},
+      {"body_modal",
+       {"type", "file", "file_mirrored", "modes", "cutoff", "damping", "pose", "velocity", "angular_velocity"}},
       {"body_beam",
        {"type", "from", "to", "through", "orientation", "elements", "nodes_per_element", "section", "material", "pose",
         "velocity", "angular_velocity"}},

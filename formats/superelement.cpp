@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -11,7 +10,7 @@
 #include "common/error.hpp"
 #include "common/sha256.hpp"
 #include "common/text.hpp"
-#include "formats/hdf5_file.hpp"
+#include "formats/hdf5_head.hpp"
 #include "formats/superelement_scaling.hpp"
 
 namespace tisserand::formats {
@@ -23,43 +22,15 @@ static_assert(std::endian::native == std::endian::little, "content_id is defined
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using RowMajor3 = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-constexpr const char* format_name = "tisserand-superelement";
+constexpr hdf5::FileKind kind{"tisserand-superelement", "superelement file",
+                              "give a *.superelement.h5 file, as `reducer run` writes it",
+                              "reduce the part again with a program of the same major version"};
 constexpr std::size_t max_label = 255;
 
 const std::vector<std::string> known_attributes{"format",          "version",         "name",
                                                 "method",          "producer",        "length_unit",
                                                 "mass_unit",       "time_unit",       "length_unit_label",
                                                 "mass_unit_label", "time_unit_label", "content_id"};
-
-void check_format(const hdf5::InputFile& file) {
-  const std::string format = file.has_attribute("/", "format") ? file.text_attribute("/", "format") : "";
-  if (format != format_name)
-    throw Error(format.empty()
-                    ? "is an HDF5 file, but not a superelement file (it has no attribute 'format')"
-                    : fmt::format("is a file of the kind '{}', expected '{}'", format.substr(0, 60), format_name),
-                file.path(), "give a *.superelement.h5 file, as `reducer run` writes it");
-  const std::string version = file.text_attribute("/", "version");
-  int major = -1, minor = -1;
-  const char* end = version.data() + version.size();
-  const auto [after, error] = std::from_chars(version.data(), end, major);
-  const bool dot = error == std::errc() && after != end && *after == '.';
-  const bool valid = dot && std::from_chars(after + 1, end, minor).ptr == end && minor >= 0 && after + 1 != end;
-  if (!valid)
-    throw Error(fmt::format("is '{}', expected major.minor such as '1.0'", version.substr(0, 20)),
-                file.path() + ": attribute 'version'", "correct the version");
-  if (major != 1)
-    throw Error(fmt::format("is {}, this program reads versions 1.x", version.substr(0, 20)),
-                file.path() + ": attribute 'version'",
-                "reduce the part again with a program of the same major version");
-}
-
-Unit read_unit(const hdf5::InputFile& file, const std::string& name) {
-  Unit unit{file.number_attribute("/", name), ""};
-  if (unit.factor != 0.0) unit.label = file.text_attribute("/", name + "_label");
-  if (unit.label.size() > max_label)
-    throw Error("is too long", fmt::format("{}: attribute '{}_label'", file.path(), name), "shorten it");
-  return unit;
-}
 
 /// Length of a one-dimensional dataset, at most `limit`; nothing has been allocated before.
 std::uint64_t bounded_length(const hdf5::InputFile& file, const std::string& dataset, const std::string& meaning) {
@@ -125,7 +96,7 @@ Superelement read_fields(const hdf5::InputFile& file) {
   e.name = file.text_attribute("/", "name");
   e.method = file.text_attribute("/", "method");
   e.producer = file.text_attribute("/", "producer");
-  e.units = {read_unit(file, "length_unit"), read_unit(file, "mass_unit"), read_unit(file, "time_unit")};
+  e.units = hdf5::read_units(file);
 
   const std::uint64_t nodes = bounded_length(file, "/boundary/name", "nB names of boundary nodes");
   const std::uint64_t n = bounded_length(file, "/dof/node", "n rows of /stiffness and /mass");
@@ -151,27 +122,20 @@ struct Unchecked {
 
 Unchecked read_unchecked(const std::string& path) {
   const hdf5::InputFile file(path, hdf5::Completeness::closed);
-  check_format(file);
+  hdf5::check_format(file, kind);
   Unchecked result{read_fields(file), std::nullopt, unknown_items(file)};
   if (file.has_attribute("/", "content_id")) result.content_id = file.text_attribute("/", "content_id");
   return result;
 }
 
-void write_unit(hdf5::Id file, const std::string& name, const Unit& unit, const std::string& where) {
-  hdf5::write_number_attribute(file, "/", name, unit.factor, where);
-  hdf5::write_text_attribute(file, "/", name + "_label", unit.label, where);
-}
-
 void write_fields(hdf5::Id file, const Superelement& e, const std::string& where) {
   const auto n = static_cast<std::uint64_t>(e.size()), nodes = static_cast<std::uint64_t>(e.node_name.size());
-  hdf5::write_text_attribute(file, "/", "format", format_name, where);
+  hdf5::write_text_attribute(file, "/", "format", kind.format, where);
   hdf5::write_text_attribute(file, "/", "version", "1.0", where);
   hdf5::write_text_attribute(file, "/", "name", e.name, where);
   hdf5::write_text_attribute(file, "/", "method", e.method, where);
   hdf5::write_text_attribute(file, "/", "producer", e.producer, where);
-  write_unit(file, "length_unit", e.units.length, where);
-  write_unit(file, "mass_unit", e.units.mass, where);
-  write_unit(file, "time_unit", e.units.time, where);
+  hdf5::write_units(file, e.units, where);
   hdf5::write_text_attribute(file, "/", "content_id", e.content_id, where);
   hdf5::write_texts(file, "/boundary/name", e.node_name, where);
   const RowMajor3 position = e.node_position;

@@ -10,6 +10,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "formats/hdf5_head.hpp"
 #include "formats/superelement_scaling.hpp"
 
 namespace tisserand::formats {
@@ -291,35 +292,11 @@ void check_inertia(const Superelement& e, double length, SuperelementReport& rep
   }
 }
 
-void check_units(const Units& units, const Place& place) {
-  const auto check_unit = [&](const Unit& unit, const char* name, Unit (*find)(const std::string&)) {
-    if (!std::isfinite(unit.factor) || unit.factor < 0.0)
-      throw Error(fmt::format("is {}, expected a factor to SI, or 0 for consistent and unnamed units", unit.factor),
-                  place.dataset(fmt::format("attribute '{}'", name)), "correct the number");
-    if ((unit.factor > 0.0) != units.named())
-      throw Error(fmt::format("is {}, although length_unit is {}", unit.factor, units.length.factor),
-                  place.dataset(fmt::format("attribute '{}'", name)), "name all three units, or write 0 for all three");
-    if (unit.factor == 0.0) return;
-    Unit known;
-    try {
-      known = find(unit.label);
-    } catch (const Error&) {
-      return;  // labels of other units are free
-    }
-    if (std::abs(known.factor - unit.factor) > 1e-9 * known.factor)
-      throw Error(fmt::format("is {}, but its label '{}' means {}", unit.factor, printable(unit.label), known.factor),
-                  place.dataset(fmt::format("attribute '{}'", name)), "correct the number or the label");
-  };
-  check_unit(units.length, "length_unit", length_unit);
-  check_unit(units.mass, "mass_unit", mass_unit);
-  check_unit(units.time, "time_unit", time_unit);
-}
-
 }  // namespace
 
 SuperelementReport check(const Superelement& element, const std::string& where) {
   const Place place{where};
-  check_units(element.units, place);
+  hdf5::check_units(element.units, where);
   check_sizes(element, place);
   check_names(element, place);
   check_dof_table(element, place);

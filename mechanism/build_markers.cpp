@@ -75,11 +75,10 @@ Marker MarkerTable::find(const formats::MarkerSpec& spec) const { return with_of
 void check_marker(const Model& model, const std::string& subject, MarkerUse use, const formats::MarkerSpec& place,
                   const Marker& marker) {
   if (marker.node < 0) return;
-  const Node& node = model.nodes[static_cast<std::size_t>(marker.node)];
-  if (node.translation < 0)
+  if (!has_translation(model, marker.node))
     throw Error(fmt::format("{} holds the position of node '{}', which has no translations", subject, place.node),
                 place.where, "keep the translations of that node in the superelement");
-  if (node.rotation >= 0) return;
+  if (has_rotation(model, marker.node)) return;
   if (use == MarkerUse::position_and_axes)
     throw Error(fmt::format("{} holds the rotation of node '{}', which has none", subject, place.node), place.where,
                 "use a spherical joint, or keep the rotations of that node in the superelement");

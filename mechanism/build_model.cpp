@@ -11,6 +11,7 @@
 #include "common/text.hpp"
 #include "mechanism/bodies/beam_mesh.hpp"
 #include "mechanism/build_joints.hpp"
+#include "mechanism/build_modal.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/newton.hpp"
 #include "mechanism/virtual_bodies.hpp"
@@ -23,7 +24,7 @@ using Eigen::Vector3d;
 
 class Builder {
  public:
-  Builder(const formats::Scene& scene, const SuperelementFiles& files) : scene_(scene), files_(files) {}
+  Builder(const formats::Scene& scene, const BodyFiles& files) : scene_(scene), files_(files) {}
 
   BuiltModel build() {
     model_.name = scene_.name;
@@ -71,7 +72,7 @@ class Builder {
   /// A node at `position` (part frame) of a body that starts with `start`.
   int add_node(const std::string& name, const formats::InitialMotion& start, const Vector3d& position, int translations,
                int rotations) {
-    Node node{name, -1, -1};
+    Node node{name, -1, -1, -1};
     if (translations) node.translation = std::exchange(model_.sizes.boundary, model_.sizes.boundary + 3);
     if (rotations) node.rotation = std::exchange(model_.sizes.boundary, model_.sizes.boundary + 3);
     model_.nodes.push_back(node);
@@ -94,14 +95,47 @@ class Builder {
     markers_.places[name] = marker;
   }
 
+  void note_units(const std::string& name, const Units& from, const UnitConversion& units) {
+    if (from.named() && (units.length != 1.0 || units.mass != 1.0 || units.time != 1.0))
+      notes_.push_back(fmt::format("body '{}': converted from {}, {}, {} to {}, {}, {}", name, from.length.label,
+                                   from.mass.label, from.time.label, scene_.units.length.label, scene_.units.mass.label,
+                                   scene_.units.time.label));
+  }
+
+  void add_body(const formats::ModalBodySpec& spec) {
+    const formats::LoadedModalBody& file = files_.modal_bodies.at(spec.file);
+    const UnitConversion units = convert_units(file.body.units, scene_.units, spec.file);
+    note_units(spec.name, file.body.units, units);
+    for (const std::string& warning : file.warnings) notes_.push_back(fmt::format("body '{}': {}", spec.name, warning));
+    BuiltModalBody built = build_modal_body(file.body, spec, units);
+    if (built.body.modes < static_cast<int>(file.body.modes()))
+      notes_.push_back(
+          fmt::format("body '{}': {} of {} modes are used", spec.name, built.body.modes, file.body.modes()));
+    formats::InitialMotion start = spec.start;
+    const Matrix3d turn = start.pose.orientation.normalized().toRotationMatrix();
+    const Vector3d arm = turn * built.frame_position;
+    start.pose.position += arm;
+    start.velocity += start.angular_velocity.cross(arm);
+    start.pose.orientation = Eigen::Quaterniond(turn * built.frame_rotation);
+    built.body.node = add_node(spec.name, start, Vector3d::Zero(), 1, 1);
+    built.body.offset = std::exchange(model_.sizes.modal, model_.sizes.modal + built.body.modes);
+    add_place(spec.name, {built.body.node, Vector3d::Zero(), Matrix3d::Identity()});
+    for (ModalNode& node : built.nodes) {
+      const std::string name = spec.name + "/" + node.name;
+      node.body = static_cast<int>(model_.modal_bodies.size());
+      node.node = add_node(name, start, node.x, 0, 0);
+      model_.nodes.back().modal = static_cast<int>(model_.modal_nodes.size());
+      model_.modal_nodes.push_back(std::move(node));
+      add_place(name, {model_.modal_nodes.back().node, Vector3d::Zero(), Matrix3d::Identity()});
+    }
+    model_.modal_bodies.push_back(std::move(built.body));
+  }
+
   void add_body(const formats::SuperelementBodySpec& spec) {
-    const formats::LoadedSuperelement& file = files_.at(spec.file);
+    const formats::LoadedSuperelement& file = files_.superelements.at(spec.file);
     const formats::Superelement& element = file.superelement;
     const UnitConversion units = convert_units(element.units, scene_.units, spec.file);
-    if (element.units.named() && (units.length != 1.0 || units.mass != 1.0 || units.time != 1.0))
-      notes_.push_back(fmt::format("body '{}': converted from {}, {}, {} to {}, {}, {}", spec.name,
-                                   element.units.length.label, element.units.mass.label, element.units.time.label,
-                                   scene_.units.length.label, scene_.units.mass.label, scene_.units.time.label));
+    note_units(spec.name, element.units, units);
     for (const std::string& warning : file.report.warnings)
       notes_.push_back(fmt::format("body '{}': {}", spec.name, warning));
     if (spec.rigid) {
@@ -241,13 +275,14 @@ class Builder {
   // ---------------------------------------------------------------------------------------------------------
   void check_load_node(const formats::LoadSpec& spec, const Load& load) const {
     const Node& node = model_.nodes[static_cast<std::size_t>(load.at.node)];
-    if (spec.kind == formats::LoadKind::moment && node.rotation < 0)
+    if (spec.kind == formats::LoadKind::moment && !has_rotation(model_, load.at.node))
       throw Error(fmt::format("moment '{}' acts on node '{}', which has no rotations", spec.name, node.name),
                   spec.where, "use forces, or keep the rotations of that node in the superelement");
-    if (spec.kind == formats::LoadKind::force && node.translation < 0)
+    if (spec.kind == formats::LoadKind::force && !has_translation(model_, load.at.node))
       throw Error(fmt::format("force '{}' acts on node '{}', which has no translations", spec.name, node.name),
                   spec.where, "use moments, or keep the translations of that node in the superelement");
-    if (node.rotation < 0 && (spec.axes == formats::LoadAxes::body || load.at.p.norm() > 1e-12 * model_.length))
+    if (!has_rotation(model_, load.at.node) &&
+        (spec.axes == formats::LoadAxes::body || load.at.p.norm() > 1e-12 * model_.length))
       throw Error(fmt::format("force '{}' {} node '{}', which has no rotations", spec.name,
                               spec.axes == formats::LoadAxes::body ? "follows" : "acts away from", node.name),
                   spec.where,
@@ -287,6 +322,7 @@ class Builder {
 
   void finish() {
     model_.sizes.nodes = static_cast<int>(model_.nodes.size());
+    model_.sizes.boundary += model_.sizes.modal;
     model_.sizes.internal = model_.internal_offset.back();
     model_.sizes.superelements = static_cast<int>(model_.superelements.size());
     model_.breakpoints.assign(breakpoints_.begin(), breakpoints_.end());
@@ -317,6 +353,7 @@ class Builder {
   static void measure_start(Model& model, State& state, Workspace& workspace) {
     evaluate(model, state, workspace);
     unwrap_hinges(model, workspace, state);
+    update_modal_nodes(model, workspace);
     evaluate_coordinates(model, state, workspace);
     for (Coupling& coupling : model.couplings)
       for (const CouplingTerm& term : coupling.terms)
@@ -333,15 +370,11 @@ class Builder {
       model.mass_scale = model.stiffness_scale = 1.0;
       evaluate_tangent(model, state, c, TangentKind::step, {}, workspace);
       double largest = 0.0;
-      for (const Node& node : model.nodes)
-        for (int k = 0; k < 3 && node.translation >= 0; ++k)
-          largest = std::max(largest, std::abs(workspace.values[static_cast<std::size_t>(
-                                          model.pattern->slot(node.translation + k, node.translation + k))]));
-      for (const Node& node : model.nodes)
-        for (int k = 0; k < 3 && node.rotation >= 0; ++k)
-          largest = std::max(largest, std::abs(workspace.values[static_cast<std::size_t>(
-                                          model.pattern->slot(node.rotation + k, node.rotation + k))]) /
-                                          (model.length * model.length));
+      for (int i = 0; i < model.sizes.boundary; ++i) {
+        const int slot = model.pattern->slot(i, i);
+        largest =
+            std::max(largest, std::abs(workspace.values[static_cast<std::size_t>(slot)]) * model.value_scale[slot]);
+      }
       return largest;
     };
     const double mass = largest_diagonal({1.0, 0.0, 0.0});
@@ -351,7 +384,7 @@ class Builder {
   }
 
   const formats::Scene& scene_;
-  const SuperelementFiles& files_;
+  const BodyFiles& files_;
   Model model_;
   MarkerTable markers_;
   std::vector<Eigen::Quaterniond> frames_;
@@ -364,8 +397,6 @@ class Builder {
 
 }  // namespace
 
-BuiltModel build_model(const formats::Scene& scene, const SuperelementFiles& files) {
-  return Builder(scene, files).build();
-}
+BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files) { return Builder(scene, files).build(); }
 
 }  // namespace tisserand::mechanism

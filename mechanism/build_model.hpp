@@ -3,7 +3,9 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
+#include "formats/modal_body.hpp"
 #include "formats/scene.hpp"
 #include "formats/superelement.hpp"
 #include "mechanism/model.hpp"
@@ -14,6 +16,14 @@ namespace tisserand::mechanism {
 /// Superelement files by path, each read once.
 using SuperelementFiles = std::map<std::string, formats::LoadedSuperelement>;
 
+/// All files that bodies are made from, each read once; made from superelements alone where there is nothing else.
+struct BodyFiles {
+  BodyFiles() = default;
+  BodyFiles(SuperelementFiles files) : superelements(std::move(files)) {}
+  SuperelementFiles superelements;
+  std::map<std::string, formats::LoadedModalBody> modal_bodies;
+};
+
 struct BuiltModel {
   Model model;
   State state;                     ///< positions and velocities of the scene, not yet projected on the constraints
@@ -21,6 +31,6 @@ struct BuiltModel {
 };
 
 /// Throws Error (all that are found) for names that do not exist, joints on nodes without rotations, and so on.
-BuiltModel build_model(const formats::Scene& scene, const SuperelementFiles& files);
+BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files);
 
 }  // namespace tisserand::mechanism

@@ -40,6 +40,7 @@ void update_motion(const Model& model, const State& state, Workspace& workspace)
   const auto vdot = state.vdot();
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
+    if (node.modal >= 0) continue;
     NodeMotion& motion = workspace.motion[i];
     const auto column = static_cast<Eigen::Index>(i);
     motion.x = x.col(column);
@@ -53,6 +54,26 @@ void update_motion(const Model& model, const State& state, Workspace& workspace)
       motion.Omegad = vdot.segment<3>(node.rotation);
     }
   }
+}
+
+void update_modal_node(const Model& model, std::size_t i, Workspace& workspace) {
+  const ModalNode& node = model.modal_nodes[i];
+  const auto body = static_cast<std::size_t>(node.body);
+  update_node(node, workspace.modal_bodies[body], motion_of(workspace, model.modal_bodies[body].node),
+              workspace.motion[static_cast<std::size_t>(node.node)], workspace.modal_nodes[i]);
+}
+
+/// Frames, modes and the nodes that something acts on.
+void update_modal_bodies(const Model& model, const State& state, const Vector3d& gravity, Workspace& workspace) {
+  for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
+    const ModalBody& body = model.modal_bodies[i];
+    const int first = model.sizes.first_modal() + body.offset;
+    update_kinematics(body, motion_of(workspace, body.node),
+                      {state.w().data() + body.offset, state.v().data() + first, state.vdot().data() + first}, gravity,
+                      workspace.modal_bodies[i]);
+  }
+  for (std::size_t i = 0; i < model.modal_nodes.size(); ++i)
+    if (model.modal_nodes[i].active) update_modal_node(model, i, workspace);
 }
 
 /// Inertia and internal forces of a superelement one by one: they cancel in the residual of a free vibration.
@@ -110,6 +131,28 @@ void add_rigid_bodies(const Model& model, const Vector3d& gravity, Workspace& wo
   }
 }
 
+/// Elastic and inertia forces of the modes one by one: they cancel in the residual of a free vibration.
+void note_scale(const ModalBody& body, const ModalScratch& scratch, Workspace& workspace) {
+  const auto note = [&workspace](std::size_t kind, double value) {
+    workspace.force_scale[kind] = std::max(workspace.force_scale[kind], value);
+  };
+  note(0, scratch.r.head<3>().cwiseAbs().maxCoeff());
+  note(1, scratch.r.segment<3>(3).cwiseAbs().maxCoeff());
+  for (Eigen::Index k = 0; k < body.modes; ++k)
+    note(0, std::sqrt(body.mass) * std::max(std::abs(body.stiffness[k] * scratch.w[k]), std::abs(scratch.wdd[k])));
+}
+
+void add_modal_bodies(const Model& model, Workspace& workspace) {
+  for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
+    const ModalBody& body = model.modal_bodies[i];
+    ModalScratch& scratch = workspace.modal_bodies[i];
+    residual(body, scratch);
+    scatter(model.modal_maps[i], scratch.r, workspace.residual);
+    note_scale(body, scratch, workspace);
+    workspace.damping_power += body.damping.dot(scratch.wd.cwiseAbs2());
+  }
+}
+
 void add_loads(const Model& model, const State& state, Workspace& workspace) {
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
@@ -117,7 +160,7 @@ void add_loads(const Model& model, const State& state, Workspace& workspace) {
     Vector3d& value = workspace.load_values[i];
     for (int k = 0; k < 3; ++k) value[k] = workspace.load_factor * workspace.load_functions[i][k](state.load_time());
     const Vector6d force = load_force(load, node, value);
-    scatter(model.load_maps[i], Vector6d(-force), workspace.residual);
+    add_force(model, model.load_maps[i], Vector6d(-force), workspace);
     note_scale(force, workspace);
     workspace.load_power += force.head<3>().dot(node.xd) + force.tail<3>().dot(node.Omega);
   }
@@ -182,6 +225,9 @@ Workspace::Workspace(const Model& model)
     boundary = std::max(boundary, body.boundary_size);
   }
   element_boundary.setZero(boundary);
+  for (const ModalBody& body : model.modal_bodies) modal_bodies.push_back(make_scratch(body));
+  for (const ModalNode& node : model.modal_nodes) modal_nodes.push_back(make_terms(node));
+  carriers = make_carrier_scratch(model);
   for (JointTerms& terms : joints) {
     terms.phi.setZero();
     terms.B.setZero();
@@ -198,10 +244,12 @@ void evaluate(const Model& model, const State& state, Workspace& workspace) {
   workspace.spring_energy = 0.0;
   workspace.active = state.active();
   const Vector3d gravity = workspace.load_factor * model.gravity;
+  update_modal_bodies(model, state, gravity, workspace);
   add_superelements(model, state, gravity, workspace);
   add_beams(model.beams2, model.beam2_maps, gravity, workspace);
   add_beams(model.beams3, model.beam3_maps, gravity, workspace);
   add_rigid_bodies(model, gravity, workspace);
+  add_modal_bodies(model, workspace);
   add_joints(model, state, workspace);
   add_coordinates(model, state, workspace);
   add_loads(model, state, workspace);
@@ -231,14 +279,25 @@ void evaluate_tangent(const Model& model, const State& state, const TangentCoeff
     tangent(model.rigid_bodies[i], motion_of(workspace, model.rigid_bodies[i].node), coefficients, A);
     scatter_matrix(model.rigid_maps[i], A, factor, workspace.values);
   }
+  for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
+    tangent(model.modal_bodies[i], coefficients, workspace.modal_bodies[i]);
+    scatter_matrix(model.modal_maps[i], workspace.modal_bodies[i].tangent, factor, workspace.values);
+  }
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
-    A = load_stiffness(load, motion_of(workspace, load.at.node), workspace.load_values[i]);
-    scatter_matrix(model.load_maps[i], A, -coefficients.stiffness * factor, workspace.values);
+    const NodeMotion& node = motion_of(workspace, load.at.node);
+    A = load_stiffness(load, node, workspace.load_values[i]);
+    add_matrix(model, model.load_maps[i], A, -coefficients.stiffness * factor, workspace,
+               [&] { return load_force(load, node, workspace.load_values[i]); });
   }
   add_joint_tangents(model, state, coefficients.stiffness * factor, rows, workspace);
   add_coordinate_tangents(model, state, coefficients, factor, rows, workspace);
   deactivate_rows(model, state, workspace);
+}
+
+void update_modal_nodes(const Model& model, Workspace& workspace) {
+  for (std::size_t i = 0; i < model.modal_nodes.size(); ++i)
+    if (!model.modal_nodes[i].active) update_modal_node(model, i, workspace);
 }
 
 Energy evaluate_energy(const Model& model, Workspace& workspace) {
@@ -263,6 +322,13 @@ Energy evaluate_energy(const Model& model, Workspace& workspace) {
     const NodeMotion& node = motion_of(workspace, body.node);
     sum.kinetic += kinetic_energy(body, node);
     sum.potential += gravity_potential(body, node, model.gravity);
+  }
+  for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
+    const ModalBody& body = model.modal_bodies[i];
+    const ModalEnergy part = energy(body, motion_of(workspace, body.node), model.gravity, workspace.modal_bodies[i]);
+    sum.kinetic += part.kinetic;
+    sum.strain += part.strain;
+    sum.potential += part.potential;
   }
   sum.strain += workspace.spring_energy;
   return sum;

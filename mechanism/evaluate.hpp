@@ -11,7 +11,11 @@ namespace tisserand::mechanism {
 /// scratch), Φ, B v + Φ_t, the force scales and the powers of loads and damping.
 void evaluate(const Model& model, const State& state, Workspace& workspace);
 
+/// The motion of the nodes of modal bodies that nothing acts on, at the state of the last evaluate(): for output.
+void update_modal_nodes(const Model& model, Workspace& workspace);
+
 /// All joint coordinates, also those that nothing uses, at the state of the last evaluate(): for output.
+/// Needs update_modal_nodes().
 void evaluate_coordinates(const Model& model, const State& state, Workspace& workspace);
 
 /// Wrench that each tie transmits to its follower, from the equilibrium of the massless bodies that hang on it: minus

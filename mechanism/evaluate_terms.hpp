@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "mechanism/carriers.hpp"
 #include "mechanism/evaluate.hpp"
 
 namespace tisserand::mechanism {
@@ -23,6 +24,40 @@ void scatter_matrix(const ElementMap& map, const Matrix& local, double factor, s
     if (slot >= 0) values[static_cast<std::size_t>(slot)] += factor * *entry;
     ++entry;
   }
+}
+
+/// Adds a local vector [force; moment] per carrier to the residual.
+template <class Vector>
+void add_force(const Model& model, const ElementMap& map, const Vector& local, Workspace& workspace) {
+  if (map.carriers.empty())
+    scatter(map, local, workspace.residual);
+  else
+    scatter_pulled(model, map, local.data(), workspace);
+}
+
+/// Adds factor times the local matrix ∂(force)/∂(local coordinates) to the stored values; `force()` gives the local
+/// force, which modal bodies feel through moving nodes.
+template <class Matrix, class Force>
+void add_matrix(const Model& model, const ElementMap& map, const Matrix& local, double factor, Workspace& workspace,
+                Force force) {
+  if (map.carriers.empty()) {
+    scatter_matrix(map, local, factor, workspace.values);
+    return;
+  }
+  const auto f = force();
+  scatter_matrix(map, pulled_tangent(model, map, local_view(local), f.data(), workspace), factor, workspace.values);
+}
+
+/// Adds the first `size` rows of `lower` and, transposed, of `upper`, which begin at slot `first` of the map.
+template <class Lower, class Upper>
+void add_rows(const ConstraintMap& map, std::size_t first, int size, const Lower& lower, const Upper& upper,
+              std::vector<double>& values) {
+  for (Eigen::Index j = 0; j < lower.cols(); ++j)
+    for (int k = 0; k < size; ++k, ++first) {
+      if (map.lower[first] < 0) continue;
+      values[static_cast<std::size_t>(map.lower[first])] += lower(k, j);
+      values[static_cast<std::size_t>(map.upper[first])] += upper(k, j);
+    }
 }
 
 /// Force and moment rows of nodes with six coordinates.

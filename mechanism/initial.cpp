@@ -10,6 +10,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "mechanism/carriers.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/integrator.hpp"
 #include "mechanism/newton.hpp"
@@ -32,19 +33,21 @@ Eigen::SparseMatrix<double> scaled_jacobian(const Model& model, const Workspace&
     for (std::size_t j = 0; j < coordinates.size(); ++j) {
       const double value = values[static_cast<Eigen::Index>(j)];
       if (coordinates[j] < 0 || value == 0.0) continue;
-      const double scale = (j % 6 < 3 ? 1.0 : 1.0 / model.length) *
-                           (model.length_row[static_cast<std::size_t>(row)] ? 1.0 : model.length);
+      const double scale = model.equation_scale[coordinates[j]] * model.equation_scale[model.sizes.boundary + row];
       entries.emplace_back(coordinates[j], row, value * scale);
     }
   };
-  for (std::size_t i = 0; i < model.joints.size(); ++i)
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Eigen::MatrixXd B = model_rows(model, model.joint_maps[i], local_view(workspace.joints[i].B), workspace);
     for (int k = 0; k < model.joints[i].size(); ++k)
-      add(model.joint_maps[i].coordinates, model.joints[i].row + k, workspace.joints[i].B.row(k));
+      add(model.joint_maps[i].coordinates, model.joints[i].row + k, B.row(k));
+  }
   for (const Coupling& coupling : model.couplings)
     for (const CouplingTerm& term : coupling.terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
       const Row12 row = term.factor * workspace.coordinates[at].G;
-      add(model.coordinate_maps[at].coordinates, coupling.row, row);
+      add(model.coordinate_maps[at].coordinates, coupling.row,
+          model_rows(model, model.coordinate_maps[at], local_view(row), workspace).row(0));
     }
   Eigen::SparseMatrix<double> B(model.sizes.boundary, model.sizes.constraints);
   B.setFromTriplets(entries.begin(), entries.end());
@@ -135,7 +138,10 @@ Mobility count_mobility(const Model& model, const State& state, Workspace& works
   mobility.degrees_of_freedom = mobility.coordinates - mobility.rank;
   const int elements = static_cast<int>(model.beams2.size() + model.beams3.size());
   mobility.rigid_mobility =
-      elements > 0 ? -1 : 6 * static_cast<int>(model.superelements.size() + model.rigid_bodies.size()) - mobility.rank;
+      elements > 0
+          ? -1
+          : 6 * static_cast<int>(model.superelements.size() + model.modal_bodies.size() + model.rigid_bodies.size()) -
+                mobility.rank;
   return mobility;
 }
 

@@ -65,17 +65,10 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
   // Positions are rounded to ε length, which the stiffness turns into forces that no iteration can remove.
   const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
   const double allowed = std::max(options.tolerance * force, round_off) + 1e-300;
-  for (const Node& node : model.nodes) {
-    for (int k = 0; k < 3 && node.translation >= 0; ++k) {
-      const double r = std::abs(workspace.residual[node.translation + k]);
-      norms.residual = std::max(norms.residual, r);
-      raise(norms.force_ratio, norms.worst_coordinate, r / allowed, node.translation + k);
-    }
-    for (int k = 0; k < 3 && node.rotation >= 0; ++k) {
-      const double r = std::abs(workspace.residual[node.rotation + k]) / model.length;
-      norms.residual = std::max(norms.residual, r);
-      raise(norms.force_ratio, norms.worst_coordinate, r / allowed, node.rotation + k);
-    }
+  for (int i = 0; i < model.sizes.boundary; ++i) {
+    const double r = std::abs(workspace.residual[i]) * model.equation_scale[i];
+    norms.residual = std::max(norms.residual, r);
+    raise(norms.force_ratio, norms.worst_coordinate, r / allowed, i);
   }
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const auto& r = workspace.superelements[i].forces.r_I;
@@ -102,11 +95,8 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
 /// Largest component, positions relative to the characteristic length.
 double size_of(const Model& model, const Eigen::VectorXd& increment) {
   double largest = 0.0;
-  for (const Node& node : model.nodes) {
-    if (node.translation >= 0)
-      largest = std::max(largest, increment.segment<3>(node.translation).cwiseAbs().maxCoeff() / model.length);
-    if (node.rotation >= 0) largest = std::max(largest, increment.segment<3>(node.rotation).cwiseAbs().maxCoeff());
-  }
+  for (int i = 0; i < model.sizes.boundary; ++i)
+    largest = std::max(largest, std::abs(increment[i]) / (model.length * model.equation_scale[i]));
   return largest;
 }
 

@@ -143,7 +143,10 @@ formats::Scene read(const RunArguments& arguments) {
 std::vector<std::string> inputs(const formats::Scene& scene) {
   std::vector<std::string> files{scene.file};
   for (const formats::BodySpec& body : scene.bodies)
-    if (const auto* spec = std::get_if<formats::SuperelementBodySpec>(&body)) files.push_back(spec->file);
+    if (const auto* spec = std::get_if<formats::SuperelementBodySpec>(&body))
+      files.push_back(spec->file);
+    else if (const auto* modal = std::get_if<formats::ModalBodySpec>(&body))
+      files.push_back(modal->file);
   return files;
 }
 

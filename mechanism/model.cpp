@@ -2,21 +2,16 @@
 #include "mechanism/model.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
+
+#include "mechanism/carriers.hpp"
 
 namespace tisserand::mechanism {
 namespace {
 
 using Position = SparsePattern::Position;
-
-void append_coordinates(const Model& model, int node, std::vector<int>& coordinates) {
-  const bool ground = node < 0;
-  for (int k = 0; k < 6; ++k) {
-    const int first = ground ? -1 : k < 3 ? model.nodes[node].translation : model.nodes[node].rotation;
-    coordinates.push_back(first < 0 ? -1 : first + k % 3);
-  }
-}
 
 void add_block(const std::vector<int>& coordinates, std::vector<Position>& positions) {
   for (const int column : coordinates)
@@ -42,10 +37,13 @@ void number_elements(Model& model) {
     model.superelement_maps.push_back(std::move(map));
   }
   const auto add = [&model](std::vector<ElementMap>& maps, auto... nodes) {
-    ElementMap map;
-    (append_coordinates(model, nodes, map.coordinates), ...);
-    maps.push_back(std::move(map));
+    maps.push_back(carrier_map(model, {nodes...}));
   };
+  for (const ModalBody& body : model.modal_bodies) {
+    add(model.modal_maps, body.node);
+    for (int k = 0; k < body.modes; ++k)
+      model.modal_maps.back().coordinates.push_back(model.sizes.first_modal() + body.offset + k);
+  }
   for (const RigidBody& body : model.rigid_bodies) add(model.rigid_maps, body.node);
   for (const BeamElement2& beam : model.beams2) add(model.beam2_maps, beam.nodes[0], beam.nodes[1]);
   for (const BeamElement3& beam : model.beams3) add(model.beam3_maps, beam.nodes[0], beam.nodes[1], beam.nodes[2]);
@@ -99,8 +97,8 @@ void number_constraints(Model& model) {
 
 template <class Visit>
 void for_each_map(Model& model, Visit visit) {
-  for (auto* maps : {&model.superelement_maps, &model.rigid_maps, &model.beam2_maps, &model.beam3_maps,
-                     &model.joint_maps, &model.load_maps})
+  for (auto* maps : {&model.superelement_maps, &model.rigid_maps, &model.modal_maps, &model.beam2_maps,
+                     &model.beam3_maps, &model.joint_maps, &model.load_maps})
     for (ElementMap& map : *maps) visit(map);
   for (std::size_t i = 0; i < model.coordinates.size(); ++i)
     if (model.coordinates[i].active) visit(model.coordinate_maps[i]);
@@ -111,6 +109,8 @@ void scale_equations(Model& model) {
   model.equation_scale.setOnes(pattern.size());
   for (const Node& node : model.nodes)
     if (node.rotation >= 0) model.equation_scale.segment<3>(node.rotation) = 1.0 / model.length;
+  for (const ModalBody& body : model.modal_bodies)
+    model.equation_scale.segment(model.sizes.first_modal() + body.offset, body.modes) = std::sqrt(body.mass);
   for (int row = 0; row < model.sizes.constraints; ++row)
     if (!model.length_row[static_cast<std::size_t>(row)])
       model.equation_scale[model.sizes.boundary + row] = model.length;
@@ -133,7 +133,12 @@ void finish_model(Model& model, formats::LinearSolver solver) {
   const int size = boundary + model.sizes.constraints;
   std::vector<Position> positions;
   for (int i = 0; i < size; ++i) positions.push_back({i, i});
-  for_each_map(model, [&positions](const ElementMap& map) { add_block(map.coordinates, positions); });
+  for_each_map(model, [&](const ElementMap& map) {
+    add_block(map.coordinates, positions);
+    for (const int node : map.carriers)
+      if (const int modal = node < 0 ? -1 : model.nodes[static_cast<std::size_t>(node)].modal; modal >= 0)
+        model.modal_nodes[static_cast<std::size_t>(modal)].active = true;
+  });
   for (std::size_t j = 0; j < model.joints.size(); ++j)
     add_constraint(model.joint_maps[j], boundary + model.joints[j].row, model.joints[j].size(), positions);
   for (std::size_t j = 0; j < model.couplings.size(); ++j)
@@ -151,6 +156,17 @@ void finish_model(Model& model, formats::LinearSolver solver) {
   scale_equations(model);
 }
 
+bool has_translation(const Model& model, int node) {
+  return node < 0 || model.nodes[static_cast<std::size_t>(node)].translation >= 0 ||
+         model.nodes[static_cast<std::size_t>(node)].modal >= 0;
+}
+
+bool has_rotation(const Model& model, int node) {
+  if (node < 0) return true;
+  const Node& n = model.nodes[static_cast<std::size_t>(node)];
+  return n.rotation >= 0 || (n.modal >= 0 && model.modal_nodes[static_cast<std::size_t>(n.modal)].turns);
+}
+
 std::string coordinate_name(const Model& model, int coordinate) {
   static const char* const axis[] = {"x", "y", "z"};
   for (const Node& node : model.nodes) {
@@ -159,6 +175,10 @@ std::string coordinate_name(const Model& model, int coordinate) {
     if (node.rotation >= 0 && coordinate >= node.rotation && coordinate < node.rotation + 3)
       return fmt::format("{}, rotation about its {} axis", node.name, axis[coordinate - node.rotation]);
   }
+  const int modal = coordinate - model.sizes.first_modal();
+  for (const ModalBody& body : model.modal_bodies)
+    if (modal >= body.offset && modal < body.offset + body.modes)
+      return fmt::format("{}, mode {}", body.name, modal - body.offset + 1);
   const int internal = coordinate - model.sizes.boundary;
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
     if (internal >= model.internal_offset[i] && internal < model.internal_offset[i + 1])

@@ -9,6 +9,7 @@
 
 #include "common/units.hpp"
 #include "mechanism/bodies/beam_element.hpp"
+#include "mechanism/bodies/modal_node.hpp"
 #include "mechanism/bodies/rigid_body.hpp"
 #include "mechanism/bodies/superelement_body.hpp"
 #include "mechanism/forces/load.hpp"
@@ -21,15 +22,13 @@
 
 namespace tisserand::mechanism {
 
-/// The unit of state: translations and/or rotations at one place.
+/// The unit of state: translations and/or rotations at one place; or a node that follows a modal body and owns neither.
 struct Node {
   std::string name;
   int translation = -1;  ///< first velocity coordinate of ẋ, −1 if the node owns no translations
   int rotation = -1;     ///< first velocity coordinate of Ω, −1 if the node owns no rotations
+  int modal = -1;        ///< index into Model::modal_nodes, −1 if the node follows no modal body
 };
-
-/// Whether bodies can follow the node at constant offsets.
-inline bool can_carry(const Node& node) { return node.translation >= 0 && node.rotation >= 0; }
 
 /// A named place whose motion is reported; a marker, so that rigid bodies can have many.
 struct Place {
@@ -54,6 +53,7 @@ struct Tie {
 struct ElementMap {
   std::vector<int> coordinates;
   std::vector<int> slots;
+  std::vector<int> carriers;  ///< the nodes, if one of them follows a modal body (carriers.hpp); else empty
 };
 
 /// Slots of the rows of a joint or a coupling: B at (row k, column j) and Bᵀ at (j, k), index k + size·j.
@@ -82,6 +82,9 @@ struct Model {
   std::vector<std::string> superelement_content_ids;
   std::vector<RigidBody> rigid_bodies;
   std::vector<ElementMap> rigid_maps;
+  std::vector<ModalBody> modal_bodies;
+  std::vector<ElementMap> modal_maps;
+  std::vector<ModalNode> modal_nodes;
   std::vector<BeamElement2> beams2;
   std::vector<ElementMap> beam2_maps;
   std::vector<BeamElement3> beams3;
@@ -101,14 +104,19 @@ struct Model {
   std::vector<ElementMap> load_maps;
   std::vector<double> breakpoints;  ///< ascending, of all loads
 
-  /// Factor of each equation and unknown of the iteration matrix: 1/length for rotations and length for constraints of
-  /// angles, so that pivots do not depend on the unit of length; and the product for each stored value.
+  /// Factor of each equation and unknown of the iteration matrix: 1/length for rotations, √mass for modes and length
+  /// for constraints of angles, so that pivots do not depend on the unit of length; and the product for each stored
+  /// value.
   std::vector<bool> length_row;  ///< per constraint: a length, or a number of order one
   Eigen::ArrayXd equation_scale;
   Eigen::ArrayXd value_scale;
   std::unique_ptr<SparsePattern> pattern;  ///< of [A Bᵀ; B 0], boundary coordinates then multipliers
   SolverChoice solver;
 };
+
+/// Whether a joint or load can act on the position or the orientation of a node; ground (−1) has both.
+bool has_translation(const Model& model, int node);
+bool has_rotation(const Model& model, int node);
 
 /// "beam/tip, rotation y": velocity coordinate (boundary) or constraint row by name, for messages.
 std::string coordinate_name(const Model& model, int coordinate);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/rotation.hpp"
-#include "mechanism/evaluate.hpp"
+#include "mechanism/carriers.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -18,13 +18,6 @@ Eigen::Quaterniond exp_quaternion(const Eigen::Vector3d& turn) {
   q.w() = 1.0 - 0.25 * a2 * half.c;
   q.vec() = 0.5 * half.s * turn;
   return q;
-}
-
-/// Material increment T(θ) d of a node's rotation for an increment d of the rotation vector θ of the step.
-Eigen::Vector3d turn_increment(const Model& model, const Workspace& workspace, int node, const Eigen::Vector3d& d) {
-  if (node < 0 || model.nodes[static_cast<std::size_t>(node)].rotation < 0) return d;
-  return tangent_so3<double>(workspace.displacement.segment<3>(model.nodes[static_cast<std::size_t>(node)].rotation)) *
-         d;
 }
 
 /// d_B of superelement i from the boundary coordinates.
@@ -111,14 +104,20 @@ std::string weakest_equation(const Model& model, Workspace& workspace) {
 void apply_jacobian(const Model& model, const Workspace& workspace, const Eigen::VectorXd& d,
                     Eigen::Ref<Eigen::VectorXd> rows) {
   Eigen::Matrix<double, 12, 1> local;
-  const auto gather_local = [&](const std::vector<int>& coordinates, const auto& pair) {
-    for (int k = 0; k < 12; ++k)
-      local[k] = coordinates[static_cast<std::size_t>(k)] < 0 ? 0.0 : d[coordinates[static_cast<std::size_t>(k)]];
-    local.segment<3>(3) = turn_increment(model, workspace, pair.a.node, local.segment<3>(3));
-    local.segment<3>(9) = turn_increment(model, workspace, pair.b.node, local.segment<3>(9));
+  const auto gather_local = [&](const ElementMap& map, const auto& pair) {
+    if (!map.carriers.empty()) {
+      pushed_increment(model, map, workspace, d, local.data());
+      return;
+    }
+    for (int k = 0; k < 12; ++k) {
+      const int coordinate = map.coordinates[static_cast<std::size_t>(k)];
+      local[k] = coordinate < 0 ? 0.0 : d[coordinate];
+    }
+    local.segment<3>(3) = step_tangent(model, workspace, pair.a.node) * local.segment<3>(3).eval();
+    local.segment<3>(9) = step_tangent(model, workspace, pair.b.node) * local.segment<3>(9).eval();
   };
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    gather_local(model.joint_maps[i].coordinates, model.joints[i]);
+    gather_local(model.joint_maps[i], model.joints[i]);
     const Vector6d product = workspace.joints[i].B.lazyProduct(local);  // rows beyond the joint's size are zero
     for (int k = 0; k < model.joints[i].size(); ++k) rows[model.joints[i].row + k] = product[k];
   }
@@ -126,7 +125,7 @@ void apply_jacobian(const Model& model, const Workspace& workspace, const Eigen:
     double sum = 0.0;
     for (const CouplingTerm& term : coupling.terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
-      gather_local(model.coordinate_maps[at].coordinates, model.coordinates[at]);
+      gather_local(model.coordinate_maps[at], model.coordinates[at]);
       sum += term.factor * workspace.coordinates[at].G.dot(local);
     }
     rows[coupling.row] = sum;
@@ -147,6 +146,7 @@ void retract(const Model& model, const State& from, const Eigen::VectorXd& d, St
       Q.col(column) = wxyz(q0 * exp_quaternion(d.segment<3>(node.rotation)));
     }
   }
+  to.w() = from.w() + d.segment(model.sizes.first_modal(), model.sizes.modal);
   to.y() = from.y() + d.tail(model.sizes.internal);
 }
 

@@ -31,7 +31,7 @@ std::string weakest_equation(const Model& model, Workspace& workspace);
 void apply_jacobian(const Model& model, const Workspace& workspace, const Eigen::VectorXd& d,
                     Eigen::Ref<Eigen::VectorXd> rows);
 
-/// x += d, Q <- Q exp(dΘ/2), y += d from the positions of `from`; the only update of positions in the program.
+/// x += d, Q <- Q exp(dΘ/2), w += d, y += d from the positions of `from`; the only update of positions in the program.
 void retract(const Model& model, const State& from, const Eigen::VectorXd& d, State& to);
 
 }  // namespace tisserand::mechanism

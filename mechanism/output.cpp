@@ -11,15 +11,13 @@ namespace {
 
 /// A node that owns no translations or no rotations has none to report.
 void blank_missing(const Model& model, const Marker& marker, Eigen::Index column, formats::ResultsRow& row) {
-  if (marker.node < 0) return;
-  const Node& node = model.nodes[static_cast<std::size_t>(marker.node)];
   const double none = std::numeric_limits<double>::quiet_NaN();
-  if (node.translation < 0) {
+  if (!has_translation(model, marker.node)) {
     row.node_position.col(column).setConstant(none);
     row.node_velocity.col(column).setConstant(none);
     row.node_acceleration.col(column).setConstant(none);
   }
-  if (node.rotation < 0) {
+  if (!has_rotation(model, marker.node)) {
     row.node_rotation.col(column).setConstant(none);
     row.node_angular_velocity.col(column).setConstant(none);
     row.node_angular_acceleration.col(column).setConstant(none);
@@ -115,6 +113,11 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
     layout.boundary_offset.push_back(layout.boundary_offset.back() + static_cast<int>(body.node.size()));
     for (const SuperelementNode& node : body.node) layout.boundary_nodes.push_back(node.name);
   }
+  layout.modal_offset = {0};
+  for (const ModalBody& body : model.modal_bodies) {
+    layout.modal_bodies.push_back(body.name);
+    layout.modal_offset.push_back(layout.modal_offset.back() + body.modes);
+  }
   for (const Joint& joint : model.joints) layout.joints.push_back(joint.name);
   for (const Tie& tie : model.ties) layout.joints.push_back(tie.name);
   for (const Coordinate& c : model.coordinates)
@@ -126,9 +129,11 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
 
 void fill_row(const Model& model, const State& state, Workspace& workspace, formats::ResultsRow& row) {
   evaluate(model, state, workspace);
+  update_modal_nodes(model, workspace);
   row.time = state.time();
   fill_places(model, workspace, row);
   fill_superelements(model, workspace, row);
+  row.w = state.w();
   fill_joints(model, state, workspace, row);
   const Energy energy = evaluate_energy(model, workspace);
   row.kinetic = energy.kinetic;

@@ -9,6 +9,7 @@
 #include <Eigen/QR>
 #include <Eigen/SparseCore>
 
+#include "mechanism/carriers.hpp"
 #include "mechanism/evaluate.hpp"
 
 namespace tisserand::mechanism {
@@ -44,10 +45,10 @@ WeightedJacobian weighted_jacobian(const Model& model, const Workspace& workspac
   WeightedJacobian result;
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](const std::vector<int>& coordinates, int column, const auto& row) {
-    for (int j = 0; j < 12; ++j)
+    for (int j = 0; j < static_cast<int>(coordinates.size()); ++j)
       if (coordinates[static_cast<std::size_t>(j)] >= 0 && row[j] != 0.0)
         entries.emplace_back(coordinates[static_cast<std::size_t>(j)], column,
-                             row[j] * (j % 6 < 3 ? 1.0 : 1.0 / model.length));
+                             row[j] * model.equation_scale[coordinates[static_cast<std::size_t>(j)]]);
   };
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
@@ -57,7 +58,8 @@ WeightedJacobian weighted_jacobian(const Model& model, const Workspace& workspac
     const Eigen::MatrixXd U = (W.transpose() * W).llt().matrixU();
     const Eigen::MatrixXd B = U.transpose().triangularView<Eigen::Lower>().solve(
         Eigen::MatrixXd(workspace.joints[i].B.topRows(joint.size())));
-    for (int k = 0; k < joint.size(); ++k) add(model.joint_maps[i].coordinates, joint.row + k, B.row(k));
+    const Eigen::MatrixXd rows = model_rows(model, model.joint_maps[i], local_view(B), workspace);
+    for (int k = 0; k < joint.size(); ++k) add(model.joint_maps[i].coordinates, joint.row + k, rows.row(k));
     result.triangle.push_back(U);
   }
   result.coupling_weight.resize(static_cast<Eigen::Index>(model.couplings.size()));
@@ -73,7 +75,8 @@ WeightedJacobian weighted_jacobian(const Model& model, const Workspace& workspac
     for (const CouplingTerm& term : model.couplings[i].terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
       const Row12 row = (term.factor / weight) * workspace.coordinates[at].G;
-      add(model.coordinate_maps[at].coordinates, model.couplings[i].row, row);
+      add(model.coordinate_maps[at].coordinates, model.couplings[i].row,
+          model_rows(model, model.coordinate_maps[at], local_view(row), workspace).row(0));
     }
   }
   result.A.resize(model.sizes.boundary, model.sizes.constraints);

@@ -24,6 +24,7 @@ std::vector<std::string> effects(const Model& model) {
     if (count > 0) list.push_back(fmt::format("{} {}", count, what));
   };
   add(model.superelements.size(), "superelements");
+  add(model.modal_bodies.size(), "modal bodies");
   add(model.rigid_bodies.size(), "rigid bodies");
   add(model.beams2.size() + model.beams3.size(), "nonlinear beam elements");
   const auto followers =
@@ -36,7 +37,9 @@ std::vector<std::string> effects(const Model& model) {
   add(model.loads.size(), "loads");
   if (!model.gravity.isZero(0.0)) list.push_back("gravity");
   const bool damped = std::any_of(model.superelements.begin(), model.superelements.end(),
-                                  [](const SuperelementBody& body) { return body.damping.active; });
+                                  [](const SuperelementBody& body) { return body.damping.active; }) ||
+                      std::any_of(model.modal_bodies.begin(), model.modal_bodies.end(),
+                                  [](const ModalBody& body) { return !body.damping.isZero(0.0); });
   if (damped) list.push_back("damping");
   return list;
 }
@@ -71,7 +74,7 @@ void note_redundancy(Run& run) {
 
 }  // namespace
 
-Run::Run(const formats::Scene& scene_to_run, const SuperelementFiles& files, const RunControl& run_control)
+Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunControl& run_control)
     : scene(scene_to_run), control(run_control), built(build_model(scene_to_run, files)), workspace(built.model) {
   report.analysis = scene.analysis;
   report.notes = built.notes;

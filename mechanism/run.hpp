@@ -17,7 +17,7 @@ struct Run {
   BuiltModel built;
   Workspace workspace;
 
-  Run(const formats::Scene& scene_to_run, const SuperelementFiles& files, const RunControl& run_control);
+  Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunControl& run_control);
   double seconds() const { return control.clock ? control.clock() : 0.0; }
 };
 

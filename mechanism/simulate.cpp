@@ -92,14 +92,17 @@ void equilibrate(Run& run, RowWriter& out) {
 
 }  // namespace
 
-SuperelementFiles read_superelements(const formats::Scene& scene) {
-  SuperelementFiles files;
+BodyFiles read_body_files(const formats::Scene& scene) {
+  BodyFiles files;
   std::vector<Error> errors;
   for (const formats::BodySpec& body : scene.bodies) {
-    const auto* spec = std::get_if<formats::SuperelementBodySpec>(&body);
-    if (spec == nullptr || files.contains(spec->file)) continue;
+    const auto* superelement = std::get_if<formats::SuperelementBodySpec>(&body);
+    const auto* modal = std::get_if<formats::ModalBodySpec>(&body);
     try {
-      files[spec->file] = formats::read_superelement(spec->file);
+      if (superelement != nullptr && !files.superelements.contains(superelement->file))
+        files.superelements[superelement->file] = formats::read_superelement(superelement->file);
+      if (modal != nullptr && !files.modal_bodies.contains(modal->file))
+        files.modal_bodies[modal->file] = formats::read_modal_body(modal->file);
     } catch (const Error& error) {
       errors.push_back(error);
     }
@@ -110,7 +113,7 @@ SuperelementFiles read_superelements(const formats::Scene& scene) {
 
 RunReport simulate(const formats::Scene& scene, const std::string& path, const RunControl& control) {
   const double begin_model = control.clock ? control.clock() : 0.0;
-  Run run(scene, read_superelements(scene), control);
+  Run run(scene, read_body_files(scene), control);
   const double begin_start = run.seconds();
   start(run);
   const double begin_steps = run.seconds();
@@ -141,7 +144,7 @@ RunReport simulate(const formats::Scene& scene, const std::string& path, const R
 }
 
 RunReport inspect(const formats::Scene& scene, const RunControl& control) {
-  Run run(scene, read_superelements(scene), control);
+  Run run(scene, read_body_files(scene), control);
   start(run);
   return run.report;
 }

@@ -53,7 +53,7 @@ struct RunReport {
 };
 
 /// Reads the superelement files of a scene, each once.
-SuperelementFiles read_superelements(const formats::Scene& scene);
+BodyFiles read_body_files(const formats::Scene& scene);
 
 /// Builds the model, starts, integrates (or finds equilibrium) and writes `path`. Throws Error for faults of the input.
 RunReport simulate(const formats::Scene& scene, const std::string& path, const RunControl& control);

@@ -7,6 +7,7 @@ State::State(const Sizes& sizes) : sizes_(sizes) {
   scalars_ = add("scalars", 12);
   x_ = add("x", 3 * sizes.nodes);
   Q_ = add("Q", 4 * sizes.nodes);
+  w_ = add("w", sizes.modal);
   y_ = add("y", sizes.internal);
   v_ = add("v", sizes.velocities());
   vdot_ = add("vdot", sizes.velocities());

@@ -9,15 +9,17 @@
 
 namespace tisserand::mechanism {
 
-/// Sizes of a model: nodes, velocities (node coordinates first, then internal coordinates), constraints, bodies.
+/// Sizes of a model: nodes, velocities (node coordinates, then modal ones, then internal ones), constraints, bodies.
 struct Sizes {
   int nodes = 0;
-  int boundary = 0;       ///< velocity coordinates of nodes: the global system
+  int boundary = 0;       ///< velocity coordinates of nodes, then of modes: the global system
+  int modal = 0;          ///< modal coordinates w of modal bodies, the last of `boundary`
   int internal = 0;       ///< internal coordinates of superelements, eliminated inside the element
   int constraints = 0;    ///< multipliers λ
   int superelements = 0;  ///< floating frames
   int hinges = 0;         ///< joint coordinates that are angles, unwrapped
   int velocities() const { return boundary + internal; }
+  int first_modal() const { return boundary - modal; }  ///< velocity coordinate of the first ẇ
 };
 
 /// One named stretch of the state block.
@@ -27,8 +29,9 @@ struct StateField {
   int size = 0;
 };
 
-/// Positions are x (world) and a unit quaternion Q_WN [w x y z] per node and the internal coordinates y; velocities,
-/// their rates and the algorithmic accelerations are [ẋ world; Ω material] per node, then ẏ.
+/// Positions are x (world) and a unit quaternion Q_WN [w x y z] per node, the modal coordinates w and the internal
+/// coordinates y; velocities, their rates and the algorithmic accelerations are [ẋ world; Ω material] per node, then ẇ,
+/// then ẏ. x and Q of nodes that follow a modal body are those of the start.
 class State {
  public:
   static constexpr int version = 3;
@@ -77,6 +80,8 @@ class State {
   ConstMap3 x() const { return {block_.data() + x_, 3, sizes_.nodes}; }
   Map4 Q() { return {block_.data() + Q_, 4, sizes_.nodes}; }
   ConstMap4 Q() const { return {block_.data() + Q_, 4, sizes_.nodes}; }
+  Map w() { return {block_.data() + w_, sizes_.modal}; }
+  ConstMap w() const { return {block_.data() + w_, sizes_.modal}; }
   Map y() { return {block_.data() + y_, sizes_.internal}; }
   ConstMap y() const { return {block_.data() + y_, sizes_.internal}; }
   Map v() { return {block_.data() + v_, sizes_.velocities()}; }
@@ -103,7 +108,7 @@ class State {
   Sizes sizes_;
   std::vector<StateField> fields_;
   std::vector<double> block_;
-  int scalars_ = 0, x_ = 0, Q_ = 0, y_ = 0, v_ = 0, vdot_ = 0, a_ = 0, lambda_ = 0, frames_ = 0, hinges_ = 0,
+  int scalars_ = 0, x_ = 0, Q_ = 0, w_ = 0, y_ = 0, v_ = 0, vdot_ = 0, a_ = 0, lambda_ = 0, frames_ = 0, hinges_ = 0,
       active_ = 0;
 };
 

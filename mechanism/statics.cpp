@@ -24,14 +24,7 @@ double largest_of(const Eigen::Ref<const Eigen::VectorXd>& values) {
 }
 
 double largest_residual(const Model& model, const Workspace& workspace) {
-  if (!workspace.residual.allFinite()) return std::numeric_limits<double>::quiet_NaN();
-  double largest = 0.0;
-  for (const Node& node : model.nodes) {
-    if (node.translation >= 0) largest = std::max(largest, largest_of(workspace.residual.segment<3>(node.translation)));
-    if (node.rotation >= 0)
-      largest = std::max(largest, largest_of(workspace.residual.segment<3>(node.rotation)) / model.length);
-  }
-  return largest;
+  return largest_of(workspace.residual.cwiseProduct(model.equation_scale.matrix().head(model.sizes.boundary)));
 }
 
 double largest_internal_residual(const Workspace& workspace) {

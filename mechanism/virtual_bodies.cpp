@@ -90,9 +90,8 @@ class Grouping {
         for (const int node : {edges_[e].a.node, edges_[e].b.node}) {
           if (node < 0) return node;
           if (is_virtual(node)) continue;
-          const Node& candidate = model_.nodes[static_cast<std::size_t>(node)];
-          if (!can_carry(candidate))
-            turning.push_back("'" + candidate.name + "'");
+          if (!has_translation(model_, node) || !has_rotation(model_, node))
+            turning.push_back("'" + model_.nodes[static_cast<std::size_t>(node)].name + "'");
           else if (is_virtual(carrier))
             carrier = node;
         }

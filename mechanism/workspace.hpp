@@ -28,6 +28,13 @@ struct FactorReuse {
   int fresh_left = 0;
 };
 
+/// Buffers for joints and loads on nodes of modal bodies (carriers.hpp).
+struct CarrierScratch {
+  Eigen::VectorXd half, full;          ///< K T and Tᵀ K T
+  Eigen::VectorXd gradient;            ///< ∂(T v)/∂q of one carrier
+  Eigen::VectorXd lower, upper, rate;  ///< rows of constraints and of rates
+};
+
 struct Workspace {
   explicit Workspace(const Model& model);
   /// As new: the next step factors and learns from the start, so that a run continued from a copy of the state in a
@@ -41,6 +48,9 @@ struct Workspace {
   // evaluate()
   std::vector<NodeMotion> motion;  ///< of every node; one more at the end: ground
   std::vector<SuperelementScratch> superelements;
+  std::vector<ModalScratch> modal_bodies;
+  std::vector<ModalNodeTerms> modal_nodes;  ///< active ones; all of them after update_modal_nodes()
+  CarrierScratch carriers;
   std::vector<JointTerms> joints;
   std::vector<CoordinateTerms> coordinates;  ///< active ones; all of them after evaluate_coordinates()
   std::vector<MotionFunction> motions;

@@ -3,6 +3,7 @@
 
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/beam_states.hpp"
+#include "tests/support/modal_known_answers.hpp"
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -36,16 +37,32 @@ formats::Scene everything() {
                   test_support::joint("hinge", JointKind::revolute, "block", "beam2/start", {1.5, 1.0, 0.7}, {0, 1, 1}),
                   test_support::joint("ball", JointKind::spherical, "ground", "beam3/start", {0, 0, 0}, {0, 0, 1}),
                   test_support::joint("root", JointKind::revolute, "frame/n0", "beam3/start", {0, 0, 0}, {0, 1, 0})};
+  formats::ModalBodySpec modal = test_support::modal_spec("modal", "modal");
+  modal.damping.ratio = 0.01;
+  modal.start.pose.position = {3.0, 1.0, 0.7};
+  scene.bodies.push_back(modal);
+  scene.joints.push_back(
+      test_support::joint("hang", JointKind::revolute, "ground", "modal/n1", {3.0, 1.0, 0.7}, {0, 1, 0}));
+  formats::SpringSpec spring;
+  spring.name = "spring";
+  spring.a.node = "block";
+  spring.b.node = "modal/n5";
+  spring.stiffness = 10.0;
+  spring.damping = 1.0;
+  scene.springs.push_back(spring);
   scene.loads = {test_support::constant_load("force", formats::LoadKind::force, "beam2/end", {1, 2, 3}),
-                 test_support::constant_load("moment", formats::LoadKind::moment, "block", {1, 0, 0})};
+                 test_support::constant_load("moment", formats::LoadKind::moment, "block", {1, 0, 0}),
+                 test_support::constant_load("tip", formats::LoadKind::force, "modal/n4", {1, 0, 0})};
   scene.loads[0].components[0] = formats::TimeTable{{0.0, 10.0}, {0.0, 30.0}};
   scene.loads[1].components[1] = formats::TimeExpression{"sin(20*t)", {}, ""};
   return scene;
 }
 
 TEST(AcceptedStep, AllocatesNothing) {
-  SuperelementFiles files;
-  test_support::add_file("frame", test_support::test_superelement("frame"), files);
+  SuperelementFiles superelements;
+  test_support::add_file("frame", test_support::test_superelement("frame"), superelements);
+  BodyFiles files(superelements);
+  files.modal_bodies["modal"].body = test_support::known_body(test_support::modal_answers(), "node_fixed");
   for (const Formulation formulation : {Formulation::index3, Formulation::stabilised_index2})
     for (const LinearSolver solver : {LinearSolver::klu, LinearSolver::dense}) {
       formats::Scene scene = everything();

@@ -18,6 +18,8 @@ inline formats::ResultsLayout example_layout() {
   layout.modes_offset = {0, 3, 5};
   layout.boundary_offset = {0, 2, 3};
   layout.boundary_nodes = {"base", "tip", "foot"};
+  layout.modal_bodies = {"rod"};
+  layout.modal_offset = {0, 2};
   layout.joints = {"hinge", "slide"};
   layout.coordinates = {{"hinge", false}, {"slide", true}};
   layout.superelement_content_ids = {std::string(64, 'a'), std::string(64, 'b')};
@@ -44,6 +46,7 @@ inline void fill_row(int t, formats::ResultsRow& row) {
   fill(row.frame_rotation);
   fill(row.y);
   fill(row.boundary_force);
+  fill(row.w);
   fill(row.joint_force);
   fill(row.joint_moment);
   fill(row.joint_coordinate);

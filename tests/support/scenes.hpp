@@ -112,7 +112,7 @@ inline formats::Scene heavy_top_scene(double step, double end) {
 /// A run in memory: the loop of simulate() without files.
 class Simulation {
  public:
-  Simulation(formats::Scene scene_to_run, const mechanism::SuperelementFiles& files)
+  Simulation(formats::Scene scene_to_run, const mechanism::BodyFiles& files)
       : scene(std::move(scene_to_run)),
         built(mechanism::build_model(scene, files)),
         workspace(built.model),

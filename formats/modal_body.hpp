@@ -1,0 +1,70 @@
+// The modal body file *.modal.h5: lumped masses, modes and inertia integrals of a floating-frame body
+// (formats/MODAL_BODY.md, [GA00] (1)-(16)).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/units.hpp"
+
+namespace tisserand::formats {
+
+/// Sums over all nodes k of the body: masses m, inertias μ, positions x, rows Xd and Xt (3 x m) of the modes.
+struct ModalIntegrals {
+  double mass = 0.0;                               ///< Σ m
+  Eigen::Vector3d c0 = Eigen::Vector3d::Zero();    ///< Σ m x
+  Eigen::Matrix3Xd C1;                             ///< Σ m Xd
+  Eigen::Matrix3d P0 = Eigen::Matrix3d::Zero();    ///< Σ m x xᵀ
+  Eigen::VectorXd P1;                              ///< 9 m: block j is Σ m x Xd_jᵀ, column by column
+  Eigen::MatrixXd P2;                              ///< 9 m x m: block j of column i is Σ m Xd_i Xd_jᵀ
+  Eigen::Matrix3d J_mu = Eigen::Matrix3d::Zero();  ///< Σ μ
+  Eigen::Matrix3Xd N_mu;                           ///< Σ μ Xt
+};
+
+enum class ModalReference { nodes, mean_axis };
+
+/// n nodes, m modes. Vectors in axes of the body frame; modes are mass-normalised: w has the unit √mass length.
+struct ModalBody {
+  std::string name;
+  std::string producer;  ///< program and version
+  Units units;
+  Eigen::Vector3d frame_position = Eigen::Vector3d::Zero();      ///< body frame in the part frame
+  Eigen::Vector4d frame_orientation = Eigen::Vector4d::Unit(0);  ///< w x y z
+  bool all_nodes = true;  ///< every node with mass is here; else only some, and the integrals are taken as they are
+  ModalReference reference = ModalReference::nodes;
+  std::vector<int> reference_node;       ///< 6 for ModalReference::nodes
+  std::vector<int> reference_component;  ///< 0-2 translations, 3-5 rotations
+
+  std::vector<std::string> node_name;                       ///< n, unique
+  Eigen::Matrix<double, Eigen::Dynamic, 3> node_position;   ///< n x 3
+  Eigen::VectorXd node_mass;                                ///< n
+  std::vector<Eigen::Matrix3d> node_inertia;                ///< n
+  std::vector<Eigen::Matrix<double, 6, Eigen::Dynamic>> X;  ///< n: translations and rotations of the modes
+  Eigen::VectorXd omega2;                                   ///< m, ascending
+  Eigen::VectorXd zeta;                                     ///< m, ratios of critical damping
+  ModalIntegrals integrals;
+
+  Eigen::Index modes() const { return omega2.size(); }
+};
+
+/// The sums over the nodes that are there.
+ModalIntegrals integrals_of(const ModalBody& body);
+
+/// All that MODAL_BODY.md demands; returns warnings, whole sentences. `where` is the file name in messages. Throws
+/// Error.
+std::vector<std::string> check(const ModalBody& body, const std::string& where);
+
+struct LoadedModalBody {
+  ModalBody body;
+  std::vector<std::string> warnings;
+};
+
+/// Reads and checks. Throws Error naming dataset, indices, value and meaning.
+LoadedModalBody read_modal_body(const std::string& path);
+
+/// Checks, then writes beside and renames.
+void write_modal_body(const std::string& path, const ModalBody& body);
+
+}  // namespace tisserand::formats
