@@ -111,6 +111,7 @@ void start(Run& run) {
   require_finite_loads(run);
   const StartReport report = start(run.scene, run.built.model, run.built.state, run.workspace);
   run.report.mobility = report.mobility;
+  run.report.preflight = report.preflight;
   run.report.projection = report.projection;
   note_redundancy(run);
   if (report.massless)

@@ -32,6 +32,7 @@ struct RunReport {
   long steps = 0;
   long iterations = 0;
   long factorisations = 0;
+  long row_choices = 0;                 ///< steps at which the constraint rows that are solved for were chosen anew
   long rejected = 0;                    ///< steps taken again with half the size
   std::vector<std::string> rejections;  ///< the first ones: when and why
   double largest_constraint = 0.0;      ///< over all steps
@@ -40,6 +41,7 @@ struct RunReport {
   double largest_balance = 0.0;         ///< over the stored instants
   double energy_reference = 0.0;        ///< largest kinetic + strain + |work|
   Mobility mobility;
+  Preflight preflight;
   std::vector<std::string> not_unique;  ///< joints whose reactions are not unique: those of least norm are stored
   Projection projection;
   std::vector<std::string> notes;
