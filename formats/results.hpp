@@ -48,6 +48,7 @@ struct ResultsRow {
   Eigen::VectorXd y_rate;                                   ///< of y
   Eigen::Matrix<double, 6, Eigen::Dynamic> boundary_force;  ///< [force; moment]
   Eigen::VectorXd w;                                        ///< all modal bodies, modal_offset
+  Eigen::VectorXd w_rate;                                   ///< of w
   Eigen::Matrix3Xd joint_force, joint_moment;
   Eigen::VectorXd joint_coordinate, joint_rate;  ///< of layout.coordinates
   Eigen::VectorXd motion_force;  ///< of layout.motions: force or moment of the drive along its coordinate

@@ -93,6 +93,8 @@ void add_superelements(const ResultsLayout& layout, std::vector<Block>& blocks) 
 void add_modal_bodies(const ResultsLayout& layout, std::vector<Block>& blocks) {
   blocks.push_back(scalars("/modal_bodies/w", numbered(layout.modal_bodies, layout.modal_offset), "",
                            [](const ResultsRow& r) { return r.w.data(); }));
+  blocks.push_back(scalars("/modal_bodies/w_rate", numbered(layout.modal_bodies, layout.modal_offset), "",
+                           [](const ResultsRow& r) { return r.w_rate.data(); }));
 }
 
 void add_joints(const ResultsLayout& layout, std::vector<Block>& blocks) {
@@ -174,6 +176,7 @@ void ResultsRow::resize(const ResultsLayout& layout) {
   y_rate.setZero(last(layout.modes_offset));
   boundary_force.setZero(6, last(layout.boundary_offset));
   w.setZero(last(layout.modal_offset));
+  w_rate.setZero(last(layout.modal_offset));
   joint_force.setZero(3, joints);
   joint_moment.setZero(3, joints);
   joint_coordinate.setZero(coordinates);

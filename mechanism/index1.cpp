@@ -155,8 +155,14 @@ void Index1::tolerances(double* absolute) const {
   double* v = absolute + layout_.positions;
   for (const Node& node : model_.nodes)
     if (node.translation >= 0) std::fill_n(v + node.translation, 3, tolerance * model_.length);
-  // Internal coordinates of a body of mass m are lengths times sqrt(m).
+  // Internal coordinates and modes of a body of mass m are lengths times sqrt(m); they stand at the end of both parts.
   const int internal = model_.sizes.internal;
+  for (const ModalBody& body : model_.modal_bodies) {
+    const double unit = tolerance * model_.length * std::sqrt(body.mass);
+    const int at = body.offset - internal - model_.sizes.modal;
+    std::fill_n(absolute + layout_.positions + at, body.modes, unit);
+    std::fill_n(absolute + layout_.size() + at, body.modes, unit);
+  }
   for (std::size_t i = 0; i < model_.superelements.size(); ++i) {
     const double unit = tolerance * model_.length * std::sqrt(model_.superelements[i].mass);
     const int at = model_.internal_offset[i] - internal, count = model_.superelements[i].modes;

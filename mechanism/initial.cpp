@@ -1,12 +1,9 @@
-// Rank, projection and consistent start.
+// Pre-flight, projection and consistent start.
 #include "mechanism/initial.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include <Eigen/QR>
-#include <Eigen/SparseCore>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
@@ -20,43 +17,10 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Singular values of B below this (relative) count as zero.
-constexpr double rank_tolerance = 1e-10;
 /// Smallest reciprocal condition of a mass matrix that is solved as it is.
 constexpr double mass_condition = 1e-15;
-/// Constraint Jacobians up to this size are decomposed densely.
-constexpr int dense_rank_limit = 150;
 /// Iterations for accelerations and reactions that friction couples.
 constexpr int most_refinements = 30;
-
-/// Bᵀ with rotation rows divided by the characteristic length and angle columns multiplied with it.
-Eigen::SparseMatrix<double> scaled_jacobian(const Model& model, const Workspace& workspace) {
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto add = [&](const std::vector<int>& coordinates, int row, const auto& values) {
-    for (std::size_t j = 0; j < coordinates.size(); ++j) {
-      const double value = values[static_cast<Eigen::Index>(j)];
-      if (coordinates[j] < 0 || value == 0.0) continue;
-      const double scale = model.equation_scale[coordinates[j]] * model.equation_scale[model.sizes.boundary + row];
-      entries.emplace_back(coordinates[j], row, value * scale);
-    }
-  };
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const Eigen::MatrixXd B = model_rows(model, model.joint_maps[i], local_view(workspace.joints[i].B), workspace);
-    for (int k = 0; k < model.joints[i].size(); ++k)
-      add(model.joint_maps[i].coordinates, model.joints[i].row + k, B.row(k));
-  }
-  for (const Coupling& coupling : model.couplings)
-    for (const CouplingTerm& term : coupling.terms) {
-      const auto at = static_cast<std::size_t>(term.coordinate);
-      const Row12 row = term.factor * workspace.coordinates[at].G;
-      add(model.coordinate_maps[at].coordinates, coupling.row,
-          model_rows(model, model.coordinate_maps[at], local_view(row), workspace).row(0));
-    }
-  Eigen::SparseMatrix<double> B(model.sizes.boundary, model.sizes.constraints);
-  B.setFromTriplets(entries.begin(), entries.end());
-  B.makeCompressed();
-  return B;
-}
 
 /// Largest violation and its row; positions relative to the length.
 struct Violation {
@@ -113,36 +77,25 @@ void require_facing(const Model& model, const std::string& where, const Workspac
   }
 }
 
-}  // namespace
-
-Mobility count_mobility(const Model& model, const State& state, Workspace& workspace) {
-  evaluate(model, state, workspace);
-  Mobility mobility;
-  mobility.coordinates = model.sizes.velocities();
-  mobility.constraints = model.sizes.constraints;
-  const Eigen::SparseMatrix<double> B = scaled_jacobian(model, workspace);
-  if (mobility.constraints > 0 && mobility.constraints <= dense_rank_limit) {
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-    qr.setThreshold(rank_tolerance);
-    qr.compute(Eigen::MatrixXd(B));
-    mobility.rank = static_cast<int>(qr.rank());
-    for (Eigen::Index k = qr.rank(); k < mobility.constraints; ++k)
-      mobility.redundant.push_back(static_cast<int>(qr.colsPermutation().indices()[k]));
-  } else if (mobility.constraints > 0) {
-    ColumnRank columns = column_rank(B, rank_tolerance * std::max(1.0, B.coeffs().cwiseAbs().maxCoeff()));
-    mobility.rank = columns.rank;
-    mobility.redundant = std::move(columns.dependent);
-  }
-  std::sort(mobility.redundant.begin(), mobility.redundant.end());
-  mobility.degrees_of_freedom = mobility.coordinates - mobility.rank;
-  const int elements = static_cast<int>(model.beams2.size() + model.beams3.size());
-  mobility.rigid_mobility =
-      elements > 0
-          ? -1
-          : 6 * static_cast<int>(model.superelements.size() + model.modal_bodies.size() + model.rigid_bodies.size()) -
-                mobility.rank;
-  return mobility;
+/// Massless bodies that nothing moves have no equation.
+void require_determined(const Model& model, const std::string& where, const State& state, Workspace& workspace) {
+  const std::vector<std::string> motions = undetermined_motions(model, state, workspace);
+  if (motions.empty()) return;
+  throw Error(fmt::format("nothing determines the motion of massless bodies: {}", join(motions, ", ")), where,
+              "tie them with fixed joints, hold these directions with other joints or springs, or give them mass");
 }
+
+/// The largest gaps of all open joints, which one message lists together.
+std::string gaps_text(const std::vector<MarkerGap>& gaps) {
+  constexpr std::size_t shown = 8;
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < std::min(shown, gaps.size()); ++i)
+    texts.push_back(fmt::format("'{}' by {:.3g} and {:.3g} rad", gaps[i].joint, gaps[i].length, gaps[i].angle));
+  if (gaps.size() > shown) texts.push_back(fmt::format("and {} more", gaps.size() - shown));
+  return fmt::format("Open joints: {}", join(texts, ", "));
+}
+
+}  // namespace
 
 Projection project_initial_state(const Model& model, double tolerance, double step, const std::string& where,
                                  State& state, Workspace& workspace) {
@@ -155,9 +108,9 @@ Projection project_initial_state(const Model& model, double tolerance, double st
       projection.position = worst.value;
       if (!(worst.value <= tolerance))
         throw Error(
-            fmt::format("joint '{}' is not met at the start: off by {:.3g} {} (initial_tolerance allows {:.3g})",
+            fmt::format("joint '{}' is not met at the start: off by {:.3g} {} (initial_tolerance allows {:.3g}). {}",
                         constraint_name(model, worst.row), worst.value, "of the characteristic length or radians",
-                        tolerance),
+                        tolerance, gaps_text(marker_gaps(model, workspace))),
             where, "correct poses or markers, or raise initial_tolerance to let the program move the bodies");
     }
     if (worst.value <= 1e-14 || iteration == 20) break;
@@ -264,6 +217,8 @@ StartReport start(const formats::Scene& scene, const Model& model, State& state,
   const double step = dynamics ? scene.integrator.step : 1e-3;
   StartReport report;
   report.mobility = count_mobility(model, state, workspace);
+  report.preflight = examine(model, workspace);
+  require_determined(model, where, state, workspace);
   for (const int row : report.mobility.redundant) state.active()[row] = 0.0;
   report.projection = project_initial_state(model, scene.initial_tolerance, step, where, state, workspace);
   if (!dynamics) return report;

@@ -1,29 +1,16 @@
-// Start of an analysis: rank of the constraints, projection of positions and velocities, consistent accelerations.
+// Start of an analysis: pre-flight, projection of positions and velocities, consistent accelerations.
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "formats/scene.hpp"
+#include "mechanism/mobility.hpp"
 #include "mechanism/model.hpp"
+#include "mechanism/preflight.hpp"
 #include "mechanism/state.hpp"
 #include "mechanism/workspace.hpp"
 
 namespace tisserand::mechanism {
-
-/// Counts of a model at a state.
-struct Mobility {
-  int coordinates = 0;  ///< boundary and internal
-  int constraints = 0;
-  int rank = 0;                ///< of the constraint Jacobian
-  int degrees_of_freedom = 0;  ///< coordinates − rank
-  int rigid_mobility =
-      0;  ///< degrees of freedom if every flexible body were rigid (Gruebler, by bodies and constraints)
-  std::vector<int> redundant;  ///< constraint rows that depend on the others
-};
-
-/// Rank of B by a rank-revealing QR (rotations scaled with the characteristic length).
-Mobility count_mobility(const Model& model, const State& state, Workspace& workspace);
 
 /// Largest corrections that the projection made: |Φ| before it relative to the characteristic length (angles as they
 /// are), |B v| relative to the largest velocity.
@@ -49,6 +36,7 @@ void start_algorithmic_acceleration(const Model& model, double shift, double ste
 
 struct StartReport {
   Mobility mobility;
+  Preflight preflight;
   Projection projection;
   bool massless = false;  ///< the mass matrix was regularised
 };

@@ -9,6 +9,7 @@
 
 #include "mechanism/evaluate.hpp"
 #include "mechanism/newton.hpp"
+#include "mechanism/redundancy.hpp"
 #include "mechanism/step_control.hpp"
 
 namespace tisserand::mechanism {
@@ -31,6 +32,8 @@ constexpr double quick_rate = 0.02;
 constexpr int long_life = 8;
 /// Most steps with new factors in every iteration before kept ones are tried again.
 constexpr int longest_pause = 63;
+/// Violation of rows that are left out, relative to the length, up to which they follow from the others.
+constexpr double largest_left_out = 1e-7;
 /// Smallest reciprocal condition with which a factorisation is used.
 constexpr double singular_condition = 1e-17;
 
@@ -70,6 +73,13 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
     norms.residual = std::max(norms.residual, r);
     raise(norms.force_ratio, norms.worst_coordinate, r / allowed, i);
   }
+  for (const ModalBody& body : model.modal_bodies)
+    for (int k = 0; k < body.modes; ++k) {
+      const int row = model.sizes.first_modal() + body.offset + k;
+      const double r = std::abs(workspace.residual[row]) * std::sqrt(body.mass);
+      norms.residual = std::max(norms.residual, r);
+      raise(norms.force_ratio, norms.worst_coordinate, r / allowed, row);
+    }
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const auto& r = workspace.superelements[i].forces.r_I;
     for (Eigen::Index k = 0; k < r.size(); ++k)
@@ -299,8 +309,11 @@ TangentCoefficients step_coefficients(const AlphaParameters& p, double step) {
   return {(1.0 - p.alpha_m) / ((1.0 - p.alpha_f) * p.beta * step * step), p.gamma / (p.beta * step), 1.0};
 }
 
-StepReport advance(const Model& model, const IntegratorSpec& options, const StepEnd& end, State& state,
-                   Workspace& workspace) {
+namespace {
+
+/// A step with the constraint rows that the state says are solved for.
+StepReport take_step(const Model& model, const IntegratorSpec& options, const StepEnd& end, State& state,
+                     Workspace& workspace) {
   const AlphaParameters alpha = alpha_parameters(options);
   // Steps of one size differ in the last digits of their ends: they keep their factors.
   const double difference = end.time - state.time();
@@ -332,6 +345,27 @@ StepReport advance(const Model& model, const IntegratorSpec& options, const Step
   workspace.has_factors = false;
   state.block() = workspace.previous.block();
   return report;
+}
+
+}  // namespace
+
+StepReport advance(const Model& model, const IntegratorSpec& options, const StepEnd& end, State& state,
+                   Workspace& workspace) {
+  const StepReport report = take_step(model, options, end, state, workspace);
+  const bool is_accepted = report.outcome == StepOutcome::accepted;
+  const bool is_doubtful = is_accepted ? largest_violation_left_out(model, workspace) > largest_left_out
+                                       : is_overconstrained(state) || report.outcome == StepOutcome::singular;
+  if (!is_doubtful || !choose_active_rows(model, state, workspace)) return report;
+  // The rank has changed on the way: the step is taken again with other rows.
+  workspace.multipliers = state.active();
+  state.block() = workspace.previous.block();
+  state.active() = workspace.multipliers;
+  workspace.forget();
+  StepReport again = take_step(model, options, end, state, workspace);
+  again.iterations += report.iterations;
+  again.factorisations += report.factorisations;
+  again.row_choices = 1;
+  return again;
 }
 
 void rebuild_algorithmic_acceleration(double step, State& state) {

@@ -40,6 +40,7 @@ struct StepReport {
   int worst_coordinate = -1;  ///< of the largest residual, when not accepted
   int worst_constraint = -1;  ///< of the largest violation, when not accepted and larger in ratio
   int singular_column = -1;
+  int row_choices = 0;  ///< how often the constraint rows that are solved for were chosen anew
 };
 
 /// Where a step ends, and the instant at which loads are evaluated there (just before a jump).
@@ -49,7 +50,8 @@ struct StepEnd {
 };
 
 /// One step from `state` (accepted, consistent) to `end`. On any outcome but `accepted` the state is as before.
-/// No heap allocation.
+/// Where the rank of the constraints has changed on the way (rows that are left out open, or the step fails in an
+/// overconstrained mechanism) the rows are chosen anew and the step is taken again. No heap allocation but there.
 [[nodiscard]] StepReport advance(const Model& model, const formats::IntegratorSpec& options, const StepEnd& end,
                                  State& state, Workspace& workspace);
 

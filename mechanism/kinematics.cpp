@@ -96,6 +96,7 @@ void require_determined(const Model& model, const Mobility& mobility, const std:
                         Workspace& workspace) {
   std::string flexible;
   if (!model.superelements.empty()) flexible = fmt::format("body '{}'", model.superelements.front().name);
+  if (!model.modal_bodies.empty()) flexible = fmt::format("body '{}'", model.modal_bodies.front().name);
   if (!model.beams2.empty()) flexible = model.nodes[static_cast<std::size_t>(model.beams2.front().nodes[0])].name;
   if (!model.beams3.empty()) flexible = model.nodes[static_cast<std::size_t>(model.beams3.front().nodes[0])].name;
   if (!flexible.empty())

@@ -146,6 +146,7 @@ void fill_row(const Model& model, const State& state, Workspace& workspace, form
   fill_places(model, workspace, row);
   fill_superelements(model, workspace, row);
   row.w = state.w();
+  row.w_rate = state.v().segment(model.sizes.first_modal(), model.sizes.modal);
   fill_joints(model, state, workspace, row);
   fill_motions(model, state, row);
   const Energy energy = evaluate_energy(model, workspace);

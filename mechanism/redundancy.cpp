@@ -1,6 +1,7 @@
 // The weighted constraint Jacobian and its pseudoinverse.
 #include "mechanism/redundancy.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -11,6 +12,7 @@
 
 #include "mechanism/carriers.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/mobility.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -102,6 +104,23 @@ Eigen::VectorXd without_null_space(const Eigen::SparseMatrix<double>& A, const E
 }  // namespace
 
 bool is_overconstrained(const State& state) { return state.active().size() > 0 && state.active().minCoeff() == 0.0; }
+
+double largest_violation_left_out(const Model& model, const Workspace& workspace) {
+  double largest = 0.0;
+  for (int row = 0; row < model.sizes.constraints; ++row)
+    if (workspace.active[row] == 0.0)
+      largest = std::max(largest, std::abs(workspace.constraint[row]) /
+                                      (model.length_row[static_cast<std::size_t>(row)] ? model.length : 1.0));
+  return largest;
+}
+
+bool choose_active_rows(const Model& model, State& state, Workspace& workspace) {
+  Eigen::VectorXd chosen = Eigen::VectorXd::Ones(model.sizes.constraints);
+  for (const int row : count_mobility(model, state, workspace).redundant) chosen[row] = 0.0;
+  if (chosen == state.active()) return false;
+  state.active() = chosen;
+  return true;
+}
 
 Eigen::VectorXd least_norm_multipliers(const Model& model, const Workspace& workspace, const Eigen::VectorXd& lambda) {
   const WeightedJacobian weighted = weighted_jacobian(model, workspace);

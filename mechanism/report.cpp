@@ -42,6 +42,16 @@ nlohmann::ordered_json solver_json(const RunReport& report) {
           {"refined_solutions", health.refined}};
 }
 
+nlohmann::ordered_json preflight_json(const Preflight& preflight) {
+  nlohmann::ordered_json json;
+  json["open_joints"] = nlohmann::ordered_json::array();
+  for (const MarkerGap& gap : preflight.gaps)
+    json["open_joints"].push_back({{"joint", gap.joint}, {"length", gap.length}, {"angle", gap.angle}});
+  json["connected_groups"] = preflight.groups;
+  json["doubts"] = preflight.doubts;
+  return json;
+}
+
 }  // namespace
 
 std::string report_json(const RunReport& report) {
@@ -52,6 +62,7 @@ std::string report_json(const RunReport& report) {
   json["steps"] = report.steps;
   json["iterations"] = report.iterations;
   json["factorisations"] = report.factorisations;
+  json["choices_of_constraint_rows"] = report.row_choices;
   json["rejected_steps"] = report.rejected;
   json["rejected_for_accuracy"] = report.inaccurate;
   json["least_step"] = report.least_step;
@@ -68,7 +79,11 @@ std::string report_json(const RunReport& report) {
   json["mobility"] = {{"coordinates", report.mobility.coordinates},
                       {"constraints", report.mobility.constraints},
                       {"rank", report.mobility.rank},
-                      {"degrees_of_freedom", report.mobility.degrees_of_freedom}};
+                      {"degrees_of_freedom", report.mobility.degrees_of_freedom},
+                      {"bodies", report.mobility.parts},
+                      {"gruebler", 6 * report.mobility.parts - report.mobility.constraints},
+                      {"rigid_mobility", report.mobility.rigid_mobility}};
+  json["preflight"] = preflight_json(report.preflight);
   json["initial_correction"] = {{"position", report.projection.position}, {"velocity", report.projection.velocity}};
   json["linear_solver"] = solver_json(report);
   json["effects"] = report.effects;
@@ -92,6 +107,9 @@ std::string report_text(const RunReport& report, const Units& units) {
   line("mobility", fmt::format("{} degrees of freedom: {} coordinates, {} constraints of rank {}",
                                report.mobility.degrees_of_freedom, report.mobility.coordinates,
                                report.mobility.constraints, report.mobility.rank));
+  if (report.steps == 0)
+    for (const PreflightLine& row : preflight_table(report.preflight, report.mobility, units))
+      line(row.name.c_str(), row.value);
   line("solver", fmt::format("{}, {} unknowns, {} nonzeros", report.solver, report.unknowns, report.nonzeros));
   if (report.steps == 0 && report.outcome == RunOutcome::completed) return text;
   line("outcome", report.reason.empty() ? outcome_name(report.outcome)

@@ -179,6 +179,7 @@ void start(Run& run) {
   }
   const StartReport report = start(run.scene, run.built.model, run.built.state, run.workspace);
   run.report.mobility = report.mobility;
+  run.report.preflight = report.preflight;
   run.report.projection = report.projection;
   note_redundancy(run);
   if (report.massless)

@@ -47,6 +47,7 @@ void integrate(Run& run, RowWriter& out) {
     const StepReport step = advance(model, run.scene.integrator, target, state, run.workspace);
     report.iterations += step.iterations;
     report.factorisations += step.factorisations;
+    report.row_choices += step.row_choices;
     if (step.outcome != StepOutcome::accepted) {
       ++report.rejected;
       if (step.outcome == StepOutcome::inaccurate) ++report.inaccurate;

@@ -33,8 +33,9 @@ struct RunReport {
   long steps = 0;
   long iterations = 0;
   long factorisations = 0;
-  long rejected = 0;    ///< steps taken again with half the size
-  long inaccurate = 0;  ///< of these, steps whose local error was too large
+  long row_choices = 0;  ///< steps at which the constraint rows that are solved for were chosen anew
+  long rejected = 0;     ///< steps taken again with half the size
+  long inaccurate = 0;   ///< of these, steps whose local error was too large
   double least_step = 0.0, greatest_step = 0.0;
   std::vector<std::string> rejections;  ///< the first ones: when and why
   double largest_constraint = 0.0;      ///< over all steps
@@ -43,6 +44,7 @@ struct RunReport {
   double largest_balance = 0.0;         ///< over the stored instants
   double energy_reference = 0.0;        ///< largest kinetic + strain + |work|
   Mobility mobility;
+  Preflight preflight;
   std::vector<std::string> not_unique;  ///< joints whose reactions are not unique: those of least norm are stored
   Projection projection;
   std::string table_title;  ///< of the lines that only this analysis has: poses, modes

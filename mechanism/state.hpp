@@ -34,7 +34,7 @@ struct StateField {
 /// then ẏ. x and Q of nodes that follow a modal body are those of the start.
 class State {
  public:
-  static constexpr int version = 3;
+  static constexpr int version = 4;
 
   explicit State(const Sizes& sizes);
 

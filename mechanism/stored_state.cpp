@@ -109,6 +109,17 @@ void read_superelements(const Model& model, const StoredRow& stored, State& stat
   }
 }
 
+void read_modal_bodies(const Model& model, const StoredRow& stored, State& state) {
+  for (const ModalBody& body : model.modal_bodies) {
+    if (body.modes == 0) continue;
+    std::vector<std::string> columns;
+    for (int k = 0; k < body.modes; ++k) columns.push_back(fmt::format("{}", k));
+    state.w().segment(body.offset, body.modes) = stored.read("modal_bodies/w/" + body.name + "/", columns);
+    state.v().segment(model.sizes.first_modal() + body.offset, body.modes) =
+        stored.read("modal_bodies/w_rate/" + body.name + "/", columns);
+  }
+}
+
 }  // namespace
 
 StoredSums read_stored_state(const Model& model, const std::string& file, const std::optional<double>& at, State& state,
@@ -116,6 +127,7 @@ StoredSums read_stored_state(const Model& model, const std::string& file, const 
   const StoredRow stored = find_row(file, at);
   read_nodes(model, stored, state);
   read_superelements(model, stored, state);
+  read_modal_bodies(model, stored, state);
   for (const Coordinate& coordinate : model.coordinates)
     if (coordinate.turn >= 0) state.hinges()[coordinate.turn] = stored.read("joints/coordinate/", {coordinate.name})[0];
   state.time() = state.load_time() = stored.reader.read_rows({"time"}, stored.row, 1)(0, 0);

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 
 #include "tests/support/scenes.hpp"
 
@@ -58,6 +60,39 @@ TEST(LeastNormReactions, CauseTheSameMotion) {
   EXPECT_GT((changed.lambda() - run.state().lambda()).norm(), 1.0);
   evaluate(run.model(), changed, run.workspace);
   EXPECT_LT((run.workspace.residual - before).cwiseAbs().maxCoeff(), 1e-11);
+}
+
+// λ = K^(-1/2) (Bᵀ K^(-1/2))⁺ Bᵀλ with K = WᵀW, W the wrenches [f; m/L] of unit multipliers, by singular values.
+TEST(LeastNormReactions, AreThoseOfThePseudoinverse) {
+  formats::Scene scene = door();
+  scene.joints.push_back(joint("middle", JointKind::cylindrical, "ground", "door", {0, 0, 0.1}, Vector3d::UnitZ()));
+  scene.joints.push_back(joint("stay", JointKind::point_on_plane, "ground", "door", {0.7, 0, 0}, Vector3d::UnitX()));
+  Simulation run(scene, {});
+  run.start();
+  evaluate(run.model(), run.state(), run.workspace);
+  const Eigen::Index n = run.model().sizes.constraints, size = run.model().sizes.boundary;
+  Eigen::MatrixXd Bt = Eigen::MatrixXd::Zero(size, n), W = Eigen::MatrixXd::Zero(6 * n, n);
+  for (std::size_t i = 0; i < run.model().joints.size(); ++i) {
+    const Joint& one = run.model().joints[i];
+    for (int k = 0; k < one.size(); ++k) {
+      Eigen::Matrix<double, 6, 1> unit = Eigen::Matrix<double, 6, 1>::Unit(k);
+      const JointReaction r = joint_reaction(one, NodeMotion{}, run.workspace.motion[0], unit.data());
+      W.block<3, 1>(6 * static_cast<Eigen::Index>(i), one.row + k) = r.force;
+      W.block<3, 1>(6 * static_cast<Eigen::Index>(i) + 3, one.row + k) = r.moment / run.model().length;
+      for (int j = 6; j < 12; ++j)
+        Bt(run.model().joint_maps[i].coordinates[static_cast<std::size_t>(j)], one.row + k) =
+            run.workspace.joints[i].B(k, j);
+    }
+  }
+  const Eigen::MatrixXd root = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(W.transpose() * W).operatorInverseSqrt();
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(Bt * root, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  Eigen::VectorXd inverse = svd.singularValues();
+  for (double& value : inverse) value = value > 1e-10 * svd.singularValues()[0] ? 1.0 / value : 0.0;
+  const Eigen::VectorXd expected =
+      root * (svd.matrixV() * (inverse.asDiagonal() * (svd.matrixU().transpose() * (Bt * run.state().lambda()))));
+  const Eigen::VectorXd found = least_norm_multipliers(run.model(), run.workspace, run.state().lambda());
+  EXPECT_GT((found - run.state().lambda()).norm(), 1.0);
+  EXPECT_LT((found - expected).norm(), 1e-10 * expected.norm());
 }
 
 TEST(LeastNormReactions, AreAskedForOnlyWhereConstraintsRepeat) {

@@ -49,6 +49,7 @@ inline void fill_row(int t, formats::ResultsRow& row) {
   fill(row.y_rate);
   fill(row.boundary_force);
   fill(row.w);
+  fill(row.w_rate);
   fill(row.joint_force);
   fill(row.joint_moment);
   fill(row.joint_coordinate);
