@@ -122,8 +122,8 @@ void apply_jacobian(const Model& model, const Workspace& workspace, const Eigen:
       const int coordinate = map.coordinates[static_cast<std::size_t>(k)];
       local[k] = coordinate < 0 ? 0.0 : d[coordinate];
     }
-    local.segment<3>(3) = step_tangent(model, workspace, pair.a.node) * local.segment<3>(3).eval();
-    local.segment<3>(9) = step_tangent(model, workspace, pair.b.node) * local.segment<3>(9).eval();
+    local.segment<3>(3) = turn_increment(model, workspace, pair.a.node, local.segment<3>(3));
+    local.segment<3>(9) = turn_increment(model, workspace, pair.b.node, local.segment<3>(9));
   };
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     gather_local(model.joint_maps[i], model.joints[i]);

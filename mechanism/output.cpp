@@ -45,7 +45,7 @@ void fill_superelements(const Model& model, Workspace& workspace, formats::Resul
   Eigen::Index y = 0, boundary = 0;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const SuperelementBody& body = model.superelements[i];
-    const SuperelementScratch& scratch = workspace.superelements[i];
+    SuperelementScratch& scratch = workspace.superelements[i];
     const auto column = static_cast<Eigen::Index>(i);
     row.frame_position.col(column) = scratch.motion.x0;
     row.frame_rotation.col(column) = wxyz(Eigen::Quaterniond(scratch.motion.R0));

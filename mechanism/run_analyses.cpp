@@ -91,7 +91,7 @@ void move_along(Run& run, RowWriter& out) {
     if (step.outcome != StepOutcome::accepted) {
       ++report.rejected;
       state.block() = run.workspace.previous.block();
-      if (schedule.halve(before)) continue;
+      if (schedule.retry(before, step)) continue;
       stop_at_dead_point(run, before, step);
       break;
     }

@@ -126,17 +126,19 @@ Schedule::Event Schedule::accept(double time) {
 }
 
 std::vector<double> Schedule::memory() const {
-  return {static_cast<double>(grid_), static_cast<double>(breakpoint_), static_cast<double>(halvings_), fraction_,
-          static_cast<double>(rows_)};
+  return {static_cast<double>(grid_),     static_cast<double>(breakpoint_),
+          static_cast<double>(halvings_), fraction_,
+          static_cast<double>(rows_),     retried_ ? 1.0 : 0.0};
 }
 
 void Schedule::restore(const std::vector<double>& memory) {
-  TISSERAND_ENSURE(memory.size() == 5, "{} numbers of a schedule", memory.size());
+  TISSERAND_ENSURE(memory.size() == 6, "{} numbers of a schedule", memory.size());
   grid_ = static_cast<long>(memory[0]);
   breakpoint_ = static_cast<std::size_t>(memory[1]);
   halvings_ = static_cast<int>(memory[2]);
   fraction_ = memory[3];
   rows_ = static_cast<long>(memory[4]);
+  retried_ = memory[5] != 0.0;
 }
 
 void Schedule::skip_to(double time) {
