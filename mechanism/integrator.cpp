@@ -355,7 +355,8 @@ StepReport advance(const Model& model, const IntegratorSpec& options, const Step
   const bool is_accepted = report.outcome == StepOutcome::accepted;
   const bool is_doubtful = is_accepted ? largest_violation_left_out(model, workspace) > largest_left_out
                                        : is_overconstrained(state) || report.outcome == StepOutcome::singular;
-  if (!is_doubtful || !choose_active_rows(model, state, workspace)) return report;
+  if (report.outcome == StepOutcome::inaccurate || !is_doubtful || !choose_active_rows(model, state, workspace))
+    return report;
   // The rank has changed on the way: the step is taken again with other rows.
   workspace.multipliers = state.active();
   state.block() = workspace.previous.block();

@@ -50,6 +50,7 @@ std::vector<std::vector<int>> massless_groups(const Model& model) {
   };
   for (const Joint& joint : model.joints) connect(joint.a, joint.b);
   for (const Coordinate& c : model.coordinates) connect(c.a, c.b);
+  for (const Bushing& bushing : model.bushings) connect(bushing.a, bushing.b);
   std::vector<std::vector<int>> groups;
   std::vector<bool> seen(model.nodes.size(), false);
   for (int start = 0; start < static_cast<int>(model.nodes.size()); ++start) {
