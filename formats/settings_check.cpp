@@ -99,6 +99,10 @@ void check_groups(const Scene& scene, const std::string& where, Faults& faults) 
   if (scene.modes.rotation && !scene.modes.rotation->allFinite()) modes.add("rotation", "rotation must be finite", "");
   if (scene.checkpoint.every) checkpoint.at_least("every", *scene.checkpoint.every, 1);
   if (scene.checkpoint.interval) checkpoint.positive("interval", *scene.checkpoint.interval);
+  if ((scene.checkpoint.every || scene.checkpoint.interval) && spec.method == Method::bdf &&
+      scene.analysis == AnalysisKind::dynamics)
+    checkpoint.add(scene.checkpoint.every ? "every" : "interval", "method: bdf writes no checkpoints",
+                   "use generalised_alpha or hht, or leave checkpoints out");
 }
 
 }  // namespace

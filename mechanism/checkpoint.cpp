@@ -26,6 +26,7 @@ void resume_checkpoint(Run& run, const std::string& file) {
   State& state = run.built.state;
   const std::string own = fingerprint(run.built.model, state);
   if (checkpoint.state_version != State::version || checkpoint.state.size() != state.block().size() ||
+      checkpoint.schedule.size() != Schedule(run.scene, run.built.model.breakpoints).memory().size() ||
       checkpoint.fingerprint != own)
     throw Error(fmt::format("is a checkpoint of scene '{}' with other bodies, joints or superelements than '{}' has",
                             checkpoint.scene, run.scene.name),
@@ -107,6 +108,8 @@ void Checkpoints::after_step(const Model& model, const Schedule& schedule, const
 void resume(Run& run, const std::string& file, const std::optional<double>& at) {
   if (run.scene.analysis != formats::AnalysisKind::dynamics)
     throw Error("only dynamics can go on from a file", file, "name an analysis of `type: dynamics` with --analysis");
+  if (run.scene.integrator.method == formats::Method::bdf)
+    throw Error("method: bdf begins with order 1 and cannot go on from a file", file, "use generalised_alpha or hht");
   const bool checkpoint = formats::is_checkpoint(file);
   if (checkpoint && at)
     throw Error(fmt::format("is a checkpoint and holds one instant; t = {:.9g} cannot be chosen", *at), file,

@@ -30,10 +30,6 @@ Schedule::Schedule(const formats::Scene& scene, const std::vector<double>& break
   proposal_ = std::min(integrator_.step, greatest_step(integrator_));
 }
 
-void Schedule::resume(const State& state) {
-  if (state.next_step() > 0.0) proposal_ = state.next_step();
-}
-
 bool Schedule::output_at_start() const { return integrator_.start >= output_.from - round_off_; }
 
 bool Schedule::reached(double time, double target) const { return time >= target - round_off_; }
@@ -132,13 +128,14 @@ std::vector<double> Schedule::memory() const {
 }
 
 void Schedule::restore(const std::vector<double>& memory) {
-  TISSERAND_ENSURE(memory.size() == 6, "{} numbers of a schedule", memory.size());
+  TISSERAND_ENSURE(memory.size() == 7, "{} numbers of a schedule", memory.size());
   grid_ = static_cast<long>(memory[0]);
   breakpoint_ = static_cast<std::size_t>(memory[1]);
   halvings_ = static_cast<int>(memory[2]);
   fraction_ = memory[3];
   rows_ = static_cast<long>(memory[4]);
-  retried_ = memory[5] != 0.0;
+  proposal_ = memory[5];
+  retried_ = memory[6] != 0.0;
 }
 
 void Schedule::skip_to(double time) {

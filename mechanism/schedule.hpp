@@ -30,8 +30,6 @@ class Schedule {
   std::string limit() const;
   /// With error control: the step of the given size was accepted; its error gives the next one, which the state keeps.
   void adapt(const StepReport& report, double size, State& state);
-  /// Goes on from a stored state with the step that it proposes.
-  void resume(const State& state);
 
   struct Event {
     bool output = false;

@@ -35,7 +35,6 @@ void integrate(Run& run, RowWriter& out) {
   StepReport last;
   double last_size = 0.0;
   if (!run.schedule_memory.empty()) schedule.restore(run.schedule_memory);
-  schedule.resume(state);
   if (schedule.output_at_start() || !run.schedule_memory.empty()) write_row(run, {}, 0.0, out);
   while (!schedule.finished(state.time())) {
     if (run.control.interrupted && run.control.interrupted()) {

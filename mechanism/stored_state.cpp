@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 
 /// One row of a results file.
 struct StoredRow {
-  formats::ResultsReader reader;
+  const formats::ResultsReader& reader;
   std::size_t row = 0;
 
   VectorXd read(const std::string& before, const std::vector<std::string>& columns) const {
@@ -47,18 +47,15 @@ struct StoredRow {
   }
 };
 
-StoredRow find_row(const std::string& file, const std::optional<double>& at) {
-  StoredRow stored{formats::ResultsReader(file), 0};
-  const std::vector<double> time = stored.reader.time();
+std::size_t find_row(const formats::ResultsReader& reader, const std::string& file, const std::optional<double>& at) {
+  const std::vector<double> time = reader.time();
   if (time.empty()) throw Error("holds no instant", file, "give a results file with rows");
-  stored.row = time.size() - 1;
-  if (!at) return stored;
+  if (!at) return time.size() - 1;
   const auto nearest = std::ranges::min_element(time, {}, [&](double t) { return std::abs(t - *at); });
-  stored.row = static_cast<std::size_t>(nearest - time.begin());
   if (std::abs(*nearest - *at) > 1e-9 * std::max(1.0, std::abs(*at)))
     throw Error(fmt::format("holds no instant t = {:.12g}; the nearest is {:.12g}", *at, *nearest), file,
                 "give a stored instant with --at");
-  return stored;
+  return static_cast<std::size_t>(nearest - time.begin());
 }
 
 void read_nodes(const Model& model, const StoredRow& stored, State& state) {
@@ -124,7 +121,8 @@ void read_modal_bodies(const Model& model, const StoredRow& stored, State& state
 
 StoredSums read_stored_state(const Model& model, const std::string& file, const std::optional<double>& at, State& state,
                              Workspace& workspace) {
-  const StoredRow stored = find_row(file, at);
+  const formats::ResultsReader reader(file);
+  const StoredRow stored{reader, find_row(reader, file, at)};
   read_nodes(model, stored, state);
   read_superelements(model, stored, state);
   read_modal_bodies(model, stored, state);
