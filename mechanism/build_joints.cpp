@@ -86,7 +86,7 @@ int JointBuilder::find_coordinate(const formats::CoordinateRef& ref) const {
   const auto found = coordinate_.find(ref.name);
   if (found != coordinate_.end()) return found->second;
   std::vector<std::string> of_joint, all;
-  const std::string joint = ref.name.substr(0, ref.name.find('/'));
+  const std::string joint = ref.name.substr(0, ref.name.rfind('/'));
   for (const auto& [name, index] : coordinate_) {
     all.push_back(name);
     if (name.starts_with(joint + "/")) of_joint.push_back(name);

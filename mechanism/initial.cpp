@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/QR>
 #include <Eigen/SparseCore>
-#include <Eigen/SparseQR>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
@@ -14,6 +14,7 @@
 #include "mechanism/integrator.hpp"
 #include "mechanism/newton.hpp"
 #include "mechanism/schedule.hpp"
+#include "mechanism/solver/matrix_rank.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -23,7 +24,7 @@ constexpr double rank_tolerance = 1e-10;
 /// Smallest reciprocal condition of a mass matrix that is solved as it is.
 constexpr double mass_condition = 1e-15;
 /// Constraint Jacobians up to this size are decomposed densely.
-constexpr int dense_rank_limit = 400;
+constexpr int dense_rank_limit = 150;
 
 /// Bᵀ with rotation rows divided by the characteristic length and angle columns multiplied with it.
 Eigen::SparseMatrix<double> scaled_jacobian(const Model& model, const Workspace& workspace) {
@@ -115,21 +116,17 @@ Mobility count_mobility(const Model& model, const State& state, Workspace& works
   mobility.coordinates = model.sizes.velocities();
   mobility.constraints = model.sizes.constraints;
   const Eigen::SparseMatrix<double> B = scaled_jacobian(model, workspace);
-  const auto count = [&mobility](auto rank, const auto& permutation) {
-    mobility.rank = static_cast<int>(rank);
-    for (Eigen::Index k = rank; k < mobility.constraints; ++k)
-      mobility.redundant.push_back(static_cast<int>(permutation[k]));
-  };
   if (mobility.constraints > 0 && mobility.constraints <= dense_rank_limit) {
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
     qr.setThreshold(rank_tolerance);
     qr.compute(Eigen::MatrixXd(B));
-    count(qr.rank(), qr.colsPermutation().indices());
+    mobility.rank = static_cast<int>(qr.rank());
+    for (Eigen::Index k = qr.rank(); k < mobility.constraints; ++k)
+      mobility.redundant.push_back(static_cast<int>(qr.colsPermutation().indices()[k]));
   } else if (mobility.constraints > 0) {
-    Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr;
-    qr.setPivotThreshold(rank_tolerance * std::max(1.0, B.coeffs().cwiseAbs().maxCoeff()));
-    qr.compute(B);
-    count(qr.rank(), qr.colsPermutation().indices());
+    ColumnRank columns = column_rank(B, rank_tolerance * std::max(1.0, B.coeffs().cwiseAbs().maxCoeff()));
+    mobility.rank = columns.rank;
+    mobility.redundant = std::move(columns.dependent);
   }
   std::sort(mobility.redundant.begin(), mobility.redundant.end());
   mobility.degrees_of_freedom = mobility.coordinates - mobility.rank;

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/sparsity.hpp"
+
 namespace tisserand::mechanism {
 namespace {
 
@@ -18,16 +20,28 @@ void append_coordinates(const Model& model, int node, std::vector<int>& coordina
   }
 }
 
-void add_block(const std::vector<int>& coordinates, std::vector<Position>& positions) {
-  for (const int column : coordinates)
-    for (const int row : coordinates)
-      if (row >= 0 && column >= 0) positions.push_back({row, column});
+/// Visits (row, column) of the global matrix for each entry of the local one, column by column; absent ones are −1.
+template <class Visit>
+void for_each_entry(const ElementMap& map, const EntryFlags& entries, Visit visit) {
+  std::size_t at = 0;
+  for (const int column : map.coordinates)
+    for (const int row : map.coordinates) {
+      const bool held = row >= 0 && column >= 0 && (entries.empty() || entries[at]);
+      ++at;
+      held ? visit(row, column) : visit(-1, -1);
+    }
 }
 
-void fill_slots(const SparsePattern& pattern, ElementMap& map) {
+void add_block(const ElementMap& map, const EntryFlags& entries, std::vector<Position>& positions) {
+  for_each_entry(map, entries, [&](int row, int column) {
+    if (row >= 0) positions.push_back({row, column});
+  });
+}
+
+void fill_slots(const SparsePattern& pattern, const EntryFlags& entries, ElementMap& map) {
   map.slots.clear();
-  for (const int column : map.coordinates)
-    for (const int row : map.coordinates) map.slots.push_back(row >= 0 && column >= 0 ? pattern.slot(row, column) : -1);
+  for_each_entry(map, entries,
+                 [&](int row, int column) { map.slots.push_back(row < 0 ? -1 : pattern.slot(row, column)); });
 }
 
 /// The coordinates of all elements; every list of maps gets one entry per element of its pool.
@@ -62,22 +76,43 @@ void number_elements(Model& model) {
   }
 }
 
-/// B and Bᵀ of `size` rows from `row` on.
-void add_constraint(const ElementMap& map, int first, int size, std::vector<Position>& positions) {
-  for (const int coordinate : map.coordinates)
-    for (int k = 0; k < size && coordinate >= 0; ++k) {
-      positions.push_back({first + k, coordinate});
-      positions.push_back({coordinate, first + k});
-    }
+/// Rows `first` to `first + size - 1` of B; `entries` as in gradient_entries().
+struct ConstraintBlock {
+  int first;
+  int size;
+  EntryFlags entries;
+};
+
+ConstraintBlock block_of(const Model& model, const Joint& joint) {
+  return {model.sizes.boundary + joint.row, joint.size(), gradient_entries(joint)};
+}
+ConstraintBlock block_of(const Model& model, const Coupling& coupling) {
+  return {model.sizes.boundary + coupling.row, 1, {}};
 }
 
-ConstraintMap constraint_slots(const SparsePattern& pattern, const ElementMap& map, int first, int size) {
-  ConstraintMap result;
+/// Visits (row, coordinate) of B for each entry of the block, column by column; the coordinate of absent ones is −1.
+template <class Visit>
+void for_each_entry(const ElementMap& map, const ConstraintBlock& block, Visit visit) {
+  std::size_t at = 0;
   for (const int coordinate : map.coordinates)
-    for (int k = 0; k < size; ++k) {
-      result.lower.push_back(coordinate < 0 ? -1 : pattern.slot(first + k, coordinate));
-      result.upper.push_back(coordinate < 0 ? -1 : pattern.slot(coordinate, first + k));
-    }
+    for (int k = 0; k < block.size; ++k, ++at)
+      visit(block.first + k, block.entries.empty() || block.entries[at] ? coordinate : -1);
+}
+
+void add_constraint(const ElementMap& map, const ConstraintBlock& block, std::vector<Position>& positions) {
+  for_each_entry(map, block, [&](int row, int coordinate) {
+    if (coordinate < 0) return;
+    positions.push_back({row, coordinate});
+    positions.push_back({coordinate, row});
+  });
+}
+
+ConstraintMap constraint_slots(const SparsePattern& pattern, const ElementMap& map, const ConstraintBlock& block) {
+  ConstraintMap result;
+  for_each_entry(map, block, [&](int row, int coordinate) {
+    result.lower.push_back(coordinate < 0 ? -1 : pattern.slot(row, coordinate));
+    result.upper.push_back(coordinate < 0 ? -1 : pattern.slot(coordinate, row));
+  });
   return result;
 }
 
@@ -97,13 +132,16 @@ void number_constraints(Model& model) {
     coordinate.turn = coordinate.relation.kind == RelationKind::angle ? model.sizes.hinges++ : -1;
 }
 
+/// Visits every map that the pattern holds a block of, with the entries that may be nonzero.
 template <class Visit>
 void for_each_map(Model& model, Visit visit) {
-  for (auto* maps : {&model.superelement_maps, &model.rigid_maps, &model.beam2_maps, &model.beam3_maps,
-                     &model.joint_maps, &model.load_maps})
-    for (ElementMap& map : *maps) visit(map);
+  const EntryFlags all, rigid = rigid_entries();
+  for (auto* maps : {&model.superelement_maps, &model.beam2_maps, &model.beam3_maps, &model.load_maps})
+    for (ElementMap& map : *maps) visit(map, all);
+  for (ElementMap& map : model.rigid_maps) visit(map, rigid);
+  for (std::size_t i = 0; i < model.joints.size(); ++i) visit(model.joint_maps[i], stiffness_entries(model.joints[i]));
   for (std::size_t i = 0; i < model.coordinates.size(); ++i)
-    if (model.coordinates[i].active) visit(model.coordinate_maps[i]);
+    if (model.coordinates[i].active) visit(model.coordinate_maps[i], all);
 }
 
 void scale_equations(Model& model) {
@@ -133,21 +171,21 @@ void finish_model(Model& model, formats::LinearSolver solver) {
   const int size = boundary + model.sizes.constraints;
   std::vector<Position> positions;
   for (int i = 0; i < size; ++i) positions.push_back({i, i});
-  for_each_map(model, [&positions](const ElementMap& map) { add_block(map.coordinates, positions); });
+  for_each_map(model, [&](const ElementMap& map, const EntryFlags& entries) { add_block(map, entries, positions); });
   for (std::size_t j = 0; j < model.joints.size(); ++j)
-    add_constraint(model.joint_maps[j], boundary + model.joints[j].row, model.joints[j].size(), positions);
+    add_constraint(model.joint_maps[j], block_of(model, model.joints[j]), positions);
   for (std::size_t j = 0; j < model.couplings.size(); ++j)
-    add_constraint(model.coupling_maps[j], boundary + model.couplings[j].row, 1, positions);
+    add_constraint(model.coupling_maps[j], block_of(model, model.couplings[j]), positions);
   model.solver = choose_solver(SparsePattern(size, positions, SparsePattern::Storage::sparse), solver);
   model.pattern = std::make_unique<SparsePattern>(size, std::move(positions), solver_storage(model.solver.kind));
 
-  for_each_map(model, [&model](ElementMap& map) { fill_slots(*model.pattern, map); });
+  for_each_map(model, [&](ElementMap& map, const EntryFlags& entries) { fill_slots(*model.pattern, entries, map); });
   for (std::size_t j = 0; j < model.joints.size(); ++j)
     model.constraint_maps.push_back(
-        constraint_slots(*model.pattern, model.joint_maps[j], boundary + model.joints[j].row, model.joints[j].size()));
+        constraint_slots(*model.pattern, model.joint_maps[j], block_of(model, model.joints[j])));
   for (std::size_t j = 0; j < model.couplings.size(); ++j)
     model.coupling_constraint_maps.push_back(
-        constraint_slots(*model.pattern, model.coupling_maps[j], boundary + model.couplings[j].row, 1));
+        constraint_slots(*model.pattern, model.coupling_maps[j], block_of(model, model.couplings[j])));
   scale_equations(model);
 }
 

@@ -23,8 +23,10 @@ Eigen::Quaterniond exp_quaternion(const Eigen::Vector3d& turn) {
 /// Material increment T(θ) d of a node's rotation for an increment d of the rotation vector θ of the step.
 Eigen::Vector3d turn_increment(const Model& model, const Workspace& workspace, int node, const Eigen::Vector3d& d) {
   if (node < 0 || model.nodes[static_cast<std::size_t>(node)].rotation < 0) return d;
-  return tangent_so3<double>(workspace.displacement.segment<3>(model.nodes[static_cast<std::size_t>(node)].rotation)) *
-         d;
+  const Eigen::Vector3d theta = workspace.displacement.segment<3>(model.nodes[static_cast<std::size_t>(node)].rotation);
+  const AngleFunctions<double> f(theta.squaredNorm());
+  const Eigen::Vector3d across = theta.cross(d);
+  return d - f.c * across + f.d * theta.cross(across);
 }
 
 /// d_B of superelement i from the boundary coordinates.

@@ -66,32 +66,6 @@ FullBeam full_beam(const BeamData& beam, int pieces) {
   return full;
 }
 
-/// As craig_bampton_beam() of the tests, for any number of elements.
-formats::Superelement reduced_beam(const BeamData& beam, int pieces, int modes) {
-  const auto [S, M] = full_beam(beam, pieces);
-  const Eigen::Index inner = S.rows() - 12;
-  const Eigen::MatrixXd S_II = S.bottomRightCorner(inner, inner), M_II = M.bottomRightCorner(inner, inner);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(S_II, M_II);
-  Eigen::MatrixXd Phi = Eigen::MatrixXd::Zero(S.rows(), 12 + modes);
-  Phi.topLeftCorner(12, 12).setIdentity();
-  Phi.bottomLeftCorner(inner, 12) = -S_II.ldlt().solve(S.bottomLeftCorner(inner, 12));
-  Phi.bottomRightCorner(inner, modes) = eigen.eigenvectors().leftCols(modes);
-  formats::Superelement element = test_support::beam_superelement(beam);
-  element.method = "craig_bampton";
-  for (int i = 0; i < modes; ++i) {
-    element.dof_node.push_back(-1);
-    element.dof_component.push_back(i);
-  }
-  const Eigen::MatrixXd mass = Phi.transpose() * M * Phi;
-  element.mass = 0.5 * (mass + mass.transpose());
-  element.mass.bottomRightCorner(modes, modes).setIdentity();
-  const Eigen::MatrixXd stiffness = Phi.leftCols(12).transpose() * S * Phi.leftCols(12);
-  element.stiffness.setZero(12 + modes, 12 + modes);
-  element.stiffness.topLeftCorner(12, 12) = 0.5 * (stiffness + stiffness.transpose());
-  element.stiffness.bottomRightCorner(modes, modes) = eigen.eigenvalues().head(modes).asDiagonal();
-  return element;
-}
-
 void add_hinge_and_torque(const std::string& base, formats::Scene& scene) {
   scene.joints.push_back(test_support::joint("hinge", formats::JointKind::revolute, "ground", base,
                                              Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()));
@@ -184,6 +158,31 @@ Cost run_and_visit(const Case& input, Visit visit) {
 }
 
 }  // namespace
+
+formats::Superelement reduced_beam(const BeamData& beam, int pieces, int modes) {
+  const auto [S, M] = full_beam(beam, pieces);
+  const Eigen::Index inner = S.rows() - 12;
+  const Eigen::MatrixXd S_II = S.bottomRightCorner(inner, inner), M_II = M.bottomRightCorner(inner, inner);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(S_II, M_II);
+  Eigen::MatrixXd Phi = Eigen::MatrixXd::Zero(S.rows(), 12 + modes);
+  Phi.topLeftCorner(12, 12).setIdentity();
+  Phi.bottomLeftCorner(inner, 12) = -S_II.ldlt().solve(S.bottomLeftCorner(inner, 12));
+  Phi.bottomRightCorner(inner, modes) = eigen.eigenvectors().leftCols(modes);
+  formats::Superelement element = test_support::beam_superelement(beam);
+  element.method = "craig_bampton";
+  for (int i = 0; i < modes; ++i) {
+    element.dof_node.push_back(-1);
+    element.dof_component.push_back(i);
+  }
+  const Eigen::MatrixXd mass = Phi.transpose() * M * Phi;
+  element.mass = 0.5 * (mass + mass.transpose());
+  element.mass.bottomRightCorner(modes, modes).setIdentity();
+  const Eigen::MatrixXd stiffness = Phi.leftCols(12).transpose() * S * Phi.leftCols(12);
+  element.stiffness.setZero(12 + modes, 12 + modes);
+  element.stiffness.topLeftCorner(12, 12) = 0.5 * (stiffness + stiffness.transpose());
+  element.stiffness.bottomRightCorner(modes, modes) = eigen.eigenvalues().head(modes).asDiagonal();
+  return element;
+}
 
 Case hinged_beam(int modes, formats::Formulation formulation) {
   Case input{test_support::empty_scene(0.01, 20.0), {}};

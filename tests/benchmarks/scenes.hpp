@@ -8,6 +8,7 @@
 #include "formats/scene.hpp"
 #include "mechanism/build_model.hpp"
 #include "mechanism/workspace.hpp"
+#include "tests/support/beam_superelement.hpp"
 
 namespace tisserand::benchmarks {
 
@@ -27,6 +28,9 @@ Case nonlinear_beam(int elements, int nodes_per_element);
 /// Horizontal chain of superelements (one metre of steel each, 4 modes) that falls from rest under gravity, the first
 /// one held by ground; all joints spherical. Steps of 1 ms.
 Case chain(int elements, int steps);
+
+/// Static condensation and the lowest modes with fixed boundary of a beam of `pieces` elements; nodes base and tip.
+formats::Superelement reduced_beam(const test_support::BeamData& beam, int pieces, int modes);
 
 /// CPU time of this process [s].
 double cpu_seconds();

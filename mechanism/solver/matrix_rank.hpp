@@ -1,0 +1,19 @@
+// Rank of a sparse matrix, and columns that depend on the others.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/SparseCore>
+
+namespace tisserand::mechanism {
+
+struct ColumnRank {
+  int rank = 0;
+  std::vector<int> dependent;  ///< columns, ascending; without them the rank is full
+};
+
+/// By SuiteSparseQR, whose cost grows with the fill, for chains and trees linearly. A column counts as dependent if
+/// what is left of it, after the parts along those before it, is shorter than `tolerance`.
+ColumnRank column_rank(const Eigen::SparseMatrix<double>& A, double tolerance);
+
+}  // namespace tisserand::mechanism
