@@ -166,22 +166,22 @@ void check_node_of_body(const BodySpec& body, const std::string& node, const std
 
 void check_node(const Scene& scene, const MarkerSpec& marker, const std::string& subject, const std::string& where,
                 const std::string& key, Faults& faults) {
-  std::vector<std::string> bodies;
-  for (const BodySpec& body : scene.bodies) bodies.push_back(name_of(body));
   // Names of bodies in assemblies hold slashes, those of nodes do not.
   std::size_t slash = std::string::npos;
-  auto found = std::ranges::find(bodies, marker.node);
-  if (found == bodies.end()) {
+  auto found = std::ranges::find(scene.bodies, marker.node, name_of);
+  if (found == scene.bodies.end()) {
     slash = marker.node.rfind('/');
-    found = std::ranges::find(bodies, marker.node.substr(0, slash));
+    found = std::ranges::find(scene.bodies, marker.node.substr(0, slash), name_of);
   }
   const std::string body_name = marker.node.substr(0, slash);
-  if (found == bodies.end()) {
+  if (found == scene.bodies.end()) {
+    std::vector<std::string> bodies;
+    for (const BodySpec& body : scene.bodies) bodies.push_back(name_of(body));
     if (key != "at") bodies.push_back("ground");
     check_reference(subject, "body", body_name, bodies, where, key, faults);
     return;
   }
-  const BodySpec& body = scene.bodies[static_cast<std::size_t>(found - bodies.begin())];
+  const BodySpec& body = *found;
   if (slash != std::string::npos) {
     check_node_of_body(body, marker.node.substr(slash + 1), subject, where, key, faults);
     return;
@@ -244,10 +244,10 @@ void check_marker_pair(const Scene& scene, const MarkerPairSpec& pair, const std
 void check_coordinate(const CoordinateRef& coordinate, const Scene& scene, const std::string& subject,
                       const std::string& where, const std::string& key, Faults& faults) {
   const std::string joint = coordinate.name.substr(0, coordinate.name.rfind('/'));
+  for (const JointSpec& spec : scene.joints)
+    if (spec.name == coordinate.name || spec.name == joint) return;
   std::vector<std::string> names;
   for (const JointSpec& spec : scene.joints) names.push_back(spec.name);
-  for (const std::string& name : names)
-    if (name == coordinate.name || name == joint) return;
   const auto near = nearest(joint, names);
   faults.add(where, key, fmt::format("{}: there is no joint '{}'", subject, joint),
              near ? fmt::format("did you mean '{}'?", *near) : "name a joint, or joint/coordinate as in slide/z");

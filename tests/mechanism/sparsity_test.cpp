@@ -70,7 +70,9 @@ TEST_P(Sparsity, HoldsAllThatIsNotZero) {
       joint_stiffness(j, a, b, lambda, K);
       mark(K, 12, stiffness, seen_stiffness);
     }
-    if (j.coincident) EXPECT_EQ(seen_gradient, gradient);
+    if (j.coincident) {
+      EXPECT_EQ(seen_gradient, gradient);
+    }
   }
 }
 
