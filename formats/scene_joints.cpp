@@ -81,10 +81,11 @@ FrictionSpec read_friction(const Context& context, const YamlNode& node, JointKi
   friction.coefficient = map.number("coefficient");
   if (map.has("static_coefficient")) friction.static_coefficient = map.number("static_coefficient");
   friction.velocity = map.number("velocity");
+  const bool turns = kind == JointKind::revolute || kind == JointKind::cylindrical || kind == JointKind::spherical;
   if (kind == JointKind::prismatic) {
     if (const YamlNode* radius = map.find("radius"))
       map.context().fail(radius->key_place, "'radius' has no effect in a prismatic joint", "remove it");
-  } else {
+  } else if (turns || map.has("radius")) {
     friction.radius = map.number("radius");
   }
   if (map.has("arm")) friction.arm = map.number("arm");

@@ -63,7 +63,7 @@ analyses:
 }
 
 TEST(Analyses, EveryErrorNamesItsAnalysis) {
-  EXPECT_THAT(error_of("analyses: {a: {type: dynamics}}"), HasSubstr("analysis 'a': 'integrator' is missing"));
+  EXPECT_THAT(error_of("analyses: {a: {type: dynamics}}"), HasSubstr("analysis 'a': missing key 'integrator'"));
   EXPECT_THAT(error_of("analyses: {a: {type: statik}}"), HasSubstr("statics"));
   EXPECT_THAT(error_of("analyses: {a: {type: statics, from: b}, b: {type: statics}}"),
               HasSubstr("no analysis 'b' stands before this one"));

@@ -75,9 +75,9 @@ TEST(Results, EveryChannelComesBackBitEqual) {
   EXPECT_EQ(reader.rows(), 700u);
   std::map<std::string, std::string> unit;
   for (const Channel& channel : reader.channels()) unit[channel.name] = channel.unit;
-  // 1 time, 3 nodes x (5 x 3 + 4), 2 frames x 7, 5 coordinates y, 3 boundary nodes x 6, 2 joints x 8, 7 energies, 4 of
-  // solver.
-  EXPECT_EQ(unit.size(), 1u + 57 + 14 + 5 + 18 + 16 + 7 + 4);
+  // 1 time, 3 nodes x (5 x 3 + 4), 2 frames x 7, 5 coordinates y with rates, 2 of a modal body with rates, 3 boundary
+  // nodes x 6, 2 joints x 8, 2 drives, 7 energies, 4 of solver.
+  EXPECT_EQ(unit.size(), 1u + 57 + 14 + 10 + 4 + 18 + 16 + 2 + 7 + 4);
   ResultsRow row;
   row.resize(layout);
   const std::map<std::string, std::function<double()>> expected{

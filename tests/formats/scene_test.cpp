@@ -278,9 +278,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"type: superelement", "type: ^superelment",
                 "^: body 'beam': unknown type 'superelment'; did you mean 'superelement'?"},
         BadText{"  beam: {type: superelement, ", "  ^beam: {",
-                "^: body 'beam': missing key 'type'; give type: superelement, rigid, beam or virtual"},
+                "^: body 'beam': missing key 'type'; give type: superelement, rigid, beam, virtual or modal"},
         BadText{"{type: superelement, file: parts/beam.superelement.h5, frame: paper}", "^3",
-                "scene.yaml:6:3: body 'beam': must be a map, not '3'; give type: superelement, rigid, beam or virtual"},
+                "scene.yaml:6:3: body 'beam': must be a map, not '3'; give type: superelement, rigid, beam, virtual or "
+                "modal"},
         BadText{"frame: paper", "^farme: paper", "^: body 'beam': unknown key 'farme'; did you mean 'frame'?"},
         BadText{"frame: paper", "frame: ^kracher", "^: body 'beam': unknown frame 'kracher'; did you mean 'karcher'?"},
         BadText{"frame: paper", "frame: ^{node: \"\"}", "^: body 'beam': frame has no node; write frame: {node: name}"},
@@ -429,7 +430,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "earlier time"},
         BadText{"end: 20", "end: 20, max_iterations: ^0", "^: integrator: max_iterations 0 must be 1 or more"},
         BadText{"end: 20", "end: 20, method: ^newmark",
-                "^: integrator: unknown method 'newmark'; known are generalised_alpha, hht"},
+                "^: integrator: unknown method 'newmark'; known are generalised_alpha, hht, bdf"},
         BadText{"end: 20}", "end: 20}\nstatics: {load_steps: ^0}", "^: statics: load_steps 0 must be 1 or more"},
         BadText{"end: 20}", "end: 20}\noutput: {every: ^0}", "^: output: every 0 must be 1 or more"},
         BadText{"end: 20}", "end: 20}\noutput: {interval: ^-1}", "^: output: interval -1 must be positive"},
@@ -438,7 +439,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"end: 20}", "end: 20}\noutput: {channels: ^nodes}",
                 "^: output: channels must be a list, not 'nodes'; write it as [nodes, energy]"},
         BadText{"end: 20}", "end: 20}\ninitial_tolerance: ^0", "^: initial_tolerance 0 must be positive"},
-        BadText{"end: 20}", "end: 20}\nanalysis: ^modal", "^: unknown analysis 'modal'; known are dynamics, statics"},
+        BadText{"end: 20}", "end: 20}\nanalysis: ^modal",
+                "^: unknown analysis 'modal'; known are dynamics, statics, "
+                "assembly, kinematics, inverse_dynamics, modes"},
         BadText{"[0, 0, -9.81]", "^9.81", "^: gravity must be a list of numbers, not '9.81'; write it as [1, 2, 3]"}));
 
 TEST(Scene, TellsAllErrorsAtOnceInTheOrderOfTheLines) {
