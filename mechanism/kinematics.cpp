@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "mechanism/carriers.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/linearise.hpp"
 #include "mechanism/modes.hpp"
@@ -75,10 +76,11 @@ std::string name_of_motion(const Model& model, const Workspace& workspace, const
   double largest = 0.0;
   std::string name;
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
+    const ElementMap& map = model.coordinate_maps[i];
+    const Eigen::MatrixXd row = model_rows(model, map, local_view(workspace.coordinates[i].G), workspace);
     double rate = 0.0;
-    for (int k = 0; k < 12; ++k)
-      if (const int at = model.coordinate_maps[i].coordinates[static_cast<std::size_t>(k)]; at >= 0)
-        rate += workspace.coordinates[i].G[k] * d[at];
+    for (std::size_t k = 0; k < map.coordinates.size(); ++k)
+      if (const int at = map.coordinates[k]; at >= 0) rate += row(0, static_cast<Eigen::Index>(k)) * d[at];
     if (is_length(model.coordinates[i].relation)) rate /= model.length;
     if (std::abs(rate) <= std::max(1e-9 * d.cwiseAbs().maxCoeff(), (1.0 + 1e-9) * largest)) continue;
     largest = std::abs(rate);

@@ -65,10 +65,10 @@ formats::Scene everything() {
   scene.bushings[0].a.node = "ground";
   scene.bushings[0].b.node = "block";
   scene.bushings[0].stiffness.diagonal().setConstant(10.0);
-  scene.springs.resize(1);
-  scene.springs[0].coordinate = formats::CoordinateRef{"hinge", ""};
-  scene.springs[0].stiffness = formats::CurveSpec{formats::Interpolation::cubic, {-1.0, 1.0}, {-3.0, 3.0}};
-  scene.springs[0].force = formats::TimeExpression{"-0.1*speed", {}, ""};
+  formats::SpringSpec& along = scene.springs.emplace_back();
+  along.coordinate = formats::CoordinateRef{"hinge", ""};
+  along.stiffness = formats::CurveSpec{formats::Interpolation::cubic, {-1.0, 1.0}, {-3.0, 3.0}};
+  along.force = formats::TimeExpression{"-0.1*speed", {}, ""};
   return scene;
 }
 
