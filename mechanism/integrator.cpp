@@ -73,13 +73,6 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
     norms.residual = std::max(norms.residual, r);
     raise(norms.force_ratio, norms.worst_coordinate, r / allowed, i);
   }
-  for (const ModalBody& body : model.modal_bodies)
-    for (int k = 0; k < body.modes; ++k) {
-      const int row = model.sizes.first_modal() + body.offset + k;
-      const double r = std::abs(workspace.residual[row]) * std::sqrt(body.mass);
-      norms.residual = std::max(norms.residual, r);
-      raise(norms.force_ratio, norms.worst_coordinate, r / allowed, row);
-    }
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const auto& r = workspace.superelements[i].forces.r_I;
     for (Eigen::Index k = 0; k < r.size(); ++k)
