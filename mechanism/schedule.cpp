@@ -122,9 +122,13 @@ Schedule::Event Schedule::accept(double time) {
 }
 
 std::vector<double> Schedule::memory() const {
-  return {static_cast<double>(grid_),     static_cast<double>(breakpoint_),
-          static_cast<double>(halvings_), fraction_,
-          static_cast<double>(rows_),     retried_ ? 1.0 : 0.0};
+  return {static_cast<double>(grid_),
+          static_cast<double>(breakpoint_),
+          static_cast<double>(halvings_),
+          fraction_,
+          static_cast<double>(rows_),
+          proposal_,
+          retried_ ? 1.0 : 0.0};
 }
 
 void Schedule::restore(const std::vector<double>& memory) {
