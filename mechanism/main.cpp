@@ -203,9 +203,17 @@ int run(const RunArguments& arguments) {
     throw Error("--restart needs a results file of its own", "",
                 "name it with -o, so that what was computed before is kept");
   const bool chosen = !arguments.output.empty();
-  const std::vector<mechanism::PlannedAnalysis> planned = mechanism::plan(
+  std::vector<mechanism::PlannedAnalysis> planned = mechanism::plan(
       scene, arguments.analysis, {chosen ? arguments.output : default_results(arguments.scene), chosen});
-  for (const mechanism::PlannedAnalysis& one : planned) require_output(one.results, inputs(scene), Replaces::hdf5_only);
+  std::vector<std::string> files_read = inputs(scene);
+  if (restarts) {
+    if (planned.size() > 1 && arguments.analysis.empty())
+      throw Error("the scene has several analyses", arguments.scene, "name the one that goes on with --analysis");
+    planned.erase(planned.begin(), planned.end() - 1);
+    planned.back().from.clear();
+    files_read.push_back(arguments.restart);
+  }
+  for (const mechanism::PlannedAnalysis& one : planned) require_output(one.results, files_read, Replaces::hdf5_only);
   listen_for_interrupts();
   const mechanism::BodyFiles files = mechanism::read_body_files(scene);
   std::map<std::string, mechanism::State> ends;

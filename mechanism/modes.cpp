@@ -241,13 +241,14 @@ formats::ModesTable modes_table(const Model& model, const Workspace& workspace, 
 
 std::vector<std::string> modes_lines(const Model& model, const ModesReport& report) {
   const std::string label = unit_label(model.units, 0, 0, -1);
-  const std::string unit = label == "1/s" ? "Hz" : label;
+  const std::string unit = label == "s^-1" ? "Hz" : label;
   std::vector<std::string> lines{fmt::format("{:>4} {:>14} {:>12}  {}", "no.",
                                              unit.empty() ? "frequency" : fmt::format("frequency {}", unit), "damping",
                                              "moves most")};
   int number = 0;
   for (const Mode& mode : report.modes)
-    lines.push_back(fmt::format("{:>4} {:>14.6g} {:>12.4g}  {}{}", ++number, mode.frequency(), mode.damping_ratio(),
+    lines.push_back(fmt::format("{:>4} {:>14.6g} {:>12.4g}  {}{}", ++number, mode.frequency(),
+                                std::abs(mode.damping_ratio()) < 1e-9 ? 0.0 : mode.damping_ratio(),
                                 moves_most(model, mode.shape), mode.unstable ? "  UNSTABLE" : ""));
   return lines;
 }

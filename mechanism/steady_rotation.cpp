@@ -22,6 +22,18 @@ constexpr double free_motion_condition = 1e-14;
 constexpr int most_halvings = 12;
 constexpr double increment_floor = 1e-13;
 
+/// Largest internal force of any single term: also the inertia of the boundary, which excites internal modes.
+double internal_scale(const Model& model, const Workspace& workspace) {
+  double scale = workspace.force_scale[2];
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const SuperelementBody& body = model.superelements[i];
+    if (body.modes == 0) continue;
+    const VectorXd acceleration = workspace.superelements[i].motion.acceleration_B.cwiseAbs();
+    scale = std::max(scale, (body.M_IB.cwiseAbs() * acceleration).maxCoeff());
+  }
+  return scale;
+}
+
 /// What the iteration tests: largest force (moments over the length) and internal force against their scales.
 bool balanced(const Model& model, const formats::StaticsSpec& options, const Linearisation& l,
               const Workspace& workspace, StaticsReport& report) {
@@ -35,7 +47,7 @@ bool balanced(const Model& model, const formats::StaticsSpec& options, const Lin
   const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
   const double largest_internal = internal.size() > 0 ? internal.cwiseAbs().maxCoeff() : 0.0;
   return report.residual <= std::max(options.tolerance * force, round_off) &&
-         largest_internal <= options.tolerance * workspace.force_scale[2] &&
+         largest_internal <= options.tolerance * internal_scale(model, workspace) &&
          report.constraint <= options.tolerance * model.length;
 }
 
