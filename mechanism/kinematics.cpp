@@ -174,6 +174,9 @@ StepReport move_along(const Model& model, const formats::IntegratorSpec& options
     find_active_rows(model, state, workspace);
     report.iterations = 0;
     report.outcome = close_gaps(model, options, state, workspace, report);
+    // A row that is left out again although it is open: the drives do not determine the motion here.
+    if (report.outcome == StepOutcome::accepted && largest_gap(model, workspace, 0.0) > left_open)
+      report.outcome = StepOutcome::singular;
   }
   if (report.outcome == StepOutcome::accepted && !solve_rates(model, state, workspace))
     report.outcome = StepOutcome::singular;

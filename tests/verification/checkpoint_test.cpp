@@ -93,13 +93,13 @@ formats::Scene parallelogram() {
   return scene;
 }
 
-SuperelementFiles files() {
+BodyFiles files() {
   SuperelementFiles list;
   test_support::add_file("beam", test_support::craig_bampton_beam({}, 3), list);
   return list;
 }
 
-RunRequest request(const formats::Scene& scene, const SuperelementFiles& list, const std::string& path) {
+RunRequest request(const formats::Scene& scene, const BodyFiles& list, const std::string& path) {
   return {scene, list, std::nullopt, path, "", std::nullopt};
 }
 
@@ -118,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Checkpoint,
 // The first run goes through a second checkpoint, which both runs pass alike; the file kept is that of the first.
 TEST_P(Checkpoint, GoesOnBitEqual) {
   TemporaryFolder folder;
-  const SuperelementFiles list = files();
+  const BodyFiles list = files();
   formats::Scene scene = GetParam().scene();
   scene.checkpoint.every = 30;
   const std::string kept = folder.file("kept.h5");
@@ -140,7 +140,7 @@ TEST_P(Checkpoint, GoesOnBitEqual) {
 
 TEST_P(Checkpoint, GoesOnFromAStoredInstantToTheTolerance) {
   TemporaryFolder folder;
-  const SuperelementFiles list = files();
+  const BodyFiles list = files();
   const formats::Scene scene = GetParam().scene();
   const RunEnd whole = simulate(request(scene, list, folder.file("a.results.h5")), {});
   RunRequest again = request(scene, list, folder.file("b.results.h5"));
@@ -154,7 +154,7 @@ TEST_P(Checkpoint, GoesOnFromAStoredInstantToTheTolerance) {
 }
 
 std::string refusal(const formats::Scene& scene, const std::string& file, const std::string& results) {
-  const SuperelementFiles list = files();
+  const BodyFiles list = files();
   RunRequest again = request(scene, list, results);
   again.restart = file;
   try {
@@ -167,7 +167,7 @@ std::string refusal(const formats::Scene& scene, const std::string& file, const 
 
 TEST(CheckpointFile, IsRefusedIfItIsNotOfThisSceneOrNotWhole) {
   TemporaryFolder folder;
-  const SuperelementFiles list = files();
+  const BodyFiles list = files();
   formats::Scene scene = parallelogram();
   scene.checkpoint.interval = 0.1;
   static_cast<void>(simulate(request(scene, list, folder.file("a.results.h5")), {}));

@@ -114,12 +114,11 @@ TEST(Kinematics, KnowsNoFlexibleBodies) {
   EXPECT_THROW(require_determined(run.model(), run.started.mobility, "test", run.state(), run.workspace), Error);
 }
 
-// The rod is shorter than the crank: the drive leaves what the mechanism can reach.
-TEST(Kinematics, StopsWhereTheMechanismEnds) {
+// Crank and rod are stretched at the start: the slider's drive does not tell which way they fold.
+TEST(Kinematics, StopsAtADeadPoint) {
   formats::Scene scene = slider_crank("5 * t");
   scene.motions[0].coordinate.name = "way";
   scene.motions[0].value = formats::TimeExpression{"-0.3 * t", {}, ""};
-  scene.joints[1].position = Vector3d(0.1, 0, 0);
   Simulation run(scene, {});
   run.start();
   StepReport step;
