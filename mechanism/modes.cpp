@@ -39,6 +39,9 @@ struct Spectrum {
 };
 
 Spectrum eigen(MatrixXd A, Vectors kind) {
+  if (!A.allFinite())  // LAPACK would not return
+    throw Error("the linearised scene has no finite shifted inverse: its inertia, damping and stiffness are singular together",
+                "modes", "fix or remove bodies that neither mass nor stiffness holds");
   const int n = static_cast<int>(A.rows()), one = 1;
   const char* right = kind == Vectors::right ? "V" : "N";
   VectorXd real(n), imaginary(n), work(1);
@@ -82,12 +85,24 @@ MatrixXd shifted_inverse(const Reduced& m, double s) {
   return G;
 }
 
+/// The shift among s, 1.37 s, 1.37² s… at which P(s) is regular: it is singular at real eigenvalues (divergence, creep).
+double away_from_eigenvalues(const Reduced& m, double s) {
+  double best = s, largest = -1.0;
+  for (int attempt = 0; attempt < 6; ++attempt, s *= 1.3717) {
+    const double regular = Eigen::PartialPivLU<MatrixXd>(s * s * m.M + s * m.C + m.K).rcond();
+    if (!(regular > largest)) continue;
+    best = s, largest = regular;
+    if (largest > 1e-10) break;
+  }
+  return best;
+}
+
 /// Of the size of the lowest frequency that is none of a rigid motion.
 double choose_shift(const Reduced& m) {
   const double mass = m.M.norm(), stiffness = m.K.norm(), damping = m.C.norm();
   double s = mass > 0.0 && stiffness > 0.0 ? std::sqrt(stiffness / mass) : 0.0;
   if (mass > 0.0) s = std::max(s, damping / mass);
-  if (!(s > 0.0)) return 1.0;
+  s = away_from_eigenvalues(m, s > 0.0 ? s : 1.0);
   for (int pass = 0; pass < 2; ++pass) {
     const VectorXcd mu = eigen(shifted_inverse(m, s), Vectors::none).values;
     double lowest = 0.0;
@@ -98,7 +113,7 @@ double choose_shift(const Reduced& m) {
     }
     if (lowest == 0.0) return s;
     const double before = s;
-    s = 1.3717 * lowest;  // no eigenvalue: P(s) is singular at those that are real
+    s = away_from_eigenvalues(m, 1.3717 * lowest);
     if (s > 1e-2 * before) break;
   }
   return s;

@@ -36,6 +36,7 @@ void TimeFunction::compile(const formats::TimeExpression& text, const Expression
     e.parser.DefineConst("pi", 3.14159265358979323846);
     for (std::size_t i = 0; i < names.size(); ++i) e.parser.DefineVar(names[i], &e.variables[i]);
     e.parser.SetExpr(text.text);
+    e.parser.Eval();  // unknown names are told by name here, not by GetUsedVar
     const auto& used = e.parser.GetUsedVar();
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (!used.contains(names[i])) continue;
@@ -44,7 +45,6 @@ void TimeFunction::compile(const formats::TimeExpression& text, const Expression
       else
         channels_.push_back(static_cast<int>(i - e.first_channel));
     }
-    e.parser.Eval();
   } catch (const mu::Parser::exception_type& error) {
     throw Error(fmt::format("expression '{}': {}", text.text, error.GetMsg()), text.where,
                 names.empty() ? "write a formula in t, for example \"10*sin(2*pi*t)\""
