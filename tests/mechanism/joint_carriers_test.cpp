@@ -25,25 +25,42 @@ using formats::JointKind;
 using test_support::Simulation;
 
 /// What can carry a marker: one word per kind of body.
-const std::vector<std::string> kCarriers = {"ground", "rigid", "superelement", "beam"};
+const std::vector<std::string> kCarriers = {"ground", "rigid",        "superelement",
+                                            "beam",   "virtual kept", "virtual follower"};
 
 struct Pair {
   std::string a, b;
 };
 
-/// All pairs but ground with ground.
+/// All pairs but ground with ground, and virtual bodies of both treatments (the treatment is that of the scene).
 std::vector<Pair> pairs() {
   std::vector<Pair> all;
   for (const std::string& a : kCarriers)
     for (const std::string& b : kCarriers)
-      if (a != "ground" || b != "ground") all.push_back({a, b});
+      if ((a != "ground" || b != "ground") && (a == b || !a.starts_with("virtual") || !b.starts_with("virtual")))
+        all.push_back({a, b});
   return all;
 }
 
 /// Adds a body of that kind, called `name`; returns the node that carries the marker. All part frames are the world at
 /// the start, all bodies turn with the same angular velocity, so that the joint is met in velocities too.
-std::string add_body(const std::string& carrier, const std::string& name, const Vector3d& spin, formats::Scene& scene) {
+/// Ties of virtual bodies come after the joint that is tested: `ties`.
+std::string add_body(const std::string& carrier, const std::string& name, const Vector3d& spin, formats::Scene& scene,
+                     std::vector<formats::JointSpec>& ties) {
   if (carrier == "ground") return "ground";
+  if (carrier.starts_with("virtual")) {
+    scene.virtual_bodies = carrier == "virtual kept" ? formats::VirtualBodies::keep : formats::VirtualBodies::eliminate;
+    const std::string rigid = add_body("rigid", name, spin, scene, ties);
+    formats::VirtualBodySpec body;
+    body.name = name + "_virtual";
+    body.start.pose.position = {0.2, 0.1, -0.1};
+    body.start.velocity = spin.cross(body.start.pose.position);
+    body.start.angular_velocity = spin;
+    scene.bodies.push_back(body);
+    ties.push_back(test_support::joint(name + "_tie", JointKind::fixed, rigid, body.name, body.start.pose.position,
+                                       Vector3d::UnitZ()));
+    return body.name;
+  }
   if (carrier == "rigid") {
     formats::RigidBodySpec body = test_support::rigid_body(name, 2.0, {0.4, 0.1, 0.2}, {0.2, 0.3, 0.4});
     body.start.angular_velocity = spin;
@@ -74,7 +91,8 @@ formats::Scene jointed(JointKind kind, const Pair& pair, bool swapped) {
   scene.gravity = {0.4, -0.3, -9.81};
   const bool grounded = pair.a == "ground" || pair.b == "ground";
   const Vector3d spin = grounded ? Vector3d::Zero() : Vector3d(1.0, -2.0, 0.5);
-  const std::string a = add_body(pair.a, "one", spin, scene), b = add_body(pair.b, "two", spin, scene);
+  std::vector<formats::JointSpec> ties;
+  const std::string a = add_body(pair.a, "one", spin, scene, ties), b = add_body(pair.b, "two", spin, scene, ties);
   formats::JointSpec spec =
       test_support::joint("j", kind, swapped ? b : a, swapped ? a : b, Vector3d::Zero(), {0.3, 0.5, 1.0});
   if (kind == JointKind::generic) spec.hold = {true, false, true, true, false, true};
@@ -86,6 +104,7 @@ formats::Scene jointed(JointKind kind, const Pair& pair, bool swapped) {
     (swapped ? spec.a : spec.b).position = Vector3d(-0.3, 0.6, 0.1);
   }
   scene.joints.push_back(spec);
+  scene.joints.insert(scene.joints.end(), ties.begin(), ties.end());
   return scene;
 }
 
