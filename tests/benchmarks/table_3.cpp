@@ -76,7 +76,7 @@ Cost measure(const std::string& folder, const Model& what, const std::string& so
   for (const std::string& setting : {"virtual_bodies=" + what.virtual_bodies, "integrator.linear_solver=" + solver})
     overrides.push_back(formats::parse_override(setting));
   const formats::Scene scene = formats::read_scene(folder + "/" + what.scene + ".scene.yaml", overrides);
-  const mechanism::SuperelementFiles files = mechanism::read_superelements(scene);
+  const mechanism::BodyFiles files = mechanism::read_body_files(scene);
   Cost cost;
   std::array<double, kRepetitions> times{};
   for (int repetition = 0; repetition < kRepetitions; ++repetition) {
@@ -131,7 +131,8 @@ void print(const std::string& folder) {
     const auto& [sparse, full] = costs[i];
     fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |", models[i].label, sparse.analysis / first.analysis,
                full.analysis / first.analysis, sparse.solution / first.solution, full.solution / first.solution);
-    for (const double value : models[i].paper) fmt::print(value > 0.0 ? " {:.2f} |" : " |", value);
+    for (const double value : models[i].paper)
+      fmt::print("{}", value > 0.0 ? fmt::format(" {:.2f} |", value) : std::string(" |"));
     fmt::print("\n");
   }
   fmt::print(

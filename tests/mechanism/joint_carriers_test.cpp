@@ -286,6 +286,8 @@ JointReaction world_reaction(Simulation& run) {
 TEST_P(JointBetweenCarriers, SwappingTheBodiesFlipsTheReactions) {
   for (const Pair& pair : pairs()) {
     if (pair.a > pair.b) continue;  // each pair once
+    // A fixed joint is then a tie like the body's own: which of them stays a joint depends on the order of the bodies.
+    if (GetParam() == JointKind::fixed && pair.b == "virtual follower") continue;
     SCOPED_TRACE(pair.a + " to " + pair.b);
     JointReaction reaction[2];
     for (const bool swapped : {false, true}) {

@@ -100,7 +100,7 @@ TEST(AbaqusLines, UnknownKeywordsAreListedWithCountsAndCanBeIgnored) {
       abaqus_plate +
       "*TIE, NAME=a\nx, y\n*TIE, NAME=b\nx, y\n*Gap Flow\n*ELEMENT, TYPE=M3D4\n7, 1, 2, 3, 4\n8, 1, 2, 3, 4\n";
   EXPECT_THAT(abaqus_error(text), AllOf(HasSubstr("*TIE (2)"), HasSubstr("*GAP FLOW (1)"),
-                                        HasSubstr("*ELEMENT, TYPE=M3D4 (2)"), HasSubstr("ignored")));
+                                        HasSubstr("*ELEMENT, TYPE=M3D4 (2)"), HasSubstr("unknown: ignore")));
   const AbaqusDeckFile file(text + "*ELSET, ELSET=mixed\n1, 7, 8\n");
   const Deck deck = read_abaqus(file.path(), {UnknownCards::ignore});
   EXPECT_EQ(deck.element_sets.at("mixed").shells, (std::vector<int>{0}));
