@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t longest_formula = 10'000;
 constexpr int deepest_brackets = 100;  // of the recursive parser
+constexpr std::size_t most_remembered = 1000;
 
 bool starts_name(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -44,8 +45,12 @@ void check_extent(const std::string& formula) {
 
 }  // namespace
 
+using KnownValues = std::map<std::string, double>;
+
 struct Calculator::Parser {
   mu::Parser parser;
+  /// Values and result of each formula when it was last asked: copies of an assembly ask for the same again.
+  std::map<std::string, std::pair<KnownValues, double>> last;
 };
 
 Calculator::Calculator() : parser_(std::make_unique<Parser>()) {
@@ -56,9 +61,12 @@ Calculator::~Calculator() = default;
 
 double Calculator::operator()(const std::string& formula, const NamedValues& values) {
   check_extent(formula);
-  std::map<std::string, double> known;  // all looked up before the parser is touched: values may be formulas themselves
+  KnownValues known;  // all looked up before the parser is touched: values may be formulas themselves
   for (const std::string& name : names_of(formula))
     if (const std::optional<double> value = values(name)) known[name] = *value;
+  if (const auto same = parser_->last.find(formula); same != parser_->last.end() && same->second.first == known)
+    return same->second.second;
+  if (parser_->last.size() >= most_remembered) parser_->last.clear();
   mu::Parser& parser = parser_->parser;
   try {
     parser.ClearVar();
@@ -66,6 +74,7 @@ double Calculator::operator()(const std::string& formula, const NamedValues& val
     parser.SetExpr(formula);
     const double result = parser.Eval();
     parser.ClearVar();
+    parser_->last[formula] = {std::move(known), result};
     return result;
   } catch (const mu::Parser::exception_type& error) {
     parser.ClearVar();

@@ -101,7 +101,8 @@ std::vector<InputSpec> read_inputs(const MapReader& map, const SceneDefinitions&
   return inputs;
 }
 
-void check_channels(const Scene& scene, Faults& faults) {
+void check_channels(const SceneIndex& index, Faults& faults) {
+  const Scene& scene = index.scene;
   std::vector<std::string> names;
   for (const InputSpec& input : scene.inputs) {
     const std::string subject = fmt::format("input '{}'", input.name);
@@ -118,15 +119,15 @@ void check_channels(const Scene& scene, Faults& faults) {
     switch (channel.kind) {
       case ChannelKind::coordinate:
       case ChannelKind::rate:
-        check_coordinate(channel.coordinate, scene, subject, channel.where, "of", faults);
+        check_coordinate(channel.coordinate, index, subject, channel.where, "of", faults);
         break;
       case ChannelKind::position:
       case ChannelKind::velocity:
-        check_marker(scene, channel.a, subject, channel.where, "of", faults);
+        check_marker(index, channel.a, subject, channel.where, "of", faults);
         break;
       case ChannelKind::distance:
-        check_marker(scene, channel.a, subject, channel.where, "a", faults);
-        check_marker(scene, channel.b, subject, channel.where, "b", faults);
+        check_marker(index, channel.a, subject, channel.where, "a", faults);
+        check_marker(index, channel.b, subject, channel.where, "b", faults);
         break;
     }
   }

@@ -164,24 +164,24 @@ void check_node_of_body(const BodySpec& body, const std::string& node, const std
   }
 }
 
-void check_node(const Scene& scene, const MarkerSpec& marker, const std::string& subject, const std::string& where,
+void check_node(const SceneIndex& scene, const MarkerSpec& marker, const std::string& subject, const std::string& where,
                 const std::string& key, Faults& faults) {
   // Names of bodies in assemblies hold slashes, those of nodes do not.
   std::size_t slash = std::string::npos;
-  auto found = std::ranges::find(scene.bodies, marker.node, name_of);
+  auto found = scene.bodies.find(marker.node);
   if (found == scene.bodies.end()) {
     slash = marker.node.rfind('/');
-    found = std::ranges::find(scene.bodies, marker.node.substr(0, slash), name_of);
+    found = scene.bodies.find(std::string_view(marker.node).substr(0, slash));
   }
   const std::string body_name = marker.node.substr(0, slash);
   if (found == scene.bodies.end()) {
     std::vector<std::string> bodies;
-    for (const BodySpec& body : scene.bodies) bodies.push_back(name_of(body));
+    for (const BodySpec& body : scene.scene.bodies) bodies.push_back(name_of(body));
     if (key != "at") bodies.push_back("ground");
     check_reference(subject, "body", body_name, bodies, where, key, faults);
     return;
   }
-  const BodySpec& body = *found;
+  const BodySpec& body = *found->second;
   if (slash != std::string::npos) {
     check_node_of_body(body, marker.node.substr(slash + 1), subject, where, key, faults);
     return;
@@ -198,8 +198,8 @@ void check_node(const Scene& scene, const MarkerSpec& marker, const std::string&
 
 }  // namespace
 
-void check_marker(const Scene& scene, const MarkerSpec& marker, const std::string& subject, const std::string& where,
-                  const std::string& key, Faults& faults) {
+void check_marker(const SceneIndex& scene, const MarkerSpec& marker, const std::string& subject,
+                  const std::string& where, const std::string& key, Faults& faults) {
   const bool at_ground = marker.node == "ground";
   if (at_ground && key == "at")
     faults.add(where, key, fmt::format("{}: acts on the ground", subject), "name a node of a body");
@@ -213,7 +213,7 @@ void check_marker(const Scene& scene, const MarkerSpec& marker, const std::strin
                "");
 }
 
-void check_marker_pair(const Scene& scene, const MarkerPairSpec& pair, const std::string& subject,
+void check_marker_pair(const SceneIndex& scene, const MarkerPairSpec& pair, const std::string& subject,
                        const std::string& where, Faults& faults) {
   check_marker(scene, pair.a, subject, where, "a", faults);
   check_marker(scene, pair.b, subject, where, "b", faults);
@@ -241,13 +241,12 @@ void check_marker_pair(const Scene& scene, const MarkerPairSpec& pair, const std
                "give a direction across the axis");
 }
 
-void check_coordinate(const CoordinateRef& coordinate, const Scene& scene, const std::string& subject,
+void check_coordinate(const CoordinateRef& coordinate, const SceneIndex& scene, const std::string& subject,
                       const std::string& where, const std::string& key, Faults& faults) {
   const std::string joint = coordinate.name.substr(0, coordinate.name.rfind('/'));
-  for (const JointSpec& spec : scene.joints)
-    if (spec.name == coordinate.name || spec.name == joint) return;
+  if (scene.joints.contains(coordinate.name) || scene.joints.contains(joint)) return;
   std::vector<std::string> names;
-  for (const JointSpec& spec : scene.joints) names.push_back(spec.name);
+  for (const JointSpec& spec : scene.scene.joints) names.push_back(spec.name);
   const auto near = nearest(joint, names);
   faults.add(where, key, fmt::format("{}: there is no joint '{}'", subject, joint),
              near ? fmt::format("did you mean '{}'?", *near) : "name a joint, or joint/coordinate as in slide/z");
@@ -255,14 +254,14 @@ void check_coordinate(const CoordinateRef& coordinate, const Scene& scene, const
 
 namespace {
 
-void check_joint(const Scene& scene, const JointSpec& joint, Faults& faults) {
+void check_joint(const SceneIndex& scene, const JointSpec& joint, Faults& faults) {
   const std::string subject = fmt::format("joint '{}'", joint.name);
   check_marker_pair(scene, joint, subject, joint.where, faults);
   if (needs_axis(joint.kind) && !joint.axis && !joint.a.orientation && !joint.b.orientation)
     faults.add(joint.where, "", fmt::format("{}: a {} joint needs an axis", subject, joint_word(joint.kind)),
                "give axis: [x, y, z], or an orientation to a or b");
   if (joint.friction) check_friction(joint, subject, faults);
-  if (joint.friction && scene.analysis == AnalysisKind::dynamics && scene.integrator.method == Method::bdf)
+  if (joint.friction && scene.scene.analysis == AnalysisKind::dynamics && scene.scene.integrator.method == Method::bdf)
     faults.add(joint.where, "friction",
                fmt::format("{}: with method: bdf joints have no friction, which depends on their reactions", subject),
                "use method: generalised_alpha or hht");
@@ -278,7 +277,7 @@ void check_joint(const Scene& scene, const JointSpec& joint, Faults& faults) {
     faults.add(joint.where, "hold", fmt::format("{}: holds no direction", subject), "name some of x, y, z, rx, ry, rz");
 }
 
-void check_gear(const Scene& scene, const GearSpec& gear, Faults& faults) {
+void check_gear(const SceneIndex& scene, const GearSpec& gear, Faults& faults) {
   const std::string subject = fmt::format("joint '{}'", gear.name);
   check_coordinate(gear.first, scene, subject, gear.where, "between", faults);
   check_coordinate(gear.second, scene, subject, gear.where, "between", faults);
@@ -286,7 +285,7 @@ void check_gear(const Scene& scene, const GearSpec& gear, Faults& faults) {
     faults.add(gear.where, "ratio", fmt::format("{}: ratio {:g} must be finite and not zero", subject, gear.ratio), "");
 }
 
-void check_motion(const Scene& scene, const MotionSpec& motion, Faults& faults) {
+void check_motion(const SceneIndex& scene, const MotionSpec& motion, Faults& faults) {
   const std::string subject = fmt::format("motion '{}'", motion.name);
   check_coordinate(motion.coordinate, scene, subject, motion.where, "coordinate", faults);
   check_time_function(motion.value, subject, motion.where, "value", faults);
@@ -312,6 +311,7 @@ Faults find_faults(const Scene& scene) {
   if (scene.name.empty()) faults.add(scene.file, "scene", "the scene has no name", "scene: <name>");
   if (!scene.gravity.allFinite()) faults.add(scene.file, "gravity", "gravity must be finite", "");
   if (scene.bodies.empty()) faults.add(scene.file, "bodies", "the scene has no bodies", "");
+  const SceneIndex index(scene);
   std::unordered_set<std::string> bodies, joints, motions, springs, bushings, loads;
   for (const BodySpec& body : scene.bodies) {
     std::visit(
@@ -328,28 +328,28 @@ Faults find_faults(const Scene& scene) {
   }
   for (const JointSpec& joint : scene.joints) {
     check_path_name("joint", joint.name, joint.where, joints, faults);
-    check_joint(scene, joint, faults);
+    check_joint(index, joint, faults);
   }
   for (const GearSpec& gear : scene.gears) {
     check_path_name("joint", gear.name, gear.where, joints, faults);
-    check_gear(scene, gear, faults);
+    check_gear(index, gear, faults);
   }
-  check_channels(scene, faults);
+  check_channels(index, faults);
   for (const MotionSpec& motion : scene.motions) {
     check_path_name("motion", motion.name, motion.where, motions, faults);
-    check_motion(scene, motion, faults);
+    check_motion(index, motion, faults);
   }
   for (const SpringSpec& spring : scene.springs) {
     check_path_name("spring", spring.name, spring.where, springs, faults);
-    check_spring(scene, spring, faults);
+    check_spring(index, spring, faults);
   }
   for (const BushingSpec& bushing : scene.bushings) {
     check_path_name("bushing", bushing.name, bushing.where, bushings, faults);
-    check_bushing(scene, bushing, faults);
+    check_bushing(index, bushing, faults);
   }
   for (const LoadSpec& load : scene.loads) {
     check_path_name("load", load.name, load.where, loads, faults);
-    check_load(scene, load, faults);
+    check_load(index, load, faults);
   }
   check_settings(scene, faults);
   return faults;

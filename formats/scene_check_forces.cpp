@@ -86,7 +86,7 @@ void check_friction(const JointSpec& joint, const std::string& subject, Faults& 
                "remove arm");
 }
 
-void check_spring(const Scene& scene, const SpringSpec& spring, Faults& faults) {
+void check_spring(const SceneIndex& scene, const SpringSpec& spring, Faults& faults) {
   const std::string subject = fmt::format("spring '{}'", spring.name);
   if (spring.coordinate) {
     check_coordinate(*spring.coordinate, scene, subject, spring.where, "coordinate", faults);
@@ -107,7 +107,7 @@ void check_spring(const Scene& scene, const SpringSpec& spring, Faults& faults) 
   if (spring.force) check_time_function(*spring.force, subject, spring.where, "force", faults);
 }
 
-void check_bushing(const Scene& scene, const BushingSpec& bushing, Faults& faults) {
+void check_bushing(const SceneIndex& scene, const BushingSpec& bushing, Faults& faults) {
   const std::string subject = fmt::format("bushing '{}'", bushing.name);
   check_marker_pair(scene, bushing, subject, bushing.where, faults);
   const auto finite = [&](const auto& matrix, const char* key) {
@@ -132,7 +132,7 @@ void check_bushing(const Scene& scene, const BushingSpec& bushing, Faults& fault
     faults.add(bushing.where, "", fmt::format("{}: does nothing", subject), "give stiffness, damping or preload");
 }
 
-void check_load(const Scene& scene, const LoadSpec& load, Faults& faults) {
+void check_load(const SceneIndex& scene, const LoadSpec& load, Faults& faults) {
   const std::string subject = fmt::format("load '{}'", load.name);
   check_marker(scene, load.at, subject, load.where, "at", faults);
   for (std::size_t i = 0; i < load.components.size(); ++i)
