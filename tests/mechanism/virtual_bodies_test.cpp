@@ -1,16 +1,15 @@
 // Virtual bodies kept and eliminated are the same mechanism: motion, reactions, and the faults that each finds.
 #include "mechanism/virtual_bodies.hpp"
 
-#include <algorithm>
 #include <map>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
-#include "mechanism/output.hpp"
+#include "tests/support/andrews.hpp"
 #include "tests/support/reduced_frames.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/virtual_bodies.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -18,52 +17,28 @@ namespace {
 using Eigen::Vector3d;
 using formats::JointKind;
 using formats::VirtualBodies;
+using test_support::body_at;
+using test_support::expect_equal;
+using test_support::fixed_joint;
 using test_support::joint;
+using test_support::largest;
+using test_support::Outcome;
+using test_support::precise_scene;
+using test_support::run_scene;
 using test_support::Simulation;
-
-formats::VirtualBodySpec virtual_body(const std::string& name, const Vector3d& position) {
-  formats::VirtualBodySpec body;
-  body.name = name;
-  body.start.pose.position = position;
-  return body;
-}
-
-/// A fixed joint where the bodies are at the start.
-formats::JointSpec fixed_joint(const std::string& name, const std::string& a, const std::string& b) {
-  formats::JointSpec spec;
-  spec.name = name;
-  spec.kind = JointKind::fixed;
-  spec.a.node = a;
-  spec.b.node = b;
-  return spec;
-}
-
-formats::RigidBodySpec body_at(const std::string& name, double mass, const Vector3d& center, const Vector3d& inertia) {
-  formats::RigidBodySpec body = test_support::rigid_body(name, mass, Vector3d::Zero(), inertia);
-  body.start.pose.position = center;
-  return body;
-}
-
-/// Newton to round-off, so that what is left is the difference of the models.
-formats::Scene precise_scene(formats::Formulation formulation) {
-  formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
-  scene.integrator.formulation = formulation;
-  scene.integrator.tolerance = 1e-12;
-  scene.integrator.constraint_tolerance = 1e-14;
-  return scene;
-}
+using test_support::virtual_body;
 
 enum class Rod { rigid, superelement, beam };
 
 const char* const rod_names[] = {"rigid", "superelement", "beam"};
 
-SuperelementFiles rod_file(double length) {
+BodyFiles rod_files(double length) {
   test_support::BeamData beam;
   beam.length = length;
   beam.young = 1e9;
   beam.shear_modulus = 4e8;
-  SuperelementFiles files;
-  test_support::add_file("rod", test_support::craig_bampton_beam(beam, 4), files);
+  BodyFiles files;
+  test_support::add_file("rod", test_support::craig_bampton_beam(beam, 4), files.superelements);
   return files;
 }
 
@@ -154,53 +129,6 @@ formats::Scene slider_crank(Rod rod, formats::Formulation formulation, VirtualBo
   return scene;
 }
 
-/// What a run gives: motion of the places and reactions of the joints by name.
-struct Outcome {
-  std::map<std::string, Eigen::VectorXd> motion;
-  std::map<std::string, Eigen::VectorXd> reaction;
-};
-
-Outcome run_scene(const formats::Scene& scene, const SuperelementFiles& files, double time) {
-  Simulation run(scene, files);
-  run.start();
-  run.run(time);
-  const formats::ResultsLayout layout = results_layout(run.model(), scene);
-  formats::ResultsRow row;
-  row.resize(layout);
-  run.workspace.displacement.setZero();
-  fill_row(run.model(), run.state(), run.workspace, row);
-  Outcome outcome;
-  for (std::size_t i = 0; i < layout.nodes.size(); ++i) {
-    const auto c = static_cast<Eigen::Index>(i);
-    const Eigen::Vector4d q = row.node_rotation.col(c);
-    Eigen::VectorXd& motion = outcome.motion[layout.nodes[i]];
-    motion.resize(18);
-    motion << row.node_position.col(c), row.node_velocity.col(c), row.node_angular_velocity.col(c),
-        Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix().reshaped();
-  }
-  for (std::size_t i = 0; i < layout.joints.size(); ++i) {
-    Eigen::VectorXd& reaction = outcome.reaction[layout.joints[i]];
-    reaction.resize(6);
-    reaction << row.joint_force.col(static_cast<Eigen::Index>(i)), row.joint_moment.col(static_cast<Eigen::Index>(i));
-  }
-  return outcome;
-}
-
-double largest(const std::map<std::string, Eigen::VectorXd>& all) {
-  double value = 0.0;
-  for (const auto& [name, vector] : all) value = std::max(value, vector.cwiseAbs().maxCoeff());
-  return value;
-}
-
-void expect_equal(const std::map<std::string, Eigen::VectorXd>& a, const std::map<std::string, Eigen::VectorXd>& b,
-                  double tolerance) {
-  ASSERT_EQ(a.size(), b.size());
-  for (const auto& [name, vector] : a) {
-    ASSERT_TRUE(b.contains(name)) << name;
-    EXPECT_LT((vector - b.at(name)).cwiseAbs().maxCoeff(), tolerance * largest(a)) << name;
-  }
-}
-
 class SliderCrank : public testing::TestWithParam<std::tuple<Rod, formats::Formulation>> {};
 INSTANTIATE_TEST_SUITE_P(Rods, SliderCrank,
                          testing::Combine(testing::Values(Rod::rigid, Rod::superelement, Rod::beam),
@@ -216,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(Rods, SliderCrank,
 // multipliers of the fixed joint. Multipliers follow from the differences of the accelerations, which are larger.
 TEST_P(SliderCrank, MovesTheSameWithBodiesKeptAndEliminated) {
   const auto [rod, formulation] = GetParam();
-  const SuperelementFiles files = rod_file(0.3);
+  const BodyFiles files = rod_files(0.3);
   Outcome kept = run_scene(slider_crank(rod, formulation, VirtualBodies::keep), files, 0.06);
   Outcome eliminated = run_scene(slider_crank(rod, formulation, VirtualBodies::eliminate), files, 0.06);
   EXPECT_GT(kept.motion.at("crank")[8], -60 * 2 * 0.0601);
@@ -233,7 +161,7 @@ TEST_P(SliderCrank, MovesTheSameWithBodiesKeptAndEliminated) {
 }
 
 TEST(EliminatedBodies, CostNoUnknowns) {
-  const SuperelementFiles files = rod_file(0.3);
+  const BodyFiles files = rod_files(0.3);
   const auto scene = [](VirtualBodies treatment) {
     return slider_crank(Rod::superelement, formats::Formulation::index3, treatment);
   };
@@ -250,7 +178,7 @@ TEST(EliminatedBodies, CostNoUnknowns) {
 // Two rods in a line, their ends tied through a virtual body: the tie of the second carrier stays a joint, which is the
 // same as one fixed joint between the ends.
 TEST(TwoCarriers, AreTiedByTheJointThatIsLeft) {
-  const SuperelementFiles files = rod_file(0.5);
+  const BodyFiles files = rod_files(0.5);
   const auto scene = [&](bool direct) {
     formats::Scene s = precise_scene(formats::Formulation::stabilised_index2);
     s.gravity = {0, -9.81, 0};
