@@ -261,10 +261,6 @@ void check_joint(const SceneIndex& scene, const JointSpec& joint, Faults& faults
     faults.add(joint.where, "", fmt::format("{}: a {} joint needs an axis", subject, joint_word(joint.kind)),
                "give axis: [x, y, z], or an orientation to a or b");
   if (joint.friction) check_friction(joint, subject, faults);
-  if (joint.friction && scene.scene.analysis == AnalysisKind::dynamics && scene.scene.integrator.method == Method::bdf)
-    faults.add(joint.where, "friction",
-               fmt::format("{}: with method: bdf joints have no friction, which depends on their reactions", subject),
-               "use method: generalised_alpha or hht");
   if (!std::isfinite(joint.pitch) || (joint.kind == JointKind::screw && joint.pitch == 0.0))
     faults.add(joint.where, "pitch",
                fmt::format("{}: pitch {:g} must be a finite length that is not zero", subject, joint.pitch),

@@ -106,12 +106,12 @@ struct BdfCallbacks {
     auto& data = *static_cast<Data*>(user);
     return data.guard([&] {
       data.equations.load(t, data.window, values_of(y));
-      data.equations.accelerate();
+      if (!data.equations.try_accelerate()) return 1;  // CVODE may try a shorter step
       data.equations.rates(values_of(y), values_of(ydot));
       values_of(ydot)[data.size - 2] = data.workspace.load_power;
       values_of(ydot)[data.size - 1] = data.workspace.damping_power;
       const bool finite = std::isfinite(data.state.vdot().sum()) && std::isfinite(data.workspace.load_power);
-      return finite ? 0 : 1;  // 1: CVODE may try a shorter step
+      return finite ? 0 : 1;
     });
   }
   template <class Data>

@@ -16,6 +16,9 @@ constexpr double mass_condition = 1e-15;
 /// Violations below this, relative to the characteristic length, are round-off.
 constexpr double closed = 1e-13;
 constexpr int most_projections = 5;
+/// Iterations for accelerations and reactions that friction couples, and when they have settled.
+constexpr int most_iterations = 30;
+constexpr double settled = 1e-12;
 
 int offset_of(const State& state, const std::string& name) {
   for (const StateField& field : state.fields())
@@ -66,21 +69,36 @@ void Index1::factor_mass() {
               scene_.file, "use method: generalised_alpha with error_control, or give mass and inertia there");
 }
 
-void Index1::accelerate() {
+bool Index1::try_accelerate() {
+  const bool rubs = !model_.frictions.empty();
   state_.vdot().setZero();
-  state_.lambda().setZero();
-  evaluate(model_, state_, workspace_);
-  factor_mass();
-  evaluate_bias(model_, workspace_);
-  workspace_.bias *= -1.0;
-  if (scene_.integrator.bdf.stabilisation == formats::Stabilisation::baumgarte) {
-    const double alpha = scene_.integrator.bdf.alpha, beta = scene_.integrator.bdf.beta;
-    workspace_.bias -= 2.0 * alpha * workspace_.constraint_rate + beta * beta * workspace_.constraint;
-  }
-  solve_increment(model_, workspace_.bias, workspace_);
-  state_.vdot() = workspace_.increment;
-  state_.lambda() = workspace_.unknowns.tail(model_.sizes.constraints);
+  if (!rubs) state_.lambda().setZero();
   ++evaluations_;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    evaluate(model_, state_, workspace_);
+    factor_mass();
+    evaluate_bias(model_, workspace_);
+    apply_jacobian(model_, workspace_, state_.vdot(), workspace_.multipliers);
+    workspace_.bias = -workspace_.bias - workspace_.multipliers;
+    if (scene_.integrator.bdf.stabilisation == formats::Stabilisation::baumgarte) {
+      const double alpha = scene_.integrator.bdf.alpha, beta = scene_.integrator.bdf.beta;
+      workspace_.bias -= 2.0 * alpha * workspace_.constraint_rate + beta * beta * workspace_.constraint;
+    }
+    solve_increment(model_, workspace_.bias, workspace_);
+    state_.vdot() += workspace_.increment;
+    state_.lambda() += workspace_.unknowns.tail(model_.sizes.constraints);
+    if (!rubs) return true;
+    if (!state_.lambda().allFinite()) break;
+    if (workspace_.unknowns.tail(model_.sizes.constraints).norm() <= settled * state_.lambda().norm()) return true;
+  }
+  state_.lambda().setZero();
+  return false;
+}
+
+void Index1::accelerate() {
+  if (!try_accelerate())
+    throw Error("the accelerations do not settle: reactions and friction of the joints drive each other", scene_.file,
+                "reduce the coefficients of friction, or raise their velocity");
 }
 
 void Index1::rates(const double* y, double* ydot) const {
@@ -114,6 +132,15 @@ double Index1::violation() const { return worst_violation() * model_.length; }
 
 bool Index1::project() {
   if (model_.sizes.constraints == 0) return true;
+  // Without reactions there is no friction: its derivatives would turn the projection out of the mass norm.
+  workspace_.multipliers = state_.lambda();
+  state_.lambda().setZero();
+  const bool done = project_without_reactions();
+  state_.lambda() = workspace_.multipliers;
+  return done;
+}
+
+bool Index1::project_without_reactions() {
   double last = 0.0;
   for (int iteration = 0;; ++iteration) {
     evaluate(model_, state_, workspace_);

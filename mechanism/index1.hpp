@@ -36,7 +36,10 @@ class Index1 {
 
   /// The flat vector becomes the state, with quaternions of length 1.
   void load(double time, const LoadWindow& window, const double* y);
-  /// Accelerations and multipliers of the state. Throws Error for a direction without mass.
+  /// Accelerations and multipliers of the state. Throws Error for a direction without mass. With friction the reactions
+  /// depend on the forces that they cause: Newton's iteration from the last ones; false if it does not converge.
+  [[nodiscard]] bool try_accelerate();
+  /// The same; Error where it does not converge.
   void accelerate();
   /// ẏ for the state that was loaded from y and accelerated.
   void rates(const double* y, double* ydot) const;
@@ -50,6 +53,7 @@ class Index1 {
   void tolerances(double* absolute) const;
 
  private:
+  bool project_without_reactions();
   double worst_violation() const;
   void factor_mass();
 

@@ -81,7 +81,7 @@ std::string Schedule::limit() const {
                       : fmt::format("after {} halvings of the step", integrator_.max_halvings);
 }
 
-void Schedule::adapt(const StepReport& report, double size, State& state) {
+void Schedule::adapt(const StepReport& report, double size) {
   if (!controlled()) return;
   const double next = next_step(integrator_, size, report.error_ratio);
   // A step cut short by an instant tells nothing against the longer one that was to come; but no step is more than
@@ -90,7 +90,6 @@ void Schedule::adapt(const StepReport& report, double size, State& state) {
   const double longer = cut && next >= size ? std::min(std::max(next, proposal_), 2.0 * size) : next;
   proposal_ = retried_ ? std::min(next, size) : longer;
   retried_ = false;
-  state.next_step() = proposal_;
 }
 
 bool Schedule::output_due(double time, bool on_grid) {
@@ -176,8 +175,10 @@ void pass_breakpoint(const Model& model, const formats::Scene& scene, State& sta
   state.load_time() = state.time() + side;
   solve_accelerations(model, scene.integrator.step, scene.file, state, workspace);
   const AlphaParameters alpha = alpha_parameters(scene.integrator);
+  const double step = state.step();  // to which the velocities belong (index 3)
   start_algorithmic_acceleration(model, alpha.alpha_m - alpha.alpha_f, scene.integrator.step, scene.file, state,
                                  workspace);
+  rebuild_algorithmic_acceleration(step, state);
   evaluate(model, state, workspace);
   state.load_power() = workspace.load_power;
   state.damping_power() = workspace.damping_power;

@@ -28,8 +28,8 @@ class Schedule {
   bool retry(double time, const StepReport& report);
   /// What stands in the way of a shorter step: "after 10 halvings of the step".
   std::string limit() const;
-  /// With error control: the step of the given size was accepted; its error gives the next one, which the state keeps.
-  void adapt(const StepReport& report, double size, State& state);
+  /// With error control: the step of the given size was accepted; its error gives the next one.
+  void adapt(const StepReport& report, double size);
 
   struct Event {
     bool output = false;

@@ -66,7 +66,7 @@ void integrate(Run& run, RowWriter& out) {
     last_size = state.time() - before;
     report.least_step = report.steps == 1 ? last_size : std::min(report.least_step, last_size);
     report.greatest_step = std::max(report.greatest_step, last_size);
-    schedule.adapt(step, last_size, state);
+    schedule.adapt(step, last_size);
     report.largest_constraint = std::max(report.largest_constraint, step.constraint);
     const Schedule::Event event = schedule.accept(state.time());
     if (event.output) write_row(run, step, last_size, out);

@@ -34,7 +34,7 @@ struct StateField {
 /// then ẏ. x and Q of nodes that follow a modal body are those of the start.
 class State {
  public:
-  static constexpr int version = 4;
+  static constexpr int version = 5;
 
   explicit State(const Sizes& sizes);
 
@@ -65,9 +65,9 @@ class State {
   double load_power() const { return block_[scalars_ + 9]; }
   double& damping_power() { return block_[scalars_ + 10]; }
   double damping_power() const { return block_[scalars_ + 10]; }
-  /// What the error control proposes for the next step; 0: nothing yet.
-  double& next_step() { return block_[scalars_ + 11]; }
-  double next_step() const { return block_[scalars_ + 11]; }
+  /// Running maximum of accelerations, of translations relative to the characteristic length [1/time²].
+  double& acceleration_scale() { return block_[scalars_ + 11]; }
+  double acceleration_scale() const { return block_[scalars_ + 11]; }
 
   using Map = Eigen::Map<Eigen::VectorXd>;
   using ConstMap = Eigen::Map<const Eigen::VectorXd>;

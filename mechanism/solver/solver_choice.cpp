@@ -22,7 +22,7 @@ constexpr double honest_count = 5.0;
 
 struct Candidate {
   SolverKind kind;
-  double cost;  ///< [ns], fitted within 30 % to the times of 25 chains, grids and blocks of 22 to 36 000 unknowns
+  double cost;  ///< [ns], of 27 chains, grids and blocks of 22 to 36 000 unknowns mostly within 30 to 50 %
   double flops;
   double entries;
 };

@@ -136,7 +136,7 @@ class Simulation {
     }
     ++steps;
     largest_constraint = std::max(largest_constraint, report.constraint);
-    schedule.adapt(report, schedule_size, state());
+    schedule.adapt(report, schedule_size);
     if (schedule.accept(state().time()).breakpoint) mechanism::pass_breakpoint(built.model, scene, state(), workspace);
     return true;
   }
