@@ -22,15 +22,21 @@ void raise(double& value, int& at, double candidate, int index) {
   at = index;
 }
 
-/// Violation up to which a constraint counts as closed, relative to the characteristic length (a rate: times the step).
+/// Violations up to which a constraint counts as closed, relative to the characteristic length.
+struct Closed {
+  double position = 0.0;
+  double rate = 0.0;  ///< [1/time]
+};
+
 /// A violation of Φ stands for an acceleration of about 4 Φ/h², one of B v for B v/h: small against those of the motion
-/// only if Φ is small against what they move in a step. Not below the round-off of the positions.
-double closed_constraint(const Model& model, const IntegratorSpec& options, double step, const State& state) {
+/// only if Φ is small against what they move in a step. Not below the round-off: of Φ that of the positions.
+Closed closed_constraints(const Model& model, const IntegratorSpec& options, double step, const State& state) {
   const double acceleration = std::max(state.acceleration_scale(), size_of(model, state.algorithmic()));
-  const double reach = state.x().cols() > 0 ? state.x().cwiseAbs().maxCoeff() / model.length : 0.0;
-  const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * (1.0 + reach);
   const double motion = share_of_motion * options.tolerance * step * step * acceleration;
-  return std::min(options.constraint_tolerance, std::max(motion, round_off));
+  const double reach = state.x().cols() > 0 ? state.x().cwiseAbs().maxCoeff() / model.length : 0.0;
+  const double round_off = 4.0 * std::numeric_limits<double>::epsilon();
+  return {std::min(options.constraint_tolerance, std::max(motion, round_off * (1.0 + reach))),
+          std::min(options.constraint_tolerance, std::max(motion, round_off)) / step};
 }
 
 }  // namespace
@@ -66,15 +72,16 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
     raise(norms.force_ratio, norms.worst_coordinate, workspace.superelements[i].motion.frame_error / frame_tolerance,
           model.superelement_maps[i].coordinates.front());
   }
-  const double closed = closed_constraint(model, options, step, state);
+  const Closed closed = closed_constraints(model, options, step, state);
   for (int row = 0; row < model.sizes.constraints; ++row) {
     const double length = model.length_row[static_cast<std::size_t>(row)] ? model.length : 1.0;
     norms.constraint = std::max(norms.constraint, std::abs(workspace.constraint[row]) / length * model.length);
     if (workspace.active[row] == 0.0) continue;
-    raise(norms.constraint_ratio, norms.worst_constraint, std::abs(workspace.constraint[row]) / (length * closed), row);
+    raise(norms.constraint_ratio, norms.worst_constraint,
+          std::abs(workspace.constraint[row]) / (length * closed.position), row);
     if (options.formulation == Formulation::stabilised_index2)
       raise(norms.constraint_ratio, norms.worst_constraint,
-            std::abs(workspace.constraint_rate[row]) / (length * closed / step), row);
+            std::abs(workspace.constraint_rate[row]) / (length * closed.rate), row);
   }
   return norms;
 }

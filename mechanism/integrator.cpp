@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -18,8 +19,10 @@ namespace {
 using formats::Formulation;
 using formats::IntegratorSpec;
 
-/// Increments below this, relative to the characteristic length and to one radian, are round-off.
+/// Increments below this, relative to the characteristic length and to one radian, may be round-off: they are where
+/// they do not become smaller. They always are below the second.
 constexpr double increment_floor = 1e-13;
+constexpr double least_increment = 4e-16;
 /// Relative difference up to which two steps are the same.
 constexpr double same_step = 1e-9;
 /// Kept factors are given up when an increment is not smaller than this times the one before.
@@ -129,11 +132,31 @@ void renew(const Model& model, const IterationMatrix& matrix, const State& state
   report.singular_column = factors.singular_column;
 }
 
+enum class Factors { kept, fresh };
+
+/// What stays the same during the iterations of one step.
+struct Iteration {
+  const Model& model;
+  const IntegratorSpec& options;
+  const AlphaParameters& alpha;
+  IterationMatrix matrix;
+  double step;
+  StepEnd end;
+};
+
+/// Sizes of the last two increments of an iteration, infinite where there was none.
+struct Increments {
+  double now = std::numeric_limits<double>::infinity();
+  double last = std::numeric_limits<double>::infinity();
+  bool slow() const { return now > slow_rate * last; }
+  bool round_off() const { return now < least_increment || (now < increment_floor && slow()); }
+};
+
 /// Notes the norms of the last evaluate() in the report; true if they, or the last increments, are small enough. Sets
 /// the outcome when the iteration cannot go on.
-bool converged(const Model& model, const IntegratorSpec& options, double step, int iterations, const State& state,
+bool converged(const Iteration& it, int iterations, const Increments& increments, const State& state,
                Workspace& workspace, StepReport& report) {
-  const Norms norms = measure(model, options, step, state, workspace);
+  const Norms norms = measure(it.model, it.options, it.step, state, workspace);
   const bool force_is_worse = norms.force_ratio >= norms.constraint_ratio || !std::isfinite(norms.force_ratio);
   report.force_ratio = norms.force_ratio;
   report.constraint_ratio = norms.constraint_ratio;
@@ -146,24 +169,10 @@ bool converged(const Model& model, const IntegratorSpec& options, double step, i
     return false;
   }
   if (norms.worst() <= 1.0) return true;
-  if (iterations > 0 && size_of(model, workspace.increment) < increment_floor &&
-      size_of(model, workspace.correction) < increment_floor)
-    return true;
-  if (iterations >= options.max_iterations) report.outcome = StepOutcome::too_many_iterations;
+  if (increments.round_off() && size_of(it.model, workspace.correction) < increment_floor) return true;
+  if (iterations >= it.options.max_iterations) report.outcome = StepOutcome::too_many_iterations;
   return false;
 }
-
-enum class Factors { kept, fresh };
-
-/// What stays the same during the iterations of one step.
-struct Iteration {
-  const Model& model;
-  const IntegratorSpec& options;
-  const AlphaParameters& alpha;
-  IterationMatrix matrix;
-  double step;
-  StepEnd end;
-};
 
 /// Readies the last accepted state for a step of another size: the algorithmic acceleration is rebuilt, and with index
 /// 3 the violation B v + Φ_t of the velocities, −C h² B v̈ in the settled motion of one step size, is brought to that of
@@ -184,18 +193,20 @@ bool change_step(const Iteration& it, State& state, Workspace& workspace, StepRe
 }
 
 /// Newton's iteration from the prediction, with the factors that are there or with new ones (again in every iteration
-/// that does not converge quickly). True if it
-/// converges. Gives up kept factors as soon as they contract slowly, without an outcome of its own.
+/// that does not converge quickly). True if it converges. Gives up kept factors as soon as they contract slowly,
+/// without an outcome of its own.
 bool iterate(const Iteration& it, Factors factors, State& state, Workspace& workspace, StepReport& report) {
   state.block() = workspace.previous.block();
   if (state.step() != it.step && !change_step(it, state, workspace, report)) return false;
   state.time() = it.end.time;
   state.load_time() = it.end.load_time;
   predict(it.model, it.alpha, it.step, state, workspace);
-  double last = 0.0, last_residual = 0.0, last_constraint_ratio = 0.0;
+  Increments increments;
+  double last_residual = 0.0, last_constraint_ratio = 0.0;
   for (int count = 0;; ++count) {
     evaluate(it.model, state, workspace);
-    if (converged(it.model, it.options, it.step, count, state, workspace, report)) return true;
+    if (count > 0) increments = {size_of(it.model, workspace.increment), increments.now};
+    if (converged(it, count, increments, state, workspace, report)) return true;
     if (report.outcome != StepOutcome::accepted) return false;
     if (factors == Factors::fresh) {
       const bool quick = count > 0 && report.residual <= quick_rate * last_residual &&
@@ -204,10 +215,8 @@ bool iterate(const Iteration& it, Factors factors, State& state, Workspace& work
       if (report.outcome != StepOutcome::accepted) return false;
       last_residual = report.residual;
       last_constraint_ratio = report.constraint_ratio;
-    } else if (count > 0) {
-      const double size = size_of(it.model, workspace.increment);
-      if (count > 1 && size > slow_rate * last) return false;
-      last = size;
+    } else if (increments.slow()) {
+      return false;
     }
     solve(it.model, it.options, it.alpha, it.step, workspace);
     correct(it.model, it.alpha, it.step, state, workspace);

@@ -161,6 +161,18 @@ TEST_P(EveryScheme, MultipliersKeepTheirOrderThroughAChangeOfStep) {
   EXPECT_GT(order(coarse, fine), 1.8) << coarse << " " << fine;
 }
 
+// At steps of 1e-5 an increment of positions of 1e-13 still is an acceleration of 4e-3: the iteration goes on until
+// increments are round-off, or the energy is off by 5e-7 of the kinetic one here. The error of the method is (ω h)²/12,
+// 1e-10.
+TEST_P(EveryScheme, SmallStepsKeepTheEnergy) {
+  Simulation run(with_scheme(test_support::pendulum_scene(1e-5, 0.1)), {});
+  run.start();
+  run.run(0.1);
+  const Energy energy = run.energy();
+  EXPECT_LT(std::abs(energy.total() - run.state().initial_energy()), 2e-8 * energy.kinetic);
+  EXPECT_LE(run.iterations, 3 * run.steps);
+}
+
 // With ρ = 1 the energy error of the pendulum is periodic: no larger in the tenth period than in the first two (5 %
 // allowed for the instants at which it is sampled).
 TEST(Energy, OfAPendulumDoesNotDriftWithoutNumericalDissipation) {
