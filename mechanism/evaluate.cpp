@@ -254,6 +254,7 @@ Workspace::Workspace(const Model& model)
       active(constraint),
       values(static_cast<std::size_t>(model.pattern->values()), 0.0),
       solver(*model.pattern, model.solver.kind),
+      trend{Eigen::VectorXd::Zero(model.sizes.velocities()), constraint},
       unknowns(Eigen::VectorXd::Zero(model.pattern->size())),
       increment(Eigen::VectorXd::Zero(model.sizes.velocities())),
       correction(increment),

@@ -29,6 +29,8 @@ constexpr double same_step = 1e-9;
 constexpr double slow_rate = 0.25;
 /// New factors serve the next iteration of the same step too if the residual fell below this times the one before.
 constexpr double quick_rate = 0.02;
+/// The motion is smooth if the last change of acceleration foretells the next one up to this part of it.
+constexpr double smooth_rate = 0.5;
 /// Factors that served this many steps are worth keeping.
 constexpr int long_life = 8;
 /// Most steps with new factors in every iteration before kept ones are tried again.
@@ -38,13 +40,43 @@ constexpr double largest_left_out = 1e-7;
 /// Smallest reciprocal condition with which a factorisation is used.
 constexpr double singular_condition = 1e-17;
 
-/// From the last accepted state, with velocities and algorithmic acceleration as this step needs them.
+/// From the last accepted state, with velocities and algorithmic acceleration as this step needs them; the acceleration
+/// stays, or changes on as in the last step where the motion is smooth.
 void predict(const Model& model, const AlphaParameters& alpha, double step, State& state, Workspace& workspace) {
   workspace.displacement = step * state.v() + (0.5 * step * step) * state.algorithmic();
   workspace.correction.setZero();
   state.v() += step * state.algorithmic();
   state.vdot() = (state.algorithmic() - alpha.alpha_f * state.vdot()) / (1.0 - alpha.alpha_f);
+  const Trend& trend = workspace.trend;
+  if (trend.smooth && workspace.previous.step() == step) {
+    state.lambda() += trend.multipliers;
+    state.algorithmic() += trend.acceleration;
+    state.v() += (alpha.gamma * step) * trend.acceleration;
+    state.vdot() += ((1.0 - alpha.alpha_m) / (1.0 - alpha.alpha_f)) * trend.acceleration;
+    workspace.displacement += (alpha.beta * step * step) * trend.acceleration;
+  }
   retract(model, workspace.previous, workspace.displacement, state);
+}
+
+/// Learns from the step just solved how to predict the next one.
+void update_trend(const Model& model, double step, const State& state, Workspace& workspace) {
+  const State& last = workspace.previous;
+  Trend& trend = workspace.trend;
+  if (last.step() != step) {
+    trend.known = trend.smooth = false;
+    return;
+  }
+  // The largest change of an acceleration, rotations times the length; and what the change before leaves of it.
+  double change = 0.0, rest = 0.0;
+  for (int i = 0; i < model.sizes.boundary; ++i) {
+    const double one = state.algorithmic()[i] - last.algorithmic()[i];
+    change = std::max(change, std::abs(one) / model.equation_scale[i]);
+    rest = std::max(rest, std::abs(one - trend.acceleration[i]) / model.equation_scale[i]);
+  }
+  trend.smooth = trend.known && rest < smooth_rate * change;
+  trend.known = true;
+  trend.acceleration = state.algorithmic() - last.algorithmic();
+  trend.multipliers = state.lambda() - last.lambda();
 }
 
 /// Adds an increment of h² β a to acceleration, velocity and position, and a correction to the position alone.
@@ -106,6 +138,7 @@ void finish(const Model& model, const IntegratorSpec& options, double step, Stat
       return;
     }
   }
+  update_trend(model, step, state, workspace);
   accept(model, step, state, workspace);
 }
 

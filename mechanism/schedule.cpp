@@ -172,6 +172,7 @@ void pass_breakpoint(const Model& model, const formats::Scene& scene, State& sta
   for (std::optional<TimeFunction>& function : workspace.spring_forces)
     if (function) look_at(*function);
   if (!jumps) return;
+  workspace.trend.known = workspace.trend.smooth = false;
   state.load_time() = state.time() + side;
   solve_accelerations(model, scene.integrator.step, scene.file, state, workspace);
   const AlphaParameters alpha = alpha_parameters(scene.integrator);

@@ -28,6 +28,15 @@ struct FactorReuse {
   int fresh_left = 0;
 };
 
+/// Change of algorithmic acceleration and multipliers over the last step, by which the next step is predicted where the
+/// motion is smooth: where the last step would have been predicted better by the change before. Forgotten at
+/// checkpoints.
+struct Trend {
+  Eigen::VectorXd acceleration, multipliers;
+  bool known = false;   ///< the last step had the size of this one
+  bool smooth = false;  ///< it would have been predicted better
+};
+
 /// Buffers for joints and loads on nodes of modal bodies (carriers.hpp).
 struct CarrierScratch {
   Eigen::VectorXd half, full;          ///< K T and Tᵀ K T
@@ -43,6 +52,7 @@ struct Workspace {
     solver.forget();
     has_factors = false;
     reuse = {};
+    trend.known = trend.smooth = false;
   }
 
   // evaluate()
@@ -80,6 +90,7 @@ struct Workspace {
   TangentCoefficients factored;  ///< coefficients of the factors that are kept
   bool has_factors = false;
   FactorReuse reuse;
+  Trend trend;
   Eigen::VectorXd unknowns;          ///< right-hand side and solution of the global system
   Eigen::VectorXd increment;         ///< of the velocity coordinates, boundary and internal
   Eigen::VectorXd correction;        ///< the same for the position correction of stabilised index 2

@@ -26,6 +26,8 @@ struct Effort {
   double entries = 0.0;  ///< of L and U
 };
 Effort klu_effort(const SparsePattern& pattern);
+/// The same counted on the factors of a matrix with made-up values, so with the fill of its pivots.
+Effort klu_trial(const SparsePattern& pattern);
 /// UMFPACK's estimates are upper bounds.
 Effort umfpack_effort(const SparsePattern& pattern);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -12,13 +13,14 @@
 namespace tisserand::mechanism {
 namespace {
 
-using back_end::Effort, back_end::klu_effort, back_end::umfpack_effort;
+using back_end::Effort, back_end::klu_effort, back_end::klu_trial, back_end::umfpack_effort;
 
 /// Dense storage is not considered above this size (2 MB of values).
 constexpr int dense_limit = 500;
-/// Where UMFPACK's bound of the flops exceeds KLU's count so many times, the count holds no longer: KLU orders for
+/// Where UMFPACK's bound of the flops exceeds KLU's count so many times, the count may hold no longer: KLU orders for
 /// pivots on the diagonal, which the zeros of the constraints forbid, and fills 10 to 100 times more (grids of bodies).
-constexpr double honest_count = 5.0;
+/// It is counted anew on a trial then, unless even the hopeful count is too much work for one.
+constexpr double honest_count = 5.0, most_trial_flops = 2e7;
 
 struct Candidate {
   SolverKind kind;
@@ -28,9 +30,14 @@ struct Candidate {
 };
 
 std::array<Candidate, 4> candidates(const SparsePattern& pattern) {
-  const Effort klu = klu_effort(pattern), umfpack = umfpack_effort(pattern);
+  Effort klu = klu_effort(pattern);
+  const Effort umfpack = umfpack_effort(pattern);
   const double n = pattern.size(), entries_of_matrix = pattern.nonzeros();
-  const bool trusted = umfpack.flops <= honest_count * klu.flops || pattern.size() <= dense_limit;
+  bool trusted = umfpack.flops <= honest_count * klu.flops || pattern.size() <= dense_limit;
+  if (!trusted && klu.flops <= most_trial_flops) {
+    klu = klu_trial(pattern);
+    trusted = std::isfinite(klu.flops);
+  }
   const double in_cache = klu.entries < 4000 ? 8.0 : 25.0;
   const double never = std::numeric_limits<double>::infinity();
   const bool small = pattern.size() <= dense_limit;
