@@ -146,29 +146,34 @@ split_scene() {
 
 # benchmark_tables <folder with targets.csv>: runs every scene of the file with each value of `refine`; one table per scene with target,
 # results, error of the last and its order (log2 of how much the error falls when the value is halved). Columns of targets.csv: scene
-# file; the setting that is varied and its values; quantity; channel (with *: the last that matches); time; target; scale of the
+# file, of several analyses `scene:analysis`; the setting that is varied and its values; quantity; channel (with *: the last that matches), or `modes/2` for the second frequency; time; target; scale of the
 # relative error; largest error accepted by the tests (empty: none); order expected by the tests (empty: none).
 benchmark_tables() {
-  local folder="$1" scene refine values value name
-  while IFS=, read -r scene refine values; do
+  local folder="$1" target scene analysis refine values value name
+  while IFS=, read -r target refine values; do
+    scene="${target%%:*}" analysis=""
+    [ "$scene" = "$target" ] || analysis="${target#*:}"
     local names=()
     for value in ${values:--}; do
-      name="${scene}_$value"
+      name="${scene}${analysis:+_$analysis}_$value"
       names+=("$name")
-      if [ "$value" = - ]; then
-        simulate "$out/$scene.scene.yaml" "$name" || true
-      else
-        simulate "$out/$scene.scene.yaml" "$name" --set "$refine=$value" || true
-      fi
+      local settings=()
+      [ -z "$analysis" ] || settings+=(--analysis "$analysis")
+      [ "$value" = - ] || settings+=(--set "$refine=$value")
+      simulate "$out/$scene.scene.yaml" "$name" "${settings[@]}" || true
     done
     printf '\n### %s\n%s\n\n| quantity | time | target | %s | error %% | order |\n| --- | --: | --: | %s | --: | --: |\n' \
-      "$(awk '$1 == "scene:" { sub(/^scene: */, ""); print }' "$folder/$scene.scene.yaml")" \
+      "$(awk '$1 == "scene:" { sub(/^scene: */, ""); print }' "$folder/$scene.scene.yaml")${analysis:+, $analysis}" \
       "$(awk '/^#/ { sub(/^# */, ""); print; next } { exit }' "$folder/$scene.scene.yaml")" \
       "$([ -n "$values" ] && sed 's/ / | /g' <<<"$values" || printf 'ours')" "$(sed 's/[^ ]*/--:/g; s/ / | /g' <<<"${values:-x}")"
-    awk -F, -v scene="$scene" '$1 == scene { print $4 "," $5 "," $6 "," $7 "," $8 }' "$folder/targets.csv" |
+    awk -F, -v scene="$target" '$1 == scene { print $4 "," $5 "," $6 "," $7 "," $8 }' "$folder/targets.csv" |
       while IFS=, read -r quantity channel time target scale; do
         local results=()
         for name in "${names[@]}"; do
+          if [ "${channel%%/*}" = modes ]; then
+            results+=("$(awk -v mode="${channel#*/}" '$1 == "no." { on = 1 } on && $1 == mode { print $2; exit }' "$out/$name.log")")
+            continue
+          fi
           "$mechanism" export "$out/$name.results.h5" -c "$channel" -o "$out/channel.csv" >/dev/null
           results+=("$(awk -F, -v t="$time" 'NR > 1 { d = $1 - t; if (d < 0) d = -d; if (NR == 2 || d < best) { best = d; y = $NF } }
             END { printf "%.9g", y }' "$out/channel.csv")")

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <numbers>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -24,7 +26,7 @@ const std::string examples = TISSERAND_SOURCE_DIR "/examples/";
 
 /// A line of targets.csv; examples/common.sh explains the columns.
 struct Target {
-  std::string scene, refine, quantity, channel;
+  std::string scene, analysis, refine, quantity, channel;
   std::vector<std::string> values;
   double time = 0.0, target = 0.0, scale = 1.0;
   std::string accept, order;
@@ -40,8 +42,18 @@ std::vector<Target> read_targets(const std::string& folder) {
     std::istringstream stream(line + ",end");
     for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
     if (cells.size() != 11) throw std::runtime_error("targets.csv: " + line);
-    Target t{cells[0], cells[1], cells[3], cells[4], {}, std::stod(cells[5]), std::stod(cells[6]), std::stod(cells[7]),
-             cells[8], cells[9]};
+    const std::size_t colon = std::min(cells[0].find(':'), cells[0].size());
+    Target t{cells[0].substr(0, colon),
+             colon < cells[0].size() ? cells[0].substr(colon + 1) : "",
+             cells[1],
+             cells[3],
+             cells[4],
+             {},
+             std::stod(cells[5]),
+             std::stod(cells[6]),
+             std::stod(cells[7]),
+             cells[8],
+             cells[9]};
     std::istringstream values(cells[2]);
     for (std::string value; values >> value;) t.values.push_back(value);
     targets.push_back(t);
@@ -52,16 +64,37 @@ std::vector<Target> read_targets(const std::string& folder) {
 /// Runs one scene of a folder with its last two values and checks every line about it.
 class Targets : public testing::TestWithParam<const char*> {
  protected:
-  void run(const std::string& scene, const std::string& setting, const std::string& result) const {
+  void run(const Target& t, const std::string& setting, const std::string& result) {
     std::vector<formats::Override> overrides;
     if (!setting.empty()) overrides.push_back(formats::parse_override(setting));
-    const RunReport report = simulate(formats::read_scene(folder_.file(scene + ".scene.yaml"), overrides),
-                                      folder_.file(result), RunControl{});
+    const formats::Scene scene = formats::read_scene(folder_.file(t.scene + ".scene.yaml"), overrides);
+    const RunReport report = t.analysis.empty() ? simulate(scene, folder_.file(result), RunControl{})
+                                                : run_analysis(scene, t.analysis, result).report;
     ASSERT_EQ(report.outcome, RunOutcome::completed) << report.reason;
+    frequencies_[result].clear();
+    for (const std::string& line : report.table) {
+      std::istringstream words(line);
+      double number = 0.0, frequency = 0.0;
+      if (words >> number >> frequency) frequencies_[result].push_back(frequency);
+    }
+  }
+
+  /// One analysis of several, after the one that it starts from.
+  RunEnd run_analysis(const formats::Scene& scene, const std::string& name, const std::string& result) const {
+    for (const formats::Analysis& analysis : scene.analyses) {
+      if (analysis.name != name) continue;
+      std::optional<State> begin;
+      if (!analysis.from.empty()) begin = run_analysis(scene, analysis.from, "from_" + result).state;
+      return simulate({formats::scene_of(scene, analysis), read_body_files(scene), begin, folder_.file(result), "", {}},
+                      RunControl{});
+    }
+    throw std::runtime_error("no analysis " + name);
   }
 
   /// Relative error of a target in a run.
   double error(const Target& t, const std::string& result) const {
+    if (t.channel.starts_with("modes/"))
+      return (frequencies_.at(result).at(std::stoul(t.channel.substr(6)) - 1) - t.target) / t.scale;
     const Series s = read_series({{folder_.file(result)}, {}, {t.channel}, {}}).back();
     std::size_t nearest = 0;
     for (std::size_t i = 0; i < s.x.size(); ++i)
@@ -69,16 +102,20 @@ class Targets : public testing::TestWithParam<const char*> {
     return (s.y[nearest] - t.target) / t.scale;
   }
 
-  void check(const std::string& folder, const std::string& scene) const {
+  void check(const std::string& folder, const std::string& scene) {
     std::filesystem::copy_file(examples + folder + "/" + scene + ".scene.yaml", folder_.file(scene + ".scene.yaml"));
     const std::vector<std::string> results = {"finest.results.h5", "coarser.results.h5"};
-    bool ran = false;
+    std::size_t ran = 0;  // of the two finest runs of this analysis
+    bool any = false;
+    std::string analysis = "none yet";
     for (const Target& t : read_targets(folder)) {
       if (t.scene != scene) continue;
       SCOPED_TRACE(t.quantity);
-      for (std::size_t i = 0; i < (t.order.empty() ? 1 : 2) && !ran; ++i)
-        run(scene, t.values.empty() ? "" : t.refine + "=" + t.values[t.values.size() - 1 - i], results[i]);
-      ran = true;
+      if (t.analysis != analysis) ran = 0;
+      analysis = t.analysis;
+      any = true;
+      for (; ran < (t.order.empty() ? 1U : 2U); ++ran)
+        run(t, t.values.empty() ? "" : t.refine + "=" + t.values[t.values.size() - 1 - ran], results[ran]);
       const double finest = error(t, results[0]);
       if (!t.accept.empty()) {
         EXPECT_LT(std::abs(finest), std::stod(t.accept));
@@ -87,41 +124,62 @@ class Targets : public testing::TestWithParam<const char*> {
         EXPECT_NEAR(std::log2(error(t, results[1]) / finest), std::stod(t.order), 0.4);
       }
     }
-    EXPECT_TRUE(ran) << "no target for " << scene;
+    EXPECT_TRUE(any) << "no target for " << scene;
   }
 
   test_support::TemporaryFolder folder_;
+  std::map<std::string, std::vector<double>> frequencies_;  ///< of results files of modes
 };
 
 class RigidTargets : public Targets {};
 INSTANTIATE_TEST_SUITE_P(Scenes, RigidTargets,
                          testing::Values("pendulum", "four_bar_2", "four_bar_10", "andrews", "bricard", "heavy_top",
-                                         "free_body"),
+                                         "free_body", "equal_crank"),
                          [](const testing::TestParamInfo<const char*>& scene) { return scene.param; });
 TEST_P(RigidTargets, AreMet) { check("rigid_benchmarks", GetParam()); }
 
+// A step that ends on the very change point, where the slider's rows lose a rank: x = 2 cos(pi t/2) all the same.
+TEST(EqualCrank, PassesAStepOnTheChangePoint) {
+  const test_support::TemporaryFolder folder;
+  std::vector<formats::Override> overrides;
+  for (const char* setting : {"motions.speed.value=pi/2*t", "initial_tolerance=10", "integrator.end=2"})
+    overrides.push_back(formats::parse_override(setting));
+  const std::string results = folder.file("crank.results.h5");
+  const RunReport report = simulate(
+      formats::read_scene(examples + "rigid_benchmarks/equal_crank.scene.yaml", overrides), results, RunControl{});
+  ASSERT_EQ(report.outcome, RunOutcome::completed) << report.reason;
+  const Series x = read_series({{results}, {}, {"nodes/position/slider/x"}, {}}).front();
+  for (std::size_t i = 0; i < x.x.size(); ++i)
+    EXPECT_NEAR(x.y[i], 2.0 * std::cos(0.5 * std::numbers::pi * x.x[i]), 1e-9) << x.x[i];
+}
+
 class FlexibleTargets : public Targets {
  protected:
-  void reduce(const std::string& part, const std::string& name) const {
+  void reduce(const std::string& part, const std::string& name, const std::string& settings) const {
     const std::string command = TISSERAND_BINARY_DIR "/bin/reducer run " + examples + "flexible_benchmarks/" + part +
-                                ".part.yaml -o " + folder_.file(name + ".superelement.h5") + " > " +
+                                ".part.yaml -o " + folder_.file(name + ".superelement.h5") + " " + settings + " > " +
                                 folder_.file("log") + " 2>&1";
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
   }
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, FlexibleTargets,
-                         testing::Values("spin_up", "princeton", "bend_45", "roll_up", "top_fast", "top_slow"),
+                         testing::Values("spin_up", "princeton", "bend_45", "roll_up", "top_fast", "top_slow", "simeon",
+                                         "shaft"),
                          [](const testing::TestParamInfo<const char*>& scene) { return scene.param; });
 TEST_P(FlexibleTargets, AreMet) { check("flexible_benchmarks", GetParam()); }
 
 class SuperelementTargets : public FlexibleTargets {};
 INSTANTIATE_TEST_SUITE_P(Scenes, SuperelementTargets,
-                         testing::Values("spin_up_superelement_4", "princeton_superelement_4"),
+                         testing::Values("spin_up_superelement_4", "princeton_superelement_2",
+                                         "princeton_superelement_4", "princeton_superelement_8"),
                          [](const testing::TestParamInfo<const char*>& scene) { return scene.param; });
 TEST_P(SuperelementTargets, AreMet) {
   if (!std::filesystem::exists(TISSERAND_BINARY_DIR "/bin/reducer")) GTEST_SKIP() << "built without the reducer";
-  reduce("spin_up_piece", "quarter");
-  reduce("princeton_piece", "princeton_4");
+  const std::string scene = GetParam();
+  if (scene == "spin_up_superelement_4") reduce("spin_up_piece", "quarter", "");
+  for (const auto& [pieces, length] : {std::pair{"2", "0.254"}, {"4", "0.127"}, {"8", "0.0635"}})
+    if (scene == std::string("princeton_superelement_") + pieces)
+      reduce("princeton_piece", std::string("princeton_") + pieces, std::string("--set points.tip.0=") + length);
   check("flexible_benchmarks", GetParam());
 }
 
