@@ -20,17 +20,23 @@ constexpr std::size_t most_remembered = 1000;
 bool starts_name(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The names of a formula; not the exponents of its numbers (1e5).
-std::set<std::string> names_of(const std::string& formula) {
-  std::set<std::string> names;
+/// Calls `visit(begin, end)` for each run of characters of names and numbers; `[3]` belongs to the name before it.
+template <class Visit>
+void for_each_word(const std::string& formula, Visit visit) {
+  const auto in_word = [](char c) { return starts_name(c) || is_digit(c) || c == '.'; };
   for (std::size_t i = 0; i < formula.size();) {
     std::size_t end = i;
-    const auto in_word = [&](char c) { return starts_name(c) || is_digit(c) || c == '.'; };
-    while (end < formula.size() && in_word(formula[end])) ++end;
-    if (end > i && starts_name(formula[i])) names.insert(formula.substr(i, end - i));
-    i = end > i ? end : i + 1;
+    while (end < formula.size() && in_word(formula[end])) {
+      ++end;
+      std::size_t close = end + 1;
+      while (close < formula.size() && is_digit(formula[close])) ++close;
+      if (end < formula.size() && formula[end] == '[' && close > end + 1 && close < formula.size() &&
+          formula[close] == ']')
+        end = close + 1;
+    }
+    if (end > i) visit(i, end);
+    i = std::max(end, i + 1);
   }
-  return names;
 }
 
 void check_extent(const std::string& formula) {
@@ -44,6 +50,31 @@ void check_extent(const std::string& formula) {
 }
 
 }  // namespace
+
+std::set<std::string> names_of(const std::string& formula) {
+  std::set<std::string> names;
+  for_each_word(formula, [&](std::size_t begin, std::size_t end) {
+    if (starts_name(formula[begin])) names.insert(formula.substr(begin, end - begin));
+  });
+  return names;
+}
+
+std::string with_names(const std::string& formula, const std::function<std::string(const std::string&)>& replacement) {
+  std::string text;
+  std::size_t done = 0;
+  for_each_word(formula, [&](std::size_t begin, std::size_t end) {
+    const std::size_t next = formula.find_first_not_of(' ', end);
+    if (!starts_name(formula[begin]) || (next != std::string::npos && formula[next] == '(')) return;
+    text += formula.substr(done, begin - done) + replacement(formula.substr(begin, end - begin));
+    done = end;
+  });
+  return text + formula.substr(done);
+}
+
+std::string expression_name(std::string path) {
+  std::ranges::replace(path, '/', '.');
+  return path;
+}
 
 using KnownValues = std::map<std::string, double>;
 

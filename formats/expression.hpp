@@ -4,12 +4,23 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace tisserand::formats {
 
 /// The value of a name in a formula, or nothing if there is none.
 using NamedValues = std::function<std::optional<double>(const std::string& name)>;
+
+/// The names of a formula, also functions and paths such as `corner_fl.speed`, `link[3].speed` or `arm.x`; not the
+/// exponents of its numbers (1e5).
+std::set<std::string> names_of(const std::string& formula);
+
+/// The formula with every name that no bracket follows replaced by what `replacement` makes of it.
+std::string with_names(const std::string& formula, const std::function<std::string(const std::string&)>& replacement);
+
+/// How expressions write the name of an input or channel: `link[3]/speed` is `link[3].speed`.
+std::string expression_name(std::string path);
 
 /// Evaluates formulas in the notation of muParser, with `pi`. Names may hold points: `arm.x`.
 class Calculator {

@@ -31,13 +31,17 @@ struct ResultsLayout {
   };
   std::vector<Coordinate> coordinates;  ///< joint coordinates
   std::vector<Coordinate> motions;      ///< driven coordinates, by the name of the drive
-  std::vector<std::string> channels;    ///< selection, as in OutputSpec; empty: all
+  std::vector<Coordinate> springs;      ///< by name, with the kind of what they act along
+  std::vector<Coordinate> stops;        ///< those of the springs that have stops
+  std::vector<std::string> bushings;
+  std::vector<std::string> frictions;  ///< joints with friction
+  std::vector<std::string> channels;   ///< selection, as in OutputSpec; empty: all
   std::vector<std::string> superelement_content_ids;
 };
 
 /// One instant. World frame unless said; sized once by resize(layout). Joint force and moment: what A's body exerts on
-/// B's body, at B's origin, in A's axes. Boundary force: wrench that each boundary node receives from the rest of the
-/// mechanism, world axes.
+/// B's body, at B's origin, in A's axes; so those of bushings and friction. Boundary force: wrench that each boundary
+/// node receives from the rest of the mechanism, world axes.
 struct ResultsRow {
   double time = 0.0;
   Eigen::Matrix3Xd node_position, node_velocity, node_angular_velocity, node_acceleration, node_angular_acceleration;
@@ -51,7 +55,9 @@ struct ResultsRow {
   Eigen::VectorXd w_rate;                                   ///< of w
   Eigen::Matrix3Xd joint_force, joint_moment;
   Eigen::VectorXd joint_coordinate, joint_rate;  ///< of layout.coordinates
-  Eigen::VectorXd motion_force;  ///< of layout.motions: force or moment of the drive along its coordinate
+  Eigen::VectorXd motion_force;              ///< of layout.motions: force or moment of the drive along its coordinate
+  Eigen::VectorXd spring_force, stop_force;  ///< along the coordinate, on b; the stop's is part of the spring's
+  Eigen::Matrix3Xd bushing_force, bushing_moment, friction_force, friction_moment;  ///< as of joints
   double kinetic = 0.0, strain = 0.0, potential = 0.0, work = 0.0, dissipated = 0.0, total = 0.0, balance = 0.0;
   double step = 0.0, iterations = 0.0, residual = 0.0, constraint = 0.0;
 

@@ -122,16 +122,32 @@ void add_joints(const ResultsLayout& layout, std::vector<Block>& blocks) {
   }
 }
 
-void add_motions(const ResultsLayout& layout, std::vector<Block>& blocks) {
-  const Units& u = layout.units;
-  Block force{
-      "/motions/force", {layout.motions.size()}, {}, {}, "", [](const ResultsRow& r) {
-                return r.motion_force.data(); }};
-  for (const ResultsLayout::Coordinate& motion : layout.motions) {
-    force.columns.push_back(motion.name);
-    force.units.push_back(unit_label(u, motion.length ? 1 : 2, 1, -2));
+/// Forces or moments along coordinates.
+Block along(const std::string& dataset, const std::vector<ResultsLayout::Coordinate>& items, const Units& u,
+            const double* (*values)(const ResultsRow&)) {
+  Block force{dataset, {items.size()}, {}, {}, "", values};
+  for (const ResultsLayout::Coordinate& item : items) {
+    force.columns.push_back(item.name);
+    force.units.push_back(unit_label(u, item.length ? 1 : 2, 1, -2));
   }
-  blocks.push_back(force);
+  return force;
+}
+
+void add_forces(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  using Row = const ResultsRow&;
+  const Units& u = layout.units;
+  const std::string force = unit_label(u, 1, 1, -2), moment = unit_label(u, 2, 1, -2);
+  blocks.push_back(along("/motions/force", layout.motions, u, [](Row r) { return r.motion_force.data(); }));
+  blocks.push_back(along("/forces/spring", layout.springs, u, [](Row r) { return r.spring_force.data(); }));
+  blocks.push_back(along("/forces/stop", layout.stops, u, [](Row r) { return r.stop_force.data(); }));
+  blocks.push_back(
+      vectors("/forces/bushing_force", layout.bushings, xyz, force, [](Row r) { return r.bushing_force.data(); }));
+  blocks.push_back(
+      vectors("/forces/bushing_moment", layout.bushings, xyz, moment, [](Row r) { return r.bushing_moment.data(); }));
+  blocks.push_back(
+      vectors("/forces/friction_force", layout.frictions, xyz, force, [](Row r) { return r.friction_force.data(); }));
+  blocks.push_back(vectors("/forces/friction_moment", layout.frictions, xyz, moment,
+                           [](Row r) { return r.friction_moment.data(); }));
 }
 
 void add_scalars(const ResultsLayout& layout, std::vector<Block>& blocks) {
@@ -182,6 +198,12 @@ void ResultsRow::resize(const ResultsLayout& layout) {
   joint_coordinate.setZero(coordinates);
   joint_rate.setZero(coordinates);
   motion_force.setZero(static_cast<Eigen::Index>(layout.motions.size()));
+  spring_force.setZero(static_cast<Eigen::Index>(layout.springs.size()));
+  stop_force.setZero(static_cast<Eigen::Index>(layout.stops.size()));
+  for (Eigen::Matrix3Xd* block : {&bushing_force, &bushing_moment})
+    block->setZero(3, static_cast<Eigen::Index>(layout.bushings.size()));
+  for (Eigen::Matrix3Xd* block : {&friction_force, &friction_moment})
+    block->setZero(3, static_cast<Eigen::Index>(layout.frictions.size()));
 }
 
 std::vector<Block> all_blocks(const ResultsLayout& layout) {
@@ -191,7 +213,7 @@ std::vector<Block> all_blocks(const ResultsLayout& layout) {
   add_superelements(layout, blocks);
   add_modal_bodies(layout, blocks);
   add_joints(layout, blocks);
-  add_motions(layout, blocks);
+  add_forces(layout, blocks);
   add_scalars(layout, blocks);
   std::erase_if(blocks, [](const Block& block) { return block.width() == 0; });
   return blocks;
@@ -201,8 +223,8 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
   // Groups and datasets that this mechanism has no member of may be chosen without effect ("joints" without joints).
   std::vector<std::string> known{"time"};
   ResultsLayout full;
-  full.nodes = full.superelements = full.modal_bodies = full.joints = {"a"};
-  full.coordinates = full.motions = {{"a", false}};
+  full.nodes = full.superelements = full.modal_bodies = full.joints = full.bushings = full.frictions = {"a"};
+  full.coordinates = full.motions = full.springs = full.stops = {{"a", false}};
   full.modes_offset = full.boundary_offset = full.modal_offset = {0, 1};
   for (const Block& block : all_blocks(full)) {
     const std::string name = block.dataset.substr(1), group = name.substr(0, name.find('/'));

@@ -76,6 +76,10 @@ ResultsLayout read_layout(const hdf5::InputFile& file) {
   l.joints = names(file, "/joints/name");
   l.coordinates = read_coordinates(file, "/joints/coordinate_");
   l.motions = read_coordinates(file, "/motions/");
+  l.springs = read_coordinates(file, "/forces/spring_");
+  l.stops = read_coordinates(file, "/forces/stop_");
+  l.bushings = names(file, "/forces/bushing_name");
+  l.frictions = names(file, "/forces/friction_name");
   // Version 1.0 had one angle per joint, not-a-number where the joint has none.
   if (l.coordinates.empty() && file.text_attribute("/", "version") == "1.0")
     for (const std::string& joint : l.joints) l.coordinates.push_back({joint, false});

@@ -101,7 +101,7 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
   hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), close_file);
   if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
   hdf5::write_text_attribute(file.id(), "/", "format", "tisserand-results", where);
-  hdf5::write_text_attribute(file.id(), "/", "version", "1.2", where);
+  hdf5::write_text_attribute(file.id(), "/", "version", "1.3", where);
   hdf5::write_text_attribute(file.id(), "/", "scene", layout.scene, where);
   hdf5::write_text_attribute(file.id(), "/", "producer", layout.producer, where);
   write_unit(file.id(), "length_unit", layout.units.length, where);
@@ -128,6 +128,10 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
     coordinates("/joints/coordinate_", layout.coordinates);
   }
   if (stores("/motions/")) coordinates("/motions/", layout.motions);
+  if (stores("/forces/spring")) coordinates("/forces/spring_", layout.springs);
+  if (stores("/forces/stop")) coordinates("/forces/stop_", layout.stops);
+  if (stores("/forces/bushing")) hdf5::write_texts(file.id(), "/forces/bushing_name", layout.bushings, where);
+  if (stores("/forces/friction")) hdf5::write_texts(file.id(), "/forces/friction_name", layout.frictions, where);
   if (stores("/superelements/")) {
     const auto offsets = [&](const char* name, const std::vector<int>& offset) {
       hdf5::write_dataset(file.id(), std::string("/superelements/") + name, {offset.size()}, offset.data(), where);

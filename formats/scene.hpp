@@ -170,7 +170,8 @@ struct ChannelSpec {
   CoordinateRef coordinate;  ///< of coordinate and rate
   MarkerSpec a;              ///< of position and velocity; of distance with b
   MarkerSpec b;
-  int axis = 0;  ///< of position and velocity, world axes: 0 x, 1 y, 2 z
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();   ///< of position and velocity: unit vector, world axes
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< from which positions count, world frame
   std::string where;
 };
 

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "formats/expression.hpp"
+#include "formats/geometry_reader.hpp"
 #include "formats/input_table.hpp"
 #include "formats/name_check.hpp"
 #include "formats/scene_check_parts.hpp"
@@ -25,6 +27,17 @@ void refuse(const MapReader& map, const char* key, const char* kinds) {
     map.context().fail(node->key_place, fmt::format("'{}' belongs to channels of type {}", key, kinds), "remove it");
 }
 
+/// `x`, `y`, `z`, or a direction.
+Eigen::Vector3d read_axis(const Context& context, const YamlNode& node) {
+  if (node.kind != YamlKind::sequence)
+    return Eigen::Vector3d::Unit(
+        static_cast<Eigen::Index>(read_word(context, node, "axis", {"x", "y", "z"}).value_or(0)));
+  const Eigen::Vector3d direction = read_vector(context, node, "axis");
+  if (direction.stableNorm() > 0.0) return direction.stableNormalized();
+  context.fail(node.place, "axis has zero length", "write x, y, z, or a direction such as [1, 1, 0]");
+  return Eigen::Vector3d::UnitX();
+}
+
 ChannelSpec read_channel(const Context& context, const YamlNode& node) {
   const MapReader map(context, node, "channel");
   ChannelSpec channel;
@@ -45,11 +58,14 @@ ChannelSpec read_channel(const Context& context, const YamlNode& node) {
     refuse(map, "b", "distance");
   }
   if (is_point(channel.kind)) {
-    if (const YamlNode* axis = map.require("axis"))
-      channel.axis = static_cast<int>(read_word(context, *axis, "axis", {"x", "y", "z"}).value_or(0));
+    if (const YamlNode* axis = map.require("axis")) channel.axis = read_axis(context, *axis);
   } else {
     refuse(map, "axis", "position and velocity");
   }
+  if (channel.kind == ChannelKind::position)
+    channel.origin = read_vector(map, "origin", channel.origin);
+  else
+    refuse(map, "origin", "position");
   return channel;
 }
 
@@ -74,14 +90,15 @@ InputSpec read_input(const Context& context, const YamlNode& node, const SceneDe
   return input;
 }
 
-/// Names that can stand in expressions.
+/// Names that can stand in expressions, there with '.' for '/'.
 void check_expression_name(const std::string& noun, const std::string& name, const std::string& where,
-                           std::vector<std::string>& names, Faults& faults) {
-  check_name(noun, name, where, names, faults);
+                           std::unordered_set<std::string>& names, Faults& faults) {
+  check_path_name(noun, name, where, names, faults);
   if (name.find('-') != std::string::npos)
     faults.add(where, "", fmt::format("{} '{}': expressions would read the name as a difference", noun, name),
                "use _ instead of -");
-  if (name == "t" || name == "pi")
+  const std::string last = name.substr(name.rfind('/') + 1);
+  if (last == "t" || last == "pi")
     faults.add(where, "", fmt::format("{} '{}': the name has a meaning in expressions", noun, name), "rename it");
 }
 
@@ -103,7 +120,7 @@ std::vector<InputSpec> read_inputs(const MapReader& map, const SceneDefinitions&
 
 void check_channels(const SceneIndex& index, Faults& faults) {
   const Scene& scene = index.scene;
-  std::vector<std::string> names;
+  std::unordered_set<std::string> names;
   for (const InputSpec& input : scene.inputs) {
     const std::string subject = fmt::format("input '{}'", input.name);
     check_expression_name("input", input.name, input.where, names, faults);

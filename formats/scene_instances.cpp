@@ -74,6 +74,7 @@ void SceneExpander::run() {
   if (const YamlNode* parameters = find_child(top.node, "parameters"))
     for (const YamlNode& parameter : parameters->children) scope.define(parameter, scope);
   expand_top(top, scope);
+  check_mirrored(reader_, mirrored_, reversed_);
   collect([&] { reader_.raise({}); });
   if (errors_.empty()) report_unused(scope);
   if (!errors_.empty()) throw merge_errors(errors_);
@@ -128,17 +129,19 @@ YamlNode SceneExpander::expanded(const std::string& collection, const YamlNode& 
   budget_.take(count_nodes(entry), document_.where(entry.place));
   YamlNode copy = entry;
   substitution_.apply(copy, scope);
+  if (collection == "bodies") insert_definitions(level, substitution_, copy);
   rebase_files(document_, collection, copy);
   Placement(reader_, level.frame).place(collection, copy);
-  resolve_references(reader_, collection, level, copy);
+  resolve_references(collection, level, copy, mirrored_);
   copy.key = level.prefix + copy.key;
+  if (collection == "joints") reversed_.merge(Placement::reversed_coordinates(copy));
   return copy;
 }
 
 void SceneExpander::expand_top(Assembly& top, ParameterScope& scope) {
   root_.kind = YamlKind::map;
   root_.place = top.node.place;
-  const Level level{"", nullptr, &top, {}, 0};
+  const Level level{"", nullptr, &top, {}, &scope, 0};
   for (const YamlNode& child : top.node.children) {
     if (is_structure(child.key)) continue;
     const bool entries = child.kind == YamlKind::map && is_instantiated(child.key);
@@ -230,7 +233,7 @@ void SceneExpander::make_one(const Instance& instance, int index, const Assembly
   ParameterScope own(&around);
   define_parameters(instance, index, assembly, around, own);
   assembly.made = true;
-  const Level inner{level.prefix + name_of(index) + "/", &level, &assembly, frame, level.depth + 1};
+  const Level inner{level.prefix + name_of(index) + "/", &level, &assembly, frame, &own, level.depth + 1};
   expand(inner, own);
   for (const auto& [name, parameter] : own.own())
     if (parameter.used) assembly.used_parameters.insert(name);

@@ -61,6 +61,8 @@ class SceneExpander {
   std::map<std::pair<const Assembly*, std::string>, Assembly*> by_name_;
   std::vector<Error> errors_;
   std::set<std::string> told_;
+  std::vector<MirroredReference> mirrored_;
+  std::set<std::string> reversed_;  ///< joint coordinates that a mirror reverses, paths from the scene
   long instances_ = 0;
 };
 

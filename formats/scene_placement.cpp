@@ -120,6 +120,8 @@ void Placement::place(const std::string& collection, YamlNode& entry) {
   } else if (collection == "bushings") {
     pair(entry, "bushing");
     if (frame_.mirrored()) mirror_field(entry);
+  } else if (collection == "channels") {
+    channel(entry);
   } else if (collection == "loads") {
     load(entry);
   }
@@ -143,7 +145,7 @@ void Placement::body(YamlNode& body) {
       set(pose, "orientation", quaternion_node(Matrix3d::Identity(), pose.place));
     turn_orientation(pose, frame_.G, frame_.S);
   }
-  transform(body, "velocity", frame_.G, Vector3d::Zero());
+  for (const char* key : {"velocity", "gravity"}) transform(body, key, frame_.G, Vector3d::Zero());
   transform(body, "angular_velocity", frame_.G * frame_.S.diagonal().prod(), Vector3d::Zero());
   if (frame_.mirrored()) mirror_part(body);
 }
@@ -241,6 +243,23 @@ void Placement::marker(YamlNode& entry, const char* key, const Matrix3d& flip) {
     transform(*marker, "position", frame_.S, Vector3d::Zero());
     turn_orientation(*marker, frame_.S, flip);
   }
+}
+
+/// Axes and origins of positions are those of the assembly.
+void Placement::channel(YamlNode& channel) {
+  if (!frame_.moved()) return;
+  for (const char* key : {"of", "a", "b"}) marker(channel, key, frame_.S);
+  YamlNode* axis = find_child(channel, "axis");
+  if (axis == nullptr) return;
+  constexpr std::array<const char*, 3> words{"x", "y", "z"};
+  for (Eigen::Index i = 0; i < 3; ++i)
+    if (axis->kind == YamlKind::scalar && axis->text == words[static_cast<std::size_t>(i)])
+      set(channel, "axis", list_node(Vector3d(Vector3d::Unit(i)), axis->place));
+  transform(channel, "axis", frame_.G, Vector3d::Zero());
+  if (word(channel, "type") != "position") return;
+  if (find_child(channel, "origin") == nullptr)
+    set(channel, "origin", list_node(Vector3d(Vector3d::Zero()), channel.place));
+  transform(channel, "origin", frame_.G, frame_.p);
 }
 
 void Placement::load(YamlNode& load) {

@@ -31,7 +31,7 @@ class Placement {
  public:
   Placement(YamlReader& reader, const AssemblyFrame& frame) : reader_(reader), frame_(frame) {}
 
-  /// An entry of `bodies`, `joints`, `springs`, `bushings` or `loads`; others do not depend on the frame.
+  /// An entry of `bodies`, `joints`, `channels`, `springs`, `bushings` or `loads`; others do not depend on the frame.
   void place(const std::string& collection, YamlNode& entry);
 
   /// Joint coordinates that change their sign when the assembly is mirrored: "slide/z".
@@ -44,6 +44,7 @@ class Placement {
   void mirror_file(YamlNode& body);
   void pair(YamlNode& entry, const std::string& type);
   void mirror_field(YamlNode& bushing);
+  void channel(YamlNode& channel);
   void load(YamlNode& load);
   void marker(YamlNode& entry, const char* key, const Eigen::Matrix3d& flip);
   void transform(YamlNode& map, const char* key, const Eigen::Matrix3d& by, const Eigen::Vector3d& shift);

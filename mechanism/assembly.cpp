@@ -2,6 +2,7 @@
 #include "mechanism/assembly.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -47,6 +48,8 @@ Bodies find_bodies(const Model& model, const State& state) {
   for (const SuperelementBody& body : model.superelements) join_all(body.nodes);
   for (const BeamElement2& beam : model.beams2) join_all(beam.nodes);
   for (const BeamElement3& beam : model.beams3) join_all(beam.nodes);
+  for (const ModalNode& node : model.modal_nodes)
+    join_all(std::array{model.modal_bodies[static_cast<std::size_t>(node.body)].node, node.node});
   Bodies bodies;
   bodies.of_node.assign(model.nodes.size(), -1);
   std::vector<int> number(model.nodes.size(), -1), count;
@@ -58,6 +61,7 @@ Bodies find_bodies(const Model& model, const State& state) {
       count.push_back(0);
     }
     bodies.of_node[i] = at;
+    if (model.nodes[i].modal >= 0) continue;  // follows the frame of its body
     bodies.center[static_cast<std::size_t>(at)] += state.x().col(static_cast<Eigen::Index>(i));
     ++count[static_cast<std::size_t>(at)];
   }
@@ -106,7 +110,7 @@ Sparse jacobian(const Model& model, const Bodies& bodies, const Workspace& works
     const Eigen::RowVector3d along = B.head<3>(), about = B.tail<3>();
     const Vector3d arm = motion.x - bodies.center[static_cast<std::size_t>(body)];
     Eigen::RowVector3d turn = -along * skew<double>(arm);
-    if (model.nodes[static_cast<std::size_t>(node)].rotation >= 0) turn += about * motion.R.transpose();
+    if (has_rotation(model, node)) turn += about * motion.R.transpose();
     for (int k = 0; k < 3; ++k) {
       entries.emplace_back(row, 6 * body + k, row_scale(model, row) * model.length * along[k]);
       entries.emplace_back(row, 6 * body + 3 + k, row_scale(model, row) * turn[k]);
@@ -355,13 +359,15 @@ std::vector<std::string> body_poses(const formats::Scene& scene, const Model& mo
       const Node& node = model.nodes[i];
       if ((node.name != name && !node.name.starts_with(name + "/")) || node.rotation < 0) continue;
       const auto column = static_cast<Eigen::Index>(i);
-      const Eigen::Vector4d Q = state.Q().col(column);
+      const Eigen::Vector4d Q = state.Q().col(column), Q_start = at_start.Q().col(column);
       const Eigen::Quaterniond q(Q[0], Q[1], Q[2], Q[3]);
-      const Vector3d in_part =
-          start.pose.orientation.normalized().conjugate() * Vector3d(at_start.x().col(column) - start.pose.position);
-      const Vector3d arm = q * in_part, omega = q * Vector3d(state.v().segment<3>(node.rotation));
+      const Eigen::Quaterniond turn =
+          q * Eigen::Quaterniond(Q_start[0], Q_start[1], Q_start[2], Q_start[3]).conjugate();
+      const Eigen::Quaterniond orientation = (turn * start.pose.orientation).normalized();
+      const Vector3d arm = turn * Vector3d(at_start.x().col(column) - start.pose.position),
+                     omega = q * Vector3d(state.v().segment<3>(node.rotation));
       std::string line = fmt::format("{}: {{pose: {{position: {}, orientation: {}}}", name,
-                                     vector_text(state.x().col(column) - arm), vector_text(Q));
+                                     vector_text(state.x().col(column) - arm), vector_text(wxyz(orientation)));
       const Vector3d velocity = node.translation < 0
                                     ? Vector3d(Vector3d::Zero())
                                     : Vector3d(state.v().segment<3>(node.translation)) - omega.cross(arm);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "formats/expression.hpp"
 #include "mechanism/build_joints.hpp"
 
 namespace tisserand::mechanism {
@@ -93,8 +94,9 @@ void JointBuilder::add(const formats::InputSpec& spec) {
   const std::vector<double>& time = spec.table.time;
   const bool linear = spec.interpolation == formats::Interpolation::linear;
   const formats::CurveSpec curve{spec.interpolation, time, spec.table.value};
-  model_.scope.inputs.push_back(std::make_shared<const Input>(
-      Input{spec.name, Curve(curve), time.front(), time.back(), linear ? time : std::vector<double>{}}));
+  model_.scope.inputs.push_back(
+      std::make_shared<const Input>(Input{formats::expression_name(spec.name), Curve(curve), time.front(), time.back(),
+                                          linear ? time : std::vector<double>{}}));
 }
 
 void JointBuilder::add(const formats::ChannelSpec& spec) {
@@ -102,6 +104,7 @@ void JointBuilder::add(const formats::ChannelSpec& spec) {
   channel.name = spec.name;
   channel.kind = spec.kind;
   channel.axis = spec.axis;
+  channel.origin = spec.origin;
   const std::string subject = fmt::format("channel '{}'", spec.name);
   switch (spec.kind) {
     case formats::ChannelKind::coordinate:
@@ -127,7 +130,7 @@ void JointBuilder::add(const formats::ChannelSpec& spec) {
     channel.a = coordinate.a;
     channel.b = coordinate.b;
   }
-  model_.scope.channels.push_back(spec.name);
+  model_.scope.channels.push_back(formats::expression_name(spec.name));
   model_.channels.push_back(std::move(channel));
 }
 

@@ -16,9 +16,9 @@ double channel_value(const Channel& channel, const MarkerPair& pair, const Coord
     case ChannelKind::rate:
       return terms->rate;
     case ChannelKind::position:
-      return marker_position(pair.a, pair.node_a)[channel.axis];
+      return channel.axis.dot(marker_position(pair.a, pair.node_a) - channel.origin);
     case ChannelKind::velocity:
-      return marker_velocity(pair.a, pair.node_a)[channel.axis];
+      return channel.axis.dot(marker_velocity(pair.a, pair.node_a));
   }
   return 0.0;
 }
@@ -27,7 +27,7 @@ ChannelGradient channel_gradient(const Channel& channel, const Relation* relatio
   ChannelGradient gradient;
   const auto point = [&] {  // of e·(x + R p): [e, p × Rᵀe]
     Row12 row = Row12::Zero();
-    const Vector3d e = Vector3d::Unit(channel.axis);
+    const Vector3d& e = channel.axis;
     row.segment<3>(0) = e.transpose();
     row.segment<3>(3) = pair.a.p.cross(pair.node_a.R.transpose() * e).transpose();
     return row;
@@ -47,7 +47,7 @@ ChannelGradient channel_gradient(const Channel& channel, const Relation* relatio
     case ChannelKind::velocity: {
       gradient.by_velocity = point();
       // δ(e·R(Ω × p)) = ((Ω × p) × Rᵀe)·δΘ
-      const Vector3d e = pair.node_a.R.row(channel.axis).transpose();
+      const Vector3d e = pair.node_a.R.transpose() * channel.axis;
       gradient.by_position.segment<3>(3) = pair.node_a.Omega.cross(pair.a.p).cross(e).transpose();
       break;
     }

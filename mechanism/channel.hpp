@@ -8,15 +8,16 @@
 
 namespace tisserand::mechanism {
 
-/// A joint coordinate, its rate, or one world component of the position or velocity of a marker. The markers are those
-/// of the coordinate, or `a` alone (b: ground).
+/// A joint coordinate, its rate, or the component of the position or velocity of a marker along an axis of the world.
+/// The markers are those of the coordinate, or `a` alone (b: ground).
 struct Channel {
   std::string name;
   formats::ChannelKind kind = formats::ChannelKind::coordinate;
   Marker a;
   Marker b;
-  int coordinate = -1;  ///< row of Model::coordinates
-  int axis = 0;         ///< of position or velocity: 0 x, 1 y, 2 z
+  int coordinate = -1;                               ///< row of Model::coordinates
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();   ///< of position or velocity: e, world axes
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of position: the value is e·(x − origin)
 };
 
 /// Where a channel enters a force: the value of a component of a load, or the force of a spring.

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "mechanism/bodies/superelement_rates.hpp"
-#include "mechanism/evaluate.hpp"
+#include "mechanism/evaluate_terms.hpp"
 #include "mechanism/redundancy.hpp"
 
 namespace tisserand::mechanism {
@@ -106,6 +106,49 @@ void fill_motions(const Model& model, const State& state, formats::ResultsRow& r
     if (coupling.motion >= 0) row.motion_force[at++] = -state.lambda()[coupling.row] * coupling.terms.front().factor;
 }
 
+bool has_stops(const Spring& spring) { return spring.lower || spring.upper; }
+
+/// After evaluate_coordinates().
+void fill_springs(const Model& model, const State& state, Workspace& workspace, formats::ResultsRow& row) {
+  Eigen::Index stops = 0;
+  for (std::size_t i = 0; i < model.springs.size(); ++i) {
+    const Spring& spring = model.springs[i];
+    const CoordinateTerms& c = workspace.coordinates[static_cast<std::size_t>(spring.coordinate)];
+    const SpringForce f = spring_force(spring, c.value, c.rate, applied_force(model, i, state.load_time(), workspace));
+    row.spring_force[static_cast<Eigen::Index>(i)] = f.Q;
+    if (has_stops(spring)) row.stop_force[stops++] = f.stop;
+  }
+}
+
+void fill_bushings(const Model& model, const Workspace& workspace, formats::ResultsRow& row) {
+  for (std::size_t i = 0; i < model.bushings.size(); ++i) {
+    const JointReaction reaction =
+        reaction_of(workspace.bushings[i].force.transpose(), markers_of(model.bushings[i], workspace));
+    row.bushing_force.col(static_cast<Eigen::Index>(i)) = reaction.force;
+    row.bushing_moment.col(static_cast<Eigen::Index>(i)) = reaction.moment;
+  }
+}
+
+void fill_frictions(const Model& model, const Workspace& workspace, formats::ResultsRow& row) {
+  for (std::size_t i = 0; i < model.frictions.size(); ++i) {
+    const Joint& joint = model.joints[static_cast<std::size_t>(model.frictions[i].joint)];
+    const JointReaction reaction = reaction_of(workspace.frictions[i].force.transpose(), markers_of(joint, workspace));
+    row.friction_force.col(static_cast<Eigen::Index>(i)) = reaction.force;
+    row.friction_moment.col(static_cast<Eigen::Index>(i)) = reaction.moment;
+  }
+}
+
+void add_force_names(const Model& model, formats::ResultsLayout& layout) {
+  for (const Spring& spring : model.springs) {
+    const Relation& relation = model.coordinates[static_cast<std::size_t>(spring.coordinate)].relation;
+    layout.springs.push_back({spring.name, is_length(relation)});
+    if (has_stops(spring)) layout.stops.push_back(layout.springs.back());
+  }
+  for (const Bushing& bushing : model.bushings) layout.bushings.push_back(bushing.name);
+  for (const Friction& friction : model.frictions)
+    layout.frictions.push_back(model.joints[static_cast<std::size_t>(friction.joint)].name);
+}
+
 }  // namespace
 
 formats::ResultsLayout results_layout(const Model& model, const formats::Scene& scene) {
@@ -134,6 +177,7 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
   for (const Coupling& coupling : model.couplings)
     if (coupling.motion >= 0)
       layout.motions.push_back({scene.motions.at(static_cast<std::size_t>(coupling.motion)).name, coupling.length});
+  add_force_names(model, layout);
   layout.channels = scene.output.channels;
   layout.superelement_content_ids = model.superelement_content_ids;
   return layout;
@@ -149,6 +193,9 @@ void fill_row(const Model& model, const State& state, Workspace& workspace, form
   row.w_rate = state.v().segment(model.sizes.first_modal(), model.sizes.modal);
   fill_joints(model, state, workspace, row);
   fill_motions(model, state, row);
+  fill_springs(model, state, workspace, row);
+  fill_bushings(model, workspace, row);
+  fill_frictions(model, workspace, row);
   const Energy energy = evaluate_energy(model, workspace);
   row.kinetic = energy.kinetic;
   row.strain = energy.strain;

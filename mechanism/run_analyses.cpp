@@ -18,12 +18,14 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// Kinematics knows no forces, assembly no accelerations either: what was not computed is no number.
+/// Kinematics knows no reactions, assembly no accelerations either: what was not computed is no number.
 void blank(formats::AnalysisKind kind, formats::ResultsRow& row) {
   row.joint_force.setConstant(none);
   row.joint_moment.setConstant(none);
   row.motion_force.setConstant(none);
   row.boundary_force.setConstant(none);
+  row.friction_force.setConstant(none);
+  row.friction_moment.setConstant(none);
   row.work = row.dissipated = row.balance = row.residual = none;
   if (kind == formats::AnalysisKind::kinematics) return;
   row.node_acceleration.setConstant(none);

@@ -131,7 +131,8 @@ StoredSums read_stored_state(const Model& model, const std::string& file, const 
   state.time() = state.load_time() = stored.reader.read_rows({"time"}, stored.row, 1)(0, 0);
   state.vdot().setZero();
   state.lambda().setZero();
-  if (!state.x().allFinite() || !state.Q().allFinite() || !state.v().allFinite() || !state.y().allFinite())
+  if (!state.x().allFinite() || !state.Q().allFinite() || !state.v().allFinite() || !state.y().allFinite() ||
+      !state.w().allFinite())
     throw Error(fmt::format("the instant t = {:.9g} holds values that are no numbers", state.time()), file,
                 "go on from a dynamic or static analysis");
   workspace.forget();

@@ -27,6 +27,7 @@ struct Spring {
 
 struct SpringForce {
   double Q = 0.0;
+  double stop = 0.0;  ///< Q_stop, part of Q
   double dQ_dq = 0.0;
   double dQ_dqd = 0.0;
   double energy = 0.0;      ///< of spring and stops
@@ -51,7 +52,9 @@ inline SpringForce spring_force(const Spring& s, double q, double qd, double app
       f.dissipated += -s.stop_stiffness * g * gd;
       return;
     }
-    f.Q -= side * s.stop_stiffness * g * factor;
+    const double push = side * s.stop_stiffness * g * factor;
+    f.Q -= push;
+    f.stop -= push;
     f.dQ_dq -= s.stop_stiffness * factor;
     f.dQ_dqd -= s.stop_stiffness * g * s.stop_damping;
     f.dissipated += s.stop_stiffness * g * s.stop_damping * gd * gd;

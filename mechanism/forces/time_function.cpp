@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "formats/expression.hpp"
 
 namespace tisserand::mechanism {
 
@@ -17,38 +18,51 @@ struct TimeFunction::Expression {
     std::size_t variable;
   };
   double t = 0.0;
-  std::vector<double> variables;  ///< inputs, then channels of the scope; the parser points into it
+  std::vector<double> variables;  ///< inputs, then channels that it uses; the parser points into it
   std::vector<UsedInput> inputs;
-  std::size_t first_channel = 0;
   mu::Parser parser;
 };
+
+namespace {
+
+std::string what_may_stand(const ExpressionScope& scope) {
+  std::vector<std::string> names;
+  for (const auto& input : scope.inputs) names.push_back(input->name);
+  names.insert(names.end(), scope.channels.begin(), scope.channels.end());
+  if (names.empty()) return "write a formula in t, for example \"10*sin(2*pi*t)\"";
+  constexpr std::size_t most = 20;
+  const bool all = names.size() <= most;
+  names.resize(std::min(names.size(), most));
+  return "write a formula in t and " + join(names, ", ") + (all ? "" : ", ...");
+}
+
+}  // namespace
 
 void TimeFunction::compile(const formats::TimeExpression& text, const ExpressionScope& scope) {
   expression_ = std::make_unique<Expression>();
   Expression& e = *expression_;
-  e.first_channel = scope.inputs.size();
-  e.variables.assign(scope.inputs.size() + scope.channels.size(), 0.0);
+  const std::set<std::string> words = formats::names_of(text.text);
   std::vector<std::string> names;
-  for (const auto& input : scope.inputs) names.push_back(input->name);
-  names.insert(names.end(), scope.channels.begin(), scope.channels.end());
+  for (const auto& input : scope.inputs) {
+    if (!words.contains(input->name)) continue;
+    e.inputs.push_back({input, names.size()});
+    names.push_back(input->name);
+  }
+  for (std::size_t i = 0; i < scope.channels.size(); ++i) {
+    if (!words.contains(scope.channels[i])) continue;
+    channels_.push_back(static_cast<int>(i));
+    names.push_back(scope.channels[i]);
+  }
+  e.variables.assign(names.size(), 0.0);
   try {
+    e.parser.DefineNameChars("0123456789_.[]abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
     e.parser.DefineVar("t", &e.t);
     e.parser.DefineConst("pi", 3.14159265358979323846);
     for (std::size_t i = 0; i < names.size(); ++i) e.parser.DefineVar(names[i], &e.variables[i]);
     e.parser.SetExpr(text.text);
-    e.parser.Eval();  // unknown names are told by name here, not by GetUsedVar
-    const auto& used = e.parser.GetUsedVar();
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      if (!used.contains(names[i])) continue;
-      if (i < e.first_channel)
-        e.inputs.push_back({scope.inputs[i], i});
-      else
-        channels_.push_back(static_cast<int>(i - e.first_channel));
-    }
+    e.parser.Eval();
   } catch (const mu::Parser::exception_type& error) {
-    throw Error(fmt::format("expression '{}': {}", text.text, error.GetMsg()), text.where,
-                names.empty() ? "write a formula in t, for example \"10*sin(2*pi*t)\""
-                              : "write a formula in t and " + join(names, ", "));
+    throw Error(fmt::format("expression '{}': {}", text.text, error.GetMsg()), text.where, what_may_stand(scope));
   }
   breakpoints_ = text.breakpoints;
   for (const Expression::UsedInput& used : e.inputs)
@@ -87,12 +101,12 @@ double TimeFunction::operator()(double t) {
 }
 
 void TimeFunction::set_channels(const Eigen::VectorXd& values) {
-  for (const int channel : channels_)
-    expression_->variables[expression_->first_channel + static_cast<std::size_t>(channel)] = values[channel];
+  for (std::size_t i = 0; i < channels_.size(); ++i)
+    expression_->variables[expression_->inputs.size() + i] = values[channels_[i]];
 }
 
 double TimeFunction::derivative(std::size_t argument, double t) {
-  double& x = expression_->variables[expression_->first_channel + static_cast<std::size_t>(channels_[argument])];
+  double& x = expression_->variables[expression_->inputs.size() + argument];
   const double at = x, d = 6e-6 * std::max(std::abs(at), 1e-3);
   x = at + d;
   const double ahead = (*this)(t), above = x;

@@ -69,7 +69,7 @@ TEST(SceneChannels, EveryKeyIsRead) {
   ASSERT_EQ(scene.channels.size(), 4u);
   EXPECT_EQ(scene.channels[1].kind, ChannelKind::rate);
   EXPECT_EQ(scene.channels[1].coordinate.name, "hinge");
-  EXPECT_EQ(scene.channels[2].axis, 2);
+  EXPECT_EQ(scene.channels[2].axis, Eigen::Vector3d::UnitZ());
   EXPECT_EQ(scene.channels[2].a.position.value(), Eigen::Vector3d(0, 0, 1));
   EXPECT_EQ(scene.channels[3].b.node, "b");
 }

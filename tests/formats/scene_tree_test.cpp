@@ -341,6 +341,61 @@ TEST(SceneInstances, ReversedCoordinatesAreRefused) {
               HasSubstr("'s': the coordinate 'c/z' changes its sign in a mirrored assembly"));
 }
 
+TEST(SceneInstances, ReversedCoordinatesOfInstancesWithinAreRefused) {
+  const std::string text =
+      "assemblies:\n  a:\n    bodies:\n      b: {type: rigid, mass: 1, inertia: [1, 1, 1]}\n    joints:\n"
+      "      c: {type: cylindrical, a: ground, b: b, axis: [0, 0, 1]}\n  d:\n    instances: {i: {use: a}}\n"
+      "    channels: {far: {type: coordinate, of: i/c/z}}\n";
+  EXPECT_EQ(error(text + "instances: {d: {use: d}}\n"), "");
+  EXPECT_THAT(error(text + "instances: {d: {use: d, mirror: xy}}\n"),
+              HasSubstr("'far': the coordinate 'i/c/z' changes its sign in a mirrored assembly"));
+}
+
+TEST(SceneInstances, NamesInExpressionsAreThoseOfTheInnermostLevel) {
+  const Scene scene = read(
+      "bodies: {block: {type: rigid, mass: 1, inertia: [1, 1, 1]}}\n"
+      "joints: {h: {type: revolute, a: ground, b: block, axis: [0, 0, 1]}}\n"
+      "channels: {speed: {type: rate, of: h}, wind: {type: position, of: block, axis: x}}\n"
+      "assemblies:\n  m:\n    bodies: {b: {type: rigid, mass: 1, inertia: [1, 1, 1]}}\n"
+      "    channels: {speed: {type: velocity, of: b, axis: y}}\n"
+      "    loads: {f: {type: force, at: b, value: [\"sin(speed) + 1e5*wind*t\", {expression: \"-speed\"}, 0]}}\n"
+      "  n:\n    instances: {k: {use: m, count: 2}}\n"
+      "    loads: {g: {type: force, at: block, value: [\"k[1].speed\", 0, 0]}}\n"
+      "instances: {w: {use: n, pose: {position: [1, 2, 3]}}}\n");
+  ASSERT_EQ(scene.channels.size(), 4u);
+  EXPECT_EQ(scene.channels[3].name, "w/k[1]/speed");
+  EXPECT_EQ(scene.channels[3].a.node, "w/k[1]/b");
+  const auto text = [&](std::size_t load, std::size_t k) {
+    return std::get<TimeExpression>(scene.loads.at(load).components[k]).text;
+  };
+  EXPECT_EQ(text(0, 0), "w.k[1].speed");
+  EXPECT_EQ(text(2, 0), "sin(w.k[1].speed) + 1e5*wind*t");
+  EXPECT_EQ(text(2, 1), "-w.k[1].speed");
+}
+
+TEST(SceneInstances, BeamsTakeMaterialsAndSectionsOfTheirAssembly) {
+  const Scene scene = read(
+      "materials: {steel: {E: 2e11, nu: 0.3, density: 7800}}\n"
+      "assemblies:\n  rod:\n    parameters: {r: 0.01}\n    sections: {round: {shape: circle, radius: $r}}\n"
+      "    bodies: {b: {type: beam, from: [0, 0, 0], to: [1, 0, 0], elements: 1, section: round, material: steel}}\n"
+      "instances: {thin: {use: rod}, thick: {use: rod, parameters: {r: 0.02}}}\n");
+  const auto area = [&](std::size_t i) { return std::get<BeamBodySpec>(scene.bodies.at(i)).section.area; };
+  EXPECT_NEAR(area(0), M_PI * 1e-4, 1e-15);
+  EXPECT_NEAR(area(1), M_PI * 4e-4, 1e-15);
+  EXPECT_EQ(std::get<BeamBodySpec>(scene.bodies[0]).material.name, "steel");
+}
+
+TEST(SceneInstances, ChannelsAndBodyGravityArePlaced) {
+  const Scene scene = read(
+      "assemblies:\n  m:\n    bodies: {b: {type: rigid, mass: 1, inertia: [1, 1, 1], gravity: [1, 2, 3]}}\n"
+      "    channels: {far: {type: position, of: b, axis: x, origin: [0, 1, 0]}}\n"
+      "instances: {w: {use: m, mirror: yz, pose: {position: [5, 0, 0], orientation: {axis: [0, 0, 1], angle_deg: "
+      "90}}}}\n");
+  EXPECT_LT((scene.channels.at(0).axis - Vector3d(0, -1, 0)).norm(), 1e-15);
+  EXPECT_LT((scene.channels.at(0).origin - Vector3d(4, 0, 0)).norm(), 1e-15);
+  EXPECT_LT((*rigid(scene, "w/b").gravity - Vector3d(-2, -1, 3)).norm(), 1e-15);
+}
+
 TEST(SceneInstances, GrowthIsBounded) {
   const std::string text =
       "assemblies:\n  a: {bodies: {}}\n  b:\n    instances: {x: {use: a, count: 1000}}\n"

@@ -32,7 +32,7 @@ formats::ChannelSpec of_marker(const std::string& name, ChannelKind kind, const 
   channel.name = name;
   channel.kind = kind;
   channel.a.node = node;
-  channel.axis = axis;
+  channel.axis = Eigen::Vector3d::Unit(axis);
   return channel;
 }
 

@@ -23,6 +23,10 @@ inline formats::ResultsLayout example_layout() {
   layout.joints = {"hinge", "slide"};
   layout.coordinates = {{"hinge", false}, {"slide", true}};
   layout.motions = {{"drive", false}, {"push", true}};
+  layout.springs = {{"strut", true}, {"door", false}};
+  layout.stops = {{"door", false}};
+  layout.bushings = {"mount", "pad"};
+  layout.frictions = {"slide"};
   layout.superelement_content_ids = {std::string(64, 'a'), std::string(64, 'b')};
   return layout;
 }
@@ -55,6 +59,12 @@ inline void fill_row(int t, formats::ResultsRow& row) {
   fill(row.joint_coordinate);
   fill(row.joint_rate);
   fill(row.motion_force);
+  fill(row.spring_force);
+  fill(row.stop_force);
+  fill(row.bushing_force);
+  fill(row.bushing_moment);
+  fill(row.friction_force);
+  fill(row.friction_moment);
   for (double* value : {&row.kinetic, &row.strain, &row.potential, &row.work, &row.dissipated, &row.total, &row.balance,
                         &row.step, &row.iterations, &row.residual, &row.constraint})
     *value = row_value(t, k++);

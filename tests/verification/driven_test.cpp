@@ -8,6 +8,7 @@
 #include "mechanism/assembly.hpp"
 #include "mechanism/kinematics.hpp"
 #include "tests/support/beam_superelement.hpp"
+#include "tests/support/lumped_bodies.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace tisserand::mechanism {
@@ -316,6 +317,48 @@ TEST(Assembly, LeavesFlexibleBodiesUndeformed) {
   Simulation run(scene, files);
   EXPECT_TRUE(assembled(run).closed);
   EXPECT_NEAR((run.position("b1/tip") - Vector3d(4, 0, 0)).norm(), 0.0, 1e-9);
+  EXPECT_LT(run.energy().strain, 1e-12);
+}
+
+// A rod of lumped masses and a rigid one, welded and hinged from rough poses; the angular velocity of the hinge is
+// given.
+TEST(Assembly, MovesModalBodiesAsRigidOnes) {
+  formats::Scene scene = empty_scene(0.01, 1.0);
+  BodyFiles files;
+  const test_support::Rod soft{0.0, 1.0, 1e-3, 1e6, 4e5, 1e-7, 2000.0, 4};
+  files.modal_bodies["rod"].body = test_support::modal_body(test_support::lumped_rod(soft), {}, 4);
+  scene.analysis = AnalysisKind::assembly;
+  formats::ModalBodySpec rod;
+  rod.name = "rod";
+  rod.file = "rod";
+  rod.start.pose.position = {0.2, -0.1, 0.3};
+  rod.start.pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Vector3d(1, 2, 3).normalized()));
+  scene.bodies.push_back(rod);
+  formats::RigidBodySpec bob = rigid_body("bob", 1.0, {0.1, 0, 0}, {0.01, 0.01, 0.01});
+  bob.start.pose.position = {1.4, 0.2, 0};
+  scene.bodies.push_back(bob);
+  const auto join = [&scene](const std::string& name, JointKind kind, const std::string& a, const std::string& b) {
+    formats::JointSpec spec;
+    spec.name = name;
+    spec.kind = kind;
+    spec.a.node = a;
+    spec.b.node = b;
+    spec.a.position = spec.b.position = Vector3d::Zero();
+    spec.a.orientation = spec.b.orientation = Eigen::Quaterniond::Identity();
+    scene.joints.push_back(spec);
+  };
+  join("hinge", JointKind::revolute, "ground", "rod/n0");
+  join("weld", JointKind::fixed, "rod/n4", "bob");
+  scene.motions.push_back(drive("hinge", "0.3 + 2 * t"));
+  Simulation run(scene, files);
+  const AssemblyReport report = assembled(run);
+  EXPECT_TRUE(report.closed) << report.gap;
+  EXPECT_LT(report.velocity_gap, 1e-9);
+  const Vector3d along(std::cos(0.3), std::sin(0.3), 0.0);
+  EXPECT_LT((run.position("rod") - 0.5 * along).norm(), 1e-9);
+  EXPECT_LT((run.velocity("rod") - 2.0 * z.cross(0.5 * along)).norm(), 1e-8);
+  EXPECT_LT((run.position("bob") - 1.1 * along).norm(), 1e-9);
+  EXPECT_LT((run.velocity("bob") - 2.0 * z.cross(1.1 * along)).norm(), 1e-8);
   EXPECT_LT(run.energy().strain, 1e-12);
 }
 
