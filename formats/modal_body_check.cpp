@@ -151,14 +151,14 @@ void check_modes(const ModalBody& b, const Place& place) {
 
 /// The 6 x 6 matrix of the rigid motions at the reference conditions, lengths divided by that of the body.
 double reference_condition(const ModalBody& b, double length) {
-  Eigen::Matrix<double, 6, 6> rows;
+  Eigen::MatrixXd rows(6, 6);
   for (Index i = 0; i < 6; ++i) {
     Eigen::Matrix<double, 6, 6> motion = Eigen::Matrix<double, 6, 6>::Identity();
     const Vector3d x = b.node_position.row(b.reference_node[static_cast<std::size_t>(i)]).transpose() / length;
     motion.topRightCorner<3, 3>() = -skew(x);
     rows.row(i) = motion.row(b.reference_component[static_cast<std::size_t>(i)]);
   }
-  const Eigen::JacobiSVD<Eigen::Matrix<double, 6, 6>> svd(rows);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows);
   return svd.singularValues()[5] / svd.singularValues()[0];
 }
 

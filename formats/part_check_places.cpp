@@ -62,11 +62,10 @@ void check_stiffness(const SpringLine& spring, const std::string& subject, Fault
   Eigen::Matrix<double, 6, 1> d = K.diagonal();
   if ((d.array() < 0.0).any()) return fail("a stiffness is negative", "");
   for (int i = 0; i < 6; ++i) d[i] = d[i] > 0.0 ? 1.0 / std::sqrt(d[i]) : 0.0;
-  const Eigen::Matrix<double, 6, 6> scaled = d.asDiagonal() * K * d.asDiagonal();
+  const Eigen::MatrixXd scaled = d.asDiagonal() * K * d.asDiagonal();
   for (int i = 0; i < 6; ++i)
     if (d[i] == 0.0 && K.row(i).cwiseAbs().maxCoeff() > 0.0) return fail("stiffness is not positive semidefinite", "");
-  const double lowest =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  const double lowest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[0];
   if (lowest < -1e-9) fail("stiffness is not positive semidefinite", "check the coupling terms");
 }
 

@@ -121,8 +121,8 @@ void check_bushing(const SceneIndex& scene, const BushingSpec& bushing, Faults& 
     faults.add(bushing.where, "free", fmt::format("{}: the rotation vector of free is half a turn or more", subject),
                "turn the orientation of one marker instead");
   if (finite(bushing.damping, "damping")) {
-    const Eigen::Matrix<double, 6, 6> symmetric = 0.5 * (bushing.damping + bushing.damping.transpose());
-    const double smallest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(symmetric).eigenvalues()[0];
+    const Eigen::MatrixXd symmetric = 0.5 * (bushing.damping + bushing.damping.transpose());
+    const double smallest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues()[0];
     if (!(smallest >= -1e-12 * symmetric.cwiseAbs().maxCoeff()))
       faults.add(bushing.where, "damping",
                  fmt::format("{}: the damping matrix has the eigenvalue {:g}", subject, smallest),

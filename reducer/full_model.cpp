@@ -35,8 +35,8 @@ std::vector<double> full_free_frequencies(const System& system, double scale, in
   const Eigen::Matrix<double, 6, 6> rigid = rigid_mass_about(system, system.middle);
   Eigen::Matrix<double, 6, 1> unit = rigid.diagonal().cwiseMax(0.0).cwiseSqrt().cwiseInverse();
   if (!unit.allFinite()) return {};
-  const Eigen::Matrix<double, 6, 6> scaled = unit.asDiagonal() * rigid * unit.asDiagonal();
-  if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(scaled).eigenvalues()[0] < 1e-12) return {};
+  const Eigen::MatrixXd scaled = unit.asDiagonal() * rigid * unit.asDiagonal();
+  if (Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues()[0] < 1e-12) return {};
 
   const SystemMatrices matrices = to_petsc(system.matrices);
   const int available = finite_mode_count(matrices.mass);

@@ -160,7 +160,7 @@ struct Inverse {
 
 Inverse invert(const Matrix6& matrix) {
   constexpr double limit = 1e-10;  // nodes within 1e-5 of their mean distance from a line count as on the line
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(matrix);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver{Eigen::MatrixXd(matrix)};
   Inverse result;
   for (int k = 0; k < 6; ++k) {
     const double value = solver.eigenvalues()[k];

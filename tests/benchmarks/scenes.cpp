@@ -15,6 +15,8 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include "formats/results.hpp"
 #include "mechanism/initial.hpp"

@@ -2,6 +2,7 @@
 #include "formats/scene_tree.hpp"
 
 #include <filesystem>
+#include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

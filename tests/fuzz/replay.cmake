@@ -1,9 +1,10 @@
 # Every fuzzing target runs over its corpus as a test, with any compiler (label fuzz). The targets of the reducer's
 # readers and those of formats alone link different libraries.
+add_library(tisserand_replay OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/replay.cpp)
+target_link_libraries(tisserand_replay PRIVATE tisserand_options)
 function(tisserand_replay target library)
-  add_executable(replay_${target} ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/${target}_fuzz.cpp
-                                  ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/replay.cpp ${ARGN})
-  target_link_libraries(replay_${target} PRIVATE ${library})
+  add_executable(replay_${target} ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/${target}_fuzz.cpp ${ARGN})
+  target_link_libraries(replay_${target} PRIVATE tisserand_replay ${library})
   add_test(NAME Fuzz.${target} COMMAND replay_${target} ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/corpus/${target})
   set_tests_properties(Fuzz.${target} PROPERTIES LABELS fuzz TIMEOUT 120)
 endfunction()
@@ -11,7 +12,7 @@ endfunction()
 foreach(target part scene)
   tisserand_replay(${target} tisserand_formats)
 endforeach()
-tisserand_replay(superelement tisserand_formats ${CMAKE_CURRENT_SOURCE_DIR}/formats/superelement_container.cpp)
+tisserand_replay(superelement tisserand_test_support ${CMAKE_CURRENT_SOURCE_DIR}/formats/superelement_container.cpp)
 target_link_libraries(replay_superelement PRIVATE dep::hdf5)
 if(TISSERAND_REDUCER)
   foreach(target abaqus nastran dmig matrix_text)

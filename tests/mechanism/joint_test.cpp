@@ -5,6 +5,7 @@
 #include <random>
 
 #include <gtest/gtest.h>
+#include <Eigen/Cholesky>
 
 #include "common/rotation.hpp"
 #include "tests/support/scenes.hpp"

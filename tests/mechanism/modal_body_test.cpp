@@ -4,6 +4,7 @@
 #include <random>
 
 #include <gtest/gtest.h>
+#include <Eigen/Eigenvalues>
 
 #include "common/error.hpp"
 #include "common/rotation.hpp"

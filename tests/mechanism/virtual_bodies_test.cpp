@@ -2,6 +2,7 @@
 #include "mechanism/virtual_bodies.hpp"
 
 #include <map>
+#include <tuple>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,27 +1,12 @@
 // Rows of numbers of a CSV file under tests/verification/references.
 #pragma once
 
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace tisserand::test_support {
 
 /// Without the header line.
-inline std::vector<std::vector<double>> reference_rows(const std::string& file) {
-  std::ifstream in(std::string(TISSERAND_REFERENCES) + "/" + file);
-  if (!in) throw std::runtime_error("cannot read the reference " + file);
-  std::vector<std::vector<double>> rows;
-  std::string line, cell;
-  std::getline(in, line);
-  while (std::getline(in, line)) {
-    std::istringstream cells(line);
-    rows.emplace_back();
-    while (std::getline(cells, cell, ',')) rows.back().push_back(std::stod(cell));
-  }
-  return rows;
-}
+std::vector<std::vector<double>> reference_rows(const std::string& file);
 
 }  // namespace tisserand::test_support

@@ -1,74 +1,17 @@
 // Rows of results whose every value is a known function of its time and place, for tests of results files.
 #pragma once
 
-#include <limits>
-
 #include "formats/results.hpp"
 
 namespace tisserand::test_support {
 
 /// Three nodes, two superelements (3 and 2 coordinates y, 2 and 1 boundary nodes), a hinge and a slide, in SI units.
-inline formats::ResultsLayout example_layout() {
-  formats::ResultsLayout layout;
-  layout.scene = "example";
-  layout.producer = "tests";
-  layout.units = Units::si();
-  layout.nodes = {"beam/base", "beam/tip", "hub"};
-  layout.superelements = {"beam", "frame"};
-  layout.modes_offset = {0, 3, 5};
-  layout.boundary_offset = {0, 2, 3};
-  layout.boundary_nodes = {"base", "tip", "foot"};
-  layout.modal_bodies = {"rod"};
-  layout.modal_offset = {0, 2};
-  layout.joints = {"hinge", "slide"};
-  layout.coordinates = {{"hinge", false}, {"slide", true}};
-  layout.motions = {{"drive", false}, {"push", true}};
-  layout.springs = {{"strut", true}, {"door", false}};
-  layout.stops = {{"door", false}};
-  layout.bushings = {"mount", "pad"};
-  layout.frictions = {"slide"};
-  layout.superelement_content_ids = {std::string(64, 'a'), std::string(64, 'b')};
-  return layout;
-}
+formats::ResultsLayout example_layout();
 
 /// Value number k of the row number t: all different, all exact in double.
-inline double row_value(int t, int k) { return static_cast<double>(t) * 1024.0 + static_cast<double>(k) + 0.25; }
+double row_value(int t, int k);
 
 /// Fills a row of any size. The second coordinate is not a number.
-inline void fill_row(int t, formats::ResultsRow& row) {
-  int k = 0;
-  const auto fill = [&](auto& block) {
-    for (Eigen::Index i = 0; i < block.size(); ++i) block.data()[i] = row_value(t, k++);
-  };
-  row.time = 1e-3 * static_cast<double>(t + 1);
-  fill(row.node_position);
-  fill(row.node_rotation);
-  fill(row.node_velocity);
-  fill(row.node_angular_velocity);
-  fill(row.node_acceleration);
-  fill(row.node_angular_acceleration);
-  fill(row.frame_position);
-  fill(row.frame_rotation);
-  fill(row.y);
-  fill(row.y_rate);
-  fill(row.boundary_force);
-  fill(row.w);
-  fill(row.w_rate);
-  fill(row.joint_force);
-  fill(row.joint_moment);
-  fill(row.joint_coordinate);
-  fill(row.joint_rate);
-  fill(row.motion_force);
-  fill(row.spring_force);
-  fill(row.stop_force);
-  fill(row.bushing_force);
-  fill(row.bushing_moment);
-  fill(row.friction_force);
-  fill(row.friction_moment);
-  for (double* value : {&row.kinetic, &row.strain, &row.potential, &row.work, &row.dissipated, &row.total, &row.balance,
-                        &row.step, &row.iterations, &row.residual, &row.constraint})
-    *value = row_value(t, k++);
-  if (row.joint_coordinate.size() > 1) row.joint_coordinate[1] = std::numeric_limits<double>::quiet_NaN();
-}
+void fill_row(int t, formats::ResultsRow& row);
 
 }  // namespace tisserand::test_support

@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include "common/rotation.hpp"
 #include "mechanism/bodies/superelement_evaluate.hpp"
 #include "mechanism/motion.hpp"
 
@@ -19,63 +18,22 @@ struct BodyState {
   Eigen::Matrix3d R0_reference = Eigen::Matrix3d::Identity();
 };
 
-inline Eigen::Vector3d random_vector(std::mt19937& random, double size) {
-  std::uniform_real_distribution<double> uniform(-size, size);
-  const double x = uniform(random), y = uniform(random), z = uniform(random);
-  return {x, y, z};
-}
+Eigen::Vector3d random_vector(std::mt19937& random, double size);
 
-inline Eigen::VectorXd random_vector_n(std::mt19937& random, Eigen::Index n, double size) {
-  std::uniform_real_distribution<double> uniform(-size, size);
-  Eigen::VectorXd v(n);
-  for (Eigen::Index i = 0; i < n; ++i) v[i] = uniform(random);
-  return v;
-}
+Eigen::VectorXd random_vector_n(std::mt19937& random, Eigen::Index n, double size);
 
 /// A random pose with deformations of relative size `deformation` and rates of order 1.
-inline BodyState random_state(const mechanism::SuperelementBody& body, unsigned seed, double deformation) {
-  std::mt19937 random(seed);
-  const Eigen::Matrix3d R = exp_so3<double>(random_vector(random, 2.0));
-  const Eigen::Vector3d c = random_vector(random, 3.0);
-  BodyState state;
-  state.R0_reference = R;
-  for (const mechanism::SuperelementNode& node : body.node) {
-    mechanism::NodeMotion motion;
-    motion.x = c + R * (node.X + random_vector(random, deformation));
-    motion.R = R * exp_so3<double>(random_vector(random, deformation));
-    motion.xd = random_vector(random, 1.0);
-    motion.Omega = random_vector(random, 1.0);
-    motion.xdd = random_vector(random, 1.0);
-    motion.Omegad = random_vector(random, 1.0);
-    state.nodes.push_back(motion);
-  }
-  state.y = random_vector_n(random, body.modes, deformation);
-  state.yd = random_vector_n(random, body.modes, 1.0);
-  state.ydd = random_vector_n(random, body.modes, 1.0);
-  return state;
-}
+BodyState random_state(const mechanism::SuperelementBody& body, unsigned seed, double deformation);
 
 /// update_kinematics() and residual() in one go.
-inline void evaluate(const mechanism::SuperelementBody& body, const BodyState& state, const Eigen::Vector3d& gravity,
-                     mechanism::SuperelementScratch& scratch) {
-  mechanism::update_kinematics(body, state.nodes, state.y.data(), state.yd.data(), state.ydd.data(), state.R0_reference,
-                               scratch);
-  mechanism::residual(body, scratch, gravity);
-}
+void evaluate(const mechanism::SuperelementBody& body, const BodyState& state, const Eigen::Vector3d& gravity,
+              mechanism::SuperelementScratch& scratch);
 
 /// (r_B, r_I) of a state.
-inline Eigen::VectorXd residual_vector(const mechanism::SuperelementBody& body, const BodyState& state,
-                                       const Eigen::Vector3d& gravity) {
-  mechanism::SuperelementScratch scratch = mechanism::make_scratch(body);
-  evaluate(body, state, gravity, scratch);
-  Eigen::VectorXd r(body.boundary_size + body.modes);
-  r << scratch.forces.r_B, scratch.forces.r_I;
-  return r;
-}
+Eigen::VectorXd residual_vector(const mechanism::SuperelementBody& body, const BodyState& state,
+                                const Eigen::Vector3d& gravity);
 
 /// |a − b| / |b| in the largest component.
-inline double relative_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
-  return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
-}
+double relative_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
 }  // namespace tisserand::test_support

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "reducer/elements/element_matrices.hpp"
 #include "tests/reducer/elements/shell_cases.hpp"
 
 namespace tisserand::reducer {

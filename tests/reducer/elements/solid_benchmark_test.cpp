@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include "tests/support/small_model.hpp"
 #include "tests/support/solid_mesh.hpp"

@@ -59,7 +59,7 @@ TEST(Spring, BushingActsAtItsPlace) {
   const Matrix12 K = bushing(K_B, {place, place - span, R_PB});
   EXPECT_LT(rigid_motion_defect(K, span), 1e-15);
   EXPECT_LT((K * turned({0.3, -0.2, 0.9}, {4.0, 1.0, 2.0})).norm(), 1e-13 * K.norm());
-  const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Matrix12>(K).eigenvalues();
+  const Eigen::VectorXd eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues();
   EXPECT_LT(eigenvalues.head<6>().cwiseAbs().maxCoeff(), 1e-14 * eigenvalues.maxCoeff());
   EXPECT_GT(eigenvalues[6], 1e-4 * eigenvalues.maxCoeff());
 

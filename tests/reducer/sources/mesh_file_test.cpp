@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "reducer/checks.hpp"
 #include "reducer/gmsh/write.hpp"
