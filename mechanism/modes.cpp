@@ -40,8 +40,9 @@ struct Spectrum {
 
 Spectrum eigen(MatrixXd A, Vectors kind) {
   if (!A.allFinite())  // LAPACK would not return
-    throw Error("the linearised scene has no finite shifted inverse: its inertia, damping and stiffness are singular together",
-                "modes", "fix or remove bodies that neither mass nor stiffness holds");
+    throw Error(
+        "the linearised scene has no finite shifted inverse: its inertia, damping and stiffness are singular together",
+        "modes", "fix or remove bodies that neither mass nor stiffness holds");
   const int n = static_cast<int>(A.rows()), one = 1;
   const char* right = kind == Vectors::right ? "V" : "N";
   VectorXd real(n), imaginary(n), work(1);
@@ -85,7 +86,8 @@ MatrixXd shifted_inverse(const Reduced& m, double s) {
   return G;
 }
 
-/// The shift among s, 1.37 s, 1.37² s… at which P(s) is regular: it is singular at real eigenvalues (divergence, creep).
+/// The shift among s, 1.37 s, 1.37² s… at which P(s) is regular: it is singular at real eigenvalues (divergence,
+/// creep).
 double away_from_eigenvalues(const Reduced& m, double s) {
   double best = s, largest = -1.0;
   for (int attempt = 0; attempt < 6; ++attempt, s *= 1.3717) {
