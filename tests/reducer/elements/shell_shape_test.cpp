@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "reducer/elements/element_matrices.hpp"
 #include "tests/reducer/elements/shell_cases.hpp"
 
 namespace tisserand::reducer {
