@@ -12,9 +12,8 @@ using formats::IntegratorSpec;
 
 /// Largest error of an iterated floating frame [rad].
 constexpr double frame_tolerance = 1e-10;
-/// Violations of constraints relative to what accelerations move in a step, in units of Newton's tolerance: with the
-/// rows of velocities, and of index 3, whose recurrence multiplies them by about 100.
-constexpr double share_of_motion = 10.0, share_of_motion_index3 = 0.1;
+/// Violations of constraints relative to what accelerations move in a step, in units of Newton's tolerance.
+constexpr double share_of_motion = 10.0;
 
 /// The first NaN stays.
 void raise(double& value, int& at, double candidate, int index) {
@@ -33,8 +32,7 @@ struct Closed {
 /// only if Φ is small against what they move in a step. Not below the round-off: of Φ that of the positions.
 Closed closed_constraints(const Model& model, const IntegratorSpec& options, double step, const State& state) {
   const double acceleration = std::max(state.acceleration_scale(), size_of(model, state.algorithmic()));
-  const double share = options.formulation == Formulation::index3 ? share_of_motion_index3 : share_of_motion;
-  const double motion = share * options.tolerance * step * step * acceleration;
+  const double motion = share_of_motion * options.tolerance * step * step * acceleration;
   const double reach = state.x().cols() > 0 ? state.x().cwiseAbs().maxCoeff() / model.length : 0.0;
   const double round_off = 4.0 * std::numeric_limits<double>::epsilon();
   return {std::min(options.constraint_tolerance, std::max(motion, round_off * (1.0 + reach))),
