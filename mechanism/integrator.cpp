@@ -138,8 +138,8 @@ void finish(const Model& model, const IntegratorSpec& options, double step, Stat
       return;
     }
   }
-  // Index 3 doubly integrates what Newton leaves of its constraints: there a step has to end far below the tolerance, as
-  // it does from the constant prediction.
+  // Index 3 doubly integrates what Newton leaves of its constraints: there a step has to end far below the tolerance,
+  // as it does from the constant prediction.
   if (options.formulation == Formulation::stabilised_index2) update_trend(model, step, state, workspace);
   accept(model, step, state, workspace);
 }
