@@ -1,13 +1,12 @@
 // Static beams with large rotations against published and analytic solutions; orders of convergence.
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "tests/support/beam_states.hpp"
 #include "tests/support/beam_statics.hpp"
+#include "tests/support/reference_table.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -16,21 +15,7 @@ using Eigen::Vector3d;
 using std::numbers::pi;
 using test::bend_cantilever;
 using test::Cantilever;
-
-/// Rows of a CSV file under verification/references, without the header.
-std::vector<std::vector<double>> reference_rows(const std::string& file) {
-  std::ifstream in(std::string(TISSERAND_REFERENCES) + "/" + file);
-  EXPECT_TRUE(in.good()) << file;
-  std::vector<std::vector<double>> rows;
-  std::string line, cell;
-  std::getline(in, line);
-  while (std::getline(in, line)) {
-    std::istringstream cells(line);
-    rows.emplace_back();
-    while (std::getline(cells, cell, ',')) rows.back().push_back(std::stod(cell));
-  }
-  return rows;
-}
+using test_support::reference_rows;
 
 formats::BeamBodySpec straight(double length, int elements, int nodes_per_element) {
   formats::BeamBodySpec spec;

@@ -9,6 +9,7 @@
 #include "mechanism/carriers.hpp"
 #include "mechanism/newton.hpp"
 #include "tests/support/modal_known_answers.hpp"
+#include "tests/support/model_tangent.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/superelement_cases.hpp"
 
@@ -109,17 +110,7 @@ struct Everything {
   MatrixXd matrix(const TangentCoefficients& c, const ConstraintRows& rows) {
     at(run.state());
     evaluate_tangent(run.model(), run.state(), c, TangentKind::step, rows, run.workspace);
-    const SparsePattern& pattern = *run.model().pattern;
-    const int n = pattern.size(), boundary = run.model().sizes.boundary;
-    MatrixXd A = MatrixXd::Zero(n, n);
-    for (int j = 0; j < n; ++j)
-      for (int k = pattern.column_start()[static_cast<std::size_t>(j)];
-           k < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++k) {
-        const int i = pattern.rows()[static_cast<std::size_t>(k)];
-        A(i, j) = run.workspace.values[static_cast<std::size_t>(pattern.slot(i, j))];
-      }
-    A.topLeftCorner(boundary, boundary) *= run.workspace.matrix_scale;
-    return A;
+    return test_support::dense_matrix(run);
   }
   int n() const { return run.model().sizes.boundary; }
   int m() const { return run.model().sizes.constraints; }

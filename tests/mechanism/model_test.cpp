@@ -8,6 +8,7 @@
 #include "common/rotation.hpp"
 #include "mechanism/newton.hpp"
 #include "tests/support/beam_states.hpp"
+#include "tests/support/model_tangent.hpp"
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/superelement_cases.hpp"
@@ -79,17 +80,7 @@ struct Mixed {
   MatrixXd matrix(const TangentCoefficients& c, TangentKind kind, const ConstraintRows& rows) {
     evaluate(run.model(), run.state(), run.workspace);
     evaluate_tangent(run.model(), run.state(), c, kind, rows, run.workspace);
-    const SparsePattern& pattern = *run.model().pattern;
-    const int n = pattern.size(), boundary = run.model().sizes.boundary;
-    MatrixXd A = MatrixXd::Zero(n, n);
-    for (int j = 0; j < n; ++j)
-      for (int k = pattern.column_start()[static_cast<std::size_t>(j)];
-           k < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++k) {
-        const int i = pattern.rows()[static_cast<std::size_t>(k)];
-        A(i, j) = run.workspace.values[static_cast<std::size_t>(pattern.slot(i, j))];
-      }
-    A.topLeftCorner(boundary, boundary) *= run.workspace.matrix_scale;
-    return A;
+    return test_support::dense_matrix(run);
   }
 };
 

@@ -17,11 +17,9 @@ void randomise(Simulation& run, unsigned seed, double turn, double size) {
   state.lambda() = random_vector_n(random, state.lambda().size(), size);
 }
 
-Eigen::MatrixXd iteration_matrix(Simulation& run, const mechanism::TangentCoefficients& c) {
-  mechanism::evaluate(run.model(), run.state(), run.workspace);
-  mechanism::evaluate_tangent(run.model(), run.state(), c, mechanism::TangentKind::exact, {}, run.workspace);
-  const mechanism::SparsePattern& pattern = *run.model().pattern;
-  const int n = pattern.size(), boundary = run.model().sizes.boundary;
+Eigen::MatrixXd dense_matrix(const Simulation& run) {
+  const mechanism::SparsePattern& pattern = *run.built.model.pattern;
+  const int n = pattern.size(), boundary = run.built.model.sizes.boundary;
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
   for (int j = 0; j < n; ++j)
     for (int k = pattern.column_start()[static_cast<std::size_t>(j)];
@@ -31,6 +29,12 @@ Eigen::MatrixXd iteration_matrix(Simulation& run, const mechanism::TangentCoeffi
     }
   A.topLeftCorner(boundary, boundary) *= run.workspace.matrix_scale;
   return A;
+}
+
+Eigen::MatrixXd iteration_matrix(Simulation& run, const mechanism::TangentCoefficients& c) {
+  mechanism::evaluate(run.model(), run.state(), run.workspace);
+  mechanism::evaluate_tangent(run.model(), run.state(), c, mechanism::TangentKind::exact, {}, run.workspace);
+  return dense_matrix(run);
 }
 
 Eigen::MatrixXd damping_matrix(Simulation& run) {

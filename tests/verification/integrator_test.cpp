@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -12,6 +13,7 @@
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/reference_table.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/schemes.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -19,36 +21,20 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using formats::Formulation;
-using formats::Method;
+using test_support::order;
 using test_support::Pendulum;
+using test_support::Scheme;
 using test_support::Simulation;
-
-struct Scheme {
-  const char* name;
-  Method method;
-  Formulation formulation;
-};
 
 class EveryScheme : public testing::TestWithParam<Scheme> {
  protected:
   formats::Scene with_scheme(formats::Scene scene) const {
-    scene.integrator.method = GetParam().method;
-    scene.integrator.formulation = GetParam().formulation;
     scene.integrator.rho = 0.9;
-    scene.integrator.alpha = 0.1;
-    return scene;
+    return test_support::with_scheme(GetParam(), std::move(scene));
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Schemes, EveryScheme,
-                         testing::Values(Scheme{"AlphaIndex3", Method::generalised_alpha, Formulation::index3},
-                                         Scheme{"AlphaStabilised", Method::generalised_alpha,
-                                                Formulation::stabilised_index2},
-                                         Scheme{"HhtIndex3", Method::hht, Formulation::index3},
-                                         Scheme{"HhtStabilised", Method::hht, Formulation::stabilised_index2}),
-                         [](const testing::TestParamInfo<Scheme>& given) { return given.param.name; });
-
-double order(double coarse, double fine) { return std::log2(coarse / fine); }
+INSTANTIATE_TEST_SUITE_P(Schemes, EveryScheme, test_support::all_schemes(), test_support::scheme_name);
 
 // After one period T the pendulum is at rest again: a remaining rate w means that it is late by w/(angular
 // acceleration).

@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/reference_table.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/schemes.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -19,34 +21,19 @@ namespace {
 using Eigen::Vector3d;
 using formats::Formulation;
 using formats::Method;
+using test_support::order;
 using test_support::Pendulum;
+using test_support::Scheme;
 using test_support::Simulation;
-
-struct Scheme {
-  const char* name;
-  Method method;
-  Formulation formulation;
-};
 
 class Controlled : public testing::TestWithParam<Scheme> {
  protected:
   formats::Scene with_scheme(formats::Scene scene) const {
-    scene.integrator.method = GetParam().method;
-    scene.integrator.formulation = GetParam().formulation;
-    scene.integrator.alpha = 0.1;
-    return scene;
+    return test_support::with_scheme(GetParam(), std::move(scene));
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Schemes, Controlled,
-                         testing::Values(Scheme{"AlphaIndex3", Method::generalised_alpha, Formulation::index3},
-                                         Scheme{"AlphaStabilised", Method::generalised_alpha,
-                                                Formulation::stabilised_index2},
-                                         Scheme{"HhtIndex3", Method::hht, Formulation::index3},
-                                         Scheme{"HhtStabilised", Method::hht, Formulation::stabilised_index2}),
-                         [](const testing::TestParamInfo<Scheme>& given) { return given.param.name; });
-
-double order(double coarse, double fine) { return std::log2(coarse / fine); }
+INSTANTIATE_TEST_SUITE_P(Schemes, Controlled, test_support::all_schemes(), test_support::scheme_name);
 
 formats::Scene controlled(formats::Scene scene, double tolerance) {
   scene.integrator.error_control.active = true;
