@@ -20,6 +20,7 @@ namespace tisserand::benchmarks {
 namespace {
 
 constexpr int kRepetitions = 7;
+using Times = std::array<double, kRepetitions>;
 
 double cpu_seconds() {
   timespec now{};
@@ -27,125 +28,127 @@ double cpu_seconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-double median(std::array<double, kRepetitions> values) {
+double median(Times values) {
   std::sort(values.begin(), values.end());
   return values[kRepetitions / 2];
 }
 
-/// CPU time of one call [s], the median of several measurements of a millisecond or more.
-template <class Action>
-double seconds_of(Action action) {
-  std::array<double, kRepetitions> times{};
-  for (double& time : times)
-    for (long count = 64;; count *= 2) {
-      const double begin = cpu_seconds();
-      for (long i = 0; i < count; ++i) action();
-      const double seconds = cpu_seconds() - begin;
-      if (seconds < 2e-3) continue;
-      time = seconds / static_cast<double>(count);
-      break;
-    }
+/// Median of the ratios of measurements taken one after the other: the speed of the machine drops out.
+double relative(Times times, const Times& first) {
+  for (std::size_t i = 0; i < times.size(); ++i) times[i] /= first[i];
   return median(times);
 }
 
-struct Model {
+/// CPU time of one call [s], over 2 ms or more.
+template <class Action>
+double seconds_of(Action action) {
+  for (long count = 64;; count *= 2) {
+    const double begin = cpu_seconds();
+    for (long i = 0; i < count; ++i) action();
+    const double seconds = cpu_seconds() - begin;
+    if (seconds > 2e-3) return seconds / static_cast<double>(count);
+  }
+}
+
+struct Case {
   std::string label;
   std::string scene;
   std::string virtual_bodies;
-  std::array<double, 4> paper{};  ///< analysis sparse, full; solution sparse, full; 0: not in the paper
+  bool sparse = true;
+  double paper_analysis = 0.0, paper_solution = 0.0;  ///< relative times; 0: not in the paper
 };
 
 struct Cost {
   int unknowns = 0, nonzeros = 0;
-  long iterations = 0, factorisations = 0;
-  double flops = 0.0;     ///< of all factorisations and solutions
-  double analysis = 0.0;  ///< CPU seconds of all steps
-  double solution = 0.0;  ///< of them in factorisations and solutions
+  long iterations = 0, factorisations = 0, solutions = 0;
+  double flops = 0.0;  ///< of all factorisations and solutions
+  Times analysis{};    ///< CPU seconds of all steps
+  Times solution{};    ///< of them in factorisations and solutions
 };
 
-/// Factorisation: 2/3 n³ (dense), counted on the pattern (KLU); solution 2 n², 2 entries of L and U.
-double flops(const mechanism::Model& model, const Cost& cost, bool sparse, double solutions) {
-  const double n = model.pattern->size(), count = static_cast<double>(cost.factorisations);
-  if (!sparse) return count * 2.0 / 3.0 * n * n * n + solutions * 2.0 * n * n;
-  const mechanism::back_end::Effort effort = mechanism::back_end::klu_effort(*model.pattern);
-  return count * effort.flops + solutions * 2.0 * effort.entries;
-}
-
-Cost measure(const std::string& folder, const Model& what, const std::string& solver) {
+/// Inertia B, whose tangent is that of the element: the same iterations in every model.
+formats::Scene read(const std::string& folder, const Case& input) {
   std::vector<formats::Override> overrides;
-  for (const std::string& setting : {"virtual_bodies=" + what.virtual_bodies, "integrator.linear_solver=" + solver})
+  for (const std::string& setting : {"virtual_bodies=" + input.virtual_bodies,
+                                     std::string("integrator.linear_solver=") + (input.sparse ? "klu" : "dense"),
+                                     std::string("bodies.rod.inertia=B"), std::string("integrator.end=0.6")})
     overrides.push_back(formats::parse_override(setting));
-  const formats::Scene scene = formats::read_scene(folder + "/" + what.scene + ".scene.yaml", overrides);
-  const mechanism::BodyFiles files = mechanism::read_body_files(scene);
-  Cost cost;
-  std::array<double, kRepetitions> times{};
-  for (int repetition = 0; repetition < kRepetitions; ++repetition) {
-    test_support::Simulation run(scene, files);
-    run.start();
-    const double begin = cpu_seconds();
-    run.run(scene.integrator.end);
-    times[static_cast<std::size_t>(repetition)] = cpu_seconds() - begin;
-    if (repetition + 1 < kRepetitions) continue;
-    const mechanism::Model& model = run.model();
-    mechanism::Workspace& workspace = run.workspace;
-    const auto c = mechanism::step_coefficients(mechanism::alpha_parameters(scene.integrator), scene.integrator.step);
-    mechanism::evaluate(model, run.state(), workspace);
-    mechanism::evaluate_tangent(model, run.state(), c, mechanism::TangentKind::step, {}, workspace);
-    const double factor = seconds_of([&] {
-      if (!workspace.solver.numeric(workspace.values).regular) throw std::runtime_error("singular");
-    });
-    Eigen::VectorXd right = Eigen::VectorXd::Ones(model.pattern->size());
-    const double solve = seconds_of([&] {
-      right.setOnes();
-      workspace.solver.solve({right.data(), static_cast<std::size_t>(right.size())});
-    });
-    cost.unknowns = model.pattern->size();
-    cost.nonzeros = model.pattern->nonzeros();
-    cost.iterations = run.iterations;
-    cost.factorisations = run.factorisations;
-    // Stabilised index 2: one more solution per iteration, the correction of the positions.
-    const double solutions = 2.0 * static_cast<double>(run.iterations);
-    cost.solution = static_cast<double>(run.factorisations) * factor + solutions * solve;
-    cost.flops = flops(model, cost, solver == "klu", solutions);
-  }
-  cost.analysis = median(times);
-  return cost;
+  return formats::read_scene(folder + "/" + input.scene + ".scene.yaml", overrides);
 }
 
-void print(const std::string& folder) {
-  const std::vector<Model> models = {
-      {"no virtual body", "virtual_0", "keep", {1.00, 1.19, 1.00, 1.17}},
-      {"one, kept", "virtual_1", "keep", {1.08, 1.86, 1.03, 1.50}},
-      {"two, kept", "virtual_2", "keep", {1.33, 2.40, 1.14, 2.04}},
-      {"one, eliminated", "virtual_1", "eliminate", {}},
-      {"two, eliminated", "virtual_2", "eliminate", {}},
-  };
-  std::vector<std::array<Cost, 2>> costs;
-  for (const Model& model : models) costs.push_back({measure(folder, model, "klu"), measure(folder, model, "dense")});
-  const Cost& first = costs.front()[0];
+/// Factorisation: 2/3 n³ (dense), counted on the pattern (KLU); solution 2 n², 2 entries of L and U.
+double flops(const mechanism::SparsePattern& pattern, const Cost& cost, bool sparse) {
+  const double n = pattern.size();
+  const auto factorisations = static_cast<double>(cost.factorisations), solutions = static_cast<double>(cost.solutions);
+  if (!sparse) return factorisations * 2.0 / 3.0 * n * n * n + solutions * 2.0 * n * n;
+  const mechanism::back_end::Effort effort = mechanism::back_end::klu_effort(pattern);
+  return factorisations * effort.flops + solutions * 2.0 * effort.entries;
+}
+
+/// Factorisations and solutions at the end of a run, times their number.
+double solution_seconds(test_support::Simulation& run, const formats::IntegratorSpec& integrator, const Cost& cost) {
+  mechanism::Workspace& workspace = run.workspace;
+  const auto c = mechanism::step_coefficients(mechanism::alpha_parameters(integrator), integrator.step);
+  mechanism::evaluate(run.model(), run.state(), workspace);
+  mechanism::evaluate_tangent(run.model(), run.state(), c, mechanism::TangentKind::step, {}, workspace);
+  const double factor = seconds_of([&] {
+    if (!workspace.solver.numeric(workspace.values).regular) throw std::runtime_error("singular");
+  });
+  Eigen::VectorXd right(cost.unknowns);
+  const double solve = seconds_of([&] {
+    right.setOnes();
+    workspace.solver.solve({right.data(), static_cast<std::size_t>(right.size())});
+  });
+  return static_cast<double>(cost.factorisations) * factor + static_cast<double>(cost.solutions) * solve;
+}
+
+void measure(const std::string& folder, const Case& input, std::size_t repetition, Cost& cost) {
+  const formats::Scene scene = read(folder, input);
+  const mechanism::BodyFiles files = mechanism::read_body_files(scene);
+  test_support::Simulation run(scene, files);
+  run.start();
+  const double begin = cpu_seconds();
+  run.run(scene.integrator.end);
+  cost.analysis[repetition] = cpu_seconds() - begin;
+  const mechanism::SparsePattern& pattern = *run.model().pattern;
+  cost.unknowns = pattern.size();
+  cost.nonzeros = pattern.nonzeros();
+  cost.iterations = run.iterations;
+  cost.factorisations = run.factorisations;
+  cost.solutions = 2 * run.iterations;  // stabilised index 2: one more, the correction of the positions
+  cost.flops = flops(pattern, cost, input.sparse);
+  cost.solution[repetition] = solution_seconds(run, scene.integrator, cost);
+}
+
+std::string of_paper(double value) { return value > 0.0 ? fmt::format("{:.2f}", value) : std::string(); }
+
+void print(const std::vector<Case>& cases, const std::vector<Cost>& costs) {
   fmt::print(
-      "| virtual bodies | analysis, sparse | full | solution, sparse | full | paper: analysis, sparse | full | "
-      "solution, "
-      "sparse | full |\n| --- | --: | --: | --: | --: | --: | --: | --: | --: |\n");
-  for (std::size_t i = 0; i < models.size(); ++i) {
-    const auto& [sparse, full] = costs[i];
-    fmt::print("| {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |", models[i].label, sparse.analysis / first.analysis,
-               full.analysis / first.analysis, sparse.solution / first.solution, full.solution / first.solution);
-    for (const double value : models[i].paper)
-      fmt::print("{}", value > 0.0 ? fmt::format(" {:.2f} |", value) : std::string(" |"));
-    fmt::print("\n");
+      "| virtual bodies | LU | unknowns | nonzeros | iterations | factorisations | Mflop | analysis [ms] | relative | "
+      "paper | solution [ms] | relative | paper |\n"
+      "| --- | --- | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: |\n");
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Cost &cost = costs[i], &first = costs.front();
+    fmt::print("| {} | {} | {} | {} | {} | {} | {:.0f} | {:.0f} | {:.2f} | {} | {:.0f} | {:.2f} | {} |\n",
+               cases[i].label, cases[i].sparse ? "sparse" : "full", cost.unknowns, cost.nonzeros, cost.iterations,
+               cost.factorisations, 1e-6 * cost.flops, 1e3 * median(cost.analysis),
+               relative(cost.analysis, first.analysis), of_paper(cases[i].paper_analysis), 1e3 * median(cost.solution),
+               relative(cost.solution, first.solution), of_paper(cases[i].paper_solution));
   }
-  fmt::print(
-      "\n| virtual bodies | solver | unknowns | nonzeros | iterations | factorisations | Mflop | analysis [ms] | "
-      "solution "
-      "[ms] |\n| --- | --- | --: | --: | --: | --: | --: | --: | --: |\n");
-  for (std::size_t i = 0; i < models.size(); ++i)
-    for (std::size_t k = 0; k < 2; ++k) {
-      const Cost& c = costs[i][k];
-      fmt::print("| {} | {} | {} | {} | {} | {} | {:.1f} | {:.1f} | {:.1f} |\n", models[i].label,
-                 k == 0 ? "sparse (KLU)" : "full LU", c.unknowns, c.nonzeros, c.iterations, c.factorisations,
-                 1e-6 * c.flops, 1e3 * c.analysis, 1e3 * c.solution);
-    }
+}
+
+void table(const std::string& folder) {
+  const std::vector<Case> cases = {
+      {"none", "virtual_0", "keep", true, 1.00, 1.00},      {"one kept", "virtual_1", "keep", true, 1.08, 1.03},
+      {"two kept", "virtual_2", "keep", true, 1.33, 1.14},  {"none", "virtual_0", "keep", false, 1.19, 1.17},
+      {"one kept", "virtual_1", "keep", false, 1.86, 1.50}, {"two kept", "virtual_2", "keep", false, 2.40, 2.04},
+      {"one eliminated", "virtual_1", "eliminate", true},   {"two eliminated", "virtual_2", "eliminate", true},
+      {"one eliminated", "virtual_1", "eliminate", false},  {"two eliminated", "virtual_2", "eliminate", false},
+  };
+  std::vector<Cost> costs(cases.size());
+  for (std::size_t repetition = 0; repetition < kRepetitions; ++repetition)
+    for (std::size_t i = 0; i < cases.size(); ++i) measure(folder, cases[i], repetition, costs[i]);
+  print(cases, costs);
 }
 
 }  // namespace
@@ -157,7 +160,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    tisserand::benchmarks::print(argv[1]);
+    tisserand::benchmarks::table(argv[1]);
   } catch (const std::exception& error) {
     fmt::print(stderr, "table_3: {}\n", error.what());
     return 1;
