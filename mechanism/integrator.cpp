@@ -321,6 +321,24 @@ StepReport take_step(const Model& model, const IntegratorSpec& options, const St
   return report;
 }
 
+/// After a doubtful step: back to where it began, with other rows to solve for. Those that are independent there, for
+/// the old ones may have become dependent on the way and the end of the step satisfies nothing; if that says no more
+/// than was known (the step left a position of lower rank), those that are independent where it ended. False, and the
+/// state as it was, if they stay.
+bool choose_rows_again(const Model& model, State& state, Workspace& workspace) {
+  const State end = state;
+  state.block() = workspace.previous.block();
+  if (!choose_active_rows(model, state, workspace) || state.active().sum() < end.active().sum()) {
+    state.block() = end.block();
+    if (!choose_active_rows(model, state, workspace)) return false;
+    const Eigen::VectorXd rows = state.active();
+    state.block() = workspace.previous.block();
+    state.active() = rows;
+  }
+  workspace.forget();
+  return true;
+}
+
 }  // namespace
 
 StepReport advance(const Model& model, const IntegratorSpec& options, const StepEnd& end, State& state,
@@ -329,13 +347,8 @@ StepReport advance(const Model& model, const IntegratorSpec& options, const Step
   const bool is_accepted = report.outcome == StepOutcome::accepted;
   const bool is_doubtful = is_accepted ? largest_violation_left_out(model, workspace) > largest_left_out
                                        : is_overconstrained(state) || report.outcome == StepOutcome::singular;
-  if (report.outcome == StepOutcome::inaccurate || !is_doubtful || !choose_active_rows(model, state, workspace))
+  if (report.outcome == StepOutcome::inaccurate || !is_doubtful || !choose_rows_again(model, state, workspace))
     return report;
-  // The rank has changed on the way: the step is taken again with other rows.
-  workspace.multipliers = state.active();
-  state.block() = workspace.previous.block();
-  state.active() = workspace.multipliers;
-  workspace.forget();
   StepReport again = take_step(model, options, end, state, workspace);
   again.iterations += report.iterations;
   again.factorisations += report.factorisations;

@@ -18,6 +18,7 @@
 #include "formats/scene.hpp"
 #include "mechanism/series.hpp"
 #include "mechanism/simulate.hpp"
+#include "tests/support/reference_table.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::mechanism {
@@ -103,8 +104,15 @@ class Targets : public testing::TestWithParam<const char*> {
     return (s.y[nearest] - t.target) / t.scale;
   }
 
+  /// All scenes, with what they include.
+  void copy_scenes(const std::string& folder) const {
+    for (const auto& file : std::filesystem::directory_iterator(examples + folder))
+      if (file.path().extension() == ".yaml")
+        std::filesystem::copy_file(file.path(), folder_.file(file.path().filename().string()));
+  }
+
   void check(const std::string& folder, const std::string& scene) {
-    std::filesystem::copy_file(examples + folder + "/" + scene + ".scene.yaml", folder_.file(scene + ".scene.yaml"));
+    copy_scenes(folder);
     const std::vector<std::string> results = {"finest.results.h5", "coarser.results.h5"};
     std::size_t ran = 0;  // of the two finest runs of this analysis
     bool any = false;
@@ -135,7 +143,7 @@ class Targets : public testing::TestWithParam<const char*> {
 class RigidTargets : public Targets {};
 INSTANTIATE_TEST_SUITE_P(Scenes, RigidTargets,
                          testing::Values("pendulum", "four_bar_2", "four_bar_10", "andrews", "bricard", "heavy_top",
-                                         "free_body", "equal_crank"),
+                                         "free_body", "equal_crank", "spring_crank"),
                          [](const testing::TestParamInfo<const char*>& scene) { return scene.param; });
 TEST_P(RigidTargets, AreMet) { check("rigid_benchmarks", GetParam()); }
 
@@ -156,6 +164,8 @@ TEST(EqualCrank, PassesAStepOnTheChangePoint) {
 
 class FlexibleTargets : public Targets {
  protected:
+  /// The superelements of a scene; false if this build cannot make them.
+  bool reduce(const std::string& scene) const;
   void reduce(const std::string& part, const std::string& name, const std::string& settings) const {
     const std::string command = TISSERAND_BINARY_DIR "/bin/reducer run " + examples + "flexible_benchmarks/" + part +
                                 ".part.yaml -o " + folder_.file(name + ".superelement.h5") + " " + settings + " > " +
@@ -164,24 +174,75 @@ class FlexibleTargets : public Targets {
   }
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, FlexibleTargets,
-                         testing::Values("spin_up", "princeton", "bend_45", "roll_up", "top_fast", "top_slow", "simeon",
-                                         "shaft"),
+                         testing::Values("spin_up", "spin_up_steady", "princeton", "bend_45", "roll_up",
+                                         "l_frame_tones", "l_frame_loads", "top_fast", "top_slow", "simeon", "shaft",
+                                         "shaft_centred", "turning_beams"),
                          [](const testing::TestParamInfo<const char*>& scene) { return scene.param; });
 TEST_P(FlexibleTargets, AreMet) { check("flexible_benchmarks", GetParam()); }
 
-class SuperelementTargets : public FlexibleTargets {};
-INSTANTIATE_TEST_SUITE_P(Scenes, SuperelementTargets,
-                         testing::Values("spin_up_superelement_4", "princeton_superelement_2",
-                                         "princeton_superelement_4", "princeton_superelement_8"),
-                         [](const testing::TestParamInfo<const char*>& scene) { return scene.param; });
-TEST_P(SuperelementTargets, AreMet) {
-  if (!std::filesystem::exists(TISSERAND_BINARY_DIR "/bin/reducer")) GTEST_SKIP() << "built without the reducer";
-  const std::string scene = GetParam();
+bool FlexibleTargets::reduce(const std::string& scene) const {
+  if (!std::filesystem::exists(TISSERAND_BINARY_DIR "/bin/reducer")) return false;
   if (scene == "spin_up_superelement_4") reduce("spin_up_piece", "quarter", "");
   for (const auto& [pieces, length] : {std::pair{"2", "0.254"}, {"4", "0.127"}, {"8", "0.0635"}})
     if (scene == std::string("princeton_superelement_") + pieces)
       reduce("princeton_piece", std::string("princeton_") + pieces, std::string("--set points.tip.0=") + length);
+  if (scene == "bend_45_superelements") {
+    reduce("bend_piece", "bend_5", "");
+    reduce("bend_piece", "bend_10",
+           "--set points.middle=[3.92598157590686,-0.0770956447087,0] "
+           "--set points.tip=[7.84590957278449,-0.308266633275107,0]");
+  }
+  if (scene == "l_frame_tones_superelement") reduce("l_frame", "l_frame", "--set modes=32");
+  if (scene == "l_frame_loads_superelement")
+    reduce("l_frame", "l_frame_thin", "--set sections.flat.width=0.6 --set modes=0");
+  if (scene.starts_with("top_")) reduce("top", "top", "");
+  if (scene == "turning_superelements") {
+    reduce("turning_piece", "turning_4", "");
+    reduce("turning_piece", "turning_8", "--set points.tip.0=0.125");
+  }
+  return true;
+}
+
+class SuperelementTargets : public FlexibleTargets {};
+INSTANTIATE_TEST_SUITE_P(Scenes, SuperelementTargets,
+                         testing::Values("spin_up_superelement_4", "princeton_superelement_2",
+                                         "princeton_superelement_4", "princeton_superelement_8",
+                                         "bend_45_superelements", "l_frame_tones_superelement",
+                                         "l_frame_loads_superelement", "top_fast_superelement", "top_slow_superelement",
+                                         "turning_superelements"),
+                         [](const testing::TestParamInfo<const char*>& scene) { return scene.param; });
+TEST_P(SuperelementTargets, AreMet) {
+  if (!reduce(GetParam())) GTEST_SKIP() << "built without the reducer";
   check("flexible_benchmarks", GetParam());
+}
+
+// Every row of the references, not the last one alone: the slow top falls below the level and rises again.
+class TopDirections : public FlexibleTargets {};
+INSTANTIATE_TEST_SUITE_P(Scenes, TopDirections,
+                         testing::Values("top_fast", "top_slow", "top_fast_superelement", "top_slow_superelement"),
+                         [](const testing::TestParamInfo<const char*>& scene) { return scene.param; });
+TEST_P(TopDirections, FollowTheRigidBody) {
+  const std::string scene = GetParam();
+  if (scene.ends_with("superelement") && !reduce(scene)) GTEST_SKIP() << "built without the reducer";
+  copy_scenes("flexible_benchmarks");
+  const bool is_fast = scene.starts_with("top_fast");
+  std::vector<formats::Override> overrides;
+  for (const char* setting : {is_fast ? "integrator.step=1e-4" : "integrator.step=2e-4",
+                              is_fast ? "output.interval=0.002" : "output.interval=0.01"})
+    overrides.push_back(formats::parse_override(setting));
+  const std::string results = folder_.file("top.results.h5");
+  const RunReport report =
+      simulate(formats::read_scene(folder_.file(scene + ".scene.yaml"), overrides), results, RunControl{});
+  ASSERT_EQ(report.outcome, RunOutcome::completed) << report.reason;
+  const auto rows = test_support::reference_rows(is_fast ? "prism_top_fast.csv" : "prism_top_slow.csv");
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const Series end = read_series({{results}, {}, {std::string("nodes/position/beam/*/") + "xyz"[axis]}, {}}).back();
+    ASSERT_EQ(end.x.size(), rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      ASSERT_NEAR(end.x[i], rows[i][0], 1e-9);
+      EXPECT_NEAR(end.y[i] / 240.0, rows[i][axis + 1], is_fast ? 1e-3 : 1e-2) << rows[i][0];
+    }
+  }
 }
 
 }  // namespace
