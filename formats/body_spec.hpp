@@ -42,7 +42,8 @@ struct Damping {
 
 struct SuperelementBodySpec {
   std::string name;
-  std::string file;  ///< resolved path
+  std::string file;                                  ///< resolved path
+  Eigen::Vector3d mirror = Eigen::Vector3d::Ones();  ///< −1 along axes that are mirrored (formats/mirror.hpp)
   InitialMotion start;
   bool rigid = false;            ///< use: rigid
   std::optional<int> modes;      ///< absent: all in the file
@@ -104,7 +105,8 @@ struct BeamBodySpec {
 /// A floating-frame body with lumped masses from a modal body file; its nodes are `<body>/<node>`, its frame `<body>`.
 struct ModalBodySpec {
   std::string name;
-  std::string file;  ///< resolved path
+  std::string file;                                  ///< resolved path
+  Eigen::Vector3d mirror = Eigen::Vector3d::Ones();  ///< −1 along axes that are mirrored (formats/mirror.hpp)
   InitialMotion start;
   std::optional<int> modes;                ///< absent: all in the file
   std::optional<double> cutoff;            ///< [1/time of the scene]

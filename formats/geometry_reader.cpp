@@ -158,4 +158,10 @@ Eigen::Quaterniond read_orientation(const Context& context, const YamlNode& node
   return rows ? from_matrix(context, node, what) : from_numbers(context, node, what);
 }
 
+std::optional<Eigen::Index> read_mirror_plane(const Context& context, const YamlNode& node) {
+  const auto plane = read_word(context, node, "mirror plane", {"yz", "xz", "xy"});
+  if (!plane) return std::nullopt;
+  return static_cast<Eigen::Index>(*plane);
+}
+
 }  // namespace tisserand::formats

@@ -29,4 +29,7 @@ Eigen::Matrix3d read_inertia(const Context& context, const YamlNode& node, const
 /// quaternion and orthonormality within 1e-6 of the matrix; both are then normalised.
 Eigen::Quaterniond read_orientation(const Context& context, const YamlNode& node, const std::string& what);
 
+/// `yz`, `xz` or `xy` as the index of the axis across; none after an error.
+std::optional<Eigen::Index> read_mirror_plane(const Context& context, const YamlNode& node);
+
 }  // namespace tisserand::formats

@@ -48,6 +48,19 @@ void read_frame(const Context& context, const YamlNode& node, SuperelementBodySp
   }
 }
 
+/// Planes of the part frame, one or a list: −1 along the axes across them.
+Eigen::Vector3d read_mirror(const MapReader& map) {
+  Eigen::Vector3d axes = Eigen::Vector3d::Ones();
+  const auto apply = [&](const YamlNode& plane) {
+    if (const auto axis = read_mirror_plane(map.context(), plane)) axes[*axis] *= -1.0;
+  };
+  const YamlNode* node = map.find("mirror");
+  if (node == nullptr) return axes;
+  if (node->kind != YamlKind::sequence) apply(*node);
+  for (const YamlNode& plane : node->children) apply(plane);
+  return axes;
+}
+
 std::vector<NodeWeight> read_weights(const MapReader& map, std::string_view key) {
   std::vector<NodeWeight> weights;
   for (const YamlNode* node : map.entries(key, "node"))
@@ -93,6 +106,7 @@ SuperelementBodySpec read_superelement(const Context& context, const YamlNode& n
   body.name = node.key;
   body.where = context.entry;
   body.file = resolve(definitions.folder, map.text("file"));
+  body.mirror = read_mirror(map);
   body.start = read_start(map);
   body.gravity = read_optional_vector(map, "gravity");
   body.rigid = map.choice("use", {Choice<bool>{"flexible", false}, {"rigid", true}}, false);
@@ -118,6 +132,7 @@ ModalBodySpec read_modal(const Context& context, const YamlNode& node, const Sce
   body.name = node.key;
   body.where = context.entry;
   body.file = resolve(definitions.folder, map.text("file"));
+  body.mirror = read_mirror(map);
   body.start = read_start(map);
   body.gravity = read_optional_vector(map, "gravity");
   read_mode_choice(map, body);
@@ -133,6 +148,7 @@ SuperelementBodySpec read_rigid_from(const Context& context, const YamlNode& nod
   body.name = node.key;
   body.where = context.entry;
   body.file = resolve(definitions.folder, map.text("from"));
+  body.mirror = read_mirror(map);
   body.start = read_start(map);
   body.gravity = read_optional_vector(map, "gravity");
   body.rigid = true;

@@ -47,8 +47,7 @@ AssemblyFrame mirror_frame(const MapReader& map) {
   AssemblyFrame frame;
   const YamlNode* node = map.find("mirror");
   if (node == nullptr) return frame;
-  if (const auto plane = read_word(map.context(), *node, "mirror plane", {"yz", "xz", "xy"}))
-    frame.S(static_cast<Eigen::Index>(*plane), static_cast<Eigen::Index>(*plane)) = -1.0;
+  if (const auto axis = read_mirror_plane(map.context(), *node)) frame.S(*axis, *axis) = -1.0;
   frame.G = frame.S;
   return frame;
 }

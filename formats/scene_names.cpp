@@ -200,8 +200,7 @@ void insert_definitions(const Level& level, Substitution& substitution, YamlNode
 
 void rebase_files(const YamlDocument& document, const std::string& collection, YamlNode& entry) {
   for (YamlNode& child : entry.children) {
-    const bool names_file =
-        child.key == "file" || child.key == "file_mirrored" || (child.key == "from" && collection == "bodies");
+    const bool names_file = child.key == "file" || (child.key == "from" && collection == "bodies");
     if (child.kind == YamlKind::scalar && names_file && !child.text.empty()) {
       const std::string& folder = document.sources.at(static_cast<std::size_t>(child.place.source)).folder;
       if (!folder.empty()) child.text = (std::filesystem::path(folder) / child.text).lexically_normal().string();

@@ -165,26 +165,22 @@ void Placement::mirror_part(YamlNode& body) {
   }
 }
 
-/// `file_mirrored` stands for `file` in mirrored assemblies and has no other use.
+/// A file is mirrored where the body is made from it: the plane joins those that the body mirrors it at by itself.
 void Placement::mirror_file(YamlNode& body) {
-  const auto other = std::ranges::find(body.children, "file_mirrored", &YamlNode::key);
-  if (other != body.children.end() && !frame_.mirrored()) body.children.erase(other);
-  if (!frame_.mirrored()) return;
-  for (const char* key : {"file", "from"}) {
-    const YamlNode* file = find_child(body, key);
-    if (file == nullptr || file->kind != YamlKind::scalar) continue;
-    if (other == body.children.end()) {
-      context(body).fail(
-          file->place,
-          fmt::format("superelement file '{}' of a mirrored assembly cannot be mirrored by its pose", file->text),
-          "reduce the mirrored part and give it as `file_mirrored`");
-      return;
-    }
-    YamlNode mirrored = std::move(*other);
-    body.children.erase(other);
-    set(body, key, std::move(mirrored));
-    return;
-  }
+  const YamlNode* file = find_child(body, word(body, "type") == "rigid" ? "from" : "file");
+  if (!frame_.mirrored() || file == nullptr || file->kind != YamlKind::scalar) return;
+  constexpr std::array<const char*, 3> across{"yz", "xz", "xy"};
+  Eigen::Index axis = 0;
+  frame_.S.diagonal().minCoeff(&axis);
+  YamlNode planes, plane;
+  planes.kind = YamlKind::sequence;
+  planes.place = plane.place = file->place;
+  plane.kind = YamlKind::scalar;
+  plane.text = across[static_cast<std::size_t>(axis)];
+  if (const YamlNode* own = find_child(body, "mirror"))
+    planes.children = own->kind == YamlKind::sequence ? own->children : std::vector<YamlNode>{*own};
+  planes.children.push_back(std::move(plane));
+  set(body, "mirror", std::move(planes));
 }
 
 /// Joints, springs and bushings: what stands in world axes, and the markers.

@@ -13,6 +13,7 @@
 #include "mechanism/build_joints.hpp"
 #include "mechanism/build_modal.hpp"
 #include "mechanism/evaluate.hpp"
+#include "mechanism/mirrored_files.hpp"
 #include "mechanism/newton.hpp"
 #include "mechanism/virtual_bodies.hpp"
 
@@ -24,7 +25,8 @@ using Eigen::Vector3d;
 
 class Builder {
  public:
-  Builder(const formats::Scene& scene, const BodyFiles& files) : scene_(scene), files_(files) {}
+  Builder(const formats::Scene& scene, const BodyFiles& files)
+      : scene_(scene), superelements_(files.superelements), modal_bodies_(files.modal_bodies) {}
 
   BuiltModel build() {
     model_.name = scene_.name;
@@ -107,7 +109,7 @@ class Builder {
   }
 
   void add_body(const formats::ModalBodySpec& spec) {
-    const formats::LoadedModalBody& file = files_.modal_bodies.at(spec.file);
+    const formats::LoadedModalBody& file = modal_bodies_.at(spec.file, spec.mirror);
     const UnitConversion units = convert_units(file.body.units, scene_.units, spec.file);
     note_units(spec.name, file.body.units, units);
     for (const std::string& warning : file.warnings) notes_.push_back(fmt::format("body '{}': {}", spec.name, warning));
@@ -124,20 +126,21 @@ class Builder {
     built.body.node = add_node(spec.name, start, Vector3d::Zero(), 1, 1);
     built.body.gravity = spec.gravity.value_or(scene_.gravity);
     built.body.offset = std::exchange(model_.sizes.modal, model_.sizes.modal + built.body.modes);
-    add_place(spec.name, {built.body.node, Vector3d::Zero(), Matrix3d::Identity()});
+    const Matrix3d part_axes = built.frame_rotation.transpose();
+    add_place(spec.name, {built.body.node, Vector3d::Zero(), part_axes});
     for (ModalNode& node : built.nodes) {
       const std::string name = spec.name + "/" + node.name;
       node.body = static_cast<int>(model_.modal_bodies.size());
       node.node = add_node(name, start, node.x, 0, 0);
       model_.nodes.back().modal = static_cast<int>(model_.modal_nodes.size());
       model_.modal_nodes.push_back(std::move(node));
-      add_place(name, {model_.modal_nodes.back().node, Vector3d::Zero(), Matrix3d::Identity()});
+      add_place(name, {model_.modal_nodes.back().node, Vector3d::Zero(), part_axes});
     }
     model_.modal_bodies.push_back(std::move(built.body));
   }
 
   void add_body(const formats::SuperelementBodySpec& spec) {
-    const formats::LoadedSuperelement& file = files_.superelements.at(spec.file);
+    const formats::LoadedSuperelement& file = superelements_.at(spec.file, spec.mirror);
     const formats::Superelement& element = file.superelement;
     const UnitConversion units = convert_units(element.units, scene_.units, spec.file);
     note_units(spec.name, element.units, units);
@@ -395,7 +398,8 @@ class Builder {
   }
 
   const formats::Scene& scene_;
-  const BodyFiles& files_;
+  MirroredFiles<formats::LoadedSuperelement> superelements_;
+  MirroredFiles<formats::LoadedModalBody> modal_bodies_;
   Model model_;
   MarkerTable markers_;
   std::vector<Eigen::Quaterniond> frames_;

@@ -298,16 +298,33 @@ TEST(SceneInstances, AreRepeatedAndChained) {
 }
 
 TEST(SceneInstances, MayStandInAFileOfTheirOwn) {
-  const Files files({{"scene.yaml",
-                      "scene: a\nassemblies: {rod: lib/rod.yaml}\ninstances: {a: {use: rod}, b: {use: rod, mirror: "
-                      "xy, parameters: {other: m.h5}}}\n" +
-                          tail},
-                     {"lib/rod.yaml",
-                      "assembly: rod\nparameters: {file: rod.h5, other: rod_mirrored.h5}\nbodies: {rod: "
-                      "{type: superelement, file: $file, file_mirrored: $other}}\n"}});
+  const Files files(
+      {{"scene.yaml",
+        "scene: a\nassemblies: {rod: lib/rod.yaml}\ninstances: {a: {use: rod}, b: {use: rod, mirror: "
+        "xy, parameters: {file: other.h5}}}\n" +
+            tail},
+       {"lib/rod.yaml",
+        "assembly: rod\nparameters: {file: rod.h5}\nbodies: {rod: {type: superelement, file: $file}}\n"}});
   const Scene scene = files.read();
   EXPECT_EQ(std::get<SuperelementBodySpec>(scene.bodies[0]).file, files.folder.path() + "/lib/rod.h5");
-  EXPECT_EQ(std::get<SuperelementBodySpec>(scene.bodies[1]).file, files.folder.path() + "/m.h5");
+  EXPECT_EQ(std::get<SuperelementBodySpec>(scene.bodies[1]).file, files.folder.path() + "/other.h5");
+}
+
+TEST(SceneInstances, MirrorFilesAtTheirPlaneAndThatOfTheBody) {
+  const Scene scene = read(
+      "assemblies:\n  side:\n    parameters: {plane: xz}\n    bodies:\n      s: {type: superelement, file: s.h5}\n"
+      "      m: {type: modal, file: m.h5, mirror: $plane}\n      r: {type: rigid, from: s.h5, mirror: [yz, xy]}\n"
+      "instances: {l: {use: side}, r: {use: side, mirror: xz}, t: {use: side, pose: {position: [1, 2, 3]}}}\n");
+  const auto expect_mirror = [&](std::size_t first, const Vector3d& s, const Vector3d& m, const Vector3d& r) {
+    EXPECT_EQ(std::get<SuperelementBodySpec>(scene.bodies.at(first)).mirror, s);
+    EXPECT_EQ(std::get<ModalBodySpec>(scene.bodies.at(first + 1)).mirror, m);
+    EXPECT_EQ(std::get<SuperelementBodySpec>(scene.bodies.at(first + 2)).mirror, r);
+  };
+  expect_mirror(0, {1, 1, 1}, {1, -1, 1}, {-1, 1, -1});
+  expect_mirror(3, {1, -1, 1}, {1, 1, 1}, {-1, -1, -1});
+  expect_mirror(6, {1, 1, 1}, {1, -1, 1}, {-1, 1, -1});
+  EXPECT_THAT(error("bodies: {b: {type: superelement, file: b.h5, mirror: [xz, xyz]}}\n"),
+              HasSubstr("scene.yaml:2:59: body 'b': unknown mirror plane 'xyz'"));
 }
 
 TEST(SceneInstances, ErrorsNameThem) {
@@ -325,10 +342,6 @@ TEST(SceneInstances, ErrorsNameThem) {
               HasSubstr("assemblies hold one another more than 50 deep"));
   EXPECT_THAT(error("assemblies: {a: {bodies: {b: {type: rigid}}, color: red}}\ninstances: {a: {use: a}}\n"),
               HasSubstr("assembly 'a': unknown key 'color'"));
-  EXPECT_EQ(
-      error("assemblies: {a: {bodies: {b: {type: superelement, file: b.h5}}}}\ninstances: {a: {use: a, mirror: xy}}\n"),
-      "scene.yaml:2:57: 'b': superelement file 'b.h5' of a mirrored assembly cannot be mirrored by its pose; reduce "
-      "the mirrored part and give it as `file_mirrored`");
   EXPECT_THAT(error(chain, {"instances.link.first={}"}), HasSubstr("there is no parameter 'previous'"));
 }
 

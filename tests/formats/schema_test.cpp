@@ -82,6 +82,7 @@ class Validator {
     if (word == "$ref") return accepts(root_.at(json::json_pointer(rule.get<std::string>().substr(1))), value);
     if (word == "const") return value == rule;
     if (word == "enum") return std::ranges::find(rule, value) != rule.end();
+    if (word == "anyOf") return std::ranges::any_of(rule, [&](const json& one) { return accepts(one, value); });
     if (word == "oneOf") return std::ranges::count_if(rule, [&](const json& one) { return accepts(one, value); }) == 1;
     if (word == "type") {
       if (rule.is_string()) return has_type(value, rule);
@@ -218,6 +219,83 @@ TEST(Schema, RejectsWhatTheReadersReject) {
   EXPECT_FALSE(scene_accepted("angle_deg: 30", "angle: 30"));
   EXPECT_FALSE(scene_accepted("every: 10", "every: 0"));
   EXPECT_FALSE(scene_accepted("type: revolute", "type: hinge"));
+}
+
+/// Every key of scenes that takes a whole number, and choices and lists of all kinds.
+const std::string whole_numbers = R"yaml(
+scene: numbers
+virtual_bodies: keep
+bodies:
+  arm: {type: superelement, file: arm.h5, modes: 4, inertia: M, mirror: xz, damping: {ratios: [0.1, 0.2]}}
+  side: {type: superelement, file: arm.h5, mirror: [xz, yz], weights: {positions: {base: 1}}}
+  rod: {type: modal, file: rod.h5, modes: 3}
+  beam: {type: beam, from: [0, 0, 0], to: [1, 0, 0], elements: 4, nodes_per_element: 3, section: bar, material: steel}
+materials: {steel: {E: 2.1e11, nu: 0.3, density: 7800}}
+sections: {bar: {shape: circle, radius: 0.01}}
+joints:
+  a: {type: generic, hold: [x, y, rz], a: ground, b: arm/tip}
+  b: {type: revolute, a: ground, b: side/tip, axis: [0, 0, 1], friction: {coefficient: 0.1, velocity: 1, radius: 0.2}}
+inputs: {wind: {file: wind.csv, time: 1, value: 2}}
+springs: {s: {coordinate: b, stiffness: {table: [[-1, -2], [1, 2]]}, damping: 1, lower: -1, stop_stiffness: 5}}
+bushings: {c: {a: ground, b: arm/base, stiffness: [1, 1, 1, 1, 1, 1], preload: [0, 0, 1, 0, 0, 0]}}
+loads: {f: {type: force, at: arm/tip, axes: body, value: [0, 1, 2]}}
+integrator: {step: 0.01, end: 1, max_iterations: 9, max_halvings: 3, linear_solver: klu}
+statics: {load_steps: 2, max_iterations: 7}
+modes: {count: 5, rotation: [0, 0, 1]}
+checkpoint: {every: 10}
+output: {every: 2, channels: [nodes]}
+)yaml";
+
+/// Numbers, texts and lists below `value`, but for what chooses the schema of an entry, and for names of inputs.
+void collect_values(const json& value, const json::json_pointer& at, std::vector<json::json_pointer>& list) {
+  if (!at.empty() && (at.back() == "type" || at.back() == "shape" || at.back() == "scene")) return;
+  if (!value.is_object() && !value.is_null()) list.push_back(at);
+  if (!value.is_structured()) return;
+  for (const auto& [key, child] : value.items())
+    if (key != "parameters" && key != "assemblies" && key != "instances" && key != "inputs" && key != "include")
+      collect_values(child, value.is_array() ? at / std::stoul(key) : at / key, list);
+}
+
+TEST(Schema, ParametersMayStandForAnyNumberTextOrListAsInTheReader) {
+  const Folder folder;
+  (void)folder.file("wind.csv", "0 1\n1 2\n");
+  const json schema = schema_of("scene");
+  std::vector<Example> list{{"whole numbers", whole_numbers}};
+  for (const Example& example : examples("scene"))
+    if (example.from.ends_with(".md")) list.push_back(example);
+  for (const Example& example : list) {
+    const json scene = to_json(parse_yaml(example.text, example.from).root);
+    ASSERT_TRUE(Validator(schema).accepts(scene)) << example.from;
+    std::vector<json::json_pointer> values;
+    collect_values(scene, json::json_pointer(), values);
+    const bool read = example.from == "whole numbers";
+    for (const json::json_pointer& at : values) {
+      json changed = scene;
+      changed[at] = "$p";
+      EXPECT_TRUE(Validator(schema).accepts(changed)) << example.from << ": " << at;
+      if (!read) continue;
+      changed["parameters"]["p"] = scene[at];
+      const std::string path = folder.file("scene.yaml", changed.dump());
+      EXPECT_EQ(error_of(folder, [&] { read_scene(path, {}); }), "") << at;
+    }
+  }
+}
+
+TEST(Schema, WholeNumbersAreNoOthers) {
+  const json schema = schema_of("scene"), scene = to_json(parse_yaml(whole_numbers, "scene").root);
+  const Folder folder;
+  (void)folder.file("wind.csv", "0 1\n1 2\n");
+  for (const char* at :
+       {"/bodies/arm/modes", "/bodies/rod/modes", "/bodies/beam/elements", "/bodies/beam/nodes_per_element",
+        "/integrator/max_iterations", "/integrator/max_halvings", "/statics/load_steps", "/statics/max_iterations",
+        "/modes/count", "/checkpoint/every", "/output/every"})
+    for (const json& wrong : {json(2.5), json(-1), json(json::array({1}))}) {
+      json changed = scene;
+      changed[json::json_pointer(at)] = wrong;
+      EXPECT_FALSE(Validator(schema).accepts(changed)) << at << ' ' << wrong;
+      const std::string path = folder.file("scene.yaml", changed.dump());
+      EXPECT_NE(error_of(folder, [&] { read_scene(path, {}); }), "") << at << ' ' << wrong;
+    }
 }
 
 }  // namespace
