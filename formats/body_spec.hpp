@@ -31,6 +31,7 @@ enum class InertiaOption { A, B, M };  ///< [Car00]; M: B with the exact centre 
 struct NodeWeight {
   std::string node;
   double weight = 0.0;
+  bool operator==(const NodeWeight&) const = default;
 };
 
 struct Damping {
@@ -38,6 +39,7 @@ struct Damping {
   double stiffness = 0.0;      ///< b of b S̄
   double ratio = 0.0;          ///< of every internal mode
   std::vector<double> ratios;  ///< of the first modes; overrides `ratio`
+  bool operator==(const Damping&) const = default;
 };
 
 struct SuperelementBodySpec {

@@ -45,7 +45,7 @@ Bodies find_bodies(const Model& model, const State& state) {
   const auto join_all = [&](const auto& nodes) {
     for (const int node : nodes) parent[static_cast<std::size_t>(root(node))] = root(nodes[0]);
   };
-  for (const SuperelementBody& body : model.superelements) join_all(body.nodes);
+  for (const SuperelementUse& use : model.superelements) join_all(use.nodes);
   for (const BeamElement2& beam : model.beams2) join_all(beam.nodes);
   for (const BeamElement3& beam : model.beams3) join_all(beam.nodes);
   for (const ModalNode& node : model.modal_nodes)

@@ -12,6 +12,7 @@
 #include "mechanism/bodies/beam_mesh.hpp"
 #include "mechanism/build_joints.hpp"
 #include "mechanism/build_modal.hpp"
+#include "mechanism/build_superelement.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/mirrored_files.hpp"
 #include "mechanism/newton.hpp"
@@ -150,30 +151,21 @@ class Builder {
       add_rigid_superelement(spec, file, units);
       return;
     }
-    SuperelementOptions options;
-    options.frame = spec.frame;
-    options.frame_node = spec.frame_node;
-    options.inertia = spec.inertia;
-    options.modes = spec.modes;
-    options.cutoff = spec.cutoff;
-    options.position_weights = spec.position_weights;
-    options.rotation_weights = spec.rotation_weights;
-    options.damping = spec.damping;
-    options.units = units;
-    options.where = spec.where;
-    SuperelementBody body = build_superelement_body(element, file.report.rigid, options);
-    body.name = spec.name;
-    body.gravity = spec.gravity.value_or(scene_.gravity);
+    SuperelementUse use;
+    use.name = spec.name;
+    use.body = find_or_build(spec, file, units, built_superelements_, model_.superelement_bodies);
+    use.gravity = spec.gravity.value_or(scene_.gravity);
+    const SuperelementBody& body = model_.superelement_bodies[static_cast<std::size_t>(use.body)];
     for (const std::string& note : body.notes) notes_.push_back(fmt::format("body '{}': {}", spec.name, note));
-    for (std::size_t j = 0; j < body.node.size(); ++j) {
-      const std::string name = spec.name + "/" + body.node[j].name;
-      const Vector3d position = body.reference_origin + body.node[j].X;
-      body.nodes[j] = add_node(name, spec.start, position, body.node[j].has_translation(), body.node[j].has_rotation());
-      add_place(name, {body.nodes[j], Vector3d::Zero(), Matrix3d::Identity()});
+    for (const SuperelementNode& node : body.node) {
+      const std::string name = spec.name + "/" + node.name;
+      const Vector3d position = body.reference_origin + node.X;
+      use.nodes.push_back(add_node(name, spec.start, position, node.has_translation(), node.has_rotation()));
+      add_place(name, {use.nodes.back(), Vector3d::Zero(), Matrix3d::Identity()});
     }
     model_.internal_offset.push_back(model_.internal_offset.back() + body.modes);
     model_.superelement_content_ids.push_back(element.content_id);
-    model_.superelements.push_back(std::move(body));
+    model_.superelements.push_back(std::move(use));
     frames_.push_back(spec.start.pose.orientation.normalized());
   }
 
@@ -402,6 +394,7 @@ class Builder {
   MirroredFiles<formats::LoadedModalBody> modal_bodies_;
   Model model_;
   MarkerTable markers_;
+  BuiltSuperelements built_superelements_;
   std::vector<Eigen::Quaterniond> frames_;
   std::vector<const formats::VirtualBodySpec*> virtual_bodies_;  ///< to be eliminated
   std::set<std::string> vanished_;                               ///< joints

@@ -98,14 +98,14 @@ void note_scale(const SuperelementBody& body, const SuperelementScratch& scratch
 
 void add_superelements(const Model& model, const State& state, Workspace& workspace) {
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    const SuperelementBody& body = model.superelements[i];
-    const Vector3d gravity = workspace.load_factor * body.gravity;
+    const SuperelementBody& body = body_of(model, i);
+    const Vector3d gravity = workspace.load_factor * model.superelements[i].gravity;
     SuperelementScratch& scratch = workspace.superelements[i];
     const int internal = model.internal_offset[i];
     const int first = model.sizes.boundary + internal;
     const auto frame = state.frames().col(static_cast<Eigen::Index>(i));
     const Matrix3d R0 = Eigen::Quaterniond(frame[0], frame[1], frame[2], frame[3]).toRotationMatrix();
-    update_kinematics(body, workspace.motion, state.y().data() + internal, state.v().data() + first,
+    update_kinematics(body, nodes_of(model, i, workspace), state.y().data() + internal, state.v().data() + first,
                       state.vdot().data() + first, R0, scratch);
     residual(body, scratch, gravity);
     scatter(model.superelement_maps[i], scratch.forces.r_B, workspace.residual);
@@ -262,10 +262,11 @@ Workspace::Workspace(const Model& model)
       multipliers(constraint),
       previous(model.sizes) {
   int boundary = 0;
-  for (const SuperelementBody& body : model.superelements) {
-    superelements.push_back(make_scratch(body));
+  for (const SuperelementBody& body : model.superelement_bodies) {
+    superelement_work.push_back(make_work(body));
     boundary = std::max(boundary, body.boundary_size);
   }
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) superelements.push_back(make_scratch(body_of(model, i)));
   element_boundary.setZero(boundary);
   for (const ModalBody& body : model.modal_bodies) modal_bodies.push_back(make_scratch(body));
   for (const ModalNode& node : model.modal_nodes) modal_nodes.push_back(make_terms(node));
@@ -303,16 +304,18 @@ void evaluate_tangent(const Model& model, const State& state, const TangentCoeff
   clear_tangent(model, coefficients, workspace);
   const double factor = 1.0 / workspace.matrix_scale;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    SuperelementScratch& scratch = workspace.superelements[i];
+    SuperelementWork& work = work_of(model, i, workspace);
     switch (kind) {
       case TangentKind::step:
-        tangent(model.superelements[i], workspace.superelements[i], coefficients);
+        tangent(body_of(model, i), coefficients, scratch, work);
         break;
       case TangentKind::exact:
-        exact_tangent(model.superelements[i], workspace.superelements[i], workspace.motion,
-                      workspace.load_factor * model.superelements[i].gravity, coefficients);
+        exact_tangent(body_of(model, i), nodes_of(model, i, workspace),
+                      workspace.load_factor * model.superelements[i].gravity, coefficients, scratch, work);
         break;
     }
-    scatter_matrix(model.superelement_maps[i], workspace.superelements[i].A_BB, factor, workspace.values);
+    scatter_matrix(model.superelement_maps[i], work.A_BB, factor, workspace.values);
   }
   add_node_tangents(model, state, coefficients, rows, workspace);
   deactivate_rows(model, state, workspace);
@@ -335,7 +338,7 @@ Energy evaluate_energy(const Model& model, Workspace& workspace) {
   Energy sum;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const SuperelementEnergy part =
-        energy(model.superelements[i], workspace.superelements[i], model.superelements[i].gravity);
+        energy(body_of(model, i), workspace.superelements[i], model.superelements[i].gravity);
     sum.kinetic += part.kinetic;
     sum.strain += part.strain;
     sum.potential += part.gravity_potential;

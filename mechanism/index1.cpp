@@ -191,8 +191,8 @@ void Index1::tolerances(double* absolute) const {
     std::fill_n(absolute + layout_.size() + at, body.modes, unit);
   }
   for (std::size_t i = 0; i < model_.superelements.size(); ++i) {
-    const double unit = tolerance * model_.length * std::sqrt(model_.superelements[i].mass);
-    const int at = model_.internal_offset[i] - internal, count = model_.superelements[i].modes;
+    const double unit = tolerance * model_.length * std::sqrt(body_of(model_, i).mass);
+    const int at = model_.internal_offset[i] - internal, count = body_of(model_, i).modes;
     std::fill_n(absolute + layout_.positions + at, count, unit);
     std::fill_n(absolute + layout_.size() + at, count, unit);
   }

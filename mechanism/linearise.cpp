@@ -19,10 +19,11 @@ using Eigen::Vector3d;
 /// Adds the blocks of one superelement, internal coordinates kept.
 void add_superelement(const Model& model, std::size_t i, const TangentCoefficients& c, const Workspace& workspace,
                       MatrixXd& A) {
-  const SuperelementBody& body = model.superelements[i];
+  const SuperelementBody& body = body_of(model, i);
   MatrixXd local;
-  const Vector3d gravity = workspace.load_factor * body.gravity;
-  uncondensed_tangent(body, workspace.superelements[i], workspace.motion, gravity, c, TangentKind::exact, local);
+  const Vector3d gravity = workspace.load_factor * model.superelements[i].gravity;
+  uncondensed_tangent(body, workspace.superelements[i], nodes_of(model, i, workspace), gravity, c, TangentKind::exact,
+                      local);
   std::vector<int> rows = model.superelement_maps[i].coordinates;
   for (int k = 0; k < body.modes; ++k) rows.push_back(model.sizes.boundary + model.internal_offset[i] + k);
   for (Eigen::Index column = 0; column < local.cols(); ++column)
@@ -112,7 +113,7 @@ Linearisation linearise(const Model& model, const State& state, const Vector3d& 
   l.r.setZero(n);
   l.r.head(model.sizes.boundary) = workspace.residual;
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    l.r.segment(model.sizes.boundary + model.internal_offset[i], model.superelements[i].modes) =
+    l.r.segment(model.sizes.boundary + model.internal_offset[i], body_of(model, i).modes) =
         workspace.superelements[i].forces.r_I;
   l.M = exact_matrix(model, state, {1.0, 0.0, 0.0}, workspace);
   l.C = exact_matrix(model, state, {0.0, 1.0, 0.0}, workspace);

@@ -40,10 +40,11 @@ void fill_slots(const SparsePattern& pattern, const EntryFlags& entries, Element
 
 /// The coordinates of all elements; every list of maps gets one entry per element of its pool.
 void number_elements(Model& model) {
-  for (const SuperelementBody& body : model.superelements) {
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const SuperelementBody& body = body_of(model, i);
     ElementMap map;
-    for (std::size_t j = 0; j < body.nodes.size(); ++j) {
-      const Node& node = model.nodes[body.nodes[j]];
+    for (std::size_t j = 0; j < body.node.size(); ++j) {
+      const Node& node = model.nodes[model.superelements[i].nodes[j]];
       for (int k = 0; k < 3 && body.node[j].has_translation(); ++k) map.coordinates.push_back(node.translation + k);
       for (int k = 0; k < 3 && body.node[j].has_rotation(); ++k) map.coordinates.push_back(node.rotation + k);
     }

@@ -80,7 +80,8 @@ struct Model {
   int virtual_nodes = 0;  ///< nodes of virtual bodies
   std::vector<Tie> ties;  ///< of eliminated virtual bodies: row i holds follower i, rows that close loops at the end
 
-  std::vector<SuperelementBody> superelements;
+  std::vector<SuperelementBody> superelement_bodies;  ///< each with one or many uses
+  std::vector<SuperelementUse> superelements;
   std::vector<ElementMap> superelement_maps;
   std::vector<int> internal_offset;  ///< superelements + 1; into the internal coordinates
   std::vector<std::string> superelement_content_ids;
@@ -124,6 +125,11 @@ struct Model {
   std::unique_ptr<SparsePattern> pattern;  ///< of [A Bᵀ; B 0], boundary coordinates then multipliers
   SolverChoice solver;
 };
+
+/// The body of a superelement.
+inline const SuperelementBody& body_of(const Model& model, std::size_t superelement) {
+  return model.superelement_bodies[static_cast<std::size_t>(model.superelements[superelement].body)];
+}
 
 /// Whether a joint or load can act on the position or the orientation of a node; ground (−1) has both.
 bool has_translation(const Model& model, int node);

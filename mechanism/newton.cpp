@@ -60,12 +60,13 @@ void solve_increment(const Model& model, const Eigen::Ref<const Eigen::VectorXd>
   auto boundary = workspace.unknowns.head(n);
   boundary = -workspace.residual;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    SuperelementScratch& scratch = workspace.superelements[i];
-    condense(model.superelements[i], scratch);
+    const SuperelementScratch& scratch = workspace.superelements[i];
+    SuperelementWork& work = work_of(model, i, workspace);
+    condense(body_of(model, i), scratch, work);
     const std::vector<int>& coordinates = model.superelement_maps[i].coordinates;
     for (std::size_t k = 0; k < coordinates.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(k);
-      boundary[coordinates[k]] += scratch.forces.r_B[at] - scratch.r_B_condensed[at];
+      boundary[coordinates[k]] += scratch.forces.r_B[at] - work.r_B_condensed[at];
     }
   }
   boundary /= workspace.matrix_scale;
@@ -75,8 +76,8 @@ void solve_increment(const Model& model, const Eigen::Ref<const Eigen::VectorXd>
   workspace.unknowns.tail(model.sizes.constraints) *= workspace.matrix_scale;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     gather(model, i, workspace.increment, workspace);
-    expand(model.superelements[i], workspace.superelements[i], workspace.element_boundary.data(),
-           workspace.increment.data() + n + model.internal_offset[i]);
+    expand(body_of(model, i), workspace.superelements[i], workspace.element_boundary.data(),
+           workspace.increment.data() + n + model.internal_offset[i], work_of(model, i, workspace));
   }
 }
 
@@ -88,11 +89,11 @@ void solve_correction(const Model& model, const Eigen::Ref<const Eigen::VectorXd
   workspace.correction.head(n) = workspace.unknowns.head(n);
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     // expand() is affine in d_B: −D⁻¹ (r_I + A_IB d_B); the correction is its linear part.
-    const SuperelementBody& body = model.superelements[i];
-    SuperelementScratch& scratch = workspace.superelements[i];
+    const SuperelementBody& body = body_of(model, i);
+    const SuperelementScratch& scratch = workspace.superelements[i];
     double* internal = workspace.correction.data() + n + model.internal_offset[i];
     gather(model, i, workspace.correction, workspace);
-    expand(body, scratch, workspace.element_boundary.data(), internal);
+    expand(body, scratch, workspace.element_boundary.data(), internal, work_of(model, i, workspace));
     for (int k = 0; k < body.modes; ++k) internal[k] += scratch.tangent.inverse_D[k] * scratch.forces.r_I[k];
   }
 }

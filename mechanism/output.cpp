@@ -44,14 +44,15 @@ void fill_places(const Model& model, const Workspace& workspace, formats::Result
 void fill_superelements(const Model& model, Workspace& workspace, formats::ResultsRow& row) {
   Eigen::Index y = 0, boundary = 0;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    const SuperelementBody& body = model.superelements[i];
+    const SuperelementBody& body = body_of(model, i);
     SuperelementScratch& scratch = workspace.superelements[i];
+    const NodeView<NodeMotion> nodes = nodes_of(model, i, workspace);
     const auto column = static_cast<Eigen::Index>(i);
     row.frame_position.col(column) = scratch.motion.x0;
     row.frame_rotation.col(column) = wxyz(Eigen::Quaterniond(scratch.motion.R0));
     const Eigen::Index count = file_coordinate_count(body);
     file_coordinates(body, scratch, row.y.segment(y, count));
-    file_rates(body, scratch, workspace.motion, row.y_rate.segment(y, count));
+    file_rates(body, scratch, nodes, row.y_rate.segment(y, count));
     y += count;
     for (std::size_t j = 0; j < body.node.size(); ++j, ++boundary) {
       const SuperelementNode& node = body.node[j];
@@ -59,8 +60,7 @@ void fill_superelements(const Model& model, Workspace& workspace, formats::Resul
       if (node.has_translation())
         row.boundary_force.col(boundary).head<3>() = scratch.forces.r_B.segment<3>(node.translation_row);
       if (node.has_rotation())
-        row.boundary_force.col(boundary).tail<3>() =
-            motion_of(workspace, body.nodes[j]).R * scratch.forces.r_B.segment<3>(node.rotation_row);
+        row.boundary_force.col(boundary).tail<3>() = nodes[j].R * scratch.forces.r_B.segment<3>(node.rotation_row);
     }
   }
 }
@@ -159,8 +159,9 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
   for (const Place& place : model.places) layout.nodes.push_back(place.name);
   layout.modes_offset = {0};
   layout.boundary_offset = {0};
-  for (const SuperelementBody& body : model.superelements) {
-    layout.superelements.push_back(body.name);
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const SuperelementBody& body = body_of(model, i);
+    layout.superelements.push_back(model.superelements[i].name);
     layout.modes_offset.push_back(layout.modes_offset.back() + static_cast<int>(file_coordinate_count(body)));
     layout.boundary_offset.push_back(layout.boundary_offset.back() + static_cast<int>(body.node.size()));
     for (const SuperelementNode& node : body.node) layout.boundary_nodes.push_back(node.name);

@@ -47,7 +47,8 @@ Parts find_parts(const Model& model) {
   const std::size_t count = model.nodes.size();
   NodeFacts facts{Sets(count), std::vector<std::string>(count), std::vector<double>(count, 0.0)};
   for (std::size_t i = 0; i < count; ++i) facts.name[i] = model.nodes[i].name;
-  for (const SuperelementBody& body : model.superelements) add_body(body.nodes, body.name, body.mass, facts);
+  for (std::size_t i = 0; i < model.superelements.size(); ++i)
+    add_body(model.superelements[i].nodes, model.superelements[i].name, body_of(model, i).mass, facts);
   for (const RigidBody& body : model.rigid_bodies) add_body(std::vector<int>{body.node}, body.name, body.mass, facts);
   for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
     std::vector<int> nodes{model.modal_bodies[i].node};

@@ -49,7 +49,7 @@ std::vector<std::string> effects(const Model& model) {
   add(model.bushings.size(), "bushings");
   add(model.loads.size(), "loads");
   if (has_gravity(model)) list.push_back("gravity");
-  const bool damped = std::any_of(model.superelements.begin(), model.superelements.end(),
+  const bool damped = std::any_of(model.superelement_bodies.begin(), model.superelement_bodies.end(),
                                   [](const SuperelementBody& body) { return body.damping.active; }) ||
                       std::any_of(model.modal_bodies.begin(), model.modal_bodies.end(),
                                   [](const ModalBody& body) { return !body.damping.isZero(0.0); });

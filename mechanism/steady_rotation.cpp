@@ -26,7 +26,7 @@ constexpr double increment_floor = 1e-13;
 double internal_scale(const Model& model, const Workspace& workspace) {
   double scale = workspace.force_scale[2];
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    const SuperelementBody& body = model.superelements[i];
+    const SuperelementBody& body = body_of(model, i);
     if (body.modes == 0) continue;
     const VectorXd acceleration = workspace.superelements[i].motion.acceleration_B.cwiseAbs();
     scale = std::max(scale, (body.M_IB.cwiseAbs() * acceleration).maxCoeff());

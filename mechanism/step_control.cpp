@@ -45,8 +45,8 @@ LocalError measure_error(const Model& model, const formats::IntegratorSpec& opti
   for (const ModalBody& body : model.modal_bodies)
     look_at(model.sizes.first_modal() + body.offset, body.modes, length * std::sqrt(body.mass));
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    look_at(model.sizes.boundary + model.internal_offset[i], model.superelements[i].modes,
-            length * std::sqrt(model.superelements[i].mass));
+    look_at(model.sizes.boundary + model.internal_offset[i], body_of(model, i).modes,
+            length * std::sqrt(body_of(model, i).mass));
   return worst;
 }
 

@@ -94,15 +94,16 @@ VectorXd canonical(const SuperelementBody& body, const VectorXd& file) {
 
 void read_superelements(const Model& model, const StoredRow& stored, State& state) {
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    const SuperelementBody& body = model.superelements[i];
-    state.frames().col(static_cast<Eigen::Index>(i)) = stored.quaternion("superelements/frame_rotation", body.name);
+    const SuperelementBody& body = body_of(model, i);
+    const std::string& name = model.superelements[i].name;
+    state.frames().col(static_cast<Eigen::Index>(i)) = stored.quaternion("superelements/frame_rotation", name);
     if (body.modes == 0) continue;
     std::vector<std::string> columns;
     for (Eigen::Index k = 0; k < file_coordinate_count(body); ++k) columns.push_back(fmt::format("{}", k));
     const int at = model.internal_offset[i];
-    state.y().segment(at, body.modes) = canonical(body, stored.read("superelements/y/" + body.name + "/", columns));
+    state.y().segment(at, body.modes) = canonical(body, stored.read("superelements/y/" + name + "/", columns));
     state.v().segment(model.sizes.boundary + at, body.modes) =
-        canonical(body, stored.read("superelements/y_rate/" + body.name + "/", columns));
+        canonical(body, stored.read("superelements/y_rate/" + name + "/", columns));
   }
 }
 

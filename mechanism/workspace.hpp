@@ -58,6 +58,7 @@ struct Workspace {
   // evaluate()
   std::vector<NodeMotion> motion;  ///< of every node; one more at the end: ground
   std::vector<SuperelementScratch> superelements;
+  std::vector<SuperelementWork> superelement_work;  ///< of each body
   std::vector<ModalScratch> modal_bodies;
   std::vector<ModalNodeTerms> modal_nodes;  ///< active ones; all of them after update_modal_nodes()
   CarrierScratch carriers;
@@ -103,6 +104,16 @@ struct Workspace {
 /// Motion of a node at the last evaluate(); −1: ground.
 inline const NodeMotion& motion_of(const Workspace& workspace, int node) {
   return node < 0 ? workspace.motion.back() : workspace.motion[static_cast<std::size_t>(node)];
+}
+
+/// Motion of the nodes of a superelement, in the order of its body.
+inline NodeView<NodeMotion> nodes_of(const Model& model, std::size_t superelement, const Workspace& workspace) {
+  return {workspace.motion.data(), model.superelements[superelement].nodes.data()};
+}
+
+/// What the uses of a superelement's body work with in turn.
+inline SuperelementWork& work_of(const Model& model, std::size_t superelement, Workspace& workspace) {
+  return workspace.superelement_work[static_cast<std::size_t>(model.superelements[superelement].body)];
 }
 
 }  // namespace tisserand::mechanism

@@ -70,7 +70,6 @@ void order_rows(const formats::Superelement& element, const std::string& where, 
     }
     if (!node.has_translation() && !node.has_rotation())
       throw Error(fmt::format("boundary node '{}' has no coordinates", node.name), where, "remove it from the file");
-    body.nodes.push_back(static_cast<int>(i));
     body.node.push_back(node);
   }
   if (body.translation_nodes.empty())

@@ -1,4 +1,4 @@
-// The superelement as a body of the mechanism: constants built once from the file, held by the Model.
+// The superelement as a body of the mechanism: constants built once from the file, held by the Model, and its uses.
 #pragma once
 
 #include <optional>
@@ -68,11 +68,11 @@ struct FileCoordinates {
   Eigen::MatrixXd modal_part;     ///< Q, only the modes kept
 };
 
-/// A superelement in canonical form (S_BI = 0, M_II = 1, S_II diagonal and ascending) and in units of the scene.
-/// Boundary coordinates: per node [x, Θ], nodes in the order of the file; then m internal coordinates.
+/// A superelement in canonical form (S_BI = 0, M_II = 1, S_II diagonal and ascending) and in units of the scene: what
+/// all uses of one file with the same options have in common. Boundary coordinates: per node [x, Θ], nodes in the order
+/// of the file; then m internal coordinates.
 struct SuperelementBody {
-  std::string name;
-  std::vector<int> nodes;  ///< indices into the model's nodes, set by the model builder (here 0, 1, ...)
+  std::string name;  ///< in the file
   std::vector<SuperelementNode> node;
   int boundary_size = 0;  ///< nb
   int modes = 0;          ///< m
@@ -96,9 +96,16 @@ struct SuperelementBody {
   Eigen::Matrix<double, 3, Eigen::Dynamic> Gamma_B;          ///< Φ_TᵀM̄, boundary columns (3 x nb)
   Eigen::Matrix<double, 3, Eigen::Dynamic> Gamma_I;          ///< Φ_TᵀM̄, internal columns (3 x m)
 
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< for the caller to scale and pass on
   FileCoordinates file;
   std::vector<std::string> notes;  ///< what the user should know, whole sentences
+};
+
+/// One superelement of the mechanism.
+struct SuperelementUse {
+  std::string name;
+  int body = 0;            ///< index into the model's bodies
+  std::vector<int> nodes;  ///< indices into the model's nodes, in the order of the body
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
 };
 
 /// Canonical form by congruence, modes cut, units converted, weights. Node poses of the reference configuration are

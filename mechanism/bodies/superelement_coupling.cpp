@@ -118,42 +118,43 @@ void apply_W(const SuperelementBody& body, const SuperelementTangent& tangent, c
   }
 }
 
-void condense(const SuperelementBody& body, SuperelementScratch& scratch) {
-  scratch.r_B_condensed = scratch.forces.r_B;
+void condense(const SuperelementBody& body, const SuperelementScratch& scratch, SuperelementWork& work) {
+  work.r_B_condensed = scratch.forces.r_B;
   if (body.modes == 0) return;
-  SuperelementTangent& tangent = scratch.tangent;
-  tangent.internal_1 = tangent.inverse_D.cwiseProduct(scratch.forces.r_I);
+  const SuperelementTangent& tangent = scratch.tangent;
+  work.internal_1 = tangent.inverse_D.cwiseProduct(scratch.forces.r_I);
   if (tangent.dense_coupling) {
-    scratch.r_B_condensed.noalias() -= tangent.A_BI * tangent.internal_1;
+    work.r_B_condensed.noalias() -= tangent.A_BI * work.internal_1;
     return;
   }
-  tangent.boundary_1.setZero();
+  work.boundary_1.setZero();
   switch (body.boundary_size) {
     case 12:
-      multiply_add<12, double>(body.M_BI, tangent.internal_1, tangent.boundary_1);
+      multiply_add<12, double>(body.M_BI, work.internal_1, work.boundary_1);
       break;
     case 18:
-      multiply_add<18, double>(body.M_BI, tangent.internal_1, tangent.boundary_1);
+      multiply_add<18, double>(body.M_BI, work.internal_1, work.boundary_1);
       break;
     default:
-      multiply_add<Eigen::Dynamic, double>(body.M_BI, tangent.internal_1, tangent.boundary_1);
+      multiply_add<Eigen::Dynamic, double>(body.M_BI, work.internal_1, work.boundary_1);
       break;
   }
-  apply_W(body, tangent, tangent.boundary_1, tangent.boundary_2);
-  scratch.r_B_condensed -= tangent.boundary_2;
+  apply_W(body, tangent, work.boundary_1, work.boundary_2);
+  work.r_B_condensed -= work.boundary_2;
 }
 
-void expand(const SuperelementBody& body, SuperelementScratch& scratch, const double* dq_B, double* dy_I) {
+void expand(const SuperelementBody& body, const SuperelementScratch& scratch, const double* dq_B, double* dy_I,
+            SuperelementWork& work) {
   if (body.modes == 0) return;
-  SuperelementTangent& tangent = scratch.tangent;
-  tangent.internal_1 = scratch.forces.r_I;
+  const SuperelementTangent& tangent = scratch.tangent;
+  work.internal_1 = scratch.forces.r_I;
   if (tangent.dense_coupling) {
-    tangent.internal_1.noalias() += tangent.A_IB * Eigen::Map<const Eigen::VectorXd>(dq_B, body.boundary_size);
+    work.internal_1.noalias() += tangent.A_IB * Eigen::Map<const Eigen::VectorXd>(dq_B, body.boundary_size);
   } else {
-    apply_Z(body, tangent, dq_B, tangent.boundary_1);
-    multiply_add<Eigen::Dynamic, double>(body.M_IB, tangent.boundary_1, tangent.internal_1);
+    apply_Z(body, tangent, dq_B, work.boundary_1);
+    multiply_add<Eigen::Dynamic, double>(body.M_IB, work.boundary_1, work.internal_1);
   }
-  Eigen::Map<Eigen::VectorXd>(dy_I, body.modes) = -tangent.inverse_D.cwiseProduct(tangent.internal_1);
+  Eigen::Map<Eigen::VectorXd>(dy_I, body.modes) = -tangent.inverse_D.cwiseProduct(work.internal_1);
 }
 
 }  // namespace tisserand::mechanism

@@ -4,31 +4,33 @@
 namespace tisserand::mechanism {
 
 SuperelementScratch make_scratch(const SuperelementBody& body) {
-  const Eigen::Index nb = body.boundary_size, m = body.modes;
   SuperelementScratch scratch;
   scratch.motion = make_local_motion<double>(body);
   scratch.forces = make_forces<double>(body);
   scratch.R0_reference.setIdentity();
-  scratch.r_B_condensed.setZero(nb);
-  scratch.A_BB.setZero(nb, nb);
   SuperelementTangent& tangent = scratch.tangent;
-  tangent.inverse_D.setZero(m);
+  tangent.inverse_D.setZero(body.modes);
   tangent.R0.setIdentity();
   tangent.Omega0.setZero();
   tangent.node = scratch.motion.node;
-  tangent.U.setZero(3, nb);
-  for (Eigen::MatrixXd* matrix : {&tangent.Q, &tangent.N, &tangent.work_1, &tangent.work_2, &tangent.work_3})
-    matrix->setZero(nb, nb);
-  tangent.thin_1.setZero(nb, 3);
-  tangent.thin_2.setZero(nb, 3);
-  tangent.thin_3.setZero(nb, 3);
-  tangent.boundary_1.setZero(nb);
-  tangent.boundary_2.setZero(nb);
-  tangent.internal_1.setZero(m);
+  tangent.U.setZero(3, body.boundary_size);
   return scratch;
 }
 
-void update_kinematics(const SuperelementBody& body, std::span<const NodeMotion> all_nodes, const double* y,
+SuperelementWork make_work(const SuperelementBody& body) {
+  const Eigen::Index nb = body.boundary_size, m = body.modes;
+  SuperelementWork work;
+  work.inverse_D.setZero(m);
+  for (Eigen::MatrixXd* matrix : {&work.Q, &work.N, &work.A_BB, &work.work_1, &work.work_2, &work.work_3})
+    matrix->setZero(nb, nb);
+  for (Eigen::Matrix<double, Eigen::Dynamic, 3>* matrix : {&work.thin_1, &work.thin_2, &work.thin_3})
+    matrix->setZero(nb, 3);
+  for (Eigen::VectorXd* vector : {&work.r_B_condensed, &work.boundary_1, &work.boundary_2}) vector->setZero(nb);
+  work.internal_1.setZero(m);
+  return work;
+}
+
+void update_kinematics(const SuperelementBody& body, const NodeView<NodeMotion>& nodes, const double* y,
                        const double* yd, const double* ydd, const Eigen::Matrix3d& R0_reference,
                        SuperelementScratch& scratch) {
   LocalMotion<double>& motion = scratch.motion;
@@ -39,7 +41,7 @@ void update_kinematics(const SuperelementBody& body, std::span<const NodeMotion>
   }
   scratch.R0_reference = R0_reference;
   motion.R0 = R0_reference;
-  local_motion<double>(body, NodeView<NodeMotion>{all_nodes.data(), body.nodes.data()}, motion);
+  local_motion<double>(body, nodes, motion);
 }
 
 void residual(const SuperelementBody& body, SuperelementScratch& scratch, const Eigen::Vector3d& gravity) {

@@ -39,14 +39,13 @@ Node perturbed(const NodeMotion& node, const Eigen::Vector3d& x, const Eigen::Ve
 
 /// Column by column: the derivative of (r_B, r_I) in each direction. R₀ at entry: the converged one for iterated
 /// frames, the same reference as update_kinematics() had for the incremental one.
-void exact_columns(const SuperelementBody& body, const SuperelementScratch& scratch,
-                   std::span<const NodeMotion> all_nodes, const Eigen::Vector3d& gravity, const TangentCoefficients& c,
-                   Eigen::MatrixXd& A) {
+void exact_columns(const SuperelementBody& body, const SuperelementScratch& scratch, const NodeView<NodeMotion>& nodes,
+                   const Eigen::Vector3d& gravity, const TangentCoefficients& c, Eigen::MatrixXd& A) {
   const int nb = body.boundary_size, n = nb + body.modes;
   A.resize(n, n);
   LocalMotion<Dual> motion = make_local_motion<Dual>(body);
   SuperelementForces<Dual> forces = make_forces<Dual>(body);
-  std::vector<Node> nodes(body.node.size());
+  std::vector<Node> moved(body.node.size());
   std::vector<int> index(body.node.size());
   const Eigen::Matrix3d& R0 = body.frame == FrameAlgorithm::incremental ? scratch.R0_reference : scratch.motion.R0;
   for (int column = 0; column < n; ++column) {
@@ -58,7 +57,7 @@ void exact_columns(const SuperelementBody& body, const SuperelementScratch& scra
           node.has_translation() ? Eigen::Vector3d(direction.segment<3>(node.translation_row)) : zero;
       const Eigen::Vector3d theta =
           node.has_rotation() ? Eigen::Vector3d(direction.segment<3>(node.rotation_row)) : zero;
-      nodes[i] = perturbed(all_nodes[static_cast<std::size_t>(body.nodes[i])], x, theta, c);
+      moved[i] = perturbed(nodes[i], x, theta, c);
       index[i] = static_cast<int>(i);
     }
     for (int k = 0; k < body.modes; ++k) {
@@ -68,7 +67,7 @@ void exact_columns(const SuperelementBody& body, const SuperelementScratch& scra
       motion.acceleration_I[k] = Dual(scratch.motion.acceleration_I[k], c.mass * d);
     }
     motion.R0 = R0.cast<Dual>();
-    local_motion<Dual>(body, NodeView<Node>{nodes.data(), index.data()}, motion);
+    local_motion<Dual>(body, NodeView<Node>{moved.data(), index.data()}, motion);
     superelement_forces<Eigen::Dynamic>(body, motion, gravity, forces);
     for (int i = 0; i < nb; ++i) A(i, column) = forces.r_B[i].derivative;
     for (int k = 0; k < body.modes; ++k) A(nb + k, column) = forces.r_I[k].derivative;
@@ -143,10 +142,10 @@ DenseForm dense_form(const SuperelementBody& body, const SuperelementScratch& sc
 }  // namespace
 
 void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch& scratch,
-                         std::span<const NodeMotion> all_nodes, const Eigen::Vector3d& gravity,
+                         const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,
                          const TangentCoefficients& c, TangentKind kind, Eigen::MatrixXd& A) {
   if (kind == TangentKind::exact) {
-    exact_columns(body, scratch, all_nodes, gravity, c, A);
+    exact_columns(body, scratch, nodes, gravity, c, A);
     return;
   }
   const DenseForm d = dense_form(body, scratch);
@@ -160,18 +159,17 @@ void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch
       c.stiffness * UpsilonT * d.S * d.Upsilon;
 }
 
-void exact_tangent(const SuperelementBody& body, SuperelementScratch& scratch, std::span<const NodeMotion> all_nodes,
-                   const Eigen::Vector3d& gravity, const TangentCoefficients& coefficients) {
+void exact_tangent(const SuperelementBody& body, const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,
+                   const TangentCoefficients& coefficients, SuperelementScratch& scratch, SuperelementWork& work) {
   const Eigen::Index nb = body.boundary_size, m = body.modes;
-  SuperelementTangent& work = scratch.tangent;
+  SuperelementTangent& frozen = scratch.tangent;
   Eigen::MatrixXd A;
-  exact_columns(body, scratch, all_nodes, gravity, coefficients, A);
-  work.constants_valid = false;  // inverse_D is the exact diagonal now; tangent() computes its own again
-  work.dense_coupling = true;
-  work.A_BI = A.topRightCorner(nb, m);
-  work.A_IB = A.bottomLeftCorner(m, nb);
-  work.inverse_D = A.bottomRightCorner(m, m).diagonal().cwiseInverse();
-  scratch.A_BB = A.topLeftCorner(nb, nb) - work.A_BI * work.inverse_D.asDiagonal() * work.A_IB;
+  exact_columns(body, scratch, nodes, gravity, coefficients, A);
+  frozen.dense_coupling = true;
+  frozen.A_BI = A.topRightCorner(nb, m);
+  frozen.A_IB = A.bottomLeftCorner(m, nb);
+  frozen.inverse_D = A.bottomRightCorner(m, m).diagonal().cwiseInverse();
+  work.A_BB = A.topLeftCorner(nb, nb) - frozen.A_BI * frozen.inverse_D.asDiagonal() * frozen.A_IB;
 }
 
 }  // namespace tisserand::mechanism

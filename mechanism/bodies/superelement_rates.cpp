@@ -3,11 +3,11 @@
 
 namespace tisserand::mechanism {
 
-void file_rates(const SuperelementBody& body, SuperelementScratch& scratch, std::span<const NodeMotion> all_nodes,
+void file_rates(const SuperelementBody& body, SuperelementScratch& scratch, const NodeView<NodeMotion>& nodes,
                 Eigen::Ref<Eigen::VectorXd> out) {
   LocalMotion<double>& motion = scratch.motion;
   if (!body.damping.active)  // otherwise update_kinematics() has done it
-    deformation_rates(body, NodeView<NodeMotion>{all_nodes.data(), body.nodes.data()}, motion);
+    deformation_rates(body, nodes, motion);
   for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i)
     out[body.file.boundary_row[i]] = motion.deformation_rate_B[static_cast<Eigen::Index>(i)];
   for (std::size_t k = 0; k < body.file.internal_row.size(); ++k) {

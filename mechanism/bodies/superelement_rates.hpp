@@ -1,8 +1,6 @@
 // Rates of a superelement's coordinates as its file numbers them, for output.
 #pragma once
 
-#include <span>
-
 #include <Eigen/Core>
 
 #include "mechanism/bodies/superelement_evaluate.hpp"
@@ -10,7 +8,7 @@
 namespace tisserand::mechanism {
 
 /// Rates of file_coordinates(). After update_kinematics() with the same nodes.
-void file_rates(const SuperelementBody& body, SuperelementScratch& scratch, std::span<const NodeMotion> all_nodes,
+void file_rates(const SuperelementBody& body, SuperelementScratch& scratch, const NodeView<NodeMotion>& nodes,
                 Eigen::Ref<Eigen::VectorXd> out);
 
 }  // namespace tisserand::mechanism

@@ -28,7 +28,7 @@ auto columns(Matrix& A, int row) {
 }
 
 /// D, Q, N for these coefficients; nothing to do while they stay.
-void update_constants(const SuperelementBody& body, const TangentCoefficients& c, SuperelementTangent& work) {
+void update_constants(const SuperelementBody& body, const TangentCoefficients& c, SuperelementWork& work) {
   if (work.constants_valid && work.coefficients == c) return;
   const Eigen::Index nb = body.boundary_size;
   work.coefficients = c;
@@ -44,24 +44,27 @@ void update_constants(const SuperelementBody& body, const TangentCoefficients& c
 }
 
 /// Keeps the state of this tangent for condense() and expand(), and U P⁻¹.
-void freeze(const SuperelementBody& body, const LocalMotion<double>& motion, SuperelementTangent& work) {
-  work.dense_coupling = false;
-  work.R0 = motion.R0;
-  work.Omega0 = motion.Omega0;
-  work.node = motion.node;
+void freeze(const SuperelementBody& body, const LocalMotion<double>& motion, const SuperelementWork& work,
+            SuperelementTangent& frozen) {
+  frozen.dense_coupling = false;
+  frozen.coefficients = work.coefficients;
+  frozen.inverse_D = work.inverse_D;
+  frozen.R0 = motion.R0;
+  frozen.Omega0 = motion.Omega0;
+  frozen.node = motion.node;
   if (body.frame == FrameAlgorithm::polar) {
     for (const int j : body.translation_nodes) {
       const auto i = static_cast<std::size_t>(j);
-      columns(work.U, body.node[i].translation_row) = motion.node[i].U_x * motion.R0;
+      columns(frozen.U, body.node[i].translation_row) = motion.node[i].U_x * motion.R0;
     }
     return;
   }
   for (const int j : body.rotation_nodes) {
     const auto i = static_cast<std::size_t>(j);
     if (body.inertia == InertiaOption::A)
-      columns(work.U, body.node[i].rotation_row) = motion.node[i].U * motion.node[i].E.transpose();
+      columns(frozen.U, body.node[i].rotation_row) = motion.node[i].U * motion.node[i].E.transpose();
     else
-      columns(work.U, body.node[i].rotation_row) = motion.node[i].U;
+      columns(frozen.U, body.node[i].rotation_row) = motion.node[i].U;
   }
 }
 
@@ -78,37 +81,37 @@ auto* column_data(Matrix& A, int row) {
 
 /// out = X V, V = [ẋ*~; Ω*~ (option A); 0].
 template <int NB, class X>
-void multiply_V(const SuperelementBody& body, const SuperelementTangent& work, const X& matrix, Thin<NB>& out) {
+void multiply_V(const SuperelementBody& body, const SuperelementTangent& frozen, const X& matrix, Thin<NB>& out) {
   out.setZero();
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     if (node.has_translation())
-      multiply3<NB, Write::add>(column_data(matrix, node.translation_row), skew<double>(work.node[i].xd),
+      multiply3<NB, Write::add>(column_data(matrix, node.translation_row), skew<double>(frozen.node[i].xd),
                                 body.boundary_size, out.data());
     if (node.has_rotation() && body.inertia == InertiaOption::A)
-      multiply3<NB, Write::add>(column_data(matrix, node.rotation_row), skew<double>(work.node[i].Omega),
+      multiply3<NB, Write::add>(column_data(matrix, node.rotation_row), skew<double>(frozen.node[i].Omega),
                                 body.boundary_size, out.data());
   }
 }
 
 /// out += F U, only the columns in which U is not zero.
 template <int NB>
-void add_times_U(const SuperelementBody& body, const SuperelementTangent& work, const Thin<NB>& F, Square<NB>& out) {
+void add_times_U(const SuperelementBody& body, const SuperelementTangent& frozen, const Thin<NB>& F, Square<NB>& out) {
   const int nb = body.boundary_size;
   for (const SuperelementNode& node : body.node) {
     const bool polar = body.frame == FrameAlgorithm::polar;
     if (!polar && node.alpha_rotation == 0.0) continue;
     const int row = polar ? node.translation_row : node.rotation_row;
-    multiply3<NB, Write::add>(F.data(), columns(work.U, row), nb, column_data(out, row));
+    multiply3<NB, Write::add>(F.data(), columns(frozen.U, row), nb, column_data(out, row));
   }
 }
 
 /// out += c X O₀ᵀ.
 template <int NB, class X>
-void add_times_O0(const SuperelementBody& body, const SuperelementTangent& work, double c, const X& matrix,
+void add_times_O0(const SuperelementBody& body, const SuperelementTangent& frozen, double c, const X& matrix,
                   Square<NB>& out) {
   const int nb = body.boundary_size;
-  const Eigen::Matrix3d O0 = skew<double>(-c * work.Omega0);
+  const Eigen::Matrix3d O0 = skew<double>(-c * frozen.Omega0);
   for (const SuperelementNode& node : body.node) {
     if (node.has_translation())
       multiply3<NB, Write::add>(column_data(matrix, node.translation_row), O0, nb,
@@ -120,19 +123,19 @@ void add_times_O0(const SuperelementBody& body, const SuperelementTangent& work,
 
 /// out += c X (O₀ ∓ O_B)ᵀ.
 template <int NB, class X>
-void add_times_O(const SuperelementBody& body, const SuperelementTangent& work, double c, const X& matrix,
+void add_times_O(const SuperelementBody& body, const SuperelementTangent& frozen, double c, const X& matrix,
                  Square<NB>& out) {
   const int nb = body.boundary_size;
-  const Eigen::Matrix3d O0 = skew<double>(-c * work.Omega0);
+  const Eigen::Matrix3d O0 = skew<double>(-c * frozen.Omega0);
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     if (node.has_translation())
       multiply3<NB, Write::add>(column_data(matrix, node.translation_row), O0, nb,
                                 column_data(out, node.translation_row));
     if (!node.has_rotation()) continue;
-    const Eigen::Vector3d& Omega = work.node[i].Omega;
+    const Eigen::Vector3d& Omega = frozen.node[i].Omega;
     const Eigen::Vector3d rate =
-        body.inertia == InertiaOption::A ? Eigen::Vector3d(Omega - work.Omega0) : Eigen::Vector3d(-Omega);
+        body.inertia == InertiaOption::A ? Eigen::Vector3d(Omega - frozen.Omega0) : Eigen::Vector3d(-Omega);
     multiply3<NB, Write::add>(column_data(matrix, node.rotation_row), skew<double>(c * rate), nb,
                               column_data(out, node.rotation_row));
   }
@@ -141,7 +144,7 @@ void add_times_O(const SuperelementBody& body, const SuperelementTangent& work, 
 /// Υᵀ S' Υ with S' = k S_BB, Υ = B + H U (S' has no stiffness against translation, so the weights of x₀ drop out):
 /// G = Bᵀ S' B = (S' B)ᵀ B, J = Bᵀ S' H + ½ Uᵀ (Hᵀ S' H); then Υᵀ S' Υ = G + J U + (J U)ᵀ. `SB` is work space.
 template <int NB>
-void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& work, double k, Square<NB>& SB,
+void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& frozen, double k, Square<NB>& SB,
                      Square<NB>& G, Thin<NB>& J) {
   const int nb = body.boundary_size;
   const ConstSquare<NB> S(body.S_BB.data(), nb, nb);
@@ -149,7 +152,7 @@ void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& wo
   J.setZero();
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
-    const LocalNode<double>& local = work.node[i];
+    const LocalNode<double>& local = frozen.node[i];
     if (node.has_translation())
       multiply3<NB, Write::add>(column_data(S, node.translation_row), skew<double>(k * local.xh), nb, J.data());
     if (!node.has_rotation()) continue;
@@ -162,7 +165,7 @@ void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& wo
   Eigen::Matrix3d HSH = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
-    const LocalNode<double>& local = work.node[i];
+    const LocalNode<double>& local = frozen.node[i];
     if (node.has_translation())
       HSH.noalias() -= skew<double>(local.xh) * J.template middleRows<3>(node.translation_row);
     if (!node.has_rotation()) continue;
@@ -172,15 +175,15 @@ void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& wo
     J.template middleRows<3>(row).noalias() = B.transpose() * SH;
     multiply3<NB, Write::assign>(column_data(G, row), B, nb, column_data(G, row));
   }
-  const ConstWide<NB> U(work.U.data(), 3, nb);
+  const ConstWide<NB> U(frozen.U.data(), 3, nb);
   J.noalias() += U.transpose().lazyProduct(0.5 * HSH);
 }
 
 /// out = X P.
 template <int NB>
-void multiply_P(const SuperelementBody& body, const SuperelementTangent& work, const Square<NB>& X, Square<NB>& out) {
+void multiply_P(const SuperelementBody& body, const SuperelementTangent& frozen, const Square<NB>& X, Square<NB>& out) {
   const int nb = body.boundary_size;
-  const Eigen::Matrix3d R0T = work.R0.transpose();
+  const Eigen::Matrix3d R0T = frozen.R0.transpose();
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     if (node.has_translation())
@@ -188,7 +191,7 @@ void multiply_P(const SuperelementBody& body, const SuperelementTangent& work, c
                                    column_data(out, node.translation_row));
     if (!node.has_rotation()) continue;
     if (body.inertia == InertiaOption::A)
-      multiply3<NB, Write::assign>(column_data(X, node.rotation_row), work.node[i].E, nb,
+      multiply3<NB, Write::assign>(column_data(X, node.rotation_row), frozen.node[i].E, nb,
                                    column_data(out, node.rotation_row));
     else
       columns(out, node.rotation_row) = columns(X, node.rotation_row);
@@ -216,92 +219,92 @@ void add_momenta(const SuperelementBody& body, const Eigen::VectorXd& p, double 
 ///   Â = c_m N + W₁ (N − Q Z₁) + N Z₁ + c_c (V₁ U − UᵀV₁ᵀ ∓ p~) + Υᵀ S' Υ
 /// Âᵀ = G₁ + G₂ᵀ is collected by operations on columns only; N' = N − (Q Z₁)ᵀ.
 template <int NB>
-void condensed_tangent(const SuperelementBody& body, SuperelementScratch& scratch, bool eliminate) {
-  SuperelementTangent& work = scratch.tangent;
+void condensed_tangent(const SuperelementBody& body, const SuperelementScratch& scratch, bool eliminate,
+                       SuperelementWork& work) {
+  const SuperelementTangent& frozen = scratch.tangent;
   const int nb = body.boundary_size;
   const TangentCoefficients& c = work.coefficients;
   const ConstSquare<NB> N(eliminate ? work.N.data() : body.M_BB.data(), nb, nb), Q(work.Q.data(), nb, nb);
   Square<NB> Np(work.work_1.data(), nb, nb), G1(work.work_2.data(), nb, nb), G2(work.work_3.data(), nb, nb);
-  Square<NB> A(scratch.A_BB.data(), nb, nb);
+  Square<NB> A(work.A_BB.data(), nb, nb);
   Thin<NB> J(work.thin_1.data(), nb, 3), F(work.thin_2.data(), nb, 3);
 
   Np = N;
   if (eliminate) {
-    multiply_V<NB>(body, work, Q, F);
+    multiply_V<NB>(body, frozen, Q, F);
     A.setZero();
-    add_times_U<NB>(body, work, F, A);
-    add_times_O0<NB>(body, work, 1.0, Q, A);
+    add_times_U<NB>(body, frozen, F, A);
+    add_times_O0<NB>(body, frozen, 1.0, Q, A);
     column_kernels::transpose<NB>(A.data(), nb, G1.data());
     Np -= c.damping * G1;
   }
-  stiffness_parts<NB>(body, work, c.stiffness + c.damping * body.damping.stiffness, G2, G1, J);
+  stiffness_parts<NB>(body, frozen, c.stiffness + c.damping * body.damping.stiffness, G2, G1, J);
   G1 += c.mass * N;
-  add_times_O<NB>(body, work, c.damping, Np, G1);
-  multiply_V<NB>(body, work, N, F);
+  add_times_O<NB>(body, frozen, c.damping, Np, G1);
+  multiply_V<NB>(body, frozen, N, F);
   G2.setZero();
-  add_times_O0<NB>(body, work, c.damping, N, G2);
+  add_times_O0<NB>(body, frozen, c.damping, N, G2);
   // F₂ = c_c (N V + V₁) + J goes with G₂, F₁ = −c_c (N' V + V₁) + J with G₁.
   F *= c.damping;
   Thin<NB> V1(work.thin_3.data(), nb, 3);
   V1.setZero();
   add_momenta<NB>(body, scratch.forces.p_B, c.damping, V1, G1);
   F += V1 + J;
-  add_times_U<NB>(body, work, F, G2);
-  multiply_V<NB>(body, work, Np, F);
+  add_times_U<NB>(body, frozen, F, G2);
+  multiply_V<NB>(body, frozen, Np, F);
   F = J - V1 - c.damping * F;
-  add_times_U<NB>(body, work, F, G1);
+  add_times_U<NB>(body, frozen, F, G1);
   column_kernels::transpose<NB>(G2.data(), nb, A.data());
   G1 += A;
-  multiply_P<NB>(body, work, G1, G2);
+  multiply_P<NB>(body, frozen, G1, G2);
   column_kernels::transpose<NB>(G2.data(), nb, G1.data());
-  multiply_P<NB>(body, work, G1, A);
+  multiply_P<NB>(body, frozen, G1, A);
 }
 
 /// The rarely used a M̄ of Rayleigh damping couples rates through Υ as well: adds c_c a Υᵀ M_BB Υ − W Q Z to A_BB, which
 /// must not have been condensed. W and Z column by column.
-void add_mass_damping(const SuperelementBody& body, SuperelementScratch& scratch) {
-  SuperelementTangent& work = scratch.tangent;
+void add_mass_damping(const SuperelementBody& body, const SuperelementTangent& frozen, SuperelementWork& work) {
   const Eigen::Index nb = body.boundary_size;
   Eigen::VectorXd &in = work.boundary_1, &out = work.boundary_2;
   for (Eigen::Index j = 0; j < nb; ++j) {
     in.setZero();
     in[j] = 1.0;
-    apply_upsilon(body, work, in.data(), out);
+    apply_upsilon(body, frozen, in.data(), out);
     work.work_1.col(j) = out;
-    apply_Z(body, work, in.data(), out);
+    apply_Z(body, frozen, in.data(), out);
     work.work_2.col(j) = out;
   }
   const double a = work.coefficients.damping * body.damping.mass;
   work.work_3.noalias() = body.M_BB.lazyProduct(work.work_1);
-  scratch.A_BB.noalias() += a * work.work_1.transpose().lazyProduct(work.work_3);
+  work.A_BB.noalias() += a * work.work_1.transpose().lazyProduct(work.work_3);
   work.work_3.noalias() = work.Q.lazyProduct(work.work_2);
   for (Eigen::Index j = 0; j < nb; ++j) {
     in = work.work_3.col(j);
-    apply_W(body, work, in, out);
-    scratch.A_BB.col(j) -= out;
+    apply_W(body, frozen, in, out);
+    work.A_BB.col(j) -= out;
   }
 }
 
 }  // namespace
 
-void tangent(const SuperelementBody& body, SuperelementScratch& scratch, const TangentCoefficients& coefficients) {
-  SuperelementTangent& work = scratch.tangent;
+void tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
+             SuperelementWork& work) {
   update_constants(body, coefficients, work);
-  freeze(body, scratch.motion, work);
+  freeze(body, scratch.motion, work, scratch.tangent);
   const bool mass_damping = body.damping.mass > 0.0;
   const bool eliminate = body.modes > 0 && !mass_damping;
   switch (body.boundary_size) {
     case 12:
-      condensed_tangent<12>(body, scratch, eliminate);
+      condensed_tangent<12>(body, scratch, eliminate, work);
       break;
     case 18:
-      condensed_tangent<18>(body, scratch, eliminate);
+      condensed_tangent<18>(body, scratch, eliminate, work);
       break;
     default:
-      condensed_tangent<Eigen::Dynamic>(body, scratch, eliminate);
+      condensed_tangent<Eigen::Dynamic>(body, scratch, eliminate, work);
       break;
   }
-  if (mass_damping) add_mass_damping(body, scratch);
+  if (mass_damping) add_mass_damping(body, scratch.tangent, work);
 }
 
 }  // namespace tisserand::mechanism

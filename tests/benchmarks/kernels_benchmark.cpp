@@ -7,6 +7,7 @@
 #include "mechanism/evaluate.hpp"
 #include "mechanism/integrator.hpp"
 #include "mechanism/newton.hpp"
+#include "tests/benchmarks/mechanisms.hpp"
 #include "tests/benchmarks/scenes.hpp"
 
 namespace tisserand::benchmarks {
@@ -18,7 +19,7 @@ using mechanism::TangentKind;
 /// CPU time of one call [us].
 template <class Action>
 double microseconds(Action action) {
-  for (long count = 64;; count *= 2) {
+  for (long count = 1;; count *= 2) {
     const double begin = cpu_seconds();
     for (long i = 0; i < count; ++i) {
       action();
@@ -37,7 +38,8 @@ struct Kernels {
   double evaluate = 0.0;         ///< all of evaluate(), elements included
   double tangent = 0.0;          ///< all of evaluate_tangent(), elements included
   double factor = 0.0;
-  double solve = 0.0;  ///< with condensation and expansion of internal coordinates
+  double solve = 0.0;       ///< with condensation and expansion of internal coordinates
+  double correction = 0.0;  ///< of the positions, the second solution of stabilised index 2; else 0
 };
 
 Kernels measure(Stopped& run) {
@@ -52,14 +54,16 @@ Kernels measure(Stopped& run) {
   time.tangent = microseconds([&] { mechanism::evaluate_tangent(model, state, c, TangentKind::step, {}, workspace); });
   time.factor = microseconds([&] { benchmark::DoNotOptimize(workspace.solver.numeric(workspace.values)); });
   time.solve = microseconds([&] { mechanism::solve_increment(model, rows, workspace); });
+  if (options.formulation == Formulation::stabilised_index2)
+    time.correction = microseconds([&] { mechanism::solve_correction(model, rows, workspace); });
   time.element = microseconds([&] {
     for (std::size_t i = 0; i < model.superelements.size(); ++i) {
       const int internal = model.internal_offset[i], first = model.sizes.boundary + internal;
-      mechanism::update_kinematics(model.superelements[i], workspace.motion, state.y().data() + internal,
+      mechanism::update_kinematics(body_of(model, i), nodes_of(model, i, workspace), state.y().data() + internal,
                                    state.v().data() + first, state.vdot().data() + first,
                                    Eigen::Matrix3d(workspace.superelements[i].R0_reference),
                                    workspace.superelements[i]);
-      mechanism::residual(model.superelements[i], workspace.superelements[i], model.gravity);
+      mechanism::residual(body_of(model, i), workspace.superelements[i], model.gravity);
     }
   });
   time.element += microseconds([&] {
@@ -69,7 +73,7 @@ Kernels measure(Stopped& run) {
   });
   time.element_tangent = microseconds([&] {
     for (std::size_t i = 0; i < model.superelements.size(); ++i)
-      mechanism::tangent(model.superelements[i], workspace.superelements[i], c);
+      mechanism::tangent(body_of(model, i), c, workspace.superelements[i], work_of(model, i, workspace));
   });
   time.element_tangent += microseconds([&] {
     Eigen::Matrix<double, 12, 1> r;
@@ -81,23 +85,25 @@ Kernels measure(Stopped& run) {
   return time;
 }
 
-Case chosen(int which) {
-  switch (which) {
-    case 0:
-      return hinged_beam(4, Formulation::index3);
-    case 1:
-      return hinged_beam(4, Formulation::stabilised_index2);
-    case 2:
-      return nonlinear_beam(10, 2);
-    default:
-      return chain(100, 20);
-  }
+using MakeCase = Case (*)();
+Case hinged_index3() { return hinged_beam(4, Formulation::index3); }
+Case hinged_index2() { return hinged_beam(4, Formulation::stabilised_index2); }
+Case ten_beams() { return nonlinear_beam(10, 2); }
+template <int links>
+Case superelement_links() {
+  return chain(links, links > 1000 ? 10 : 20);
 }
+template <int links>
+Case rigid_links() {
+  return rigid_chain(links, links > 1000 ? 20 : 50);
+}
+Case crank_of_beams() { return slider_crank_of_beams(8, 0.12); }
+Case crank_reduced() { return slider_crank_reduced(4, 0.12); }
 
 double half_time(const Case& input) { return 0.5 * input.scene.integrator.end; }
 
-void kernels(benchmark::State& state, int which) {
-  const Case input = chosen(which);
+void kernels(benchmark::State& state, MakeCase make) {
+  const Case input = make();
   Stopped stopped(input, half_time(input));
   for (auto _ : state) {
     const Kernels time = measure(stopped);
@@ -108,13 +114,13 @@ void kernels(benchmark::State& state, int which) {
     state.counters["e: solve us"] = time.solve;
   }
 }
-BENCHMARK_CAPTURE(kernels, hinged_beam_4_modes, 1)->Iterations(1)->Repetitions(5);
-BENCHMARK_CAPTURE(kernels, ten_nonlinear_beams, 2)->Iterations(1)->Repetitions(5);
-BENCHMARK_CAPTURE(kernels, chain_of_100, 3)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(kernels, hinged_beam_4_modes, hinged_index2)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(kernels, ten_nonlinear_beams, ten_beams)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(kernels, chain_of_100, superelement_links<100>)->Iterations(1)->Repetitions(5);
 
 /// Times of the kernels by how often a run calls them; `rest` is the integrator's own work.
-void shares(benchmark::State& state, int which) {
-  const Case input = chosen(which);
+void shares(benchmark::State& state, MakeCase make) {
+  const Case input = make();
   Stopped stopped(input, half_time(input));
   for (auto _ : state) {
     const Kernels time = measure(stopped);
@@ -125,7 +131,7 @@ void shares(benchmark::State& state, int which) {
     const double element = evaluations * time.element + factorisations * time.element_tangent;
     const double assembly =
         evaluations * (time.evaluate - time.element) + factorisations * (time.tangent - time.element_tangent);
-    const double factor = factorisations * time.factor, solve = iterations * time.solve;
+    const double factor = factorisations * time.factor, solve = iterations * (time.solve + time.correction);
     const double output = 1e6 * cost.seconds_output / steps;
     state.counters["a: us/step"] = all;
     state.counters["b: element %"] = 100.0 * element / all;
@@ -136,10 +142,16 @@ void shares(benchmark::State& state, int which) {
     state.counters["g: rest %"] = 100.0 * (all - element - assembly - factor - solve - output) / all;
   }
 }
-BENCHMARK_CAPTURE(shares, hinged_beam_index3, 0)->Iterations(1)->Repetitions(5);
-BENCHMARK_CAPTURE(shares, hinged_beam_stabilised_index2, 1)->Iterations(1)->Repetitions(5);
-BENCHMARK_CAPTURE(shares, ten_nonlinear_beams, 2)->Iterations(1)->Repetitions(5);
-BENCHMARK_CAPTURE(shares, chain_of_100, 3)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(shares, hinged_beam_index3, hinged_index3)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(shares, hinged_beam_stabilised_index2, hinged_index2)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(shares, ten_nonlinear_beams, ten_beams)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(shares, slider_crank_of_8_beams, crank_of_beams)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(shares, slider_crank_reduced_rod, crank_reduced)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(shares, rigid_chain_of_100, rigid_links<100>)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(shares, rigid_chain_of_10000, rigid_links<10000>)->Iterations(1)->Repetitions(3);
+BENCHMARK_CAPTURE(shares, chain_of_100, superelement_links<100>)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(shares, chain_of_1000, superelement_links<1000>)->Iterations(1)->Repetitions(5);
+BENCHMARK_CAPTURE(shares, chain_of_10000, superelement_links<10000>)->Iterations(1)->Repetitions(3);
 
 /// Both models in turn, so that the ratios see one machine. Runs differ in how often they factor; the kernels of one
 /// iteration with new factors do not.

@@ -192,8 +192,8 @@ TEST(Condensation, NewtonStepOfTheWholeSystemEqualsTheUncondensedOne) {
       const TangentCoefficients c{4e4, 2e2, 1.0};
       const int nb = model.sizes.boundary, n = model.sizes.velocities(), m = model.sizes.constraints;
       MatrixXd whole = MatrixXd::Zero(n + m, n + m), element;
-      uncondensed_tangent(model.superelements[0], run.workspace.superelements[0], run.workspace.motion, scene.gravity,
-                          c, kind, element);
+      uncondensed_tangent(body_of(model, 0), run.workspace.superelements[0], nodes_of(model, 0, run.workspace),
+                          scene.gravity, c, kind, element);
       whole.topLeftCorner(n, n) = element;  // the only body: its coordinates are the global ones in order
       Eigen::Matrix<double, 12, 12> K;
       const Joint& joint = model.joints[0];

@@ -96,7 +96,7 @@ Energies energies(const SuperelementBody& body, const ComplexState& state, const
   motion.R0 = R0.cast<Complex>();
   motion.y_I = state.y;
   motion.rate_I = state.yd;
-  local_motion<Complex>(body, NodeView<ComplexNode>{state.nodes.data(), body.nodes.data()}, motion);
+  local_motion<Complex>(body, test_support::in_order(state.nodes), motion);
   const auto form = [](const auto& a, const Eigen::MatrixXd& A, const auto& b) {
     return (a.transpose() * (A * b))(0, 0);
   };
@@ -190,7 +190,7 @@ TEST_P(SuperelementForcesOf, ExactCentreOfMassMovesAsItsDerivatives) {
   motion.R0 = scratch_.motion.R0.cast<Complex>();
   motion.y_I = moved.y;
   motion.rate_I = moved.yd;
-  local_motion<Complex>(body_, NodeView<ComplexNode>{moved.nodes.data(), body_.nodes.data()}, motion);
+  local_motion<Complex>(body_, test_support::in_order(moved.nodes), motion);
   const Vec3<Complex> center = motion.x0 + motion.R0 * deformed_center_of_mass<Complex>(body_, motion);
   const Vec3<Complex> velocity = motion.R0 * motion.center_velocity;
   const Eigen::Matrix3d R0 = scratch_.motion.R0;

@@ -83,7 +83,7 @@ Derivatives complex_step(const SuperelementBody& body, const BodyState& state, c
     motion.rate_I = state.yd + i * c.damping * d.tail(body.modes);
     motion.acceleration_I = state.ydd + i * c.mass * d.tail(body.modes);
     motion.R0 = R0.cast<Complex>();
-    local_motion<Complex>(body, NodeView<NodeMotionOf<Complex>>{nodes.data(), body.nodes.data()}, motion);
+    local_motion<Complex>(body, test_support::in_order(nodes), motion);
     superelement_forces<Eigen::Dynamic>(body, motion, kGravity, forces);
     result.residual.col(column) << forces.r_B.imag() / kStep, forces.r_I.imag() / kStep;
     result.y.col(column) = motion.y_B.imag() / kStep;
@@ -97,11 +97,12 @@ class SuperelementTangents : public testing::TestWithParam<Case> {
     body_ = make_body(GetParam());
     state_ = test_support::random_state(body_, 7, 0.1);
     scratch_ = make_scratch(body_);
+    work_ = make_work(body_);
     test_support::evaluate(body_, state_, kGravity, scratch_);
   }
   Eigen::MatrixXd tangent_of(const TangentCoefficients& c, TangentKind kind) const {
     Eigen::MatrixXd A;
-    uncondensed_tangent(body_, scratch_, state_.nodes, kGravity, c, kind, A);
+    uncondensed_tangent(body_, scratch_, test_support::in_order(state_.nodes), kGravity, c, kind, A);
     return A;
   }
   Eigen::Matrix3d start_of_frame() const {
@@ -112,6 +113,7 @@ class SuperelementTangents : public testing::TestWithParam<Case> {
   SuperelementBody body_;
   BodyState state_;
   SuperelementScratch scratch_;
+  SuperelementWork work_;
 };
 
 TEST_P(SuperelementTangents, ExactKindIsTheDerivativeOfTheResidual) {
@@ -135,19 +137,19 @@ TEST_P(SuperelementTangents, StepStiffnessUsesTheExactProjector) {
 }
 
 /// Schur complement, condensed residual and both parts of the solution against a dense solve of the whole system.
-void expect_condensed_equals_whole(const SuperelementBody& body, SuperelementScratch& scratch,
-                                   const Eigen::MatrixXd& A) {
+void expect_condensed_equals_whole(const SuperelementBody& body, const SuperelementScratch& scratch,
+                                   const Eigen::MatrixXd& A, SuperelementWork& work) {
   const Eigen::Index nb = body.boundary_size, m = body.modes;
   const Eigen::MatrixXd A_BI = A.topRightCorner(nb, m), A_IB = A.bottomLeftCorner(m, nb),
                         A_II = A.bottomRightCorner(m, m);
-  EXPECT_LT(relative_difference(scratch.A_BB, A.topLeftCorner(nb, nb) - A_BI * A_II.inverse() * A_IB), 1e-12);
+  EXPECT_LT(relative_difference(work.A_BB, A.topLeftCorner(nb, nb) - A_BI * A_II.inverse() * A_IB), 1e-12);
   Eigen::VectorXd r(nb + m);
   r << scratch.forces.r_B, scratch.forces.r_I;
   const Eigen::VectorXd whole = -A.partialPivLu().solve(r);
-  condense(body, scratch);
-  const Eigen::VectorXd dq_B = -scratch.A_BB.partialPivLu().solve(scratch.r_B_condensed);
+  condense(body, scratch, work);
+  const Eigen::VectorXd dq_B = -work.A_BB.partialPivLu().solve(work.r_B_condensed);
   Eigen::VectorXd dy_I(m);
-  expand(body, scratch, dq_B.data(), dy_I.data());
+  expand(body, scratch, dq_B.data(), dy_I.data(), work);
   EXPECT_LT(relative_difference(dq_B, whole.head(nb)), 1e-12);
   if (m > 0) {
     EXPECT_LT((dy_I - whole.tail(m)).cwiseAbs().maxCoeff(), 1e-12 * whole.cwiseAbs().maxCoeff());
@@ -158,11 +160,36 @@ TEST_P(SuperelementTangents, CondensedEqualsUncondensed) {
   // A step of 0.05, then others, then the first again: the cached constants must follow the coefficients.
   const TangentCoefficients first{1.1 * 1600.0, 0.55 * 40.0, 1.0}, second{1.0, 0.3, 0.02};
   for (const TangentCoefficients& c : {first, second, first}) {
-    tangent(body_, scratch_, c);
-    expect_condensed_equals_whole(body_, scratch_, tangent_of(c, TangentKind::step));
-    exact_tangent(body_, scratch_, state_.nodes, kGravity, c);
-    expect_condensed_equals_whole(body_, scratch_, tangent_of(c, TangentKind::exact));
+    tangent(body_, c, scratch_, work_);
+    expect_condensed_equals_whole(body_, scratch_, tangent_of(c, TangentKind::step), work_);
+    exact_tangent(body_, test_support::in_order(state_.nodes), kGravity, c, scratch_, work_);
+    expect_condensed_equals_whole(body_, scratch_, tangent_of(c, TangentKind::exact), work_);
   }
+}
+
+// Two uses that work with the same matrices in turn, each with coefficients of its own, are solved as if alone.
+TEST_P(SuperelementTangents, UsesOfOneBodyTakeTurns) {
+  const BodyState other_state = test_support::random_state(body_, 11, 0.1);
+  SuperelementScratch other = make_scratch(body_);
+  test_support::evaluate(body_, other_state, kGravity, other);
+  const TangentCoefficients c{1.1 * 1600.0, 0.55 * 40.0, 1.0}, other_c{1.0, 0.3, 0.02};
+  tangent(body_, c, scratch_, work_);
+  const Eigen::MatrixXd A_BB = work_.A_BB;
+  condense(body_, scratch_, work_);
+  const Eigen::VectorXd r_B = work_.r_B_condensed, dq_B = Eigen::VectorXd::LinSpaced(body_.boundary_size, -1.0, 2.0);
+  Eigen::VectorXd alone(body_.modes), in_turn(body_.modes);
+  expand(body_, scratch_, dq_B.data(), alone.data(), work_);
+
+  tangent(body_, c, scratch_, work_);
+  EXPECT_EQ(work_.A_BB, A_BB);
+  tangent(body_, other_c, other, work_);
+  EXPECT_NE(work_.A_BB, A_BB);
+  condense(body_, other, work_);
+  condense(body_, scratch_, work_);
+  EXPECT_EQ(work_.r_B_condensed, r_B);
+  expand(body_, other, dq_B.data(), in_turn.data(), work_);
+  expand(body_, scratch_, dq_B.data(), in_turn.data(), work_);
+  EXPECT_EQ(in_turn, alone);
 }
 
 std::vector<Case> cases() {

@@ -42,8 +42,8 @@ BodyState random_state(const mechanism::SuperelementBody& body, unsigned seed, d
 
 void evaluate(const mechanism::SuperelementBody& body, const BodyState& state, const Eigen::Vector3d& gravity,
               mechanism::SuperelementScratch& scratch) {
-  mechanism::update_kinematics(body, state.nodes, state.y.data(), state.yd.data(), state.ydd.data(), state.R0_reference,
-                               scratch);
+  mechanism::update_kinematics(body, in_order(state.nodes), state.y.data(), state.yd.data(), state.ydd.data(),
+                               state.R0_reference, scratch);
   mechanism::residual(body, scratch, gravity);
 }
 

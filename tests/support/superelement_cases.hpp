@@ -1,6 +1,7 @@
 // States of superelement bodies and their residuals, for the tests of the superelement body.
 #pragma once
 
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -21,6 +22,17 @@ struct BodyState {
 Eigen::Vector3d random_vector(std::mt19937& random, double size);
 
 Eigen::VectorXd random_vector_n(std::mt19937& random, Eigen::Index n, double size);
+
+/// The nodes as the body numbers them.
+template <class Node>
+mechanism::NodeView<Node> in_order(const std::vector<Node>& nodes) {
+  static const std::vector<int> index = [] {
+    std::vector<int> numbers(100);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    return numbers;
+  }();
+  return {nodes.data(), index.data()};
+}
 
 /// A random pose with deformations of relative size `deformation` and rates of order 1.
 BodyState random_state(const mechanism::SuperelementBody& body, unsigned seed, double deformation);

@@ -52,14 +52,14 @@ SuperelementFiles one_file(const formats::Superelement& element) {
 /// axes.
 Vector3d angular_momentum(Simulation& run) {
   evaluate(run.model(), run.state(), run.workspace);
-  const SuperelementBody& body = run.model().superelements[0];
+  const SuperelementBody& body = body_of(run.model(), 0);
+  const NodeView<NodeMotion> nodes = nodes_of(run.model(), 0, run.workspace);
   Eigen::MatrixXd M;
-  uncondensed_tangent(body, run.workspace.superelements[0], run.workspace.motion, Vector3d::Zero(), {1, 0, 0},
-                      TangentKind::step, M);
+  uncondensed_tangent(body, run.workspace.superelements[0], nodes, Vector3d::Zero(), {1, 0, 0}, TangentKind::step, M);
   const Eigen::VectorXd p = M * Eigen::VectorXd(run.state().v());
   Vector3d sum = Vector3d::Zero();
   for (std::size_t j = 0; j < body.node.size(); ++j) {
-    const NodeMotion& node = run.workspace.motion[static_cast<std::size_t>(body.nodes[j])];
+    const NodeMotion& node = nodes[j];
     sum += node.x.cross(p.segment<3>(body.node[j].translation_row)) + node.R * p.segment<3>(body.node[j].rotation_row);
   }
   return sum;
