@@ -56,8 +56,10 @@ Eigen::Vector3d read_mirror(const MapReader& map) {
   };
   const YamlNode* node = map.find("mirror");
   if (node == nullptr) return axes;
-  if (node->kind != YamlKind::sequence) apply(*node);
-  for (const YamlNode& plane : node->children) apply(plane);
+  if (node->kind != YamlKind::sequence)
+    apply(*node);
+  else
+    for (const YamlNode& plane : node->children) apply(plane);
   return axes;
 }
 

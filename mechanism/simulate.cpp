@@ -2,6 +2,8 @@
 #include "mechanism/simulate.hpp"
 
 #include <algorithm>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "common/error.hpp"
@@ -102,13 +104,14 @@ void equilibrate(Run& run, RowWriter& out) {
 BodyFiles read_body_files(const formats::Scene& scene) {
   BodyFiles files;
   std::vector<Error> errors;
+  std::set<std::string> superelements, modal_bodies;  // also those that cannot be read, which are named once
   for (const formats::BodySpec& body : scene.bodies) {
     const auto* superelement = std::get_if<formats::SuperelementBodySpec>(&body);
     const auto* modal = std::get_if<formats::ModalBodySpec>(&body);
     try {
-      if (superelement != nullptr && !files.superelements.contains(superelement->file))
+      if (superelement != nullptr && superelements.insert(superelement->file).second)
         files.superelements[superelement->file] = formats::read_superelement(superelement->file);
-      if (modal != nullptr && !files.modal_bodies.contains(modal->file))
+      if (modal != nullptr && modal_bodies.insert(modal->file).second)
         files.modal_bodies[modal->file] = formats::read_modal_body(modal->file);
     } catch (const Error& error) {
       errors.push_back(error);

@@ -57,7 +57,7 @@ struct RunReport {
   double seconds_model = 0.0, seconds_start = 0.0, seconds_steps = 0.0, seconds_output = 0.0;
 };
 
-/// Reads the superelement files of a scene, each once.
+/// Reads the superelement and modal body files of a scene, each once. Throws Error: all that cannot be read, each once.
 BodyFiles read_body_files(const formats::Scene& scene);
 
 /// One analysis of a scene: what it reads and starts from, and where its rows go.

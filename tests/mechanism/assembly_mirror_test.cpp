@@ -223,6 +223,12 @@ void add_files(std::vector<Case>& all) {
       all.push_back({fmt::format("superelement_{}_{}", all.size(), formulation),
                      with_file("type: superelement, file: frame.h5, gravity: [0, 4, 1], " + option, ends), false,
                      formulation});
+  all.push_back(
+      {"files_in_instances_inside",
+       two_bodies + "assemblies:\n  side:\n    parameters: {at: b}\n    bodies:\n      c: {type: superelement, file: "
+                    "frame.h5, pose: {orientation: {axis: [1, 1, 0], angle_deg: 60}}}\n    joints: {k: {type: "
+                    "spherical, a: $at, b: c/n2}}\ninstances:\n  l: {use: side, parameters: {at: a}}\n  r: {use: side, "
+                    "mirror: yz, pose: {position: [1, 0.7, 0.4]}}\n"});
   all.push_back({"rigid_from_file", with_file("type: rigid, from: frame.h5, mirror: xy", ends)});
   for (const std::string formulation : {"stabilised_index2", "index3"})
     for (const std::string body : {"node_fixed.h5, mirror: xz", "node_fixed.h5", "mean_axis.h5, damping: {ratio: 0.1}"})
