@@ -38,6 +38,14 @@ TEST(UsesOfSuperelements, ShareABodyWhereFileAndOptionsAreTheSame) {
           [](SuperelementBodySpec& s) {
             s.position_weights = {{"n0", 1.0}};
           }),
+      use("image", "frame",
+          [](SuperelementBodySpec& s) {
+            s.mirror = {1, -1, 1};
+          }),
+      use("same_image", "frame",
+          [](SuperelementBodySpec& s) {
+            s.mirror = {1, -1, 1};
+          }),
       use("last", "frame", [](SuperelementBodySpec& s) { s.gravity = Eigen::Vector3d(1.0, 0.0, 0.0); }),
   };
   formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
@@ -45,11 +53,11 @@ TEST(UsesOfSuperelements, ShareABodyWhereFileAndOptionsAreTheSame) {
   const BuiltModel built = build_model(scene, files);
   std::vector<int> bodies;
   for (const SuperelementUse& superelement : built.model.superelements) bodies.push_back(superelement.body);
-  EXPECT_EQ(bodies, (std::vector<int>{0, 0, 1, 2, 3, 4, 5, 6, 0}));
-  EXPECT_EQ(built.model.superelement_bodies.size(), 7u);
+  EXPECT_EQ(bodies, (std::vector<int>{0, 0, 1, 2, 3, 4, 5, 6, 7, 7, 0}));
+  EXPECT_EQ(built.model.superelement_bodies.size(), 8u);
   EXPECT_EQ(body_of(built.model, 3).modes, 1);
-  EXPECT_EQ(built.model.superelements[8].gravity.x(), 1.0);
-  EXPECT_EQ(built.model.superelements[8].name, "last");
+  EXPECT_EQ(built.model.superelements[10].gravity.x(), 1.0);
+  EXPECT_EQ(built.model.superelements[10].name, "last");
   EXPECT_NE(built.model.superelements[0].nodes, built.model.superelements[1].nodes);
 }
 
