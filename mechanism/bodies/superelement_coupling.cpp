@@ -77,10 +77,17 @@ void apply_Z(const SuperelementBody& body, const SuperelementTangent& tangent, c
   }
 }
 
-void apply_W(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
-             Eigen::VectorXd& out) {
+namespace {
+
+/// c_m Pᵀ t + c_c (Pᵀ (O₀ ∓ turn O_B) t − frame UᵀVᵀ t + damping Υᵀ t): W t with 1, 1, a; Zᵀ t with 0, −1, a.
+struct Side {
+  double turn, frame, damping;
+};
+
+void apply_side(const SuperelementBody& body, const SuperelementTangent& tangent, const Side& side,
+                const Eigen::VectorXd& t, Eigen::VectorXd& out) {
   const TangentCoefficients& c = tangent.coefficients;
-  const double a = c.damping * body.damping.mass;
+  const double a = c.damping * side.damping;
   const bool option_A = body.inertia == formats::InertiaOption::A;
   Vector3d moment = Vector3d::Zero(), total = Vector3d::Zero();
   for (std::size_t i = 0; i < body.node.size(); ++i) {
@@ -89,11 +96,11 @@ void apply_W(const SuperelementBody& body, const SuperelementTangent& tangent, c
     if (node.has_translation()) {
       const Vector3d s = t.segment<3>(node.translation_row);
       total += s;
-      moment += c.damping * local.xd.cross(s) - a * local.xh.cross(s);
+      moment += side.frame * c.damping * local.xd.cross(s) - a * local.xh.cross(s);
     }
     if (node.has_rotation()) {
       const Vector3d s = t.segment<3>(node.rotation_row);
-      if (option_A) moment += c.damping * local.Omega.cross(s);
+      if (option_A) moment += side.frame * c.damping * local.Omega.cross(s);
       if (a > 0.0) moment -= a * (local.Tinv * s);
     }
   }
@@ -110,12 +117,29 @@ void apply_W(const SuperelementBody& body, const SuperelementTangent& tangent, c
     const Vector3d s = t.segment<3>(node.rotation_row);
     Vector3d f;
     if (option_A)
-      f = local.E.transpose() * (c.mass * s + c.damping * (tangent.Omega0 - local.Omega).cross(s));
+      f = local.E.transpose() * (c.mass * s + c.damping * (tangent.Omega0 - side.turn * local.Omega).cross(s));
     else
-      f = c.mass * s + c.damping * local.Omega.cross(s);
+      f = c.mass * s + (side.turn * c.damping) * local.Omega.cross(s);
     if (a > 0.0) f += a * (local.Tinv.transpose() * s);
     out.segment<3>(node.rotation_row) = f + local.U.transpose() * moment;
   }
+}
+
+}  // namespace
+
+void apply_W(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
+             Eigen::VectorXd& out) {
+  apply_side(body, tangent, {.turn = 1.0, .frame = 1.0, .damping = body.damping.mass}, t, out);
+}
+
+void apply_inertia_of_W(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
+                        Eigen::VectorXd& out) {
+  apply_side(body, tangent, {.turn = 1.0, .frame = 1.0, .damping = 0.0}, t, out);
+}
+
+void apply_Z_transposed(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
+                        Eigen::VectorXd& out) {
+  apply_side(body, tangent, {.turn = 0.0, .frame = -1.0, .damping = body.damping.mass}, t, out);
 }
 
 void condense(const SuperelementBody& body, const SuperelementScratch& scratch, SuperelementWork& work) {

@@ -14,6 +14,14 @@ void apply_upsilon(const SuperelementBody& body, const SuperelementTangent& tang
 /// out = Z v, Z = c_m P + c_c (O₀ᵀ P + V U + a Υ).
 void apply_Z(const SuperelementBody& body, const SuperelementTangent& tangent, const double* v, Eigen::VectorXd& out);
 
+/// out = W t without a.
+void apply_inertia_of_W(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
+                        Eigen::VectorXd& out);
+
+/// out = Zᵀ t.
+void apply_Z_transposed(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
+                        Eigen::VectorXd& out);
+
 /// out = W t, W = c_m Pᵀ + c_c (Pᵀ (O₀ ∓ O_B) − UᵀVᵀ + a Υᵀ).
 void apply_W(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
              Eigen::VectorXd& out);

@@ -14,6 +14,10 @@ SuperelementScratch make_scratch(const SuperelementBody& body) {
   tangent.Omega0.setZero();
   tangent.node = scratch.motion.node;
   tangent.U.setZero(3, body.boundary_size);
+  if (body.inertia == formats::InertiaOption::M) {
+    tangent.A_BI.setZero(body.boundary_size, body.modes);
+    tangent.A_IB.setZero(body.modes, body.boundary_size);
+  }
   return scratch;
 }
 

@@ -75,8 +75,8 @@ void tangent(const SuperelementBody& body, const TangentCoefficients& coefficien
              SuperelementWork& work);
 
 /// The same with the exact combination c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q by dual numbers; the elimination of y_I takes
-/// the diagonal of A_II, which with inertia M is all of it only at rest (the step tangent of M is that of B, wrong by
-/// the deformation times the inertia). Allocates.
+/// the diagonal of A_II, which with inertia M is all of it only at rest (Ω₀ couples internal coordinates; the step
+/// tangent of M leaves that out, superelement_center_tangent.hpp). Allocates.
 void exact_tangent(const SuperelementBody& body, const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,
                    const TangentCoefficients& coefficients, SuperelementScratch& scratch, SuperelementWork& work);
 

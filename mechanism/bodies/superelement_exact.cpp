@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 
 #include "common/dual.hpp"
+#include "mechanism/bodies/superelement_center_tangent.hpp"
 #include "mechanism/bodies/superelement_coupling.hpp"
 #include "mechanism/bodies/superelement_evaluate.hpp"
 
@@ -157,6 +158,13 @@ void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch
   const Eigen::MatrixXd UpsilonT = d.Upsilon.transpose();
   A = c.mass * PT * d.M * d.P + c.damping * (C1 + C2 + C3 + UpsilonT * d.D * d.Upsilon) +
       c.stiffness * UpsilonT * d.S * d.Upsilon;
+  if (body.inertia != formats::InertiaOption::M) return;
+  SuperelementTangent frozen = scratch.tangent;
+  frozen.coefficients = c;
+  frozen.R0 = scratch.motion.R0;
+  frozen.Omega0 = scratch.motion.Omega0;
+  frozen.node = scratch.motion.node;
+  A += center_of_mass_tangent(body, scratch.motion, frozen);
 }
 
 void exact_tangent(const SuperelementBody& body, const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,

@@ -1,6 +1,7 @@
 // Step tangent of a superelement body with the internal coordinates eliminated: the inner loop of every time step.
 #include <Eigen/Core>
 
+#include "mechanism/bodies/superelement_center_tangent.hpp"
 #include "mechanism/bodies/superelement_coupling.hpp"
 #include "mechanism/bodies/superelement_evaluate.hpp"
 
@@ -277,6 +278,7 @@ void add_mass_damping(const SuperelementBody& body, const SuperelementTangent& f
   const double a = work.coefficients.damping * body.damping.mass;
   work.work_3.noalias() = body.M_BB.lazyProduct(work.work_1);
   work.A_BB.noalias() += a * work.work_1.transpose().lazyProduct(work.work_3);
+  if (body.inertia == InertiaOption::M) return;  // eliminates with what it adds
   work.work_3.noalias() = work.Q.lazyProduct(work.work_2);
   for (Eigen::Index j = 0; j < nb; ++j) {
     in = work.work_3.col(j);
@@ -292,7 +294,8 @@ void tangent(const SuperelementBody& body, const TangentCoefficients& coefficien
   update_constants(body, coefficients, work);
   freeze(body, scratch.motion, work, scratch.tangent);
   const bool mass_damping = body.damping.mass > 0.0;
-  const bool eliminate = body.modes > 0 && !mass_damping;
+  const bool exact_center = body.inertia == InertiaOption::M;
+  const bool eliminate = body.modes > 0 && !mass_damping && !exact_center;
   switch (body.boundary_size) {
     case 12:
       condensed_tangent<12>(body, scratch, eliminate, work);
@@ -305,6 +308,7 @@ void tangent(const SuperelementBody& body, const TangentCoefficients& coefficien
       break;
   }
   if (mass_damping) add_mass_damping(body, scratch.tangent, work);
+  if (exact_center) add_center_of_mass_tangent(body, scratch, work);
 }
 
 }  // namespace tisserand::mechanism

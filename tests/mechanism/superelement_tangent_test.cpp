@@ -29,7 +29,7 @@ struct Case {
 };
 
 std::ostream& operator<<(std::ostream& out, const Case& c) {
-  return out << c.element << " frame " << static_cast<int>(c.frame) << (c.inertia == InertiaOption::A ? " A" : " B")
+  return out << c.element << " frame " << static_cast<int>(c.frame) << ' ' << "ABM"[static_cast<int>(c.inertia)]
              << " damping " << c.damping;
 }
 
@@ -108,6 +108,9 @@ class SuperelementTangents : public testing::TestWithParam<Case> {
   Eigen::Matrix3d start_of_frame() const {
     return GetParam().frame == FrameKind::paper ? state_.R0_reference : scratch_.motion.R0;
   }
+  double step_error(const TangentCoefficients& c) const {
+    return relative_difference(tangent_of(c, TangentKind::step), reference(c).residual);
+  }
   Derivatives reference(const TangentCoefficients& c) const { return complex_step(body_, state_, start_of_frame(), c); }
 
   SuperelementBody body_;
@@ -123,8 +126,10 @@ TEST_P(SuperelementTangents, ExactKindIsTheDerivativeOfTheResidual) {
 }
 
 TEST_P(SuperelementTangents, StepKindHasExactMassAndPseudodamping) {
-  for (const TangentCoefficients& c : {TangentCoefficients{.mass = 1}, {.damping = 1}, {1.0, 3.0, 0.0}})
-    EXPECT_LT(relative_difference(tangent_of(c, TangentKind::step), reference(c).residual), 1e-12);
+  EXPECT_LT(step_error({.mass = 1}), 1e-12);
+  if (GetParam().inertia == InertiaOption::M) return;
+  EXPECT_LT(step_error({.damping = 1}), 1e-12);
+  EXPECT_LT(step_error({1.0, 3.0, 0.0}), 1e-12);
 }
 
 // Step stiffness is Υᵀ S̄ Υ with Υ = ∂y/∂q.
@@ -134,6 +139,37 @@ TEST_P(SuperelementTangents, StepStiffnessUsesTheExactProjector) {
   Eigen::MatrixXd expected = Upsilon.transpose() * body_.S_BB * Upsilon;
   expected.bottomRightCorner(body_.modes, body_.modes) += Eigen::MatrixXd(body_.S_II.asDiagonal());
   EXPECT_LT(relative_difference(tangent_of(c, TangentKind::step), expected), 1e-12);
+}
+
+// Pseudodamping of option M: the gyroscopic coupling of internal coordinates is left out, and U̇, which falls with the
+// deformation.
+class CenterOfMassTangents : public SuperelementTangents {};
+
+TEST_P(CenterOfMassTangents, LeaveOutWhatVanishesWithoutDeformation) {
+  const TangentCoefficients c{.damping = 1};
+  const auto set_state = [&](double deformation) {
+    state_ = test_support::random_state(body_, 7, deformation);
+    test_support::evaluate(body_, state_, kGravity, scratch_);
+  };
+  set_state(0.0);
+  const int m = body_.modes;
+  const Eigen::MatrixXd exact = reference(c).residual;
+  Eigen::MatrixXd left_out = exact - tangent_of(c, TangentKind::step);
+  const Eigen::MatrixXd gyroscopic =
+      2.0 / body_.mass * body_.Gamma_I.transpose() * skew<double>(scratch_.motion.Omega0) * body_.Gamma_I;
+  left_out.bottomRightCorner(m, m) -= gyroscopic;
+  EXPECT_LT(left_out.cwiseAbs().maxCoeff(), 1e-12 * exact.cwiseAbs().maxCoeff());
+  const auto boundary_error = [&](double deformation) {
+    set_state(deformation);
+    const Eigen::Index nb = body_.boundary_size;
+    return relative_difference(tangent_of(c, TangentKind::step).topLeftCorner(nb, nb),
+                               reference(c).residual.topLeftCorner(nb, nb));
+  };
+  const double small = boundary_error(1e-3);
+  EXPECT_LT(small, 1e-2);
+  if (small > 1e-12) {  // a frame of one node has U̇ = 0
+    EXPECT_NEAR(boundary_error(1e-2) / small, 10.0, 3.0);
+  }
 }
 
 /// Schur complement, condensed residual and both parts of the solution against a dense solve of the whole system.
@@ -162,6 +198,7 @@ TEST_P(SuperelementTangents, CondensedEqualsUncondensed) {
   for (const TangentCoefficients& c : {first, second, first}) {
     tangent(body_, c, scratch_, work_);
     expect_condensed_equals_whole(body_, scratch_, tangent_of(c, TangentKind::step), work_);
+    if (GetParam().inertia == InertiaOption::M) continue;  // A_II of the exact tangent is not diagonal
     exact_tangent(body_, test_support::in_order(state_.nodes), kGravity, c, scratch_, work_);
     expect_condensed_equals_whole(body_, scratch_, tangent_of(c, TangentKind::exact), work_);
   }
@@ -195,17 +232,25 @@ TEST_P(SuperelementTangents, UsesOfOneBodyTakeTurns) {
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const std::string element : {"beam", "frame", "guyan", "mixed", "network"})
-    for (const InertiaOption inertia : {InertiaOption::A, InertiaOption::B}) {
+    for (const InertiaOption inertia : {InertiaOption::A, InertiaOption::B, InertiaOption::M}) {
       all.push_back({element, FrameKind::karcher, inertia, 0.0});
       all.push_back({element, FrameKind::karcher, inertia, 0.4});
       if (element == "network") continue;
-      all.push_back({element, FrameKind::paper, inertia, 0.4});
+      if (inertia != InertiaOption::M) all.push_back({element, FrameKind::paper, inertia, 0.4});
       all.push_back({element, FrameKind::node, inertia, 0.0});
     }
   return all;
 }
 
 INSTANTIATE_TEST_SUITE_P(Bodies, SuperelementTangents, testing::ValuesIn(cases()));
+
+std::vector<Case> cases_of_the_exact_center() {
+  std::vector<Case> all = cases();
+  std::erase_if(all, [](const Case& c) { return c.inertia != InertiaOption::M; });
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Bodies, CenterOfMassTangents, testing::ValuesIn(cases_of_the_exact_center()));
 
 }  // namespace
 }  // namespace tisserand::mechanism
