@@ -14,7 +14,8 @@ namespace {
 TEST(SuperelementStep, AllocatesNothing) {
   const Eigen::Vector3d gravity(0.7, -9.1, 2.0);
   for (const std::string name : {"beam", "frame", "guyan", "mixed", "network"})
-    for (const formats::InertiaOption inertia : {formats::InertiaOption::A, formats::InertiaOption::B})
+    for (const formats::InertiaOption inertia :
+         {formats::InertiaOption::A, formats::InertiaOption::B, formats::InertiaOption::M})
       for (const double damping : {0.0, 0.2}) {
         const formats::Superelement element = test_support::test_superelement(name);
         SuperelementOptions options;
