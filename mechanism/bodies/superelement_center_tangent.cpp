@@ -140,9 +140,9 @@ void add_center_of_mass_tangent(const SuperelementBody& body, SuperelementScratc
     apply_inertia_of_W(body, frozen, work.boundary_1, work.boundary_2);
     columns.w.col(k) = work.boundary_2;
   }
-  work.A_BB.noalias() += (body.mass * columns.J).lazyProduct(columns.F.transpose());
-  work.A_BB.noalias() -= (columns.w / body.mass).lazyProduct(columns.g.transpose());
-  work.A_BB.noalias() -= (columns.g / body.mass).lazyProduct(columns.z.transpose());
+  work.A_BB.noalias() += body.mass * columns.J.lazyProduct(columns.F.transpose());
+  work.A_BB.noalias() -= columns.w.lazyProduct(columns.g.transpose()) / body.mass;
+  work.A_BB.noalias() -= columns.g.lazyProduct(columns.z.transpose()) / body.mass;
   if (body.modes == 0) return;
   // ΔA_BI = (Jᵀ (c_m + 2 c_c Ω₀~) − W Γ_Bᵀ/m) Γ_I and ΔA_IB = Γ_Iᵀ (c_m J + c_c A_v − Γ_B Z/m).
   columns.w = columns.J.lazyProduct(acceleration_of_rates(c, scratch.motion)) - columns.w / body.mass;
@@ -156,7 +156,7 @@ void add_center_of_mass_tangent(const SuperelementBody& body, SuperelementScratc
     apply_Z_transposed(body, frozen, work.boundary_1, work.boundary_2);
     work.boundary_2.noalias() += columns.F.lazyProduct(body.Gamma_I.col(k));
     frozen.A_IB.row(k) = work.boundary_2;
-    work.A_BB.noalias() -= (work.inverse_D[k] * frozen.A_BI.col(k)).lazyProduct(work.boundary_2.transpose());
+    work.A_BB.noalias() -= work.inverse_D[k] * frozen.A_BI.col(k).lazyProduct(work.boundary_2.transpose());
   }
 }
 
