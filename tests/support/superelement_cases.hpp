@@ -1,6 +1,7 @@
 // States of superelement bodies and their residuals, for the tests of the superelement body.
 #pragma once
 
+#include <array>
 #include <numeric>
 #include <random>
 #include <vector>
@@ -26,8 +27,8 @@ Eigen::VectorXd random_vector_n(std::mt19937& random, Eigen::Index n, double siz
 /// The nodes as the body numbers them.
 template <class Node>
 mechanism::NodeView<Node> in_order(const std::vector<Node>& nodes) {
-  static const std::vector<int> index = [] {
-    std::vector<int> numbers(100);
+  static constexpr std::array<int, 100> index = [] {
+    std::array<int, 100> numbers{};
     std::iota(numbers.begin(), numbers.end(), 0);
     return numbers;
   }();
