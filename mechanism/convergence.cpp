@@ -13,7 +13,7 @@ using formats::IntegratorSpec;
 /// Largest error of an iterated floating frame [rad].
 constexpr double frame_tolerance = 1e-10;
 /// Violations of constraints relative to what accelerations move in a step, in units of Newton's tolerance.
-constexpr double share_of_motion = 10.0;
+constexpr double share_of_motion = 5.0;
 
 /// The first NaN stays.
 void raise(double& value, int& at, double candidate, int index) {

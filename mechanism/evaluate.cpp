@@ -203,10 +203,9 @@ void clear_tangent(const Model& model, const TangentCoefficients& coefficients, 
   std::fill(workspace.values.begin(), workspace.values.end(), 0.0);
 }
 
-/// Of everything that acts on nodes without internal coordinates.
-void add_node_tangents(const Model& model, const State& state, const TangentCoefficients& coefficients,
-                       const ConstraintRows& rows, Workspace& workspace) {
-  const double factor = 1.0 / workspace.matrix_scale;
+/// Of bodies without internal coordinates.
+void add_body_tangents(const Model& model, const TangentCoefficients& coefficients, double factor,
+                       Workspace& workspace) {
   add_beam_tangents(model.beams2, model.beam2_maps, coefficients, factor, workspace);
   add_beam_tangents(model.beams3, model.beam3_maps, coefficients, factor, workspace);
   Matrix6d A;
@@ -218,6 +217,14 @@ void add_node_tangents(const Model& model, const State& state, const TangentCoef
     tangent(model.modal_bodies[i], coefficients, workspace.modal_bodies[i]);
     scatter_matrix(model.modal_maps[i], workspace.modal_bodies[i].tangent, factor, workspace.values);
   }
+}
+
+/// Of everything that acts on nodes without internal coordinates.
+void add_node_tangents(const Model& model, const State& state, const TangentCoefficients& coefficients,
+                       const ConstraintRows& rows, Workspace& workspace) {
+  const double factor = 1.0 / workspace.matrix_scale;
+  add_body_tangents(model, coefficients, factor, workspace);
+  Matrix6d A;
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
     const NodeMotion& node = motion_of(workspace, load.at.node);
@@ -327,6 +334,27 @@ void evaluate_tangent_without_superelements(const Model& model, const State& sta
   clear_tangent(model, coefficients, workspace);
   add_node_tangents(model, state, coefficients, rows, workspace);
   deactivate_rows(model, state, workspace);
+}
+
+void evaluate_weight(const Model& model, const State& state, const TangentCoefficients& coefficients,
+                     Workspace& workspace, std::vector<double>& values) {
+  // The factors of the iteration matrix still need its values: they wait in `values`.
+  const double scale = workspace.matrix_scale;
+  workspace.values.swap(values);
+  clear_tangent(model, coefficients, workspace);
+  const double factor = 1.0 / workspace.matrix_scale;
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    SuperelementWork& work = work_of(model, i, workspace);
+    boundary_weight(body_of(model, i), coefficients, workspace.superelements[i], work);
+    scatter_matrix(model.superelement_maps[i], work.A_BB, factor, workspace.values);
+  }
+  add_body_tangents(model, coefficients, factor, workspace);
+  const ConstraintRows rows;
+  add_joint_tangents(model, state, 0.0, rows, workspace);
+  add_coordinate_tangents(model, state, coefficients, 0.0, rows, workspace);
+  deactivate_rows(model, state, workspace);
+  workspace.values.swap(values);
+  workspace.matrix_scale = scale;
 }
 
 void update_modal_nodes(const Model& model, Workspace& workspace) {

@@ -46,6 +46,11 @@ struct ConstraintRows {
 void evaluate_tangent(const Model& model, const State& state, const TangentCoefficients& coefficients, TangentKind kind,
                       const ConstraintRows& rows, Workspace& workspace);
 
+/// Fills `values` of [W/s Bᵀ; B 0] with W = c_m M + c_k K of the bodies alone, at the state of the last evaluate();
+/// superelements with their boundary coordinates.
+void evaluate_weight(const Model& model, const State& state, const TangentCoefficients& coefficients,
+                     Workspace& workspace, std::vector<double>& values);
+
 /// At the state of the last evaluate().
 Energy evaluate_energy(const Model& model, Workspace& workspace);
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/closing.hpp"
 #include "mechanism/convergence.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/newton.hpp"
@@ -100,11 +101,9 @@ void solve(const Model& model, const IntegratorSpec& options, const AlphaParamet
   }
   workspace.bias = -(alpha.beta * step / alpha.gamma) * workspace.constraint_rate;
   solve_increment(model, workspace.bias, workspace);
-  workspace.multipliers = workspace.unknowns.tail(model.sizes.constraints);
   apply_jacobian(model, workspace, workspace.increment, workspace.bias);
   workspace.bias = -workspace.constraint - workspace.bias;
-  solve_correction(model, workspace.bias, workspace);
-  workspace.unknowns.tail(model.sizes.constraints) = workspace.multipliers;
+  close_positions(model, workspace);
 }
 
 void accept(const Model& model, double step, State& state, Workspace& workspace) {
@@ -140,7 +139,10 @@ void finish(const Model& model, const IntegratorSpec& options, double step, Stat
   }
   // Index 3 doubly integrates what Newton leaves of its constraints: there a step has to end far below the tolerance,
   // as it does from the constant prediction.
-  if (options.formulation == Formulation::stabilised_index2) update_trend(model, step, state, workspace);
+  if (options.formulation == Formulation::stabilised_index2) {
+    update_trend(model, step, state, workspace);
+    age_closing(model, workspace);
+  }
   accept(model, step, state, workspace);
 }
 
@@ -296,6 +298,14 @@ StepReport take_step(const Model& model, const IntegratorSpec& options, const St
   const Iteration iteration{model, options, alpha, iteration_matrix(options, alpha, step), step, end};
 
   StepReport report;
+  if (options.formulation == Formulation::stabilised_index2) {
+    const FactorReport factors = prepare_closing(model, state, iteration.matrix.coefficients, step, workspace);
+    if (!factors.regular || factors.reciprocal_condition < singular_condition) {
+      report.outcome = StepOutcome::singular;
+      report.singular_column = factors.singular_column;
+      return report;
+    }
+  }
   FactorReuse& reuse = workspace.reuse;
   const bool same = workspace.has_factors && workspace.factored == iteration.matrix.coefficients;
   if (same && reuse.fresh_left == 0) {

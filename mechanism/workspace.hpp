@@ -37,6 +37,18 @@ struct Trend {
   bool smooth = false;  ///< it would have been predicted better
 };
 
+/// [W Bᵀ; B 0], with which stabilised index 2 closes positions (closing.hpp). Index 3 leaves it empty. Forgotten at
+/// checkpoints.
+struct Closing {
+  std::optional<LinearSolver> solver;
+  std::vector<double> values;
+  Eigen::VectorXd turns;     ///< boundary: 1 for rotations of bodies with mass, else 0
+  Eigen::VectorXd unknowns;  ///< right-hand side, then change of position and μ
+  Eigen::VectorXd product;   ///< B times the change
+  double step = 0.0;         ///< with which W was made; zero: there are no factors
+  double age = 0.0;          ///< share of what the factors may serve that is used up
+};
+
 /// Buffers for joints and loads on nodes of modal bodies (carriers.hpp).
 struct CarrierScratch {
   Eigen::VectorXd half, full;          ///< K T and Tᵀ K T
@@ -53,6 +65,8 @@ struct Workspace {
     has_factors = false;
     reuse = {};
     trend.known = trend.smooth = false;
+    if (closing.solver) closing.solver->forget();
+    closing.step = 0.0;
   }
 
   // evaluate()
@@ -91,6 +105,7 @@ struct Workspace {
   TangentCoefficients factored;  ///< coefficients of the factors that are kept
   bool has_factors = false;
   FactorReuse reuse;
+  Closing closing;
   Trend trend;
   Eigen::VectorXd unknowns;          ///< right-hand side and solution of the global system
   Eigen::VectorXd increment;         ///< of the velocity coordinates, boundary and internal

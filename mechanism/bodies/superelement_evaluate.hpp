@@ -54,6 +54,11 @@ struct SuperelementScratch {
 SuperelementScratch make_scratch(const SuperelementBody& body);
 SuperelementWork make_work(const SuperelementBody& body);
 
+/// work.A_BB = c_m M_BB + c_k S_BB turned with the frame, after update_kinematics(): a symmetric weight of boundary
+/// motions with internal coordinates held, in which rigid ones have their mass alone.
+void boundary_weight(const SuperelementBody& body, const TangentCoefficients& coefficients,
+                     const SuperelementScratch& scratch, SuperelementWork& work);
+
 /// Frame, y, ẏ, ÿ of the body. R0_reference: karcher and polar start from it (the latest R₀), the incremental frame
 /// uses it as R_ref (R₀ at the end of the latest accepted step); pair and single_node ignore it. y, yd, ydd: m
 /// canonical internal coordinates and rates. scratch.motion.frame_error tells whether an iterated frame converged (≤

@@ -23,6 +23,7 @@ using test_support::expect_equal;
 using test_support::fixed_joint;
 using test_support::Outcome;
 using test_support::relative_difference;
+using test_support::run_scene;
 using test_support::Simulation;
 using test_support::to_matrix;
 using test_support::to_vector;
@@ -271,22 +272,12 @@ formats::Scene swing(VirtualBodies treatment, bool hub) {
   return scene;
 }
 
-/// With factors made anew in every step: the correction of positions is weighted with them, so that motions are equal
-/// to round-off only where factors are equally old.
-Outcome run_fresh(const formats::Scene& scene, const BodyFiles& files, double time) {
-  Simulation run(scene, files);
-  run.start();
-  run.workspace.has_factors = false;
-  run.run(time, [&run] { run.workspace.has_factors = false; });
-  return test_support::outcome_of(scene, run);
-}
-
 // Neither mass nor freedom of their own: the same equations (exact form of [GA00] (33)-(42)). Three modes bend the body
 // in space here, which the printed (38), not integrable, would let the virtual bodies creep with.
 TEST(VirtualBodyOnAModalNode, KeptAndEliminatedMoveTheSame) {
   const BodyFiles files = known_files(test_support::modal_answers());
-  const Outcome kept = run_fresh(swing(VirtualBodies::keep, false), files, 0.1);
-  const Outcome eliminated = run_fresh(swing(VirtualBodies::eliminate, false), files, 0.1);
+  const Outcome kept = run_scene(swing(VirtualBodies::keep, false), files, 0.1);
+  const Outcome eliminated = run_scene(swing(VirtualBodies::eliminate, false), files, 0.1);
   EXPECT_GT(test_support::largest(kept.reaction), 5.0);
   expect_equal(kept.motion, eliminated.motion, 1e-9);
   expect_equal(kept.reaction, eliminated.reaction, 1e-7);
@@ -299,7 +290,7 @@ TEST(VirtualBodyOnAModalNode, KeptAndEliminatedMoveTheSameWithIndex3) {
     formats::Scene scene = swing(treatment, false);
     scene.integrator.formulation = formats::Formulation::index3;
     scene.springs[0].damping = 0.0;
-    Outcome outcome = run_fresh(scene, files, 0.1);
+    Outcome outcome = run_scene(scene, files, 0.1);
     for (const char* name : {"inner", "outer", "tip", "tip/horn"}) outcome.motion.at(name).segment<6>(3).setZero();
     return outcome;
   };
@@ -312,8 +303,8 @@ TEST(VirtualBodyOnAModalNode, KeptAndEliminatedMoveTheSameWithIndex3) {
 TEST(VirtualBodyOnAModalNode, BetweenTwoNodesLocksTheirDistance) {
   const BodyFiles files = known_files(test_support::modal_answers());
   EXPECT_EQ(build_model(swing(VirtualBodies::eliminate, true), files).model.ties.size(), 4u);
-  const Outcome kept = run_fresh(swing(VirtualBodies::keep, true), files, 0.1);
-  const Outcome eliminated = run_fresh(swing(VirtualBodies::eliminate, true), files, 0.1);
+  const Outcome kept = run_scene(swing(VirtualBodies::keep, true), files, 0.1);
+  const Outcome eliminated = run_scene(swing(VirtualBodies::eliminate, true), files, 0.1);
   expect_equal(kept.motion, eliminated.motion, 1e-9);
 }
 
@@ -333,9 +324,9 @@ formats::Scene loop(VirtualBodies treatment, double gap) {
 // A loop that closes changes nothing; kept, its six equations are found redundant.
 TEST(LoopOnAModalNode, ThatClosesMovesAsWithout) {
   const BodyFiles files = known_files(test_support::modal_answers());
-  const Outcome open = run_fresh(swing(VirtualBodies::eliminate, false), files, 0.1);
+  const Outcome open = run_scene(swing(VirtualBodies::eliminate, false), files, 0.1);
   for (const VirtualBodies treatment : {VirtualBodies::keep, VirtualBodies::eliminate}) {
-    Outcome closed = run_fresh(loop(treatment, 0.0), files, 0.1);
+    Outcome closed = run_scene(loop(treatment, 0.0), files, 0.1);
     closed.motion.erase("third");
     expect_equal(open.motion, closed.motion, 1e-9);
   }
