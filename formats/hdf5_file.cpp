@@ -23,16 +23,10 @@ constexpr std::size_t max_text = 1u << 20;
 constexpr std::size_t max_report = 1u << 26;
 constexpr hsize_t max_members = 10000;
 
-int close_file(Id id) { return H5Fclose(id); }
-int close_space(Id id) { return H5Sclose(id); }
-int close_type(Id id) { return H5Tclose(id); }
-int close_attribute(Id id) { return H5Aclose(id); }
-int close_properties(Id id) { return H5Pclose(id); }
-int close_object(Id id) { return H5Oclose(id); }
 
 /// Properties of every file access: no locks (they fail on network disks and in readers beside a writer).
 Handle access_properties() {
-  Handle access(H5Pcreate(H5P_FILE_ACCESS), close_properties);
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access.id(), false, true);
   H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
   return access;
@@ -44,7 +38,7 @@ Handle open_copy_of_killed(const std::string& path) {
   H5Pset_fapl_core(access.id(), 1u << 20, false);
   const hbool_t clear = true;
   H5Pset(access.id(), "clear_status_flags", &clear);
-  return Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), close_file);
+  return Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose);
 }
 
 std::string type_in_words(Id type) {
@@ -199,10 +193,10 @@ InputFile::InputFile(const std::string& path, Completeness completeness) : path_
   silence();
   require_hdf5(path);
   const Handle access = access_properties();
-  file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), close_file);
+  file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
   if (!file_.valid() && completeness == Completeness::any) {
     closed_properly_ = false;
-    file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.id()), close_file);
+    file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.id()), H5Fclose);
     if (!file_.valid()) file_ = open_copy_of_killed(path);
   }
   if (!file_.valid())
@@ -235,7 +229,7 @@ Handle InputFile::open_object(const std::string& object) const {
       throw Error("is a link to somewhere else", place(name), "store the object itself in the file");
     if (end == std::string::npos) break;
   }
-  Handle handle(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT), close_object);
+  Handle handle(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT), H5Oclose);
   if (!handle.valid()) throw last_error("cannot be opened", place(object), "the file is damaged; write it again");
   return handle;
 }
@@ -262,8 +256,8 @@ std::string InputFile::text_attribute(const std::string& object, const std::stri
   const std::string where = fmt::format("{}: attribute '{}'", place(object), name);
   if (!has_attribute(object, name)) throw Error("is missing", where, "add it; it is a string");
   const Handle attribute(H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                         close_attribute);
-  const Handle type(H5Aget_type(attribute.id()), close_type), space(H5Aget_space(attribute.id()), close_space);
+                         H5Aclose);
+  const Handle type(H5Aget_type(attribute.id()), H5Tclose), space(H5Aget_space(attribute.id()), H5Sclose);
   if (!type.valid() || !space.valid()) throw last_error("cannot be read", where, "the file is damaged; write it again");
   if (kind_of(type.id()) != ElementKind::text)
     throw Error(fmt::format("holds {}, expected a string", type_in_words(type.id())), where, "write it as one string");
@@ -291,8 +285,8 @@ double InputFile::number_attribute(const std::string& object, const std::string&
   const std::string where = fmt::format("{}: attribute '{}'", place(object), name);
   if (!has_attribute(object, name)) throw Error("is missing", where, "add it; it is a number");
   const Handle attribute(H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                         close_attribute);
-  const Handle type(H5Aget_type(attribute.id()), close_type), space(H5Aget_space(attribute.id()), close_space);
+                         H5Aclose);
+  const Handle type(H5Aget_type(attribute.id()), H5Tclose), space(H5Aget_space(attribute.id()), H5Sclose);
   if (!type.valid() || !space.valid()) throw last_error("cannot be read", where, "the file is damaged; write it again");
   const H5T_class_t kind = H5Tget_class(type.id());
   if (kind != H5T_FLOAT && kind != H5T_INTEGER)
@@ -310,7 +304,7 @@ Handle InputFile::open_dataset(const std::string& dataset) const {
   Handle handle = open_object(dataset);
   if (H5Iget_type(handle.id()) != H5I_DATASET)
     throw Error("is not a dataset", place(dataset), "compare the file with its specification");
-  const Handle creation(H5Dget_create_plist(handle.id()), close_properties);
+  const Handle creation(H5Dget_create_plist(handle.id()), H5Pclose);
   if (H5Pget_external_count(creation.id()) > 0 || H5Pget_layout(creation.id()) == H5D_VIRTUAL)
     throw Error("its data are stored in another file", place(dataset), "store the data in the file itself");
   return handle;
@@ -318,8 +312,8 @@ Handle InputFile::open_dataset(const std::string& dataset) const {
 
 DatasetInfo InputFile::info(const std::string& dataset) const {
   const Handle handle = open_dataset(dataset);
-  const Handle type(H5Dget_type(handle.id()), close_type), space(H5Dget_space(handle.id()), close_space);
-  const Handle creation(H5Dget_create_plist(handle.id()), close_properties);
+  const Handle type(H5Dget_type(handle.id()), H5Tclose), space(H5Dget_space(handle.id()), H5Sclose);
+  const Handle creation(H5Dget_create_plist(handle.id()), H5Pclose);
   if (!type.valid() || !space.valid() || H5Sget_simple_extent_type(space.id()) == H5S_NULL)
     throw Error("has no values", place(dataset), "compare the file with its specification");
   DatasetInfo result;
@@ -361,7 +355,7 @@ void InputFile::read(const std::string& dataset, const Shape& shape, const std::
 }
 
 std::vector<std::string> InputFile::read_all_texts(Id dataset, std::uint64_t count, const std::string& where) const {
-  const Handle type(H5Dget_type(dataset), close_type), space(H5Dget_space(dataset), close_space);
+  const Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
   const char* damaged = "the file is damaged or uses a filter that is not installed";
   std::vector<std::string> texts;
   if (count == 0) return texts;
@@ -399,7 +393,7 @@ std::string InputFile::read_text(const std::string& dataset) const {
 }
 
 void InputFile::read_rows(const std::string& dataset, std::uint64_t first, std::uint64_t count, double* values) const {
-  const Handle handle = open_dataset(dataset), space(H5Dget_space(handle.id()), close_space);
+  const Handle handle = open_dataset(dataset), space(H5Dget_space(handle.id()), H5Sclose);
   std::vector<hsize_t> start(8, 0), extent;
   for (const std::uint64_t e : shape_of(space.id())) extent.push_back(e);
   TISSERAND_ENSURE(!extent.empty() && extent.size() <= 8 && first + count <= extent[0], "rows {} + {} of {}", first,
@@ -407,7 +401,7 @@ void InputFile::read_rows(const std::string& dataset, std::uint64_t first, std::
   start[0] = first;
   extent[0] = count;
   const hsize_t total = count_of(Shape(extent.begin(), extent.end()));
-  const Handle memory(H5Screate_simple(1, &total, nullptr), close_space);
+  const Handle memory(H5Screate_simple(1, &total, nullptr), H5Sclose);
   H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
   if (H5Dread(handle.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT, values) < 0)
     throw last_error("cannot be read", place(dataset), "the file is damaged or uses a filter that is not installed");
@@ -415,7 +409,7 @@ void InputFile::read_rows(const std::string& dataset, std::uint64_t first, std::
 
 void InputFile::read_column(const std::string& dataset, std::uint64_t column, std::uint64_t count,
                             double* values) const {
-  const Handle handle = open_dataset(dataset), space(H5Dget_space(handle.id()), close_space);
+  const Handle handle = open_dataset(dataset), space(H5Dget_space(handle.id()), H5Sclose);
   const Shape shape = shape_of(space.id());
   TISSERAND_ENSURE(!shape.empty() && count <= shape[0], "column of {} rows of {}", count, dataset);
   std::vector<hsize_t> start(shape.size(), 0), extent(shape.size(), 1);
@@ -425,7 +419,7 @@ void InputFile::read_column(const std::string& dataset, std::uint64_t column, st
   }
   extent[0] = count;
   const hsize_t total = count;
-  const Handle memory(H5Screate_simple(1, &total, nullptr), close_space);
+  const Handle memory(H5Screate_simple(1, &total, nullptr), H5Sclose);
   H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
   if (H5Dread(handle.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT, values) < 0)
     throw last_error("cannot be read", place(dataset), "the file is damaged or uses a filter that is not installed");

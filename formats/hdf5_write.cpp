@@ -10,18 +10,12 @@ namespace tisserand::formats::hdf5 {
 
 namespace {
 
-int close_file(Id id) { return H5Fclose(id); }
-int close_dataset(Id id) { return H5Dclose(id); }
-int close_space(Id id) { return H5Sclose(id); }
-int close_type(Id id) { return H5Tclose(id); }
-int close_attribute(Id id) { return H5Aclose(id); }
-int close_properties(Id id) { return H5Pclose(id); }
 
 constexpr const char* remedy = "choose another place for the file";
 
 /// Zero-padded UTF-8 of `size` bytes.
 Handle text_type(std::size_t size) {
-  Handle type(H5Tcopy(H5T_C_S1), close_type);
+  Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type.id(), std::max<std::size_t>(size, 1));
   H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
   H5Tset_cset(type.id(), H5T_CSET_UTF8);
@@ -32,10 +26,10 @@ void write_attribute(Id file, const std::string& object, const std::string& name
                      const void* value, const std::string& where) {
   if (H5Aexists_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT) > 0)
     H5Adelete_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT);
-  const Handle space(H5Screate(H5S_SCALAR), close_space);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle attribute(H5Acreate_by_name(file, object.c_str(), name.c_str(), file_type, space.id(), H5P_DEFAULT,
                                            H5P_DEFAULT, H5P_DEFAULT),
-                         close_attribute);
+                         H5Aclose);
   if (!attribute.valid() || H5Awrite(attribute.id(), memory_type, value) < 0)
     throw last_error(fmt::format("cannot write attribute '{}' of {}", name, object), where, remedy);
 }
@@ -43,19 +37,19 @@ void write_attribute(Id file, const std::string& object, const std::string& name
 /// Creates and writes; no times are stored, so that equal contents give equal bytes.
 void write_values(Id file, const std::string& dataset, Id space, Id file_type, Id memory_type, const void* values,
                   const std::string& where) {
-  const Handle links(H5Pcreate(H5P_LINK_CREATE), close_properties);
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), close_properties);
+  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(links.id(), 1);
   H5Pset_obj_track_times(creation.id(), false);
   const Handle handle(H5Dcreate2(file, dataset.c_str(), file_type, space, links.id(), creation.id(), H5P_DEFAULT),
-                      close_dataset);
+                      H5Dclose);
   if (!handle.valid() || H5Dwrite(handle.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
     throw last_error(fmt::format("cannot write dataset {}", dataset), where, remedy);
 }
 
 Handle simple_space(const Shape& shape) {
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
-  return Handle(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), close_space);
+  return Handle(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
 }
 
 }  // namespace
@@ -103,15 +97,15 @@ void write_text(Id file, const std::string& dataset, const std::string& value, c
   if (H5Lexists(file, dataset.c_str(), H5P_DEFAULT) > 0) H5Ldelete(file, dataset.c_str(), H5P_DEFAULT);
   std::string padded = value;
   if (padded.empty()) padded.push_back('\0');
-  const Handle type = text_type(padded.size()), space(H5Screate(H5S_SCALAR), close_space);
+  const Handle type = text_type(padded.size()), space(H5Screate(H5S_SCALAR), H5Sclose);
   write_values(file, dataset, space.id(), type.id(), type.id(), padded.data(), where);
 }
 
 Handle create_in_memory(const std::string& where) {
   silence();
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), close_properties);
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fapl_core(access.id(), 1u << 20, false);
-  Handle file(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), close_file);
+  Handle file(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
   if (!file.valid()) throw last_error("cannot compose the file in memory", where, "check the installation of HDF5");
   return file;
 }

@@ -121,14 +121,14 @@ std::uint64_t rows_of(const hdf5::InputFile& file, const Block& block) {
   return info.filtered ? expected[0] : std::min(expected[0], info.stored_bytes / (8 * block.width()));
 }
 
-struct Place {
-  std::size_t block = 0;
-  std::size_t column = 0;
-};
-
 }  // namespace
 
 struct ResultsReader::Impl {
+  struct Place {
+    std::size_t block = 0;
+    std::size_t column = 0;
+  };
+
   explicit Impl(const std::string& path);
 
   hdf5::InputFile file;
@@ -161,7 +161,7 @@ ResultsReader::Impl::Impl(const std::string& path) : file(existing_path(path), h
     }
 }
 
-const Place& ResultsReader::Impl::find(const std::string& channel) const {
+const ResultsReader::Impl::Place& ResultsReader::Impl::find(const std::string& channel) const {
   const auto found = place.find(channel);
   if (found != place.end()) return found->second;
   std::vector<std::string> known;
@@ -198,7 +198,7 @@ std::vector<double> ResultsReader::time() const { return read("time"); }
 std::vector<Channel> ResultsReader::channels() const { return impl_->channels; }
 
 std::vector<double> ResultsReader::read(const std::string& channel) const {
-  const Place& place = impl_->find(channel);
+  const Impl::Place& place = impl_->find(channel);
   std::vector<double> values(impl_->rows);
   if (!values.empty())
     impl_->file.read_column(impl_->blocks[place.block].dataset, place.column, impl_->rows, values.data());
@@ -214,7 +214,7 @@ Eigen::MatrixXd ResultsReader::read_rows(const std::vector<std::string>& channel
   Eigen::MatrixXd values(rows, static_cast<Eigen::Index>(channels.size()));
   std::vector<std::vector<std::pair<Eigen::Index, Eigen::Index>>> wanted(impl_->blocks.size());  // from, to
   for (std::size_t i = 0; i < channels.size(); ++i) {
-    const Place& place = impl_->find(channels[i]);
+    const Impl::Place& place = impl_->find(channels[i]);
     wanted[place.block].emplace_back(static_cast<Eigen::Index>(place.column), static_cast<Eigen::Index>(i));
   }
   for (std::size_t b = 0; b < wanted.size(); ++b) {

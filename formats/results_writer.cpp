@@ -34,10 +34,6 @@ constexpr std::size_t chunk_bytes = 64u << 10;  // of one chunk on disk, unless 
 constexpr std::size_t max_chunk_rows = 256;
 constexpr std::uint64_t disk_reserve = 256u << 10;  // left for the report and for closing the file
 
-int close_file(hdf5::Id id) { return H5Fclose(id); }
-int close_dataset(hdf5::Id id) { return H5Dclose(id); }
-int close_space(hdf5::Id id) { return H5Sclose(id); }
-int close_properties(hdf5::Id id) { return H5Pclose(id); }
 
 std::size_t chunk_rows(const Block& block) {
   return std::clamp<std::size_t>(chunk_bytes / (block.width() * sizeof(double)), 1, max_chunk_rows);
@@ -52,16 +48,16 @@ void create_growing(hdf5::Id file, const Block& block, const std::string& where)
     chunk.push_back(e);
   }
   const int rank = static_cast<int>(extent.size());
-  const hdf5::Handle links(H5Pcreate(H5P_LINK_CREATE), close_properties);
-  const hdf5::Handle creation(H5Pcreate(H5P_DATASET_CREATE), close_properties);
-  const hdf5::Handle space(H5Screate_simple(rank, extent.data(), limit.data()), close_space);
+  const hdf5::Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  const hdf5::Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  const hdf5::Handle space(H5Screate_simple(rank, extent.data(), limit.data()), H5Sclose);
   H5Pset_create_intermediate_group(links.id(), 1);
   H5Pset_obj_track_times(creation.id(), false);
   H5Pset_chunk(creation.id(), rank, chunk.data());
   H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
   const hdf5::Handle dataset(
       H5Dcreate2(file, block.dataset.c_str(), H5T_IEEE_F64LE, space.id(), links.id(), creation.id(), H5P_DEFAULT),
-      close_dataset);
+      H5Dclose);
   if (!dataset.valid())
     throw hdf5::last_error("cannot create dataset " + block.dataset, where,
                            "name fewer nodes or choose fewer channels");
@@ -86,7 +82,7 @@ void check_layout(const ResultsLayout& l) {
 
 /// Access in the form of HDF5 1.10, which can be appended to while others read and writers die; no locks.
 hdf5::Handle access_properties() {
-  hdf5::Handle access(H5Pcreate(H5P_FILE_ACCESS), close_properties);
+  hdf5::Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access.id(), false, true);
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_LATEST);
   H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
@@ -98,7 +94,7 @@ hdf5::Handle access_properties() {
 void create_head(const std::string& path, const ResultsLayout& layout, const std::vector<Block>& blocks,
                  const std::string& where) {
   const hdf5::Handle access = access_properties();  // lives on: closing it would forget why H5Fcreate failed
-  hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), close_file);
+  hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
   if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
   hdf5::write_text_attribute(file.id(), "/", "format", "tisserand-results", where);
   hdf5::write_text_attribute(file.id(), "/", "version", "1.3", where);
@@ -166,7 +162,7 @@ void publish_head(const std::string& part, const ResultsLayout& layout, const st
 
 hdf5::Handle open_for_writing(const std::string& path, unsigned mode) {
   const hdf5::Handle access = access_properties();
-  hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR | mode, access.id()), close_file);
+  hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR | mode, access.id()), H5Fclose);
   if (!file.valid()) throw hdf5::last_error("cannot open the file for writing", path, "choose another place or name");
   return file;
 }
@@ -187,16 +183,16 @@ void write_modes(hdf5::Id file, const ModesTable& table, const std::string& wher
   complex("rotation", {modes, nodes, 3}, table.rotation.data());
 }
 
-/// A block with its open dataset and its waiting rows.
-struct Column {
-  Block block;
-  hdf5::Handle dataset;
-  std::vector<double> waiting;  ///< capacity x width, sized once
-};
-
 }  // namespace
 
 struct ResultsWriter::Impl {
+  /// A block with its open dataset and its waiting rows.
+  struct Column {
+    Block block;
+    hdf5::Handle dataset;
+    std::vector<double> waiting;  ///< capacity x width, sized once
+  };
+
   std::string path;
   std::string part;
   hdf5::Handle file;
@@ -274,8 +270,8 @@ void ResultsWriter::Impl::write_rows(std::size_t rows) {
     }
     const hsize_t total = rows * column.block.width();
     bool ok = H5Dset_extent(column.dataset.id(), extent.data()) >= 0;
-    const hdf5::Handle space(H5Dget_space(column.dataset.id()), close_space),
-        memory(H5Screate_simple(1, &total, nullptr), close_space);
+    const hdf5::Handle space(H5Dget_space(column.dataset.id()), H5Sclose),
+        memory(H5Screate_simple(1, &total, nullptr), H5Sclose);
     ok = ok && H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0;
     ok = ok && H5Dwrite(column.dataset.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT,
                         column.waiting.data()) >= 0;
@@ -340,7 +336,7 @@ ResultsWriter::ResultsWriter(const std::string& path, const ResultsLayout& layou
   impl_->bytes_per_row = width * sizeof(double);
   impl_->capacity = std::clamp<std::size_t>(buffer_bytes / impl_->bytes_per_row, 1, 4096);
   for (const Block& block : blocks) {
-    hdf5::Handle dataset(H5Dopen2(impl_->file.id(), block.dataset.c_str(), H5P_DEFAULT), close_dataset);
+    hdf5::Handle dataset(H5Dopen2(impl_->file.id(), block.dataset.c_str(), H5P_DEFAULT), H5Dclose);
     if (!dataset.valid())
       throw hdf5::last_error("cannot open dataset " + block.dataset, impl_->part, "choose another place");
     impl_->columns.push_back({block, std::move(dataset), std::vector<double>(impl_->capacity * block.width())});
@@ -360,7 +356,7 @@ void ResultsWriter::append(const ResultsRow& row) {
   TISSERAND_ENSURE(!impl_->finished, "append() after finish() of {}", impl_->path);
   if (impl_->broken) throw Error("an earlier write has failed", impl_->part, "choose another place for the results");
   if (impl_->waiting == impl_->capacity) impl_->flush();
-  for (Column& column : impl_->columns) {
+  for (Impl::Column& column : impl_->columns) {
     const std::size_t width = column.block.width();
     std::copy_n(column.block.values(row), width,
                 column.waiting.begin() + static_cast<std::ptrdiff_t>(impl_->waiting * width));

@@ -22,9 +22,9 @@ constexpr Choice<ChannelKind> channel_kinds[] = {{"coordinate", ChannelKind::coo
 
 bool is_point(ChannelKind kind) { return kind == ChannelKind::position || kind == ChannelKind::velocity; }
 
-void refuse(const MapReader& map, const char* key, const char* kinds) {
+void refuse(const MapReader& map, const char* key, const char* types) {
   if (const YamlNode* node = map.find(key))
-    map.context().fail(node->key_place, fmt::format("'{}' belongs to channels of type {}", key, kinds), "remove it");
+    map.context().fail(node->key_place, fmt::format("'{}' belongs to channels of type {}", key, types), "remove it");
 }
 
 /// `x`, `y`, `z`, or a direction.

@@ -18,7 +18,7 @@ namespace tisserand::mechanism {
 namespace {
 
 /// Smallest reciprocal condition of a mass matrix that is solved as it is.
-constexpr double mass_condition = 1e-15;
+constexpr double massless_condition = 1e-15;
 /// Iterations for accelerations and reactions that friction couples.
 constexpr int most_refinements = 30;
 
@@ -153,7 +153,7 @@ bool solve_accelerations(const Model& model, double step, const std::string& whe
   state.lambda().setZero();
   evaluate(model, state, workspace);
   FactorReport factors = factor(model, state, {1.0, 0.0, 0.0}, TangentKind::step, {}, workspace);
-  const bool massless = !factors.regular || factors.reciprocal_condition < mass_condition;
+  const bool massless = !factors.regular || factors.reciprocal_condition < massless_condition;
   if (massless) {
     factors = factor(model, state, {1.0, 0.0, step * step}, TangentKind::step, {}, workspace);
     require_factors(model, factors, where, workspace);

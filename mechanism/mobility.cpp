@@ -14,8 +14,6 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Singular values of B below this (relative) count as zero.
-constexpr double rank_tolerance = 1e-10;
 /// Constraint Jacobians up to this size are decomposed densely.
 constexpr int dense_rank_limit = 150;
 

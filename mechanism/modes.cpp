@@ -10,6 +10,7 @@
 
 #include "common/error.hpp"
 #include "common/rotation.hpp"
+#include "mechanism/solver/matrix_rank.hpp"
 
 extern "C" void dgeev_(const char* left, const char* right, const int* n, double* A, const int* lda, double* real,
                        double* imaginary, double* VL, const int* ldvl, double* VR, const int* ldvr, double* work,
@@ -24,8 +25,6 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
-/// Singular values of B below this (relative) count as zero.
-constexpr double rank_tolerance = 1e-10;
 /// |λ| below this times the shift is a rigid motion: a double eigenvalue 0 comes out as about the root of round-off.
 constexpr double rigid_tolerance = 1e-5;
 /// Growth below this times |λ| is round-off.

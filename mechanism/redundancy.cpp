@@ -13,12 +13,12 @@
 #include "mechanism/carriers.hpp"
 #include "mechanism/evaluate.hpp"
 #include "mechanism/mobility.hpp"
+#include "mechanism/solver/matrix_rank.hpp"
 
 namespace tisserand::mechanism {
 namespace {
 
 constexpr int dense_limit = 400;
-constexpr double rank_tolerance = 1e-10;
 
 /// μ = U λ with |μ|² = Σ |f|² + |m|²/L²: one upper triangle per joint (its wrenches are independent), a number per
 /// coupling; and A = Bᵀ U⁻¹, rotations scaled with 1/L.

@@ -14,10 +14,6 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// A stiffness matrix with a smaller reciprocal condition (after scaling) leaves a rigid motion free.
-constexpr double free_motion_condition = 1e-14;
-constexpr int most_halvings = 12;
-
 /// Largest magnitude; NaN if any entry is not finite (a maximum would drop it).
 double largest_of(const Eigen::Ref<const Eigen::VectorXd>& values) {
   if (!values.allFinite()) return std::numeric_limits<double>::quiet_NaN();

@@ -15,6 +15,11 @@ namespace tisserand::mechanism {
 /// Polled before every iteration; true ends the analysis.
 using Interrupt = std::function<bool()>;
 
+/// A stiffness matrix with a smaller reciprocal condition (after scaling) leaves a rigid motion free.
+inline constexpr double free_motion_condition = 1e-14;
+/// Of a load step.
+inline constexpr int most_halvings = 12;
+
 struct StaticsReport {
   StepOutcome outcome = StepOutcome::accepted;
   int iterations = 0;

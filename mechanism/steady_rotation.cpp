@@ -18,8 +18,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-constexpr double free_motion_condition = 1e-14;
-constexpr int most_halvings = 12;
 constexpr double increment_floor = 1e-13;
 
 /// Largest internal force of any single term: also the inertia of the boundary, which excites internal modes.
@@ -97,7 +95,7 @@ void apply(const Model& model, const VectorXd& xi, const VectorXd& multipliers, 
     if (rows[row] >= 0) state.lambda()[static_cast<Eigen::Index>(row)] += multipliers[rows[row]];
 }
 
-StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
+StepOutcome balance(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
                         State& state, Workspace& workspace, StaticsReport& report) {
   formats::RotationSpec rotation = *options.rotation;
   rotation.angular_velocity *= std::sqrt(workspace.load_factor);
@@ -147,7 +145,7 @@ StaticsReport solve_steady_rotation(const Model& model, const formats::StaticsSp
   while (reached < 1.0) {
     const State before = state;
     workspace.load_factor = std::min(1.0, reached + size);
-    report.outcome = equilibrate(model, options, interrupted, state, workspace, report);
+    report.outcome = balance(model, options, interrupted, state, workspace, report);
     if (report.outcome == StepOutcome::accepted) {
       reached = workspace.load_factor;
       accept_equilibrium(model, state, workspace);

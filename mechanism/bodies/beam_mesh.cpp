@@ -20,13 +20,13 @@ using Eigen::Vector3d;
 std::string text(const Vector3d& v) { return fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z()); }
 
 /// Arc length, positions and unit tangents of the nodes.
-struct Curve {
+struct CenterLine {
   double length = 0.0;
   std::vector<Vector3d> position, tangent;
 };
 
-Curve line(const formats::BeamBodySpec& spec, int intervals) {
-  Curve curve;
+CenterLine line(const formats::BeamBodySpec& spec, int intervals) {
+  CenterLine curve;
   const Vector3d axis = spec.to - spec.from;
   curve.length = axis.norm();
   if (!(curve.length > 0.0) || !std::isfinite(curve.length))
@@ -40,7 +40,7 @@ Curve line(const formats::BeamBodySpec& spec, int intervals) {
 }
 
 /// Arc through three points: center c, radius vector turns from `from` about the axis n by the angle to `to`.
-Curve arc(const formats::BeamBodySpec& spec, int intervals) {
+CenterLine arc(const formats::BeamBodySpec& spec, int intervals) {
   const Vector3d a = *spec.through - spec.from, b = spec.to - spec.from;
   const Vector3d normal = a.cross(b);
   const double area = normal.norm();  // twice the area of the triangle
@@ -58,7 +58,7 @@ Curve arc(const formats::BeamBodySpec& spec, int intervals) {
   const Vector3d end = b - center;
   double angle = std::atan2(axis.dot(start.cross(end)), start.dot(end));
   if (angle <= 0.0) angle += 2.0 * std::numbers::pi;
-  Curve curve;
+  CenterLine curve;
   curve.length = radius * angle;
   for (int i = 0; i <= intervals; ++i) {
     const Vector3d arm = Eigen::AngleAxisd(angle * i / intervals, axis) * start;
@@ -71,7 +71,7 @@ Curve arc(const formats::BeamBodySpec& spec, int intervals) {
 }
 
 /// The global axis most nearly normal to the chords of all elements (stride: node intervals per element).
-Vector3d default_orientation(const Curve& curve, std::size_t stride) {
+Vector3d default_orientation(const CenterLine& curve, std::size_t stride) {
   Vector3d largest = Vector3d::Zero();
   for (std::size_t i = 0; i + stride < curve.position.size(); i += stride)
     largest = largest.cwiseMax((curve.position[i + stride] - curve.position[i]).normalized().cwiseAbs());
@@ -81,7 +81,7 @@ Vector3d default_orientation(const Curve& curve, std::size_t stride) {
   return Vector3d::Unit(best);
 }
 
-std::vector<Matrix3d> section_triads(const formats::BeamBodySpec& spec, const Curve& curve) {
+std::vector<Matrix3d> section_triads(const formats::BeamBodySpec& spec, const CenterLine& curve) {
   const Vector3d given = spec.orientation
                              ? *spec.orientation
                              : default_orientation(curve, static_cast<std::size_t>(spec.nodes_per_element - 1));
@@ -135,7 +135,7 @@ BeamMesh mesh_beam(const formats::BeamBodySpec& spec, int first_node) {
     throw Error(fmt::format("beam '{}' has {} nodes per element", spec.name, spec.nodes_per_element), spec.where,
                 "give 2 or 3");
   const int intervals = spec.elements * (spec.nodes_per_element - 1);
-  const Curve curve = spec.through ? arc(spec, intervals) : line(spec, intervals);
+  const CenterLine curve = spec.through ? arc(spec, intervals) : line(spec, intervals);
   BeamMesh mesh;
   mesh.length = curve.length;
   mesh.section = section_triads(spec, curve);

@@ -7,6 +7,10 @@
 
 namespace tisserand::mechanism {
 
+/// Singular values and pivots below this part of the largest count as zero in constraint Jacobians (rows scaled with
+/// the characteristic length).
+inline constexpr double rank_tolerance = 1e-10;
+
 struct ColumnRank {
   int rank = 0;
   std::vector<int> dependent;  ///< columns, ascending; without them the rank is full

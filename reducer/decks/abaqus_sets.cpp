@@ -37,15 +37,15 @@ std::optional<int> find_in(const std::unordered_map<long, int>& ids, std::string
 }
 
 /// Which ids and sets of a scope are meant: those of nodes or those of elements.
-struct Kind {
+struct SetKind {
   const char* word;
   std::unordered_map<long, int> Scope::*ids;
   std::map<std::string, std::vector<int>> Scope::*sets;
 };
-constexpr Kind kNodes{"node", &Scope::nodes, &Scope::node_sets};
-constexpr Kind kElements{"element", &Scope::elements, &Scope::element_sets};
+constexpr SetKind kNodes{"node", &Scope::nodes, &Scope::node_sets};
+constexpr SetKind kElements{"element", &Scope::elements, &Scope::element_sets};
 
-std::optional<std::vector<int>> find_members(Model& model, int scope, std::string_view text, const Kind& kind,
+std::optional<std::vector<int>> find_members(Model& model, int scope, std::string_view text, const SetKind& kind,
                                              const std::string& where) {
   const Place place = place_of(model, scope, text);
   if (const std::optional<int> one = find_in(place.scope->*kind.ids, place.rest)) return std::vector<int>{*one};
@@ -62,7 +62,7 @@ std::optional<std::vector<int>> find_members(Model& model, int scope, std::strin
 }
 
 /// first, last, step: the ids between them that exist. Looks at ids or at the steps, whichever are fewer.
-void add_range(Model& model, const Scope& scope, const Kind& kind, const Line& line, std::vector<int>& members) {
+void add_range(Model& model, const Scope& scope, const SetKind& kind, const Line& line, std::vector<int>& members) {
   const std::vector<std::string_view> fields = split(line.text);
   const std::optional<long> first = fields.empty() ? std::nullopt : to_integer(fields[0]);
   const std::optional<long> last = fields.size() < 2 ? first : to_integer(fields[1]);
@@ -106,7 +106,7 @@ void add_nodes_of(const Model& model, const std::vector<int>& elements, std::vec
   }
 }
 
-void read_set(Model& model, int scope_index, const Block& block, const Kind& kind, const char* parameter) {
+void read_set(Model& model, int scope_index, const Block& block, const SetKind& kind, const char* parameter) {
   const std::string name = block.name_of(parameter);
   const std::string where = model.input.where(block);
   if (name.empty()) {

@@ -2,14 +2,12 @@
 #include "reducer/decks/nastran_coordinates.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 
 namespace tisserand::reducer {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 
 }  // namespace
 

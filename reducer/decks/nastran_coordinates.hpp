@@ -3,12 +3,15 @@
 
 #include <array>
 #include <map>
+#include <numbers>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 namespace tisserand::reducer {
+
+inline constexpr double degree = std::numbers::pi / 180.0;
 
 /// Coordinates: x y z; r θ z; ρ θ φ with θ from the z axis. Angles in degrees.
 enum class FrameKind { rectangular, cylindrical, spherical };

@@ -1,6 +1,5 @@
 // PSHELL and PCOMP of a Nastran deck become sections of shells.
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -11,7 +10,6 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 
 /// A material that has plane stress stiffness; null if the field is blank or after a fault.
 const NastranMaterial* plane_material(NastranModel& model, CardFields& f, int index, std::string_view name) {

@@ -1,6 +1,5 @@
 // CQUAD4, CQUADR, CTRIA3 and CTRIAR of a Nastran deck become shells of the mesh.
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -10,7 +9,6 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
 
 Eigen::Vector3d normal_of(const NastranModel& model, const ShellElement& shell) {
   const auto x = [&](std::size_t i) { return model.position(shell.nodes[i]); };

@@ -32,13 +32,4 @@ struct BilinearShape {
 };
 BilinearShape bilinear_shape(double xi, double eta);
 
-struct GaussPoint {
-  double at;
-  double weight;
-};
-/// Gauss-Legendre on [-1, 1], exact up to degree 3 and 5.
-inline constexpr std::array<GaussPoint, 2> gauss2{{{-0.57735026918962576451, 1.0}, {0.57735026918962576451, 1.0}}};
-inline constexpr std::array<GaussPoint, 3> gauss3{
-    {{-0.77459666924148337704, 5.0 / 9.0}, {0.0, 8.0 / 9.0}, {0.77459666924148337704, 5.0 / 9.0}}};
-
 }  // namespace tisserand::reducer

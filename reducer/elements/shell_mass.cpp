@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "common/rotation.hpp"
+#include "reducer/elements/gauss.hpp"
 
 namespace tisserand::reducer {
 namespace {

@@ -16,6 +16,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "reducer/elements/gauss.hpp"
 #include "reducer/elements/shell_side.hpp"
 #include "reducer/elements/shell_stiffness.hpp"
 

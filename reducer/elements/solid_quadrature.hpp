@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 
+#include "reducer/elements/gauss.hpp"
 #include "reducer/elements/solid_shapes.hpp"
 
 namespace tisserand::reducer {
@@ -14,15 +15,6 @@ struct QuadratureRule {
   std::array<NaturalPoint, Size> point{};
   std::array<double, Size> weight{};
 };
-
-struct LinePoint {
-  double x;
-  double weight;
-};
-/// Gauss on [−1, 1], exact up to degree 3 and 5.
-inline constexpr std::array<LinePoint, 2> gauss2{{{-0.57735026918962576451, 1.0}, {0.57735026918962576451, 1.0}}};
-inline constexpr std::array<LinePoint, 3> gauss3{
-    {{-0.77459666924148337704, 5.0 / 9.0}, {0.0, 8.0 / 9.0}, {0.77459666924148337704, 5.0 / 9.0}}};
 
 struct TrianglePoint {
   double r;
@@ -43,13 +35,13 @@ inline constexpr std::array<TrianglePoint, 7> triangle7{{{1.0 / 3.0, 1.0 / 3.0, 
                                                          {triangle7_b, 1.0 - 2.0 * triangle7_b, triangle7_wb}}};
 
 template <std::size_t Line>
-constexpr QuadratureRule<Line * Line * Line> hexahedron_rule(const std::array<LinePoint, Line>& line) {
+constexpr QuadratureRule<Line * Line * Line> hexahedron_rule(const std::array<GaussPoint, Line>& line) {
   QuadratureRule<Line * Line * Line> rule;
   std::size_t q = 0;
-  for (const LinePoint& a : line)
-    for (const LinePoint& b : line)
-      for (const LinePoint& c : line) {
-        rule.point[q] = {a.x, b.x, c.x};
+  for (const GaussPoint& a : line)
+    for (const GaussPoint& b : line)
+      for (const GaussPoint& c : line) {
+        rule.point[q] = {a.at, b.at, c.at};
         rule.weight[q++] = a.weight * b.weight * c.weight;
       }
   return rule;
@@ -57,12 +49,12 @@ constexpr QuadratureRule<Line * Line * Line> hexahedron_rule(const std::array<Li
 
 template <std::size_t Triangle, std::size_t Line>
 constexpr QuadratureRule<Triangle * Line> prism_rule(const std::array<TrianglePoint, Triangle>& triangle,
-                                                     const std::array<LinePoint, Line>& line) {
+                                                     const std::array<GaussPoint, Line>& line) {
   QuadratureRule<Triangle * Line> rule;
   std::size_t q = 0;
-  for (const LinePoint& a : line)
+  for (const GaussPoint& a : line)
     for (const TrianglePoint& b : triangle) {
-      rule.point[q] = {b.r, b.s, a.x};
+      rule.point[q] = {b.r, b.s, a.at};
       rule.weight[q++] = a.weight * b.weight;
     }
   return rule;

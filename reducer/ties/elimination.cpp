@@ -18,7 +18,7 @@ constexpr double negligible = 1e-13;  ///< share of a row's largest entry below 
 constexpr double decisive = 1e-7;     ///< smallest pivot beside the largest entry of a row
 
 /// A dependent coordinate as a sum over coordinates that are independent so far.
-struct Row {
+struct TieRow {
   int coordinate = 0;
   std::vector<Term> terms;
   std::vector<int> ties;  ///< that led to it, ascending
@@ -72,7 +72,7 @@ class Eliminator {
   }
 
   void add(const LinearEquation& equation) {
-    Row row;
+    TieRow row;
     row.ties = {equation.tie};
     double size = 0.0;
     for (const Term& term : equation.terms) {
@@ -101,7 +101,7 @@ class Eliminator {
       result.T.row[x] = row_of_[x] < 0 ? result.T.independent++ : -1 - row_of_[x];
       if (row_of_[x] < 0) result.T.source.push_back(static_cast<int>(x));
     }
-    for (const Row& row : rows_) {
+    for (const TieRow& row : rows_) {
       std::vector<Term> terms = row.terms;
       for (Term& term : terms) term.coordinate = result.T.row[static_cast<std::size_t>(term.coordinate)];
       std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.coordinate < b.coordinate; });
@@ -119,7 +119,7 @@ class Eliminator {
   void add_expanded(const Term& term, std::vector<int>& sources) {
     const int row = row_of_[static_cast<std::size_t>(term.coordinate)];
     if (row < 0) return sum_.add(term.coordinate, term.coefficient);
-    const Row& known = rows_[static_cast<std::size_t>(row)];
+    const TieRow& known = rows_[static_cast<std::size_t>(row)];
     for (const Term& t : known.terms) sum_.add(t.coordinate, term.coefficient * t.coefficient);
     merge(known.ties, sources);
   }
@@ -149,7 +149,7 @@ class Eliminator {
   }
 
   /// Σ c x = 0 becomes x_pivot = Σ −c/c_pivot x.
-  void solve_for(const Term& pivot, double largest, Row& row) const {
+  void solve_for(const Term& pivot, double largest, TieRow& row) const {
     row.coordinate = pivot.coordinate;
     std::erase_if(row.terms,
                   [&](const Term& t) { return t.coordinate == pivot.coordinate || scaled(t) < negligible * largest; });
@@ -157,13 +157,13 @@ class Eliminator {
   }
 
   /// Puts the new row into the rows that contain its coordinate.
-  void substitute(const Row& row) {
+  void substitute(const TieRow& row) {
     const auto users = users_.find(row.coordinate);
     if (users == users_.end()) return;
     const std::vector<int> affected = std::move(users->second);
     users_.erase(users);
     for (const int k : affected) {
-      Row& other = rows_[static_cast<std::size_t>(k)];
+      TieRow& other = rows_[static_cast<std::size_t>(k)];
       double factor = 0.0;
       std::vector<int> before;
       for (const Term& term : other.terms) {
@@ -193,14 +193,14 @@ class Eliminator {
         std::erase(users_[coordinate], k);
   }
 
-  void keep(Row row) {
+  void keep(TieRow row) {
     const int k = static_cast<int>(rows_.size());
     row_of_[static_cast<std::size_t>(row.coordinate)] = k;
     for (const Term& term : row.terms) users_[term.coordinate].push_back(k);
     rows_.push_back(std::move(row));
   }
 
-  [[noreturn]] void fail(const Row& row, double largest) const {
+  [[noreturn]] void fail(const TieRow& row, double largest) const {
     std::vector<std::string> coordinates, ties;
     for (const Term& term : row.terms)
       if (scaled(term) > redundant * largest && coordinates.size() < 6) coordinates.push_back(name_(term.coordinate));
@@ -220,7 +220,7 @@ class Eliminator {
   Accumulator sum_;
   std::vector<int> row_of_;  ///< per coordinate: row that gives it, −1: independent
   std::vector<bool> kept_;
-  std::vector<Row> rows_;
+  std::vector<TieRow> rows_;
   std::unordered_map<int, std::vector<int>> users_;  ///< rows that contain an independent coordinate
   int redundant_ = 0;
 };

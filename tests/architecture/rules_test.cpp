@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
-namespace tisserand::architecture {
+namespace tisserand::architecture::rules_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -161,4 +161,4 @@ TEST_F(PlantedTree, UnknownSourceKeysAreFound) {
 }
 
 }  // namespace
-}  // namespace tisserand::architecture
+}  // namespace tisserand::architecture::rules_test

@@ -3,7 +3,7 @@
 
 #include "tests/architecture/rules.hpp"
 
-namespace tisserand::architecture {
+namespace tisserand::architecture::tree_test {
 namespace {
 
 const SourceTree& this_tree() {
@@ -30,4 +30,4 @@ TEST(Tree, WordsAreKept) { EXPECT_EQ(to_text(check_wording(this_tree())), ""); }
 TEST(Tree, LinksLead) { EXPECT_EQ(to_text(check_links(this_tree())), ""); }
 
 }  // namespace
-}  // namespace tisserand::architecture
+}  // namespace tisserand::architecture::tree_test

@@ -4,7 +4,7 @@
 
 #include "tests/cli/scenes.hpp"
 
-namespace tisserand::cli {
+namespace tisserand::cli::bad_scene_test {
 namespace {
 
 using ::testing::Contains;
@@ -135,4 +135,4 @@ TEST_F(Scene, FilesInOverridesCountFromTheFolderOfTheScene) {
 }
 
 }  // namespace
-}  // namespace tisserand::cli
+}  // namespace tisserand::cli::bad_scene_test

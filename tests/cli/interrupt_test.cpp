@@ -6,7 +6,7 @@
 
 #include "tests/cli/scenes.hpp"
 
-namespace tisserand::cli {
+namespace tisserand::cli::interrupt_test {
 namespace {
 
 using ::testing::AllOf;
@@ -129,4 +129,4 @@ TEST_F(Interrupt, FormulaThatIsNoNumberEndsTheRunByName) {
 }
 
 }  // namespace
-}  // namespace tisserand::cli
+}  // namespace tisserand::cli::interrupt_test

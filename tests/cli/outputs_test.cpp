@@ -3,7 +3,7 @@
 
 #include "tests/cli/scenes.hpp"
 
-namespace tisserand::cli {
+namespace tisserand::cli::outputs_test {
 namespace {
 
 using ::testing::AllOf;
@@ -160,4 +160,4 @@ TEST_F(Outputs, UsageErrorsAreTwoAndHelpTeaches) {
 }
 
 }  // namespace
-}  // namespace tisserand::cli
+}  // namespace tisserand::cli::outputs_test

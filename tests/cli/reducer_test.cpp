@@ -1,7 +1,7 @@
 // The faults of parts and of reduced files, told by `reducer`; skipped where that program is not built.
 #include "tests/cli/scenes.hpp"
 
-namespace tisserand::cli {
+namespace tisserand::cli::reducer_test {
 namespace {
 
 using ::testing::AllOf;
@@ -100,4 +100,4 @@ TEST_F(Reducer, UsageErrorsAreTwoAndHelpTeaches) {
 }
 
 }  // namespace
-}  // namespace tisserand::cli
+}  // namespace tisserand::cli::reducer_test

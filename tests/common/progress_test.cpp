@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 
-namespace tisserand {
+namespace tisserand::progress_test {
 namespace {
 
 struct Recorder {
@@ -62,4 +62,4 @@ TEST(Progress, WritesALineEveryTenSecondsElsewhere) {
 }
 
 }  // namespace
-}  // namespace tisserand
+}  // namespace tisserand::progress_test

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
-namespace tisserand {
+namespace tisserand::rotation_test {
 namespace {
 
 using Vector3 = Eigen::Vector3d;
@@ -279,4 +279,4 @@ TEST(Dual, ArithmeticFollowsTheRulesOfDifferentiation) {
 }
 
 }  // namespace
-}  // namespace tisserand
+}  // namespace tisserand::rotation_test

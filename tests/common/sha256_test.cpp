@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tisserand {
+namespace tisserand::sha256_test {
 namespace {
 
 TEST(Sha256, ExamplesOfTheStandard) {
@@ -22,4 +22,4 @@ TEST(Sha256, PiecesGiveTheSameAsTheWhole) {
 }
 
 }  // namespace
-}  // namespace tisserand
+}  // namespace tisserand::sha256_test

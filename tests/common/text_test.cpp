@@ -10,7 +10,7 @@
 #include "common/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand {
+namespace tisserand::text_test {
 namespace {
 
 using test_support::TemporaryFolder;
@@ -88,13 +88,13 @@ TEST(Text, UnwritablePlacesAreErrorsWithRemedy) {
     return "no error";
   };
   EXPECT_THAT(error_of(folder.file("missing/a")),
-              testing::HasSubstr("No such file or directory; choose a folder that exists"));
-  EXPECT_THAT(error_of(folder.file("file/a")), testing::HasSubstr("Not a directory; choose a folder that exists"));
-  EXPECT_THAT(error_of(folder.file("folder")), testing::HasSubstr("Is a directory; give the name of a file"));
-  EXPECT_THAT(error_of("/proc/self/a"), testing::HasSubstr("/proc/self/a: cannot create the file"));
+              ::testing::HasSubstr("No such file or directory; choose a folder that exists"));
+  EXPECT_THAT(error_of(folder.file("file/a")), ::testing::HasSubstr("Not a directory; choose a folder that exists"));
+  EXPECT_THAT(error_of(folder.file("folder")), ::testing::HasSubstr("Is a directory; give the name of a file"));
+  EXPECT_THAT(error_of("/proc/self/a"), ::testing::HasSubstr("/proc/self/a: cannot create the file"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()),
             2);
 }
 
 }  // namespace
-}  // namespace tisserand
+}  // namespace tisserand::text_test

@@ -6,7 +6,7 @@
 
 #include "common/error.hpp"
 
-namespace tisserand {
+namespace tisserand::units_test {
 namespace {
 
 TEST(Units, FactorsByLabel) {
@@ -25,7 +25,7 @@ TEST(Units, UnknownLabelListsTheKnownOnes) {
     ADD_FAILURE();
   } catch (const Error& error) {
     EXPECT_THAT(error.what(),
-                testing::AllOf(testing::HasSubstr("'yard'"), testing::HasSubstr("m, mm, cm, km, in, ft")));
+                ::testing::AllOf(::testing::HasSubstr("'yard'"), ::testing::HasSubstr("m, mm, cm, km, in, ft")));
   }
 }
 
@@ -49,7 +49,7 @@ TEST(Units, UnnamedMixOnlyWithUnnamed) {
       ADD_FAILURE();
     } catch (const Error& error) {
       EXPECT_THAT(error.what(),
-                  testing::AllOf(testing::HasSubstr("beam.superelement.h5"), testing::HasSubstr("unnamed")));
+                  ::testing::AllOf(::testing::HasSubstr("beam.superelement.h5"), ::testing::HasSubstr("unnamed")));
     }
   }
 }
@@ -65,4 +65,4 @@ TEST(Units, LabelsOfProducts) {
 }
 
 }  // namespace
-}  // namespace tisserand
+}  // namespace tisserand::units_test

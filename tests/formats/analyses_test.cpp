@@ -8,7 +8,7 @@
 #include "formats/scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::analyses_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -78,4 +78,4 @@ TEST(Analyses, EveryErrorNamesItsAnalysis) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::analyses_test

@@ -11,7 +11,7 @@
 #include "tests/support/results_rows.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::documentation_test {
 namespace {
 
 using test_support::TemporaryFolder;
@@ -43,7 +43,7 @@ TEST(Documentation, PythonWritesASuperelement) {
   const TemporaryFolder folder;
   ASSERT_EQ(run(snippet("SUPERELEMENT.md"), folder, ""), 0) << text_of(folder.file("out.txt"));
   const LoadedSuperelement loaded = read_superelement(folder.file("tetrahedron.superelement.h5"));
-  EXPECT_THAT(loaded.report.warnings, testing::IsEmpty());
+  EXPECT_THAT(loaded.report.warnings, ::testing::IsEmpty());
   EXPECT_DOUBLE_EQ(loaded.report.rigid.mass, 2.0);
   EXPECT_EQ(loaded.superelement.units.length.label, "m");
 }
@@ -74,4 +74,4 @@ TEST(Documentation, PythonReadsARunningFile) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::documentation_test

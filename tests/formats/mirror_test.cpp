@@ -9,7 +9,7 @@
 #include "tests/support/modal_known_answers.hpp"
 #include "tests/support/reduced_frames.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::mirror_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -141,4 +141,4 @@ TEST(Mirror, ModalBodiesMirroredTwiceAreTheSameBitForBit) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::mirror_test

@@ -13,12 +13,12 @@
 #include "tests/support/lumped_bodies.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::modal_body_file_test {
 namespace {
 
 using test_support::TemporaryFolder;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 /// The rod of [GA00] 4.3 with six modes.
 ModalBody rod() {
@@ -188,4 +188,4 @@ TEST(ModalBodyFile, RefusesForeignAndDamagedFiles) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::modal_body_file_test

@@ -6,7 +6,7 @@
 #include "formats/scene.hpp"
 #include "text_input.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::override_test {
 namespace {
 
 const std::string scene_text = R"(scene: swing
@@ -94,4 +94,4 @@ TEST(Override, AllErrorsAtOnce) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::override_test

@@ -9,10 +9,10 @@
 
 #include "text_input.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::part_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string beam_part = R"(part: beam
 units: {length: mm, mass: t, time: s}
@@ -118,7 +118,7 @@ TEST(Part, OtherNotations) {
             Eigen::Vector3d(70, 5, 0));
 }
 
-class BadPart : public testing::TestWithParam<BadText> {};
+class BadPart : public ::testing::TestWithParam<BadText> {};
 
 TEST_P(BadPart, SaysWhatAndWhere) {
   const Marked text = take_mark(replaced(beam_part, GetParam().from, GetParam().to), "part.yaml");
@@ -127,7 +127,7 @@ TEST_P(BadPart, SaysWhatAndWhere) {
 
 INSTANTIATE_TEST_SUITE_P(
     Keys, BadPart,
-    testing::Values(
+    ::testing::Values(
         BadText{"modes: 4", "mods: 4", "part.yaml:11:1: unknown key 'mods'; did you mean 'modes'?"},
         BadText{"modes: 4", "colour: red",
                 "part.yaml:11:1: unknown key 'colour'; known are part, units, mesh, materials, sections, points, "
@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Types, BadPart,
-    testing::Values(
+    ::testing::Values(
         BadText{"2.1e5", "^stiff", "^: material 'steel': E must be a number, not 'stiff'"},
         BadText{"2.1e5", "^\"2.1e5\"",
                 "^: material 'steel': E must be a number, not the text \"2.1e5\"; remove the quotes"},
@@ -193,7 +193,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Meaning, BadPart,
-    testing::Values(
+    ::testing::Values(
         BadText{"2.1e5", "^-1", "^: material 'steel': E -1 must be positive"},
         BadText{"7.8e-9", "^0", "^: material 'steel': density 0 must be positive"},
         BadText{"nu: 0.3", "nu: ^0.5", "^: material 'steel': nu 0.5 must lie between -1 and 0.5"},
@@ -297,4 +297,4 @@ TEST(Part, CheckOfAStructThatNoFileGave) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::part_test

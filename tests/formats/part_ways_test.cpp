@@ -8,11 +8,11 @@
 #include "formats/part.hpp"
 #include "text_input.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::part_ways_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const std::string whole = R"(part: all
 mesh: {file: sub/a.step, size: 4, smallest: 1, curvature: 12, sizes: {bore: 0.5}, order: 2, cells: triangles, scale: 2, unknown: ignore, ignore: [aux]}
@@ -58,7 +58,7 @@ std::string error(const std::string& text) {
 
 TEST(WaysIn, MeshFile) {
   const MeshFile mesh = read(whole).mesh;
-  EXPECT_THAT(mesh.file, testing::EndsWith("/sub/a.step"));
+  EXPECT_THAT(mesh.file, ::testing::EndsWith("/sub/a.step"));
   EXPECT_THAT((std::vector<double>{mesh.size, mesh.smallest, mesh.scale}), ElementsAre(4, 1, 2));
   EXPECT_EQ(mesh.curvature, 12);
   EXPECT_EQ(mesh.sizes.at(0).group, "bore");
@@ -172,7 +172,7 @@ struct Change {
   const char* message;  ///< a piece of it
 };
 
-class BadWayIn : public testing::TestWithParam<Change> {};
+class BadWayIn : public ::testing::TestWithParam<Change> {};
 
 TEST_P(BadWayIn, SaysWhat) {
   EXPECT_THAT(error(replaced(whole, GetParam().from, GetParam().to)), HasSubstr(GetParam().message));
@@ -180,77 +180,77 @@ TEST_P(BadWayIn, SaysWhat) {
 
 INSTANTIATE_TEST_SUITE_P(
     MeshGroupsPlaces, BadWayIn,
-    testing::Values(Change{"size: 4", "size: -4", "part.yaml:2:32: mesh: size -4 must be positive"},
-                    Change{"order: 2", "order: 3", "mesh: order 3 must be 1 or 2"},
-                    Change{"curvature: 12", "curvature: 5000", "curvature 5000 must be between 0 and 1000"},
-                    Change{"scale: 2", "scale: 0", "scale 0 must be positive"},
-                    Change{"bore: 0.5", "bore: 0", "size 0 of 'bore' must be positive"},
-                    Change{"file: sub/a.step, ", "", "missing key 'file'"},
-                    Change{"unknown: ignore", "unknown: skip", "unknown unknown 'skip'"},
-                    Change{"{node: 17}", "{node: 17, near: a}", "more than one of 'node', 'near', 'centroid'"},
-                    Change{"{node: 17}", "{node: 17, tolerance: 1}", "'tolerance' without 'near'"},
-                    Change{"{node: 17}", "{}", "none of 'node', 'near', 'centroid' is given"},
-                    Change{"near: a, tolerance: 0.1", "near: n", "point 'n' is a node of the mesh file"},
-                    Change{"faces: [3, 4]", "faces: [3, 4], edges: [1]", "entities of different kinds"},
-                    Change{"faces: [3, 4]", "faces: [3, 4], of: faces", "'of' beside numbers of entities"},
-                    Change{"bore: {faces: [3, 4]}", "bore: {of: faces}", "group 'bore': selects nothing"},
-                    Change{"box: [[1, 1, 1], [0, 0, 0]]", "box: [1, 1, 1]", "box must be two corners"},
-                    Change{"to: [0, 0, 1], radius", "to: a, radius", "the axis of the cylinder has zero length"},
-                    Change{"[0, 0, 1], radius: 2", "[0, 0, 1], radius: 0", "radius 0 must be positive"},
-                    Change{"tolerance: 0.5", "tolerance: -1", "tolerance -1 must not be negative"},
-                    Change{"c: {at: a}", "c: {at: a, node: 3}", "both 'at' and another place"},
-                    Change{"c: {at: a}", "c: {at: aa}", "there is no point 'aa'"},
-                    Change{"keep: rotations", "keep: none", "unknown keep 'none'"}));
+    ::testing::Values(Change{"size: 4", "size: -4", "part.yaml:2:32: mesh: size -4 must be positive"},
+                      Change{"order: 2", "order: 3", "mesh: order 3 must be 1 or 2"},
+                      Change{"curvature: 12", "curvature: 5000", "curvature 5000 must be between 0 and 1000"},
+                      Change{"scale: 2", "scale: 0", "scale 0 must be positive"},
+                      Change{"bore: 0.5", "bore: 0", "size 0 of 'bore' must be positive"},
+                      Change{"file: sub/a.step, ", "", "missing key 'file'"},
+                      Change{"unknown: ignore", "unknown: skip", "unknown unknown 'skip'"},
+                      Change{"{node: 17}", "{node: 17, near: a}", "more than one of 'node', 'near', 'centroid'"},
+                      Change{"{node: 17}", "{node: 17, tolerance: 1}", "'tolerance' without 'near'"},
+                      Change{"{node: 17}", "{}", "none of 'node', 'near', 'centroid' is given"},
+                      Change{"near: a, tolerance: 0.1", "near: n", "point 'n' is a node of the mesh file"},
+                      Change{"faces: [3, 4]", "faces: [3, 4], edges: [1]", "entities of different kinds"},
+                      Change{"faces: [3, 4]", "faces: [3, 4], of: faces", "'of' beside numbers of entities"},
+                      Change{"bore: {faces: [3, 4]}", "bore: {of: faces}", "group 'bore': selects nothing"},
+                      Change{"box: [[1, 1, 1], [0, 0, 0]]", "box: [1, 1, 1]", "box must be two corners"},
+                      Change{"to: [0, 0, 1], radius", "to: a, radius", "the axis of the cylinder has zero length"},
+                      Change{"[0, 0, 1], radius: 2", "[0, 0, 1], radius: 0", "radius 0 must be positive"},
+                      Change{"tolerance: 0.5", "tolerance: -1", "tolerance -1 must not be negative"},
+                      Change{"c: {at: a}", "c: {at: a, node: 3}", "both 'at' and another place"},
+                      Change{"c: {at: a}", "c: {at: aa}", "there is no point 'aa'"},
+                      Change{"keep: rotations", "keep: none", "unknown keep 'none'"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Shells, BadWayIn,
-    testing::Values(Change{"nu12: 0.3", "nu12: 4", "nu12 4 must be below sqrt(E1/E2) = 3.8"},
-                    Change{"G23: 3e9", "G23: 0", "material 'ply': G23 0 must be positive"},
-                    Change{"corners: [a, b, c]", "corners: [a, b]", "2 corners; give four corners in order"},
-                    Change{"corners: [a, b, c]", "corners: [a, b, b]", "the inner angle at corner"},
-                    Change{"corners: [a, b, c]", "corners: [a, b, [0, 1, 0], c]", "the inner angle at corner"},
-                    Change{"elements: [2, 3]", "elements: [2]", "elements must be two counts"},
-                    Change{"elements: [2, 3]", "elements: [2, 0]", "elements 0 must be 1 or more"},
-                    Change{"elements: [2, 3]", "elements: [20000, 20000]", "the limit is 1e+07"},
-                    Change{"elements: [2, 3]", "elements: [2, 3], size: 1", "both 'elements' and 'size'"},
-                    Change{"thickness: 0.1, material: steel, offset", "thickness: 0, material: steel, offset",
-                           "'deck': thickness 0 must be positive"},
-                    Change{"thickness: 0.1, material: steel, offset", "thickness: 1, material: stel, offset",
-                           "'deck': there is no material 'stel'; did you mean 'steel'?"},
-                    Change{"inner_radius: 1", "inner_radius: 2",
-                           "inner_radius 2 must be at least 0 and below radius 2"},
-                    Change{"start: [1, 0, 0]", "start: [0, 3, 0]", "start is parallel to the axis"},
-                    Change{"angle_deg: 90, elements", "angle_deg: 400, elements", "angle_deg 400 must be within 360"},
-                    Change{"along: [0, 0, 1]", "along: [0, 0, 0]", "along must be a direction"},
-                    Change{"along: [0, 0, 1], ", "", "neither 'along' nor 'arc' is given"},
-                    Change{"profile: [b, c]", "profile: [b, b]", "points 1 and 2 are at the same place"},
-                    Change{"x: [1, 0, 0], mass", "x: [0, 0, 0], mass", "x must be a direction"},
-                    Change{"laminate: [{", "thickness: 1, laminate: [{", "both 'laminate' and 'thickness' are given"},
-                    Change{"thickness: 0.2", "thickness: -0.2", "laminate.0.thickness -0.2 must be positive"},
-                    Change{"body: {on: all, material: steel", "body: {on: all, material: ply",
-                           "solid 'body': there is no material 'ply'"}));
+    ::testing::Values(Change{"nu12: 0.3", "nu12: 4", "nu12 4 must be below sqrt(E1/E2) = 3.8"},
+                      Change{"G23: 3e9", "G23: 0", "material 'ply': G23 0 must be positive"},
+                      Change{"corners: [a, b, c]", "corners: [a, b]", "2 corners; give four corners in order"},
+                      Change{"corners: [a, b, c]", "corners: [a, b, b]", "the inner angle at corner"},
+                      Change{"corners: [a, b, c]", "corners: [a, b, [0, 1, 0], c]", "the inner angle at corner"},
+                      Change{"elements: [2, 3]", "elements: [2]", "elements must be two counts"},
+                      Change{"elements: [2, 3]", "elements: [2, 0]", "elements 0 must be 1 or more"},
+                      Change{"elements: [2, 3]", "elements: [20000, 20000]", "the limit is 1e+07"},
+                      Change{"elements: [2, 3]", "elements: [2, 3], size: 1", "both 'elements' and 'size'"},
+                      Change{"thickness: 0.1, material: steel, offset", "thickness: 0, material: steel, offset",
+                             "'deck': thickness 0 must be positive"},
+                      Change{"thickness: 0.1, material: steel, offset", "thickness: 1, material: stel, offset",
+                             "'deck': there is no material 'stel'; did you mean 'steel'?"},
+                      Change{"inner_radius: 1", "inner_radius: 2",
+                             "inner_radius 2 must be at least 0 and below radius 2"},
+                      Change{"start: [1, 0, 0]", "start: [0, 3, 0]", "start is parallel to the axis"},
+                      Change{"angle_deg: 90, elements", "angle_deg: 400, elements", "angle_deg 400 must be within 360"},
+                      Change{"along: [0, 0, 1]", "along: [0, 0, 0]", "along must be a direction"},
+                      Change{"along: [0, 0, 1], ", "", "neither 'along' nor 'arc' is given"},
+                      Change{"profile: [b, c]", "profile: [b, b]", "points 1 and 2 are at the same place"},
+                      Change{"x: [1, 0, 0], mass", "x: [0, 0, 0], mass", "x must be a direction"},
+                      Change{"laminate: [{", "thickness: 1, laminate: [{", "both 'laminate' and 'thickness' are given"},
+                      Change{"thickness: 0.2", "thickness: -0.2", "laminate.0.thickness -0.2 must be positive"},
+                      Change{"body: {on: all, material: steel", "body: {on: all, material: ply",
+                             "solid 'body': there is no material 'ply'"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Attachments, BadWayIn,
-    testing::Values(Change{"on: [top], section", "on: [top], elements: 3, section", "'elements' beside 'on'"},
-                    Change{"start: ry", "start: rw", "unknown release 'rw'"},
-                    Change{"to_section: thin", "to_section: thick", "there is no section 'thick'"},
-                    Change{"[1, 2, 3, 4, 5, 6]", "[1, 2, 3]", "stiffness has 3 numbers instead of 6"},
-                    Change{"[1, 2, 3, 4, 5, 6]", "[1, 2, 3, 4, 5, -6]", "a stiffness is negative"},
-                    Change{"[1, 2, 3, 4, 5, 6]", "[0, 0, 0, 0, 0, 0]", "stiffness is zero"},
-                    Change{"[1, 2, 3, 4, 5, 6]",
-                           "[[1, 2, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, "
-                           "0, 1, 0], [0, 0, 0, 0, 0, 1]]",
-                           "stiffness is not symmetric"},
-                    Change{"[1, 2, 3, 4, 5, 6]",
-                           "[[1, 2, 0, 0, 0, 0], [2, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, "
-                           "0, 1, 0], [0, 0, 0, 0, 0, 1]]",
-                           "stiffness is not positive semidefinite"},
-                    Change{"pin: {kind: rigid, on: bore}", "pin: {kind: rigid, on: []}", "spider 'pin': is on nothing"},
-                    Change{"pin: {kind: rigid, on: bore}", "pin: {on: bore}", "missing key 'kind'"},
-                    Change{"kind: rigid, on: bore", "kind: rigid, on: bore, weights: equal",
-                           "a rigid spider has no weights"},
-                    Change{"  mean: {", "  a: {", "spider 'a': the name is used twice"}));
+    ::testing::Values(
+        Change{"on: [top], section", "on: [top], elements: 3, section", "'elements' beside 'on'"},
+        Change{"start: ry", "start: rw", "unknown release 'rw'"},
+        Change{"to_section: thin", "to_section: thick", "there is no section 'thick'"},
+        Change{"[1, 2, 3, 4, 5, 6]", "[1, 2, 3]", "stiffness has 3 numbers instead of 6"},
+        Change{"[1, 2, 3, 4, 5, 6]", "[1, 2, 3, 4, 5, -6]", "a stiffness is negative"},
+        Change{"[1, 2, 3, 4, 5, 6]", "[0, 0, 0, 0, 0, 0]", "stiffness is zero"},
+        Change{"[1, 2, 3, 4, 5, 6]",
+               "[[1, 2, 0, 0, 0, 0], [0, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, "
+               "0, 1, 0], [0, 0, 0, 0, 0, 1]]",
+               "stiffness is not symmetric"},
+        Change{"[1, 2, 3, 4, 5, 6]",
+               "[[1, 2, 0, 0, 0, 0], [2, 1, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0], [0, 0, 0, "
+               "0, 1, 0], [0, 0, 0, 0, 0, 1]]",
+               "stiffness is not positive semidefinite"},
+        Change{"pin: {kind: rigid, on: bore}", "pin: {kind: rigid, on: []}", "spider 'pin': is on nothing"},
+        Change{"pin: {kind: rigid, on: bore}", "pin: {on: bore}", "missing key 'kind'"},
+        Change{"kind: rigid, on: bore", "kind: rigid, on: bore, weights: equal", "a rigid spider has no weights"},
+        Change{"  mean: {", "  a: {", "spider 'a': the name is used twice"}));
 
 TEST(WaysIn, WithoutAMeshFileGroupsMustBeDrawn) {
   const std::string part =
@@ -268,4 +268,4 @@ TEST(WaysIn, WithoutAMeshFileGroupsMustBeDrawn) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::part_ways_test

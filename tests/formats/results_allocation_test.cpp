@@ -21,7 +21,7 @@ extern "C" void* malloc(std::size_t size) {
   return __libc_malloc(size);
 }
 
-namespace tisserand::formats {
+namespace tisserand::formats::results_allocation_test {
 namespace {
 
 TEST(ResultsAllocation, AppendTakesNoMemoryBetweenFlushes) {
@@ -44,6 +44,6 @@ TEST(ResultsAllocation, AppendTakesNoMemoryBetweenFlushes) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::results_allocation_test
 
 #endif

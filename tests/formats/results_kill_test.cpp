@@ -20,7 +20,7 @@
 #include "tests/support/results_rows.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::results_kill_test {
 namespace {
 
 using test_support::example_layout;
@@ -113,4 +113,4 @@ TEST(ResultsKill, FilesOfKilledRunsOpenAndHoldTrueRows) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::results_kill_test

@@ -23,17 +23,17 @@
 #include "tests/support/results_rows.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::results_test {
 namespace {
 
 using test_support::example_layout;
 using test_support::fill_row;
 using test_support::TemporaryFolder;
-using testing::AllOf;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::Not;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
 
 std::string error_of(const std::function<void()>& action) {
   try {
@@ -187,7 +187,7 @@ TEST(Results, MechanismsWithoutBodiesOrStepsAreStored) {
   EXPECT_EQ(reader.channels().front().unit, "");
   EXPECT_EQ(reader.channels().size(), 12u);
   export_csv(reader, {}, folder.file("a.csv"));
-  EXPECT_THAT(text_of(folder.file("a.csv")), testing::StartsWith("time,energy/kinetic,"));
+  EXPECT_THAT(text_of(folder.file("a.csv")), ::testing::StartsWith("time,energy/kinetic,"));
 }
 
 TEST(Results, InterruptedRunIsAPartialFileWithItsReason) {
@@ -354,4 +354,4 @@ TEST(Results, FileThatCannotGrowIsAnErrorAndKeepsWhatItHas) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::results_test

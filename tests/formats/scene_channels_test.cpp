@@ -9,10 +9,10 @@
 #include "formats/scene.hpp"
 #include "text_input.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::scene_channels_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string machine = R"(scene: machine
 bodies:
@@ -145,4 +145,4 @@ TEST(InputTable, DatasetsOfHdf5Files) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::scene_channels_test

@@ -5,10 +5,10 @@
 #include "formats/scene.hpp"
 #include "text_input.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::scene_forces_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string machine = R"(scene: machine
 gravity: [0, 0, -9.81]
@@ -117,4 +117,4 @@ TEST(SceneForces, WhatIsWrongIsNamed) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::scene_forces_test

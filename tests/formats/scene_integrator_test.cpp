@@ -5,10 +5,10 @@
 #include "formats/scene.hpp"
 #include "text_input.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::scene_integrator_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::string scene_with(const std::string& integrator) {
   return "scene: fall\ngravity: [0, 0, -9.81]\nbodies: {stone: {type: rigid, mass: 1, inertia: [1, 1, 1]}}\n"
@@ -74,4 +74,4 @@ TEST(IntegratorErrors, NameTheKeyAndTheRemedy) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::scene_integrator_test

@@ -5,10 +5,10 @@
 #include "formats/scene.hpp"
 #include "text_input.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::scene_joints_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string machine = R"(scene: machine
 bodies:
@@ -98,4 +98,4 @@ TEST(SceneJoints, EveryErrorIsToldWithItsRemedy) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::scene_joints_test

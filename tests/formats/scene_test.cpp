@@ -9,10 +9,10 @@
 
 #include "text_input.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::scene_test {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const std::string swing = R"(scene: swing
 gravity: [0, 0, -9.81]
@@ -236,7 +236,7 @@ TEST(Scene, OrientationInAllItsForms) {
   }
 }
 
-class BadScene : public testing::TestWithParam<BadText> {};
+class BadScene : public ::testing::TestWithParam<BadText> {};
 
 TEST_P(BadScene, SaysWhatAndWhere) {
   const Marked text = take_mark(replaced(swing, GetParam().from, GetParam().to), "scene.yaml");
@@ -245,36 +245,37 @@ TEST_P(BadScene, SaysWhatAndWhere) {
 
 INSTANTIATE_TEST_SUITE_P(
     Orientation, BadScene,
-    testing::Values(BadText{"frame: paper", "pose: {orientation: ^[0, 0, 0, 0]}",
-                            "^: body 'beam': orientation is the zero quaternion, which is no rotation; give a unit "
-                            "quaternion [w, x, y, z]"},
-                    BadText{"frame: paper", "pose: {orientation: ^[1, 1, 0, 0]}",
-                            "^: body 'beam': orientation is a quaternion of length 1.41421356, not 1; give a unit "
-                            "quaternion [w, x, y, z]"},
-                    BadText{"frame: paper", "pose: {orientation: ^[1, 1, 0]}",
-                            "^: body 'beam': orientation has 3 numbers; give a quaternion [w, x, y, z], three rows of "
-                            "a matrix, {axis: [..], angle_deg: ..} or {x: [..], y: [..]}"},
-                    BadText{"frame: paper", "pose: {orientation: ^[[1, 0, 0], [0, 2, 0], [0, 0, 1]]}",
-                            "^: body 'beam': orientation is not a rotation: RᵀR differs from 1 by 3; give orthonormal "
-                            "columns, or two axes {x: [..], y: [..]}"},
-                    BadText{"frame: paper", "pose: {orientation: ^[[1, 0, 0], [0, -1, 0], [0, 0, 1]]}",
-                            "^: body 'beam': orientation is a reflection: its determinant is -1; flip one column"},
-                    BadText{"frame: paper", "pose: {orientation: {axis: ^[0, 0, 0], angle_deg: 3}}",
-                            "^: body 'beam': orientation: axis has zero length; give a direction"},
-                    BadText{"frame: paper", "pose: {^orientation: {axis: [0, 0, 1]}}",
-                            "^: body 'beam': orientation: missing key 'angle_deg'"},
-                    BadText{"frame: paper", "pose: {^orientation: {x: [0, 0, 1]}}",
-                            "^: body 'beam': orientation: 1 of the axes x, y, z are given; give two of them"},
-                    BadText{"frame: paper", "pose: {^orientation: {x: [0, 0, 1], y: [0, 0, 2]}}",
-                            "^: body 'beam': orientation: the two axes are parallel; give two directions"},
-                    BadText{"frame: paper", "pose: {^orientation: {x: [0, 0, 1], axis: [0, 0, 2], angle_deg: 2}}",
-                            "^: body 'beam': orientation: both axis and angle and two axes are given; give one form"},
-                    BadText{"frame: paper", "pose: {orientation: {axis: [0, 0, 1], ^angle: 3, angle_deg: 2}}",
-                            "^: body 'beam': orientation: unknown key 'angle'; known are axis, angle_deg, x, y, z"}));
+    ::testing::Values(
+        BadText{"frame: paper", "pose: {orientation: ^[0, 0, 0, 0]}",
+                "^: body 'beam': orientation is the zero quaternion, which is no rotation; give a unit "
+                "quaternion [w, x, y, z]"},
+        BadText{"frame: paper", "pose: {orientation: ^[1, 1, 0, 0]}",
+                "^: body 'beam': orientation is a quaternion of length 1.41421356, not 1; give a unit "
+                "quaternion [w, x, y, z]"},
+        BadText{"frame: paper", "pose: {orientation: ^[1, 1, 0]}",
+                "^: body 'beam': orientation has 3 numbers; give a quaternion [w, x, y, z], three rows of "
+                "a matrix, {axis: [..], angle_deg: ..} or {x: [..], y: [..]}"},
+        BadText{"frame: paper", "pose: {orientation: ^[[1, 0, 0], [0, 2, 0], [0, 0, 1]]}",
+                "^: body 'beam': orientation is not a rotation: RᵀR differs from 1 by 3; give orthonormal "
+                "columns, or two axes {x: [..], y: [..]}"},
+        BadText{"frame: paper", "pose: {orientation: ^[[1, 0, 0], [0, -1, 0], [0, 0, 1]]}",
+                "^: body 'beam': orientation is a reflection: its determinant is -1; flip one column"},
+        BadText{"frame: paper", "pose: {orientation: {axis: ^[0, 0, 0], angle_deg: 3}}",
+                "^: body 'beam': orientation: axis has zero length; give a direction"},
+        BadText{"frame: paper", "pose: {^orientation: {axis: [0, 0, 1]}}",
+                "^: body 'beam': orientation: missing key 'angle_deg'"},
+        BadText{"frame: paper", "pose: {^orientation: {x: [0, 0, 1]}}",
+                "^: body 'beam': orientation: 1 of the axes x, y, z are given; give two of them"},
+        BadText{"frame: paper", "pose: {^orientation: {x: [0, 0, 1], y: [0, 0, 2]}}",
+                "^: body 'beam': orientation: the two axes are parallel; give two directions"},
+        BadText{"frame: paper", "pose: {^orientation: {x: [0, 0, 1], axis: [0, 0, 2], angle_deg: 2}}",
+                "^: body 'beam': orientation: both axis and angle and two axes are given; give one form"},
+        BadText{"frame: paper", "pose: {orientation: {axis: [0, 0, 1], ^angle: 3, angle_deg: 2}}",
+                "^: body 'beam': orientation: unknown key 'angle'; known are axis, angle_deg, x, y, z"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Bodies, BadScene,
-    testing::Values(
+    ::testing::Values(
         BadText{"type: superelement", "type: ^superelment",
                 "^: body 'beam': unknown type 'superelment'; did you mean 'superelement'?"},
         BadText{"  beam: {type: superelement, ", "  ^beam: {",
@@ -350,7 +351,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     JointsAndLoads, BadScene,
-    testing::Values(
+    ::testing::Values(
         BadText{"b: beam/base", "b: ^bem/base", "^: joint 'hinge': there is no body 'bem'; did you mean 'beam'?"},
         BadText{"a: ground", "a: ^grund", "^: joint 'hinge': there is no body 'grund'; did you mean 'ground'?"},
         BadText{"a: rod/end", "a: ^rod/ende",
@@ -408,7 +409,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Settings, BadScene,
-    testing::Values(
+    ::testing::Values(
         BadText{
             "step: 0.01", "^stpe: 0.01",
             "scene.yaml:14:1: integrator: missing key 'step'\n^: integrator: unknown key 'stpe'; did you mean 'step'?"},
@@ -496,4 +497,4 @@ TEST(Scene, CheckOfAStructThatNoFileGave) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::scene_test

@@ -11,13 +11,13 @@
 #include "formats/scene.hpp"
 #include "text_input.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::scene_tree_test {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 const std::string tail = "integrator: {step: 0.01, end: 1}\n";
 
@@ -92,8 +92,8 @@ TEST(SceneParameters, ErrorsNameThem) {
   EXPECT_EQ(error("parameters: {a: 0}\ngravity: [0, 0, \"${1 / a}\"]\n" + rest),
             "scene.yaml:3:17: expression '1 / a' is inf, not a finite number");
   EXPECT_THAT(error("parameters: {a: 0}\ngravity: [0, 0, \"${1 + b + a}\"]\n" + rest),
-              testing::AllOf(testing::StartsWith("scene.yaml:3:17: expression '1 + b + a': "), HasSubstr("\"b\""),
-                             testing::EndsWith("; parameters here are a")));
+              ::testing::AllOf(::testing::StartsWith("scene.yaml:3:17: expression '1 + b + a': "), HasSubstr("\"b\""),
+                               ::testing::EndsWith("; parameters here are a")));
   EXPECT_EQ(error("parameters: {a: x}\ngravity: [0, 0, \"${2 * a}\"]\n" + rest),
             "scene.yaml:3:17: parameter 'a' is 'x', not a number");
   EXPECT_EQ(error("parameters: {a: -1}\nbodies: {block: {type: rigid, mass: $a, inertia: [1, 1, 1]}}\n"),
@@ -418,4 +418,4 @@ TEST(SceneInstances, GrowthIsBounded) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::scene_tree_test

@@ -17,7 +17,7 @@
 #include "formats/scene_keys.hpp"
 #include "text_input.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::schema_test {
 namespace {
 
 using nlohmann::json;
@@ -299,4 +299,4 @@ TEST(Schema, WholeNumbersAreNoOthers) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::schema_test

@@ -10,7 +10,7 @@
 #include "formats/section_profiles.hpp"
 #include "formats/section_shapes.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::section_polygon_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -229,4 +229,4 @@ TEST(SectionProfiles, HaveTheirAreas) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::section_polygon_test

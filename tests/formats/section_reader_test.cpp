@@ -10,7 +10,7 @@
 #include "formats/section_walls.hpp"
 #include "text_input.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::section_reader_test {
 namespace {
 
 std::string part_with(const std::string& section) {
@@ -141,4 +141,4 @@ TEST(SectionReader, NonlinearBeamsNeedPrincipalAxes) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::section_reader_test

@@ -9,7 +9,7 @@
 #include "formats/section_profiles.hpp"
 #include "formats/section_shapes.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::section_report_test {
 namespace {
 
 /// [Pil02] example B.3 (page 441): I1 = 77.66369, I2 = 16.48228, axis turned by 28.84407°.
@@ -26,13 +26,13 @@ TEST(SectionReport, TellsEveryConstantWithItsUnit) {
   Section angle = profile_section("angle", {8.0, 6.0, 0.75, 0.75});
   angle.name = "corner";
   const std::string text = section_report({tall, angle}, {length_unit("m"), mass_unit("kg"), time_unit("s")});
-  EXPECT_THAT(text, testing::HasSubstr("section 'tall' (rectangle)\n"));
-  EXPECT_THAT(text, testing::HasSubstr("  second moment, bends in x-z        Iy          0.666667 m^4\n"));
-  EXPECT_THAT(text, testing::HasSubstr("\n\nsection 'corner' (angle)\n"));
-  EXPECT_THAT(text, testing::HasSubstr("28.8441 deg"));
-  EXPECT_THAT(text, testing::HasSubstr("coupling of both, times A"));
+  EXPECT_THAT(text, ::testing::HasSubstr("section 'tall' (rectangle)\n"));
+  EXPECT_THAT(text, ::testing::HasSubstr("  second moment, bends in x-z        Iy          0.666667 m^4\n"));
+  EXPECT_THAT(text, ::testing::HasSubstr("\n\nsection 'corner' (angle)\n"));
+  EXPECT_THAT(text, ::testing::HasSubstr("28.8441 deg"));
+  EXPECT_THAT(text, ::testing::HasSubstr("coupling of both, times A"));
   EXPECT_EQ(text.find("warping"), std::string::npos);
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::section_report_test

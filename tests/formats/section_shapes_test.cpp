@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tisserand::formats {
+namespace tisserand::formats::section_shapes_test {
 namespace {
 
 /// Area and ∫z² dA of a section that is symmetric about z = 0 with width b(z), |z| <= h, by the midpoint rule with n
@@ -121,4 +121,4 @@ TEST(SectionShapes, HollowRectangle) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::section_shapes_test

@@ -8,7 +8,7 @@
 
 #include "formats/section_profiles.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::section_walls_test {
 namespace {
 
 void expect_relative(double value, double expected, double tolerance) {
@@ -121,4 +121,4 @@ TEST(SectionWalls, FaultsAreNamed) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::section_walls_test

@@ -19,14 +19,14 @@
 #include "tests/support/beam_superelement.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::superelement_file_test {
 namespace {
 
 using test_support::craig_bampton_beam;
 using test_support::TemporaryFolder;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 std::string error_of(const std::string& path) {
   try {
@@ -188,7 +188,7 @@ struct BadFile {
 
 std::ostream& operator<<(std::ostream& out, const BadFile& bad) { return out << bad.name; }
 
-class SpoiledFile : public testing::TestWithParam<BadFile> {};
+class SpoiledFile : public ::testing::TestWithParam<BadFile> {};
 
 TEST_P(SpoiledFile, IsRejectedWithDatasetAndMeaning) {
   const TemporaryFolder folder;
@@ -335,8 +335,8 @@ std::vector<BadFile> bad_files() {
   };
 }
 
-INSTANTIATE_TEST_SUITE_P(Damage, SpoiledFile, testing::ValuesIn(bad_files()),
-                         [](const testing::TestParamInfo<BadFile>& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Damage, SpoiledFile, ::testing::ValuesIn(bad_files()),
+                         [](const ::testing::TestParamInfo<BadFile>& test) { return test.param.name; });
 
 TEST(SuperelementFile, MissingContentIdIsAWarning) {
   const TemporaryFolder folder;
@@ -491,4 +491,4 @@ TEST(SuperelementFile, FileThatCannotGrowIsAnErrorAndLeavesNothingBehind) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::superelement_file_test

@@ -12,15 +12,15 @@
 #include "common/error.hpp"
 #include "tests/support/beam_superelement.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::superelement_test {
 namespace {
 
 using test_support::beam_superelement;
 using test_support::BeamData;
 using test_support::craig_bampton_beam;
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 std::string error_of(const Superelement& element) {
   try {
@@ -201,7 +201,7 @@ struct BadSuperelement {
 
 std::ostream& operator<<(std::ostream& out, const BadSuperelement& bad) { return out << bad.name; }
 
-class SpoiledSuperelement : public testing::TestWithParam<BadSuperelement> {};
+class SpoiledSuperelement : public ::testing::TestWithParam<BadSuperelement> {};
 
 TEST_P(SpoiledSuperelement, IsRejectedWithDatasetValueAndMeaning) {
   Superelement e = craig_bampton_beam({}, 2);  // rows 0-5 base, 6-11 tip, 12, 13 internal
@@ -285,8 +285,8 @@ std::vector<BadSuperelement> bad_superelements() {
                       "/mass", "is"}};
 }
 
-INSTANTIATE_TEST_SUITE_P(Rules, SpoiledSuperelement, testing::ValuesIn(bad_superelements()),
-                         [](const testing::TestParamInfo<BadSuperelement>& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Rules, SpoiledSuperelement, ::testing::ValuesIn(bad_superelements()),
+                         [](const ::testing::TestParamInfo<BadSuperelement>& test) { return test.param.name; });
 
 TEST(Superelement, ZeroAxialInertiaIsAWarningThatNamesTheAxis) {
   BeamData round;
@@ -355,4 +355,4 @@ TEST(Superelement, ContentIdDependsOnEveryFieldOfTheContents) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::superelement_test

@@ -6,11 +6,11 @@
 
 #include "text_input.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::yaml_tree_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 std::string error(const std::string& text) {
   const Folder folder;
@@ -92,4 +92,4 @@ TEST(YamlTree, BoundsAliases) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::yaml_tree_test

@@ -10,9 +10,9 @@ namespace {
 thread_local std::size_t count = 0;
 }
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::allocation_counter_test {
 std::size_t allocation_count() { return count; }
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::allocation_counter_test
 
 #if !defined(__SANITIZE_ADDRESS__)
 extern "C" void* __libc_malloc(std::size_t size);

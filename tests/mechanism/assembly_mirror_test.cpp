@@ -14,7 +14,7 @@
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::assembly_mirror_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -342,7 +342,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-class Assembly : public testing::TestWithParam<Case> {};
+class Assembly : public ::testing::TestWithParam<Case> {};
 
 TEST_P(Assembly, MovesAsTheSameEntriesInTheScene) {
   const Outcome original = run(by_hand(GetParam()));
@@ -364,8 +364,8 @@ TEST_P(Assembly, MovesAsItsImage) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Assembly, testing::ValuesIn(cases()),
-                         [](const testing::TestParamInfo<Case>& given) { return given.param.name; });
+INSTANTIATE_TEST_SUITE_P(Every, Assembly, ::testing::ValuesIn(cases()),
+                         [](const ::testing::TestParamInfo<Case>& given) { return given.param.name; });
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::assembly_mirror_test

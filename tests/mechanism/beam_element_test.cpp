@@ -6,7 +6,7 @@
 #include "common/error.hpp"
 #include "tests/support/beam_states.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::beam_element_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -16,14 +16,14 @@ using test::random_state;
 using test::random_vector;
 
 template <class T>
-struct BeamElementTest : testing::Test {
+struct BeamElementTest : ::testing::Test {
   using Residual = Eigen::Matrix<double, 6 * T::value, 1>;
   using Tangent = Eigen::Matrix<double, 6 * T::value, 6 * T::value>;
   BeamElement<T::value> general = test::general_element<T::value>();
   std::mt19937 generator{11};
   Vector3d gravity = {0.3, -0.7, 1.1};
 };
-using Sizes = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+using Sizes = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(BeamElementTest, Sizes);
 
 // Deformations from rounding over every series switch (|ψ| = 0.5, φ = 1) to relative rotations near 2.
@@ -343,4 +343,4 @@ TEST(BeamElement, NonPhysicalDataAreErrors) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::beam_element_test

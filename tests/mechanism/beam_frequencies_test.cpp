@@ -9,7 +9,7 @@
 #include "tests/support/beam_states.hpp"
 #include "tests/support/beam_statics.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::beam_frequencies_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -160,4 +160,4 @@ TEST(BeamFrequencies, SlenderCantilever) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::beam_frequencies_test

@@ -8,7 +8,7 @@
 #include "tests/support/beam_states.hpp"
 #include "tests/support/beam_statics.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::beam_invariance_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -70,8 +70,8 @@ TEST(BeamInvariance, HelixOfThreeNodesConvergesWithOrderFour) {
 }
 
 template <class T>
-struct BeamReversal : testing::Test {};
-using Sizes = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
+struct BeamReversal : ::testing::Test {};
+using Sizes = ::testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(BeamReversal, Sizes);
 
 // Numbering the nodes from the other end, with section triads turned by π about y, is the same beam: Γ, κ keep their
@@ -168,4 +168,4 @@ TYPED_TEST(BeamReversal, InertiaForcesAreTheRatesOfMomentum) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::beam_invariance_test

@@ -7,7 +7,7 @@
 #include "tests/support/beam_states.hpp"
 #include "tests/support/beam_statics.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::beam_mesh_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -139,4 +139,4 @@ TEST(BeamMesh, Errors) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::beam_mesh_test

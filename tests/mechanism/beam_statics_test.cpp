@@ -8,7 +8,7 @@
 #include "tests/support/beam_statics.hpp"
 #include "tests/support/reference_table.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::beam_statics_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -241,4 +241,4 @@ TEST(BeamStatics, TangentFindsTheBucklingLoad) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::beam_statics_test

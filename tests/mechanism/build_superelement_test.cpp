@@ -7,7 +7,7 @@
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::build_superelement_test {
 namespace {
 
 using formats::SuperelementBodySpec;
@@ -62,4 +62,4 @@ TEST(UsesOfSuperelements, ShareABodyWhereFileAndOptionsAreTheSame) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::build_superelement_test

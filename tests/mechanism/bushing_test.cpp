@@ -10,7 +10,7 @@
 #include "mechanism/statics.hpp"
 #include "tests/support/model_tangent.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::bushing_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -244,4 +244,4 @@ TEST(Bushing, EnergyIsBalanced) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::bushing_test

@@ -9,13 +9,13 @@
 #include "common/error.hpp"
 #include "tests/support/model_tangent.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::channel_test {
 namespace {
 
 using Eigen::Vector3d;
 using formats::ChannelKind;
 using formats::JointKind;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 formats::TimeExpression expression(const std::string& text) { return {text, {}, "scene.yaml:9:9"}; }
 
@@ -229,4 +229,4 @@ TEST(Channels, WhatIsWrongIsNamed) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::channel_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::curve_test {
 namespace {
 
 using formats::CurveSpec;
@@ -78,4 +78,4 @@ TEST(Curve, CubicTablesConverge) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::curve_test

@@ -8,7 +8,7 @@
 #include "tests/support/model_tangent.hpp"
 #include "tests/support/reduced_frames.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::force_elements_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -174,4 +174,4 @@ TEST(ForceElements, IterationMatrixIsTheDerivativeOfTheResidual) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::force_elements_test

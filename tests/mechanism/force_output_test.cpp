@@ -6,7 +6,7 @@
 #include "tests/formats/text_input.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::force_output_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -84,4 +84,4 @@ TEST(ForceOutput, NothingWhereThereIsNone) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::force_output_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/model_tangent.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::friction_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -40,11 +40,13 @@ formats::JointSpec rubbing(JointKind kind, const Vector3d& axis, double coeffici
   return joint;
 }
 
-class RubbingJoint : public testing::TestWithParam<JointKind> {};
+class RubbingJoint : public ::testing::TestWithParam<JointKind> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, RubbingJoint,
-                         testing::Values(JointKind::revolute, JointKind::prismatic, JointKind::cylindrical,
-                                         JointKind::spherical),
-                         [](const testing::TestParamInfo<JointKind>& kind) { return formats::joint_word(kind.param); });
+                         ::testing::Values(JointKind::revolute, JointKind::prismatic, JointKind::cylindrical,
+                                           JointKind::spherical),
+                         [](const ::testing::TestParamInfo<JointKind>& kind) {
+                           return formats::joint_word(kind.param);
+                         });
 
 // Between two bodies with offset and turned markers, speeds on all branches of the law. Central differences with 1e-6:
 // kinks aside, 1e-8 relative to the largest entry.
@@ -223,4 +225,4 @@ TEST(Friction, EnergyOfAPendulumIsBalanced) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::friction_test

@@ -10,7 +10,7 @@
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::initial_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -24,7 +24,7 @@ std::string start_error(const formats::Scene& scene) {
     run.start();
   } catch (const Error& error) {
     EXPECT_FALSE(error.remedy().empty());
-    EXPECT_THAT(error.where(), testing::HasSubstr("test.yaml"));
+    EXPECT_THAT(error.where(), ::testing::HasSubstr("test.yaml"));
     return error.what();
   }
   ADD_FAILURE() << "no error";
@@ -92,7 +92,7 @@ TEST(RedundantConstraints, AreMadeInactiveAndNamed) {
     EXPECT_EQ(run.state().active()[row], 0.0);
     EXPECT_EQ(run.state().lambda()[row], 0.0);
     EXPECT_THAT(constraint_name(run.model(), row),
-                testing::ContainsRegex("(one|two|three|four), (translation z|z axis of B normal to)"));
+                ::testing::ContainsRegex("(one|two|three|four), (translation z|z axis of B normal to)"));
   }
 }
 
@@ -101,8 +101,8 @@ TEST(MarkerGap, IsAnErrorThatNamesJointAndEquation) {
   scene.joints[0].b.position = Vector3d(0, 1e-3, 0);
   scene.joints[0].position = Vector3d::Zero();
   const std::string text = start_error(scene);
-  EXPECT_THAT(text, testing::HasSubstr("hinge"));
-  EXPECT_THAT(text, testing::HasSubstr("translation y"));
+  EXPECT_THAT(text, ::testing::HasSubstr("hinge"));
+  EXPECT_THAT(text, ::testing::HasSubstr("translation y"));
 }
 
 TEST(MarkerTilt, IsAnErrorThatNamesJointAndEquation) {
@@ -111,7 +111,7 @@ TEST(MarkerTilt, IsAnErrorThatNamesJointAndEquation) {
   scene.joints[0].a.orientation = Eigen::Quaterniond::Identity();
   scene.joints[0].b.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(0.01, Vector3d::UnitX()));
   const std::string text = start_error(scene);
-  EXPECT_THAT(text, testing::HasSubstr("hinge, z axis of B normal to y axis of A"));
+  EXPECT_THAT(text, ::testing::HasSubstr("hinge, z axis of B normal to y axis of A"));
 }
 
 TEST(OppositeMarkers, AreAnErrorAlthoughTheyMeetTheEquations) {
@@ -119,25 +119,25 @@ TEST(OppositeMarkers, AreAnErrorAlthoughTheyMeetTheEquations) {
   scene.joints[0].axis.reset();
   scene.joints[0].a.orientation = Eigen::Quaterniond::Identity();
   scene.joints[0].b.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(EIGEN_PI, Vector3d::UnitX()));
-  EXPECT_THAT(start_error(scene), testing::HasSubstr("point in opposite directions"));
+  EXPECT_THAT(start_error(scene), ::testing::HasSubstr("point in opposite directions"));
   scene.joints[0].kind = formats::JointKind::fixed;
   scene.joints[0].b.orientation =
       Eigen::Quaterniond(Eigen::AngleAxisd(2.0 * EIGEN_PI / 3.0, Vector3d::Ones().normalized()));
-  EXPECT_THAT(start_error(scene), testing::HasSubstr("turned against each other"));
+  EXPECT_THAT(start_error(scene), ::testing::HasSubstr("turned against each other"));
 }
 
 TEST(InconsistentVelocity, IsAnErrorThatNamesJointAndEquation) {
   formats::Scene scene = test_support::pendulum_scene(1e-3, 1.0);
   std::get<formats::RigidBodySpec>(scene.bodies[0]).start.velocity = {0, 0, 0.5};
   const std::string text = start_error(scene);
-  EXPECT_THAT(text, testing::HasSubstr("velocit"));
-  EXPECT_THAT(text, testing::HasSubstr("hinge, translation z"));
+  EXPECT_THAT(text, ::testing::HasSubstr("velocit"));
+  EXPECT_THAT(text, ::testing::HasSubstr("hinge, translation z"));
 }
 
 TEST(MasslessDirection, IsAnErrorThatNamesIt) {
   formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
   scene.bodies.push_back(test_support::rigid_body("needle", 1.0, {0, 0, 0}, {1.0, 0.0, 1.0}));
-  EXPECT_THAT(start_error(scene), testing::HasSubstr("needle, rotation about its y axis"));
+  EXPECT_THAT(start_error(scene), ::testing::HasSubstr("needle, rotation about its y axis"));
 }
 
 // A small gap and a small wrong velocity along the line between two bodies are taken away in the mass norm: both move,
@@ -179,4 +179,4 @@ TEST(Accelerations, OfAPendulumAtRest) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::initial_test

@@ -15,7 +15,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/support/superelement_cases.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::joint_carriers_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -146,18 +146,18 @@ struct Opened {
   }
 };
 
-class JointBetweenCarriers : public testing::TestWithParam<JointKind> {
+class JointBetweenCarriers : public ::testing::TestWithParam<JointKind> {
  protected:
   const SuperelementFiles files_ = files();
 };
 
-INSTANTIATE_TEST_SUITE_P(Joints, JointBetweenCarriers,
-                         testing::Values(JointKind::fixed, JointKind::revolute, JointKind::spherical,
-                                         JointKind::universal, JointKind::constant_velocity, JointKind::cylindrical,
-                                         JointKind::screw, JointKind::prismatic, JointKind::planar,
-                                         JointKind::point_on_line, JointKind::point_on_plane, JointKind::distance,
-                                         JointKind::constant_orientation, JointKind::parallel_axes, JointKind::generic),
-                         [](const testing::TestParamInfo<JointKind>& kind) { return formats::joint_word(kind.param); });
+INSTANTIATE_TEST_SUITE_P(
+    Joints, JointBetweenCarriers,
+    ::testing::Values(JointKind::fixed, JointKind::revolute, JointKind::spherical, JointKind::universal,
+                      JointKind::constant_velocity, JointKind::cylindrical, JointKind::screw, JointKind::prismatic,
+                      JointKind::planar, JointKind::point_on_line, JointKind::point_on_plane, JointKind::distance,
+                      JointKind::constant_orientation, JointKind::parallel_axes, JointKind::generic),
+    [](const ::testing::TestParamInfo<JointKind>& kind) { return formats::joint_word(kind.param); });
 
 // Central differences with d = 1e-5 of functions of size one to ten: truncation 1e-10, round-off 1e-10.
 TEST_P(JointBetweenCarriers, RowsColumnsAndGeometricStiffnessAreDerivatives) {
@@ -294,4 +294,4 @@ TEST_P(JointBetweenCarriers, SwappingTheBodiesFlipsTheReactions) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::joint_carriers_test

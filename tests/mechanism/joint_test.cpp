@@ -11,7 +11,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/support/superelement_cases.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::joint_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -124,7 +124,7 @@ struct Pair {
   }
 };
 
-class EveryJoint : public testing::TestWithParam<JointKind> {
+class EveryJoint : public ::testing::TestWithParam<JointKind> {
  protected:
   int size() const { return Pair(GetParam(), 0, 0.7).joint.size(); }
   Eigen::VectorXd multipliers(unsigned seed) const {
@@ -133,13 +133,13 @@ class EveryJoint : public testing::TestWithParam<JointKind> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Joints, EveryJoint,
-                         testing::Values(JointKind::fixed, JointKind::revolute, JointKind::spherical,
-                                         JointKind::universal, JointKind::constant_velocity, JointKind::cylindrical,
-                                         JointKind::screw, JointKind::prismatic, JointKind::planar,
-                                         JointKind::point_on_line, JointKind::point_on_plane, JointKind::distance,
-                                         JointKind::constant_orientation, JointKind::parallel_axes, JointKind::generic),
-                         [](const testing::TestParamInfo<JointKind>& kind) { return formats::joint_word(kind.param); });
+INSTANTIATE_TEST_SUITE_P(
+    Joints, EveryJoint,
+    ::testing::Values(JointKind::fixed, JointKind::revolute, JointKind::spherical, JointKind::universal,
+                      JointKind::constant_velocity, JointKind::cylindrical, JointKind::screw, JointKind::prismatic,
+                      JointKind::planar, JointKind::point_on_line, JointKind::point_on_plane, JointKind::distance,
+                      JointKind::constant_orientation, JointKind::parallel_axes, JointKind::generic),
+    [](const ::testing::TestParamInfo<JointKind>& kind) { return formats::joint_word(kind.param); });
 
 // Central differences with d = 1e-5 of functions of size one: truncation 1e-10, round-off 1e-11.
 constexpr double step = 1e-5;
@@ -373,7 +373,7 @@ TEST(Relation, DerivativesAreThoseOfTheValue) {
                                   {RelationKind::angle, 1, 0},    {RelationKind::angle, 2, 0}};
   for (const Relation& relation : all)
     for (unsigned seed = 0; seed < states; ++seed) {
-      SCOPED_TRACE(testing::Message() << "kind " << static_cast<int>(relation.kind) << ", axis " << int{relation.i});
+      SCOPED_TRACE(::testing::Message() << "kind " << static_cast<int>(relation.kind) << ", axis " << int{relation.i});
       Pair pair(JointKind::cylindrical, seed, 0.7);
       pair.open(seed);
       const auto at = [&](const Pair& p) { return evaluate(relation, {p.joint.a, p.joint.b, p.a, p.b}); };
@@ -413,4 +413,4 @@ TEST(Hinge, AngleIsUnwrappedOverSeveralTurns) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::joint_test

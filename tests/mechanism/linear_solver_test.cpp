@@ -12,7 +12,7 @@
 #include "mechanism/solver/solver_choice.hpp"
 #include "tests/support/allocation_counter.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::linear_solver_test {
 namespace {
 
 using Position = SparsePattern::Position;
@@ -46,14 +46,14 @@ std::vector<double> values(const SparsePattern& pattern, const Eigen::MatrixXd& 
   return result;
 }
 
-class EverySolver : public testing::TestWithParam<SolverKind> {
+class EverySolver : public ::testing::TestWithParam<SolverKind> {
  protected:
   SparsePattern pattern_of(int n) const { return {n, positions(n), solver_storage(GetParam())}; }
 };
 INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver,
-                         testing::Values(SolverKind::klu, SolverKind::umfpack, SolverKind::dense, SolverKind::lapack,
-                                         SolverKind::qr),
-                         [](const testing::TestParamInfo<SolverKind>& given) {
+                         ::testing::Values(SolverKind::klu, SolverKind::umfpack, SolverKind::dense, SolverKind::lapack,
+                                           SolverKind::qr),
+                         [](const ::testing::TestParamInfo<SolverKind>& given) {
                            switch (given.param) {
                              case SolverKind::klu:
                                return "Klu";
@@ -253,4 +253,4 @@ TEST(LinearSolver, EmptySystem) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::linear_solver_test

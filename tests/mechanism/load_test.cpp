@@ -10,7 +10,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/support/superelement_cases.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::load_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -24,7 +24,7 @@ struct Case {
   LoadAxes axes;
 };
 
-class EveryLoad : public testing::TestWithParam<Case> {
+class EveryLoad : public ::testing::TestWithParam<Case> {
  protected:
   Load load(std::mt19937& random) const {
     Load load;
@@ -44,10 +44,11 @@ class EveryLoad : public testing::TestWithParam<Case> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Loads, EveryLoad,
-                         testing::Values(Case{LoadKind::force, LoadAxes::world}, Case{LoadKind::force, LoadAxes::body},
-                                         Case{LoadKind::moment, LoadAxes::world},
-                                         Case{LoadKind::moment, LoadAxes::body}),
-                         [](const testing::TestParamInfo<Case>& given) {
+                         ::testing::Values(Case{LoadKind::force, LoadAxes::world},
+                                           Case{LoadKind::force, LoadAxes::body},
+                                           Case{LoadKind::moment, LoadAxes::world},
+                                           Case{LoadKind::moment, LoadAxes::body}),
+                         [](const ::testing::TestParamInfo<Case>& given) {
                            return std::string(given.param.kind == LoadKind::force ? "Force" : "Moment") +
                                   (given.param.axes == LoadAxes::world ? "World" : "Body");
                          });
@@ -149,4 +150,4 @@ TEST(Load, FollowingMomentSpinsABodyUp) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::load_test

@@ -8,7 +8,7 @@
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::mirrored_files_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -49,4 +49,4 @@ TEST(BodyFiles, ThatAreMissingAreNamedOnce) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::mirrored_files_test

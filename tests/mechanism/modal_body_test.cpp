@@ -11,7 +11,7 @@
 #include "tests/support/modal_known_answers.hpp"
 #include "tests/support/superelement_cases.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::modal_body_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -57,8 +57,8 @@ struct Case {
   void remove_stiffness() { built.body.stiffness.setZero(); }
 };
 
-class EveryReference : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(ModalBody, EveryReference, testing::Values("node_fixed", "mean_axis"),
+class EveryReference : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(ModalBody, EveryReference, ::testing::Values("node_fixed", "mean_axis"),
                          [](const auto& name) { return name.param; });
 
 TEST_P(EveryReference, ForcesAndTangentsAreTheKnownAnswers) {
@@ -323,4 +323,4 @@ TEST(ModalNode, RateGradientIsTheDerivativeOfTheVelocity) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::modal_body_test

@@ -14,7 +14,7 @@
 #include "tests/support/modal_known_answers.hpp"
 #include "tests/support/virtual_bodies.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::modal_frame_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -137,4 +137,4 @@ TEST(ModalFrame, StoredInstantsGiveTheStateBack) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::modal_frame_test

@@ -13,7 +13,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/support/superelement_cases.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::modal_model_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -317,4 +317,4 @@ TEST(ModalModel, NodesWithoutRotationsRefuseWhatNeedsThem) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::modal_model_test

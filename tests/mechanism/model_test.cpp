@@ -13,7 +13,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/support/superelement_cases.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::model_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -252,4 +252,4 @@ TEST(MixedScene, PowerOfTheResidualIsTheRateOfEnergyMinusThePowerOfLoads) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::model_test

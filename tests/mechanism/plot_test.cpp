@@ -14,7 +14,7 @@
 
 #include "common/error.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::plot_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -219,4 +219,4 @@ TEST_F(Picture, WithoutGnuplotNamesThePackage) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::plot_test

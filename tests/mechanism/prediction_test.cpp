@@ -3,7 +3,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::prediction_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -63,4 +63,4 @@ TEST(Prediction, NothingIsForetoldAfterAJump) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::prediction_test

@@ -8,15 +8,15 @@
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::preflight_test {
 namespace {
 
 using Eigen::Vector3d;
 using formats::JointKind;
 using test_support::joint;
 using test_support::Simulation;
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 formats::RigidBodySpec block(const std::string& name, double mass, const Vector3d& center) {
   formats::RigidBodySpec body = test_support::rigid_body(name, mass, Vector3d::Zero(), {0.1, 0.1, 0.1});
@@ -129,8 +129,8 @@ TEST(Groups, AreWhatJointsAndSpringsConnect) {
   spring.b.node = "b1";
   spring.stiffness = 1.0;
   scene.springs.push_back(spring);
-  EXPECT_THAT(examined(scene, {}).groups, testing::UnorderedElementsAre(ElementsAre("ground", "b0", "b1"),
-                                                                        ElementsAre("b2", "b3"), ElementsAre("b4")));
+  EXPECT_THAT(examined(scene, {}).groups, ::testing::UnorderedElementsAre(ElementsAre("ground", "b0", "b1"),
+                                                                          ElementsAre("b2", "b3"), ElementsAre("b4")));
 }
 
 TEST(Gaps, OfAllOpenJointsAreMeasured) {
@@ -176,4 +176,4 @@ TEST(Doubts, AreRaisedByMassesAndInertias) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::preflight_test

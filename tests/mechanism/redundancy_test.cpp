@@ -8,7 +8,7 @@
 
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::redundancy_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -46,7 +46,7 @@ TEST(LeastNormReactions, OfADoorOnTwoHinges) {
     EXPECT_NEAR(force.x(), -side * M * h / (2 * (h * h + L * L)), 1e-9 * weight) << hinge.name;
     EXPECT_NEAR(moment.y(), -M * L * L / (2 * (h * h + L * L)), 1e-9 * weight) << hinge.name;
   }
-  EXPECT_THAT(joints_without_unique_reaction(run.model(), run.workspace), testing::ElementsAre("upper", "lower"));
+  EXPECT_THAT(joints_without_unique_reaction(run.model(), run.workspace), ::testing::ElementsAre("upper", "lower"));
 }
 
 // The same generalised forces Bᵀλ, so the same motion.
@@ -102,4 +102,4 @@ TEST(LeastNormReactions, AreAskedForOnlyWhereConstraintsRepeat) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::redundancy_test

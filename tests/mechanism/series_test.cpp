@@ -15,7 +15,7 @@
 #include "mechanism/tables.hpp"
 #include "tests/support/results_rows.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::series_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -208,4 +208,4 @@ TEST(Deviation, TableHasOneLinePerRun) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::series_test

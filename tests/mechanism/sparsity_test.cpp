@@ -7,12 +7,12 @@
 
 #include "common/rotation.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::sparsity_test {
 namespace {
 
 using Eigen::Vector3d;
 
-class Sparsity : public testing::TestWithParam<JointKind> {
+class Sparsity : public ::testing::TestWithParam<JointKind> {
  protected:
   Vector3d vector() { return {normal_(random_), normal_(random_), normal_(random_)}; }
   NodeMotion node() {
@@ -77,12 +77,12 @@ TEST_P(Sparsity, HoldsAllThatIsNotZero) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Sparsity,
-                         testing::Values(JointKind::fixed, JointKind::revolute, JointKind::spherical,
-                                         JointKind::universal, JointKind::constant_velocity, JointKind::cylindrical,
-                                         JointKind::prismatic, JointKind::planar, JointKind::point_on_line,
-                                         JointKind::point_on_plane, JointKind::distance,
-                                         JointKind::constant_orientation, JointKind::parallel_axes,
-                                         JointKind::generic));
+                         ::testing::Values(JointKind::fixed, JointKind::revolute, JointKind::spherical,
+                                           JointKind::universal, JointKind::constant_velocity, JointKind::cylindrical,
+                                           JointKind::prismatic, JointKind::planar, JointKind::point_on_line,
+                                           JointKind::point_on_plane, JointKind::distance,
+                                           JointKind::constant_orientation, JointKind::parallel_axes,
+                                           JointKind::generic));
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::sparsity_test

@@ -9,7 +9,7 @@
 #include "mechanism/forces/motion_function.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::spring_test {
 namespace {
 
 Spring stopped_spring() {
@@ -85,4 +85,4 @@ TEST(SpringForce, JumpsAreMetAtTheirInstant) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::spring_test

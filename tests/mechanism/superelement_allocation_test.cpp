@@ -7,7 +7,7 @@
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/superelement_cases.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::superelement_allocation_test {
 namespace {
 
 // All sizes of boundary (fixed-size and general kernels), both options, with and without damping, many modes included.
@@ -42,4 +42,4 @@ TEST(SuperelementStep, AllocatesNothing) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::superelement_allocation_test

@@ -13,7 +13,7 @@
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/superelement_cases.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::superelement_body_test {
 namespace {
 
 using formats::FrameKind;
@@ -207,7 +207,7 @@ TEST(SuperelementBuild, CutsModesWithoutSplittingClusters) {
   const SuperelementBody body = build(element, options);
   EXPECT_EQ(body.modes, first + 2);
   ASSERT_EQ(body.notes.size(), 1u);
-  EXPECT_THAT(body.notes[0], testing::HasSubstr("same frequency"));
+  EXPECT_THAT(body.notes[0], ::testing::HasSubstr("same frequency"));
   options.modes.reset();
   options.cutoff = std::sqrt(eigenvalue[first]) / (2.0 * 3.14159265358979323846) * 1.001;
   EXPECT_EQ(build(element, options).modes, first + 2);
@@ -229,39 +229,39 @@ TEST(SuperelementBuild, TakesWeightsOfTheUser) {
   options.position_weights[0].weight = 0.5;
   options.where = "scene.yaml:7:3";
   EXPECT_THAT(error_of(element, options),
-              testing::AllOf(testing::HasSubstr("sum 1.25"), testing::HasSubstr("scene.yaml:7:3")));
+              ::testing::AllOf(::testing::HasSubstr("sum 1.25"), ::testing::HasSubstr("scene.yaml:7:3")));
 }
 
 TEST(SuperelementBuild, NamesWhatIsWrong) {
   const formats::Superelement element = test_support::test_superelement("frame");
   SuperelementOptions options;
   options.modes = 6;
-  EXPECT_THAT(error_of(element, options), testing::HasSubstr("6 modes asked for, the superelement has 5"));
+  EXPECT_THAT(error_of(element, options), ::testing::HasSubstr("6 modes asked for, the superelement has 5"));
   options = {};
   options.frame = FrameKind::node;
   options.frame_node = "tip";
   EXPECT_THAT(error_of(element, options),
-              testing::AllOf(testing::HasSubstr("no node 'tip'"), testing::HasSubstr("n0, n2, n5")));
+              ::testing::AllOf(::testing::HasSubstr("no node 'tip'"), ::testing::HasSubstr("n0, n2, n5")));
   options = {};
   options.damping.ratios.assign(6, 0.01);
-  EXPECT_THAT(error_of(element, options), testing::HasSubstr("6 ratios for 5 internal modes"));
+  EXPECT_THAT(error_of(element, options), ::testing::HasSubstr("6 ratios for 5 internal modes"));
   options.damping = {.mass = -1.0, .stiffness = 0.0, .ratio = 0.0, .ratios = {}};
-  EXPECT_THAT(error_of(element, options), testing::HasSubstr("mass is -1"));
+  EXPECT_THAT(error_of(element, options), ::testing::HasSubstr("mass is -1"));
 
   formats::Superelement singular = element;  // the fifth internal coordinate is the fourth once more
   singular.stiffness.row(22) = singular.stiffness.row(21);
   singular.stiffness.col(22) = singular.stiffness.col(21);
-  EXPECT_THAT(error_of(singular, {}), testing::HasSubstr("S_II is singular"));
+  EXPECT_THAT(error_of(singular, {}), ::testing::HasSubstr("S_II is singular"));
   formats::Superelement indefinite = element;
   indefinite.stiffness(21, 22) = indefinite.stiffness(22, 21) =
       2.0 * std::sqrt(element.stiffness(21, 21) * element.stiffness(22, 22));
-  EXPECT_THAT(error_of(indefinite, {}), testing::HasSubstr("S_II is indefinite"));
+  EXPECT_THAT(error_of(indefinite, {}), ::testing::HasSubstr("S_II is indefinite"));
   formats::Superelement incomplete = test_support::permute_rows(element, [&] {
     std::vector<int> rows(static_cast<std::size_t>(element.size()) - 1);
     std::iota(rows.begin(), rows.end(), 1);
     return rows;
   }());
-  EXPECT_THAT(error_of(incomplete, {}), testing::HasSubstr("node 'n0' has 2 of three translations"));
+  EXPECT_THAT(error_of(incomplete, {}), ::testing::HasSubstr("node 'n0' has 2 of three translations"));
 }
 
 TEST(SuperelementBuild, RefusesNodesOnALineWithoutRotations) {
@@ -302,4 +302,4 @@ TEST(SuperelementFrame, DoesNotRememberItsStart) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::superelement_body_test

@@ -7,7 +7,7 @@
 #include "mechanism/bodies/superelement_evaluate.hpp"
 #include "tests/support/superelement_known_answers.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::superelement_known_answers_test {
 namespace {
 
 using formats::FrameKind;
@@ -20,7 +20,7 @@ using test_support::to_vector;
 // more.
 constexpr double kTolerance = 1e-11;
 
-class KnownAnswers : public testing::TestWithParam<std::tuple<std::string, FrameKind, InertiaOption>> {
+class KnownAnswers : public ::testing::TestWithParam<std::tuple<std::string, FrameKind, InertiaOption>> {
  protected:
   void SetUp() override {
     const auto& [name, frame, inertia] = GetParam();
@@ -112,9 +112,9 @@ TEST_P(KnownAnswers, TangentProducts) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cardona, KnownAnswers,
-                         testing::Combine(testing::Values("beam2", "lframe3"),
-                                          testing::Values(FrameKind::karcher, FrameKind::paper),
-                                          testing::Values(InertiaOption::A, InertiaOption::B)));
+                         ::testing::Combine(::testing::Values("beam2", "lframe3"),
+                                            ::testing::Values(FrameKind::karcher, FrameKind::paper),
+                                            ::testing::Values(InertiaOption::A, InertiaOption::B)));
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::superelement_known_answers_test

@@ -8,7 +8,7 @@
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/superelement_cases.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::superelement_lagrange_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -157,7 +157,7 @@ Eigen::VectorXd lagrange(const SuperelementBody& body, const BodyState& state, c
   return result;
 }
 
-class SuperelementForcesOf : public testing::TestWithParam<Case> {
+class SuperelementForcesOf : public ::testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
     body_ = make_body(GetParam(), {});
@@ -374,7 +374,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Bodies, SuperelementForcesOf, testing::ValuesIn(cases()));
+INSTANTIATE_TEST_SUITE_P(Bodies, SuperelementForcesOf, ::testing::ValuesIn(cases()));
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::superelement_lagrange_test

@@ -9,7 +9,7 @@
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/superelement_cases.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::superelement_tangent_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -91,7 +91,7 @@ Derivatives complex_step(const SuperelementBody& body, const BodyState& state, c
   return result;
 }
 
-class SuperelementTangents : public testing::TestWithParam<Case> {
+class SuperelementTangents : public ::testing::TestWithParam<Case> {
  protected:
   void SetUp() override {
     body_ = make_body(GetParam());
@@ -242,7 +242,7 @@ std::vector<Case> cases() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Bodies, SuperelementTangents, testing::ValuesIn(cases()));
+INSTANTIATE_TEST_SUITE_P(Bodies, SuperelementTangents, ::testing::ValuesIn(cases()));
 
 std::vector<Case> cases_of_the_exact_center() {
   std::vector<Case> all = cases();
@@ -250,7 +250,7 @@ std::vector<Case> cases_of_the_exact_center() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Bodies, CenterOfMassTangents, testing::ValuesIn(cases_of_the_exact_center()));
+INSTANTIATE_TEST_SUITE_P(Bodies, CenterOfMassTangents, ::testing::ValuesIn(cases_of_the_exact_center()));
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::superelement_tangent_test

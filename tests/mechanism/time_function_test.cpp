@@ -9,7 +9,7 @@
 #include "common/error.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::time_function_test {
 namespace {
 
 using formats::TimeExpression;
@@ -49,7 +49,7 @@ TEST(TimeFunction, BadExpressionIsAnErrorAtItsPlace) {
       FAIL() << text;
     } catch (const Error& error) {
       EXPECT_EQ(error.where(), "scene.yaml:3:4") << text;
-      EXPECT_THAT(error.message(), testing::HasSubstr("'" + text + "'"));
+      EXPECT_THAT(error.message(), ::testing::HasSubstr("'" + text + "'"));
       EXPECT_FALSE(error.remedy().empty());
     }
   }
@@ -75,8 +75,8 @@ TEST(LoadThatIsNotANumber, DuringARunEndsItWithAReason) {
     }
     EXPECT_NEAR(run.state().time(), 1.0, 0.01);
     EXPECT_EQ(run.report.outcome, StepOutcome::diverged);
-    EXPECT_THAT(run.failure, testing::HasSubstr("not finite"));
-    EXPECT_THAT(run.failure, testing::HasSubstr("body, translation x"));
+    EXPECT_THAT(run.failure, ::testing::HasSubstr("not finite"));
+    EXPECT_THAT(run.failure, ::testing::HasSubstr("body, translation x"));
     EXPECT_TRUE(run.position("body").allFinite());
     EXPECT_TRUE(run.velocity("body").allFinite());
     EXPECT_TRUE(std::isfinite(run.state().work()));
@@ -84,4 +84,4 @@ TEST(LoadThatIsNotANumber, DuringARunEndsItWithAReason) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::time_function_test

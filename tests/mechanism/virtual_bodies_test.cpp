@@ -14,7 +14,7 @@
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/virtual_bodies.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::virtual_bodies_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -169,11 +169,11 @@ void expect_equal_treatments(const formats::Scene& scene, const BodyFiles& files
   expect_equal(kept.reaction, eliminated.reaction, 1e-7);
 }
 
-class SliderCrank : public testing::TestWithParam<std::tuple<Rod, formats::Formulation>> {};
+class SliderCrank : public ::testing::TestWithParam<std::tuple<Rod, formats::Formulation>> {};
 INSTANTIATE_TEST_SUITE_P(Rods, SliderCrank,
-                         testing::Combine(testing::Values(Rod::rigid, Rod::superelement, Rod::beam, Rod::modal),
-                                          testing::Values(formats::Formulation::index3,
-                                                          formats::Formulation::stabilised_index2)),
+                         ::testing::Combine(::testing::Values(Rod::rigid, Rod::superelement, Rod::beam, Rod::modal),
+                                            ::testing::Values(formats::Formulation::index3,
+                                                              formats::Formulation::stabilised_index2)),
                          [](const auto& given) {
                            return std::string(rod_names[static_cast<int>(std::get<0>(given.param))]) +
                                   (std::get<1>(given.param) == formats::Formulation::index3 ? "_index3" : "_index2");
@@ -191,8 +191,8 @@ TEST_P(SliderCrank, MovesTheSameWithBodiesKeptAndEliminated) {
       for (const formats::InertiaOption inertia :
            {formats::InertiaOption::A, formats::InertiaOption::B, formats::InertiaOption::M}) {
         if (rod != Rod::superelement && inertia != formats::InertiaOption::B) continue;
-        SCOPED_TRACE(testing::Message() << "E " << young << ", rho " << rho << ", inertia "
-                                        << static_cast<int>(inertia));
+        SCOPED_TRACE(::testing::Message()
+                     << "E " << young << ", rho " << rho << ", inertia " << static_cast<int>(inertia));
         formats::Scene scene = slider_crank({rod, young, inertia}, formulation, VirtualBodies::keep);
         scene.integrator.rho = rho;
         // The wrist of a modal body moves nonlinearly, and a damper would feel the velocities that index 3 leaves.
@@ -311,14 +311,14 @@ TEST(LoopOfTies, MustClose) {
   scene.joints.back().a.orientation = Eigen::Quaterniond::Identity();
   scene.joints.back().b.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(0.02, Vector3d::UnitY()));
   const std::string text = build_error(scene, {});
-  EXPECT_THAT(text, testing::HasSubstr("'again' closes stays open by 0.003 and 0.02 rad"));
+  EXPECT_THAT(text, ::testing::HasSubstr("'again' closes stays open by 0.003 and 0.02 rad"));
 }
 
 TEST(PoseOfAVirtualBody, MustMeetItsTie) {
   formats::Scene scene = massless_lever(VirtualBodies::eliminate);
   scene.joints[1].a.position = Vector3d(0.8, 0.004, 0);
   scene.joints[1].b.position = Vector3d::Zero();
-  EXPECT_THAT(build_error(scene, {}), testing::HasSubstr("'end' is 0.004 and 0 rad away from where joint 'lever'"));
+  EXPECT_THAT(build_error(scene, {}), ::testing::HasSubstr("'end' is 0.004 and 0 rad away from where joint 'lever'"));
 }
 
 TEST(OrientationOfAGroup, MustBeDetermined) {
@@ -337,17 +337,17 @@ TEST(OrientationOfAGroup, MustBeDetermined) {
   scene.bodies.push_back(virtual_body("rim", {0, 0, 0}));
   scene.joints = {fixed_joint("one", "hub", node), fixed_joint("two", "hub", "rim")};
   const std::string text = build_error(scene, files);
-  EXPECT_THAT(text, testing::HasSubstr("nothing determines the orientation of virtual body 'hub'"));
-  EXPECT_THAT(text, testing::HasSubstr(node));
+  EXPECT_THAT(text, ::testing::HasSubstr("nothing determines the orientation of virtual body 'hub'"));
+  EXPECT_THAT(text, ::testing::HasSubstr(node));
 }
 
 TEST(JointInsideAGroup, IsAnErrorThatSaysWhy) {
   formats::Scene scene = massless_lever(VirtualBodies::eliminate);
   scene.joints.push_back(joint("inside", JointKind::revolute, "root", "end", {0, 0, 0}, {0, 0, 1}));
   const std::string text = build_error(scene, {});
-  EXPECT_THAT(text, testing::HasSubstr("'inside'"));
-  EXPECT_THAT(text, testing::HasSubstr("fixed joints tie these bodies together already"));
+  EXPECT_THAT(text, ::testing::HasSubstr("'inside'"));
+  EXPECT_THAT(text, ::testing::HasSubstr("fixed joints tie these bodies together already"));
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::virtual_bodies_test

@@ -10,7 +10,7 @@
 #include "tests/support/superelement_cases.hpp"
 #include "tests/support/virtual_bodies.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::virtual_modal_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -346,9 +346,9 @@ TEST(LoopOnAModalNode, ThatStaysOpenIsAnErrorWithTheGap) {
     }
     return "no error";
   };
-  EXPECT_THAT(fault(VirtualBodies::eliminate), testing::HasSubstr("'loop' closes stays open by 0.003 and 0 rad"));
-  EXPECT_THAT(fault(VirtualBodies::keep), testing::HasSubstr("0.003"));
+  EXPECT_THAT(fault(VirtualBodies::eliminate), ::testing::HasSubstr("'loop' closes stays open by 0.003 and 0 rad"));
+  EXPECT_THAT(fault(VirtualBodies::keep), ::testing::HasSubstr("0.003"));
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::virtual_modal_test

@@ -19,7 +19,7 @@
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/spring_nets.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::assembly_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -292,4 +292,4 @@ TEST(Plausibility, DoubtsAreNamedWhenTheReductionFails) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::assembly_test

@@ -10,7 +10,7 @@
 
 #include "common/rotation.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::beam_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -172,4 +172,4 @@ TEST(BeamAxes, YIsThePartOfTheOrientationNormalToTheAxis) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::beam_test

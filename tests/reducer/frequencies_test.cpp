@@ -6,7 +6,7 @@
 
 #include "tests/reducer/parts.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::frequencies_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -131,4 +131,4 @@ TEST(Frequencies, LumpedMassConvergesWithOrderTwo) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::frequencies_test

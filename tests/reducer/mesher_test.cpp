@@ -13,7 +13,7 @@
 #include "reducer/gmsh/write.hpp"
 #include "tests/reducer/parts.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::mesher_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -168,4 +168,4 @@ TEST(BadParts, MotionsThatTheBoundaryLeavesFreeAreNamed) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::mesher_test

@@ -8,7 +8,7 @@
 
 #include "tests/reducer/parts.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::mirror_test {
 namespace {
 
 using Eigen::Index;
@@ -79,4 +79,4 @@ TEST(Mirror, IsTheReductionOfTheMirroredPart) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::mirror_test

@@ -12,7 +12,7 @@
 #include "reducer/build_mesh.hpp"
 #include "tests/reducer/parts.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::modes_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -209,4 +209,4 @@ TEST(Solvers, FiveThousandCoordinatesNoneMissed) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::modes_test

@@ -3,7 +3,7 @@
 
 #include "tests/reducer/parts.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::parts_test {
 
 TEST(Parts, FrequenciesOfTheFrameAreSingle) {
   const reducer::Reduction reduction = reduce(space_frame(30));
@@ -11,4 +11,4 @@ TEST(Parts, FrequenciesOfTheFrameAreSingle) {
   for (int k = 1; k < 30; ++k) EXPECT_GT(lambda[k] - lambda[k - 1], 1e-4 * lambda[k]) << "mode " << k;
 }
 
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::parts_test

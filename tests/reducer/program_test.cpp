@@ -12,7 +12,7 @@
 
 #include "formats/superelement.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::program_test {
 namespace {
 
 using ::testing::AllOf;
@@ -114,4 +114,4 @@ TEST_F(Program, OverridesReachThePart) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::program_test

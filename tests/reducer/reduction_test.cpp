@@ -13,7 +13,7 @@
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/reduction_laws.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::reduction_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -155,4 +155,4 @@ TEST(Reduction, CertificateTellsASeventhFreeMotion) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::reduction_test

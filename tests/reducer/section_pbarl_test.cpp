@@ -9,7 +9,7 @@
 #include "common/error.hpp"
 #include "reducer/sections/pbarl.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::section_pbarl_test {
 namespace {
 
 using formats::Section;
@@ -142,4 +142,4 @@ TEST(Pbarl, FaultsAreNamed) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::section_pbarl_test

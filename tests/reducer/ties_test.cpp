@@ -19,7 +19,7 @@
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/spring_nets.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::ties_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -313,4 +313,4 @@ TEST(Contradictions, CyclesResolveAndRedundantEquationsAreCounted) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::ties_test

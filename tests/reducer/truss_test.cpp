@@ -12,7 +12,7 @@
 #include "tests/reducer/truss.hpp"
 #include "tests/support/reference_table.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::truss_test {
 namespace {
 
 using nlohmann::json;
@@ -92,4 +92,4 @@ TEST(Truss, ErrorsOfTheReductionAreTheExpectedOnes) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::truss_test

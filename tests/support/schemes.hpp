@@ -20,13 +20,13 @@ struct Scheme {
 inline auto all_schemes() {
   using formats::Formulation;
   using formats::Method;
-  return testing::Values(Scheme{"AlphaIndex3", Method::generalised_alpha, Formulation::index3},
-                         Scheme{"AlphaStabilised", Method::generalised_alpha, Formulation::stabilised_index2},
-                         Scheme{"HhtIndex3", Method::hht, Formulation::index3},
-                         Scheme{"HhtStabilised", Method::hht, Formulation::stabilised_index2});
+  return ::testing::Values(Scheme{"AlphaIndex3", Method::generalised_alpha, Formulation::index3},
+                           Scheme{"AlphaStabilised", Method::generalised_alpha, Formulation::stabilised_index2},
+                           Scheme{"HhtIndex3", Method::hht, Formulation::index3},
+                           Scheme{"HhtStabilised", Method::hht, Formulation::stabilised_index2});
 }
 
-inline std::string scheme_name(const testing::TestParamInfo<Scheme>& given) { return given.param.name; }
+inline std::string scheme_name(const ::testing::TestParamInfo<Scheme>& given) { return given.param.name; }
 
 /// The scene with the scheme; HHT with alpha = 0.1.
 inline formats::Scene with_scheme(const Scheme& scheme, formats::Scene scene) {

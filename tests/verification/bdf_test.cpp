@@ -16,7 +16,7 @@
 #include "tests/support/reference_table.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::bdf_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -65,7 +65,7 @@ formats::Scene with(formats::Scene scene, double tolerance, Stabilisation stabil
   return scene;
 }
 
-class WithCvode : public testing::TestWithParam<Stabilisation> {
+class WithCvode : public ::testing::TestWithParam<Stabilisation> {
  protected:
   void SetUp() override {
     if (!bdf_available()) GTEST_SKIP() << "this build has no CVODE";
@@ -73,8 +73,8 @@ class WithCvode : public testing::TestWithParam<Stabilisation> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Stabilisations, WithCvode,
-                         testing::Values(Stabilisation::projection, Stabilisation::baumgarte),
-                         [](const testing::TestParamInfo<Stabilisation>& given) {
+                         ::testing::Values(Stabilisation::projection, Stabilisation::baumgarte),
+                         [](const ::testing::TestParamInfo<Stabilisation>& given) {
                            return given.param == Stabilisation::projection ? "Projection" : "Baumgarte";
                          });
 
@@ -84,7 +84,7 @@ TEST(Bdf, WithoutCvodeTheErrorSaysWhatToInstall) {
     BdfRun run(test_support::pendulum_scene(1e-3, 1.0), {});
     FAIL();
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("libsundials-dev"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("libsundials-dev"));
   }
 }
 
@@ -194,8 +194,8 @@ TEST_P(WithCvode, MasslessDirectionsAreRefused) {
     BdfRun run(scene, {});
     FAIL() << "no error";
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("rod"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("generalised_alpha"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("rod"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("generalised_alpha"));
   }
 }
 
@@ -233,4 +233,4 @@ TEST_P(WithCvode, ASceneRunsToItsResults) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::bdf_test

@@ -14,7 +14,7 @@
 #include "tests/support/beam_superelement.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::chain_example_test {
 namespace {
 
 constexpr int kLinks = 12;
@@ -88,4 +88,4 @@ TEST_F(ChainExample, StiffLinksFallLikeRigidOnes) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::chain_example_test

@@ -14,7 +14,7 @@
 #include "formats/superelement.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::formats {
+namespace tisserand::formats::chassis_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -87,4 +87,4 @@ TEST_F(Chassis, ReducedToEightAttachmentsItKeepsItsFreeFrequencies) {
 }
 
 }  // namespace
-}  // namespace tisserand::formats
+}  // namespace tisserand::formats::chassis_test

@@ -16,7 +16,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::checkpoint_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -133,11 +133,11 @@ struct Case {
 };
 void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 
-class Checkpoint : public testing::TestWithParam<Case> {};
+class Checkpoint : public ::testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, Checkpoint,
-                         testing::Values(Case{"swing", swing}, Case{"whip", whip}, Case{"parallelogram", parallelogram},
-                                         Case{"soft_rod", soft_rod}),
-                         [](const testing::TestParamInfo<Case>& given) { return given.param.name; });
+                         ::testing::Values(Case{"swing", swing}, Case{"whip", whip},
+                                           Case{"parallelogram", parallelogram}, Case{"soft_rod", soft_rod}),
+                         [](const ::testing::TestParamInfo<Case>& given) { return given.param.name; });
 
 // The first run goes through a second checkpoint, which both runs pass alike; the file kept is that of the first.
 TEST_P(Checkpoint, GoesOnBitEqual) {
@@ -223,4 +223,4 @@ TEST(CheckpointFile, IsRefusedIfItIsNotOfThisSceneOrNotWhole) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::checkpoint_test

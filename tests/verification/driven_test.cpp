@@ -11,7 +11,7 @@
 #include "tests/support/lumped_bodies.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::driven_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -363,4 +363,4 @@ TEST(Assembly, MovesModalBodiesAsRigidOnes) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::driven_test

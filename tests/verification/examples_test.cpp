@@ -22,7 +22,7 @@
 #include "mechanism/tables.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::examples_test {
 namespace {
 
 using Settings = std::vector<std::string>;
@@ -228,4 +228,4 @@ TEST_F(SphericalBeam, SpuriousAxialSpin) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::examples_test

@@ -15,7 +15,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/support/schemes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::integrator_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -26,7 +26,7 @@ using test_support::Pendulum;
 using test_support::Scheme;
 using test_support::Simulation;
 
-class EveryScheme : public testing::TestWithParam<Scheme> {
+class EveryScheme : public ::testing::TestWithParam<Scheme> {
  protected:
   formats::Scene with_scheme(formats::Scene scene) const {
     scene.integrator.rho = 0.9;
@@ -309,4 +309,4 @@ TEST(Formulations, AgreeInTheLimit) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::integrator_test

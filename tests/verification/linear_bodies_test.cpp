@@ -11,7 +11,7 @@
 #include "tests/support/reference_table.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::linear_bodies_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -112,4 +112,4 @@ TEST(VeryStiffMode, ChangesNothing) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::linear_bodies_test

@@ -4,7 +4,7 @@
 #include "tests/support/andrews.hpp"
 #include "tests/support/virtual_bodies.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::massless_chain_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -59,11 +59,11 @@ Outcome swing(const formats::Scene& scene) {
   return {{{"mass", all.motion.at("mass")}}, {{"slide", all.reaction.at("slide")}}};
 }
 
-class MasslessChain : public testing::TestWithParam<std::tuple<Formulation, LinearSolver>> {};
+class MasslessChain : public ::testing::TestWithParam<std::tuple<Formulation, LinearSolver>> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, MasslessChain,
-                         testing::Combine(testing::Values(Formulation::index3, Formulation::stabilised_index2),
-                                          testing::Values(LinearSolver::klu, LinearSolver::umfpack, LinearSolver::dense,
-                                                          LinearSolver::qr)));
+                         ::testing::Combine(::testing::Values(Formulation::index3, Formulation::stabilised_index2),
+                                            ::testing::Values(LinearSolver::klu, LinearSolver::umfpack,
+                                                              LinearSolver::dense, LinearSolver::qr)));
 
 // A link without mass on a hinge is the plane spring pendulum, whatever is welded between them.
 TEST_P(MasslessChain, OfAnyLengthMovesAsTheHingeAlone) {
@@ -104,4 +104,4 @@ TEST(MasslessChain, AcceleratesAsTheHingeAlone) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::massless_chain_test

@@ -9,7 +9,7 @@
 #include "tests/support/superelement_cases.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::modal_motion_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -246,4 +246,4 @@ TEST(ModalMotion, SmallDeformationsAgreeWithSuperelementAndNonlinearBeams) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::modal_motion_test

@@ -11,7 +11,7 @@
 #include "tests/support/reference_table.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::modes_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -315,4 +315,4 @@ TEST(TurningCantilever, NeedsSeveralSuperelements) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::modes_test

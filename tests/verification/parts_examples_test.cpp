@@ -23,7 +23,7 @@
 #include "mechanism/simulate.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::parts_examples_test {
 namespace {
 
 using Settings = std::vector<std::string>;
@@ -326,4 +326,4 @@ TEST_F(PartsExamples, CrankHasTheMassOfItsCadFileAndMovesAsARigidOneAlmost) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::parts_examples_test

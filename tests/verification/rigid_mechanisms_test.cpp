@@ -12,7 +12,7 @@
 #include "tests/support/andrews.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::rigid_mechanisms_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -435,4 +435,4 @@ TEST(DistanceJoint, SwingsAsTheMathematicalPendulum) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::rigid_mechanisms_test

@@ -9,7 +9,7 @@
 #include "tests/support/modal_known_answers.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::simeon_test {
 namespace {
 
 using Eigen::Matrix4d;
@@ -140,4 +140,4 @@ TEST(SimeonSliderCrank, MeetsTheModelWithTheShapesGiven) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::simeon_test

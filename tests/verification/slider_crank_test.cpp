@@ -16,7 +16,7 @@
 #include "tests/support/reference_table.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::slider_crank_test {
 namespace {
 
 using Settings = std::vector<std::string>;
@@ -42,7 +42,7 @@ struct Curve {
   }
 };
 
-class SliderCrank : public testing::Test {
+class SliderCrank : public ::testing::Test {
  protected:
   void SetUp() override {
     for (const char* scene :
@@ -181,4 +181,4 @@ TEST_F(SliderCrank, SuperelementsAgainstTheExactBeamAndTheLinearBody) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::slider_crank_test

@@ -13,7 +13,7 @@
 #include "tests/support/reference_table.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::statics_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -149,15 +149,15 @@ TEST(SceneThatCanMove, IsAnOutcomeThatNamesTheDirection) {
   Simulation hinged(c.scene, c.files);
   StaticsReport report = solve(hinged);
   EXPECT_EQ(report.outcome, StepOutcome::singular);
-  EXPECT_THAT(report.explanation, testing::HasSubstr("can move freely"));
+  EXPECT_THAT(report.explanation, ::testing::HasSubstr("can move freely"));
   EXPECT_THAT(report.explanation,
-              testing::AnyOf(testing::HasSubstr("translation y"), testing::HasSubstr("about its z axis")));
+              ::testing::AnyOf(::testing::HasSubstr("translation y"), ::testing::HasSubstr("about its z axis")));
 
   c.scene.joints.clear();
   Simulation free(c.scene, c.files);
   report = solve(free);
   EXPECT_EQ(report.outcome, StepOutcome::singular);
-  EXPECT_THAT(report.explanation, testing::HasSubstr("beam/"));
+  EXPECT_THAT(report.explanation, ::testing::HasSubstr("beam/"));
 }
 
 // Gravity alone: a clamped beam of weight W hangs through by less than W L³/(8 E I) (the weight acts through the centre
@@ -201,4 +201,4 @@ TEST(SuperelementCantilever, HingeAngleIsReportedInStatics) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::statics_test

@@ -15,7 +15,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/support/schemes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::step_control_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -26,7 +26,7 @@ using test_support::Pendulum;
 using test_support::Scheme;
 using test_support::Simulation;
 
-class Controlled : public testing::TestWithParam<Scheme> {
+class Controlled : public ::testing::TestWithParam<Scheme> {
  protected:
   formats::Scene with_scheme(formats::Scene scene) const {
     return test_support::with_scheme(GetParam(), std::move(scene));
@@ -288,4 +288,4 @@ TEST(LocalError, IsThatOfOneStep) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::step_control_test

@@ -8,7 +8,7 @@
 #include "tests/support/beam_superelement.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::stiff_mode_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -73,10 +73,10 @@ Eigen::Vector2d difference(const Motion& a, const Motion& b) {
   return largest;
 }
 
-class StiffMode : public testing::TestWithParam<std::tuple<double, Formulation>> {};
+class StiffMode : public ::testing::TestWithParam<std::tuple<double, Formulation>> {};
 INSTANTIATE_TEST_SUITE_P(Damping, StiffMode,
-                         testing::Combine(testing::Values(0.0, 0.5, 0.9),
-                                          testing::Values(Formulation::index3, Formulation::stabilised_index2)));
+                         ::testing::Combine(::testing::Values(0.0, 0.5, 0.9),
+                                            ::testing::Values(Formulation::index3, Formulation::stabilised_index2)));
 
 // The mode follows the motion statically, with 1e-12 of the acceleration; a step of 1e3 of its radians must neither
 // excite it nor cost the slow motion its order.
@@ -100,4 +100,4 @@ TEST_P(StiffMode, ChangesNothingOfTheSlowMotion) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::stiff_mode_test

@@ -10,7 +10,7 @@
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::superelement_motion_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -67,9 +67,9 @@ Vector3d angular_momentum(Simulation& run) {
 
 // Symmetric top without forces: the axis turns about the fixed angular momentum H at |H|/J_t. J_a = ρ(Iy + Iz)L = 1.2,
 // J_t = ρAL³/12 + ρIL = 8/12 + 0.6.
-class FreeTop : public testing::TestWithParam<InertiaOption> {};
-INSTANTIATE_TEST_SUITE_P(Options, FreeTop, testing::Values(InertiaOption::A, InertiaOption::B, InertiaOption::M),
-                         [](const testing::TestParamInfo<InertiaOption>& given) {
+class FreeTop : public ::testing::TestWithParam<InertiaOption> {};
+INSTANTIATE_TEST_SUITE_P(Options, FreeTop, ::testing::Values(InertiaOption::A, InertiaOption::B, InertiaOption::M),
+                         [](const ::testing::TestParamInfo<InertiaOption>& given) {
                            return std::string(1, "ABM"[static_cast<int>(given.param)]);
                          });
 
@@ -249,4 +249,4 @@ TEST(Gravity, StiffAndRigidUseOfASuperelementSwingLikeARigidBody) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::superelement_motion_test

@@ -21,7 +21,7 @@
 #include "tests/support/reference_table.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::targets_test {
 namespace {
 
 const std::string examples = TISSERAND_SOURCE_DIR "/examples/";
@@ -64,7 +64,7 @@ std::vector<Target> read_targets(const std::string& folder) {
 }
 
 /// Runs one scene of a folder with its last two values and checks every line about it.
-class Targets : public testing::TestWithParam<const char*> {
+class Targets : public ::testing::TestWithParam<const char*> {
  protected:
   void run(const Target& t, const std::string& setting, const std::string& result) {
     std::vector<formats::Override> overrides;
@@ -142,9 +142,9 @@ class Targets : public testing::TestWithParam<const char*> {
 
 class RigidTargets : public Targets {};
 INSTANTIATE_TEST_SUITE_P(Scenes, RigidTargets,
-                         testing::Values("pendulum", "four_bar_2", "four_bar_10", "andrews", "bricard", "heavy_top",
-                                         "free_body", "equal_crank", "spring_crank"),
-                         [](const testing::TestParamInfo<const char*>& scene) { return scene.param; });
+                         ::testing::Values("pendulum", "four_bar_2", "four_bar_10", "andrews", "bricard", "heavy_top",
+                                           "free_body", "equal_crank", "spring_crank"),
+                         [](const ::testing::TestParamInfo<const char*>& scene) { return scene.param; });
 TEST_P(RigidTargets, AreMet) { check("rigid_benchmarks", GetParam()); }
 
 // A step that ends on the very change point, where the slider's rows lose a rank: x = 2 cos(pi t/2) all the same.
@@ -174,10 +174,10 @@ class FlexibleTargets : public Targets {
   }
 };
 INSTANTIATE_TEST_SUITE_P(Scenes, FlexibleTargets,
-                         testing::Values("spin_up", "spin_up_steady", "princeton", "bend_45", "roll_up",
-                                         "l_frame_tones", "l_frame_loads", "top_fast", "top_slow", "simeon", "shaft",
-                                         "shaft_centred", "turning_beams"),
-                         [](const testing::TestParamInfo<const char*>& scene) { return scene.param; });
+                         ::testing::Values("spin_up", "spin_up_steady", "princeton", "bend_45", "roll_up",
+                                           "l_frame_tones", "l_frame_loads", "top_fast", "top_slow", "simeon", "shaft",
+                                           "shaft_centred", "turning_beams"),
+                         [](const ::testing::TestParamInfo<const char*>& scene) { return scene.param; });
 TEST_P(FlexibleTargets, AreMet) { check("flexible_benchmarks", GetParam()); }
 
 bool FlexibleTargets::reduce(const std::string& scene) const {
@@ -205,12 +205,12 @@ bool FlexibleTargets::reduce(const std::string& scene) const {
 
 class SuperelementTargets : public FlexibleTargets {};
 INSTANTIATE_TEST_SUITE_P(Scenes, SuperelementTargets,
-                         testing::Values("spin_up_superelement_4", "princeton_superelement_2",
-                                         "princeton_superelement_4", "princeton_superelement_8",
-                                         "bend_45_superelements", "l_frame_tones_superelement",
-                                         "l_frame_loads_superelement", "top_fast_superelement", "top_slow_superelement",
-                                         "turning_superelements"),
-                         [](const testing::TestParamInfo<const char*>& scene) { return scene.param; });
+                         ::testing::Values("spin_up_superelement_4", "princeton_superelement_2",
+                                           "princeton_superelement_4", "princeton_superelement_8",
+                                           "bend_45_superelements", "l_frame_tones_superelement",
+                                           "l_frame_loads_superelement", "top_fast_superelement",
+                                           "top_slow_superelement", "turning_superelements"),
+                         [](const ::testing::TestParamInfo<const char*>& scene) { return scene.param; });
 TEST_P(SuperelementTargets, AreMet) {
   if (!reduce(GetParam())) GTEST_SKIP() << "built without the reducer";
   check("flexible_benchmarks", GetParam());
@@ -219,8 +219,8 @@ TEST_P(SuperelementTargets, AreMet) {
 // Every row of the references, not the last one alone: the slow top falls below the level and rises again.
 class TopDirections : public FlexibleTargets {};
 INSTANTIATE_TEST_SUITE_P(Scenes, TopDirections,
-                         testing::Values("top_fast", "top_slow", "top_fast_superelement", "top_slow_superelement"),
-                         [](const testing::TestParamInfo<const char*>& scene) { return scene.param; });
+                         ::testing::Values("top_fast", "top_slow", "top_fast_superelement", "top_slow_superelement"),
+                         [](const ::testing::TestParamInfo<const char*>& scene) { return scene.param; });
 TEST_P(TopDirections, FollowTheRigidBody) {
   const std::string scene = GetParam();
   if (scene.ends_with("superelement") && !reduce(scene)) GTEST_SKIP() << "built without the reducer";
@@ -246,4 +246,4 @@ TEST_P(TopDirections, FollowTheRigidBody) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::targets_test

@@ -7,7 +7,7 @@
 #include "tests/support/reduced_frames.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::mechanism::turning_frame_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -19,14 +19,14 @@ struct Frame {
   formats::FrameKind kind;
 };
 
-class TurningFrame : public testing::TestWithParam<Frame> {};
+class TurningFrame : public ::testing::TestWithParam<Frame> {};
 INSTANTIATE_TEST_SUITE_P(Frames, TurningFrame,
-                         testing::Values(Frame{"Pair", "beam", formats::FrameKind::karcher},
-                                         Frame{"Incremental", "beam", formats::FrameKind::paper},
-                                         Frame{"Karcher", "three", formats::FrameKind::karcher},
-                                         Frame{"IncrementalOfThree", "three", formats::FrameKind::paper},
-                                         Frame{"Polar", "network", formats::FrameKind::karcher}),
-                         [](const testing::TestParamInfo<Frame>& given) { return given.param.name; });
+                         ::testing::Values(Frame{"Pair", "beam", formats::FrameKind::karcher},
+                                           Frame{"Incremental", "beam", formats::FrameKind::paper},
+                                           Frame{"Karcher", "three", formats::FrameKind::karcher},
+                                           Frame{"IncrementalOfThree", "three", formats::FrameKind::paper},
+                                           Frame{"Polar", "network", formats::FrameKind::karcher}),
+                         [](const ::testing::TestParamInfo<Frame>& given) { return given.param.name; });
 
 formats::Superelement element(const std::string& name) {
   using test_support::Keep;
@@ -85,4 +85,4 @@ TEST(LoadJump, IsSeenBesideLoadsOfAnySize) {
 }
 
 }  // namespace
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::mechanism::turning_frame_test

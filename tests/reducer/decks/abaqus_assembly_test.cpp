@@ -4,11 +4,11 @@
 
 #include "tests/reducer/decks/abaqus_deck.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::abaqus_assembly_test {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 TEST(AbaqusSets, RangesListsAndSetsInSets) {
   const Deck deck = abaqus_deck(
@@ -103,4 +103,4 @@ TEST(AbaqusAssembly, Faults) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::abaqus_assembly_test

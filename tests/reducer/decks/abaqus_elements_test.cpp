@@ -8,11 +8,11 @@
 #include "reducer/decks/abaqus_element_types.hpp"
 #include "tests/reducer/decks/abaqus_deck.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::abaqus_elements_test {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 /// Corners of the reference elements of Abaqus and the corners between which its middle nodes lie, counted from 1
 /// (Abaqus, "Three-dimensional solid element library", node ordering).
@@ -159,4 +159,4 @@ TEST(AbaqusElements, TypesWithoutCounterpartAreRefusedWithARemedy) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::abaqus_elements_test

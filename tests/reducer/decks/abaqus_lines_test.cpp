@@ -5,13 +5,13 @@
 #include "reducer/decks/abaqus_lines.hpp"
 #include "tests/reducer/decks/abaqus_deck.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::abaqus_lines_test {
 namespace {
 
 using abaqus::to_integer;
 using abaqus::to_number;
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 TEST(AbaqusLines, NumbersWithFortranExponentsAreRead) {
   EXPECT_EQ(to_number("1.5D+3"), 1500.0);
@@ -117,4 +117,4 @@ TEST(AbaqusLines, ErrorsAreCollectedAndTheirNumberIsBounded) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::abaqus_lines_test

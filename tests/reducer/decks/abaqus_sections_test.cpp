@@ -11,11 +11,11 @@
 #include "reducer/elements/solid_anisotropic.hpp"
 #include "tests/reducer/decks/abaqus_deck.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::abaqus_sections_test {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 /// The plate of abaqus_plate with another section.
 std::string plate(const std::string& section) {
@@ -288,4 +288,4 @@ TEST(AbaqusSections, ErrorsNameValueAndRemedy) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::abaqus_sections_test

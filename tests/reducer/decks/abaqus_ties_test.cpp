@@ -4,11 +4,11 @@
 
 #include "tests/reducer/decks/abaqus_deck.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::abaqus_ties_test {
 namespace {
 
-using testing::AllOf;
-using testing::HasSubstr;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
 
 const std::string kReference = "*NODE\n10, 0.5, 0.5, 1.\n";
 const std::string kSurface = "*SURFACE, NAME=Face, TYPE=ELEMENT\nPlate, SPOS\n";
@@ -152,4 +152,4 @@ TEST(AbaqusTies, FaultsOfCouplings) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::abaqus_ties_test

@@ -6,7 +6,7 @@
 #include "reducer/decks/nastran_fields.hpp"
 #include "tests/reducer/decks/nastran_deck.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::nastran_cards_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -148,4 +148,4 @@ TEST(NastranCards, ElementNumbersAreUnique) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::nastran_cards_test

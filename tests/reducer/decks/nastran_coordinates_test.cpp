@@ -9,7 +9,7 @@
 #include "reducer/decks/nastran_coordinates.hpp"
 #include "tests/reducer/decks/nastran_deck.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::nastran_coordinates_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -90,4 +90,4 @@ TEST(NastranCoordinates, AxesFollowThePosition) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::nastran_coordinates_test

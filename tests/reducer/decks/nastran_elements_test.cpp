@@ -12,7 +12,7 @@
 #include "reducer/elements/element_matrices.hpp"
 #include "tests/reducer/decks/nastran_deck.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::nastran_elements_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -231,4 +231,4 @@ TEST(NastranSprings, SpringsThatHoldThePartAreFaults) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::nastran_elements_test

@@ -11,7 +11,7 @@
 #include "tests/reducer/decks/nastran_deck.hpp"
 #include "tests/support/small_model.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::nastran_properties_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -217,4 +217,4 @@ TEST(NastranShellProperties, MembraneOrBendingAlone) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::nastran_properties_test

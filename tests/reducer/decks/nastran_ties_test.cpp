@@ -6,7 +6,7 @@
 
 #include "tests/reducer/decks/nastran_deck.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::nastran_ties_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -128,4 +128,4 @@ TEST(NastranBoundary, SupportsAreFaultsWhereSomethingIsHeld) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::nastran_ties_test

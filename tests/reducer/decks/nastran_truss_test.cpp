@@ -9,7 +9,7 @@
 #include "tests/reducer/decks/nastran_deck.hpp"
 #include "tests/support/small_model.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::nastran_truss_test {
 namespace {
 
 using nlohmann::json;
@@ -107,4 +107,4 @@ TEST(NastranTruss, EveryFormatGivesTheMatricesByHand) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::nastran_truss_test

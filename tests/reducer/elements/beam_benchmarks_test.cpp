@@ -5,7 +5,7 @@
 
 #include "tests/problems/beam_vibration.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::beam_benchmarks_test {
 namespace {
 
 using Eigen::VectorXd;
@@ -65,4 +65,4 @@ TEST(BeamBenchmarks, PinnedTimoshenkoBeam) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::beam_benchmarks_test

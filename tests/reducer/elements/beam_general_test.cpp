@@ -13,7 +13,7 @@
 #include "formats/section_shapes.hpp"
 #include "reducer/elements/beam_taper.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::beam_general_test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -264,4 +264,4 @@ TEST(GeneralBeam, NamesWhatIsNotPositive) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::beam_general_test

@@ -11,7 +11,7 @@
 #include "reducer/elements/element_matrices.hpp"
 #include "tests/support/small_model.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::beam_matrices_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -201,4 +201,4 @@ TEST(BeamBenchmarks, CoupledBendingAndTorsion) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::beam_matrices_test

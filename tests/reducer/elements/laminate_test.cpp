@@ -10,7 +10,7 @@
 
 #include "common/error.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::laminate_test {
 namespace {
 
 Ply isotropic_ply(double thickness, double angle) {
@@ -110,4 +110,4 @@ TEST(Laminate, BadPliesAreNamed) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::laminate_test

@@ -4,7 +4,7 @@
 #include "common/rotation.hpp"
 #include "reducer/elements/element_matrices.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::nodal_mass_test {
 namespace {
 
 /// 2 T = m |v + ω × c|² + ω·J_c ω for any velocity of the node.
@@ -23,4 +23,4 @@ TEST(NodalMass, HasTheKineticEnergyOfARigidBody) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::nodal_mass_test

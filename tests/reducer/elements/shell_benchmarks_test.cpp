@@ -5,7 +5,7 @@
 #include "tests/problems/shell_statics.hpp"
 #include "tests/reducer/elements/shell_cases.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::shell_benchmarks_test {
 namespace {
 
 using Eigen::VectorXd;
@@ -175,4 +175,4 @@ TEST(ShellDrilling, FactorsHardlyMatter) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::shell_benchmarks_test

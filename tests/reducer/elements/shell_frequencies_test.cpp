@@ -7,7 +7,7 @@
 
 #include "tests/problems/shell_vibration.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::shell_frequencies_test {
 namespace {
 
 using Eigen::VectorXd;
@@ -98,4 +98,4 @@ TEST(ShellFrequencies, ConvergeWithOrderTwo) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::shell_frequencies_test

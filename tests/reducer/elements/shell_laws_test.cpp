@@ -6,7 +6,7 @@
 #include "reducer/elements/element_matrices.hpp"
 #include "tests/reducer/elements/shell_cases.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::shell_laws_test {
 namespace {
 
 using Eigen::Matrix3Xd;
@@ -173,4 +173,4 @@ TEST(ShellMesh, HasSixZeroEnergyModes) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::shell_laws_test

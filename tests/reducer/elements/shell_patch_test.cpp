@@ -4,7 +4,7 @@
 #include "tests/problems/shell_patch.hpp"
 #include "tests/reducer/elements/shell_cases.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::shell_patch_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -68,4 +68,4 @@ TEST(ShellShear, BecomesConstantAsElementsShrink) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::shell_patch_test

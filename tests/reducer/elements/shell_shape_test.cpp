@@ -7,7 +7,7 @@
 #include "reducer/elements/element_matrices.hpp"
 #include "tests/reducer/elements/shell_cases.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::shell_shape_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -94,4 +94,4 @@ TEST(ShellShape, CoordinatesMustBeFinite) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::shell_shape_test

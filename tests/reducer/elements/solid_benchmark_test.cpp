@@ -12,7 +12,7 @@
 #include "tests/support/small_model.hpp"
 #include "tests/support/solid_mesh.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::solid_benchmark_test {
 namespace {
 
 using std::numbers::pi;
@@ -64,7 +64,7 @@ struct OrderCase {
   double highest_order;
 };
 
-class SolidOrder : public testing::TestWithParam<OrderCase> {};
+class SolidOrder : public ::testing::TestWithParam<OrderCase> {};
 
 /// Frequencies converge from above with twice the order of the energy norm: 2 for linear shapes, 4 for quadratic ones.
 /// The bands are wider below, for the coarse mesh of each pair; four-node tetrahedra are farthest from their asymptote.
@@ -77,12 +77,14 @@ TEST_P(SolidOrder, FrequencyOfAThickPlateConverges) {
   EXPECT_LT(std::log2(coarse / fine), highest) << coarse << " " << fine;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Shapes, SolidOrder,
-    testing::Values(OrderCase{SolidShape::tetrahedron4, 6, 1.6, 2.2}, OrderCase{SolidShape::tetrahedron10, 3, 3.4, 4.3},
-                    OrderCase{SolidShape::hexahedron8, 6, 1.9, 2.1}, OrderCase{SolidShape::hexahedron20, 3, 3.7, 4.3},
-                    OrderCase{SolidShape::prism6, 6, 1.8, 2.2}, OrderCase{SolidShape::prism15, 3, 3.6, 4.3}),
-    [](const auto& shape) { return solid_name(shape.param.shape); });
+INSTANTIATE_TEST_SUITE_P(Shapes, SolidOrder,
+                         ::testing::Values(OrderCase{SolidShape::tetrahedron4, 6, 1.6, 2.2},
+                                           OrderCase{SolidShape::tetrahedron10, 3, 3.4, 4.3},
+                                           OrderCase{SolidShape::hexahedron8, 6, 1.9, 2.1},
+                                           OrderCase{SolidShape::hexahedron20, 3, 3.7, 4.3},
+                                           OrderCase{SolidShape::prism6, 6, 1.8, 2.2},
+                                           OrderCase{SolidShape::prism15, 3, 3.6, 4.3}),
+                         [](const auto& shape) { return solid_name(shape.param.shape); });
 
 /// Lumping errs by order 2 with every shape: at six cells per half wave within 2 % with hexahedra, and on the other
 /// side.
@@ -214,4 +216,4 @@ TEST(SolidBenchmark, NafemsLe10ThickPlate) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::solid_benchmark_test

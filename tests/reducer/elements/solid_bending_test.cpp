@@ -8,7 +8,7 @@
 #include "tests/support/small_model.hpp"
 #include "tests/support/solid_mesh.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::solid_bending_test {
 namespace {
 
 SolidProperty elastic(double E, double nu) {
@@ -28,7 +28,7 @@ struct BendingCase {
   double distortion;
 };
 
-class SolidPureBending : public testing::TestWithParam<BendingCase> {};
+class SolidPureBending : public ::testing::TestWithParam<BendingCase> {};
 
 /// Both ends move as the exact solution says; the nodes between must follow. Quadratic fields: complete in straight
 /// tetrahedra, and in parallelepipeds of the other shapes, also in the hexahedron with incompatible modes. The error
@@ -50,13 +50,13 @@ TEST_P(SolidPureBending, IsExact) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, SolidPureBending,
-                         testing::Values(BendingCase{SolidShape::tetrahedron10, 4.0, 0.3, 0.2},
-                                         BendingCase{SolidShape::hexahedron20, 4.0, 0.3, 0.0},
-                                         BendingCase{SolidShape::prism15, 4.0, 0.3, 0.0},
-                                         BendingCase{SolidShape::hexahedron8, 4.0, 0.3, 0.0},
-                                         BendingCase{SolidShape::hexahedron8, 100.0, 0.3, 0.0},
-                                         BendingCase{SolidShape::hexahedron8, 4.0, 0.4999, 0.0},
-                                         BendingCase{SolidShape::hexahedron20, 4.0, 0.4999, 0.0}),
+                         ::testing::Values(BendingCase{SolidShape::tetrahedron10, 4.0, 0.3, 0.2},
+                                           BendingCase{SolidShape::hexahedron20, 4.0, 0.3, 0.0},
+                                           BendingCase{SolidShape::prism15, 4.0, 0.3, 0.0},
+                                           BendingCase{SolidShape::hexahedron8, 4.0, 0.3, 0.0},
+                                           BendingCase{SolidShape::hexahedron8, 100.0, 0.3, 0.0},
+                                           BendingCase{SolidShape::hexahedron8, 4.0, 0.4999, 0.0},
+                                           BendingCase{SolidShape::hexahedron20, 4.0, 0.4999, 0.0}),
                          [](const auto& c) { return solid_name(c.param.shape) + "_" + std::to_string(c.index); });
 
 /// Tip deflection of a cantilever under a unit force along `direction`, spread evenly over its end face, per unit of
@@ -130,4 +130,4 @@ TEST(SolidBending, FlatSixNodePrismsAreTooStiffButConverge) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::solid_bending_test

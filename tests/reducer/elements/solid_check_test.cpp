@@ -8,12 +8,12 @@
 #include "reducer/elements/solid_quadrature.hpp"
 #include "tests/support/solid_mesh.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::solid_check_test {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 ShapeFindings findings_of(SolidShape shape, const Eigen::Matrix3Xd& x) {
   const Mesh mesh = one_solid(shape, x, {isotropic_solid(1.0, 0.3, 1.0), formats::MassMatrix::consistent, "test"});
@@ -22,7 +22,7 @@ ShapeFindings findings_of(SolidShape shape, const Eigen::Matrix3Xd& x) {
   return findings;
 }
 
-class SolidCheck : public testing::TestWithParam<SolidShape> {};
+class SolidCheck : public ::testing::TestWithParam<SolidShape> {};
 
 TEST_P(SolidCheck, ReferenceElementHasNoFindings) {
   const ShapeFindings findings = findings_of(GetParam(), natural_nodes(GetParam()));
@@ -57,7 +57,7 @@ TEST_P(SolidCheck, PositionThatIsNotANumberIsAnError) {
   EXPECT_EQ(findings_of(GetParam(), x).errors.size(), 1U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, SolidCheck, testing::ValuesIn(all_solid_shapes),
+INSTANTIATE_TEST_SUITE_P(Shapes, SolidCheck, ::testing::ValuesIn(all_solid_shapes),
                          [](const auto& shape) { return solid_name(shape.param); });
 
 /// The corner 7 of a hexahedron is pushed through the opposite face diagonal: its Jacobian changes sign there.
@@ -65,7 +65,7 @@ TEST(SolidCheck, FoldedCornerIsNamed) {
   Eigen::Matrix3Xd x = natural_nodes(SolidShape::hexahedron8);
   x.col(6) = Eigen::Vector3d(-0.6, -0.6, -0.6);
   EXPECT_THAT(findings_of(SolidShape::hexahedron8, x).errors,
-              ElementsAre(testing::AllOf(HasSubstr("folded"), HasSubstr("at node 7"))));
+              ElementsAre(::testing::AllOf(HasSubstr("folded"), HasSubstr("at node 7"))));
 }
 
 /// A middle node past a quarter of its edge: Jacobian 0 at the near corner of a quadratic edge.
@@ -73,13 +73,13 @@ TEST(SolidCheck, MiddleNodeNearACornerIsFolded) {
   Eigen::Matrix3Xd x = natural_nodes(SolidShape::tetrahedron10);
   x.col(4) = Eigen::Vector3d(0.2, 0.0, 0.0);
   EXPECT_THAT(findings_of(SolidShape::tetrahedron10, x).errors,
-              ElementsAre(testing::AllOf(HasSubstr("folded"), HasSubstr("at node 1"))));
+              ElementsAre(::testing::AllOf(HasSubstr("folded"), HasSubstr("at node 1"))));
 }
 
 TEST(SolidCheck, SliversLongAndFlatElementsAreWarnedAbout) {
   Eigen::Matrix3Xd x = natural_nodes(SolidShape::tetrahedron4);
   x.row(2) *= 1e-3;
-  EXPECT_THAT(findings_of(SolidShape::tetrahedron4, x).warnings, testing::Contains(HasSubstr("sliver")));
+  EXPECT_THAT(findings_of(SolidShape::tetrahedron4, x).warnings, ::testing::Contains(HasSubstr("sliver")));
   x = natural_nodes(SolidShape::hexahedron8);
   x.row(2) *= 1e-3;
   EXPECT_THAT(findings_of(SolidShape::hexahedron8, x).warnings, ElementsAre(HasSubstr("aspect 1e+03")));
@@ -127,4 +127,4 @@ TEST(SolidQuadrature, RulesIntegrateTheirDegree) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::solid_check_test

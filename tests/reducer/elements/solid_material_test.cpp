@@ -9,7 +9,7 @@
 #include "common/rotation.hpp"
 #include "reducer/elements/solid_anisotropic.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::solid_material_test {
 namespace {
 
 /// Constants of a carbon laminate of the usual kind, in GPa.
@@ -72,8 +72,8 @@ TEST(SolidMaterial, ImpossibleConstantsAreErrorsWithTheirPlace) {
     orthotropic_elasticity(bad, "deck.bdf:12");
     FAIL();
   } catch (const Error& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("deck.bdf:12"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("1.2"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("deck.bdf:12"));
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("1.2"));
   }
   bad = carbon();
   bad.G23 = 0.0;
@@ -87,4 +87,4 @@ TEST(SolidMaterial, ImpossibleConstantsAreErrorsWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::solid_material_test

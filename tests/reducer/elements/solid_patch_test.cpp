@@ -6,7 +6,7 @@
 #include "tests/support/small_model.hpp"
 #include "tests/support/solid_mesh.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::solid_patch_test {
 namespace {
 
 /// u = D x: constant strain 1e-3 with all six components, and a rotation.
@@ -16,7 +16,7 @@ Eigen::Matrix3d gradient() {
   return 1e-3 * D;
 }
 
-class SolidPatch : public testing::TestWithParam<SolidShape> {};
+class SolidPatch : public ::testing::TestWithParam<SolidShape> {};
 
 /// [MH85]: round-off is allowed, nothing else. Condition of these few equations: about 1e3.
 TEST_P(SolidPatch, ConstantStrainOnADistortedMeshIsExact) {
@@ -39,8 +39,8 @@ TEST_P(SolidPatch, ConstantStrainOnADistortedMeshIsExact) {
     EXPECT_LT((u.segment<3>(6 * n) - exact.col(n)).cwiseAbs().maxCoeff(), 1e-15) << solid_name(GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, SolidPatch, testing::ValuesIn(all_solid_shapes),
+INSTANTIATE_TEST_SUITE_P(Shapes, SolidPatch, ::testing::ValuesIn(all_solid_shapes),
                          [](const auto& shape) { return solid_name(shape.param); });
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::solid_patch_test

@@ -10,7 +10,7 @@
 #include "reducer/elements/solid_anisotropic.hpp"
 #include "tests/support/solid_mesh.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::solid_test {
 namespace {
 
 enum class Geometry { straight, curved };
@@ -64,7 +64,7 @@ Eigen::MatrixXd rigid_motions_of(const Eigen::Matrix3Xd& x) {
   return R;
 }
 
-class Solid : public testing::TestWithParam<SolidShape> {
+class Solid : public ::testing::TestWithParam<SolidShape> {
  protected:
   std::vector<Eigen::Matrix3Xd> geometries() const {
     std::vector<Eigen::Matrix3Xd> all;
@@ -230,8 +230,8 @@ TEST_P(Solid, DoesNotDependOnTheNodeItStartsFrom) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, Solid, testing::ValuesIn(all_solid_shapes),
+INSTANTIATE_TEST_SUITE_P(Shapes, Solid, ::testing::ValuesIn(all_solid_shapes),
                          [](const auto& shape) { return solid_name(shape.param); });
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::solid_test

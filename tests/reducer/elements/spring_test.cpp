@@ -9,7 +9,7 @@
 #include "common/rotation.hpp"
 #include "reducer/elements/element_matrices.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::reducer::spring_test {
 namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
@@ -102,4 +102,4 @@ TEST(Spring, ElementMatricesAreTheStiffnessAndNoMass) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer
+}  // namespace tisserand::reducer::spring_test

@@ -8,7 +8,7 @@
 #include "reducer/exchange/places.hpp"
 #include "tests/reducer/exchange/exchange_files.hpp"
 
-namespace tisserand::reducer::exchange {
+namespace tisserand::reducer::exchange::abaqus_matrix_test {
 namespace {
 
 using testing::error_of;
@@ -150,4 +150,4 @@ TEST(Places, DecksAndTables) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer::exchange
+}  // namespace tisserand::reducer::exchange::abaqus_matrix_test

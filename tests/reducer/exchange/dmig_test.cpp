@@ -11,7 +11,7 @@
 
 #include "tests/reducer/exchange/exchange_files.hpp"
 
-namespace tisserand::reducer::exchange {
+namespace tisserand::reducer::exchange::dmig_test {
 namespace {
 
 using testing::distance;
@@ -193,4 +193,4 @@ TEST(Dmig, RealFieldFillsSixteenCharacters) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer::exchange
+}  // namespace tisserand::reducer::exchange::dmig_test

@@ -11,7 +11,7 @@
 #include "reducer/exchange/request.hpp"
 #include "tests/reducer/exchange/exchange_files.hpp"
 
-namespace tisserand::reducer::exchange {
+namespace tisserand::reducer::exchange::exchange_program_test {
 namespace {
 
 using ::testing::AllOf;
@@ -129,4 +129,4 @@ TEST_F(Exchange, CommandLine) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer::exchange
+}  // namespace tisserand::reducer::exchange::exchange_program_test

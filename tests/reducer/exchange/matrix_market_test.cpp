@@ -10,7 +10,7 @@
 #include "reducer/exchange/rows_table.hpp"
 #include "tests/reducer/exchange/exchange_files.hpp"
 
-namespace tisserand::reducer::exchange {
+namespace tisserand::reducer::exchange::matrix_market_test {
 namespace {
 
 using testing::error_of;
@@ -137,4 +137,4 @@ TEST(Fmx, Errors) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer::exchange
+}  // namespace tisserand::reducer::exchange::matrix_market_test

@@ -10,7 +10,7 @@
 
 #include "tests/reducer/exchange/exchange_files.hpp"
 
-namespace tisserand::reducer::exchange {
+namespace tisserand::reducer::exchange::mbdyn_test {
 namespace {
 
 using testing::error_of;
@@ -132,4 +132,4 @@ TEST(Mbdyn, MotionsWithoutInertiaAreNoModes) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer::exchange
+}  // namespace tisserand::reducer::exchange::mbdyn_test

@@ -10,7 +10,7 @@
 #include "reducer/exchange/mbdyn.hpp"
 #include "tests/reducer/exchange/exchange_files.hpp"
 
-namespace tisserand::reducer::exchange {
+namespace tisserand::reducer::exchange::to_superelement_test {
 namespace {
 
 using ::testing::AllOf;
@@ -172,4 +172,4 @@ TEST(Import, AxesOfNodes) {
 }
 
 }  // namespace
-}  // namespace tisserand::reducer::exchange
+}  // namespace tisserand::reducer::exchange::to_superelement_test

@@ -6,7 +6,7 @@
 #include "tests/reducer/sources/part_text.hpp"
 #include "tests/reducer/sources/sorted_matrices.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::deck_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -95,4 +95,4 @@ TEST(Decks, BringTheirProperties) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::deck_test

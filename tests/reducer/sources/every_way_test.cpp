@@ -11,7 +11,7 @@
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/sources/part_text.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::every_way_test {
 namespace {
 
 using formats::Superelement;
@@ -182,4 +182,4 @@ TEST(EveryWay, BracketFromCadThroughMeshFilesAndDecks) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::every_way_test

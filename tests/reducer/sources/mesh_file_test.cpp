@@ -16,7 +16,7 @@
 #include "tests/reducer/sources/part_text.hpp"
 #include "tests/reducer/sources/sorted_matrices.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::mesh_file_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -196,4 +196,4 @@ TEST(Survey, ListsFacesGroupsAndSizes) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::mesh_file_test

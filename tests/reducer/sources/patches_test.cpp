@@ -8,7 +8,7 @@
 
 #include "tests/reducer/sources/part_text.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::patches_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -195,4 +195,4 @@ TEST(ShellProperties, ComeFromThePatchOrFromAShellOnIt) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::patches_test

@@ -7,7 +7,7 @@
 
 #include "tests/reducer/sources/part_text.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::places_test {
 namespace {
 
 using Eigen::Vector3d;
@@ -173,4 +173,4 @@ TEST(Attachments, BeamsOnGroupsOfLines) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::places_test

@@ -4,7 +4,7 @@
 
 #include "tests/reducer/sources/part_text.hpp"
 
-namespace tisserand::testing {
+namespace tisserand::testing::unjoined_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -49,4 +49,4 @@ TEST(UnjoinedBeams, JoinedOrTiedOnesAreSilent) {
 }
 
 }  // namespace
-}  // namespace tisserand::testing
+}  // namespace tisserand::testing::unjoined_test
