@@ -16,7 +16,7 @@ constexpr double most_steps = 16.0;
 /// Weight of every direction, for those without mass and stiffness, relative to the largest.
 constexpr double least_weight = 1e-12;
 /// A solution leaves open the share by which B has turned since; they are repeated until less than this is left.
-constexpr double open_share = 0.05;
+constexpr double open_share = 0.15;
 constexpr int most_solutions = 4;
 
 bool serves(const Closing& closing, double step) {
