@@ -2,7 +2,6 @@
 #include "mechanism/closing.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "mechanism/evaluate.hpp"
 #include "mechanism/newton.hpp"

@@ -91,10 +91,15 @@ void correct(const Model& model, const AlphaParameters& alpha, double step, Stat
   retract(model, workspace.previous, workspace.displacement, state);
 }
 
+/// Whether positions have corrections of their own.
+bool closes_positions(const Model& model, const IntegratorSpec& options) {
+  return options.formulation == Formulation::stabilised_index2 && model.sizes.constraints > 0;
+}
+
 /// Position and multiplier increments of one iteration; Φ (index 3) or B v and Φ (stabilised index 2) to zero.
 void solve(const Model& model, const IntegratorSpec& options, const AlphaParameters& alpha, double step,
            Workspace& workspace) {
-  if (options.formulation == Formulation::index3) {
+  if (!closes_positions(model, options)) {
     workspace.bias = -workspace.constraint;
     solve_increment(model, workspace.bias, workspace);
     return;
@@ -298,7 +303,7 @@ StepReport take_step(const Model& model, const IntegratorSpec& options, const St
   const Iteration iteration{model, options, alpha, iteration_matrix(options, alpha, step), step, end};
 
   StepReport report;
-  if (options.formulation == Formulation::stabilised_index2) {
+  if (closes_positions(model, options)) {
     const FactorReport factors = prepare_closing(model, state, iteration.matrix.coefficients, step, workspace);
     if (!factors.regular || factors.reciprocal_condition < singular_condition) {
       report.outcome = StepOutcome::singular;
