@@ -10,9 +10,9 @@ namespace {
 thread_local std::size_t count = 0;
 }
 
-namespace tisserand::test_support::allocation_counter_test {
+namespace tisserand::test_support {
 std::size_t allocation_count() { return count; }
-}  // namespace tisserand::test_support::allocation_counter_test
+}  // namespace tisserand::test_support
 
 #if !defined(__SANITIZE_ADDRESS__)
 extern "C" void* __libc_malloc(std::size_t size);
