@@ -60,12 +60,20 @@ struct MarkerPairSpec {
   std::optional<Eigen::Vector3d> x_axis;    ///< its part across `axis` is x of both markers; absent: any
 };
 
+/// What friction in a joint of some kind needs and may have. Kinds without a contact surface have no friction.
+struct FrictionKeys {
+  bool has_friction = false;
+  bool radius = false;  ///< of the contact, for parts of the slip that are turns
+  bool arm = false;     ///< the joint takes moments that press its surfaces together
+};
+FrictionKeys friction_keys(JointKind kind);
+
 /// Coulomb friction of a joint (mechanism/joints/friction.hpp).
 struct FrictionSpec {
   double coefficient = 0.0;
   std::optional<double> static_coefficient;  ///< absent: the same
   double velocity = 0.0;                     ///< below it the joint sticks [length/time]
-  double radius = 0.0;                       ///< of the contact; 0: prismatic
+  double radius = 0.0;                       ///< of the contact; 0 where the slip has no turn
   std::optional<double> arm;                 ///< distance of the supports that take moments; absent: they do not count
 };
 

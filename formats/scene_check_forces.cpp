@@ -59,11 +59,11 @@ void check_stops(const SpringSpec& spring, const std::string& subject, Faults& f
 
 void check_friction(const JointSpec& joint, const std::string& subject, Faults& faults) {
   const FrictionSpec& friction = *joint.friction;
-  const bool known = joint.kind == JointKind::revolute || joint.kind == JointKind::prismatic ||
-                     joint.kind == JointKind::cylindrical || joint.kind == JointKind::spherical;
-  if (!known)
-    faults.add(joint.where, "friction", fmt::format("{}: a {} joint has no friction", subject, joint_word(joint.kind)),
-               "friction belongs to revolute, prismatic, cylindrical and spherical joints");
+  const FrictionKeys keys = friction_keys(joint.kind);
+  if (!keys.has_friction)
+    faults.add(joint.where, "friction",
+               fmt::format("{}: a {} joint has no contact surface, so no friction", subject, joint_word(joint.kind)),
+               "remove it, or make the joint of kinds that have one (formats/SCENE.md)");
   const auto positive = [&](double value, const char* key) {
     if (!(value > 0.0 && std::isfinite(value)))
       faults.add(joint.where, fmt::format("friction.{}", key),
@@ -79,11 +79,11 @@ void check_friction(const JointSpec& joint, const std::string& subject, Faults& 
                            friction.coefficient),
                "");
   positive(friction.velocity, "velocity");
-  if (known && joint.kind != JointKind::prismatic) positive(friction.radius, "radius");
+  if (keys.radius) positive(friction.radius, "radius");
   if (friction.arm) positive(*friction.arm, "arm");
-  if (friction.arm && joint.kind == JointKind::spherical)
-    faults.add(joint.where, "friction.arm", fmt::format("{}: friction: a spherical joint takes no moment", subject),
-               "remove arm");
+  if (friction.arm && keys.has_friction && !keys.arm)
+    faults.add(joint.where, "friction.arm",
+               fmt::format("{}: friction: a {} joint takes no moment", subject, joint_word(joint.kind)), "remove arm");
 }
 
 void check_spring(const SceneIndex& scene, const SpringSpec& spring, Faults& faults) {

@@ -81,13 +81,12 @@ FrictionSpec read_friction(const Context& context, const YamlNode& node, JointKi
   friction.coefficient = map.number("coefficient");
   if (map.has("static_coefficient")) friction.static_coefficient = map.number("static_coefficient");
   friction.velocity = map.number("velocity");
-  const bool turns = kind == JointKind::revolute || kind == JointKind::cylindrical || kind == JointKind::spherical;
-  if (kind == JointKind::prismatic) {
-    if (const YamlNode* radius = map.find("radius"))
-      map.context().fail(radius->key_place, "'radius' has no effect in a prismatic joint", "remove it");
-  } else if (turns || map.has("radius")) {
-    friction.radius = map.number("radius");
-  }
+  const FrictionKeys keys = friction_keys(kind);
+  const YamlNode* radius = map.find("radius");
+  if (radius && keys.has_friction && !keys.radius)
+    map.context().fail(radius->key_place, fmt::format("'radius' has no effect in a {} joint", joint_word(kind)),
+                       "remove it");
+  if (keys.radius) friction.radius = map.number("radius");
   if (map.has("arm")) friction.arm = map.number("arm");
   return friction;
 }
@@ -138,6 +137,27 @@ std::string type_of(const YamlNode& joint) {
 }
 
 }  // namespace
+
+FrictionKeys friction_keys(JointKind kind) {
+  switch (kind) {
+    case JointKind::spherical:
+      return {true, true, false};
+    case JointKind::revolute:
+    case JointKind::universal:
+    case JointKind::constant_velocity:
+    case JointKind::cylindrical:
+    case JointKind::screw:
+    case JointKind::planar:
+      return {true, true, true};
+    case JointKind::prismatic:
+      return {true, false, true};
+    case JointKind::point_on_line:
+    case JointKind::point_on_plane:
+      return {true, false, false};
+    default:
+      return {};
+  }
+}
 
 std::string joint_word(JointKind kind) {
   for (const Choice<JointKind>& choice : joint_kinds)

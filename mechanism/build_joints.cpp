@@ -40,7 +40,7 @@ void JointBuilder::add(const formats::JointSpec& spec) {
   if (spec.kind == JointKind::distance) set_length(spec, joint);
   add_coordinates(joint);
   if (spec.kind == JointKind::screw) add_screw(spec);
-  if (spec.friction) add_friction(*spec.friction);
+  if (spec.friction) add_friction(spec);
   model_.joints.push_back(std::move(joint));
 }
 
@@ -70,7 +70,8 @@ void JointBuilder::add_coordinates(const Joint& joint) {
   }
 }
 
-void JointBuilder::add_friction(const formats::FrictionSpec& spec) {
+void JointBuilder::add_friction(const formats::JointSpec& joint) {
+  const formats::FrictionSpec& spec = *joint.friction;
   Friction friction;
   friction.joint = static_cast<int>(model_.joints.size());
   friction.kinetic = spec.coefficient;
@@ -78,6 +79,10 @@ void JointBuilder::add_friction(const formats::FrictionSpec& spec) {
   friction.velocity = spec.velocity;
   friction.radius = spec.radius;
   friction.inverse_arm = spec.arm ? 1.0 / *spec.arm : 0.0;
+  if (joint.kind == JointKind::screw) {
+    friction.thread = static_cast<int>(model_.couplings.size()) - 1;
+    friction.lead = joint.pitch / (2.0 * EIGEN_PI);
+  }
   model_.frictions.push_back(friction);
 }
 

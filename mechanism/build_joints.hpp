@@ -33,7 +33,7 @@ class JointBuilder {
   void set_length(const formats::JointSpec& spec, Joint& joint) const;
   double distance_at_start(const Marker& a, const Marker& b) const;
   void add_coordinates(const Joint& joint);
-  void add_friction(const formats::FrictionSpec& spec);
+  void add_friction(const formats::JointSpec& joint);
   /// z = pitch angle/(2π), with the values at the start as the reference.
   void add_screw(const formats::JointSpec& spec);
   void activate(Coupling& coupling);

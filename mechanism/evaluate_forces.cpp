@@ -4,10 +4,13 @@
 namespace tisserand::mechanism {
 namespace {
 
-LoadedJoint loaded_joint(const Model& model, const State& state, const Workspace& workspace, int index) {
-  const auto at = static_cast<std::size_t>(index);
+LoadedJoint loaded_joint(const Model& model, const State& state, const Workspace& workspace, const Friction& friction) {
+  const auto at = static_cast<std::size_t>(friction.joint);
   const Joint& joint = model.joints[at];
-  return {joint, markers_of(joint, workspace), workspace.joints[at], state.lambda().data() + joint.row};
+  LoadedJoint loaded{joint, markers_of(joint, workspace), workspace.joints[at], state.lambda().data() + joint.row};
+  if (friction.thread >= 0)
+    loaded.thread_lambda = state.lambda()[model.couplings[static_cast<std::size_t>(friction.thread)].row];
+  return loaded;
 }
 
 /// Adds the first `size` rows, transposed, beside Bᵀ.
@@ -25,7 +28,7 @@ void add_frictions(const Model& model, const State& state, Workspace& workspace)
   for (std::size_t i = 0; i < model.frictions.size(); ++i) {
     const Friction& friction = model.frictions[i];
     FrictionTerms& terms = workspace.frictions[i];
-    terms = evaluate(friction, loaded_joint(model, state, workspace, friction.joint));
+    terms = evaluate(friction, loaded_joint(model, state, workspace, friction));
     add_force(model, model.joint_maps[static_cast<std::size_t>(friction.joint)], terms.force, workspace);
     note_scale(terms.force, workspace);
     workspace.damping_power += terms.power;
@@ -39,17 +42,23 @@ void add_friction_tangents(const Model& model, const State& state, const Tangent
     const Friction& friction = model.frictions[i];
     const auto at = static_cast<std::size_t>(friction.joint);
     const ElementMap& map = model.joint_maps[at];
-    const LoadedJoint loaded = loaded_joint(model, state, workspace, friction.joint);
+    const LoadedJoint loaded = loaded_joint(model, state, workspace, friction);
     tangent(friction, loaded, coefficients, result);
     add_matrix(model, map, result.A, factor, workspace,
                [&] { return Vector12d(coefficients.stiffness * workspace.frictions[i].force); });
-    const int size = loaded.joint.size();
+    const auto add = [&](const ConstraintMap& slots, int size, const auto& rows) {
+      if (map.carriers.empty())
+        add_upper(slots, size, rows, workspace.values);
+      else
+        add_upper(slots, size, pulled_rows(model, map, local_view(rows), workspace, workspace.carriers.upper),
+                  workspace.values);
+    };
     const Eigen::Matrix<double, 6, 12> by_lambda = result.by_lambda.transpose();
-    if (map.carriers.empty())
-      add_upper(model.constraint_maps[at], size, by_lambda, workspace.values);
-    else
-      add_upper(model.constraint_maps[at], size,
-                pulled_rows(model, map, local_view(by_lambda), workspace, workspace.carriers.upper), workspace.values);
+    add(model.constraint_maps[at], loaded.joint.size(), by_lambda);
+    if (friction.thread >= 0) {  // its first term is the shift, between the same markers
+      const Row12 by_thread = result.by_thread.transpose();
+      add(model.coupling_constraint_maps[static_cast<std::size_t>(friction.thread)], 1, by_thread);
+    }
   }
 }
 

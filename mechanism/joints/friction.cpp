@@ -1,6 +1,8 @@
 // Sliding velocities and normal forces of joints, with their derivatives.
 #include "mechanism/joints/friction.hpp"
 
+#include <array>
+
 #include "common/error.hpp"
 #include "common/rotation.hpp"
 
@@ -25,29 +27,47 @@ struct SlipGradient {
 };
 
 constexpr Relation turn{RelationKind::angle, 2, 0};
-constexpr Relation shift{RelationKind::along, 2, 0};
+constexpr Relation shift_x{RelationKind::along, 0, 0}, shift_y{RelationKind::along, 1, 0},
+    shift_z{RelationKind::along, 2, 0};
 
-/// Relation and factor of each row, for joints whose slip is made of joint coordinates.
+/// Whether the slip is that of a ball, a turn in any direction.
+bool slips_like_a_ball(JointKind kind) {
+  return kind == JointKind::spherical || kind == JointKind::universal || kind == JointKind::constant_velocity;
+}
+
+/// Relation and factor of each row, for joints whose slip is made of joint coordinates; factor 0: no row.
 struct SlipRow {
   Relation relation;
   double factor = 0.0;
 };
-std::array<SlipRow, 2> slip_rows(const Friction& friction, JointKind kind) {
-  if (kind == JointKind::revolute) return {{{turn, friction.radius}, {shift, 0.0}}};
-  if (kind == JointKind::prismatic) return {{{turn, 0.0}, {shift, 1.0}}};
-  TISSERAND_ENSURE(kind == JointKind::cylindrical, "friction in a joint of kind {}", static_cast<int>(kind));
-  return {{{turn, friction.radius}, {shift, 1.0}}};
+std::array<SlipRow, 3> slip_rows(const Friction& friction, JointKind kind) {
+  const SlipRow turning{turn, friction.radius};
+  switch (kind) {
+    case JointKind::revolute:
+      return {turning};
+    case JointKind::prismatic:
+    case JointKind::point_on_line:
+      return {{{shift_z, 1.0}}};
+    case JointKind::cylindrical:
+    case JointKind::screw:
+      return {{turning, {shift_z, 1.0}}};
+    case JointKind::point_on_plane:
+      return {{{shift_x, 1.0}, {shift_y, 1.0}}};
+    default:
+      TISSERAND_ENSURE(kind == JointKind::planar, "friction in a joint of kind {}", static_cast<int>(kind));
+      return {{{shift_x, 1.0}, {shift_y, 1.0}, turning}};
+  }
 }
 
 Slip slip_of(const Friction& friction, const LoadedJoint& loaded) {
   const MarkerPair& p = loaded.pair;
   Slip slip;
-  if (loaded.joint.kind == JointKind::spherical) {  // r (Ω_B − R_BᵀR_A Ω_A)
+  if (slips_like_a_ball(loaded.joint.kind)) {  // r (Ω_B − R_BᵀR_A Ω_A)
     slip.S.block<3, 3>(0, 3) = -friction.radius * (p.node_b.R.transpose() * p.node_a.R);
     slip.S.block<3, 3>(0, 9) = friction.radius * Matrix3d::Identity();
   } else {
-    const std::array<SlipRow, 2> rows = slip_rows(friction, loaded.joint.kind);
-    for (int k = 0; k < 2; ++k)
+    const std::array<SlipRow, 3> rows = slip_rows(friction, loaded.joint.kind);
+    for (int k = 0; k < 3; ++k)
       if (const SlipRow& row = rows[static_cast<std::size_t>(k)]; row.factor != 0.0)
         slip.S.row(k) = row.factor * evaluate(row.relation, p).G;
   }
@@ -60,7 +80,7 @@ Slip slip_of(const Friction& friction, const LoadedJoint& loaded) {
 SlipGradient slip_gradient(const Friction& friction, const LoadedJoint& loaded, const Vector3d& weight) {
   const MarkerPair& p = loaded.pair;
   SlipGradient gradient;
-  if (loaded.joint.kind == JointKind::spherical) {
+  if (slips_like_a_ball(loaded.joint.kind)) {
     const double r = friction.radius;
     const Matrix3d R_BA = p.node_b.R.transpose() * p.node_a.R;
     const Vector3d carried = R_BA.transpose() * weight;
@@ -70,8 +90,8 @@ SlipGradient slip_gradient(const Friction& friction, const LoadedJoint& loaded, 
     gradient.geometric.block<3, 3>(3, 9) = r * R_BA.transpose() * skew<double>(weight);
     return gradient;
   }
-  const std::array<SlipRow, 2> rows = slip_rows(friction, loaded.joint.kind);
-  for (int k = 0; k < 2; ++k) {
+  const std::array<SlipRow, 3> rows = slip_rows(friction, loaded.joint.kind);
+  for (int k = 0; k < 3; ++k) {
     const SlipRow& row = rows[static_cast<std::size_t>(k)];
     if (row.factor == 0.0) continue;
     gradient.rate.row(k) = row.factor * rate_gradient(row.relation, p);
@@ -86,11 +106,22 @@ struct Pressing {
   Vector3d moment;
 };
 Pressing pressing(JointKind kind) {
-  const Vector3d all = Vector3d::Ones(), across(1, 1, 0);
-  if (kind == JointKind::revolute) return {all, across};
-  if (kind == JointKind::prismatic) return {across, all};
-  if (kind == JointKind::cylindrical) return {across, across};
-  return {all, Vector3d::Zero()};
+  const Vector3d all = Vector3d::Ones(), across(1, 1, 0), along(0, 0, 1);
+  switch (kind) {
+    case JointKind::revolute:
+    case JointKind::screw:
+      return {all, across};
+    case JointKind::prismatic:
+    case JointKind::point_on_line:
+      return {across, all};
+    case JointKind::cylindrical:
+      return {across, across};
+    case JointKind::planar:
+    case JointKind::point_on_plane:
+      return {along, across};
+    default:
+      return {all, all};
+  }
 }
 
 /// N and its derivatives by force and moment.
@@ -110,17 +141,27 @@ Normal normal_of(const Friction& friction, JointKind kind, const JointReaction& 
   return normal;
 }
 
-Row12 pulled_back(const LoadedJoint& loaded) {
-  Row12 sum = Row12::Zero();
+/// Of z − lead × angle; zero where there is no thread.
+Row12 thread_row(const Friction& friction, const MarkerPair& pair) {
+  if (friction.thread < 0) return Row12::Zero();
+  return evaluate(shift_z, pair).G - friction.lead * evaluate(turn, pair).G;
+}
+
+Row12 pulled_back(const LoadedJoint& loaded, const Row12& thread) {
+  Row12 sum = loaded.thread_lambda * thread;
   for (int k = 0; k < loaded.joint.size(); ++k) sum += loaded.lambda[k] * loaded.terms.B.row(k);
   return sum;
 }
 
 /// ∂N/∂q at fixed multipliers, from that of g = Bᵀλ: f = R_MᵀR_Aᵀ(−g_x), m likewise of R_B(−g_Θ − p_B × R_Bᵀ(−g_x)).
-Row12 normal_gradient(const LoadedJoint& loaded, const Row12& g, const Normal& normal) {
+Row12 normal_gradient(const Friction& friction, const LoadedJoint& loaded, const Row12& g, const Normal& normal) {
   const MarkerPair& p = loaded.pair;
   Square12 K;
   joint_stiffness(loaded.joint, p.node_a, p.node_b, loaded.lambda, K);
+  if (friction.thread >= 0) {
+    add_stiffness(shift_z, p, loaded.thread_lambda, K);
+    add_stiffness(turn, p, -friction.lead * loaded.thread_lambda, K);
+  }
   const Vector3d f_W = -g.segment<3>(6).transpose(), f_B = p.node_b.R.transpose() * f_W;
   const Vector3d m_B = -g.segment<3>(9).transpose() - p.b.p.cross(f_B), m_W = p.node_b.R * m_B;
   const Rows3 df_W = -K.middleRows<3>(6);
@@ -153,7 +194,7 @@ FrictionLaw friction_law(const Friction& friction, double speed) {
 
 FrictionTerms evaluate(const Friction& friction, const LoadedJoint& loaded) {
   const Slip slip = slip_of(friction, loaded);
-  const JointReaction reaction = reaction_of(pulled_back(loaded), loaded.pair);
+  const JointReaction reaction = reaction_of(pulled_back(loaded, thread_row(friction, loaded.pair)), loaded.pair);
   FrictionTerms terms;
   terms.normal = normal_of(friction, loaded.joint.kind, reaction).N;
   const double factor = terms.normal * friction_law(friction, slip.s.norm()).ratio;
@@ -165,7 +206,7 @@ FrictionTerms evaluate(const Friction& friction, const LoadedJoint& loaded) {
 void tangent(const Friction& friction, const LoadedJoint& loaded, const TangentCoefficients& coefficients,
              FrictionTangent& result) {
   const Slip slip = slip_of(friction, loaded);
-  const Row12 g = pulled_back(loaded);
+  const Row12 thread = thread_row(friction, loaded.pair), g = pulled_back(loaded, thread);
   const Normal normal = normal_of(friction, loaded.joint.kind, reaction_of(g, loaded.pair));
   const double speed = slip.s.norm();
   const FrictionLaw law = friction_law(friction, speed);
@@ -177,12 +218,14 @@ void tangent(const Friction& friction, const LoadedJoint& loaded, const TangentC
   const Vector12d direction = slip.S.transpose() * pull;
   result.A.noalias() = slip.S.transpose() * (normal.N * by_slip * ds);
   result.A += (coefficients.stiffness * normal.N) * gradient.geometric;
-  result.A.noalias() += coefficients.stiffness * direction * normal_gradient(loaded, g, normal);
+  result.A.noalias() += coefficients.stiffness * direction * normal_gradient(friction, loaded, g, normal);
+  const auto by_row = [&](const Row12& row) -> Vector12d {
+    const JointReaction unit = reaction_of(row, loaded.pair);
+    return (normal.by_force.dot(unit.force) + normal.by_moment.dot(unit.moment)) * direction;
+  };
   result.by_lambda.setZero();
-  for (int k = 0; k < loaded.joint.size(); ++k) {
-    const JointReaction unit = reaction_of(loaded.terms.B.row(k), loaded.pair);
-    result.by_lambda.col(k) = (normal.by_force.dot(unit.force) + normal.by_moment.dot(unit.moment)) * direction;
-  }
+  for (int k = 0; k < loaded.joint.size(); ++k) result.by_lambda.col(k) = by_row(loaded.terms.B.row(k));
+  result.by_thread = by_row(thread);
 }
 
 }  // namespace tisserand::mechanism

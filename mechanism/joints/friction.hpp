@@ -7,10 +7,12 @@
 
 namespace tisserand::mechanism {
 
-/// Sliding velocity s of the contact: radius × rate of the angle (revolute), rate of z (prismatic), both (cylindrical),
-/// radius × relative angular velocity (spherical). The friction −N μ(|s|) s/|s| acts along s; the normal force is
-/// N = |f| + 2|m|/arm of the components of the reaction that press the surfaces together: f all three (revolute,
-/// spherical) or across z; m across z, all three (prismatic) or none (spherical).
+/// Sliding velocity s of the contact: radius × rate of the angle (revolute), rate of z (prismatic, point_on_line), both
+/// (cylindrical, screw), rates of x and y (point_on_plane), also with radius × rate of the angle (planar), or radius ×
+/// relative angular velocity (spherical, universal, constant_velocity). The friction −N μ(|s|) s/|s| acts along s; the
+/// normal force is N = |f| + 2|m|/arm of the components of the reaction that press the surfaces together, axes of A:
+/// f across z (prismatic, cylindrical, point_on_line), along z (planar, point_on_plane), else all three; m across z
+/// (revolute, cylindrical, screw, planar), else all three.
 /// μ rises to the static coefficient at |s| = velocity (quadratic), falls to the kinetic one at 3 velocity (cubic) and
 /// stays: a joint that should stick creeps at (1 − √(1 − F/(μ_s N))) velocity.
 struct Friction {
@@ -18,8 +20,10 @@ struct Friction {
   double kinetic = 0.0;      ///< coefficient μ
   double stiction = 0.0;     ///< coefficient μ_s ≥ μ
   double velocity = 0.0;     ///< [length/time]
-  double radius = 0.0;       ///< of the contact surface; prismatic: unused
+  double radius = 0.0;       ///< of the contact surface; unused where the slip has no turn
   double inverse_arm = 0.0;  ///< 1/distance of the two supports that take reaction moments; 0: they do not count
+  int thread = -1;           ///< screw: index in Model::couplings of z − lead × angle
+  double lead = 0.0;         ///< screw: advance per radian [length]
 };
 
 /// μ(s)/s and its derivative.
@@ -29,12 +33,13 @@ struct FrictionLaw {
 };
 FrictionLaw friction_law(const Friction& friction, double speed);
 
-/// A joint with its Jacobian and multipliers at one instant.
+/// A joint with its Jacobian and multipliers at one instant; of a screw also that of its thread.
 struct LoadedJoint {
   const Joint& joint;
   MarkerPair pair;
   const JointTerms& terms;
   const double* lambda;
+  double thread_lambda = 0.0;
 };
 
 struct FrictionTerms {
@@ -44,10 +49,11 @@ struct FrictionTerms {
 };
 FrictionTerms evaluate(const Friction& friction, const LoadedJoint& loaded);
 
-/// A = c_c ∂force/∂v + c_k ∂force/∂q, and ∂force/∂λ (first size() columns); exact.
+/// A = c_c ∂force/∂v + c_k ∂force/∂q, and ∂force/∂λ (first size() columns), also of the thread's; exact.
 struct FrictionTangent {
   Square12 A;
   Eigen::Matrix<double, 12, 6> by_lambda;
+  Eigen::Matrix<double, 12, 1> by_thread;
 };
 void tangent(const Friction& friction, const LoadedJoint& loaded, const TangentCoefficients& coefficients,
              FrictionTangent& result);

@@ -84,7 +84,8 @@ TEST(SceneChannels, WhatIsWrongIsNamed) {
   EXPECT_THAT(error(", radius: 0.01", ""), HasSubstr("radius"));
   EXPECT_THAT(error("{coefficient: 0.1, ", "{coefficient: 0.1, radius: 1, "),
               HasSubstr("'radius' has no effect in a prismatic joint"));
-  EXPECT_THAT(error("type: prismatic", "type: planar"), HasSubstr("a planar joint has no friction"));
+  EXPECT_THAT(error("type: prismatic", "type: parallel_axes"),
+              HasSubstr("a parallel_axes joint has no contact surface"));
   EXPECT_THAT(error("{type: rate, of: hinge}", "{type: rate, of: hing}"), HasSubstr("did you mean 'hinge'?"));
   EXPECT_THAT(error("{type: rate, of: hinge}", "{type: rate}"), HasSubstr("of"));
   EXPECT_THAT(error("{type: rate, of: hinge}", "{type: rate, of: hinge, axis: x}"),

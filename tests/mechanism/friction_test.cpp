@@ -36,14 +36,17 @@ TEST(FrictionLaw, IsSmoothAndReachesItsCoefficients) {
 
 formats::JointSpec rubbing(JointKind kind, const Vector3d& axis, double coefficient, double velocity) {
   formats::JointSpec joint = test_support::joint("joint", kind, "ground", "body", Vector3d::Zero(), axis);
-  joint.friction = formats::FrictionSpec{coefficient, {}, velocity, kind == JointKind::prismatic ? 0.0 : 0.1, {}};
+  joint.friction =
+      formats::FrictionSpec{coefficient, {}, velocity, formats::friction_keys(kind).radius ? 0.1 : 0.0, {}};
   return joint;
 }
 
 class RubbingJoint : public ::testing::TestWithParam<JointKind> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, RubbingJoint,
                          ::testing::Values(JointKind::revolute, JointKind::prismatic, JointKind::cylindrical,
-                                           JointKind::spherical),
+                                           JointKind::spherical, JointKind::universal, JointKind::constant_velocity,
+                                           JointKind::screw, JointKind::planar, JointKind::point_on_line,
+                                           JointKind::point_on_plane),
                          [](const ::testing::TestParamInfo<JointKind>& kind) {
                            return formats::joint_word(kind.param);
                          });
@@ -58,7 +61,8 @@ TEST_P(RubbingJoint, IterationMatrixIsTheDerivativeOfTheResidual) {
   joint.a.node = "other";
   joint.position = Vector3d(0.4, -0.2, 0.1);
   joint.friction->static_coefficient = 0.5;
-  if (GetParam() != JointKind::spherical) joint.friction->arm = 0.6;
+  joint.pitch = 0.7;
+  if (formats::friction_keys(GetParam()).arm) joint.friction->arm = 0.6;
   for (const double velocity : {0.02, 0.1, 3.0}) {
     joint.friction->velocity = velocity;
     scene.joints = {joint};
@@ -204,6 +208,74 @@ TEST(Friction, SlipOnACylinderIsOneVector) {
   const double factor = 1.0 - 0.2 * g * 0.3 / 1.0;  // |s| = √(0.8² + 0.6²) at the start
   EXPECT_NEAR(run.velocity("body").z(), 0.6 * factor, 1e-9);
   EXPECT_NEAR(run.Omega("body").z(), 8.0 * factor, 1e-8);
+}
+
+// A disc with J = m r² that slides and spins on a table: all three parts of the slip slow down together, |s| by μ g.
+TEST(Friction, SlipOnATableIsOneVector) {
+  formats::Scene scene = test_support::empty_scene(1e-3, 0.3);
+  scene.gravity = {0, 0, -g};
+  scene.bodies.push_back(test_support::rigid_body("body", 2.0, Vector3d::Zero(), {0.1, 0.1, 2.0 * 0.01}));
+  std::get<formats::RigidBodySpec>(scene.bodies[0]).start.angular_velocity = {0, 0, 8};
+  std::get<formats::RigidBodySpec>(scene.bodies[0]).start.velocity = {0.36, -0.48, 0};
+  scene.joints.push_back(rubbing(JointKind::planar, Vector3d::UnitZ(), 0.2, 1e-4));
+  test_support::Simulation run(scene, {});
+  run.start();
+  run.run(0.3);
+  const double factor = 1.0 - 0.2 * g * 0.3 / 1.0;  // |s| = √(0.36² + 0.48² + 0.8²) at the start
+  EXPECT_LT((run.velocity("body") - factor * Vector3d(0.36, -0.48, 0)).norm(), 1e-9);
+  EXPECT_NEAR(run.Omega("body").z(), 8.0 * factor, 1e-8);
+}
+
+// A point slides on a plane, or along a line that lies level: its speed falls by μ g t.
+TEST(Friction, PointSlows) {
+  for (const bool on_plane : {true, false}) {
+    formats::Scene scene = test_support::empty_scene(1e-3, 0.3);
+    scene.gravity = {0, 0, -g};
+    scene.bodies.push_back(test_support::rigid_body("body", 2.0, Vector3d::Zero(), {0.1, 0.2, 0.3}));
+    const Vector3d direction = Vector3d(3, -4, 0) / 5.0;
+    std::get<formats::RigidBodySpec>(scene.bodies[0]).start.velocity = direction;
+    scene.joints.push_back(on_plane ? rubbing(JointKind::point_on_plane, Vector3d::UnitZ(), 0.2, 1e-4)
+                                    : rubbing(JointKind::point_on_line, direction, 0.2, 1e-4));
+    test_support::Simulation run(scene, {});
+    run.start();
+    run.run(0.3);
+    EXPECT_LT((run.velocity("body") - (1.0 - 0.2 * g * 0.3) * direction).norm(), 1e-9);
+  }
+}
+
+// A nut of pitch 2π k runs down a screw. The thread carries N along z; friction acts along the helix (r, k)/l:
+// m k φ̈ = m g − N − μ N k/l and J φ̈ = k N − μ N r²/l.
+TEST(Friction, NutRunsDownItsScrew) {
+  const double m = 2.0, J = 0.05, k = 0.08, r = 0.1, mu = 0.2, l = std::hypot(r, k);
+  formats::Scene scene = test_support::empty_scene(1e-3, 0.3);
+  scene.gravity = {0, 0, g};
+  scene.bodies.push_back(test_support::rigid_body("body", m, Vector3d::Zero(), {0.1, 0.1, J}));
+  std::get<formats::RigidBodySpec>(scene.bodies[0]).start.angular_velocity = {0, 0, 1};
+  std::get<formats::RigidBodySpec>(scene.bodies[0]).start.velocity = {0, 0, k};
+  scene.joints.push_back(rubbing(JointKind::screw, Vector3d::UnitZ(), mu, 1e-4));
+  scene.joints[0].pitch = 2.0 * M_PI * k;
+  test_support::Simulation run(scene, {});
+  run.start();
+  run.run(0.3);
+  const double lever = k - mu * r * r / l;  // of N about the axis
+  const double N = m * g / (1.0 + mu * k / l + m * k * lever / J);
+  EXPECT_NEAR(run.Omega("body").z(), 1.0 + N * lever / J * 0.3, 1e-8);
+}
+
+// A cross or a ball race that turns about a pin under a steady force m g: the angular velocity falls with μ r m g/J.
+TEST(Friction, JointsOfShaftsSlowDown) {
+  for (const JointKind kind : {JointKind::universal, JointKind::constant_velocity}) {
+    formats::Scene scene = test_support::empty_scene(1e-3, 0.2);
+    scene.gravity = {-g, 0, 0};
+    scene.bodies.push_back(test_support::rigid_body("body", 2.0, Vector3d::Zero(), {0.4, 0.4, 0.4}));
+    std::get<formats::RigidBodySpec>(scene.bodies[0]).start.angular_velocity = {3, 0, 0};
+    scene.joints.push_back(rubbing(kind, Vector3d::UnitZ(), 0.3, 1e-4));
+    scene.joints[0].x_axis = Vector3d::UnitX();
+    test_support::Simulation run(scene, {});
+    run.start();
+    run.run(0.2);
+    EXPECT_LT((run.Omega("body") - (3.0 - 0.3 * 0.1 * 2.0 * g / 0.4 * 0.2) * Vector3d::UnitX()).norm(), 1e-9);
+  }
 }
 
 // A pendulum in a dry bearing, reactions changing all the time: the balance of energy is of second order in the step.
