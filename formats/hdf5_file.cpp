@@ -23,7 +23,6 @@ constexpr std::size_t max_text = 1u << 20;
 constexpr std::size_t max_report = 1u << 26;
 constexpr hsize_t max_members = 10000;
 
-
 /// Properties of every file access: no locks (they fail on network disks and in readers beside a writer).
 Handle access_properties() {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -255,8 +254,7 @@ std::vector<std::string> InputFile::attributes(const std::string& object) const 
 std::string InputFile::text_attribute(const std::string& object, const std::string& name) const {
   const std::string where = fmt::format("{}: attribute '{}'", place(object), name);
   if (!has_attribute(object, name)) throw Error("is missing", where, "add it; it is a string");
-  const Handle attribute(H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose);
+  const Handle attribute(H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   const Handle type(H5Aget_type(attribute.id()), H5Tclose), space(H5Aget_space(attribute.id()), H5Sclose);
   if (!type.valid() || !space.valid()) throw last_error("cannot be read", where, "the file is damaged; write it again");
   if (kind_of(type.id()) != ElementKind::text)
@@ -284,8 +282,7 @@ std::string InputFile::text_attribute(const std::string& object, const std::stri
 double InputFile::number_attribute(const std::string& object, const std::string& name) const {
   const std::string where = fmt::format("{}: attribute '{}'", place(object), name);
   if (!has_attribute(object, name)) throw Error("is missing", where, "add it; it is a number");
-  const Handle attribute(H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose);
+  const Handle attribute(H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   const Handle type(H5Aget_type(attribute.id()), H5Tclose), space(H5Aget_space(attribute.id()), H5Sclose);
   if (!type.valid() || !space.valid()) throw last_error("cannot be read", where, "the file is damaged; write it again");
   const H5T_class_t kind = H5Tget_class(type.id());

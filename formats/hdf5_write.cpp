@@ -10,7 +10,6 @@ namespace tisserand::formats::hdf5 {
 
 namespace {
 
-
 constexpr const char* remedy = "choose another place for the file";
 
 /// Zero-padded UTF-8 of `size` bytes.

@@ -34,7 +34,6 @@ constexpr std::size_t chunk_bytes = 64u << 10;  // of one chunk on disk, unless 
 constexpr std::size_t max_chunk_rows = 256;
 constexpr std::uint64_t disk_reserve = 256u << 10;  // left for the report and for closing the file
 
-
 std::size_t chunk_rows(const Block& block) {
   return std::clamp<std::size_t>(chunk_bytes / (block.width() * sizeof(double)), 1, max_chunk_rows);
 }

@@ -95,8 +95,8 @@ void apply(const Model& model, const VectorXd& xi, const VectorXd& multipliers, 
     if (rows[row] >= 0) state.lambda()[static_cast<Eigen::Index>(row)] += multipliers[rows[row]];
 }
 
-StepOutcome balance(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
-                        State& state, Workspace& workspace, StaticsReport& report) {
+StepOutcome balance(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted, State& state,
+                    Workspace& workspace, StaticsReport& report) {
   formats::RotationSpec rotation = *options.rotation;
   rotation.angular_velocity *= std::sqrt(workspace.load_factor);
   VectorXd xi, multipliers;

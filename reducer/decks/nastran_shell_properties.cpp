@@ -10,7 +10,6 @@
 namespace tisserand::reducer {
 namespace {
 
-
 /// A material that has plane stress stiffness; null if the field is blank or after a fault.
 const NastranMaterial* plane_material(NastranModel& model, CardFields& f, int index, std::string_view name) {
   if (f.blank(index) || parse_integer(f.text(index)) == 0) return nullptr;

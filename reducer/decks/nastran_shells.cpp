@@ -9,7 +9,6 @@
 namespace tisserand::reducer {
 namespace {
 
-
 Eigen::Vector3d normal_of(const NastranModel& model, const ShellElement& shell) {
   const auto x = [&](std::size_t i) { return model.position(shell.nodes[i]); };
   if (shell.corners() == 3) return (x(1) - x(0)).cross(x(2) - x(0));
