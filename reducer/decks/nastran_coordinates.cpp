@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 namespace tisserand::reducer {
+
 Eigen::Vector3d frame_point(const NastranFrame& frame, const Eigen::Vector3d& x) {
   Eigen::Vector3d local = x;
   switch (frame.kind) {
