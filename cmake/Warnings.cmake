@@ -25,7 +25,7 @@ target_include_directories(tisserand_options INTERFACE ${PROJECT_SOURCE_DIR})
 # ccache: it cannot look behind precompiled headers.
 function(tisserand_precompile target)
   if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/common/eigen_instances.hpp <Eigen/Geometry>
+    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/common/math/eigen_instances.hpp <Eigen/Geometry>
                               <fmt/format.h> <string> <vector> ${ARGN})
   endif()
 endfunction()

@@ -17,12 +17,12 @@
 #include "common/error.hpp"
 #include "common/output_path.hpp"
 #include "common/progress.hpp"
-#include "formats/override.hpp"
-#include "formats/scene.hpp"
-#include "mechanism/analyses.hpp"
-#include "mechanism/plot.hpp"
+#include "formats/scene/scene.hpp"
+#include "formats/yaml/override.hpp"
+#include "mechanism/histories/plot.hpp"
+#include "mechanism/histories/tables.hpp"
+#include "mechanism/run/analyses.hpp"
 #include "mechanism/simulate.hpp"
-#include "mechanism/tables.hpp"
 
 namespace {
 

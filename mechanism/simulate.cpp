@@ -8,13 +8,13 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
-#include "formats/results.hpp"
-#include "mechanism/bdf_run.hpp"
-#include "mechanism/checkpoint.hpp"
-#include "mechanism/output.hpp"
-#include "mechanism/run.hpp"
-#include "mechanism/schedule.hpp"
-#include "mechanism/statics.hpp"
+#include "formats/results/results.hpp"
+#include "mechanism/analyses/statics.hpp"
+#include "mechanism/run/bdf_run.hpp"
+#include "mechanism/run/checkpoint.hpp"
+#include "mechanism/run/output.hpp"
+#include "mechanism/run/run.hpp"
+#include "mechanism/run/schedule.hpp"
 
 namespace tisserand::mechanism {
 namespace {

@@ -8,10 +8,10 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
-#include "reducer/build_mesh.hpp"
-#include "reducer/checks.hpp"
-#include "reducer/full_model.hpp"
-#include "reducer/project.hpp"
+#include "reducer/elements/checks.hpp"
+#include "reducer/modes/full_model.hpp"
+#include "reducer/modes/project.hpp"
+#include "reducer/sources/build_mesh.hpp"
 
 namespace tisserand::reducer {
 namespace {

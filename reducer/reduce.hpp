@@ -4,10 +4,10 @@
 #include <functional>
 #include <string>
 
-#include "formats/part.hpp"
-#include "formats/superelement.hpp"
-#include "reducer/certificate.hpp"
-#include "reducer/mesh.hpp"
+#include "formats/part/part.hpp"
+#include "formats/superelement/superelement.hpp"
+#include "reducer/mesh/mesh.hpp"
+#include "reducer/report/certificate.hpp"
 
 namespace tisserand::reducer {
 

@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "common/rotation.hpp"
-#include "mechanism/motion.hpp"
+#include "common/math/rotation.hpp"
+#include "mechanism/frames/motion.hpp"
 
 namespace tisserand::mechanism {
 

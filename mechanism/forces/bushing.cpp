@@ -1,7 +1,7 @@
 // Deflection, wrench and tangent of bushings; translations are the relations `along` the axes of A.
 #include "mechanism/forces/bushing.hpp"
 
-#include "common/rotation.hpp"
+#include "common/math/rotation.hpp"
 
 namespace tisserand::mechanism {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "formats/scene.hpp"
+#include "formats/scene/scene.hpp"
 
 namespace tisserand::mechanism {
 

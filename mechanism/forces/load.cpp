@@ -1,7 +1,7 @@
 // Virtual work of applied forces and moments.
 #include "mechanism/forces/load.hpp"
 
-#include "common/rotation.hpp"
+#include "common/math/rotation.hpp"
 
 namespace tisserand::mechanism {
 

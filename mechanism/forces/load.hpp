@@ -7,9 +7,9 @@
 
 #include <Eigen/Core>
 
-#include "formats/scene.hpp"
+#include "formats/scene/scene.hpp"
 #include "mechanism/forces/time_function.hpp"
-#include "mechanism/marker.hpp"
+#include "mechanism/frames/marker.hpp"
 
 namespace tisserand::mechanism {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "formats/scene.hpp"
+#include "formats/scene/scene.hpp"
 #include "mechanism/forces/curve.hpp"
 
 namespace tisserand::mechanism {

@@ -8,7 +8,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
-#include "formats/expression.hpp"
+#include "formats/scene/expand/expression.hpp"
 
 namespace tisserand::mechanism {
 

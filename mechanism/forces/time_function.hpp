@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "formats/scene.hpp"
+#include "formats/scene/scene.hpp"
 #include "mechanism/forces/expression_scope.hpp"
 
 namespace tisserand::mechanism {

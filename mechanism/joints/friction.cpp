@@ -4,7 +4,7 @@
 #include <array>
 
 #include "common/error.hpp"
-#include "common/rotation.hpp"
+#include "common/math/rotation.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -125,16 +125,16 @@ Pressing pressing(JointKind kind) {
 }
 
 /// N and its derivatives by force and moment.
-struct Normal {
+struct ContactForce {
   double N = 0.0;
   Vector3d by_force = Vector3d::Zero();
   Vector3d by_moment = Vector3d::Zero();
 };
-Normal normal_of(const Friction& friction, JointKind kind, const JointReaction& reaction) {
+ContactForce normal_of(const Friction& friction, JointKind kind, const JointReaction& reaction) {
   const Pressing part = pressing(kind);
   const Vector3d f = part.force.cwiseProduct(reaction.force), m = part.moment.cwiseProduct(reaction.moment);
   const double force = f.norm(), moment = m.norm(), factor = 2.0 * friction.inverse_arm;
-  Normal normal;
+  ContactForce normal;
   normal.N = force + factor * moment;
   if (force > 0.0) normal.by_force = f / force;
   if (moment > 0.0) normal.by_moment = factor * m / moment;
@@ -154,7 +154,7 @@ Row12 pulled_back(const LoadedJoint& loaded, const Row12& thread) {
 }
 
 /// ∂N/∂q at fixed multipliers, from that of g = Bᵀλ: f = R_MᵀR_Aᵀ(−g_x), m likewise of R_B(−g_Θ − p_B × R_Bᵀ(−g_x)).
-Row12 normal_gradient(const Friction& friction, const LoadedJoint& loaded, const Row12& g, const Normal& normal) {
+Row12 normal_gradient(const Friction& friction, const LoadedJoint& loaded, const Row12& g, const ContactForce& normal) {
   const MarkerPair& p = loaded.pair;
   Square12 K;
   joint_stiffness(loaded.joint, p.node_a, p.node_b, loaded.lambda, K);
@@ -207,7 +207,7 @@ void tangent(const Friction& friction, const LoadedJoint& loaded, const TangentC
              FrictionTangent& result) {
   const Slip slip = slip_of(friction, loaded);
   const Row12 thread = thread_row(friction, loaded.pair), g = pulled_back(loaded, thread);
-  const Normal normal = normal_of(friction, loaded.joint.kind, reaction_of(g, loaded.pair));
+  const ContactForce normal = normal_of(friction, loaded.joint.kind, reaction_of(g, loaded.pair));
   const double speed = slip.s.norm();
   const FrictionLaw law = friction_law(friction, speed);
   Matrix3d by_slip = law.ratio * Matrix3d::Identity();  // of μ(|s|) s/|s|

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "formats/scene.hpp"
+#include "formats/scene/scene.hpp"
 #include "mechanism/joints/relation.hpp"
 
 namespace tisserand::mechanism {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "common/error.hpp"
-#include "common/rotation.hpp"
+#include "common/math/rotation.hpp"
 
 namespace tisserand::mechanism {
 namespace {

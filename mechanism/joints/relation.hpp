@@ -5,8 +5,8 @@
 
 #include <Eigen/Core>
 
-#include "mechanism/marker.hpp"
-#include "mechanism/motion.hpp"
+#include "mechanism/frames/marker.hpp"
+#include "mechanism/frames/motion.hpp"
 
 namespace tisserand::mechanism {
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "mechanism/bodies/column_kernels.hpp"
+#include "common/math/column_kernels.hpp"
 #include "mechanism/solver/back_ends.hpp"
 
 extern "C" {

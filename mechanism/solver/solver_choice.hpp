@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "formats/scene.hpp"
+#include "formats/scene/scene.hpp"
 #include "mechanism/solver/linear_solver.hpp"
 
 namespace tisserand::mechanism {

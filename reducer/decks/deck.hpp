@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reducer/mesh.hpp"
+#include "reducer/mesh/mesh.hpp"
 
 namespace tisserand::reducer {
 

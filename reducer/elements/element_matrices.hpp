@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "reducer/mesh.hpp"
+#include "reducer/mesh/mesh.hpp"
 
 namespace tisserand::reducer {
 

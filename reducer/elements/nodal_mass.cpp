@@ -1,5 +1,5 @@
 // Mass matrix of a point mass whose centre of mass may lie beside its node.
-#include "common/rotation.hpp"
+#include "common/math/rotation.hpp"
 #include "reducer/elements/element_matrices.hpp"
 
 namespace tisserand::reducer {

@@ -1,7 +1,8 @@
 // Stiffness of springs and bushings between two nodes, and whether they let a part float.
 #include "reducer/elements/spring.hpp"
 
-#include "common/rotation.hpp"
+#include "common/math/rotation.hpp"
+#include "reducer/elements/beam/beam.hpp"
 #include "reducer/elements/element_matrices.hpp"
 
 namespace tisserand::reducer {

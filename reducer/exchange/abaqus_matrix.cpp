@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
-#include "reducer/decks/abaqus_lines.hpp"
-#include "reducer/decks/nastran_cards.hpp"
-#include "reducer/decks/nastran_fields.hpp"
+#include "reducer/decks/abaqus/lines.hpp"
+#include "reducer/decks/nastran/cards.hpp"
+#include "reducer/decks/nastran/fields.hpp"
 #include "reducer/exchange/places.hpp"
 #include "reducer/exchange/text_lines.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
-#include "reducer/decks/nastran_model.hpp"
+#include "reducer/decks/nastran/model.hpp"
 #include "reducer/exchange/places.hpp"
 #include "reducer/exchange/text_lines.hpp"
 

@@ -10,7 +10,7 @@
 #include "common/error.hpp"
 #include "common/output_path.hpp"
 #include "common/text.hpp"
-#include "formats/superelement.hpp"
+#include "formats/superelement/superelement.hpp"
 #include "reducer/exchange/dmig.hpp"
 #include "reducer/exchange/fmx.hpp"
 #include "reducer/exchange/matrix_market.hpp"

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
-#include "reducer/decks/nastran_cards.hpp"
+#include "reducer/decks/nastran/cards.hpp"
 #include "reducer/exchange/rows_table.hpp"
 #include "reducer/exchange/text_lines.hpp"
 

@@ -7,9 +7,8 @@
 #include "common/error.hpp"
 #include "common/output_path.hpp"
 #include "common/text.hpp"
-#include "reducer/certificate.hpp"
-#include "reducer/decks/nastran_cards.hpp"
-#include "reducer/decks/nastran_fields.hpp"
+#include "reducer/decks/nastran/cards.hpp"
+#include "reducer/decks/nastran/fields.hpp"
 #include "reducer/exchange/abaqus_matrix.hpp"
 #include "reducer/exchange/calculix_matrix.hpp"
 #include "reducer/exchange/dmig.hpp"
@@ -19,11 +18,12 @@
 #include "reducer/exchange/request.hpp"
 #include "reducer/exchange/text_lines.hpp"
 #include "reducer/exchange/to_superelement.hpp"
+#include "reducer/report/certificate.hpp"
 
 namespace tisserand::reducer::exchange {
 namespace {
 
-constexpr long largest_range = 100000;
+constexpr long longest_node_range = 100000;
 const std::vector<std::string> formats_known{"dmig", "abaqus", "calculix", "matrixmarket", "fmx"};
 
 /// `path` with `ending` replaced, or nothing.
@@ -77,7 +77,7 @@ std::set<long> modal_of(const std::string& text) {
     const std::size_t dash = word.find('-', 1);
     const std::optional<long> first = parse_integer(word.substr(0, dash));
     const std::optional<long> last = dash == std::string_view::npos ? first : parse_integer(word.substr(dash + 1));
-    if (!first || !last || *last < *first || *last - *first >= largest_range)
+    if (!first || !last || *last < *first || *last - *first >= longest_node_range)
       throw Error(fmt::format("'{}' is no number or range of nodes", shown(word)), "--modal",
                   "give numbers and ranges such as 1001-1008,2000");
     for (long node = *first; node <= *last; ++node) nodes.insert(node);

@@ -10,7 +10,7 @@
 #include <Eigen/QR>
 
 #include "common/error.hpp"
-#include "formats/superelement_scaling.hpp"
+#include "formats/superelement/scaling.hpp"
 
 namespace tisserand::reducer::exchange {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "formats/superelement.hpp"
+#include "formats/superelement/superelement.hpp"
 
 namespace tisserand::reducer::exchange {
 

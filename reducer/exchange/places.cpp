@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
-#include "reducer/decks/abaqus_lines.hpp"
-#include "reducer/decks/nastran_model.hpp"
+#include "reducer/decks/abaqus/lines.hpp"
+#include "reducer/decks/nastran/model.hpp"
 #include "reducer/exchange/text_lines.hpp"
 
 namespace tisserand::reducer::exchange {

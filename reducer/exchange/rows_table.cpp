@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
-#include "formats/name_check.hpp"
-#include "reducer/decks/nastran_cards.hpp"
-#include "reducer/decks/nastran_fields.hpp"
+#include "formats/yaml/name_check.hpp"
+#include "reducer/decks/nastran/cards.hpp"
+#include "reducer/decks/nastran/fields.hpp"
 #include "reducer/exchange/text_lines.hpp"
 
 namespace tisserand::reducer::exchange {
@@ -30,7 +30,7 @@ std::optional<int> component_of(std::string_view cell) {
   return std::nullopt;
 }
 
-struct Reader {
+struct RowReader {
   const TextLines& lines;
   ReducedMatrices& matrices;
   std::map<std::string, long> number_of_name;
@@ -40,7 +40,7 @@ struct Reader {
 };
 
 /// Number of the node, from 1 in the order of the table; its place is entered once and must not change.
-long Reader::node(const std::vector<std::string_view>& cells) {
+long RowReader::node(const std::vector<std::string_view>& cells) {
   const std::optional<long> number = parse_integer(cells[1]);
   const std::string name = number ? fmt::format("n{}", *number) : std::string(cells[1]);
   if (!formats::is_name(name))
@@ -61,7 +61,7 @@ long Reader::node(const std::vector<std::string_view>& cells) {
   return found->second;
 }
 
-void Reader::row(const std::vector<std::string_view>& cells) {
+void RowReader::row(const std::vector<std::string_view>& cells) {
   const std::size_t expected = matrices.rows.size() + 1;
   if (cells.size() < 3)
     throw Error(fmt::format("has {} cells, expected 6: {}", cells.size(), heading), lines.where(), "complete the line");
@@ -84,7 +84,7 @@ void Reader::row(const std::vector<std::string_view>& cells) {
 
 void read_rows(const std::string& path, ReducedMatrices& matrices) {
   TextLines lines(path);
-  Reader reader{lines, matrices, {}};
+  RowReader reader{lines, matrices, {}};
   std::string_view line;
   bool first = true;
   while (lines.next(line)) {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "formats/superelement.hpp"
+#include "formats/superelement/superelement.hpp"
 #include "reducer/exchange/reduced_matrices.hpp"
 
 namespace tisserand::reducer::exchange {

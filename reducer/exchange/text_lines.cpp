@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
-#include "reducer/decks/nastran_cards.hpp"
-#include "reducer/decks/nastran_fields.hpp"
+#include "reducer/decks/nastran/cards.hpp"
+#include "reducer/decks/nastran/fields.hpp"
 
 namespace tisserand::reducer::exchange {
 namespace {

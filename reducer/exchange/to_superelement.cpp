@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
-#include "formats/superelement_canonical.hpp"
+#include "formats/superelement/canonical.hpp"
 
 namespace tisserand::reducer::exchange {
 namespace {

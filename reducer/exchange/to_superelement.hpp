@@ -5,9 +5,9 @@
 #include <string>
 
 #include "common/units.hpp"
-#include "formats/superelement.hpp"
-#include "reducer/certificate.hpp"
+#include "formats/superelement/superelement.hpp"
 #include "reducer/exchange/reduced_matrices.hpp"
+#include "reducer/report/certificate.hpp"
 
 namespace tisserand::reducer::exchange {
 

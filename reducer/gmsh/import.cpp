@@ -20,7 +20,7 @@
 #include "common/text.hpp"
 #include "reducer/gmsh/curved.hpp"
 #include "reducer/gmsh/session.hpp"
-#include "reducer/mesh_file.hpp"
+#include "reducer/mesh/mesh_file.hpp"
 
 namespace tisserand::reducer {
 namespace {

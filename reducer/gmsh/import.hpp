@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "common/units.hpp"
-#include "formats/part.hpp"
-#include "reducer/cells.hpp"
+#include "formats/part/part.hpp"
+#include "reducer/mesh/cells.hpp"
 
 namespace tisserand::reducer {
 

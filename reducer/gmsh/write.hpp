@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "reducer/mesh.hpp"
+#include "reducer/mesh/mesh.hpp"
 
 namespace tisserand::reducer {
 

@@ -5,7 +5,7 @@
 
 #include "common/error.hpp"
 #include "reducer/gmsh/import.hpp"
-#include "reducer/mesh_file.hpp"
+#include "reducer/mesh/mesh_file.hpp"
 #include "reducer/sources/mesh_builder.hpp"
 #include "reducer/sources/selection.hpp"
 

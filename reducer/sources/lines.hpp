@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "formats/part.hpp"
+#include "formats/part/part.hpp"
 
 namespace tisserand::reducer {
 

@@ -6,10 +6,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "formats/part.hpp"
-#include "reducer/cells.hpp"
+#include "formats/part/part.hpp"
 #include "reducer/decks/deck.hpp"
-#include "reducer/mesh.hpp"
+#include "reducer/mesh/cells.hpp"
+#include "reducer/mesh/mesh.hpp"
 #include "reducer/sources/patches.hpp"
 
 namespace tisserand::reducer {

@@ -8,7 +8,8 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
-#include "reducer/elements/beam_taper.hpp"
+#include "reducer/elements/beam/beam.hpp"
+#include "reducer/properties/beam_taper.hpp"
 #include "reducer/sources/lines.hpp"
 #include "reducer/sources/mesh_builder.hpp"
 #include "reducer/sources/places.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "formats/part.hpp"
-#include "reducer/cells.hpp"
+#include "formats/part/part.hpp"
+#include "reducer/mesh/cells.hpp"
 #include "reducer/sources/node_grid.hpp"
 
 namespace tisserand::reducer {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
-#include "reducer/elements/laminate.hpp"
+#include "reducer/properties/laminate.hpp"
 
 namespace tisserand::reducer {
 namespace {

@@ -1,8 +1,8 @@
 // Layouts and materials of part.yaml as sections of shells and materials of solids.
 #pragma once
 
-#include "formats/part.hpp"
-#include "reducer/mesh.hpp"
+#include "formats/part/part.hpp"
+#include "reducer/mesh/mesh.hpp"
 
 namespace tisserand::reducer {
 

@@ -1,7 +1,7 @@
 // S and M of the independent coordinates: Tᵀ S T and Tᵀ M T.
 #pragma once
 
-#include "reducer/symmetric_pair.hpp"
+#include "reducer/algebra/symmetric_pair.hpp"
 #include "reducer/ties/elimination.hpp"
 
 namespace tisserand::reducer {

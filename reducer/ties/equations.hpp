@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "reducer/coordinates.hpp"
+#include "reducer/mesh/coordinates.hpp"
 
 namespace tisserand::reducer {
 

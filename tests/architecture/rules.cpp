@@ -107,7 +107,8 @@ const std::array kLibraryRules = {
     LibraryRule{"^yaml-cpp/.*", "^(tests/)?formats/.*", kAny, "yaml-cpp stays in formats"},
     LibraryRule{"^nlohmann/.*", "^(tests/.*|(formats|reducer|mechanism)/.*)", kAny, "common reads and writes no JSON"},
     LibraryRule{"^openssl/.*", "^common/.*", 1, "OpenSSL stays in one file of common"},
-    LibraryRule{"^muParser.*", "^(formats|mechanism)/.*", 2, "muParser stays in one file of formats and one of mechanism"},
+    LibraryRule{"^muParser.*", "^(formats|mechanism)/.*", 2,
+                "muParser stays in one file of formats and one of mechanism"},
 };
 
 void check_library(const SourceTree& tree, const LibraryRule& rule, std::vector<Violation>& violations) {

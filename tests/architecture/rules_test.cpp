@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"formats/x.cpp", "#include <slepceps.h>\n", "PETSc and SLEPc stay in reducer"},
         Planted{"reducer/other.cpp", "#include <gmsh.h>\n", "gmsh stays in reducer/gmsh"},
         Planted{"mechanism/gmsh.cpp", "#include <gmsh.h>\n", "gmsh stays in reducer/gmsh"},
-        Planted{"mechanism/newton.cpp", "#include <suitesparse/klu.h>\n", "SuiteSparse stays in four files"},
+        Planted{"mechanism/equations/newton.cpp", "#include <suitesparse/klu.h>\n", "SuiteSparse stays in four files"},
         Planted{"reducer/x.cpp", "#include <cholmod.h>\n", "SuiteSparse stays in four files"},
         Planted{"reducer/x.cpp", "#include <cvode/cvode.h>\n", "SUNDIALS stays in one file"},
         Planted{"mechanism/x.cpp", "#include <CLI/App.hpp>\n", "only main.cpp sees"},

@@ -3,10 +3,10 @@
 
 #include <benchmark/benchmark.h>
 
-#include "mechanism/bodies/superelement_evaluate.hpp"
-#include "mechanism/evaluate.hpp"
-#include "mechanism/integrator.hpp"
-#include "mechanism/newton.hpp"
+#include "mechanism/bodies/superelement/evaluate.hpp"
+#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/equations/newton.hpp"
+#include "mechanism/step/step.hpp"
 #include "tests/benchmarks/mechanisms.hpp"
 #include "tests/benchmarks/scenes.hpp"
 
@@ -174,7 +174,7 @@ void internal_modes(benchmark::State& state) {
 }
 BENCHMARK(internal_modes)->Arg(0)->Arg(8)->Arg(32)->Arg(100)->Iterations(1)->Repetitions(5);
 
-/// Factorisation and solution with both solvers, for the limit in mechanism/model.cpp.
+/// Factorisation and solution with both solvers, for the limit in mechanism/model/model.cpp.
 void compare_solvers(Case input, benchmark::State& state) {
   input.scene.integrator.linear_solver = formats::LinearSolver::klu;
   Stopped sparse(input, half_time(input));

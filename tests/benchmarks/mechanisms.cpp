@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "tests/support/scenes.hpp"
+#include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::benchmarks {
 namespace {

@@ -18,13 +18,13 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include "formats/results.hpp"
-#include "mechanism/initial.hpp"
-#include "mechanism/integrator.hpp"
-#include "mechanism/output.hpp"
-#include "mechanism/schedule.hpp"
-#include "tests/support/beam_superelement.hpp"
-#include "tests/support/scenes.hpp"
+#include "formats/results/results.hpp"
+#include "mechanism/analyses/start.hpp"
+#include "mechanism/run/output.hpp"
+#include "mechanism/run/schedule.hpp"
+#include "mechanism/step/step.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
+#include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::benchmarks {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <Eigen/Core>
 
-#include "formats/scene.hpp"
-#include "mechanism/build_model.hpp"
-#include "mechanism/workspace.hpp"
-#include "tests/support/beam_superelement.hpp"
+#include "formats/scene/scene.hpp"
+#include "mechanism/build/build_model.hpp"
+#include "mechanism/equations/workspace.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
 
 namespace tisserand::benchmarks {
 

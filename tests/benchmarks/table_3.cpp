@@ -10,11 +10,11 @@
 
 #include <fmt/format.h>
 
-#include "formats/override.hpp"
-#include "mechanism/newton.hpp"
+#include "formats/yaml/override.hpp"
+#include "mechanism/equations/newton.hpp"
 #include "mechanism/simulate.hpp"
 #include "mechanism/solver/back_ends.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::benchmarks {
 namespace {

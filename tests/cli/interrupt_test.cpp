@@ -60,7 +60,8 @@ TEST_F(Interrupt, TellsProgressAfterASecondOnTheErrorStream) {
   EXPECT_THAT(mechanism({"run", "arm.scene.yaml", "-o", "short.h5"}).error, Not(HasSubstr("simulating")));
 }
 
-/// TISSERAND_KILLS=100 kills as often as one likes; the writer alone is killed in tests/formats/results_kill_test.cpp.
+/// TISSERAND_KILLS=100 kills as often as one likes; the writer alone is killed in
+/// tests/formats/results/results_kill_test.cpp.
 TEST_F(Interrupt, FilesOfKilledRunsAreRead) {
   const char* wish = std::getenv("TISSERAND_KILLS");
   const int kills = wish == nullptr ? 20 : std::atoi(wish);

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "formats/superelement.hpp"
+#include "formats/superelement/superelement.hpp"
 #include "tests/cli/programs.hpp"
-#include "tests/support/beam_superelement.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::cli {

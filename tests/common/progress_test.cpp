@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-
 namespace tisserand::progress_test {
 namespace {
 

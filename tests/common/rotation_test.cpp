@@ -1,6 +1,6 @@
 // Rotations: every function against long double over all magnitudes of the angle, identities of exp, log and T,
 // derivatives.
-#include "common/rotation.hpp"
+#include "common/math/rotation.hpp"
 
 #include <algorithm>
 #include <cmath>

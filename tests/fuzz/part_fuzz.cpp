@@ -3,7 +3,7 @@
 #include <string>
 
 #include "common/error.hpp"
-#include "formats/part.hpp"
+#include "formats/part/part.hpp"
 #include "text_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

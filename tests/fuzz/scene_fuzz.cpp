@@ -3,7 +3,7 @@
 #include <string>
 
 #include "common/error.hpp"
-#include "formats/scene.hpp"
+#include "formats/scene/scene.hpp"
 #include "text_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

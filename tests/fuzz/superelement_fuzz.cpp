@@ -1,20 +1,20 @@
 // Fuzzing target: any valid HDF5 container in place of a superelement gives a superelement or an Error, nothing else.
-// The bytes say what the container holds (tests/formats/superelement_container.hpp); none: a sound superelement, which
-// must be read.
+// The bytes say what the container holds (tests/formats/superelement/superelement_container.hpp); none: a sound
+// superelement, which must be read.
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
 #include <string>
 
 #include "common/error.hpp"
-#include "formats/hdf5_file.hpp"
-#include "formats/superelement.hpp"
-#include "tests/formats/superelement_container.hpp"
+#include "formats/hdf5/file.hpp"
+#include "formats/superelement/superelement.hpp"
+#include "tests/formats/superelement/superelement_container.hpp"
 #include "text_file.hpp"
 
 namespace tisserand::formats::hdf5 {
 
-/// In place of the child process of formats/hdf5_rehearsal.cpp, which would hide a crash behind an Error and costs a
+/// In place of the child process of formats/hdf5/rehearsal.cpp, which would hide a crash behind an Error and costs a
 /// fork: the containers are sound, so nothing may crash here.
 void rehearse(const std::string&, const std::function<void()>&) {}
 

@@ -7,8 +7,9 @@
 
 #include <Eigen/Geometry>
 
-#include "formats/section_shapes.hpp"
-#include "tests/support/small_model.hpp"
+#include "formats/sections/shapes.hpp"
+#include "reducer/elements/beam/beam.hpp"
+#include "tests/support/meshes/small_model.hpp"
 
 namespace tisserand::reducer {
 namespace {

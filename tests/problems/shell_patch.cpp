@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "common/rotation.hpp"
-#include "tests/support/small_model.hpp"
+#include "common/math/rotation.hpp"
+#include "tests/support/meshes/small_model.hpp"
 
 namespace tisserand::reducer {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-#include "reducer/elements/shell_section.hpp"
-#include "tests/support/shell_mesh.hpp"
+#include "reducer/properties/shell_section.hpp"
+#include "tests/support/meshes/shell_mesh.hpp"
 
 namespace tisserand::reducer {
 

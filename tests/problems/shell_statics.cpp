@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "reducer/elements/laminate.hpp"
-#include "tests/support/shell_grids.hpp"
+#include "reducer/properties/laminate.hpp"
+#include "tests/support/meshes/shell_grids.hpp"
 
 namespace tisserand::reducer {
 namespace {

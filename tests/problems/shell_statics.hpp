@@ -2,7 +2,7 @@
 // verification compute the same thing here.
 #pragma once
 
-#include "tests/support/shell_mesh.hpp"
+#include "tests/support/meshes/shell_mesh.hpp"
 
 namespace tisserand::reducer {
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "tests/support/shell_mesh.hpp"
+#include "tests/support/meshes/shell_mesh.hpp"
 
 namespace tisserand::reducer {
 

@@ -1,5 +1,5 @@
 // The system of a mesh: coordinates, sums of elements, coordinates without stiffness and mass, faults of the mesh.
-#include "reducer/assembly.hpp"
+#include "reducer/system/assembly.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,9 +13,9 @@
 #include <Eigen/LU>
 
 #include "common/error.hpp"
-#include "reducer/checks.hpp"
+#include "reducer/elements/checks.hpp"
 #include "reducer/elements/element_matrices.hpp"
-#include "reducer/system.hpp"
+#include "reducer/system/system.hpp"
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/spring_nets.hpp"
 

@@ -1,5 +1,5 @@
 // Laws of the beam element: symmetry, zero-energy modes, patch test, mass, invariance, limits.
-#include "reducer/elements/beam.hpp"
+#include "reducer/elements/beam/beam.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include "common/rotation.hpp"
+#include "common/math/rotation.hpp"
 
 namespace tisserand::reducer::beam_test {
 namespace {

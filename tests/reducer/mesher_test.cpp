@@ -1,5 +1,5 @@
 // Meshing of lines and arcs: places, connections, orientation, and the gmsh file.
-#include "reducer/build_mesh.hpp"
+#include "reducer/sources/build_mesh.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The mirror image of a superelement against the reduction of the mirrored part.
-#include "formats/mirror.hpp"
+#include "formats/superelement/mirror.hpp"
 
 #include <array>
 #include <cmath>

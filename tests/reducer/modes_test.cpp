@@ -1,5 +1,5 @@
 // Internal modes: clusters, cuts, counts, massless coordinates, and agreement of the two eigenvalue solvers.
-#include "reducer/internal_modes.hpp"
+#include "reducer/modes/internal_modes.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "common/error.hpp"
-#include "reducer/build_mesh.hpp"
+#include "reducer/sources/build_mesh.hpp"
 #include "tests/reducer/parts.hpp"
 
 namespace tisserand::testing::modes_test {

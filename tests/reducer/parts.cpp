@@ -3,8 +3,8 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "reducer/build_mesh.hpp"
-#include "reducer/petsc.hpp"
+#include "reducer/algebra/petsc.hpp"
+#include "reducer/sources/build_mesh.hpp"
 #include "reducer/startup.hpp"
 
 namespace tisserand::testing {

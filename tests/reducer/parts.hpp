@@ -6,10 +6,10 @@
 
 #include <Eigen/Core>
 
-#include "formats/part.hpp"
-#include "reducer/mesh.hpp"
+#include "formats/part/part.hpp"
+#include "reducer/mesh/mesh.hpp"
 #include "reducer/reduce.hpp"
-#include "reducer/system.hpp"
+#include "reducer/system/system.hpp"
 
 namespace tisserand::testing {
 

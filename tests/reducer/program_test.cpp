@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "formats/superelement.hpp"
+#include "formats/superelement/superelement.hpp"
 
 namespace tisserand::testing::program_test {
 namespace {

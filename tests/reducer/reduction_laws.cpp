@@ -9,7 +9,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "reducer/partition.hpp"
+#include "reducer/system/partition.hpp"
 #include "tests/reducer/parts.hpp"
 
 namespace tisserand::testing {

@@ -9,7 +9,7 @@
 #include <Eigen/LU>
 
 #include "common/error.hpp"
-#include "reducer/partition.hpp"
+#include "reducer/system/partition.hpp"
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/reduction_laws.hpp"
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
-#include "reducer/sections/pbarl.hpp"
+#include "reducer/properties/pbarl.hpp"
 
 namespace tisserand::reducer::section_pbarl_test {
 namespace {

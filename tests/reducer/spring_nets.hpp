@@ -6,8 +6,8 @@
 
 #include <Eigen/Geometry>
 
-#include "common/rotation.hpp"
-#include "reducer/mesh.hpp"
+#include "common/math/rotation.hpp"
+#include "reducer/mesh/mesh.hpp"
 
 namespace tisserand::testing {
 

@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include "reducer/partition.hpp"
+#include "reducer/system/partition.hpp"
 #include "tests/reducer/parts.hpp"
 
 namespace tisserand::testing {

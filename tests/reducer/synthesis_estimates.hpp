@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "formats/part.hpp"
+#include "formats/part/part.hpp"
 
 namespace tisserand::testing {
 

@@ -1,5 +1,5 @@
 // Spiders and equations: exact elimination against dense null spaces, rigid arms, averages, loads and contradictions.
-#include "reducer/system.hpp"
+#include "reducer/system/system.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 #include <Eigen/QR>
 
 #include "common/error.hpp"
-#include "common/rotation.hpp"
-#include "reducer/assembly.hpp"
+#include "common/math/rotation.hpp"
+#include "reducer/system/assembly.hpp"
 #include "reducer/ties/averaging.hpp"
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/spring_nets.hpp"

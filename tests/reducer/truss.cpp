@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reducer/partition.hpp"
+#include "reducer/system/partition.hpp"
 #include "tests/reducer/parts.hpp"
 
 namespace tisserand::testing {

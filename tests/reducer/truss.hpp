@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "formats/part.hpp"
+#include "formats/part/part.hpp"
 
 namespace tisserand::testing {
 

@@ -1,7 +1,7 @@
 // Rows of results whose every value is a known function of its time and place, for tests of results files.
 #pragma once
 
-#include "formats/results.hpp"
+#include "formats/results/results.hpp"
 
 namespace tisserand::test_support {
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "reducer/elements/laminate.hpp"
+#include "reducer/properties/laminate.hpp"
 #include "tests/problems/shell_patch.hpp"
 #include "tests/problems/shell_statics.hpp"
 #include "tests/problems/shell_vibration.hpp"

@@ -1,5 +1,5 @@
 // method: bdf: accelerations of index 1 with CVODE against exact and published solutions; drift; flexible bodies.
-#include "mechanism/bdf.hpp"
+#include "mechanism/bdf/bdf.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 
 #include "common/error.hpp"
 #include "mechanism/simulate.hpp"
-#include "tests/support/andrews.hpp"
-#include "tests/support/reduced_frames.hpp"
+#include "tests/support/bodies/reduced_frames.hpp"
 #include "tests/support/reference_table.hpp"
+#include "tests/support/scenes/andrews.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::mechanism::bdf_test {

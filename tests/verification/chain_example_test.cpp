@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "formats/override.hpp"
-#include "formats/scene.hpp"
-#include "mechanism/series.hpp"
+#include "formats/scene/scene.hpp"
+#include "formats/yaml/override.hpp"
+#include "mechanism/histories/series.hpp"
 #include "mechanism/simulate.hpp"
-#include "tests/support/beam_superelement.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::mechanism::chain_example_test {

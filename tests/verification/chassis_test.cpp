@@ -11,7 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "formats/superelement.hpp"
+#include "formats/superelement/superelement.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::formats::chassis_test {

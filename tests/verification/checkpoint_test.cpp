@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
-#include "mechanism/checkpoint.hpp"
+#include "mechanism/run/checkpoint.hpp"
 #include "mechanism/simulate.hpp"
-#include "tests/support/beam_superelement.hpp"
-#include "tests/support/lumped_bodies.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
+#include "tests/support/bodies/lumped_bodies.hpp"
+#include "tests/support/scenes/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::mechanism::checkpoint_test {

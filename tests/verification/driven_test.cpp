@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
-#include "mechanism/assembly.hpp"
-#include "mechanism/kinematics.hpp"
-#include "tests/support/beam_superelement.hpp"
-#include "tests/support/lumped_bodies.hpp"
-#include "tests/support/scenes.hpp"
+#include "mechanism/analyses/assembly.hpp"
+#include "mechanism/analyses/kinematics.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
+#include "tests/support/bodies/lumped_bodies.hpp"
+#include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::mechanism::driven_test {
 namespace {

@@ -14,12 +14,12 @@
 #include <string>
 #include <vector>
 
-#include "formats/override.hpp"
-#include "formats/results.hpp"
-#include "formats/scene.hpp"
-#include "mechanism/series.hpp"
+#include "formats/results/results.hpp"
+#include "formats/scene/scene.hpp"
+#include "formats/yaml/override.hpp"
+#include "mechanism/histories/series.hpp"
+#include "mechanism/histories/tables.hpp"
 #include "mechanism/simulate.hpp"
-#include "mechanism/tables.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::mechanism::examples_test {

@@ -1,6 +1,6 @@
 // Orders of convergence, conditioning, changes of step, energy, breakpoints, rejected steps and restarts of the
 // integrator.
-#include "mechanism/integrator.hpp"
+#include "mechanism/step/step.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,11 +9,11 @@
 
 #include <gtest/gtest.h>
 
-#include "mechanism/newton.hpp"
-#include "tests/support/reduced_frames.hpp"
+#include "mechanism/equations/newton.hpp"
+#include "tests/support/bodies/reduced_frames.hpp"
 #include "tests/support/reference_table.hpp"
-#include "tests/support/scenes.hpp"
-#include "tests/support/schemes.hpp"
+#include "tests/support/scenes/scenes.hpp"
+#include "tests/support/scenes/schemes.hpp"
 
 namespace tisserand::mechanism::integrator_test {
 namespace {

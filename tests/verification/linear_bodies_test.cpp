@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "mechanism/statics.hpp"
-#include "tests/support/beam_superelement.hpp"
-#include "tests/support/reduced_frames.hpp"
+#include "mechanism/analyses/statics.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
+#include "tests/support/bodies/reduced_frames.hpp"
 #include "tests/support/reference_table.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::mechanism::linear_bodies_test {
 namespace {

@@ -1,8 +1,8 @@
 // Massless chains (benchmark 8.4 of the collection in shared/data): a spring pendulum on 1, 5 and 20 virtual bodies.
 #include <gtest/gtest.h>
 
-#include "tests/support/andrews.hpp"
-#include "tests/support/virtual_bodies.hpp"
+#include "tests/support/scenes/andrews.hpp"
+#include "tests/support/scenes/virtual_bodies.hpp"
 
 namespace tisserand::mechanism::massless_chain_test {
 namespace {

@@ -2,11 +2,11 @@
 // nonlinear beams where deformations are small.
 #include <gtest/gtest.h>
 
-#include "formats/results.hpp"
+#include "formats/results/results.hpp"
 #include "mechanism/simulate.hpp"
-#include "tests/support/modal_known_answers.hpp"
-#include "tests/support/scenes.hpp"
-#include "tests/support/superelement_cases.hpp"
+#include "tests/support/bodies/modal_known_answers.hpp"
+#include "tests/support/bodies/superelement_cases.hpp"
+#include "tests/support/scenes/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::mechanism::modal_motion_test {

@@ -5,11 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "mechanism/modes.hpp"
-#include "mechanism/statics.hpp"
-#include "tests/support/beam_superelement.hpp"
+#include "mechanism/analyses/modes.hpp"
+#include "mechanism/analyses/statics.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/reference_table.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::mechanism::modes_test {
 namespace {

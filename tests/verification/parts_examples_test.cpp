@@ -15,11 +15,11 @@
 #include <Eigen/LU>
 #include <nlohmann/json.hpp>
 
-#include "formats/override.hpp"
-#include "formats/part.hpp"
-#include "formats/scene.hpp"
-#include "formats/superelement.hpp"
-#include "mechanism/series.hpp"
+#include "formats/part/part.hpp"
+#include "formats/scene/scene.hpp"
+#include "formats/superelement/superelement.hpp"
+#include "formats/yaml/override.hpp"
+#include "mechanism/histories/series.hpp"
 #include "mechanism/simulate.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -6,11 +6,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "common/rotation.hpp"
-#include "mechanism/redundancy.hpp"
-#include "mechanism/statics.hpp"
-#include "tests/support/andrews.hpp"
-#include "tests/support/scenes.hpp"
+#include "common/math/rotation.hpp"
+#include "mechanism/analyses/statics.hpp"
+#include "mechanism/step/redundancy.hpp"
+#include "tests/support/scenes/andrews.hpp"
+#include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::mechanism::rigid_mechanisms_test {
 namespace {

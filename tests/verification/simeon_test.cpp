@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
 
-#include "tests/support/andrews.hpp"
-#include "tests/support/modal_known_answers.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/bodies/modal_known_answers.hpp"
+#include "tests/support/scenes/andrews.hpp"
+#include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::mechanism::simeon_test {
 namespace {

@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/andrews.hpp"
-#include "tests/support/reduced_frames.hpp"
+#include "tests/support/bodies/reduced_frames.hpp"
+#include "tests/support/scenes/andrews.hpp"
 
 namespace tisserand::mechanism::solvers_test {
 namespace {

@@ -1,6 +1,6 @@
 // Static equilibrium of scenes: cantilevers of superelements and nonlinear beams, large rotations, scenes that can
 // move.
-#include "mechanism/statics.hpp"
+#include "mechanism/analyses/statics.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -8,10 +8,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/support/beam_states.hpp"
-#include "tests/support/beam_superelement.hpp"
+#include "tests/support/bodies/beam_states.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/reference_table.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::mechanism::statics_test {
 namespace {

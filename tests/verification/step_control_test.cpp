@@ -1,6 +1,6 @@
 // Generalised alpha and HHT with error control: errors that follow the tolerance, orders for random sequences of steps,
 // instants that are met, rejected steps.
-#include "mechanism/step_control.hpp"
+#include "mechanism/step/step_control.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,10 +10,10 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/reduced_frames.hpp"
+#include "tests/support/bodies/reduced_frames.hpp"
 #include "tests/support/reference_table.hpp"
-#include "tests/support/scenes.hpp"
-#include "tests/support/schemes.hpp"
+#include "tests/support/scenes/scenes.hpp"
+#include "tests/support/scenes/schemes.hpp"
 
 namespace tisserand::mechanism::step_control_test {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/beam_superelement.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
+#include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::mechanism::stiff_mode_test {
 namespace {

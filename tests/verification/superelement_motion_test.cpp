@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "common/rotation.hpp"
-#include "tests/support/beam_superelement.hpp"
-#include "tests/support/reduced_frames.hpp"
-#include "tests/support/scenes.hpp"
+#include "common/math/rotation.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
+#include "tests/support/bodies/reduced_frames.hpp"
+#include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::mechanism::superelement_motion_test {
 namespace {

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "formats/override.hpp"
-#include "formats/scene.hpp"
-#include "mechanism/series.hpp"
+#include "formats/scene/scene.hpp"
+#include "formats/yaml/override.hpp"
+#include "mechanism/histories/series.hpp"
 #include "mechanism/simulate.hpp"
 #include "tests/support/reference_table.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/reduced_frames.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/bodies/reduced_frames.hpp"
+#include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::mechanism::turning_frame_test {
 namespace {

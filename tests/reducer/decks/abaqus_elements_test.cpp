@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
-#include "reducer/decks/abaqus_element_types.hpp"
+#include "reducer/decks/abaqus/element_types.hpp"
 #include "tests/reducer/decks/abaqus_deck.hpp"
 
 namespace tisserand::reducer::abaqus_elements_test {

@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reducer/decks/abaqus_lines.hpp"
+#include "reducer/decks/abaqus/lines.hpp"
 #include "tests/reducer/decks/abaqus_deck.hpp"
 
 namespace tisserand::reducer::abaqus_lines_test {

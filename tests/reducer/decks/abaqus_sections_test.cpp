@@ -6,9 +6,9 @@
 
 #include <Eigen/LU>
 
-#include "formats/section_shapes.hpp"
-#include "reducer/elements/laminate.hpp"
-#include "reducer/elements/solid_anisotropic.hpp"
+#include "formats/sections/shapes.hpp"
+#include "reducer/properties/laminate.hpp"
+#include "reducer/properties/solid_anisotropic.hpp"
 #include "tests/reducer/decks/abaqus_deck.hpp"
 
 namespace tisserand::reducer::abaqus_sections_test {

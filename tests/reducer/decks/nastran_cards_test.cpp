@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "reducer/decks/nastran_cards.hpp"
-#include "reducer/decks/nastran_fields.hpp"
+#include "reducer/decks/nastran/cards.hpp"
+#include "reducer/decks/nastran/fields.hpp"
 #include "tests/reducer/decks/nastran_deck.hpp"
 
 namespace tisserand::testing::nastran_cards_test {

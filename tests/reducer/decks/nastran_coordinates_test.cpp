@@ -6,7 +6,7 @@
 
 #include <Eigen/LU>
 
-#include "reducer/decks/nastran_coordinates.hpp"
+#include "reducer/decks/nastran/coordinates.hpp"
 #include "tests/reducer/decks/nastran_deck.hpp"
 
 namespace tisserand::testing::nastran_coordinates_test {

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "reducer/elements/laminate.hpp"
+#include "reducer/properties/laminate.hpp"
 #include "tests/reducer/decks/nastran_deck.hpp"
-#include "tests/support/small_model.hpp"
+#include "tests/support/meshes/small_model.hpp"
 
 namespace tisserand::testing::nastran_properties_test {
 namespace {

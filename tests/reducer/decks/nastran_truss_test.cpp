@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/reducer/decks/nastran_deck.hpp"
-#include "tests/support/small_model.hpp"
+#include "tests/support/meshes/small_model.hpp"
 
 namespace tisserand::testing::nastran_truss_test {
 namespace {

@@ -1,5 +1,5 @@
 // The general beam against the plain one, closed formulas of coupled and tapered beams, and its laws.
-#include "reducer/elements/beam_general.hpp"
+#include "reducer/elements/beam/general.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -8,10 +8,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
-#include "common/rotation.hpp"
-#include "formats/section_profiles.hpp"
-#include "formats/section_shapes.hpp"
-#include "reducer/elements/beam_taper.hpp"
+#include "common/math/rotation.hpp"
+#include "formats/sections/profiles.hpp"
+#include "formats/sections/shapes.hpp"
+#include "reducer/properties/beam_taper.hpp"
 
 namespace tisserand::reducer::beam_general_test {
 namespace {

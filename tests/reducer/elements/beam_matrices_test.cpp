@@ -5,11 +5,11 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "common/rotation.hpp"
-#include "formats/section_shapes.hpp"
-#include "reducer/elements/beam_ends.hpp"
+#include "common/math/rotation.hpp"
+#include "formats/sections/shapes.hpp"
+#include "reducer/elements/beam/ends.hpp"
 #include "reducer/elements/element_matrices.hpp"
-#include "tests/support/small_model.hpp"
+#include "tests/support/meshes/small_model.hpp"
 
 namespace tisserand::reducer::beam_matrices_test {
 namespace {

@@ -1,5 +1,5 @@
 // Sections of shells from plies against closed forms.
-#include "reducer/elements/laminate.hpp"
+#include "reducer/properties/laminate.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Mass matrix of a point mass beside its node against the kinetic energy of a rigid body.
 #include <gtest/gtest.h>
 
-#include "common/rotation.hpp"
+#include "common/math/rotation.hpp"
 #include "reducer/elements/element_matrices.hpp"
 
 namespace tisserand::reducer::nodal_mass_test {

@@ -1,7 +1,7 @@
 // Published statics of plates and shells: coarse meshes within 3 to 7 %, fine ones within 1 to 2 %.
 #include <gtest/gtest.h>
 
-#include "reducer/elements/shell_stiffness.hpp"
+#include "reducer/elements/shell/stiffness.hpp"
 #include "tests/problems/shell_statics.hpp"
 #include "tests/reducer/elements/shell_cases.hpp"
 

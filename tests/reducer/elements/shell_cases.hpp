@@ -10,9 +10,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "common/rotation.hpp"
-#include "reducer/elements/laminate.hpp"
-#include "tests/support/shell_grids.hpp"
+#include "common/math/rotation.hpp"
+#include "reducer/properties/laminate.hpp"
+#include "tests/support/meshes/shell_grids.hpp"
 
 namespace tisserand::reducer {
 

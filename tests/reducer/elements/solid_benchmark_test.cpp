@@ -9,8 +9,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include "tests/support/small_model.hpp"
-#include "tests/support/solid_mesh.hpp"
+#include "tests/support/meshes/small_model.hpp"
+#include "tests/support/meshes/solid_mesh.hpp"
 
 namespace tisserand::reducer::solid_benchmark_test {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/small_model.hpp"
-#include "tests/support/solid_mesh.hpp"
+#include "tests/support/meshes/small_model.hpp"
+#include "tests/support/meshes/solid_mesh.hpp"
 
 namespace tisserand::reducer::solid_bending_test {
 namespace {

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "reducer/elements/element_matrices.hpp"
-#include "reducer/elements/solid_quadrature.hpp"
-#include "tests/support/solid_mesh.hpp"
+#include "reducer/elements/solid/quadrature.hpp"
+#include "tests/support/meshes/solid_mesh.hpp"
 
 namespace tisserand::reducer::solid_check_test {
 namespace {

@@ -1,13 +1,13 @@
 // Elastic matrices of solids: strains of simple tests, material axes, and constants that cannot be.
-#include "reducer/elements/solid_material.hpp"
+#include "reducer/properties/solid_material.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
 #include "common/error.hpp"
-#include "common/rotation.hpp"
-#include "reducer/elements/solid_anisotropic.hpp"
+#include "common/math/rotation.hpp"
+#include "reducer/properties/solid_anisotropic.hpp"
 
 namespace tisserand::reducer::solid_material_test {
 namespace {

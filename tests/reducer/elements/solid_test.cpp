@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
 
-#include "common/rotation.hpp"
-#include "reducer/elements/solid_anisotropic.hpp"
-#include "tests/support/solid_mesh.hpp"
+#include "common/math/rotation.hpp"
+#include "reducer/properties/solid_anisotropic.hpp"
+#include "tests/support/meshes/solid_mesh.hpp"
 
 namespace tisserand::reducer::solid_test {
 namespace {

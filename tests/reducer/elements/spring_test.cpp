@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
 
-#include "common/rotation.hpp"
+#include "common/math/rotation.hpp"
 #include "reducer/elements/element_matrices.hpp"
 
 namespace tisserand::reducer::spring_test {

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "common/error.hpp"
-#include "formats/superelement.hpp"
+#include "formats/superelement/superelement.hpp"
 #include "reducer/exchange/to_superelement.hpp"
-#include "tests/support/beam_superelement.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::reducer::exchange::testing {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "formats/section_shapes.hpp"
+#include "formats/sections/shapes.hpp"
 #include "reducer/gmsh/write.hpp"
 #include "reducer/reduce.hpp"
 #include "tests/reducer/parts.hpp"

@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
-#include "reducer/checks.hpp"
+#include "reducer/elements/checks.hpp"
 #include "reducer/gmsh/write.hpp"
-#include "reducer/survey.hpp"
+#include "reducer/sources/survey.hpp"
 #include "tests/reducer/sources/part_text.hpp"
 #include "tests/reducer/sources/sorted_matrices.hpp"
 

@@ -5,8 +5,8 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
-#include "formats/part.hpp"
-#include "reducer/build_mesh.hpp"
+#include "formats/part/part.hpp"
+#include "reducer/sources/build_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::testing {

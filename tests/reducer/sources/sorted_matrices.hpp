@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "tests/support/small_model.hpp"
+#include "tests/support/meshes/small_model.hpp"
 
 namespace tisserand::testing {
 

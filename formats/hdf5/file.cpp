@@ -1,0 +1,425 @@
+// Reading of untrusted HDF5 files: open, look, compare with what is expected, and only then allocate and read.
+#include "formats/hdf5/file.hpp"
+
+#include <fcntl.h>
+#include <hdf5.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+
+#include "common/text.hpp"
+
+namespace tisserand::formats::hdf5 {
+
+static_assert(sizeof(hid_t) == sizeof(Id), "hid_t of HDF5 1.10 and later");
+
+namespace {
+
+constexpr std::size_t max_text = 1u << 20;
+constexpr std::size_t max_report = 1u << 26;
+constexpr hsize_t max_members = 10000;
+
+/// Properties of every file access: no locks (they fail on network disks and in readers beside a writer).
+Handle access_properties() {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_file_locking(access.id(), false, true);
+  H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
+  return access;
+}
+
+/// A copy in memory of a file whose writer was killed after it had left the mode that readers may share.
+Handle open_copy_of_killed(const std::string& path) {
+  const Handle access = access_properties();
+  H5Pset_fapl_core(access.id(), 1u << 20, false);
+  const hbool_t clear = true;
+  H5Pset(access.id(), "clear_status_flags", &clear);
+  return Handle(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), H5Fclose);
+}
+
+std::string type_in_words(Id type) {
+  const std::size_t bits = 8 * H5Tget_size(type);
+  switch (H5Tget_class(type)) {
+    case H5T_FLOAT:
+      return fmt::format("{}-bit floating numbers", bits);
+    case H5T_INTEGER:
+      return fmt::format("{}-bit integers", bits);
+    case H5T_STRING:
+      return "strings";
+    case H5T_COMPOUND:
+      return "compound values";
+    case H5T_ENUM:
+      return "enumeration values (or booleans)";
+    case H5T_VLEN:
+      return "sequences of variable length";
+    case H5T_ARRAY:
+      return "arrays";
+    default:
+      return "values of another kind";
+  }
+}
+
+ElementKind kind_of(Id type) {
+  switch (H5Tget_class(type)) {
+    case H5T_FLOAT:
+      return H5Tget_size(type) == 8 ? ElementKind::float64 : ElementKind::other;
+    case H5T_INTEGER:
+      return H5Tget_size(type) <= 8 ? ElementKind::integer : ElementKind::other;
+    case H5T_STRING:
+      return ElementKind::text;
+    default:
+      return ElementKind::other;
+  }
+}
+
+std::string kind_in_words(ElementKind kind) {
+  switch (kind) {
+    case ElementKind::float64:
+      return "64-bit floating numbers";
+    case ElementKind::integer:
+      return "integers";
+    case ElementKind::text:
+      return "strings";
+    case ElementKind::other:
+      return "other values";
+  }
+  return "";
+}
+
+Shape shape_of(Id space) {
+  const int rank = H5Sget_simple_extent_ndims(space);
+  if (rank <= 0) return {};
+  std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
+  H5Sget_simple_extent_dims(space, dims.data(), nullptr);
+  return Shape(dims.begin(), dims.end());
+}
+
+std::uint64_t count_of(const Shape& shape) {
+  std::uint64_t count = 1;
+  for (const std::uint64_t extent : shape) count *= extent;
+  return count;
+}
+
+/// The text of a fixed-length field without its padding.
+std::string strip_padding(const char* text, std::size_t size, H5T_str_t padding) {
+  std::size_t length = ::strnlen(text, size);
+  if (padding == H5T_STR_SPACEPAD)
+    while (length > 0 && text[length - 1] == ' ') --length;
+  return std::string(text, length);
+}
+
+herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* names) {
+  auto& list = *static_cast<std::vector<std::string>*>(names);
+  list.emplace_back(name);
+  return list.size() < max_members ? 0 : 1;
+}
+
+herr_t collect_attribute(hid_t, const char* name, const H5A_info_t*, void* names) {
+  auto& list = *static_cast<std::vector<std::string>*>(names);
+  list.emplace_back(name);
+  return list.size() < max_members ? 0 : 1;
+}
+
+herr_t find_errno(unsigned, const H5E_error2_t* entry, void* number) {
+  const char* found = entry->desc != nullptr ? std::strstr(entry->desc, "errno = ") : nullptr;
+  if (found != nullptr) *static_cast<int*>(number) = std::atoi(found + 8);
+  return 0;
+}
+
+/// Throws unless `path` is a readable ordinary file that begins like HDF5.
+void require_hdf5(const std::string& path) {
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) {
+    const int number = errno;
+    throw Error(fmt::format("cannot open the file: {}", std::strerror(number)), path,
+                number == ENOENT ? "check the name; relative names count from the file that names them"
+                                 : "check the name and the permissions of the file");
+  }
+  struct stat status {};
+  const bool known = ::fstat(file, &status) == 0;
+  ::close(file);
+  if (!known || !S_ISREG(status.st_mode)) throw Error("is not an ordinary file", path, "give the name of an HDF5 file");
+  if (status.st_size == 0) throw Error("the file is empty (0 bytes)", path, "write it again");
+  if (H5Fis_hdf5(path.c_str()) <= 0)
+    throw Error(fmt::format("is not an HDF5 file ({} bytes without the HDF5 signature)", status.st_size), path,
+                "give a file written by reducer, mechanism, or another program that follows the specification");
+}
+
+}  // namespace
+
+Handle::Handle(Handle&& other) noexcept : id_(other.id_), close_(other.close_) { other.id_ = -1; }
+
+Handle& Handle::operator=(Handle&& other) noexcept {
+  if (this != &other) {
+    reset();
+    id_ = other.id_;
+    close_ = other.close_;
+    other.id_ = -1;
+  }
+  return *this;
+}
+
+int Handle::reset() {
+  const int status = id_ >= 0 && close_ != nullptr ? close_(id_) : 0;
+  id_ = -1;
+  return status;
+}
+
+void silence() {
+  // HDF5's own closing at exit crashes on files whose last write failed; ours are closed by their owners.
+  [[maybe_unused]] static const herr_t once = H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+std::string shape_text(const Shape& shape) {
+  if (shape.empty()) return "scalar";
+  std::vector<std::string> parts;
+  for (const std::uint64_t extent : shape) parts.push_back(std::to_string(extent));
+  return join(parts, " x ");
+}
+
+Error last_error(const std::string& action, const std::string& where, const std::string& remedy) {
+  int number = 0;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_errno, &number);
+  if (number != 0) return Error(action + ": " + std::strerror(number), where, remedy_of_errno(number));
+  return Error(action, where, remedy);
+}
+
+InputFile::InputFile(const std::string& path, Completeness completeness) : path_(path) {
+  silence();
+  require_hdf5(path);
+  const Handle access = access_properties();
+  file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
+  if (!file_.valid() && completeness == Completeness::any) {
+    closed_properly_ = false;
+    file_ = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access.id()), H5Fclose);
+    if (!file_.valid()) file_ = open_copy_of_killed(path);
+  }
+  if (!file_.valid())
+    throw last_error("is an HDF5 file, but it is damaged, cut short, or was not closed by the program that wrote it",
+                     path, "write or copy it again");
+}
+
+std::string InputFile::place(const std::string& object) const {
+  return object == "/" ? path_ : fmt::format("{}: {}", path_, object);
+}
+
+bool InputFile::has(const std::string& object) const {
+  if (object == "/") return true;
+  for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
+    if (H5Lexists(file_.id(), object.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+bool InputFile::has_attribute(const std::string& object, const std::string& name) const {
+  return has(object) && H5Aexists_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+Handle InputFile::open_object(const std::string& object) const {
+  if (!has(object)) throw Error("is missing", place(object), "compare the file with its specification");
+  for (std::size_t end = object.find('/', 1); object != "/"; end = object.find('/', end + 1)) {
+    H5L_info_t link;
+    const std::string name = object.substr(0, end);
+    if (H5Lget_info(file_.id(), name.c_str(), &link, H5P_DEFAULT) < 0 || link.type != H5L_TYPE_HARD)
+      throw Error("is a link to somewhere else", place(name), "store the object itself in the file");
+    if (end == std::string::npos) break;
+  }
+  Handle handle(H5Oopen(file_.id(), object.c_str(), H5P_DEFAULT), H5Oclose);
+  if (!handle.valid()) throw last_error("cannot be opened", place(object), "the file is damaged; write it again");
+  return handle;
+}
+
+std::vector<std::string> InputFile::members(const std::string& group) const {
+  const Handle object = open_object(group);
+  if (H5Iget_type(object.id()) != H5I_GROUP)
+    throw Error("is not a group", place(group), "compare with the specification");
+  std::vector<std::string> names;
+  if (H5Literate(object.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_name, &names) < 0)
+    throw last_error("its members cannot be listed", place(group), "the file is damaged; write it again");
+  return names;
+}
+
+std::vector<std::string> InputFile::attributes(const std::string& object) const {
+  const Handle handle = open_object(object);
+  std::vector<std::string> names;
+  if (H5Aiterate2(handle.id(), H5_INDEX_NAME, H5_ITER_INC, nullptr, collect_attribute, &names) < 0)
+    throw last_error("its attributes cannot be listed", place(object), "the file is damaged; write it again");
+  return names;
+}
+
+std::string InputFile::text_attribute(const std::string& object, const std::string& name) const {
+  const std::string where = fmt::format("{}: attribute '{}'", place(object), name);
+  if (!has_attribute(object, name)) throw Error("is missing", where, "add it; it is a string");
+  const Handle attribute(H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle type(H5Aget_type(attribute.id()), H5Tclose), space(H5Aget_space(attribute.id()), H5Sclose);
+  if (!type.valid() || !space.valid()) throw last_error("cannot be read", where, "the file is damaged; write it again");
+  if (kind_of(type.id()) != ElementKind::text)
+    throw Error(fmt::format("holds {}, expected a string", type_in_words(type.id())), where, "write it as one string");
+  if (H5Sget_simple_extent_npoints(space.id()) != 1)
+    throw Error(fmt::format("has {} values, expected one string", H5Sget_simple_extent_npoints(space.id())), where,
+                "write it as one string");
+  const std::size_t size = H5Tget_size(type.id());
+  if (H5Tis_variable_str(type.id()) > 0) {
+    char* text = nullptr;
+    if (H5Aread(attribute.id(), type.id(), &text) < 0)
+      throw last_error("cannot be read", where, "the file is damaged; write it again");
+    std::string value = text == nullptr ? "" : std::string(text, ::strnlen(text, max_text));
+    if (text != nullptr) H5free_memory(text);
+    return value;
+  }
+  if (size > max_text)
+    throw Error(fmt::format("has {} bytes, at most {} are allowed", size, max_text), where, "shorten it");
+  std::vector<char> buffer(size + 1, '\0');
+  if (H5Aread(attribute.id(), type.id(), buffer.data()) < 0)
+    throw last_error("cannot be read", where, "the file is damaged; write it again");
+  return strip_padding(buffer.data(), size, H5Tget_strpad(type.id()));
+}
+
+double InputFile::number_attribute(const std::string& object, const std::string& name) const {
+  const std::string where = fmt::format("{}: attribute '{}'", place(object), name);
+  if (!has_attribute(object, name)) throw Error("is missing", where, "add it; it is a number");
+  const Handle attribute(H5Aopen_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const Handle type(H5Aget_type(attribute.id()), H5Tclose), space(H5Aget_space(attribute.id()), H5Sclose);
+  if (!type.valid() || !space.valid()) throw last_error("cannot be read", where, "the file is damaged; write it again");
+  const H5T_class_t kind = H5Tget_class(type.id());
+  if (kind != H5T_FLOAT && kind != H5T_INTEGER)
+    throw Error(fmt::format("holds {}, expected a number", type_in_words(type.id())), where, "write it as one number");
+  if (H5Sget_simple_extent_npoints(space.id()) != 1)
+    throw Error(fmt::format("has {} values, expected one number", H5Sget_simple_extent_npoints(space.id())), where,
+                "write it as one number");
+  double value = 0.0;
+  if (H5Aread(attribute.id(), H5T_NATIVE_DOUBLE, &value) < 0)
+    throw last_error("cannot be read", where, "the file is damaged; write it again");
+  return value;
+}
+
+Handle InputFile::open_dataset(const std::string& dataset) const {
+  Handle handle = open_object(dataset);
+  if (H5Iget_type(handle.id()) != H5I_DATASET)
+    throw Error("is not a dataset", place(dataset), "compare the file with its specification");
+  const Handle creation(H5Dget_create_plist(handle.id()), H5Pclose);
+  if (H5Pget_external_count(creation.id()) > 0 || H5Pget_layout(creation.id()) == H5D_VIRTUAL)
+    throw Error("its data are stored in another file", place(dataset), "store the data in the file itself");
+  return handle;
+}
+
+DatasetInfo InputFile::info(const std::string& dataset) const {
+  const Handle handle = open_dataset(dataset);
+  const Handle type(H5Dget_type(handle.id()), H5Tclose), space(H5Dget_space(handle.id()), H5Sclose);
+  const Handle creation(H5Dget_create_plist(handle.id()), H5Pclose);
+  if (!type.valid() || !space.valid() || H5Sget_simple_extent_type(space.id()) == H5S_NULL)
+    throw Error("has no values", place(dataset), "compare the file with its specification");
+  DatasetInfo result;
+  result.kind = kind_of(type.id());
+  result.type_text = type_in_words(type.id());
+  result.shape = shape_of(space.id());
+  const auto count = static_cast<std::uint64_t>(H5Sget_simple_extent_npoints(space.id()));
+  result.stored_bytes = H5Dget_storage_size(handle.id());
+  result.filtered = H5Pget_nfilters(creation.id()) > 0;
+  const bool whole = result.filtered || result.stored_bytes / H5Tget_size(type.id()) >= count;
+  result.written = count == 0 || (result.stored_bytes > 0 && whole);
+  return result;
+}
+
+void InputFile::require(const std::string& dataset, ElementKind kind, const Shape& shape,
+                        const std::string& meaning) const {
+  const DatasetInfo found = info(dataset);
+  if (found.kind != kind)
+    throw Error(fmt::format("holds {}, expected {}", found.type_text, kind_in_words(kind)), place(dataset),
+                fmt::format("write {} as {}", meaning, kind_in_words(kind)));
+  if (found.shape != shape)
+    throw Error(fmt::format("has shape {}, expected {} ({})", shape_text(found.shape), shape_text(shape), meaning),
+                place(dataset), "compare the file with its specification");
+  if (!found.written)
+    throw Error("was created, but not all of its values were written", place(dataset), "write the file again");
+}
+
+void InputFile::read(const std::string& dataset, const Shape& shape, const std::string& meaning, double* values) const {
+  require(dataset, ElementKind::float64, shape, meaning);
+  if (H5Dread(open_dataset(dataset).id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+    throw last_error("cannot be read", place(dataset), "the file is damaged or uses a filter that is not installed");
+}
+
+void InputFile::read(const std::string& dataset, const Shape& shape, const std::string& meaning,
+                     std::int64_t* values) const {
+  require(dataset, ElementKind::integer, shape, meaning);
+  if (H5Dread(open_dataset(dataset).id(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+    throw last_error("cannot be read", place(dataset), "the file is damaged or uses a filter that is not installed");
+}
+
+std::vector<std::string> InputFile::read_all_texts(Id dataset, std::uint64_t count, const std::string& where) const {
+  const Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
+  const char* damaged = "the file is damaged or uses a filter that is not installed";
+  std::vector<std::string> texts;
+  if (count == 0) return texts;
+  if (H5Tis_variable_str(type.id()) > 0) {
+    std::vector<char*> pointers(count, nullptr);
+    const bool ok = H5Dread(dataset, type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) >= 0;
+    for (const char* text : pointers)
+      texts.emplace_back(text == nullptr ? "" : std::string(text, ::strnlen(text, max_report)));
+    H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, pointers.data());
+    if (!ok) throw last_error("cannot be read", where, damaged);
+    return texts;
+  }
+  const std::size_t size = H5Tget_size(type.id());
+  if (size > max_report / count)
+    throw Error(
+        fmt::format("{} strings of {} bytes are too long, at most {} bytes are allowed", count, size, max_report),
+        where, "shorten them");
+  std::vector<char> buffer(size * count + 1, '\0');
+  if (H5Dread(dataset, type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer.data()) < 0)
+    throw last_error("cannot be read", where, damaged);
+  for (std::uint64_t i = 0; i < count; ++i)
+    texts.push_back(strip_padding(buffer.data() + i * size, size, H5Tget_strpad(type.id())));
+  return texts;
+}
+
+std::vector<std::string> InputFile::read_texts(const std::string& dataset, std::uint64_t count,
+                                               const std::string& meaning) const {
+  require(dataset, ElementKind::text, {count}, meaning);
+  return read_all_texts(open_dataset(dataset).id(), count, place(dataset));
+}
+
+std::string InputFile::read_text(const std::string& dataset) const {
+  require(dataset, ElementKind::text, {}, "one string");
+  return read_all_texts(open_dataset(dataset).id(), 1, place(dataset)).front();
+}
+
+void InputFile::read_rows(const std::string& dataset, std::uint64_t first, std::uint64_t count, double* values) const {
+  const Handle handle = open_dataset(dataset), space(H5Dget_space(handle.id()), H5Sclose);
+  std::vector<hsize_t> start(8, 0), extent;
+  for (const std::uint64_t e : shape_of(space.id())) extent.push_back(e);
+  TISSERAND_ENSURE(!extent.empty() && extent.size() <= 8 && first + count <= extent[0], "rows {} + {} of {}", first,
+                   count, dataset);
+  start[0] = first;
+  extent[0] = count;
+  const hsize_t total = count_of(Shape(extent.begin(), extent.end()));
+  const Handle memory(H5Screate_simple(1, &total, nullptr), H5Sclose);
+  H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
+  if (H5Dread(handle.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT, values) < 0)
+    throw last_error("cannot be read", place(dataset), "the file is damaged or uses a filter that is not installed");
+}
+
+void InputFile::read_column(const std::string& dataset, std::uint64_t column, std::uint64_t count,
+                            double* values) const {
+  const Handle handle = open_dataset(dataset), space(H5Dget_space(handle.id()), H5Sclose);
+  const Shape shape = shape_of(space.id());
+  TISSERAND_ENSURE(!shape.empty() && count <= shape[0], "column of {} rows of {}", count, dataset);
+  std::vector<hsize_t> start(shape.size(), 0), extent(shape.size(), 1);
+  for (std::size_t axis = shape.size() - 1; axis > 0; --axis) {
+    start[axis] = column % shape[axis];
+    column /= shape[axis];
+  }
+  extent[0] = count;
+  const hsize_t total = count;
+  const Handle memory(H5Screate_simple(1, &total, nullptr), H5Sclose);
+  H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
+  if (H5Dread(handle.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT, values) < 0)
+    throw last_error("cannot be read", place(dataset), "the file is damaged or uses a filter that is not installed");
+}
+
+}  // namespace tisserand::formats::hdf5

@@ -1,0 +1,93 @@
+// Format, version and units at the head of a file.
+#include "formats/hdf5/head.hpp"
+
+#include <charconv>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tisserand::formats::hdf5 {
+namespace {
+
+constexpr std::size_t max_label = 255;
+
+Unit read_unit(const InputFile& file, const std::string& name) {
+  Unit unit{file.number_attribute("/", name), ""};
+  if (unit.factor != 0.0) unit.label = file.text_attribute("/", name + "_label");
+  if (unit.label.size() > max_label)
+    throw Error("is too long", fmt::format("{}: attribute '{}_label'", file.path(), name), "shorten it");
+  return unit;
+}
+
+void write_unit(Id file, const std::string& name, const Unit& unit, const std::string& where) {
+  write_number_attribute(file, "/", name, unit.factor, where);
+  write_text_attribute(file, "/", name + "_label", unit.label, where);
+}
+
+std::string printable(const std::string& text) {
+  std::string result;
+  for (const char c : text.substr(0, 60)) result += c >= 32 && c < 127 ? c : '?';
+  return result;
+}
+
+void check_unit(const Units& units, const Unit& unit, const std::string& name, Unit (*find)(const std::string&),
+                const std::string& where) {
+  const std::string place = fmt::format("{}attribute '{}'", where.empty() ? "" : where + ": ", name);
+  if (!std::isfinite(unit.factor) || unit.factor < 0.0)
+    throw Error(fmt::format("is {}, expected a factor to SI, or 0 for consistent and unnamed units", unit.factor),
+                place, "correct the number");
+  if ((unit.factor > 0.0) != units.named())
+    throw Error(fmt::format("is {}, although length_unit is {}", unit.factor, units.length.factor), place,
+                "name all three units, or write 0 for all three");
+  if (unit.factor == 0.0) return;
+  Unit known;
+  try {
+    known = find(unit.label);
+  } catch (const Error&) {
+    return;  // labels of other units are free
+  }
+  if (std::abs(known.factor - unit.factor) > 1e-9 * known.factor)
+    throw Error(fmt::format("is {}, but its label '{}' means {}", unit.factor, printable(unit.label), known.factor),
+                place, "correct the number or the label");
+}
+
+}  // namespace
+
+void check_format(const InputFile& file, const FileKind& kind) {
+  const std::string format = file.has_attribute("/", "format") ? file.text_attribute("/", "format") : "";
+  if (format != kind.format)
+    throw Error(format.empty()
+                    ? fmt::format("is an HDF5 file, but not a {} (it has no attribute 'format')", kind.noun)
+                    : fmt::format("is a file of the kind '{}', expected '{}'", format.substr(0, 60), kind.format),
+                file.path(), kind.source);
+  const std::string version = file.text_attribute("/", "version");
+  int major = -1, minor = -1;
+  const char* end = version.data() + version.size();
+  const auto [after, error] = std::from_chars(version.data(), end, major);
+  const bool dot = error == std::errc() && after != end && *after == '.';
+  const bool valid = dot && std::from_chars(after + 1, end, minor).ptr == end && minor >= 0 && after + 1 != end;
+  if (!valid)
+    throw Error(fmt::format("is '{}', expected major.minor such as '1.0'", version.substr(0, 20)),
+                file.path() + ": attribute 'version'", "correct the version");
+  if (major != 1)
+    throw Error(fmt::format("is {}, this program reads versions 1.x", version.substr(0, 20)),
+                file.path() + ": attribute 'version'", kind.other_version);
+}
+
+Units read_units(const InputFile& file) {
+  return {read_unit(file, "length_unit"), read_unit(file, "mass_unit"), read_unit(file, "time_unit")};
+}
+
+void write_units(Id file, const Units& units, const std::string& where) {
+  write_unit(file, "length_unit", units.length, where);
+  write_unit(file, "mass_unit", units.mass, where);
+  write_unit(file, "time_unit", units.time, where);
+}
+
+void check_units(const Units& units, const std::string& where) {
+  check_unit(units, units.length, "length_unit", length_unit, where);
+  check_unit(units, units.mass, "mass_unit", mass_unit, where);
+  check_unit(units, units.time, "time_unit", time_unit, where);
+}
+
+}  // namespace tisserand::formats::hdf5

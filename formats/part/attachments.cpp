@@ -1,0 +1,236 @@
+// Beams, point masses, springs, spiders and boundary nodes of part.yaml.
+#include <cmath>
+
+#include "formats/part/reader.hpp"
+#include "formats/yaml/geometry.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+void read_division(const MapReader& map, BeamLine& beam) {
+  if (map.has("elements") == map.has("size"))
+    map.fail(map.has("size") ? "both 'elements' and 'size' are given" : "neither 'elements' nor 'size' is given",
+             "give one of them");
+  if (const YamlNode* node = map.find("elements")) {
+    beam.elements = read_integer(map.context(), *node, "elements").value_or(1);
+    if (beam.elements < 1)
+      map.context().fail(node->place, fmt::format("elements {} must be 1 or more", beam.elements), "");
+  }
+  if (map.has("size")) beam.size = map.number("size");
+}
+
+/// From ends and division, or on groups of lines.
+void read_line(const MapReader& map, BeamLine& beam, const Part& part) {
+  if (const YamlNode* on = map.find("on")) {
+    beam.on = read_name_list(map.context(), *on, "on");
+    for (const char* key : {"from", "to", "through", "elements", "size", "to_section"})
+      if (map.has(key))
+        map.context().fail(map.find(key)->key_place, fmt::format("'{}' beside 'on'", key),
+                           "beams on a group take their lines and elements from it");
+    return;
+  }
+  if (const YamlNode* from = map.require("from")) beam.from = read_place(map.context(), *from, "from", part);
+  if (const YamlNode* to = map.require("to")) beam.to = read_place(map.context(), *to, "to", part);
+  if (const YamlNode* through = map.find("through"))
+    beam.through = read_position(map.context(), *through, "through", part);
+  if (map.has("to_section")) beam.to_section = map.text("to_section");
+  read_division(map, beam);
+}
+
+unsigned read_components(const MapReader& map, std::string_view key) {
+  const YamlNode* node = map.find(key);
+  if (node == nullptr) return 0;
+  unsigned bits = 0;
+  const std::vector<std::string> words{"x", "y", "z", "rx", "ry", "rz"};
+  const auto add = [&](const YamlNode& item) {
+    if (const auto index = read_word(map.context(), item, "release", words)) bits |= 1U << *index;
+  };
+  if (node->kind != YamlKind::sequence) add(*node);
+  for (const YamlNode& item : node->children) add(item);
+  return bits;
+}
+
+void read_ends(const MapReader& map, BeamLine& beam) {
+  beam.angle = read_angle(map, 0.0);
+  beam.from_offset = beam.to_offset = read_vector(map, "offset", Eigen::Vector3d::Zero());
+  beam.from_offset = read_vector(map, "from_offset", beam.from_offset);
+  beam.to_offset = read_vector(map, "to_offset", beam.to_offset);
+  if (const YamlNode* node = map.find("releases")) {
+    const MapReader releases(map.context(), *node, "releases", "releases.");
+    beam.releases = {read_components(releases, "start"), read_components(releases, "end")};
+  }
+}
+
+BeamLine read_beam(const Context& context, const YamlNode& node, const Part& part) {
+  const MapReader map(context, node, "beam");
+  BeamLine beam;
+  beam.name = node.key;
+  beam.where = context.entry;
+  read_line(map, beam, part);
+  beam.section = map.text("section");
+  beam.material = map.text("material");
+  beam.orientation = read_optional_vector(map, "orientation");
+  beam.theory = map.choice(
+      "theory",
+      {Choice<BeamTheory>{"timoshenko", BeamTheory::timoshenko}, {"euler_bernoulli", BeamTheory::euler_bernoulli}},
+      BeamTheory::timoshenko);
+  beam.mass_matrix = read_mass_matrix(map);
+  beam.rotary_inertia =
+      map.choice("rotary_inertia", {Choice<bool>{"on", true}, {"off", false}, {"true", true}, {"false", false}}, true);
+  read_ends(map, beam);
+  return beam;
+}
+
+PointMass read_point_mass(const Context& context, const YamlNode& node, const Part& part) {
+  const MapReader map(context, node, "point_mass");
+  PointMass mass;
+  mass.name = node.key;
+  mass.where = context.entry;
+  if (const YamlNode* at = map.require("at")) mass.at = read_place(context, *at, "at", part);
+  mass.mass = map.number("mass");
+  if (const YamlNode* inertia = map.find("inertia")) mass.inertia = read_inertia(context, *inertia, "inertia");
+  mass.offset = read_vector(map, "offset", Eigen::Vector3d::Zero());
+  return mass;
+}
+
+/// Six numbers of the diagonal or six rows.
+Eigen::Matrix<double, 6, 6> read_stiffness(const Context& context, const YamlNode& node) {
+  Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
+  const auto fail = [&](const YamlNode& part, std::size_t count) {
+    context.fail(part.place, fmt::format("stiffness has {} numbers instead of 6", count),
+                 "give [kx, ky, kz, krx, kry, krz] or six rows of six");
+  };
+  const bool rows =
+      node.kind == YamlKind::sequence && !node.children.empty() && node.children.front().kind == YamlKind::sequence;
+  if (!rows) {
+    const std::vector<double> k = read_numbers(context, node, "stiffness");
+    if (k.size() != 6) return fail(node, k.size()), stiffness;
+    for (int i = 0; i < 6; ++i) stiffness(i, i) = k[static_cast<std::size_t>(i)];
+    return stiffness;
+  }
+  if (node.children.size() != 6) return fail(node, node.children.size()), stiffness;
+  for (int i = 0; i < 6; ++i) {
+    const YamlNode& row = node.children[static_cast<std::size_t>(i)];
+    const std::vector<double> k = read_numbers(context, row, fmt::format("stiffness[{}]", i));
+    if (k.size() != 6) return fail(row, k.size()), stiffness;
+    for (int j = 0; j < 6; ++j) stiffness(i, j) = k[static_cast<std::size_t>(j)];
+  }
+  return stiffness;
+}
+
+SpringLine read_spring(const Context& context, const YamlNode& node, const Part& part) {
+  const MapReader map(context, node, "spring");
+  SpringLine spring;
+  spring.name = node.key;
+  spring.where = context.entry;
+  if (const YamlNode* from = map.require("from")) spring.from = read_place(context, *from, "from", part);
+  if (const YamlNode* to = map.require("to")) spring.to = read_place(context, *to, "to", part);
+  if (const YamlNode* stiffness = map.require("stiffness")) spring.stiffness = read_stiffness(context, *stiffness);
+  if (const YamlNode* axes = map.find("axes"))
+    spring.axes = read_orientation(context, *axes, "axes").toRotationMatrix();
+  return spring;
+}
+
+/// Names of groups or numbers of nodes, one or a list.
+void read_legs(const MapReader& map, SpiderLine& spider) {
+  const YamlNode* on = map.require("on");
+  if (on == nullptr) return;
+  const auto add = [&](const YamlNode& item) {
+    if (looks_like_number(item)) {
+      if (const auto node = read_integer(map.context(), item, "on")) spider.nodes.push_back(*node);
+    } else {
+      spider.on.push_back(read_text(map.context(), item, "on"));
+    }
+  };
+  if (on->kind != YamlKind::sequence) add(*on);
+  for (const YamlNode& item : on->children) add(item);
+}
+
+SpiderLine read_spider(const Context& context, const YamlNode& node, const Part& part) {
+  const MapReader map(context, node, "spider");
+  SpiderLine spider;
+  spider.name = node.key;
+  spider.where = context.entry;
+  spider.type =
+      map.choice("kind", {Choice<SpiderType>{"rigid", SpiderType::rigid}, {"averaging", SpiderType::averaging}},
+                 SpiderType::averaging);
+  map.require("kind");
+  const YamlNode* at = map.find("at");
+  if (at == nullptr || (at->kind == YamlKind::scalar && at->text == "centroid"))
+    spider.at.kind = PlaceKind::centroid;
+  else
+    spider.at = read_place(context, *at, "at", part);
+  read_legs(map, spider);
+  spider.weights =
+      map.choice("weights", {Choice<SpiderWeights>{"area", SpiderWeights::area}, {"equal", SpiderWeights::equal}},
+                 SpiderWeights::area);
+  if (spider.type == SpiderType::rigid && map.has("weights"))
+    context.fail(map.find("weights")->key_place, "a rigid spider has no weights", "remove them, or kind: averaging");
+  return spider;
+}
+
+void keep(BoundaryNode& boundary, std::size_t kind) {
+  boundary.translations = kind != 2;
+  boundary.rotations = kind != 1;
+}
+
+/// `tip: all`, or `tip: {near: [..], keep: translations}`.
+BoundaryNode read_boundary_entry(const Context& context, const YamlNode& entry, const Part& part) {
+  const std::vector<std::string> kinds{"all", "translations", "rotations"};
+  BoundaryNode boundary{entry.key, entry.key, true, true, context.entry};
+  if (entry.kind != YamlKind::map) {
+    keep(boundary, read_word(context, entry, "value", kinds).value_or(0));
+    return boundary;
+  }
+  const MapReader map(context, entry, "boundary_entry");
+  if (const YamlNode* kind = map.find("keep")) keep(boundary, read_word(context, *kind, "keep", kinds).value_or(0));
+  const YamlNode* at = map.find("at");
+  const bool by_keys = map.has("node") || map.has("near") || map.has("centroid");
+  if (at != nullptr && by_keys)
+    context.fail(at->key_place, "both 'at' and another place are given", "give one of at, node, near, centroid");
+  if (at != nullptr) boundary.at = read_place(context, *at, "at", part);
+  if (at == nullptr && (by_keys || map.has("tolerance"))) boundary.at = read_place_keys(map, part);
+  return boundary;
+}
+
+}  // namespace
+
+void read_beams(const MapReader& map, Part& part) {
+  for (const YamlNode* node : map.entries("beams", "beam"))
+    part.beams.push_back(read_beam(entry_context(map.context().reader, "beam", *node), *node, part));
+}
+
+void read_attachments(const MapReader& map, Part& part) {
+  YamlReader& reader = map.context().reader;
+  for (const YamlNode* node : map.entries("point_masses", "point mass"))
+    part.point_masses.push_back(read_point_mass(entry_context(reader, "point mass", *node), *node, part));
+  for (const YamlNode* node : map.entries("springs", "spring"))
+    part.springs.push_back(read_spring(entry_context(reader, "spring", *node), *node, part));
+  for (const YamlNode* node : map.entries("spiders", "spider"))
+    part.spiders.push_back(read_spider(entry_context(reader, "spider", *node), *node, part));
+}
+
+void read_boundary(const MapReader& map, Part& part) {
+  const YamlNode* node = part.mesh.file.empty() ? map.require("boundary") : map.find("boundary");
+  if (node == nullptr) return;
+  YamlReader& reader = map.context().reader;
+  if (node->kind == YamlKind::map) {
+    for (const YamlNode* entry : map.entries("boundary", "boundary node"))
+      part.boundary.push_back(read_boundary_entry(entry_context(reader, "boundary node", *entry), *entry, part));
+    return;
+  }
+  if (node->kind != YamlKind::sequence) {
+    map.context().fail(node->place, fmt::format("boundary must be a list of points, not {}", describe(*node)),
+                       "write it as [base, tip] or {base: all, tip: translations}");
+    return;
+  }
+  for (const YamlNode& item : node->children) {
+    const Context context{reader, "boundary", reader.where(item.place)};
+    reader.note_place(context.entry, item.place);
+    const std::string name = read_text(context, item, "an entry");
+    part.boundary.push_back({name, name, true, true, context.entry});
+  }
+}
+
+}  // namespace tisserand::formats

@@ -1,0 +1,145 @@
+// Findings of a part: names, references, signs, and geometry of lines.
+#include "formats/part/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "formats/sections/reader.hpp"
+#include "formats/yaml/line_check.hpp"
+#include "formats/yaml/name_check.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+/// Nothing for nodes of a mesh file, spiders and names that do not exist.
+std::optional<Eigen::Vector3d> position_of(const Part& part, const Place& place) {
+  if (place.kind == PlaceKind::position) return place.position;
+  if (place.kind != PlaceKind::name) return std::nullopt;
+  const auto found = std::ranges::find(part.points, place.name, &NamedPoint::name);
+  if (found == part.points.end() || found->place) return std::nullopt;
+  return found->position;
+}
+
+PartNames check_definitions(const Part& part, Faults& faults) {
+  PartNames names;
+  for (const Material& material : part.materials) {
+    check_name("material", material.name, material.where, names.layers, faults);
+    check_material(material, fmt::format("material '{}'", material.name), "", faults);
+    names.materials.push_back(material.name);
+  }
+  for (const OrthotropicMaterial& material : part.orthotropic)
+    check_name("material", material.name, material.where, names.layers, faults);
+  for (const Section& section : part.sections) {
+    check_name("section", section.name, section.where, names.sections, faults);
+    check_section(section, fmt::format("section '{}'", section.name), "", faults);
+  }
+  for (const NamedPoint& point : part.points) {
+    check_name("point", point.name, point.where, names.places, faults);
+    if (!point.position.allFinite())
+      faults.add(point.where, "", fmt::format("point '{}': position must be finite", point.name), "");
+  }
+  for (const SpiderLine& spider : part.spiders) check_name("spider", spider.name, spider.where, names.places, faults);
+  for (const GroupDefinition& group : part.groups) check_name("group", group.name, group.where, names.groups, faults);
+  for (const ShellPatch& patch : part.patches) {
+    check_name("group", patch.name, patch.where, names.groups, faults);
+    for (const std::string& edge : edge_groups(patch)) names.groups.push_back(edge);
+  }
+  return names;
+}
+
+void check_section_of_beam(const Part& part, const BeamLine& beam, const std::string& subject, Faults& faults) {
+  const auto section = std::ranges::find(part.sections, beam.section, &Section::name);
+  if (beam.theory == BeamTheory::timoshenko && section != part.sections.end() && section->shear_area_y == 0.0 &&
+      section->area > 0.0 && section->shear_area_z == 0.0 && section->second_moment_y + section->second_moment_z > 0.0)
+    faults.add(beam.where, "section", fmt::format("{}: section '{}' has no shear areas", subject, section->name),
+               "give shear_area_y and shear_area_z, or set theory: euler_bernoulli");
+  if (!std::isfinite(beam.angle))
+    faults.add(beam.where, "angle_deg", fmt::format("{}: angle_deg must be finite", subject), "");
+  if (!beam.from_offset.allFinite() || !beam.to_offset.allFinite())
+    faults.add(beam.where, "offset", fmt::format("{}: offsets must be finite", subject), "");
+}
+
+/// Length, arc and division of a line between two places whose positions are known.
+void check_line_of_beam(const Part& part, const BeamLine& beam, const std::string& subject, Faults& faults) {
+  if (beam.elements < 0)
+    faults.add(beam.where, "elements", fmt::format("{}: elements {} must be 1 or more", subject, beam.elements), "");
+  if (beam.elements == 0 && !(beam.size > 0.0 && std::isfinite(beam.size)))
+    faults.add(beam.where, "size", fmt::format("{}: size {:g} must be positive", subject, beam.size), "");
+  constexpr double most = 1e6;
+  if (beam.elements > most)
+    faults.add(beam.where, "elements", fmt::format("{}: {} elements; the limit is {:g}", subject, beam.elements, most),
+               "give fewer");
+  const auto from = position_of(part, beam.from), to = position_of(part, beam.to);
+  if (!from || !to) return;
+  check_line({subject, beam.where, *from, *to, beam.through, beam.orientation}, faults);
+  if (beam.elements != 0 || !(beam.size > 0.0)) return;
+  const double count = (*to - *from).norm() / beam.size;
+  if (count > most)
+    faults.add(beam.where, "size",
+               fmt::format("{}: size {:g} makes {:.3g} elements; the limit is {:g}", subject, beam.size, count, most),
+               "give a larger size");
+}
+
+void check_beam(const Part& part, const BeamLine& beam, const PartNames& names, Faults& faults) {
+  const std::string subject = fmt::format("beam '{}'", beam.name);
+  check_reference(subject, "section", beam.section, names.sections, beam.where, "section", faults);
+  if (!beam.to_section.empty())
+    check_reference(subject, "section", beam.to_section, names.sections, beam.where, "to_section", faults);
+  check_reference(subject, "material", beam.material, names.materials, beam.where, "material", faults);
+  check_section_of_beam(part, beam, subject, faults);
+  if (!beam.on.empty()) return check_group_names(part, names, beam.on, subject, beam.where, "on", faults);
+  check_place(part, names, beam.from, subject, beam.where, "from", faults);
+  check_place(part, names, beam.to, subject, beam.where, "to", faults);
+  check_line_of_beam(part, beam, subject, faults);
+}
+
+void check_modes(const Part& part, Faults& faults) {
+  const ModeSelection& modes = part.modes;
+  if (modes.count < 0)
+    faults.add(modes.where, "modes", fmt::format("modes {} must not be negative", modes.count),
+               "modes: 0 gives Guyan reduction");
+  if (modes.cutoff && !(*modes.cutoff > 0.0 && std::isfinite(*modes.cutoff)))
+    faults.add(modes.where, "cutoff", fmt::format("cutoff {:g} must be positive", *modes.cutoff), "");
+}
+
+void check_boundary(const Part& part, const PartNames& names, Faults& faults) {
+  if (part.boundary.empty() && part.mesh.file.empty())
+    faults.add(part.file, "boundary", "the part has no boundary node",
+               "list the points at which it is joined or loaded, boundary: [base, tip]");
+  std::vector<std::string> seen;
+  for (const BoundaryNode& node : part.boundary) {
+    check_name("boundary node", node.name, node.where, seen, faults);
+    check_place(part, names, node.at, fmt::format("boundary node '{}'", node.name), node.where, "", faults);
+    if (!node.translations && !node.rotations)
+      faults.add(node.where, "", fmt::format("boundary node '{}': keeps neither translations nor rotations", node.name),
+                 "");
+  }
+}
+
+}  // namespace
+
+Faults find_faults(const Part& part) {
+  Faults faults;
+  if (part.name.empty()) faults.add(part.file, "part", "the part has no name", "part: <name>");
+  const PartNames names = check_definitions(part, faults);
+  if (part.beams.empty() && part.patches.empty() && part.mesh.file.empty())
+    faults.add(part.file, "beams", "the part has no elements",
+               "give beams, plates, discs, cylinders, extrusions, or a mesh file (mesh: {file: ...})");
+  std::vector<std::string> beams;
+  for (const BeamLine& beam : part.beams) {
+    check_name("beam", beam.name, beam.where, beams, faults);
+    check_beam(part, beam, names, faults);
+  }
+  check_mesh_and_groups(part, names, faults);
+  check_shells(part, names, faults);
+  check_attachments(part, names, faults);
+  check_boundary(part, names, faults);
+  check_modes(part, faults);
+  return faults;
+}
+
+void check(const Part& part) { find_faults(part).raise(); }
+
+}  // namespace tisserand::formats

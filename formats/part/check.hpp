@@ -1,0 +1,37 @@
+// What is wrong with a part that can be read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/part/part.hpp"
+#include "formats/yaml/fault.hpp"
+
+namespace tisserand::formats {
+
+/// The names that references may use.
+struct PartNames {
+  std::vector<std::string> materials;  ///< isotropic ones
+  std::vector<std::string> layers;     ///< all materials
+  std::vector<std::string> sections;
+  std::vector<std::string> places;  ///< points, then spiders
+  std::vector<std::string> groups;  ///< of the part file: defined ones, patches and their edges
+};
+
+/// All findings; check(part) throws them.
+Faults find_faults(const Part& part);
+
+/// Edges of a patch that are groups: "deck/edge1", "tube/start", ...
+std::vector<std::string> edge_groups(const ShellPatch& patch);
+
+/// Pieces of find_faults: patches, layouts, shells, solids; mesh file and groups; springs and spiders.
+void check_shells(const Part& part, const PartNames& names, Faults& faults);
+void check_mesh_and_groups(const Part& part, const PartNames& names, Faults& faults);
+void check_attachments(const Part& part, const PartNames& names, Faults& faults);
+void check_place(const Part& part, const PartNames& names, const Place& place, const std::string& subject,
+                 const std::string& where, const std::string& key, Faults& faults);
+/// Names of groups: known ones, or any if a mesh file may bring them.
+void check_group_names(const Part& part, const PartNames& names, const std::vector<std::string>& on,
+                       const std::string& subject, const std::string& where, const std::string& key, Faults& faults);
+
+}  // namespace tisserand::formats

@@ -1,0 +1,156 @@
+// part.yaml: what the reducer meshes and reduces (formats/PART.md).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/units.hpp"
+#include "formats/part/place.hpp"
+#include "formats/part/shells.hpp"
+#include "formats/sections/section.hpp"
+#include "formats/yaml/override.hpp"
+
+namespace tisserand::formats {
+
+/// A position, or (`place` of kind node, near or centroid) a node of the mesh file.
+struct NamedPoint {
+  std::string name;
+  Eigen::Vector3d position;
+  std::string where;  ///< file:line:column, for later messages
+  std::optional<Place> place = std::nullopt;
+};
+
+enum class UnknownContent { refuse, ignore };
+
+/// The mesh, geometry or deck of another program.
+struct MeshFile {
+  std::string file;       ///< as the part file gives it, resolved from its folder; empty: none
+  double size = 0.0;      ///< largest edge of an element on geometry; 0: from the file or gmsh
+  double smallest = 0.0;  ///< lower bound of the size when it follows the curvature
+  int curvature = 0;      ///< elements per full turn of a curved face; 0: sizes do not follow the curvature
+  struct LocalSize {
+    std::string group;
+    double size = 0.0;
+    std::string where;
+  };
+  std::vector<LocalSize> sizes;
+  int order = 0;  ///< 1 or 2; 0: as the file, 1 for geometry
+  std::optional<Cells> cells;
+  double scale = 1.0;  ///< multiplies all coordinates
+  UnknownContent unknown = UnknownContent::refuse;
+  std::vector<std::string> ignore;  ///< groups that need no property
+  std::string where;
+};
+
+enum class BeamTheory { timoshenko, euler_bernoulli };
+
+/// End forces that a beam cannot carry, in its axes: bit 0-2 forces along x, y, z; bit 3-5 moments about x, y, z.
+struct BeamReleases {
+  unsigned start = 0;
+  unsigned end = 0;
+};
+
+/// A straight line or a circular arc between two places, divided into equal beam elements; or the lines of groups.
+struct BeamLine {
+  std::string name;
+  Place from;
+  Place to;
+  std::optional<Eigen::Vector3d> through;  ///< a third point of the circular arc; absent: straight
+  std::string section;
+  std::string material;
+  int elements = 0;   ///< > 0, or 0: from size
+  double size = 0.0;  ///< largest element length if elements == 0
+  /// Direction whose part normal to the axis is the local y axis of the section; absent: a global axis chosen by the
+  /// rule of PART.md (the one most nearly normal to the axis).
+  std::optional<Eigen::Vector3d> orientation;
+  BeamTheory theory = BeamTheory::timoshenko;
+  MassMatrix mass_matrix = MassMatrix::consistent;
+  bool rotary_inertia = true;
+  std::string where;
+  std::vector<std::string> on = {};                       ///< groups of lines instead of from, to, elements
+  std::string to_section = {};                            ///< at `to`: tapered from `section`
+  double angle = 0.0;                                     ///< turns y and z of the section about x [rad]
+  Eigen::Vector3d from_offset = Eigen::Vector3d::Zero();  ///< from the node to the end of the axis, part axes
+  Eigen::Vector3d to_offset = Eigen::Vector3d::Zero();
+  BeamReleases releases = {};
+};
+
+struct PointMass {
+  std::string name;
+  Place at;
+  double mass = 0.0;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about its centre of mass, part axes
+  std::string where;
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();  ///< of the centre of mass from the place, part axes
+};
+
+/// Stiffness between two nodes, [translation; rotation] of the second relative to the first.
+struct SpringLine {
+  std::string name;
+  Place from;
+  Place to;
+  Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: the directions of the stiffness, part axes
+  std::string where;
+};
+
+enum class SpiderType { rigid, averaging };
+enum class SpiderWeights { area, equal };
+
+/// A node that leads a group (rigid) or follows its mean motion (averaging).
+struct SpiderLine {
+  std::string name;
+  SpiderType type = SpiderType::averaging;
+  Place at;                     ///< centroid with an empty name: of what it is on
+  std::vector<std::string> on;  ///< groups
+  std::vector<long> nodes;      ///< numbers of the mesh file
+  SpiderWeights weights = SpiderWeights::area;
+  std::string where;
+};
+
+struct BoundaryNode {
+  std::string name;
+  Place at;
+  bool translations = true;
+  bool rotations = true;
+  std::string where;
+};
+
+/// Internal modes: `count` lowest ones (0: Guyan), or all below `cutoff` [1/time].
+struct ModeSelection {
+  int count = 0;
+  std::optional<double> cutoff;
+  std::string where;
+};
+
+struct Part {
+  std::string name;
+  std::string file;  ///< path it was read from
+  Units units;
+  std::vector<Material> materials;
+  std::vector<Section> sections;
+  std::vector<NamedPoint> points;
+  std::vector<BeamLine> beams;
+  std::vector<PointMass> point_masses;
+  std::vector<BoundaryNode> boundary;  ///< empty: that of the deck
+  ModeSelection modes;
+  MeshFile mesh;
+  std::vector<OrthotropicMaterial> orthotropic;
+  std::vector<ShellPatch> patches;  ///< plates, discs, cylinders, extrusions, in this order
+  std::vector<GroupDefinition> groups;
+  std::vector<ShellGroup> shells;
+  std::vector<SolidGroup> solids;
+  std::vector<SpringLine> springs;
+  std::vector<SpiderLine> spiders;
+};
+
+/// Reads part.yaml with the overrides applied, then checks. Throws all errors together, each with file:line:column.
+Part read_part(const std::string& path, const std::vector<Override>& overrides);
+
+/// Names, references, signs and geometry (PART.md). Throws all findings together.
+void check(const Part& part);
+
+}  // namespace tisserand::formats

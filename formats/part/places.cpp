@@ -1,0 +1,215 @@
+// Points, places, groups and the mesh file of part.yaml.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "formats/part/reader.hpp"
+#include "formats/yaml/geometry.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+Eigen::Vector3d unreadable() { return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()); }
+
+std::optional<double> optional_number(const MapReader& map, std::string_view key) {
+  if (!map.has(key)) return std::nullopt;
+  return map.number(key);
+}
+
+std::vector<long> read_numbers_of(const MapReader& map, std::string_view key) {
+  std::vector<long> numbers;
+  const YamlNode* node = map.find(key);
+  if (node == nullptr) return numbers;
+  const auto add = [&](const YamlNode& item) {
+    if (const auto number = read_integer(map.context(), item, std::string(key))) numbers.push_back(*number);
+  };
+  if (node->kind != YamlKind::sequence) add(*node);
+  for (const YamlNode& item : node->children) add(item);
+  return numbers;
+}
+
+BoxSelection read_box(const MapReader& map) {
+  const YamlNode& node = *map.find("box");
+  if (node.kind != YamlKind::sequence || node.children.size() != 2) {
+    map.context().fail(node.place, fmt::format("box must be two corners, not {}", describe(node)),
+                       "write it as [[0, 0, 0], [1, 1, 1]]");
+    return {unreadable(), unreadable()};
+  }
+  const Eigen::Vector3d a = read_vector(map.context(), node.children[0], "box[0]");
+  const Eigen::Vector3d b = read_vector(map.context(), node.children[1], "box[1]");
+  return {a.cwiseMin(b), a.cwiseMax(b)};
+}
+
+CylinderSelection read_bore(const MapReader& map, const Part& part) {
+  const MapReader bore(map.context(), *map.find("cylinder"), "group_cylinder", "cylinder.");
+  CylinderSelection selection{unreadable(), unreadable(), 0.0};
+  if (const YamlNode* node = bore.require("from")) selection.from = read_position(bore.context(), *node, "from", part);
+  if (const YamlNode* node = bore.require("to")) selection.to = read_position(bore.context(), *node, "to", part);
+  selection.radius = bore.number("radius");
+  return selection;
+}
+
+/// faces, edges, volumes or nodes by number; the dimension follows from the key.
+void read_numbered(const MapReader& map, GroupDefinition& group) {
+  struct Numbered {
+    const char* key;
+    Dimension of;
+  };
+  int kinds = 0;
+  for (const Numbered& numbered : {Numbered{"nodes", Dimension::node}, Numbered{"edges", Dimension::edge},
+                                   Numbered{"faces", Dimension::face}, Numbered{"volumes", Dimension::volume}})
+    if (map.has(numbered.key)) {
+      group.of = numbered.of;
+      group.numbers = read_numbers_of(map, numbered.key);
+      ++kinds;
+    }
+  if (kinds > 1) map.fail("entities of different kinds are given", "make one group of each kind");
+  if (kinds == 1 && map.has("of"))
+    map.context().fail(map.find("of")->key_place, "'of' beside numbers of entities",
+                       "remove it: the key says what they are");
+}
+
+GroupDefinition read_group(const Context& context, const YamlNode& node, const Part& part) {
+  const MapReader map(context, node, "group");
+  GroupDefinition group;
+  group.name = node.key;
+  group.where = context.entry;
+  group.of = map.choice("of",
+                        {Choice<Dimension>{"nodes", Dimension::node},
+                         {"edges", Dimension::edge},
+                         {"faces", Dimension::face},
+                         {"volumes", Dimension::volume}},
+                        Dimension::face);
+  read_numbered(map, group);
+  if (const YamlNode* names = map.find("groups")) group.groups = read_name_list(context, *names, "groups");
+  if (map.has("box")) group.box = read_box(map);
+  if (map.has("cylinder")) group.cylinder = read_bore(map, part);
+  if (const YamlNode* near = map.find("near")) group.near = read_position(context, *near, "near", part);
+  group.tolerance = optional_number(map, "tolerance");
+  return group;
+}
+
+std::string resolved(const std::string& file, const std::string& part_file) {
+  const std::filesystem::path path(file);
+  return path.is_absolute() ? file
+                            : (std::filesystem::path(part_file).parent_path() / path).lexically_normal().string();
+}
+
+}  // namespace
+
+Eigen::Vector3d read_position(const Context& context, const YamlNode& node, const std::string& what, const Part& part) {
+  if (node.kind != YamlKind::scalar) return read_vector(context, node, what);
+  std::vector<std::string> names;
+  for (const NamedPoint& point : part.points) names.push_back(point.name);
+  const auto index = read_word(context, node, "point", names);
+  if (!index) return unreadable();
+  if (!part.points[*index].place) return part.points[*index].position;
+  context.fail(node.place, fmt::format("{}: point '{}' is a node of the mesh file", what, node.text),
+               "geometry is drawn between points that are given by coordinates");
+  return unreadable();
+}
+
+Place read_place_keys(const MapReader& map, const Part& part) {
+  Place place;
+  const int given =
+      static_cast<int>(map.has("node")) + static_cast<int>(map.has("near")) + static_cast<int>(map.has("centroid"));
+  if (given != 1)
+    map.fail(given == 0 ? "none of 'node', 'near', 'centroid' is given" : "more than one of 'node', 'near', 'centroid'",
+             "give one: {near: [x, y, z]}");
+  if (map.has("tolerance") && !map.has("near"))
+    map.context().fail(map.find("tolerance")->key_place, "'tolerance' without 'near'", "remove it");
+  if (const YamlNode* node = map.find("node")) {
+    place.kind = PlaceKind::node;
+    place.node = read_integer(map.context(), *node, "node").value_or(0);
+  }
+  if (const YamlNode* node = map.find("near")) {
+    place.kind = PlaceKind::near;
+    place.position = read_position(map.context(), *node, "near", part);
+    place.tolerance = optional_number(map, "tolerance");
+  }
+  if (map.has("centroid")) {
+    place.kind = PlaceKind::centroid;
+    place.name = map.text("centroid");
+  }
+  return place;
+}
+
+Place read_place(const Context& context, const YamlNode& node, const std::string& what, const Part& part) {
+  Place place;
+  if (node.kind == YamlKind::map) return read_place_keys(MapReader(context, node, "place", what + "."), part);
+  if (node.kind == YamlKind::sequence) {
+    place.kind = PlaceKind::position;
+    place.position = read_vector(context, node, what);
+    return place;
+  }
+  place.name = read_text(context, node, what);
+  return place;
+}
+
+std::vector<std::string> read_name_list(const Context& context, const YamlNode& node, const std::string& what) {
+  if (node.kind != YamlKind::sequence) return {read_text(context, node, what)};
+  std::vector<std::string> names;
+  for (const YamlNode& item : node.children) names.push_back(read_text(context, item, what));
+  return names;
+}
+
+double read_angle(const MapReader& map, double fallback) {
+  return map.has("angle_deg") ? map.number("angle_deg") * (M_PI / 180.0) : fallback;
+}
+
+MassMatrix read_mass_matrix(const MapReader& map) {
+  return map.choice("mass_matrix",
+                    {Choice<MassMatrix>{"consistent", MassMatrix::consistent}, {"lumped", MassMatrix::lumped}},
+                    MassMatrix::consistent);
+}
+
+Cells read_cells(const MapReader& map) {
+  return map.choice("cells", {Choice<Cells>{"quadrilaterals", Cells::quadrilaterals}, {"triangles", Cells::triangles}},
+                    Cells::quadrilaterals);
+}
+
+void read_part_points(const MapReader& map, Part& part) {
+  for (const YamlNode* node : map.entries("points", "point")) {
+    const Context context = entry_context(map.context().reader, "point", *node);
+    NamedPoint point{node->key, Eigen::Vector3d::Zero(), context.entry};
+    if (node->kind == YamlKind::map)
+      point.place = read_place(context, *node, "position", part);
+    else
+      point.position = read_vector(context, *node, "position");
+    part.points.push_back(std::move(point));
+  }
+}
+
+void read_groups(const MapReader& map, Part& part) {
+  for (const YamlNode* node : map.entries("groups", "group"))
+    part.groups.push_back(read_group(entry_context(map.context().reader, "group", *node), *node, part));
+}
+
+void read_mesh_file(const MapReader& top, Part& part) {
+  const YamlNode* node = top.find("mesh");
+  if (node == nullptr) return;
+  YamlReader& reader = top.context().reader;
+  const Context context{reader, "mesh", reader.where(node->key_place)};
+  reader.note_place(context.entry, node->key_place);
+  const MapReader map(context, *node, "mesh");
+  MeshFile& mesh = part.mesh;
+  mesh.where = context.entry;
+  mesh.file = map.text("file");
+  if (!mesh.file.empty()) mesh.file = resolved(mesh.file, part.file);
+  mesh.size = map.number("size", 0.0);
+  mesh.smallest = map.number("smallest", 0.0);
+  mesh.curvature = map.integer("curvature", 0);
+  for (const YamlNode* entry : map.entries("sizes", "group"))
+    mesh.sizes.push_back({entry->key, read_number(context, *entry, "size"), reader.where(entry->key_place)});
+  mesh.order = map.integer("order", 0);
+  if (map.has("cells")) mesh.cells = read_cells(map);
+  mesh.scale = map.number("scale", 1.0);
+  mesh.unknown = map.choice(
+      "unknown", {Choice<UnknownContent>{"refuse", UnknownContent::refuse}, {"ignore", UnknownContent::ignore}},
+      UnknownContent::refuse);
+  if (const YamlNode* ignored = map.find("ignore")) mesh.ignore = read_name_list(context, *ignored, "ignore");
+}
+
+}  // namespace tisserand::formats

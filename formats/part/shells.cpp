@@ -1,0 +1,204 @@
+// Materials, plates, discs, cylinders, extrusions, shells and solids of part.yaml.
+#include "formats/part/shells.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "formats/part/reader.hpp"
+#include "formats/sections/reader.hpp"
+#include "formats/yaml/geometry.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+OrthotropicMaterial read_orthotropic(const Context& context, const YamlNode& node) {
+  const MapReader map(context, node, "material_orthotropic");
+  OrthotropicMaterial material;
+  material.name = node.key;
+  material.where = context.entry;
+  material.E1 = map.number("E1");
+  material.E2 = map.number("E2");
+  material.nu12 = map.number("nu12");
+  material.G12 = map.number("G12");
+  material.G13 = map.number("G13");
+  material.G23 = map.number("G23");
+  material.density = map.number("density");
+  return material;
+}
+
+std::vector<Ply> read_plies(const MapReader& map) {
+  std::vector<Ply> plies;
+  const YamlNode& list = *map.find("laminate");
+  if (list.kind != YamlKind::sequence || list.children.empty()) {
+    map.context().fail(list.place, fmt::format("laminate must be a list of plies, not {}", describe(list)),
+                       "write it as [{material: ply, thickness: 0.2, angle_deg: 45}, ...]");
+    return plies;
+  }
+  for (std::size_t i = 0; i < list.children.size(); ++i) {
+    const MapReader ply(map.context(), list.children[i], "ply", fmt::format("laminate.{}.", i));
+    plies.push_back({ply.text("material"), ply.number("thickness"), read_angle(ply, 0.0)});
+  }
+  return plies;
+}
+
+/// The keys that say what a shell is across its thickness.
+ShellLayout read_layout(const MapReader& map) {
+  ShellLayout layout;
+  if (map.has("laminate")) {
+    for (const char* key : {"thickness", "material"})
+      if (map.has(key))
+        map.context().fail(map.find(key)->key_place, fmt::format("both 'laminate' and '{}' are given", key),
+                           "give the plies, or thickness and material");
+    layout.plies = read_plies(map);
+    for (const Ply& ply : layout.plies) layout.thickness += ply.thickness;
+  } else {
+    layout.thickness = map.number("thickness");
+    layout.material = map.text("material");
+  }
+  layout.offset = map.number("offset", 0.0);
+  layout.x = read_optional_vector(map, "x");
+  layout.mass_matrix = read_mass_matrix(map);
+  return layout;
+}
+
+bool has_layout(const MapReader& map) {
+  for (const char* key : {"laminate", "thickness", "material", "offset", "x", "mass_matrix"})
+    if (map.has(key)) return true;
+  return false;
+}
+
+std::vector<Eigen::Vector3d> read_positions(const MapReader& map, std::string_view key, const Part& part) {
+  std::vector<Eigen::Vector3d> positions;
+  const YamlNode* list = map.require(key);
+  if (list == nullptr) return positions;
+  if (list->kind != YamlKind::sequence)
+    map.context().fail(list->place, fmt::format("{} must be a list of points, not {}", key, describe(*list)),
+                       "write it as [a, b, c, d] or [[0, 0, 0], ...]");
+  for (const YamlNode& item : list->children)
+    positions.push_back(read_position(map.context(), item, fmt::format("{}[{}]", key, positions.size()), part));
+  return positions;
+}
+
+Eigen::Vector3d require_position(const MapReader& map, std::string_view key, const Part& part) {
+  const YamlNode* node = map.require(key);
+  return node == nullptr ? Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN())
+                         : read_position(map.context(), *node, std::string(key), part);
+}
+
+Plate read_plate(const MapReader& map, const Part& part) {
+  Plate plate{read_positions(map, "corners", part)};
+  if (plate.corners.size() == 3) plate.corners.push_back(plate.corners[0] + plate.corners[2] - plate.corners[1]);
+  return plate;
+}
+
+Disc read_disc(const MapReader& map, const Part& part) {
+  Disc disc;
+  disc.center = require_position(map, "center", part);
+  disc.normal = read_vector(map, "normal", Eigen::Vector3d::UnitZ());
+  disc.start = read_optional_vector(map, "start");
+  disc.radius = map.number("radius");
+  disc.inner_radius = map.number("inner_radius", 0.0);
+  return disc;
+}
+
+Cylinder read_cylinder(const MapReader& map, const Part& part) {
+  Cylinder cylinder;
+  cylinder.from = require_position(map, "from", part);
+  cylinder.to = require_position(map, "to", part);
+  cylinder.start = read_optional_vector(map, "start");
+  cylinder.radius = map.number("radius");
+  cylinder.end_radius = map.number("end_radius", cylinder.radius);
+  cylinder.angle = read_angle(map, 2.0 * M_PI);
+  return cylinder;
+}
+
+Extrusion read_extrusion(const MapReader& map, const Part& part) {
+  Extrusion extrusion;
+  extrusion.section = read_positions(map, "profile", part);
+  if (map.has("along") == map.has("arc"))
+    map.fail(map.has("arc") ? "both 'along' and 'arc' are given" : "neither 'along' nor 'arc' is given",
+             "along: [x, y, z], or arc: {through: [..], axis: [..], angle_deg: 90}");
+  if (const YamlNode* along = map.find("along")) extrusion.path = read_vector(map.context(), *along, "along");
+  if (const YamlNode* arc = map.find("arc")) {
+    const MapReader turn(map.context(), *arc, "arc", "arc.");
+    ArcPath path{require_position(turn, "through", part), read_vector(turn, "axis", Eigen::Vector3d::UnitZ()),
+                 turn.number("angle_deg") * (M_PI / 180.0)};
+    extrusion.path = path;
+  }
+  return extrusion;
+}
+
+void read_division(const MapReader& map, ShellPatch& patch) {
+  if (map.has("elements") == map.has("size"))
+    map.fail(map.has("size") ? "both 'elements' and 'size' are given" : "neither 'elements' nor 'size' is given",
+             "give one of them: elements: [10, 20]");
+  if (map.has("size")) patch.size = map.number("size");
+  const YamlNode* elements = map.find("elements");
+  if (elements == nullptr) return;
+  if (elements->kind != YamlKind::sequence || elements->children.size() != 2) {
+    map.context().fail(elements->place, fmt::format("elements must be two counts, not {}", describe(*elements)),
+                       "write it as [10, 20]");
+    return;
+  }
+  for (const YamlNode& item : elements->children)
+    patch.elements.push_back(read_integer(map.context(), item, "elements").value_or(1));
+}
+
+template <class Read>
+void read_patches_of(const MapReader& top, const char* key, const char* noun, Part& part, Read read) {
+  for (const YamlNode* node : top.entries(key, noun)) {
+    const MapReader map(entry_context(top.context().reader, noun, *node), *node, noun);
+    ShellPatch patch;
+    patch.name = node->key;
+    patch.where = map.context().entry;
+    patch.shape = read(map, part);
+    read_division(map, patch);
+    patch.cells = read_cells(map);
+    if (has_layout(map)) patch.layout = read_layout(map);
+    part.patches.push_back(std::move(patch));
+  }
+}
+
+}  // namespace
+
+void read_part_materials(const MapReader& map, Part& part) {
+  for (const YamlNode* node : map.entries("materials", "material")) {
+    const Context context = entry_context(map.context().reader, "material", *node);
+    if (find_child(*node, "E1") != nullptr || find_child(*node, "E2") != nullptr)
+      part.orthotropic.push_back(read_orthotropic(context, *node));
+    else
+      part.materials.push_back(read_material(context, *node, ""));
+  }
+}
+
+void read_patches(const MapReader& map, Part& part) {
+  read_patches_of(map, "plates", "plate", part, read_plate);
+  read_patches_of(map, "discs", "disc", part, read_disc);
+  read_patches_of(map, "cylinders", "cylinder", part, read_cylinder);
+  read_patches_of(map, "extrusions", "extrusion", part, read_extrusion);
+}
+
+void read_shells_and_solids(const MapReader& top, Part& part) {
+  for (const YamlNode* node : top.entries("shells", "shell")) {
+    const MapReader map(entry_context(top.context().reader, "shell", *node), *node, "shell");
+    ShellGroup shell;
+    shell.name = node->key;
+    shell.where = map.context().entry;
+    if (const YamlNode* on = map.require("on")) shell.on = read_name_list(map.context(), *on, "on");
+    shell.layout = read_layout(map);
+    part.shells.push_back(std::move(shell));
+  }
+  for (const YamlNode* node : top.entries("solids", "solid")) {
+    const MapReader map(entry_context(top.context().reader, "solid", *node), *node, "solid");
+    SolidGroup solid;
+    solid.name = node->key;
+    solid.where = map.context().entry;
+    if (const YamlNode* on = map.require("on")) solid.on = read_name_list(map.context(), *on, "on");
+    solid.material = map.text("material");
+    solid.mass_matrix = read_mass_matrix(map);
+    part.solids.push_back(std::move(solid));
+  }
+}
+
+}  // namespace tisserand::formats

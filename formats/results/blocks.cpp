@@ -1,0 +1,257 @@
+// Datasets, units and channel names of results files, and the selection among them.
+#include "formats/results/blocks.hpp"
+
+#include <algorithm>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+const std::vector<std::string> xyz{"x", "y", "z"};
+const std::vector<std::string> wxyz{"w", "x", "y", "z"};
+const std::vector<std::string> wrench{"force_x", "force_y", "force_z", "moment_x", "moment_y", "moment_z"};
+
+std::string with_radian(const std::string& unit) { return unit.empty() ? "" : "rad " + unit; }
+
+/// Items x components, column "item/component", one unit for all.
+Block vectors(const std::string& dataset, const std::vector<std::string>& items,
+              const std::vector<std::string>& components, const std::string& unit,
+              const double* (*values)(const ResultsRow&)) {
+  Block block{dataset, {items.size(), components.size()}, {}, {}, unit, values};
+  for (const std::string& item : items)
+    for (const std::string& component : components) block.columns.push_back(item + "/" + component);
+  block.units.assign(block.columns.size(), unit);
+  return block;
+}
+
+Block scalars(const std::string& dataset, const std::vector<std::string>& items, const std::string& unit,
+              const double* (*values)(const ResultsRow&)) {
+  return {dataset, {items.size()}, items, std::vector<std::string>(items.size(), unit), unit, values};
+}
+
+Block scalar(const std::string& dataset, const std::string& unit, const double* (*values)(const ResultsRow&)) {
+  return {dataset, {}, {""}, {unit}, unit, values};
+}
+
+/// "beam/0", "beam/1", ... for the entries of each superelement between its offsets.
+std::vector<std::string> numbered(const std::vector<std::string>& owners, const std::vector<int>& offset) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i + 1 < offset.size() && i < owners.size(); ++i)
+    for (int k = offset[i]; k < offset[i + 1]; ++k) names.push_back(fmt::format("{}/{}", owners[i], k - offset[i]));
+  return names;
+}
+
+std::vector<std::string> boundary_names(const ResultsLayout& layout) {
+  std::vector<std::string> names = numbered(layout.superelements, layout.boundary_offset);
+  if (layout.boundary_nodes.empty()) return names;
+  std::size_t row = 0;
+  for (std::size_t i = 0; i < layout.superelements.size(); ++i)
+    for (int k = layout.boundary_offset[i]; k < layout.boundary_offset[i + 1]; ++k, ++row)
+      names[row] = layout.superelements[i] + "/" + layout.boundary_nodes[row];
+  return names;
+}
+
+void add_nodes(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  using Row = const ResultsRow&;
+  const Units& u = layout.units;
+  const auto add = [&](const char* name, const std::vector<std::string>& components, const std::string& unit,
+                       const double* (*values)(Row)) {
+    blocks.push_back(vectors(std::string("/nodes/") + name, layout.nodes, components, unit, values));
+  };
+  add("position", xyz, unit_label(u, 1, 0, 0), [](Row r) { return r.node_position.data(); });
+  add("rotation", wxyz, "1", [](Row r) { return r.node_rotation.data(); });
+  add("velocity", xyz, unit_label(u, 1, 0, -1), [](Row r) { return r.node_velocity.data(); });
+  add("angular_velocity", xyz, with_radian(unit_label(u, 0, 0, -1)),
+      [](Row r) { return r.node_angular_velocity.data(); });
+  add("acceleration", xyz, unit_label(u, 1, 0, -2), [](Row r) { return r.node_acceleration.data(); });
+  add("angular_acceleration", xyz, with_radian(unit_label(u, 0, 0, -2)),
+      [](Row r) { return r.node_angular_acceleration.data(); });
+}
+
+void add_superelements(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  using Row = const ResultsRow&;
+  const Units& u = layout.units;
+  const std::string force = unit_label(u, 1, 1, -2), moment = unit_label(u, 2, 1, -2);
+  blocks.push_back(vectors("/superelements/frame_position", layout.superelements, xyz, unit_label(u, 1, 0, 0),
+                           [](Row r) { return r.frame_position.data(); }));
+  blocks.push_back(vectors("/superelements/frame_rotation", layout.superelements, wxyz, "1",
+                           [](Row r) { return r.frame_rotation.data(); }));
+  blocks.push_back(scalars("/superelements/y", numbered(layout.superelements, layout.modes_offset), "",
+                           [](Row r) { return r.y.data(); }));
+  blocks.push_back(scalars("/superelements/y_rate", numbered(layout.superelements, layout.modes_offset), "",
+                           [](Row r) { return r.y_rate.data(); }));
+  Block boundary = vectors("/superelements/boundary_force", boundary_names(layout), wrench,
+                           force.empty() ? "" : force + ", " + moment, [](Row r) { return r.boundary_force.data(); });
+  for (std::size_t column = 0; column < boundary.width(); ++column)
+    boundary.units[column] = column % 6 < 3 ? force : moment;
+  blocks.push_back(boundary);
+}
+
+void add_modal_bodies(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  blocks.push_back(scalars("/modal_bodies/w", numbered(layout.modal_bodies, layout.modal_offset), "",
+                           [](const ResultsRow& r) { return r.w.data(); }));
+  blocks.push_back(scalars("/modal_bodies/w_rate", numbered(layout.modal_bodies, layout.modal_offset), "",
+                           [](const ResultsRow& r) { return r.w_rate.data(); }));
+}
+
+void add_joints(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  using Row = const ResultsRow&;
+  const Units& u = layout.units;
+  blocks.push_back(vectors("/joints/force", layout.joints, xyz, unit_label(u, 1, 1, -2),
+                           [](Row r) { return r.joint_force.data(); }));
+  blocks.push_back(vectors("/joints/moment", layout.joints, xyz, unit_label(u, 2, 1, -2),
+                           [](Row r) { return r.joint_moment.data(); }));
+  Block coordinate{
+      "/joints/coordinate", {layout.coordinates.size()}, {}, {}, "", [](Row r) {
+                     return r.joint_coordinate.data(); }};
+  Block rate{"/joints/rate", {layout.coordinates.size()}, {}, {}, "", [](Row r) { return r.joint_rate.data(); }};
+  for (const ResultsLayout::Coordinate& c : layout.coordinates) {
+    coordinate.columns.push_back(c.name);
+    coordinate.units.push_back(c.length ? unit_label(u, 1, 0, 0) : "rad");
+    rate.units.push_back(c.length ? unit_label(u, 1, 0, -1) : with_radian(unit_label(u, 0, 0, -1)));
+  }
+  rate.columns = coordinate.columns;
+  for (Block* block : {&coordinate, &rate}) {
+    const bool same =
+        std::equal(block->units.begin() + (block->units.empty() ? 0 : 1), block->units.end(), block->units.begin());
+    block->unit = block->units.empty() || !same ? "" : block->units.front();
+    blocks.push_back(*block);
+  }
+}
+
+/// Forces or moments along coordinates.
+Block along(const std::string& dataset, const std::vector<ResultsLayout::Coordinate>& items, const Units& u,
+            const double* (*values)(const ResultsRow&)) {
+  Block force{dataset, {items.size()}, {}, {}, "", values};
+  for (const ResultsLayout::Coordinate& item : items) {
+    force.columns.push_back(item.name);
+    force.units.push_back(unit_label(u, item.length ? 1 : 2, 1, -2));
+  }
+  return force;
+}
+
+void add_forces(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  using Row = const ResultsRow&;
+  const Units& u = layout.units;
+  const std::string force = unit_label(u, 1, 1, -2), moment = unit_label(u, 2, 1, -2);
+  blocks.push_back(along("/motions/force", layout.motions, u, [](Row r) { return r.motion_force.data(); }));
+  blocks.push_back(along("/forces/spring", layout.springs, u, [](Row r) { return r.spring_force.data(); }));
+  blocks.push_back(along("/forces/stop", layout.stops, u, [](Row r) { return r.stop_force.data(); }));
+  blocks.push_back(
+      vectors("/forces/bushing_force", layout.bushings, xyz, force, [](Row r) { return r.bushing_force.data(); }));
+  blocks.push_back(
+      vectors("/forces/bushing_moment", layout.bushings, xyz, moment, [](Row r) { return r.bushing_moment.data(); }));
+  blocks.push_back(
+      vectors("/forces/friction_force", layout.frictions, xyz, force, [](Row r) { return r.friction_force.data(); }));
+  blocks.push_back(vectors("/forces/friction_moment", layout.frictions, xyz, moment,
+                           [](Row r) { return r.friction_moment.data(); }));
+}
+
+void add_scalars(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  using Row = const ResultsRow&;
+  const Units& u = layout.units;
+  const std::string label = unit_label(u, 2, 1, -2), energy = label == "N m" ? "J" : label;
+  blocks.push_back(scalar("/energy/kinetic", energy, [](Row r) { return &r.kinetic; }));
+  blocks.push_back(scalar("/energy/strain", energy, [](Row r) { return &r.strain; }));
+  blocks.push_back(scalar("/energy/potential", energy, [](Row r) { return &r.potential; }));
+  blocks.push_back(scalar("/energy/work", energy, [](Row r) { return &r.work; }));
+  blocks.push_back(scalar("/energy/dissipated", energy, [](Row r) { return &r.dissipated; }));
+  blocks.push_back(scalar("/energy/total", energy, [](Row r) { return &r.total; }));
+  blocks.push_back(scalar("/energy/balance", energy, [](Row r) { return &r.balance; }));
+  blocks.push_back(scalar("/solver/step", unit_label(u, 0, 0, 1), [](Row r) { return &r.step; }));
+  blocks.push_back(scalar("/solver/iterations", "1", [](Row r) { return &r.iterations; }));
+  blocks.push_back(scalar("/solver/residual", "1", [](Row r) { return &r.residual; }));
+  blocks.push_back(scalar("/solver/constraint", "1", [](Row r) { return &r.constraint; }));
+}
+
+/// Whether the entry names the dataset, its group, or matches it; "/nodes/position" and "nodes/position" are the same.
+bool chooses(const std::string& entry, const std::string& dataset) {
+  const std::string wanted = entry.starts_with("/") ? entry : "/" + entry;
+  return dataset == wanted || dataset.starts_with(wanted + "/") || matches_wildcard(dataset, wanted);
+}
+
+}  // namespace
+
+void ResultsRow::resize(const ResultsLayout& layout) {
+  const auto nodes = static_cast<Eigen::Index>(layout.nodes.size());
+  const auto superelements = static_cast<Eigen::Index>(layout.superelements.size());
+  const auto joints = static_cast<Eigen::Index>(layout.joints.size());
+  const auto coordinates = static_cast<Eigen::Index>(layout.coordinates.size());
+  const auto last = [](const std::vector<int>& offset) { return offset.empty() ? 0 : offset.back(); };
+  for (Eigen::Matrix3Xd* block :
+       {&node_position, &node_velocity, &node_angular_velocity, &node_acceleration, &node_angular_acceleration})
+    block->setZero(3, nodes);
+  const Eigen::Vector4d no_rotation(1, 0, 0, 0);
+  node_rotation = no_rotation.replicate(1, nodes);
+  frame_position.setZero(3, superelements);
+  frame_rotation = no_rotation.replicate(1, superelements);
+  y.setZero(last(layout.modes_offset));
+  y_rate.setZero(last(layout.modes_offset));
+  boundary_force.setZero(6, last(layout.boundary_offset));
+  w.setZero(last(layout.modal_offset));
+  w_rate.setZero(last(layout.modal_offset));
+  joint_force.setZero(3, joints);
+  joint_moment.setZero(3, joints);
+  joint_coordinate.setZero(coordinates);
+  joint_rate.setZero(coordinates);
+  motion_force.setZero(static_cast<Eigen::Index>(layout.motions.size()));
+  spring_force.setZero(static_cast<Eigen::Index>(layout.springs.size()));
+  stop_force.setZero(static_cast<Eigen::Index>(layout.stops.size()));
+  for (Eigen::Matrix3Xd* block : {&bushing_force, &bushing_moment})
+    block->setZero(3, static_cast<Eigen::Index>(layout.bushings.size()));
+  for (Eigen::Matrix3Xd* block : {&friction_force, &friction_moment})
+    block->setZero(3, static_cast<Eigen::Index>(layout.frictions.size()));
+}
+
+std::vector<Block> all_blocks(const ResultsLayout& layout) {
+  std::vector<Block> blocks{
+      scalar("/time", unit_label(layout.units, 0, 0, 1), [](const ResultsRow& r) { return &r.time; })};
+  add_nodes(layout, blocks);
+  add_superelements(layout, blocks);
+  add_modal_bodies(layout, blocks);
+  add_joints(layout, blocks);
+  add_forces(layout, blocks);
+  add_scalars(layout, blocks);
+  std::erase_if(blocks, [](const Block& block) { return block.width() == 0; });
+  return blocks;
+}
+
+std::optional<std::pair<std::string, std::string>> fault_of_selection(const std::string& entry) {
+  // Groups and datasets that this mechanism has no member of may be chosen without effect ("joints" without joints).
+  std::vector<std::string> known{"time"};
+  ResultsLayout full;
+  full.nodes = full.superelements = full.modal_bodies = full.joints = full.bushings = full.frictions = {"a"};
+  full.coordinates = full.motions = full.springs = full.stops = {{"a", false}};
+  full.modes_offset = full.boundary_offset = full.modal_offset = {0, 1};
+  for (const Block& block : all_blocks(full)) {
+    const std::string name = block.dataset.substr(1), group = name.substr(0, name.find('/'));
+    known.push_back(name);
+    if (std::find(known.begin(), known.end(), group) == known.end()) known.push_back(group);
+  }
+  if (std::any_of(known.begin(), known.end(), [&](const std::string& name) { return chooses(entry, "/" + name); }))
+    return {};
+  const std::optional<std::string> near = nearest(entry, known);
+  return {{fmt::format("output channel '{}' does not exist", entry),
+           near ? fmt::format("did you mean '{}'?", *near) : "choose among " + join(known, ", ")}};
+}
+
+std::vector<Block> chosen_blocks(const ResultsLayout& layout, const std::string& where) {
+  const std::vector<Block> all = all_blocks(layout);
+  if (layout.channels.empty()) return all;
+  std::vector<bool> chosen(all.size(), false);
+  chosen[0] = true;
+  for (const std::string& entry : layout.channels) {
+    if (const auto fault = fault_of_selection(entry)) throw Error(fault->first, where, fault->second);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (chooses(entry, all[i].dataset)) chosen[i] = true;
+  }
+  std::vector<Block> blocks;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (chosen[i]) blocks.push_back(all[i]);
+  return blocks;
+}
+
+}  // namespace tisserand::formats

@@ -1,0 +1,38 @@
+// The table of what a results file stores over time: the one place that knows datasets, shapes, units and channel
+// names.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "formats/results/results.hpp"
+
+namespace tisserand::formats {
+
+/// One dataset over time, shape T x `shape`: where its values stand in a row, and what its columns are called.
+struct Block {
+  std::string dataset;               ///< "/nodes/position"
+  std::vector<std::uint64_t> shape;  ///< of one instant; empty: a scalar
+  std::vector<std::string> columns;  ///< names of the flat columns after "nodes/position/", empty string for a scalar
+  std::vector<std::string> units;    ///< per column
+  std::string unit;                  ///< attribute "unit" of the dataset
+  const double* (*values)(const ResultsRow&) = nullptr;
+
+  std::size_t width() const { return columns.size(); }
+};
+
+/// All blocks that the layout has columns for, in the order of RESULTS.md, /time first; the selection is not applied.
+std::vector<Block> all_blocks(const ResultsLayout& layout);
+
+/// Finds out what is wrong with an entry of a selection, or nothing: {what, remedy}.
+std::optional<std::pair<std::string, std::string>> fault_of_selection(const std::string& entry);
+
+/// Those that layout.channels chooses (groups, datasets, patterns), always with /time. Throws Error for an entry that
+/// means none.
+std::vector<Block> chosen_blocks(const ResultsLayout& layout, const std::string& where);
+
+}  // namespace tisserand::formats

@@ -1,0 +1,99 @@
+// Writing and reading of checkpoints.
+#include "formats/results/checkpoint.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "common/sha256.hpp"
+#include "common/text.hpp"
+#include "formats/hdf5/file.hpp"
+
+namespace tisserand::formats {
+namespace {
+
+constexpr const char* format_name = "tisserand-checkpoint";
+constexpr std::uint64_t max_numbers = std::uint64_t{1} << 32;
+
+/// Of the numbers, so that damage is seen.
+std::string content_id(const Checkpoint& c) {
+  Sha256 sha;
+  sha.add(&c.time, sizeof c.time);
+  sha.add(c.state.data(), c.state.size() * sizeof(double));
+  sha.add(c.schedule.data(), c.schedule.size() * sizeof(double));
+  return sha.hex();
+}
+
+std::vector<double> read_numbers(const hdf5::InputFile& file, const std::string& dataset) {
+  const hdf5::DatasetInfo info = file.info(dataset);
+  if (info.shape.size() != 1 || info.shape[0] > max_numbers)
+    throw Error(fmt::format("has shape {}, expected one dimension", hdf5::shape_text(info.shape)),
+                fmt::format("{}: {}", file.path(), dataset), "write the checkpoint again");
+  std::vector<double> values(info.shape[0]);
+  file.read(dataset, {info.shape[0]}, "numbers", values.data());
+  return values;
+}
+
+std::string format_of(const hdf5::InputFile& file) {
+  return file.has_attribute("/", "format") ? file.text_attribute("/", "format") : "";
+}
+
+Checkpoint read_unchecked(const std::string& path) {
+  const hdf5::InputFile file(path, hdf5::Completeness::closed);
+  const std::string format = format_of(file);
+  if (format != format_name)
+    throw Error(format.empty()
+                    ? "is an HDF5 file, but no checkpoint (it has no attribute 'format')"
+                    : fmt::format("is a file of the kind '{}', expected '{}'", format.substr(0, 60), format_name),
+                path, "give a *.checkpoint.h5 file");
+  const std::string version = file.text_attribute("/", "version");
+  if (!version.starts_with("1."))
+    throw Error(fmt::format("is '{}', this program reads versions 1.x", version.substr(0, 20)),
+                path + ": attribute 'version'", "use the program that wrote it");
+  Checkpoint c;
+  c.scene = file.text_attribute("/", "scene");
+  c.producer = file.text_attribute("/", "producer");
+  c.fingerprint = file.text_attribute("/", "fingerprint");
+  c.state_version = static_cast<int>(file.number_attribute("/", "state_version"));
+  c.time = file.number_attribute("/", "time");
+  c.state = read_numbers(file, "/state");
+  c.schedule = read_numbers(file, "/schedule");
+  const bool finite = std::isfinite(c.time) &&
+                      std::ranges::all_of(c.state, [](double x) { return std::isfinite(x); }) &&
+                      std::ranges::all_of(c.schedule, [](double x) { return std::isfinite(x); });
+  if (!finite || file.text_attribute("/", "content_id") != content_id(c))
+    throw Error("is damaged: its numbers are not those that were written", path, "take an older checkpoint");
+  return c;
+}
+
+}  // namespace
+
+void write_checkpoint(const std::string& path, const Checkpoint& c) {
+  const hdf5::Handle file = hdf5::create_in_memory(path);
+  const auto text = [&](const char* name, const std::string& value) {
+    hdf5::write_text_attribute(file.id(), "/", name, value, path);
+  };
+  text("format", format_name);
+  text("version", "1.0");
+  text("scene", c.scene);
+  text("producer", c.producer);
+  text("fingerprint", c.fingerprint);
+  text("content_id", content_id(c));
+  hdf5::write_integer_attribute(file.id(), "/", "state_version", c.state_version, path);
+  hdf5::write_number_attribute(file.id(), "/", "time", c.time, path);
+  hdf5::write_dataset(file.id(), "/state", {c.state.size()}, c.state.data(), path);
+  hdf5::write_dataset(file.id(), "/schedule", {c.schedule.size()}, c.schedule.data(), path);
+  write_text_file(path, hdf5::file_image(file.id(), path));
+}
+
+Checkpoint read_checkpoint(const std::string& path) {
+  hdf5::rehearse(path, [&path] { static_cast<void>(read_unchecked(path)); });
+  return read_unchecked(path);
+}
+
+bool is_checkpoint(const std::string& path) {
+  hdf5::rehearse(path, [&path] { static_cast<void>(format_of(hdf5::InputFile(path, hdf5::Completeness::any))); });
+  return format_of(hdf5::InputFile(path, hdf5::Completeness::any)) == format_name;
+}
+
+}  // namespace tisserand::formats

@@ -1,0 +1,268 @@
+// From *.results.h5, whole, partial or still being written, to channels over time.
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <set>
+#include <unordered_map>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "formats/hdf5/file.hpp"
+#include "formats/results/blocks.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+constexpr std::uint64_t max_names = 10'000'000;
+constexpr std::uint64_t max_rows = std::uint64_t{1} << 40;
+
+/// The file itself, or its unfinished form if only that is there.
+std::string existing_path(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored) && std::filesystem::exists(path + ".part", ignored))
+    return path + ".part";
+  return path;
+}
+
+std::uint64_t bounded_length(const hdf5::InputFile& file, const std::string& dataset) {
+  const hdf5::DatasetInfo info = file.info(dataset);
+  if (info.shape.size() != 1 || info.shape[0] > max_names)
+    throw Error(fmt::format("has shape {}, expected one dimension of at most {} entries", hdf5::shape_text(info.shape),
+                            max_names),
+                fmt::format("{}: {}", file.path(), dataset), "compare the file with formats/RESULTS.md");
+  return info.shape[0];
+}
+
+std::vector<std::string> names(const hdf5::InputFile& file, const std::string& dataset) {
+  if (!file.has(dataset)) return {};
+  return file.read_texts(dataset, bounded_length(file, dataset), "names");
+}
+
+/// Offsets of `owners` superelements: begin with 0, ascend, one more than owners.
+std::vector<int> offsets(const hdf5::InputFile& file, const std::string& dataset, std::size_t owners) {
+  if (!file.has(dataset)) return owners == 0 ? std::vector<int>{} : std::vector<int>(owners + 1, 0);
+  std::vector<std::int64_t> wide(bounded_length(file, dataset));
+  file.read(dataset, {wide.size()}, "offsets", wide.data());
+  const bool valid = wide.size() == owners + 1 && wide.front() == 0 && std::is_sorted(wide.begin(), wide.end()) &&
+                     wide.back() <= static_cast<std::int64_t>(max_names);
+  if (!valid)
+    throw Error(fmt::format("is no ascending list from 0 with one entry more than the {} names", owners),
+                fmt::format("{}: {}", file.path(), dataset), "compare the file with formats/RESULTS.md");
+  return std::vector<int>(wide.begin(), wide.end());
+}
+
+Unit read_unit(const hdf5::InputFile& file, const std::string& name) {
+  return {file.number_attribute("/", name), file.text_attribute("/", name + "_label")};
+}
+
+/// Names and kinds of coordinates below `before` ("/joints/coordinate_").
+std::vector<ResultsLayout::Coordinate> read_coordinates(const hdf5::InputFile& file, const std::string& before) {
+  const std::vector<std::string> words = names(file, before + "name");
+  std::vector<std::string> kinds = names(file, before + "kind");
+  kinds.resize(words.size(), "angle");
+  std::vector<ResultsLayout::Coordinate> list;
+  for (std::size_t i = 0; i < words.size(); ++i) list.push_back({words[i], kinds[i] == "length"});
+  return list;
+}
+
+ResultsLayout read_layout(const hdf5::InputFile& file) {
+  ResultsLayout l;
+  l.scene = file.text_attribute("/", "scene");
+  l.producer = file.text_attribute("/", "producer");
+  l.units = {read_unit(file, "length_unit"), read_unit(file, "mass_unit"), read_unit(file, "time_unit")};
+  l.nodes = names(file, "/nodes/name");
+  l.joints = names(file, "/joints/name");
+  l.coordinates = read_coordinates(file, "/joints/coordinate_");
+  l.motions = read_coordinates(file, "/motions/");
+  l.springs = read_coordinates(file, "/forces/spring_");
+  l.stops = read_coordinates(file, "/forces/stop_");
+  l.bushings = names(file, "/forces/bushing_name");
+  l.frictions = names(file, "/forces/friction_name");
+  // Version 1.0 had one angle per joint, not-a-number where the joint has none.
+  if (l.coordinates.empty() && file.text_attribute("/", "version") == "1.0")
+    for (const std::string& joint : l.joints) l.coordinates.push_back({joint, false});
+  l.superelements = names(file, "/superelements/name");
+  l.superelement_content_ids = names(file, "/superelements/content_id");
+  l.modes_offset = offsets(file, "/superelements/offset", l.superelements.size());
+  l.boundary_offset = offsets(file, "/superelements/boundary_offset", l.superelements.size());
+  l.boundary_nodes = names(file, "/superelements/boundary_name");
+  l.modal_bodies = names(file, "/modal_bodies/name");
+  l.modal_offset = offsets(file, "/modal_bodies/offset", l.modal_bodies.size());
+  const std::size_t boundary = l.boundary_offset.empty() ? 0 : static_cast<std::size_t>(l.boundary_offset.back());
+  if (l.boundary_nodes.size() != boundary) l.boundary_nodes.clear();
+  return l;
+}
+
+void check_format(const hdf5::InputFile& file) {
+  const std::string format = file.has_attribute("/", "format") ? file.text_attribute("/", "format") : "";
+  if (format != "tisserand-results")
+    throw Error(format.empty()
+                    ? "is an HDF5 file, but not a results file (it has no attribute 'format')"
+                    : fmt::format("is a file of the kind '{}', expected 'tisserand-results'", format.substr(0, 60)),
+                file.path(), "give a *.results.h5 file, as `mechanism run` writes it");
+  const std::string version = file.text_attribute("/", "version");
+  if (!version.starts_with("1."))
+    throw Error(fmt::format("is '{}', this program reads versions 1.x", version.substr(0, 20)),
+                file.path() + ": attribute 'version'", "use a program of the same major version");
+}
+
+/// Rows of a dataset that are there: its first extent, and no more than its storage holds.
+std::uint64_t rows_of(const hdf5::InputFile& file, const Block& block) {
+  const hdf5::DatasetInfo info = file.info(block.dataset);
+  hdf5::Shape expected = block.shape;
+  expected.insert(expected.begin(), info.shape.empty() ? 0 : info.shape[0]);
+  if (info.kind != hdf5::ElementKind::float64 || info.shape != expected || expected[0] > max_rows)
+    throw Error(fmt::format("holds {} of shape {}, expected 64-bit floating numbers of shape T{}{}", info.type_text,
+                            hdf5::shape_text(info.shape), block.shape.empty() ? "" : " x ",
+                            block.shape.empty() ? "" : hdf5::shape_text(block.shape)),
+                fmt::format("{}: {}", file.path(), block.dataset), "compare the file with formats/RESULTS.md");
+  return info.filtered ? expected[0] : std::min(expected[0], info.stored_bytes / (8 * block.width()));
+}
+
+}  // namespace
+
+struct ResultsReader::Impl {
+  struct Place {
+    std::size_t block = 0;
+    std::size_t column = 0;
+  };
+
+  explicit Impl(const std::string& path);
+
+  hdf5::InputFile file;
+  ResultsLayout layout;
+  std::vector<Block> blocks;
+  std::uint64_t rows = 0;
+  std::vector<Channel> channels;
+  std::unordered_map<std::string, Place> place;
+
+  const Place& find(const std::string& channel) const;
+};
+
+ResultsReader::Impl::Impl(const std::string& path) : file(existing_path(path), hdf5::Completeness::any) {
+  check_format(file);
+  layout = read_layout(file);
+  rows = max_rows;
+  for (Block& block : all_blocks(layout)) {
+    if (!file.has(block.dataset)) continue;
+    rows = std::min(rows, rows_of(file, block));
+    blocks.push_back(std::move(block));
+  }
+  if (blocks.empty() || blocks.front().dataset != "/time")
+    throw Error("is missing", file.path() + ": /time", "compare the file with formats/RESULTS.md");
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (std::size_t c = 0; c < blocks[b].width(); ++c) {
+      const std::string& column = blocks[b].columns[c];
+      const std::string name = blocks[b].dataset.substr(1) + (column.empty() ? "" : "/" + column);
+      place.emplace(name, Place{b, c});
+      channels.push_back({name, blocks[b].units[c]});
+    }
+}
+
+const ResultsReader::Impl::Place& ResultsReader::Impl::find(const std::string& channel) const {
+  const auto found = place.find(channel);
+  if (found != place.end()) return found->second;
+  std::vector<std::string> known;
+  for (const Channel& c : channels) known.push_back(c.name);
+  const std::optional<std::string> near = nearest(channel, known);
+  throw Error(fmt::format("has no channel '{}'", channel.substr(0, 200)), file.path(),
+              near ? fmt::format("did you mean '{}'?", *near) : "`mechanism channels` lists all names");
+}
+
+ResultsReader::ResultsReader(const std::string& path) {
+  hdf5::rehearse(path, [&path] { Impl rehearsal(path); });
+  impl_ = std::make_unique<Impl>(path);
+}
+
+ResultsReader::~ResultsReader() = default;
+
+std::string ResultsReader::path() const { return impl_->file.path(); }
+
+bool ResultsReader::completed() const { return impl_->file.number_attribute("/", "completed") == 1.0; }
+
+std::string ResultsReader::reason() const {
+  const std::string reason = impl_->file.text_attribute("/", "reason");
+  if (!reason.empty() || completed()) return reason;
+  return "the program that wrote the file still runs, or ended without closing it";
+}
+
+std::string ResultsReader::report_json() const {
+  return impl_->file.has("/report") ? impl_->file.read_text("/report") : "";
+}
+
+std::string ResultsReader::scene() const { return impl_->layout.scene; }
+std::size_t ResultsReader::rows() const { return impl_->rows; }
+std::vector<double> ResultsReader::time() const { return read("time"); }
+std::vector<Channel> ResultsReader::channels() const { return impl_->channels; }
+
+std::vector<double> ResultsReader::read(const std::string& channel) const {
+  const Impl::Place& place = impl_->find(channel);
+  std::vector<double> values(impl_->rows);
+  if (!values.empty())
+    impl_->file.read_column(impl_->blocks[place.block].dataset, place.column, impl_->rows, values.data());
+  return values;
+}
+
+Eigen::MatrixXd ResultsReader::read_rows(const std::vector<std::string>& channels, std::size_t first,
+                                         std::size_t count) const {
+  TISSERAND_ENSURE(first <= impl_->rows && count <= impl_->rows - first, "rows {} + {} of {}", first, count,
+                   impl_->rows);
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto rows = static_cast<Eigen::Index>(count);
+  Eigen::MatrixXd values(rows, static_cast<Eigen::Index>(channels.size()));
+  std::vector<std::vector<std::pair<Eigen::Index, Eigen::Index>>> wanted(impl_->blocks.size());  // from, to
+  for (std::size_t i = 0; i < channels.size(); ++i) {
+    const Impl::Place& place = impl_->find(channels[i]);
+    wanted[place.block].emplace_back(static_cast<Eigen::Index>(place.column), static_cast<Eigen::Index>(i));
+  }
+  for (std::size_t b = 0; b < wanted.size(); ++b) {
+    if (wanted[b].empty() || count == 0) continue;
+    RowMajor block(rows, static_cast<Eigen::Index>(impl_->blocks[b].width()));
+    impl_->file.read_rows(impl_->blocks[b].dataset, first, count, block.data());
+    for (const auto& [from, to] : wanted[b]) values.col(to) = block.col(from);
+  }
+  return values;
+}
+
+namespace {
+
+/// The names and all that they begin with: "nodes/position/a/x" also gives "nodes", "nodes/position",
+/// "nodes/position/a".
+std::vector<std::string> with_groups(std::vector<std::string> names) {
+  std::set<std::string> groups;
+  for (const std::string& name : names)
+    for (std::size_t slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1))
+      groups.insert(name.substr(0, slash));
+  names.insert(names.end(), groups.begin(), groups.end());
+  return names;
+}
+
+}  // namespace
+
+std::vector<Channel> select_channels(const std::vector<Channel>& channels, const std::vector<std::string>& selection,
+                                     const std::string& where) {
+  if (selection.empty()) return channels;
+  std::vector<bool> chosen(channels.size(), false);
+  std::vector<std::string> known;
+  for (const Channel& channel : channels) known.push_back(channel.name);
+  for (const std::string& entry : selection) {
+    const std::string wanted = entry.starts_with("/") ? entry.substr(1) : entry;
+    bool found = false;
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (known[i] != wanted && !known[i].starts_with(wanted + "/") && !matches_wildcard(known[i], wanted)) continue;
+      chosen[i] = found = true;
+    }
+    if (found) continue;
+    const std::optional<std::string> near = nearest(wanted, with_groups(known));
+    throw Error(fmt::format("has no channel '{}'", entry.substr(0, 200)), where,
+                near ? fmt::format("did you mean '{}'?", *near) : "`mechanism channels` lists all names");
+  }
+  std::vector<Channel> result;
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    if (chosen[i]) result.push_back(channels[i]);
+  return result;
+}
+
+}  // namespace tisserand::formats

@@ -1,0 +1,390 @@
+// From rows of a running analysis to *.results.h5, such that a killed run leaves a readable file.
+//
+// The file appears as <path>.part when its head is complete, and is then open in HDF5's single-writer mode, whose order
+// of writes keeps the file on disk consistent at every moment. Between writes rows wait in memory that was taken at the
+// start.
+#include <hdf5.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <complex>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+#include <utility>
+
+#include "common/text.hpp"
+#include "formats/hdf5/file.hpp"
+#include "formats/results/blocks.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds flush_interval{1000};
+constexpr std::size_t buffer_bytes = 4u << 20;  // of all waiting rows together
+constexpr std::size_t chunk_bytes = 64u << 10;  // of one chunk on disk, unless one row is larger
+constexpr std::size_t max_chunk_rows = 256;
+constexpr std::uint64_t disk_reserve = 256u << 10;  // left for the report and for closing the file
+
+std::size_t chunk_rows(const Block& block) {
+  return std::clamp<std::size_t>(chunk_bytes / (block.width() * sizeof(double)), 1, max_chunk_rows);
+}
+
+/// An empty dataset 0 x shape that can grow in its first dimension.
+void create_growing(hdf5::Id file, const Block& block, const std::string& where) {
+  std::vector<hsize_t> extent{0}, limit{H5S_UNLIMITED}, chunk{chunk_rows(block)};
+  for (const std::uint64_t e : block.shape) {
+    extent.push_back(e);
+    limit.push_back(e);
+    chunk.push_back(e);
+  }
+  const int rank = static_cast<int>(extent.size());
+  const hdf5::Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  const hdf5::Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  const hdf5::Handle space(H5Screate_simple(rank, extent.data(), limit.data()), H5Sclose);
+  H5Pset_create_intermediate_group(links.id(), 1);
+  H5Pset_obj_track_times(creation.id(), false);
+  H5Pset_chunk(creation.id(), rank, chunk.data());
+  H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
+  const hdf5::Handle dataset(
+      H5Dcreate2(file, block.dataset.c_str(), H5T_IEEE_F64LE, space.id(), links.id(), creation.id(), H5P_DEFAULT),
+      H5Dclose);
+  if (!dataset.valid())
+    throw hdf5::last_error("cannot create dataset " + block.dataset, where,
+                           "name fewer nodes or choose fewer channels");
+  hdf5::write_text_attribute(file, block.dataset, "unit", block.unit, where);
+}
+
+void write_unit(hdf5::Id file, const std::string& name, const Unit& unit, const std::string& where) {
+  hdf5::write_number_attribute(file, "/", name, unit.factor, where);
+  hdf5::write_text_attribute(file, "/", name + "_label", unit.label, where);
+}
+
+void check_layout(const ResultsLayout& l) {
+  const std::size_t n = l.superelements.size();
+  TISSERAND_ENSURE(l.modes_offset.size() == (n == 0 && l.modes_offset.empty() ? 0 : n + 1), "{} modes_offset of {}",
+                   l.modes_offset.size(), n);
+  TISSERAND_ENSURE(l.boundary_offset.size() == (n == 0 && l.boundary_offset.empty() ? 0 : n + 1),
+                   "{} boundary_offset of {}", l.boundary_offset.size(), n);
+  const std::size_t boundary = l.boundary_offset.empty() ? 0 : static_cast<std::size_t>(l.boundary_offset.back());
+  TISSERAND_ENSURE(l.boundary_nodes.empty() || l.boundary_nodes.size() == boundary, "{} boundary_nodes of {}",
+                   l.boundary_nodes.size(), boundary);
+}
+
+/// Access in the form of HDF5 1.10, which can be appended to while others read and writers die; no locks.
+hdf5::Handle access_properties() {
+  hdf5::Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_file_locking(access.id(), false, true);
+  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_LATEST);
+  H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
+  return access;
+}
+
+/// A file with everything that does not change during the run. The names of a group are stored if any of its datasets
+/// is.
+void create_head(const std::string& path, const ResultsLayout& layout, const std::vector<Block>& blocks,
+                 const std::string& where) {
+  const hdf5::Handle access = access_properties();  // lives on: closing it would forget why H5Fcreate failed
+  hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
+  if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
+  hdf5::write_text_attribute(file.id(), "/", "format", "tisserand-results", where);
+  hdf5::write_text_attribute(file.id(), "/", "version", "1.3", where);
+  hdf5::write_text_attribute(file.id(), "/", "scene", layout.scene, where);
+  hdf5::write_text_attribute(file.id(), "/", "producer", layout.producer, where);
+  write_unit(file.id(), "length_unit", layout.units.length, where);
+  write_unit(file.id(), "mass_unit", layout.units.mass, where);
+  write_unit(file.id(), "time_unit", layout.units.time, where);
+  hdf5::write_integer_attribute(file.id(), "/", "completed", 0, where);
+  hdf5::write_text_attribute(file.id(), "/", "reason", "", where);
+  for (const Block& block : blocks) create_growing(file.id(), block, where);
+  const auto stores = [&](const std::string& group) {
+    return std::any_of(blocks.begin(), blocks.end(), [&](const Block& b) { return b.dataset.starts_with(group); });
+  };
+  if (stores("/nodes/")) hdf5::write_texts(file.id(), "/nodes/name", layout.nodes, where);
+  const auto coordinates = [&](const std::string& before, const std::vector<ResultsLayout::Coordinate>& list) {
+    std::vector<std::string> names, kinds;
+    for (const ResultsLayout::Coordinate& c : list) {
+      names.push_back(c.name);
+      kinds.push_back(c.length ? "length" : "angle");
+    }
+    hdf5::write_texts(file.id(), before + "name", names, where);
+    hdf5::write_texts(file.id(), before + "kind", kinds, where);
+  };
+  if (stores("/joints/")) {
+    hdf5::write_texts(file.id(), "/joints/name", layout.joints, where);
+    coordinates("/joints/coordinate_", layout.coordinates);
+  }
+  if (stores("/motions/")) coordinates("/motions/", layout.motions);
+  if (stores("/forces/spring")) coordinates("/forces/spring_", layout.springs);
+  if (stores("/forces/stop")) coordinates("/forces/stop_", layout.stops);
+  if (stores("/forces/bushing")) hdf5::write_texts(file.id(), "/forces/bushing_name", layout.bushings, where);
+  if (stores("/forces/friction")) hdf5::write_texts(file.id(), "/forces/friction_name", layout.frictions, where);
+  if (stores("/superelements/")) {
+    const auto offsets = [&](const char* name, const std::vector<int>& offset) {
+      hdf5::write_dataset(file.id(), std::string("/superelements/") + name, {offset.size()}, offset.data(), where);
+    };
+    hdf5::write_texts(file.id(), "/superelements/name", layout.superelements, where);
+    if (!layout.superelement_content_ids.empty())
+      hdf5::write_texts(file.id(), "/superelements/content_id", layout.superelement_content_ids, where);
+    offsets("offset", layout.modes_offset);
+    offsets("boundary_offset", layout.boundary_offset);
+    if (!layout.boundary_nodes.empty())
+      hdf5::write_texts(file.id(), "/superelements/boundary_name", layout.boundary_nodes, where);
+  }
+  if (stores("/modal_bodies/")) {
+    hdf5::write_texts(file.id(), "/modal_bodies/name", layout.modal_bodies, where);
+    hdf5::write_dataset(file.id(), "/modal_bodies/offset", {layout.modal_offset.size()}, layout.modal_offset.data(),
+                        where);
+  }
+  if (file.reset() < 0) throw hdf5::last_error("cannot write the file", where, "choose another place or name");
+}
+
+/// The file of create_head() under its name, whole or not at all.
+void publish_head(const std::string& part, const ResultsLayout& layout, const std::vector<Block>& blocks) {
+  const std::string temporary = temporary_beside(part);
+  try {
+    create_head(temporary, layout, blocks, part);
+  } catch (const Error&) {
+    ::unlink(temporary.c_str());
+    throw;
+  }
+  publish_file(temporary, part);
+}
+
+hdf5::Handle open_for_writing(const std::string& path, unsigned mode) {
+  const hdf5::Handle access = access_properties();
+  hdf5::Handle file(H5Fopen(path.c_str(), H5F_ACC_RDWR | mode, access.id()), H5Fclose);
+  if (!file.valid()) throw hdf5::last_error("cannot open the file for writing", path, "choose another place or name");
+  return file;
+}
+
+/// /modes: eigenvalues [real, imaginary], frequencies, damping ratios and shapes, modes x nodes x 3 x [real,
+/// imaginary].
+void write_modes(hdf5::Id file, const ModesTable& table, const std::string& where) {
+  const auto modes = static_cast<std::uint64_t>(table.eigenvalue.size());
+  const auto nodes = static_cast<std::uint64_t>(table.translation.rows() / 3);
+  const auto complex = [&](const char* name, hdf5::Shape shape, const std::complex<double>* values) {
+    shape.push_back(2);
+    hdf5::write_dataset(file, std::string("/modes/") + name, shape, reinterpret_cast<const double*>(values), where);
+  };
+  complex("eigenvalue", {modes}, table.eigenvalue.data());
+  hdf5::write_dataset(file, "/modes/frequency", {modes}, table.frequency.data(), where);
+  hdf5::write_dataset(file, "/modes/damping_ratio", {modes}, table.damping_ratio.data(), where);
+  complex("translation", {modes, nodes, 3}, table.translation.data());
+  complex("rotation", {modes, nodes, 3}, table.rotation.data());
+}
+
+}  // namespace
+
+struct ResultsWriter::Impl {
+  /// A block with its open dataset and its waiting rows.
+  struct Column {
+    Block block;
+    hdf5::Handle dataset;
+    std::vector<double> waiting;  ///< capacity x width, sized once
+  };
+
+  std::string path;
+  std::string part;
+  hdf5::Handle file;
+  std::vector<Column> columns;
+  std::size_t capacity = 0;   ///< rows that can wait
+  std::size_t waiting = 0;    ///< rows that do
+  std::uint64_t written = 0;  ///< rows in the file
+  std::uint64_t bytes_per_row = 0;
+  Clock::time_point last_flush = Clock::now();
+  bool broken = false;  ///< a write failed: the file on disk stays as the last good write left it
+  bool finished = false;
+
+  std::optional<ModesTable> modes;
+  std::string shortage;  ///< why rows were given up, or empty
+
+  std::uint64_t bytes_needed(std::size_t rows) const;
+  std::size_t rows_that_fit();
+  void write_rows(std::size_t rows);
+  void write_waiting();
+  void flush();
+  void close();
+  void write_end(int completed, const std::string& reason, const std::string& report_json) const;
+  void rename_to_final() const;
+};
+
+/// Bytes that the next `rows` rows may take, with new chunks and what closing the file takes.
+std::uint64_t ResultsWriter::Impl::bytes_needed(std::size_t rows) const {
+  std::uint64_t needed = disk_reserve + rows * bytes_per_row;
+  for (const Column& column : columns) {
+    const std::size_t chunk = chunk_rows(column.block);
+    const bool opens_chunk = written % chunk == 0 || written % chunk + rows > chunk;
+    if (opens_chunk) needed += chunk * column.block.width() * sizeof(double);
+  }
+  return needed;
+}
+
+/// HDF5 cannot give up cleanly on a full disk, so that ours asks first: of the waiting rows the number that fits.
+std::size_t ResultsWriter::Impl::rows_that_fit() {
+  struct statvfs disk {};
+  struct stat status {};
+  if (::statvfs(part.c_str(), &disk) != 0 || ::stat(part.c_str(), &status) != 0) return waiting;
+  const std::uint64_t free = static_cast<std::uint64_t>(disk.f_bavail) * disk.f_frsize;
+  struct rlimit limit {};
+  const bool limited = ::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  const std::uint64_t growth = !limited ? free : limit.rlim_cur > size ? limit.rlim_cur - size : 0;
+  const std::uint64_t needed = bytes_needed(waiting);
+  if (needed <= std::min(free, growth)) return waiting;
+  shortage = growth < free
+                 ? fmt::format("the file may not grow beyond {} kB (`ulimit -f`), the next {} rows need {} kB more",
+                               limit.rlim_cur / 1024, waiting, needed / 1024)
+                 : fmt::format("the disk is full: {} kB are free, the next {} rows need {} kB", free / 1024, waiting,
+                               needed / 1024);
+  std::size_t rows = waiting;
+  while (rows > 0 && bytes_needed(rows) > std::min(free, growth)) rows /= 2;
+  return rows;
+}
+
+void ResultsWriter::Impl::write_waiting() {
+  if (waiting == 0) return;
+  const std::size_t rows = rows_that_fit();
+  write_rows(rows);
+  waiting = 0;
+  if (!shortage.empty()) throw Error(shortage, part, "free some space, write to another disk, or store fewer channels");
+}
+
+void ResultsWriter::Impl::write_rows(std::size_t rows) {
+  if (rows == 0) return;
+  for (Column& column : columns) {
+    std::vector<hsize_t> extent{written + rows}, start{written}, count{rows};
+    for (const std::uint64_t e : column.block.shape) {
+      extent.push_back(e);
+      start.push_back(0);
+      count.push_back(e);
+    }
+    const hsize_t total = rows * column.block.width();
+    bool ok = H5Dset_extent(column.dataset.id(), extent.data()) >= 0;
+    const hdf5::Handle space(H5Dget_space(column.dataset.id()), H5Sclose),
+        memory(H5Screate_simple(1, &total, nullptr), H5Sclose);
+    ok = ok && H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0;
+    ok = ok && H5Dwrite(column.dataset.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT,
+                        column.waiting.data()) >= 0;
+    if (!ok) {
+      broken = true;
+      throw hdf5::last_error(
+          fmt::format("cannot write rows {} to {} of {}", written, written + rows, column.block.dataset), part,
+          "choose another place for the results");
+    }
+  }
+  written += rows;
+}
+
+void ResultsWriter::Impl::flush() {
+  write_waiting();
+  if (H5Fflush(file.id(), H5F_SCOPE_GLOBAL) < 0) {
+    broken = true;
+    throw hdf5::last_error("cannot write results", part, "choose another place for the results");
+  }
+  last_flush = Clock::now();
+}
+
+/// After a failed write HDF5 would only spoil, by closing, what the last good write has left.
+void ResultsWriter::Impl::close() {
+  if (broken) {
+    for (Column& column : columns) column.dataset.abandon();
+    file.abandon();
+    return;
+  }
+  for (Column& column : columns)
+    if (column.dataset.reset() < 0) broken = true;
+  if (file.reset() < 0) broken = true;
+}
+
+void ResultsWriter::Impl::write_end(int completed, const std::string& reason, const std::string& report_json) const {
+  hdf5::Handle end = open_for_writing(part, 0);
+  hdf5::write_text(end.id(), "/report", report_json, part);
+  if (modes) write_modes(end.id(), *modes, part);
+  hdf5::write_text_attribute(end.id(), "/", "reason", reason.substr(0, 4096), part);
+  hdf5::write_integer_attribute(end.id(), "/", "completed", completed, part);
+  if (end.reset() < 0)
+    throw hdf5::last_error("cannot write the run report", part, "choose another place for the results");
+}
+
+void ResultsWriter::Impl::rename_to_final() const {
+  if (::rename(part.c_str(), path.c_str()) == 0) return;
+  const int number = errno;
+  throw Error(fmt::format("cannot rename the results to their final name: {}", std::strerror(number)), path,
+              fmt::format("they are complete in {}", part));
+}
+
+ResultsWriter::ResultsWriter(const std::string& path, const ResultsLayout& layout) : impl_(std::make_unique<Impl>()) {
+  check_layout(layout);
+  hdf5::silence();
+  impl_->path = path;
+  impl_->part = path + ".part";
+  const std::vector<Block> blocks = chosen_blocks(layout, layout.scene);
+  publish_head(impl_->part, layout, blocks);
+  impl_->file = open_for_writing(impl_->part, H5F_ACC_SWMR_WRITE);
+  std::size_t width = 0;
+  for (const Block& block : blocks) width += block.width();
+  impl_->bytes_per_row = width * sizeof(double);
+  impl_->capacity = std::clamp<std::size_t>(buffer_bytes / impl_->bytes_per_row, 1, 4096);
+  for (const Block& block : blocks) {
+    hdf5::Handle dataset(H5Dopen2(impl_->file.id(), block.dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!dataset.valid())
+      throw hdf5::last_error("cannot open dataset " + block.dataset, impl_->part, "choose another place");
+    impl_->columns.push_back({block, std::move(dataset), std::vector<double>(impl_->capacity * block.width())});
+  }
+}
+
+ResultsWriter::~ResultsWriter() {
+  if (impl_->finished) return;
+  try {
+    finish(false, "the run ended before it was complete", "{}");
+  } catch (const std::exception&) {
+    // Nobody is left to tell; what was flushed stays readable under its .part name.
+  }
+}
+
+void ResultsWriter::append(const ResultsRow& row) {
+  TISSERAND_ENSURE(!impl_->finished, "append() after finish() of {}", impl_->path);
+  if (impl_->broken) throw Error("an earlier write has failed", impl_->part, "choose another place for the results");
+  if (impl_->waiting == impl_->capacity) impl_->flush();
+  for (Impl::Column& column : impl_->columns) {
+    const std::size_t width = column.block.width();
+    std::copy_n(column.block.values(row), width,
+                column.waiting.begin() + static_cast<std::ptrdiff_t>(impl_->waiting * width));
+  }
+  ++impl_->waiting;
+  if (Clock::now() - impl_->last_flush >= flush_interval) impl_->flush();
+}
+
+void ResultsWriter::set_modes(ModesTable modes) { impl_->modes = std::move(modes); }
+
+void ResultsWriter::finish(bool completed, const std::string& reason, const std::string& report_json) {
+  TISSERAND_ENSURE(!impl_->finished, "finish() twice of {}", impl_->path);
+  impl_->finished = true;
+  std::string problem = impl_->shortage;
+  try {
+    if (!impl_->broken) impl_->flush();
+  } catch (const Error& error) {
+    problem = error.what();
+  }
+  impl_->close();
+  if (problem.empty() && impl_->broken) problem = "some rows could not be written";
+  const std::string told = reason.empty() || problem.empty() ? reason + problem : reason + "; " + problem;
+  try {
+    if (!impl_->broken) impl_->write_end(completed && problem.empty() ? 1 : 0, told, report_json);
+  } catch (const Error& error) {
+    if (problem.empty()) problem = error.what();
+  }
+  impl_->rename_to_final();
+  if (completed && !problem.empty()) throw Error(problem, "", "the results until then are in " + impl_->path);
+}
+
+}  // namespace tisserand::formats

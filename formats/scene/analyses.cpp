@@ -1,0 +1,127 @@
+// `analysis` or `analyses` of a scene, with the settings that each has of its own and those that all share.
+#include <algorithm>
+#include <iterator>
+
+#include "common/text.hpp"
+#include "formats/scene/reader.hpp"
+
+namespace tisserand::formats {
+namespace {
+
+constexpr Choice<AnalysisKind> kinds[] = {{"dynamics", AnalysisKind::dynamics},
+                                          {"statics", AnalysisKind::statics},
+                                          {"assembly", AnalysisKind::assembly},
+                                          {"kinematics", AnalysisKind::kinematics},
+                                          {"inverse_dynamics", AnalysisKind::inverse_dynamics},
+                                          {"modes", AnalysisKind::modes}};
+constexpr const char* groups[] = {"integrator", "statics", "modes", "output", "checkpoint"};
+
+/// The groups of the scene with the values that the analysis gives in their place.
+YamlNode with_groups_of(const YamlNode& scene, YamlNode analysis) {
+  for (const char* name : groups) {
+    const YamlNode* shared = find_child(scene, name);
+    if (shared == nullptr) continue;
+    const auto own = std::ranges::find(analysis.children, name, &YamlNode::key);
+    if (own == analysis.children.end()) {
+      analysis.children.push_back(*shared);
+    } else if (own->kind == YamlKind::map && shared->kind == YamlKind::map) {
+      for (const YamlNode& value : shared->children) {
+        // `every` and `interval` exclude each other: one of its own replaces either.
+        const bool rhythm = value.key == "every" || value.key == "interval";
+        const bool given =
+            find_child(*own, value.key) != nullptr ||
+            (rhythm && (find_child(*own, "every") != nullptr || find_child(*own, "interval") != nullptr));
+        if (!given) own->children.push_back(value);
+      }
+    }
+  }
+  return analysis;
+}
+
+double end_time(const Analysis& analysis) {
+  return takes_steps(analysis.kind) ? analysis.integrator.end : analysis.integrator.start;
+}
+
+/// The analysis that `from` names, of those that stand before it.
+const Analysis* read_from(const MapReader& map, const std::vector<Analysis>& before, Analysis& analysis) {
+  const YamlNode* node = map.find("from");
+  if (node == nullptr) return nullptr;
+  analysis.from = read_text(map.context(), *node, "from");
+  const auto found = std::ranges::find(before, analysis.from, &Analysis::name);
+  if (found != before.end()) return &*found;
+  std::vector<std::string> names;
+  for (const Analysis& one : before) names.push_back(one.name);
+  const auto near = nearest(analysis.from, names);
+  map.context().fail(node->place, fmt::format("from: no analysis '{}' stands before this one", analysis.from),
+                     near ? fmt::format("did you mean '{}'?", *near) : "put it above, or remove `from`");
+  return nullptr;
+}
+
+Analysis read_analysis(const Context& context, const YamlNode& scene, const YamlNode& own,
+                       const std::vector<Analysis>& before) {
+  const YamlNode node = with_groups_of(scene, own);
+  const MapReader map(context, node, "analysis");
+  Analysis analysis;
+  analysis.name = own.key;
+  analysis.where = context.entry;
+  if (map.require("type") != nullptr) analysis.kind = map.choice("type", kinds, AnalysisKind::dynamics);
+  const Analysis* from = read_from(map, before, analysis);
+  std::optional<double> start;
+  if (from != nullptr) start = end_time(*from);
+  read_groups(map, context, start, analysis);
+  // A steady rotation goes on in what starts from it.
+  if (from != nullptr && from->statics.rotation && from->kind == AnalysisKind::statics && !analysis.modes.rotation)
+    analysis.modes.rotation = from->statics.rotation->angular_velocity;
+  return analysis;
+}
+
+}  // namespace
+
+std::string analysis_word(AnalysisKind kind) {
+  const auto found = std::ranges::find(kinds, kind, &Choice<AnalysisKind>::value);
+  return std::string(found->word);
+}
+
+bool takes_steps(AnalysisKind kind) {
+  switch (kind) {
+    case AnalysisKind::dynamics:
+    case AnalysisKind::kinematics:
+    case AnalysisKind::inverse_dynamics:
+      return true;
+    case AnalysisKind::statics:
+    case AnalysisKind::assembly:
+    case AnalysisKind::modes:
+      return false;
+  }
+  return false;
+}
+
+Scene scene_of(const Scene& scene, const Analysis& analysis) {
+  Scene one = scene;
+  one.analysis = analysis.kind;
+  one.integrator = analysis.integrator;
+  one.statics = analysis.statics;
+  one.modes = analysis.modes;
+  one.output = analysis.output;
+  one.checkpoint = analysis.checkpoint;
+  one.analyses.clear();
+  return one;
+}
+
+void read_analyses(const MapReader& map, Scene& scene) {
+  const YamlNode* several = map.find("analyses");
+  if (several == nullptr) {
+    Analysis only;
+    only.kind = map.choice("analysis", kinds, AnalysisKind::dynamics);
+    read_groups(map, Context{map.context().reader, "", scene.file}, std::nullopt, only);
+    scene = scene_of(scene, only);
+    return;
+  }
+  if (const YamlNode* one = map.find("analysis"))
+    map.context().fail(one->key_place, "both 'analysis' and 'analyses' are given", "give one of them");
+  for (const YamlNode* node : map.entries("analyses", "analysis"))
+    scene.analyses.push_back(read_analysis(entry_context(map.context().reader, "analysis", *node),
+                                           map.context().reader.root(), *node, scene.analyses));
+}
+
+}  // namespace tisserand::formats

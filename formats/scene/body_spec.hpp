@@ -1,0 +1,124 @@
+// What stands below `bodies` of a scene: superelements, rigid, virtual and modal bodies, beams.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "formats/sections/section.hpp"
+
+namespace tisserand::formats {
+
+struct Pose {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+};
+
+/// Rigid motion of a part at the start: the pose of the part frame and the motion of its origin, world axes.
+struct InitialMotion {
+  Pose pose;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
+  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
+};
+
+enum class FrameKind { karcher, paper, node };
+enum class InertiaOption { A, B, M };  ///< [Car00]; M: B with the exact centre of mass
+
+struct NodeWeight {
+  std::string node;
+  double weight = 0.0;
+  bool operator==(const NodeWeight&) const = default;
+};
+
+struct Damping {
+  double mass = 0.0;           ///< a of a M̄
+  double stiffness = 0.0;      ///< b of b S̄
+  double ratio = 0.0;          ///< of every internal mode
+  std::vector<double> ratios;  ///< of the first modes; overrides `ratio`
+  bool operator==(const Damping&) const = default;
+};
+
+struct SuperelementBodySpec {
+  std::string name;
+  std::string file;  ///< resolved path
+  Eigen::Vector3d mirror =
+      Eigen::Vector3d::Ones();  ///< −1 along axes that are mirrored (formats/superelement/mirror.hpp)
+  InitialMotion start;
+  bool rigid = false;            ///< use: rigid
+  std::optional<int> modes;      ///< absent: all in the file
+  std::optional<double> cutoff;  ///< [1/time of the scene]
+  InertiaOption inertia = InertiaOption::B;
+  FrameKind frame = FrameKind::karcher;
+  std::string frame_node;                    ///< for FrameKind::node
+  std::vector<NodeWeight> position_weights;  ///< empty: from the file's centre of mass
+  std::vector<NodeWeight> rotation_weights;
+  Damping damping;
+  std::optional<Eigen::Vector3d> gravity;  ///< absent: that of the scene
+  std::string where;
+};
+
+struct RigidNodeSpec {
+  std::string name;
+  Pose pose;  ///< in the part frame
+};
+
+struct RigidBodySpec {
+  std::string name;
+  InitialMotion start;
+  double mass = 0.0;
+  Eigen::Vector3d center_of_mass = Eigen::Vector3d::Zero();  ///< part frame
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();         ///< about the centre of mass, part axes
+  std::vector<RigidNodeSpec> nodes;        ///< named places for joints and loads; the part frame itself is `<body>`
+  std::optional<Eigen::Vector3d> gravity;  ///< absent: that of the scene
+  std::string where;
+};
+
+/// A body without mass: a place that joints, springs and loads share. Its place is the origin of its part frame.
+struct VirtualBodySpec {
+  std::string name;
+  InitialMotion start;
+  std::vector<RigidNodeSpec> nodes;
+  std::string where;
+};
+
+/// keep: a virtual body is a node with six coordinates, its fixed joints are constraints; eliminate: bodies that are
+/// tied by fixed joints to a virtual one follow one carrier at constant offsets (mechanism/build/virtual_bodies.hpp).
+enum class VirtualBodies { keep, eliminate };
+
+/// A geometrically exact beam along a line or an arc; its nodes are <name>/0 ... <name>/N (and <name>/start, /end).
+struct BeamBodySpec {
+  std::string name;
+  InitialMotion start;
+  Eigen::Vector3d from = Eigen::Vector3d::Zero();  ///< part frame
+  Eigen::Vector3d to = Eigen::Vector3d::Zero();
+  std::optional<Eigen::Vector3d> through;      ///< a third point of the circular arc
+  std::optional<Eigen::Vector3d> orientation;  ///< direction of the section's y axis
+  int elements = 1;
+  int nodes_per_element = 2;  ///< 2 or 3
+  Section section;
+  Material material;
+  std::optional<Eigen::Vector3d> gravity;  ///< absent: that of the scene
+  std::string where;
+};
+
+/// A floating-frame body with lumped masses from a modal body file; its nodes are `<body>/<node>`, its frame `<body>`.
+struct ModalBodySpec {
+  std::string name;
+  std::string file;  ///< resolved path
+  Eigen::Vector3d mirror =
+      Eigen::Vector3d::Ones();  ///< −1 along axes that are mirrored (formats/superelement/mirror.hpp)
+  InitialMotion start;
+  std::optional<int> modes;                ///< absent: all in the file
+  std::optional<double> cutoff;            ///< [1/time of the scene]
+  Damping damping;                         ///< beside that of the file
+  std::optional<Eigen::Vector3d> gravity;  ///< absent: that of the scene
+  std::string where;
+};
+
+using BodySpec = std::variant<SuperelementBodySpec, RigidBodySpec, BeamBodySpec, VirtualBodySpec, ModalBodySpec>;
+
+}  // namespace tisserand::formats

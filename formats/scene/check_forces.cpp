@@ -1,0 +1,142 @@
+// Findings of springs, bushings and loads.
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "formats/scene/check_parts.hpp"
+#include "formats/scene/time_function_reader.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+void check_law(const LawSpec& law, const std::string& subject, const std::string& where, const std::string& key,
+               Faults& faults) {
+  if (const CurveSpec* curve = std::get_if<CurveSpec>(&law))
+    check_curve(*curve, subject, where, key, faults);
+  else if (!std::isfinite(std::get<double>(law)))
+    faults.add(where, key, fmt::format("{}: {} must be finite", subject, key), "");
+}
+
+/// A damper takes energy out at all rates.
+void check_damper(const LawSpec& law, const std::string& subject, const std::string& where, Faults& faults) {
+  check_law(law, subject, where, "damping", faults);
+  const CurveSpec* curve = std::get_if<CurveSpec>(&law);
+  if (curve == nullptr) {
+    if (std::get<double>(law) < 0.0)
+      faults.add(where, "damping", fmt::format("{}: damping {:g} must not be negative", subject, std::get<double>(law)),
+                 "");
+    return;
+  }
+  for (std::size_t i = 0; i < std::min(curve->x.size(), curve->y.size()); ++i)
+    if (curve->x[i] * curve->y[i] < 0.0) {
+      faults.add(where, "damping",
+                 fmt::format("{}: the table of damping drives the motion: force {:g} at rate {:g}", subject,
+                             curve->y[i], curve->x[i]),
+                 "give forces with the sign of the rate");
+      return;
+    }
+}
+
+bool does_nothing(const LawSpec& law) {
+  const double* factor = std::get_if<double>(&law);
+  return factor != nullptr && *factor == 0.0;
+}
+
+void check_stops(const SpringSpec& spring, const std::string& subject, Faults& faults) {
+  if (!(spring.stop_damping >= 0.0 && std::isfinite(spring.stop_damping)))
+    faults.add(spring.where, "stop_damping",
+               fmt::format("{}: stop_damping {:g} must not be negative", subject, spring.stop_damping), "");
+  if ((spring.lower || spring.upper) && !(spring.stop_stiffness > 0.0 && std::isfinite(spring.stop_stiffness)))
+    faults.add(spring.where, "stop_stiffness", fmt::format("{}: stop_stiffness must be positive", subject), "");
+  if (spring.lower && spring.upper && !(*spring.lower < *spring.upper))
+    faults.add(
+        spring.where, "lower",
+        fmt::format("{}: lower stop {:g} is not below the upper one {:g}", subject, *spring.lower, *spring.upper), "");
+}
+
+}  // namespace
+
+void check_friction(const JointSpec& joint, const std::string& subject, Faults& faults) {
+  const FrictionSpec& friction = *joint.friction;
+  const FrictionKeys keys = friction_keys(joint.kind);
+  if (!keys.has_friction)
+    faults.add(joint.where, "friction",
+               fmt::format("{}: a {} joint has no contact surface, so no friction", subject, joint_word(joint.kind)),
+               "remove it, or make the joint of kinds that have one (formats/SCENE.md)");
+  const auto positive = [&](double value, const char* key) {
+    if (!(value > 0.0 && std::isfinite(value)))
+      faults.add(joint.where, fmt::format("friction.{}", key),
+                 fmt::format("{}: friction: {} {:g} must be positive", subject, key, value), "");
+  };
+  if (!(friction.coefficient >= 0.0 && std::isfinite(friction.coefficient)))
+    faults.add(joint.where, "friction.coefficient",
+               fmt::format("{}: friction: coefficient {:g} must not be negative", subject, friction.coefficient), "");
+  const double stiction = friction.static_coefficient.value_or(friction.coefficient);
+  if (!(stiction >= friction.coefficient && std::isfinite(stiction)))
+    faults.add(joint.where, "friction.static_coefficient",
+               fmt::format("{}: friction: static_coefficient {:g} is below the coefficient {:g}", subject, stiction,
+                           friction.coefficient),
+               "");
+  positive(friction.velocity, "velocity");
+  if (keys.radius) positive(friction.radius, "radius");
+  if (friction.arm) positive(*friction.arm, "arm");
+  if (friction.arm && keys.has_friction && !keys.arm)
+    faults.add(joint.where, "friction.arm",
+               fmt::format("{}: friction: a {} joint takes no moment", subject, joint_word(joint.kind)), "remove arm");
+}
+
+void check_spring(const SceneIndex& scene, const SpringSpec& spring, Faults& faults) {
+  const std::string subject = fmt::format("spring '{}'", spring.name);
+  if (spring.coordinate) {
+    check_coordinate(*spring.coordinate, scene, subject, spring.where, "coordinate", faults);
+  } else if (spring.kind == SpringKind::torsion) {
+    check_marker_pair(scene, spring, subject, spring.where, faults);
+    if (!spring.axis && !spring.a.orientation && !spring.b.orientation)
+      faults.add(spring.where, "", fmt::format("{}: a spring of type torsion needs an axis", subject),
+                 "give axis: [x, y, z], or an orientation to a or b");
+  } else {
+    check_marker(scene, spring.a, subject, spring.where, "a", faults);
+    check_marker(scene, spring.b, subject, spring.where, "b", faults);
+  }
+  check_law(spring.stiffness, subject, spring.where, "stiffness", faults);
+  check_damper(spring.damping, subject, spring.where, faults);
+  check_stops(spring, subject, faults);
+  if (does_nothing(spring.stiffness) && does_nothing(spring.damping) && !spring.lower && !spring.upper && !spring.force)
+    faults.add(spring.where, "", fmt::format("{}: does nothing", subject), "give stiffness, damping, stops or force");
+  if (spring.force) check_time_function(*spring.force, subject, spring.where, "force", faults);
+}
+
+void check_bushing(const SceneIndex& scene, const BushingSpec& bushing, Faults& faults) {
+  const std::string subject = fmt::format("bushing '{}'", bushing.name);
+  check_marker_pair(scene, bushing, subject, bushing.where, faults);
+  const auto finite = [&](const auto& matrix, const char* key) {
+    if (!matrix.allFinite()) faults.add(bushing.where, key, fmt::format("{}: {} must be finite", subject, key), "");
+    return matrix.allFinite();
+  };
+  finite(bushing.stiffness, "stiffness");
+  finite(bushing.preload, "preload");
+  if (bushing.free) finite(*bushing.free, "free");
+  if (bushing.free && !(bushing.free->tail<3>().norm() < EIGEN_PI))
+    faults.add(bushing.where, "free", fmt::format("{}: the rotation vector of free is half a turn or more", subject),
+               "turn the orientation of one marker instead");
+  if (finite(bushing.damping, "damping")) {
+    const Eigen::MatrixXd symmetric = 0.5 * (bushing.damping + bushing.damping.transpose());
+    const double smallest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues()[0];
+    if (!(smallest >= -1e-12 * symmetric.cwiseAbs().maxCoeff()))
+      faults.add(bushing.where, "damping",
+                 fmt::format("{}: the damping matrix has the eigenvalue {:g}", subject, smallest),
+                 "its symmetric part must not be negative in any direction");
+  }
+  if (bushing.stiffness.isZero(0.0) && bushing.damping.isZero(0.0) && bushing.preload.isZero(0.0))
+    faults.add(bushing.where, "", fmt::format("{}: does nothing", subject), "give stiffness, damping or preload");
+}
+
+void check_load(const SceneIndex& scene, const LoadSpec& load, Faults& faults) {
+  const std::string subject = fmt::format("load '{}'", load.name);
+  check_marker(scene, load.at, subject, load.where, "at", faults);
+  for (std::size_t i = 0; i < load.components.size(); ++i)
+    check_time_function(load.components[i], subject, load.where, fmt::format("value[{}]", i), faults);
+}
+
+}  // namespace tisserand::formats

@@ -1,0 +1,32 @@
+// Parts of checking a scene: markers and coordinates that many entries use, and the force elements.
+#pragma once
+
+#include <string>
+
+#include "formats/scene/index.hpp"
+#include "formats/yaml/fault.hpp"
+
+namespace tisserand::formats {
+
+/// The body and node exist; position and orientation are valid.
+void check_marker(const SceneIndex& scene, const MarkerSpec& marker, const std::string& subject,
+                  const std::string& where, const std::string& key, Faults& faults);
+
+/// Both markers, on different nodes, and the position and axes that place them.
+void check_marker_pair(const SceneIndex& scene, const MarkerPairSpec& pair, const std::string& subject,
+                       const std::string& where, Faults& faults);
+
+/// The joint of the coordinate exists.
+void check_coordinate(const CoordinateRef& coordinate, const SceneIndex& scene, const std::string& subject,
+                      const std::string& where, const std::string& key, Faults& faults);
+
+/// Channels and inputs; their names share one list.
+void check_channels(const SceneIndex& scene, Faults& faults);
+
+/// Of a joint that has one.
+void check_friction(const JointSpec& joint, const std::string& subject, Faults& faults);
+void check_spring(const SceneIndex& scene, const SpringSpec& spring, Faults& faults);
+void check_bushing(const SceneIndex& scene, const BushingSpec& bushing, Faults& faults);
+void check_load(const SceneIndex& scene, const LoadSpec& load, Faults& faults);
+
+}  // namespace tisserand::formats

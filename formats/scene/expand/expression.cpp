@@ -1,0 +1,116 @@
+// Formulas by muParser; only the names that a formula holds are looked up.
+#include "formats/scene/expand/expression.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <muParser.h>
+
+#include "common/error.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+constexpr std::size_t longest_formula = 10'000;
+constexpr int deepest_brackets = 100;  // of the recursive parser
+constexpr std::size_t most_remembered = 1000;
+
+bool starts_name(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Calls `visit(begin, end)` for each run of characters of names and numbers; `[3]` belongs to the name before it.
+template <class Visit>
+void for_each_word(const std::string& formula, Visit visit) {
+  const auto in_word = [](char c) { return starts_name(c) || is_digit(c) || c == '.'; };
+  for (std::size_t i = 0; i < formula.size();) {
+    std::size_t end = i;
+    while (end < formula.size() && in_word(formula[end])) {
+      ++end;
+      std::size_t close = end + 1;
+      while (close < formula.size() && is_digit(formula[close])) ++close;
+      if (end < formula.size() && formula[end] == '[' && close > end + 1 && close < formula.size() &&
+          formula[close] == ']')
+        end = close + 1;
+    }
+    if (end > i) visit(i, end);
+    i = std::max(end, i + 1);
+  }
+}
+
+void check_extent(const std::string& formula) {
+  int depth = 0, deepest = 0;
+  for (const char c : formula) {
+    depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+    deepest = std::max(deepest, depth);
+  }
+  if (formula.size() > longest_formula || deepest > deepest_brackets)
+    throw Error("the expression is too long or too deeply nested", "", "split it into parameters");
+}
+
+}  // namespace
+
+std::set<std::string> names_of(const std::string& formula) {
+  std::set<std::string> names;
+  for_each_word(formula, [&](std::size_t begin, std::size_t end) {
+    if (starts_name(formula[begin])) names.insert(formula.substr(begin, end - begin));
+  });
+  return names;
+}
+
+std::string with_names(const std::string& formula, const std::function<std::string(const std::string&)>& replacement) {
+  std::string text;
+  std::size_t done = 0;
+  for_each_word(formula, [&](std::size_t begin, std::size_t end) {
+    const std::size_t next = formula.find_first_not_of(' ', end);
+    if (!starts_name(formula[begin]) || (next != std::string::npos && formula[next] == '(')) return;
+    text += formula.substr(done, begin - done) + replacement(formula.substr(begin, end - begin));
+    done = end;
+  });
+  return text + formula.substr(done);
+}
+
+std::string expression_name(std::string path) {
+  std::ranges::replace(path, '/', '.');
+  return path;
+}
+
+using KnownValues = std::map<std::string, double>;
+
+struct Calculator::Parser {
+  mu::Parser parser;
+  /// Values and result of each formula when it was last asked: copies of an assembly ask for the same again.
+  std::map<std::string, std::pair<KnownValues, double>> last;
+};
+
+Calculator::Calculator() : parser_(std::make_unique<Parser>()) {
+  parser_->parser.DefineConst("pi", 3.14159265358979323846);
+  parser_->parser.DefineNameChars("0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+}
+Calculator::~Calculator() = default;
+
+double Calculator::operator()(const std::string& formula, const NamedValues& values) {
+  check_extent(formula);
+  KnownValues known;  // all looked up before the parser is touched: values may be formulas themselves
+  for (const std::string& name : names_of(formula))
+    if (const std::optional<double> value = values(name)) known[name] = *value;
+  if (const auto same = parser_->last.find(formula); same != parser_->last.end() && same->second.first == known)
+    return same->second.second;
+  if (parser_->last.size() >= most_remembered) parser_->last.clear();
+  mu::Parser& parser = parser_->parser;
+  try {
+    parser.ClearVar();
+    for (auto& [name, value] : known) parser.DefineVar(name, &value);
+    parser.SetExpr(formula);
+    const double result = parser.Eval();
+    parser.ClearVar();
+    parser_->last[formula] = {std::move(known), result};
+    return result;
+  } catch (const mu::Parser::exception_type& error) {
+    parser.ClearVar();
+    throw Error(fmt::format("expression '{}': {}", formula, error.GetMsg()), "", "");
+  }
+}
+
+}  // namespace tisserand::formats

@@ -1,0 +1,69 @@
+// Instances of assemblies: copies of their entries with paths for names, placed where the instance stands.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/error.hpp"
+#include "formats/scene/expand/include.hpp"
+#include "formats/scene/expand/names.hpp"
+#include "formats/scene/expand/parameters.hpp"
+#include "formats/scene/expand/placement.hpp"
+#include "formats/yaml/reader.hpp"
+
+namespace tisserand::formats {
+
+/// Turns the tree of a scene (read and merged) into a flat one.
+class SceneExpander {
+ public:
+  SceneExpander(YamlDocument& document, TreeLoader& loader, const std::vector<KeySet>& legal_keys);
+
+  /// Throws Error: all that were found.
+  void run();
+
+ private:
+  /// An entry of `instances`.
+  struct Instance {
+    YamlNode node;          ///< without `parameters` and `first`
+    YamlNode given, first;  ///< their maps
+    std::string name;       ///< within its level
+    int count = -1;         ///< −1: not repeated
+    AssemblyFrame pose, step, mirror;
+  };
+
+  template <class Action>
+  void collect(Action action);
+  Assembly& define(const std::string& name, YamlNode node, const Assembly* outer);
+  Assembly& find_assembly(const YamlNode& use, const Assembly& from);
+  void expand_top(Assembly& top, ParameterScope& scope);
+  void expand(const Level& level, ParameterScope& scope);
+  YamlNode expanded(const std::string& collection, const YamlNode& entry, const Level& level, ParameterScope& scope);
+  void expand_instance(const YamlNode& node, const Level& level, ParameterScope& scope);
+  Instance read_instance(const YamlNode& node, ParameterScope& scope);
+  void make_one(const Instance& instance, int index, const AssemblyFrame& frame, Assembly& assembly, const Level& level,
+                ParameterScope& scope);
+  void define_parameters(const Instance& instance, int index, const Assembly& assembly, ParameterScope& around,
+                         ParameterScope& own);
+  void report_unused(const ParameterScope& scope);
+  YamlNode& flat(const std::string& collection, const YamlPlace& place);
+
+  YamlDocument& document_;
+  TreeLoader& loader_;
+  YamlReader reader_;
+  ExpansionBudget budget_;
+  Substitution substitution_;
+  YamlNode root_;
+  std::deque<Assembly> assemblies_;
+  std::map<std::pair<const Assembly*, std::string>, Assembly*> by_name_;
+  std::vector<Error> errors_;
+  std::set<std::string> told_;
+  std::vector<MirroredReference> mirrored_;
+  std::set<std::string> reversed_;  ///< joint coordinates that a mirror reverses, paths from the scene
+  long instances_ = 0;
+};
+
+}  // namespace tisserand::formats

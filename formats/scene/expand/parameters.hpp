@@ -1,0 +1,87 @@
+// Named values of a scene and of its assemblies: `$name`, `${formula}` and text with both are replaced in the tree.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "formats/scene/expand/expression.hpp"
+#include "formats/yaml/tree.hpp"
+
+namespace tisserand::formats {
+
+class ParameterScope;
+
+/// What stands at a name, and where the names in it are looked up. Its value is found when it is first used.
+struct Parameter {
+  YamlNode given;
+  ParameterScope* scope = nullptr;
+  std::optional<YamlNode> value;
+  bool resolving = false;
+  bool used = false;
+};
+
+/// Names of one scene or instance; a name that is not here is that of the scope around it.
+class ParameterScope {
+ public:
+  explicit ParameterScope(ParameterScope* outer) : outer_(outer) {}
+  ParameterScope(const ParameterScope&) = delete;
+  ParameterScope& operator=(const ParameterScope&) = delete;
+
+  /// A later definition replaces an earlier one.
+  void define(const YamlNode& given, ParameterScope& scope) { own_[given.key] = {given, &scope, {}, false, false}; }
+  /// A value that is no formula.
+  void define(const std::string& name, const std::string& text);
+  Parameter* find(const std::string& name);
+  std::vector<std::string> names() const;
+  std::map<std::string, Parameter>& own() { return own_; }
+  const std::map<std::string, Parameter>& own() const { return own_; }
+
+ private:
+  ParameterScope* outer_;
+  std::map<std::string, Parameter> own_;
+};
+
+/// Counts what a scene grows to, so that a few lines cannot fill the memory.
+class ExpansionBudget {
+ public:
+  /// Throws Error at `where` when more than `most_values` values have been made.
+  void take(std::size_t values, const std::string& where);
+
+ private:
+  static constexpr std::size_t most_values = 3'000'000;
+  std::size_t taken_ = 0;
+};
+
+/// Replaces parameters by their values.
+class Substitution {
+ public:
+  Substitution(const YamlDocument& document, ExpansionBudget& budget) : document_(document), budget_(budget) {}
+
+  /// In the node and all below it. A scalar that is `$name` alone becomes the value, whatever it is, and stands where
+  /// that stands; `${formula}` alone becomes a number; in other text `$name` and `${formula}` become text. Throws
+  /// Error.
+  void apply(YamlNode& node, ParameterScope& scope);
+
+ private:
+  const YamlNode& value_of(Parameter& parameter, const YamlPlace& place);
+  const YamlNode& value_of(const std::string& name, ParameterScope& scope, const YamlPlace& place);
+  double number_of(const std::string& formula, ParameterScope& scope, const YamlPlace& place);
+  std::optional<double> named_number(const std::string& name, ParameterScope& scope, const YamlPlace& place);
+  std::string text_of(const std::string& inner, ParameterScope& scope, const YamlPlace& place);
+  void replace_scalar(YamlNode& node, ParameterScope& scope);
+  std::string interpolate(const YamlNode& node, ParameterScope& scope);
+  [[noreturn]] void fail(const YamlPlace& place, const std::string& what, const std::string& remedy) const;
+
+  const YamlDocument& document_;
+  ExpansionBudget& budget_;
+  Calculator calculator_;
+  int depth_ = 0;
+};
+
+/// Shortest text that reads back as the same number.
+std::string number_text(double value);
+
+}  // namespace tisserand::formats

@@ -1,0 +1,279 @@
+// Rules of placing, key by key. Vectors along the assembly turn with G; axial ones (angular velocities, moments) with
+// det(G) G; data in part axes only mirror, with S.
+#include "formats/scene/expand/placement.hpp"
+
+#include <array>
+
+#include <Eigen/Geometry>
+
+#include "formats/scene/expand/load_placement.hpp"
+#include "formats/scene/expand/parameters.hpp"
+#include "formats/yaml/geometry.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+YamlNode number_node(double value, const YamlPlace& place) {
+  YamlNode node;
+  node.kind = YamlKind::scalar;
+  node.text = number_text(value);
+  node.place = place;
+  return node;
+}
+
+template <class Vector>
+YamlNode list_node(const Vector& values, const YamlPlace& place) {
+  YamlNode node;
+  node.kind = YamlKind::sequence;
+  node.place = place;
+  for (Eigen::Index i = 0; i < values.size(); ++i) node.children.push_back(number_node(values[i], place));
+  return node;
+}
+
+YamlNode rows_node(const Matrix3d& matrix, const YamlPlace& place) {
+  YamlNode node;
+  node.kind = YamlKind::sequence;
+  node.place = place;
+  for (int i = 0; i < 3; ++i) node.children.push_back(list_node(Vector3d(matrix.row(i)), place));
+  return node;
+}
+
+/// Replaces the value of the key, or adds it.
+void set(YamlNode& map, const char* key, YamlNode value) {
+  value.key = key;
+  if (YamlNode* old = find_child(map, key)) {
+    value.key_place = old->key_place;
+    *old = std::move(value);
+    return;
+  }
+  value.key_place = value.place;
+  map.children.push_back(std::move(value));
+}
+
+YamlNode quaternion_node(const Matrix3d& R, const YamlPlace& place) {
+  const Eigen::Quaterniond q = Eigen::Quaterniond(R).normalized();
+  return list_node(Eigen::Vector4d(q.w(), q.x(), q.y(), q.z()), place);
+}
+
+std::string word(const YamlNode& map, const char* key) {
+  const YamlNode* node = find_child(map, key);
+  return node != nullptr && node->kind == YamlKind::scalar ? node->text : "";
+}
+
+bool is_list(const YamlNode* node) { return node != nullptr && node->kind == YamlKind::sequence; }
+
+/// How the axes of a joint's markers follow a mirror: F of determinant −1, so that marker frames G R F are rotations.
+/// The coordinates keep their signs: angles about z and displacements along x and y; along z where there is no angle;
+/// the angles of a universal joint.
+Matrix3d axes_of_mirrored_markers(const std::string& type) {
+  if (type == "prismatic" || type == "point_on_line") return Vector3d(1.0, -1.0, 1.0).asDiagonal();
+  if (type == "universal") return -Matrix3d::Identity();
+  return Vector3d(1.0, 1.0, -1.0).asDiagonal();
+}
+
+/// The x axis that the model builder gives to markers of which only z is known.
+Vector3d default_x_axis(const Vector3d& z) {
+  Eigen::Index smallest = 0;
+  z.cwiseAbs().minCoeff(&smallest);
+  return Vector3d::Unit(smallest);
+}
+
+}  // namespace
+
+AssemblyFrame compose(const AssemblyFrame& outer, const AssemblyFrame& inner) {
+  AssemblyFrame both;
+  both.p = outer.p + outer.G * inner.p;
+  both.G = outer.G * inner.G;
+  if (outer.mirrored() != inner.mirrored()) both.S = outer.mirrored() ? outer.S : inner.S;
+  return both;
+}
+
+Context Placement::context(const YamlNode& entry) const {
+  return {reader_, fmt::format("'{}'", entry.key), reader_.where(entry.key_place)};
+}
+
+void Placement::transform(YamlNode& map, const char* key, const Matrix3d& by, const Vector3d& shift) {
+  const YamlNode* node = find_child(map, key);
+  if (!is_list(node)) return;
+  const Vector3d v = read_vector(context(map), *node, key);
+  if (v.allFinite()) set(map, key, list_node(Vector3d(shift + by * v), node->place));
+}
+
+/// R -> before R after.
+void Placement::turn_orientation(YamlNode& map, const Matrix3d& before, const Matrix3d& after) {
+  const YamlNode* node = find_child(map, "orientation");
+  if (node == nullptr) return;
+  const Matrix3d R = read_orientation(context(map), *node, "orientation").toRotationMatrix();
+  set(map, "orientation", quaternion_node(before * R * after, node->place));
+}
+
+void Placement::place(const std::string& collection, YamlNode& entry) {
+  if (entry.kind != YamlKind::map) return;
+  if (collection == "bodies") {
+    body(entry);
+  } else if (collection == "joints" || collection == "springs") {
+    pair(entry, word(entry, "type"));
+  } else if (collection == "bushings") {
+    pair(entry, "bushing");
+    if (frame_.mirrored()) mirror_field(entry);
+  } else if (collection == "channels") {
+    channel(entry);
+  } else if (collection == "loads") {
+    load(entry);
+  }
+}
+
+void Placement::body(YamlNode& body) {
+  mirror_file(body);
+  if (!frame_.moved()) return;
+  if (find_child(body, "pose") == nullptr) {
+    YamlNode pose;
+    pose.kind = YamlKind::map;
+    pose.place = body.place;
+    set(body, "pose", std::move(pose));
+  }
+  YamlNode& pose = *find_child(body, "pose");
+  if (pose.kind != YamlKind::map) return;
+  if (find_child(pose, "position") == nullptr) set(pose, "position", list_node(Vector3d::Zero().eval(), pose.place));
+  transform(pose, "position", frame_.G, frame_.p);
+  if (frame_.turned()) {
+    if (find_child(pose, "orientation") == nullptr)
+      set(pose, "orientation", quaternion_node(Matrix3d::Identity(), pose.place));
+    turn_orientation(pose, frame_.G, frame_.S);
+  }
+  for (const char* key : {"velocity", "gravity"}) transform(body, key, frame_.G, Vector3d::Zero());
+  transform(body, "angular_velocity", frame_.G * frame_.S.diagonal().prod(), Vector3d::Zero());
+  if (frame_.mirrored()) mirror_part(body);
+}
+
+void Placement::mirror_part(YamlNode& body) {
+  for (const char* key : {"center_of_mass", "from", "to", "through", "orientation"})
+    transform(body, key, frame_.S, Vector3d::Zero());
+  if (const YamlNode* inertia = find_child(body, "inertia"); is_list(inertia)) {
+    const Matrix3d J = read_inertia(context(body), *inertia, "inertia");
+    if (J.allFinite()) set(body, "inertia", rows_node(frame_.S * J * frame_.S, inertia->place));
+  }
+  YamlNode* nodes = find_child(body, "nodes");
+  if (nodes == nullptr || nodes->kind != YamlKind::map) return;
+  for (YamlNode& node : nodes->children) {
+    transform(node, "position", frame_.S, Vector3d::Zero());
+    turn_orientation(node, frame_.S, frame_.S);
+  }
+}
+
+/// A file is mirrored where the body is made from it: the plane joins those that the body mirrors it at by itself.
+void Placement::mirror_file(YamlNode& body) {
+  const YamlNode* file = find_child(body, word(body, "type") == "rigid" ? "from" : "file");
+  if (!frame_.mirrored() || file == nullptr || file->kind != YamlKind::scalar) return;
+  constexpr std::array<const char*, 3> across{"yz", "xz", "xy"};
+  Eigen::Index axis = 0;
+  frame_.S.diagonal().minCoeff(&axis);
+  YamlNode planes, plane;
+  planes.kind = YamlKind::sequence;
+  planes.place = plane.place = file->place;
+  plane.kind = YamlKind::scalar;
+  plane.text = across[static_cast<std::size_t>(axis)];
+  if (const YamlNode* own = find_child(body, "mirror"))
+    planes.children = own->kind == YamlKind::sequence ? own->children : std::vector<YamlNode>{*own};
+  planes.children.push_back(std::move(plane));
+  set(body, "mirror", std::move(planes));
+}
+
+/// Joints, springs and bushings: what stands in world axes, and the markers.
+void Placement::pair(YamlNode& entry, const std::string& type) {
+  if (!frame_.moved()) return;
+  const Matrix3d flip = frame_.mirrored() ? axes_of_mirrored_markers(type) : Matrix3d(Matrix3d::Identity());
+  for (const char* key : {"a", "b"}) marker(entry, key, flip);
+  transform(entry, "position", frame_.G, frame_.p);
+  const auto oriented = [&entry](const char* key) {
+    const YamlNode* marker = find_child(entry, key);
+    return marker != nullptr && find_child(*marker, "orientation") != nullptr;
+  };
+  const bool has_axis = is_list(find_child(entry, "axis"));
+  const bool has_markers = find_child(entry, "a") != nullptr && find_child(entry, "b") != nullptr;
+  const bool joint = has_markers && !type.empty() && type != "distance" && type != "line";
+  if (!frame_.turned() || (!has_axis && (!joint || oriented("a") || oriented("b")))) return;
+  const Vector3d z = has_axis ? read_vector(context(entry), *find_child(entry, "axis"), "axis") : Vector3d::UnitZ();
+  if (!z.allFinite() || z.isZero(0.0)) return;
+  if (!has_axis) set(entry, "axis", list_node(z, entry.place));
+  if (find_child(entry, "x_axis") == nullptr)
+    set(entry, "x_axis", list_node(has_axis ? default_x_axis(z) : Vector3d(Vector3d::UnitX()), entry.place));
+  transform(entry, "axis", frame_.G * flip(2, 2), Vector3d::Zero());
+  transform(entry, "x_axis", frame_.G * flip(0, 0), Vector3d::Zero());
+  if (!frame_.mirrored()) return;
+  if (const YamlNode* pitch = find_child(entry, "pitch"); pitch != nullptr && looks_like_number(*pitch))
+    set(entry, "pitch", number_node(-read_number(context(entry), *pitch, "pitch"), pitch->place));
+}
+
+/// Deflections of a bushing in mirrored marker axes (z reversed): displacements along x, y and the turn about z keep
+/// their signs, the others change them. Diagonals stay as they are.
+void Placement::mirror_field(YamlNode& bushing) {
+  constexpr std::array<double, 6> sign{1.0, 1.0, -1.0, -1.0, -1.0, 1.0};
+  const auto turn = [&](YamlNode& row, double factor) {
+    if (row.kind != YamlKind::sequence || row.children.size() != sign.size()) return;
+    for (std::size_t i = 0; i < sign.size(); ++i)
+      if (YamlNode& number = row.children[i]; looks_like_number(number))
+        number.text = number_text(factor * sign[i] * read_number(context(bushing), number, row.key));
+  };
+  for (const char* key : {"free", "preload"})
+    if (YamlNode* six = find_child(bushing, key)) turn(*six, 1.0);
+  for (const char* key : {"stiffness", "damping"}) {
+    YamlNode* matrix = find_child(bushing, key);
+    if (matrix == nullptr || matrix->kind != YamlKind::sequence || matrix->children.size() != sign.size()) continue;
+    for (std::size_t i = 0; i < sign.size(); ++i) turn(matrix->children[i], sign[i]);
+  }
+}
+
+/// A marker on ground is in the world; on a body it is in node axes, which only a mirror changes.
+void Placement::marker(YamlNode& entry, const char* key, const Matrix3d& flip) {
+  YamlNode* marker = find_child(entry, key);
+  if (marker == nullptr || marker->kind != YamlKind::map) return;
+  if (word(*marker, "node") == "ground") {
+    transform(*marker, "position", frame_.G, frame_.p);
+    turn_orientation(*marker, frame_.G, flip);
+  } else if (frame_.mirrored()) {
+    transform(*marker, "position", frame_.S, Vector3d::Zero());
+    turn_orientation(*marker, frame_.S, flip);
+  }
+}
+
+/// Axes and origins of positions are those of the assembly.
+void Placement::channel(YamlNode& channel) {
+  if (!frame_.moved()) return;
+  for (const char* key : {"of", "a", "b"}) marker(channel, key, frame_.S);
+  YamlNode* axis = find_child(channel, "axis");
+  if (axis == nullptr) return;
+  constexpr std::array<const char*, 3> words{"x", "y", "z"};
+  for (Eigen::Index i = 0; i < 3; ++i)
+    if (axis->kind == YamlKind::scalar && axis->text == words[static_cast<std::size_t>(i)])
+      set(channel, "axis", list_node(Vector3d(Vector3d::Unit(i)), axis->place));
+  transform(channel, "axis", frame_.G, Vector3d::Zero());
+  if (word(channel, "type") != "position") return;
+  if (find_child(channel, "origin") == nullptr)
+    set(channel, "origin", list_node(Vector3d(Vector3d::Zero()), channel.place));
+  transform(channel, "origin", frame_.G, frame_.p);
+}
+
+void Placement::load(YamlNode& load) {
+  if (!frame_.turned()) return;
+  marker(load, "at", frame_.S);
+  const double handed = word(load, "type") == "moment" ? frame_.S.diagonal().prod() : 1.0;
+  const Matrix3d by = handed * (word(load, "axes") == "body" ? frame_.S : frame_.G);
+  if (YamlNode* value = find_child(load, "value")) turn_components(context(load), by, *value);
+}
+
+std::set<std::string> Placement::reversed_coordinates(const YamlNode& joint) {
+  const std::string type = word(joint, "type");
+  constexpr std::array<const char*, 5> kinds{"cylindrical", "screw", "constant_orientation", "parallel_axes",
+                                             "generic"};
+  if (std::ranges::find(kinds, type) == kinds.end()) return {};
+  std::set<std::string> names{joint.key + "/z"};
+  if (type == "generic") names.insert(joint.key);
+  return names;
+}
+
+}  // namespace tisserand::formats

@@ -1,0 +1,57 @@
+// Placing an assembly: positions, directions, orientations and inertia of its entries in the tree, moved, turned and
+// mirrored.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "formats/yaml/reader.hpp"
+
+namespace tisserand::formats {
+
+/// x -> p + G x from the axes of an assembly to those around it; G is orthogonal, of determinant −1 if mirrored.
+/// S mirrors the part frames of its bodies then (diagonal), so that their orientations G R S stay rotations; else 1.
+struct AssemblyFrame {
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d G = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d S = Eigen::Matrix3d::Identity();
+
+  bool mirrored() const { return S.diagonal().prod() < 0.0; }
+  bool turned() const { return !G.isIdentity(0.0); }
+  bool moved() const { return turned() || !p.isZero(0.0); }
+};
+
+/// x -> outer(inner(x)).
+AssemblyFrame compose(const AssemblyFrame& outer, const AssemblyFrame& inner);
+
+/// Rewrites the numbers of entries. What cannot be read goes to the reader's errors and stays as it is.
+class Placement {
+ public:
+  Placement(YamlReader& reader, const AssemblyFrame& frame) : reader_(reader), frame_(frame) {}
+
+  /// An entry of `bodies`, `joints`, `channels`, `springs`, `bushings` or `loads`; others do not depend on the frame.
+  void place(const std::string& collection, YamlNode& entry);
+
+  /// Joint coordinates that change their sign when the assembly is mirrored: "slide/z".
+  static std::set<std::string> reversed_coordinates(const YamlNode& joint);
+
+ private:
+  Context context(const YamlNode& entry) const;
+  void body(YamlNode& body);
+  void mirror_part(YamlNode& body);
+  void mirror_file(YamlNode& body);
+  void pair(YamlNode& entry, const std::string& type);
+  void mirror_field(YamlNode& bushing);
+  void channel(YamlNode& channel);
+  void load(YamlNode& load);
+  void marker(YamlNode& entry, const char* key, const Eigen::Matrix3d& flip);
+  void transform(YamlNode& map, const char* key, const Eigen::Matrix3d& by, const Eigen::Vector3d& shift);
+  void turn_orientation(YamlNode& map, const Eigen::Matrix3d& before, const Eigen::Matrix3d& after);
+
+  YamlReader& reader_;
+  const AssemblyFrame& frame_;
+};
+
+}  // namespace tisserand::formats

@@ -1,0 +1,22 @@
+// scene.yaml with `include`, `parameters`, `assemblies` and `instances` as the flat tree that the readers of a scene
+// know.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/yaml/override.hpp"
+#include "formats/yaml/reader.hpp"
+#include "formats/yaml/tree.hpp"
+
+namespace tisserand::formats {
+
+/// Reads the file and what it includes, applies the overrides, replaces parameters and makes the instances: their
+/// bodies, joints, motions, springs and loads stand in the maps of the scene with names such as `corner_fl/upper_arm`
+/// and `link[3]/bar`. Overrides of such names are applied to the flat tree, all others before. File names of included
+/// files are made relative to the folder of the scene. Throws Error (all errors of one stage together). `legal_keys`:
+/// of scene.yaml, for messages about keys that do not exist.
+YamlDocument load_scene_tree(const std::string& path, const std::vector<Override>& overrides,
+                             const std::vector<KeySet>& legal_keys);
+
+}  // namespace tisserand::formats

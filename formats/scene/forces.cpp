@@ -1,0 +1,182 @@
+// `motions`, `springs`, `bushings` and `loads` of scene.yaml.
+#include "formats/scene/reader.hpp"
+#include "formats/scene/time_function_reader.hpp"
+#include "formats/yaml/geometry.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+TimeFunctionSpec read_function(const MapReader& map, const YamlNode& node, const std::string& key,
+                               const SceneDefinitions& definitions) {
+  map.context().reader.note(map.context().entry, key, node);
+  return read_time_function(map.context(), node, key, definitions.folder);
+}
+
+LawSpec read_law(const MapReader& map, const YamlNode& node, const std::string& key,
+                 const SceneDefinitions& definitions) {
+  map.context().reader.note(map.context().entry, key, node);
+  if (node.kind != YamlKind::map) return read_number(map.context(), node, key);
+  return read_curve(map.context(), node, key, definitions.folder);
+}
+
+/// What a spring acts along: a coordinate, or the distance or angle of two markers.
+void read_ends(const MapReader& map, SpringSpec& spring) {
+  spring.kind =
+      map.choice("type", {Choice<SpringKind>{"line", SpringKind::line}, {"torsion", SpringKind::torsion}}, spring.kind);
+  if (const YamlNode* coordinate = map.find("coordinate")) {
+    spring.coordinate = read_coordinate(map, *coordinate, "coordinate");
+    if (map.has("a") || map.has("b"))
+      map.fail("both 'coordinate' and the markers 'a', 'b' are given", "give one of them");
+    if (const YamlNode* type = map.find("type"))
+      map.context().fail(type->key_place, "'type' has no effect with 'coordinate'", "remove it");
+  } else {
+    spring.a = read_marker(map, "a");
+    spring.b = read_marker(map, "b");
+  }
+  spring.axis = read_optional_vector(map, "axis");
+  spring.x_axis = read_optional_vector(map, "x_axis");
+  for (const char* key : {"axis", "x_axis"})
+    if (const YamlNode* node = map.find(key); node != nullptr && (spring.coordinate || spring.kind == SpringKind::line))
+      map.context().fail(node->key_place, fmt::format("'{}' belongs to springs of type torsion", key), "remove it");
+}
+
+/// Six numbers: the diagonal; six rows of six: the whole matrix.
+Eigen::Matrix<double, 6, 6> read_six_by_six(const MapReader& map, const std::string& key) {
+  Eigen::Matrix<double, 6, 6> matrix = Eigen::Matrix<double, 6, 6>::Zero();
+  const YamlNode* node = map.find(key);
+  if (node == nullptr) return matrix;
+  map.context().reader.note(map.context().entry, key, *node);
+  const bool rows = node->kind == YamlKind::sequence && node->children.size() == 6 &&
+                    node->children.front().kind == YamlKind::sequence;
+  const auto check_size = [&](const std::vector<double>& values, const YamlNode& at, const std::string& what) {
+    if (values.size() == 6) return true;
+    if (at.kind == YamlKind::sequence)
+      map.context().fail(at.place, fmt::format("{} has {} numbers instead of 6", what, values.size()),
+                         "give six numbers [x, y, z, rx, ry, rz], or six rows of six");
+    return false;
+  };
+  if (!rows) {
+    const std::vector<double> diagonal = read_numbers(map.context(), *node, key);
+    if (check_size(diagonal, *node, key))
+      for (int i = 0; i < 6; ++i) matrix(i, i) = diagonal[static_cast<std::size_t>(i)];
+    return matrix;
+  }
+  for (int i = 0; i < 6; ++i) {
+    const YamlNode& row = node->children[static_cast<std::size_t>(i)];
+    const std::string what = fmt::format("{}[{}]", key, i);
+    const std::vector<double> values = read_numbers(map.context(), row, what);
+    if (check_size(values, row, what))
+      for (int j = 0; j < 6; ++j) matrix(i, j) = values[static_cast<std::size_t>(j)];
+  }
+  return matrix;
+}
+
+std::optional<Eigen::Matrix<double, 6, 1>> read_six(const MapReader& map, const std::string& key) {
+  const YamlNode* node = map.find(key);
+  if (node == nullptr) return {};
+  map.context().reader.note(map.context().entry, key, *node);
+  const std::vector<double> values = read_numbers(map.context(), *node, key);
+  Eigen::Matrix<double, 6, 1> vector = Eigen::Matrix<double, 6, 1>::Zero();
+  if (values.size() == 6)
+    for (int i = 0; i < 6; ++i) vector[i] = values[static_cast<std::size_t>(i)];
+  else if (node->kind == YamlKind::sequence)
+    map.context().fail(node->place, fmt::format("{} has {} numbers instead of 6", key, values.size()),
+                       "give six numbers [x, y, z, rx, ry, rz]");
+  return vector;
+}
+
+LoadSpec read_load(const Context& context, const YamlNode& node, const SceneDefinitions& definitions) {
+  const MapReader map(context, node, "load");
+  LoadSpec load;
+  load.name = node.key;
+  load.where = context.entry;
+  map.require("type");
+  load.kind =
+      map.choice("type", {Choice<LoadKind>{"force", LoadKind::force}, {"moment", LoadKind::moment}}, LoadKind::force);
+  load.at = read_marker(map, "at");
+  load.axes =
+      map.choice("axes", {Choice<LoadAxes>{"world", LoadAxes::world}, {"body", LoadAxes::body}}, LoadAxes::world);
+  const YamlNode* value = map.require("value");
+  if (value == nullptr) return load;
+  if (value->kind != YamlKind::sequence || value->children.size() != 3) {
+    context.fail(value->place, fmt::format("value must have three components, not {}", describe(*value)),
+                 "write it as [0, 0, \"sin(t)\"]");
+    return load;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string what = fmt::format("value[{}]", i);
+    context.reader.note(context.entry, what, value->children[i]);
+    load.components[i] = read_time_function(context, value->children[i], what, definitions.folder);
+  }
+  return load;
+}
+
+}  // namespace
+
+std::vector<MotionSpec> read_motions(const MapReader& map, const SceneDefinitions& definitions) {
+  std::vector<MotionSpec> motions;
+  for (const YamlNode* node : map.entries("motions", "motion")) {
+    const Context context = entry_context(map.context().reader, "motion", *node);
+    const MapReader inner(context, *node, "motion");
+    MotionSpec motion;
+    motion.name = node->key;
+    motion.where = context.entry;
+    if (const YamlNode* coordinate = inner.require("coordinate"))
+      motion.coordinate = read_coordinate(inner, *coordinate, "coordinate");
+    if (const YamlNode* value = inner.require("value"))
+      motion.value = read_function(inner, *value, "value", definitions);
+    motions.push_back(std::move(motion));
+  }
+  return motions;
+}
+
+std::vector<SpringSpec> read_springs(const MapReader& map, const SceneDefinitions& definitions) {
+  std::vector<SpringSpec> springs;
+  for (const YamlNode* node : map.entries("springs", "spring")) {
+    const Context context = entry_context(map.context().reader, "spring", *node);
+    const MapReader inner(context, *node, "spring");
+    SpringSpec spring;
+    spring.name = node->key;
+    spring.where = context.entry;
+    read_ends(inner, spring);
+    if (const YamlNode* law = inner.find("stiffness"))
+      spring.stiffness = read_law(inner, *law, "stiffness", definitions);
+    if (const YamlNode* law = inner.find("damping")) spring.damping = read_law(inner, *law, "damping", definitions);
+    if (inner.has("free")) spring.free = inner.number("free");
+    if (inner.has("lower")) spring.lower = inner.number("lower");
+    if (inner.has("upper")) spring.upper = inner.number("upper");
+    if (spring.lower || spring.upper) spring.stop_stiffness = inner.number("stop_stiffness");
+    spring.stop_damping = inner.number("stop_damping", 0.0);
+    if (const YamlNode* force = inner.find("force")) spring.force = read_function(inner, *force, "force", definitions);
+    springs.push_back(std::move(spring));
+  }
+  return springs;
+}
+
+std::vector<BushingSpec> read_bushings(const MapReader& map) {
+  std::vector<BushingSpec> bushings;
+  for (const YamlNode* node : map.entries("bushings", "bushing")) {
+    const Context context = entry_context(map.context().reader, "bushing", *node);
+    const MapReader inner(context, *node, "bushing");
+    BushingSpec bushing;
+    bushing.name = node->key;
+    bushing.where = context.entry;
+    read_marker_pair(inner, bushing);
+    bushing.stiffness = read_six_by_six(inner, "stiffness");
+    bushing.damping = read_six_by_six(inner, "damping");
+    bushing.free = read_six(inner, "free");
+    bushing.preload = read_six(inner, "preload").value_or(bushing.preload);
+    bushings.push_back(std::move(bushing));
+  }
+  return bushings;
+}
+
+std::vector<LoadSpec> read_loads(const MapReader& map, const SceneDefinitions& definitions) {
+  std::vector<LoadSpec> loads;
+  for (const YamlNode* node : map.entries("loads", "load"))
+    loads.push_back(read_load(entry_context(map.context().reader, "load", *node), *node, definitions));
+  return loads;
+}
+
+}  // namespace tisserand::formats

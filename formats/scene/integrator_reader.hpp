@@ -1,0 +1,12 @@
+// `integrator` of scene.yaml to the struct IntegratorSpec.
+#pragma once
+
+#include "formats/scene/scene.hpp"
+#include "formats/yaml/reader.hpp"
+
+namespace tisserand::formats {
+
+/// Times may be missing where the analysis needs none.
+IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis);
+
+}  // namespace tisserand::formats

@@ -1,0 +1,202 @@
+// `joints` of scene.yaml, and the markers that joints and forces use.
+#include "formats/scene/reader.hpp"
+#include "formats/yaml/geometry.hpp"
+
+namespace tisserand::formats {
+
+MarkerSpec read_marker(const MapReader& map, const std::string& key) {
+  MarkerSpec marker;
+  marker.where = map.context().entry;
+  const YamlNode* node = map.require(key);
+  if (node == nullptr) return marker;
+  const Context context{map.context().reader, fmt::format("{}: {}", map.context().subject, key), map.context().entry};
+  marker.where = context.reader.where(node->place);
+  if (node->kind != YamlKind::map) {
+    marker.node = read_text(map.context(), *node, key);
+    return marker;
+  }
+  const MapReader inner(context, *node, "marker", key + ".");
+  marker.node = inner.text("node");
+  if (const YamlNode* place = inner.find("node")) marker.where = context.reader.where(place->place);
+  marker.position = read_optional_vector(inner, "position");
+  if (const YamlNode* orientation = inner.find("orientation"))
+    marker.orientation = read_orientation(context, *orientation, "orientation");
+  return marker;
+}
+
+void read_marker_pair(const MapReader& map, MarkerPairSpec& pair) {
+  pair.a = read_marker(map, "a");
+  pair.b = read_marker(map, "b");
+  pair.axis = read_optional_vector(map, "axis");
+  pair.x_axis = read_optional_vector(map, "x_axis");
+  pair.position = read_optional_vector(map, "position");
+}
+
+CoordinateRef read_coordinate(const MapReader& map, const YamlNode& node, const std::string& key) {
+  return {read_text(map.context(), node, key), map.context().reader.where(node.place)};
+}
+
+namespace {
+
+/// `hold: [x, y, rz]`: the directions of a generic joint that are held.
+std::array<bool, 6> read_hold(const MapReader& map) {
+  std::array<bool, 6> held{};
+  const YamlNode* node = map.require("hold");
+  if (node == nullptr) return held;
+  if (node->kind != YamlKind::sequence) {
+    map.context().fail(node->place, fmt::format("hold must be a list of directions, not {}", describe(*node)),
+                       "write it as [x, y, rz]");
+    return held;
+  }
+  for (const YamlNode& item : node->children)
+    if (const auto index = read_word(map.context(), item, "direction", {"x", "y", "z", "rx", "ry", "rz"}))
+      held[*index] = true;
+  return held;
+}
+
+constexpr Choice<JointKind> joint_kinds[] = {{"fixed", JointKind::fixed},
+                                             {"revolute", JointKind::revolute},
+                                             {"spherical", JointKind::spherical},
+                                             {"universal", JointKind::universal},
+                                             {"constant_velocity", JointKind::constant_velocity},
+                                             {"cylindrical", JointKind::cylindrical},
+                                             {"screw", JointKind::screw},
+                                             {"prismatic", JointKind::prismatic},
+                                             {"planar", JointKind::planar},
+                                             {"point_on_line", JointKind::point_on_line},
+                                             {"point_on_plane", JointKind::point_on_plane},
+                                             {"distance", JointKind::distance},
+                                             {"constant_orientation", JointKind::constant_orientation},
+                                             {"parallel_axes", JointKind::parallel_axes},
+                                             {"generic", JointKind::generic}};
+
+void refuse_without(const MapReader& map, const char* key, bool used, const char* kind) {
+  if (const YamlNode* node = map.find(key); node != nullptr && !used)
+    map.context().fail(node->key_place, fmt::format("'{}' belongs to joints of type {}", key, kind), "remove it");
+}
+
+FrictionSpec read_friction(const Context& context, const YamlNode& node, JointKind kind) {
+  const MapReader map({context.reader, context.subject + ": friction", context.entry}, node, "friction", "friction.");
+  FrictionSpec friction;
+  friction.coefficient = map.number("coefficient");
+  if (map.has("static_coefficient")) friction.static_coefficient = map.number("static_coefficient");
+  friction.velocity = map.number("velocity");
+  const FrictionKeys keys = friction_keys(kind);
+  const YamlNode* radius = map.find("radius");
+  if (radius && keys.has_friction && !keys.radius)
+    map.context().fail(radius->key_place, fmt::format("'radius' has no effect in a {} joint", joint_word(kind)),
+                       "remove it");
+  if (keys.radius) friction.radius = map.number("radius");
+  if (map.has("arm")) friction.arm = map.number("arm");
+  return friction;
+}
+
+JointSpec read_joint(const Context& context, const YamlNode& node) {
+  const MapReader map(context, node, "joint");
+  JointSpec joint;
+  joint.name = node.key;
+  joint.where = context.entry;
+  map.require("type");
+  joint.kind = map.choice("type", joint_kinds, JointKind::spherical);
+  read_marker_pair(map, joint);
+  if (joint.kind == JointKind::generic) joint.hold = read_hold(map);
+  if (joint.kind == JointKind::screw) joint.pitch = map.number("pitch");
+  if (joint.kind == JointKind::distance && map.has("length")) joint.length = map.number("length");
+  if (const YamlNode* friction = map.find("friction")) joint.friction = read_friction(context, *friction, joint.kind);
+  refuse_without(map, "hold", joint.kind == JointKind::generic, "generic");
+  refuse_without(map, "pitch", joint.kind == JointKind::screw, "screw");
+  refuse_without(map, "length", joint.kind == JointKind::distance, "distance");
+  return joint;
+}
+
+/// `{type: gear, between: [hinge_1, hinge_2], ratio: -2}` or `{type: rack_and_pinion, between: [hinge, slide], radius:
+/// r}`.
+GearSpec read_gear(const Context& context, const YamlNode& node, const std::string& ratio_key) {
+  const MapReader map(context, node, ratio_key == "ratio" ? "gear" : "rack_and_pinion");
+  GearSpec gear;
+  gear.name = node.key;
+  gear.where = context.entry;
+  gear.ratio = map.number(ratio_key);
+  const YamlNode* between = map.require("between");
+  if (between == nullptr) return gear;
+  if (between->kind != YamlKind::sequence || between->children.size() != 2) {
+    context.fail(between->place, fmt::format("between must name two joint coordinates, not {}", describe(*between)),
+                 "write it as [hinge_1, hinge_2]");
+    return gear;
+  }
+  gear.first = read_coordinate(map, between->children[0], "between[0]");
+  gear.second = read_coordinate(map, between->children[1], "between[1]");
+  return gear;
+}
+
+/// The word after `type`, or nothing.
+std::string type_of(const YamlNode& joint) {
+  for (const YamlNode& child : joint.children)
+    if (child.key == "type" && child.kind == YamlKind::scalar) return child.text;
+  return {};
+}
+
+}  // namespace
+
+FrictionKeys friction_keys(JointKind kind) {
+  switch (kind) {
+    case JointKind::spherical:
+      return {true, true, false};
+    case JointKind::revolute:
+    case JointKind::universal:
+    case JointKind::constant_velocity:
+    case JointKind::cylindrical:
+    case JointKind::screw:
+    case JointKind::planar:
+      return {true, true, true};
+    case JointKind::prismatic:
+      return {true, false, true};
+    case JointKind::point_on_line:
+    case JointKind::point_on_plane:
+      return {true, false, false};
+    default:
+      return {};
+  }
+}
+
+std::string joint_word(JointKind kind) {
+  for (const Choice<JointKind>& choice : joint_kinds)
+    if (choice.value == kind) return std::string(choice.word);
+  return {};
+}
+
+bool needs_axis(JointKind kind) {
+  switch (kind) {
+    case JointKind::revolute:
+    case JointKind::universal:
+    case JointKind::constant_velocity:
+    case JointKind::cylindrical:
+    case JointKind::screw:
+    case JointKind::prismatic:
+    case JointKind::planar:
+    case JointKind::point_on_line:
+    case JointKind::point_on_plane:
+    case JointKind::parallel_axes:
+      return true;
+    case JointKind::fixed:
+    case JointKind::spherical:
+    case JointKind::distance:
+    case JointKind::constant_orientation:
+    case JointKind::generic:
+      return false;
+  }
+  return false;
+}
+
+void read_joints(const MapReader& map, Scene& scene) {
+  for (const YamlNode* node : map.entries("joints", "joint")) {
+    const Context context = entry_context(map.context().reader, "joint", *node);
+    const std::string type = type_of(*node);
+    if (type == "gear" || type == "rack_and_pinion")
+      scene.gears.push_back(read_gear(context, *node, type == "gear" ? "ratio" : "radius"));
+    else
+      scene.joints.push_back(read_joint(context, *node));
+  }
+}
+
+}  // namespace tisserand::formats

@@ -1,0 +1,42 @@
+// Parts of reading scene.yaml: what stands below its keys (`bodies`, `joints`, ..., `analyses`).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/scene/scene.hpp"
+#include "formats/yaml/reader.hpp"
+
+namespace tisserand::formats {
+
+/// What bodies may refer to.
+struct SceneDefinitions {
+  std::string folder;  ///< of the scene file: paths are relative to it
+  Units units;
+  std::vector<Material> materials;
+  std::vector<Section> sections;
+};
+
+/// "ground", "body", "body/node", or {node: .., position: .., orientation: ..}.
+MarkerSpec read_marker(const MapReader& map, const std::string& key);
+/// a, b, position, axis, x_axis.
+void read_marker_pair(const MapReader& map, MarkerPairSpec& pair);
+CoordinateRef read_coordinate(const MapReader& map, const YamlNode& node, const std::string& key);
+
+std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& definitions);
+/// `joints`: joints, and gears and racks between their coordinates.
+void read_joints(const MapReader& map, Scene& scene);
+std::vector<InputSpec> read_inputs(const MapReader& map, const SceneDefinitions& definitions);
+std::vector<ChannelSpec> read_channels(const MapReader& map);
+std::vector<MotionSpec> read_motions(const MapReader& map, const SceneDefinitions& definitions);
+std::vector<SpringSpec> read_springs(const MapReader& map, const SceneDefinitions& definitions);
+std::vector<BushingSpec> read_bushings(const MapReader& map);
+std::vector<LoadSpec> read_loads(const MapReader& map, const SceneDefinitions& definitions);
+/// `analysis` and its groups, or `analyses`.
+void read_analyses(const MapReader& map, Scene& scene);
+/// The groups of settings below `map`, which belong to `entry`: the scene, or one analysis of the given kind. `start`:
+/// of the integrator, if it gives none.
+void read_groups(const MapReader& map, const Context& entry, std::optional<double> start, Analysis& analysis);
+
+}  // namespace tisserand::formats

@@ -1,0 +1,227 @@
+// scene.yaml: bodies, joints, loads, analysis and output of a mechanism (formats/SCENE.md).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "common/units.hpp"
+#include "formats/scene/analysis.hpp"
+#include "formats/scene/body_spec.hpp"
+#include "formats/sections/section.hpp"
+#include "formats/tables/time_table.hpp"
+#include "formats/yaml/override.hpp"
+
+namespace tisserand::formats {
+
+enum class JointKind {
+  fixed,
+  revolute,
+  spherical,
+  universal,
+  constant_velocity,
+  cylindrical,
+  screw,
+  prismatic,
+  planar,
+  point_on_line,
+  point_on_plane,
+  distance,
+  constant_orientation,
+  parallel_axes,
+  generic
+};
+
+/// The word of a kind in scene.yaml.
+std::string joint_word(JointKind kind);
+
+/// Whether the direction of the z axis matters to a joint of this kind, so that the scene must give it.
+bool needs_axis(JointKind kind);
+
+/// A place on a body: "ground", "<body>" (rigid), "<body>/<node>"; position and orientation in the node's axes.
+struct MarkerSpec {
+  std::string node;
+  std::optional<Eigen::Vector3d> position;  ///< absent: the node itself (ground: from the joint)
+  std::optional<Eigen::Quaterniond> orientation;
+  std::string where;
+};
+
+/// Two markers, and where both are placed at the start where they leave it open, world frame.
+struct MarkerPairSpec {
+  MarkerSpec a;
+  MarkerSpec b;
+  std::optional<Eigen::Vector3d> position;  ///< absent: at marker b, or a if b is ground
+  std::optional<Eigen::Vector3d> axis;      ///< z of both markers
+  std::optional<Eigen::Vector3d> x_axis;    ///< its part across `axis` is x of both markers; absent: any
+};
+
+/// What friction in a joint of some kind needs and may have. Kinds without a contact surface have no friction.
+struct FrictionKeys {
+  bool has_friction = false;
+  bool radius = false;  ///< of the contact, for parts of the slip that are turns
+  bool arm = false;     ///< the joint takes moments that press its surfaces together
+};
+FrictionKeys friction_keys(JointKind kind);
+
+/// Coulomb friction of a joint (mechanism/joints/friction.hpp).
+struct FrictionSpec {
+  double coefficient = 0.0;
+  std::optional<double> static_coefficient;  ///< absent: the same
+  double velocity = 0.0;                     ///< below it the joint sticks [length/time]
+  double radius = 0.0;                       ///< of the contact; 0 where the slip has no turn
+  std::optional<double> arm;                 ///< distance of the supports that take moments; absent: they do not count
+};
+
+struct JointSpec : MarkerPairSpec {
+  std::string name;
+  JointKind kind = JointKind::spherical;
+  std::array<bool, 6> hold{};    ///< generic: x y z rx ry rz of A that are held
+  double pitch = 0.0;            ///< screw: advance per turn [length]
+  std::optional<double> length;  ///< distance: absent: that at the start
+  std::optional<FrictionSpec> friction;
+  std::string where;
+};
+
+/// A coordinate of a joint: "hinge", or "slide/z" if the joint has several.
+struct CoordinateRef {
+  std::string name;
+  std::string where;
+};
+
+/// Gear or rack and pinion: change of `second` = ratio × change of `first` since the start.
+struct GearSpec {
+  std::string name;
+  CoordinateRef first;
+  CoordinateRef second;
+  double ratio = 1.0;  ///< rack and pinion: the radius (length per radian)
+  std::string where;
+};
+
+/// Function of time: a number, a table (linear between points, constant outside) or an expression in t.
+struct TimeExpression {
+  std::string text;
+  std::vector<double> breakpoints;  ///< steps end here
+  std::string where;
+};
+using TimeFunctionSpec = std::variant<double, TimeTable, TimeExpression>;
+
+enum class LoadKind { force, moment };
+enum class LoadAxes { world, body };
+
+struct LoadSpec {
+  std::string name;
+  LoadKind kind = LoadKind::force;
+  MarkerSpec at;
+  LoadAxes axes = LoadAxes::world;  ///< body: follows the node
+  std::array<TimeFunctionSpec, 3> components;
+  std::string where;
+};
+
+/// A coordinate that follows a function of time.
+struct MotionSpec {
+  std::string name;
+  CoordinateRef coordinate;
+  TimeFunctionSpec value = 0.0;
+  std::string where;
+};
+
+/// A law between two quantities: proportional, or a table y(x) with ascending x.
+enum class Interpolation { linear, cubic };
+struct CurveSpec {
+  Interpolation interpolation = Interpolation::linear;
+  std::vector<double> x;
+  std::vector<double> y;
+};
+using LawSpec = std::variant<double, CurveSpec>;
+
+/// line: along a coordinate of a joint, or along the distance of two markers; torsion: along the angle of two markers
+/// about their z axes. Q = −f(q − free) − d(q̇) + stops + force.
+enum class SpringKind { line, torsion };
+struct SpringSpec : MarkerPairSpec {
+  std::string name;
+  SpringKind kind = SpringKind::line;
+  std::optional<CoordinateRef> coordinate;  ///< instead of the markers
+  LawSpec stiffness = 0.0;                  ///< f: k, or a table of force over deflection
+  LawSpec damping = 0.0;                    ///< d: c, or a table of force over rate
+  std::optional<double> free;               ///< value without force; absent: that at the start
+  std::optional<double> lower, upper;
+  double stop_stiffness = 0.0;
+  double stop_damping = 0.0;
+  std::optional<TimeFunctionSpec> force;  ///< positive along the positive coordinate
+  std::string where;
+};
+
+/// Linear elastic and damped connection of two markers in all six directions (a field if the matrices are full).
+struct BushingSpec : MarkerPairSpec {
+  std::string name;
+  Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 6> damping = Eigen::Matrix<double, 6, 6>::Zero();
+  std::optional<Eigen::Matrix<double, 6, 1>> free;  ///< deflection without force; absent: that at the start
+  Eigen::Matrix<double, 6, 1> preload = Eigen::Matrix<double, 6, 1>::Zero();  ///< on b at the deflection `free`
+  std::string where;
+};
+
+/// A quantity of the mechanism that expressions may use by its name.
+enum class ChannelKind { coordinate, rate, position, velocity, distance };
+struct ChannelSpec {
+  std::string name;
+  ChannelKind kind = ChannelKind::coordinate;
+  CoordinateRef coordinate;  ///< of coordinate and rate
+  MarkerSpec a;              ///< of position and velocity; of distance with b
+  MarkerSpec b;
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();   ///< of position and velocity: unit vector, world axes
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< from which positions count, world frame
+  std::string where;
+};
+
+/// A history from a file that expressions may use by its name; constant outside.
+struct InputSpec {
+  std::string name;
+  TimeTable table;
+  Interpolation interpolation = Interpolation::linear;
+  std::string where;
+};
+
+struct Scene {
+  std::string name;
+  std::string file;
+  Units units = Units::si();
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  std::vector<BodySpec> bodies;
+  std::vector<JointSpec> joints;
+  std::vector<GearSpec> gears;
+  std::vector<InputSpec> inputs;
+  std::vector<ChannelSpec> channels;
+  std::vector<MotionSpec> motions;
+  std::vector<SpringSpec> springs;
+  std::vector<BushingSpec> bushings;
+  std::vector<LoadSpec> loads;
+  VirtualBodies virtual_bodies = VirtualBodies::eliminate;
+  AnalysisKind analysis = AnalysisKind::dynamics;
+  IntegratorSpec integrator;
+  StaticsSpec statics;
+  ModesSpec modes;
+  OutputSpec output;
+  CheckpointSpec checkpoint;
+  std::vector<Analysis> analyses;  ///< by name, in the order of the file; empty: `analysis` alone
+  double initial_tolerance =
+      1e-6;  ///< largest correction of initial positions (times characteristic length) and velocities
+};
+
+/// Reads scene.yaml with the overrides applied, then checks. Paths in it are relative to its folder. Throws all errors
+/// together, each with file:line:column or the text of the override.
+Scene read_scene(const std::string& path, const std::vector<Override>& overrides);
+
+/// The scene with the kind and the settings of one of its analyses.
+Scene scene_of(const Scene& scene, const Analysis& analysis);
+
+/// Names, references, signs and ranges (SCENE.md), without opening superelement files. Throws all findings together.
+void check(const Scene& scene);
+
+}  // namespace tisserand::formats

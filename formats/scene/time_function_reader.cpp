@@ -1,0 +1,154 @@
+// Numbers, expressions and tables.
+#include "formats/scene/time_function_reader.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+#include "formats/tables/csv_table.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+TimeTable read_table(const Context& context, const YamlNode& node) {
+  TimeTable table;
+  if (node.kind != YamlKind::sequence) {
+    context.fail(node.place, fmt::format("table must be a list of pairs, not {}", describe(node)),
+                 "write it as [[0, 0], [0.2, 200]]");
+    return table;
+  }
+  for (std::size_t i = 0; i < node.children.size(); ++i) {
+    const std::vector<double> pair = read_numbers(context, node.children[i], fmt::format("table[{}]", i));
+    if (pair.size() == 2) {
+      table.time.push_back(pair[0]);
+      table.value.push_back(pair[1]);
+    } else if (node.children[i].kind == YamlKind::sequence) {
+      context.fail(node.children[i].place, fmt::format("table[{}] has {} numbers instead of 2", i, pair.size()),
+                   "write [time, value]");
+    }
+  }
+  return table;
+}
+
+TimeTable read_file(const Context& context, const YamlNode& node, const std::string& folder) {
+  const std::string name = read_text(context, node, "file");
+  if (name.empty()) return {};
+  try {
+    return read_csv_table((std::filesystem::path(folder) / name).string());
+  } catch (const Error& error) {
+    context.fail(node.place, error.what(), "");
+    return {};
+  }
+}
+
+TimeFunctionSpec read_map(const MapReader& map, const std::string& folder) {
+  const int forms = (map.has("table") ? 1 : 0) + (map.has("file") ? 1 : 0) + (map.has("expression") ? 1 : 0);
+  if (forms != 1) map.fail(fmt::format("{} of table, file, expression are given", forms), "give one of them");
+  if (const YamlNode* table = map.find("table")) return read_table(map.context(), *table);
+  if (const YamlNode* file = map.find("file")) return read_file(map.context(), *file, folder);
+  TimeExpression expression;
+  if (const YamlNode* text = map.find("expression")) {
+    expression.text = read_text(map.context(), *text, "expression");
+    expression.where = map.context().reader.where(text->place);
+  }
+  if (const YamlNode* points = map.find("breakpoints"))
+    expression.breakpoints = read_numbers(map.context(), *points, "breakpoints");
+  return expression;
+}
+
+void check_times(const std::vector<double>& times, const std::string& noun, const std::string& subject,
+                 const std::string& where, const std::string& key, Faults& faults) {
+  for (std::size_t i = 0; i < times.size(); ++i)
+    if (!std::isfinite(times[i])) {
+      faults.add(where, key, fmt::format("{}: {} must have finite times", subject, noun), "");
+      return;
+    }
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (times[i] > times[i - 1]) continue;
+    faults.add(
+        where, key,
+        fmt::format("{}: times of the {} must increase, but {:g} follows {:g}", subject, noun, times[i], times[i - 1]),
+        times[i] == times[i - 1] ? "for a jump, use two close times" : "");
+    return;
+  }
+}
+
+}  // namespace
+
+TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node, const std::string& what,
+                                    const std::string& folder) {
+  if (node.kind == YamlKind::map) {
+    const Context inner{context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
+    return read_map(MapReader(inner, node, "time_function", what + "."), folder);
+  }
+  if (node.kind == YamlKind::scalar && !looks_like_number(node))
+    return TimeExpression{node.text, {}, context.reader.where(node.place)};
+  return read_number(context, node, what);
+}
+
+void check_time_function(const TimeFunctionSpec& function, const std::string& subject, const std::string& where,
+                         const std::string& key, Faults& faults) {
+  if (const double* constant = std::get_if<double>(&function)) {
+    if (!std::isfinite(*constant)) faults.add(where, key, fmt::format("{}: {} must be finite", subject, key), "");
+  } else if (const TimeTable* table = std::get_if<TimeTable>(&function)) {
+    if (table->time.empty() || table->time.size() != table->value.size()) {
+      faults.add(
+          where, key,
+          fmt::format("{}: the table has {} times and {} values", subject, table->time.size(), table->value.size()),
+          "");
+      return;
+    }
+    check_times(table->time, "table", subject, where, key, faults);
+    for (const double value : table->value)
+      if (!std::isfinite(value))
+        faults.add(where, key, fmt::format("{}: values of the table must be finite", subject), "");
+  } else if (const TimeExpression* expression = std::get_if<TimeExpression>(&function)) {
+    if (expression->text.find_first_not_of(" \t\n") == std::string::npos)
+      faults.add(where, key, fmt::format("{}: {} is an empty expression", subject, key),
+                 "write an expression in t, or 0");
+    check_times(expression->breakpoints, "breakpoints", subject, where, key, faults);
+  }
+}
+
+CurveSpec read_curve(const Context& context, const YamlNode& node, const std::string& what, const std::string& folder) {
+  const Context inner{context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
+  const MapReader map(inner, node, "curve", what + ".");
+  CurveSpec curve;
+  curve.interpolation = map.choice(
+      "interpolation", {Choice<Interpolation>{"linear", Interpolation::linear}, {"cubic", Interpolation::cubic}},
+      curve.interpolation);
+  if (map.has("table") == map.has("file"))
+    map.fail("a curve needs either 'table' or 'file'", "write table: [[-1, -5], [0, 0], [1, 5]]");
+  TimeTable points;
+  if (const YamlNode* table = map.find("table"))
+    points = read_table(inner, *table);
+  else if (const YamlNode* file = map.find("file"))
+    points = read_file(inner, *file, folder);
+  curve.x = std::move(points.time);
+  curve.y = std::move(points.value);
+  return curve;
+}
+
+void check_curve(const CurveSpec& curve, const std::string& subject, const std::string& where, const std::string& key,
+                 Faults& faults) {
+  if (curve.x.size() < 2 || curve.x.size() != curve.y.size()) {
+    faults.add(where, key, fmt::format("{}: the table of {} has {} points", subject, key, curve.x.size()),
+               "give at least two");
+    return;
+  }
+  for (std::size_t i = 0; i < curve.x.size(); ++i)
+    if (!std::isfinite(curve.x[i]) || !std::isfinite(curve.y[i])) {
+      faults.add(where, key, fmt::format("{}: the table of {} must be finite", subject, key), "");
+      return;
+    }
+  for (std::size_t i = 1; i < curve.x.size(); ++i)
+    if (!(curve.x[i] > curve.x[i - 1])) {
+      faults.add(where, key,
+                 fmt::format("{}: the first column of the table of {} must increase, but {:g} follows {:g}", subject,
+                             key, curve.x[i], curve.x[i - 1]),
+                 "");
+      return;
+    }
+}
+
+}  // namespace tisserand::formats

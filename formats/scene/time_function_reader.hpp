@@ -1,0 +1,27 @@
+// The components of a load as functions of time, and laws of springs as tables.
+#pragma once
+
+#include <string>
+
+#include "formats/scene/scene.hpp"
+#include "formats/yaml/reader.hpp"
+
+namespace tisserand::formats {
+
+/// A number, a text (expression in t), {expression: .., breakpoints: [..]}, {table: [[t, value], ..]} or {file:
+/// table.csv} (relative to `folder`).
+TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node, const std::string& what,
+                                    const std::string& folder);
+
+/// Times of a table and breakpoints increase; values are finite; the expression has a text.
+void check_time_function(const TimeFunctionSpec& function, const std::string& subject, const std::string& where,
+                         const std::string& key, Faults& faults);
+
+/// {table: [[x, y], ..], interpolation: linear | cubic} or {file: table.csv, ..} (relative to `folder`).
+CurveSpec read_curve(const Context& context, const YamlNode& node, const std::string& what, const std::string& folder);
+
+/// At least two points, x increases, values are finite.
+void check_curve(const CurveSpec& curve, const std::string& subject, const std::string& where, const std::string& key,
+                 Faults& faults);
+
+}  // namespace tisserand::formats

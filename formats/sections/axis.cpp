@@ -1,0 +1,28 @@
+// The words of off_axis_text().
+#include "formats/sections/axis.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tisserand::formats {
+
+std::optional<std::string> off_axis_text(const Section& section) {
+  constexpr double tolerance = 1e-9;
+  const double Iyz = section.second_moment_yz;
+  if (std::abs(Iyz) > tolerance * std::sqrt(std::abs(section.second_moment_y * section.second_moment_z)))
+    return fmt::format("its axes are not principal axes (Iyz = {:g})", Iyz);
+  const double radius = tolerance * std::sqrt(std::abs(section.area));
+  if (std::hypot(section.centroid_y, section.centroid_z) > radius)
+    return fmt::format("its centroid lies at [{:g}, {:g}], beside the axis of the beam", section.centroid_y,
+                       section.centroid_z);
+  if (std::hypot(section.shear_center_y, section.shear_center_z) > radius)
+    return fmt::format("its shear centre lies at [{:g}, {:g}] from its centroid", section.shear_center_y,
+                       section.shear_center_z);
+  if (std::abs(section.shear_coupling) * section.area > tolerance)
+    return fmt::format("its shear along y and z is coupled (c = {:g})", section.shear_coupling);
+  if (section.shape == "rod") return "it is a rod, which does not resist bending";
+  return std::nullopt;
+}
+
+}  // namespace tisserand::formats

@@ -1,0 +1,28 @@
+// Torsion and shear of a section by Saint-Venant's theory: boundary integral equations on the polygon's sides.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "formats/sections/polygon.hpp"
+
+namespace tisserand::formats {
+
+/// With Poisson's ratio 0 (a section does not know its material): then the stresses of shear are a gradient, energy and
+/// Cowper's shear coefficients agree, and the shear centre of Saint-Venant is that of Trefftz.
+struct SaintVenant {
+  double torsion_constant = 0.0;                               ///< J
+  Eigen::Vector2d shear_center = Eigen::Vector2d::Zero();      ///< from the centroid
+  Eigen::Matrix2d shear_compliance = Eigen::Matrix2d::Zero();  ///< C: G γ = C Q, Q = (Qy, Qz) [1/area]
+};
+
+/// Neumann problems of Laplace's equation about the centroid ([Pil02] chapters 5 and 6 pose them, for finite elements):
+///   torsion  ∇²ω = 0, ∂ω/∂n = z n_y − y n_z;  J = Iy + Iz − ∮ω ∂ω/∂n ds;
+///   shear    ∇²ψ_y = −y, ∇²ψ_z = −z, ∂ψ/∂n = 0;  C = Q⁻¹ [∫ψ_i x_j dA] Q⁻¹, Q = [Iz Iyz; Iyz Iy];
+///   centre   ∫(ω − z_s y + y_s z) y dA = 0, the same with z (Trefftz).
+/// With ψ = h + particular polynomial all unknowns are harmonic and every integral over the area becomes one over the
+/// sides. They are solved by collocation of Green's formula ½u + ∫∂G/∂n u ds = ∫G ∂u/∂n ds with cubic polynomials
+/// between four Gauss points per panel, whose integrals are closed; panels shrink towards corners. Relative error about
+/// 1e-5, also of J of walls as thin as 1/1000 of their length; spikes are beyond it (is_resolved()). Cost: 2 to 50 ms.
+SaintVenant saint_venant(const SectionPolygon& polygon);
+
+}  // namespace tisserand::formats

@@ -1,0 +1,31 @@
+// Materials and beam sections of part.yaml and scene.yaml.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/units.hpp"
+#include "formats/sections/section.hpp"
+#include "formats/yaml/reader.hpp"
+
+namespace tisserand::formats {
+
+/// The key sets "material", "section_constants", "section_circle", "section_hollow_circle", "section_rectangle" and
+/// "section_hollow_rectangle".
+std::vector<KeySet> section_key_sets();
+
+/// `context` names the entry; `prefix` precedes the keys in findings when the map stands inside another entry.
+Material read_material(const Context& context, const YamlNode& node, const std::string& prefix);
+
+/// By constants or by `shape`. Sizes that contradict each other are errors here, since a Section no longer knows them.
+Section read_section(const Context& context, const YamlNode& node, const Units& units, const std::string& prefix);
+
+/// The top-level maps `materials` and `sections`.
+std::vector<Material> read_materials(const MapReader& map);
+std::vector<Section> read_sections(const MapReader& map, const Units& units);
+
+/// Positive finite constants, -1 < nu < 0.5, Iy + Iz = polar moment, shear areas both or none.
+void check_material(const Material& material, const std::string& subject, const std::string& prefix, Faults& faults);
+void check_section(const Section& section, const std::string& subject, const std::string& prefix, Faults& faults);
+
+}  // namespace tisserand::formats

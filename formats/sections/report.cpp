@@ -1,0 +1,58 @@
+// Words and numbers of section_report().
+#include "formats/sections/report.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tisserand::formats {
+
+namespace {
+
+std::string line(const std::string& words, const std::string& symbol, double value, const std::string& unit) {
+  const std::string end = unit.empty() ? "" : " " + unit;
+  return fmt::format("  {:<34} {:<6} {:>13.6g}{}\n", words, symbol, value + 0.0, end);  // + 0.0: no minus zero
+}
+
+std::string one_section(const Section& s, const Units& units) {
+  const auto unit = [&units](int power) { return unit_label(units, power, 0, 0); };
+  std::string text = fmt::format("section '{}'{}\n", s.name, s.shape.empty() ? "" : " (" + s.shape + ")");
+  text += line("area", "A", s.area, unit(2));
+  text += line("torsion constant", "J", s.torsion_constant, unit(4));
+  if (s.shape == "rod") return text;
+  const PrincipalMoments principal = principal_moments(s);
+  text += line("second moment, bends in x-z", "Iy", s.second_moment_y, unit(4));
+  text += line("second moment, bends in x-y", "Iz", s.second_moment_z, unit(4));
+  text += line("product of area", "Iyz", s.second_moment_yz, unit(4));
+  text += line("larger principal second moment", "I1", principal.larger, unit(4));
+  text += line("smaller principal second moment", "I2", principal.smaller, unit(4));
+  text += line("angle from y to the axis of I1", "", principal.angle * 180.0 / M_PI, "deg");
+  text += line("shear area along y, nu = 0", "A_sy", s.shear_area_y, unit(2));
+  text += line("shear area along z, nu = 0", "A_sz", s.shear_area_z, unit(2));
+  if (s.shear_coupling != 0.0) text += line("coupling of both, times A", "c A", s.shear_coupling * s.area, "");
+  text += line("centroid from the axis of the beam", "y", s.centroid_y, unit(1));
+  text += line("", "z", s.centroid_z, unit(1));
+  text += line("shear centre from the centroid", "y", s.shear_center_y, unit(1));
+  text += line("", "z", s.shear_center_z, unit(1));
+  if (s.warping_constant > 0.0) text += line("warping constant (not used)", "Cw", s.warping_constant, unit(6));
+  return text;
+}
+
+}  // namespace
+
+PrincipalMoments principal_moments(const Section& section) {
+  const double mean = 0.5 * (section.second_moment_y + section.second_moment_z);
+  const double half = 0.5 * (section.second_moment_y - section.second_moment_z);
+  const double radius = std::hypot(half, section.second_moment_yz);
+  // I(φ) = Iy cos²φ + Iz sin²φ − 2 Iyz sin φ cos φ about the axis turned by φ from y.
+  const double angle = radius > 0.0 ? 0.5 * std::atan2(-section.second_moment_yz, half) : 0.0;
+  return {mean + radius, mean - radius, angle};
+}
+
+std::string section_report(const std::vector<Section>& sections, const Units& units) {
+  std::string text;
+  for (const Section& section : sections) text += (text.empty() ? "" : "\n") + one_section(section, units);
+  return text;
+}
+
+}  // namespace tisserand::formats

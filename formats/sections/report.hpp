@@ -1,0 +1,24 @@
+// The constants of sections as a table to read: what `reducer section part.yaml` prints.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/units.hpp"
+#include "formats/sections/section.hpp"
+
+namespace tisserand::formats {
+
+/// Principal second moments I1 >= I2 about the centroid, and the angle in radians, in (−π/2, π/2], from y to the axis
+/// about which I1 is measured.
+struct PrincipalMoments {
+  double larger = 0.0;
+  double smaller = 0.0;
+  double angle = 0.0;
+};
+PrincipalMoments principal_moments(const Section& section);
+
+/// One block of lines per section: name, shape and sizes, then every constant with its unit, six digits.
+std::string section_report(const std::vector<Section>& sections, const Units& units);
+
+}  // namespace tisserand::formats

@@ -1,0 +1,92 @@
+// Congruence to the canonical form and the cut of modes without splitting double frequencies.
+#include "formats/superelement/canonical.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "common/error.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+/// S_II scaled to a unit diagonal must have no eigenvalue below this: the congruence divides by it.
+constexpr double kSmallestScaledEigenvalue = 1e-12;
+/// Eigenvalues of M_II relative to S_II below this fraction of the largest one are massless directions.
+constexpr double kMassless = 1e-14;
+
+void check_internal_stiffness(const Eigen::MatrixXd& S_II, const std::string& where) {
+  for (Eigen::Index i = 0; i < S_II.rows(); ++i)
+    if (!(S_II(i, i) > 0.0))
+      throw Error(fmt::format("stiffness of internal coordinate {} is {:g}, not positive", i + 1, S_II(i, i)), where,
+                  "internal coordinates must not move without strain; write the file with fixed-boundary modes");
+  const Eigen::VectorXd scale = S_II.diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd scaled = scale.asDiagonal() * S_II * scale.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+  const double smallest = solver.eigenvalues()[0];
+  if (smallest > kSmallestScaledEigenvalue) return;
+  Eigen::Index row = 0;
+  solver.eigenvectors().col(0).cwiseAbs().maxCoeff(&row);
+  throw Error(
+      fmt::format("internal stiffness S_II is {} (smallest eigenvalue {:.3g} of the scaled matrix, mostly internal "
+                  "coordinate {})",
+                  smallest < -kSmallestScaledEigenvalue ? "indefinite" : "singular", smallest, row + 1),
+      where, "remove the dependent or rigid internal coordinates from the file");
+}
+
+}  // namespace
+
+CanonicalMatrices canonical_form(const PartitionedMatrices& matrices, const std::string& where) {
+  const Eigen::Index nb = matrices.boundary_size, m = matrices.stiffness.rows() - nb;
+  const Eigen::MatrixXd S = 0.5 * (matrices.stiffness + matrices.stiffness.transpose());
+  const Eigen::MatrixXd M = 0.5 * (matrices.mass + matrices.mass.transpose());
+  CanonicalMatrices out;
+  if (m == 0) {
+    out.S_BB = S;
+    out.M_BB = M;
+    out.M_BI.resize(nb, 0);
+    out.S_II.resize(0);
+    out.static_part.resize(0, nb);
+    out.modal_part.resize(0, 0);
+    return out;
+  }
+  const Eigen::MatrixXd S_II = S.bottomRightCorner(m, m), M_II = M.bottomRightCorner(m, m);
+  check_internal_stiffness(S_II, where);
+  // M_II q = μ S_II q with S_II = L Lᵀ; ω² = 1/μ, so that massless directions are μ = 0 and do no harm.
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(S_II);
+  Eigen::MatrixXd B = cholesky.matrixL().solve(M_II);
+  B = cholesky.matrixL().solve(B.transpose()).eval();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (B + B.transpose()));
+  const Eigen::VectorXd mu = solver.eigenvalues().reverse();
+  const double largest = std::max(mu[0], 0.0);
+  if (mu[m - 1] < -1e-9 * largest || largest <= 0.0)
+    throw Error(fmt::format("internal mass M_II has the eigenvalue {:.3g} (relative to S_II)", mu[m - 1]), where,
+                "the mass matrix must be positive semidefinite");
+  Eigen::Index kept = 0;
+  while (kept < m && mu[kept] > kMassless * largest) ++kept;
+  out.massless = m - kept;
+  const Eigen::MatrixXd vectors = solver.eigenvectors().rowwise().reverse().leftCols(kept);
+  Eigen::MatrixXd Q = cholesky.matrixU().solve(vectors);
+  Q = Q * mu.head(kept).cwiseSqrt().cwiseInverse().asDiagonal();
+  out.modal_part = Q;
+  out.static_part = -cholesky.solve(S.bottomLeftCorner(m, nb));
+  const Eigen::MatrixXd& C = out.static_part;
+  const Eigen::MatrixXd M_IB = M.bottomLeftCorner(m, nb);
+  out.S_BB = S.topLeftCorner(nb, nb) + S.topRightCorner(nb, m) * C;
+  out.S_BB = (0.5 * (out.S_BB + out.S_BB.transpose())).eval();
+  const Eigen::MatrixXd MC = M_IB + M_II * C;
+  out.M_BB = M.topLeftCorner(nb, nb) + C.transpose() * MC + M_IB.transpose() * C;
+  out.M_BB = (0.5 * (out.M_BB + out.M_BB.transpose())).eval();
+  out.M_BI = MC.transpose() * Q;
+  out.S_II = mu.head(kept).cwiseInverse();
+  return out;
+}
+
+Eigen::Index complete_cluster(const Eigen::VectorXd& eigenvalue, Eigen::Index wanted) {
+  Eigen::Index kept = wanted;
+  while (kept > 0 && kept < eigenvalue.size() && eigenvalue[kept] - eigenvalue[kept - 1] < 1e-6 * eigenvalue[kept])
+    ++kept;
+  return kept;
+}
+
+}  // namespace tisserand::formats

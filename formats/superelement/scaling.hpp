@@ -1,0 +1,39 @@
+// Scales in which the entries of S̄ and M̄ can be compared with one another: shared by the checks of superelements.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "formats/superelement/superelement.hpp"
+
+namespace tisserand::formats {
+
+inline constexpr double rigid_residual_accepted = 1e-9;  ///< as it is
+inline constexpr double rigid_residual_filtered = 1e-4;  ///< removed by projection; above: Error
+inline constexpr Eigen::Index max_coordinates = 10000;   ///< n; bounds the memory that a file can ask for
+
+/// Largest distance of a node from the mean of the nodes; 1 if that is 0.
+double characteristic_length(const Superelement& element);
+
+/// Diagonal congruences D S̄ D / s and D M̄ D / m that make entries comparable in any consistent units: translations 1,
+/// rotations 1/l, internal coordinates such that their diagonal equals that of the largest boundary entry.
+struct ScaledMatrices {
+  double length = 1.0;  ///< l
+  double stiffness_scale =
+      1.0;  ///< s: max |D S̄ D| over boundary rows, or m ω² of the softest internal coordinate if larger
+  double mass_scale = 1.0;        ///< m: max |D M̄ D| over boundary rows
+  Eigen::VectorXd stiffness_row;  ///< D of S̄, n
+  Eigen::VectorXd mass_row;       ///< D of M̄, n
+};
+
+/// Requires finite values and diagonals ≥ 0.
+ScaledMatrices scale(const Superelement& element);
+
+/// Rigid motions about the mean of the nodes in scaled coordinates, D⁻¹ R diag(1, 1, 1, l⁻¹, l⁻¹, l⁻¹): n x 6.
+Eigen::MatrixXd scaled_rigid_motions(const Superelement& element, const Eigen::VectorXd& row_scale, double length);
+
+/// "row 7 (node 'tip', rotation y)" or "row 12 (internal coordinate 0)".
+std::string row_text(const Superelement& element, Eigen::Index row);
+
+}  // namespace tisserand::formats

@@ -1,0 +1,86 @@
+// Geometry of lines, and inertia tensors that a real body can have.
+#include "formats/yaml/line_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+namespace tisserand::formats {
+
+namespace {
+
+constexpr double smallest_angle = 1e-8;  ///< directions closer than this [rad] are parallel in double precision
+
+std::string text_of(const Eigen::Vector3d& v) { return fmt::format("({:g}, {:g}, {:g})", v.x(), v.y(), v.z()); }
+
+bool parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a.stableNormalized().cross(b.stableNormalized()).norm() <= smallest_angle;
+}
+
+}  // namespace
+
+void check_line(const LineToCheck& line, Faults& faults) {
+  const Eigen::Vector3d chord = line.to - line.from;
+  if (!chord.allFinite()) return;
+  const double scale = std::max(line.from.cwiseAbs().maxCoeff(), line.to.cwiseAbs().maxCoeff());
+  if (chord.stableNorm() <= 1e-12 * scale) {
+    faults.add(line.where, "",
+               fmt::format("{}: has zero length: both ends are at {}", line.subject, text_of(line.from)),
+               "move one end");
+    return;
+  }
+  if (line.through && line.through->allFinite() &&
+      (parallel(*line.through - line.from, chord) || parallel(*line.through - line.to, chord)))
+    faults.add(line.where, "through",
+               fmt::format("{}: the point {} of the arc lies on the line through its ends", line.subject,
+                           text_of(*line.through)),
+               "move it off the line, or remove 'through' for a straight beam");
+  if (!line.orientation || !line.orientation->allFinite()) return;
+  if (line.orientation->stableNorm() == 0.0) {
+    faults.add(line.where, "orientation", fmt::format("{}: orientation has zero length", line.subject),
+               "give the direction of the local y axis");
+  } else if (!line.through && parallel(*line.orientation, chord)) {
+    faults.add(line.where, "orientation",
+               fmt::format("{}: orientation {} is parallel to the beam", line.subject, text_of(*line.orientation)),
+               "give a direction across the beam: the local y axis");
+  }
+}
+
+void check_mass(const MassToCheck& body, MassSign sign, Faults& faults) {
+  const bool zero_allowed = sign == MassSign::zero_allowed;
+  if (!std::isfinite(body.mass) || body.mass < 0.0 || (body.mass == 0.0 && !zero_allowed))
+    faults.add(
+        body.where, "mass",
+        fmt::format("{}: mass {:g} must {}", body.subject, body.mass, zero_allowed ? "not be negative" : "be positive"),
+        "");
+  if (!body.inertia.allFinite()) {
+    faults.add(body.where, "inertia", fmt::format("{}: inertia must be finite", body.subject), "");
+    return;
+  }
+  const double scale = body.inertia.cwiseAbs().maxCoeff();
+  if (scale == 0.0) return;
+  if ((body.inertia - body.inertia.transpose()).cwiseAbs().maxCoeff() > 1e-9 * scale) {
+    faults.add(body.where, "inertia", fmt::format("{}: inertia is not symmetric", body.subject), "");
+    return;
+  }
+  const Eigen::Matrix3d scaled = body.inertia / scale;
+  const Eigen::Vector3d principal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
+  constexpr double slack = 1e-9;
+  const Eigen::Vector3d shown = scale * principal;
+  if (principal[0] < -slack) {
+    faults.add(body.where, "inertia",
+               fmt::format("{}: inertia has the negative principal moment {:g}", body.subject, shown[0]), "");
+  } else if (principal[2] > principal[0] + principal[1] + slack) {
+    faults.add(
+        body.where, "inertia",
+        fmt::format("{}: principal moments of inertia {:g}, {:g}, {:g}: the largest exceeds the sum of the others, "
+                    "which no body can have",
+                    body.subject, shown[0], shown[1], shown[2]),
+        "check values, order and units");
+  }
+}
+
+}  // namespace tisserand::formats

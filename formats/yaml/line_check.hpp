@@ -1,0 +1,40 @@
+// Findings that beams, masses and directions have in common in parts and scenes.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "formats/yaml/fault.hpp"
+
+namespace tisserand::formats {
+
+/// A straight line or an arc with its subject in messages ("beam 'rod'") and the `where` of its entry.
+struct LineToCheck {
+  std::string subject;
+  std::string where;
+  Eigen::Vector3d from;
+  Eigen::Vector3d to;
+  std::optional<Eigen::Vector3d> through;
+  std::optional<Eigen::Vector3d> orientation;
+};
+
+/// Zero length; arc points that coincide or lie on a line; orientation of zero length or, for a straight line, parallel
+/// to the axis. Silent about values that are not numbers.
+void check_line(const LineToCheck& line, Faults& faults);
+
+struct MassToCheck {
+  std::string subject;
+  std::string where;
+  double mass;
+  Eigen::Matrix3d inertia;
+};
+
+enum class MassSign { positive, zero_allowed };
+
+/// Sign of the mass; inertia finite, symmetric, positive semidefinite, and no principal moment above the sum of the
+/// others.
+void check_mass(const MassToCheck& body, MassSign sign, Faults& faults);
+
+}  // namespace tisserand::formats

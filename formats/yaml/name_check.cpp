@@ -1,0 +1,69 @@
+// Spelling of names and references with suggestions.
+#include "formats/yaml/name_check.hpp"
+
+#include <algorithm>
+
+#include "common/text.hpp"
+
+namespace tisserand::formats {
+
+bool is_name(const std::string& text) {
+  const auto letter = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_'; };
+  const auto later = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '-'; };
+  return !text.empty() && letter(text.front()) && std::ranges::all_of(text, later);
+}
+
+namespace {
+
+/// A name, perhaps with the number of a copy: "link[3]".
+bool is_instance_name(const std::string& text) {
+  const std::size_t open = text.find('[');
+  if (open == std::string::npos) return is_name(text);
+  const std::string index = text.substr(open + 1, text.size() - open - 2);
+  const bool digits = !index.empty() && std::ranges::all_of(index, [](char c) { return c >= '0' && c <= '9'; });
+  return digits && text.back() == ']' && is_name(text.substr(0, open));
+}
+
+bool is_path_name(const std::string& text) {
+  std::size_t begin = 0;
+  for (std::size_t slash = text.find('/'); slash != std::string::npos; slash = text.find('/', begin)) {
+    if (!is_instance_name(text.substr(begin, slash - begin))) return false;
+    begin = slash + 1;
+  }
+  return is_name(text.substr(begin));
+}
+
+void tell_bad_name(const std::string& noun, const std::string& name, const std::string& where, Faults& faults) {
+  faults.add(where, "", fmt::format("{} '{}': not a valid name", noun, name),
+             "use letters, digits, _ and -, and begin with a letter or _");
+}
+
+}  // namespace
+
+void check_name(const std::string& noun, const std::string& name, const std::string& where,
+                std::vector<std::string>& seen, Faults& faults) {
+  if (!is_name(name)) tell_bad_name(noun, name, where, faults);
+  if (std::ranges::find(seen, name) != seen.end())
+    faults.add(where, "", fmt::format("{} '{}': the name is used twice", noun, name), "rename one");
+  seen.push_back(name);
+}
+
+void check_path_name(const std::string& noun, const std::string& name, const std::string& where,
+                     std::unordered_set<std::string>& seen, Faults& faults) {
+  if (!is_path_name(name)) tell_bad_name(noun, name, where, faults);
+  if (!seen.insert(name).second)
+    faults.add(where, "", fmt::format("{} '{}': the name is used twice", noun, name), "rename one");
+}
+
+void check_reference(const std::string& subject, const std::string& noun, const std::string& name,
+                     const std::vector<std::string>& known, const std::string& where, const std::string& key,
+                     Faults& faults) {
+  if (std::ranges::find(known, name) != known.end()) return;
+  const auto close = nearest(name, known);
+  faults.add(where, key, fmt::format("{}: there is no {} '{}'", subject, noun, name),
+             close           ? fmt::format("did you mean '{}'?", *close)
+             : known.empty() ? fmt::format("define it; no {} is defined", noun)
+                             : fmt::format("known are {}", join(known, ", ")));
+}
+
+}  // namespace tisserand::formats

@@ -1,0 +1,12 @@
+// The `units` key of a part or scene.
+#pragma once
+
+#include "common/units.hpp"
+#include "formats/yaml/reader.hpp"
+
+namespace tisserand::formats {
+
+/// `consistent`, or {length: m, mass: kg, time: s} with all three; SI if the key is absent.
+Units read_units(const MapReader& map);
+
+}  // namespace tisserand::formats

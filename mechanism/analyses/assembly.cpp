@@ -1,0 +1,383 @@
+// Levenberg-Marquardt over the rigid motions of bodies.
+#include "mechanism/analyses/assembly.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include <fmt/format.h>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+
+#include "common/math/rotation.hpp"
+#include "mechanism/equations/evaluate.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Sparse = Eigen::SparseMatrix<double>;
+
+/// Largest turn, or displacement over length, of one step.
+constexpr double largest_step = 0.5;
+constexpr int most_iterations = 200;  ///< per fresh start
+constexpr int most_fresh_starts = 4;
+
+/// Nodes that move as one body.
+struct Bodies {
+  std::vector<int> of_node;
+  std::vector<Vector3d> center;  ///< about which a body turns
+};
+
+Bodies find_bodies(const Model& model, const State& state) {
+  std::vector<int> parent(model.nodes.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&parent](int node) {
+    while (parent[static_cast<std::size_t>(node)] != node) node = parent[static_cast<std::size_t>(node)];
+    return node;
+  };
+  const auto join_all = [&](const auto& nodes) {
+    for (const int node : nodes) parent[static_cast<std::size_t>(root(node))] = root(nodes[0]);
+  };
+  for (const SuperelementUse& use : model.superelements) join_all(use.nodes);
+  for (const BeamElement2& beam : model.beams2) join_all(beam.nodes);
+  for (const BeamElement3& beam : model.beams3) join_all(beam.nodes);
+  for (const ModalNode& node : model.modal_nodes)
+    join_all(std::array{model.modal_bodies[static_cast<std::size_t>(node.body)].node, node.node});
+  Bodies bodies;
+  bodies.of_node.assign(model.nodes.size(), -1);
+  std::vector<int> number(model.nodes.size(), -1), count;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    int& at = number[static_cast<std::size_t>(root(static_cast<int>(i)))];
+    if (at < 0) {
+      at = static_cast<int>(bodies.center.size());
+      bodies.center.push_back(Vector3d::Zero());
+      count.push_back(0);
+    }
+    bodies.of_node[i] = at;
+    if (model.nodes[i].modal >= 0) continue;  // follows the frame of its body
+    bodies.center[static_cast<std::size_t>(at)] += state.x().col(static_cast<Eigen::Index>(i));
+    ++count[static_cast<std::size_t>(at)];
+  }
+  for (std::size_t k = 0; k < bodies.center.size(); ++k) bodies.center[k] /= count[k];
+  return bodies;
+}
+
+/// [t/L; θ] per body, applied as whole rotations.
+void move(const Model& model, const VectorXd& d, Bodies& bodies, State& state) {
+  const auto quaternion = [&d](int body) {
+    const Vector3d turn = d.segment<3>(6 * body + 3);
+    return Eigen::Quaterniond(exp_so3<double>(turn));
+  };
+  const auto turned = [](const Eigen::Quaterniond& q, const Eigen::Vector4d& Q) {
+    return wxyz((q * Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3])).normalized());
+  };
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const int body = bodies.of_node[i];
+    const Vector3d& c = bodies.center[static_cast<std::size_t>(body)];
+    const Eigen::Quaterniond q = quaternion(body);
+    const auto column = static_cast<Eigen::Index>(i);
+    const Vector3d arm = state.x().col(column) - c;
+    state.x().col(column) = c + model.length * d.segment<3>(6 * body) + q * arm;
+    if (model.nodes[i].rotation >= 0) state.Q().col(column) = turned(q, state.Q().col(column));
+  }
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const int body = bodies.of_node[static_cast<std::size_t>(model.superelements[i].nodes.front())];
+    const auto column = static_cast<Eigen::Index>(i);
+    state.frames().col(column) = turned(quaternion(body), state.frames().col(column));
+  }
+  for (std::size_t k = 0; k < bodies.center.size(); ++k)
+    bodies.center[k] += model.length * d.segment<3>(6 * static_cast<Eigen::Index>(k));
+}
+
+double row_scale(const Model& model, int row) {
+  return model.length_row[static_cast<std::size_t>(row)] ? 1.0 / model.length : 1.0;
+}
+
+/// ∂(scaled Φ)/∂[t/L; θ] at the last evaluate().
+Sparse jacobian(const Model& model, const Bodies& bodies, const Workspace& workspace) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](int row, int node, const Eigen::Ref<const Eigen::RowVectorXd>& B) {
+    if (node < 0) return;
+    const NodeMotion& motion = motion_of(workspace, node);
+    const int body = bodies.of_node[static_cast<std::size_t>(node)];
+    const Eigen::RowVector3d along = B.head<3>(), about = B.tail<3>();
+    const Vector3d arm = motion.x - bodies.center[static_cast<std::size_t>(body)];
+    Eigen::RowVector3d turn = -along * skew<double>(arm);
+    if (has_rotation(model, node)) turn += about * motion.R.transpose();
+    for (int k = 0; k < 3; ++k) {
+      entries.emplace_back(row, 6 * body + k, row_scale(model, row) * model.length * along[k]);
+      entries.emplace_back(row, 6 * body + 3 + k, row_scale(model, row) * turn[k]);
+    }
+  };
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Joint& joint = model.joints[i];
+    for (int k = 0; k < joint.size(); ++k) {
+      const Eigen::RowVectorXd B = workspace.joints[i].B.row(k);
+      add(joint.row + k, joint.a.node, B.head<6>());
+      add(joint.row + k, joint.b.node, B.tail<6>());
+    }
+  }
+  for (const Coupling& coupling : model.couplings)
+    for (const CouplingTerm& term : coupling.terms) {
+      const auto at = static_cast<std::size_t>(term.coordinate);
+      const Eigen::RowVectorXd B = term.factor * workspace.coordinates[at].G;
+      add(coupling.row, model.coordinates[at].a.node, B.head<6>());
+      add(coupling.row, model.coordinates[at].b.node, B.tail<6>());
+    }
+  Sparse J(model.sizes.constraints, 6 * static_cast<Eigen::Index>(bodies.center.size()));
+  J.setFromTriplets(entries.begin(), entries.end());
+  return J;
+}
+
+/// −(JᵀJ + μ)⁻¹ Jᵀ f.
+VectorXd damped_step(const Sparse& J, const VectorXd& f, double mu) {
+  Sparse A = J.transpose() * J;
+  Sparse one(A.rows(), A.cols());
+  one.setIdentity();
+  A += mu * one;
+  const Eigen::SimplicialLDLT<Sparse> factors(A);
+  return -factors.solve(VectorXd(J.transpose() * f));
+}
+
+/// Scaled Φ at the state.
+VectorXd gaps(const Model& model, State& state, Workspace& workspace) {
+  evaluate(model, state, workspace);
+  unwrap_hinges(model, workspace, state);
+  VectorXd f = workspace.constraint;
+  for (int row = 0; row < f.size(); ++row) f[row] *= row_scale(model, row);
+  return f;
+}
+
+double largest(const VectorXd& f) { return f.size() > 0 ? f.cwiseAbs().maxCoeff() : 0.0; }
+
+/// Damped steps until the gaps are closed as far as round-off lets them, or no step helps any more.
+void close_gaps(const Model& model, const std::function<bool()>& interrupted, Bodies& bodies, State& state,
+                Workspace& workspace, AssemblyReport& report) {
+  VectorXd f = gaps(model, state, workspace);
+  double mu = 1e-3;
+  while (largest(f) > 1e-15 && report.iterations < most_iterations) {
+    report.interrupted = interrupted && interrupted();
+    if (report.interrupted) return;
+    ++report.iterations;
+    const Sparse J = jacobian(model, bodies, workspace);
+    VectorXd d = damped_step(J, f, mu);
+    if (!d.allFinite()) return;
+    const double size = d.cwiseAbs().maxCoeff();
+    if (size > largest_step) d *= largest_step / size;
+    const State before = state;
+    const std::vector<Vector3d> center = bodies.center;
+    move(model, d, bodies, state);
+    const VectorXd next = gaps(model, state, workspace);
+    if (next.norm() < f.norm()) {
+      const bool slow = next.norm() > (1.0 - 1e-6) * f.norm() && mu < 1e-9;
+      f = next;
+      mu = std::max(0.1 * mu, 1e-14);
+      if (slow) return;
+      continue;
+    }
+    state = before;
+    bodies.center = center;
+    evaluate(model, state, workspace);
+    mu *= 10.0;
+    if (mu > 1e6 || largest(f) < 1e-13) return;
+  }
+}
+
+/// Turns a body whose axis meets that of its joint the wrong way round; true if there was one.
+bool turn_over(const Model& model, Bodies& bodies, State& state, Workspace& workspace) {
+  evaluate(model, state, workspace);
+  for (const Joint& joint : model.joints) {
+    const NodeMotion &a = motion_of(workspace, joint.a.node), &b = motion_of(workspace, joint.b.node);
+    const Matrix3d R_WA = marker_rotation(joint.a, a), R_WB = marker_rotation(joint.b, b);
+    const Matrix3d R_AB = R_WA.transpose() * R_WB;
+    const int axis = aligned_axis(joint);
+    Vector3d turn = Vector3d::Zero();
+    if (axis >= 0 && R_AB(axis, axis) <= 0.0) turn = EIGEN_PI * R_WA.col((axis + 1) % 3);
+    if (keeps_orientation(joint) && R_AB.diagonal().minCoeff() <= 0.0) turn = -(R_WA * log_so3<double>(R_AB));
+    if (turn.isZero(0.0)) continue;
+    const bool moves_b = joint.b.node >= 0;
+    const Marker& marker = moves_b ? joint.b : joint.a;
+    const int body = bodies.of_node[static_cast<std::size_t>(marker.node)];
+    VectorXd d = VectorXd::Zero(6 * static_cast<Eigen::Index>(bodies.center.size()));
+    const Vector3d theta = moves_b ? turn : Vector3d(-turn);
+    const Vector3d arm = marker_position(marker, moves_b ? b : a) - bodies.center[static_cast<std::size_t>(body)];
+    d.segment<3>(6 * body + 3) = theta;
+    d.segment<3>(6 * body) = (arm - exp_so3<double>(theta) * arm) / model.length;
+    move(model, d, bodies, state);
+    return true;
+  }
+  return false;
+}
+
+/// Small turns of all bodies, the same in every run.
+void disturb(const Model& model, int attempt, Bodies& bodies, State& state) {
+  std::mt19937 random(static_cast<unsigned>(attempt + 1));
+  std::uniform_real_distribution<double> uniform(-0.3, 0.3);
+  VectorXd d = VectorXd::Zero(6 * static_cast<Eigen::Index>(bodies.center.size()));
+  for (Eigen::Index k = 0; k < d.size(); ++k)
+    if (k % 6 >= 3) d[k] = uniform(random);
+  move(model, d, bodies, state);
+}
+
+/// The rigid motion [ẋ_c/L; ω] of each body that its nodes have, as far as they have one.
+VectorXd rigid_velocities(const Model& model, const Bodies& bodies, const State& state) {
+  VectorXd w = VectorXd::Zero(6 * static_cast<Eigen::Index>(bodies.center.size()));
+  std::vector<bool> turning(bodies.center.size(), false), moving(bodies.center.size(), false);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const auto body = static_cast<std::size_t>(bodies.of_node[i]);
+    if (model.nodes[i].rotation < 0 || turning[body]) continue;
+    const Eigen::Vector4d Q = state.Q().col(static_cast<Eigen::Index>(i));
+    const Vector3d Omega = state.v().segment<3>(model.nodes[i].rotation);
+    w.segment<3>(6 * static_cast<Eigen::Index>(body) + 3) = Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]) * Omega;
+    turning[body] = true;
+  }
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const auto body = static_cast<std::size_t>(bodies.of_node[i]);
+    if (model.nodes[i].translation < 0 || moving[body]) continue;
+    const auto at = 6 * static_cast<Eigen::Index>(body);
+    const Vector3d arm = state.x().col(static_cast<Eigen::Index>(i)) - bodies.center[body],
+                   omega = w.segment<3>(at + 3);
+    const Vector3d velocity = state.v().segment<3>(model.nodes[i].translation);
+    w.segment<3>(at) = (velocity - omega.cross(arm)) / model.length;
+    moving[body] = true;
+  }
+  return w;
+}
+
+void set_velocities(const Model& model, const Bodies& bodies, const VectorXd& w, State& state) {
+  state.v().setZero();
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const Eigen::Index at = 6 * bodies.of_node[i];
+    const auto column = static_cast<Eigen::Index>(i);
+    const Vector3d omega = w.segment<3>(at + 3);
+    const Vector3d arm = state.x().col(column) - bodies.center[static_cast<std::size_t>(bodies.of_node[i])];
+    if (model.nodes[i].translation >= 0)
+      state.v().segment<3>(model.nodes[i].translation) = model.length * w.segment<3>(at) + omega.cross(arm);
+    if (model.nodes[i].rotation >= 0) {
+      const Eigen::Vector4d Q = state.Q().col(column);
+      state.v().segment<3>(model.nodes[i].rotation) = Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]).conjugate() * omega;
+    }
+  }
+}
+
+/// The smallest change of w with B v = −Φ_t, in repeated damped steps: each leaves μ/(σ² + μ) of the error.
+void close_velocities(const Model& model, const Bodies& bodies, const VectorXd& given, State& state,
+                      Workspace& workspace, AssemblyReport& report) {
+  VectorXd w = given;
+  for (int pass = 0; pass < 20; ++pass) {
+    set_velocities(model, bodies, w, state);
+    evaluate(model, state, workspace);
+    VectorXd rate = workspace.constraint_rate;
+    for (int row = 0; row < rate.size(); ++row) rate[row] *= row_scale(model, row);
+    const double size = std::max(largest(w), largest(rate));
+    report.velocity_gap = size > 0.0 ? largest(rate) / size : 0.0;
+    if (report.velocity_gap < 1e-14) return;
+    w += damped_step(jacobian(model, bodies, workspace), rate, 1e-9);
+  }
+}
+
+std::vector<JointGap> open_joints(const Model& model, const Workspace& workspace, double tolerance) {
+  std::vector<JointGap> open;
+  const auto look = [&](const std::string& name, int first, int size) {
+    JointGap gap{name, 0.0, 0.0};
+    for (int row = first; row < first + size; ++row) {
+      double& value = model.length_row[static_cast<std::size_t>(row)] ? gap.length : gap.angle;
+      value = std::max(value, std::abs(workspace.constraint[row]));
+    }
+    if (std::max(gap.length / model.length, gap.angle) > tolerance) open.push_back(gap);
+  };
+  for (const Joint& joint : model.joints) look(joint.name, joint.row, joint.size());
+  for (const Coupling& coupling : model.couplings) look(coupling.name, coupling.row, 1);
+  std::ranges::stable_sort(open, std::greater<>(),
+                           [&](const JointGap& gap) { return std::max(gap.length / model.length, gap.angle); });
+  return open;
+}
+
+std::string vector_text(const Eigen::Ref<const VectorXd>& v) {
+  std::string text;
+  for (Eigen::Index k = 0; k < v.size(); ++k) text += fmt::format("{}{:.12g}", k == 0 ? "" : ", ", v[k]);
+  return "[" + text + "]";
+}
+
+}  // namespace
+
+AssemblyReport assemble(const Model& model, double tolerance, const std::function<bool()>& interrupted, State& state,
+                        Workspace& workspace) {
+  AssemblyReport report;
+  workspace.displacement.setZero();
+  Bodies bodies = find_bodies(model, state);
+  const VectorXd given = rigid_velocities(model, bodies, state);
+  state.v().setZero();
+  state.vdot().setZero();
+  state.lambda().setZero();
+  State best = state;
+  double best_gap = std::numeric_limits<double>::infinity();
+  for (int attempt = 0; attempt < most_fresh_starts && !report.interrupted; ++attempt) {
+    AssemblyReport round;
+    for (std::size_t turned = 0; turned <= model.joints.size(); ++turned) {
+      close_gaps(model, interrupted, bodies, state, workspace, round);
+      if (round.interrupted || !turn_over(model, bodies, state, workspace)) break;
+    }
+    report.iterations += round.iterations;
+    report.interrupted = round.interrupted;
+    const double gap = largest(gaps(model, state, workspace));
+    if (gap < best_gap) {
+      best_gap = gap;
+      best = state;
+    }
+    if (best_gap <= tolerance) break;
+    disturb(model, attempt, bodies, state);
+  }
+  state = best;
+  bodies.center = find_bodies(model, state).center;
+  close_velocities(model, bodies, given, state, workspace, report);
+  evaluate(model, state, workspace);
+  report.gap = best_gap;
+  report.closed = best_gap <= tolerance;
+  report.open = open_joints(model, workspace, tolerance);
+  workspace.has_factors = false;
+  return report;
+}
+
+std::vector<std::string> body_poses(const formats::Scene& scene, const Model& model, const State& at_start,
+                                    const State& state) {
+  std::vector<std::string> lines;
+  for (const formats::BodySpec& body : scene.bodies) {
+    const auto& [name, start] = std::visit(
+        [](const auto& spec) {
+          return std::pair<const std::string&, const formats::InitialMotion&>(spec.name, spec.start);
+        },
+        body);
+    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+      const Node& node = model.nodes[i];
+      if ((node.name != name && !node.name.starts_with(name + "/")) || node.rotation < 0) continue;
+      const auto column = static_cast<Eigen::Index>(i);
+      const Eigen::Vector4d Q = state.Q().col(column), Q_start = at_start.Q().col(column);
+      const Eigen::Quaterniond q(Q[0], Q[1], Q[2], Q[3]);
+      const Eigen::Quaterniond turn =
+          q * Eigen::Quaterniond(Q_start[0], Q_start[1], Q_start[2], Q_start[3]).conjugate();
+      const Eigen::Quaterniond orientation = (turn * start.pose.orientation).normalized();
+      const Vector3d arm = turn * Vector3d(at_start.x().col(column) - start.pose.position),
+                     omega = q * Vector3d(state.v().segment<3>(node.rotation));
+      std::string line = fmt::format("{}: {{pose: {{position: {}, orientation: {}}}", name,
+                                     vector_text(state.x().col(column) - arm), vector_text(wxyz(orientation)));
+      const Vector3d velocity = node.translation < 0
+                                    ? Vector3d(Vector3d::Zero())
+                                    : Vector3d(state.v().segment<3>(node.translation)) - omega.cross(arm);
+      if (!velocity.isZero(0.0)) line += fmt::format(", velocity: {}", vector_text(velocity));
+      if (!omega.isZero(0.0)) line += fmt::format(", angular_velocity: {}", vector_text(omega));
+      lines.push_back(line + "}");
+      break;
+    }
+  }
+  return lines;
+}
+
+}  // namespace tisserand::mechanism

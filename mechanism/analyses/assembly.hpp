@@ -1,0 +1,46 @@
+// Assembly: from rough guesses of the poses and velocities of bodies to a scene whose joints meet.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/scene/scene.hpp"
+#include "mechanism/equations/workspace.hpp"
+#include "mechanism/model/model.hpp"
+#include "mechanism/model/state.hpp"
+
+namespace tisserand::mechanism {
+
+/// What a joint leaves open.
+struct JointGap {
+  std::string name;
+  double length = 0.0;  ///< largest of its equations that are lengths
+  double angle = 0.0;   ///< largest of the others [rad, or cosine of two axes]
+};
+
+struct AssemblyReport {
+  bool closed = false;  ///< all gaps are within the tolerance
+  bool interrupted = false;
+  int iterations = 0;
+  double gap = 0.0;            ///< largest, lengths relative to the characteristic one
+  double velocity_gap = 0.0;   ///< largest |B v + Φ_t| relative to the largest velocity
+  std::vector<JointGap> open;  ///< largest first
+};
+
+/// Moves whole bodies, flexible ones as if they were rigid, such that all joints, couplings and drives meet at the
+/// state's time: Levenberg-Marquardt on Σ Φ² (lengths over the characteristic length) in small motions [t/L; θ] of each
+/// body, so that every step is nearly the smallest change that closes the gaps. Axes that meet the wrong way round are
+/// turned; from a dead point it goes on from a small turn of all bodies. Then velocities of rigid bodies nearest to the
+/// given ones with B v = −Φ_t. v̇ and λ become 0. Masses and forces play no part.
+[[nodiscard]] AssemblyReport assemble(const Model& model, double tolerance, const std::function<bool()>& interrupted,
+                                      State& state, Workspace& workspace);
+
+/// Pose and motion of the part frame of a body: "bar: {position: [..], orientation: [w, x, y, z], ...}" as a scene
+/// takes them under `bodies`. `at_start`: the state that the model was built with, `scene` its poses.
+std::vector<std::string> body_poses(const formats::Scene& scene, const Model& model, const State& at_start,
+                                    const State& state);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,193 @@
+// Newton's iteration on the constraints, and the linear systems for rates and multipliers.
+#include "mechanism/analyses/kinematics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "mechanism/analyses/linearise.hpp"
+#include "mechanism/analyses/modes.hpp"
+#include "mechanism/equations/carriers.hpp"
+#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/equations/newton.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+/// Smallest reciprocal condition of [M Bᵀ; B 0] with which the constraints determine the motion.
+constexpr double dead_point = 1e-15;
+/// Increments below this, relative to length or one radian, are round-off.
+constexpr double increment_floor = 1e-14;
+/// Rows left out may be open by this much (relative to the length): more, and the rank has changed.
+constexpr double left_open = 1e-7;
+
+/// Largest gap of the rows, active or left out; lengths relative to the characteristic one.
+double largest_gap(const Model& model, const Workspace& workspace, double active) {
+  double largest = 0.0;
+  for (int row = 0; row < model.sizes.constraints; ++row) {
+    if (workspace.active[row] != active) continue;
+    const double length = model.length_row[static_cast<std::size_t>(row)] ? model.length : 1.0;
+    const double gap = std::abs(workspace.constraint[row]) / length;
+    if (!(gap <= largest)) largest = gap;
+  }
+  return largest;
+}
+
+/// Factors [M Bᵀ; B 0] at the state of the last evaluate().
+FactorReport factor_constraints(const Model& model, const State& state, Workspace& workspace) {
+  FactorReport report = factor(model, state, {1.0, 0.0, 0.0}, TangentKind::step, {}, workspace);
+  report.regular = report.regular && report.reciprocal_condition > dead_point;
+  return report;
+}
+
+StepOutcome close_gaps(const Model& model, const formats::IntegratorSpec& options, State& state, Workspace& workspace,
+                       StepReport& report) {
+  workspace.displacement.setZero();
+  for (;; ++report.iterations) {
+    evaluate(model, state, workspace);
+    report.constraint = largest_gap(model, workspace, 1.0);
+    if (!std::isfinite(report.constraint)) return StepOutcome::diverged;
+    const bool met = report.constraint <= options.constraint_tolerance;
+    const bool still =
+        report.iterations > 0 && workspace.correction.cwiseAbs().maxCoeff() < increment_floor * model.length;
+    if (met && (report.iterations > 1 || report.constraint < 1e-15 || still)) return StepOutcome::accepted;
+    if (report.iterations >= options.max_iterations || still) return StepOutcome::too_many_iterations;
+    const FactorReport factors = factor_constraints(model, state, workspace);
+    ++report.factorisations;
+    report.singular_column = factors.singular_column;
+    if (!factors.regular) return StepOutcome::singular;
+    solve_correction(model, -workspace.constraint, workspace);
+    const State before = state;
+    retract(model, before, workspace.correction, state);
+  }
+}
+
+void find_active_rows(const Model& model, State& state, Workspace& workspace) {
+  state.active().setOnes();
+  for (const int row : count_mobility(model, state, workspace).redundant) state.active()[row] = 0.0;
+}
+
+/// The joint coordinate that moves most in a motion d that the constraints leave free, or the node.
+std::string name_of_motion(const Model& model, const Workspace& workspace, const Eigen::VectorXd& d) {
+  double largest = 0.0;
+  std::string name;
+  for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
+    const ElementMap& map = model.coordinate_maps[i];
+    const Eigen::MatrixXd row = model_rows(model, map, local_view(workspace.coordinates[i].G), workspace);
+    double rate = 0.0;
+    for (std::size_t k = 0; k < map.coordinates.size(); ++k)
+      if (const int at = map.coordinates[k]; at >= 0) rate += row(0, static_cast<Eigen::Index>(k)) * d[at];
+    if (is_length(model.coordinates[i].relation)) rate /= model.length;
+    if (std::abs(rate) <= std::max(1e-9 * d.cwiseAbs().maxCoeff(), (1.0 + 1e-9) * largest)) continue;
+    largest = std::abs(rate);
+    name = fmt::format("coordinate '{}'", model.coordinates[i].name);
+  }
+  if (!name.empty()) return name;
+  Eigen::Index at = 0;
+  d.cwiseAbs().maxCoeff(&at);
+  return coordinate_name(model, static_cast<int>(at));
+}
+
+}  // namespace
+
+void require_determined(const Model& model, const Mobility& mobility, const std::string& where, const State& state,
+                        Workspace& workspace) {
+  std::string flexible;
+  if (!model.superelements.empty()) flexible = fmt::format("body '{}'", model.superelements.front().name);
+  if (!model.modal_bodies.empty()) flexible = fmt::format("body '{}'", model.modal_bodies.front().name);
+  if (!model.beams2.empty()) flexible = model.nodes[static_cast<std::size_t>(model.beams2.front().nodes[0])].name;
+  if (!model.beams3.empty()) flexible = model.nodes[static_cast<std::size_t>(model.beams3.front().nodes[0])].name;
+  if (!flexible.empty())
+    throw Error(fmt::format("{} is flexible: its deformation is no matter of kinematics", flexible), where,
+                "take superelements with `use: rigid` and rigid bodies in place of beams, or run dynamics");
+  if (mobility.degrees_of_freedom == 0) return;
+  std::vector<std::string> names;
+  if (model.sizes.velocities() <= most_linearised) {
+    const Eigen::MatrixXd Z = null_space(model, active_jacobian(model, state, workspace));
+    evaluate_coordinates(model, state, workspace);
+    workspace.has_factors = false;
+    for (Eigen::Index k = 0; k < Z.cols(); ++k) {
+      const std::string name = name_of_motion(model, workspace, Z.col(k));
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  throw Error(fmt::format("{} degrees of freedom are not driven{}{}", mobility.degrees_of_freedom,
+                          names.empty() ? "" : "; free: ", join(names, ", ")),
+              where, "drive them under `motions:`, hold them with joints, or run dynamics");
+}
+
+bool solve_rates(const Model& model, State& state, Workspace& workspace) {
+  workspace.displacement.setZero();
+  evaluate(model, state, workspace);
+  if (!factor_constraints(model, state, workspace).regular) return false;
+  for (int refinement = 0; refinement < 2; ++refinement) {
+    solve_correction(model, -workspace.constraint_rate, workspace);
+    state.v() += workspace.correction;
+    evaluate(model, state, workspace);
+  }
+  evaluate_bias(model, workspace);
+  const Eigen::VectorXd bias = workspace.bias;
+  for (int refinement = 0; refinement < 2; ++refinement) {
+    apply_jacobian(model, workspace, state.vdot(), workspace.multipliers);
+    solve_correction(model, -bias - workspace.multipliers, workspace);
+    state.vdot() += workspace.correction;
+  }
+  evaluate(model, state, workspace);
+  workspace.has_factors = false;
+  return state.v().allFinite() && state.vdot().allFinite();
+}
+
+bool solve_multipliers(const Model& model, State& state, Workspace& workspace) {
+  workspace.displacement.setZero();
+  for (Eigen::Index row = 0; row < state.lambda().size(); ++row)
+    if (state.active()[row] == 0.0) state.lambda()[row] = 0.0;
+  evaluate(model, state, workspace);
+  if (!factor_constraints(model, state, workspace).regular) return false;
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.sizes.constraints);
+  for (int refinement = 0; refinement < 2; ++refinement) {
+    solve_increment(model, none, workspace);
+    state.lambda() += workspace.unknowns.tail(model.sizes.constraints);
+    evaluate(model, state, workspace);
+  }
+  workspace.has_factors = false;
+  return state.lambda().allFinite();
+}
+
+StepReport move_along(const Model& model, const formats::IntegratorSpec& options, const StepEnd& end, State& state,
+                      Workspace& workspace) {
+  StepReport report;
+  workspace.previous.block() = state.block();
+  const double h = end.time - state.time();
+  const Eigen::VectorXd d = h * state.v() + (0.5 * h * h) * state.vdot();
+  retract(model, workspace.previous, d, state);
+  state.v() += h * state.vdot();
+  state.time() = end.time;
+  state.load_time() = end.load_time;
+  report.outcome = close_gaps(model, options, state, workspace, report);
+  const bool other_rank = report.outcome == StepOutcome::singular ||
+                          (report.outcome == StepOutcome::accepted && largest_gap(model, workspace, 0.0) > left_open);
+  if (other_rank) {
+    find_active_rows(model, state, workspace);
+    report.iterations = 0;
+    report.outcome = close_gaps(model, options, state, workspace, report);
+    // A row that is left out again although it is open: the drives do not determine the motion here.
+    if (report.outcome == StepOutcome::accepted && largest_gap(model, workspace, 0.0) > left_open)
+      report.outcome = StepOutcome::singular;
+  }
+  if (report.outcome == StepOutcome::accepted && !solve_rates(model, state, workspace))
+    report.outcome = StepOutcome::singular;
+  if (report.outcome != StepOutcome::accepted) {
+    state.block() = workspace.previous.block();
+    return report;
+  }
+  auto Q = state.Q();
+  for (Eigen::Index i = 0; i < Q.cols(); ++i) Q.col(i).normalize();
+  unwrap_hinges(model, workspace, state);
+  return report;
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,136 @@
+// Exact tangents of a state as dense matrices, in axes that may turn.
+#include "mechanism/analyses/linearise.hpp"
+
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/math/rotation.hpp"
+#include "mechanism/equations/terms.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+
+/// Adds the blocks of one superelement, internal coordinates kept.
+void add_superelement(const Model& model, std::size_t i, const TangentCoefficients& c, const Workspace& workspace,
+                      MatrixXd& A) {
+  const SuperelementBody& body = body_of(model, i);
+  MatrixXd local;
+  const Vector3d gravity = workspace.load_factor * model.superelements[i].gravity;
+  uncondensed_tangent(body, workspace.superelements[i], nodes_of(model, i, workspace), gravity, c, TangentKind::exact,
+                      local);
+  std::vector<int> rows = model.superelement_maps[i].coordinates;
+  for (int k = 0; k < body.modes; ++k) rows.push_back(model.sizes.boundary + model.internal_offset[i] + k);
+  for (Eigen::Index column = 0; column < local.cols(); ++column)
+    for (Eigen::Index row = 0; row < local.rows(); ++row)
+      A(rows[static_cast<std::size_t>(row)], rows[static_cast<std::size_t>(column)]) += local(row, column);
+}
+
+/// c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q; the values of the pattern stay in the workspace.
+MatrixXd exact_matrix(const Model& model, const State& state, const TangentCoefficients& c, Workspace& workspace) {
+  const SparsePattern& pattern = *model.pattern;
+  const int n = model.sizes.velocities(), boundary = model.sizes.boundary;
+  MatrixXd A = MatrixXd::Zero(n, n);
+  evaluate_tangent_without_superelements(model, state, c, {}, workspace);
+  for (int j = 0; j < boundary; ++j)
+    for (int at = pattern.column_start()[static_cast<std::size_t>(j)];
+         at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
+      const int i = pattern.rows()[static_cast<std::size_t>(at)];
+      if (i < boundary)
+        A(i, j) = workspace.matrix_scale * workspace.values[static_cast<std::size_t>(pattern.slot(i, j))];
+    }
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) add_superelement(model, i, c, workspace, A);
+  return A;
+}
+
+/// B from the values that exact_matrix() left.
+MatrixXd jacobian(const Model& model, const State& state, const Workspace& workspace) {
+  const SparsePattern& pattern = *model.pattern;
+  const std::vector<int> kept = active_rows(state);
+  const int boundary = model.sizes.boundary;
+  MatrixXd B = MatrixXd::Zero(kept.empty() ? 0 : static_cast<int>(state.active().sum()), model.sizes.velocities());
+  for (int j = 0; j < boundary; ++j)
+    for (int at = pattern.column_start()[static_cast<std::size_t>(j)];
+         at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
+      const int i = pattern.rows()[static_cast<std::size_t>(at)];
+      if (i >= boundary && kept[static_cast<std::size_t>(i - boundary)] >= 0)
+        B(kept[static_cast<std::size_t>(i - boundary)], j) =
+            workspace.values[static_cast<std::size_t>(pattern.slot(i, j))];
+    }
+  return B;
+}
+
+/// Replaces three columns of each matrix: those of r(q, v, v̇) by those of (ξ, ξ', ξ''). δq = T0 ξ, δv = T0 ξ' + T01 ξ,
+/// δv̇ = T0 ξ'' + T11 ξ' + T12 ξ.
+struct Columns {
+  Matrix3d T0, T01, T11, T12;
+};
+
+void transform(int column, const Columns& t, Linearisation& l) {
+  const Eigen::Matrix<double, Eigen::Dynamic, 3> M = l.M.middleCols<3>(column), C = l.C.middleCols<3>(column),
+                                                 K = l.K.middleCols<3>(column);
+  l.M.middleCols<3>(column) = M * t.T0;
+  l.C.middleCols<3>(column) = M * t.T11 + C * t.T0;
+  l.K.middleCols<3>(column) = M * t.T12 + C * t.T01 + K * t.T0;
+  l.B.middleCols<3>(column) = (l.B.middleCols<3>(column) * t.T0).eval();
+}
+
+void turn_rows(int row, const Matrix3d& R, Linearisation& l) {
+  for (MatrixXd* A : {&l.M, &l.C, &l.K}) A->middleRows<3>(row) = (R * A->middleRows<3>(row)).eval();
+  l.r.segment<3>(row) = (R * l.r.segment<3>(row)).eval();
+}
+
+}  // namespace
+
+MatrixXd active_jacobian(const Model& model, const State& state, Workspace& workspace) {
+  evaluate(model, state, workspace);
+  evaluate_tangent_without_superelements(model, state, {0.0, 0.0, 1.0}, {}, workspace);
+  return jacobian(model, state, workspace);
+}
+
+std::vector<int> active_rows(const State& state) {
+  std::vector<int> kept;
+  int next = 0;
+  for (Eigen::Index row = 0; row < state.active().size(); ++row)
+    kept.push_back(state.active()[row] != 0.0 ? next++ : -1);
+  return kept;
+}
+
+Linearisation linearise(const Model& model, const State& state, const Vector3d& omega, Workspace& workspace) {
+  const int n = model.sizes.velocities();
+  if (n > most_linearised)
+    throw Error(
+        fmt::format("the linearised matrices are dense: {} coordinates, at most {} are possible", n, most_linearised),
+        model.name, "use fewer elements, or superelements in place of beams");
+  workspace.displacement.setZero();
+  evaluate(model, state, workspace);
+  Linearisation l;
+  l.r.setZero(n);
+  l.r.head(model.sizes.boundary) = workspace.residual;
+  for (std::size_t i = 0; i < model.superelements.size(); ++i)
+    l.r.segment(model.sizes.boundary + model.internal_offset[i], body_of(model, i).modes) =
+        workspace.superelements[i].forces.r_I;
+  l.M = exact_matrix(model, state, {1.0, 0.0, 0.0}, workspace);
+  l.C = exact_matrix(model, state, {0.0, 1.0, 0.0}, workspace);
+  l.K = exact_matrix(model, state, {0.0, 0.0, 1.0}, workspace);
+  l.B = jacobian(model, state, workspace);
+  workspace.has_factors = false;
+  const Matrix3d W = skew<double>(omega), one = Matrix3d::Identity();
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const Node& node = model.nodes[i];
+    const NodeMotion& motion = workspace.motion[i];
+    if (node.translation >= 0) transform(node.translation, {one, W, 2.0 * W, W * W}, l);
+    if (node.rotation < 0) continue;
+    const Matrix3d RT = motion.R.transpose(), spin = skew<double>(motion.Omega) * RT;
+    transform(node.rotation, {RT, RT * W, 2.0 * RT * W - spin, RT * W * W - spin * W}, l);
+    turn_rows(node.rotation, motion.R, l);
+  }
+  return l;
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,40 @@
+// Linearisation of a mechanism about a state: mass, damping and stiffness with all coordinates, and the constraints.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "mechanism/equations/workspace.hpp"
+#include "mechanism/model/model.hpp"
+#include "mechanism/model/state.hpp"
+
+namespace tisserand::mechanism {
+
+/// M ξ'' + C ξ' + K ξ + Bᵀ δλ = 0, B ξ = 0 for small motions ξ in axes that turn with a constant angular velocity ω
+/// and coincide with the world's at the instant of the state: per node [δx; δθ] (displacement and small turn), then the
+/// internal coordinates. n velocity coordinates, one row of B per active constraint.
+///
+/// From the exact tangents of r(q, v, v̇) for material rotation increments δΘ = Rᵀδθ, with
+///   δẋ = ξ' + ω×ξ,       δẍ = ξ'' + 2 ω×ξ' + ω×(ω×ξ),
+///   δΩ = Rᵀ(θ' + ω×θ),   δΩ̇ = Rᵀ(θ'' + 2 ω×θ' + ω×(ω×θ)) − Ω×Rᵀ(θ' + ω×θ).
+/// Coefficients are constant, and modes mean something, if the state is steady in these axes: equilibrium (ω = 0),
+/// everything turning as one (ω its angular velocity), symmetric bodies spinning about axes that rest there.
+struct Linearisation {
+  Eigen::MatrixXd M, C, K;  ///< n x n
+  Eigen::MatrixXd B;        ///< active constraints x n
+  Eigen::VectorXd r;        ///< n: residual with Bᵀλ, rotation rows in world axes
+};
+
+/// At `state` with its v̇ and λ; evaluates first. Dense: throws Error if n exceeds `most_linearised`.
+Linearisation linearise(const Model& model, const State& state, const Eigen::Vector3d& omega, Workspace& workspace);
+
+constexpr int most_linearised = 4000;
+
+/// B of the active constraints for material rotation increments, at `state`, which it evaluates.
+Eigen::MatrixXd active_jacobian(const Model& model, const State& state, Workspace& workspace);
+
+/// Rows of the constraints that are active: the row of B of each, −1 if left out.
+std::vector<int> active_rows(const State& state);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,228 @@
+// Gaps, groups, null vectors and masses.
+#include "mechanism/analyses/preflight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+
+#include "common/text.hpp"
+#include "mechanism/equations/evaluate.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Matrix3Xd;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+
+constexpr double shown_gap = 1e-9;
+/// Ratio of masses at which one of them vanishes in round-off when the other is solved for.
+constexpr double largest_ratio = 1e12;
+/// Radii of gyration beyond this many characteristic lengths are doubted.
+constexpr double largest_gyration = 1e3;
+/// Squared singular values below this (relative) belong to motions that nothing determines.
+constexpr double null_tolerance = 1e-13;
+/// Components of a null vector below this do not count.
+constexpr double visible = 1e-6;
+/// Massless nodes that are connected with each other, up to which null vectors are looked for.
+constexpr std::size_t most_nodes = 100;
+
+std::string direction_text(Vector3d v) {
+  Eigen::Index at = 0;
+  v.cwiseAbs().maxCoeff(&at);
+  v *= (v[at] < 0.0 ? -1.0 : 1.0) / v.norm();
+  const auto clean = [](double x) { return std::abs(x) < 1e-6 ? 0.0 : x; };
+  return fmt::format("[{:.3g}, {:.3g}, {:.3g}]", clean(v.x()), clean(v.y()), clean(v.z()));
+}
+
+/// Groups of massless nodes that joints, couplings or springs connect.
+std::vector<std::vector<int>> massless_groups(const Model& model) {
+  const Parts parts = find_parts(model);
+  std::vector<std::vector<int>> neighbours(model.nodes.size());
+  const auto connect = [&](const Marker& a, const Marker& b) {
+    if (a.node < 0 || b.node < 0 || !parts.is_massless(a.node) || !parts.is_massless(b.node)) return;
+    neighbours[static_cast<std::size_t>(a.node)].push_back(b.node);
+    neighbours[static_cast<std::size_t>(b.node)].push_back(a.node);
+  };
+  for (const Joint& joint : model.joints) connect(joint.a, joint.b);
+  for (const Coordinate& c : model.coordinates) connect(c.a, c.b);
+  for (const Bushing& bushing : model.bushings) connect(bushing.a, bushing.b);
+  std::vector<std::vector<int>> groups;
+  std::vector<bool> seen(model.nodes.size(), false);
+  for (int start = 0; start < static_cast<int>(model.nodes.size()); ++start) {
+    if (seen[static_cast<std::size_t>(start)] || !parts.is_massless(start)) continue;
+    std::vector<int> group{start};
+    seen[static_cast<std::size_t>(start)] = true;
+    for (std::size_t at = 0; at < group.size(); ++at)
+      for (const int next : neighbours[static_cast<std::size_t>(group[at])])
+        if (!seen[static_cast<std::size_t>(next)]) {
+          seen[static_cast<std::size_t>(next)] = true;
+          group.push_back(next);
+        }
+    groups.push_back(std::move(group));
+  }
+  return groups;
+}
+
+/// CᵀC of the columns of the group in the scaled iteration matrix.
+MatrixXd column_products(const Model& model, const std::vector<int>& group, const Workspace& workspace) {
+  const SparsePattern& pattern = *model.pattern;
+  std::map<int, std::vector<std::pair<int, double>>> rows;
+  int column = 0;
+  for (const int node : group)
+    for (const int first : {model.nodes[static_cast<std::size_t>(node)].translation,
+                            model.nodes[static_cast<std::size_t>(node)].rotation})
+      for (int j = first; j < first + 3; ++j, ++column)
+        for (int at = pattern.column_start()[static_cast<std::size_t>(j)];
+             at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
+          const int i = pattern.rows()[static_cast<std::size_t>(at)];
+          const int slot = pattern.slot(i, j);
+          const double value = workspace.values[static_cast<std::size_t>(slot)] * model.value_scale[slot];
+          if (value != 0.0) rows[i].emplace_back(column, value);
+        }
+  MatrixXd products = MatrixXd::Zero(column, column);
+  for (const auto& [row, entries] : rows)
+    for (const auto& [i, a] : entries)
+      for (const auto& [j, b] : entries) products(i, j) += a * b;
+  return products;
+}
+
+/// What the columns of Z (translations then rotations of the node, times the length) let the node do.
+void describe(const std::string& name, const Eigen::Matrix3d& R, const MatrixXd& Z, std::vector<std::string>& motions) {
+  if (Z.norm() < visible) return;
+  Eigen::JacobiSVD<MatrixXd> whole(Z);
+  whole.setThreshold(visible);
+  if (whole.rank() == 6) {
+    motions.push_back(fmt::format("'{}' moves freely", name));
+    return;
+  }
+  const MatrixXd turning = R * Z.bottomRows<3>(), moving = Z.topRows<3>();
+  const bool turns = turning.norm() > visible;
+  Eigen::JacobiSVD<MatrixXd> directions(turns ? turning : moving, Eigen::ComputeThinU);
+  for (Eigen::Index k = 0; k < directions.singularValues().size() && directions.singularValues()[k] > visible; ++k)
+    motions.push_back(fmt::format("'{}' can {} {}", name, turns ? "turn about" : "move along",
+                                  direction_text(directions.matrixU().col(k))));
+}
+
+void add_mass_doubts(const Model& model, std::vector<std::string>& doubts) {
+  const Parts parts = find_parts(model);
+  int lightest = -1, heaviest = -1;
+  const auto mass = [&parts](int part) { return parts.mass[static_cast<std::size_t>(part)]; };
+  for (int i = 0; i < parts.count(); ++i) {
+    if (mass(i) == 0.0) continue;
+    if (lightest < 0 || mass(i) < mass(lightest)) lightest = i;
+    if (heaviest < 0 || mass(i) > mass(heaviest)) heaviest = i;
+  }
+  if (lightest >= 0 && mass(heaviest) > largest_ratio * mass(lightest))
+    doubts.push_back(fmt::format("the masses of '{}' ({:.3g}) and '{}' ({:.3g}) differ by more than {:g}",
+                                 parts.name[static_cast<std::size_t>(heaviest)], mass(heaviest),
+                                 parts.name[static_cast<std::size_t>(lightest)], mass(lightest), largest_ratio));
+}
+
+void add_inertia_doubts(const Model& model, std::vector<std::string>& doubts) {
+  for (const RigidBody& body : model.rigid_bodies) {
+    const Vector3d principal =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia, Eigen::EigenvaluesOnly).eigenvalues();
+    const double gyration = std::sqrt(principal[2] / body.mass);
+    if (gyration > largest_gyration * model.length)
+      doubts.push_back(fmt::format("'{}' has a radius of gyration of {:.3g}, the scene an extent of {:.3g}", body.name,
+                                   gyration, model.length));
+    if (principal[0] <= 1e-12 * principal[2])
+      doubts.push_back(fmt::format("'{}' has no inertia about one of its axes", body.name));
+  }
+}
+
+std::string groups_text(const std::vector<std::vector<std::string>>& groups) {
+  constexpr std::size_t shown = 8;
+  std::vector<std::string> texts;
+  for (std::vector<std::string> names : groups) {
+    if (names.size() > shown) {
+      const std::size_t more = names.size() - shown;
+      names.resize(shown);
+      names.push_back(fmt::format("{} more", more));
+    }
+    texts.push_back(join(names, ", "));
+    if (texts.size() == shown) break;
+  }
+  return fmt::format("{} groups that nothing connects: {}{}", groups.size(), join(texts, " | "),
+                     groups.size() > shown ? " | ..." : "");
+}
+
+}  // namespace
+
+std::vector<MarkerGap> marker_gaps(const Model& model, const Workspace& workspace) {
+  std::vector<MarkerGap> gaps;
+  const auto add = [&](const std::string& name, int first, int size) {
+    MarkerGap gap{name, 0.0, 0.0};
+    double square = 0.0;
+    for (int row = first; row < first + size; ++row) {
+      const double value = workspace.constraint[row];
+      if (model.length_row[static_cast<std::size_t>(row)])
+        square += value * value;
+      else
+        gap.angle = std::max(gap.angle, std::abs(value));
+    }
+    gap.length = std::sqrt(square);
+    if (gap.length > shown_gap * model.length || gap.angle > shown_gap) gaps.push_back(std::move(gap));
+  };
+  for (const Joint& joint : model.joints) add(joint.name, joint.row, joint.size());
+  for (const Coupling& coupling : model.couplings) add(coupling.name, coupling.row, 1);
+  return gaps;
+}
+
+Preflight examine(const Model& model, const Workspace& workspace) {
+  Preflight preflight;
+  preflight.gaps = marker_gaps(model, workspace);
+  preflight.groups = connected_groups(model, find_parts(model));
+  add_mass_doubts(model, preflight.doubts);
+  add_inertia_doubts(model, preflight.doubts);
+  return preflight;
+}
+
+std::vector<std::string> undetermined_motions(const Model& model, const State& state, Workspace& workspace) {
+  std::vector<std::string> motions;
+  const std::vector<std::vector<int>> groups = massless_groups(model);
+  if (groups.empty()) return motions;
+  evaluate_tangent(model, state, {1.0, 1.0, 1.0}, TangentKind::step, {}, workspace);
+  for (const std::vector<int>& group : groups) {
+    if (group.size() > most_nodes) continue;
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(column_products(model, group, workspace));
+    const double limit = null_tolerance * std::max(1e-300, eigen.eigenvalues().maxCoeff());
+    const Eigen::Index null = (eigen.eigenvalues().array() <= limit).count();
+    for (std::size_t i = 0; i < group.size(); ++i)
+      describe(model.nodes[static_cast<std::size_t>(group[i])].name, motion_of(workspace, group[i]).R,
+               eigen.eigenvectors().block(6 * static_cast<Eigen::Index>(i), 0, 6, null), motions);
+  }
+  workspace.has_factors = false;
+  return motions;
+}
+
+std::vector<PreflightLine> preflight_table(const Preflight& preflight, const Mobility& mobility, const Units& units) {
+  const std::string length = unit_label(units, 1, 0, 0);
+  std::vector<PreflightLine> lines;
+  lines.push_back({"bodies", fmt::format("{}, as rigid ones: mobility {}, by Gruebler's count 6 · {} - {} = {}",
+                                         mobility.parts, mobility.rigid_mobility, mobility.parts, mobility.constraints,
+                                         6 * mobility.parts - mobility.constraints)});
+  lines.push_back({"repeated", mobility.redundant.empty()
+                                   ? "no constraint equation"
+                                   : fmt::format("{} of {} constraint equations", mobility.redundant.size(),
+                                                 mobility.constraints)});
+  lines.push_back(
+      {"connections", preflight.groups.size() <= 1 ? "all bodies with the ground" : groups_text(preflight.groups)});
+  if (preflight.gaps.empty()) lines.push_back({"joints", "all meet at the start"});
+  constexpr std::size_t shown = 10;
+  for (std::size_t i = 0; i < std::min(shown, preflight.gaps.size()); ++i)
+    lines.push_back({"open joint",
+                     fmt::format("'{}' by {:.3g}{}{} and {:.3g} rad", preflight.gaps[i].joint, preflight.gaps[i].length,
+                                 length.empty() ? "" : " ", length, preflight.gaps[i].angle)});
+  if (preflight.gaps.size() > shown) lines.push_back({"", fmt::format("and {} more", preflight.gaps.size() - shown)});
+  if (preflight.doubts.empty()) lines.push_back({"masses", "plausible"});
+  for (const std::string& doubt : preflight.doubts) lines.push_back({"doubtful", doubt});
+  return lines;
+}
+
+}  // namespace tisserand::mechanism

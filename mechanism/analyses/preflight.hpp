@@ -1,0 +1,44 @@
+// What can be said of a scene before it moves: open joints, what hangs together, what nothing holds, doubtful masses.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/units.hpp"
+#include "mechanism/equations/mobility.hpp"
+
+namespace tisserand::mechanism {
+
+/// Distance of the markers of a joint along the directions that it holds, and the largest angle.
+struct MarkerGap {
+  std::string joint;
+  double length = 0.0;
+  double angle = 0.0;
+};
+
+struct Preflight {
+  std::vector<MarkerGap> gaps;                   ///< above round-off, before the projection closes them
+  std::vector<std::vector<std::string>> groups;  ///< bodies that are connected; more than one: some go their own way
+  std::vector<std::string> doubts;               ///< masses and inertias that look like slips of the pen or of units
+};
+
+/// Of the state before the projection, after evaluate().
+Preflight examine(const Model& model, const Workspace& workspace);
+
+/// Joints and couplings that are open by more than 1e-9 of the characteristic length or radians, at the last
+/// evaluate().
+std::vector<MarkerGap> marker_gaps(const Model& model, const Workspace& workspace);
+
+/// Motions of massless bodies that no constraint, stiffness or damping determines: "'hub' can turn about [0, 0, 1]". A
+/// null vector of the columns of [M + C + K; B] that belong to massless nodes ([GA00] section 4: condition for a
+/// regular system of equations). At the state of the last evaluate(); overwrites the iteration matrix.
+std::vector<std::string> undetermined_motions(const Model& model, const State& state, Workspace& workspace);
+
+/// Lines "quantity, value" of a table for people.
+struct PreflightLine {
+  std::string name;
+  std::string value;
+};
+std::vector<PreflightLine> preflight_table(const Preflight& preflight, const Mobility& mobility, const Units& units);
+
+}  // namespace tisserand::mechanism

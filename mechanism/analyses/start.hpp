@@ -1,0 +1,55 @@
+// Start of an analysis: pre-flight, projection of positions and velocities, consistent accelerations.
+#pragma once
+
+#include <string>
+
+#include "formats/scene/scene.hpp"
+#include "mechanism/analyses/preflight.hpp"
+#include "mechanism/equations/mobility.hpp"
+#include "mechanism/equations/workspace.hpp"
+#include "mechanism/model/model.hpp"
+#include "mechanism/model/state.hpp"
+
+namespace tisserand::mechanism {
+
+/// Largest corrections that the projection made: |Φ| before it relative to the characteristic length (angles as they
+/// are), |B v| relative to the largest velocity.
+struct Projection {
+  double position = 0.0;
+  double velocity = 0.0;
+};
+
+/// Moves positions and velocities onto the constraints in the mass norm. Throws Error that names joint and equation if
+/// more than `tolerance` has to be corrected. `step`: regularises massless directions with step² times the stiffness.
+Projection project_initial_state(const Model& model, double tolerance, double step, const std::string& where,
+                                 State& state, Workspace& workspace);
+
+/// v̇ and λ from [M Bᵀ; B 0][v̇; λ] = [F − G; −Ḃ v]. A singular mass matrix is regularised with step² times the stiffness
+/// (its massless directions are in static equilibrium then); returns whether it was. Throws Error that names a
+/// direction without mass, stiffness and constraint.
+bool solve_accelerations(const Model& model, double step, const std::string& where, State& state, Workspace& workspace);
+
+/// a_0 = v̇_0 + (α_m − α_f) h v̈_0 with v̈_0 by differences along the motion [ABC15]: the start that gives multipliers of
+/// order 2. Needs consistent v̇.
+void start_algorithmic_acceleration(const Model& model, double shift, double step, const std::string& where,
+                                    State& state, Workspace& workspace);
+
+struct StartReport {
+  Mobility mobility;
+  Preflight preflight;
+  Projection projection;
+  bool massless = false;  ///< the mass matrix was regularised
+};
+
+/// All of the above, with rows that others imply made inactive, for the analysis of the scene; dynamics: also the
+/// consistent start and energies counted from here.
+StartReport start(const formats::Scene& scene, const Model& model, State& state, Workspace& workspace);
+
+/// Work, dissipation and energy start from zero here.
+void begin(const Model& model, State& state, Workspace& workspace);
+
+/// After a step that ended on a breakpoint: where loads jump, accelerations and multipliers are solved anew on its far
+/// side.
+void pass_breakpoint(const Model& model, const formats::Scene& scene, State& state, Workspace& workspace);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,50 @@
+// Static equilibrium of a scene: Newton's iteration with exact tangents and load steps.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "formats/scene/scene.hpp"
+#include "mechanism/equations/workspace.hpp"
+#include "mechanism/model/model.hpp"
+#include "mechanism/model/state.hpp"
+#include "mechanism/step/step.hpp"
+
+namespace tisserand::mechanism {
+
+/// Polled before every iteration; true ends the analysis.
+using Interrupt = std::function<bool()>;
+
+/// A stiffness matrix with a smaller reciprocal condition (after scaling) leaves a rigid motion free.
+inline constexpr double free_motion_condition = 1e-14;
+/// Of a load step.
+inline constexpr int most_halvings = 12;
+
+struct StaticsReport {
+  StepOutcome outcome = StepOutcome::accepted;
+  int iterations = 0;
+  int load_steps = 0;     ///< taken, after halvings
+  double residual = 0.0;  ///< largest force, largest moment / length
+  double constraint = 0.0;
+  bool interrupted = false;
+  std::string explanation;  ///< of a failure: equation and likely cause
+};
+
+/// The coordinate that moves most in a motion of the state at rest that nothing holds, or empty.
+std::string free_motion(const Model& model, State state, Workspace& workspace);
+
+/// Equilibrium under loads (at the state's time) and gravity, from `state` with all velocities zero, in load steps that
+/// are halved where the iteration fails; in the steady rotation of the options, if there is one. A scene that can move
+/// freely is an outcome `singular` that names the direction.
+[[nodiscard]] StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options,
+                                          const Interrupt& interrupted, State& state, Workspace& workspace);
+[[nodiscard]] StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, State& state,
+                                          Workspace& workspace);
+
+/// Takes the positions of the last evaluate() as those that floating frames and angles go on from.
+void accept_equilibrium(const Model& model, State& state, const Workspace& workspace);
+
+/// Completes the explanation of an outcome other than accepted: `reached` of the load, smallest load step.
+void explain_statics(double reached, double step, StaticsReport& report);
+
+}  // namespace tisserand::mechanism

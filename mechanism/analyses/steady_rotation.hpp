@@ -1,0 +1,21 @@
+// Relative equilibrium: the scene at rest in axes that turn steadily.
+#pragma once
+
+#include "formats/scene/scene.hpp"
+#include "mechanism/analyses/statics.hpp"
+#include "mechanism/equations/workspace.hpp"
+#include "mechanism/model/model.hpp"
+#include "mechanism/model/state.hpp"
+
+namespace tisserand::mechanism {
+
+/// ẋ = ω×(x − p), Ω = Rᵀω, ẍ = ω×ẋ, Ω̇ = 0, internal coordinates at rest.
+void turn_steadily(const Model& model, const formats::RotationSpec& rotation, State& state);
+
+/// Equilibrium of loads, gravity and the inertia of a steady rotation, by Newton's iteration with the stiffness of
+/// `linearise` (dense, with the softening of the rotation); in load steps, in which the rate grows with the root of the
+/// load. The state ends with the velocities and accelerations of the rotation.
+[[nodiscard]] StaticsReport solve_steady_rotation(const Model& model, const formats::StaticsSpec& options,
+                                                  const Interrupt& interrupted, State& state, Workspace& workspace);
+
+}  // namespace tisserand::mechanism

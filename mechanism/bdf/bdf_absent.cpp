@@ -1,0 +1,24 @@
+// method: bdf in a build without CVODE: a clear error.
+#include "common/error.hpp"
+#include "mechanism/bdf/bdf.hpp"
+
+namespace tisserand::mechanism {
+
+struct Bdf::Data {};
+
+bool bdf_available() { return false; }
+
+Bdf::Bdf(const formats::Scene& scene, const Model&, State&, Workspace&) {
+  throw Error("integrator: this build has no CVODE, which method: bdf needs", scene.file,
+              "configure with -DTISSERAND_CVODE=ON and install libsundials-dev, or use method: generalised_alpha with "
+              "error_control");
+}
+
+Bdf::~Bdf() = default;
+std::string Bdf::step(const StepEnd&) { return {}; }
+void Bdf::go_to(double) {}
+void Bdf::restart(double) {}
+double Bdf::violation() const { return 0.0; }
+BdfCounts Bdf::counts() const { return {}; }
+
+}  // namespace tisserand::mechanism

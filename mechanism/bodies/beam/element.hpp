@@ -1,0 +1,102 @@
+// Geometrically exact beam elements (Simo-Reissner) with two and three nodes: constants, forces, tangents, energy.
+//
+// Source keys: [Sim85] Simo 1985 (strains), [CJ99] Crisfield & Jelenic 1999 (objective interpolation of rotations),
+// [Car00] section 8 (the nonlinear beam that superelements are compared with).
+//
+// Kinematics. Section triad Λ_i = R_i D_i of node i (columns: beam axis, y, z of the section), D_i constant.
+//   Γ = Λᵀ x' − Γ₀   axial and shear strains,   κ = axial(Λᵀ Λ') − κ₀   torsion and bending, both in section axes;
+//   ' is the derivative by arc length of the reference curve; Γ₀, κ₀ are the values of the same interpolation there,
+//   so that the reference configuration is free of stress, whatever its curvature.
+// Two nodes: ψ = log(Λ₁ᵀΛ₂), Λ(s) = Λ₁ exp(s ψ), κ = ψ/L; strains at the middle only (exact for the constant κ, and
+//   free of shear and membrane locking).
+// Three nodes: Φ_i = log(Λ₂ᵀΛ_i), Λ(s) = Λ₂ exp(N₁(s)Φ₁ + N₃(s)Φ₃) [CJ99]; two Gauss points.
+// Both depend on relative rotations of the nodes alone: strains do not change under a rigid motion and do not depend on
+// the path. Relative rotations inside an element must stay below π.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include <Eigen/Core>
+
+#include "formats/sections/section.hpp"
+#include "mechanism/frames/motion.hpp"
+
+namespace tisserand::mechanism {
+
+/// Constants of an element; per node of the residual [force, world axes; moment, node axes].
+template <int N>
+struct BeamElement {
+  static_assert(N == 2 || N == 3);
+  static constexpr int dofs = 6 * N;
+  static constexpr int points = N - 1;  ///< quadrature points
+
+  std::array<int, N> nodes{};                           ///< indices of nodes, along the beam
+  double length = 0.0;                                  ///< L, arc length of the reference curve
+  std::array<Eigen::Matrix3d, N> section{};             ///< D_i: section triad in node axes
+  Eigen::Vector3d force_stiffness = {0, 0, 0};          ///< C_n = (E A, G A_y, G A_z)
+  Eigen::Vector3d moment_stiffness = {0, 0, 0};         ///< C_m = (G J, E I_y, E I_z)
+  std::array<Eigen::Vector3d, points> initial_gamma{};  ///< Γ₀ (including the 1 of the axis)
+  std::array<Eigen::Vector3d, points> initial_kappa{};  ///< κ₀
+  double mass = 0.0;                                    ///< ρ A L
+  std::array<Eigen::Matrix3d, N> inertia{};             ///< rotary inertia of node i in node axes
+  Eigen::Vector3d gravity = {0, 0, 0};                  ///< of its body, for the caller to scale and pass on
+};
+
+using BeamElement2 = BeamElement<2>;
+using BeamElement3 = BeamElement<3>;
+
+/// Reference geometry of an element in the axes that its nodes carry there (the part frame: R_i = 1).
+template <int N>
+struct BeamReference {
+  std::array<int, N> nodes{};
+  std::array<Eigen::Vector3d, N> position{};  ///< in order along the beam, equally spaced in arc length
+  std::array<Eigen::Matrix3d, N> section{};   ///< section triads; columns x (axis), y, z
+  double length = 0.0;                        ///< arc length
+};
+
+/// Constants of an element. Throws Error if the section has no shear areas (place: section.where) or if a stiffness,
+/// the density or the length is not physical.
+template <int N>
+BeamElement<N> make_beam_element(const BeamReference<N>& reference, const formats::Section& section,
+                                 const formats::Material& material);
+
+/// r = G_iner + G_int − gravity of one element, from the motions of all nodes (indexed by element.nodes).
+/// G_int is the exact gradient of `strain`, gravity of `potential` (energies below). gravity: acceleration, world axes.
+void residual(const BeamElement2& element, std::span<const NodeMotion> nodes, const Eigen::Vector3d& gravity,
+              Eigen::Matrix<double, 12, 1>& r);
+void residual(const BeamElement3& element, std::span<const NodeMotion> nodes, const Eigen::Vector3d& gravity,
+              Eigen::Matrix<double, 18, 1>& r);
+
+/// The same and A = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q, exact, with rotation increments δR = R skew(δΘ).
+/// Not symmetric away from equilibrium (increments are not coordinates).
+void residual_and_tangent(const BeamElement2& element, std::span<const NodeMotion> nodes,
+                          const Eigen::Vector3d& gravity, const TangentCoefficients& coefficients,
+                          Eigen::Matrix<double, 12, 1>& r, Eigen::Matrix<double, 12, 12>& A);
+void residual_and_tangent(const BeamElement3& element, std::span<const NodeMotion> nodes,
+                          const Eigen::Vector3d& gravity, const TangentCoefficients& coefficients,
+                          Eigen::Matrix<double, 18, 1>& r, Eigen::Matrix<double, 18, 18>& A);
+
+struct BeamEnergy {
+  double kinetic = 0.0;
+  double strain = 0.0;
+  double potential = 0.0;  ///< of gravity: −Σ m_i g · x_i
+};
+
+template <int N>
+BeamEnergy energy(const BeamElement<N>& element, std::span<const NodeMotion> nodes, const Eigen::Vector3d& gravity);
+
+/// Strains and stress resultants at one quadrature point, in section axes; resultants act on the side that the negative
+/// axis points to (tension positive).
+struct BeamSectionForces {
+  double arc_length = 0.0;       ///< of the point, from the first node of the element
+  Eigen::Matrix3d axes;          ///< Λ: section triad in world axes
+  Eigen::Vector3d gamma, kappa;  ///< strains
+  Eigen::Vector3d force;         ///< (normal force, shear y, shear z)
+  Eigen::Vector3d moment;        ///< (torque, bending about y, bending about z)
+};
+
+template <int N>
+std::array<BeamSectionForces, N - 1> section_forces(const BeamElement<N>& element, std::span<const NodeMotion> nodes);
+
+}  // namespace tisserand::mechanism

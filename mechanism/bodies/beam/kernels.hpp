@@ -1,0 +1,193 @@
+// Strains, energy and forces of beam elements for any scalar (double, Dual, complex); bodies/beam/element.cpp
+// instantiates them.
+#pragma once
+
+#include <array>
+
+#include "common/math/rotation.hpp"
+#include "mechanism/bodies/beam/element.hpp"
+#include "mechanism/bodies/beam/rotation.hpp"
+
+namespace tisserand::mechanism::beam {
+
+/// Positions and orientations of the nodes of one element.
+template <class S, int N>
+struct Configuration {
+  std::array<Vec3<S>, N> x;
+  std::array<Mat3<S>, N> R;
+};
+
+/// Shape functions and their derivatives by arc length times L at the quadrature points of the three-node element,
+/// s = −1/√3, 1/√3 (weights L/2): N₁ = s(s−1)/2, N₂ = 1 − s², N₃ = s(s+1)/2; d/dS = (2/L) d/ds.
+inline constexpr double gauss = 0.57735026918962576451;
+inline constexpr std::array<std::array<double, 3>, 2> shape = {
+    {{0.5 * gauss * (gauss + 1), 2.0 / 3, 0.5 * gauss*(gauss - 1)},
+     {0.5 * gauss * (gauss - 1), 2.0 / 3, 0.5 * gauss*(gauss + 1)}}};
+inline constexpr std::array<std::array<double, 3>, 2> slope = {
+    {{-2 * gauss - 1, 4 * gauss, 1 - 2 * gauss}, {2 * gauss - 1, -4 * gauss, 1 + 2 * gauss}}};
+
+/// The element state of two nodes: section axes in the middle, g = Λᵀx', strains and resultants (section axes).
+template <class S>
+struct State2 {
+  Logarithm<S> log;
+  Mat3<S> axes;
+  Vec3<S> g, gamma, kappa, force, moment;
+
+  State2(const BeamElement2& e, const Configuration<S, 2>& q)
+      : State2(e, q, q.R[0] * e.section[0].template cast<S>()) {}
+
+ private:
+  State2(const BeamElement2& e, const Configuration<S, 2>& q, const Mat3<S>& first)
+      : log(first.transpose() * (q.R[1] * e.section[1].template cast<S>())) {
+    const Mat3<S> W = skew(log.w);
+    const S factor = 2.0 / (1.0 + dot3(log.w, log.w));
+    axes = first + (first * (W + W * W)) * factor;
+    g = axes.transpose() * (q.x[1] - q.x[0]) * S(1.0 / e.length);
+    gamma = g - e.initial_gamma[0].template cast<S>();
+    kappa = log.psi * S(1.0 / e.length) - e.initial_kappa[0].template cast<S>();
+    force = e.force_stiffness.template cast<S>().cwiseProduct(gamma);
+    moment = e.moment_stiffness.template cast<S>().cwiseProduct(kappa);
+  }
+};
+
+/// One quadrature point of the three-node element: φ = N₁Φ₁ + N₃Φ₃ and a = φ' (by arc length), κ = T(φ) a − κ₀.
+template <class S>
+struct Point3 {
+  Vec3<S> phi, a;
+  S u;
+  CurvatureFunctions<S> f;
+  Mat3<S> turn;  ///< exp(φ)
+  Mat3<S> axes;  ///< Λ = Λ₂ exp(φ)
+  Vec3<S> g, gamma, kappa, force, moment;
+
+  Point3(const BeamElement3& e, const Configuration<S, 3>& q, const Mat3<S>& middle, const Vec3<S>& Phi1,
+         const Vec3<S>& Phi3, int point)
+      : phi(Phi1 * S(shape[point][0]) + Phi3 * S(shape[point][2])),
+        a(Phi1 * S(slope[point][0] / e.length) + Phi3 * S(slope[point][2] / e.length)),
+        u(dot3(phi, phi)),
+        f(u) {
+    const Mat3<S> P = skew(phi);
+    turn = Mat3<S>::Identity() + P * f.s + (P * P) * f.c;
+    axes = middle * turn;
+    const Vec3<S> slope_x = q.x[0] * S(slope[point][0] / e.length) + q.x[1] * S(slope[point][1] / e.length) +
+                            q.x[2] * S(slope[point][2] / e.length);
+    g = axes.transpose() * slope_x;
+    gamma = g - e.initial_gamma[point].template cast<S>();
+    kappa = tangent_times(phi, f, a) - e.initial_kappa[point].template cast<S>();
+    force = e.force_stiffness.template cast<S>().cwiseProduct(gamma);
+    moment = e.moment_stiffness.template cast<S>().cwiseProduct(kappa);
+  }
+};
+
+template <class S>
+struct State3 {
+  Mat3<S> middle;  ///< Λ₂
+  Logarithm<S> log1, log3;
+  std::array<Point3<S>, 2> point;
+
+  State3(const BeamElement3& e, const Configuration<S, 3>& q)
+      : middle(q.R[1] * e.section[1].template cast<S>()),
+        log1(middle.transpose() * (q.R[0] * e.section[0].template cast<S>())),
+        log3(middle.transpose() * (q.R[2] * e.section[2].template cast<S>())),
+        point{Point3<S>(e, q, middle, log1.psi, log3.psi, 0), Point3<S>(e, q, middle, log1.psi, log3.psi, 1)} {}
+};
+
+/// W = Σ w_g (Γ·C_n Γ + κ·C_m κ)/2.
+template <class S>
+S strain_energy(const BeamElement2& e, const Configuration<S, 2>& q) {
+  const State2<S> state(e, q);
+  return 0.5 * e.length * (dot3(state.gamma, state.force) + dot3(state.kappa, state.moment));
+}
+template <class S>
+S strain_energy(const BeamElement3& e, const Configuration<S, 3>& q) {
+  const State3<S> state(e, q);
+  S sum(0.0);
+  for (const Point3<S>& p : state.point) sum += dot3(p.gamma, p.force) + dot3(p.kappa, p.moment);
+  return 0.25 * e.length * sum;
+}
+
+/// G_int of two nodes: ∂W/∂x_i and ∂W/∂Θ_i. With σ = δθ₁ + δθ₂, δ = δθ₂ − δθ₁ (section axes):
+///   δψ = (1 + e ψ~²) δ + ψ×σ/2,   δθ_m = (σ + w×δ)/2,   δg = Λᵀ δx' + g×δθ_m.
+template <class S>
+void internal_force(const BeamElement2& e, const State2<S>& state, Eigen::Matrix<S, 12, 1>& r) {
+  const Vec3<S>& psi = state.log.psi;
+  const Vec3<S> n = state.axes * state.force;
+  const Vec3<S> h = cross(state.force, state.g) * S(e.length);
+  const Vec3<S> psi_m = cross(psi, state.moment);
+  const Vec3<S> sum = (h - psi_m) * S(0.5);
+  const Vec3<S> difference = cross(h, state.log.w) * S(0.5) + state.moment + cross(psi, psi_m) * state.log.e;
+  r.template segment<3>(0) = -n;
+  r.template segment<3>(3) = e.section[0].template cast<S>() * (sum - difference);
+  r.template segment<3>(6) = n;
+  r.template segment<3>(9) = e.section[1].template cast<S>() * (sum + difference);
+}
+
+/// Generalised forces on Φ₁, Φ₃ and directly on θ₂ of the three-node element (section axes).
+template <class S>
+struct Moments3 {
+  Vec3<S> on1, on3, direct;
+};
+
+/// G_int of three nodes: δΦ_i = T⁻¹(Φ_i) δθ_i − T⁻ᵀ(Φ_i) δθ₂, δθ = exp(−φ) δθ₂ + T(φ) δφ, δκ = δ(T(φ) φ').
+template <class S>
+Moments3<S> internal_force(const BeamElement3& e, const State3<S>& state, Eigen::Matrix<S, 18, 1>& r) {
+  const double weight = 0.5 * e.length;
+  Moments3<S> P{Vec3<S>::Zero(), Vec3<S>::Zero(), Vec3<S>::Zero()};
+  r.setZero();
+  for (int k = 0; k < 2; ++k) {
+    const Point3<S>& p = state.point[k];
+    const Vec3<S> n = p.axes * p.force;
+    for (int i = 0; i < 3; ++i) r.template segment<3>(6 * i) += n * S(0.5 * slope[k][i]);
+    const Vec3<S> h = cross(p.force, p.g) * S(weight);
+    const Vec3<S> minus = -p.phi;
+    const Vec3<S> on_phi = tangent_times(minus, p.f, h) + tangent_gradient(p.phi, p.u, p.f, p.a, p.moment) * S(weight);
+    const Vec3<S> on_a = tangent_times(minus, p.f, p.moment);
+    P.on1 += on_phi * S(shape[k][0]) + on_a * S(0.5 * slope[k][0]);
+    P.on3 += on_phi * S(shape[k][2]) + on_a * S(0.5 * slope[k][2]);
+    P.direct += p.turn * h;
+  }
+  const Vec3<S> minus1 = -state.log1.psi, minus3 = -state.log3.psi;
+  r.template segment<3>(3) = e.section[0].template cast<S>() * inverse_tangent_times(minus1, state.log1.e, P.on1);
+  r.template segment<3>(9) =
+      e.section[1].template cast<S>() * (P.direct - inverse_tangent_times(state.log1.psi, state.log1.e, P.on1) -
+                                         inverse_tangent_times(state.log3.psi, state.log3.e, P.on3));
+  r.template segment<3>(15) = e.section[2].template cast<S>() * inverse_tangent_times(minus3, state.log3.e, P.on3);
+  return P;
+}
+
+/// Consistent translational mass ∫ N_i N_j dS / L and its row sums ∫ N_i dS / L (lumping of gravity and rotary
+/// inertia).
+template <int N>
+struct Shares;
+template <>
+struct Shares<2> {
+  static constexpr double mass[2][2] = {{1.0 / 3, 1.0 / 6}, {1.0 / 6, 1.0 / 3}};
+  static constexpr double node[2] = {0.5, 0.5};
+};
+template <>
+struct Shares<3> {
+  static constexpr double mass[3][3] = {
+      {2.0 / 15, 1.0 / 15, -1.0 / 30}, {1.0 / 15, 8.0 / 15, 1.0 / 15}, {-1.0 / 30, 1.0 / 15, 2.0 / 15}};
+  static constexpr double node[3] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
+};
+
+/// One pointer per node.
+template <class Motion, int N>
+using NodePointers = std::array<const Motion*, static_cast<std::size_t>(N)>;
+
+/// r += M ẍ − m_i g and J Ω̇ + Ω × J Ω. Motion: NodeMotion or the same with another scalar.
+template <class S, int N, class Motion>
+void add_inertia(const BeamElement<N>& e, const NodePointers<Motion, N>& node, const Eigen::Vector3d& gravity,
+                 Eigen::Matrix<S, 6 * N, 1>& r) {
+  for (int i = 0; i < N; ++i) {
+    const double m = e.mass;
+    Vec3<S> f = gravity.template cast<S>() * S(-m * Shares<N>::node[i]);
+    for (int j = 0; j < N; ++j) f += node[j]->xdd * S(m * Shares<N>::mass[i][j]);
+    r.template segment<3>(6 * i) += f;
+    const Mat3<S> J = e.inertia[i].template cast<S>();
+    const Vec3<S> spin = J * node[i]->Omega;
+    r.template segment<3>(6 * i + 3) += J * node[i]->Omegad + cross<S>(node[i]->Omega, spin);
+  }
+}
+
+}  // namespace tisserand::mechanism::beam

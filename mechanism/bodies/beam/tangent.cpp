@@ -1,0 +1,280 @@
+// Exact hand-written tangents of beam elements (first derivatives of the forces in bodies/beam/kernels.hpp).
+#include "mechanism/bodies/beam/kernels.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using beam::Logarithm;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+template <int N>
+using Square = Eigen::Matrix<double, 6 * N, 6 * N>;
+
+/// Derivatives of t = tan(a/4)/a and e by u = a²: ∇t = t1 ψ, ∇e = e1 ψ. Series below a² = 0.25 (nine terms).
+struct LogarithmDerivatives {
+  double t, t1, e1;
+
+  explicit LogarithmDerivatives(const Logarithm<double>& log) {
+    if (log.u < beam::series_limit) {
+      t = beam::polynomial(t_series, log.u);
+      t1 = 2.0 * beam::polynomial(derivative(t_series), log.u);
+      e1 = 2.0 * beam::polynomial(derivative(beam::e_series), log.u);
+    } else {
+      const double w2 = log.w.squaredNorm();
+      t = std::sqrt(w2 / log.u);
+      t1 = (0.25 * (1.0 + w2) - t) / log.u;
+      const double cotangent = 1.0 - log.e * log.u;          // (a/2) cot(a/2)
+      const double sine = 2.0 * std::sqrt(w2) / (1.0 + w2);  // sin(a/2)
+      const double cosecant = 0.25 * log.u / (sine * sine);  // (a/2)²/sin²(a/2)
+      e1 = ((cosecant - cotangent) / log.u - 2.0 * log.e) / log.u;
+    }
+  }
+
+ private:
+  /// tan(a/4)/a = ¼ Σ τ_k (u/16)^k with tan x = Σ τ_k x^(2k+1).
+  static constexpr std::array<double, 9> t_series = [] {
+    constexpr std::array<double, 9> tau = {1.0,
+                                           1.0 / 3,
+                                           2.0 / 15,
+                                           17.0 / 315,
+                                           62.0 / 2835,
+                                           1382.0 / 155925,
+                                           21844.0 / 6081075,
+                                           929569.0 / 638512875,
+                                           6404582.0 / 10854718875};
+    std::array<double, 9> a{};
+    double factor = 0.25;
+    for (std::size_t k = 0; k < 9; ++k, factor /= 16.0) a[k] = factor * tau[k];
+    return a;
+  }();
+  template <std::size_t K>
+  static constexpr std::array<double, K - 1> derivative(const std::array<double, K>& a) {
+    std::array<double, K - 1> b{};
+    for (std::size_t k = 1; k < K; ++k) b[k - 1] = static_cast<double>(k) * a[k];
+    return b;
+  }
+};
+
+/// T⁻¹(ψ) = 1 + ψ~/2 + e ψ~².
+Matrix3d inverse_tangent(const Logarithm<double>& log) {
+  const Matrix3d P = skew(log.psi);
+  return Matrix3d::Identity() + 0.5 * P + log.e * (P * P);
+}
+
+/// ∂(T⁻¹(ψ) m)/∂ψ = −m~/2 − e [(ψ×m)~ + ψ~ m~] + e1 (ψ×(ψ×m)) ψᵀ.
+Matrix3d inverse_tangent_derivative(const Vector3d& psi, double e, double e1, const Vector3d& m) {
+  const Vector3d b = psi.cross(m);
+  Matrix3d Z = skew(Vector3d(-0.5 * m - e * b));
+  Z.noalias() -= e * (m * psi.transpose());  // ψ~ m~ = m ψᵀ − (ψ·m) 1
+  Z.diagonal().array() += e * psi.dot(m);
+  Z.noalias() += (e1 * psi.cross(b)) * psi.transpose();
+  return Z;
+}
+
+/// A = c_m M + c_c (Ω~ J − (JΩ)~) on the diagonal blocks of rotations; every other entry of A is set to zero.
+template <int N>
+void set_inertia(const BeamElement<N>& e, std::span<const NodeMotion> nodes, const TangentCoefficients& c,
+                 Square<N>& A) {
+  A.setZero();
+  for (int i = 0; i < N; ++i) {
+    for (int j = 0; j < N; ++j)
+      for (int k = 0; k < 3; ++k) A(6 * i + k, 6 * j + k) = c.mass * e.mass * beam::Shares<N>::mass[i][j];
+    const Matrix3d& J = e.inertia[i];
+    const Vector3d& Omega = nodes[static_cast<std::size_t>(e.nodes[i])].Omega;
+    const Vector3d spin = J * Omega;
+    A.template block<3, 3>(6 * i + 3, 6 * i + 3) = c.mass * J + c.damping * (skew(Omega) * J - skew(spin));
+  }
+}
+
+/// A += c ∂G_int/∂q, two nodes. With P_i = ∂θ_m/∂Θ_i, G_i = ∂ψ/∂Θ_i, g~-dependent H = N~ − g~ C_n:
+/// K_θθ = P_iᵀ L H g~ P_j + Y_i G_j, K_θx = P_iᵀ H Λᵀ = K_xθᵀ, K_xx = Λ C_n Λᵀ/L.
+void add_stiffness(const BeamElement2& e, const beam::State2<double>& state, double c, Square<2>& A) {
+  const LogarithmDerivatives f(state.log);
+  const Vector3d &psi = state.log.psi, &w = state.log.w;
+  const Vector3d h = e.length * state.force.cross(state.g);
+  const Matrix3d skew_g = skew(state.g), skew_psi = skew(psi);
+  const Matrix3d H = c * (skew(state.force) - skew_g * e.force_stiffness.asDiagonal());
+  const Matrix3d Jh = e.length * (H * skew_g);
+  const Vector3d compliance = c / e.length * e.moment_stiffness;
+
+  // Derivatives of the half sum and the half difference of the end moments by ψ.
+  const Matrix3d mean = 0.5 * (c * skew(state.moment) - skew_psi * compliance.asDiagonal());
+  const Vector3d b = psi.cross(state.moment);
+  Matrix3d even = skew(Vector3d(c * (0.5 * f.t * h - state.log.e * b)));
+  even.noalias() -= (c * state.log.e) * (state.moment * psi.transpose());
+  even.diagonal().array() += c * state.log.e * psi.dot(state.moment);
+  even.noalias() += (c * (0.5 * f.t1 * h.cross(psi) + f.e1 * psi.cross(b))) * psi.transpose();
+  Matrix3d E = state.log.e * (skew_psi * skew_psi);
+  E.diagonal().array() += 1.0;
+  even.noalias() += E * compliance.asDiagonal();
+
+  const Matrix3d &D1 = e.section[0], &D2 = e.section[1];
+  const Matrix3d G = E + 0.5 * skew_psi;
+  const Matrix3d half = 0.5 * (Matrix3d::Identity() + skew(w));
+  const std::array<Matrix3d, 2> P = {half.transpose() * D1.transpose(), half * D2.transpose()};
+  const std::array<Matrix3d, 2> Gn = {-(G.transpose() * D1.transpose()), G * D2.transpose()};
+  const std::array<Matrix3d, 2> Y = {D1 * (mean - even), D2 * (mean + even)};
+  const Matrix3d HL = H * state.axes.transpose();
+  const Matrix3d K = state.axes * (c / e.length * e.force_stiffness).asDiagonal() * state.axes.transpose();
+  for (int i = 0; i < 2; ++i) {
+    const Matrix3d PJ = P[i].transpose() * Jh;
+    const Matrix3d Kx = P[i].transpose() * HL;
+    for (int j = 0; j < 2; ++j) {
+      const double sign = j == 0 ? -1.0 : 1.0;
+      A.block<3, 3>(6 * i + 3, 6 * j + 3) += PJ * P[j] + Y[i] * Gn[j];
+      A.block<3, 3>(6 * i + 3, 6 * j) = sign * Kx;
+      A.block<3, 3>(6 * j, 6 * i + 3) = sign * Kx.transpose();
+      A.block<3, 3>(6 * i, 6 * j) += (i == j ? 1.0 : -1.0) * K;
+    }
+  }
+}
+
+using Matrix39 = Eigen::Matrix<double, 3, 9>;
+using Matrix9 = Eigen::Matrix<double, 9, 9>;
+
+/// ∂(T(φ) a)/∂φ = c a~ − c1 (φ×a) φᵀ − d [(φ×a)~ + φ~ a~] + d1 (φ×(φ×a)) φᵀ.
+Matrix3d tangent_derivative(const Vector3d& phi, const beam::CurvatureFunctions<double>& f, const Vector3d& a) {
+  const Vector3d b = phi.cross(a);
+  Matrix3d X = skew(Vector3d(f.c * a - f.d * b));
+  X.noalias() -= f.d * (a * phi.transpose());
+  X.diagonal().array() += f.d * phi.dot(a);
+  X.noalias() += (f.d1 * phi.cross(b) - f.c1 * b) * phi.transpose();
+  return X;
+}
+
+/// ∂²(m · T(φ) a)/∂φ², symmetric (notation of tangent_gradient).
+Matrix3d tangent_hessian(const beam::Point3<double>& p) {
+  const Vector3d &phi = p.phi, &a = p.a, &m = p.moment;
+  const Vector3d k = a.cross(m);
+  const double am = a.dot(m), pa = phi.dot(a), pm = phi.dot(m), A = phi.dot(k), B = pa * pm - p.u * am;
+  const Vector3d b = a * pm + m * pa - 2.0 * am * phi;
+  const Vector3d v = p.f.d1 * b - p.f.c1 * k + 0.5 * (p.f.d2(p.u) * B - p.f.c2(p.u) * A) * phi;
+  Matrix3d half = v * phi.transpose() + p.f.d * (a * m.transpose());
+  Matrix3d X = half + half.transpose();
+  X.diagonal().array() += p.f.d1 * B - p.f.c1 * A - 2.0 * p.f.d * am;
+  return X;
+}
+
+/// Contribution of one quadrature point, scaled by c: K by (Φ₁, Φ₃, θ₂), Kx: their forces by (x₁, x₂, x₃).
+/// Of the variations δφ, δa, δθ₂ with δθ = T δφ + exp(−φ) δθ₂ and δκ = T δa + Ξ δφ; δφ = Σ n_i δΦ_i, δa = Σ n_i' δΦ_i.
+void add_point(const BeamElement3& e, const beam::Point3<double>& p, int point, double c, Matrix9& K, Matrix9& Kx,
+               Square<3>& A) {
+  const double weight = 0.5 * c * e.length;
+  const std::array<double, 2> n = {beam::shape[point][0], beam::shape[point][2]};
+  const std::array<double, 2> dn = {beam::slope[point][0] / e.length, beam::slope[point][2] / e.length};
+  const Matrix3d skew_phi = skew(p.phi), skew_g = skew(p.g);
+  const Matrix3d T = Matrix3d::Identity() - p.f.c * skew_phi + p.f.d * (skew_phi * skew_phi);
+  const Matrix3d Xi = tangent_derivative(p.phi, p.f, p.a);
+  const Vector3d h = weight * p.force.cross(p.g), m = weight * p.moment;
+  const Matrix3d H = weight * (skew(p.force) - skew_g * e.force_stiffness.asDiagonal());
+  const Matrix3d J = H * skew_g, JT = J * T, JE = J * p.turn.transpose();
+  const Matrix3d CT = (weight * e.moment_stiffness).asDiagonal() * T;
+  const Matrix3d CX = (weight * e.moment_stiffness).asDiagonal() * Xi;
+  const Matrix3d by_phi =
+      T.transpose() * JT + Xi.transpose() * CX - tangent_derivative(-p.phi, p.f, h) + weight * tangent_hessian(p);
+  const Matrix3d mixed = Xi.transpose() * CT - tangent_derivative(-p.phi, p.f, m).transpose();
+  const Matrix3d by_a = T.transpose() * CT;
+  const Matrix3d down = p.turn * (JT - skew(h) * T), across = T.transpose() * JE;
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j)
+      K.block<3, 3>(3 * i, 3 * j) +=
+          n[i] * n[j] * by_phi + n[i] * dn[j] * mixed + dn[i] * n[j] * mixed.transpose() + dn[i] * dn[j] * by_a;
+    K.block<3, 3>(6, 3 * i) += n[i] * down;
+    K.block<3, 3>(3 * i, 6) += n[i] * across;
+  }
+  K.block<3, 3>(6, 6) += p.turn * JE;
+  const Matrix3d HL = H * p.axes.transpose(), THL = T.transpose() * HL, EHL = p.turn * HL;
+  const Matrix3d C = p.axes * (weight * e.force_stiffness).asDiagonal() * p.axes.transpose();
+  for (int i = 0; i < 3; ++i) {
+    const double di = beam::slope[point][i] / e.length;
+    for (int k = 0; k < 2; ++k) Kx.block<3, 3>(3 * k, 3 * i) += n[k] * di * THL;
+    Kx.block<3, 3>(6, 3 * i) += di * EHL;
+    for (int j = 0; j < 3; ++j) A.block<3, 3>(6 * i, 6 * j) += di * beam::slope[point][j] / e.length * C;
+  }
+}
+
+/// A += c ∂G_int/∂q, three nodes: K by (Φ₁, Φ₃, θ₂) carried to nodes by V = ∂(Φ₁, Φ₃, θ₂)/∂(Θ₁, Θ₂, Θ₃), and the change
+/// of V at constant forces P.
+void add_stiffness(const BeamElement3& e, const beam::State3<double>& state, const beam::Moments3<double>& P, double c,
+                   Square<3>& A) {
+  Matrix9 K = Matrix9::Zero(), Kx = Matrix9::Zero();
+  for (int k = 0; k < 2; ++k) add_point(e, state.point[k], k, c, K, Kx, A);
+  const std::array<const Logarithm<double>*, 2> logs = {&state.log1, &state.log3};
+  const std::array<Vector3d, 2> force = {c * P.on1, c * P.on3};
+  const std::array<int, 2> end = {0, 2};
+  const Matrix3d& D2 = e.section[1];
+  std::array<Matrix3d, 2> outer, inner;  // V: by the rotation of the end node and of the middle node
+  for (int i = 0; i < 2; ++i) {
+    const Matrix3d G = inverse_tangent(*logs[i]);
+    outer[i] = G * e.section[end[i]].transpose();
+    inner[i] = -(G.transpose() * D2.transpose());
+  }
+  Matrix9 KV;
+  for (int i = 0; i < 2; ++i) KV.middleCols<3>(3 * end[i]) = K.middleCols<3>(3 * i).lazyProduct(outer[i]);
+  KV.middleCols<3>(3) = K.middleCols<3>(0).lazyProduct(inner[0]) + K.middleCols<3>(3).lazyProduct(inner[1]) +
+                        K.middleCols<3>(6).lazyProduct(D2.transpose());
+  Matrix39 middle = D2.lazyProduct(KV.bottomRows<3>()), middle_x = D2.lazyProduct(Kx.bottomRows<3>());
+  for (int i = 0; i < 2; ++i) {
+    const LogarithmDerivatives f(*logs[i]);
+    const Vector3d& Phi = logs[i]->psi;
+    const Matrix3d plus = inverse_tangent_derivative(Phi, logs[i]->e, f.e1, force[i]);
+    const Matrix3d minus = inverse_tangent_derivative(-Phi, logs[i]->e, f.e1, force[i]);
+    const Matrix3d Dm = e.section[end[i]] * minus, Dp = D2 * plus;
+    Matrix39 row = outer[i].transpose().lazyProduct(KV.middleRows<3>(3 * i));
+    row.middleCols<3>(3 * end[i]) -= Dm * outer[i];
+    row.middleCols<3>(3) -= Dm * inner[i];
+    middle += inner[i].transpose().lazyProduct(KV.middleRows<3>(3 * i));
+    middle.middleCols<3>(3 * end[i]) -= Dp * outer[i];
+    middle.middleCols<3>(3) -= Dp * inner[i];
+    middle_x += inner[i].transpose().lazyProduct(Kx.middleRows<3>(3 * i));
+    const Matrix39 row_x = outer[i].transpose().lazyProduct(Kx.middleRows<3>(3 * i));
+    for (int j = 0; j < 3; ++j) {
+      A.block<3, 3>(6 * end[i] + 3, 6 * j + 3) += row.middleCols<3>(3 * j);
+      A.block<3, 3>(6 * end[i] + 3, 6 * j) = row_x.middleCols<3>(3 * j);
+      A.block<3, 3>(6 * j, 6 * end[i] + 3) = row_x.middleCols<3>(3 * j).transpose();
+    }
+  }
+  for (int j = 0; j < 3; ++j) {
+    A.block<3, 3>(9, 6 * j + 3) += middle.middleCols<3>(3 * j);
+    A.block<3, 3>(9, 6 * j) = middle_x.middleCols<3>(3 * j);
+    A.block<3, 3>(6 * j, 9) = middle_x.middleCols<3>(3 * j).transpose();
+  }
+}
+
+template <int N>
+beam::Configuration<double, N> gather(const BeamElement<N>& element, std::span<const NodeMotion> nodes,
+                                      beam::NodePointers<NodeMotion, N>& motion) {
+  beam::Configuration<double, N> q;
+  for (int i = 0; i < N; ++i) {
+    motion[i] = &nodes[static_cast<std::size_t>(element.nodes[i])];
+    q.x[i] = motion[i]->x;
+    q.R[i] = motion[i]->R;
+  }
+  return q;
+}
+
+}  // namespace
+
+void residual_and_tangent(const BeamElement2& element, std::span<const NodeMotion> nodes,
+                          const Eigen::Vector3d& gravity, const TangentCoefficients& coefficients,
+                          Eigen::Matrix<double, 12, 1>& r, Eigen::Matrix<double, 12, 12>& A) {
+  beam::NodePointers<NodeMotion, 2> motion;
+  const beam::State2<double> state(element, gather(element, nodes, motion));
+  beam::internal_force(element, state, r);
+  beam::add_inertia(element, motion, gravity, r);
+  set_inertia(element, nodes, coefficients, A);
+  add_stiffness(element, state, coefficients.stiffness, A);
+}
+
+void residual_and_tangent(const BeamElement3& element, std::span<const NodeMotion> nodes,
+                          const Eigen::Vector3d& gravity, const TangentCoefficients& coefficients,
+                          Eigen::Matrix<double, 18, 1>& r, Eigen::Matrix<double, 18, 18>& A) {
+  beam::NodePointers<NodeMotion, 3> motion;
+  const beam::State3<double> state(element, gather(element, nodes, motion));
+  const beam::Moments3<double> P = beam::internal_force(element, state, r);
+  beam::add_inertia(element, motion, gravity, r);
+  set_inertia(element, nodes, coefficients, A);
+  add_stiffness(element, state, P, coefficients.stiffness, A);
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,82 @@
+// Modal body: floating frame with lumped masses and modes; constants of a body, residual, tangent and energy at one
+// instant.
+//
+// [GA00] (1)-(16) in the corrected and completed form: mass matrix (8) and (16) with J = −Σ m b~ b~ + Σ μ, quadratic
+// velocity terms (12) with the gyroscopic part − ω~ Σ μ (ω + θ̇), which the source leaves out and which energy does not
+// see. Velocities are [ṙ world; ω body axes; ẇ]; sums over the nodes are done once, so that the cost of an evaluation
+// is that of 9 m² products.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "mechanism/frames/motion.hpp"
+
+namespace tisserand::mechanism {
+
+/// Sums over the nodes k of a body with masses m_k, inertias μ_k, positions x_k and rows Xd_k, Xt_k (3 x m) of the
+/// modes; modes are mass-normalised, so w has the unit √mass length.
+struct ModalBody {
+  std::string name;
+  int node = 0;                                       ///< the frame, at the centre of mass: r, A
+  int modes = 0;                                      ///< m
+  int offset = 0;                                     ///< of its w in State::w
+  double mass = 0.0;                                  ///< Σ m_k
+  Eigen::Vector3d c0 = Eigen::Vector3d::Zero();       ///< Σ m_k x_k
+  Eigen::Matrix3Xd C1;                                ///< Σ m_k Xd_k
+  Eigen::Matrix3d P0 = Eigen::Matrix3d::Zero();       ///< Σ m_k x_k x_kᵀ
+  Eigen::VectorXd P1;                                 ///< 9 m: Σ m_k x_k Xd_kjᵀ, column by column, for each j
+  Eigen::MatrixXd P2;                                 ///< 9 m x m: column i holds Σ m_k Xd_ki Xd_kjᵀ for each j
+  Eigen::Matrix3d J_mu = Eigen::Matrix3d::Zero();     ///< Σ μ_k
+  Eigen::Matrix3Xd N_mu;                              ///< Σ μ_k Xt_k
+  Eigen::VectorXd stiffness;                          ///< ω_j²
+  Eigen::VectorXd damping;                            ///< 2 ζ_j ω_j, and mass- and stiffness-proportional parts
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< for the caller to scale and pass on
+};
+
+/// What residual and tangent share, sized once.
+struct ModalScratch {
+  Eigen::Vector3d om, omd;  ///< of the frame, body axes
+  Eigen::Vector3d ga;       ///< Aᵀ (r̈ − gravity)
+  Eigen::Vector3d c, cd;    ///< c0 + C1 w and its rate
+  Eigen::Matrix3d A;        ///< of the frame
+  Eigen::Matrix3d J;        ///< inertia about the frame's origin
+  Eigen::Matrix3d D;        ///< Σ ẇ_j S_j
+  Eigen::Matrix3Xd N;       ///< coupling of ω and ẇ: vee(S_j) + N_mu_j
+  Eigen::VectorXd w, wd, wdd;
+  Eigen::VectorXd S, Sd, Sdd;  ///< 9 m: S_j = P1_j + Σ_i w_i P2_ij; Σ_i ẇ_i P2_ij; Σ_i ẅ_i P2_ij
+  Eigen::VectorXd r;           ///< 6 + m
+  Eigen::MatrixXd tangent;     ///< (6 + m) x (6 + m)
+};
+
+struct ModalEnergy {
+  double kinetic = 0.0;
+  double strain = 0.0;
+  double potential = 0.0;
+};
+
+ModalScratch make_scratch(const ModalBody& body);
+
+/// m numbers each.
+struct ModalCoordinates {
+  const double* w;
+  const double* wd;
+  const double* wdd;
+};
+
+/// `frame`: motion of the body's node.
+void update_kinematics(const ModalBody& body, const NodeMotion& frame, const ModalCoordinates& modes,
+                       const Eigen::Vector3d& gravity, ModalScratch& scratch);
+
+/// r = M v̇ − s − g + K w + D ẇ, rows [force world; moment body axes; modes]. Needs update_kinematics().
+void residual(const ModalBody& body, ModalScratch& scratch);
+
+/// scratch.tangent = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q, exact. Needs update_kinematics().
+void tangent(const ModalBody& body, const TangentCoefficients& coefficients, ModalScratch& scratch);
+
+/// Needs update_kinematics(). The potential is −gravity·(mass r + A c).
+ModalEnergy energy(const ModalBody& body, const NodeMotion& frame, const Eigen::Vector3d& gravity,
+                   const ModalScratch& scratch);
+
+}  // namespace tisserand::mechanism

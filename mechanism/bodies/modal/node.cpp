@@ -1,0 +1,105 @@
+// Kinematics of nodes of modal bodies and its derivatives.
+#include "mechanism/bodies/modal/node.hpp"
+
+#include "common/math/rotation.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// ∂(T(θ) h)/∂θ = c h~ + (−c₁ θ~ h + d₁ θ~² h) θᵀ − d [(θ~ h)~ + θ~ h~], with c₁, d₁ the derivatives of c and d divided
+/// by the angle.
+Matrix3d tangent_derivative(const Vector3d& theta, const Vector3d& h) {
+  const double a2 = theta.squaredNorm();
+  const AngleFunctions<double> f(a2);
+  double c1, d1;
+  if (a2 < 1e-2) {
+    c1 = -1.0 / 12.0 + a2 * (1.0 / 180.0 - a2 * (1.0 / 6720.0 - a2 / 453600.0));
+    d1 = -1.0 / 60.0 + a2 * (1.0 / 1260.0 - a2 * (1.0 / 60480.0 - a2 / 4989600.0));
+  } else {
+    c1 = (f.s - 2.0 * f.c) / a2;
+    d1 = (f.c - 3.0 * f.d) / a2;
+  }
+  const Vector3d turned = theta.cross(h);
+  return f.c * skew<double>(h) + (d1 * theta.cross(turned) - c1 * turned) * theta.transpose() -
+         f.d * (skew<double>(turned) + skew<double>(theta) * skew<double>(h));
+}
+
+}  // namespace
+
+ModalNodeTerms make_terms(const ModalNode& node) {
+  ModalNodeTerms terms;
+  for (Vector3d* v : {&terms.b, &terms.theta, &terms.rate, &terms.om}) v->setZero();
+  for (Matrix3d* M : {&terms.A, &terms.E, &terms.L}) M->setIdentity();
+  terms.T.setZero(6, 6 + node.Xd.cols());
+  terms.T.leftCols<3>().topRows<3>().setIdentity();
+  terms.bias.setZero();
+  return terms;
+}
+
+void update_node(const ModalNode& node, const ModalScratch& body, const NodeMotion& frame, NodeMotion& motion,
+                 ModalNodeTerms& t) {
+  const Index m = node.Xd.cols();
+  t.b = node.x + node.Xd.lazyProduct(body.w);
+  t.theta = node.Xt.lazyProduct(body.w);
+  t.rate = node.Xt.lazyProduct(body.wd);
+  t.om = frame.Omega;
+  t.A = frame.R;
+  t.E = exp_so3<double>(t.theta);
+  const Matrix3d T = tangent_so3<double>(t.theta);
+  t.L = T.transpose();
+  t.T.block<3, 3>(0, 3).noalias() = -t.A * skew<double>(t.b);
+  t.T.block<3, 3>(3, 3) = t.E.transpose();
+  for (Index j = 0; j < m; ++j) {
+    t.T.col(6 + j).head<3>() = t.A * node.Xd.col(j);
+    t.T.col(6 + j).tail<3>() = T * node.Xt.col(j);
+  }
+  const Vector3d moved = node.Xd.lazyProduct(body.wd), carried = t.E.transpose() * t.om, own = T * t.rate;
+  t.bias.head<3>() = t.A * (t.om.cross(t.om.cross(t.b)) + 2.0 * t.om.cross(moved));
+  t.bias.tail<3>() = carried.cross(own) + tangent_derivative(t.theta, t.rate) * t.rate;
+
+  motion.x = frame.x + t.A * t.b;
+  motion.R = t.A * t.E;
+  motion.xd = frame.xd + t.A * (t.om.cross(t.b) + moved);
+  motion.Omega = carried + own;
+  const auto modal = t.T.rightCols(m);
+  motion.xdd = frame.xdd + t.T.block<3, 3>(0, 3) * frame.Omegad + t.bias.head<3>();
+  motion.xdd += modal.topRows<3>().lazyProduct(body.wdd);
+  motion.Omegad = t.E.transpose() * frame.Omegad + t.bias.tail<3>();
+  motion.Omegad += modal.bottomRows<3>().lazyProduct(body.wdd);
+}
+
+void rate_gradient(const ModalNode& node, const ModalScratch& body, const ModalNodeTerms& t,
+                   Eigen::Ref<Eigen::MatrixXd> Z) {
+  const Vector3d velocity = t.om.cross(t.b) + node.Xd.lazyProduct(body.wd);
+  const Vector3d carried = t.E.transpose() * t.om;
+  // δ(Eᵀ ω) = (Eᵀ ω)~ T δθ
+  const Matrix3d turn = skew<double>(carried) * t.L.transpose() + tangent_derivative(t.theta, t.rate);
+  Z.setZero();
+  Z.block<3, 3>(0, 3) = -t.A * skew<double>(velocity);
+  for (Index j = 0; j < node.Xd.cols(); ++j) {
+    Z.col(6 + j).head<3>() = t.A * t.om.cross(node.Xd.col(j));
+    Z.col(6 + j).tail<3>() = turn * node.Xt.col(j);
+  }
+}
+
+void add_geometric_stiffness(const ModalNode& node, const ModalNodeTerms& t, const Eigen::Matrix<double, 6, 1>& force,
+                             Eigen::Ref<Eigen::MatrixXd> K) {
+  const Index m = node.Xd.cols();
+  const Vector3d g = t.A.transpose() * force.head<3>(), h = t.E * force.tail<3>();
+  const Matrix3d g_skew = skew<double>(g);
+  K.block<3, 3>(3, 3) += skew<double>(t.b) * g_skew;
+  // Of the modal moments Xtᵀ Lᵀ h: L changes with θ, and h turns with the node.
+  const Matrix3d L_h = tangent_derivative(t.theta, h) - t.L.transpose() * skew<double>(h) * t.L;
+  for (Index i = 0; i < m; ++i) {
+    const Vector3d turned = t.L * node.Xt.col(i), bent = L_h * node.Xt.col(i);
+    K.col(6 + i).segment<3>(3) -= g_skew * node.Xd.col(i) + h.cross(turned);
+    K.row(6 + i).segment<3>(3) += node.Xd.col(i).transpose() * g_skew;
+    for (Index j = 0; j < m; ++j) K(6 + j, 6 + i) += node.Xt.col(j).dot(bent);
+  }
+}
+
+}  // namespace tisserand::mechanism

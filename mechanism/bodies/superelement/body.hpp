@@ -1,0 +1,116 @@
+// The superelement as a body of the mechanism: constants built once from the file, held by the Model, and its uses.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/units.hpp"
+#include "formats/scene/scene.hpp"
+#include "formats/superelement/superelement.hpp"
+
+namespace tisserand::mechanism {
+
+/// What the scene says about one use of a superelement file.
+struct SuperelementOptions {
+  formats::FrameKind frame = formats::FrameKind::karcher;
+  std::string frame_node;  ///< for FrameKind::node
+  formats::InertiaOption inertia = formats::InertiaOption::B;
+  std::optional<int> modes;                           ///< absent: all in the file
+  std::optional<double> cutoff;                       ///< frequency ω/2π [1/time of the scene]
+  std::vector<formats::NodeWeight> position_weights;  ///< empty: from the centre of mass
+  std::vector<formats::NodeWeight> rotation_weights;
+  formats::Damping damping;
+  UnitConversion units;  ///< file -> scene
+  std::string where;     ///< place of the body in the scene, for messages
+};
+
+/// How R₀ follows from the nodes. The first four are [Car00] (14)-(16) with the Karcher mean in place of the
+/// incremental one where possible; `polar` serves nodes that have translations only.
+enum class FrameAlgorithm {
+  single_node,  ///< one node has all the rotation weight: R₀ = R_k
+  pair,         ///< two rotation nodes: Karcher mean in closed form, R₀ = R₁ exp(α₂ log(R₁ᵀR₂))
+  karcher,      ///< Σ αⱼ log(R₀ᵀRⱼ) = 0, iterated from a guess
+  incremental,  ///< R₀ = R_ref exp(Σ αⱼ log(R_refᵀRⱼ)), [Car00] (16)
+  polar         ///< R₀ = argmin Σ wᵢ |R₀ᵀ(xᵢ − x̄) − Xᵢ|²
+};
+
+/// One boundary node: where its coordinates stand in the boundary vector, and its constants in the floating frame.
+struct SuperelementNode {
+  std::string name;
+  int translation_row = -1;                           ///< first of three rows [x], -1: no translations
+  int rotation_row = -1;                              ///< first of three rows [Θ], -1: no rotations
+  double alpha = 0.0;                                 ///< weight of the position, Σ = 1
+  double alpha_rotation = 0.0;                        ///< weight of the rotation, Σ = 1
+  Eigen::Vector3d X = Eigen::Vector3d::Zero();        ///< reference position relative to x₀ = Σ αⱼ Xⱼ
+  double polar_weight = 0.0;                          ///< w of FrameAlgorithm::polar
+  Eigen::Vector3d X_polar = Eigen::Vector3d::Zero();  ///< X relative to Σ w X
+
+  bool has_translation() const { return translation_row >= 0; }
+  bool has_rotation() const { return rotation_row >= 0; }
+};
+
+/// Damping on the deformation rates: D = a M̄ + b S̄ + diag(2 ζ ω) on the internal coordinates.
+struct SuperelementDamping {
+  double mass = 0.0;         ///< a [1/time]
+  double stiffness = 0.0;    ///< b [time]
+  Eigen::VectorXd internal;  ///< m: the whole diagonal of D_II = a + b ω² + 2 ζ ω
+  bool active = false;
+};
+
+/// From the coordinates of the body to those of the file: y_I(file) = static_part y_B + modal_part y_I.
+struct FileCoordinates {
+  std::vector<int> boundary_row;  ///< nb: row of the file of each boundary coordinate
+  std::vector<int> internal_row;  ///< rows of the file of its internal coordinates
+  Eigen::MatrixXd static_part;    ///< −S_II⁻¹ S_IB
+  Eigen::MatrixXd modal_part;     ///< Q, only the modes kept
+};
+
+/// A superelement in canonical form (S_BI = 0, M_II = 1, S_II diagonal and ascending) and in units of the scene: what
+/// all uses of one file with the same options have in common. Boundary coordinates: per node [x, Θ], nodes in the order
+/// of the file; then m internal coordinates.
+struct SuperelementBody {
+  std::string name;  ///< in the file
+  std::vector<SuperelementNode> node;
+  int boundary_size = 0;  ///< nb
+  int modes = 0;          ///< m
+
+  Eigen::MatrixXd S_BB;  ///< nb x nb
+  Eigen::MatrixXd M_BB;  ///< nb x nb
+  Eigen::MatrixXd M_BI;  ///< nb x m
+  Eigen::MatrixXd M_IB;  ///< m x nb, M_BI transposed: both products run along columns
+  Eigen::VectorXd S_II;  ///< m, ω² of the internal modes (boundary held)
+  SuperelementDamping damping;
+
+  formats::InertiaOption inertia = formats::InertiaOption::B;
+  FrameAlgorithm frame = FrameAlgorithm::pair;
+  int frame_node = -1;                 ///< local node of FrameAlgorithm::single_node
+  std::vector<int> rotation_nodes;     ///< local nodes that own rotations
+  std::vector<int> translation_nodes;  ///< local nodes that own translations
+
+  Eigen::Vector3d reference_origin = Eigen::Vector3d::Zero();  ///< x₀ of the reference configuration, part frame
+  double mass = 0.0;
+  Eigen::Vector3d center_of_mass = Eigen::Vector3d::Zero();  ///< relative to x₀
+  Eigen::Matrix<double, 3, Eigen::Dynamic> Gamma_B;          ///< Φ_TᵀM̄, boundary columns (3 x nb)
+  Eigen::Matrix<double, 3, Eigen::Dynamic> Gamma_I;          ///< Φ_TᵀM̄, internal columns (3 x m)
+
+  FileCoordinates file;
+  std::vector<std::string> notes;  ///< what the user should know, whole sentences
+};
+
+/// One superelement of the mechanism.
+struct SuperelementUse {
+  std::string name;
+  int body = 0;            ///< index into the model's bodies
+  std::vector<int> nodes;  ///< indices into the model's nodes, in the order of the body
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+};
+
+/// Canonical form by congruence, modes cut, units converted, weights. Node poses of the reference configuration are
+/// those of the file. Throws Error.
+SuperelementBody build_superelement_body(const formats::Superelement& element, const formats::RigidProperties& rigid,
+                                         const SuperelementOptions& options);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,184 @@
+// Elimination of the internal coordinates with the blocks of the latest tangent.
+#include "mechanism/bodies/superelement/coupling.hpp"
+
+namespace tisserand::mechanism {
+
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d segment3(const double* v, int row) { return Eigen::Map<const Vector3d>(v + row); }
+
+/// v in axes of the frame: R₀ᵀ v of translations, E v of rotations with option A.
+Vector3d rotation_part(const SuperelementBody& body, const LocalNode<double>& local, const Vector3d& v) {
+  return body.inertia == formats::InertiaOption::A ? Vector3d(local.E * v) : v;
+}
+
+/// δΘ₀ = U v.
+Vector3d frame_rotation(const SuperelementBody& body, const SuperelementTangent& tangent, const double* v) {
+  Vector3d rotation = Vector3d::Zero();
+  if (body.frame == FrameAlgorithm::polar) {
+    for (const int j : body.translation_nodes) {
+      const auto i = static_cast<std::size_t>(j);
+      rotation += tangent.node[i].U_x * segment3(v, body.node[i].translation_row);
+    }
+  } else {
+    for (const int j : body.rotation_nodes) {
+      const auto i = static_cast<std::size_t>(j);
+      rotation += tangent.node[i].U * segment3(v, body.node[i].rotation_row);
+    }
+  }
+  return rotation;
+}
+
+}  // namespace
+
+void apply_upsilon(const SuperelementBody& body, const SuperelementTangent& tangent, const double* v,
+                   Eigen::VectorXd& out) {
+  const Vector3d rotation = frame_rotation(body, tangent, v);
+  Vector3d origin = Vector3d::Zero();
+  for (const int j : body.translation_nodes) {
+    const auto i = static_cast<std::size_t>(j);
+    origin += body.node[i].alpha * segment3(v, body.node[i].translation_row);
+  }
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    const LocalNode<double>& local = tangent.node[i];
+    if (node.has_translation())
+      out.segment<3>(node.translation_row) =
+          tangent.R0.transpose() * (segment3(v, node.translation_row) - origin) + local.xh.cross(rotation);
+    if (node.has_rotation())
+      out.segment<3>(node.rotation_row) =
+          local.Tinv * segment3(v, node.rotation_row) - local.Tinv.transpose() * rotation;
+  }
+}
+
+void apply_Z(const SuperelementBody& body, const SuperelementTangent& tangent, const double* v, Eigen::VectorXd& out) {
+  const TangentCoefficients& c = tangent.coefficients;
+  const Vector3d rotation = frame_rotation(body, tangent, v);
+  if (body.damping.mass > 0.0)
+    apply_upsilon(body, tangent, v, out);
+  else
+    out.setZero();
+  out *= c.damping * body.damping.mass;
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    const LocalNode<double>& local = tangent.node[i];
+    if (node.has_translation()) {
+      const Vector3d x = tangent.R0.transpose() * segment3(v, node.translation_row);
+      out.segment<3>(node.translation_row) +=
+          c.mass * x + c.damping * (x.cross(tangent.Omega0) + local.xd.cross(rotation));
+    }
+    if (!node.has_rotation()) continue;
+    const Vector3d theta = rotation_part(body, local, segment3(v, node.rotation_row));
+    out.segment<3>(node.rotation_row) += c.mass * theta;
+    if (body.inertia == formats::InertiaOption::A)
+      out.segment<3>(node.rotation_row) += c.damping * (theta.cross(tangent.Omega0) + local.Omega.cross(rotation));
+  }
+}
+
+namespace {
+
+/// c_m Pᵀ t + c_c (Pᵀ (O₀ ∓ turn O_B) t − frame UᵀVᵀ t + damping Υᵀ t): W t with 1, 1, a; Zᵀ t with 0, −1, a.
+struct Side {
+  double turn, frame, damping;
+};
+
+void apply_side(const SuperelementBody& body, const SuperelementTangent& tangent, const Side& side,
+                const Eigen::VectorXd& t, Eigen::VectorXd& out) {
+  const TangentCoefficients& c = tangent.coefficients;
+  const double a = c.damping * side.damping;
+  const bool option_A = body.inertia == formats::InertiaOption::A;
+  Vector3d moment = Vector3d::Zero(), total = Vector3d::Zero();
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    const LocalNode<double>& local = tangent.node[i];
+    if (node.has_translation()) {
+      const Vector3d s = t.segment<3>(node.translation_row);
+      total += s;
+      moment += side.frame * c.damping * local.xd.cross(s) - a * local.xh.cross(s);
+    }
+    if (node.has_rotation()) {
+      const Vector3d s = t.segment<3>(node.rotation_row);
+      if (option_A) moment += side.frame * c.damping * local.Omega.cross(s);
+      if (a > 0.0) moment -= a * (local.Tinv * s);
+    }
+  }
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    const LocalNode<double>& local = tangent.node[i];
+    if (node.has_translation()) {
+      const Vector3d s = t.segment<3>(node.translation_row);
+      out.segment<3>(node.translation_row) =
+          tangent.R0 * ((c.mass + a) * s + c.damping * tangent.Omega0.cross(s) - a * node.alpha * total);
+      if (body.frame == FrameAlgorithm::polar) out.segment<3>(node.translation_row) += local.U_x.transpose() * moment;
+    }
+    if (!node.has_rotation()) continue;
+    const Vector3d s = t.segment<3>(node.rotation_row);
+    Vector3d f;
+    if (option_A)
+      f = local.E.transpose() * (c.mass * s + c.damping * (tangent.Omega0 - side.turn * local.Omega).cross(s));
+    else
+      f = c.mass * s + (side.turn * c.damping) * local.Omega.cross(s);
+    if (a > 0.0) f += a * (local.Tinv.transpose() * s);
+    out.segment<3>(node.rotation_row) = f + local.U.transpose() * moment;
+  }
+}
+
+}  // namespace
+
+void apply_W(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
+             Eigen::VectorXd& out) {
+  apply_side(body, tangent, {.turn = 1.0, .frame = 1.0, .damping = body.damping.mass}, t, out);
+}
+
+void apply_inertia_of_W(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
+                        Eigen::VectorXd& out) {
+  apply_side(body, tangent, {.turn = 1.0, .frame = 1.0, .damping = 0.0}, t, out);
+}
+
+void apply_Z_transposed(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
+                        Eigen::VectorXd& out) {
+  apply_side(body, tangent, {.turn = 0.0, .frame = -1.0, .damping = body.damping.mass}, t, out);
+}
+
+void condense(const SuperelementBody& body, const SuperelementScratch& scratch, SuperelementWork& work) {
+  work.r_B_condensed = scratch.forces.r_B;
+  if (body.modes == 0) return;
+  const SuperelementTangent& tangent = scratch.tangent;
+  work.internal_1 = tangent.inverse_D.cwiseProduct(scratch.forces.r_I);
+  if (tangent.dense_coupling) {
+    work.r_B_condensed.noalias() -= tangent.A_BI * work.internal_1;
+    return;
+  }
+  work.boundary_1.setZero();
+  switch (body.boundary_size) {
+    case 12:
+      multiply_add<12, double>(body.M_BI, work.internal_1, work.boundary_1);
+      break;
+    case 18:
+      multiply_add<18, double>(body.M_BI, work.internal_1, work.boundary_1);
+      break;
+    default:
+      multiply_add<Eigen::Dynamic, double>(body.M_BI, work.internal_1, work.boundary_1);
+      break;
+  }
+  apply_W(body, tangent, work.boundary_1, work.boundary_2);
+  work.r_B_condensed -= work.boundary_2;
+}
+
+void expand(const SuperelementBody& body, const SuperelementScratch& scratch, const double* dq_B, double* dy_I,
+            SuperelementWork& work) {
+  if (body.modes == 0) return;
+  const SuperelementTangent& tangent = scratch.tangent;
+  work.internal_1 = scratch.forces.r_I;
+  if (tangent.dense_coupling) {
+    work.internal_1.noalias() += tangent.A_IB * Eigen::Map<const Eigen::VectorXd>(dq_B, body.boundary_size);
+  } else {
+    apply_Z(body, tangent, dq_B, work.boundary_1);
+    multiply_add<Eigen::Dynamic, double>(body.M_IB, work.boundary_1, work.internal_1);
+  }
+  Eigen::Map<Eigen::VectorXd>(dy_I, body.modes) = -tangent.inverse_D.cwiseProduct(work.internal_1);
+}
+
+}  // namespace tisserand::mechanism

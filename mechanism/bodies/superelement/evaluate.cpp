@@ -1,0 +1,122 @@
+// Kinematics, residual and energies of a superelement body in double precision.
+#include "mechanism/bodies/superelement/evaluate.hpp"
+
+namespace tisserand::mechanism {
+
+SuperelementScratch make_scratch(const SuperelementBody& body) {
+  SuperelementScratch scratch;
+  scratch.motion = make_local_motion<double>(body);
+  scratch.forces = make_forces<double>(body);
+  scratch.R0_reference.setIdentity();
+  SuperelementTangent& tangent = scratch.tangent;
+  tangent.inverse_D.setZero(body.modes);
+  tangent.R0.setIdentity();
+  tangent.Omega0.setZero();
+  tangent.node = scratch.motion.node;
+  tangent.U.setZero(3, body.boundary_size);
+  if (body.inertia == formats::InertiaOption::M) {
+    tangent.A_BI.setZero(body.boundary_size, body.modes);
+    tangent.A_IB.setZero(body.modes, body.boundary_size);
+  }
+  return scratch;
+}
+
+SuperelementWork make_work(const SuperelementBody& body) {
+  const Eigen::Index nb = body.boundary_size, m = body.modes;
+  SuperelementWork work;
+  work.inverse_D.setZero(m);
+  for (Eigen::MatrixXd* matrix : {&work.Q, &work.N, &work.A_BB, &work.work_1, &work.work_2, &work.work_3})
+    matrix->setZero(nb, nb);
+  for (Eigen::Matrix<double, Eigen::Dynamic, 3>* matrix : {&work.thin_1, &work.thin_2, &work.thin_3})
+    matrix->setZero(nb, 3);
+  for (Eigen::VectorXd* vector : {&work.r_B_condensed, &work.boundary_1, &work.boundary_2}) vector->setZero(nb);
+  work.internal_1.setZero(m);
+  return work;
+}
+
+void update_kinematics(const SuperelementBody& body, const NodeView<NodeMotion>& nodes, const double* y,
+                       const double* yd, const double* ydd, const Eigen::Matrix3d& R0_reference,
+                       SuperelementScratch& scratch) {
+  LocalMotion<double>& motion = scratch.motion;
+  if (body.modes > 0) {
+    motion.y_I = Eigen::Map<const Eigen::VectorXd>(y, body.modes);
+    motion.rate_I = Eigen::Map<const Eigen::VectorXd>(yd, body.modes);
+    motion.acceleration_I = Eigen::Map<const Eigen::VectorXd>(ydd, body.modes);
+  }
+  scratch.R0_reference = R0_reference;
+  motion.R0 = R0_reference;
+  local_motion<double>(body, nodes, motion);
+}
+
+void residual(const SuperelementBody& body, SuperelementScratch& scratch, const Eigen::Vector3d& gravity) {
+  switch (body.boundary_size) {
+    case 12:
+      superelement_forces<12>(body, scratch.motion, gravity, scratch.forces);
+      break;
+    case 18:
+      superelement_forces<18>(body, scratch.motion, gravity, scratch.forces);
+      break;
+    default:
+      superelement_forces<Eigen::Dynamic>(body, scratch.motion, gravity, scratch.forces);
+      break;
+  }
+}
+
+namespace {
+
+double quadratic_form(const Eigen::MatrixXd& A, const Eigen::VectorXd& v) {
+  double sum = 0.0;
+  for (Eigen::Index k = 0; k < A.cols(); ++k) sum += v[k] * A.col(k).dot(v);
+  return sum;
+}
+
+double coupling_form(const Eigen::MatrixXd& A, const Eigen::VectorXd& row, const Eigen::VectorXd& column) {
+  double sum = 0.0;
+  for (Eigen::Index k = 0; k < A.cols(); ++k) sum += column[k] * A.col(k).dot(row);
+  return sum;
+}
+
+}  // namespace
+
+SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratch& scratch,
+                          const Eigen::Vector3d& gravity) {
+  const LocalMotion<double>& motion = scratch.motion;
+  SuperelementEnergy result;
+  result.kinetic = 0.5 * (quadratic_form(body.M_BB, motion.rate_B) + motion.rate_I.squaredNorm()) +
+                   coupling_form(body.M_BI, motion.rate_B, motion.rate_I);
+  if (body.inertia == formats::InertiaOption::M)
+    result.kinetic +=
+        0.5 * body.mass *
+        (motion.center_velocity.squaredNorm() - mean_of<double>(body, motion.rate_B, motion.rate_I).squaredNorm());
+  result.strain = 0.5 * (quadratic_form(body.S_BB, motion.y_B) + motion.y_I.cwiseAbs2().dot(body.S_II));
+  if (!gravity.isZero(0.0)) {
+    const Eigen::Vector3d center = motion.x0 + motion.R0 * deformed_center_of_mass<double>(body, motion);
+    result.gravity_potential = -body.mass * gravity.dot(center);
+  }
+  if (body.damping.active) {
+    const double a = body.damping.mass, b = body.damping.stiffness;
+    const Eigen::VectorXd& rate = motion.deformation_rate_B;
+    result.damping_power = a * quadratic_form(body.M_BB, rate) + b * quadratic_form(body.S_BB, rate) +
+                           2.0 * a * coupling_form(body.M_BI, rate, motion.rate_I) +
+                           motion.rate_I.cwiseAbs2().dot(body.damping.internal);
+  }
+  return result;
+}
+
+Eigen::Index file_coordinate_count(const SuperelementBody& body) {
+  return static_cast<Eigen::Index>(body.file.boundary_row.size() + body.file.internal_row.size());
+}
+
+void file_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
+                      Eigen::Ref<Eigen::VectorXd> out) {
+  const LocalMotion<double>& motion = scratch.motion;
+  for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i)
+    out[body.file.boundary_row[i]] = motion.y_B[static_cast<Eigen::Index>(i)];
+  for (std::size_t k = 0; k < body.file.internal_row.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    out[body.file.internal_row[k]] =
+        body.file.static_part.row(row).dot(motion.y_B) + body.file.modal_part.row(row).dot(motion.y_I);
+  }
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,119 @@
+// The functions through which the mechanism evaluates a superelement body: residual, tangent, elimination of y_I,
+// energy.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "mechanism/bodies/superelement/body.hpp"
+#include "mechanism/bodies/superelement/residual.hpp"
+#include "mechanism/frames/motion.hpp"
+
+namespace tisserand::mechanism {
+
+/// Constants of the elimination of y_I for the latest coefficients, and matrices to work in: one for all uses of a
+/// body, so that they stay in the caches.
+struct SuperelementWork {
+  TangentCoefficients coefficients;  ///< for which D, Q, N hold
+  bool constants_valid = false;
+  Eigen::VectorXd inverse_D;  ///< m: 1/(c_m + c_c D_II + c_k S_II)
+  Eigen::MatrixXd Q;          ///< nb x nb: M_BI D⁻¹ M_IB
+  Eigen::MatrixXd N;          ///< nb x nb: M_BB − c_m Q
+
+  Eigen::MatrixXd A_BB;           ///< nb x nb, y_I eliminated: result of tangent()
+  Eigen::VectorXd r_B_condensed;  ///< r_B − A_BI A_II⁻¹ r_I: result of condense()
+
+  Eigen::MatrixXd work_1, work_2, work_3;                           ///< nb x nb
+  Eigen::Matrix<double, Eigen::Dynamic, 3> thin_1, thin_2, thin_3;  ///< nb x 3
+  Eigen::VectorXd boundary_1, boundary_2, internal_1;
+};
+
+/// The state at which the latest tangent of one use was formed: what condense() and expand() need.
+struct SuperelementTangent {
+  TangentCoefficients coefficients;
+  Eigen::VectorXd inverse_D;  ///< m: inverse diagonal of A_II
+  Eigen::Matrix3d R0;
+  Eigen::Vector3d Omega0;
+  std::vector<LocalNode<double>> node;
+  Eigen::Matrix<double, 3, Eigen::Dynamic> U;  ///< 3 x nb, U P⁻¹: columns in axes of the frame
+
+  bool dense_coupling = false;  ///< A_BI and A_IB are stored (exact tangent) instead of W M_BI and M_IB Z
+  Eigen::MatrixXd A_BI;         ///< nb x m
+  Eigen::MatrixXd A_IB;         ///< m x nb
+};
+
+/// Scratch of one use, sized once.
+struct SuperelementScratch {
+  LocalMotion<double> motion;         ///< current x₀, R₀, Ω₀, y (update_kinematics)
+  Eigen::Matrix3d R0_reference;       ///< as given to update_kinematics
+  SuperelementForces<double> forces;  ///< r_B, r_I (residual)
+  SuperelementTangent tangent;
+};
+
+SuperelementScratch make_scratch(const SuperelementBody& body);
+SuperelementWork make_work(const SuperelementBody& body);
+
+/// work.A_BB = c_m M_BB + c_k S_BB turned with the frame, after update_kinematics(): a symmetric weight of boundary
+/// motions with internal coordinates held, in which rigid ones have their mass alone.
+void boundary_weight(const SuperelementBody& body, const TangentCoefficients& coefficients,
+                     const SuperelementScratch& scratch, SuperelementWork& work);
+
+/// Frame, y, ẏ, ÿ of the body. R0_reference: karcher and polar start from it (the latest R₀), the incremental frame
+/// uses it as R_ref (R₀ at the end of the latest accepted step); pair and single_node ignore it. y, yd, ydd: m
+/// canonical internal coordinates and rates. scratch.motion.frame_error tells whether an iterated frame converged (≤
+/// 1e-14 rad normally).
+void update_kinematics(const SuperelementBody& body, const NodeView<NodeMotion>& nodes, const double* y,
+                       const double* yd, const double* ydd, const Eigen::Matrix3d& R0_reference,
+                       SuperelementScratch& scratch);
+
+/// scratch.forces.r_B, r_I: G_iner + G_int + G_damp − gravity, after update_kinematics(). r_B is what the boundary
+/// nodes receive from the rest of the mechanism. gravity: acceleration in world axes.
+void residual(const SuperelementBody& body, SuperelementScratch& scratch, const Eigen::Vector3d& gravity);
+
+/// Step tangent after residual(): work.A_BB = A_BB − W Q Z with the boundary part of
+///   c_m Pᵀ M̄ P + c_c (C₁ + C₂ + C₃ + Υᵀ D Υ) + c_k Υᵀ S̄ Υ          ([Car00] (31), (49)-(51), (61)-(63), corrected)
+/// (the derivatives of Υ, of U and of the weight are left out), and what condense() and expand() need. The elimination
+/// of y_I is exact: C has no I-I block, so D = A_II is a constant diagonal and Q = M_BI D⁻¹ M_IB is kept while the
+/// coefficients stay.
+void tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
+             SuperelementWork& work);
+
+/// The same with the exact combination c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q by dual numbers; the elimination of y_I takes
+/// the diagonal of A_II, which with inertia M is all of it only at rest (Ω₀ couples internal coordinates; the step
+/// tangent of M leaves that out, bodies/superelement/center_tangent.hpp). Allocates.
+void exact_tangent(const SuperelementBody& body, const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,
+                   const TangentCoefficients& coefficients, SuperelementScratch& scratch, SuperelementWork& work);
+
+/// work.r_B_condensed = r_B − A_BI A_II⁻¹ r_I with the blocks of the latest tangent of this use.
+void condense(const SuperelementBody& body, const SuperelementScratch& scratch, SuperelementWork& work);
+
+/// dy_I = −A_II⁻¹ (r_I + A_IB dq_B): the internal part of the solution of A d = −r.
+void expand(const SuperelementBody& body, const SuperelementScratch& scratch, const double* dq_B, double* dy_I,
+            SuperelementWork& work);
+
+/// The whole (nb + m)² tangent, y_I not eliminated; after residual(). Allocates.
+void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch& scratch,
+                         const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,
+                         const TangentCoefficients& coefficients, TangentKind kind, Eigen::MatrixXd& A);
+
+struct SuperelementEnergy {
+  double kinetic = 0.0;            ///< ½ ẏᵀ M̄ ẏ
+  double strain = 0.0;             ///< ½ yᵀ S̄ y
+  double gravity_potential = 0.0;  ///< −m g · x_cm
+  double damping_power = 0.0;      ///< dissipated, ≥ 0
+};
+
+/// After update_kinematics().
+SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratch& scratch,
+                          const Eigen::Vector3d& gravity);
+
+/// y in the coordinates and the order of rows of the file (lengths in units of the scene). out: boundary_size +
+/// internal coordinates of the file. After update_kinematics().
+void file_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
+                      Eigen::Ref<Eigen::VectorXd> out);
+
+/// Number of coordinates of the file, the size of `out` above.
+Eigen::Index file_coordinate_count(const SuperelementBody& body);
+
+}  // namespace tisserand::mechanism

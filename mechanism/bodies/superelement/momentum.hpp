@@ -1,0 +1,105 @@
+// The exact motion of a superelement's centre of mass, for every scalar: what inertia option M puts in place of the
+// interpolated one.
+#pragma once
+
+#include <cstddef>
+
+#include "mechanism/bodies/superelement/frame.hpp"
+
+namespace tisserand::mechanism {
+
+/// d/dt T⁻¹(ψ) for given ψ̇: ψ̇~/2 + e (ψ̇~ψ~ + ψ~ψ̇~) + 2 e' (ψ·ψ̇) ψ~², with e of inverse_tangent_so3() as a function of
+/// s = |ψ|² and e' = (1/8 − 3e/2)/s + e²/2, by its series (|B₂ₖ|/(2k)!) where that cancels.
+template <class S>
+Mat3<S> inverse_tangent_rate(const Vec3<S>& psi, const Vec3<S>& psid) {
+  const S s = dot3<S>(psi, psi);
+  const AngleFunctions<S> f(s);
+  const S slope =
+      real_part(s) < 0.1
+          ? S(1.0 / 720 +
+              s * (1.0 / 15120 + s * (1.0 / 403200 +
+                                      s * (1.0 / 11975040 + s * (691.0 / 261534873600.0 + s * (6.0 / 74724249600.0))))))
+          : S((0.125 - 1.5 * f.e) / s + 0.5 * f.e * f.e);
+  const Mat3<S> P = skew<S>(psi), Pd = skew<S>(psid);
+  return 0.5 * Pd + f.e * (Pd * P + P * Pd) + (2.0 * slope * dot3<S>(psi, psid)) * (P * P);
+}
+
+/// Ω̇₀ = U q̈ + U̇ q̇, after deformation_rates(). From the second derivative of what defines the frame: Σ αⱼ ψⱼ = 0 gives
+/// U̇ q̇ = Σ Uⱼ T(ψⱼ) (Ṫ⁻¹(ψⱼ) Ωⱼ − Ṫ⁻ᵀ(ψⱼ) Ω₀); the polar frame Σ U_xⱼ R₀ (−2 Ω₀ × x̂ⱼ' − Ω₀ × (Ω₀ × x̂ⱼ)).
+template <class S, class Node>
+Vec3<S> frame_acceleration(const SuperelementBody& body, const NodeView<Node>& nodes, const LocalMotion<S>& motion) {
+  Vec3<S> acceleration = Vec3<S>::Zero();
+  if (body.frame == FrameAlgorithm::polar) {
+    for (const int j : body.translation_nodes) {
+      const auto i = static_cast<std::size_t>(j);
+      const LocalNode<S>& local = motion.node[i];
+      const Vec3<S> rate = motion.deformation_rate_B.template segment<3>(body.node[i].translation_row);
+      const Vec3<S> bias =
+          2.0 * cross<S>(motion.Omega0, rate) + cross<S>(motion.Omega0, cross<S>(motion.Omega0, local.xh));
+      acceleration += local.U_x * (nodes[i].xdd - motion.R0 * bias);
+    }
+    return acceleration;
+  }
+  for (const int j : body.rotation_nodes) {
+    const auto i = static_cast<std::size_t>(j);
+    const LocalNode<S>& local = motion.node[i];
+    const Vec3<S> rate = motion.deformation_rate_B.template segment<3>(body.node[i].rotation_row);
+    const Mat3<S> Tinv_rate = inverse_tangent_rate<S>(local.psi, rate);
+    const Vec3<S> bias = Tinv_rate * nodes[i].Omega - Tinv_rate.transpose() * motion.Omega0;
+    acceleration += local.U * (nodes[i].Omegad + tangent_so3<S>(local.psi) * bias);
+  }
+  return acceleration;
+}
+
+/// Φ_TᵀM̄ [boundary; internal] / m.
+template <class S>
+Vec3<S> mean_of(const SuperelementBody& body, const Eigen::Matrix<S, Eigen::Dynamic, 1>& boundary,
+                const Eigen::Matrix<S, Eigen::Dynamic, 1>& internal) {
+  Vec3<S> sum = Vec3<S>::Zero();
+  for (Eigen::Index k = 0; k < body.boundary_size; ++k)
+    for (int i = 0; i < 3; ++i) sum[i] += body.Gamma_B(i, k) * boundary[k];
+  for (Eigen::Index k = 0; k < body.modes; ++k)
+    for (int i = 0; i < 3; ++i) sum[i] += body.Gamma_I(i, k) * internal[k];
+  return sum / body.mass;
+}
+
+/// motion.center_velocity and center_acceleration of x_cm = x₀ + R₀ c, c = X_cm + Φ_TᵀM̄ y/m, in axes of the frame:
+/// ẋ₀ + Ω₀ × c + ċ and ẍ₀ + Ω̇₀ × c + Ω₀ × (Ω₀ × c) + 2 Ω₀ × ċ + c̈. After deformation_rates().
+template <class S, class Node>
+void center_of_mass_motion(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
+  const Mat3<S> R0T = motion.R0.transpose();
+  const Vec3<S> w = motion.Omega0, wd = frame_acceleration(body, nodes, motion);
+  Vec3<S> x0d = Vec3<S>::Zero(), x0dd = Vec3<S>::Zero();
+  for (const int j : body.translation_nodes) {
+    const auto i = static_cast<std::size_t>(j);
+    x0d += body.node[i].alpha * motion.node[i].xd;
+    x0dd += body.node[i].alpha * (R0T * nodes[i].xdd);
+  }
+  Vec3<S> cdd = Vec3<S>::Zero();  // m c̈, first of the boundary
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    const LocalNode<S>& local = motion.node[i];
+    if (node.has_translation()) {
+      const Vec3<S> rate = motion.deformation_rate_B.template segment<3>(node.translation_row);
+      const Vec3<S> udd = R0T * nodes[i].xdd - x0dd - 2.0 * cross<S>(w, rate) - cross<S>(w, cross<S>(w, local.xh)) -
+                          cross<S>(wd, local.xh);
+      cdd += body.Gamma_B.template middleCols<3>(node.translation_row).template cast<S>() * udd;
+    }
+    if (node.has_rotation()) {
+      const Vec3<S> rate = motion.deformation_rate_B.template segment<3>(node.rotation_row);
+      const Mat3<S> Tinv_rate = inverse_tangent_rate<S>(local.psi, rate);
+      const Vec3<S> psidd = local.Tinv * nodes[i].Omegad - local.Tinv.transpose() * wd + Tinv_rate * nodes[i].Omega -
+                            Tinv_rate.transpose() * w;
+      cdd += body.Gamma_B.template middleCols<3>(node.rotation_row).template cast<S>() * psidd;
+    }
+  }
+  for (Eigen::Index k = 0; k < body.modes; ++k)
+    for (int i = 0; i < 3; ++i) cdd[i] += body.Gamma_I(i, k) * motion.acceleration_I[k];
+  const Vec3<S> c = body.center_of_mass.template cast<S>() + mean_of<S>(body, motion.y_B, motion.y_I);
+  const Vec3<S> cd = mean_of<S>(body, motion.deformation_rate_B, motion.rate_I);
+  motion.center_velocity = x0d + cross<S>(w, c) + cd;
+  motion.center_acceleration =
+      x0dd + cross<S>(wd, c) + cross<S>(w, cross<S>(w, c)) + 2.0 * cross<S>(w, cd) + cdd / body.mass;
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,169 @@
+// Forces of a superelement body, for every scalar: from local motion to G_iner + G_int + G_damp − gravity.
+#pragma once
+
+#include <type_traits>
+
+#include <Eigen/Core>
+
+#include "common/math/column_kernels.hpp"
+#include "mechanism/bodies/superelement/kinematics.hpp"
+
+namespace tisserand::mechanism {
+
+/// r_B in coordinates [world translation, material rotation] per node, r_I in the canonical internal coordinates.
+template <class S>
+struct SuperelementForces {
+  using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+  Vector r_B, r_I;
+  Vector p_B;  ///< (M̄ ẏ)_B, momenta in axes of the frame (rotation rows: material axes in option B)
+  Vector f_B;  ///< (M̄ ÿ)_B
+  Vector s_B;  ///< S̄ y + D ẏ − Φ-projected weight, boundary rows
+};
+
+template <class S>
+SuperelementForces<S> make_forces(const SuperelementBody& body) {
+  using Vector = typename SuperelementForces<S>::Vector;
+  SuperelementForces<S> forces;
+  forces.r_B = forces.p_B = forces.f_B = forces.s_B = Vector::Zero(body.boundary_size);
+  forces.r_I = Vector::Zero(body.modes);
+  return forces;
+}
+
+/// y += A x with constant A (column major) and vectors of any scalar; Rows is the number of rows, or Eigen::Dynamic.
+template <int Rows, class S>
+void multiply_add(const Eigen::MatrixXd& A, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x,
+                  Eigen::Matrix<S, Eigen::Dynamic, 1>& y) {
+  if constexpr (!std::is_same_v<S, double>) {
+    for (Eigen::Index k = 0; k < A.cols(); ++k)
+      for (Eigen::Index i = 0; i < A.rows(); ++i) y[i] += A(i, k) * x[k];
+  } else if constexpr (Rows == Eigen::Dynamic) {
+    y.noalias() += A * x;
+  } else {
+    column_kernels::multiply_add_fixed<Rows>(A.data(), A.cols(), x.data(), y.data());
+  }
+}
+
+/// (M̄ ẏ)_B, (M̄ ÿ)_B, (M̄ ÿ)_I, and the elastic and damping forces in local coordinates.
+template <int NB, class S>
+void local_forces(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
+  out.p_B.setZero();
+  out.f_B.setZero();
+  out.s_B.setZero();
+  multiply_add<NB>(body.M_BB, motion.rate_B, out.p_B);
+  multiply_add<NB>(body.M_BB, motion.acceleration_B, out.f_B);
+  multiply_add<NB>(body.S_BB, motion.y_B, out.s_B);
+  if (body.modes > 0) {
+    multiply_add<NB>(body.M_BI, motion.rate_I, out.p_B);
+    multiply_add<NB>(body.M_BI, motion.acceleration_I, out.f_B);
+    out.r_I = motion.acceleration_I;
+    for (Eigen::Index k = 0; k < body.modes; ++k) out.r_I[k] += body.S_II[k] * motion.y_I[k];
+    multiply_add<Eigen::Dynamic>(body.M_IB, motion.acceleration_B, out.r_I);
+  }
+  if (!body.damping.active) return;
+  const double a = body.damping.mass, b = body.damping.stiffness;
+  const auto& rate = motion.deformation_rate_B;
+  for (Eigen::Index k = 0; k < body.boundary_size; ++k)
+    for (Eigen::Index i = 0; i < body.boundary_size; ++i)
+      out.s_B[i] += (a * body.M_BB(i, k) + b * body.S_BB(i, k)) * rate[k];
+  for (Eigen::Index k = 0; k < body.modes; ++k) {
+    out.r_I[k] += body.damping.internal[k] * motion.rate_I[k];
+    for (Eigen::Index i = 0; i < body.boundary_size; ++i) {
+      out.s_B[i] += a * body.M_BI(i, k) * motion.rate_I[k];
+      out.r_I[k] += a * body.M_BI(i, k) * rate[i];
+    }
+  }
+}
+
+/// Centre of mass relative to x₀, axes of the frame: X_cm + Φ_TᵀM̄ y / m.
+template <class S>
+Vec3<S> deformed_center_of_mass(const SuperelementBody& body, const LocalMotion<S>& motion) {
+  return body.center_of_mass.template cast<S>() + mean_of<S>(body, motion.y_B, motion.y_I);
+}
+
+/// Option M: M̄ − M̄ Φ_T Φ_TᵀM̄/m in place of M̄, so that the interpolated motion of the centre of mass has no inertia.
+template <class S>
+void release_center_of_mass(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
+  const Vec3<S> velocity = mean_of<S>(body, motion.rate_B, motion.rate_I);
+  const Vec3<S> acceleration = mean_of<S>(body, motion.acceleration_B, motion.acceleration_I);
+  for (Eigen::Index k = 0; k < body.boundary_size; ++k)
+    for (int i = 0; i < 3; ++i) {
+      out.p_B[k] -= body.Gamma_B(i, k) * velocity[i];
+      out.f_B[k] -= body.Gamma_B(i, k) * acceleration[i];
+    }
+  for (Eigen::Index k = 0; k < body.modes; ++k)
+    for (int i = 0; i < 3; ++i) out.r_I[k] -= body.Gamma_I(i, k) * acceleration[i];
+}
+
+/// The part of the exact variation of V_g = −m g·x_cm that acts through y: s −= Γᵀ R₀ᵀg; returns the moment m c × R₀ᵀg.
+template <class S>
+Vec3<S> apply_gravity(const SuperelementBody& body, const LocalMotion<S>& motion, const Vec3<S>& g,
+                      SuperelementForces<S>& out) {
+  for (Eigen::Index k = 0; k < body.boundary_size; ++k)
+    for (int i = 0; i < 3; ++i) out.s_B[k] -= body.Gamma_B(i, k) * g[i];
+  for (Eigen::Index k = 0; k < body.modes; ++k)
+    for (int i = 0; i < 3; ++i) out.r_I[k] -= body.Gamma_I(i, k) * g[i];
+  return body.mass * cross<S>(deformed_center_of_mass(body, motion), g);
+}
+
+/// r = Pᵀ M̄ ÿ + [Pᵀ(O₀ ∓ O_B) − UᵀVᵀ] p + Υᵀ(S̄ y + D ẏ) − gravity; − O_B in option A ([Car00] (45)), + in B ((60)),
+/// with the sign of UᵀVᵀ corrected (the print has +, which contradicts its own derivation and Lagrange's equations).
+/// Option M is B with T = ½ ẏᵀ(M̄ − M̄ Φ_T Φ_TᵀM̄/m) ẏ + ½ m |ẋ_cm|²: the force m J_cmᵀ ẍ_cm of the last term is that of
+/// a gravity −ẍ_cm.
+template <int NB, class S>
+void superelement_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Eigen::Vector3d& gravity,
+                         SuperelementForces<S>& out) {
+  local_forces<NB>(body, motion, out);
+  Vec3<S> moment = Vec3<S>::Zero();  // conjugate to δΘ₀
+  Vec3<S> total = Vec3<S>::Zero();   // conjugate to −δx₀, axes of the frame
+  const bool exact_center = body.inertia == formats::InertiaOption::M;
+  if (exact_center) release_center_of_mass(body, motion, out);
+  if (exact_center || !gravity.isZero(0.0)) {
+    Vec3<S> g = motion.R0.transpose() * gravity.template cast<S>();
+    if (exact_center) g -= motion.center_acceleration;
+    moment -= apply_gravity(body, motion, g, out);
+    total += body.mass * g;
+  }
+  const bool option_A = body.inertia == formats::InertiaOption::A;
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    const LocalNode<S>& local = motion.node[i];
+    if (node.has_translation()) {
+      const Vec3<S> s = out.s_B.template segment<3>(node.translation_row);
+      const Vec3<S> p = out.p_B.template segment<3>(node.translation_row);
+      total += s;
+      moment -= cross<S>(local.xh, s) + cross<S>(p, local.xd);
+    }
+    if (node.has_rotation()) {
+      const Vec3<S> s = out.s_B.template segment<3>(node.rotation_row);
+      moment.noalias() -= local.Tinv * s;
+      if (option_A) moment -= cross<S>(out.p_B.template segment<3>(node.rotation_row), local.Omega);
+    }
+  }
+  const bool polar = body.frame == FrameAlgorithm::polar;
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    const LocalNode<S>& local = motion.node[i];
+    if (node.has_translation()) {
+      const int row = node.translation_row;
+      const Vec3<S> p = out.p_B.template segment<3>(row);
+      const Vec3<S> f = out.f_B.template segment<3>(row) + cross<S>(motion.Omega0, p) +
+                        out.s_B.template segment<3>(row) - node.alpha * total;
+      out.r_B.template segment<3>(row).noalias() = motion.R0 * f;
+      if (polar) out.r_B.template segment<3>(row) += local.U_x.transpose() * moment;
+    }
+    if (node.has_rotation()) {
+      const int row = node.rotation_row;
+      const Vec3<S> p = out.p_B.template segment<3>(row);
+      Vec3<S> f = out.f_B.template segment<3>(row);
+      if (option_A)
+        f = (local.E.transpose() * (f + cross<S>(motion.Omega0 - local.Omega, p))).eval();
+      else
+        f += cross<S>(local.Omega, p);
+      f.noalias() += local.Tinv.transpose() * out.s_B.template segment<3>(row);
+      f.noalias() += local.U.transpose() * moment;
+      out.r_B.template segment<3>(row) = f;
+    }
+  }
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,314 @@
+// Step tangent of a superelement body with the internal coordinates eliminated: the inner loop of every time step.
+#include <Eigen/Core>
+
+#include "mechanism/bodies/superelement/center_tangent.hpp"
+#include "mechanism/bodies/superelement/coupling.hpp"
+#include "mechanism/bodies/superelement/evaluate.hpp"
+
+namespace tisserand::mechanism {
+
+namespace {
+
+using column_kernels::multiply3;
+using column_kernels::Write;
+using formats::InertiaOption;
+
+template <int NB>
+using Square = Eigen::Map<Eigen::Matrix<double, NB, NB>>;
+template <int NB>
+using ConstSquare = Eigen::Map<const Eigen::Matrix<double, NB, NB>>;
+template <int NB>
+using Thin = Eigen::Map<Eigen::Matrix<double, NB, 3>>;
+template <int NB>
+using ConstWide = Eigen::Map<const Eigen::Matrix<double, 3, NB>>;
+
+/// The part of a 3-column block of rows or columns that starts at `row`.
+template <class Matrix>
+auto columns(Matrix& A, int row) {
+  return A.template middleCols<3>(row);
+}
+
+/// D, Q, N for these coefficients; nothing to do while they stay.
+void update_constants(const SuperelementBody& body, const TangentCoefficients& c, SuperelementWork& work) {
+  if (work.constants_valid && work.coefficients == c) return;
+  const Eigen::Index nb = body.boundary_size;
+  work.coefficients = c;
+  work.constants_valid = true;
+  for (Eigen::Index k = 0; k < body.modes; ++k)
+    work.inverse_D[k] = 1.0 / (c.mass + c.damping * body.damping.internal[k] + c.stiffness * body.S_II[k]);
+  for (Eigen::Index j = 0; j < nb; ++j) {
+    work.Q.col(j).setZero();
+    for (Eigen::Index k = 0; k < body.modes; ++k)
+      work.Q.col(j) += (work.inverse_D[k] * body.M_BI(j, k)) * body.M_BI.col(k);
+  }
+  work.N = body.M_BB - c.mass * work.Q;
+}
+
+/// Keeps the state of this tangent for condense() and expand(), and U P⁻¹.
+void freeze(const SuperelementBody& body, const LocalMotion<double>& motion, const SuperelementWork& work,
+            SuperelementTangent& frozen) {
+  frozen.dense_coupling = false;
+  frozen.coefficients = work.coefficients;
+  frozen.inverse_D = work.inverse_D;
+  frozen.R0 = motion.R0;
+  frozen.Omega0 = motion.Omega0;
+  frozen.node = motion.node;
+  if (body.frame == FrameAlgorithm::polar) {
+    for (const int j : body.translation_nodes) {
+      const auto i = static_cast<std::size_t>(j);
+      columns(frozen.U, body.node[i].translation_row) = motion.node[i].U_x * motion.R0;
+    }
+    return;
+  }
+  for (const int j : body.rotation_nodes) {
+    const auto i = static_cast<std::size_t>(j);
+    if (body.inertia == InertiaOption::A)
+      columns(frozen.U, body.node[i].rotation_row) = motion.node[i].U * motion.node[i].E.transpose();
+    else
+      columns(frozen.U, body.node[i].rotation_row) = motion.node[i].U;
+  }
+}
+
+/// δψ = B δΘ (in axes of the frame with option A: T⁻¹(ψ) Eᵀ = T⁻¹(−ψ)).
+Eigen::Matrix3d rotation_map(InertiaOption inertia, const LocalNode<double>& local) {
+  return inertia == InertiaOption::A ? Eigen::Matrix3d(local.Tinv.transpose()) : local.Tinv;
+}
+
+/// Column `row` of a matrix with nb rows.
+template <class Matrix>
+auto* column_data(Matrix& A, int row) {
+  return A.data() + A.rows() * row;
+}
+
+/// out = X V, V = [ẋ*~; Ω*~ (option A); 0].
+template <int NB, class X>
+void multiply_V(const SuperelementBody& body, const SuperelementTangent& frozen, const X& matrix, Thin<NB>& out) {
+  out.setZero();
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    if (node.has_translation())
+      multiply3<NB, Write::add>(column_data(matrix, node.translation_row), skew<double>(frozen.node[i].xd),
+                                body.boundary_size, out.data());
+    if (node.has_rotation() && body.inertia == InertiaOption::A)
+      multiply3<NB, Write::add>(column_data(matrix, node.rotation_row), skew<double>(frozen.node[i].Omega),
+                                body.boundary_size, out.data());
+  }
+}
+
+/// out += F U, only the columns in which U is not zero.
+template <int NB>
+void add_times_U(const SuperelementBody& body, const SuperelementTangent& frozen, const Thin<NB>& F, Square<NB>& out) {
+  const int nb = body.boundary_size;
+  for (const SuperelementNode& node : body.node) {
+    const bool polar = body.frame == FrameAlgorithm::polar;
+    if (!polar && node.alpha_rotation == 0.0) continue;
+    const int row = polar ? node.translation_row : node.rotation_row;
+    multiply3<NB, Write::add>(F.data(), columns(frozen.U, row), nb, column_data(out, row));
+  }
+}
+
+/// out += c X O₀ᵀ.
+template <int NB, class X>
+void add_times_O0(const SuperelementBody& body, const SuperelementTangent& frozen, double c, const X& matrix,
+                  Square<NB>& out) {
+  const int nb = body.boundary_size;
+  const Eigen::Matrix3d O0 = skew<double>(-c * frozen.Omega0);
+  for (const SuperelementNode& node : body.node) {
+    if (node.has_translation())
+      multiply3<NB, Write::add>(column_data(matrix, node.translation_row), O0, nb,
+                                column_data(out, node.translation_row));
+    if (node.has_rotation() && body.inertia == InertiaOption::A)
+      multiply3<NB, Write::add>(column_data(matrix, node.rotation_row), O0, nb, column_data(out, node.rotation_row));
+  }
+}
+
+/// out += c X (O₀ ∓ O_B)ᵀ.
+template <int NB, class X>
+void add_times_O(const SuperelementBody& body, const SuperelementTangent& frozen, double c, const X& matrix,
+                 Square<NB>& out) {
+  const int nb = body.boundary_size;
+  const Eigen::Matrix3d O0 = skew<double>(-c * frozen.Omega0);
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    if (node.has_translation())
+      multiply3<NB, Write::add>(column_data(matrix, node.translation_row), O0, nb,
+                                column_data(out, node.translation_row));
+    if (!node.has_rotation()) continue;
+    const Eigen::Vector3d& Omega = frozen.node[i].Omega;
+    const Eigen::Vector3d rate =
+        body.inertia == InertiaOption::A ? Eigen::Vector3d(Omega - frozen.Omega0) : Eigen::Vector3d(-Omega);
+    multiply3<NB, Write::add>(column_data(matrix, node.rotation_row), skew<double>(c * rate), nb,
+                              column_data(out, node.rotation_row));
+  }
+}
+
+/// Υᵀ S' Υ with S' = k S_BB, Υ = B + H U (S' has no stiffness against translation, so the weights of x₀ drop out):
+/// G = Bᵀ S' B = (S' B)ᵀ B, J = Bᵀ S' H + ½ Uᵀ (Hᵀ S' H); then Υᵀ S' Υ = G + J U + (J U)ᵀ. `SB` is work space.
+template <int NB>
+void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& frozen, double k, Square<NB>& SB,
+                     Square<NB>& G, Thin<NB>& J) {
+  const int nb = body.boundary_size;
+  const ConstSquare<NB> S(body.S_BB.data(), nb, nb);
+  SB = k * S;
+  J.setZero();
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    const LocalNode<double>& local = frozen.node[i];
+    if (node.has_translation())
+      multiply3<NB, Write::add>(column_data(S, node.translation_row), skew<double>(k * local.xh), nb, J.data());
+    if (!node.has_rotation()) continue;
+    const double* S_columns = column_data(S, node.rotation_row);
+    multiply3<NB, Write::assign>(S_columns, k * rotation_map(body.inertia, local), nb,
+                                 column_data(SB, node.rotation_row));
+    multiply3<NB, Write::add>(S_columns, -k * local.Tinv.transpose(), nb, J.data());
+  }
+  column_kernels::transpose<NB>(SB.data(), nb, G.data());
+  Eigen::Matrix3d HSH = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    const LocalNode<double>& local = frozen.node[i];
+    if (node.has_translation())
+      HSH.noalias() -= skew<double>(local.xh) * J.template middleRows<3>(node.translation_row);
+    if (!node.has_rotation()) continue;
+    const int row = node.rotation_row;
+    const Eigen::Matrix3d B = rotation_map(body.inertia, local), SH = J.template middleRows<3>(row);
+    HSH.noalias() -= local.Tinv * SH;
+    J.template middleRows<3>(row).noalias() = B.transpose() * SH;
+    multiply3<NB, Write::assign>(column_data(G, row), B, nb, column_data(G, row));
+  }
+  const ConstWide<NB> U(frozen.U.data(), 3, nb);
+  J.noalias() += U.transpose().lazyProduct(0.5 * HSH);
+}
+
+/// out = X P.
+template <int NB>
+void multiply_P(const SuperelementBody& body, const SuperelementTangent& frozen, const Square<NB>& X, Square<NB>& out) {
+  const int nb = body.boundary_size;
+  const Eigen::Matrix3d R0T = frozen.R0.transpose();
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    if (node.has_translation())
+      multiply3<NB, Write::assign>(column_data(X, node.translation_row), R0T, nb,
+                                   column_data(out, node.translation_row));
+    if (!node.has_rotation()) continue;
+    if (body.inertia == InertiaOption::A)
+      multiply3<NB, Write::assign>(column_data(X, node.rotation_row), frozen.node[i].E, nb,
+                                   column_data(out, node.rotation_row));
+    else
+      columns(out, node.rotation_row) = columns(X, node.rotation_row);
+  }
+}
+
+/// V₁ and the blocks ∓p~ of C₃: F −= c V₁ and G += ±c p~.
+template <int NB>
+void add_momenta(const SuperelementBody& body, const Eigen::VectorXd& p, double c, Thin<NB>& V1, Square<NB>& G) {
+  for (const SuperelementNode& node : body.node) {
+    if (node.has_translation())
+      V1.template middleRows<3>(node.translation_row) -= skew<double>(c * p.segment<3>(node.translation_row));
+    if (!node.has_rotation()) continue;
+    const Eigen::Matrix3d P = skew<double>(c * p.segment<3>(node.rotation_row));
+    if (body.inertia == InertiaOption::A) {
+      V1.template middleRows<3>(node.rotation_row) -= P;
+      G.template block<3, 3>(node.rotation_row, node.rotation_row) -= P;
+    } else {
+      G.template block<3, 3>(node.rotation_row, node.rotation_row) += P;
+    }
+  }
+}
+
+/// In axes of the frame, with N = M_BB − c_m Q, Z₁ = c_c (O₀ᵀ + V U), W₁ = c_c (O₀ ∓ O_B − UᵀVᵀ):
+///   Â = c_m N + W₁ (N − Q Z₁) + N Z₁ + c_c (V₁ U − UᵀV₁ᵀ ∓ p~) + Υᵀ S' Υ
+/// Âᵀ = G₁ + G₂ᵀ is collected by operations on columns only; N' = N − (Q Z₁)ᵀ.
+template <int NB>
+void condensed_tangent(const SuperelementBody& body, const SuperelementScratch& scratch, bool eliminate,
+                       SuperelementWork& work) {
+  const SuperelementTangent& frozen = scratch.tangent;
+  const int nb = body.boundary_size;
+  const TangentCoefficients& c = work.coefficients;
+  const ConstSquare<NB> N(eliminate ? work.N.data() : body.M_BB.data(), nb, nb), Q(work.Q.data(), nb, nb);
+  Square<NB> Np(work.work_1.data(), nb, nb), G1(work.work_2.data(), nb, nb), G2(work.work_3.data(), nb, nb);
+  Square<NB> A(work.A_BB.data(), nb, nb);
+  Thin<NB> J(work.thin_1.data(), nb, 3), F(work.thin_2.data(), nb, 3);
+
+  Np = N;
+  if (eliminate) {
+    multiply_V<NB>(body, frozen, Q, F);
+    A.setZero();
+    add_times_U<NB>(body, frozen, F, A);
+    add_times_O0<NB>(body, frozen, 1.0, Q, A);
+    column_kernels::transpose<NB>(A.data(), nb, G1.data());
+    Np -= c.damping * G1;
+  }
+  stiffness_parts<NB>(body, frozen, c.stiffness + c.damping * body.damping.stiffness, G2, G1, J);
+  G1 += c.mass * N;
+  add_times_O<NB>(body, frozen, c.damping, Np, G1);
+  multiply_V<NB>(body, frozen, N, F);
+  G2.setZero();
+  add_times_O0<NB>(body, frozen, c.damping, N, G2);
+  // F₂ = c_c (N V + V₁) + J goes with G₂, F₁ = −c_c (N' V + V₁) + J with G₁.
+  F *= c.damping;
+  Thin<NB> V1(work.thin_3.data(), nb, 3);
+  V1.setZero();
+  add_momenta<NB>(body, scratch.forces.p_B, c.damping, V1, G1);
+  F += V1 + J;
+  add_times_U<NB>(body, frozen, F, G2);
+  multiply_V<NB>(body, frozen, Np, F);
+  F = J - V1 - c.damping * F;
+  add_times_U<NB>(body, frozen, F, G1);
+  column_kernels::transpose<NB>(G2.data(), nb, A.data());
+  G1 += A;
+  multiply_P<NB>(body, frozen, G1, G2);
+  column_kernels::transpose<NB>(G2.data(), nb, G1.data());
+  multiply_P<NB>(body, frozen, G1, A);
+}
+
+/// The rarely used a M̄ of Rayleigh damping couples rates through Υ as well: adds c_c a Υᵀ M_BB Υ − W Q Z to A_BB, which
+/// must not have been condensed. W and Z column by column.
+void add_mass_damping(const SuperelementBody& body, const SuperelementTangent& frozen, SuperelementWork& work) {
+  const Eigen::Index nb = body.boundary_size;
+  Eigen::VectorXd &in = work.boundary_1, &out = work.boundary_2;
+  for (Eigen::Index j = 0; j < nb; ++j) {
+    in.setZero();
+    in[j] = 1.0;
+    apply_upsilon(body, frozen, in.data(), out);
+    work.work_1.col(j) = out;
+    apply_Z(body, frozen, in.data(), out);
+    work.work_2.col(j) = out;
+  }
+  const double a = work.coefficients.damping * body.damping.mass;
+  work.work_3.noalias() = body.M_BB.lazyProduct(work.work_1);
+  work.A_BB.noalias() += a * work.work_1.transpose().lazyProduct(work.work_3);
+  if (body.inertia == InertiaOption::M) return;  // eliminates with what it adds
+  work.work_3.noalias() = work.Q.lazyProduct(work.work_2);
+  for (Eigen::Index j = 0; j < nb; ++j) {
+    in = work.work_3.col(j);
+    apply_W(body, frozen, in, out);
+    work.A_BB.col(j) -= out;
+  }
+}
+
+}  // namespace
+
+void tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
+             SuperelementWork& work) {
+  update_constants(body, coefficients, work);
+  freeze(body, scratch.motion, work, scratch.tangent);
+  const bool mass_damping = body.damping.mass > 0.0;
+  const bool exact_center = body.inertia == InertiaOption::M;
+  const bool eliminate = body.modes > 0 && !mass_damping && !exact_center;
+  switch (body.boundary_size) {
+    case 12:
+      condensed_tangent<12>(body, scratch, eliminate, work);
+      break;
+    case 18:
+      condensed_tangent<18>(body, scratch, eliminate, work);
+      break;
+    default:
+      condensed_tangent<Eigen::Dynamic>(body, scratch, eliminate, work);
+      break;
+  }
+  if (mass_damping) add_mass_damping(body, scratch.tangent, work);
+  if (exact_center) add_center_of_mass_tangent(body, scratch, work);
+}
+
+}  // namespace tisserand::mechanism

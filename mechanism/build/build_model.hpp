@@ -1,0 +1,36 @@
+// From the scene and its superelement files to the constant model and the state before projection.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+
+#include "formats/modal_body/modal_body.hpp"
+#include "formats/scene/scene.hpp"
+#include "formats/superelement/superelement.hpp"
+#include "mechanism/model/model.hpp"
+#include "mechanism/model/state.hpp"
+
+namespace tisserand::mechanism {
+
+/// Superelement files by path, each read once.
+using SuperelementFiles = std::map<std::string, formats::LoadedSuperelement>;
+
+/// All files that bodies are made from, each read once; made from superelements alone where there is nothing else.
+struct BodyFiles {
+  BodyFiles() = default;
+  BodyFiles(SuperelementFiles files) : superelements(std::move(files)) {}
+  SuperelementFiles superelements;
+  std::map<std::string, formats::LoadedModalBody> modal_bodies;
+};
+
+struct BuiltModel {
+  Model model;
+  State state;                     ///< positions and velocities of the scene, not yet projected on the constraints
+  std::vector<std::string> notes;  ///< conversions, cut modes, warnings: whole sentences
+};
+
+/// Throws Error (all that are found) for names that do not exist, joints on nodes without rotations, and so on.
+BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files);
+
+}  // namespace tisserand::mechanism

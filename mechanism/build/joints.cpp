@@ -1,0 +1,153 @@
+// Joints between markers, their coordinates, and what acts along these.
+#include "mechanism/build/joints.hpp"
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+
+namespace tisserand::mechanism {
+
+using Eigen::Vector3d;
+
+bool JointBuilder::uses_axes(const Joint& joint) {
+  for (int k = 0; k < joint.relation_count; ++k)
+    if (joint.relations[static_cast<std::size_t>(k)].kind != RelationKind::distance) return true;
+  return false;
+}
+
+void JointBuilder::add(const formats::JointSpec& spec) {
+  Joint joint;
+  joint.name = spec.name;
+  joint.a = markers_.find(spec.a);
+  joint.b = markers_.find(spec.b);
+  set_relations(spec.kind, spec.hold, joint);
+  if (joint.a.node == joint.b.node)
+    throw Error(fmt::format("joint '{}' connects '{}' and '{}', which are {}", spec.name, spec.a.node, spec.b.node,
+                            joint.a.node < 0 ? "both ground" : "on one and the same node"),
+                spec.where,
+                joint.a.follower < 0 && joint.b.follower < 0
+                    ? "connect two different nodes"
+                    : "fixed joints tie these bodies together already: remove the joint, or one of the fixed ones");
+  if (formats::needs_axis(spec.kind) && !spec.axis && !spec.a.orientation && !spec.b.orientation)
+    throw Error(fmt::format("{} joint '{}' has no axis", formats::joint_word(spec.kind), spec.name), spec.where,
+                "give `axis: [x, y, z]` in the world frame at the start, or orientations of its markers");
+  if (spec.kind != JointKind::distance) place_markers(markers_, spec, joint.a, joint.b);
+  const std::string subject = fmt::format("joint '{}'", spec.name);
+  const MarkerUse use = uses_axes(joint) ? MarkerUse::position_and_axes : MarkerUse::position;
+  check_marker(model_, subject, use, spec.a, joint.a);
+  check_marker(model_, subject, use, spec.b, joint.b);
+  if (spec.kind == JointKind::distance) set_length(spec, joint);
+  add_coordinates(joint);
+  if (spec.kind == JointKind::screw) add_screw(spec);
+  if (spec.friction) add_friction(spec);
+  model_.joints.push_back(std::move(joint));
+}
+
+void JointBuilder::set_length(const formats::JointSpec& spec, Joint& joint) const {
+  const double start = distance_at_start(joint.a, joint.b);
+  joint.constant = spec.length.value_or(start);
+  if (!(start > 1e-9 * model_.length))
+    throw Error(fmt::format("joint '{}' holds the distance of two markers at the same place", spec.name), spec.where,
+                "use a spherical joint, or give the markers different positions");
+}
+
+double JointBuilder::distance_at_start(const Marker& a, const Marker& b) const {
+  return (markers_.position(b) - markers_.position(a)).norm();
+}
+
+void JointBuilder::add_coordinates(const Joint& joint) {
+  const std::vector<NamedRelation> all = free_coordinates(joint);
+  for (const NamedRelation& free : all) {
+    Coordinate coordinate;
+    coordinate.name = all.size() == 1 ? joint.name : joint.name + "/" + free.name;
+    coordinate.a = joint.a;
+    coordinate.b = joint.b;
+    coordinate.relation = free.relation;
+    coordinate_[joint.name + "/" + free.name] = static_cast<int>(model_.coordinates.size());
+    if (all.size() == 1) coordinate_[joint.name] = static_cast<int>(model_.coordinates.size());
+    model_.coordinates.push_back(std::move(coordinate));
+  }
+}
+
+void JointBuilder::add_friction(const formats::JointSpec& joint) {
+  const formats::FrictionSpec& spec = *joint.friction;
+  Friction friction;
+  friction.joint = static_cast<int>(model_.joints.size());
+  friction.kinetic = spec.coefficient;
+  friction.stiction = spec.static_coefficient.value_or(spec.coefficient);
+  friction.velocity = spec.velocity;
+  friction.radius = spec.radius;
+  friction.inverse_arm = spec.arm ? 1.0 / *spec.arm : 0.0;
+  if (joint.kind == JointKind::screw) {
+    friction.thread = static_cast<int>(model_.couplings.size()) - 1;
+    friction.lead = joint.pitch / (2.0 * EIGEN_PI);
+  }
+  model_.frictions.push_back(friction);
+}
+
+void JointBuilder::add_screw(const formats::JointSpec& spec) {
+  Coupling screw;
+  screw.name = spec.name + ", advance with the turn";
+  screw.length = true;
+  screw.from_start = true;
+  const int angle = coordinate_.at(spec.name + "/angle"), z = coordinate_.at(spec.name + "/z");
+  screw.terms = {{z, 1.0}, {angle, static_cast<double>(-spec.pitch / (2.0 * EIGEN_PI))}};
+  activate(screw);
+}
+
+void JointBuilder::activate(Coupling& coupling) {
+  for (const CouplingTerm& term : coupling.terms)
+    model_.coordinates[static_cast<std::size_t>(term.coordinate)].active = true;
+  model_.couplings.push_back(std::move(coupling));
+}
+
+int JointBuilder::find_coordinate(const formats::CoordinateRef& ref) const {
+  const auto found = coordinate_.find(ref.name);
+  if (found != coordinate_.end()) return found->second;
+  std::vector<std::string> of_joint, all;
+  const std::string joint = ref.name.substr(0, ref.name.rfind('/'));
+  for (const auto& [name, index] : coordinate_) {
+    all.push_back(name);
+    if (name.starts_with(joint + "/")) of_joint.push_back(name);
+  }
+  throw Error(fmt::format("there is no joint coordinate '{}'", ref.name), ref.where,
+              !of_joint.empty() ? fmt::format("joint '{}' has {}", joint, join(of_joint, ", "))
+                                : "coordinates of this scene: " + (all.empty() ? "none" : join(all, ", ")));
+}
+
+bool JointBuilder::is_length_coordinate(int coordinate) const {
+  return is_length(model_.coordinates[static_cast<std::size_t>(coordinate)].relation);
+}
+
+void JointBuilder::add(const formats::GearSpec& spec) {
+  Coupling gear;
+  gear.name = spec.name;
+  gear.from_start = true;
+  const int first = find_coordinate(spec.first), second = find_coordinate(spec.second);
+  if (first == second)
+    throw Error(fmt::format("joint '{}' couples '{}' to itself", spec.name, spec.first.name), spec.where,
+                "name two different coordinates");
+  gear.length = is_length_coordinate(second);
+  gear.terms = {{second, 1.0}, {first, -spec.ratio}};
+  activate(gear);
+}
+
+void JointBuilder::add(const formats::MotionSpec& spec) {
+  Coupling motion;
+  motion.name = fmt::format("motion {}", spec.name);
+  const int coordinate = find_coordinate(spec.coordinate);
+  motion.length = is_length_coordinate(coordinate);
+  motion.terms = {{coordinate, 1.0}};
+  motion.motion = static_cast<int>(model_.motions.size());
+  const TimeFunction function(spec.value, model_.scope);  // reports syntax errors now
+  if (!function.channels().empty())
+    throw Error(fmt::format("motion '{}' uses channel '{}'", spec.name,
+                            model_.scope.channels[static_cast<std::size_t>(function.channels().front())]),
+                spec.where, "a motion is a function of t and inputs; forces may use channels");
+  breakpoints_.insert(function.breakpoints().begin(), function.breakpoints().end());
+  model_.motions.push_back(spec.value);
+  activate(motion);
+}
+
+}  // namespace tisserand::mechanism

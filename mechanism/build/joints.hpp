@@ -1,0 +1,56 @@
+// From the joints, gears, motions, springs and bushings of a scene to those of a model.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "mechanism/build/markers.hpp"
+#include "mechanism/forces/time_function.hpp"
+
+namespace tisserand::mechanism {
+
+/// Compiles a function of a load or spring to report errors now; notes its breakpoints and the channels that it uses.
+void note_function(const formats::TimeFunctionSpec& spec, ChannelUse use, Model& model, std::set<double>& breakpoints);
+
+/// Adds to the pools of `model`; all nodes are there, and its characteristic length.
+class JointBuilder {
+ public:
+  JointBuilder(const MarkerTable& markers, Model& model, std::set<double>& breakpoints)
+      : markers_(markers), model_(model), breakpoints_(breakpoints) {}
+
+  void add(const formats::JointSpec& spec);
+  void add(const formats::GearSpec& spec);
+  void add(const formats::MotionSpec& spec);
+  void add(const formats::SpringSpec& spec);
+  void add(const formats::BushingSpec& spec);
+  void add(const formats::InputSpec& spec);
+  void add(const formats::ChannelSpec& spec);
+
+ private:
+  /// Whether the joint uses directions of the marker.
+  static bool uses_axes(const Joint& joint);
+  void set_length(const formats::JointSpec& spec, Joint& joint) const;
+  double distance_at_start(const Marker& a, const Marker& b) const;
+  void add_coordinates(const Joint& joint);
+  void add_friction(const formats::JointSpec& joint);
+  /// z = pitch angle/(2π), with the values at the start as the reference.
+  void add_screw(const formats::JointSpec& spec);
+  void activate(Coupling& coupling);
+  int find_coordinate(const formats::CoordinateRef& ref) const;
+  bool is_length_coordinate(int coordinate) const;
+  /// The distance of the two markers of a spring, or their angle about z.
+  int add_distance(const std::string& name, const std::string& subject, const formats::MarkerPairSpec& spec,
+                   const std::string& where);
+  int add_angle(const formats::SpringSpec& spec);
+  /// Throws Error if the markers are on the same node.
+  static void require_two_nodes(const std::string& subject, const formats::MarkerPairSpec& spec,
+                                const std::string& where, const Marker& a, const Marker& b);
+
+  const MarkerTable& markers_;
+  Model& model_;
+  std::set<double>& breakpoints_;
+  std::map<std::string, int> coordinate_;  ///< "hinge", "slide/z" -> row of Model::coordinates
+};
+
+}  // namespace tisserand::mechanism

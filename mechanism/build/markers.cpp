@@ -1,0 +1,88 @@
+// Finding places by name.
+#include "mechanism/build/markers.hpp"
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// The place that a marker names (without the marker's own offset).
+Marker find_place(const std::map<std::string, Marker>& places, const formats::MarkerSpec& spec) {
+  if (spec.node == "ground") return {};
+  const auto found = places.find(spec.node);
+  if (found != places.end()) return found->second;
+  std::vector<std::string> names{"ground"};
+  for (const auto& [name, marker] : places) names.push_back(name);
+  const auto suggestion = nearest(spec.node, names);
+  if (names.size() > 12) names = {names.begin(), names.begin() + 12};
+  throw Error(fmt::format("there is no node '{}'", spec.node), spec.where,
+              suggestion ? fmt::format("did you mean '{}'?", *suggestion)
+                         : "the scene has " + join(names, ", ") + (places.size() > 11 ? ", ..." : ""));
+}
+
+Marker with_offset(Marker marker, const formats::MarkerSpec& spec) {
+  if (spec.position) marker.p += marker.R * *spec.position;
+  if (spec.orientation) marker.R *= spec.orientation->normalized().toRotationMatrix();
+  return marker;
+}
+
+Matrix3d frame_with_z(const Vector3d& axis, const std::optional<Vector3d>& x_axis) {
+  const Vector3d z = axis.normalized();
+  Eigen::Index smallest = 0;
+  z.cwiseAbs().minCoeff(&smallest);
+  const Vector3d across = x_axis ? *x_axis : Vector3d(Vector3d::Unit(smallest));
+  const Vector3d x = (across - z.dot(across) * z).normalized();
+  Matrix3d R;
+  R << x, z.cross(x), z;
+  return R;
+}
+
+/// Gives the marker the world pose (position, R) where the scene leaves it open.
+void place_marker(const MarkerTable& markers, const formats::MarkerSpec& spec, const Vector3d& position,
+                  const Matrix3d& R, Marker& marker) {
+  const NodeMotion carrier = markers.motion(marker.node);
+  if (!spec.position) marker.p = carrier.R.transpose() * (position - carrier.x);
+  if (!spec.orientation) marker.R = carrier.R.transpose() * R;
+}
+
+}  // namespace
+
+void place_markers(const MarkerTable& markers, const formats::MarkerPairSpec& spec, Marker& a, Marker& b) {
+  const bool at_a = spec.b.node == "ground" || (spec.a.position && !spec.b.position);
+  const Vector3d position = spec.position ? *spec.position : markers.position(at_a ? a : b);
+  Matrix3d R = Matrix3d::Identity();
+  if (spec.axis)
+    R = frame_with_z(*spec.axis, spec.x_axis);
+  else if (spec.a.orientation)
+    R = marker_rotation(a, markers.motion(a.node));
+  else if (spec.b.orientation)
+    R = marker_rotation(b, markers.motion(b.node));
+  place_marker(markers, spec.a, position, R, a);
+  place_marker(markers, spec.b, position, R, b);
+}
+
+Marker MarkerTable::find(const formats::MarkerSpec& spec) const { return with_offset(find_place(places, spec), spec); }
+
+void check_marker(const Model& model, const std::string& subject, MarkerUse use, const formats::MarkerSpec& place,
+                  const Marker& marker) {
+  if (marker.node < 0) return;
+  if (!has_translation(model, marker.node))
+    throw Error(fmt::format("{} holds the position of node '{}', which has no translations", subject, place.node),
+                place.where, "keep the translations of that node in the superelement");
+  if (has_rotation(model, marker.node)) return;
+  if (use == MarkerUse::position_and_axes)
+    throw Error(fmt::format("{} holds the rotation of node '{}', which has none", subject, place.node), place.where,
+                "use a spherical joint, or keep the rotations of that node in the superelement");
+  if (marker.p.norm() > 1e-12 * model.length)
+    throw Error(fmt::format("{} is {:.3g} away from node '{}', which has no rotations to carry the offset", subject,
+                            marker.p.norm(), place.node),
+                place.where, "put it at the node, or keep the rotations of that node in the superelement");
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,159 @@
+// Products with the kinematics of nodes of modal bodies.
+#include "mechanism/equations/carriers.hpp"
+
+#include <algorithm>
+
+#include "common/math/rotation.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Calls visit(local column, first column, modal node, width) for each carrier.
+template <class Visit>
+void for_each_carrier(const Model& model, const ElementMap& map, Visit visit) {
+  Index first = 0, local = 0;
+  for (const int node : map.carriers) {
+    const int modal = modal_node(model, node);
+    const Index width = modal < 0 ? 6 : 6 + modal_body_of(model, modal).modes;
+    visit(local, first, modal, width);
+    local += 6;
+    first += width;
+  }
+}
+
+const ModalNodeTerms& terms_of(const Workspace& workspace, int modal) {
+  return workspace.modal_nodes[static_cast<std::size_t>(modal)];
+}
+
+}  // namespace
+
+CarrierScratch make_carrier_scratch(const Model& model) {
+  Index size = 0;
+  const Index carriers = model.channel_uses.empty() ? 2 : 4;
+  for (const ModalBody& body : model.modal_bodies) size = std::max<Index>(size, carriers * (6 + body.modes));
+  CarrierScratch scratch;
+  scratch.half.setZero(6 * carriers * size);
+  scratch.full.setZero(size * size);
+  scratch.gradient.setZero(6 * size);
+  scratch.lower.setZero(6 * size);
+  scratch.upper.setZero(6 * size);
+  scratch.rate.setZero(6 * size);
+  return scratch;
+}
+
+void scatter_pulled(const Model& model, const ElementMap& map, const double* force, Workspace& workspace) {
+  for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
+    const Eigen::Map<const Vector6d> f(force + local);
+    for (Index j = 0; j < width; ++j) {
+      const int coordinate = map.coordinates[static_cast<std::size_t>(first + j)];
+      if (coordinate < 0) continue;
+      workspace.residual[coordinate] += modal < 0 ? f[j] : terms_of(workspace, modal).T.col(j).dot(f);
+    }
+  });
+}
+
+CarrierMatrix pulled_rows(const Model& model, const ElementMap& map, const LocalMatrix& B, const Workspace& workspace,
+                          Eigen::VectorXd& buffer) {
+  CarrierMatrix rows(buffer.data(), B.rows(), static_cast<Index>(map.coordinates.size()));
+  for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
+    if (modal < 0)
+      rows.middleCols(first, width) = B.middleCols<6>(local);
+    else
+      rows.middleCols(first, width).noalias() = B.middleCols<6>(local).lazyProduct(terms_of(workspace, modal).T);
+  });
+  return rows;
+}
+
+CarrierMatrix pulled_tangent(const Model& model, const ElementMap& map, const LocalMatrix& K, const double* force,
+                             Workspace& workspace) {
+  const auto n = static_cast<Index>(map.coordinates.size());
+  const CarrierMatrix half = pulled_rows(model, map, K, workspace, workspace.carriers.half);
+  CarrierMatrix full(workspace.carriers.full.data(), n, n);
+  for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
+    if (modal < 0) {
+      full.middleRows(first, width) = half.middleRows<6>(local);
+      return;
+    }
+    const ModalNodeTerms& terms = terms_of(workspace, modal);
+    full.middleRows(first, width).noalias() = terms.T.transpose().lazyProduct(half.middleRows<6>(local));
+  });
+  for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
+    if (modal < 0) return;
+    add_geometric_stiffness(model.modal_nodes[static_cast<std::size_t>(modal)], terms_of(workspace, modal),
+                            Eigen::Map<const Vector6d>(force + local), full.block(first, first, width, width));
+  });
+  return full;
+}
+
+CarrierMatrix pulled_rate_gradient(const Model& model, const ElementMap& map, const LocalMatrix& B,
+                                   const LocalMatrix& N, Workspace& workspace, Eigen::VectorXd& buffer) {
+  CarrierMatrix rows = pulled_rows(model, map, N, workspace, buffer);
+  for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
+    if (modal < 0) return;
+    const ModalNode& node = model.modal_nodes[static_cast<std::size_t>(modal)];
+    CarrierMatrix Z(workspace.carriers.gradient.data(), 6, width);
+    rate_gradient(node, workspace.modal_bodies[static_cast<std::size_t>(node.body)], terms_of(workspace, modal), Z);
+    rows.middleCols(first, width).noalias() += B.middleCols<6>(local).lazyProduct(Z);
+  });
+  return rows;
+}
+
+void carrier_bias(const Model& model, const ElementMap& map, const Workspace& workspace, double* bias) {
+  for_each_carrier(model, map, [&](Index local, Index, int modal, Index) {
+    Eigen::Map<Vector6d> b(bias + local);
+    if (modal < 0)
+      b.setZero();
+    else
+      b = terms_of(workspace, modal).bias;
+  });
+}
+
+void pushed_increment(const Model& model, const ElementMap& map, const Workspace& workspace, const Eigen::VectorXd& d,
+                      double* local_increment) {
+  for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
+    const auto at = [&](Index j) {
+      const int coordinate = map.coordinates[static_cast<std::size_t>(first + j)];
+      return coordinate < 0 ? 0.0 : d[coordinate];
+    };
+    const int node = map.carriers[static_cast<std::size_t>(local / 6)];
+    const Vector3d move(at(0), at(1), at(2));
+    const Vector3d turn = step_tangent(model, workspace, node) * Vector3d(at(3), at(4), at(5));
+    Eigen::Map<Vector6d> increment(local_increment + local);
+    increment << move, turn;
+    if (modal < 0) return;
+    const auto& T = terms_of(workspace, modal).T;
+    increment = (T.leftCols<6>() * increment).eval();
+    for (Index j = 6; j < width; ++j) increment += at(j) * T.col(j);
+  });
+}
+
+void turn_columns(const Model& model, const ElementMap& map, const Workspace& workspace, CarrierMatrix& rows) {
+  for_each_carrier(model, map, [&](Index local, Index first, int, Index) {
+    const Matrix3d T = step_tangent(model, workspace, map.carriers[static_cast<std::size_t>(local / 6)]);
+    for (Index k = 0; k < rows.rows(); ++k) {
+      const Eigen::RowVector3d turned = rows.row(k).segment<3>(first + 3) * T;
+      rows.row(k).segment<3>(first + 3) = turned;
+    }
+  });
+}
+
+Eigen::MatrixXd model_rows(const Model& model, const ElementMap& map, const LocalMatrix& B,
+                           const Workspace& workspace) {
+  if (map.carriers.empty()) return B;
+  Eigen::VectorXd buffer(B.rows() * static_cast<Index>(map.coordinates.size()));
+  return pulled_rows(model, map, B, workspace, buffer);
+}
+
+Matrix3d step_tangent(const Model& model, const Workspace& workspace, int node) {
+  const int modal = modal_node(model, node);
+  const int owner = modal < 0 ? node : modal_body_of(model, modal).node;
+  if (owner < 0 || model.nodes[static_cast<std::size_t>(owner)].rotation < 0) return Matrix3d::Identity();
+  const Vector3d turn = workspace.displacement.segment<3>(model.nodes[static_cast<std::size_t>(owner)].rotation);
+  return turn.isZero(0.0) ? Matrix3d(Matrix3d::Identity()) : tangent_so3<double>(turn);
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,61 @@
+// Carriers: what acts on nodes of modal bodies, which own no coordinates, in the coordinates of their bodies.
+//
+// Joints, coordinates and loads know six coordinates per carrier. Where one of the carriers follows a modal body their
+// map lists the carriers, and everything goes through T of each: [ẋ; Ω] = T [ṙ ω ẇ], 6 x (6 + m), the unit matrix for
+// other nodes. Maps without such a carrier list none and take the short way.
+#pragma once
+
+#include <vector>
+
+#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/model/element_map.hpp"
+
+namespace tisserand::mechanism {
+
+/// Buffers for any pair of carriers of the model.
+CarrierScratch make_carrier_scratch(const Model& model);
+
+/// A result in one of the buffers, and a matrix of fixed size or a row that is handed over without a copy.
+using CarrierMatrix = Eigen::Map<Eigen::MatrixXd>;
+using LocalMatrix = Eigen::Map<const Eigen::MatrixXd>;
+template <class Matrix>
+LocalMatrix local_view(const Matrix& m) {
+  return {m.data(), m.rows(), m.cols()};
+}
+
+// For maps that list carriers; local matrices have six columns (and rows) per carrier, results n = size of
+// map.coordinates.
+
+/// residual += Tᵀ force; six numbers per carrier.
+void scatter_pulled(const Model& model, const ElementMap& map, const double* force, Workspace& workspace);
+
+/// Tᵀ K T + ∂(Tᵀ force)/∂q, n x n: the tangent of a force that the carriers receive.
+CarrierMatrix pulled_tangent(const Model& model, const ElementMap& map, const LocalMatrix& K, const double* force,
+                             Workspace& workspace);
+
+/// B T, in `buffer`.
+CarrierMatrix pulled_rows(const Model& model, const ElementMap& map, const LocalMatrix& B, const Workspace& workspace,
+                          Eigen::VectorXd& buffer);
+
+/// ∂(B T v)/∂q = N T + B ∂(T v)/∂q for N = ∂(B v)/∂(local q), in `buffer`.
+CarrierMatrix pulled_rate_gradient(const Model& model, const ElementMap& map, const LocalMatrix& B,
+                                   const LocalMatrix& N, Workspace& workspace, Eigen::VectorXd& buffer);
+
+/// Ṫ v, six numbers per carrier: what the carriers' accelerations have besides T v̇.
+void carrier_bias(const Model& model, const ElementMap& map, const Workspace& workspace, double* bias);
+
+/// T d for the increments d of all coordinates, turns as increments of the rotation vectors of the step.
+void pushed_increment(const Model& model, const ElementMap& map, const Workspace& workspace, const Eigen::VectorXd& d,
+                      double* local);
+
+/// Multiplies the columns of turns with T(displacement of the step): rows for increments of rotation vectors.
+void turn_columns(const Model& model, const ElementMap& map, const Workspace& workspace, CarrierMatrix& rows);
+
+/// B in the columns of map.coordinates, for maps with and without carriers; takes memory: not for the step.
+Eigen::MatrixXd model_rows(const Model& model, const ElementMap& map, const LocalMatrix& B, const Workspace& workspace);
+
+/// T(dΘ) of the rotation that a node owns, or the body it follows, over the step; 1 for ground and where nothing
+/// turned.
+Eigen::Matrix3d step_tangent(const Model& model, const Workspace& workspace, int node);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,201 @@
+// Accelerations from [M Bᵀ; B 0], projection in the mass norm.
+#include "mechanism/equations/index1.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/equations/newton.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+/// Smallest ratio of pivots of a mass matrix that is solved.
+constexpr double mass_condition = 1e-15;
+/// Violations below this, relative to the characteristic length, are round-off.
+constexpr double closed = 1e-13;
+constexpr int most_projections = 5;
+/// Iterations for accelerations and reactions that friction couples, and when they have settled.
+constexpr int most_iterations = 30;
+constexpr double settled = 1e-12;
+
+int offset_of(const State& state, const std::string& name) {
+  for (const StateField& field : state.fields())
+    if (field.name == name) return field.offset;
+  TISSERAND_ENSURE(false, "no field {}", name);
+  return 0;
+}
+
+}  // namespace
+
+FlatLayout flat_layout(const State& state) {
+  FlatLayout layout;
+  layout.first = offset_of(state, "x");
+  layout.positions = offset_of(state, "v") - layout.first;
+  layout.velocities = state.sizes().velocities();
+  layout.rest = layout.positions - 7 * state.sizes().nodes;
+  return layout;
+}
+
+Index1::Index1(const formats::Scene& scene, const Model& model, State& state, Workspace& workspace)
+    : scene_(scene), model_(model), state_(state), workspace_(workspace), layout_(flat_layout(state)) {
+  workspace_.displacement.setZero();
+}
+
+void Index1::load(double time, const LoadWindow& window, const double* y) {
+  std::copy_n(y, layout_.size(), state_.block().data() + layout_.first);
+  auto Q = state_.Q();
+  for (Eigen::Index i = 0; i < Q.cols(); ++i) Q.col(i).normalize();
+  state_.time() = time;
+  state_.load_time() = std::clamp(time, window.from, window.to);
+}
+
+void Index1::factor_mass() {
+  const FactorReport factors = factor(model_, state_, {1.0, 0.0, 0.0}, TangentKind::step, {}, workspace_);
+  ++factorisations_;
+  workspace_.has_factors = false;
+  if (factors.regular && factors.reciprocal_condition >= mass_condition) return;
+  std::string name = "a direction of the scene";
+  if (factors.regular)
+    name = weakest_equation(model_, workspace_);
+  else if (factors.singular_column >= 0)
+    name = factors.singular_column < model_.sizes.boundary
+               ? coordinate_name(model_, factors.singular_column)
+               : constraint_name(model_, factors.singular_column - model_.sizes.boundary);
+  throw Error(fmt::format("integrator: method: bdf needs mass in every free direction: {} has none, or its constraint "
+                          "repeats others",
+                          name),
+              scene_.file, "use method: generalised_alpha with error_control, or give mass and inertia there");
+}
+
+bool Index1::try_accelerate() {
+  const bool rubs = !model_.frictions.empty();
+  state_.vdot().setZero();
+  if (!rubs) state_.lambda().setZero();
+  ++evaluations_;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    evaluate(model_, state_, workspace_);
+    factor_mass();
+    evaluate_bias(model_, workspace_);
+    apply_jacobian(model_, workspace_, state_.vdot(), workspace_.multipliers);
+    workspace_.bias = -workspace_.bias - workspace_.multipliers;
+    if (scene_.integrator.bdf.stabilisation == formats::Stabilisation::baumgarte) {
+      const double alpha = scene_.integrator.bdf.alpha, beta = scene_.integrator.bdf.beta;
+      workspace_.bias -= 2.0 * alpha * workspace_.constraint_rate + beta * beta * workspace_.constraint;
+    }
+    solve_increment(model_, workspace_.bias, workspace_);
+    state_.vdot() += workspace_.increment;
+    state_.lambda() += workspace_.unknowns.tail(model_.sizes.constraints);
+    if (!rubs) return true;
+    if (!state_.lambda().allFinite()) break;
+    if (workspace_.unknowns.tail(model_.sizes.constraints).norm() <= settled * state_.lambda().norm()) return true;
+  }
+  state_.lambda().setZero();
+  return false;
+}
+
+void Index1::accelerate() {
+  if (!try_accelerate())
+    throw Error("the accelerations do not settle: reactions and friction of the joints drive each other", scene_.file,
+                "reduce the coefficients of friction, or raise their velocity");
+}
+
+void Index1::rates(const double* y, double* ydot) const {
+  std::fill_n(ydot, layout_.positions, 0.0);
+  const int nodes = state_.sizes().nodes;
+  const auto v = state_.v();
+  for (int i = 0; i < nodes; ++i) {
+    const Node& node = model_.nodes[static_cast<std::size_t>(i)];
+    if (node.translation >= 0) Eigen::Map<Eigen::Vector3d>(ydot + 3 * i) = v.segment<3>(node.translation);
+    if (node.rotation < 0) continue;
+    const Eigen::Map<const Eigen::Vector4d> p(y + 3 * nodes + 4 * i);
+    const Eigen::Vector3d e = p.tail<3>(), Omega = v.segment<3>(node.rotation);
+    double* pdot = ydot + 3 * nodes + 4 * i;
+    pdot[0] = -0.5 * e.dot(Omega);
+    Eigen::Map<Eigen::Vector3d>(pdot + 1) = 0.5 * (p[0] * Omega + e.cross(Omega));
+  }
+  Eigen::Map<Eigen::VectorXd>(ydot + 7 * nodes, layout_.rest) = v.tail(layout_.rest);
+  Eigen::Map<Eigen::VectorXd>(ydot + layout_.positions, layout_.velocities) = state_.vdot();
+}
+
+double Index1::worst_violation() const {
+  double worst = 0.0;
+  for (int row = 0; row < model_.sizes.constraints; ++row)
+    if (workspace_.active[row] != 0.0)
+      worst = std::max(worst, std::abs(workspace_.constraint[row]) /
+                                  (model_.length_row[static_cast<std::size_t>(row)] ? model_.length : 1.0));
+  return worst;
+}
+
+double Index1::violation() const { return worst_violation() * model_.length; }
+
+bool Index1::project() {
+  if (model_.sizes.constraints == 0) return true;
+  // Without reactions there is no friction: its derivatives would turn the projection out of the mass norm.
+  workspace_.multipliers = state_.lambda();
+  state_.lambda().setZero();
+  const bool done = project_without_reactions();
+  state_.lambda() = workspace_.multipliers;
+  return done;
+}
+
+bool Index1::project_without_reactions() {
+  double last = 0.0;
+  for (int iteration = 0;; ++iteration) {
+    evaluate(model_, state_, workspace_);
+    const double worst = worst_violation();
+    if (!std::isfinite(worst)) return false;
+    if (iteration == 0 || worst > closed) factor_mass();
+    // Near singular positions round-off keeps the violation above the limit.
+    if (worst <= closed || (iteration > 1 && worst > 0.5 * last && worst < 1e-10)) break;
+    if (iteration == most_projections) return false;
+    last = worst;
+    workspace_.previous.block() = state_.block();
+    workspace_.bias = -workspace_.constraint;
+    solve_correction(model_, workspace_.bias, workspace_);
+    retract(model_, workspace_.previous, workspace_.correction, state_);
+  }
+  workspace_.bias = -workspace_.constraint_rate;
+  solve_correction(model_, workspace_.bias, workspace_);
+  state_.v() += workspace_.correction;
+  return true;
+}
+
+void Index1::settle() {
+  auto frames = state_.frames();
+  for (std::size_t i = 0; i < model_.superelements.size(); ++i)
+    frames.col(static_cast<Eigen::Index>(i)) =
+        wxyz(Eigen::Quaterniond(workspace_.superelements[i].motion.R0).normalized());
+  unwrap_hinges(model_, workspace_, state_);
+  for (int k = 0; k < 3; ++k)
+    state_.force_scale(k) = std::max(state_.force_scale(k), workspace_.force_scale[static_cast<std::size_t>(k)]);
+  state_.load_power() = workspace_.load_power;
+  state_.damping_power() = workspace_.damping_power;
+}
+
+void Index1::tolerances(double* absolute) const {
+  const double tolerance = scene_.integrator.bdf.absolute_tolerance;
+  const int nodes = state_.sizes().nodes;
+  std::fill_n(absolute, 3 * nodes, tolerance * model_.length);
+  std::fill_n(absolute + 3 * nodes, layout_.size() - 3 * nodes, tolerance);
+  double* v = absolute + layout_.positions;
+  for (const Node& node : model_.nodes)
+    if (node.translation >= 0) std::fill_n(v + node.translation, 3, tolerance * model_.length);
+  // Internal coordinates and modes of a body of mass m are lengths times sqrt(m); they stand at the end of both parts.
+  const int internal = model_.sizes.internal;
+  for (const ModalBody& body : model_.modal_bodies) {
+    const double unit = tolerance * model_.length * std::sqrt(body.mass);
+    const int at = body.offset - internal - model_.sizes.modal;
+    std::fill_n(absolute + layout_.positions + at, body.modes, unit);
+    std::fill_n(absolute + layout_.size() + at, body.modes, unit);
+  }
+  for (std::size_t i = 0; i < model_.superelements.size(); ++i) {
+    const double unit = tolerance * model_.length * std::sqrt(body_of(model_, i).mass);
+    const int at = model_.internal_offset[i] - internal, count = body_of(model_, i).modes;
+    std::fill_n(absolute + layout_.positions + at, count, unit);
+    std::fill_n(absolute + layout_.size() + at, count, unit);
+  }
+}
+
+}  // namespace tisserand::mechanism

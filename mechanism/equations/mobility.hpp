@@ -1,0 +1,28 @@
+// Counts of a model at a state: coordinates, constraints, the rank of their Jacobian, degrees of freedom.
+#pragma once
+
+#include <vector>
+
+#include "mechanism/equations/workspace.hpp"
+#include "mechanism/model/connected_bodies.hpp"
+#include "mechanism/model/model.hpp"
+#include "mechanism/model/state.hpp"
+
+namespace tisserand::mechanism {
+
+struct Mobility {
+  int coordinates = 0;  ///< boundary and internal
+  int constraints = 0;
+  int rank = 0;                ///< of the constraint Jacobian
+  int degrees_of_freedom = 0;  ///< coordinates − rank
+  int parts = 0;               ///< bodies, each counted as a rigid one
+  int rigid_mobility =
+      0;  ///< degrees of freedom if every body were rigid: 6 parts − rank; Gruebler's is 6 parts − constraints
+  std::vector<int> redundant;  ///< constraint rows that depend on the others
+};
+
+/// Rank of B by a rank-revealing QR (rotations scaled with the characteristic length; up to 400 rows dense, above
+/// sparse), and that of B on the motions of rigid parts.
+Mobility count_mobility(const Model& model, const State& state, Workspace& workspace);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,341 @@
+// Writes a gnuplot script with the data in it and runs gnuplot on it, without a shell.
+#include "mechanism/histories/plot.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+
+extern char** environ;  // NOLINT: POSIX demands this declaration
+
+namespace tisserand::mechanism {
+namespace {
+
+/// Okabe and Ito's colours, told apart by the colour-blind; lines differ by their dashes as well.
+constexpr std::array kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"};
+constexpr std::array kDashes = {"solid", "(18,6)", "(8,5)", "(18,5,4,5)", "(3,4)", "(18,5,4,5,4,5)"};
+constexpr std::array kReferenceGreys = {"#A8A8A8", "#707070", "#C8C8C8"};
+constexpr std::size_t kMostPanels = 4;
+constexpr std::size_t kMostPoints = 12000;  // beyond this a history is thinned; a picture is 1400 pixels wide
+
+std::vector<std::string> path_parts(const std::string& channel) {
+  std::vector<std::string> parts(1);
+  for (const char c : channel) {
+    if (c == '/')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
+}
+
+/// "nodes/angular_velocity/beam/tip/z" -> "angular velocity"; "solver/step" -> "step"; "energy/kinetic" -> "energy".
+std::string quantity(const Series& series) {
+  const std::vector<std::string> parts = path_parts(series.channel);
+  std::string word = parts.size() > 1 && parts.front() != "energy" ? parts[1] : parts.front();
+  std::replace(word.begin(), word.end(), '_', ' ');
+  return word;
+}
+
+/// "nodes/angular_velocity/beam/tip/z" -> "beam/tip/z"; "energy/kinetic" -> "kinetic".
+std::string short_name(const Series& series) {
+  const std::vector<std::string> parts = path_parts(series.channel);
+  const std::size_t skipped = parts.size() > 2 ? 2 : parts.size() - 1;
+  return join({parts.begin() + static_cast<std::ptrdiff_t>(skipped), parts.end()}, "/");
+}
+
+std::string with_unit(const std::string& name, const std::string& unit) {
+  return unit.empty() || unit == "1" ? name : name + " [" + with_superscripts(unit) + "]";
+}
+
+/// Series that share a unit, as indices; a reference without unit joins the first panel.
+struct Panel {
+  std::string unit;
+  std::vector<std::size_t> members;
+};
+
+std::vector<Panel> panels_of(const std::vector<Series>& series) {
+  std::vector<Panel> panels;
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const bool joins_first = series[i].kind == SeriesKind::reference && series[i].unit.empty();
+    auto panel = panels.begin();
+    if (!joins_first)
+      panel = std::find_if(panels.begin(), panels.end(), [&](auto& p) { return p.unit == series[i].unit; });
+    if (panel == panels.end()) panel = panels.insert(panels.end(), Panel{series[i].unit, {}});
+    panel->members.push_back(i);
+  }
+  if (panels.size() > kMostPanels)
+    throw Error(fmt::format("the chosen channels have {} different units", panels.size()), "plot",
+                fmt::format("choose channels of at most {} units", kMostPanels));
+  return panels;
+}
+
+std::string y_label_of(const std::vector<Series>& series, const Panel& panel) {
+  std::vector<std::string> quantities;
+  for (const std::size_t i : panel.members) {
+    if (series[i].kind == SeriesKind::reference && panel.members.front() != i) continue;
+    const std::string word = quantity(series[i]);
+    if (std::find(quantities.begin(), quantities.end(), word) == quantities.end()) quantities.push_back(word);
+  }
+  return with_unit(join(quantities, ", "), panel.unit);
+}
+
+/// What tells this series from the others of the picture.
+std::string legend_of(const std::vector<Series>& series, const Series& one) {
+  if (one.kind == SeriesKind::reference) return one.source;
+  bool same_source = true, same_channel = true;
+  std::size_t from_this_source = 0;
+  for (const Series& other : series) {
+    if (other.kind == SeriesKind::reference) continue;
+    same_source = same_source && other.source == one.source;
+    same_channel = same_channel && other.channel == one.channel;
+    from_this_source += other.source == one.source ? 1 : 0;
+  }
+  if (one.has_own_label && from_this_source == 1) return one.source;
+  if (same_channel) return same_source ? short_name(one) : one.source;
+  return same_source ? short_name(one) : one.source + ": " + short_name(one);
+}
+
+/// Indices to draw: all, or of every bin the first, the lowest and the highest point.
+std::vector<std::size_t> thinned(const Series& series) {
+  std::vector<std::size_t> kept;
+  const std::size_t n = series.x.size();
+  const std::size_t bin = n > kMostPoints ? (3 * n + kMostPoints - 1) / kMostPoints : 1;
+  for (std::size_t begin = 0; begin < n; begin += bin) {
+    const std::size_t end = std::min(n, begin + bin);
+    const auto [low, high] = std::minmax_element(series.y.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                 series.y.begin() + static_cast<std::ptrdiff_t>(end));
+    std::array<std::size_t, 3> picked = {begin, static_cast<std::size_t>(low - series.y.begin()),
+                                         static_cast<std::size_t>(high - series.y.begin())};
+    std::sort(picked.begin(), picked.end());
+    for (const std::size_t i : picked)
+      if (kept.empty() || kept.back() != i) kept.push_back(i);
+  }
+  if (n > 0 && kept.back() != n - 1) kept.push_back(n - 1);
+  return kept;
+}
+
+void append_data(std::string& script, const Series& series, std::size_t index) {
+  fmt::format_to(std::back_inserter(script), "$d{} << EOD\n", index);
+  for (const std::size_t i : thinned(series)) {
+    if (std::isfinite(series.x[i]) && std::isfinite(series.y[i]))
+      fmt::format_to(std::back_inserter(script), "{:.9g} {:.9g}\n", series.x[i], series.y[i]);
+    else
+      script += "\n";  // a gap in the line
+  }
+  script += "EOD\n";
+}
+
+void append_range(std::string& script, const char* axis, const std::optional<std::array<double, 2>>& range) {
+  if (range)
+    fmt::format_to(std::back_inserter(script), "set {}range [{:.9g}:{:.9g}]\n", axis, (*range)[0], (*range)[1]);
+}
+
+/// One curve of the plot command; `rank` is its place among the runs or the references of its panel.
+std::string curve(const std::vector<Series>& series, std::size_t index, std::size_t rank, const PlotOptions& options) {
+  const std::string title = gnuplot_quoted(legend_of(series, series[index]));
+  const char* shape = options.mark == Mark::line_with_points ? "linespoints ps 1.1" : "lines";
+  if (series[index].kind == SeriesKind::reference && options.mark == Mark::line)
+    return fmt::format("$d{} with lines lw 3.6 lc rgb '{}' title {}", index,
+                       kReferenceGreys[rank % kReferenceGreys.size()], title);
+  const std::string points = options.mark == Mark::line ? "" : fmt::format(" pt {}", 4 + rank % 10);
+  return fmt::format("$d{} with {}{} lw 1.8 lc rgb '{}' dt {} title {}", index, shape, points,
+                     kColours[rank % kColours.size()], kDashes[rank % kDashes.size()], title);
+}
+
+void append_panel(std::string& script, const std::vector<Series>& series, const Panel& panel,
+                  const PlotOptions& options) {
+  const std::string label = options.y_label.empty() ? y_label_of(series, panel) : options.y_label;
+  script += "set ylabel " + gnuplot_quoted(label) + " noenhanced\n";
+  std::vector<std::string> curves;
+  for (const SeriesKind kind : {SeriesKind::reference, SeriesKind::run}) {
+    std::size_t rank = 0;
+    for (const std::size_t i : panel.members)
+      if (series[i].kind == kind) curves.push_back(curve(series, i, rank++, options));
+  }
+  script += "plot " + join(curves, ", \\\n     ") + "\n";
+}
+
+/// The time of the runs where there are runs, since references often go on after them; else all there is.
+std::optional<std::array<double, 2>> range_of_runs(const std::vector<Series>& series) {
+  std::optional<std::array<double, 2>> range;
+  for (const Series& one : series) {
+    if (one.kind == SeriesKind::reference || one.x.empty()) continue;
+    const auto [low, high] = std::minmax_element(one.x.begin(), one.x.end());
+    range = range ? std::array{std::min((*range)[0], *low), std::max((*range)[1], *high)} : std::array{*low, *high};
+  }
+  return range && (*range)[0] < (*range)[1] ? range : std::nullopt;
+}
+
+std::string terminal_of(const std::string& picture, std::size_t panels) {
+  const int height = panels == 1 ? 800 : 200 + 400 * static_cast<int>(panels);
+  if (picture.ends_with(".png"))
+    return fmt::format("set terminal pngcairo size 1400,{} font 'sans,17' linewidth 1.4 background 'white'\n", height);
+  if (picture.ends_with(".svg"))
+    return fmt::format("set terminal svg size 1400,{} font 'sans,17' linewidth 1.4 background 'white'\n", height);
+  throw Error("'" + picture + "' is neither a .png nor an .svg file", "plot",
+              "give -o a name that ends in .png or .svg");
+}
+
+/// gnuplot cannot draw axes around nothing, as where a node has no rotations or a joint no coordinate.
+void check_finite(const std::vector<Series>& series) {
+  const auto has_value = [&series](std::size_t index) {
+    const Series& one = series[index];
+    for (std::size_t i = 0; i < one.x.size(); ++i)
+      if (std::isfinite(one.x[i]) && std::isfinite(one.y[i])) return true;
+    return false;
+  };
+  for (const Panel& panel : panels_of(series)) {
+    if (std::any_of(panel.members.begin(), panel.members.end(), has_value)) continue;
+    const Series& first = series[panel.members.front()];
+    throw Error(fmt::format("channel '{}' holds no finite value", first.channel), first.source,
+                "choose another channel");
+  }
+}
+
+struct FileCloser {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using TemporaryFile = std::unique_ptr<std::FILE, FileCloser>;
+
+TemporaryFile temporary_file() {
+  TemporaryFile file(std::tmpfile());
+  if (!file) throw Error("no temporary file can be made", "plot", remedy_of_errno(errno));
+  return file;
+}
+
+std::string content(std::FILE* file) {
+  std::string text(4000, '\0');
+  std::rewind(file);
+  text.resize(std::fread(text.data(), 1, text.size(), file));
+  return text;
+}
+
+/// Feeds the script to gnuplot (-d: without the user's settings) and waits. Throws Error with gnuplot's message.
+void run_gnuplot(const std::string& script) {
+  const TemporaryFile input = temporary_file();
+  const TemporaryFile output = temporary_file();
+  if (std::fwrite(script.data(), 1, script.size(), input.get()) != script.size() || std::fflush(input.get()) != 0)
+    throw Error("the data cannot be handed to gnuplot", "plot", remedy_of_errno(errno));
+  std::rewind(input.get());
+
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, fileno(input.get()), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(output.get()), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(output.get()), STDERR_FILENO);
+  std::string program = "gnuplot", option = "-d";
+  std::array<char*, 3> arguments = {program.data(), option.data(), nullptr};
+  pid_t child = 0;
+  const int failure = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failure == ENOENT)
+    throw Error("gnuplot is not installed", "plot", "install it with: apt-get install gnuplot-nox");
+  if (failure != 0) throw Error(fmt::format("gnuplot cannot be started: {}", std::strerror(failure)), "plot", "");
+
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) throw Error("gnuplot was lost", "plot", std::strerror(errno));
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    throw Error("gnuplot failed: " + content(output.get()), "plot", "try other ranges or channels");
+}
+
+}  // namespace
+
+std::string gnuplot_quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      throw Error("control character in the text '" + text + "'", "plot", "use a text of one line without tabs");
+    quoted += c;
+    if (c == '\'') quoted += '\'';
+  }
+  return quoted + "'";
+}
+
+std::string with_superscripts(const std::string& unit) {
+  constexpr std::array digits = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  std::string text;
+  bool raised = false;
+  for (const char c : unit) {
+    if (c == '^')
+      raised = true;
+    else if (raised && c == '-')
+      text += "⁻";
+    else if (raised && c >= '0' && c <= '9')
+      text += digits[static_cast<std::size_t>(c - '0')];
+    else {
+      raised = false;
+      text += c;
+    }
+  }
+  return text;
+}
+
+std::string gnuplot_script(const std::vector<Series>& series, const PlotOptions& options, const std::string& picture) {
+  const std::vector<Panel> panels = panels_of(series);
+  std::string script = terminal_of(picture, panels.size());
+  script += "set output " + gnuplot_quoted(picture) + "\nset encoding utf8\n";
+  for (std::size_t i = 0; i < series.size(); ++i) append_data(script, series[i], i);
+  script +=
+      "set grid back lc rgb '#DDDDDD' lt 1 lw 0.7\n"
+      "set border 3 lc rgb '#444444'\n"
+      "set tics nomirror\n"
+      "set key above left horizontal Left reverse width 3 samplen 4 noenhanced\n"
+      "set lmargin 12\n"
+      "set rmargin 4\n";
+  if (options.x_scale == AxisScale::logarithmic) script += "set logscale x\nset format x '10^{%T}'\n";
+  if (options.y_scale == AxisScale::logarithmic) script += "set logscale y\nset format y '10^{%T}'\n";
+  const bool may_start_at_zero = options.x_scale == AxisScale::linear;
+  append_range(script, "x", options.x_range || !may_start_at_zero ? options.x_range : range_of_runs(series));
+  append_range(script, "y", options.y_range);
+  if (panels.size() > 1) {
+    fmt::format_to(std::back_inserter(script), "set multiplot layout {},1 title {} noenhanced font ',20'\n",
+                   panels.size(), gnuplot_quoted(options.title));
+  } else if (!options.title.empty()) {
+    script += "set title " + gnuplot_quoted(options.title) + " noenhanced font ',20'\n";
+  }
+  const std::string x_label =
+      options.x_label.empty() ? with_unit(series.front().x_name, series.front().x_unit) : options.x_label;
+  for (const Panel& panel : panels) {
+    if (&panel == &panels.back()) script += "set xlabel " + gnuplot_quoted(x_label) + " noenhanced\n";
+    append_panel(script, series, panel, options);
+  }
+  if (panels.size() > 1) script += "unset multiplot\n";
+  return script;
+}
+
+void plot(const std::vector<Series>& series, const PlotOptions& options) {
+  const bool has_points = std::any_of(series.begin(), series.end(), [](const Series& s) { return !s.x.empty(); });
+  if (!has_points) throw Error("nothing to draw: the chosen channels hold no instant", "plot", "choose another run");
+  check_finite(series);
+  terminal_of(options.output, 1);  // throws for another ending before anything is done
+  const std::filesystem::path output(options.output);
+  const std::string folder = output.has_parent_path() ? output.parent_path().string() : ".";
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw Error("cannot write into the folder '" + folder + "'", options.output, remedy_of_errno(errno));
+  const std::filesystem::path picture = temporary_beside(options.output) + output.extension().string();
+  try {
+    run_gnuplot(gnuplot_script(series, options, picture.string()));
+    if (!std::filesystem::exists(picture))
+      throw Error("the picture could not be written", options.output,
+                  "check that its folder exists and may be written");
+    publish_file(picture.string(), options.output);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(picture, ignored);
+    throw;
+  }
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,195 @@
+// Histories from results files and CSV files, chosen by channel names and columns.
+#include "mechanism/histories/series.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+constexpr std::string_view kBlank = " \t\r\"";
+
+std::string trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(kBlank);
+  if (first == std::string_view::npos) return {};
+  return std::string(text.substr(first, text.find_last_not_of(kBlank) - first + 1));
+}
+
+std::vector<std::string> cells(std::string_view line) {
+  std::vector<std::string> parts;
+  for (;;) {
+    const auto comma = line.find(',');
+    parts.push_back(trimmed(line.substr(0, comma)));
+    if (comma == std::string_view::npos) return parts;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// A header cell "name [unit]".
+struct ColumnName {
+  std::string name;
+  std::string unit;
+};
+
+ColumnName split_unit(const std::string& cell) {
+  const auto bracket = cell.rfind('[');
+  if (bracket == std::string::npos || cell.back() != ']') return {cell, ""};
+  return {trimmed(cell.substr(0, bracket)), cell.substr(bracket + 1, cell.size() - bracket - 2)};
+}
+
+std::size_t find_column(const std::vector<std::string>& header, const std::string& wanted, const std::string& file) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < header.size(); ++i) {
+    names.push_back(split_unit(header[i]).name);
+    if (header[i] == wanted || names.back() == wanted) return i;
+  }
+  throw Error("no column '" + wanted + "'", file + ":1", "its columns are " + join(names, ", "));
+}
+
+double number(const std::string& cell, const std::string& file, std::size_t line, std::size_t column) {
+  if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
+  double value = 0.0;
+  const char* begin = cell.data() + (cell.front() == '+' ? 1 : 0);
+  const char* end = cell.data() + cell.size();
+  const auto [rest, code] = std::from_chars(begin, end, value);
+  if (code != std::errc() || rest != end)
+    throw Error(fmt::format("'{}' in column {} is not a number", cell, column + 1), fmt::format("{}:{}", file, line),
+                "write numbers such as 1.5e-3 separated by commas, or leave the cell empty");
+  return value;
+}
+
+/// Of every pattern: the error of the last file that lacked it, until some file has it.
+using Misses = std::map<std::string, std::optional<Error>>;
+
+/// The channels of a file that the patterns mean. Throws Error if there are none.
+std::vector<formats::Channel> chosen_channels(const std::vector<formats::Channel>& channels, const std::string& file,
+                                              const std::vector<std::string>& patterns, Misses& misses) {
+  std::vector<std::string> present;
+  std::optional<Error> missing;
+  for (const std::string& pattern : patterns) {
+    try {
+      (void)formats::select_channels(channels, {pattern}, file);
+      present.push_back(pattern);
+      misses[pattern] = std::nullopt;
+    } catch (const Error& error) {
+      if (!missing) missing = error;
+      misses.try_emplace(pattern, error);
+    }
+  }
+  if (present.empty()) throw *missing;
+  return formats::select_channels(channels, present, file);
+}
+
+/// The series of one file: the chosen channels over time.
+void append_run(const std::string& file, const std::string& label, const std::vector<std::string>& patterns,
+                Misses& misses, std::vector<Series>& all) {
+  const formats::ResultsReader reader(file);
+  const std::vector<formats::Channel> channels = reader.channels();
+  std::string time_unit;
+  std::vector<std::string> names;
+  std::vector<Series> chosen;
+  for (const formats::Channel& channel : channels)
+    if (channel.name == "time") time_unit = channel.unit;
+  for (const formats::Channel& channel : chosen_channels(channels, file, patterns, misses)) {
+    if (channel.name == "time") continue;
+    names.push_back(channel.name);
+    Series series;
+    series.source = label.empty() ? stem(file) : label;
+    series.channel = channel.name;
+    series.unit = channel.unit;
+    series.x_unit = time_unit;
+    series.x = reader.time();
+    series.has_own_label = !label.empty();
+    chosen.push_back(std::move(series));
+  }
+  const Eigen::MatrixXd values = reader.read_rows(names, 0, reader.rows());
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const auto column = values.col(static_cast<Eigen::Index>(i));
+    chosen[i].y.assign(column.begin(), column.end());
+    all.push_back(std::move(chosen[i]));
+  }
+}
+
+}  // namespace
+
+std::string stem(const std::string& path) {
+  const std::string name = std::filesystem::path(path).filename().string();
+  const auto dot = name.find('.', 1);
+  return dot == std::string::npos ? name : name.substr(0, dot);
+}
+
+ReferenceColumn parse_reference(const std::string& text) {
+  const auto ending = text.find(".csv:");
+  const auto first = ending == std::string::npos ? text.find(':') : ending + 4;
+  const auto second = first == std::string::npos ? first : text.find(':', first + 1);
+  if (second == std::string::npos)
+    throw Error("'" + text + "' does not name two columns of a CSV file", "--reference",
+                "write file.csv:x:y or file.csv:x:y:label, for example history.csv:t:wz_base:converged");
+  const auto third = text.find(':', second + 1);
+  ReferenceColumn column{text.substr(0, first), text.substr(first + 1, second - first - 1),
+                         text.substr(second + 1, third == std::string::npos ? third : third - second - 1), ""};
+  column.label = third == std::string::npos ? stem(column.file) : text.substr(third + 1);
+  return column;
+}
+
+Series read_reference(const ReferenceColumn& column) {
+  std::ifstream stream(column.file);
+  if (!stream) throw Error("cannot be read", column.file, std::strerror(errno));
+  std::string line;
+  if (!std::getline(stream, line)) throw Error("is empty", column.file, "the first line must name the columns");
+  const std::vector<std::string> header = cells(line);
+  const std::size_t x = find_column(header, column.x, column.file);
+  const std::size_t y = find_column(header, column.y, column.file);
+
+  Series series;
+  series.kind = SeriesKind::reference;
+  series.source = column.label;
+  series.channel = split_unit(header[y]).name;
+  series.unit = split_unit(header[y]).unit;
+  series.x_name = split_unit(header[x]).name;
+  series.x_unit = split_unit(header[x]).unit;
+  for (std::size_t number_of_line = 2; std::getline(stream, line); ++number_of_line) {
+    if (trimmed(line).empty()) continue;
+    const std::vector<std::string> row = cells(line);
+    if (row.size() != header.size())
+      throw Error(fmt::format("{} cells where the header names {}", row.size(), header.size()),
+                  fmt::format("{}:{}", column.file, number_of_line), "every row needs one cell per column");
+    const double at = number(row[x], column.file, number_of_line, x);
+    const double value = number(row[y], column.file, number_of_line, y);
+    if (std::isnan(at) || std::isnan(value)) continue;
+    series.x.push_back(at);
+    series.y.push_back(value);
+  }
+  return series;
+}
+
+std::vector<Series> read_series(const SeriesRequest& request) {
+  if (request.files.empty() && request.references.empty())
+    throw Error("no file to read", "", "name a results file, or a CSV file with --reference file.csv:x:y");
+  if (!request.files.empty() && request.channels.empty())
+    throw Error("no channel chosen", request.files.front(),
+                "add --channel <name>; `mechanism channels " + request.files.front() + "` lists them");
+  if (request.labels.size() > request.files.size())
+    throw Error(fmt::format("{} labels for {} files", request.labels.size(), request.files.size()), "--label",
+                "give at most one label per results file; a reference has its own as file.csv:x:y:label");
+  std::vector<Series> all;
+  Misses misses;
+  for (std::size_t i = 0; i < request.files.size(); ++i)
+    append_run(request.files[i], i < request.labels.size() ? request.labels[i] : "", request.channels, misses, all);
+  for (const auto& [pattern, error] : misses)
+    if (error) throw *error;
+  for (const ReferenceColumn& column : request.references) all.push_back(read_reference(column));
+  return all;
+}
+
+}  // namespace tisserand::mechanism

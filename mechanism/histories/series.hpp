@@ -1,0 +1,56 @@
+// Named histories from results files and CSV files: what `plot` and `compare` look at.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/results/results.hpp"
+
+namespace tisserand::mechanism {
+
+enum class SeriesKind { run, reference };
+
+/// One quantity over another, in the units of its file.
+struct Series {
+  SeriesKind kind = SeriesKind::run;
+  std::string source;   ///< label of the file: its own label, else the file name without endings
+  std::string channel;  ///< "nodes/position/beam/tip/x", or the column of a CSV file
+  std::string unit;     ///< "" if unnamed or unknown
+  std::string x_name = "time";
+  std::string x_unit;
+  std::vector<double> x;
+  std::vector<double> y;
+  bool has_own_label = false;  ///< `source` was chosen by the user
+};
+
+/// Two columns of a CSV file with a header line.
+struct ReferenceColumn {
+  std::string file;
+  std::string x;
+  std::string y;
+  std::string label;
+};
+
+struct SeriesRequest {
+  std::vector<std::string> files;     ///< *.results.h5, also of interrupted runs
+  std::vector<std::string> labels;    ///< of the files, in their order; fewer than files: the file names
+  std::vector<std::string> channels;  ///< names, groups such as "nodes/position", or patterns with *
+  std::vector<ReferenceColumn> references;
+};
+
+/// "file.csv:x column:y column[:label]"; the label may hold colons. Throws Error with the form.
+ReferenceColumn parse_reference(const std::string& text);
+
+/// Reads two columns; a header cell "name [unit]" is found by "name" as well. Rows in which either cell is empty or nan
+/// are left out. Throws Error with file:line:column, or with the names of the columns there are.
+Series read_reference(const ReferenceColumn& column);
+
+/// All series of a request: files in order, in each its channels, then the references. A channel may be missing in some
+/// of the files (a node has other names in other models), not in all of them, and no file may be without any. Throws
+/// Error otherwise, or if nothing is asked for.
+std::vector<Series> read_series(const SeriesRequest& request);
+
+/// File name without folders and without ".results.h5", ".csv" and the like.
+std::string stem(const std::string& path);
+
+}  // namespace tisserand::mechanism

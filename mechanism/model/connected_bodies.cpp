@@ -1,0 +1,104 @@
+// Union of nodes by elements, and of parts by joints.
+#include "mechanism/model/connected_bodies.hpp"
+
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace tisserand::mechanism {
+namespace {
+
+/// Disjoint sets of 0 ... count − 1.
+class Sets {
+ public:
+  explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t{0}); }
+  std::size_t find(std::size_t i) {
+    while (parent_[i] != i) i = std::exchange(parent_[i], parent_[parent_[i]]);
+    return i;
+  }
+  void unite(std::size_t i, std::size_t j) { parent_[find(j)] = find(i); }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+struct NodeFacts {
+  Sets sets;
+  std::vector<std::string> name;  ///< of the body
+  std::vector<double> mass;       ///< attributed to a node
+};
+
+template <class Nodes>
+void add_body(const Nodes& nodes, const std::string& name, double mass, NodeFacts& facts) {
+  const auto first = static_cast<std::size_t>(nodes.front());
+  for (const int node : nodes) {
+    facts.sets.unite(first, static_cast<std::size_t>(node));
+    facts.name[static_cast<std::size_t>(node)] = name;
+  }
+  facts.mass[first] += mass;
+}
+
+/// "rod/3" -> "rod".
+std::string body_of(const std::string& node) { return node.substr(0, node.rfind('/')); }
+
+}  // namespace
+
+Parts find_parts(const Model& model) {
+  const std::size_t count = model.nodes.size();
+  NodeFacts facts{Sets(count), std::vector<std::string>(count), std::vector<double>(count, 0.0)};
+  for (std::size_t i = 0; i < count; ++i) facts.name[i] = model.nodes[i].name;
+  for (std::size_t i = 0; i < model.superelements.size(); ++i)
+    add_body(model.superelements[i].nodes, model.superelements[i].name, body_of(model, i).mass, facts);
+  for (const RigidBody& body : model.rigid_bodies) add_body(std::vector<int>{body.node}, body.name, body.mass, facts);
+  for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
+    std::vector<int> nodes{model.modal_bodies[i].node};
+    for (const ModalNode& node : model.modal_nodes)
+      if (node.body == static_cast<int>(i)) nodes.push_back(node.node);
+    add_body(nodes, model.modal_bodies[i].name, model.modal_bodies[i].mass, facts);
+  }
+  const auto add_beams = [&](const auto& beams) {
+    for (const auto& beam : beams)
+      add_body(beam.nodes, body_of(model.nodes[static_cast<std::size_t>(beam.nodes[0])].name), beam.mass, facts);
+  };
+  add_beams(model.beams2);
+  add_beams(model.beams3);
+
+  Parts parts;
+  parts.of_node.resize(count);
+  std::map<std::size_t, int> part_of_root;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [at, is_new] = part_of_root.try_emplace(facts.sets.find(i), parts.count());
+    if (is_new) {
+      parts.name.push_back(facts.name[i]);
+      parts.first_node.push_back(static_cast<int>(i));
+      parts.mass.push_back(0.0);
+    }
+    parts.of_node[i] = at->second;
+    parts.mass[static_cast<std::size_t>(at->second)] += facts.mass[i];
+  }
+  return parts;
+}
+
+std::vector<std::vector<std::string>> connected_groups(const Model& model, const Parts& parts) {
+  const auto ground = static_cast<std::size_t>(parts.count());
+  Sets sets(ground + 1);
+  const auto part_of = [&](const Marker& marker) {
+    return marker.node < 0 ? ground : static_cast<std::size_t>(parts.of_node[static_cast<std::size_t>(marker.node)]);
+  };
+  for (const Joint& joint : model.joints) sets.unite(part_of(joint.a), part_of(joint.b));
+  for (const Bushing& bushing : model.bushings) sets.unite(part_of(bushing.a), part_of(bushing.b));
+  for (const Coordinate& c : model.coordinates)
+    if (c.active) sets.unite(part_of(c.a), part_of(c.b));
+  for (const Coupling& coupling : model.couplings)
+    for (const CouplingTerm& term : coupling.terms)
+      sets.unite(part_of(model.coordinates[static_cast<std::size_t>(coupling.terms.front().coordinate)].b),
+                 part_of(model.coordinates[static_cast<std::size_t>(term.coordinate)].b));
+  std::map<std::size_t, std::vector<std::string>> groups;
+  groups[sets.find(ground)].push_back("ground");
+  for (std::size_t i = 0; i < ground; ++i) groups[sets.find(i)].push_back(parts.name[i]);
+  std::vector<std::vector<std::string>> result;
+  for (auto& [root, names] : groups) result.push_back(std::move(names));
+  return result;
+}
+
+}  // namespace tisserand::mechanism

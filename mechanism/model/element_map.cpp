@@ -1,0 +1,30 @@
+// Coordinates of nodes, one after the other.
+#include "mechanism/model/element_map.hpp"
+
+#include <algorithm>
+
+namespace tisserand::mechanism {
+
+void append_carrier(const Model& model, int node, std::vector<int>& coordinates) {
+  const int modal = modal_node(model, node);
+  const int owner = modal < 0 ? node : modal_body_of(model, modal).node;
+  for (int k = 0; k < 6; ++k) {
+    const Node* own = owner < 0 ? nullptr : &model.nodes[static_cast<std::size_t>(owner)];
+    const int first = own == nullptr ? -1 : k < 3 ? own->translation : own->rotation;
+    coordinates.push_back(first < 0 ? -1 : first + k % 3);
+  }
+  if (modal < 0) return;
+  const ModalBody& body = modal_body_of(model, modal);
+  for (int k = 0; k < body.modes; ++k) coordinates.push_back(model.sizes.first_modal() + body.offset + k);
+}
+
+ElementMap carrier_map(const Model& model, const std::vector<int>& nodes) {
+  ElementMap map;
+  for (const int node : nodes) append_carrier(model, node, map.coordinates);
+  const bool dependent =
+      std::any_of(nodes.begin(), nodes.end(), [&](int node) { return modal_node(model, node) >= 0; });
+  if (dependent) map.carriers = nodes;
+  return map;
+}
+
+}  // namespace tisserand::mechanism

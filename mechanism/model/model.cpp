@@ -1,0 +1,258 @@
+// Sparsity pattern and scatter slots of a model; names of its equations.
+#include "mechanism/model/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/model/element_map.hpp"
+#include "mechanism/model/sparsity.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Position = SparsePattern::Position;
+
+/// Visits (row, column) of the global matrix for each entry of the local one, column by column; absent ones are −1.
+template <class Visit>
+void for_each_entry(const ElementMap& map, const EntryFlags& entries, Visit visit) {
+  std::size_t at = 0;
+  for (const int column : map.coordinates)
+    for (const int row : map.coordinates) {
+      const bool held = row >= 0 && column >= 0 && (entries.empty() || entries[at]);
+      ++at;
+      held ? visit(row, column) : visit(-1, -1);
+    }
+}
+
+void add_block(const ElementMap& map, const EntryFlags& entries, std::vector<Position>& positions) {
+  for_each_entry(map, entries, [&](int row, int column) {
+    if (row >= 0) positions.push_back({row, column});
+  });
+}
+
+void fill_slots(const SparsePattern& pattern, const EntryFlags& entries, ElementMap& map) {
+  map.slots.clear();
+  for_each_entry(map, entries,
+                 [&](int row, int column) { map.slots.push_back(row < 0 ? -1 : pattern.slot(row, column)); });
+}
+
+/// The coordinates of all elements; every list of maps gets one entry per element of its pool.
+void number_elements(Model& model) {
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const SuperelementBody& body = body_of(model, i);
+    ElementMap map;
+    for (std::size_t j = 0; j < body.node.size(); ++j) {
+      const Node& node = model.nodes[model.superelements[i].nodes[j]];
+      for (int k = 0; k < 3 && body.node[j].has_translation(); ++k) map.coordinates.push_back(node.translation + k);
+      for (int k = 0; k < 3 && body.node[j].has_rotation(); ++k) map.coordinates.push_back(node.rotation + k);
+    }
+    model.superelement_maps.push_back(std::move(map));
+  }
+  const auto add = [&model](std::vector<ElementMap>& maps, auto... nodes) {
+    maps.push_back(carrier_map(model, {nodes...}));
+  };
+  for (const ModalBody& body : model.modal_bodies) {
+    add(model.modal_maps, body.node);
+    for (int k = 0; k < body.modes; ++k)
+      model.modal_maps.back().coordinates.push_back(model.sizes.first_modal() + body.offset + k);
+  }
+  for (const RigidBody& body : model.rigid_bodies) add(model.rigid_maps, body.node);
+  for (const BeamElement2& beam : model.beams2) add(model.beam2_maps, beam.nodes[0], beam.nodes[1]);
+  for (const BeamElement3& beam : model.beams3) add(model.beam3_maps, beam.nodes[0], beam.nodes[1], beam.nodes[2]);
+  for (const Joint& joint : model.joints) add(model.joint_maps, joint.a.node, joint.b.node);
+  for (const Bushing& bushing : model.bushings) add(model.bushing_maps, bushing.a.node, bushing.b.node);
+  for (const Load& load : model.loads) add(model.load_maps, load.at.node);
+  for (const Coordinate& c : model.coordinates) add(model.coordinate_maps, c.a.node, c.b.node);
+  for (const ChannelUse& use : model.channel_uses) {
+    const auto owner = static_cast<std::size_t>(use.index);
+    const Channel& channel = model.channels[static_cast<std::size_t>(use.channel)];
+    if (use.owner == ChannelUse::Owner::load) {
+      add(model.channel_use_maps, model.loads[owner].at.node, channel.a.node, channel.b.node);
+    } else {
+      const Coordinate& c = model.coordinates[static_cast<std::size_t>(model.springs[owner].coordinate)];
+      add(model.channel_use_maps, c.a.node, c.b.node, channel.a.node, channel.b.node);
+    }
+  }
+  for (const Coupling& coupling : model.couplings) {
+    ElementMap map;
+    for (const CouplingTerm& term : coupling.terms) {
+      const std::vector<int>& columns = model.coordinate_maps[static_cast<std::size_t>(term.coordinate)].coordinates;
+      map.coordinates.insert(map.coordinates.end(), columns.begin(), columns.end());
+    }
+    model.coupling_maps.push_back(std::move(map));
+  }
+}
+
+/// Rows `first` to `first + size - 1` of B; `entries` as in gradient_entries().
+struct ConstraintBlock {
+  int first;
+  int size;
+  EntryFlags entries;
+};
+
+/// Friction loads every coordinate of the markers, by a force that depends on every multiplier; nodes of modal bodies
+/// pass everything on to all coordinates of their body.
+bool fills_all(const Model& model, std::size_t joint) {
+  return !model.joint_maps[joint].carriers.empty() || std::ranges::any_of(model.frictions, [&](const Friction& f) {
+    return static_cast<std::size_t>(f.joint) == joint;
+  });
+}
+
+ConstraintBlock block_of(const Model& model, std::size_t at) {
+  const Joint& joint = model.joints[at];
+  return {model.sizes.boundary + joint.row, joint.size(),
+          fills_all(model, at) ? EntryFlags{} : gradient_entries(joint)};
+}
+ConstraintBlock block_of(const Model& model, const Coupling& coupling) {
+  return {model.sizes.boundary + coupling.row, 1, {}};
+}
+
+/// Visits (row, coordinate) of B for each entry of the block, column by column; the coordinate of absent ones is −1.
+template <class Visit>
+void for_each_entry(const ElementMap& map, const ConstraintBlock& block, Visit visit) {
+  std::size_t at = 0;
+  for (const int coordinate : map.coordinates)
+    for (int k = 0; k < block.size; ++k, ++at)
+      visit(block.first + k, block.entries.empty() || block.entries[at] ? coordinate : -1);
+}
+
+void add_constraint(const ElementMap& map, const ConstraintBlock& block, std::vector<Position>& positions) {
+  for_each_entry(map, block, [&](int row, int coordinate) {
+    if (coordinate < 0) return;
+    positions.push_back({row, coordinate});
+    positions.push_back({coordinate, row});
+  });
+}
+
+ConstraintMap constraint_slots(const SparsePattern& pattern, const ElementMap& map, const ConstraintBlock& block) {
+  ConstraintMap result;
+  for_each_entry(map, block, [&](int row, int coordinate) {
+    result.lower.push_back(coordinate < 0 ? -1 : pattern.slot(row, coordinate));
+    result.upper.push_back(coordinate < 0 ? -1 : pattern.slot(coordinate, row));
+  });
+  return result;
+}
+
+void number_constraints(Model& model) {
+  model.length_row.clear();
+  for (Joint& joint : model.joints) {
+    joint.row = static_cast<int>(model.length_row.size());
+    for (int k = 0; k < joint.size(); ++k) model.length_row.push_back(is_length(joint, k));
+  }
+  for (Coupling& coupling : model.couplings) {
+    coupling.row = static_cast<int>(model.length_row.size());
+    model.length_row.push_back(coupling.length);
+  }
+  model.sizes.constraints = static_cast<int>(model.length_row.size());
+  model.sizes.hinges = 0;
+  for (Coordinate& coordinate : model.coordinates)
+    coordinate.turn = coordinate.relation.kind == RelationKind::angle ? model.sizes.hinges++ : -1;
+}
+
+/// Visits every map that the pattern holds a block of, with the entries that may be nonzero.
+template <class Visit>
+void for_each_map(Model& model, Visit visit) {
+  const EntryFlags all, rigid = rigid_entries();
+  for (auto* maps : {&model.superelement_maps, &model.modal_maps, &model.beam2_maps, &model.beam3_maps,
+                     &model.bushing_maps, &model.load_maps, &model.channel_use_maps})
+    for (ElementMap& map : *maps) visit(map, all);
+  for (ElementMap& map : model.rigid_maps) visit(map, rigid);
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    visit(model.joint_maps[i], fills_all(model, i) ? all : stiffness_entries(model.joints[i]));
+  for (std::size_t i = 0; i < model.coordinates.size(); ++i)
+    if (model.coordinates[i].active) visit(model.coordinate_maps[i], all);
+}
+
+void scale_equations(Model& model) {
+  const SparsePattern& pattern = *model.pattern;
+  model.equation_scale.setOnes(pattern.size());
+  for (const Node& node : model.nodes)
+    if (node.rotation >= 0) model.equation_scale.segment<3>(node.rotation) = 1.0 / model.length;
+  for (const ModalBody& body : model.modal_bodies)
+    model.equation_scale.segment(model.sizes.first_modal() + body.offset, body.modes) = std::sqrt(body.mass);
+  for (int row = 0; row < model.sizes.constraints; ++row)
+    if (!model.length_row[static_cast<std::size_t>(row)])
+      model.equation_scale[model.sizes.boundary + row] = model.length;
+  model.value_scale.setOnes(pattern.values());
+  for (int j = 0; j < pattern.size(); ++j)
+    for (int at = pattern.column_start()[static_cast<std::size_t>(j)];
+         at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
+      const int i = pattern.rows()[static_cast<std::size_t>(at)];
+      model.value_scale[pattern.slot(i, j)] = model.equation_scale[i] * model.equation_scale[j];
+    }
+}
+
+}  // namespace
+
+void finish_model(Model& model, formats::LinearSolver solver) {
+  number_constraints(model);
+  number_elements(model);
+
+  const int boundary = model.sizes.boundary;
+  const int size = boundary + model.sizes.constraints;
+  std::vector<Position> positions;
+  for (int i = 0; i < size; ++i) positions.push_back({i, i});
+  for_each_map(model, [&](const ElementMap& map, const EntryFlags& entries) {
+    add_block(map, entries, positions);
+    for (const int node : map.carriers)
+      if (const int modal = node < 0 ? -1 : model.nodes[static_cast<std::size_t>(node)].modal; modal >= 0)
+        model.modal_nodes[static_cast<std::size_t>(modal)].active = true;
+  });
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    add_constraint(model.joint_maps[j], block_of(model, j), positions);
+  for (std::size_t j = 0; j < model.couplings.size(); ++j)
+    add_constraint(model.coupling_maps[j], block_of(model, model.couplings[j]), positions);
+  model.solver = choose_solver(SparsePattern(size, positions, SparsePattern::Storage::sparse), solver);
+  model.pattern = std::make_unique<SparsePattern>(size, std::move(positions), solver_storage(model.solver.kind));
+
+  for_each_map(model, [&](ElementMap& map, const EntryFlags& entries) { fill_slots(*model.pattern, entries, map); });
+  for (std::size_t j = 0; j < model.joints.size(); ++j)
+    model.constraint_maps.push_back(constraint_slots(*model.pattern, model.joint_maps[j], block_of(model, j)));
+  for (std::size_t j = 0; j < model.couplings.size(); ++j)
+    model.coupling_constraint_maps.push_back(
+        constraint_slots(*model.pattern, model.coupling_maps[j], block_of(model, model.couplings[j])));
+  scale_equations(model);
+}
+
+bool has_translation(const Model& model, int node) {
+  return node < 0 || model.nodes[static_cast<std::size_t>(node)].translation >= 0 ||
+         model.nodes[static_cast<std::size_t>(node)].modal >= 0;
+}
+
+bool has_rotation(const Model& model, int node) {
+  if (node < 0) return true;
+  const Node& n = model.nodes[static_cast<std::size_t>(node)];
+  return n.rotation >= 0 || (n.modal >= 0 && model.modal_nodes[static_cast<std::size_t>(n.modal)].turns);
+}
+
+std::string coordinate_name(const Model& model, int coordinate) {
+  static const char* const axis[] = {"x", "y", "z"};
+  for (const Node& node : model.nodes) {
+    if (node.translation >= 0 && coordinate >= node.translation && coordinate < node.translation + 3)
+      return fmt::format("{}, translation {}", node.name, axis[coordinate - node.translation]);
+    if (node.rotation >= 0 && coordinate >= node.rotation && coordinate < node.rotation + 3)
+      return fmt::format("{}, rotation about its {} axis", node.name, axis[coordinate - node.rotation]);
+  }
+  const int modal = coordinate - model.sizes.first_modal();
+  for (const ModalBody& body : model.modal_bodies)
+    if (modal >= body.offset && modal < body.offset + body.modes)
+      return fmt::format("{}, mode {}", body.name, modal - body.offset + 1);
+  const int internal = coordinate - model.sizes.boundary;
+  for (std::size_t i = 0; i < model.superelements.size(); ++i)
+    if (internal >= model.internal_offset[i] && internal < model.internal_offset[i + 1])
+      return fmt::format("{}, internal mode {}", model.superelements[i].name, internal - model.internal_offset[i] + 1);
+  return fmt::format("coordinate {}", coordinate);
+}
+
+std::string constraint_name(const Model& model, int row) {
+  for (const Joint& joint : model.joints)
+    if (row >= joint.row && row < joint.row + joint.size())
+      return fmt::format("{}, {}", joint.name, joint_equation_name(joint, row - joint.row));
+  for (const Coupling& coupling : model.couplings)
+    if (row == coupling.row) return coupling.name;
+  return fmt::format("constraint {}", row);
+}
+
+}  // namespace tisserand::mechanism

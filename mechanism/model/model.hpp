@@ -1,0 +1,145 @@
+// Model: all that is constant while a mechanism moves; one pool per type of body, joint and load.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/units.hpp"
+#include "mechanism/bodies/beam/element.hpp"
+#include "mechanism/bodies/modal/node.hpp"
+#include "mechanism/bodies/rigid_body.hpp"
+#include "mechanism/bodies/superelement/body.hpp"
+#include "mechanism/forces/bushing.hpp"
+#include "mechanism/forces/expression_scope.hpp"
+#include "mechanism/forces/load.hpp"
+#include "mechanism/forces/spring.hpp"
+#include "mechanism/joints/coordinate.hpp"
+#include "mechanism/joints/friction.hpp"
+#include "mechanism/joints/joint.hpp"
+#include "mechanism/model/channel.hpp"
+#include "mechanism/model/state.hpp"
+#include "mechanism/solver/linear_solver.hpp"
+#include "mechanism/solver/solver_choice.hpp"
+
+namespace tisserand::mechanism {
+
+/// The unit of state: translations and/or rotations at one place; or a node that follows a modal body and owns neither.
+struct Node {
+  std::string name;
+  int translation = -1;  ///< first velocity coordinate of ẋ, −1 if the node owns no translations
+  int rotation = -1;     ///< first velocity coordinate of Ω, −1 if the node owns no rotations
+  int modal = -1;        ///< index into Model::modal_nodes, −1 if the node follows no modal body
+};
+
+/// A named place whose motion is reported; a marker, so that rigid bodies can have many.
+struct Place {
+  std::string name;
+  Marker marker;
+};
+
+/// A fixed joint between virtual bodies, or of one with its carrier, which vanished when the model was built: both
+/// markers are on the carrier. The first ties hold one follower each, after those that they hang on.
+struct Tie {
+  enum class Side { a, b };
+  std::string name;
+  Marker a;
+  Marker b;
+  int parent = -1;       ///< the follower that this one hangs on, −1: the carrier itself
+  Side child = Side::b;  ///< the side of the joint that follows
+  bool is_loop = false;  ///< closes a loop of ties and holds no follower: left without force
+};
+
+/// Where the local rows and columns of an element go: coordinate −1 is absent (ground, or not owned by the node).
+/// slots[i + j n]: index of entry (i, j) in the values of the iteration matrix, −1 if absent.
+struct ElementMap {
+  std::vector<int> coordinates;
+  std::vector<int> slots;
+  std::vector<int> carriers;  ///< the nodes, if one of them follows a modal body (carriers.hpp); else empty
+};
+
+/// Slots of the rows of a joint or a coupling: B at (row k, column j) and Bᵀ at (j, k), index k + size·j.
+struct ConstraintMap {
+  std::vector<int> lower;
+  std::vector<int> upper;
+};
+
+struct Model {
+  std::string name;
+  Units units;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< of the scene; bodies carry their own
+  double length = 1.0;           ///< characteristic length: extent of the nodes (1 if they coincide)
+  double stiffness_scale = 1.0;  ///< largest diagonal entry of ∂r/∂q at the start
+  double mass_scale = 1.0;       ///< largest diagonal entry of ∂r/∂v̇ at the start
+
+  Sizes sizes;
+  std::vector<Node> nodes;
+  std::vector<Place> places;
+  int virtual_nodes = 0;  ///< nodes of virtual bodies
+  std::vector<Tie> ties;  ///< of eliminated virtual bodies: row i holds follower i, rows that close loops at the end
+
+  std::vector<SuperelementBody> superelement_bodies;  ///< each with one or many uses
+  std::vector<SuperelementUse> superelements;
+  std::vector<ElementMap> superelement_maps;
+  std::vector<int> internal_offset;  ///< superelements + 1; into the internal coordinates
+  std::vector<std::string> superelement_content_ids;
+  std::vector<RigidBody> rigid_bodies;
+  std::vector<ElementMap> rigid_maps;
+  std::vector<ModalBody> modal_bodies;
+  std::vector<ElementMap> modal_maps;
+  std::vector<ModalNode> modal_nodes;
+  std::vector<BeamElement2> beams2;
+  std::vector<ElementMap> beam2_maps;
+  std::vector<BeamElement3> beams3;
+  std::vector<ElementMap> beam3_maps;
+  std::vector<Joint> joints;
+  std::vector<ElementMap> joint_maps;
+  std::vector<ConstraintMap> constraint_maps;
+  std::vector<Friction> frictions;
+  std::vector<Coordinate> coordinates;
+  std::vector<ElementMap> coordinate_maps;
+  std::vector<Coupling> couplings;
+  std::vector<ElementMap> coupling_maps;  ///< coordinates of all terms one after the other; no slots
+  std::vector<ConstraintMap> coupling_constraint_maps;
+  ExpressionScope scope;  ///< what expressions may use; its channels are those below
+  std::vector<Channel> channels;
+  std::vector<ChannelUse> channel_uses;
+  std::vector<ElementMap> channel_use_maps;        ///< rows of the owner, then [x_A Θ_A x_B Θ_B] of the channel
+  std::vector<formats::TimeFunctionSpec> motions;  ///< f(t) of driven coordinates
+  double motion_spacing = 1e-4;                    ///< of the differences that give their rates
+  std::vector<Spring> springs;
+  std::vector<Bushing> bushings;
+  std::vector<ElementMap> bushing_maps;
+  std::vector<Load> loads;
+  std::vector<ElementMap> load_maps;
+  std::vector<double> breakpoints;  ///< ascending, of all loads
+
+  /// Factor of each equation and unknown of the iteration matrix: 1/length for rotations, √mass for modes and length
+  /// for constraints of angles, so that pivots do not depend on the unit of length; and the product for each stored
+  /// value.
+  std::vector<bool> length_row;  ///< per constraint: a length, or a number of order one
+  Eigen::ArrayXd equation_scale;
+  Eigen::ArrayXd value_scale;
+  std::unique_ptr<SparsePattern> pattern;  ///< of [A Bᵀ; B 0], boundary coordinates then multipliers
+  SolverChoice solver;
+};
+
+/// The body of a superelement.
+inline const SuperelementBody& body_of(const Model& model, std::size_t superelement) {
+  return model.superelement_bodies[static_cast<std::size_t>(model.superelements[superelement].body)];
+}
+
+/// Whether a joint or load can act on the position or the orientation of a node; ground (−1) has both.
+bool has_translation(const Model& model, int node);
+bool has_rotation(const Model& model, int node);
+
+/// "beam/tip, rotation y": velocity coordinate (boundary) or constraint row by name, for messages.
+std::string coordinate_name(const Model& model, int coordinate);
+std::string constraint_name(const Model& model, int row);
+
+/// Numbers the constraints, builds pattern and slots once all pools and nodes are there.
+void finish_model(Model& model, formats::LinearSolver solver);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,113 @@
+// CVODE's own steps; rows between them; a new start after every breakpoint.
+#include "mechanism/run/bdf_run.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "mechanism/bdf/bdf.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+/// Relative to the whole time: instants closer than this are the same.
+constexpr double same_instant = 1e-12;
+
+/// Where rows are due and where loads may jump.
+struct Instants {
+  const formats::Scene& scene;
+  const std::vector<double>& breakpoints;
+  double round_off;
+  std::size_t breakpoint = 0;  ///< the next one
+  long row = 1;                ///< the next row of `interval`
+  long steps = 0;
+
+  StepEnd stop() const {
+    const double end = scene.integrator.end;
+    if (breakpoint >= breakpoints.size() || breakpoints[breakpoint] > end - round_off) return {end, end};
+    return {breakpoints[breakpoint], breakpoints[breakpoint] - round_off};
+  }
+  void pass(double time) {
+    while (breakpoint < breakpoints.size() && breakpoints[breakpoint] <= time + round_off) ++breakpoint;
+  }
+  double due() const { return scene.integrator.start + static_cast<double>(row) * scene.output.interval.value_or(0.0); }
+};
+
+void store(Run& run, const Bdf& bdf, StepReport& step, double size, RowWriter& out) {
+  if (run.built.state.time() < run.scene.output.from) return;
+  step.constraint = bdf.violation();
+  write_row(run, step, size, out);
+}
+
+/// Rows of a step from `before` to the present state.
+void store_rows(Run& run, Bdf& bdf, Instants& instants, double before, RowWriter& out) {
+  const State& state = run.built.state;
+  const double now = state.time();
+  const bool finished = now >= run.scene.integrator.end - instants.round_off;
+  StepReport step;
+  step.iterations = static_cast<int>(bdf.counts().iterations - run.report.iterations);
+  if (!run.scene.output.interval) {
+    if (++instants.steps % run.scene.output.every == 0 || finished) store(run, bdf, step, now - before, out);
+    return;
+  }
+  bool at_end = false;
+  for (; instants.due() <= now + instants.round_off; ++instants.row) {
+    bdf.go_to(std::min(instants.due(), now));
+    store(run, bdf, step, now - before, out);
+    at_end = state.time() == now;
+  }
+  if (state.time() != now) bdf.go_to(now);
+  if (finished && !at_end) store(run, bdf, step, now - before, out);
+}
+
+void note_counts(Run& run, const BdfCounts& counts) {
+  RunReport& report = run.report;
+  report.steps = counts.steps;
+  report.iterations = counts.iterations;
+  report.factorisations = counts.factorisations;
+  report.inaccurate = counts.error_failures;
+  report.rejected = counts.error_failures + counts.convergence_failures;
+}
+
+}  // namespace
+
+void integrate_bdf(Run& run, RowWriter& out) {
+  RunReport& report = run.report;
+  State& state = run.built.state;
+  const formats::IntegratorSpec& options = run.scene.integrator;
+  Bdf bdf(run.scene, run.built.model, state, run.workspace);
+  Instants instants{run.scene, run.built.model.breakpoints, same_instant * (options.end - options.start)};
+  instants.pass(options.start);
+  StepReport none;
+  store(run, bdf, none, 0.0, out);
+  while (state.time() < options.end - instants.round_off) {
+    if (run.control.interrupted && run.control.interrupted()) {
+      report.outcome = RunOutcome::interrupted;
+      report.reason = fmt::format("interrupted at t = {:.6g}", state.time());
+      break;
+    }
+    const double before = state.time();
+    report.reason = bdf.step(instants.stop());
+    if (!report.reason.empty()) {
+      report.outcome = RunOutcome::not_converged;
+      const std::string load = nonfinite_load(run, before);
+      report.reason = fmt::format("t = {:.6g}: {}", before, load.empty() ? report.reason : load);
+      break;
+    }
+    const double size = state.time() - before;
+    report.least_step = report.greatest_step == 0.0 ? size : std::min(report.least_step, size);
+    report.greatest_step = std::max(report.greatest_step, size);
+    report.largest_constraint = std::max(report.largest_constraint, bdf.violation());
+    store_rows(run, bdf, instants, before, out);
+    note_counts(run, bdf.counts());
+    if (instants.stop().time < options.end && state.time() >= instants.stop().time - instants.round_off) {
+      instants.pass(state.time());
+      bdf.restart(state.time() + instants.round_off);
+    }
+    if (run.control.progress) run.control.progress(state.time());
+  }
+  report.time = state.time();
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,12 @@
+// The loop of method: bdf: steps, rows, jumps of loads.
+#pragma once
+
+#include "mechanism/run/run.hpp"
+
+namespace tisserand::mechanism {
+
+/// From the started state to the end; counts and outcome go to the report. Rows at instants of `interval` are
+/// interpolated. Throws Error in a build without CVODE.
+void integrate_bdf(Run& run, RowWriter& out);
+
+}  // namespace tisserand::mechanism

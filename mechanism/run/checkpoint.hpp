@@ -1,0 +1,49 @@
+// Checkpoints of a running analysis, and runs that go on from a checkpoint or from a results file.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "formats/results/checkpoint.hpp"
+#include "mechanism/equations/workspace.hpp"
+#include "mechanism/model/model.hpp"
+#include "mechanism/model/state.hpp"
+#include "mechanism/run/run.hpp"
+#include "mechanism/run/schedule.hpp"
+
+namespace tisserand::mechanism {
+
+/// SHA-256 of what a state block means: version and fields, names of nodes, coordinates and constraints, superelements.
+/// Values (masses, loads, steps) may change between a checkpoint and going on from it.
+std::string fingerprint(const Model& model, const State& state);
+
+/// Writes <results>.checkpoint.h5 when it is due, each replacing the one before.
+class Checkpoints {
+ public:
+  /// "arm.results.h5" -> "arm.checkpoint.h5". `time`: where the run begins or goes on.
+  Checkpoints(const formats::Scene& scene, const std::string& results, double time);
+
+  /// After an accepted step. Where a checkpoint is written the workspace forgets factors and what it has learnt, so
+  /// that this run and one that goes on from the file execute the same arithmetic.
+  void after_step(const Model& model, const Schedule& schedule, const State& state, Workspace& workspace);
+
+ private:
+  void set_next(double time);
+
+  formats::CheckpointSpec spec_;
+  std::string scene_;
+  std::string path_;
+  double start_ = 0.0;
+  double round_off_ = 0.0;
+  long steps_ = 0;
+  double next_ = 0.0;
+};
+
+std::string checkpoint_path(const std::string& results);
+
+/// Puts the run where a checkpoint left it, or at a stored instant (`at`, absent: the last) of a results file: from a
+/// checkpoint bit for bit (same machine, same binary), from results through the start of an analysis, to the tolerance.
+/// Throws Error: not of this scene, past the end of the integrator, not dynamics, channels that are missing.
+void resume(Run& run, const std::string& file, const std::optional<double>& at);
+
+}  // namespace tisserand::mechanism

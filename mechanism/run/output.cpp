@@ -1,0 +1,210 @@
+// World-frame motion of the places, reactions, boundary forces and energies of one instant.
+#include "mechanism/run/output.hpp"
+
+#include <limits>
+
+#include "mechanism/bodies/superelement/rates.hpp"
+#include "mechanism/equations/terms.hpp"
+#include "mechanism/step/redundancy.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+/// A node that owns no translations or no rotations has none to report.
+void blank_missing(const Model& model, const Marker& marker, Eigen::Index column, formats::ResultsRow& row) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  if (!has_translation(model, marker.node)) {
+    row.node_position.col(column).setConstant(none);
+    row.node_velocity.col(column).setConstant(none);
+    row.node_acceleration.col(column).setConstant(none);
+  }
+  if (!has_rotation(model, marker.node)) {
+    row.node_rotation.col(column).setConstant(none);
+    row.node_angular_velocity.col(column).setConstant(none);
+    row.node_angular_acceleration.col(column).setConstant(none);
+  }
+}
+
+void fill_places(const Model& model, const Workspace& workspace, formats::ResultsRow& row) {
+  for (std::size_t i = 0; i < model.places.size(); ++i) {
+    const Marker& marker = model.places[i].marker;
+    const NodeMotion& node = motion_of(workspace, marker.node);
+    const auto column = static_cast<Eigen::Index>(i);
+    row.node_position.col(column) = marker_position(marker, node);
+    row.node_rotation.col(column) = wxyz(Eigen::Quaterniond(marker_rotation(marker, node)));
+    row.node_velocity.col(column) = marker_velocity(marker, node);
+    row.node_angular_velocity.col(column) = node.R * node.Omega;
+    row.node_acceleration.col(column) =
+        node.xdd + node.R * (node.Omegad.cross(marker.p) + node.Omega.cross(node.Omega.cross(marker.p)));
+    row.node_angular_acceleration.col(column) = node.R * node.Omegad;
+    blank_missing(model, marker, column, row);
+  }
+}
+
+void fill_superelements(const Model& model, Workspace& workspace, formats::ResultsRow& row) {
+  Eigen::Index y = 0, boundary = 0;
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const SuperelementBody& body = body_of(model, i);
+    SuperelementScratch& scratch = workspace.superelements[i];
+    const NodeView<NodeMotion> nodes = nodes_of(model, i, workspace);
+    const auto column = static_cast<Eigen::Index>(i);
+    row.frame_position.col(column) = scratch.motion.x0;
+    row.frame_rotation.col(column) = wxyz(Eigen::Quaterniond(scratch.motion.R0));
+    const Eigen::Index count = file_coordinate_count(body);
+    file_coordinates(body, scratch, row.y.segment(y, count));
+    file_rates(body, scratch, nodes, row.y_rate.segment(y, count));
+    y += count;
+    for (std::size_t j = 0; j < body.node.size(); ++j, ++boundary) {
+      const SuperelementNode& node = body.node[j];
+      row.boundary_force.col(boundary).setZero();
+      if (node.has_translation())
+        row.boundary_force.col(boundary).head<3>() = scratch.forces.r_B.segment<3>(node.translation_row);
+      if (node.has_rotation())
+        row.boundary_force.col(boundary).tail<3>() = nodes[j].R * scratch.forces.r_B.segment<3>(node.rotation_row);
+    }
+  }
+}
+
+/// Reactions of the fixed joints that vanished, behind those of the joints.
+void fill_ties(const Model& model, const State& state, const double* lambda, Workspace& workspace,
+               formats::ResultsRow& row) {
+  if (model.ties.empty()) return;
+  evaluate_ties(model, state, lambda, workspace);
+  for (std::size_t i = 0; i < model.ties.size(); ++i) {
+    const JointReaction reaction = tie_reaction(model, i, workspace);
+    const auto column = static_cast<Eigen::Index>(model.joints.size() + i);
+    row.joint_force.col(column) = reaction.force;
+    row.joint_moment.col(column) = reaction.moment;
+  }
+}
+
+void fill_joints(const Model& model, const State& state, Workspace& workspace, formats::ResultsRow& row) {
+  evaluate_coordinates(model, state, workspace);
+  Eigen::VectorXd least;
+  if (is_overconstrained(state)) least = least_norm_multipliers(model, workspace, state.lambda());
+  const double* lambda = least.size() > 0 ? least.data() : state.lambda().data();
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Joint& joint = model.joints[i];
+    const NodeMotion& a = motion_of(workspace, joint.a.node);
+    const NodeMotion& b = motion_of(workspace, joint.b.node);
+    const JointReaction reaction = joint_reaction(joint, a, b, lambda + joint.row);
+    const auto column = static_cast<Eigen::Index>(i);
+    row.joint_force.col(column) = reaction.force;
+    row.joint_moment.col(column) = reaction.moment;
+  }
+  fill_ties(model, state, lambda, workspace, row);
+  for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
+    row.joint_coordinate[static_cast<Eigen::Index>(i)] = workspace.coordinates[i].value;
+    row.joint_rate[static_cast<Eigen::Index>(i)] = workspace.coordinates[i].rate;
+  }
+}
+
+/// What drives exert along their coordinates.
+void fill_motions(const Model& model, const State& state, formats::ResultsRow& row) {
+  Eigen::Index at = 0;
+  for (const Coupling& coupling : model.couplings)
+    if (coupling.motion >= 0) row.motion_force[at++] = -state.lambda()[coupling.row] * coupling.terms.front().factor;
+}
+
+bool has_stops(const Spring& spring) { return spring.lower || spring.upper; }
+
+/// After evaluate_coordinates().
+void fill_springs(const Model& model, const State& state, Workspace& workspace, formats::ResultsRow& row) {
+  Eigen::Index stops = 0;
+  for (std::size_t i = 0; i < model.springs.size(); ++i) {
+    const Spring& spring = model.springs[i];
+    const CoordinateTerms& c = workspace.coordinates[static_cast<std::size_t>(spring.coordinate)];
+    const SpringForce f = spring_force(spring, c.value, c.rate, applied_force(model, i, state.load_time(), workspace));
+    row.spring_force[static_cast<Eigen::Index>(i)] = f.Q;
+    if (has_stops(spring)) row.stop_force[stops++] = f.stop;
+  }
+}
+
+void fill_bushings(const Model& model, const Workspace& workspace, formats::ResultsRow& row) {
+  for (std::size_t i = 0; i < model.bushings.size(); ++i) {
+    const JointReaction reaction =
+        reaction_of(workspace.bushings[i].force.transpose(), markers_of(model.bushings[i], workspace));
+    row.bushing_force.col(static_cast<Eigen::Index>(i)) = reaction.force;
+    row.bushing_moment.col(static_cast<Eigen::Index>(i)) = reaction.moment;
+  }
+}
+
+void fill_frictions(const Model& model, const Workspace& workspace, formats::ResultsRow& row) {
+  for (std::size_t i = 0; i < model.frictions.size(); ++i) {
+    const Joint& joint = model.joints[static_cast<std::size_t>(model.frictions[i].joint)];
+    const JointReaction reaction = reaction_of(workspace.frictions[i].force.transpose(), markers_of(joint, workspace));
+    row.friction_force.col(static_cast<Eigen::Index>(i)) = reaction.force;
+    row.friction_moment.col(static_cast<Eigen::Index>(i)) = reaction.moment;
+  }
+}
+
+void add_force_names(const Model& model, formats::ResultsLayout& layout) {
+  for (const Spring& spring : model.springs) {
+    const Relation& relation = model.coordinates[static_cast<std::size_t>(spring.coordinate)].relation;
+    layout.springs.push_back({spring.name, is_length(relation)});
+    if (has_stops(spring)) layout.stops.push_back(layout.springs.back());
+  }
+  for (const Bushing& bushing : model.bushings) layout.bushings.push_back(bushing.name);
+  for (const Friction& friction : model.frictions)
+    layout.frictions.push_back(model.joints[static_cast<std::size_t>(friction.joint)].name);
+}
+
+}  // namespace
+
+formats::ResultsLayout results_layout(const Model& model, const formats::Scene& scene) {
+  formats::ResultsLayout layout;
+  layout.scene = scene.name;
+  layout.producer = std::string("tisserand mechanism ") + TISSERAND_VERSION;
+  layout.units = scene.units;
+  for (const Place& place : model.places) layout.nodes.push_back(place.name);
+  layout.modes_offset = {0};
+  layout.boundary_offset = {0};
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const SuperelementBody& body = body_of(model, i);
+    layout.superelements.push_back(model.superelements[i].name);
+    layout.modes_offset.push_back(layout.modes_offset.back() + static_cast<int>(file_coordinate_count(body)));
+    layout.boundary_offset.push_back(layout.boundary_offset.back() + static_cast<int>(body.node.size()));
+    for (const SuperelementNode& node : body.node) layout.boundary_nodes.push_back(node.name);
+  }
+  layout.modal_offset = {0};
+  for (const ModalBody& body : model.modal_bodies) {
+    layout.modal_bodies.push_back(body.name);
+    layout.modal_offset.push_back(layout.modal_offset.back() + body.modes);
+  }
+  for (const Joint& joint : model.joints) layout.joints.push_back(joint.name);
+  for (const Tie& tie : model.ties) layout.joints.push_back(tie.name);
+  for (const Coordinate& c : model.coordinates)
+    layout.coordinates.push_back({c.name, c.relation.kind != RelationKind::angle});
+  for (const Coupling& coupling : model.couplings)
+    if (coupling.motion >= 0)
+      layout.motions.push_back({scene.motions.at(static_cast<std::size_t>(coupling.motion)).name, coupling.length});
+  add_force_names(model, layout);
+  layout.channels = scene.output.channels;
+  layout.superelement_content_ids = model.superelement_content_ids;
+  return layout;
+}
+
+void fill_row(const Model& model, const State& state, Workspace& workspace, formats::ResultsRow& row) {
+  evaluate(model, state, workspace);
+  update_modal_nodes(model, workspace);
+  row.time = state.time();
+  fill_places(model, workspace, row);
+  fill_superelements(model, workspace, row);
+  row.w = state.w();
+  row.w_rate = state.v().segment(model.sizes.first_modal(), model.sizes.modal);
+  fill_joints(model, state, workspace, row);
+  fill_motions(model, state, row);
+  fill_springs(model, state, workspace, row);
+  fill_bushings(model, workspace, row);
+  fill_frictions(model, workspace, row);
+  const Energy energy = evaluate_energy(model, workspace);
+  row.kinetic = energy.kinetic;
+  row.strain = energy.strain;
+  row.potential = energy.potential;
+  row.total = energy.total();
+  row.work = state.work();
+  row.dissipated = state.dissipated();
+  row.balance = row.total - state.initial_energy() - row.work + row.dissipated;
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,19 @@
+// From the accepted state to one row of the results file.
+#pragma once
+
+#include <string>
+
+#include "formats/results/results.hpp"
+#include "formats/scene/scene.hpp"
+#include "mechanism/equations/workspace.hpp"
+#include "mechanism/model/model.hpp"
+#include "mechanism/model/state.hpp"
+
+namespace tisserand::mechanism {
+
+formats::ResultsLayout results_layout(const Model& model, const formats::Scene& scene);
+
+/// Evaluates the state and fills all but step, iterations, residual and constraint.
+void fill_row(const Model& model, const State& state, Workspace& workspace, formats::ResultsRow& row);
+
+}  // namespace tisserand::mechanism

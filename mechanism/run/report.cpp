@@ -1,0 +1,141 @@
+// The report of a run, as JSON and as text.
+#include "mechanism/run/report.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "common/text.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+const char* outcome_name(RunOutcome outcome) {
+  switch (outcome) {
+    case RunOutcome::completed:
+      return "completed";
+    case RunOutcome::not_converged:
+      return "not converged";
+    case RunOutcome::interrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+double relative_balance(const RunReport& report) {
+  return report.energy_reference > 0.0 ? report.largest_balance / report.energy_reference : 0.0;
+}
+
+/// Work is counted in dynamics only, and the balance seen at stored instants only.
+bool has_balance(const RunReport& report) {
+  return report.analysis == formats::AnalysisKind::dynamics && report.rows > 0;
+}
+
+nlohmann::ordered_json solver_json(const RunReport& report) {
+  const SolverHealth& health = report.solver_health;
+  return {{"name", report.solver},
+          {"unknowns", report.unknowns},
+          {"nonzeros", report.nonzeros},
+          {"least_reciprocal_condition", health.reciprocal_condition},
+          {"least_reciprocal_pivot_growth", health.reciprocal_growth},
+          {"largest_backward_error", health.backward_error},
+          {"refined_solutions", health.refined}};
+}
+
+nlohmann::ordered_json preflight_json(const Preflight& preflight) {
+  nlohmann::ordered_json json;
+  json["open_joints"] = nlohmann::ordered_json::array();
+  for (const MarkerGap& gap : preflight.gaps)
+    json["open_joints"].push_back({{"joint", gap.joint}, {"length", gap.length}, {"angle", gap.angle}});
+  json["connected_groups"] = preflight.groups;
+  json["doubts"] = preflight.doubts;
+  return json;
+}
+
+}  // namespace
+
+std::string report_json(const RunReport& report) {
+  nlohmann::ordered_json json;
+  json["outcome"] = outcome_name(report.outcome);
+  json["reason"] = report.reason;
+  json["time"] = report.time;
+  json["steps"] = report.steps;
+  json["iterations"] = report.iterations;
+  json["factorisations"] = report.factorisations;
+  json["choices_of_constraint_rows"] = report.row_choices;
+  json["rejected_steps"] = report.rejected;
+  json["rejected_for_accuracy"] = report.inaccurate;
+  json["least_step"] = report.least_step;
+  json["greatest_step"] = report.greatest_step;
+  json["rejections"] = report.rejections;
+  json["largest_constraint_violation"] = report.largest_constraint;
+  json["stored_instants"] = report.rows;
+  if (has_balance(report))
+    json["energy"] = {{"balance", report.balance},
+                      {"largest_balance", report.largest_balance},
+                      {"reference", report.energy_reference},
+                      {"largest_relative_balance", relative_balance(report)}};
+  json["reactions_not_unique"] = report.not_unique;
+  json["mobility"] = {{"coordinates", report.mobility.coordinates},
+                      {"constraints", report.mobility.constraints},
+                      {"rank", report.mobility.rank},
+                      {"degrees_of_freedom", report.mobility.degrees_of_freedom},
+                      {"bodies", report.mobility.parts},
+                      {"gruebler", 6 * report.mobility.parts - report.mobility.constraints},
+                      {"rigid_mobility", report.mobility.rigid_mobility}};
+  json["preflight"] = preflight_json(report.preflight);
+  json["initial_correction"] = {{"position", report.projection.position}, {"velocity", report.projection.velocity}};
+  json["linear_solver"] = solver_json(report);
+  json["effects"] = report.effects;
+  json["notes"] = report.notes;
+  if (!report.table.empty()) json["table"] = {{"title", report.table_title}, {"lines", report.table}};
+  json["seconds"] = {{"model", report.seconds_model},
+                     {"start", report.seconds_start},
+                     {"steps", report.seconds_steps},
+                     {"output", report.seconds_output}};
+  return json.dump(2);
+}
+
+std::string report_text(const RunReport& report, const Units& units) {
+  const std::string time = unit_label(units, 0, 0, 1);
+  std::string text;
+  const auto line = [&text](const char* name, const std::string& value) {
+    text += fmt::format("  {:<16} {}\n", name, value);
+  };
+  for (const std::string& note : report.notes) line("note", note);
+  line("model", join(report.effects, ", "));
+  line("mobility", fmt::format("{} degrees of freedom: {} coordinates, {} constraints of rank {}",
+                               report.mobility.degrees_of_freedom, report.mobility.coordinates,
+                               report.mobility.constraints, report.mobility.rank));
+  if (report.steps == 0)
+    for (const PreflightLine& row : preflight_table(report.preflight, report.mobility, units))
+      line(row.name.c_str(), row.value);
+  line("solver", fmt::format("{}, {} unknowns, {} nonzeros", report.solver, report.unknowns, report.nonzeros));
+  if (report.steps == 0 && report.outcome == RunOutcome::completed) return text;
+  line("outcome", report.reason.empty() ? outcome_name(report.outcome)
+                                        : fmt::format("{}: {}", outcome_name(report.outcome), report.reason));
+  line("reached", fmt::format("t = {:.6g}{}{}", report.time, time.empty() ? "" : " ", time));
+  line("steps", fmt::format("{} ({} taken again), {} iterations, {} factorisations", report.steps, report.rejected,
+                            report.iterations, report.factorisations));
+  constexpr std::size_t shown = 3;
+  for (std::size_t i = 0; i < std::min(shown, report.rejections.size()); ++i) line("taken again", report.rejections[i]);
+  if (report.rejected > static_cast<long>(shown))
+    line("", fmt::format("and {} more; the report in the results file lists the first {}",
+                         report.rejected - static_cast<long>(shown), report.rejections.size()));
+  if (has_balance(report))
+    line("energy", fmt::format("largest balance error {:.2e} of the largest energy or work, at stored instants",
+                               relative_balance(report)));
+  line("constraints", fmt::format("largest violation {:.2e}", report.largest_constraint));
+  line("conditioning", fmt::format("least reciprocal condition {:.1e}, pivot growth {:.1e}, backward error {:.1e}, {} "
+                                   "solutions refined",
+                                   report.solver_health.reciprocal_condition, report.solver_health.reciprocal_growth,
+                                   report.solver_health.backward_error, report.solver_health.refined));
+  if (!report.table.empty()) text += fmt::format("  {}\n", report.table_title);
+  for (const std::string& row : report.table) text += fmt::format("    {}\n", row);
+  line("seconds", fmt::format("{:.3f} model, {:.3f} start, {:.3f} steps, {:.3f} output", report.seconds_model,
+                              report.seconds_start, report.seconds_steps, report.seconds_output));
+  return text;
+}
+
+}  // namespace tisserand::mechanism

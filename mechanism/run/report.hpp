@@ -1,0 +1,53 @@
+// What a run says of itself: counts, balance, doubts; as JSON and as text.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/units.hpp"
+#include "formats/scene/scene.hpp"
+#include "mechanism/analyses/start.hpp"
+#include "mechanism/solver/linear_solver.hpp"
+
+namespace tisserand::mechanism {
+
+enum class RunOutcome { completed, not_converged, interrupted };
+
+struct RunReport {
+  formats::AnalysisKind analysis = formats::AnalysisKind::dynamics;
+  RunOutcome outcome = RunOutcome::completed;
+  std::string reason;   ///< of a run that did not complete
+  std::string results;  ///< path of the results file
+  double time = 0.0;    ///< reached
+  long steps = 0;
+  long iterations = 0;
+  long factorisations = 0;
+  long row_choices = 0;  ///< steps at which the constraint rows that are solved for were chosen anew
+  long rejected = 0;     ///< steps taken again with half the size
+  long inaccurate = 0;   ///< of these, steps whose local error was too large
+  double least_step = 0.0, greatest_step = 0.0;
+  std::vector<std::string> rejections;  ///< the first ones: when and why
+  double largest_constraint = 0.0;      ///< over all steps
+  long rows = 0;                        ///< stored instants
+  double balance = 0.0;                 ///< energy balance at the last stored instant
+  double largest_balance = 0.0;         ///< over the stored instants
+  double energy_reference = 0.0;        ///< largest kinetic + strain + |work|
+  Mobility mobility;
+  Preflight preflight;
+  std::vector<std::string> not_unique;  ///< joints whose reactions are not unique: those of least norm are stored
+  Projection projection;
+  std::string table_title;  ///< of the lines that only this analysis has: poses, modes
+  std::vector<std::string> table;
+  std::vector<std::string> notes;
+  std::vector<std::string> effects;  ///< what the model contains: pools and terms that are on
+  std::string solver;
+  SolverHealth solver_health;
+  int unknowns = 0, nonzeros = 0;
+  double seconds_model = 0.0, seconds_start = 0.0, seconds_steps = 0.0, seconds_output = 0.0;
+};
+
+/// As JSON (stored in the results file) and as the lines that the command prints.
+std::string report_json(const RunReport& report);
+std::string report_text(const RunReport& report, const Units& units);
+
+}  // namespace tisserand::mechanism

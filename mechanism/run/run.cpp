@@ -1,0 +1,214 @@
+// Start and rows of a run.
+#include "mechanism/run/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "mechanism/analyses/kinematics.hpp"
+#include "mechanism/analyses/statics.hpp"
+#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/run/output.hpp"
+#include "mechanism/step/redundancy.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+/// Regularises massless directions where there is no step: their accelerations come from statics.
+constexpr double massless_step = 1e-3;
+
+/// What the model contains: pools and terms that are on.
+bool has_gravity(const Model& model) {
+  const auto any = [](const auto& pool) {
+    return std::ranges::any_of(pool, [](const auto& body) { return !body.gravity.isZero(0.0); });
+  };
+  return any(model.superelements) || any(model.rigid_bodies) || any(model.beams2) || any(model.beams3);
+}
+
+std::vector<std::string> effects(const Model& model) {
+  std::vector<std::string> list;
+  const auto add = [&list](std::size_t count, std::string what) {
+    if (count == 1)
+      what = what.ends_with("bodies") ? what.replace(what.size() - 3, 3, "y") : what.substr(0, what.size() - 1);
+    if (count > 0) list.push_back(fmt::format("{} {}", count, what));
+  };
+  add(model.superelements.size(), "superelements");
+  add(model.modal_bodies.size(), "modal bodies");
+  add(model.rigid_bodies.size(), "rigid bodies");
+  add(model.beams2.size() + model.beams3.size(), "nonlinear beam elements");
+  const auto followers =
+      std::count_if(model.ties.begin(), model.ties.end(), [](const Tie& tie) { return !tie.is_loop; });
+  add(static_cast<std::size_t>(model.virtual_nodes), "virtual bodies");
+  add(static_cast<std::size_t>(followers), "eliminated virtual bodies");
+  add(model.joints.size(), "joints");
+  add(model.frictions.size(), "frictional joints");
+  add(model.couplings.size(), "couplings");
+  add(model.springs.size(), "springs");
+  add(model.bushings.size(), "bushings");
+  add(model.loads.size(), "loads");
+  if (has_gravity(model)) list.push_back("gravity");
+  const bool damped = std::any_of(model.superelement_bodies.begin(), model.superelement_bodies.end(),
+                                  [](const SuperelementBody& body) { return body.damping.active; }) ||
+                      std::any_of(model.modal_bodies.begin(), model.modal_bodies.end(),
+                                  [](const ModalBody& body) { return !body.damping.isZero(0.0); });
+  if (damped) list.push_back("damping");
+  return list;
+}
+
+/// "load 'motor', x component": the value at `time`, with its formula, if it is no finite number.
+std::string nonfinite_text(const std::string& what, const formats::TimeFunctionSpec& spec, double time, double value) {
+  if (std::isfinite(value)) return {};
+  const auto* expression = std::get_if<formats::TimeExpression>(&spec);
+  return fmt::format("{}{}: the value at t = {:.6g} is {}, not a finite number", what,
+                     expression == nullptr ? "" : fmt::format(" '{}'", expression->text), time, value);
+}
+
+void require_finite_loads(Run& run) {
+  if (!run.built.model.channels.empty()) evaluate(run.built.model, run.built.state, run.workspace);  // sets channels
+  const std::string bad = nonfinite_load(run, run.scene.integrator.start);
+  if (!bad.empty()) throw Error(bad, run.scene.file, "correct the formula, for example with t > 0 ? .. : ..");
+}
+
+/// Which equations repeat what others demand, and whose reactions are not unique for that reason.
+void note_redundancy(Run& run) {
+  const Mobility& mobility = run.report.mobility;
+  if (mobility.redundant.empty()) return;
+  std::vector<std::string> rows;
+  for (const int row : mobility.redundant) rows.push_back(fmt::format("'{}'", constraint_name(run.built.model, row)));
+  if (rows.size() > 20) rows.resize(20), rows.push_back("...");
+  evaluate(run.built.model, run.built.state, run.workspace);
+  run.report.not_unique = joints_without_unique_reaction(run.built.model, run.workspace);
+  run.report.notes.push_back(fmt::format(
+      "{} of {} constraint equations repeat what the others already demand: {}. The motion is right; the "
+      "reactions of {} are not unique, those of least norm are stored",
+      mobility.redundant.size(), mobility.constraints, join(rows, ", "), join(run.report.not_unique, ", ")));
+  for (const Friction& friction : run.built.model.frictions) {
+    const std::string& name = run.built.model.joints[static_cast<std::size_t>(friction.joint)].name;
+    if (std::ranges::count(run.report.not_unique, name) > 0)
+      run.report.notes.push_back(fmt::format(
+          "the friction of joint '{}' follows from a reaction that is not unique: another choice of it moves otherwise",
+          name));
+  }
+}
+
+}  // namespace
+
+Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunControl& run_control)
+    : scene(scene_to_run),
+      control(run_control),
+      built(build_model(scene_to_run, files)),
+      workspace(built.model),
+      at_start(built.state) {
+  report.analysis = scene.analysis;
+  report.notes = built.notes;
+  report.solver = describe(built.model.solver);
+  report.unknowns = built.model.pattern->size();
+  report.nonzeros = built.model.pattern->nonzeros();
+  report.effects = effects(built.model);
+}
+
+std::string nonfinite_load(Run& run, double time) {
+  const Model& model = run.built.model;
+  Workspace& workspace = run.workspace;
+  for (std::size_t i = 0; i < model.loads.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::string what = fmt::format("load '{}', {} component", model.loads[i].name, "xyz"[k]);
+      const std::string text =
+          nonfinite_text(what, model.loads[i].components[k], time, workspace.load_functions[i][k](time));
+      if (!text.empty()) return text;
+    }
+  for (std::size_t i = 0; i < model.springs.size(); ++i) {
+    if (!workspace.spring_forces[i]) continue;
+    const std::string what = fmt::format("spring '{}', force", model.springs[i].name);
+    const std::string text = nonfinite_text(what, model.springs[i].force, time, (*workspace.spring_forces[i])(time));
+    if (!text.empty()) return text;
+  }
+  for (const Coupling& coupling : model.couplings) {
+    if (coupling.motion < 0) continue;
+    const auto at = static_cast<std::size_t>(coupling.motion);
+    const MotionFunction::Value f = workspace.motions[at](time);
+    const std::string text = nonfinite_text(coupling.name, model.motions[at], time, f.value + f.rate + f.acceleration);
+    if (!text.empty()) return text;
+  }
+  return {};
+}
+
+namespace {
+
+/// What the kind of the analysis needs besides a state on the constraints.
+void prepare(Run& run) {
+  switch (run.scene.analysis) {
+    case formats::AnalysisKind::dynamics:
+    case formats::AnalysisKind::assembly:
+      break;
+    case formats::AnalysisKind::statics: {
+      const std::string free = free_motion(run.built.model, run.built.state, run.workspace);
+      if (!free.empty())
+        throw Error(fmt::format("statics: the scene can move freely: nothing holds {}", free), run.scene.file,
+                    "hold it with a joint, or use `analysis: dynamics`");
+      break;
+    }
+    case formats::AnalysisKind::kinematics:
+    case formats::AnalysisKind::inverse_dynamics:
+      require_determined(run.built.model, run.report.mobility, run.scene.file, run.built.state, run.workspace);
+      break;
+    case formats::AnalysisKind::modes:
+      solve_accelerations(run.built.model, massless_step, run.scene.file, run.built.state, run.workspace);
+      break;
+  }
+}
+
+}  // namespace
+
+void begin_from(Run& run, const State& end) {
+  State& state = run.built.state;
+  TISSERAND_ENSURE(end.block().size() == state.block().size(), "{} numbers for {}", end.block().size(),
+                   state.block().size());
+  state.block() = end.block();
+  state.time() = state.load_time() = run.scene.integrator.start;
+  state.active().setOnes();
+}
+
+void start(Run& run) {
+  require_finite_loads(run);
+  if (run.scene.analysis == formats::AnalysisKind::assembly) {  // makes what the others start from
+    run.report.mobility = count_mobility(run.built.model, run.built.state, run.workspace);
+    return;
+  }
+  const StartReport report = start(run.scene, run.built.model, run.built.state, run.workspace);
+  run.report.mobility = report.mobility;
+  run.report.preflight = report.preflight;
+  run.report.projection = report.projection;
+  note_redundancy(run);
+  if (report.massless)
+    run.report.notes.push_back(
+        "the mass matrix is singular: accelerations of its massless directions come from statics");
+  prepare(run);
+}
+
+void write_row(Run& run, const StepReport& step, double size, RowWriter& out) { write_row(run, step, size, out, {}); }
+
+void write_row(Run& run, const StepReport& step, double size, RowWriter& out, const RowEdit& edit) {
+  formats::ResultsRow& row = out.row;
+  const double before = run.seconds();
+  fill_row(run.built.model, run.built.state, run.workspace, row);
+  row.step = size;
+  row.iterations = step.iterations;
+  row.residual = step.residual;
+  row.constraint = step.constraint;
+  if (run.report.analysis == formats::AnalysisKind::statics)
+    row.work = row.dissipated = row.balance = std::numeric_limits<double>::quiet_NaN();
+  if (edit) edit(row);
+  out.writer.append(row);
+  RunReport& report = run.report;
+  ++report.rows;
+  report.balance = row.balance;
+  report.largest_balance = std::max(report.largest_balance, std::abs(row.balance));
+  report.energy_reference =
+      std::max(report.energy_reference, std::abs(row.kinetic) + std::abs(row.strain) + std::abs(row.work));
+  report.seconds_output += run.seconds() - before;
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,64 @@
+// What one run of an analysis owns, and what all analyses do alike: start, and rows of results.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "formats/results/results.hpp"
+#include "mechanism/build/build_model.hpp"
+#include "mechanism/equations/workspace.hpp"
+#include "mechanism/run/report.hpp"
+#include "mechanism/step/step.hpp"
+
+namespace tisserand::mechanism {
+
+/// What the outside world tells a run and hears of it.
+struct RunControl {
+  std::function<bool()> interrupted;          ///< polled once per step
+  std::function<void(double time)> progress;  ///< after every accepted step
+  std::function<double()> clock;              ///< seconds, for the report
+};
+
+struct Run {
+  const formats::Scene& scene;
+  const RunControl& control;
+  RunReport report;
+  BuiltModel built;
+  Workspace workspace;
+  State at_start;                       ///< as the model was built, before anything moved
+  std::vector<double> schedule_memory;  ///< of a run that goes on from a file; empty: it begins
+
+  Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunControl& run_control);
+  double seconds() const { return control.clock ? control.clock() : 0.0; }
+};
+
+/// The first load, force of a spring or motion that is no number at `time`, with its formula, or empty.
+std::string nonfinite_load(Run& run, double time);
+
+/// Positions and velocities of the end of another analysis of the same scene in place of the poses of its bodies.
+void begin_from(Run& run, const State& end);
+
+/// Rank, projection and what the analysis needs to begin; notes for the report. Throws Error.
+void start(Run& run);
+
+/// Where the rows of a run go.
+struct RowWriter {
+  formats::ResultsRow& row;
+  formats::ResultsWriter& writer;
+  const std::string& results;  ///< path of the file
+};
+
+/// What an analysis changes in a row before it is stored.
+using RowEdit = std::function<void(formats::ResultsRow&)>;
+
+/// Stores the present state.
+void write_row(Run& run, const StepReport& step, double size, RowWriter& out);
+void write_row(Run& run, const StepReport& step, double size, RowWriter& out, const RowEdit& edit);
+
+/// Kinematics and inverse dynamics: through the steps of the integrator along the driven motion.
+void move_along(Run& run, RowWriter& out);
+void assemble(Run& run, RowWriter& out);
+void find_modes(Run& run, RowWriter& out);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,167 @@
+// Analyses that are no matter of a time step: assembly, kinematics, inverse dynamics, modes, from start to rows.
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/text.hpp"
+#include "mechanism/analyses/assembly.hpp"
+#include "mechanism/analyses/kinematics.hpp"
+#include "mechanism/analyses/modes.hpp"
+#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/run/run.hpp"
+#include "mechanism/run/schedule.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+/// Kinematics knows no reactions, assembly no accelerations either: what was not computed is no number.
+void blank(formats::AnalysisKind kind, formats::ResultsRow& row) {
+  row.joint_force.setConstant(none);
+  row.joint_moment.setConstant(none);
+  row.motion_force.setConstant(none);
+  row.boundary_force.setConstant(none);
+  row.friction_force.setConstant(none);
+  row.friction_moment.setConstant(none);
+  row.work = row.dissipated = row.balance = row.residual = none;
+  if (kind == formats::AnalysisKind::kinematics) return;
+  row.node_acceleration.setConstant(none);
+  row.node_angular_acceleration.setConstant(none);
+}
+
+/// Work of drives, loads and dampers by the trapezoidal rule over the step that has ended.
+void count_work(double size, State& state, const Workspace& workspace) {
+  state.work() += 0.5 * size * (state.load_power() + workspace.load_power);
+  state.dissipated() += 0.5 * size * (state.damping_power() + workspace.damping_power);
+  state.load_power() = workspace.load_power;
+  state.damping_power() = workspace.damping_power;
+}
+
+/// Forces of the present motion, if the analysis asks for them.
+bool solve_forces(Run& run) {
+  return run.scene.analysis != formats::AnalysisKind::inverse_dynamics ||
+         solve_multipliers(run.built.model, run.built.state, run.workspace);
+}
+
+void write_motion_row(Run& run, const StepReport& step, double size, RowWriter& out) {
+  const formats::AnalysisKind kind = run.scene.analysis;
+  const RowEdit edit = kind == formats::AnalysisKind::inverse_dynamics
+                           ? RowEdit{}
+                           : RowEdit{[kind](formats::ResultsRow& row) { blank(kind, row); }};
+  write_row(run, step, size, out, edit);
+}
+
+void stop_at_dead_point(Run& run, double time, const StepReport& step) {
+  run.report.outcome = RunOutcome::not_converged;
+  run.report.reason =
+      fmt::format("t = {:.6g}: {} (after {} halvings of the step)", time,
+                  step.outcome == StepOutcome::singular
+                      ? "the drives do not determine the motion: a dead point, where it could go on in several ways"
+                      : "the joints cannot be closed any further: the drive leaves what the mechanism can reach",
+                  run.scene.integrator.max_halvings);
+}
+
+}  // namespace
+
+void move_along(Run& run, RowWriter& out) {
+  const Model& model = run.built.model;
+  State& state = run.built.state;
+  RunReport& report = run.report;
+  Schedule schedule(run.scene, model.breakpoints);
+  StepReport step;
+  if (!solve_rates(model, state, run.workspace) || !solve_forces(run)) {
+    step.outcome = StepOutcome::singular;
+    stop_at_dead_point(run, state.time(), step);
+    return;
+  }
+  begin(model, state, run.workspace);
+  if (schedule.output_at_start()) write_motion_row(run, step, 0.0, out);
+  while (!schedule.finished(state.time())) {
+    if (run.control.interrupted && run.control.interrupted()) {
+      report.outcome = RunOutcome::interrupted;
+      report.reason = fmt::format("interrupted at t = {:.6g}", state.time());
+      break;
+    }
+    const double before = state.time();
+    step = move_along(model, run.scene.integrator, schedule.next(before), state, run.workspace);
+    report.iterations += step.iterations;
+    report.factorisations += step.factorisations;
+    if (step.outcome == StepOutcome::accepted && !solve_forces(run)) step.outcome = StepOutcome::singular;
+    if (step.outcome != StepOutcome::accepted) {
+      ++report.rejected;
+      state.block() = run.workspace.previous.block();
+      if (schedule.retry(before, step)) continue;
+      stop_at_dead_point(run, before, step);
+      break;
+    }
+    ++report.steps;
+    report.largest_constraint = std::max(report.largest_constraint, step.constraint * model.length);
+    count_work(state.time() - before, state, run.workspace);
+    if (schedule.accept(state.time()).output) write_motion_row(run, step, state.time() - before, out);
+    if (run.control.progress) run.control.progress(state.time());
+  }
+  report.time = state.time();
+}
+
+void assemble(Run& run, RowWriter& out) {
+  const Model& model = run.built.model;
+  State& state = run.built.state;
+  RunReport& report = run.report;
+  const AssemblyReport assembly =
+      assemble(model, run.scene.integrator.constraint_tolerance, run.control.interrupted, state, run.workspace);
+  report.time = state.time();
+  report.iterations = report.factorisations = assembly.iterations;
+  report.steps = 1;
+  report.largest_constraint = assembly.gap * model.length;
+  report.table = body_poses(run.scene, model, run.at_start, state);
+  report.table_title = "poses, as `bodies` takes them";
+  report.mobility = count_mobility(model, state, run.workspace);
+  StepReport step;
+  step.iterations = assembly.iterations;
+  step.constraint = assembly.gap * model.length;
+  write_row(run, step, 0.0, out, [](formats::ResultsRow& row) { blank(formats::AnalysisKind::assembly, row); });
+  if (assembly.interrupted) {
+    report.outcome = RunOutcome::interrupted;
+    report.reason = "interrupted";
+  } else if (!assembly.closed) {
+    std::vector<std::string> open;
+    for (const JointGap& gap : assembly.open)
+      if (open.size() < 10)
+        open.push_back(fmt::format("'{}' by {:.3g} and {:.3g} rad", gap.name, gap.length, gap.angle));
+    report.outcome = RunOutcome::not_converged;
+    report.reason =
+        fmt::format("joints stay open: {}; give better guesses, or correct what cannot meet", join(open, ", "));
+  } else if (!(assembly.velocity_gap <= 1e-9)) {
+    report.outcome = RunOutcome::not_converged;
+    report.reason =
+        fmt::format("no velocities agree with joints and drives: {:.3g} of the largest is left", assembly.velocity_gap);
+  }
+}
+
+void find_modes(Run& run, RowWriter& out) {
+  const Model& model = run.built.model;
+  State& state = run.built.state;
+  RunReport& report = run.report;
+  const ModesReport modes = solve_modes(model, state, run.scene.modes, run.workspace);
+  report.time = state.time();
+  report.steps = 1;
+  report.table = modes_lines(model, modes);
+  report.table_title = fmt::format("modes of {} degrees of freedom", modes.degrees_of_freedom);
+  double lowest = 0.0;
+  for (const Mode& mode : modes.modes)
+    if (lowest == 0.0) lowest = std::abs(mode.eigenvalue);
+  if (modes.largest_acceleration > 1e-6 * lowest * lowest)
+    report.notes.push_back(
+        fmt::format("the state is not steady in the axes of the linearisation (it accelerates by {:.3g} characteristic "
+                    "lengths or radians per time squared): modes of frozen coefficients",
+                    modes.largest_acceleration));
+  if (const auto unstable = std::ranges::count_if(modes.modes, &Mode::unstable); unstable > 0)
+    report.notes.push_back(fmt::format("{} modes grow: the state is unstable", unstable));
+  write_row(run, {}, 0.0, out, [](formats::ResultsRow& row) { row.work = row.dissipated = row.balance = none; });
+  out.writer.set_modes(modes_table(model, run.workspace, modes));
+}
+
+}  // namespace tisserand::mechanism

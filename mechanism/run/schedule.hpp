@@ -1,0 +1,68 @@
+// When steps end and when rows are written: the grid of steps, breakpoints of loads, halving after a failure.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "formats/scene/scene.hpp"
+#include "mechanism/equations/workspace.hpp"
+#include "mechanism/model/model.hpp"
+#include "mechanism/model/state.hpp"
+#include "mechanism/step/step.hpp"
+
+namespace tisserand::mechanism {
+
+/// Fixed steps end at start + k·step, at breakpoints and at the end; after a failure the step is divided by 2, 4, ...
+/// until the next point of the grid. Steps with error control end at breakpoints, at instants of output and at the end.
+class Schedule {
+ public:
+  Schedule(const formats::Scene& scene, const std::vector<double>& breakpoints);
+
+  bool output_at_start() const;
+  bool finished(double time) const;
+  /// End of the step that starts at `time`.
+  StepEnd next(double time) const;
+  /// The step from `time` failed: a shorter one is next (without error control half of it); false if there is none:
+  /// after max_halvings, or below the smallest step.
+  bool retry(double time, const StepReport& report);
+  /// What stands in the way of a shorter step: "after 10 halvings of the step".
+  std::string limit() const;
+  /// With error control: the step of the given size was accepted; its error gives the next one.
+  void adapt(const StepReport& report, double size);
+
+  struct Event {
+    bool output = false;
+    bool breakpoint = false;
+  };
+  /// A step has ended at `time`.
+  Event accept(double time);
+
+  /// All that accept() and halve() have counted, and back: for checkpoints.
+  std::vector<double> memory() const;
+  void restore(const std::vector<double>& memory);
+  /// As if the steps until `time` had been taken.
+  void skip_to(double time);
+
+ private:
+  bool reached(double time, double target) const;
+  bool controlled() const { return integrator_.error_control.active; }
+  double target() const;
+  double controlled_end(double time) const;
+  bool halve(double time);
+  bool output_due(double time, bool on_grid);
+
+  formats::IntegratorSpec integrator_;
+  formats::OutputSpec output_;
+  std::vector<double> breakpoints_;
+  double round_off_ = 0.0;
+  long grid_ = 1;               ///< the next point of the grid
+  std::size_t breakpoint_ = 0;  ///< the next breakpoint
+  int halvings_ = 0;
+  double fraction_ = 0.0;  ///< step after halving, 0: to the target
+  long rows_ = 1;          ///< output instants passed (interval)
+  double proposal_ = 0.0;  ///< next step (error control)
+  bool retried_ = false;   ///< the present step was shortened: the next one is no longer
+};
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,148 @@
+// Channels of a row back to nodes, internal coordinates, frames and angles.
+#include "mechanism/run/stored_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+#include <Eigen/QR>
+
+#include "common/error.hpp"
+#include "formats/results/results.hpp"
+#include "mechanism/equations/evaluate.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// One row of a results file.
+struct StoredRow {
+  const formats::ResultsReader& reader;
+  std::size_t row = 0;
+
+  VectorXd read(const std::string& before, const std::vector<std::string>& columns) const {
+    std::vector<std::string> names;
+    for (const std::string& column : columns) names.push_back(before + column);
+    try {
+      return reader.read_rows(names, row, 1).transpose();
+    } catch (const Error& error) {
+      throw Error(error.what(), "",
+                  "to go on from an instant, results need nodes, superelements and joints/coordinate among "
+                  "output.channels; and the scene must be that of the file");
+    }
+  }
+  Vector3d vector(const std::string& dataset, const std::string& item) const {
+    return read(dataset + "/" + item + "/", {"x", "y", "z"});
+  }
+  Eigen::Vector4d quaternion(const std::string& dataset, const std::string& item) const {
+    return read(dataset + "/" + item + "/", {"w", "x", "y", "z"});
+  }
+  double sum(const std::string& channel) const {
+    const auto channels = reader.channels();
+    const bool stored = std::ranges::any_of(channels, [&](const auto& c) { return c.name == channel; });
+    return stored ? reader.read_rows({channel}, row, 1)(0, 0) : 0.0;
+  }
+};
+
+std::size_t find_row(const formats::ResultsReader& reader, const std::string& file, const std::optional<double>& at) {
+  const std::vector<double> time = reader.time();
+  if (time.empty()) throw Error("holds no instant", file, "give a results file with rows");
+  if (!at) return time.size() - 1;
+  const auto nearest = std::ranges::min_element(time, {}, [&](double t) { return std::abs(t - *at); });
+  if (std::abs(*nearest - *at) > 1e-9 * std::max(1.0, std::abs(*at)))
+    throw Error(fmt::format("holds no instant t = {:.12g}; the nearest is {:.12g}", *at, *nearest), file,
+                "give a stored instant with --at");
+  return static_cast<std::size_t>(nearest - time.begin());
+}
+
+void read_nodes(const Model& model, const StoredRow& stored, State& state) {
+  std::vector<bool> done(model.nodes.size(), false);
+  for (const Place& place : model.places) {
+    const auto i = static_cast<std::size_t>(place.marker.node);
+    if (done[i]) continue;
+    done[i] = true;
+    const Node& node = model.nodes[i];
+    const auto column = static_cast<Eigen::Index>(i);
+    Eigen::Quaterniond R = Eigen::Quaterniond::Identity();
+    Vector3d omega = Vector3d::Zero();
+    if (node.rotation >= 0) {
+      const Eigen::Vector4d Q = stored.quaternion("nodes/rotation", place.name);
+      R = Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]).normalized() * Eigen::Quaterniond(place.marker.R).conjugate();
+      omega = stored.vector("nodes/angular_velocity", place.name);
+      state.Q().col(column) = wxyz(R);
+      state.v().segment<3>(node.rotation) = R.conjugate() * omega;
+    }
+    if (node.translation < 0) continue;
+    const Vector3d arm = R * place.marker.p;
+    state.x().col(column) = stored.vector("nodes/position", place.name) - arm;
+    state.v().segment<3>(node.translation) = stored.vector("nodes/velocity", place.name) - omega.cross(arm);
+  }
+}
+
+/// Canonical internal coordinates of those of the file.
+VectorXd canonical(const SuperelementBody& body, const VectorXd& file) {
+  VectorXd boundary(body.boundary_size), internal(static_cast<Eigen::Index>(body.file.internal_row.size()));
+  for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i)
+    boundary[static_cast<Eigen::Index>(i)] = file[body.file.boundary_row[i]];
+  for (std::size_t k = 0; k < body.file.internal_row.size(); ++k)
+    internal[static_cast<Eigen::Index>(k)] = file[body.file.internal_row[k]];
+  return body.file.modal_part.colPivHouseholderQr().solve(internal - body.file.static_part * boundary);
+}
+
+void read_superelements(const Model& model, const StoredRow& stored, State& state) {
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const SuperelementBody& body = body_of(model, i);
+    const std::string& name = model.superelements[i].name;
+    state.frames().col(static_cast<Eigen::Index>(i)) = stored.quaternion("superelements/frame_rotation", name);
+    if (body.modes == 0) continue;
+    std::vector<std::string> columns;
+    for (Eigen::Index k = 0; k < file_coordinate_count(body); ++k) columns.push_back(fmt::format("{}", k));
+    const int at = model.internal_offset[i];
+    state.y().segment(at, body.modes) = canonical(body, stored.read("superelements/y/" + name + "/", columns));
+    state.v().segment(model.sizes.boundary + at, body.modes) =
+        canonical(body, stored.read("superelements/y_rate/" + name + "/", columns));
+  }
+}
+
+void read_modal_bodies(const Model& model, const StoredRow& stored, State& state) {
+  for (const ModalBody& body : model.modal_bodies) {
+    if (body.modes == 0) continue;
+    std::vector<std::string> columns;
+    for (int k = 0; k < body.modes; ++k) columns.push_back(fmt::format("{}", k));
+    state.w().segment(body.offset, body.modes) = stored.read("modal_bodies/w/" + body.name + "/", columns);
+    state.v().segment(model.sizes.first_modal() + body.offset, body.modes) =
+        stored.read("modal_bodies/w_rate/" + body.name + "/", columns);
+  }
+}
+
+}  // namespace
+
+StoredSums read_stored_state(const Model& model, const std::string& file, const std::optional<double>& at, State& state,
+                             Workspace& workspace) {
+  const formats::ResultsReader reader(file);
+  const StoredRow stored{reader, find_row(reader, file, at)};
+  read_nodes(model, stored, state);
+  read_superelements(model, stored, state);
+  read_modal_bodies(model, stored, state);
+  for (const Coordinate& coordinate : model.coordinates)
+    if (coordinate.turn >= 0) state.hinges()[coordinate.turn] = stored.read("joints/coordinate/", {coordinate.name})[0];
+  state.time() = state.load_time() = stored.reader.read_rows({"time"}, stored.row, 1)(0, 0);
+  state.vdot().setZero();
+  state.lambda().setZero();
+  if (!state.x().allFinite() || !state.Q().allFinite() || !state.v().allFinite() || !state.y().allFinite() ||
+      !state.w().allFinite())
+    throw Error(fmt::format("the instant t = {:.9g} holds values that are no numbers", state.time()), file,
+                "go on from a dynamic or static analysis");
+  workspace.forget();
+  StoredSums sums;
+  sums.work = stored.sum("energy/work");
+  sums.dissipated = stored.sum("energy/dissipated");
+  sums.initial_energy = stored.sum("energy/total") - sums.work + sums.dissipated - stored.sum("energy/balance");
+  if (!std::isfinite(sums.initial_energy)) sums = {};
+  return sums;
+}
+
+}  // namespace tisserand::mechanism

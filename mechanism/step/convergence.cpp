@@ -1,0 +1,89 @@
+// Residuals and violations of one Newton iteration against what they may be.
+#include "mechanism/step/convergence.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace tisserand::mechanism {
+namespace {
+
+using formats::Formulation;
+using formats::IntegratorSpec;
+
+/// Largest error of an iterated floating frame [rad].
+constexpr double frame_tolerance = 1e-10;
+/// Violations of constraints relative to what accelerations move in a step, in units of Newton's tolerance.
+constexpr double share_of_motion = 5.0;
+
+/// The first NaN stays.
+void raise(double& value, int& at, double candidate, int index) {
+  if (candidate <= value || std::isnan(value)) return;
+  value = candidate;
+  at = index;
+}
+
+/// Violations up to which a constraint counts as closed, relative to the characteristic length.
+struct Closed {
+  double position = 0.0;
+  double rate = 0.0;  ///< [1/time]
+};
+
+/// A violation of Φ stands for an acceleration of about 4 Φ/h², one of B v for B v/h: small against those of the motion
+/// only if Φ is small against what they move in a step. Not below the round-off: of Φ that of the positions.
+Closed closed_constraints(const Model& model, const IntegratorSpec& options, double step, const State& state) {
+  const double acceleration = std::max(state.acceleration_scale(), size_of(model, state.algorithmic()));
+  const double motion = share_of_motion * options.tolerance * step * step * acceleration;
+  const double reach = state.x().cols() > 0 ? state.x().cwiseAbs().maxCoeff() / model.length : 0.0;
+  const double round_off = 4.0 * std::numeric_limits<double>::epsilon();
+  return {std::min(options.constraint_tolerance, std::max(motion, round_off * (1.0 + reach))),
+          std::min(options.constraint_tolerance, std::max(motion, round_off)) / step};
+}
+
+}  // namespace
+
+double size_of(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& increment) {
+  double largest = 0.0;
+  for (int i = 0; i < model.sizes.boundary; ++i)
+    largest = std::max(largest, std::abs(increment[i]) / (model.length * model.equation_scale[i]));
+  return largest;
+}
+
+Norms measure(const Model& model, const IntegratorSpec& options, double step, const State& state,
+              Workspace& workspace) {
+  Norms norms;
+  double scale[3];
+  for (int k = 0; k < 3; ++k) scale[k] = std::max(state.force_scale(k), workspace.force_scale[k]);
+  // Forces and moments measure each other through the length, so that a scale of zero in one does not stall the test.
+  const double force = std::max(scale[0], scale[1] / model.length);
+  const double internal = std::max(scale[2], 1e-300);
+  // Positions are rounded to ε length, which the stiffness turns into forces that no iteration can remove.
+  const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
+  const double allowed = std::max(options.tolerance * force, round_off) + 1e-300;
+  for (int i = 0; i < model.sizes.boundary; ++i) {
+    const double r = std::abs(workspace.residual[i]) * model.equation_scale[i];
+    norms.residual = std::max(norms.residual, r);
+    raise(norms.force_ratio, norms.worst_coordinate, r / allowed, i);
+  }
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const auto& r = workspace.superelements[i].forces.r_I;
+    for (Eigen::Index k = 0; k < r.size(); ++k)
+      raise(norms.force_ratio, norms.worst_coordinate, std::abs(r[k]) / (options.tolerance * internal),
+            model.sizes.boundary + model.internal_offset[i] + static_cast<int>(k));
+    raise(norms.force_ratio, norms.worst_coordinate, workspace.superelements[i].motion.frame_error / frame_tolerance,
+          model.superelement_maps[i].coordinates.front());
+  }
+  const Closed closed = closed_constraints(model, options, step, state);
+  for (int row = 0; row < model.sizes.constraints; ++row) {
+    const double length = model.length_row[static_cast<std::size_t>(row)] ? model.length : 1.0;
+    norms.constraint = std::max(norms.constraint, std::abs(workspace.constraint[row]) / length * model.length);
+    if (workspace.active[row] == 0.0) continue;
+    raise(norms.constraint_ratio, norms.worst_constraint,
+          std::abs(workspace.constraint[row]) / (length * closed.position), row);
+    if (options.formulation == Formulation::stabilised_index2)
+      raise(norms.constraint_ratio, norms.worst_constraint,
+            std::abs(workspace.constraint_rate[row]) / (length * closed.rate), row);
+  }
+  return norms;
+}
+
+}  // namespace tisserand::mechanism

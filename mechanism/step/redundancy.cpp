@@ -1,0 +1,159 @@
+// The weighted constraint Jacobian and its pseudoinverse.
+#include "mechanism/step/redundancy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <Eigen/Cholesky>
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/QR>
+#include <Eigen/SparseCore>
+
+#include "mechanism/equations/carriers.hpp"
+#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/equations/mobility.hpp"
+#include "mechanism/solver/matrix_rank.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+constexpr int dense_limit = 400;
+
+/// μ = U λ with |μ|² = Σ |f|² + |m|²/L²: one upper triangle per joint (its wrenches are independent), a number per
+/// coupling; and A = Bᵀ U⁻¹, rotations scaled with 1/L.
+struct WeightedJacobian {
+  std::vector<Eigen::MatrixXd> triangle;
+  Eigen::VectorXd coupling_weight;
+  Eigen::SparseMatrix<double> A;
+};
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+/// [f; m/L] on B of a unit multiplier of the row.
+Vector6 unit_wrench(const Row12& row, const MarkerPair& pair, double length) {
+  const JointReaction r = reaction_of(row, pair);
+  Vector6 wrench;
+  wrench << r.force, r.moment / length;
+  return wrench;
+}
+
+template <class Item>
+MarkerPair pair_of(const Item& item, const Workspace& workspace) {
+  return {item.a, item.b, motion_of(workspace, item.a.node), motion_of(workspace, item.b.node)};
+}
+
+WeightedJacobian weighted_jacobian(const Model& model, const Workspace& workspace) {
+  WeightedJacobian result;
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](const std::vector<int>& coordinates, int column, const auto& row) {
+    for (int j = 0; j < static_cast<int>(coordinates.size()); ++j)
+      if (coordinates[static_cast<std::size_t>(j)] >= 0 && row[j] != 0.0)
+        entries.emplace_back(coordinates[static_cast<std::size_t>(j)], column,
+                             row[j] * model.equation_scale[coordinates[static_cast<std::size_t>(j)]]);
+  };
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Joint& joint = model.joints[i];
+    Eigen::MatrixXd W(6, joint.size());
+    for (int k = 0; k < joint.size(); ++k)
+      W.col(k) = unit_wrench(workspace.joints[i].B.row(k), pair_of(joint, workspace), model.length);
+    const Eigen::MatrixXd U = (W.transpose() * W).llt().matrixU();
+    const Eigen::MatrixXd B = U.transpose().triangularView<Eigen::Lower>().solve(
+        Eigen::MatrixXd(workspace.joints[i].B.topRows(joint.size())));
+    const Eigen::MatrixXd rows = model_rows(model, model.joint_maps[i], local_view(B), workspace);
+    for (int k = 0; k < joint.size(); ++k) add(model.joint_maps[i].coordinates, joint.row + k, rows.row(k));
+    result.triangle.push_back(U);
+  }
+  result.coupling_weight.resize(static_cast<Eigen::Index>(model.couplings.size()));
+  for (std::size_t i = 0; i < model.couplings.size(); ++i) {
+    double square = 0.0;
+    for (const CouplingTerm& term : model.couplings[i].terms) {
+      const auto at = static_cast<std::size_t>(term.coordinate);
+      const Row12 row = term.factor * workspace.coordinates[at].G;
+      square += unit_wrench(row, pair_of(model.coordinates[at], workspace), model.length).squaredNorm();
+    }
+    const double weight = std::sqrt(square);
+    result.coupling_weight[static_cast<Eigen::Index>(i)] = weight;
+    for (const CouplingTerm& term : model.couplings[i].terms) {
+      const auto at = static_cast<std::size_t>(term.coordinate);
+      const Row12 row = (term.factor / weight) * workspace.coordinates[at].G;
+      add(model.coordinate_maps[at].coordinates, model.couplings[i].row,
+          model_rows(model, model.coordinate_maps[at], local_view(row), workspace).row(0));
+    }
+  }
+  result.A.resize(model.sizes.boundary, model.sizes.constraints);
+  result.A.setFromTriplets(entries.begin(), entries.end());
+  return result;
+}
+
+/// A⁺ A μ: μ without its part in the null space of A.
+Eigen::VectorXd without_null_space(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& mu) {
+  const Eigen::VectorXd f = A * mu;
+  if (A.cols() <= dense_limit) {
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+    decomposition.setThreshold(rank_tolerance);
+    decomposition.compute(Eigen::MatrixXd(A));
+    return decomposition.solve(f);
+  }
+  Eigen::LeastSquaresConjugateGradient<Eigen::SparseMatrix<double>> solver(A);
+  solver.setTolerance(1e-12);
+  solver.setMaxIterations(10 * A.cols());
+  return solver.solve(f);
+}
+
+}  // namespace
+
+bool is_overconstrained(const State& state) { return state.active().size() > 0 && state.active().minCoeff() == 0.0; }
+
+double largest_violation_left_out(const Model& model, const Workspace& workspace) {
+  double largest = 0.0;
+  for (int row = 0; row < model.sizes.constraints; ++row)
+    if (workspace.active[row] == 0.0)
+      largest = std::max(largest, std::abs(workspace.constraint[row]) /
+                                      (model.length_row[static_cast<std::size_t>(row)] ? model.length : 1.0));
+  return largest;
+}
+
+bool choose_active_rows(const Model& model, State& state, Workspace& workspace) {
+  Eigen::VectorXd chosen = Eigen::VectorXd::Ones(model.sizes.constraints);
+  for (const int row : count_mobility(model, state, workspace).redundant) chosen[row] = 0.0;
+  if (chosen == state.active()) return false;
+  state.active() = chosen;
+  return true;
+}
+
+Eigen::VectorXd least_norm_multipliers(const Model& model, const Workspace& workspace, const Eigen::VectorXd& lambda) {
+  const WeightedJacobian weighted = weighted_jacobian(model, workspace);
+  Eigen::VectorXd mu = lambda;
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    auto part = mu.segment(model.joints[i].row, model.joints[i].size());
+    part = (weighted.triangle[i].triangularView<Eigen::Upper>() * part).eval();
+  }
+  for (std::size_t i = 0; i < model.couplings.size(); ++i)
+    mu[model.couplings[i].row] *= weighted.coupling_weight[static_cast<Eigen::Index>(i)];
+  mu = without_null_space(weighted.A, mu);
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    auto part = mu.segment(model.joints[i].row, model.joints[i].size());
+    part = weighted.triangle[i].triangularView<Eigen::Upper>().solve(part).eval();
+  }
+  for (std::size_t i = 0; i < model.couplings.size(); ++i)
+    mu[model.couplings[i].row] /= weighted.coupling_weight[static_cast<Eigen::Index>(i)];
+  return mu;
+}
+
+std::vector<std::string> joints_without_unique_reaction(const Model& model, const Workspace& workspace) {
+  // A random vector has, with certainty for all practical purposes, a part along every direction of the null space.
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  const Eigen::VectorXd probe =
+      Eigen::VectorXd::NullaryExpr(model.sizes.constraints, [&](Eigen::Index) { return normal(random); });
+  const Eigen::VectorXd null = probe - without_null_space(weighted_jacobian(model, workspace).A, probe);
+  std::vector<std::string> names;
+  for (const Joint& joint : model.joints)
+    if (null.segment(joint.row, joint.size()).cwiseAbs().maxCoeff() > 1e-7) names.push_back(joint.name);
+  for (const Coupling& coupling : model.couplings)
+    if (std::abs(null[coupling.row]) > 1e-7) names.push_back(coupling.name);
+  return names;
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,43 @@
+// Local error of a step of generalised alpha or HHT, and the size of the next one.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "formats/scene/scene.hpp"
+#include "mechanism/model/model.hpp"
+#include "mechanism/model/state.hpp"
+
+namespace tisserand::mechanism {
+
+struct LocalError {
+  double ratio = 0.0;  ///< to what one step may add; at most 1: accurate enough
+  int worst_coordinate = -1;
+};
+
+/// Leading term of the local error of the positions, C h³ v̈ with C = 1/6 − β − (α_m − α_f)/2 [ABC15], from
+/// h v̈ ≈ a_{n+1} − a_n, the rebuilt algorithmic accelerations at both ends of the step ([NRO07] for HHT; exact up to
+/// order h² whatever the steps before). `last`: the state before the step; `error`: boundary and internal coordinates.
+void estimate_error(const formats::IntegratorSpec& options, double step, const State& state, const State& last,
+                    Eigen::VectorXd& error);
+
+/// An estimated error against what one step may add. A step of h may add h/(end − start) of the tolerance, so that
+/// errors which add up reach about the tolerance at the end, and fall with it: steps ~ tolerance^(1/2), errors ~ step².
+/// Positions count relative to the characteristic length, rotations as they are, internal coordinates of a superelement
+/// of mass m relative to length·sqrt(m).
+LocalError measure_error(const Model& model, const formats::IntegratorSpec& options, double step,
+                         const Eigen::VectorXd& error);
+
+/// Step after one of size `step`: 0.9 ratio^(−1/2) times it, between 0.2 and 2 times; not changed where it would grow
+/// by less than a fifth, so that factors are kept.
+double next_step(const formats::IntegratorSpec& options, double step, double ratio);
+/// Step to take instead of one that was too inaccurate, or did not converge (ratio 0).
+double shorter_step(double step, double ratio);
+
+/// Instants closer than this are the same: a small part of the step, but no less than rounding of the time itself.
+double instant_tolerance(double step, double time);
+
+/// Limits of `error_control`, or their defaults.
+double least_step(const formats::IntegratorSpec& options);
+double greatest_step(const formats::IntegratorSpec& options);
+
+}  // namespace tisserand::mechanism

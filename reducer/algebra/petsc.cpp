@@ -1,0 +1,112 @@
+// Start, end and errors of PETSc and SLEPc; products of their matrices with dense blocks.
+#include "reducer/algebra/petsc.hpp"
+
+#include <array>
+#include <cstdlib>
+
+#include <fmt/format.h>
+#include <slepcsys.h>
+
+#include "common/error.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+/// The text of the first failure since the last petsc_check; PETSc hands it to the handler through `context`.
+std::string& failure_text() {
+  static std::string text;
+  return text;
+}
+
+PetscErrorCode collect(MPI_Comm, int line, const char* function, const char* file, PetscErrorCode code,
+                       PetscErrorType type, const char* message, void* context) {
+  if (type == PETSC_ERROR_INITIAL)
+    *static_cast<std::string*>(context) = fmt::format("{} ({}, {}:{})", message ? message : "", function, file, line);
+  return code;
+}
+
+}  // namespace
+
+SolverSession::SolverSession() {
+  unsetenv("PETSC_OPTIONS");
+  std::array<std::string, 5> words{"reducer", "-skip_petscrc", "-no_signal_handler", "-options_left", "no"};
+  std::array<char*, 6> arguments{};
+  for (std::size_t i = 0; i < words.size(); ++i) arguments[i] = words[i].data();
+  int count = static_cast<int>(words.size());
+  char** begin = arguments.data();
+  if (SlepcInitialize(&count, &begin, nullptr, nullptr) != 0)
+    throw Error("PETSc and SLEPc do not start", "reducer", "check the installation of MPI, PETSc and SLEPc");
+  petsc_check(PetscPushErrorHandler(collect, &failure_text()));
+}
+
+SolverSession::~SolverSession() {
+  PetscPopErrorHandler();
+  SlepcFinalize();
+}
+
+void petsc_check(int code) {
+  if (code == 0) return;
+  const std::string text = std::exchange(failure_text(), {});
+  throw Error(fmt::format("PETSc error {}: {}", code, text), "solver",
+              code == PETSC_ERR_MEM ? "the part is too large for this machine's memory: use fewer elements"
+                                    : "please report this with the part file");
+}
+
+Matrix::~Matrix() {
+  if (mat_ != nullptr) MatDestroy(&mat_);
+}
+
+Eigen::MatrixXd multiply(const Matrix& A, const Eigen::MatrixXd& X) {
+  Eigen::MatrixXd Y(X.rows(), X.cols());
+  if (X.size() == 0) return Y;
+  Vec x = nullptr, y = nullptr;
+  const PetscInt n = static_cast<PetscInt>(X.rows());
+  petsc_check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, nullptr, &x));
+  petsc_check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, nullptr, &y));
+  for (Eigen::Index k = 0; k < X.cols(); ++k) {
+    petsc_check(VecPlaceArray(x, X.col(k).data()));
+    petsc_check(VecPlaceArray(y, Y.col(k).data()));
+    petsc_check(MatMult(A.get(), x, y));
+    petsc_check(VecResetArray(x));
+    petsc_check(VecResetArray(y));
+  }
+  VecDestroy(&x);
+  VecDestroy(&y);
+  return Y;
+}
+
+Eigen::VectorXd diagonal(const Matrix& A) {
+  PetscInt n = 0;
+  petsc_check(MatGetSize(A.get(), &n, nullptr));
+  Eigen::VectorXd d(n);
+  Vec x = nullptr;
+  petsc_check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, d.data(), &x));
+  petsc_check(MatGetDiagonal(A.get(), x));
+  VecDestroy(&x);
+  return d;
+}
+
+Eigen::MatrixXd dense(const Matrix& A) {
+  PetscInt n = 0;
+  petsc_check(MatGetSize(A.get(), &n, nullptr));
+  return multiply(A, Eigen::MatrixXd::Identity(n, n));
+}
+
+Matrix scaled(const Matrix& A, const Eigen::VectorXd& d) {
+  Matrix result;
+  petsc_check(MatDuplicate(A.get(), MAT_COPY_VALUES, result.out()));
+  Vec factor = nullptr;
+  petsc_check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(d.size()), d.data(), &factor));
+  petsc_check(MatDiagonalScale(result.get(), factor, factor));
+  VecDestroy(&factor);
+  return result;
+}
+
+Matrix combine(const Matrix& A, double factor, const Matrix& B) {
+  Matrix sum;
+  petsc_check(MatDuplicate(A.get(), MAT_COPY_VALUES, sum.out()));
+  petsc_check(MatAXPY(sum.get(), factor, B.get(), SAME_NONZERO_PATTERN));
+  return sum;
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,37 @@
+// Stiffness and mass with one common sparsity pattern: the form of the matrices between assembly and the solvers.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reducer/algebra/petsc.hpp"
+
+namespace tisserand::reducer {
+
+/// Upper triangles, row by row: columns ascend and begin with the diagonal, which every row has.
+struct SymmetricPair {
+  std::vector<int> begin{0};  ///< rows + 1
+  std::vector<int> column;
+  std::vector<double> S;
+  std::vector<double> M;
+
+  int size() const { return static_cast<int>(begin.size()) - 1; }
+};
+
+/// A X for the symmetric matrix with the pattern of `pair` and the values S or M of it.
+Eigen::MatrixXd multiply(const SymmetricPair& pair, const std::vector<double>& values, const Eigen::MatrixXd& X);
+
+/// S and M as PETSc's symmetric matrices.
+struct SystemMatrices {
+  Matrix stiffness;
+  Matrix mass;
+};
+
+/// Takes the arrays over without copying them.
+SystemMatrices to_petsc(SymmetricPair pair);
+
+/// Throws Error if a matrix with that many stored entries exceeds the range of PETSc's indices.
+void check_entry_count(long entries);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,127 @@
+// *EQUATION: sums of components of nodes that vanish.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "reducer/decks/abaqus/sets.hpp"
+#include "reducer/decks/abaqus/ties.hpp"
+
+namespace tisserand::reducer::abaqus {
+namespace {
+
+/// As written: node or set, degree of freedom, coefficient.
+struct Term {
+  std::vector<int> nodes;
+  int component = 0;
+  double coefficient = 0.0;
+};
+
+/// u in the direction of a component of the node, *TRANSFORM included: one to three terms in part axes.
+void add_term(const Model& model, int node, const Term& term, TieEquation& equation) {
+  const auto axes = model.node_axes.find(node);
+  if (axes == model.node_axes.end()) {
+    equation.terms.push_back({node, term.component, term.coefficient});
+    return;
+  }
+  const int first = term.component / 3 * 3;
+  const Eigen::Vector3d direction = axes->second.col(term.component - first);
+  const std::size_t start = equation.terms.size();
+  std::size_t largest = start;
+  for (int k = 0; k < 3; ++k) {
+    if (direction[k] == 0.0) continue;
+    equation.terms.push_back({node, first + k, term.coefficient * direction[k]});
+    if (std::abs(equation.terms.back().coefficient) > std::abs(equation.terms[largest].coefficient))
+      largest = equation.terms.size() - 1;
+  }
+  std::swap(equation.terms[start], equation.terms[largest]);  // the largest is the one to eliminate
+}
+
+/// Reads the numbers of one block in a row, across its lines.
+class EquationReader {
+ public:
+  EquationReader(Model& model, int scope, const Block& block) : model_(model), scope_(scope), block_(block) {}
+
+  void read() {
+    while (line_ < block_.data.size()) {
+      const Line& line = block_.data[line_];
+      const std::vector<std::string_view> fields = split(line.text);
+      const std::optional<long> count = fields.size() == 1 ? to_integer(fields[0]) : std::nullopt;
+      ++line_;
+      if (!count || *count < 1) {
+        fault(line, fmt::format("*EQUATION: '{}' is no number of terms", line.text.substr(0, 60)),
+              "begin every equation with a line that holds its number of terms");
+        return;
+      }
+      if (!read_terms(static_cast<std::size_t>(*count), line)) return;
+      add_equations(line);
+    }
+  }
+
+ private:
+  void fault(const Line& line, std::string what, std::string remedy) {
+    model_.findings.add(std::move(what), model_.input.where(line), std::move(remedy));
+  }
+
+  bool read_terms(std::size_t count, const Line& start) {
+    terms_.clear();
+    while (terms_.size() < count && line_ < block_.data.size()) {
+      const Line& line = block_.data[line_++];
+      const std::vector<std::string_view> fields = split(line.text);
+      if (fields.empty() || fields.size() % 3 != 0) {
+        fault(line, "*EQUATION: terms are node, degree of freedom, coefficient", "write three values for each term");
+        return false;
+      }
+      for (std::size_t k = 0; k < fields.size(); k += 3)
+        if (!read_term(line, fields[k], fields[k + 1], fields[k + 2])) return false;
+    }
+    if (terms_.size() == count) return true;
+    fault(start, fmt::format("*EQUATION: {} terms announced, {} given", count, terms_.size()), "correct the number");
+    return false;
+  }
+
+  bool read_term(const Line& line, std::string_view node, std::string_view dof, std::string_view value) {
+    const auto nodes = find_nodes(model_, scope_, node, model_.input.where(line));
+    if (!nodes) return false;
+    const std::optional<long> component = to_integer(dof);
+    const std::optional<double> coefficient = to_number(value);
+    if (!component || *component < 1 || *component > 6 || !coefficient) {
+      fault(line, fmt::format("*EQUATION: degree of freedom '{}', coefficient '{}'", dof, value),
+            "write a number from 1 to 6 and a finite coefficient");
+      return false;
+    }
+    terms_.push_back({*nodes, static_cast<int>(*component) - 1, *coefficient});
+    return true;
+  }
+
+  void add_equations(const Line& line) {
+    const std::size_t count = terms_.front().nodes.size();
+    for (const Term& term : terms_)
+      if (term.nodes.size() != 1 && term.nodes.size() != count) {
+        fault(line, fmt::format("*EQUATION: sets of {} and of {} nodes", count, term.nodes.size()),
+              "let all sets be as large as the first one, or name single nodes");
+        return;
+      }
+    if (terms_.front().coefficient == 0.0) {
+      fault(line, "*EQUATION: the first coefficient is 0", "put a term first that can be eliminated");
+      return;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      TieEquation equation;
+      equation.name = fmt::format("equation at {}", model_.input.where(line));
+      for (const Term& term : terms_) add_term(model_, term.nodes[term.nodes.size() == 1 ? 0 : i], term, equation);
+      model_.deck.mesh.equations.push_back(std::move(equation));
+    }
+  }
+
+  Model& model_;
+  int scope_;
+  const Block& block_;
+  std::size_t line_ = 0;
+  std::vector<Term> terms_;
+};
+
+}  // namespace
+
+void read_equation(Model& model, int scope, const Block& block) { EquationReader(model, scope, block).read(); }
+
+}  // namespace tisserand::reducer::abaqus

@@ -1,0 +1,239 @@
+// One function for each kind of element.
+#include "reducer/decks/abaqus/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "reducer/elements/beam/beam.hpp"
+#include "reducer/elements/spring.hpp"
+
+namespace tisserand::reducer::abaqus {
+namespace {
+
+/// A number for messages; ids beyond int lose nothing but their place in messages.
+int short_id(long id) { return id <= std::numeric_limits<int>::max() ? static_cast<int>(id) : 0; }
+
+const int* nodes_of(const Model& model, const RawElement& element) { return model.connectivity.data() + element.first; }
+
+const Eigen::Vector3d& position(const Model& model, int node) {
+  return model.positions[static_cast<std::size_t>(node)];
+}
+
+/// Without *ORIENTATION the material x axis is the projection of the global x axis, of z if x is within 0.1° of the
+/// normal (Abaqus, "Conventions").
+Eigen::Vector3d default_direction(const Model& model, const ShellElement& shell) {
+  const Eigen::Vector3d a = position(model, shell.nodes[0]), b = position(model, shell.nodes[1]),
+                        c = position(model, shell.nodes[2]);
+  const Eigen::Vector3d normal =
+      shell.corners() == 3 ? (b - a).cross(c - a) : (c - a).cross(position(model, shell.nodes[3]) - b);
+  const double cosine = std::abs(normal.x()) / std::max(normal.norm(), std::numeric_limits<double>::min());
+  return cosine > std::cos(0.1 * M_PI / 180.0) ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
+}
+
+/// Four nodes of which two neighbours are the same one are a triangle.
+std::array<int, 4> shell_nodes(const int* nodes, int count) {
+  std::array<int, 4> result{nodes[0], nodes[1], nodes[2], count == 4 ? nodes[3] : -1};
+  if (count == 3) return result;
+  for (std::size_t k = 0; k < 4; ++k)
+    if (nodes[k] == nodes[(k + 1) % 4]) return {nodes[(k + 1) % 4], nodes[(k + 2) % 4], nodes[(k + 3) % 4], -1};
+  return result;
+}
+
+int add_shell(Model& model, const RawElement& element, const SectionUse& use) {
+  ShellElement shell;
+  shell.nodes = shell_nodes(nodes_of(model, element), element.count);
+  shell.property = use.property;
+  shell.offset = use.offset;
+  shell.id = short_id(element.id);
+  if (use.has_direction) shell.material_x = use.direction.isZero(0.0) ? default_direction(model, shell) : use.direction;
+  model.deck.mesh.shells.push_back(shell);
+  return static_cast<int>(model.deck.mesh.shells.size()) - 1;
+}
+
+/// One section may serve B31 and B33.
+int beam_property(Model& model, const RawElement& element, SectionUse& use) {
+  if (element.type->kind == ElementKind::truss || element.type->theory == formats::BeamTheory::timoshenko)
+    return use.property;
+  if (use.slender_property < 0) {
+    BeamProperty slender = model.deck.mesh.beam_properties[static_cast<std::size_t>(use.property)];
+    slender.data.theory = formats::BeamTheory::euler_bernoulli;
+    use.slender_property = static_cast<int>(model.deck.mesh.beam_properties.size());
+    model.deck.mesh.beam_properties.push_back(std::move(slender));
+  }
+  return use.slender_property;
+}
+
+int add_beam(Model& model, const RawElement& element, SectionUse& use) {
+  const int* nodes = nodes_of(model, element);
+  BeamElement beam;
+  beam.first = nodes[0];
+  beam.second = nodes[1];
+  beam.property = beam_property(model, element, use);
+  beam.id = short_id(element.id);
+  const Eigen::Vector3d axis = position(model, nodes[1]) - position(model, nodes[0]);
+  Eigen::Vector3d n1 = use.direction;
+  if (element.count == 3) n1 = position(model, nodes[2]) - position(model, nodes[0]);
+  if (element.type->kind == ElementKind::truss)
+    n1 = std::abs(axis.x()) < 0.9 * axis.norm() ? Eigen::Vector3d::UnitX() : Eigen::Vector3d::UnitY();
+  const std::optional<Eigen::Matrix3d> axes = axis.norm() > 0.0 && n1.norm() > 0.0 ? beam_axes(axis, n1) : std::nullopt;
+  if (!axes) {
+    model.findings.add(
+        fmt::format("{}: {}", model.element_text(element),
+                    axis.norm() > 0.0 ? fmt::format("n1 = ({}, {}, {}) is parallel to the beam", n1.x(), n1.y(), n1.z())
+                                      : std::string("its nodes coincide")),
+        model.where(element),
+        axis.norm() > 0.0 ? "give another n1 in the second data line of the section" : "delete or mend it");
+    return -1;
+  }
+  beam.R_PE = *axes;
+  model.deck.mesh.beams.push_back(beam);
+  return static_cast<int>(model.deck.mesh.beams.size()) - 1;
+}
+
+int add_solid(Model& model, const RawElement& element, const SectionUse& use) {
+  const int* nodes = nodes_of(model, element);
+  SolidElement solid;
+  solid.shape = element.type->shape;
+  solid.property = use.property;
+  solid.id = short_id(element.id);
+  std::size_t k = 0;
+  for (const int place : gmsh_order(solid.shape)) solid.nodes[k++] = nodes[place];
+  model.deck.mesh.solids.push_back(solid);
+  return static_cast<int>(model.deck.mesh.solids.size()) - 1;
+}
+
+Eigen::Matrix3d component_axes(const Model& model, const SectionUse& use, int node) {
+  if (use.axes) return *use.axes;
+  const auto found = model.node_axes.find(node);
+  return found == model.node_axes.end() ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : found->second;
+}
+
+int add_spring(Model& model, const RawElement& element, const SectionUse& use) {
+  const int* nodes = nodes_of(model, element);
+  const Eigen::Vector3d reach = position(model, nodes[1]) - position(model, nodes[0]);
+  Spring spring;
+  spring.first = nodes[0];
+  spring.second = nodes[1];
+  spring.name = use.name;
+  if (element.type->kind == ElementKind::axial_spring) {
+    const auto stiffness = reducer::axial_spring(use.stiffness, reach);
+    if (!stiffness)
+      model.findings.add(fmt::format("{}: its nodes coincide", model.element_text(element)), model.where(element),
+                         "use SPRING2, which has a direction of its own");
+    spring.stiffness = stiffness.value_or(Eigen::Matrix<double, 12, 12>::Zero());
+  } else {
+    spring.stiffness = scalar_spring(use.stiffness, {use.components[0], component_axes(model, use, nodes[0])},
+                                     {use.components[1], component_axes(model, use, nodes[1])});
+    const double defect = rigid_motion_defect(spring.stiffness, reach);
+    if (use.stiffness > 0.0 && defect > 1e-9)
+      model.findings.add(
+          fmt::format("{} holds the part against the ground: its force grows when the part moves as a "
+                      "rigid body (nodes {:.6g} apart, degrees of freedom {} and {})",
+                      model.element_text(element), reach.norm(), use.components[0] + 1, use.components[1] + 1),
+          model.where(element), "a superelement floats: let both nodes coincide, or use SPRINGA");
+  }
+  model.deck.mesh.springs.push_back(spring);
+  return static_cast<int>(model.deck.mesh.springs.size()) - 1;
+}
+
+void add_point(Model& model, const RawElement& element, const SectionUse& use) {
+  NodalMass mass;
+  mass.node = nodes_of(model, element)[0];
+  mass.mass = use.mass;
+  mass.inertia = use.inertia;
+  mass.name = use.name;
+  model.deck.mesh.masses.push_back(mass);
+}
+
+/// Row in the vector of its kind, -1 for masses and for faulty elements.
+int add_element(Model& model, const RawElement& element, SectionUse& use) {
+  switch (element.type->kind) {
+    case ElementKind::shell:
+      return add_shell(model, element, use);
+    case ElementKind::beam:
+    case ElementKind::truss:
+      return add_beam(model, element, use);
+    case ElementKind::solid:
+      return add_solid(model, element, use);
+    case ElementKind::axial_spring:
+    case ElementKind::two_node_spring:
+      return add_spring(model, element, use);
+    case ElementKind::mass:
+    case ElementKind::rotary_inertia:
+      add_point(model, element, use);
+      return -1;
+    case ElementKind::ground_spring:
+      model.findings.add(fmt::format("{} holds the part against the ground", model.element_text(element)),
+                         model.where(element), "a superelement floats: put the support into the scene");
+      return -1;
+  }
+  return -1;
+}
+
+void count_elements(const Model& model, std::array<std::size_t, 3>& count) {
+  for (const RawElement& element : model.elements) {
+    const ElementKind kind = element.type->kind;
+    count[kind == ElementKind::shell ? 0 : kind == ElementKind::solid ? 1 : 2] += 1;
+  }
+}
+
+/// Ids of the assembly, and those of instances that only one instance has.
+void fill_ids(Model& model) {
+  std::map<long, int>& ids = model.deck.node_of_id;
+  std::vector<std::pair<long, int>> sorted;
+  sorted.reserve(model.positions.size());
+  for (std::size_t node = 0; node < model.positions.size(); ++node)
+    sorted.emplace_back(model.node_ids[node], static_cast<int>(node));
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 0; i < sorted.size();) {
+    std::size_t end = i;
+    while (end < sorted.size() && sorted[end].first == sorted[i].first) ++end;
+    const auto of_assembly =
+        std::find_if(sorted.begin() + static_cast<std::ptrdiff_t>(i), sorted.begin() + static_cast<std::ptrdiff_t>(end),
+                     [&](const auto& entry) { return model.node_scopes[static_cast<std::size_t>(entry.second)] == 0; });
+    if (of_assembly != sorted.begin() + static_cast<std::ptrdiff_t>(end))
+      ids.emplace_hint(ids.end(), *of_assembly);
+    else if (end == i + 1)
+      ids.emplace_hint(ids.end(), sorted[i]);
+    i = end;
+  }
+}
+
+}  // namespace
+
+void fill_nodes(Model& model) {
+  Mesh& mesh = model.deck.mesh;
+  mesh.position.resize(3, static_cast<Eigen::Index>(model.positions.size()));
+  mesh.node_label.reserve(model.positions.size());
+  for (std::size_t node = 0; node < model.positions.size(); ++node) {
+    mesh.position.col(static_cast<Eigen::Index>(node)) = model.positions[node];
+    mesh.node_label.push_back(model.node_text(static_cast<int>(node)));
+  }
+  fill_ids(model);
+}
+
+void fill_elements(Model& model) {
+  std::array<std::size_t, 3> count{};
+  count_elements(model, count);
+  model.deck.mesh.shells.reserve(count[0]);
+  model.deck.mesh.solids.reserve(count[1]);
+  model.deck.mesh.beams.reserve(count[2]);
+  for (RawElement& element : model.elements) {
+    if (element.section >= 0) {
+      element.row = add_element(model, element, model.sections[static_cast<std::size_t>(element.section)]);
+    } else if (element.type->kind == ElementKind::ground_spring) {
+      SectionUse none;
+      element.row = add_element(model, element, none);
+    } else {
+      model.findings.add(fmt::format("{} has no section", model.element_text(element)), model.where(element),
+                         "name its set in *SHELL SECTION, *SOLID SECTION, *BEAM SECTION, *MASS, *ROTARY INERTIA or "
+                         "*SPRING");
+    }
+  }
+}
+
+}  // namespace tisserand::reducer::abaqus

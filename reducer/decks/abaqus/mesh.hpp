@@ -1,0 +1,14 @@
+// Sixth step of read_abaqus(): elements with their sections become the elements, masses and springs of the mesh.
+#pragma once
+
+#include "reducer/decks/abaqus/model.hpp"
+
+namespace tisserand::reducer::abaqus {
+
+/// Nodes with labels, Deck::node_of_id.
+void fill_nodes(Model& model);
+
+/// All elements, with findings for those without a section.
+void fill_elements(Model& model);
+
+}  // namespace tisserand::reducer::abaqus

@@ -1,0 +1,41 @@
+// Names of nodes and elements, and numbers of data lines.
+#include "reducer/decks/abaqus/model.hpp"
+
+#include <fmt/format.h>
+
+namespace tisserand::reducer::abaqus {
+
+std::string Model::node_text(int node) const {
+  const std::size_t n = static_cast<std::size_t>(node);
+  const std::string& scope = scopes[static_cast<std::size_t>(node_scopes[n])].name;
+  return scope.empty() ? fmt::format("node {}", node_ids[n]) : fmt::format("node {}.{}", scope, node_ids[n]);
+}
+
+std::string Model::element_text(const RawElement& element) const {
+  const std::string& scope = scopes[static_cast<std::size_t>(element.scope)].name;
+  return scope.empty() ? fmt::format("element {} ({})", element.id, element.type->name)
+                       : fmt::format("element {}.{} ({})", scope, element.id, element.type->name);
+}
+
+bool read_numbers(Model& model, const Block& block, const Line& line, std::span<double> values) {
+  const std::vector<std::string_view> fields = split(line.text);
+  if (fields.size() > values.size()) {
+    model.findings.add(
+        fmt::format("{}: {} values where at most {} are known", block.title, fields.size(), values.size()),
+        model.input.where(line), "see the data lines of the keyword");
+    return false;
+  }
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    if (fields[i].empty()) continue;
+    const std::optional<double> value = to_number(fields[i]);
+    if (!value) {
+      model.findings.add(fmt::format("{}: '{}' is no number", block.title, fields[i]), model.input.where(line),
+                         "write a finite number");
+      return false;
+    }
+    values[i] = *value;
+  }
+  return true;
+}
+
+}  // namespace tisserand::reducer::abaqus

@@ -1,0 +1,130 @@
+// What read_abaqus() gathers from the blocks of a deck before it is a Mesh: nodes, elements and names by scope.
+#pragma once
+
+#include <array>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reducer/decks/abaqus/element_types.hpp"
+#include "reducer/decks/abaqus/lines.hpp"
+#include "reducer/decks/deck.hpp"
+#include "reducer/properties/laminate.hpp"
+
+namespace tisserand::reducer::abaqus {
+
+/// Where an instance stands: x = R x_part + t.
+struct Placement {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d t = Eigen::Vector3d::Zero();
+};
+
+/// *ORIENTATION: axes in the columns, already turned with the instance, and the second data line.
+struct Orientation {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  bool is_rectangular = true;
+  std::optional<int> normal_axis;  ///< 0, 1, 2: the axis nearest to the normal of a shell; absent: no second line
+  std::string where;
+};
+
+/// One element as written: its nodes stand in Model::connectivity in the order of Abaqus.
+struct RawElement {
+  long id = 0;
+  const ElementType* type = nullptr;
+  std::size_t first = 0;  ///< in Model::connectivity
+  int count = 0;
+  int section = -1;  ///< row of Model::sections
+  int row = -1;      ///< in its vector of the Mesh
+  int scope = 0;
+  std::uint32_t file = 0;
+  std::uint32_t line = 0;
+};
+
+/// *SURFACE: faces of elements (0-5: S1-S6; -1: all faces that no other element shares; shells have the face 0 only),
+/// or nodes.
+struct SurfaceFace {
+  int element = 0;
+  int face = 0;
+};
+struct Surface {
+  bool is_nodal = false;
+  std::vector<SurfaceFace> faces;
+  std::vector<int> nodes;
+};
+
+/// What an id or a name means: the assembly (or a flat deck) is scope 0, every instance one more.
+struct Scope {
+  std::string name;  ///< of the instance, "" for scope 0
+  Placement placement;
+  std::vector<const Block*> blocks;
+  std::unordered_map<long, int> nodes;     ///< id -> column of the mesh
+  std::unordered_map<long, int> elements;  ///< id -> row of Model::elements
+  std::map<std::string, std::vector<int>> node_sets;
+  std::map<std::string, std::vector<int>> element_sets;
+  std::map<std::string, Surface> surfaces;
+  std::map<std::string, Orientation> orientations;
+};
+
+/// Elastic constants and density; what a section needs of them is asked in decks/abaqus/materials.hpp.
+struct AbaqusMaterial {
+  enum class Kind { none, isotropic, lamina, orthotropic };
+  std::string name;
+  Kind kind = Kind::none;
+  double E = 0.0, nu = 0.0;                                             ///< isotropic
+  Ply lamina;                                                           ///< constants only
+  Eigen::Matrix<double, 6, 6> C = Eigen::Matrix<double, 6, 6>::Zero();  ///< orthotropic, order of SolidMaterial
+  double density = 0.0;
+  std::string where;
+};
+
+/// A section keyword, read: which elements it may serve and what it gives them.
+struct SectionUse {
+  ElementKind kind = ElementKind::shell;
+  int property = -1;           ///< row of the properties of its kind in the mesh
+  int slender_property = -1;   ///< beams: the same without shear, made when the first B33 asks for it
+  double offset = 0.0;         ///< shells: of the middle surface along the normal
+  bool has_direction = false;  ///< shells: anisotropic, so that material_x matters
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< shells: material x; zero: Abaqus' default. Beams: n1
+  double mass = 0.0;                                    ///< MASS
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();    ///< ROTARYI, part axes
+  double stiffness = 0.0;                               ///< springs
+  std::array<int, 2> components{};                      ///< SPRING2: 0-5
+  std::optional<Eigen::Matrix3d> axes;  ///< SPRING2: directions of the components; absent: those of the nodes
+  std::string name;
+};
+
+struct Model {
+  Model(const Input& text, Findings& faults) : input(text), findings(faults) {}
+
+  const Input& input;
+  Findings& findings;
+  std::vector<Scope> scopes;        ///< [0] the assembly or the flat deck
+  std::vector<const Block*> steps;  ///< blocks between *STEP and *END STEP
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<long> node_ids;
+  std::vector<int> node_scopes;
+  std::map<int, Eigen::Matrix3d> node_axes;  ///< *TRANSFORM: columns are the directions of the node's components
+  std::vector<RawElement> elements;
+  std::vector<int> connectivity;
+  std::map<std::string, AbaqusMaterial> materials;
+  std::vector<SectionUse> sections;
+  std::map<std::string, long> unknown;  ///< keywords and element types that are not understood, with counts
+  std::map<std::string, long> skipped;  ///< keywords without effect on S and M
+  bool has_unknown_elements = false;    ///< sets may then name elements that were not read
+  Deck deck;
+
+  /// "node 7" or "node wing-1.7".
+  std::string node_text(int node) const;
+  std::string element_text(const RawElement& element) const;
+  std::string where(const RawElement& element) const { return input.where(Line{{}, element.file, element.line}); }
+};
+
+/// The numbers of a data line, at most values.size(); blank fields keep their value. False, with a finding, otherwise.
+bool read_numbers(Model& model, const Block& block, const Line& line, std::span<double> values);
+
+}  // namespace tisserand::reducer::abaqus

@@ -1,0 +1,15 @@
+// *SURFACE, *ORIENTATION and *TRANSFORM: places and directions that sections and constraints refer to.
+#pragma once
+
+#include "reducer/decks/abaqus/model.hpp"
+
+namespace tisserand::reducer::abaqus {
+
+void read_surface(Model& model, int scope, const Block& block);
+void read_orientation(Model& model, int scope, const Block& block);
+void read_transform(Model& model, int scope, const Block& block);
+
+/// Nodes of a surface with the area that each stands for (face_weights); nodal surfaces: 1 each. Sorted by node.
+std::map<int, double> surface_weights(const Model& model, const Surface& surface);
+
+}  // namespace tisserand::reducer::abaqus

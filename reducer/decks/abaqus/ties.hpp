@@ -1,0 +1,21 @@
+// Seventh step of read_abaqus(): couplings, rigid bodies, MPCs and equations become spiders and equations of the mesh.
+#pragma once
+
+#include "reducer/decks/abaqus/model.hpp"
+
+namespace tisserand::reducer::abaqus {
+
+/// *COUPLING with *KINEMATIC or *DISTRIBUTING, *KINEMATIC COUPLING, *RIGID BODY, *MPC, *EQUATION of one scope.
+void read_ties(Model& model, int scope);
+
+/// *EQUATION; used by read_ties.
+void read_equation(Model& model, int scope, const Block& block);
+
+/// first, last (1-6) of a data line from `field` on: a missing last is the first, a missing first all six. Nothing,
+/// with a finding, for anything else.
+std::optional<Components> read_components(Model& model, const Line& line, std::size_t field);
+
+/// One node by number or by a set of one node. Nothing, with a finding, otherwise.
+std::optional<int> find_one_node(Model& model, int scope, std::string_view text, const std::string& where);
+
+}  // namespace tisserand::reducer::abaqus

@@ -1,0 +1,123 @@
+// The workbench of the Nastran reader: cards by name, grid points by id and coordinate systems, between text and mesh.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reducer/decks/deck.hpp"
+#include "reducer/decks/nastran/coordinates.hpp"
+#include "reducer/decks/nastran/fields.hpp"
+#include "reducer/decks/nastran/ids.hpp"
+#include "reducer/decks/nastran/materials.hpp"
+#include "reducer/decks/nastran/properties.hpp"
+
+namespace tisserand::reducer {
+
+/// Defaults of GRID fields.
+struct GridDefaults {
+  int position_frame = 0;
+  int displacement_frame = 0;
+  Components fixed = 0;
+};
+
+/// Components of a node that the deck ties to ground, in the axes of its CD.
+struct HeldNode {
+  int node = 0;
+  Components components = 0;
+  std::size_t card = 0;  ///< row of NastranCards::cards
+};
+
+struct NastranModel {
+  NastranCards cards;
+  NastranFaults faults;
+  NastranRemarks remarks;                                ///< become warnings of the mesh
+  std::map<std::string, std::vector<std::size_t>> rows;  ///< cards by name in capitals, in the order of the deck
+  NastranFrames frames;
+  IdTable grid_rows;          ///< GRID id -> row = node of the mesh
+  std::vector<long> grid_id;  ///< one per node, as the next three
+  std::vector<std::size_t> grid_card;
+  std::vector<int> displacement_frame;                            ///< row of `frames`
+  std::vector<Components> fixed;                                  ///< PS: components held to ground
+  double mass_scale = 1.0;                                        ///< PARAM,WTMASS
+  formats::MassMatrix mass_matrix = formats::MassMatrix::lumped;  ///< PARAM,COUPMASS
+  NastranMaterials materials;
+  NastranProperties properties;
+  std::map<long, ElementSet> of_property;                  ///< elements by PID
+  std::vector<std::pair<long, std::size_t>> element_card;  ///< element id and card, to find ids that stand twice
+  std::vector<HeldNode> held;
+  Deck deck;
+
+  /// Calls action(CardFields&) for every card of that name.
+  template <class Action>
+  void for_each(const std::string& name, const Action& action) {
+    const auto found = rows.find(name);
+    if (found == rows.end()) return;
+    for (const std::size_t row : found->second) {
+      CardFields fields(cards, cards.cards[row], faults);
+      action(fields);
+    }
+  }
+
+  /// Row of NastranCards::cards.
+  std::size_t row(const CardFields& fields) const {
+    return static_cast<std::size_t>(&fields.card() - cards.cards.data());
+  }
+
+  /// Node of the GRID in that field; −1 after a fault (no number, no such GRID).
+  int node(CardFields& fields, int index, std::string_view name);
+
+  /// Node of the GRID, or −1 with a fault.
+  int node_of(CardFields& fields, long id, std::string_view name);
+
+  /// Axes of the displacements of a node (columns, part axes): CD of its GRID.
+  Eigen::Matrix3d displacement_axes(int node) const;
+
+  /// Element id of field 0, noted to find ids that stand twice.
+  int element_id(CardFields& fields);
+
+  /// Row of `frames` of the coordinate system in that field (blank: 0, basic); −1 after a fault.
+  int frame(CardFields& fields, int index, std::string_view name);
+
+  Eigen::Vector3d position(int node) const { return deck.mesh.position.col(node); }
+};
+
+/// Grid points whose id lies in a range, for lists with THRU.
+struct KnownGrids {
+  const IdTable& table;
+  void operator()(long first, long last, std::vector<long>& ids) const { table.between(first, last, ids); }
+};
+
+/// Sorts the cards by name; PARAM. Cards that are understood as not belonging to a superelement become remarks, the
+/// ones that are not understood a fault or a remark.
+void sort_cards(const DeckOptions& options, NastranModel& model);
+
+/// Elements, point masses and springs; the rods last, because their torsion needs nodes that others hold in rotation.
+void add_beams(NastranModel& model);
+void add_shells(NastranModel& model);
+void add_solids(NastranModel& model);
+void add_springs(NastranModel& model);
+void add_masses(NastranModel& model);
+void add_rods(NastranModel& model);
+
+/// RBE1, RBE2, RBE3, RBAR as spiders, MPC as equations.
+void add_ties(NastranModel& model);
+
+/// Components of each node (of part axes, all rotations or none) to which something is attached: stiffness, mass or
+/// tie.
+std::vector<Components> attachments(const Mesh& mesh);
+
+/// ASET and BSET cards become the boundary.
+void add_boundary(NastranModel& model);
+
+/// SPC, SPC1, PS of GRID and springs to ground: a fault, unless nothing is attached to the component.
+void judge_supports(NastranModel& model);
+
+/// Takes nodes out of the mesh to which nothing is attached (a remark), and fills node_of_id and the sets of PIDs.
+void finish_nodes(NastranModel& model);
+
+/// GRID, GRDSET and coordinate systems: fills the nodes of the mesh, grid_* and frames.
+void place_grids(NastranModel& model);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,190 @@
+// Property cards of a Nastran deck: from their fields to the rows of properties that elements of the mesh name.
+#include "reducer/decks/nastran/properties.hpp"
+
+#include <initializer_list>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "reducer/decks/nastran/model.hpp"
+#include "reducer/properties/solid_anisotropic.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+void index_cards(NastranModel& model, std::initializer_list<const char*> names, NastranProperties::Cards& cards) {
+  for (const char* name : names)
+    model.for_each(name, [&](CardFields& f) {
+      const long id = f.id(0, "PID");
+      if (id > 0 && !cards.emplace(id, model.row(f)).second)
+        f.fault(fmt::format("property {} is given twice", id), "remove one of the cards");
+    });
+}
+
+/// Two springs per card: PID, K, GE, S.
+void read_pelas(NastranModel& model) {
+  model.for_each("PELAS", [&](CardFields& f) {
+    for (const int start : {0, 4}) {
+      if (start > 0 && f.blank(start)) continue;
+      const long id = f.id(start, "PID");
+      ElasticProperty property;
+      property.stiffness = f.real(start + 1, "K", 0.0);
+      if (f.ok() && !model.properties.elastic.emplace(id, property).second)
+        f.fault(fmt::format("property {} is given twice", id), "remove one of the cards");
+    }
+  });
+}
+
+/// PROD or PTUBE.
+int read_rod(NastranModel& model, CardFields& f) {
+  RodConstants rod;
+  if (same_word(f.card().name, "PROD")) {
+    rod = {f.real(2, "A"), f.real(3, "J", 0.0), f.real(5, "NSM", 0.0)};
+  } else {
+    const double outer = f.real(2, "OD"), thickness = f.real(3, "T", 0.5 * outer);
+    if (f.real(5, "OD2", outer) != outer)
+      f.fault("tubes with OD2 are not understood", "use CBEAM with a tapered PBEAM");
+    if (f.ok() && !(thickness > 0.0 && thickness <= 0.5 * outer))
+      f.fault(fmt::format("T {:g} must lie between 0 and OD/2 = {:g}", thickness, 0.5 * outer), "correct OD or T");
+    const double inner = outer - 2.0 * thickness, a = outer * outer, b = inner * inner;
+    rod = {0.25 * std::numbers::pi * (a - b), std::numbers::pi / 32.0 * (a * a - b * b), f.real(4, "NSM", 0.0)};
+  }
+  return add_rod_property(model, f, 1, rod);
+}
+
+/// Axes of the material of a solid: CORDM 0 is the basic system.
+std::optional<Eigen::Matrix3d> solid_axes(NastranModel& model, CardFields& f) {
+  const long id = f.integer(2, "CORDM", 0);
+  if (id == 0 || !f.ok()) return Eigen::Matrix3d::Identity();
+  if (id < 0) {
+    f.fault("CORDM -1: material axes that follow each element are not understood", "name a CORD2R system");
+    return std::nullopt;
+  }
+  const int row = model.frames.find(id);
+  if (row < 0) {
+    f.fault(fmt::format("CORDM names coordinate system {}, which is missing", id), "add its CORD card");
+    return std::nullopt;
+  }
+  const NastranFrame& frame = model.frames.frames[static_cast<std::size_t>(row)];
+  if (frame.kind != FrameKind::rectangular) {
+    f.fault(fmt::format("CORDM {}: a solid with MAT9 needs a rectangular system", id), "name a CORD2R system");
+    return std::nullopt;
+  }
+  return frame.axes;
+}
+
+int read_solid(NastranModel& model, CardFields& f) {
+  const NastranMaterial* m = material(model, f, 1, "MID");
+  if (m == nullptr) return -1;
+  if (same_word(f.text(6), "PFLUID")) f.fault("fluids are not understood", "remove the fluid");
+  SolidProperty property;
+  property.mass_matrix = model.mass_matrix;
+  property.name = f.label();
+  if (m->kind == NastranMaterial::Kind::isotropic) {
+    if (!(m->nu > -1.0 && m->nu < 0.5) || !(m->G > 0.0))
+      f.fault(fmt::format("{} has NU {:g} and G {:g}", m->label, m->nu, m->G), "solids need NU between -1 and 0.5");
+    else
+      property.material = isotropic_solid(m->E, m->nu, m->density);
+  } else if (m->kind == NastranMaterial::Kind::solid) {
+    const std::optional<Eigen::Matrix3d> axes = solid_axes(model, f);
+    if (axes) try {
+        property.material = anisotropic_solid(m->C, *axes, m->density, m->where);
+      } catch (const Error& error) {
+        f.fault(fmt::format("{}: {}", m->label, error.message()), error.remedy());
+      }
+  } else {
+    f.fault(fmt::format("{} is no material of solids", m->label), "use MAT1 or MAT9");
+  }
+  if (!f.ok()) return -1;
+  model.deck.mesh.solid_properties.push_back(property);
+  return static_cast<int>(model.deck.mesh.solid_properties.size()) - 1;
+}
+
+/// Lines of "K", "B", "GE", "RCV", "M", each with six values.
+std::optional<BushProperty> read_bush(CardFields& f) {
+  BushProperty property;
+  for (int line = 0; line < f.size(); line += 8) {
+    if (!same_word(f.text(line + 1), "K")) continue;
+    for (int i = 0; i < 6; ++i)
+      property.stiffness(i) = same_word(f.text(line + 2 + i), "RIGID") ? 0.0 : f.real(line + 2 + i, "K", 0.0);
+    for (int i = 0; i < 6; ++i)
+      if (same_word(f.text(line + 2 + i), "RIGID")) f.fault("RIGID stiffness is not understood", "use RBE2 or RBAR");
+  }
+  if (f.ok() && !(property.stiffness.minCoeff() >= 0.0)) f.fault("a stiffness K is negative", "give K from 0 on");
+  return f.ok() ? std::optional(property) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<CardFields> property_card(NastranModel& model, CardFields& element, const NastranProperties::Cards& cards,
+                                        long id, std::string_view kinds) {
+  if (!element.ok()) return std::nullopt;
+  const auto found = cards.find(id);
+  if (found != cards.end()) return CardFields(model.cards, model.cards.cards[found->second], model.faults);
+  element.fault(fmt::format("PID names property {}, which is missing", id), fmt::format("add a {}", kinds));
+  return std::nullopt;
+}
+
+void index_properties(NastranModel& model) {
+  NastranProperties& p = model.properties;
+  index_cards(model, {"PBAR", "PBARL", "PBEAM", "PBEAML"}, p.beam);
+  index_cards(model, {"PROD", "PTUBE"}, p.rod);
+  index_cards(model, {"PSHELL", "PCOMP"}, p.shell);
+  index_cards(model, {"PSOLID"}, p.solid);
+  index_cards(model, {"PBUSH"}, p.bush);
+  read_pelas(model);
+}
+
+int beam_property(NastranModel& model, CardFields& element, long id) {
+  const auto known = model.properties.beam_row.find(id);
+  if (known != model.properties.beam_row.end()) return known->second.row;
+  std::optional<CardFields> card =
+      property_card(model, element, model.properties.beam, id, "PBAR, PBARL, PBEAM or PBEAML");
+  if (!card) return -1;
+  const int row = read_beam_property(model, *card);
+  model.properties.beam_row[id] = {row, 0.0};
+  return row;
+}
+
+int rod_property(NastranModel& model, CardFields& element, long id) {
+  const auto known = model.properties.rod_row.find(id);
+  if (known != model.properties.rod_row.end()) return known->second.row;
+  std::optional<CardFields> card = property_card(model, element, model.properties.rod, id, "PROD or PTUBE");
+  if (!card) return -1;
+  const int row = read_rod(model, *card);
+  model.properties.rod_row[id] = {row, 0.0};
+  return row;
+}
+
+PropertyRow shell_property(NastranModel& model, CardFields& element, long id, double thickness) {
+  const auto known = model.properties.shell_row.find({id, thickness});
+  if (known != model.properties.shell_row.end()) return known->second;
+  std::optional<CardFields> card = property_card(model, element, model.properties.shell, id, "PSHELL or PCOMP");
+  if (!card) return {};
+  const PropertyRow row = read_shell_property(model, *card, thickness);
+  model.properties.shell_row[{id, thickness}] = row;
+  return row;
+}
+
+int solid_property(NastranModel& model, CardFields& element, long id) {
+  const auto known = model.properties.solid_row.find(id);
+  if (known != model.properties.solid_row.end()) return known->second.row;
+  std::optional<CardFields> card = property_card(model, element, model.properties.solid, id, "PSOLID");
+  if (!card) return -1;
+  const int row = read_solid(model, *card);
+  model.properties.solid_row[id] = {row, 0.0};
+  return row;
+}
+
+const BushProperty* bush_property(NastranModel& model, CardFields& element, long id) {
+  const auto [read, fresh] = model.properties.bush_read.try_emplace(id);
+  if (fresh) {
+    std::optional<CardFields> card = property_card(model, element, model.properties.bush, id, "PBUSH");
+    if (card) read->second = read_bush(*card);
+    if (!card) model.properties.bush_read.erase(read);
+    if (!card) return nullptr;
+  }
+  return read->second ? &*read->second : nullptr;
+}
+
+}  // namespace tisserand::reducer

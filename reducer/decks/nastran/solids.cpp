@@ -1,0 +1,57 @@
+// CTETRA, CHEXA and CPENTA of a Nastran deck become solids of the mesh.
+#include <array>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "reducer/decks/nastran/model.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+/// The mesh's (gmsh's) node i is the deck's node order[i]: edge nodes stand in another order.
+constexpr std::array<int, 10> tetrahedron_order{0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
+constexpr std::array<int, 20> hexahedron_order{0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12, 9, 13, 10, 14, 15, 16, 19, 17, 18};
+constexpr std::array<int, 15> prism_order{0, 1, 2, 3, 4, 5, 6, 8, 9, 7, 10, 11, 12, 14, 13};
+
+struct SolidCard {
+  const char* name;
+  SolidShape linear, quadratic;
+  int corners;
+  const int* order;
+  int most;
+};
+
+constexpr std::array<SolidCard, 3> solid_cards{
+    {{"CTETRA", SolidShape::tetrahedron4, SolidShape::tetrahedron10, 4, tetrahedron_order.data(), 10},
+     {"CHEXA", SolidShape::hexahedron8, SolidShape::hexahedron20, 8, hexahedron_order.data(), 20},
+     {"CPENTA", SolidShape::prism6, SolidShape::prism15, 6, prism_order.data(), 15}}};
+
+void add_solid(NastranModel& model, CardFields& f, const SolidCard& card) {
+  SolidElement solid;
+  solid.id = model.element_id(f);
+  const long pid = f.blank(1) ? solid.id : f.id(1, "PID");
+  int edge_nodes = 0;
+  for (int i = card.corners; i < card.most; ++i) edge_nodes += f.blank(2 + i) ? 0 : 1;
+  if (edge_nodes != 0 && edge_nodes != card.most - card.corners)
+    return f.fault(fmt::format("{} of {} edge nodes", edge_nodes, card.most - card.corners),
+                   "give all of them or none");
+  if (f.size() > 2 + card.most) return f.fault(fmt::format("more than {} grid points", card.most), "remove the rest");
+  solid.shape = edge_nodes == 0 ? card.linear : card.quadratic;
+  const int count = edge_nodes == 0 ? card.corners : card.most;
+  for (int i = 0; i < count; ++i) solid.nodes[static_cast<std::size_t>(i)] = model.node(f, 2 + card.order[i], "G");
+  if (!f.ok()) return;
+  solid.property = solid_property(model, f, pid);
+  if (solid.property < 0) return;
+  model.of_property[pid].solids.push_back(static_cast<int>(model.deck.mesh.solids.size()));
+  model.deck.mesh.solids.push_back(solid);
+}
+
+}  // namespace
+
+void add_solids(NastranModel& model) {
+  for (const SolidCard& card : solid_cards)
+    model.for_each(card.name, [&](CardFields& f) { add_solid(model, f, card); });
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,103 @@
+// Cards of a Nastran deck by name: what builds the mesh, what does not belong to a superelement, what is not
+// understood.
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "common/text.hpp"
+#include "reducer/decks/nastran/model.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+/// Cards that build the mesh.
+const std::set<std::string>& understood() {
+  static const std::set<std::string> names{
+      "GRID",   "GRDSET", "CORD1R", "CORD1C", "CORD1S", "CORD2R",  "CORD2C", "CORD2S", "CBAR",   "CBEAM", "CROD",
+      "CONROD", "CTUBE",  "CQUAD4", "CQUADR", "CTRIA3", "CTRIAR",  "CTETRA", "CHEXA",  "CPENTA", "PBAR",  "PBARL",
+      "PBEAM",  "PBEAML", "PROD",   "PTUBE",  "PSHELL", "PCOMP",   "PSOLID", "MAT1",   "MAT2",   "MAT8",  "MAT9",
+      "CONM2",  "CELAS1", "CELAS2", "PELAS",  "CBUSH",  "PBUSH",   "RBE1",   "RBE2",   "RBE3",   "RBAR",  "MPC",
+      "ASET",   "ASET1",  "BSET",   "BSET1",  "BNDFIX", "BNDFIX1", "SPC",    "SPC1",   "PARAM",  "BAROR", "BEAMOR"};
+  return names;
+}
+
+/// Cards of analysis, loads and sets, which a reduction does not need: told, never an error.
+const std::set<std::string>& left_out() {
+  static const std::set<std::string> names{
+      "EIGR",    "EIGRL",   "EIGB",   "EIGC",   "EIGP",   "FORCE",   "FORCE1",  "FORCE2",  "MOMENT",
+      "MOMENT1", "MOMENT2", "PLOAD",  "PLOAD1", "PLOAD2", "PLOAD4",  "PLOADX1", "GRAV",    "ACCEL",
+      "ACCEL1",  "RFORCE",  "LOAD",   "TEMP",   "TEMPD",  "TEMPP1",  "TEMPRB",  "DLOAD",   "DAREA",
+      "LSEQ",    "RLOAD1",  "RLOAD2", "TLOAD1", "TLOAD2", "TABLED1", "TABLED2", "TABLED3", "TABDMP1",
+      "FREQ",    "FREQ1",   "FREQ2",  "FREQ3",  "FREQ4",  "TSTEP",   "QSET",    "QSET1",   "SPOINT",
+      "SET1",    "SET3",    "PLOTEL", "SPCADD", "MPCADD", "DTI",     "SUPORT",  "SUPORT1"};
+  return names;
+}
+
+void read_mass_parameters(NastranModel& model) {
+  model.for_each("PARAM", [&](CardFields& f) {
+    if (same_word(f.text(0), "WTMASS")) {
+      model.mass_scale = f.real(1, "WTMASS");
+      if (f.ok() && !(model.mass_scale > 0.0))
+        f.fault(fmt::format("{:g} must be positive", model.mass_scale), "correct it");
+    } else if (same_word(f.text(0), "COUPMASS")) {
+      const long value = f.integer(1, "COUPMASS", -1);
+      model.mass_matrix = value > 0 ? formats::MassMatrix::consistent : formats::MassMatrix::lumped;
+    } else {
+      model.remarks.add("PARAM without effect here", capitals(f.text(0)));
+    }
+  });
+}
+
+void judge_unknown(const std::map<std::string, std::size_t>& unknown, const std::string& where,
+                   const DeckOptions& options, NastranModel& model) {
+  if (unknown.empty()) return;
+  std::vector<std::string> names;
+  for (const auto& [name, count] : unknown) {
+    if (names.size() == 20) {
+      names.push_back(fmt::format("... ({} names)", unknown.size()));
+      break;
+    }
+    names.push_back(fmt::format("{} ({})", name, count));
+  }
+  const std::string text = "cards that are not understood: " + join(names, ", ");
+  if (options.unknown == UnknownCards::ignore)
+    model.deck.mesh.warnings.push_back(text);
+  else
+    model.faults.add(text, where, "remove them, or write `unknown: ignore` under mesh if the part can do without");
+}
+
+}  // namespace
+
+void sort_cards(const DeckOptions& options, NastranModel& model) {
+  std::map<std::string, std::size_t> unknown, other;
+  std::string where;
+  std::string_view last_name;
+  std::vector<std::size_t>* last_rows = nullptr;
+  for (std::size_t i = 0; i < model.cards.cards.size(); ++i) {
+    const NastranCard& card = model.cards.cards[i];
+    if (last_rows == nullptr || card.name != last_name) {
+      last_name = card.name;
+      const std::string name = capitals(card.name);
+      last_rows = nullptr;
+      if (understood().contains(name)) {
+        last_rows = &model.rows[name];
+      } else if (left_out().contains(name)) {
+        ++other[name];
+      } else {
+        if (unknown.empty()) where = model.cards.where(card);
+        ++unknown[name];
+      }
+    }
+    if (last_rows != nullptr) last_rows->push_back(i);
+  }
+  for (const auto& [name, count] : other)
+    model.remarks.add("cards that do not belong to a superelement are left out", fmt::format("{} ({})", name, count));
+  judge_unknown(unknown, where, options, model);
+  read_mass_parameters(model);
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,162 @@
+// Shapes of elements and plausibility of numbers.
+#include "reducer/elements/checks.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "reducer/elements/element_matrices.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+constexpr std::size_t most_told = 10;
+
+std::string element_name(const Mesh& mesh, const BeamElement& beam) {
+  return fmt::format("beam {} of '{}'", beam.id, mesh.beam_properties[static_cast<std::size_t>(beam.property)].name);
+}
+std::string element_name(const Mesh& mesh, const ShellElement& shell) {
+  return fmt::format("shell {} of '{}'", shell.id,
+                     mesh.shell_properties[static_cast<std::size_t>(shell.property)].name);
+}
+std::string element_name(const Mesh& mesh, const SolidElement& solid) {
+  return fmt::format("solid {} of '{}'", solid.id,
+                     mesh.solid_properties[static_cast<std::size_t>(solid.property)].name);
+}
+
+/// The first texts of a kind and how many there were.
+struct Findings {
+  std::vector<std::string> told;
+  std::size_t count = 0;
+
+  void add(const std::string& element, const std::vector<std::string>& texts) {
+    for (const std::string& text : texts)
+      if (count++ < most_told) told.push_back(element + ": " + text);
+  }
+};
+
+struct ShapeReport {
+  Findings errors, warnings;
+};
+
+template <class Element>
+void check_all(const Mesh& mesh, const std::vector<Element>& elements, ShapeReport& report) {
+  ShapeFindings findings;
+  for (const Element& element : elements) {
+    check_shape(mesh, element, findings);
+    if (findings.errors.empty() && findings.warnings.empty()) continue;
+    report.errors.add(element_name(mesh, element), findings.errors);
+    report.warnings.add(element_name(mesh, element), findings.warnings);
+    findings = {};
+  }
+}
+
+double longest_edge(const Mesh& mesh, const ShellElement& shell) {
+  double longest = 0.0;
+  for (int i = 0; i < shell.corners(); ++i) {
+    const int a = shell.nodes[static_cast<std::size_t>(i)];
+    const int b = shell.nodes[static_cast<std::size_t>((i + 1) % shell.corners())];
+    longest = std::max(longest, (mesh.position.col(a) - mesh.position.col(b)).norm());
+  }
+  return longest;
+}
+
+/// Shells thicker than their longest edge, by property.
+void warn_thick_shells(const Mesh& mesh, std::vector<std::string>& warnings) {
+  struct Thick {
+    int count = 0;
+    int of = 0;
+    double edge = 0.0;
+  };
+  std::vector<Thick> thick(mesh.shell_properties.size());
+  for (const ShellElement& shell : mesh.shells) {
+    const auto p = static_cast<std::size_t>(shell.property);
+    const double edge = longest_edge(mesh, shell);
+    ++thick[p].of;
+    if (mesh.shell_properties[p].section.thickness <= edge) continue;
+    thick[p].edge = thick[p].count == 0 ? edge : std::min(thick[p].edge, edge);
+    ++thick[p].count;
+  }
+  for (std::size_t p = 0; p < thick.size(); ++p)
+    if (thick[p].count > 0)
+      warnings.push_back(
+          fmt::format("{} of {} shells of '{}' are thicker ({:.4g}) than their longest edge (down to {:.4g}): check "
+                      "the thickness, or "
+                      "use larger elements or solids",
+                      thick[p].count, thick[p].of, mesh.shell_properties[p].name,
+                      mesh.shell_properties[p].section.thickness, thick[p].edge));
+}
+
+/// √(stiffness/density) in units of the part; both per length, per area or per volume.
+struct WaveSpeed {
+  std::string what;
+  double modulus = 0.0;
+  double density = 0.0;
+};
+
+void warn_wave_speed(const WaveSpeed& wave, const Units& units, std::vector<std::string>& warnings) {
+  if (!(wave.density > 0.0 && wave.modulus > 0.0)) return;
+  const double speed = std::sqrt(wave.modulus / wave.density) * units.length.factor / units.time.factor;
+  if (speed >= 100.0 && speed <= 20000.0) return;
+  const std::string text = fmt::format(
+      "{}: a modulus of {:.4g} and a density of {:.4g} in units {}, {}, {} mean a speed of sound of {:.3g} m/s; usual "
+      "are "
+      "100 to 20 000 m/s. Do length, mass, time and the material belong together (for example mm, t, s, MPa)?",
+      wave.what, wave.modulus, wave.density, units.length.label, units.mass.label, units.time.label, speed);
+  if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);
+}
+
+void warn_wave_speeds(const Mesh& mesh, const Units& units, std::vector<std::string>& warnings) {
+  for (const BeamProperty& p : mesh.beam_properties)
+    warn_wave_speed({p.name, p.data.material.youngs_modulus, p.data.material.density}, units, warnings);
+  for (const ShellProperty& p : mesh.shell_properties)
+    if (p.section.thickness > 0.0)
+      warn_wave_speed({p.name, p.section.A.topLeftCorner<2, 2>().diagonal().maxCoeff() / p.section.thickness,
+                       p.section.mass / p.section.thickness},
+                      units, warnings);
+  for (const SolidProperty& p : mesh.solid_properties)
+    warn_wave_speed({p.name, p.material.C.topLeftCorner<3, 3>().diagonal().maxCoeff(), p.material.density}, units,
+                    warnings);
+}
+
+}  // namespace
+
+std::vector<std::string> check_shapes(const Mesh& mesh, const std::string& where) {
+  ShapeReport report;
+  check_all(mesh, mesh.beams, report);
+  check_all(mesh, mesh.shells, report);
+  check_all(mesh, mesh.solids, report);
+  if (report.errors.count > 0)
+    throw Error(
+        fmt::format("{} fault{} of element shapes: {}{}", report.errors.count, report.errors.count == 1 ? "" : "s",
+                    join(report.errors.told, "; "), report.errors.count > report.errors.told.size() ? "; ..." : ""),
+        where, "repair these elements in the mesh or the program that made it");
+  if (report.warnings.count > report.warnings.told.size())
+    report.warnings.told.push_back(fmt::format("... and {} more element shapes of this kind",
+                                               report.warnings.count - report.warnings.told.size()));
+  return report.warnings.told;
+}
+
+std::vector<std::string> plausibility_warnings(const Mesh& mesh, const Units& units) {
+  std::vector<std::string> warnings;
+  warn_thick_shells(mesh, warnings);
+  if (!units.named()) return warnings;
+  warn_wave_speeds(mesh, units, warnings);
+  const double size = 2.0 * characteristic_length(mesh) * units.length.factor;
+  if (size > 200.0 || size < 1e-5)
+    warnings.push_back(fmt::format("the part is about {:.3g} {} large, that is {:.3g} m: is {} the unit of its nodes?",
+                                   2.0 * characteristic_length(mesh), units.length.label, size, units.length.label));
+  return warnings;
+}
+
+std::optional<std::string> mass_doubt(double mass, const Units& units) {
+  if (!units.named() || mass * units.mass.factor < 1e6) return std::nullopt;
+  return fmt::format(
+      "the part has a mass of {:.3g} {}: is {} the unit of its nodes, and does the density belong to it?", mass,
+      units.mass.label, units.length.label);
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,23 @@
+// Checks of the mesh before anything is assembled: shapes of elements and whether numbers are physically plausible.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/units.hpp"
+#include "reducer/mesh/mesh.hpp"
+
+namespace tisserand::reducer {
+
+/// Asks every element for faults of its shape. Throws one Error with the first ten and their number; returns warnings.
+std::vector<std::string> check_shapes(const Mesh& mesh, const std::string& where);
+
+/// Warnings about thick shells, wave speeds √(E/ρ) outside 100 to 20 000 m/s and parts larger than 200 m or smaller
+/// than 10 µm: what millimetre meshes with metre materials look like. Units without names are not judged.
+std::vector<std::string> plausibility_warnings(const Mesh& mesh, const Units& units);
+
+/// The same for a mass above 1e6 kg: a bracket in millimetres taken for metres weighs 1e9 times too much.
+std::optional<std::string> mass_doubt(double mass, const Units& units);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,35 @@
+// The plane in which a shell element works: from the nodes of a mesh to axes, projected corners and heights of warping.
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include "reducer/mesh/mesh.hpp"
+
+namespace tisserand::reducer {
+
+/// An element in its own axes E: z normal to both diagonals (of a triangle: to its plane), x the projected material
+/// direction. Origin: the mean of the corners.
+template <int Corners>
+struct ShellGeometry {
+  Eigen::Matrix3d R_PE = Eigen::Matrix3d::Identity();  ///< columns: x, y, z of the element in part axes
+  Eigen::Matrix<double, 2, Corners> corner;            ///< projected corners, counter-clockwise
+  /// Of the nodes above the mean plane. A warped quadrilateral has +h, -h, +h, -h, because z is normal to its
+  /// diagonals.
+  Eigen::Matrix<double, Corners, 1> height;
+  double area = 0.0;  ///< of the projection
+};
+
+/// Corners is 3 or 4 and equal to shell.corners(). Collapsed elements give values that are not finite.
+template <int Corners>
+ShellGeometry<Corners> shell_geometry(const Mesh& mesh, const ShellElement& shell);
+
+/// Shape functions of the bilinear quadrilateral at (ξ, η), corners (-1,-1) (1,-1) (1,1) (-1,1), and their derivatives.
+struct BilinearShape {
+  Eigen::Vector4d N;
+  Eigen::Matrix<double, 2, 4> slope;  ///< rows ∂/∂ξ, ∂/∂η
+};
+BilinearShape bilinear_shape(double xi, double eta);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,83 @@
+// Cells: what meshers give before anything has a section or a material. Entities (edges, faces, volumes) and groups of
+// them are the names by which part.yaml refers to cells.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/part/place.hpp"
+
+namespace tisserand::reducer {
+
+/// Node order as gmsh's elements 1, 8, 2, 9, 3, 16, 4, 11, 5, 17, 6, 18 (its documentation, "Node ordering").
+enum class CellShape : std::uint8_t {
+  line2,
+  line3,
+  triangle3,
+  triangle6,
+  quadrilateral4,
+  quadrilateral8,
+  tetrahedron4,
+  tetrahedron10,
+  hexahedron8,
+  hexahedron20,
+  prism6,
+  prism15
+};
+
+struct CellForm {
+  int dimension;
+  int nodes;
+  int corners;
+};
+CellForm form_of(CellShape shape);
+
+struct Cell {
+  CellShape shape = CellShape::line2;
+  long id = 0;  ///< number in the file, or in its entity
+  std::array<int, 20> nodes{};
+};
+
+/// One edge, face or volume and its cells: CellMesh::cells[dimension][first .. first + count).
+struct Entity {
+  int dimension = 0;
+  int number = 0;     ///< of the geometry or mesh file; 0: drawn by the part file
+  std::string label;  ///< of the CAD file; of the part file: the name of the patch or of its edge
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
+/// A named group of entities of one dimension: a physical group, a set.
+struct EntityGroup {
+  std::string name;
+  int dimension = 0;
+  std::vector<int> entities;  ///< rows of CellMesh::entities
+};
+
+struct CellMesh {
+  std::vector<Eigen::Vector3d> position;
+  std::vector<long> node_id;               ///< number in the file
+  std::array<std::vector<Cell>, 4> cells;  ///< by dimension
+  std::vector<Entity> entities;
+  std::vector<EntityGroup> groups;
+  std::vector<std::string> warnings;
+};
+
+/// "face 12", or "face 12 ('top')", or the label of what the part file draws.
+std::string name_of(const Entity& entity);
+const char* dimension_word(int dimension);
+
+/// Length, area or volume of a cell, and the share of it that each node gets: of the sub-cells that the node touches,
+/// so that all shares are positive. A linear field's mean over the cell is its weighted mean over the nodes for
+/// simplices and parallelograms with straight edges.
+struct NodeShares {
+  double size = 0.0;
+  std::array<double, 20> share{};  ///< sum 1
+};
+NodeShares node_shares(const Cell& cell, const std::vector<Eigen::Vector3d>& position);
+
+}  // namespace tisserand::reducer

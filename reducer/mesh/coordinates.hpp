@@ -1,0 +1,48 @@
+// Which coordinates the nodes of a mesh have: between the mesh and assembly.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reducer/mesh/mesh.hpp"
+
+namespace tisserand::reducer {
+
+/// A node has three coordinates (translations), or six if something at it uses rotations: a beam, a shell, a spring, a
+/// mass with inertia or offset, a spider that has it as reference, an equation with its rotation, or a rigid spider
+/// that moves a node without elements. Node by node, translations before rotations, part axes.
+struct Coordinates {
+  std::vector<int> first;      ///< nodes + 1: number of the node's first coordinate
+  std::vector<int> node;       ///< of each coordinate
+  std::vector<int> component;  ///< of each coordinate, 0-5
+
+  int count() const { return static_cast<int>(node.size()); }
+  bool rotates(int n) const { return first[static_cast<std::size_t>(n) + 1] - first[static_cast<std::size_t>(n)] == 6; }
+  /// Number of a node's coordinate; only if it has that component.
+  int of(int n, int c) const { return first[static_cast<std::size_t>(n)] + c; }
+};
+
+Coordinates number_coordinates(const Mesh& mesh);
+
+/// Nodes of the mesh's elements, in one numbering of all of them: beams, shells, solids, springs.
+struct ElementNodes {
+  std::array<int, 20> node{};
+  int count = 0;
+};
+ElementNodes element_nodes(const Mesh& mesh, int element);
+
+/// Throws Error for nodes that nothing uses.
+void check_used(const Mesh& mesh, const std::string& where);
+
+/// Throws Error for retained rotations of nodes without rotations.
+void check_retained(const Mesh& mesh, const Coordinates& coordinates, const std::string& where);
+
+/// The six rigid motions (coordinates x 6): unit translations, then (e_k × (X_a − point), e_k).
+Eigen::MatrixXd rigid_motions(const Mesh& mesh, const Coordinates& coordinates, const Eigen::Vector3d& point);
+
+/// "translation x" ... "rotation z".
+std::string component_text(int component);
+
+}  // namespace tisserand::reducer

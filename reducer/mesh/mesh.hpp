@@ -1,0 +1,156 @@
+// The finite element model of a part: plain nodes, elements, masses and ties, between every way in (part.yaml, gmsh,
+// decks of other programs) and assembly.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/part/part.hpp"
+#include "reducer/properties/beam_data.hpp"
+#include "reducer/properties/shell_section.hpp"
+#include "reducer/properties/solid_material.hpp"
+
+namespace tisserand::reducer {
+
+/// Components of a node: bit 0-2 translations x, y, z; bit 3-5 rotations.
+using Components = std::uint8_t;
+inline constexpr Components translations_only = 0b000111;
+inline constexpr Components rotations_only = 0b111000;
+inline constexpr Components all_components = 0b111111;
+
+/// Two nodes, the axes R_PE (columns: element x, y, z in part axes; x from end to end of the beam axis) and the rest.
+struct BeamElement {
+  int first = 0;
+  int second = 0;
+  Eigen::Matrix3d R_PE = Eigen::Matrix3d::Identity();
+  int property = 0;                                        ///< row of Mesh::beam_properties
+  Eigen::Vector3d first_offset = Eigen::Vector3d::Zero();  ///< from the node to the end of the beam axis, part axes
+  Eigen::Vector3d second_offset = Eigen::Vector3d::Zero();
+  std::uint16_t released = 0;  ///< bit k: the k-th of the twelve end forces (element axes) is zero
+  int id = 0;                  ///< number in a deck or in its group, for messages
+};
+
+/// What beams share; the length of each element comes from its ends.
+struct BeamProperty {
+  BeamElementData data;
+  std::string name;  ///< of the line, group or property card, for messages
+};
+
+/// Three or four nodes around the normal (counter-clockwise seen from its tip); nodes[3] = -1: a triangle.
+struct ShellElement {
+  std::array<int, 4> nodes{-1, -1, -1, -1};
+  int property = 0;     ///< row of Mesh::shell_properties
+  double offset = 0.0;  ///< of the middle surface from the nodes, along the normal
+  /// Its projection on the element is the x axis of the laminate; zero: from nodes[0] to nodes[1].
+  Eigen::Vector3d material_x = Eigen::Vector3d::Zero();
+  int id = 0;
+  int corners() const { return nodes[3] < 0 ? 3 : 4; }
+};
+
+struct ShellProperty {
+  ShellSection section;
+  formats::MassMatrix mass_matrix = formats::MassMatrix::consistent;
+  std::string name;
+};
+
+/// Shapes with the node order of gmsh's elements 4, 11, 5, 17, 6, 18 (its documentation, "Node ordering").
+enum class SolidShape : std::uint8_t { tetrahedron4, tetrahedron10, hexahedron8, hexahedron20, prism6, prism15 };
+int node_count(SolidShape shape);
+
+struct SolidElement {
+  SolidShape shape = SolidShape::tetrahedron4;
+  std::array<int, 20> nodes{};
+  int property = 0;  ///< row of Mesh::solid_properties
+  int id = 0;
+};
+
+struct SolidProperty {
+  SolidMaterial material;
+  formats::MassMatrix mass_matrix = formats::MassMatrix::consistent;
+  std::string name;
+};
+
+/// Stiffness between two nodes: 12 x 12 in part axes (elements/spring.hpp makes it for springs and bushings).
+struct Spring {
+  int first = 0;
+  int second = 0;
+  Eigen::Matrix<double, 12, 12> stiffness = Eigen::Matrix<double, 12, 12>::Zero();
+  std::string name;
+};
+
+struct NodalMass {
+  int node = 0;
+  double mass = 0.0;
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about its centre of mass, part axes
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();   ///< centre of mass from the node, part axes
+  std::string name;
+};
+
+/// rigid: the nodes follow the reference node (RBE2). averaging: the reference node follows the weighted mean motion of
+/// the nodes, which stay free to deform (RBE3).
+enum class SpiderKind { rigid, averaging };
+
+struct Spider {
+  SpiderKind kind = SpiderKind::rigid;
+  int reference = 0;
+  std::vector<int> nodes;
+  std::vector<double> weight;                          ///< averaging: one per node, positive
+  Components node_components = all_components;         ///< rigid: those that follow; averaging: those that are averaged
+  Components reference_components = all_components;    ///< averaging: those that the mean defines
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: the directions of the components, in part axes
+  std::string name;
+};
+
+/// Linear equation Σ coefficient u(node, component) = 0 in part axes (MPC, *EQUATION, partial ties in local axes).
+struct TieTerm {
+  int node = 0;
+  int component = 0;
+  double coefficient = 0.0;
+};
+struct TieEquation {
+  std::vector<TieTerm> terms;  ///< the first one is the preferred dependent coordinate
+  std::string name;
+};
+
+/// A node that other bodies will see; the components that are not retained stay internal.
+struct MeshBoundary {
+  std::string name;
+  int node = 0;
+  bool translations = true;
+  bool rotations = true;
+};
+
+struct Mesh {
+  Eigen::Matrix3Xd position;            ///< 3 x nodes, part frame
+  std::vector<std::string> node_label;  ///< for messages: "tip", "spar[3]" or "node 4711"
+  std::vector<BeamProperty> beam_properties;
+  std::vector<BeamElement> beams;
+  std::vector<ShellProperty> shell_properties;
+  std::vector<ShellElement> shells;
+  std::vector<SolidProperty> solid_properties;
+  std::vector<SolidElement> solids;
+  std::vector<Spring> springs;
+  std::vector<NodalMass> masses;
+  std::vector<Spider> spiders;
+  std::vector<TieEquation> equations;
+  std::vector<MeshBoundary> boundary;
+  std::vector<std::string> warnings;  ///< of the way in: to be told and kept in the certificate
+
+  int nodes() const { return static_cast<int>(position.cols()); }
+  int elements() const { return static_cast<int>(beams.size() + shells.size() + solids.size() + springs.size()); }
+};
+
+/// l = largest distance of a node from the mean of the nodes (1 if 0): the length with which rotations are scaled.
+double characteristic_length(const Mesh& mesh);
+
+/// Throws Error naming the pieces, and the nearest pair of nodes between them, unless elements and ties form one piece.
+void check_connected(const Mesh& mesh, const std::string& where);
+
+/// Throws Error naming the free motions if the retained boundary coordinates leave a rigid motion of the part free.
+void check_boundary_holds(const Mesh& mesh, const std::string& where);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,189 @@
+// First look at mesh and geometry files: kind, beginning and end.
+#include "reducer/mesh/mesh_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+struct Ending {
+  const char* text;
+  MeshFileKind kind;
+};
+
+constexpr std::array endings{
+    Ending{".geo", MeshFileKind::geo},     Ending{".msh", MeshFileKind::msh},     Ending{".step", MeshFileKind::step},
+    Ending{".stp", MeshFileKind::step},    Ending{".iges", MeshFileKind::iges},   Ending{".igs", MeshFileKind::iges},
+    Ending{".brep", MeshFileKind::brep},   Ending{".bdf", MeshFileKind::nastran}, Ending{".nas", MeshFileKind::nastran},
+    Ending{".dat", MeshFileKind::nastran}, Ending{".inp", MeshFileKind::abaqus}};
+
+[[noreturn]] void refuse_format(const std::string& file, const std::string& what) {
+  throw Error(what, file, "check that the ending of its name says what it is, and write it again");
+}
+
+[[noreturn]] void refuse_end(const std::string& file, const std::string& what) {
+  throw Error("the file is truncated: " + what, file, "write or copy it again");
+}
+
+std::string content_of(const std::string& file, const std::string& where) {
+  if (std::filesystem::is_directory(file)) throw Error(fmt::format("mesh file '{}' is a folder", file), where, "");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    throw Error(fmt::format("cannot open mesh file '{}': {}", file, std::strerror(errno)), where,
+                "relative names start from the folder of the part file");
+  std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (text.empty()) refuse_end(file, "it is empty");
+  return text;
+}
+
+/// The line after `begin` of a section, as words.
+std::vector<std::string> words_after(const std::string& text, std::size_t begin) {
+  const std::size_t line = text.find('\n', begin);
+  if (line == std::string::npos) return {};
+  const std::string words = text.substr(line + 1, std::min<std::size_t>(text.find('\n', line + 1) - line - 1, 200));
+  std::vector<std::string> result;
+  for (std::size_t at = 0; at < words.size();) {
+    const std::size_t from = words.find_first_not_of(" \t\r", at);
+    if (from == std::string::npos) break;
+    at = std::min(words.find_first_of(" \t\r", from), words.size());
+    result.push_back(words.substr(from, at - from));
+  }
+  return result;
+}
+
+/// Every $Section has its $EndSection; the version is one of those that are read; the counts fit the length.
+void check_msh(const std::string& file, const std::string& text) {
+  const std::size_t format = text.find("$MeshFormat");
+  if (format == std::string::npos || format > 1000) refuse_format(file, "this is no .msh file of gmsh: no $MeshFormat");
+  const std::vector<std::string> words = words_after(text, format);
+  if (words.size() < 3) refuse_end(file, "it ends in $MeshFormat");
+  if (words[0] != "2.2" && words[0] != "4.1" && words[0] != "2" && words[0] != "4")
+    throw Error(fmt::format("the .msh file has version {}", words[0]), file,
+                "versions 2.2 and 4.1 are read: gmsh -save -format msh41");
+  for (const std::string_view section : {"Nodes", "Elements"}) {
+    const std::size_t begin = text.find(fmt::format("${}", section));
+    if (begin == std::string::npos) refuse_end(file, fmt::format("it has no ${}", section));
+    if (text.find(fmt::format("$End{}", section), begin) == std::string::npos)
+      refuse_end(file, fmt::format("$End{} is missing", section));
+    if (words[1] != "0") continue;
+    const std::vector<std::string> counts = words_after(text, begin);
+    const std::size_t which = words[0].starts_with("4") ? 1 : 0;
+    unsigned long long count = 0;
+    if (which < counts.size())
+      std::from_chars(counts[which].data(), counts[which].data() + counts[which].size(), count);
+    if (count > text.size()) refuse_end(file, fmt::format("{} {} in {} bytes", count, section, text.size()));
+  }
+}
+
+void check_step(const std::string& file, const std::string& text) {
+  const std::size_t begin = text.find("ISO-10303-21;");
+  if (begin == std::string::npos || begin > 1000) refuse_format(file, "this is no STEP file: no ISO-10303-21");
+  if (text.find("END-ISO-10303-21") == std::string::npos) refuse_end(file, "END-ISO-10303-21 is missing");
+}
+
+/// Column 73 of an IGES file names the section: S, G, D, P, T.
+void check_iges(const std::string& file, const std::string& text) {
+  if (text.size() < 73 || (text[72] != 'S' && text[72] != 'C'))
+    refuse_format(file, "this is no IGES file: no S in column 73");
+  const std::size_t end = text.find_last_not_of(" \r\n");
+  const std::size_t line = text.rfind('\n', end) == std::string::npos ? 0 : text.rfind('\n', end) + 1;
+  if (line + 72 > end || text[line + 72] != 'T') refuse_end(file, "the terminate section is missing");
+}
+
+void check_brep(const std::string& file, const std::string& text) {
+  const std::size_t begin = text.find("CASCADE Topology");
+  if (begin == std::string::npos || begin > 1000)
+    refuse_format(file, "this is no BREP file of OpenCASCADE: no CASCADE Topology");
+  const std::size_t shapes = text.find("TShapes");
+  if (shapes == std::string::npos) refuse_end(file, "TShapes is missing");
+}
+
+/// The words and quoted texts of a .geo file, without its comments.
+std::vector<std::string> geo_words(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    std::size_t end = i + 1;
+    if (text.compare(i, 2, "//") == 0) {
+      end = text.find('\n', i);
+    } else if (text.compare(i, 2, "/*") == 0) {
+      end = text.find("*/", i + 2);
+    } else if (c == '"') {
+      end = text.find('"', i + 1);
+      words.push_back(text.substr(i + 1, std::min(end, text.size()) - i - 1));
+      end = end == std::string::npos ? end : end + 1;
+    } else if (std::isalpha(c) != 0) {
+      while (end < text.size() && std::isalnum(static_cast<unsigned char>(text[end])) != 0) ++end;
+      words.push_back(text.substr(i, end - i));
+    }
+    if (end == std::string::npos) break;
+    i = end;
+  }
+  return words;
+}
+
+/// A .geo file is a program. What starts other programs, writes files or ends this one is refused, also in files that
+/// it includes.
+void check_geo(const std::string& file, const std::string& text, std::set<std::string>& seen) {
+  static const std::set<std::string> forbidden{
+      "SystemCall", "NonBlockingSystemCall", "OnelabRun", "Exit", "UnlinkFile", "Print", "Save", "ParseString"};
+  if (text.find('\0') != std::string::npos) refuse_format(file, "this is no .geo file: it holds binary data");
+  const std::vector<std::string> words = geo_words(text);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (forbidden.contains(words[i]))
+      throw Error(fmt::format("the .geo file holds the command {}", words[i]), file,
+                  "remove it: a geometry must not start programs, write files or end this one");
+    if ((words[i] != "Include" && words[i] != "Merge") || i + 1 == words.size()) continue;
+    const std::string other = (std::filesystem::path(file).parent_path() / words[i + 1]).string();
+    if (!other.ends_with(".geo") || seen.size() > 100 || !seen.insert(other).second) continue;
+    check_geo(other, content_of(other, file), seen);
+  }
+}
+
+}  // namespace
+
+MeshFileKind mesh_file_kind(const std::string& file, const std::string& where) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  for (const Ending& known : endings)
+    if (ending == known.text) return known.kind;
+  throw Error(fmt::format("mesh file '{}': the ending '{}' is unknown", file, ending), where,
+              "known are .geo, .msh, .step, .stp, .iges, .igs, .brep, .bdf, .nas, .dat, .inp");
+}
+
+void check_mesh_file(const std::string& file, const std::string& where) {
+  const MeshFileKind kind = mesh_file_kind(file, where);
+  const std::string text = content_of(file, where);
+  std::set<std::string> seen{file};
+  switch (kind) {
+    case MeshFileKind::geo:
+      return check_geo(file, text, seen);
+    case MeshFileKind::msh:
+      return check_msh(file, text);
+    case MeshFileKind::step:
+      return check_step(file, text);
+    case MeshFileKind::iges:
+      return check_iges(file, text);
+    case MeshFileKind::brep:
+      return check_brep(file, text);
+    case MeshFileKind::nastran:
+    case MeshFileKind::abaqus:
+      return;  // their readers say what is wrong, line by line
+  }
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,27 @@
+// Boundary (static constraint) modes: how the inside follows the boundary, [Car00] eq. (4).
+#pragma once
+
+#include <Eigen/Core>
+
+#include "reducer/algebra/factor.hpp"
+#include "reducer/mesh/mesh.hpp"
+#include "reducer/system/partition.hpp"
+
+namespace tisserand::reducer {
+
+/// Ψ (n_I x n_B) = −S_II⁻¹ S_IB.
+struct BoundaryModes {
+  Eigen::MatrixXd Psi;
+  /// max |R_I − Ψ R_B| (rotations scaled) before the rigid motions were made exact: the round-off of the solution.
+  double rigid_defect = 0.0;
+};
+
+/// Throws Error that names nodes and directions if S_II is singular: a mechanism inside the part.
+void check_no_mechanism(const Factor& S_II, const Mesh& mesh, const System& system, const Partition& p,
+                        const std::string& where);
+
+/// Solves in blocks, then adds (R_I − Ψ R_B) R_B⁺ so that rigid motions of the boundary move the inside rigidly to the
+/// last digit; R = System::R.
+BoundaryModes boundary_modes(const Factor& S_II, const Blocks& blocks, const System& system, const Partition& p);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,59 @@
+// Rigid properties and free frequencies of the unreduced part.
+#include "reducer/modes/full_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "common/error.hpp"
+#include "reducer/modes/internal_modes.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+Eigen::Matrix<double, 6, 6> rigid_mass_about(const System& system, const Eigen::Vector3d& point) {
+  const Eigen::MatrixXd R = rigid_motions_about(system, point);
+  return R.transpose() * multiply(system.matrices, system.matrices.M, R);
+}
+
+}  // namespace
+
+formats::RigidProperties full_rigid_properties(const System& system) {
+  const Eigen::Vector3d& mean = system.middle;
+  const Eigen::Matrix<double, 6, 6> about_mean = rigid_mass_about(system, mean);
+  formats::RigidProperties rigid;
+  rigid.mass = about_mean.topLeftCorner<3, 3>().trace() / 3.0;
+  if (!(rigid.mass > 0.0)) return rigid;
+  const Eigen::Matrix3d C = about_mean.topRightCorner<3, 3>() / rigid.mass;  // −skew(center − mean)
+  rigid.center_of_mass = mean + 0.5 * Eigen::Vector3d(C(1, 2) - C(2, 1), C(2, 0) - C(0, 2), C(0, 1) - C(1, 0));
+  rigid.inertia = rigid_mass_about(system, rigid.center_of_mass).bottomRightCorner<3, 3>();
+  return rigid;
+}
+
+std::vector<double> full_free_frequencies(const System& system, double scale, int count) {
+  const Eigen::Matrix<double, 6, 6> rigid = rigid_mass_about(system, system.middle);
+  Eigen::Matrix<double, 6, 1> unit = rigid.diagonal().cwiseMax(0.0).cwiseSqrt().cwiseInverse();
+  if (!unit.allFinite()) return {};
+  const Eigen::MatrixXd scaled = unit.asDiagonal() * rigid * unit.asDiagonal();
+  if (Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues()[0] < 1e-12) return {};
+
+  const SystemMatrices matrices = to_petsc(system.matrices);
+  const int available = finite_mode_count(matrices.mass);
+  const int wanted = std::min(available, 6 + count);
+  if (wanted <= 6) return {};
+  const double shift = -0.1 * scale;
+  const Factor factor(combine(matrices.stiffness, -shift, matrices.mass));
+  try {
+    const Spectrum spectrum = lowest_pairs({matrices.stiffness, matrices.mass, factor, shift}, wanted, available,
+                                           choose_solver(system.size(), wanted));
+    std::vector<double> result;
+    for (int k = 6; k < wanted; ++k)
+      result.push_back(std::sqrt(std::max(0.0, spectrum.pairs.value[k])) / (2.0 * EIGEN_PI));
+    return result;
+  } catch (const Error&) {
+    return {};  // a comparison only: nearly massless parts have no frequencies that can be resolved beside the first
+  }
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,18 @@
+// Figures of the unreduced part that the certificate sets beside those of the reduced one.
+#pragma once
+
+#include <vector>
+
+#include "formats/superelement/superelement.hpp"
+#include "reducer/system/system.hpp"
+
+namespace tisserand::reducer {
+
+/// Mass, centre of mass and inertia about it from Rᵀ M R of the full mass matrix.
+formats::RigidProperties full_rigid_properties(const System& system);
+
+/// Up to `count` lowest elastic frequencies [1/time] of the free part. `scale`: some eigenvalue ω² of the size of the
+/// lowest. Empty if a rigid motion moves no mass or round-off hides the frequencies.
+std::vector<double> full_free_frequencies(const System& system, double scale, int count);
+
+}  // namespace tisserand::reducer

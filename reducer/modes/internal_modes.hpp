@@ -1,0 +1,48 @@
+// Internal (fixed-boundary) modes, [Car00] eq. (5), with a basis that does not depend on solver or node numbers.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "formats/part/part.hpp"
+#include "reducer/modes/boundary_modes.hpp"
+#include "reducer/modes/spectrum.hpp"
+
+namespace tisserand::reducer {
+
+struct InternalModes {
+  Eigen::VectorXd lambda;  ///< m; ω², ascending; equal within a cluster
+  Eigen::MatrixXd Phi;     ///< n_I x m, Φᵀ M_II Φ = 1
+  int requested = 0;
+  int available = 0;                    ///< finite eigenvalues of (S_II, M_II)
+  std::optional<double> first_dropped;  ///< ω² of the lowest mode left out
+  std::string solver;
+  double residual = 0.0;  ///< Spectrum::residual
+  int counted = 0;        ///< Spectrum::counted
+};
+
+/// What the internal modes are computed from.
+struct InternalProblem {
+  const Mesh& mesh;
+  const System& system;
+  const Partition& partition;
+  const Blocks& blocks;
+  const Factor& S_II;
+  std::string where;
+};
+
+/// Rank of M: the number of finite eigenvalues, since S is regular. Lumped masses without rotary inertia leave
+/// rotations massless. Up to 20 000 coordinates by the null pivots (below 1e-10) of M scaled to unit diagonal, which
+/// element size and density do not make ill-conditioned; above, where nobody asks for so many modes, the number of
+/// coordinates with mass.
+int finite_mode_count(const Matrix& M);
+
+/// By number or by cut-off frequency. Throws Error if more modes are asked for than exist.
+InternalModes internal_modes(const InternalProblem& problem, const formats::ModeSelection& selection);
+
+/// Fixes order and signs: inside a cluster the basis diagonalises the participation of the six rigid
+/// motions with fixed unequal weights, and if that is not unique, a fixed function of place; signs by the same
+/// functions. Cluster members share their mean eigenvalue.
+void fix_basis(const InternalProblem& problem, Eigen::VectorXd& lambda, Eigen::MatrixXd& Phi);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,102 @@
+// Projection on T = [1 0; Ψ Φ] and canonical form.
+#include "reducer/modes/project.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace tisserand::reducer {
+namespace {
+
+double relative_maximum(const Eigen::MatrixXd& part, const Eigen::MatrixXd& whole) {
+  return part.size() == 0 || whole.size() == 0 ? 0.0 : part.cwiseAbs().maxCoeff() / whole.cwiseAbs().maxCoeff();
+}
+
+Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& A) { return 0.5 * (A + A.transpose()); }
+
+/// Names, positions and rows of the superelement.
+formats::Superelement describe(const formats::Part& part, const InternalProblem& problem, Eigen::Index modes) {
+  formats::Superelement element;
+  element.name = part.name;
+  element.method = modes > 0 ? "craig_bampton" : "guyan";
+  element.producer = "Tisserand reducer " TISSERAND_VERSION;
+  element.units = part.units;
+  element.node_position.resize(static_cast<Eigen::Index>(problem.mesh.boundary.size()), 3);
+  for (std::size_t b = 0; b < problem.mesh.boundary.size(); ++b) {
+    element.node_name.push_back(problem.mesh.boundary[b].name);
+    element.node_position.row(static_cast<Eigen::Index>(b)) =
+        problem.mesh.position.col(problem.mesh.boundary[b].node).transpose();
+  }
+  element.dof_node = problem.partition.boundary_node;
+  element.dof_component = problem.partition.boundary_component;
+  for (Eigen::Index k = 0; k < modes; ++k) {
+    element.dof_node.push_back(-1);
+    element.dof_component.push_back(static_cast<int>(k));
+  }
+  return element;
+}
+
+/// max |S̄ R| over the boundary, rotations scaled by `length`, relative to the stiffest entry or, if that is less (one
+/// boundary node: S̄_BB = 0), to m ω² of the softest mode.
+double rigid_residual(const formats::Superelement& element, double length, const InternalModes& internal) {
+  const Eigen::Index n_B = element.size() - internal.lambda.size();
+  const Eigen::VectorXd scale = Eigen::VectorXd::NullaryExpr(n_B, [&](Eigen::Index i) {
+    return element.dof_component[static_cast<std::size_t>(i)] >= 3 ? 1.0 / length : 1.0;
+  });
+  const Eigen::Vector3d middle = element.node_position.colwise().mean();
+  Eigen::MatrixXd R = formats::rigid_motions(element, middle).topRows(n_B);
+  R.rightCols<3>() /= length;
+  const Eigen::MatrixXd SR = scale.asDiagonal() * element.stiffness.topLeftCorner(n_B, n_B) * R;
+  const Eigen::MatrixXd S = scale.asDiagonal() * element.stiffness.topLeftCorner(n_B, n_B) * scale.asDiagonal();
+  const double softest = internal.lambda.size() > 0 ? internal.lambda[0] : internal.first_dropped.value_or(0.0);
+  const double reference = std::max(S.cwiseAbs().maxCoeff(), softest * formats::rigid_properties(element).mass);
+  return reference > 0.0 ? SR.cwiseAbs().maxCoeff() / reference : 0.0;
+}
+
+/// S̄ R = 0 by projection; then the canonical zeros and eigenvalues again as they are.
+void make_canonical(const InternalModes& internal, formats::Superelement& element) {
+  const Eigen::Index m = internal.lambda.size(), n_B = element.size() - m;
+  formats::filter_rigid_motions(element);
+  element.stiffness.topRightCorner(n_B, m).setZero();
+  element.stiffness.bottomLeftCorner(m, n_B).setZero();
+  element.stiffness.bottomRightCorner(m, m) = internal.lambda.asDiagonal();
+  element.mass.bottomRightCorner(m, m).setIdentity();
+}
+
+}  // namespace
+
+Projection project(const formats::Part& part, const InternalProblem& problem, const BoundaryModes& boundary,
+                   const InternalModes& internal) {
+  const Blocks& b = problem.blocks;
+  const Eigen::MatrixXd &Psi = boundary.Psi, &Phi = internal.Phi;
+  const Eigen::Index n_B = problem.partition.n_B(), m = internal.lambda.size();
+  Projection result{describe(part, problem, m), {}};
+  Eigen::MatrixXd& S = result.superelement.stiffness;
+  Eigen::MatrixXd& M = result.superelement.mass;
+  S.setZero(n_B + m, n_B + m);
+  M.setZero(n_B + m, n_B + m);
+
+  S.topLeftCorner(n_B, n_B) = b.S_BB;
+  M.topLeftCorner(n_B, n_B) = b.M_BB;
+  if (problem.partition.n_I() > 0) {
+    const Eigen::MatrixXd force = b.S_IB + multiply(b.S_II, Psi);  // round-off of the solution, 0 in theory
+    S.topLeftCorner(n_B, n_B) += b.S_IB.transpose() * Psi + Psi.transpose() * force;
+    const Eigen::MatrixXd momentum = b.M_IB + multiply(b.M_II, Psi);
+    M.topLeftCorner(n_B, n_B) += b.M_IB.transpose() * Psi + Psi.transpose() * momentum;
+    M.topRightCorner(n_B, m) = momentum.transpose() * Phi;
+    M.bottomLeftCorner(m, n_B) = M.topRightCorner(n_B, m).transpose();
+    result.defects.stiffness_coupling = relative_maximum(force.transpose() * Phi, internal.lambda);
+    const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(m, m);
+    result.defects.orthonormality = relative_maximum(Phi.transpose() * multiply(b.M_II, Phi) - identity, identity);
+  }
+  S.topLeftCorner(n_B, n_B) = symmetric_part(S.topLeftCorner(n_B, n_B));
+  M.topLeftCorner(n_B, n_B) = symmetric_part(M.topLeftCorner(n_B, n_B));
+  S.diagonal().tail(m) = internal.lambda;
+  M.diagonal().tail(m).setOnes();
+  result.defects.rigid_residual = rigid_residual(result.superelement, characteristic_length(problem.mesh), internal);
+  make_canonical(internal, result.superelement);
+  return result;
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,262 @@
+// Eigenpairs by LAPACK (small) or SLEPc's Krylov-Schur with shift-invert, counted by Sylvester's law of inertia.
+#include "reducer/modes/spectrum.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include <fmt/format.h>
+#include <slepceps.h>
+
+// Does not compile before the others, so it has a block of its own.
+#include <petscblaslapack.h>
+
+#include "common/error.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+PetscErrorCode apply_factor(PC preconditioner, Vec b, Vec x) {
+  void* context = nullptr;
+  PetscErrorCode code = PCShellGetContext(preconditioner, &context);
+  const PetscScalar* in = nullptr;
+  PetscScalar* out = nullptr;
+  if (code == 0) code = VecGetArrayRead(b, &in);
+  if (code == 0) code = VecGetArrayWrite(x, &out);
+  if (code == 0) code = static_cast<const Factor*>(context)->solve_raw(in, out);
+  if (code == 0) code = VecRestoreArrayWrite(x, &out);
+  if (code == 0) code = VecRestoreArrayRead(b, &in);
+  return code;
+}
+
+/// Owner of a SLEPc solver set up for shift-invert with the pencil's factor.
+class KrylovSchur {
+ public:
+  explicit KrylovSchur(const Pencil& pencil) {
+    petsc_check(EPSCreate(PETSC_COMM_SELF, &eps_));
+    petsc_check(EPSSetOperators(eps_, pencil.S.get(), pencil.M.get()));
+    petsc_check(EPSSetProblemType(eps_, EPS_GHEP));
+    petsc_check(EPSSetType(eps_, EPSKRYLOVSCHUR));
+    petsc_check(EPSSetTarget(eps_, pencil.shift));
+    petsc_check(EPSSetWhichEigenpairs(eps_, EPS_TARGET_MAGNITUDE));
+    petsc_check(EPSSetTolerances(eps_, 1e-12, 500));
+    ST transformation = nullptr;
+    petsc_check(EPSGetST(eps_, &transformation));
+    petsc_check(STSetType(transformation, STSINVERT));
+    petsc_check(STSetMatMode(transformation, ST_MATMODE_SHELL));
+    KSP solver = nullptr;
+    petsc_check(STGetKSP(transformation, &solver));
+    petsc_check(KSPSetType(solver, KSPPREONLY));
+    PC preconditioner = nullptr;
+    petsc_check(KSPGetPC(solver, &preconditioner));
+    petsc_check(PCSetType(preconditioner, PCSHELL));
+    petsc_check(PCShellSetContext(preconditioner, const_cast<Factor*>(&pencil.factor)));
+    petsc_check(PCShellSetApply(preconditioner, apply_factor));
+  }
+  ~KrylovSchur() { EPSDestroy(&eps_); }
+  KrylovSchur(const KrylovSchur&) = delete;
+  KrylovSchur& operator=(const KrylovSchur&) = delete;
+
+  /// Searches beside the pairs already known.
+  void deflate(const Eigen::MatrixXd& known) {
+    std::vector<Vec> vectors(static_cast<std::size_t>(known.cols()));
+    for (Eigen::Index k = 0; k < known.cols(); ++k)
+      petsc_check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(known.rows()), known.col(k).data(),
+                                        &vectors[static_cast<std::size_t>(k)]));
+    petsc_check(EPSSetDeflationSpace(eps_, static_cast<PetscInt>(known.cols()), vectors.data()));
+    for (Vec& v : vectors) VecDestroy(&v);
+  }
+
+  EigenPairs solve(int count, Eigen::Index size) {
+    petsc_check(EPSSetDimensions(eps_, count, PETSC_DEFAULT, PETSC_DEFAULT));
+    petsc_check(EPSSolve(eps_));
+    PetscInt converged = 0;
+    petsc_check(EPSGetConverged(eps_, &converged));
+    EigenPairs pairs{Eigen::VectorXd(converged), Eigen::MatrixXd(size, converged)};
+    for (PetscInt k = 0; k < converged; ++k) {
+      Vec x = nullptr;
+      petsc_check(
+          VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(size), pairs.vector.col(k).data(), &x));
+      petsc_check(EPSGetEigenpair(eps_, k, &pairs.value[k], nullptr, x, nullptr));
+      VecDestroy(&x);
+    }
+    return pairs;
+  }
+
+ private:
+  EPS eps_ = nullptr;
+};
+
+/// Ascending, vectors with xᵀ M x = 1.
+void sort_and_normalise(const Matrix& M, EigenPairs& pairs) {
+  std::vector<int> order(static_cast<std::size_t>(pairs.value.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pairs.value[a] < pairs.value[b]; });
+  pairs.value = Eigen::VectorXd(pairs.value(order));
+  pairs.vector = Eigen::MatrixXd(pairs.vector(Eigen::all, order));
+  const Eigen::MatrixXd MX = multiply(M, pairs.vector);
+  for (Eigen::Index k = 0; k < pairs.value.size(); ++k)
+    pairs.vector.col(k) /= std::sqrt(pairs.vector.col(k).dot(MX.col(k)));
+}
+
+void append(const EigenPairs& more, EigenPairs& pairs) {
+  const Eigen::Index old = pairs.value.size(), added = more.value.size();
+  pairs.value.conservativeResize(old + added);
+  pairs.value.tail(added) = more.value;
+  pairs.vector.conservativeResize(more.vector.rows(), old + added);
+  pairs.vector.rightCols(added) = more.vector;
+}
+
+/// Drops pairs whose 1/(λ − shift) is round-off beside that of the first: nearly massless coordinates have such.
+/// Expects and leaves ascending order.
+void discard_unresolved(double shift, EigenPairs& pairs) {
+  constexpr double resolved = 1e-13;
+  const Eigen::ArrayXd mu = (pairs.value.array() - shift).inverse();
+  std::vector<int> good;
+  for (int k = 0; k < mu.size(); ++k)
+    if (mu[k] > resolved * mu.maxCoeff()) good.push_back(k);
+  pairs.value = Eigen::VectorXd(pairs.value(good));
+  pairs.vector = Eigen::MatrixXd(pairs.vector(Eigen::all, good));
+}
+
+/// One step of inverse iteration, y = (S − shift M)⁻¹ M x, with λ − shift = yᵀMx/yᵀMy: removes from x what nearly
+/// massless coordinates hide from the solver, whose inner product is that of M. Not for the pairs far above the first,
+/// where the step would amplify the round-off along the first. Then sorts and normalises.
+void purify(const Pencil& pencil, EigenPairs& pairs) {
+  constexpr double far = 1e4;
+  discard_unresolved(pencil.shift, pairs);
+  sort_and_normalise(pencil.M, pairs);
+  Eigen::Index near = 0;
+  while (near < pairs.value.size() && pairs.value[near] - pencil.shift < far * (pairs.value[0] - pencil.shift)) ++near;
+  if (near == 0) return;
+  const Eigen::MatrixXd MX = multiply(pencil.M, pairs.vector.leftCols(near));
+  pairs.vector.leftCols(near) = pencil.factor.solve(MX);
+  const Eigen::MatrixXd MY = multiply(pencil.M, pairs.vector.leftCols(near));
+  for (Eigen::Index k = 0; k < near; ++k)
+    pairs.value[k] = pencil.shift + pairs.vector.col(k).dot(MX.col(k)) / pairs.vector.col(k).dot(MY.col(k));
+  sort_and_normalise(pencil.M, pairs);
+}
+
+[[noreturn]] void fail_missing(int found, int exist) {
+  throw Error(fmt::format("{} internal modes found where {} exist", found, exist), "eigenvalue solver",
+              "ask for fewer modes, or use fewer elements per line");
+}
+
+/// See Spectrum::residual.
+double largest_residual(const Pencil& pencil, const EigenPairs& pairs, int count) {
+  const Eigen::VectorXd weight = diagonal(pencil.S).cwiseMax(0.0).cwiseSqrt();
+  const Eigen::VectorXd lambda = pairs.value.head(count).array() - pencil.shift;
+  const Eigen::MatrixXd X = pairs.vector.leftCols(count);
+  const Eigen::MatrixXd Y = pencil.factor.solve(multiply(pencil.M, X)) * lambda.asDiagonal();
+  double largest = 0.0;
+  for (int k = 0; k < count; ++k) {
+    const double norm = weight.cwiseProduct(X.col(k)).norm();
+    const double defect = weight.cwiseProduct(X.col(k) - Y.col(k)).norm();
+    largest = std::max(largest, defect / ((1.0 + lambda[k] / lambda[0]) * norm));
+  }
+  return largest;
+}
+
+/// Between the last kept and the first dropped eigenvalue; nothing dropped: above the last.
+double value_in_gap(const EigenPairs& pairs, int kept, double shift) {
+  const double below = pairs.value[kept - 1] - shift;
+  if (kept == pairs.value.size()) return shift + below * (1.0 + 10.0 * cluster_tolerance);
+  return shift + std::sqrt(below * (pairs.value[kept] - shift));
+}
+
+Spectrum dense_spectrum(const Pencil& pencil, int count, int available) {
+  Spectrum s;
+  s.solver = EigenSolver::dense;
+  const Eigen::MatrixXd S = dense(pencil.S), M = dense(pencil.M);
+  for (int wanted = std::min(available, count + 8);; wanted = std::min(available, 2 * wanted)) {
+    s.pairs = dense_lowest(S, M, pencil.shift, wanted);
+    discard_unresolved(pencil.shift, s.pairs);
+    if (s.pairs.value.size() < count) fail_missing(static_cast<int>(s.pairs.value.size()), count);
+    s.kept = cluster_end(s.pairs.value, count, pencil.shift);
+    if (s.kept < s.pairs.value.size() || s.pairs.value.size() < wanted || wanted == available) break;
+  }
+  s.counted = s.kept;
+  return s;
+}
+
+Spectrum krylov_spectrum(const Pencil& pencil, int count, int available) {
+  constexpr int attempts = 6;
+  Spectrum s;
+  s.solver = EigenSolver::krylov_schur;
+  int wanted = std::min(available, count + 6);
+  const Eigen::Index size = diagonal(pencil.S).size();
+  s.pairs = KrylovSchur(pencil).solve(wanted, size);
+  purify(pencil, s.pairs);
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    if (s.pairs.value.size() >= count) {
+      s.kept = cluster_end(s.pairs.value, count, pencil.shift);
+      const double above = value_in_gap(s.pairs, s.kept, pencil.shift);
+      s.counted = s.kept == available ? available : count_below(pencil.S, pencil.M, above);
+      if (s.counted == s.kept) return s;
+    }
+    KrylovSchur again(pencil);  // repeated eigenvalues hide from one Krylov sequence: look for what is orthogonal
+    again.deflate(s.pairs.vector);
+    append(again.solve(std::max(4, s.counted - s.kept), size), s.pairs);
+    purify(pencil, s.pairs);
+  }
+  fail_missing(static_cast<int>(s.pairs.value.size()), std::max(count, s.counted));
+}
+
+}  // namespace
+
+int cluster_end(const Eigen::VectorXd& value, int count, double shift) {
+  int end = count;
+  while (end > 0 && end < value.size() && value[end] - value[end - 1] <= cluster_tolerance * (value[end] - shift))
+    ++end;
+  return end;
+}
+
+int count_below(const Matrix& S, const Matrix& M, double value) { return Factor(combine(S, -value, M)).negative(); }
+
+EigenSolver choose_solver(Eigen::Index size, int count) {
+  const bool small = size <= 200 || (size <= 4000 && 5 * (count + 8) > size);
+  return small ? EigenSolver::dense : EigenSolver::krylov_schur;
+}
+
+Spectrum lowest_pairs(const Pencil& pencil, int count, int available, EigenSolver solver) {
+  Spectrum s = solver == EigenSolver::dense ? dense_spectrum(pencil, count, available)
+                                            : krylov_spectrum(pencil, count, available);
+  s.residual = largest_residual(pencil, s.pairs, s.kept);
+  if (!(s.residual < 1e-8))
+    throw Error(fmt::format("internal modes have a relative residual of {:.1e}, above 1e-8", s.residual),
+                "eigenvalue solver", "the part is badly conditioned: avoid very short beside very long elements");
+  return s;
+}
+
+EigenPairs dense_lowest(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, double shift, int count) {
+  // M x = μ (S − shift M) x, μ = 1/(λ − shift): the lowest λ are the largest μ, found to full relative accuracy.
+  Eigen::MatrixXd A = M, B = S - shift * M;
+  const PetscBLASInt n = static_cast<PetscBLASInt>(S.rows());
+  const PetscBLASInt type = 1, first = n - count + 1, last = n;
+  PetscBLASInt found = 0, info = 0, lwork = -1;
+  const double unused = 0.0, tolerance = 0.0;
+  Eigen::VectorXd mu(n);
+  Eigen::MatrixXd X(n, count);
+  std::vector<PetscBLASInt> iwork(static_cast<std::size_t>(5 * n)), fail(static_cast<std::size_t>(n));
+  std::vector<double> work(1);
+  for (int pass = 0; pass < 2; ++pass) {
+    PetscBLASInt itype = type;
+    LAPACKsygvx_(&itype, "V", "I", "L", &n, A.data(), &n, B.data(), &n, &unused, &unused, &first, &last, &tolerance,
+                 &found, mu.data(), X.data(), &n, work.data(), &lwork, iwork.data(), fail.data(), &info);
+    lwork = static_cast<PetscBLASInt>(work[0]);
+    work.resize(static_cast<std::size_t>(lwork));
+  }
+  if (info != 0 || found != count)
+    throw Error(fmt::format("LAPACK dsygvx found {} of {} eigenpairs (info {})", found, count, info),
+                "eigenvalue solver", "the stiffness is not positive definite: check sections and boundary");
+  EigenPairs pairs{Eigen::VectorXd(count), Eigen::MatrixXd(n, count)};
+  for (int k = 0; k < count; ++k) {
+    const double m = mu[count - 1 - k];
+    pairs.value[k] = shift + 1.0 / m;
+    pairs.vector.col(k) = X.col(count - 1 - k) / std::sqrt(m);
+  }
+  return pairs;
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,57 @@
+// Lowest eigenpairs of S x = λ M x, S positive definite after a shift, M positive semidefinite; none missed.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "reducer/algebra/factor.hpp"
+#include "reducer/algebra/petsc.hpp"
+
+namespace tisserand::reducer {
+
+/// λ ascending; vectors with xᵀ M x = 1.
+struct EigenPairs {
+  Eigen::VectorXd value;
+  Eigen::MatrixXd vector;
+};
+
+/// S, M and the factor of S − shift M, shift below the spectrum.
+struct Pencil {
+  const Matrix& S;
+  const Matrix& M;
+  const Factor& factor;
+  double shift = 0.0;
+};
+
+enum class EigenSolver { dense, krylov_schur };
+
+/// Lowest pairs with what was checked about them.
+struct Spectrum {
+  EigenPairs pairs;  ///< at least `kept`, with the pairs behind the cut that were found
+  int kept = 0;      ///< the requested number, raised to the end of the cluster that it would cut
+  EigenSolver solver = EigenSolver::dense;
+  double residual = 0.0;  ///< largest ‖x − (λ−shift)(S−shift M)⁻¹M x‖/((1 + (λ−shift)/(λ₁−shift)) ‖x‖), diag(S) norm
+  int counted = 0;  ///< eigenvalues below the cut by Sylvester's law of inertia; equals `kept`
+};
+
+/// Eigenvalues closer than 1e-6 relative form one cluster.
+inline constexpr double cluster_tolerance = 1e-6;
+
+/// Index behind the cluster that the pair `count` − 1 belongs to; `shift` is subtracted before values are compared.
+int cluster_end(const Eigen::VectorXd& value, int count, double shift);
+
+/// Number of eigenvalues of (S, M) below `value`: negative pivots of S − value M.
+int count_below(const Matrix& S, const Matrix& M, double value);
+
+/// Which solver serves a problem of this size.
+EigenSolver choose_solver(Eigen::Index size, int count);
+
+/// The `count` lowest pairs (count ≤ available, the number of finite eigenvalues); clusters are completed. Throws Error
+/// if pairs are still missing after repeated searches, or residuals are above 1e-8.
+Spectrum lowest_pairs(const Pencil& pencil, int count, int available, EigenSolver solver);
+
+/// All-dense version for small matrices: the lowest `count` pairs of S x = λ M x, S − shift M positive definite.
+EigenPairs dense_lowest(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, double shift, int count);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,121 @@
+// Frequencies, condition numbers and massless directions from S̄ and M̄ alone.
+#include "reducer/report/certificate.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <Eigen/Eigenvalues>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "reducer/modes/spectrum.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+constexpr double massless_limit = 1e-12;    ///< share of the largest eigenvalue of the scaled M̄
+constexpr double unresisted_limit = 1e-13;  ///< the same of S̄
+constexpr int most_frequencies = 20;
+
+double frequency(double lambda) { return std::sqrt(std::max(lambda, 0.0)) / (2.0 * EIGEN_PI); }
+
+/// Rotations divided by the characteristic length: entries of one unit.
+Eigen::VectorXd row_scale(const formats::Superelement& element, double length) {
+  return Eigen::VectorXd::NullaryExpr(element.size(), [&](Eigen::Index i) {
+    const auto k = static_cast<std::size_t>(i);
+    return element.dof_node[k] >= 0 && element.dof_component[k] >= 3 ? 1.0 / length : 1.0;
+  });
+}
+
+std::vector<int> internal_rows(const formats::Superelement& element) {
+  std::vector<int> rows;
+  for (int i = 0; i < element.size(); ++i)
+    if (element.dof_node[static_cast<std::size_t>(i)] < 0) rows.push_back(i);
+  return rows;
+}
+
+std::string coordinate_text(const formats::Superelement& element, Eigen::Index row) {
+  constexpr std::array<const char*, 6> words{"translation x", "translation y", "translation z",
+                                             "rotation x",    "rotation y",    "rotation z"};
+  const auto k = static_cast<std::size_t>(row);
+  const auto component = static_cast<std::size_t>(element.dof_component[k]);
+  if (element.dof_node[k] < 0) return fmt::format("internal coordinate {}", component);
+  return fmt::format("{} {}", element.node_name[static_cast<std::size_t>(element.dof_node[k])], words[component]);
+}
+
+std::vector<double> fixed_frequencies(const formats::Superelement& element) {
+  const std::vector<int> rows = internal_rows(element);
+  if (rows.empty()) return {};
+  const Eigen::MatrixXd S = element.stiffness(rows, rows), M = element.mass(rows, rows);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(S, M, Eigen::EigenvaluesOnly);
+  std::vector<double> result;
+  for (const double lambda : solver.eigenvalues()) result.push_back(frequency(lambda));
+  return result;
+}
+
+/// The elastic ones among the lowest: shift by the size of the first elastic eigenvalue, found with a coarse shift.
+std::vector<double> free_frequencies(const formats::Superelement& element, int massless) {
+  const int count = std::min(static_cast<int>(element.size()) - massless, 6 + most_frequencies);
+  if (count <= 6) return {};
+  double coarse = 0.0;
+  for (Eigen::Index i = 0; i < element.size(); ++i)
+    if (element.mass(i, i) > 0.0) coarse = std::max(coarse, element.stiffness(i, i) / element.mass(i, i));
+  if (!(coarse > 0.0)) return {};
+  const double first = dense_lowest(element.stiffness, element.mass, -coarse, 7).value[6];
+  const Eigen::VectorXd lambda = dense_lowest(element.stiffness, element.mass, -0.5 * first, count).value;
+  std::vector<double> result;
+  constexpr double resolved = 1e13;  // eigenvalues farther above the first are round-off
+  for (int k = 6; k < count && lambda[k] > 0.0 && lambda[k] < resolved * first; ++k)
+    result.push_back(frequency(lambda[k]));
+  return result;
+}
+
+}  // namespace
+
+FileCertificate certify(const formats::Superelement& element, const formats::SuperelementReport& report) {
+  FileCertificate c;
+  c.rigid = report.rigid;
+  c.rigid_residual = report.rigid_residual;
+  c.characteristic_length = report.characteristic_length;
+  c.warnings = report.warnings;
+  c.fixed_frequency = fixed_frequencies(element);
+
+  const Eigen::VectorXd scale = row_scale(element, report.characteristic_length);
+  using Solver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
+  const Solver S(scale.asDiagonal() * element.stiffness * scale.asDiagonal(), Eigen::EigenvaluesOnly);
+  if (element.size() > 6) c.stiffness_condition = S.eigenvalues().maxCoeff() / S.eigenvalues()[6];
+  const Solver M(scale.asDiagonal() * element.mass * scale.asDiagonal());
+  const Eigen::VectorXd value = M.eigenvalues();
+  const int massless = static_cast<int>((value.array() < massless_limit * value.maxCoeff()).count());
+  c.mass_condition = value.maxCoeff() / value[massless];
+  for (int k = 0; k < massless; ++k) {
+    const Eigen::VectorXd direction = M.eigenvectors().col(k).cwiseAbs();
+    std::vector<std::string> words;
+    for (Eigen::Index i = 0; i < direction.size(); ++i)
+      if (direction[i] > 0.5 * direction.maxCoeff()) words.push_back(coordinate_text(element, i));
+    c.massless.push_back(join(words, " with "));
+  }
+  const auto free = (S.eigenvalues().array() < unresisted_limit * S.eigenvalues().maxCoeff()).count();
+  if (free > 6) {
+    c.free_frequency_note =
+        fmt::format("{} motions meet no stiffness where a rigid body has six: something in it is loose", free);
+    return c;
+  }
+  try {
+    c.free_frequency = free_frequencies(element, massless);
+  } catch (const Error&) {
+    c.free_frequency_note = "some rigid motion moves no mass";
+  }
+  return c;
+}
+
+std::string certificate_path(const std::string& superelement_path) {
+  const std::string end = ".h5";
+  const std::size_t n = superelement_path.size();
+  const bool has_end = n > end.size() && superelement_path.compare(n - end.size(), end.size(), end) == 0;
+  return (has_end ? superelement_path.substr(0, n - end.size()) : superelement_path) + ".certificate.json";
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,88 @@
+// What a superelement is worth: computed after the reduction and from the file alone, printed and stored as JSON.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/superelement/superelement.hpp"
+
+namespace tisserand::reducer {
+
+/// What S̄ and M̄ alone tell. Frequencies in 1/time of the units.
+struct FileCertificate {
+  formats::RigidProperties rigid;
+  double rigid_residual = 0.0;  ///< max |S̄ R|/|S̄|, rotations scaled
+  double characteristic_length = 1.0;
+  std::vector<double> fixed_frequency;  ///< all internal coordinates, boundary held
+  std::vector<double> free_frequency;   ///< elastic, nothing held; at most 20
+  std::string free_frequency_note;      ///< why there are none
+  double stiffness_condition = 0.0;     ///< largest over smallest eigenvalue ≠ 0 of the scaled S̄
+  double mass_condition = 0.0;          ///< likewise of M̄
+  std::vector<std::string> massless;    ///< directions that move no mass
+  std::vector<std::string> warnings;
+};
+
+/// What is only known while reducing.
+struct ModelCertificate {
+  std::string content_id;
+  std::string part;
+  int nodes = 0, elements = 0;
+  int beams = 0, shells = 0, solids = 0, springs = 0, masses = 0;
+  int coordinates = 0;  ///< independent ones
+  int spiders = 0;
+  int eliminated = 0;                 ///< coordinates that spiders and equations made dependent
+  int redundant = 0;                  ///< equations of theirs that others imply
+  std::vector<std::string> inactive;  ///< coordinates without stiffness and mass, removed
+  formats::RigidProperties rigid;     ///< of the mesh, from its full mass matrix
+  int modes_requested = 0, modes_kept = 0, modes_available = 0;
+  std::optional<double> cutoff;
+  std::optional<double> first_dropped_frequency;
+  std::string eigenvalue_solver;
+  double mode_residual = 0.0;
+  int modes_counted = 0;
+  double boundary_rigid_defect = 0.0;  ///< before rigid motions were made exact
+  double rigid_residual_before_projection = 0.0;
+  double stiffness_coupling = 0.0;
+  double orthonormality = 0.0;
+  std::vector<double> free_frequency;  ///< elastic frequencies of the full model; empty for large parts
+  std::vector<std::string> notes;      ///< whole sentences, for example about a completed cluster
+  std::vector<std::string> warnings;   ///< of the way in and of the checks of the mesh
+};
+
+/// What is only known while importing matrices of another program: how far they were from what is written.
+struct ImportCertificate {
+  std::string format;
+  std::string source;
+  double stiffness_asymmetry = 0.0;  ///< max |a_ij − a_ji| / √(a_ii a_jj)
+  double mass_asymmetry = 0.0;
+  double rigid_residual = 0.0;      ///< max |S R| / max |S|, rotations scaled, before rigid motions were projected out
+  bool filtered = false;            ///< they were
+  double stiffness_coupling = 0.0;  ///< max |S_BI| / max |S|
+  bool canonical = false;           ///< S_BI = 0, M_II = 1, S_II diagonal and ascending: nothing to do
+  int massless_dropped = 0;         ///< internal directions without mass, condensed statically
+};
+
+/// `report` is what check() returned for `element`.
+FileCertificate certify(const formats::Superelement& element, const formats::SuperelementReport& report);
+
+/// name.superelement.h5 -> name.superelement.certificate.json.
+std::string certificate_path(const std::string& superelement_path);
+
+/// JSON beside the file, whole or not at all.
+void write_certificate(const std::string& superelement_path, const formats::Superelement& element,
+                       const FileCertificate& file, const ModelCertificate& model);
+
+void write_certificate(const std::string& superelement_path, const formats::Superelement& element,
+                       const FileCertificate& file, const ImportCertificate& import);
+
+/// The reduction's part of the JSON beside the file, if it exists and quotes the same content.
+std::optional<ModelCertificate> read_certificate(const std::string& superelement_path, const std::string& content_id);
+
+/// For people; `model` may be absent.
+std::string certificate_text(const formats::Superelement& element, const FileCertificate& file,
+                             const std::optional<ModelCertificate>& model);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,276 @@
+// The certificate as JSON beside the superelement file and as text for people.
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "common/units.hpp"
+#include "reducer/report/certificate.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+using nlohmann::json;
+
+json rigid_json(const formats::RigidProperties& rigid) {
+  json inertia = json::array();
+  for (int i = 0; i < 3; ++i) inertia.push_back({rigid.inertia(i, 0), rigid.inertia(i, 1), rigid.inertia(i, 2)});
+  return {{"mass", rigid.mass},
+          {"center_of_mass", {rigid.center_of_mass.x(), rigid.center_of_mass.y(), rigid.center_of_mass.z()}},
+          {"inertia", inertia}};
+}
+
+formats::RigidProperties rigid_from(const json& j) {
+  formats::RigidProperties rigid;
+  rigid.mass = j.at("mass");
+  for (int i = 0; i < 3; ++i) {
+    rigid.center_of_mass[i] = j.at("center_of_mass").at(i);
+    for (int k = 0; k < 3; ++k) rigid.inertia(i, k) = j.at("inertia").at(i).at(k);
+  }
+  return rigid;
+}
+
+json optional_json(const std::optional<double>& value) { return value ? json(*value) : json(nullptr); }
+
+std::optional<double> optional_from(const json& j) {
+  return j.is_null() ? std::nullopt : std::optional<double>(j.get<double>());
+}
+
+json file_json(const FileCertificate& c) {
+  return {{"rigid", rigid_json(c.rigid)},
+          {"rigid_residual", c.rigid_residual},
+          {"characteristic_length", c.characteristic_length},
+          {"fixed_boundary_frequency", c.fixed_frequency},
+          {"free_frequency", c.free_frequency},
+          {"free_frequency_note", c.free_frequency_note},
+          {"stiffness_condition", c.stiffness_condition},
+          {"mass_condition", c.mass_condition},
+          {"massless_directions", c.massless},
+          {"warnings", c.warnings}};
+}
+
+json model_json(const ModelCertificate& c) {
+  return {{"part", c.part},
+          {"nodes", c.nodes},
+          {"elements", c.elements},
+          {"coordinates", c.coordinates},
+          {"rigid", rigid_json(c.rigid)},
+          {"modes_requested", c.modes_requested},
+          {"modes_kept", c.modes_kept},
+          {"modes_available", c.modes_available},
+          {"cutoff", optional_json(c.cutoff)},
+          {"first_dropped_frequency", optional_json(c.first_dropped_frequency)},
+          {"eigenvalue_solver", c.eigenvalue_solver},
+          {"mode_residual", c.mode_residual},
+          {"modes_counted", c.modes_counted},
+          {"boundary_rigid_defect", c.boundary_rigid_defect},
+          {"rigid_residual_before_projection", c.rigid_residual_before_projection},
+          {"stiffness_coupling", c.stiffness_coupling},
+          {"orthonormality", c.orthonormality},
+          {"free_frequency", c.free_frequency},
+          {"notes", c.notes},
+          {"beams", c.beams},
+          {"shells", c.shells},
+          {"solids", c.solids},
+          {"springs", c.springs},
+          {"masses", c.masses},
+          {"spiders", c.spiders},
+          {"eliminated", c.eliminated},
+          {"redundant", c.redundant},
+          {"inactive", c.inactive},
+          {"warnings", c.warnings}};
+}
+
+json import_json(const ImportCertificate& c) {
+  return {{"format", c.format},
+          {"source", c.source},
+          {"stiffness_asymmetry", c.stiffness_asymmetry},
+          {"mass_asymmetry", c.mass_asymmetry},
+          {"rigid_residual", c.rigid_residual},
+          {"filtered", c.filtered},
+          {"stiffness_coupling", c.stiffness_coupling},
+          {"canonical", c.canonical},
+          {"massless_dropped", c.massless_dropped}};
+}
+
+/// What every certificate begins with.
+json base_json(const formats::Superelement& element, const FileCertificate& file) {
+  return {{"format", "tisserand-certificate"},
+          {"content_id", element.content_id},
+          {"name", element.name},
+          {"producer", element.producer},
+          {"file", file_json(file)}};
+}
+
+ModelCertificate model_from(const json& j) {
+  ModelCertificate c;
+  c.part = j.at("part");
+  c.nodes = j.at("nodes");
+  c.elements = j.at("elements");
+  c.coordinates = j.at("coordinates");
+  c.rigid = rigid_from(j.at("rigid"));
+  c.modes_requested = j.at("modes_requested");
+  c.modes_kept = j.at("modes_kept");
+  c.modes_available = j.at("modes_available");
+  c.cutoff = optional_from(j.at("cutoff"));
+  c.first_dropped_frequency = optional_from(j.at("first_dropped_frequency"));
+  c.eigenvalue_solver = j.at("eigenvalue_solver");
+  c.mode_residual = j.at("mode_residual");
+  c.modes_counted = j.at("modes_counted");
+  c.boundary_rigid_defect = j.at("boundary_rigid_defect");
+  c.rigid_residual_before_projection = j.at("rigid_residual_before_projection");
+  c.stiffness_coupling = j.at("stiffness_coupling");
+  c.orthonormality = j.at("orthonormality");
+  c.free_frequency = j.at("free_frequency").get<std::vector<double>>();
+  c.notes = j.at("notes").get<std::vector<std::string>>();
+  c.beams = j.at("beams");
+  c.shells = j.at("shells");
+  c.solids = j.at("solids");
+  c.springs = j.at("springs");
+  c.masses = j.at("masses");
+  c.spiders = j.at("spiders");
+  c.eliminated = j.at("eliminated");
+  c.redundant = j.at("redundant");
+  c.inactive = j.at("inactive").get<std::vector<std::string>>();
+  c.warnings = j.at("warnings").get<std::vector<std::string>>();
+  return c;
+}
+
+std::string with_unit(const std::string& unit) { return unit.empty() ? "" : " " + unit; }
+
+/// Values below 1e-12 of the largest are round-off and shown as 0.
+double clean(double value, double largest) { return std::abs(value) < 1e-12 * largest ? 0.0 : value; }
+
+std::string rigid_text(const char* source, const formats::RigidProperties& rigid, double length, const Units& units) {
+  const Eigen::Vector3d& c = rigid.center_of_mass;
+  const double size = std::max(length, c.cwiseAbs().maxCoeff());
+  std::string text = fmt::format("{:<19}mass {:.9g}{}, centre of mass ({:.9g}, {:.9g}, {:.9g}){}\n", source, rigid.mass,
+                                 with_unit(unit_label(units, 0, 1, 0)), clean(c.x(), size), clean(c.y(), size),
+                                 clean(c.z(), size), with_unit(unit_label(units, 1, 0, 0)));
+  const double largest = rigid.inertia.cwiseAbs().maxCoeff();
+  for (int i = 0; i < 3; ++i)
+    text += fmt::format("{:<19}{} {:>16.9g} {:>16.9g} {:>16.9g}{}\n", "", i == 0 ? "inertia" : "       ",
+                        clean(rigid.inertia(i, 0), largest), clean(rigid.inertia(i, 1), largest),
+                        clean(rigid.inertia(i, 2), largest), i == 0 ? with_unit(unit_label(units, 2, 1, 0)) : "");
+  return text;
+}
+
+std::string frequency_table(const FileCertificate& file, const std::vector<double>& full, const Units& units) {
+  const std::size_t count = std::max(file.fixed_frequency.size(), file.free_frequency.size());
+  if (count == 0) return "";
+  const std::string unit = units.named() ? (units.time.factor == 1.0 ? "Hz" : "1/" + units.time.label) : "1/time";
+  std::string text =
+      fmt::format("frequencies [{}]\n  {:>4} {:>16} {:>16} {:>16} {:>10}\n", unit, "mode", "boundary fixed",
+                  "free, reduced", full.empty() ? "" : "free, full", full.empty() ? "" : "error");
+  const auto cell = [](const std::vector<double>& v, std::size_t k) {
+    return k < v.size() ? fmt::format("{:.8g}", v[k]) : std::string("-");
+  };
+  constexpr std::size_t most_rows = 20;
+  for (std::size_t k = 0; k < std::min(count, most_rows); ++k) {
+    const bool both = k < full.size() && k < file.free_frequency.size();
+    text += fmt::format("  {:>4} {:>16} {:>16} {:>16} {:>10}\n", k + 1, cell(file.fixed_frequency, k),
+                        cell(file.free_frequency, k), full.empty() ? "" : cell(full, k),
+                        both ? fmt::format("{:.1e}", file.free_frequency[k] / full[k] - 1.0) : "");
+  }
+  if (count > most_rows) text += fmt::format("  {:>4} {} more in the certificate file\n", "...", count - most_rows);
+  return text;
+}
+
+/// Kinds of elements, ties, and coordinates without stiffness and mass; nothing for parts of beams alone.
+std::string contents_text(const ModelCertificate& c) {
+  std::vector<std::string> kinds;
+  for (const auto& [count, name] : {std::pair{c.beams, "beams"},
+                                    {c.shells, "shells"},
+                                    {c.solids, "solids"},
+                                    {c.springs, "springs"},
+                                    {c.masses, "masses"}})
+    if (count > 0) kinds.push_back(fmt::format("{} {}", count, name));
+  std::string text = kinds.size() > 1 || c.beams == 0 ? fmt::format("{:<19}{}\n", "", join(kinds, ", ")) : "";
+  if (c.eliminated > 0)
+    text += fmt::format("{:<19}{} spiders, {} coordinates eliminated, {} redundant equations\n", "ties", c.spiders,
+                        c.eliminated, c.redundant);
+  if (!c.inactive.empty()) {
+    constexpr std::size_t most = 5;
+    const std::vector<std::string> first(c.inactive.begin(),
+                                         c.inactive.begin() + static_cast<long>(std::min(most, c.inactive.size())));
+    text += fmt::format("{:<19}{} coordinates without stiffness and mass: {}{}\n", "inactive", c.inactive.size(),
+                        join(first, ", "), c.inactive.size() > most ? ", ..." : "");
+  }
+  return text;
+}
+
+std::string model_text(const ModelCertificate& c) {
+  std::string text = fmt::format("{:<19}{} nodes, {} elements, {} coordinates ({})\n", "full model", c.nodes,
+                                 c.elements, c.coordinates, c.part);
+  text += contents_text(c);
+  text += fmt::format("{:<19}{} kept ({} asked for, {} exist), {} counted below the cut", "internal modes",
+                      c.modes_kept, c.modes_requested, c.modes_available, c.modes_counted);
+  if (c.first_dropped_frequency) text += fmt::format(", first dropped at {:.8g}", *c.first_dropped_frequency);
+  text += "\n";
+  if (!c.eigenvalue_solver.empty())
+    text += fmt::format("{:<19}{}, largest residual {:.1e}\n", "eigenvalues by", c.eigenvalue_solver, c.mode_residual);
+  text += fmt::format("{:<19}rigid motion {:.1e} of boundary modes, {:.1e} of S; S_BI {:.1e}; M_II - 1 {:.1e}\n",
+                      "round-off removed", c.boundary_rigid_defect, c.rigid_residual_before_projection,
+                      c.stiffness_coupling, c.orthonormality);
+  for (const std::string& note : c.notes) text += fmt::format("{:<19}{}\n", "note", note);
+  for (const std::string& warning : c.warnings) text += fmt::format("{:<19}{}\n", "warning", warning);
+  return text;
+}
+
+}  // namespace
+
+void write_certificate(const std::string& superelement_path, const formats::Superelement& element,
+                       const FileCertificate& file, const ModelCertificate& model) {
+  json j = base_json(element, file);
+  j["model"] = model_json(model);
+  write_text_file(certificate_path(superelement_path), j.dump(2) + "\n");
+}
+
+void write_certificate(const std::string& superelement_path, const formats::Superelement& element,
+                       const FileCertificate& file, const ImportCertificate& import) {
+  json j = base_json(element, file);
+  j["import"] = import_json(import);
+  write_text_file(certificate_path(superelement_path), j.dump(2) + "\n");
+}
+
+std::optional<ModelCertificate> read_certificate(const std::string& superelement_path, const std::string& content_id) {
+  std::ifstream file(certificate_path(superelement_path));
+  if (!file) return std::nullopt;
+  try {
+    const json j = json::parse(file);
+    if (j.at("content_id") != content_id) return std::nullopt;
+    ModelCertificate model = model_from(j.at("model"));
+    model.content_id = content_id;
+    return model;
+  } catch (const json::exception&) {
+    return std::nullopt;  // not a certificate of ours: the file alone is shown
+  }
+}
+
+std::string certificate_text(const formats::Superelement& element, const FileCertificate& file,
+                             const std::optional<ModelCertificate>& model) {
+  std::string text =
+      fmt::format("{:<19}{} ({}, by {})\n", "superelement", element.name, element.method, element.producer);
+  text += fmt::format("{:<19}{}\n", "content id", element.content_id.substr(0, 16));
+  const auto internal = static_cast<Eigen::Index>(file.fixed_frequency.size());
+  text += fmt::format("{:<19}{} ({} coordinates) and {} internal coordinates\n", "boundary nodes",
+                      join(element.node_name, ", "), element.size() - internal, internal);
+  if (model) text += model_text(*model);
+  text += rigid_text("from reduced mass", file.rigid, file.characteristic_length, element.units);
+  if (model) text += rigid_text("from the mesh", model->rigid, file.characteristic_length, element.units);
+  text += fmt::format("{:<19}{:.1e}\n", "rigid motions S R", file.rigid_residual);
+  text += fmt::format("{:<19}S {:.2e}, M {:.2e} (rotations scaled by {:.6g})\n", "condition", file.stiffness_condition,
+                      file.mass_condition, file.characteristic_length);
+  text += fmt::format("{:<19}{}\n", "without mass", file.massless.empty() ? "none" : join(file.massless, "; "));
+  text += frequency_table(file, model ? model->free_frequency : std::vector<double>{}, element.units);
+  if (!file.free_frequency_note.empty())
+    text += fmt::format("{:<19}no free frequencies: {}\n", "note", file.free_frequency_note);
+  for (const std::string& warning : file.warnings) text += fmt::format("{:<19}{}\n", "warning", warning);
+  return text;
+}
+
+}  // namespace tisserand::reducer

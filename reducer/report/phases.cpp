@@ -1,0 +1,70 @@
+// Time per phase and the thread that reports long ones.
+#include "reducer/report/phases.hpp"
+
+#include <cstdio>
+
+#include <fmt/format.h>
+
+namespace tisserand::reducer {
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+Phases::Phases() : watcher_([this] { watch(); }) {}
+
+Phases::~Phases() {
+  {
+    const std::lock_guard lock(mutex_);
+    finished_ = true;
+  }
+  changed_.notify_all();
+  watcher_.join();
+}
+
+void Phases::begin(const std::string& name) {
+  end();
+  const std::lock_guard lock(mutex_);
+  phases_.push_back({name, Clock::now(), 0.0});
+  running_ = true;
+  changed_.notify_all();
+}
+
+void Phases::end() {
+  const std::lock_guard lock(mutex_);
+  if (running_) phases_.back().seconds = seconds_since(phases_.back().start);
+  running_ = false;
+  changed_.notify_all();
+}
+
+std::string Phases::text() const {
+  const std::lock_guard lock(mutex_);
+  std::string text;
+  double total = 0.0;
+  for (const Phase& phase : phases_) {
+    text += fmt::format("{} {:.3f} s, ", phase.name, phase.seconds);
+    total += phase.seconds;
+  }
+  return text + fmt::format("total {:.3f} s", total);
+}
+
+void Phases::watch() {
+  std::unique_lock lock(mutex_);
+  while (!finished_) {
+    if (!running_) {
+      changed_.wait(lock);
+      continue;
+    }
+    const std::size_t phase = phases_.size();
+    const Clock::time_point start = phases_.back().start;
+    const auto is_over = [&] { return finished_ || !running_ || phases_.size() != phase; };
+    for (int wait_ms = 1000; !changed_.wait_until(lock, start + std::chrono::milliseconds(wait_ms), is_over);
+         wait_ms *= 2)
+      fmt::print(stderr, "{} ... {} s\n", phases_.back().name, wait_ms / 1000);
+  }
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,88 @@
+// The steps from a part to its mesh, in their order.
+#include "reducer/sources/build_mesh.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "reducer/sources/mesh_builder.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+/// Calls visit(int&) for every reference of the mesh to a node.
+template <class Visit>
+void for_nodes(Mesh& mesh, Visit visit) {
+  for (BeamElement& e : mesh.beams) visit(e.first), visit(e.second);
+  for (ShellElement& e : mesh.shells)
+    for (int k = 0; k < e.corners(); ++k) visit(e.nodes[static_cast<std::size_t>(k)]);
+  for (SolidElement& e : mesh.solids)
+    for (int k = 0; k < node_count(e.shape); ++k) visit(e.nodes[static_cast<std::size_t>(k)]);
+  for (Spring& e : mesh.springs) visit(e.first), visit(e.second);
+  for (NodalMass& e : mesh.masses) visit(e.node);
+  for (Spider& e : mesh.spiders) {
+    visit(e.reference);
+    for (int& node : e.nodes) visit(node);
+  }
+  for (TieEquation& e : mesh.equations)
+    for (TieTerm& term : e.terms) visit(term.node);
+  for (MeshBoundary& e : mesh.boundary) visit(e.node);
+}
+
+/// A deck may hold nodes by mistake, a geometry always holds points.
+void tell_left_out(MeshBuilder& builder, const std::vector<int>& row) {
+  constexpr int most_told = 5;
+  std::vector<std::string> told;
+  int count = 0;
+  for (int n = builder.first_file_node; n < builder.last_file_node; ++n)
+    if (row[static_cast<std::size_t>(n)] < 0 && count++ < most_told)
+      told.push_back(builder.label[static_cast<std::size_t>(n)]);
+  if (count > 0)
+    builder.mesh.warnings.push_back(fmt::format("{} nodes of {} without elements, masses and ties are left out: {}{}",
+                                                count, builder.part.mesh.file, join(told, ", "),
+                                                count > most_told ? ", ..." : ""));
+}
+
+}  // namespace
+
+/// Nodes that nothing refers to (points of a geometry, orientation nodes of a deck) leave; the others keep their order.
+void finish(MeshBuilder& builder) {
+  Mesh& mesh = builder.mesh;
+  std::vector<int> row(builder.cells.position.size(), -1);
+  for_nodes(mesh, [&row](int& node) { row[static_cast<std::size_t>(node)] = 0; });
+  if (builder.file_is_deck) tell_left_out(builder, row);
+  int count = 0;
+  for (int& r : row)
+    if (r == 0) r = count++;
+  mesh.position.resize(3, count);
+  mesh.node_label.resize(static_cast<std::size_t>(count));
+  for (std::size_t n = 0; n < row.size(); ++n) {
+    if (row[n] < 0) continue;
+    mesh.position.col(row[n]) = builder.cells.position[n];
+    mesh.node_label[static_cast<std::size_t>(row[n])] = std::move(builder.label[n]);
+  }
+  for_nodes(mesh, [&row](int& node) { node = row[static_cast<std::size_t>(node)]; });
+}
+
+Mesh build_mesh(const formats::Part& part) {
+  if (part.beams.empty() && part.patches.empty() && part.mesh.file.empty())
+    throw Error("the part has no elements", part.file, "give beams, plates, ..., or a mesh file");
+  MeshBuilder builder(part);
+  add_patches(builder);
+  add_points(builder);
+  add_mesh_file(builder);
+  add_group_elements(builder);
+  add_spider_nodes(builder);
+  add_beams(builder);
+  add_attachments(builder);
+  if (builder.mesh.elements() == 0)
+    throw Error("the mesh has no elements with a property", part.file,
+                "say what the groups of the mesh file are: under shells, solids or beams");
+  tell_unjoined_beams(builder);
+  finish(builder);
+  return std::move(builder.mesh);
+}
+
+}  // namespace tisserand::reducer

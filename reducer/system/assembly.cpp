@@ -1,0 +1,181 @@
+// Assembly: graph of the nodes, then element matrices in batches, computed and added by all threads.
+#include "reducer/system/assembly.hpp"
+
+#include <algorithm>
+
+#include "common/error.hpp"
+#include "common/parallel.hpp"
+#include "reducer/elements/element_matrices.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+constexpr int batch_size = 1024;  ///< elements whose matrices are held at a time: at most 60 MB (20-node bricks)
+
+/// Per node its neighbours of higher number, itself first, and where their columns begin in the node's first row.
+struct NodeGraph {
+  std::vector<int> begin{0};
+  std::vector<int> neighbour;
+  std::vector<int> shift;
+};
+
+/// Elements at each node: those of node n are element[begin[n]] ... element[begin[n + 1] − 1], ascending.
+struct Incidence {
+  std::vector<int> begin;
+  std::vector<int> element;
+};
+
+Incidence find_incidence(const Mesh& mesh) {
+  Incidence incidence{std::vector<int>(static_cast<std::size_t>(mesh.nodes()) + 1, 0), {}};
+  long total = 0;
+  for (int e = 0; e < mesh.elements(); ++e) {
+    const ElementNodes nodes = element_nodes(mesh, e);
+    total += nodes.count;
+    for (int i = 0; i < nodes.count; ++i) ++incidence.begin[static_cast<std::size_t>(nodes.node[i]) + 1];
+  }
+  check_entry_count(total);
+  for (std::size_t n = 1; n < incidence.begin.size(); ++n) incidence.begin[n] += incidence.begin[n - 1];
+  incidence.element.resize(static_cast<std::size_t>(total));
+  std::vector<int> next(incidence.begin);
+  for (int e = 0; e < mesh.elements(); ++e) {
+    const ElementNodes nodes = element_nodes(mesh, e);
+    for (int i = 0; i < nodes.count; ++i) incidence.element[next[nodes.node[i]]++] = e;
+  }
+  return incidence;
+}
+
+/// Neighbours of a share of the nodes; `begin` counts from 0 within the share.
+NodeGraph share_of_graph(const Mesh& mesh, const Coordinates& coordinates, const Incidence& incidence, Share share) {
+  NodeGraph graph;
+  std::vector<int> found;
+  for (int n = share.first; n < share.end; ++n) {
+    found.assign(1, n);
+    for (int k = incidence.begin[n]; k < incidence.begin[n + 1]; ++k) {
+      const ElementNodes nodes = element_nodes(mesh, incidence.element[k]);
+      for (int i = 0; i < nodes.count; ++i)
+        if (nodes.node[i] > n) found.push_back(nodes.node[i]);
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    int width = 0;
+    for (const int m : found) {
+      graph.neighbour.push_back(m);
+      graph.shift.push_back(width);
+      width += coordinates.rotates(m) ? 6 : 3;
+    }
+    graph.begin.push_back(static_cast<int>(graph.neighbour.size()));
+  }
+  return graph;
+}
+
+NodeGraph find_graph(const Mesh& mesh, const Coordinates& coordinates, int threads) {
+  const Incidence incidence = find_incidence(mesh);
+  std::vector<NodeGraph> part(static_cast<std::size_t>(threads));
+  on_threads(threads, [&](int t) {
+    part[t] = share_of_graph(mesh, coordinates, incidence, share_of(mesh.nodes(), t, threads));
+  });
+  NodeGraph graph = std::move(part[0]);
+  for (std::size_t t = 1; t < part.size(); ++t) {
+    const int offset = graph.begin.back();
+    for (std::size_t n = 1; n < part[t].begin.size(); ++n) graph.begin.push_back(offset + part[t].begin[n]);
+    graph.neighbour.insert(graph.neighbour.end(), part[t].neighbour.begin(), part[t].neighbour.end());
+    graph.shift.insert(graph.shift.end(), part[t].shift.begin(), part[t].shift.end());
+  }
+  return graph;
+}
+
+/// The pattern of S and M with values 0. Row c of a node leaves out the first c columns of the node itself.
+SymmetricPair empty_pair(const Coordinates& coordinates, const NodeGraph& graph) {
+  SymmetricPair pair;
+  long entries = 0;
+  const auto size = [&](int n) { return coordinates.rotates(n) ? 6 : 3; };
+  for (int i = 0; i < coordinates.count(); ++i) {
+    const int last = graph.begin[coordinates.node[i] + 1] - 1;
+    entries += graph.shift[last] + size(graph.neighbour[last]) - coordinates.component[i];
+    check_entry_count(entries);
+    pair.begin.push_back(static_cast<int>(entries));
+  }
+  pair.column.resize(static_cast<std::size_t>(entries));
+  pair.S.resize(static_cast<std::size_t>(entries));
+  pair.M.resize(static_cast<std::size_t>(entries));
+  for (int i = 0; i < coordinates.count(); ++i) {
+    const int n = coordinates.node[i];
+    int k = pair.begin[i];
+    for (int p = graph.begin[n]; p < graph.begin[n + 1]; ++p) {
+      const int m = graph.neighbour[p];
+      for (int c = m == n ? coordinates.component[i] : 0; c < size(m); ++c) pair.column[k++] = coordinates.of(m, c);
+    }
+  }
+  return pair;
+}
+
+void compute(const Mesh& mesh, int element, ElementMatrices& out) {
+  auto k = static_cast<std::size_t>(element);
+  if (k < mesh.beams.size()) return element_matrices(mesh, mesh.beams[k], out);
+  k -= mesh.beams.size();
+  if (k < mesh.shells.size()) return element_matrices(mesh, mesh.shells[k], out);
+  k -= mesh.shells.size();
+  if (k < mesh.solids.size()) return element_matrices(mesh, mesh.solids[k], out);
+  element_matrices(mesh, mesh.springs[k - mesh.solids.size()], out);
+}
+
+/// Adds to the rows of the nodes of `share` what an element contributes to them.
+void add(const ElementNodes& nodes, const ElementMatrices& element, const Coordinates& coordinates,
+         const NodeGraph& graph, Share share, SymmetricPair& pair) {
+  const int size = static_cast<int>(element.S.rows()) / nodes.count;
+  for (int i = 0; i < nodes.count; ++i) {
+    const int a = nodes.node[i];
+    if (a < share.first || a >= share.end) continue;
+    const auto row = graph.neighbour.begin() + graph.begin[a], row_end = graph.neighbour.begin() + graph.begin[a + 1];
+    for (int j = 0; j < nodes.count; ++j) {
+      const int b = nodes.node[j];
+      if (b < a) continue;
+      const int shift = graph.shift[std::lower_bound(row, row_end, b) - graph.neighbour.begin()];
+      for (int c = 0; c < size; ++c) {
+        const int first = a == b ? c : 0;
+        const int at = pair.begin[coordinates.of(a, c)] - c + shift;
+        for (int d = first; d < size; ++d) {
+          pair.S[at + d] += element.S(size * j + d, size * i + c);
+          pair.M[at + d] += element.M(size * j + d, size * i + c);
+        }
+      }
+    }
+  }
+}
+
+void add_elements(const Mesh& mesh, const Coordinates& coordinates, const NodeGraph& graph, int threads,
+                  SymmetricPair& pair) {
+  std::vector<ElementMatrices> batch(static_cast<std::size_t>(std::min(batch_size, mesh.elements())));
+  for (int first = 0; first < mesh.elements(); first += batch_size) {
+    const int count = std::min(batch_size, mesh.elements() - first);
+    on_threads(threads, [&](int t) {
+      const Share share = share_of(count, t, threads);
+      for (int k = share.first; k < share.end; ++k) compute(mesh, first + k, batch[k]);
+    });
+    on_threads(threads, [&](int t) {
+      const Share share = share_of(mesh.nodes(), t, threads);
+      for (int k = 0; k < count; ++k) add(element_nodes(mesh, first + k), batch[k], coordinates, graph, share, pair);
+    });
+  }
+}
+
+void add_masses(const Mesh& mesh, const Coordinates& coordinates, SymmetricPair& pair) {
+  for (const NodalMass& mass : mesh.masses) {
+    const Eigen::Matrix<double, 6, 6> M = nodal_mass_matrix(mass);
+    const int size = coordinates.rotates(mass.node) ? 6 : 3;
+    for (int c = 0; c < size; ++c)
+      for (int d = c; d < size; ++d) pair.M[pair.begin[coordinates.of(mass.node, c)] + d - c] += M(c, d);
+  }
+}
+
+}  // namespace
+
+SymmetricPair assemble(const Mesh& mesh, const Coordinates& coordinates, int threads) {
+  const NodeGraph graph = find_graph(mesh, coordinates, threads);
+  SymmetricPair pair = empty_pair(coordinates, graph);
+  add_elements(mesh, coordinates, graph, threads, pair);
+  add_masses(mesh, coordinates, pair);
+  return pair;
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,14 @@
+// From the mesh to the sparse matrices S and M of all its coordinates, ties not yet regarded.
+#pragma once
+
+#include "reducer/algebra/symmetric_pair.hpp"
+#include "reducer/mesh/coordinates.hpp"
+#include "reducer/mesh/mesh.hpp"
+
+namespace tisserand::reducer {
+
+/// Sum of the elements and of the nodal masses. Memory is reserved exactly from the graph of the nodes. Every entry is
+/// summed in the order of the elements, so the result is the same for any number of threads.
+SymmetricPair assemble(const Mesh& mesh, const Coordinates& coordinates, int threads);
+
+}  // namespace tisserand::reducer

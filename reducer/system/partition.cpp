@@ -1,0 +1,84 @@
+// Partition of the coordinates and extraction of the blocks.
+#include "reducer/system/partition.hpp"
+
+#include <utility>
+
+namespace tisserand::reducer {
+namespace {
+
+/// Where a coordinate stands: among the internal ones, or −1 − its place among those of the boundary.
+std::vector<int> places(const Partition& p) {
+  std::vector<int> place(p.boundary.size() + p.internal.size());
+  for (std::size_t i = 0; i < p.internal.size(); ++i) place[p.internal[i]] = static_cast<int>(i);
+  for (std::size_t b = 0; b < p.boundary.size(); ++b) place[p.boundary[b]] = -1 - static_cast<int>(b);
+  return place;
+}
+
+SymmetricPair internal_block(const SymmetricPair& matrices, const Partition& p, const std::vector<int>& place) {
+  SymmetricPair II;
+  II.begin.reserve(p.internal.size() + 1);
+  II.column.reserve(matrices.column.size());
+  II.S.reserve(matrices.column.size());
+  II.M.reserve(matrices.column.size());
+  for (const int i : p.internal) {
+    for (int k = matrices.begin[i]; k < matrices.begin[i + 1]; ++k) {
+      if (place[matrices.column[k]] < 0) continue;
+      II.column.push_back(place[matrices.column[k]]);
+      II.S.push_back(matrices.S[k]);
+      II.M.push_back(matrices.M[k]);
+    }
+    II.begin.push_back(static_cast<int>(II.column.size()));
+  }
+  return II;
+}
+
+}  // namespace
+
+Partition partition(const Mesh& mesh, const System& system) {
+  Partition p;
+  std::vector<bool> retained(static_cast<std::size_t>(system.size()), false);
+  for (std::size_t b = 0; b < mesh.boundary.size(); ++b)
+    for (int component = 0; component < 6; ++component) {
+      if (!(component < 3 ? mesh.boundary[b].translations : mesh.boundary[b].rotations)) continue;
+      p.boundary.push_back(system.T.row[system.coordinates.of(mesh.boundary[b].node, component)]);
+      p.boundary_node.push_back(static_cast<int>(b));
+      p.boundary_component.push_back(component);
+      retained[p.boundary.back()] = true;
+    }
+  for (int i = 0; i < system.size(); ++i)
+    if (!retained[i]) p.internal.push_back(i);
+  return p;
+}
+
+Blocks split(const SymmetricPair& matrices, const Partition& p) {
+  const std::vector<int> place = places(p);
+  Blocks blocks;
+  blocks.S_BB = blocks.M_BB = Eigen::MatrixXd::Zero(p.n_B(), p.n_B());
+  std::vector<Eigen::Triplet<double>> S_IB, M_IB;
+  for (int i = 0; i < matrices.size(); ++i)
+    for (int k = matrices.begin[i]; k < matrices.begin[i + 1]; ++k) {
+      const int a = place[i], b = place[matrices.column[k]];
+      if (a >= 0 && b >= 0) continue;
+      if (a < 0 && b < 0) {
+        blocks.S_BB(-1 - a, -1 - b) = blocks.S_BB(-1 - b, -1 - a) = matrices.S[k];
+        blocks.M_BB(-1 - a, -1 - b) = blocks.M_BB(-1 - b, -1 - a) = matrices.M[k];
+      } else {
+        S_IB.emplace_back(std::max(a, b), -1 - std::min(a, b), matrices.S[k]);
+        M_IB.emplace_back(std::max(a, b), -1 - std::min(a, b), matrices.M[k]);
+      }
+    }
+  blocks.S_IB.resize(p.n_I(), p.n_B());
+  blocks.M_IB.resize(p.n_I(), p.n_B());
+  blocks.S_IB.setFromTriplets(S_IB.begin(), S_IB.end());
+  blocks.M_IB.setFromTriplets(M_IB.begin(), M_IB.end());
+  if (p.n_I() > 0) {
+    SystemMatrices II = to_petsc(internal_block(matrices, p, place));
+    blocks.S_II = std::move(II.stiffness);
+    blocks.M_II = std::move(II.mass);
+  }
+  return blocks;
+}
+
+Eigen::MatrixXd rows(const Eigen::MatrixXd& all, const std::vector<int>& which) { return all(which, Eigen::all); }
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,40 @@
+// Which coordinates other bodies will see (boundary, B) and which are condensed (internal, I), and the blocks of S and
+// M.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "reducer/system/system.hpp"
+
+namespace tisserand::reducer {
+
+/// Numbers of the system's coordinates q. Boundary: in the order of the boundary nodes, translations before rotations.
+/// Internal: ascending; coordinates that a boundary node does not retain are among them.
+struct Partition {
+  std::vector<int> boundary;
+  std::vector<int> boundary_node;       ///< row of Mesh::boundary
+  std::vector<int> boundary_component;  ///< 0-5
+  std::vector<int> internal;
+
+  Eigen::Index n_B() const { return static_cast<Eigen::Index>(boundary.size()); }
+  Eigen::Index n_I() const { return static_cast<Eigen::Index>(internal.size()); }
+};
+
+Partition partition(const Mesh& mesh, const System& system);
+
+/// S_II, M_II symmetric sparse; S_IB, M_IB (n_I x n_B); S_BB, M_BB.
+struct Blocks {
+  Matrix S_II, M_II;
+  Eigen::SparseMatrix<double> S_IB, M_IB;
+  Eigen::MatrixXd S_BB, M_BB;
+};
+
+Blocks split(const SymmetricPair& matrices, const Partition& p);
+
+/// Rows of a matrix over all coordinates.
+Eigen::MatrixXd rows(const Eigen::MatrixXd& all, const std::vector<int>& which);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,87 @@
+// From the mesh to S and M in independent coordinates.
+#include "reducer/system/system.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/math/rotation.hpp"
+#include "common/parallel.hpp"
+#include "reducer/system/assembly.hpp"
+#include "reducer/system/inactive.hpp"
+#include "reducer/ties/condense.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+Eigen::VectorXd mass_diagonal(const SymmetricPair& pair) {
+  return Eigen::VectorXd::NullaryExpr(pair.size(), [&](Eigen::Index i) {
+    return pair.M[static_cast<std::size_t>(pair.begin[static_cast<std::size_t>(i)])];
+  });
+}
+
+/// Finite numbers everywhere: elements of sound shape can still overflow through their materials.
+void check_finite(const SymmetricPair& pair, const Mesh& mesh, const Coordinates& coordinates,
+                  const std::string& where) {
+  for (int i = 0; i < pair.size(); ++i)
+    for (int k = pair.begin[i]; k < pair.begin[i + 1]; ++k)
+      if (!std::isfinite(pair.S[k]) || !std::isfinite(pair.M[k]))
+        throw Error(fmt::format("the stiffness or mass at {} is not a finite number",
+                                mesh.node_label[static_cast<std::size_t>(coordinates.node[i])]),
+                    where, "check units and values of materials, sections and masses there");
+}
+
+}  // namespace
+
+System build_system(const Mesh& mesh, const std::string& where) {
+  System system;
+  const int threads = core_count();
+  system.coordinates = number_coordinates(mesh);
+  check_retained(mesh, system.coordinates, where);
+  system.middle = mesh.position.rowwise().mean();
+  system.length = characteristic_length(mesh);
+  const std::vector<int> boundary = boundary_coordinates(mesh, system.coordinates);
+
+  const TieSystem ties = collect_ties(mesh, system.coordinates, where);
+  const auto name = [&](int x) { return coordinate_text(mesh, system.coordinates, ties, x); };
+  Elimination elimination = eliminate(ties, boundary, name, where);
+  for (int x = ties.mesh_coordinates; x < ties.coordinates; ++x) system.name.push_back(name(x));
+  system.eliminated = static_cast<int>(elimination.T.dependent.size());
+  system.redundant = elimination.redundant;
+  system.T = std::move(elimination.T);
+  system.R.resize(system.size(), 6);
+  for (int q = 0; q < system.size(); ++q)
+    system.R.row(q) = ties.rigid[static_cast<std::size_t>(system.T.source[static_cast<std::size_t>(q)])].transpose();
+
+  SymmetricPair full = assemble(mesh, system.coordinates, threads);
+  check_finite(full, mesh, system.coordinates, where);
+  system.mesh_mass = mass_diagonal(full);
+  system.matrices = condense(std::move(full), system.T, threads);
+  remove_inactive(mesh, boundary, where, threads, system);
+  return system;
+}
+
+std::string coordinate_name(const Mesh& mesh, const System& system, int x) {
+  const auto k = static_cast<std::size_t>(x);
+  if (x >= system.coordinates.count()) return system.name[k - system.coordinates.node.size()];
+  return fmt::format("{} ({})", mesh.node_label[static_cast<std::size_t>(system.coordinates.node[k])],
+                     component_text(system.coordinates.component[k]));
+}
+
+std::vector<int> boundary_coordinates(const Mesh& mesh, const Coordinates& coordinates) {
+  std::vector<int> result;
+  for (const MeshBoundary& b : mesh.boundary)
+    for (int c = 0; c < 6; ++c)
+      if (c < 3 ? b.translations : b.rotations) result.push_back(coordinates.of(b.node, c));
+  return result;
+}
+
+Eigen::MatrixXd rigid_motions_about(const System& system, const Eigen::Vector3d& point) {
+  Eigen::MatrixXd R = system.R;
+  R.rightCols<3>() *= system.length;
+  R.rightCols<3>() += R.leftCols<3>() * skew<double>(Eigen::Vector3d(point - system.middle));
+  return R;
+}
+
+}  // namespace tisserand::reducer

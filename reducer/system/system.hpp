@@ -1,0 +1,46 @@
+// The equations of motion of the part in independent coordinates: what all that follows works on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reducer/algebra/symmetric_pair.hpp"
+#include "reducer/mesh/coordinates.hpp"
+#include "reducer/mesh/mesh.hpp"
+#include "reducer/ties/elimination.hpp"
+
+namespace tisserand::reducer {
+
+/// Coordinates x of the mesh (and auxiliary ones of large averaging spiders) follow q: x = T q. S and M of q are
+/// Tᵀ S T, Tᵀ M T.
+struct System {
+  Coordinates coordinates;        ///< of the mesh
+  Transformation T;               ///< x from q; coordinates without stiffness and mass stay 0
+  SymmetricPair matrices;         ///< S and M of q
+  Eigen::MatrixXd R;              ///< q x 6: rigid motions about `middle`, rotations divided by `length`
+  Eigen::VectorXd mesh_mass;      ///< diagonal of M of the mesh's coordinates, before ties
+  Eigen::Vector3d middle;         ///< mean of the nodes
+  double length = 1.0;            ///< characteristic length
+  std::vector<std::string> name;  ///< of auxiliary coordinates, by their number behind those of the mesh
+  int eliminated = 0;             ///< coordinates that ties made dependent
+  int redundant = 0;              ///< equations of ties that others imply
+  std::vector<int> inactive;      ///< x without stiffness and mass, removed
+
+  int size() const { return T.independent; }
+};
+
+/// Numbers coordinates, assembles, eliminates ties exactly, removes what has neither stiffness nor mass.
+System build_system(const Mesh& mesh, const std::string& where);
+
+/// "tip (rotation x)" for x or for the x that is q.
+std::string coordinate_name(const Mesh& mesh, const System& system, int x);
+
+/// Coordinates x that the boundary retains, in the order of Mesh::boundary.
+std::vector<int> boundary_coordinates(const Mesh& mesh, const Coordinates& coordinates);
+
+/// The rigid motions of q about `point`, rotations not scaled.
+Eigen::MatrixXd rigid_motions_about(const System& system, const Eigen::Vector3d& point);
+
+}  // namespace tisserand::reducer

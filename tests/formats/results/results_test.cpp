@@ -1,0 +1,357 @@
+// Results files: what goes in comes out, selections, partial files, CSV, unwritable places.
+#include "formats/results/results.hpp"
+
+#include <hdf5.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <map>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/error.hpp"
+#include "formats/hdf5/file.hpp"
+#include "tests/support/results_rows.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace tisserand::formats::results_test {
+namespace {
+
+using test_support::example_layout;
+using test_support::fill_row;
+using test_support::TemporaryFolder;
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+std::string error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void write_rows(const std::string& path, const ResultsLayout& layout, int rows) {
+  ResultsWriter writer(path, layout);
+  ResultsRow row;
+  row.resize(layout);
+  for (int t = 0; t < rows; ++t) {
+    fill_row(t, row);
+    writer.append(row);
+  }
+  writer.finish(true, "", R"({"steps": 3})");
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream in(path);
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
+
+TEST(Results, EveryChannelComesBackBitEqual) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("run.results.h5");
+  const ResultsLayout layout = example_layout();
+  constexpr int rows = 700;  // more than two chunks
+  write_rows(path, layout, rows);
+  EXPECT_FALSE(std::filesystem::exists(path + ".part"));
+  const ResultsReader reader(path);
+  EXPECT_TRUE(reader.completed());
+  EXPECT_EQ(reader.reason(), "");
+  EXPECT_EQ(reader.report_json(), R"({"steps": 3})");
+  EXPECT_EQ(reader.scene(), layout.scene);
+  EXPECT_EQ(reader.rows(), 700u);
+  std::map<std::string, std::string> unit;
+  for (const Channel& channel : reader.channels()) unit[channel.name] = channel.unit;
+  // 1 time, 3 nodes x (5 x 3 + 4), 2 frames x 7, 5 coordinates y with rates, 2 of a modal body with rates, 3 boundary
+  // nodes x 6, 2 joints x 8, 2 drives, 2 springs, 1 stop, 2 bushings x 6, friction x 6, 7 energies, 4 of solver.
+  EXPECT_EQ(unit.size(), 1u + 57 + 14 + 10 + 4 + 18 + 16 + 2 + 21 + 7 + 4);
+  ResultsRow row;
+  row.resize(layout);
+  const std::map<std::string, std::function<double()>> expected{
+      {"time", [&] { return row.time; }},
+      {"nodes/position/beam/tip/y", [&] { return row.node_position(1, 1); }},
+      {"nodes/rotation/hub/w", [&] { return row.node_rotation(0, 2); }},
+      {"nodes/rotation/hub/z", [&] { return row.node_rotation(3, 2); }},
+      {"nodes/velocity/beam/base/x", [&] { return row.node_velocity(0, 0); }},
+      {"nodes/angular_velocity/beam/base/z", [&] { return row.node_angular_velocity(2, 0); }},
+      {"nodes/acceleration/hub/z", [&] { return row.node_acceleration(2, 2); }},
+      {"nodes/angular_acceleration/hub/y", [&] { return row.node_angular_acceleration(1, 2); }},
+      {"superelements/frame_position/frame/x", [&] { return row.frame_position(0, 1); }},
+      {"superelements/frame_rotation/beam/y", [&] { return row.frame_rotation(2, 0); }},
+      {"superelements/y/beam/1", [&] { return row.y[1]; }},
+      {"superelements/y/frame/0", [&] { return row.y[3]; }},
+      {"superelements/boundary_force/beam/tip/moment_z", [&] { return row.boundary_force(5, 1); }},
+      {"superelements/boundary_force/frame/foot/force_x", [&] { return row.boundary_force(0, 2); }},
+      {"joints/force/slide/y", [&] { return row.joint_force(1, 1); }},
+      {"joints/moment/hinge/x", [&] { return row.joint_moment(0, 0); }},
+      {"joints/coordinate/hinge", [&] { return row.joint_coordinate[0]; }},
+      {"joints/rate/hinge", [&] { return row.joint_rate[0]; }},
+      {"motions/force/push", [&] { return row.motion_force[1]; }},
+      {"forces/spring/door", [&] { return row.spring_force[1]; }},
+      {"forces/stop/door", [&] { return row.stop_force[0]; }},
+      {"forces/bushing_force/pad/y", [&] { return row.bushing_force(1, 1); }},
+      {"forces/bushing_moment/mount/z", [&] { return row.bushing_moment(2, 0); }},
+      {"forces/friction_force/slide/x", [&] { return row.friction_force(0, 0); }},
+      {"forces/friction_moment/slide/z", [&] { return row.friction_moment(2, 0); }},
+      {"energy/kinetic", [&] { return row.kinetic; }},
+      {"energy/balance", [&] { return row.balance; }},
+      {"solver/step", [&] { return row.step; }},
+      {"solver/constraint", [&] { return row.constraint; }}};
+  for (const auto& [name, value] : expected) {
+    ASSERT_EQ(unit.count(name), 1u) << name;
+    const std::vector<double> values = reader.read(name);
+    ASSERT_EQ(values.size(), 700u);
+    for (int t = 0; t < rows; ++t) {
+      fill_row(t, row);
+      ASSERT_EQ(values[static_cast<std::size_t>(t)], value()) << name << " " << t;
+    }
+  }
+  EXPECT_TRUE(std::isnan(reader.read("joints/coordinate/slide")[5]));
+  EXPECT_EQ(unit["time"], "s");
+  EXPECT_EQ(unit["nodes/velocity/hub/x"], "m s^-1");
+  EXPECT_EQ(unit["nodes/angular_velocity/hub/x"], "rad s^-1");
+  EXPECT_EQ(unit["superelements/boundary_force/beam/tip/force_x"], "N");
+  EXPECT_EQ(unit["superelements/boundary_force/beam/tip/moment_x"], "N m");
+  EXPECT_EQ(unit["forces/spring/strut"], "N");
+  EXPECT_EQ(unit["forces/spring/door"], "N m");
+  EXPECT_EQ(unit["forces/stop/door"], "N m");
+  EXPECT_EQ(unit["forces/bushing_force/pad/x"], "N");
+  EXPECT_EQ(unit["forces/friction_moment/slide/x"], "N m");
+  EXPECT_EQ(unit["energy/strain"], "J");
+}
+
+TEST(Results, RowsOfSeveralChannelsAreThoseOfEachChannel) {
+  const TemporaryFolder folder;
+  const ResultsLayout layout = example_layout();
+  write_rows(folder.file("a.h5"), layout, 300);
+  const ResultsReader reader(folder.file("a.h5"));
+  const std::vector<std::string> names{"energy/total", "nodes/position/hub/z", "time", "nodes/position/beam/tip/x"};
+  const Eigen::MatrixXd rows = reader.read_rows(names, 250, 50);
+  for (std::size_t j = 0; j < names.size(); ++j) {
+    const std::vector<double> column = reader.read(names[j]);
+    for (Eigen::Index i = 0; i < 50; ++i)
+      EXPECT_EQ(rows(i, static_cast<Eigen::Index>(j)), column[static_cast<std::size_t>(250 + i)]);
+  }
+}
+
+TEST(Results, OnlyChosenChannelsAreStored) {
+  const TemporaryFolder folder;
+  ResultsLayout layout = example_layout();
+  layout.channels = {"nodes/position", "energy", "/superelements/frame_*"};
+  write_rows(folder.file("a.h5"), layout, 3);
+  const ResultsReader reader(folder.file("a.h5"));
+  std::map<std::string, int> groups;
+  for (const Channel& channel : reader.channels())
+    ++groups[channel.name.substr(0, channel.name.rfind('/', channel.name.find('/') + 15))];
+  EXPECT_EQ(reader.channels().size(), 1u + 9 + 7 + 14);
+  EXPECT_THAT(error_of([&] { static_cast<void>(reader.read("nodes/velocity/hub/x")); }), HasSubstr("has no channel"));
+  const hdf5::InputFile file(folder.file("a.h5"), hdf5::Completeness::closed);
+  EXPECT_THAT(file.members("/nodes"), ElementsAre("name", "position"));
+  EXPECT_FALSE(file.has("/joints"));
+  EXPECT_FALSE(file.has("/solver"));
+}
+
+TEST(Results, UnknownChannelOfTheSceneIsAnErrorWithSuggestion) {
+  const TemporaryFolder folder;
+  ResultsLayout layout = example_layout();
+  layout.channels = {"nodes/positon"};
+  EXPECT_THAT(error_of([&] { ResultsWriter writer(folder.file("a.h5"), layout); }),
+              AllOf(HasSubstr("'nodes/positon' does not exist"), HasSubstr("did you mean 'nodes/position'")));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  layout.channels = {"joints"};
+  layout.joints.clear();
+  EXPECT_EQ(error_of([&] { write_rows(folder.file("a.h5"), layout, 1); }), "no error");
+}
+
+TEST(Results, MechanismsWithoutBodiesOrStepsAreStored) {
+  const TemporaryFolder folder;
+  ResultsLayout layout;
+  layout.units = Units::consistent();
+  write_rows(folder.file("a.h5"), layout, 0);
+  const ResultsReader reader(folder.file("a.h5"));
+  EXPECT_EQ(reader.rows(), 0u);
+  EXPECT_THAT(reader.time(), IsEmpty());
+  EXPECT_EQ(reader.channels().front().unit, "");
+  EXPECT_EQ(reader.channels().size(), 12u);
+  export_csv(reader, {}, folder.file("a.csv"));
+  EXPECT_THAT(text_of(folder.file("a.csv")), ::testing::StartsWith("time,energy/kinetic,"));
+}
+
+TEST(Results, InterruptedRunIsAPartialFileWithItsReason) {
+  const TemporaryFolder folder;
+  const ResultsLayout layout = example_layout();
+  ResultsRow row;
+  row.resize(layout);
+  {
+    ResultsWriter writer(folder.file("a.h5"), layout);
+    fill_row(0, row);
+    writer.append(row);
+    writer.finish(false, "interrupted by the user", "{}");
+  }
+  {
+    ResultsWriter writer(folder.file("b.h5"), layout);
+    writer.append(row);
+  }
+  const ResultsReader told(folder.file("a.h5")), dropped(folder.file("b.h5"));
+  EXPECT_FALSE(told.completed());
+  EXPECT_EQ(told.reason(), "interrupted by the user");
+  EXPECT_EQ(told.rows(), 1u);
+  EXPECT_FALSE(dropped.completed());
+  EXPECT_THAT(dropped.reason(), HasSubstr("ended before it was complete"));
+  EXPECT_EQ(dropped.rows(), 1u);
+}
+
+TEST(Results, RunningFileIsReadBesideItsWriter) {
+  const TemporaryFolder folder;
+  const ResultsLayout layout = example_layout();
+  ResultsRow row;
+  row.resize(layout);
+  ResultsWriter writer(folder.file("a.h5"), layout);
+  const ResultsReader early(folder.file("a.h5"));  // finds a.h5.part
+  EXPECT_EQ(early.rows(), 0u);
+  EXPECT_FALSE(early.completed());
+  EXPECT_THAT(early.reason(), HasSubstr("still runs"));
+  writer.append(row);
+  writer.finish(true, "", "{}");
+}
+
+TEST(Results, FileLeftInTheMiddleOfItsLastWriteIsReadable) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.h5");
+  write_rows(path, example_layout(), 5);
+  const pid_t child = ::fork();
+  if (child == 0) {  // as finish() has it: open for writing without sharing, then killed
+    hdf5::silence();
+    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_LATEST);
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
+    H5Adelete(file, "completed");
+    H5Fflush(file, H5F_SCOPE_GLOBAL);
+    ::_exit(file < 0 ? 1 : 0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_EQ(status, 0);
+  EXPECT_THROW(hdf5::InputFile(path, hdf5::Completeness::closed), Error);
+  const hdf5::InputFile file(path, hdf5::Completeness::any);
+  EXPECT_FALSE(file.closed_properly());
+  EXPECT_EQ(file.info("/time").shape, hdf5::Shape{5});
+}
+
+TEST(Results, CsvHoldsTheSelection) {
+  const TemporaryFolder folder;
+  const ResultsLayout layout = example_layout();
+  write_rows(folder.file("a.h5"), layout, 3);
+  const ResultsReader reader(folder.file("a.h5"));
+  export_csv(reader, {"nodes/position/*/tip/*", "energy/kinetic", "joints/coordinate"}, folder.file("a.csv"));
+  std::istringstream lines(text_of(folder.file("a.csv")));
+  std::string header, first;
+  std::getline(lines, header);
+  std::getline(lines, first);
+  EXPECT_EQ(header,
+            "time [s],nodes/position/beam/tip/x [m],nodes/position/beam/tip/y [m],nodes/position/beam/tip/z [m],"
+            "joints/coordinate/hinge [rad],joints/coordinate/slide [m],energy/kinetic [J]");
+  ResultsRow row;
+  row.resize(layout);
+  fill_row(0, row);
+  EXPECT_EQ(first, fmt::format("{},{},{},{},{},nan,{}", row.time, row.node_position(0, 1), row.node_position(1, 1),
+                               row.node_position(2, 1), row.joint_coordinate[0], row.kinetic));
+  export_csv(reader, {}, folder.file("all.csv"));
+  std::istringstream all(text_of(folder.file("all.csv")));
+  std::getline(all, header);
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), static_cast<long>(reader.channels().size()) - 1);
+  EXPECT_THAT(error_of([&] { export_csv(reader, {"nodes/position/beam/tup/x"}, folder.file("b.csv")); }),
+              HasSubstr("did you mean 'nodes/position/beam/tip/x'"));
+  EXPECT_FALSE(std::filesystem::exists(folder.file("b.csv")));
+}
+
+TEST(Results, OtherFilesAreRejected) {
+  const TemporaryFolder folder;
+  const auto open = [](const std::string& path) { return error_of([&] { ResultsReader reader(path); }); };
+  EXPECT_THAT(open(folder.file("none.h5")), HasSubstr("No such file"));
+  std::ofstream(folder.file("text.h5")) << "time\n";
+  EXPECT_THAT(open(folder.file("text.h5")), HasSubstr("is not an HDF5 file"));
+  write_rows(folder.file("a.h5"), example_layout(), 2);
+  const std::string path = folder.file("a.h5");
+  const auto edit = [&](const std::function<void(hid_t)>& change) {
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    change(file);
+    H5Fclose(file);
+  };
+  edit([](hid_t f) { hdf5::write_text_attribute(f, "/", "version", "2.0", ""); });
+  EXPECT_THAT(open(path), HasSubstr("is '2.0'"));
+  edit([](hid_t f) {
+    hdf5::write_text_attribute(f, "/", "version", "1.3", "");
+    const std::int32_t offset[] = {0, 9, 5};
+    H5Ldelete(f, "/superelements/offset", H5P_DEFAULT);
+    hdf5::write_dataset(f, "/superelements/offset", {3}, offset, "");
+  });
+  EXPECT_THAT(open(path), HasSubstr("/superelements/offset"));
+  edit([](hid_t f) {
+    const std::int32_t offset[] = {0, 3, 6};
+    H5Ldelete(f, "/superelements/offset", H5P_DEFAULT);
+    hdf5::write_dataset(f, "/superelements/offset", {3}, offset, "");
+  });
+  EXPECT_THAT(open(path), AllOf(HasSubstr("/superelements/y"), HasSubstr("shape 2 x 5")));
+  edit([](hid_t f) { H5Ldelete(f, "/time", H5P_DEFAULT); });
+  EXPECT_THAT(open(path), Not(HasSubstr("no error")));
+}
+
+TEST(Results, PlaceThatCannotBeWrittenIsAnErrorAtTheStart) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.file("file")) << "x";
+  EXPECT_THAT(error_of([&] { ResultsWriter writer(folder.file("file/a.h5"), example_layout()); }),
+              AllOf(HasSubstr("file/a.h5.part"), HasSubstr("folder that exists")));
+  EXPECT_THAT(error_of([&] { ResultsWriter writer(folder.file("missing/a.h5"), example_layout()); }),
+              HasSubstr("No such file or directory"));
+}
+
+/// The child writes under a limit of the file size (in place of a full disk) until that is an Error, which must name
+/// the reason; it must end by itself, and its rows until then must be readable.
+TEST(Results, FileThatCannotGrowIsAnErrorAndKeepsWhatItHas) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.h5");
+  const pid_t child = ::fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{16u << 20, 16u << 20};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    std::string text = "no error";
+    try {
+      write_rows(path, example_layout(), 200000);
+    } catch (const Error& error) {
+      text = error.what();
+    }
+    std::exit(text.find("the file may not grow beyond 16384 kB") != std::string::npos
+                  ? 7
+                  : 8);  // exit() runs HDF5's own end as well
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status)) << status;
+  EXPECT_EQ(WEXITSTATUS(status), 7);
+  const ResultsReader reader(path);
+  EXPECT_FALSE(reader.completed());
+  EXPECT_GT(reader.rows(), 1000u);
+  const std::vector<double> time = reader.time();
+  ResultsRow row;
+  row.resize(example_layout());
+  fill_row(1000, row);
+  EXPECT_EQ(time[1000], row.time);
+}
+
+}  // namespace
+}  // namespace tisserand::formats::results_test

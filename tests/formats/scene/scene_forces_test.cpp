@@ -1,0 +1,120 @@
+// Springs with curves and about axes, bushings and gravity of bodies in scene.yaml: every key, the text of every error.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "formats/scene/scene.hpp"
+#include "text_input.hpp"
+
+namespace tisserand::formats::scene_forces_test {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string machine = R"(scene: machine
+gravity: [0, 0, -9.81]
+bodies:
+  a: {type: rigid, mass: 1, inertia: [1, 1, 1], gravity: [0, 0, 1.5]}
+  b: {type: rigid, mass: 1, inertia: [1, 1, 1]}
+joints:
+  hinge: {type: revolute, a: ground, b: a, axis: [0, 0, 1]}
+springs:
+  strut: {a: ground, b: b, stiffness: {file: bump.csv, interpolation: cubic}, damping: {table: [[-1, -3], [0, 0], [1, 2]]}}
+  bar: {type: torsion, a: a, b: b, axis: [0, 1, 0], x_axis: [1, 0, 0], stiffness: 30}
+bushings:
+  mount: {a: ground, b: b, axis: [0, 0, 1], stiffness: [1, 2, 3, 4, 5, 6], damping: [0, 0, 0, 1, 1, 1], preload: [0, 0, 9, 0, 0, 0]}
+  field:
+    a: a
+    b: {node: b, position: [0, 0, 1]}
+    free: [0, 0, 1, 0, 0, 0]
+    stiffness: [[1, 0, 0, 0, 0, 0], [0, 2, 0, 0, 0, 7], [0, 0, 3, 0, 0, 0], [0, 0, 0, 4, 0, 0], [0, 0, 0, 0, 5, 0], [0, 7, 0, 0, 0, 6]]
+integrator: {step: 0.01, end: 1}
+)";
+
+Scene read(const std::string& text) {
+  const Folder folder;
+  folder.file("bump.csv", "deflection, force\n-0.1, -50\n0, 0\n0.1, 20\n");
+  return read_scene(folder.file("scene.yaml", text), {});
+}
+
+std::string error(const std::string& from, const std::string& to) {
+  const Folder folder;
+  folder.file("bump.csv", "deflection, force\n-0.1, -50\n0, 0\n0.1, 20\n");
+  const std::string path = folder.file("scene.yaml", replaced(machine, from, to));
+  return error_of(folder, [&] { read_scene(path, {}); });
+}
+
+TEST(SceneForces, EveryKeyIsRead) {
+  const Scene scene = read(machine);
+  EXPECT_EQ(std::get<RigidBodySpec>(scene.bodies[0]).gravity.value(), Eigen::Vector3d(0, 0, 1.5));
+  EXPECT_FALSE(std::get<RigidBodySpec>(scene.bodies[1]).gravity);
+  const CurveSpec& bump = std::get<CurveSpec>(scene.springs[0].stiffness);
+  EXPECT_EQ(bump.interpolation, Interpolation::cubic);
+  EXPECT_EQ(bump.y, (std::vector<double>{-50, 0, 20}));
+  EXPECT_EQ(std::get<CurveSpec>(scene.springs[0].damping).interpolation, Interpolation::linear);
+  EXPECT_EQ(scene.springs[1].kind, SpringKind::torsion);
+  EXPECT_EQ(scene.springs[1].x_axis.value(), Eigen::Vector3d(1, 0, 0));
+  EXPECT_EQ(std::get<double>(scene.springs[1].stiffness), 30.0);
+  EXPECT_EQ(scene.bushings[0].stiffness.diagonal()[4], 5.0);
+  EXPECT_EQ(scene.bushings[0].preload[2], 9.0);
+  EXPECT_FALSE(scene.bushings[0].free);
+  EXPECT_EQ(scene.bushings[1].stiffness(1, 5), 7.0);
+  EXPECT_EQ((*scene.bushings[1].free)[2], 1.0);
+}
+
+// z of the markers is reversed in the mirror: displacements along z and turns about x and y change their signs.
+TEST(SceneForces, FieldsAreMirrored) {
+  const Scene scene = read(R"(scene: car
+assemblies:
+  side:
+    bodies: {wheel: {type: rigid, mass: 1, inertia: [1, 1, 1]}}
+    bushings:
+      mount:
+        a: ground
+        b: wheel
+        preload: [1, 2, 3, 4, 5, 6]
+        damping: [1, 2, 3, 4, 5, 6]
+        stiffness: [[1, 0, 0, 0, 9, 0], [0, 2, 0, 0, 0, 7], [0, 0, 3, 0, 0, 0], [0, 0, 0, 4, 8, 0], [9, 0, 0, 8, 5, 0], [0, 7, 0, 0, 0, 6]]
+instances: {left: {use: side}, right: {use: side, mirror: xz}}
+integrator: {step: 0.01, end: 1}
+)");
+  ASSERT_EQ(scene.bushings.size(), 2u);
+  const BushingSpec &left = scene.bushings[0], &right = scene.bushings[1];
+  EXPECT_EQ(right.name, "right/mount");
+  EXPECT_EQ(right.b.node, "right/wheel");
+  Eigen::Matrix<double, 6, 1> sign;
+  sign << 1, 1, -1, -1, -1, 1;
+  EXPECT_EQ(right.preload, left.preload.cwiseProduct(sign));
+  EXPECT_EQ(right.damping, left.damping);
+  EXPECT_EQ(right.stiffness, sign.asDiagonal() * left.stiffness * sign.asDiagonal());
+  EXPECT_EQ(right.stiffness(0, 4), -9.0);
+  EXPECT_LT((right.axis.value() - Eigen::Vector3d(0, 0, -1)).norm(), 1e-15);
+}
+
+TEST(SceneForces, WhatIsWrongIsNamed) {
+  EXPECT_THAT(error("gravity: [0, 0, 1.5]", "gravity: [0, 0]"), HasSubstr("gravity"));
+  EXPECT_THAT(error("[[-1, -3], [0, 0], [1, 2]]", "[[0, 0], [-1, -3]]"),
+              HasSubstr("the first column of the table of damping must increase, but -1 follows 0"));
+  EXPECT_THAT(error("[[-1, -3], [0, 0], [1, 2]]", "[[0, 0]]"), HasSubstr("the table of damping has 1 points"));
+  EXPECT_THAT(error("[[-1, -3], [0, 0], [1, 2]]", "[[-1, 3], [0, 0]]"),
+              HasSubstr("the table of damping drives the motion: force 3 at rate -1"));
+  EXPECT_THAT(error("interpolation: cubic", "interpolation: cubik"), HasSubstr("cubic"));
+  EXPECT_THAT(error("file: bump.csv", "file: bumb.csv"), HasSubstr("bumb.csv"));
+  EXPECT_THAT(error("file: bump.csv, ", ""), HasSubstr("a curve needs either 'table' or 'file'"));
+  EXPECT_THAT(error("axis: [0, 1, 0], x_axis: [1, 0, 0], ", ""), HasSubstr("a spring of type torsion needs an axis"));
+  EXPECT_THAT(error("type: torsion, ", ""), HasSubstr("'axis' belongs to springs of type torsion"));
+  EXPECT_THAT(error("a: a, b: b, axis: [0, 1, 0], x_axis: [1, 0, 0]", "coordinate: hinge"),
+              HasSubstr("'type' has no effect with 'coordinate'"));
+  EXPECT_THAT(error("type: torsion, a: a, b: b", "type: torsion, a: a, b: a"), HasSubstr("joins 'a' to itself"));
+  EXPECT_THAT(error("[1, 2, 3, 4, 5, 6]", "[1, 2, 3]"), HasSubstr("stiffness has 3 numbers instead of 6"));
+  EXPECT_THAT(error("[0, 2, 0, 0, 0, 7]", "[0, 2, 0]"), HasSubstr("stiffness[1] has 3 numbers instead of 6"));
+  EXPECT_THAT(error("[0, 0, 0, 1, 1, 1]", "[0, 0, 0, 1, -1, 1]"),
+              HasSubstr("the damping matrix has the eigenvalue -1"));
+  EXPECT_THAT(error("free: [0, 0, 1, 0, 0, 0]", "free: [0, 0, 1, 3, 1, 0]"), HasSubstr("half a turn or more"));
+  EXPECT_THAT(error("free: [0, 0, 1, 0, 0, 0]", "free: 3"), HasSubstr("free"));
+  EXPECT_THAT(error("stiffness: [1, 2, 3, 4, 5, 6], damping: [0, 0, 0, 1, 1, 1], preload: [0, 0, 9, 0, 0, 0]", ""),
+              HasSubstr("bushing 'mount': does nothing"));
+  EXPECT_THAT(error("a: ground, b: b, axis: [0, 0, 1]", "a: ground, b: c, axis: [0, 0, 1]"), HasSubstr("'c'"));
+}
+
+}  // namespace
+}  // namespace tisserand::formats::scene_forces_test

@@ -1,0 +1,77 @@
+// `integrator` of scene.yaml: error control, bdf, linear solvers; keys that have no effect.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "formats/scene/scene.hpp"
+#include "text_input.hpp"
+
+namespace tisserand::formats::scene_integrator_test {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string scene_with(const std::string& integrator) {
+  return "scene: fall\ngravity: [0, 0, -9.81]\nbodies: {stone: {type: rigid, mass: 1, inertia: [1, 1, 1]}}\n"
+         "integrator: {" +
+         integrator + "}\n";
+}
+
+IntegratorSpec read(const std::string& integrator) {
+  const Folder folder;
+  return read_scene(folder.file("scene.yaml", scene_with(integrator)), {}).integrator;
+}
+
+std::string error(const std::string& integrator) {
+  const Folder folder;
+  const std::string path = folder.file("scene.yaml", scene_with(integrator));
+  return error_of(folder, [&] { read_scene(path, {}); });
+}
+
+TEST(ErrorControl, IsReadWithItsLimits) {
+  EXPECT_FALSE(read("step: 0.1, end: 1").error_control.active);
+  const IntegratorSpec all =
+      read("step: 0.1, end: 1, error_control: {tolerance: 1e-5, absolute: 1e-6, min_step: 1e-7, max_step: 0.2}");
+  EXPECT_TRUE(all.error_control.active);
+  EXPECT_EQ(all.error_control.tolerance, 1e-5);
+  EXPECT_EQ(all.error_control.absolute, 1e-6);
+  EXPECT_EQ(all.error_control.min_step, 1e-7);
+  EXPECT_EQ(all.error_control.max_step, 0.2);
+  EXPECT_DOUBLE_EQ(read("step: auto, start: 1, end: 3, error_control: {tolerance: 1e-5}").step, 2e-4);
+  EXPECT_DOUBLE_EQ(read("step: auto, end: 2, error_control: {max_step: 1e-5}").step, 1e-5);
+}
+
+TEST(BdfSettings, AreRead) {
+  const IntegratorSpec spec = read(
+      "method: bdf, end: 2, relative_tolerance: 1e-7, absolute_tolerance: 1e-9, stabilisation: baumgarte, baumgarte: "
+      "{alpha: 20, beta: 30}");
+  EXPECT_EQ(spec.method, Method::bdf);
+  EXPECT_EQ(spec.bdf.relative_tolerance, 1e-7);
+  EXPECT_EQ(spec.bdf.absolute_tolerance, 1e-9);
+  EXPECT_EQ(spec.bdf.stabilisation, Stabilisation::baumgarte);
+  EXPECT_EQ(spec.bdf.alpha, 20.0);
+  EXPECT_EQ(spec.bdf.beta, 30.0);
+  EXPECT_DOUBLE_EQ(spec.step, 2e-4);
+  EXPECT_EQ(read("method: bdf, end: 2, step: 1e-5").step, 1e-5);
+}
+
+TEST(LinearSolvers, HaveTheirWords) {
+  EXPECT_EQ(read("step: 0.1, end: 1, linear_solver: umfpack").linear_solver, LinearSolver::umfpack);
+  EXPECT_EQ(read("step: 0.1, end: 1, linear_solver: qr").linear_solver, LinearSolver::qr);
+}
+
+TEST(IntegratorErrors, NameTheKeyAndTheRemedy) {
+  EXPECT_THAT(error("step: auto, end: 1"), HasSubstr("scene.yaml:4:20: integrator: step: auto needs something"));
+  EXPECT_THAT(error("step: 0.1, end: 1, stabilisation: projection"), HasSubstr("'stabilisation' has no effect"));
+  EXPECT_THAT(error("method: bdf, end: 1, rho: 0.5"), HasSubstr("'rho' has no effect"));
+  EXPECT_THAT(error("method: bdf, end: 1, error_control: {tolerance: 1e-3}"),
+              HasSubstr("'error_control' has no effect"));
+  EXPECT_THAT(error("method: bdf, end: 1, baumgarte: {alpha: 1}"), HasSubstr("stabilisation: baumgarte"));
+  EXPECT_THAT(error("step: 0.1, end: 1, error_control: {tolerance: 0}"), HasSubstr("tolerance 0 must be positive"));
+  EXPECT_THAT(error("step: 0.1, end: 1, error_control: {min_step: -1}"), HasSubstr("must not be negative"));
+  EXPECT_THAT(error("step: 0.1, end: 1, error_control: {min_step: 2, max_step: 1}"),
+              HasSubstr("smaller than min_step"));
+  EXPECT_THAT(error("method: bdf, end: 1, relative_tolerance: 0"), HasSubstr("relative_tolerance 0 must be positive"));
+}
+
+}  // namespace
+}  // namespace tisserand::formats::scene_integrator_test

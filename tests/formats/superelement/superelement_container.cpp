@@ -1,0 +1,368 @@
+// One function for each thing that can be done to an attribute or a dataset.
+#include "tests/formats/superelement/superelement_container.hpp"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "formats/hdf5/file.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
+
+namespace tisserand::test_support {
+namespace {
+
+/// The bytes one after the other; zeros when they are used up.
+class Bytes {
+ public:
+  Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
+  std::uint8_t byte() { return next_ < size_ ? data_[next_++] : std::uint8_t{0}; }
+  std::size_t below(std::size_t limit) { return (byte() + std::size_t{256} * byte()) % limit; }
+  double number() {
+    constexpr std::array special = {0.0, -0.0, 1.0, -1.0, 1e100, -1e300, 5e-324, 1e-9};
+    const std::uint8_t choice = byte();
+    if (choice < special.size()) return special[choice];
+    if (choice == 8) return std::numeric_limits<double>::infinity();
+    if (choice == 9) return std::numeric_limits<double>::quiet_NaN();
+    std::array<std::uint8_t, 8> raw{};
+    for (std::uint8_t& b : raw) b = byte();
+    double value = 0.0;
+    std::memcpy(&value, raw.data(), sizeof value);
+    return value;
+  }
+
+ private:
+  const std::uint8_t* data_;
+  std::size_t size_;
+  std::size_t next_ = 0;
+};
+
+/// Owner of any HDF5 identifier.
+class Id {
+ public:
+  explicit Id(hid_t id) : id_(id) {}
+  ~Id() {
+    if (id_ >= 0) H5Idec_ref(id_);
+  }
+  Id(const Id&) = delete;
+  Id& operator=(const Id&) = delete;
+  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): stands for the identifier
+
+ private:
+  hid_t id_;
+};
+
+hid_t text_type(std::size_t size) {
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, size);
+  return type;
+}
+
+hid_t compound_type(hid_t member) {
+  const hid_t type = H5Tcreate(H5T_COMPOUND, 2 * H5Tget_size(member));
+  H5Tinsert(type, "a", 0, member);
+  H5Tinsert(type, "b", H5Tget_size(member), member);
+  return type;
+}
+
+hid_t wide_float() {
+  const hid_t type = H5Tcopy(H5T_IEEE_F64LE);
+  H5Tset_size(type, 12);
+  return type;
+}
+
+/// Any type that a file may hold.
+hid_t foreign_type(Bytes& bytes) {
+  static const hsize_t three = 3;
+  switch (bytes.below(18)) {
+    case 0:
+      return H5Tcopy(H5T_IEEE_F64LE);
+    case 1:
+      return H5Tcopy(H5T_IEEE_F64BE);
+    case 2:
+      return H5Tcopy(H5T_IEEE_F32LE);
+    case 3:
+      return H5Tcopy(H5T_STD_I32BE);
+    case 4:
+      return H5Tcopy(H5T_STD_U64LE);
+    case 5:
+      return H5Tcopy(H5T_STD_I8LE);
+    case 6:
+      return H5Tcopy(H5T_STD_B16LE);
+    case 7:
+      return text_type(1 + bytes.below(300));
+    case 8:
+      return text_type(H5T_VARIABLE);
+    case 9:
+      return compound_type(H5T_IEEE_F64LE);
+    case 10:
+      return H5Tarray_create2(H5T_IEEE_F64LE, 1, &three);
+    case 11:
+      return H5Tenum_create(H5T_STD_I32LE);
+    case 12:
+      return H5Tvlen_create(H5T_IEEE_F64LE);
+    case 13:
+      return H5Tcreate(H5T_OPAQUE, 1 + bytes.below(64));
+    case 14:
+      return H5Tcopy(H5T_STD_REF_OBJ);
+    case 15:
+      return H5Tcopy(H5T_NATIVE_LDOUBLE);
+    case 16:
+      return wide_float();
+    default:
+      return H5Tcopy(H5T_STD_I64LE);
+  }
+}
+
+struct Space {
+  std::vector<hsize_t> shape;
+  hid_t id = -1;
+};
+
+Space foreign_space(Bytes& bytes) {
+  const std::size_t rank = bytes.below(6);
+  Space space;
+  if (rank == 0) {
+    space.id = H5Screate(bytes.below(2) == 0 ? H5S_SCALAR : H5S_NULL);
+    return space;
+  }
+  constexpr std::array<hsize_t, 8> sizes = {0, 1, 2, 3, 13, 14, 100'000, hsize_t{1} << 40};
+  for (std::size_t k = 0; k < rank; ++k) space.shape.push_back(sizes[bytes.below(sizes.size())]);
+  space.id = H5Screate_simple(static_cast<int>(rank), space.shape.data(), nullptr);
+  return space;
+}
+
+/// Contiguous, compact, or in chunks with filters. Allocation as late as HDF5 allows.
+hid_t foreign_layout(Bytes& bytes, const std::vector<hsize_t>& shape) {
+  const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
+  const std::size_t choice = bytes.below(8);
+  if (choice == 1) H5Pset_layout(list, H5D_COMPACT);
+  if (choice >= 2 && !shape.empty()) {
+    std::vector<hsize_t> chunk;
+    for (const hsize_t length : shape) chunk.push_back(std::clamp<hsize_t>(length, 1, 1 + bytes.below(20)));
+    H5Pset_chunk(list, static_cast<int>(chunk.size()), chunk.data());
+    if (choice == 3) H5Pset_deflate(list, 6);
+    if (choice == 4) H5Pset_shuffle(list);
+    if (choice == 5) H5Pset_fletcher32(list);
+    if (choice == 6) H5Pset_scaleoffset(list, H5Z_SO_FLOAT_DSCALE, 2);
+    if (choice == 7) H5Pset_nbit(list);
+  }
+  return list;
+}
+
+/// Bytes for all points of a dataset, at most 64 KiB; empty: leave it without data.
+std::vector<char> foreign_values(Bytes& bytes, hid_t type, hid_t space) {
+  const hssize_t points = H5Sget_simple_extent_npoints(space);
+  const std::size_t size = H5Tget_size(type);
+  const bool holds_addresses = H5Tdetect_class(type, H5T_VLEN) > 0 || H5Tis_variable_str(type) > 0;
+  if (points <= 0 || holds_addresses || bytes.below(4) == 0) return {};
+  if (static_cast<std::size_t>(points) > 65'536 / std::max<std::size_t>(size, 1)) return {};
+  std::vector<char> values(static_cast<std::size_t>(points) * size);
+  for (char& value : values) value = static_cast<char>(bytes.byte());
+  return values;
+}
+
+/// Texts of variable length for all points, for at most 1000 of them.
+void write_variable_texts(Bytes& bytes, hid_t dataset, hid_t type, hid_t space) {
+  const hssize_t points = H5Sget_simple_extent_npoints(space);
+  if (H5Tis_variable_str(type) <= 0 || points <= 0 || points > 1000) return;
+  std::vector<std::string> texts;
+  for (hssize_t i = 0; i < points; ++i) texts.push_back(std::string(bytes.below(600), static_cast<char>(bytes.byte())));
+  std::vector<const char*> pointers;
+  for (const std::string& text : texts) pointers.push_back(text.c_str());
+  H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data());
+}
+
+void foreign_dataset(Bytes& bytes, hid_t file, const std::string& name) {
+  const Id type(foreign_type(bytes));
+  const Space shape = foreign_space(bytes);
+  const Id space(shape.id), layout(foreign_layout(bytes, shape.shape));
+  const Id dataset(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT));
+  if (dataset < 0) return;
+  const std::vector<char> values = foreign_values(bytes, type, space);
+  if (!values.empty()) H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  write_variable_texts(bytes, dataset, type, space);
+}
+
+void foreign_attribute(Bytes& bytes, hid_t file, const std::string& name) {
+  const Id type(foreign_type(bytes)), space(foreign_space(bytes).id);
+  const Id attribute(H5Acreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT));
+  if (attribute < 0) return;
+  const std::vector<char> values = foreign_values(bytes, type, space);
+  if (!values.empty()) H5Awrite(attribute, type, values.data());
+}
+
+/// A group, or a link that leads elsewhere or nowhere, in place of a dataset.
+void other_object(Bytes& bytes, hid_t file, const std::string& name) {
+  switch (bytes.below(4)) {
+    case 0:
+      Id(H5Gcreate2(file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+      break;
+    case 1:
+      H5Lcreate_soft(bytes.below(2) == 0 ? "/mass" : name.c_str(), file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+      break;
+    case 2:
+      H5Lcreate_external("other.h5", "/mass", file, name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+      break;
+    default: {
+      const Id type(foreign_type(bytes));
+      H5Tcommit2(file, name.c_str(), type, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    }
+  }
+}
+
+/// Numbers of a sound dataset.
+struct Table {
+  std::string name;
+  std::vector<hsize_t> shape;
+  std::vector<double> values;
+  bool is_integer = false;
+};
+
+void write_table(hid_t file, const Table& table, hid_t stored, hid_t layout) {
+  const Id space(H5Screate_simple(static_cast<int>(table.shape.size()), table.shape.data(), nullptr));
+  const Id dataset(H5Dcreate2(file, table.name.c_str(), stored, space, H5P_DEFAULT, layout, H5P_DEFAULT));
+  if (dataset >= 0) H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, table.values.data());
+}
+
+/// What the choice says: nothing, absent, foreign, some other values, another object, another type or layout, another
+/// length.
+void put_table(Bytes& bytes, hid_t file, Table table) {
+  const hid_t usual = table.is_integer ? H5T_STD_I32LE : H5T_IEEE_F64LE;
+  switch (bytes.byte() % 8) {
+    case 1:
+      return;
+    case 2:
+      foreign_dataset(bytes, file, table.name);
+      return;
+    case 3:
+      for (std::size_t k = bytes.below(6) + 1; k > 0; --k)
+        table.values[bytes.below(table.values.size())] = table.is_integer ? std::round(bytes.number()) : bytes.number();
+      break;
+    case 4:
+      other_object(bytes, file, table.name);
+      return;
+    case 5: {
+      const Id type(foreign_type(bytes)), layout(foreign_layout(bytes, table.shape));
+      write_table(file, table, type, layout);
+      return;
+    }
+    case 6: {
+      const std::size_t axis = bytes.below(table.shape.size());
+      table.shape[axis] += bytes.below(2) == 0 ? 1 : hsize_t(-1);
+      std::size_t points = 1;
+      for (const hsize_t length : table.shape) points *= length;
+      table.values.resize(points);
+      break;
+    }
+    case 7:
+      for (double& value : table.values) value *= bytes.number();
+      break;
+    default:
+      break;
+  }
+  write_table(file, table, usual, H5P_DEFAULT);
+}
+
+void put_text(Bytes& bytes, hid_t file, const std::string& name, std::string value) {
+  switch (bytes.byte() % 4) {
+    case 1:
+      return;
+    case 2:
+      foreign_attribute(bytes, file, name);
+      return;
+    case 3:
+      for (std::size_t k = bytes.below(400); k > 0; --k) value += static_cast<char>(bytes.byte());
+      break;
+    default:
+      break;
+  }
+  formats::hdf5::write_text_attribute(file, "/", name, value, "");
+}
+
+void put_number(Bytes& bytes, hid_t file, const std::string& name, double value) {
+  switch (bytes.byte() % 4) {
+    case 1:
+      return;
+    case 2:
+      foreign_attribute(bytes, file, name);
+      return;
+    case 3:
+      value = bytes.number();
+      break;
+    default:
+      break;
+  }
+  formats::hdf5::write_number_attribute(file, "/", name, value, "");
+}
+
+void put_names(Bytes& bytes, hid_t file, std::vector<std::string> names) {
+  switch (bytes.byte() % 8) {
+    case 1:
+      return;
+    case 2:
+      foreign_dataset(bytes, file, "/boundary/name");
+      return;
+    case 3:
+      for (std::string& name : names)
+        for (std::size_t k = bytes.below(300); k > 0; --k) name += static_cast<char>(bytes.byte());
+      break;
+    case 4:
+      other_object(bytes, file, "/boundary/name");
+      return;
+    case 5:
+      names.assign(1 + bytes.below(3000), "node");
+      break;
+    case 6:
+      names.assign(names.size(), "same");
+      break;
+    default:
+      break;
+  }
+  formats::hdf5::write_texts(file, "/boundary/name", names, "");
+}
+
+Table matrix_table(const std::string& name, const Eigen::MatrixXd& matrix) {
+  const hsize_t n = static_cast<hsize_t>(matrix.rows());
+  return {name, {n, n}, {matrix.data(), matrix.data() + matrix.size()}, false};  // symmetric: rows are columns
+}
+
+}  // namespace
+
+std::string superelement_container(const std::uint8_t* data, std::size_t size) {
+  static const formats::Superelement sound = craig_bampton_beam(BeamData(), 1);
+  Bytes bytes(data, size);
+  const formats::hdf5::Handle owner = formats::hdf5::create_in_memory("");
+  const hid_t file = owner.id();
+  const Id boundary(H5Gcreate2(file, "/boundary", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  const Id dof(H5Gcreate2(file, "/dof", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  put_text(bytes, file, "format", "tisserand-superelement");
+  put_text(bytes, file, "version", "1.0");
+  for (const char* name : {"name", "method", "producer"}) put_text(bytes, file, name, "text");
+  put_number(bytes, file, "length_unit", 1.0);
+  put_text(bytes, file, "length_unit_label", "m");
+  put_number(bytes, file, "mass_unit", 1.0);
+  put_text(bytes, file, "mass_unit_label", "kg");
+  put_number(bytes, file, "time_unit", 1.0);
+  put_text(bytes, file, "time_unit_label", "s");
+  put_names(bytes, file, sound.node_name);
+  Table position{"/boundary/position", {static_cast<hsize_t>(sound.node_position.rows()), 3}, {}, false};
+  for (Eigen::Index i = 0; i < sound.node_position.rows(); ++i)
+    for (Eigen::Index k = 0; k < 3; ++k) position.values.push_back(sound.node_position(i, k));
+  put_table(bytes, file, position);
+  const hsize_t n = static_cast<hsize_t>(sound.size());
+  put_table(bytes, file, {"/dof/node", {n}, {sound.dof_node.begin(), sound.dof_node.end()}, true});
+  put_table(bytes, file, {"/dof/component", {n}, {sound.dof_component.begin(), sound.dof_component.end()}, true});
+  put_table(bytes, file, matrix_table("/stiffness", sound.stiffness));
+  put_table(bytes, file, matrix_table("/mass", sound.mass));
+  for (std::size_t k = bytes.below(4); k > 0; --k) foreign_dataset(bytes, file, "/more" + std::to_string(k));
+  for (std::size_t k = bytes.below(4); k > 0; --k) foreign_attribute(bytes, file, "more" + std::to_string(k));
+  if (bytes.byte() % 4 == 1) put_text(bytes, file, "content_id", std::string(64, 'a'));
+  return formats::hdf5::file_image(file, "");
+}
+
+}  // namespace tisserand::test_support

@@ -1,0 +1,302 @@
+// Tests that the JSON Schemas of part.yaml and scene.yaml say the same as the readers: equal keys, and every example of
+// the project (also those in PART.md and SCENE.md) is accepted by both.
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "formats/part/keys.hpp"
+#include "formats/part/part.hpp"
+#include "formats/scene/keys.hpp"
+#include "formats/scene/scene.hpp"
+#include "text_input.hpp"
+
+namespace tisserand::formats::schema_test {
+namespace {
+
+using nlohmann::json;
+
+std::string content(const std::string& path) {
+  std::ifstream stream(path);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+json schema_of(const std::string& kind) {
+  return json::parse(content(std::string(TISSERAND_SOURCE_DIR) + "/formats/schema/" + kind + ".schema.json"));
+}
+
+json to_json(const YamlNode& node) {
+  json value;
+  switch (node.kind) {
+    case YamlKind::null:
+      return value;
+    case YamlKind::sequence:
+      value = json::array();
+      for (const YamlNode& child : node.children) value.push_back(to_json(child));
+      return value;
+    case YamlKind::map:
+      value = json::object();
+      for (const YamlNode& child : node.children) value[child.key] = to_json(child);
+      return value;
+    case YamlKind::scalar:
+      break;
+  }
+  if (!node.quoted && (node.text == "true" || node.text == "false")) return node.text == "true";
+  if (!looks_like_number(node)) return node.text;
+  const double number = std::stod(node.text);
+  return number == std::floor(number) && std::abs(number) < 1e15 ? json(static_cast<long>(number)) : json(number);
+}
+
+bool has_type(const json& value, const std::string& type) {
+  if (type == "object") return value.is_object();
+  if (type == "array") return value.is_array();
+  if (type == "string") return value.is_string();
+  if (type == "null") return value.is_null();
+  if (type == "integer") return value.is_number_integer();
+  if (type == "number") return value.is_number();
+  throw std::logic_error("unknown type " + type);
+}
+
+/// The part of JSON Schema 2020-12 that the two schemas use; any other keyword is an error of the test.
+class Validator {
+ public:
+  explicit Validator(const json& schema) : root_(schema) {}
+
+  bool accepts(const json& value) const { return accepts(root_, value); }
+
+ private:
+  bool accepts(const json& schema, const json& value) const {
+    for (const auto& [word, rule] : schema.items())
+      if (!obeys(schema, word, rule, value)) return false;
+    return true;
+  }
+
+  bool obeys(const json& schema, const std::string& word, const json& rule, const json& value) const {
+    if (word == "$schema" || word == "title" || word == "description" || word == "$defs") return true;
+    if (word == "$ref") return accepts(root_.at(json::json_pointer(rule.get<std::string>().substr(1))), value);
+    if (word == "const") return value == rule;
+    if (word == "enum") return std::ranges::find(rule, value) != rule.end();
+    if (word == "anyOf") return std::ranges::any_of(rule, [&](const json& one) { return accepts(one, value); });
+    if (word == "oneOf") return std::ranges::count_if(rule, [&](const json& one) { return accepts(one, value); }) == 1;
+    if (word == "type") {
+      if (rule.is_string()) return has_type(value, rule);
+      return std::ranges::any_of(rule, [&](const json& type) { return has_type(value, type); });
+    }
+    if (value.is_number()) return obeys_number(word, rule, value.get<double>());
+    if (word == "pattern" || word == "minLength")
+      return !value.is_string() || obeys_text(word, rule, value.get<std::string>());
+    if (word == "items" || word == "minItems" || word == "maxItems")
+      return !value.is_array() || obeys_list(word, rule, value);
+    return !value.is_object() || obeys_object(schema, word, rule, value);
+  }
+
+  static bool obeys_number(const std::string& word, const json& rule, double value) {
+    if (word == "minimum") return value >= rule.get<double>();
+    if (word == "maximum") return value <= rule.get<double>();
+    if (word == "exclusiveMinimum") return value > rule.get<double>();
+    if (word == "exclusiveMaximum") return value < rule.get<double>();
+    return true;
+  }
+  static bool obeys_text(const std::string& word, const json& rule, const std::string& value) {
+    if (word == "minLength") return value.size() >= rule.get<std::size_t>();
+    return std::regex_search(value, std::regex(rule.get<std::string>()));
+  }
+  bool obeys_list(const std::string& word, const json& rule, const json& value) const {
+    if (word == "minItems") return value.size() >= rule.get<std::size_t>();
+    if (word == "maxItems") return value.size() <= rule.get<std::size_t>();
+    return std::ranges::all_of(value, [&](const json& item) { return accepts(rule, item); });
+  }
+  bool obeys_object(const json& schema, const std::string& word, const json& rule, const json& value) const {
+    if (word == "minProperties") return value.size() >= rule.get<std::size_t>();
+    if (word == "maxProperties") return value.size() <= rule.get<std::size_t>();
+    if (word == "required")
+      return std::ranges::all_of(rule, [&](const json& key) { return value.contains(key.get<std::string>()); });
+    for (const auto& [key, item] : value.items()) {
+      const bool listed = schema.contains("properties") && schema.at("properties").contains(key);
+      if (word == "properties" && listed && !accepts(rule.at(key), item)) return false;
+      if (word == "propertyNames" && !accepts(rule, key)) return false;
+      if (word == "additionalProperties" && !listed && (rule == false || !accepts(rule, item))) return false;
+    }
+    if (word == "properties" || word == "propertyNames" || word == "additionalProperties") return true;
+    throw std::logic_error("unknown keyword " + word);
+  }
+
+  const json& root_;
+};
+
+void expect_equal_keys(const json& schema, const std::vector<KeySet>& sets) {
+  for (const KeySet& set : sets) {
+    SCOPED_TRACE(set.noun);
+    ASSERT_TRUE(schema.at("$defs").contains(std::string(set.noun)));
+    std::set<std::string> in_schema;
+    const json& definition = schema.at("$defs").at(std::string(set.noun));
+    for (const auto& [key, rule] : definition.at("properties").items()) in_schema.insert(key);
+    EXPECT_EQ(in_schema, std::set<std::string>(set.keys.begin(), set.keys.end()));
+    EXPECT_EQ(definition.at("additionalProperties"), false);
+  }
+  std::set<std::string> nouns;
+  for (const KeySet& set : sets) nouns.emplace(set.noun);
+  for (const auto& [noun, definition] : schema.at("$defs").items())
+    EXPECT_TRUE(!definition.contains("properties") || nouns.contains(noun)) << noun << " is unknown to the reader";
+}
+
+TEST(Schema, KeysEqualThoseOfTheReaders) {
+  expect_equal_keys(schema_of("part"), part_key_sets());
+  expect_equal_keys(schema_of("scene"), scene_key_sets());
+}
+
+/// A part or scene by its text and where it comes from.
+struct Example {
+  std::string from;
+  std::string text;
+};
+
+/// Blocks of PART.md and SCENE.md that begin with part: or scene:, and the yaml files below examples/.
+std::vector<Example> examples(const std::string& kind) {
+  const std::string source = TISSERAND_SOURCE_DIR;
+  std::vector<Example> list;
+  const std::string page = source + "/formats/" + (kind == "part" ? "PART.md" : "SCENE.md");
+  const std::string text = content(page), fence = "```yaml\n" + kind + ":";
+  for (std::size_t at = text.find(fence); at != std::string::npos; at = text.find(fence, at + 1)) {
+    const std::size_t begin = at + 8;
+    list.push_back({page, text.substr(begin, text.find("```", begin) - begin)});
+  }
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(source + "/examples")) {
+    if (entry.path().extension() != ".yaml") continue;
+    const YamlDocument document = load_yaml(entry.path().string());
+    if (find_child(document.root, kind) != nullptr)
+      list.push_back({entry.path().string(), content(entry.path().string())});
+  }
+  return list;
+}
+
+TEST(Schema, AcceptsEveryExample) {
+  for (const std::string kind : {"part", "scene"}) {
+    const json schema = schema_of(kind);
+    const std::vector<Example> list = examples(kind);
+    EXPECT_FALSE(list.empty());
+    for (const Example& example : list)
+      EXPECT_TRUE(Validator(schema).accepts(to_json(parse_yaml(example.text, example.from).root))) << example.from;
+  }
+}
+
+TEST(Schema, ReadersAcceptEveryExample) {
+  const Folder folder;
+  for (const Example& example : examples("part"))
+    EXPECT_EQ(error_of(folder, [&] { read_part(folder.file("part.yaml", example.text), {}); }), "") << example.from;
+  for (const Example& example : examples("scene")) {
+    const bool page = example.from.ends_with(".md");
+    const std::string path = page ? folder.file("scene.yaml", example.text) : example.from;
+    EXPECT_EQ(error_of(folder, [&] { read_scene(path, {}); }), "") << example.from;
+  }
+}
+
+TEST(Schema, RejectsWhatTheReadersReject) {
+  const std::string part = examples("part").front().text, scene = examples("scene").front().text;
+  const json part_schema = schema_of("part"), scene_schema = schema_of("scene");
+  const auto part_accepted = [&](const std::string& from, const std::string& to) {
+    return Validator(part_schema).accepts(to_json(parse_yaml(replaced(part, from, to), "part").root));
+  };
+  const auto scene_accepted = [&](const std::string& from, const std::string& to) {
+    return Validator(scene_schema).accepts(to_json(parse_yaml(replaced(scene, from, to), "scene").root));
+  };
+  EXPECT_TRUE(part_accepted("modes: 4", "modes: 5"));
+  EXPECT_FALSE(part_accepted("modes: 4", "mods: 5"));
+  EXPECT_FALSE(part_accepted("modes: 4", "modes: 4.5"));
+  EXPECT_FALSE(part_accepted("nu: 0.3", "nu: 0.5"));
+  EXPECT_FALSE(part_accepted("shape: hollow_circle", "shape: circle"));
+  EXPECT_FALSE(part_accepted("base: [0, 0, 0]", "base: [0, 0]"));
+  EXPECT_FALSE(part_accepted("base: [0, 0, 0]", "9base: [0, 0, 0]"));
+  EXPECT_TRUE(scene_accepted("frame: {node: base}", "frame: \"node: base\""));
+  EXPECT_FALSE(scene_accepted("frame: {node: base}", "frame: kracher"));
+  EXPECT_FALSE(scene_accepted("type: superelement", "type: rigid"));
+  EXPECT_FALSE(scene_accepted("angle_deg: 30", "angle: 30"));
+  EXPECT_FALSE(scene_accepted("every: 10", "every: 0"));
+  EXPECT_FALSE(scene_accepted("type: revolute", "type: hinge"));
+}
+
+/// Every key of scenes that takes a whole number, and choices and lists of all kinds.
+const std::string whole_numbers = R"yaml(
+scene: numbers
+virtual_bodies: keep
+bodies:
+  arm: {type: superelement, file: arm.h5, modes: 4, inertia: M, mirror: xz, damping: {ratios: [0.1, 0.2]}}
+  side: {type: superelement, file: arm.h5, mirror: [xz, yz], weights: {positions: {base: 1}}}
+  rod: {type: modal, file: rod.h5, modes: 3}
+  beam: {type: beam, from: [0, 0, 0], to: [1, 0, 0], elements: 4, nodes_per_element: 3, section: bar, material: steel}
+materials: {steel: {E: 2.1e11, nu: 0.3, density: 7800}}
+sections: {bar: {shape: circle, radius: 0.01}}
+joints:
+  a: {type: generic, hold: [x, y, rz], a: ground, b: arm/tip}
+  b: {type: revolute, a: ground, b: side/tip, axis: [0, 0, 1], friction: {coefficient: 0.1, velocity: 1, radius: 0.2}}
+inputs: {wind: {file: wind.csv, time: 1, value: 2}}
+springs: {s: {coordinate: b, stiffness: {table: [[-1, -2], [1, 2]]}, damping: 1, lower: -1, stop_stiffness: 5}}
+bushings: {c: {a: ground, b: arm/base, stiffness: [1, 1, 1, 1, 1, 1], preload: [0, 0, 1, 0, 0, 0]}}
+loads: {f: {type: force, at: arm/tip, axes: body, value: [0, 1, 2]}}
+integrator: {step: 0.01, end: 1, max_iterations: 9, max_halvings: 3, linear_solver: klu}
+statics: {load_steps: 2, max_iterations: 7}
+modes: {count: 5, rotation: [0, 0, 1]}
+checkpoint: {every: 10}
+output: {every: 2, channels: [nodes]}
+)yaml";
+
+/// Numbers, texts and lists below `value`, but for what chooses the schema of an entry, and for names of inputs.
+void collect_values(const json& value, const json::json_pointer& at, std::vector<json::json_pointer>& list) {
+  if (!at.empty() && (at.back() == "type" || at.back() == "shape" || at.back() == "scene")) return;
+  if (!value.is_object() && !value.is_null()) list.push_back(at);
+  if (!value.is_structured()) return;
+  for (const auto& [key, child] : value.items())
+    if (key != "parameters" && key != "assemblies" && key != "instances" && key != "inputs" && key != "include")
+      collect_values(child, value.is_array() ? at / std::stoul(key) : at / key, list);
+}
+
+TEST(Schema, ParametersMayStandForAnyNumberTextOrListAsInTheReader) {
+  const Folder folder;
+  (void)folder.file("wind.csv", "0 1\n1 2\n");
+  const json schema = schema_of("scene");
+  std::vector<Example> list{{"whole numbers", whole_numbers}};
+  for (const Example& example : examples("scene"))
+    if (example.from.ends_with(".md")) list.push_back(example);
+  for (const Example& example : list) {
+    const json scene = to_json(parse_yaml(example.text, example.from).root);
+    ASSERT_TRUE(Validator(schema).accepts(scene)) << example.from;
+    std::vector<json::json_pointer> values;
+    collect_values(scene, json::json_pointer(), values);
+    const bool read = example.from == "whole numbers";
+    for (const json::json_pointer& at : values) {
+      json changed = scene;
+      changed[at] = "$p";
+      EXPECT_TRUE(Validator(schema).accepts(changed)) << example.from << ": " << at;
+      if (!read) continue;
+      changed["parameters"]["p"] = scene[at];
+      const std::string path = folder.file("scene.yaml", changed.dump());
+      EXPECT_EQ(error_of(folder, [&] { read_scene(path, {}); }), "") << at;
+    }
+  }
+}
+
+TEST(Schema, WholeNumbersAreNoOthers) {
+  const json schema = schema_of("scene"), scene = to_json(parse_yaml(whole_numbers, "scene").root);
+  const Folder folder;
+  (void)folder.file("wind.csv", "0 1\n1 2\n");
+  for (const char* at :
+       {"/bodies/arm/modes", "/bodies/rod/modes", "/bodies/beam/elements", "/bodies/beam/nodes_per_element",
+        "/integrator/max_iterations", "/integrator/max_halvings", "/statics/load_steps", "/statics/max_iterations",
+        "/modes/count", "/checkpoint/every", "/output/every"})
+    for (const json& wrong : {json(2.5), json(-1), json(json::array({1}))}) {
+      json changed = scene;
+      changed[json::json_pointer(at)] = wrong;
+      EXPECT_FALSE(Validator(schema).accepts(changed)) << at << ' ' << wrong;
+      const std::string path = folder.file("scene.yaml", changed.dump());
+      EXPECT_NE(error_of(folder, [&] { read_scene(path, {}); }), "") << at << ' ' << wrong;
+    }
+}
+
+}  // namespace
+}  // namespace tisserand::formats::schema_test

@@ -1,0 +1,222 @@
+// Pictures: the script that gnuplot reads, its quoting, and one picture from end to end.
+#include "mechanism/histories/plot.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <limits>
+
+#include "common/error.hpp"
+
+namespace tisserand::mechanism::plot_test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Series wave(const std::string& source, const std::string& channel, const std::string& unit, std::size_t points) {
+  Series series;
+  series.source = source;
+  series.channel = channel;
+  series.unit = unit;
+  series.x_unit = "s";
+  for (std::size_t i = 0; i < points; ++i) {
+    series.x.push_back(0.01 * static_cast<double>(i));
+    series.y.push_back(std::sin(series.x.back()));
+  }
+  return series;
+}
+
+Series reference(const std::string& label) {
+  Series series = wave(label, "wz_base", "", 10);
+  series.kind = SeriesKind::reference;
+  return series;
+}
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
+  return n;
+}
+
+std::string error_of(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(GnuplotQuoted, ExpandsNothing) {
+  EXPECT_EQ(gnuplot_quoted("a `rm` $x \"b\" \\n"), "'a `rm` $x \"b\" \\n'");
+  EXPECT_EQ(gnuplot_quoted("it's"), "'it''s'");
+  EXPECT_THAT(error_of([] { (void)gnuplot_quoted("a\nsystem('x')"); }), HasSubstr("control character"));
+}
+
+TEST(GnuplotScript, KeepsForeignTextInsideQuotes) {
+  PlotOptions options;
+  options.title = "'; system('touch owned'); '";
+  const std::string script = gnuplot_script({wave("run", "energy/total", "J", 5)}, options, "a'b.svg");
+  EXPECT_THAT(script, HasSubstr("set title '''; system(''touch owned''); '''"));
+  EXPECT_THAT(script, HasSubstr("set output 'a''b.svg'"));
+}
+
+TEST(GnuplotScript, LabelsAxesWithQuantityAndUnit) {
+  const std::string script =
+      gnuplot_script({wave("run", "nodes/angular_velocity/beam/tip/z", "rad s^-1", 5)}, {}, "a.png");
+  EXPECT_THAT(script, HasSubstr("set ylabel 'angular velocity [rad s⁻¹]'"));
+  EXPECT_THAT(script, HasSubstr("set xlabel 'time [s]'"));
+  EXPECT_THAT(script, HasSubstr("title 'beam/tip/z'"));
+  EXPECT_THAT(gnuplot_script({wave("run", "solver/iterations", "1", 5)}, {}, "a.png"),
+              HasSubstr("set ylabel 'iterations'"));
+  PlotOptions own;
+  own.x_label = "turns";
+  own.y_label = "speed";
+  EXPECT_THAT(gnuplot_script({wave("run", "energy/total", "J", 5)}, own, "a.png"), HasSubstr("set ylabel 'speed'"));
+}
+
+TEST(GnuplotScript, LegendNamesWhatDiffers) {
+  const auto legend = [](const std::vector<Series>& series) { return gnuplot_script(series, {}, "a.png"); };
+  EXPECT_THAT(legend({wave("a", "energy/total", "J", 5), wave("b", "energy/total", "J", 5)}), HasSubstr("title 'b'"));
+  EXPECT_THAT(legend({wave("a", "energy/total", "J", 5), wave("a", "energy/kinetic", "J", 5)}),
+              HasSubstr("title 'kinetic'"));
+  EXPECT_THAT(legend({wave("a", "energy/total", "J", 5), wave("b", "energy/kinetic", "J", 5)}),
+              HasSubstr("title 'b: kinetic'"));
+}
+
+TEST(GnuplotScript, LegendIsTheLabelWhereItSaysAll) {
+  std::vector<Series> series = {wave("a", "nodes/position/rod/base/x", "m", 5),
+                                wave("b", "nodes/position/rod/start/x", "m", 5)};
+  for (Series& one : series) one.has_own_label = true;
+  EXPECT_THAT(gnuplot_script(series, {}, "a.png"), HasSubstr("title 'b'"));
+}
+
+TEST(GnuplotScript, ReferencesLieBeneathAndJoinTheFirstPanel) {
+  const std::string script = gnuplot_script(
+      {wave("a", "energy/total", "J", 5), wave("a", "solver/step", "s", 5), reference("exact")}, {}, "a.png");
+  EXPECT_EQ(count(script, "\nplot "), 2u);
+  EXPECT_LT(script.find("title 'exact'"), script.find("title 'total'"));
+  EXPECT_LT(script.find("title 'total'"), script.find("title 'step'"));
+  EXPECT_THAT(script, HasSubstr("set multiplot layout 2,1"));
+}
+
+TEST(GnuplotScript, RefusesMoreThanFourUnits) {
+  std::vector<Series> series;
+  for (const char* unit : {"m", "s", "J", "N", "rad"}) series.push_back(wave("a", "energy/total", unit, 5));
+  EXPECT_THAT(error_of([&] { (void)gnuplot_script(series, {}, "a.png"); }), HasSubstr("5 different units"));
+}
+
+TEST(GnuplotScript, RangesAndLogarithmicScales) {
+  PlotOptions options;
+  options.x_range = {0.5, 2.0};
+  options.y_scale = AxisScale::logarithmic;
+  const std::string script = gnuplot_script({wave("a", "energy/total", "J", 5)}, options, "a.svg");
+  EXPECT_THAT(script, HasSubstr("set xrange [0.5:2]"));
+  EXPECT_THAT(script, HasSubstr("set logscale y"));
+  EXPECT_THAT(script, Not(HasSubstr("set logscale x")));
+}
+
+TEST(GnuplotScript, ShowsTheTimeOfTheRuns) {
+  const Series run = wave("a", "energy/total", "J", 5);  // 0 to 0.04; the reference goes on to 0.09
+  EXPECT_THAT(gnuplot_script({run, reference("exact")}, {}, "a.svg"), HasSubstr("set xrange [0:0.04]"));
+  EXPECT_THAT(gnuplot_script({reference("exact")}, {}, "a.svg"), Not(HasSubstr("set xrange")));
+}
+
+TEST(GnuplotScript, ThinsLongHistoriesToTheirEnvelope) {
+  Series series = wave("a", "energy/total", "J", 1000000);
+  series.y[123457] = 77.0;  // one spike among a million points must stay
+  series.y[765432] = -78.0;
+  const std::string script = gnuplot_script({series}, {}, "a.png");
+  EXPECT_LT(count(script, "\n"), 13000u);
+  EXPECT_THAT(script, HasSubstr(" 77\n"));
+  EXPECT_THAT(script, HasSubstr(" -78\n"));
+  EXPECT_THAT(script, HasSubstr("9999.99 "));
+}
+
+TEST(GnuplotScript, LeavesGapsWhereThereIsNoNumber) {
+  Series series = wave("a", "joints/coordinate/hinge", "rad", 3);
+  series.y[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(gnuplot_script({series}, {}, "a.png"), Not(HasSubstr("nan")));
+}
+
+TEST(Superscripts, OfUnits) {
+  EXPECT_EQ(with_superscripts("kg m s^-2"), "kg m s⁻²");
+  EXPECT_EQ(with_superscripts("m^12/s"), "m¹²/s");
+  EXPECT_EQ(with_superscripts("rad"), "rad");
+}
+
+class Picture : public ::testing::Test {
+ protected:
+  Picture() {
+    std::string name = (std::filesystem::temp_directory_path() / "tisserand-plot-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+  }
+  ~Picture() override { std::filesystem::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder_), {}));
+  }
+
+  std::filesystem::path folder_;
+};
+
+TEST_F(Picture, IsWrittenAsPngAndSvg) {
+  PlotOptions options;
+  options.title = "it's a `title`";
+  options.output = path("a b.png");
+  plot({wave("a", "energy/total", "J", 50), reference("exact")}, options);
+  std::ifstream png(options.output, std::ios::binary);
+  std::string head(4, ' ');
+  png.read(head.data(), 4);
+  EXPECT_EQ(head, "\x89PNG");
+
+  options.output = path("a.svg");
+  plot({wave("a", "energy/total", "J", 50), reference("exact")}, options);
+  std::ifstream svg(options.output);
+  const std::string text((std::istreambuf_iterator<char>(svg)), {});
+  EXPECT_THAT(text, HasSubstr("it's a `title`"));
+  EXPECT_THAT(text, HasSubstr("</svg>"));
+  EXPECT_EQ(files(), 2u);
+}
+
+TEST_F(Picture, FaultsAreToldAndLeaveNothing) {
+  const Series series = wave("a", "energy/total", "J", 5);
+  PlotOptions options;
+  options.output = path("a.pdf");
+  EXPECT_THAT(error_of([&] { plot({series}, options); }), HasSubstr("neither a .png nor an .svg"));
+  options.output = path("none/a.png");
+  EXPECT_THAT(error_of([&] { plot({series}, options); }), HasSubstr("cannot write into the folder"));
+  options.output = path("a.png");
+  EXPECT_THAT(error_of([&] { plot({wave("a", "energy/total", "J", 0)}, options); }), HasSubstr("nothing to draw"));
+  Series empty = wave("a", "nodes/rotation/beam/tip/w", "", 5);
+  empty.y.assign(empty.y.size(), std::numeric_limits<double>::quiet_NaN());
+  EXPECT_EQ(error_of([&] {
+              plot({series, empty}, options);
+            }),
+            "a: channel 'nodes/rotation/beam/tip/w' holds no finite value; choose another channel");
+  options.x_range = {1.0, 1.0};
+  options.y_range = {5.0, 5.0};
+  EXPECT_THAT(error_of([&] { plot({series}, options); }), HasSubstr("range"));
+  EXPECT_EQ(files(), 0u);
+}
+
+TEST_F(Picture, WithoutGnuplotNamesThePackage) {
+  const std::string before = std::getenv("PATH");
+  ::setenv("PATH", folder_.c_str(), 1);
+  PlotOptions options;
+  options.output = path("a.png");
+  const std::string text = error_of([&] { plot({wave("a", "energy/total", "J", 5)}, options); });
+  ::setenv("PATH", before.c_str(), 1);
+  EXPECT_THAT(text, HasSubstr("gnuplot-nox"));
+}
+
+}  // namespace
+}  // namespace tisserand::mechanism::plot_test

@@ -1,0 +1,63 @@
+// Random states, the dense iteration matrix and differences of the residual.
+#include "tests/support/scenes/model_tangent.hpp"
+
+#include <random>
+
+#include "mechanism/equations/newton.hpp"
+
+namespace tisserand::test_support {
+
+void randomise(Simulation& run, unsigned seed, double turn, double size) {
+  std::mt19937 random(seed);
+  mechanism::State& state = run.state();
+  const mechanism::State before = state;
+  mechanism::retract(run.model(), before, random_vector_n(random, state.v().size(), turn), state);
+  state.v() = random_vector_n(random, state.v().size(), size);
+  state.vdot() = random_vector_n(random, state.v().size(), size);
+  state.lambda() = random_vector_n(random, state.lambda().size(), size);
+}
+
+Eigen::MatrixXd dense_matrix(const Simulation& run) {
+  const mechanism::SparsePattern& pattern = *run.built.model.pattern;
+  const int n = pattern.size(), boundary = run.built.model.sizes.boundary;
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+  for (int j = 0; j < n; ++j)
+    for (int k = pattern.column_start()[static_cast<std::size_t>(j)];
+         k < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++k) {
+      const int i = pattern.rows()[static_cast<std::size_t>(k)];
+      A(i, j) = run.workspace.values[static_cast<std::size_t>(pattern.slot(i, j))];
+    }
+  A.topLeftCorner(boundary, boundary) *= run.workspace.matrix_scale;
+  return A;
+}
+
+Eigen::MatrixXd iteration_matrix(Simulation& run, const mechanism::TangentCoefficients& c) {
+  mechanism::evaluate(run.model(), run.state(), run.workspace);
+  mechanism::evaluate_tangent(run.model(), run.state(), c, mechanism::TangentKind::exact, {}, run.workspace);
+  return dense_matrix(run);
+}
+
+Eigen::MatrixXd damping_matrix(Simulation& run) {
+  const int n = run.model().sizes.boundary;
+  return (iteration_matrix(run, {1, 1, 0}) - iteration_matrix(run, {1, 0, 0})).topLeftCorner(n, n);
+}
+
+Eigen::MatrixXd residual_difference(Simulation& run, Argument argument, double h) {
+  const mechanism::State at = run.state();
+  const Eigen::Index columns = argument == Argument::multiplier ? at.lambda().size() : at.v().size();
+  Eigen::MatrixXd A(run.model().sizes.boundary, columns);
+  const auto residual = [&](Eigen::Index j, double d) {
+    mechanism::State moved = at;
+    Eigen::VectorXd increment = Eigen::VectorXd::Zero(columns);
+    increment[j] = d;
+    if (argument == Argument::position) mechanism::retract(run.model(), at, increment, moved);
+    if (argument == Argument::velocity) moved.v() += increment;
+    if (argument == Argument::multiplier) moved.lambda() += increment;
+    mechanism::evaluate(run.model(), moved, run.workspace);
+    return Eigen::VectorXd(run.workspace.residual);
+  };
+  for (Eigen::Index j = 0; j < columns; ++j) A.col(j) = (residual(j, h) - residual(j, -h)) / (2.0 * h);
+  return A;
+}
+
+}  // namespace tisserand::test_support
