@@ -30,7 +30,7 @@ void on_threads(int threads, const Work& work) {
     try {
       work(k);
     } catch (...) {
-      failure[static_cast<std::size_t>(k)] = std::current_exception();
+      failure[k] = std::current_exception();
     }
   };
   {

@@ -122,7 +122,7 @@ bool is_inertia(const Matrix3d& inertia) {
 
 void check_masses(const ModalBody& b, const Place& place) {
   for (std::size_t k = 0; k < b.node_name.size(); ++k) {
-    const double mass = b.node_mass[static_cast<Index>(k)];
+    const double mass = b.node_mass[k];
     if (mass < 0.0)
       place.fail("/nodes/mass", fmt::format("entry {} is {}, expected no negative mass", k, mass), "correct it");
     if (!is_inertia(b.node_inertia[k]))
@@ -149,9 +149,9 @@ double reference_condition(const ModalBody& b, double length) {
   Eigen::MatrixXd rows(6, 6);
   for (Index i = 0; i < 6; ++i) {
     Eigen::Matrix<double, 6, 6> motion = Eigen::Matrix<double, 6, 6>::Identity();
-    const Vector3d x = b.node_position.row(b.reference_node[static_cast<std::size_t>(i)]).transpose() / length;
+    const Vector3d x = b.node_position.row(b.reference_node[i]).transpose() / length;
     motion.topRightCorner<3, 3>() = -skew<double>(x);
-    rows.row(i) = motion.row(b.reference_component[static_cast<std::size_t>(i)]);
+    rows.row(i) = motion.row(b.reference_component[i]);
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rows);
   return svd.singularValues()[5] / svd.singularValues()[0];
@@ -257,7 +257,7 @@ void check_against_nodes(const ModalBody& b, const Place& place) {
   agree("N_mu", s.N_mu, sums.N_mu, std::max(root * length, sums.N_mu.norm()));
   Eigen::MatrixXd XMX = Eigen::MatrixXd::Zero(b.modes(), b.modes());
   for (std::size_t k = 0; k < b.X.size(); ++k) {
-    XMX += b.node_mass[static_cast<Index>(k)] * b.X[k].topRows<3>().transpose() * b.X[k].topRows<3>();
+    XMX += b.node_mass[k] * b.X[k].topRows<3>().transpose() * b.X[k].topRows<3>();
     XMX += b.X[k].bottomRows<3>().transpose() * b.node_inertia[k] * b.X[k].bottomRows<3>();
   }
   for (Index i = 0; i < b.modes(); ++i)
@@ -278,8 +278,8 @@ ModalIntegrals integrals_of(const ModalBody& b) {
   s.P2.setZero(9 * m, m);
   s.N_mu.setZero(3, m);
   for (std::size_t k = 0; k < b.node_name.size(); ++k) {
-    const double mass = b.node_mass[static_cast<Index>(k)];
-    const Vector3d x = b.node_position.row(static_cast<Index>(k)).transpose();
+    const double mass = b.node_mass[k];
+    const Vector3d x = b.node_position.row(k).transpose();
     const Eigen::Matrix3Xd Xd = b.X[k].topRows<3>(), Xt = b.X[k].bottomRows<3>();
     s.mass += mass;
     s.c0 += mass * x;

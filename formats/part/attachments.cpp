@@ -106,15 +106,15 @@ Eigen::Matrix<double, 6, 6> read_stiffness(const Context& context, const YamlNod
   if (!rows) {
     const std::vector<double> k = read_numbers(context, node, "stiffness");
     if (k.size() != 6) return fail(node, k.size()), stiffness;
-    for (int i = 0; i < 6; ++i) stiffness(i, i) = k[static_cast<std::size_t>(i)];
+    for (int i = 0; i < 6; ++i) stiffness(i, i) = k[i];
     return stiffness;
   }
   if (node.children.size() != 6) return fail(node, node.children.size()), stiffness;
   for (int i = 0; i < 6; ++i) {
-    const YamlNode& row = node.children[static_cast<std::size_t>(i)];
+    const YamlNode& row = node.children[i];
     const std::vector<double> k = read_numbers(context, row, fmt::format("stiffness[{}]", i));
     if (k.size() != 6) return fail(row, k.size()), stiffness;
-    for (int j = 0; j < 6; ++j) stiffness(i, j) = k[static_cast<std::size_t>(j)];
+    for (int j = 0; j < 6; ++j) stiffness(i, j) = k[j];
   }
   return stiffness;
 }

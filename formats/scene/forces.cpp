@@ -59,15 +59,15 @@ Eigen::Matrix<double, 6, 6> read_six_by_six(const MapReader& map, const std::str
   if (!rows) {
     const std::vector<double> diagonal = read_numbers(map.context(), *node, key);
     if (check_size(diagonal, *node, key))
-      for (int i = 0; i < 6; ++i) matrix(i, i) = diagonal[static_cast<std::size_t>(i)];
+      for (int i = 0; i < 6; ++i) matrix(i, i) = diagonal[i];
     return matrix;
   }
   for (int i = 0; i < 6; ++i) {
-    const YamlNode& row = node->children[static_cast<std::size_t>(i)];
+    const YamlNode& row = node->children[i];
     const std::string what = fmt::format("{}[{}]", key, i);
     const std::vector<double> values = read_numbers(map.context(), row, what);
     if (check_size(values, row, what))
-      for (int j = 0; j < 6; ++j) matrix(i, j) = values[static_cast<std::size_t>(j)];
+      for (int j = 0; j < 6; ++j) matrix(i, j) = values[j];
   }
   return matrix;
 }
@@ -79,7 +79,7 @@ std::optional<Eigen::Matrix<double, 6, 1>> read_six(const MapReader& map, const 
   const std::vector<double> values = read_numbers(map.context(), *node, key);
   Eigen::Matrix<double, 6, 1> vector = Eigen::Matrix<double, 6, 1>::Zero();
   if (values.size() == 6)
-    for (int i = 0; i < 6; ++i) vector[i] = values[static_cast<std::size_t>(i)];
+    for (int i = 0; i < 6; ++i) vector[i] = values[i];
   else if (node->kind == YamlKind::sequence)
     map.context().fail(node->place, fmt::format("{} has {} numbers instead of 6", key, values.size()),
                        "give six numbers [x, y, z, rx, ry, rz]");

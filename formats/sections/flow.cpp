@@ -226,8 +226,8 @@ void solve(const std::vector<Panel>& panels, Boundary& boundary) {
   Eigen::MatrixXd A = Eigen::VectorXd::Ones(n) * (boundary.weight / boundary.weight.sum()).transpose();
   Three right = Three::Zero(n, 3);
   for (Eigen::Index row = 0; row < n; ++row) {
-    const Complex x = boundary.place[static_cast<std::size_t>(row)];
-    const Panel& own = panels[static_cast<std::size_t>(row / nodes)];
+    const Complex x = boundary.place[row];
+    const Panel& own = panels[row / nodes];
     A(row, row) += 0.5;
     for (std::size_t p = 0; p < panels.size(); ++p) {
       const PanelIntegrals integrals = integrate(panels[p], x, own);
@@ -244,7 +244,7 @@ template <class Function>
 double area_integral(const Boundary& boundary, int u, Function q_and_gradient) {
   double sum = 0.0;
   for (Eigen::Index i = 0; i < boundary.weight.size(); ++i) {
-    const Complex x = boundary.place[static_cast<std::size_t>(i)], n = boundary.normal[static_cast<std::size_t>(i)];
+    const Complex x = boundary.place[i], n = boundary.normal[i];
     const auto [q, gradient] = q_and_gradient(x.real(), x.imag());
     sum += boundary.weight[i] * (boundary.value(i, u) * (std::conj(gradient) * n).real() - q * boundary.flux(i, u));
   }
@@ -265,7 +265,7 @@ Eigen::Matrix2d shear_energies(const Boundary& boundary) {
       area_integral(boundary, 2, potential_of_y), area_integral(boundary, 2, potential_of_z);
   double y4 = 0.0, y3z = 0.0, yz3 = 0.0, z4 = 0.0;
   for (Eigen::Index i = 0; i < boundary.weight.size(); ++i) {
-    const Complex x = boundary.place[static_cast<std::size_t>(i)], n = boundary.normal[static_cast<std::size_t>(i)];
+    const Complex x = boundary.place[i], n = boundary.normal[i];
     const double y = x.real(), z = x.imag(), ds = boundary.weight[i];
     y4 += ds * std::pow(y, 5) / 5.0 * n.real();
     z4 += ds * std::pow(z, 5) / 5.0 * n.imag();

@@ -151,9 +151,7 @@ Matrix2d shear_energies(const Network& network, const Potentials& u) {
   Matrix2d E = Matrix2d::Zero();
   for (const Wall& wall : network.walls) {
     const Vector2d &a = network.nodes[wall.from], &b = network.nodes[wall.to];
-    const Vector2d difference =
-        (u.row(static_cast<Eigen::Index>(wall.to)).tail<2>() - u.row(static_cast<Eigen::Index>(wall.from)).tail<2>())
-            .transpose();
+    const Vector2d difference = (u.row(wall.to).tail<2>() - u.row(wall.from).tail<2>()).transpose();
     const Matrix2d ab = a * b.transpose();
     E += wall.thickness / wall.length * difference * difference.transpose();
     E += wall.thickness * std::pow(wall.length, 3) *

@@ -87,8 +87,7 @@ void check_dof_table(const Superelement& e, const Place& place) {
   std::vector<std::array<int, 6>> owner(e.node_name.size(), {-1, -1, -1, -1, -1, -1});
   std::vector<int> internal_owner(static_cast<std::size_t>(internal), -1);
   for (int row = 0; row < n; ++row) {
-    const int node = e.dof_node[static_cast<std::size_t>(row)],
-              component = e.dof_component[static_cast<std::size_t>(row)];
+    const int node = e.dof_node[row], component = e.dof_component[row];
     if (node < -1 || node >= nodes)
       throw Error(fmt::format("entry {} is {}, expected -1 (internal coordinate) or the row 0 to {} of a boundary node",
                               row, node, nodes - 1),
@@ -101,8 +100,7 @@ void check_dof_table(const Superelement& e, const Place& place) {
                    : fmt::format("entry {} is {}, expected 0 to 2 (translation x, y, z) or 3 to 5 (rotation x, y, z)",
                                  row, component),
           place.dataset("/dof/component"), "correct the number");
-    int& slot = node < 0 ? internal_owner[static_cast<std::size_t>(component)]
-                         : owner[static_cast<std::size_t>(node)][static_cast<std::size_t>(component)];
+    int& slot = node < 0 ? internal_owner[component] : owner[node][component];
     if (slot >= 0)
       throw Error(fmt::format("rows {} and {} are the same coordinate: {}", slot, row, row_text(e, row)),
                   place.dataset("/dof/component"), "write every coordinate once");
@@ -139,7 +137,7 @@ void check_finite(const Superelement& e, const Place& place) {
     for (Eigen::Index k = 0; k < 3; ++k)
       if (!(std::abs(e.node_position(i, k)) < largest_value))
         throw Error(fmt::format("[{}, {}] = {} is not a usable number: {} of node '{}'", i, k, e.node_position(i, k),
-                                "xyz"[k], e.node_name[static_cast<std::size_t>(i)]),
+                                "xyz"[k], e.node_name[i]),
                     place.dataset("/boundary/position"), "write finite numbers");
   check_finite_matrix(e, e.stiffness, "/stiffness", place);
   check_finite_matrix(e, e.mass, "/mass", place);
@@ -147,7 +145,7 @@ void check_finite(const Superelement& e, const Place& place) {
 
 void check_diagonal(const Superelement& e, const Eigen::MatrixXd& matrix, const std::string& name, const Place& place) {
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    if (matrix(i, i) < 0.0 && e.dof_node[static_cast<std::size_t>(i)] < 0)
+    if (matrix(i, i) < 0.0 && e.dof_node[i] < 0)
       throw Error(
           fmt::format("is not positive semidefinite: [{}, {}] = {} < 0, {}", i, i, matrix(i, i), row_text(e, i)),
           place.dataset(name), "check the reduction that made the file");
@@ -190,10 +188,10 @@ void check_rigid_rank(const Superelement& e, const Place& place) {
   std::vector<bool> has_translation(count, false);
   bool rotations = false;
   for (Eigen::Index row = 0; row < e.size(); ++row) {
-    const int node = e.dof_node[static_cast<std::size_t>(row)];
+    const int node = e.dof_node[row];
     if (node < 0) continue;
-    if (e.dof_component[static_cast<std::size_t>(row)] < 3)
-      has_translation[static_cast<std::size_t>(node)] = true;
+    if (e.dof_component[row] < 3)
+      has_translation[node] = true;
     else
       rotations = true;
   }
@@ -204,7 +202,7 @@ void check_rigid_rank(const Superelement& e, const Place& place) {
   };
   if (translating.empty()) fail("moving in x, y or z", "keep the translations of at least one node");
   if (rotations) return;
-  const auto name = [&](Eigen::Index node) { return e.node_name[static_cast<std::size_t>(node)]; };
+  const auto name = [&](Eigen::Index node) { return e.node_name[node]; };
   const double tolerance = collinear_tolerance * characteristic_length(e);
   const Eigen::RowVector3d a = e.node_position.row(translating.front());
   Eigen::Index far = translating.front();

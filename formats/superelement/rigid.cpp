@@ -21,8 +21,8 @@ Eigen::Vector3d mean_of_nodes(const Superelement& element) {
 Eigen::MatrixXd rigid_motions(const Superelement& element, const Eigen::Vector3d& origin) {
   Eigen::MatrixXd R = Eigen::MatrixXd::Zero(element.size(), 6);
   for (Eigen::Index row = 0; row < element.size(); ++row) {
-    const int node = element.dof_node[static_cast<std::size_t>(row)];
-    const int component = element.dof_component[static_cast<std::size_t>(row)];
+    const int node = element.dof_node[row];
+    const int component = element.dof_component[row];
     if (node < 0) continue;
     R(row, component) = 1.0;
     if (component >= 3) continue;
@@ -62,10 +62,9 @@ ScaledMatrices scale(const Superelement& element) {
   s.stiffness_row = s.mass_row = Eigen::VectorXd::Ones(n);
   std::vector<Eigen::Index> boundary;
   for (Eigen::Index row = 0; row < n; ++row) {
-    if (element.dof_node[static_cast<std::size_t>(row)] < 0) continue;
+    if (element.dof_node[row] < 0) continue;
     boundary.push_back(row);
-    if (element.dof_component[static_cast<std::size_t>(row)] >= 3)
-      s.stiffness_row[row] = s.mass_row[row] = 1.0 / s.length;
+    if (element.dof_component[row] >= 3) s.stiffness_row[row] = s.mass_row[row] = 1.0 / s.length;
   }
   double largest_S = 0.0, largest_M = 0.0;
   for (const Eigen::Index i : boundary)
@@ -75,14 +74,14 @@ ScaledMatrices scale(const Superelement& element) {
     }
   double softest = 0.0;
   for (Eigen::Index row = 0; row < n; ++row) {
-    if (element.dof_node[static_cast<std::size_t>(row)] >= 0 || !(element.mass(row, row) > 0.0)) continue;
+    if (element.dof_node[row] >= 0 || !(element.mass(row, row) > 0.0)) continue;
     const double stiffness = largest_M * element.stiffness(row, row) / element.mass(row, row);
     if (stiffness > 0.0 && (softest == 0.0 || stiffness < softest)) softest = stiffness;
   }
   s.stiffness_scale = std::max(largest_S, softest) > 0.0 ? std::max(largest_S, softest) : 1.0;
   s.mass_scale = largest_M > 0.0 ? largest_M : 1.0;
   for (Eigen::Index row = 0; row < n; ++row) {
-    if (element.dof_node[static_cast<std::size_t>(row)] >= 0) continue;
+    if (element.dof_node[row] >= 0) continue;
     if (element.stiffness(row, row) > 0.0)
       s.stiffness_row[row] = std::sqrt(s.stiffness_scale / element.stiffness(row, row));
     if (element.mass(row, row) > 0.0) s.mass_row[row] = std::sqrt(s.mass_scale / element.mass(row, row));
@@ -118,11 +117,10 @@ void filter_rigid_motions(Superelement& element) {
 std::string row_text(const Superelement& element, Eigen::Index row) {
   static constexpr const char* components[] = {"translation x", "translation y", "translation z",
                                                "rotation x",    "rotation y",    "rotation z"};
-  const int node = element.dof_node[static_cast<std::size_t>(row)];
-  const int component = element.dof_component[static_cast<std::size_t>(row)];
+  const int node = element.dof_node[row];
+  const int component = element.dof_component[row];
   if (node < 0) return fmt::format("row {} (internal coordinate {})", row, component);
-  return fmt::format("row {} (node '{}', {})", row, element.node_name[static_cast<std::size_t>(node)],
-                     components[component]);
+  return fmt::format("row {} (node '{}', {})", row, element.node_name[node], components[component]);
 }
 
 }  // namespace tisserand::formats

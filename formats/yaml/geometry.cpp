@@ -66,13 +66,13 @@ Eigen::Quaterniond from_axes(const MapReader& map) {
   constexpr std::array<std::string_view, 3> names{"x", "y", "z"};
   std::vector<int> given;
   for (int i = 0; i < 3; ++i)
-    if (map.has(names[static_cast<std::size_t>(i)])) given.push_back(i);
+    if (map.has(names[i])) given.push_back(i);
   if (given.size() != 2) {
     map.fail(fmt::format("{} of the axes x, y, z are given", given.size()), "give two of them");
     return Eigen::Quaterniond::Identity();
   }
-  const Eigen::Vector3d first = direction(map, names[static_cast<std::size_t>(given[0])]);
-  const Eigen::Vector3d second = direction(map, names[static_cast<std::size_t>(given[1])]);
+  const Eigen::Vector3d first = direction(map, names[given[0]]);
+  const Eigen::Vector3d second = direction(map, names[given[1]]);
   const Eigen::Vector3d normal = second - first.dot(second) * first;
   if (normal.norm() < slack) {
     map.fail("the two axes are parallel", "give two directions");
@@ -121,8 +121,7 @@ Eigen::Matrix3d read_matrix(const Context& context, const YamlNode& node, const 
                  "write it as [[1, 0, 0], [0, 1, 0], [0, 0, 1]]");
     return matrix;
   }
-  for (int i = 0; i < 3; ++i)
-    matrix.row(i) = read_vector(context, node.children[static_cast<std::size_t>(i)], fmt::format("{}[{}]", what, i));
+  for (int i = 0; i < 3; ++i) matrix.row(i) = read_vector(context, node.children[i], fmt::format("{}[{}]", what, i));
   return matrix;
 }
 

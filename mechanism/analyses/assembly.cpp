@@ -39,22 +39,21 @@ Bodies find_bodies(const Model& model, const State& state) {
   std::vector<int> parent(model.nodes.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&parent](int node) {
-    while (parent[static_cast<std::size_t>(node)] != node) node = parent[static_cast<std::size_t>(node)];
+    while (parent[node] != node) node = parent[node];
     return node;
   };
   const auto join_all = [&](const auto& nodes) {
-    for (const int node : nodes) parent[static_cast<std::size_t>(root(node))] = root(nodes[0]);
+    for (const int node : nodes) parent[root(node)] = root(nodes[0]);
   };
   for (const SuperelementUse& use : model.superelements) join_all(use.nodes);
   for (const BeamElement2& beam : model.beams2) join_all(beam.nodes);
   for (const BeamElement3& beam : model.beams3) join_all(beam.nodes);
-  for (const ModalNode& node : model.modal_nodes)
-    join_all(std::array{model.modal_bodies[static_cast<std::size_t>(node.body)].node, node.node});
+  for (const ModalNode& node : model.modal_nodes) join_all(std::array{model.modal_bodies[node.body].node, node.node});
   Bodies bodies;
   bodies.of_node.assign(model.nodes.size(), -1);
   std::vector<int> number(model.nodes.size(), -1), count;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    int& at = number[static_cast<std::size_t>(root(static_cast<int>(i)))];
+    int& at = number[root(static_cast<int>(i))];
     if (at < 0) {
       at = static_cast<int>(bodies.center.size());
       bodies.center.push_back(Vector3d::Zero());
@@ -62,8 +61,8 @@ Bodies find_bodies(const Model& model, const State& state) {
     }
     bodies.of_node[i] = at;
     if (model.nodes[i].modal >= 0) continue;  // follows the frame of its body
-    bodies.center[static_cast<std::size_t>(at)] += state.x().col(static_cast<Eigen::Index>(i));
-    ++count[static_cast<std::size_t>(at)];
+    bodies.center[at] += state.x().col(i);
+    ++count[at];
   }
   for (std::size_t k = 0; k < bodies.center.size(); ++k) bodies.center[k] /= count[k];
   return bodies;
@@ -80,7 +79,7 @@ void move(const Model& model, const VectorXd& d, Bodies& bodies, State& state) {
   };
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const int body = bodies.of_node[i];
-    const Vector3d& c = bodies.center[static_cast<std::size_t>(body)];
+    const Vector3d& c = bodies.center[body];
     const Eigen::Quaterniond q = quaternion(body);
     const auto column = static_cast<Eigen::Index>(i);
     const Vector3d arm = state.x().col(column) - c;
@@ -88,7 +87,7 @@ void move(const Model& model, const VectorXd& d, Bodies& bodies, State& state) {
     if (model.nodes[i].rotation >= 0) state.Q().col(column) = turned(q, state.Q().col(column));
   }
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    const int body = bodies.of_node[static_cast<std::size_t>(model.superelements[i].nodes.front())];
+    const int body = bodies.of_node[model.superelements[i].nodes.front()];
     const auto column = static_cast<Eigen::Index>(i);
     state.frames().col(column) = turned(quaternion(body), state.frames().col(column));
   }
@@ -96,9 +95,7 @@ void move(const Model& model, const VectorXd& d, Bodies& bodies, State& state) {
     bodies.center[k] += model.length * d.segment<3>(6 * static_cast<Eigen::Index>(k));
 }
 
-double row_scale(const Model& model, int row) {
-  return model.length_row[static_cast<std::size_t>(row)] ? 1.0 / model.length : 1.0;
-}
+double row_scale(const Model& model, int row) { return model.length_row[row] ? 1.0 / model.length : 1.0; }
 
 /// ∂(scaled Φ)/∂[t/L; θ] at the last evaluate().
 Sparse jacobian(const Model& model, const Bodies& bodies, const Workspace& workspace) {
@@ -106,9 +103,9 @@ Sparse jacobian(const Model& model, const Bodies& bodies, const Workspace& works
   const auto add = [&](int row, int node, const Eigen::Ref<const Eigen::RowVectorXd>& B) {
     if (node < 0) return;
     const NodeMotion& motion = motion_of(workspace, node);
-    const int body = bodies.of_node[static_cast<std::size_t>(node)];
+    const int body = bodies.of_node[node];
     const Eigen::RowVector3d along = B.head<3>(), about = B.tail<3>();
-    const Vector3d arm = motion.x - bodies.center[static_cast<std::size_t>(body)];
+    const Vector3d arm = motion.x - bodies.center[body];
     Eigen::RowVector3d turn = -along * skew<double>(arm);
     if (has_rotation(model, node)) turn += about * motion.R.transpose();
     for (int k = 0; k < 3; ++k) {
@@ -204,10 +201,10 @@ bool turn_over(const Model& model, Bodies& bodies, State& state, Workspace& work
     if (turn.isZero(0.0)) continue;
     const bool moves_b = joint.b.node >= 0;
     const Marker& marker = moves_b ? joint.b : joint.a;
-    const int body = bodies.of_node[static_cast<std::size_t>(marker.node)];
+    const int body = bodies.of_node[marker.node];
     VectorXd d = VectorXd::Zero(6 * static_cast<Eigen::Index>(bodies.center.size()));
     const Vector3d theta = moves_b ? turn : Vector3d(-turn);
-    const Vector3d arm = marker_position(marker, moves_b ? b : a) - bodies.center[static_cast<std::size_t>(body)];
+    const Vector3d arm = marker_position(marker, moves_b ? b : a) - bodies.center[body];
     d.segment<3>(6 * body + 3) = theta;
     d.segment<3>(6 * body) = (arm - exp_so3<double>(theta) * arm) / model.length;
     move(model, d, bodies, state);
@@ -233,7 +230,7 @@ VectorXd rigid_velocities(const Model& model, const Bodies& bodies, const State&
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const auto body = static_cast<std::size_t>(bodies.of_node[i]);
     if (model.nodes[i].rotation < 0 || turning[body]) continue;
-    const Eigen::Vector4d Q = state.Q().col(static_cast<Eigen::Index>(i));
+    const Eigen::Vector4d Q = state.Q().col(i);
     const Vector3d Omega = state.v().segment<3>(model.nodes[i].rotation);
     w.segment<3>(6 * static_cast<Eigen::Index>(body) + 3) = Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]) * Omega;
     turning[body] = true;
@@ -242,8 +239,7 @@ VectorXd rigid_velocities(const Model& model, const Bodies& bodies, const State&
     const auto body = static_cast<std::size_t>(bodies.of_node[i]);
     if (model.nodes[i].translation < 0 || moving[body]) continue;
     const auto at = 6 * static_cast<Eigen::Index>(body);
-    const Vector3d arm = state.x().col(static_cast<Eigen::Index>(i)) - bodies.center[body],
-                   omega = w.segment<3>(at + 3);
+    const Vector3d arm = state.x().col(i) - bodies.center[body], omega = w.segment<3>(at + 3);
     const Vector3d velocity = state.v().segment<3>(model.nodes[i].translation);
     w.segment<3>(at) = (velocity - omega.cross(arm)) / model.length;
     moving[body] = true;
@@ -257,7 +253,7 @@ void set_velocities(const Model& model, const Bodies& bodies, const VectorXd& w,
     const Eigen::Index at = 6 * bodies.of_node[i];
     const auto column = static_cast<Eigen::Index>(i);
     const Vector3d omega = w.segment<3>(at + 3);
-    const Vector3d arm = state.x().col(column) - bodies.center[static_cast<std::size_t>(bodies.of_node[i])];
+    const Vector3d arm = state.x().col(column) - bodies.center[bodies.of_node[i]];
     if (model.nodes[i].translation >= 0)
       state.v().segment<3>(model.nodes[i].translation) = model.length * w.segment<3>(at) + omega.cross(arm);
     if (model.nodes[i].rotation >= 0) {
@@ -288,7 +284,7 @@ std::vector<JointGap> open_joints(const Model& model, const Workspace& workspace
   const auto look = [&](const std::string& name, int first, int size) {
     JointGap gap{name, 0.0, 0.0};
     for (int row = first; row < first + size; ++row) {
-      double& value = model.length_row[static_cast<std::size_t>(row)] ? gap.length : gap.angle;
+      double& value = model.length_row[row] ? gap.length : gap.angle;
       value = std::max(value, std::abs(workspace.constraint[row]));
     }
     if (std::max(gap.length / model.length, gap.angle) > tolerance) open.push_back(gap);

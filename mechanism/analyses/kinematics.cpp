@@ -30,7 +30,7 @@ double largest_gap(const Model& model, const Workspace& workspace, double active
   double largest = 0.0;
   for (int row = 0; row < model.sizes.constraints; ++row) {
     if (workspace.active[row] != active) continue;
-    const double length = model.length_row[static_cast<std::size_t>(row)] ? model.length : 1.0;
+    const double length = model.length_row[row] ? model.length : 1.0;
     const double gap = std::abs(workspace.constraint[row]) / length;
     if (!(gap <= largest)) largest = gap;
   }
@@ -99,8 +99,8 @@ void require_determined(const Model& model, const Mobility& mobility, const std:
   std::string flexible;
   if (!model.superelements.empty()) flexible = fmt::format("body '{}'", model.superelements.front().name);
   if (!model.modal_bodies.empty()) flexible = fmt::format("body '{}'", model.modal_bodies.front().name);
-  if (!model.beams2.empty()) flexible = model.nodes[static_cast<std::size_t>(model.beams2.front().nodes[0])].name;
-  if (!model.beams3.empty()) flexible = model.nodes[static_cast<std::size_t>(model.beams3.front().nodes[0])].name;
+  if (!model.beams2.empty()) flexible = model.nodes[model.beams2.front().nodes[0]].name;
+  if (!model.beams3.empty()) flexible = model.nodes[model.beams3.front().nodes[0]].name;
   if (!flexible.empty())
     throw Error(fmt::format("{} is flexible: its deformation is no matter of kinematics", flexible), where,
                 "take superelements with `use: rigid` and rigid bodies in place of beams, or run dynamics");

@@ -27,8 +27,7 @@ void add_superelement(const Model& model, std::size_t i, const TangentCoefficien
   std::vector<int> rows = model.superelement_maps[i].coordinates;
   for (int k = 0; k < body.modes; ++k) rows.push_back(model.sizes.boundary + model.internal_offset[i] + k);
   for (Eigen::Index column = 0; column < local.cols(); ++column)
-    for (Eigen::Index row = 0; row < local.rows(); ++row)
-      A(rows[static_cast<std::size_t>(row)], rows[static_cast<std::size_t>(column)]) += local(row, column);
+    for (Eigen::Index row = 0; row < local.rows(); ++row) A(rows[row], rows[column]) += local(row, column);
 }
 
 /// c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q; the values of the pattern stay in the workspace.
@@ -38,11 +37,9 @@ MatrixXd exact_matrix(const Model& model, const State& state, const TangentCoeff
   MatrixXd A = MatrixXd::Zero(n, n);
   evaluate_tangent_without_superelements(model, state, c, {}, workspace);
   for (int j = 0; j < boundary; ++j)
-    for (int at = pattern.column_start()[static_cast<std::size_t>(j)];
-         at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
-      const int i = pattern.rows()[static_cast<std::size_t>(at)];
-      if (i < boundary)
-        A(i, j) = workspace.matrix_scale * workspace.values[static_cast<std::size_t>(pattern.slot(i, j))];
+    for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
+      const int i = pattern.rows()[at];
+      if (i < boundary) A(i, j) = workspace.matrix_scale * workspace.values[pattern.slot(i, j)];
     }
   for (std::size_t i = 0; i < model.superelements.size(); ++i) add_superelement(model, i, c, workspace, A);
   return A;
@@ -55,12 +52,9 @@ MatrixXd jacobian(const Model& model, const State& state, const Workspace& works
   const int boundary = model.sizes.boundary;
   MatrixXd B = MatrixXd::Zero(kept.empty() ? 0 : static_cast<int>(state.active().sum()), model.sizes.velocities());
   for (int j = 0; j < boundary; ++j)
-    for (int at = pattern.column_start()[static_cast<std::size_t>(j)];
-         at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
-      const int i = pattern.rows()[static_cast<std::size_t>(at)];
-      if (i >= boundary && kept[static_cast<std::size_t>(i - boundary)] >= 0)
-        B(kept[static_cast<std::size_t>(i - boundary)], j) =
-            workspace.values[static_cast<std::size_t>(pattern.slot(i, j))];
+    for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
+      const int i = pattern.rows()[at];
+      if (i >= boundary && kept[i - boundary] >= 0) B(kept[i - boundary], j) = workspace.values[pattern.slot(i, j)];
     }
   return B;
 }

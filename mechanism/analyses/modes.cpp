@@ -237,13 +237,13 @@ formats::ModesTable modes_table(const Model& model, const Workspace& workspace, 
   table.translation.setZero(3 * places, modes);
   table.rotation.setZero(3 * places, modes);
   for (Eigen::Index k = 0; k < modes; ++k) {
-    const Mode& mode = report.modes[static_cast<std::size_t>(k)];
+    const Mode& mode = report.modes[k];
     table.eigenvalue[k] = mode.eigenvalue;
     table.frequency[k] = mode.frequency();
     table.damping_ratio[k] = mode.damping_ratio();
     for (Eigen::Index p = 0; p < places; ++p) {
-      const Marker& marker = model.places[static_cast<std::size_t>(p)].marker;
-      const Node& node = model.nodes[static_cast<std::size_t>(marker.node)];
+      const Marker& marker = model.places[p].marker;
+      const Node& node = model.nodes[marker.node];
       const Eigen::Vector3d arm = motion_of(workspace, marker.node).R * marker.p;
       Eigen::Vector3cd x = Eigen::Vector3cd::Zero(), turn = x;
       if (node.translation >= 0) x = mode.shape.segment<3>(node.translation);

@@ -45,8 +45,8 @@ std::vector<std::vector<int>> massless_groups(const Model& model) {
   std::vector<std::vector<int>> neighbours(model.nodes.size());
   const auto connect = [&](const Marker& a, const Marker& b) {
     if (a.node < 0 || b.node < 0 || !parts.is_massless(a.node) || !parts.is_massless(b.node)) return;
-    neighbours[static_cast<std::size_t>(a.node)].push_back(b.node);
-    neighbours[static_cast<std::size_t>(b.node)].push_back(a.node);
+    neighbours[a.node].push_back(b.node);
+    neighbours[b.node].push_back(a.node);
   };
   for (const Joint& joint : model.joints) connect(joint.a, joint.b);
   for (const Coordinate& c : model.coordinates) connect(c.a, c.b);
@@ -54,13 +54,13 @@ std::vector<std::vector<int>> massless_groups(const Model& model) {
   std::vector<std::vector<int>> groups;
   std::vector<bool> seen(model.nodes.size(), false);
   for (int start = 0; start < static_cast<int>(model.nodes.size()); ++start) {
-    if (seen[static_cast<std::size_t>(start)] || !parts.is_massless(start)) continue;
+    if (seen[start] || !parts.is_massless(start)) continue;
     std::vector<int> group{start};
-    seen[static_cast<std::size_t>(start)] = true;
+    seen[start] = true;
     for (std::size_t at = 0; at < group.size(); ++at)
-      for (const int next : neighbours[static_cast<std::size_t>(group[at])])
-        if (!seen[static_cast<std::size_t>(next)]) {
-          seen[static_cast<std::size_t>(next)] = true;
+      for (const int next : neighbours[group[at]])
+        if (!seen[next]) {
+          seen[next] = true;
           group.push_back(next);
         }
     groups.push_back(std::move(group));
@@ -74,14 +74,12 @@ MatrixXd column_products(const Model& model, const std::vector<int>& group, cons
   std::map<int, std::vector<std::pair<int, double>>> rows;
   int column = 0;
   for (const int node : group)
-    for (const int first : {model.nodes[static_cast<std::size_t>(node)].translation,
-                            model.nodes[static_cast<std::size_t>(node)].rotation})
+    for (const int first : {model.nodes[node].translation, model.nodes[node].rotation})
       for (int j = first; j < first + 3; ++j, ++column)
-        for (int at = pattern.column_start()[static_cast<std::size_t>(j)];
-             at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
-          const int i = pattern.rows()[static_cast<std::size_t>(at)];
+        for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
+          const int i = pattern.rows()[at];
           const int slot = pattern.slot(i, j);
-          const double value = workspace.values[static_cast<std::size_t>(slot)] * model.value_scale[slot];
+          const double value = workspace.values[slot] * model.value_scale[slot];
           if (value != 0.0) rows[i].emplace_back(column, value);
         }
   MatrixXd products = MatrixXd::Zero(column, column);
@@ -111,7 +109,7 @@ void describe(const std::string& name, const Eigen::Matrix3d& R, const MatrixXd&
 void add_mass_doubts(const Model& model, std::vector<std::string>& doubts) {
   const Parts parts = find_parts(model);
   int lightest = -1, heaviest = -1;
-  const auto mass = [&parts](int part) { return parts.mass[static_cast<std::size_t>(part)]; };
+  const auto mass = [&parts](int part) { return parts.mass[part]; };
   for (int i = 0; i < parts.count(); ++i) {
     if (mass(i) == 0.0) continue;
     if (lightest < 0 || mass(i) < mass(lightest)) lightest = i;
@@ -119,8 +117,8 @@ void add_mass_doubts(const Model& model, std::vector<std::string>& doubts) {
   }
   if (lightest >= 0 && mass(heaviest) > largest_ratio * mass(lightest))
     doubts.push_back(fmt::format("the masses of '{}' ({:.3g}) and '{}' ({:.3g}) differ by more than {:g}",
-                                 parts.name[static_cast<std::size_t>(heaviest)], mass(heaviest),
-                                 parts.name[static_cast<std::size_t>(lightest)], mass(lightest), largest_ratio));
+                                 parts.name[heaviest], mass(heaviest), parts.name[lightest], mass(lightest),
+                                 largest_ratio));
 }
 
 void add_inertia_doubts(const Model& model, std::vector<std::string>& doubts) {
@@ -161,7 +159,7 @@ std::vector<MarkerGap> marker_gaps(const Model& model, const Workspace& workspac
     double square = 0.0;
     for (int row = first; row < first + size; ++row) {
       const double value = workspace.constraint[row];
-      if (model.length_row[static_cast<std::size_t>(row)])
+      if (model.length_row[row])
         square += value * value;
       else
         gap.angle = std::max(gap.angle, std::abs(value));
@@ -194,7 +192,7 @@ std::vector<std::string> undetermined_motions(const Model& model, const State& s
     const double limit = null_tolerance * std::max(1e-300, eigen.eigenvalues().maxCoeff());
     const Eigen::Index null = (eigen.eigenvalues().array() <= limit).count();
     for (std::size_t i = 0; i < group.size(); ++i)
-      describe(model.nodes[static_cast<std::size_t>(group[i])].name, motion_of(workspace, group[i]).R,
+      describe(model.nodes[group[i]].name, motion_of(workspace, group[i]).R,
                eigen.eigenvectors().block(6 * static_cast<Eigen::Index>(i), 0, 6, null), motions);
   }
   workspace.has_factors = false;

@@ -31,7 +31,7 @@ struct Violation {
 Violation largest_violation(const Model& model, const Eigen::VectorXd& rows) {
   Violation worst;
   for (int row = 0; row < model.sizes.constraints; ++row) {
-    const double value = std::abs(rows[row]) / (model.length_row[static_cast<std::size_t>(row)] ? model.length : 1.0);
+    const double value = std::abs(rows[row]) / (model.length_row[row] ? model.length : 1.0);
     if (!(value <= worst.value)) worst = {value, row};
   }
   return worst;
@@ -235,7 +235,7 @@ void begin(const Model& model, State& state, Workspace& workspace) {
   state.initial_energy() = evaluate_energy(model, workspace).total();
   state.load_power() = workspace.load_power;
   state.damping_power() = workspace.damping_power;
-  for (int k = 0; k < 3; ++k) state.force_scale(k) = workspace.force_scale[static_cast<std::size_t>(k)];
+  for (int k = 0; k < 3; ++k) state.force_scale(k) = workspace.force_scale[k];
   unwrap_hinges(model, workspace, state);
 }
 

@@ -74,8 +74,7 @@ StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options,
 
 void accept_equilibrium(const Model& model, State& state, const Workspace& workspace) {
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    state.frames().col(static_cast<Eigen::Index>(i)) =
-        wxyz(Eigen::Quaterniond(workspace.superelements[i].motion.R0).normalized());
+    state.frames().col(i) = wxyz(Eigen::Quaterniond(workspace.superelements[i].motion.R0).normalized());
   for (Eigen::Index i = 0; i < state.Q().cols(); ++i) state.Q().col(i).normalize();
   unwrap_hinges(model, workspace, state);
 }

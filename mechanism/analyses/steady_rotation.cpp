@@ -61,7 +61,7 @@ bool solve(const Model& model, const State& state, const Linearisation& l, const
   for (std::size_t row = 0; row < rows.size(); ++row) {
     if (rows[row] < 0) continue;
     scale[n + rows[row]] = model.equation_scale[model.sizes.boundary + static_cast<Eigen::Index>(row)];
-    right[n + rows[row]] = -workspace.constraint[static_cast<Eigen::Index>(row)];
+    right[n + rows[row]] = -workspace.constraint[row];
   }
   MatrixXd A = MatrixXd::Zero(n + m, n + m);
   A.topLeftCorner(n, n) = l.K / stiffness;
@@ -92,7 +92,7 @@ void apply(const Model& model, const VectorXd& xi, const VectorXd& multipliers, 
   retract(model, before, d, state);
   const std::vector<int> rows = active_rows(state);
   for (std::size_t row = 0; row < rows.size(); ++row)
-    if (rows[row] >= 0) state.lambda()[static_cast<Eigen::Index>(row)] += multipliers[rows[row]];
+    if (rows[row] >= 0) state.lambda()[row] += multipliers[rows[row]];
 }
 
 StepOutcome balance(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted, State& state,

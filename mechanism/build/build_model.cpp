@@ -155,7 +155,7 @@ class Builder {
     use.name = spec.name;
     use.body = find_or_build(spec, file, units, built_superelements_, model_.superelement_bodies);
     use.gravity = spec.gravity.value_or(scene_.gravity);
-    const SuperelementBody& body = model_.superelement_bodies[static_cast<std::size_t>(use.body)];
+    const SuperelementBody& body = model_.superelement_bodies[use.body];
     for (const std::string& note : body.notes) notes_.push_back(fmt::format("body '{}': {}", spec.name, note));
     for (const SuperelementNode& node : body.node) {
       const std::string name = spec.name + "/" + node.name;
@@ -183,7 +183,7 @@ class Builder {
     for (std::size_t j = 0; j < element.node_name.size(); ++j) {
       formats::RigidNodeSpec node;
       node.name = element.node_name[j];
-      node.pose.position = element.node_position.row(static_cast<Eigen::Index>(j)).transpose() * units.length;
+      node.pose.position = element.node_position.row(j).transpose() * units.length;
       rigid.nodes.push_back(node);
     }
     add_body(rigid);
@@ -212,7 +212,7 @@ class Builder {
     const auto append = [&nodes, &gravity](const auto& elements, auto& pool) {
       for (auto element : elements) {
         element.gravity = gravity;
-        for (int& node : element.nodes) node = nodes[static_cast<std::size_t>(node)];
+        for (int& node : element.nodes) node = nodes[node];
         pool.push_back(element);
       }
     };
@@ -256,8 +256,7 @@ class Builder {
     TiedBodies tied = tie_virtual_bodies(scene_, model_, first, markers_);
     markers_.start.resize(static_cast<std::size_t>(first));
     std::map<int, int> node_of_root;
-    for (const int root : tied.roots)
-      node_of_root[first + root] = add_virtual_node(*virtual_bodies_[static_cast<std::size_t>(root)]);
+    for (const int root : tied.roots) node_of_root[first + root] = add_virtual_node(*virtual_bodies_[root]);
     const auto renumber = [&](Marker& marker) {
       if (marker.node >= first) marker.node = node_of_root.at(marker.node);
     };
@@ -267,7 +266,7 @@ class Builder {
       renumber(tie.b);
     }
     const auto move = [&](Marker& place) {
-      if (place.node >= first) place = composed(tied.pose[static_cast<std::size_t>(place.node - first)], place);
+      if (place.node >= first) place = composed(tied.pose[place.node - first], place);
     };
     for (Place& place : model_.places) move(place.marker);
     for (auto& [name, place] : markers_.places) move(place);
@@ -278,7 +277,7 @@ class Builder {
   // ---- loads
   // ---------------------------------------------------------------------------------------------------------
   void check_load_node(const formats::LoadSpec& spec, const Load& load) const {
-    const Node& node = model_.nodes[static_cast<std::size_t>(load.at.node)];
+    const Node& node = model_.nodes[load.at.node];
     if (spec.kind == formats::LoadKind::moment && !has_rotation(model_, load.at.node))
       throw Error(fmt::format("moment '{}' acts on node '{}', which has no rotations", spec.name, node.name),
                   spec.where, "use forces, or keep the rotations of that node in the superelement");
@@ -306,8 +305,7 @@ class Builder {
     if (load.at.node >= 0) check_load_node(spec, load);
     const int index = static_cast<int>(model_.loads.size());
     for (int k = 0; k < 3; ++k)
-      note_function(spec.components[static_cast<std::size_t>(k)], {ChannelUse::Owner::load, index, k, 0, 0}, model_,
-                    breakpoints_);
+      note_function(spec.components[k], {ChannelUse::Owner::load, index, k, 0, 0}, model_, breakpoints_);
     model_.loads.push_back(std::move(load));
   }
 
@@ -345,8 +343,7 @@ class Builder {
       if (model.nodes[i].translation >= 0) state.v().segment<3>(model.nodes[i].translation) = m.xd;
       if (model.nodes[i].rotation >= 0) state.v().segment<3>(model.nodes[i].rotation) = m.Omega;
     }
-    for (std::size_t i = 0; i < frames_.size(); ++i)
-      state.frames().col(static_cast<Eigen::Index>(i)) = wxyz(frames_[i]);
+    for (std::size_t i = 0; i < frames_.size(); ++i) state.frames().col(i) = wxyz(frames_[i]);
     Workspace workspace(model);
     measure_start(model, state, workspace);
     scale(model, state, workspace);
@@ -361,10 +358,9 @@ class Builder {
     evaluate_coordinates(model, state, workspace);
     for (Coupling& coupling : model.couplings)
       for (const CouplingTerm& term : coupling.terms)
-        if (coupling.from_start)
-          coupling.constant += term.factor * workspace.coordinates[static_cast<std::size_t>(term.coordinate)].value;
+        if (coupling.from_start) coupling.constant += term.factor * workspace.coordinates[term.coordinate].value;
     for (Spring& spring : model.springs)
-      if (spring.free_at_start) spring.free = workspace.coordinates[static_cast<std::size_t>(spring.coordinate)].value;
+      if (spring.free_at_start) spring.free = workspace.coordinates[spring.coordinate].value;
     for (std::size_t i = 0; i < model.bushings.size(); ++i)
       if (model.bushings[i].free_at_start) model.bushings[i].free = workspace.bushings[i].deflection;
   }
@@ -378,8 +374,7 @@ class Builder {
       double largest = 0.0;
       for (int i = 0; i < model.sizes.boundary; ++i) {
         const int slot = model.pattern->slot(i, i);
-        largest =
-            std::max(largest, std::abs(workspace.values[static_cast<std::size_t>(slot)]) * model.value_scale[slot]);
+        largest = std::max(largest, std::abs(workspace.values[slot]) * model.value_scale[slot]);
       }
       return largest;
     };

@@ -14,7 +14,7 @@ void JointBuilder::add(const formats::SpringSpec& spec) {
                       : spec.kind == formats::SpringKind::torsion
                           ? add_angle(spec)
                           : add_distance(spec.name, fmt::format("spring '{}'", spec.name), spec, spec.where);
-  model_.coordinates[static_cast<std::size_t>(spring.coordinate)].active = true;
+  model_.coordinates[spring.coordinate].active = true;
   spring.stiffness = Curve(spec.stiffness);
   spring.damping = Curve(spec.damping);
   spring.free = spec.free.value_or(0.0);
@@ -125,7 +125,7 @@ void JointBuilder::add(const formats::ChannelSpec& spec) {
       break;
   }
   if (channel.coordinate >= 0) {
-    Coordinate& coordinate = model_.coordinates[static_cast<std::size_t>(channel.coordinate)];
+    Coordinate& coordinate = model_.coordinates[channel.coordinate];
     coordinate.active = true;
     channel.a = coordinate.a;
     channel.b = coordinate.b;

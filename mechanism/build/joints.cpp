@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 bool JointBuilder::uses_axes(const Joint& joint) {
   for (int k = 0; k < joint.relation_count; ++k)
-    if (joint.relations[static_cast<std::size_t>(k)].kind != RelationKind::distance) return true;
+    if (joint.relations[k].kind != RelationKind::distance) return true;
   return false;
 }
 
@@ -97,8 +97,7 @@ void JointBuilder::add_screw(const formats::JointSpec& spec) {
 }
 
 void JointBuilder::activate(Coupling& coupling) {
-  for (const CouplingTerm& term : coupling.terms)
-    model_.coordinates[static_cast<std::size_t>(term.coordinate)].active = true;
+  for (const CouplingTerm& term : coupling.terms) model_.coordinates[term.coordinate].active = true;
   model_.couplings.push_back(std::move(coupling));
 }
 
@@ -117,7 +116,7 @@ int JointBuilder::find_coordinate(const formats::CoordinateRef& ref) const {
 }
 
 bool JointBuilder::is_length_coordinate(int coordinate) const {
-  return is_length(model_.coordinates[static_cast<std::size_t>(coordinate)].relation);
+  return is_length(model_.coordinates[coordinate].relation);
 }
 
 void JointBuilder::add(const formats::GearSpec& spec) {
@@ -142,9 +141,9 @@ void JointBuilder::add(const formats::MotionSpec& spec) {
   motion.motion = static_cast<int>(model_.motions.size());
   const TimeFunction function(spec.value, model_.scope);  // reports syntax errors now
   if (!function.channels().empty())
-    throw Error(fmt::format("motion '{}' uses channel '{}'", spec.name,
-                            model_.scope.channels[static_cast<std::size_t>(function.channels().front())]),
-                spec.where, "a motion is a function of t and inputs; forces may use channels");
+    throw Error(
+        fmt::format("motion '{}' uses channel '{}'", spec.name, model_.scope.channels[function.channels().front()]),
+        spec.where, "a motion is a function of t and inputs; forces may use channels");
   breakpoints_.insert(function.breakpoints().begin(), function.breakpoints().end());
   model_.motions.push_back(spec.value);
   activate(motion);

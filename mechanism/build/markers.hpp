@@ -17,7 +17,7 @@ struct MarkerTable {
 
   /// The marker that a scene names, with its own offset. Throws Error with the nearest name.
   Marker find(const formats::MarkerSpec& spec) const;
-  NodeMotion motion(int node) const { return node < 0 ? NodeMotion{} : start[static_cast<std::size_t>(node)]; }
+  NodeMotion motion(int node) const { return node < 0 ? NodeMotion{} : start[node]; }
   Eigen::Vector3d position(const Marker& marker) const { return marker_position(marker, motion(marker.node)); }
 };
 

@@ -78,7 +78,7 @@ BuiltModalBody build_modal_body(const formats::ModalBody& file, const formats::M
     ModalNode node;
     node.name = file.node_name[k];
     node.turns = node_turns(file, k);
-    node.x = units.length * file.node_position.row(static_cast<Index>(k)).transpose();
+    node.x = units.length * file.node_position.row(k).transpose();
     node.Xd = file.X[k].topRows<3>().leftCols(body.modes) / root;
     node.Xt = file.X[k].bottomRows<3>().leftCols(body.modes) / (root * units.length);
     built.nodes.push_back(std::move(node));

@@ -91,7 +91,7 @@ class Grouping {
           if (node < 0) return node;
           if (is_virtual(node)) continue;
           if (!has_translation(model_, node) || !has_rotation(model_, node))
-            turning.push_back("'" + model_.nodes[static_cast<std::size_t>(node)].name + "'");
+            turning.push_back("'" + model_.nodes[node].name + "'");
           else if (is_virtual(carrier))
             carrier = node;
         }

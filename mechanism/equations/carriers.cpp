@@ -25,9 +25,7 @@ void for_each_carrier(const Model& model, const ElementMap& map, Visit visit) {
   }
 }
 
-const ModalNodeTerms& terms_of(const Workspace& workspace, int modal) {
-  return workspace.modal_nodes[static_cast<std::size_t>(modal)];
-}
+const ModalNodeTerms& terms_of(const Workspace& workspace, int modal) { return workspace.modal_nodes[modal]; }
 
 }  // namespace
 
@@ -49,7 +47,7 @@ void scatter_pulled(const Model& model, const ElementMap& map, const double* for
   for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
     const Eigen::Map<const Vector6d> f(force + local);
     for (Index j = 0; j < width; ++j) {
-      const int coordinate = map.coordinates[static_cast<std::size_t>(first + j)];
+      const int coordinate = map.coordinates[first + j];
       if (coordinate < 0) continue;
       workspace.residual[coordinate] += modal < 0 ? f[j] : terms_of(workspace, modal).T.col(j).dot(f);
     }
@@ -83,7 +81,7 @@ CarrierMatrix pulled_tangent(const Model& model, const ElementMap& map, const Lo
   });
   for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
     if (modal < 0) return;
-    add_geometric_stiffness(model.modal_nodes[static_cast<std::size_t>(modal)], terms_of(workspace, modal),
+    add_geometric_stiffness(model.modal_nodes[modal], terms_of(workspace, modal),
                             Eigen::Map<const Vector6d>(force + local), full.block(first, first, width, width));
   });
   return full;
@@ -94,9 +92,9 @@ CarrierMatrix pulled_rate_gradient(const Model& model, const ElementMap& map, co
   CarrierMatrix rows = pulled_rows(model, map, N, workspace, buffer);
   for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
     if (modal < 0) return;
-    const ModalNode& node = model.modal_nodes[static_cast<std::size_t>(modal)];
+    const ModalNode& node = model.modal_nodes[modal];
     CarrierMatrix Z(workspace.carriers.gradient.data(), 6, width);
-    rate_gradient(node, workspace.modal_bodies[static_cast<std::size_t>(node.body)], terms_of(workspace, modal), Z);
+    rate_gradient(node, workspace.modal_bodies[node.body], terms_of(workspace, modal), Z);
     rows.middleCols(first, width).noalias() += B.middleCols<6>(local).lazyProduct(Z);
   });
   return rows;
@@ -116,10 +114,10 @@ void pushed_increment(const Model& model, const ElementMap& map, const Workspace
                       double* local_increment) {
   for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
     const auto at = [&](Index j) {
-      const int coordinate = map.coordinates[static_cast<std::size_t>(first + j)];
+      const int coordinate = map.coordinates[first + j];
       return coordinate < 0 ? 0.0 : d[coordinate];
     };
-    const int node = map.carriers[static_cast<std::size_t>(local / 6)];
+    const int node = map.carriers[local / 6];
     const Vector3d move(at(0), at(1), at(2));
     const Vector3d turn = step_tangent(model, workspace, node) * Vector3d(at(3), at(4), at(5));
     Eigen::Map<Vector6d> increment(local_increment + local);
@@ -133,7 +131,7 @@ void pushed_increment(const Model& model, const ElementMap& map, const Workspace
 
 void turn_columns(const Model& model, const ElementMap& map, const Workspace& workspace, CarrierMatrix& rows) {
   for_each_carrier(model, map, [&](Index local, Index first, int, Index) {
-    const Matrix3d T = step_tangent(model, workspace, map.carriers[static_cast<std::size_t>(local / 6)]);
+    const Matrix3d T = step_tangent(model, workspace, map.carriers[local / 6]);
     for (Index k = 0; k < rows.rows(); ++k) {
       const Eigen::RowVector3d turned = rows.row(k).segment<3>(first + 3) * T;
       rows.row(k).segment<3>(first + 3) = turned;
@@ -151,8 +149,8 @@ Eigen::MatrixXd model_rows(const Model& model, const ElementMap& map, const Loca
 Matrix3d step_tangent(const Model& model, const Workspace& workspace, int node) {
   const int modal = modal_node(model, node);
   const int owner = modal < 0 ? node : modal_body_of(model, modal).node;
-  if (owner < 0 || model.nodes[static_cast<std::size_t>(owner)].rotation < 0) return Matrix3d::Identity();
-  const Vector3d turn = workspace.displacement.segment<3>(model.nodes[static_cast<std::size_t>(owner)].rotation);
+  if (owner < 0 || model.nodes[owner].rotation < 0) return Matrix3d::Identity();
+  const Vector3d turn = workspace.displacement.segment<3>(model.nodes[owner].rotation);
   return turn.isZero(0.0) ? Matrix3d(Matrix3d::Identity()) : tangent_so3<double>(turn);
 }
 

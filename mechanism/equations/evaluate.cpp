@@ -61,7 +61,7 @@ void update_modal_node(const Model& model, std::size_t i, Workspace& workspace) 
   const ModalNode& node = model.modal_nodes[i];
   const auto body = static_cast<std::size_t>(node.body);
   update_node(node, workspace.modal_bodies[body], motion_of(workspace, model.modal_bodies[body].node),
-              workspace.motion[static_cast<std::size_t>(node.node)], workspace.modal_nodes[i]);
+              workspace.motion[node.node], workspace.modal_nodes[i]);
 }
 
 /// Frames, modes and the nodes that something acts on.
@@ -82,7 +82,7 @@ void note_scale(const SuperelementBody& body, const SuperelementScratch& scratch
   const auto& forces = scratch.forces;
   const auto note = [&workspace, &forces](int kind, int row) {
     if (row < 0) return;
-    double& scale = workspace.force_scale[static_cast<std::size_t>(kind)];
+    double& scale = workspace.force_scale[kind];
     scale = std::max(
         {scale, forces.f_B.segment<3>(row).cwiseAbs().maxCoeff(), forces.s_B.segment<3>(row).cwiseAbs().maxCoeff()});
   };
@@ -103,7 +103,7 @@ void add_superelements(const Model& model, const State& state, Workspace& worksp
     SuperelementScratch& scratch = workspace.superelements[i];
     const int internal = model.internal_offset[i];
     const int first = model.sizes.boundary + internal;
-    const auto frame = state.frames().col(static_cast<Eigen::Index>(i));
+    const auto frame = state.frames().col(i);
     const Matrix3d R0 = Eigen::Quaterniond(frame[0], frame[1], frame[2], frame[3]).toRotationMatrix();
     update_kinematics(body, nodes_of(model, i, workspace), state.y().data() + internal, state.v().data() + first,
                       state.vdot().data() + first, R0, scratch);
@@ -175,13 +175,12 @@ void deactivate_rows(const Model& model, const State& state, Workspace& workspac
   for (int row = 0; row < model.sizes.constraints; ++row) {
     if (state.active()[row] != 0.0) continue;
     const int j = model.sizes.boundary + row;
-    for (int at = pattern.column_start()[static_cast<std::size_t>(j)];
-         at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
-      const int i = pattern.rows()[static_cast<std::size_t>(at)];
-      workspace.values[static_cast<std::size_t>(pattern.slot(i, j))] = 0.0;
-      workspace.values[static_cast<std::size_t>(pattern.slot(j, i))] = 0.0;
+    for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
+      const int i = pattern.rows()[at];
+      workspace.values[pattern.slot(i, j)] = 0.0;
+      workspace.values[pattern.slot(j, i)] = 0.0;
     }
-    workspace.values[static_cast<std::size_t>(pattern.slot(j, j))] = 1.0;
+    workspace.values[pattern.slot(j, j)] = 1.0;
   }
 }
 

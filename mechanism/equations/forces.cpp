@@ -8,8 +8,7 @@ LoadedJoint loaded_joint(const Model& model, const State& state, const Workspace
   const auto at = static_cast<std::size_t>(friction.joint);
   const Joint& joint = model.joints[at];
   LoadedJoint loaded{joint, markers_of(joint, workspace), workspace.joints[at], state.lambda().data() + joint.row};
-  if (friction.thread >= 0)
-    loaded.thread_lambda = state.lambda()[model.couplings[static_cast<std::size_t>(friction.thread)].row];
+  if (friction.thread >= 0) loaded.thread_lambda = state.lambda()[model.couplings[friction.thread].row];
   return loaded;
 }
 
@@ -18,8 +17,7 @@ template <class Rows>
 void add_upper(const ConstraintMap& map, int size, const Rows& rows, std::vector<double>& values) {
   for (Eigen::Index j = 0; j < rows.cols(); ++j)
     for (int k = 0; k < size; ++k)
-      if (const int slot = map.upper[static_cast<std::size_t>(k + size * j)]; slot >= 0)
-        values[static_cast<std::size_t>(slot)] += rows(k, j);
+      if (const int slot = map.upper[k + size * j]; slot >= 0) values[slot] += rows(k, j);
 }
 
 }  // namespace
@@ -29,7 +27,7 @@ void add_frictions(const Model& model, const State& state, Workspace& workspace)
     const Friction& friction = model.frictions[i];
     FrictionTerms& terms = workspace.frictions[i];
     terms = evaluate(friction, loaded_joint(model, state, workspace, friction));
-    add_force(model, model.joint_maps[static_cast<std::size_t>(friction.joint)], terms.force, workspace);
+    add_force(model, model.joint_maps[friction.joint], terms.force, workspace);
     note_scale(terms.force, workspace);
     workspace.damping_power += terms.power;
   }
@@ -57,7 +55,7 @@ void add_friction_tangents(const Model& model, const State& state, const Tangent
     add(model.constraint_maps[at], loaded.joint.size(), by_lambda);
     if (friction.thread >= 0) {  // its first term is the shift, between the same markers
       const Row12 by_thread = result.by_thread.transpose();
-      add(model.coupling_constraint_maps[static_cast<std::size_t>(friction.thread)], 1, by_thread);
+      add(model.coupling_constraint_maps[friction.thread], 1, by_thread);
     }
   }
 }

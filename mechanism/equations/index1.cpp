@@ -106,7 +106,7 @@ void Index1::rates(const double* y, double* ydot) const {
   const int nodes = state_.sizes().nodes;
   const auto v = state_.v();
   for (int i = 0; i < nodes; ++i) {
-    const Node& node = model_.nodes[static_cast<std::size_t>(i)];
+    const Node& node = model_.nodes[i];
     if (node.translation >= 0) Eigen::Map<Eigen::Vector3d>(ydot + 3 * i) = v.segment<3>(node.translation);
     if (node.rotation < 0) continue;
     const Eigen::Map<const Eigen::Vector4d> p(y + 3 * nodes + 4 * i);
@@ -123,8 +123,7 @@ double Index1::worst_violation() const {
   double worst = 0.0;
   for (int row = 0; row < model_.sizes.constraints; ++row)
     if (workspace_.active[row] != 0.0)
-      worst = std::max(worst, std::abs(workspace_.constraint[row]) /
-                                  (model_.length_row[static_cast<std::size_t>(row)] ? model_.length : 1.0));
+      worst = std::max(worst, std::abs(workspace_.constraint[row]) / (model_.length_row[row] ? model_.length : 1.0));
   return worst;
 }
 
@@ -165,11 +164,9 @@ bool Index1::project_without_reactions() {
 void Index1::settle() {
   auto frames = state_.frames();
   for (std::size_t i = 0; i < model_.superelements.size(); ++i)
-    frames.col(static_cast<Eigen::Index>(i)) =
-        wxyz(Eigen::Quaterniond(workspace_.superelements[i].motion.R0).normalized());
+    frames.col(i) = wxyz(Eigen::Quaterniond(workspace_.superelements[i].motion.R0).normalized());
   unwrap_hinges(model_, workspace_, state_);
-  for (int k = 0; k < 3; ++k)
-    state_.force_scale(k) = std::max(state_.force_scale(k), workspace_.force_scale[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < 3; ++k) state_.force_scale(k) = std::max(state_.force_scale(k), workspace_.force_scale[k]);
   state_.load_power() = workspace_.load_power;
   state_.damping_power() = workspace_.damping_power;
 }

@@ -91,8 +91,8 @@ void add_couplings(const Model& model, const State& state, Workspace& workspace)
   for (const Coupling& coupling : model.couplings) {
     double value = -coupling.constant, rate = 0.0;
     if (coupling.motion >= 0) {
-      MotionFunction::Value& motion = workspace.motion_values[static_cast<std::size_t>(coupling.motion)];
-      motion = workspace.motions[static_cast<std::size_t>(coupling.motion)](state.time());
+      MotionFunction::Value& motion = workspace.motion_values[coupling.motion];
+      motion = workspace.motions[coupling.motion](state.time());
       value -= motion.value;
       rate -= motion.rate;
       workspace.load_power -= state.lambda()[coupling.row] * motion.rate;
@@ -174,8 +174,7 @@ void evaluate_bias(const Model& model, Workspace& workspace) {
     workspace.bias.segment(joint.row, joint.size()) = workspace.joints[i].bias.head(joint.size());
   }
   for (const Coupling& coupling : model.couplings) {
-    double sum =
-        coupling.motion < 0 ? 0.0 : -workspace.motion_values[static_cast<std::size_t>(coupling.motion)].acceleration;
+    double sum = coupling.motion < 0 ? 0.0 : -workspace.motion_values[coupling.motion].acceleration;
     for (const CouplingTerm& term : coupling.terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
       const Coordinate& c = model.coordinates[at];

@@ -34,9 +34,7 @@ void for_each_row(const Model& model, const Workspace& workspace, Visit visit) {
     }
 }
 
-double row_scale(const Model& model, int row) {
-  return model.length_row[static_cast<std::size_t>(row)] ? 1.0 : model.length;
-}
+double row_scale(const Model& model, int row) { return model.length_row[row] ? 1.0 : model.length; }
 
 Eigen::SparseMatrix<double> compressed(int rows, int columns, const Triplets& entries) {
   Eigen::SparseMatrix<double> B(rows, columns);
@@ -66,9 +64,9 @@ Eigen::SparseMatrix<double> rigid_jacobian(const Model& model, const Parts& part
   Triplets entries;
   const auto add = [&](int row, const Marker& marker, const Eigen::Matrix<double, 1, 6>& values) {
     if (marker.node < 0) return;
-    const int part = parts.of_node[static_cast<std::size_t>(marker.node)];
+    const int part = parts.of_node[marker.node];
     const NodeMotion& node = motion_of(workspace, marker.node);
-    const Eigen::Vector3d arm = node.x - motion_of(workspace, parts.first_node[static_cast<std::size_t>(part)]).x;
+    const Eigen::Vector3d arm = node.x - motion_of(workspace, parts.first_node[part]).x;
     Eigen::Matrix<double, 1, 6> rigid;
     rigid.head<3>() = values.head<3>();
     rigid.tail<3>() = (values.tail<3>() * node.R.transpose() - values.head<3>() * skew<double>(arm)) / model.length;

@@ -22,8 +22,8 @@ Eigen::Quaterniond exp_quaternion(const Eigen::Vector3d& turn) {
 
 /// Material increment T(θ) d of a node's rotation for an increment d of the rotation vector θ of the step.
 Eigen::Vector3d turn_increment(const Model& model, const Workspace& workspace, int node, const Eigen::Vector3d& d) {
-  if (node < 0 || model.nodes[static_cast<std::size_t>(node)].rotation < 0) return d;
-  const Eigen::Vector3d theta = workspace.displacement.segment<3>(model.nodes[static_cast<std::size_t>(node)].rotation);
+  if (node < 0 || model.nodes[node].rotation < 0) return d;
+  const Eigen::Vector3d theta = workspace.displacement.segment<3>(model.nodes[node].rotation);
   const AngleFunctions<double> f(theta.squaredNorm());
   const Eigen::Vector3d across = theta.cross(d);
   return d - f.c * across + f.d * theta.cross(across);
@@ -32,8 +32,7 @@ Eigen::Vector3d turn_increment(const Model& model, const Workspace& workspace, i
 /// d_B of superelement i from the boundary coordinates.
 void gather(const Model& model, std::size_t i, const Eigen::VectorXd& boundary, Workspace& workspace) {
   const std::vector<int>& coordinates = model.superelement_maps[i].coordinates;
-  for (std::size_t k = 0; k < coordinates.size(); ++k)
-    workspace.element_boundary[static_cast<Eigen::Index>(k)] = boundary[coordinates[k]];
+  for (std::size_t k = 0; k < coordinates.size(); ++k) workspace.element_boundary[k] = boundary[coordinates[k]];
 }
 
 /// Solves with the factors of the scaled matrix, unknowns in place.
@@ -120,7 +119,7 @@ void apply_jacobian(const Model& model, const Workspace& workspace, const Eigen:
       return;
     }
     for (int k = 0; k < 12; ++k) {
-      const int coordinate = map.coordinates[static_cast<std::size_t>(k)];
+      const int coordinate = map.coordinates[k];
       local[k] = coordinate < 0 ? 0.0 : d[coordinate];
     }
     local.segment<3>(3) = turn_increment(model, workspace, pair.a.node, local.segment<3>(3));

@@ -20,7 +20,7 @@ MarkerPair markers_of(const Item& item, const Workspace& workspace) {
 template <class Vector>
 void scatter(const ElementMap& map, const Vector& local, Eigen::VectorXd& global) {
   for (std::size_t i = 0; i < map.coordinates.size(); ++i)
-    if (map.coordinates[i] >= 0) global[map.coordinates[i]] += local[static_cast<Eigen::Index>(i)];
+    if (map.coordinates[i] >= 0) global[map.coordinates[i]] += local[i];
 }
 
 /// Adds factor times the local matrix to the stored values.
@@ -28,7 +28,7 @@ template <class Matrix>
 void scatter_matrix(const ElementMap& map, const Matrix& local, double factor, std::vector<double>& values) {
   const double* entry = local.data();
   for (const int slot : map.slots) {
-    if (slot >= 0) values[static_cast<std::size_t>(slot)] += factor * *entry;
+    if (slot >= 0) values[slot] += factor * *entry;
     ++entry;
   }
 }
@@ -62,8 +62,8 @@ void add_rows(const ConstraintMap& map, std::size_t first, int size, const Lower
   for (Eigen::Index j = 0; j < lower.cols(); ++j)
     for (int k = 0; k < size; ++k, ++first) {
       if (map.lower[first] < 0) continue;
-      values[static_cast<std::size_t>(map.lower[first])] += lower(k, j);
-      values[static_cast<std::size_t>(map.upper[first])] += upper(k, j);
+      values[map.lower[first]] += lower(k, j);
+      values[map.upper[first]] += upper(k, j);
     }
 }
 

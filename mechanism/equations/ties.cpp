@@ -6,8 +6,8 @@ namespace {
 
 /// Adds the wrenches on both ends, [force world; moment about the node, its axes], to the followers that they are on.
 void add_pair(const Marker& a, const Marker& b, const Row12& force, Workspace& workspace) {
-  if (a.follower >= 0) workspace.tie_wrenches[static_cast<std::size_t>(a.follower)] += force.head<6>().transpose();
-  if (b.follower >= 0) workspace.tie_wrenches[static_cast<std::size_t>(b.follower)] += force.tail<6>().transpose();
+  if (a.follower >= 0) workspace.tie_wrenches[a.follower] += force.head<6>().transpose();
+  if (b.follower >= 0) workspace.tie_wrenches[b.follower] += force.tail<6>().transpose();
 }
 
 }  // namespace
@@ -35,18 +35,16 @@ void evaluate_ties(const Model& model, const State& state, const double* lambda,
     add_pair(model.coordinates[at].a, model.coordinates[at].b, force, workspace);
   }
   for (std::size_t i = 0; i < model.frictions.size(); ++i) {
-    const Joint& joint = model.joints[static_cast<std::size_t>(model.frictions[i].joint)];
+    const Joint& joint = model.joints[model.frictions[i].joint];
     add_pair(joint.a, joint.b, -workspace.frictions[i].force.transpose(), workspace);
   }
   for (std::size_t i = 0; i < model.bushings.size(); ++i)
     add_pair(model.bushings[i].a, model.bushings[i].b, -workspace.bushings[i].force.transpose(), workspace);
   for (std::size_t i = 0; i < model.loads.size(); ++i)
     if (const Load& load = model.loads[i]; load.at.follower >= 0)
-      wrenches[static_cast<std::size_t>(load.at.follower)] +=
-          load_force(load, motion_of(workspace, load.at.node), workspace.load_values[i]);
+      wrenches[load.at.follower] += load_force(load, motion_of(workspace, load.at.node), workspace.load_values[i]);
   for (std::size_t i = wrenches.size(); i-- > 0;)
-    if (const Tie& tie = model.ties[i]; !tie.is_loop && tie.parent >= 0)
-      wrenches[static_cast<std::size_t>(tie.parent)] += wrenches[i];
+    if (const Tie& tie = model.ties[i]; !tie.is_loop && tie.parent >= 0) wrenches[tie.parent] += wrenches[i];
   for (Vector6d& wrench : wrenches) wrench = -wrench;
 }
 

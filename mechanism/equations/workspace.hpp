@@ -118,7 +118,7 @@ struct Workspace {
 
 /// Motion of a node at the last evaluate(); −1: ground.
 inline const NodeMotion& motion_of(const Workspace& workspace, int node) {
-  return node < 0 ? workspace.motion.back() : workspace.motion[static_cast<std::size_t>(node)];
+  return node < 0 ? workspace.motion.back() : workspace.motion[node];
 }
 
 /// Motion of the nodes of a superelement, in the order of its body.
@@ -128,7 +128,7 @@ inline NodeView<NodeMotion> nodes_of(const Model& model, std::size_t superelemen
 
 /// What the uses of a superelement's body work with in turn.
 inline SuperelementWork& work_of(const Model& model, std::size_t superelement, Workspace& workspace) {
-  return workspace.superelement_work[static_cast<std::size_t>(model.superelements[superelement].body)];
+  return workspace.superelement_work[model.superelements[superelement].body];
 }
 
 }  // namespace tisserand::mechanism

@@ -273,7 +273,7 @@ std::string with_superscripts(const std::string& unit) {
     else if (raised && c == '-')
       text += "⁻";
     else if (raised && c >= '0' && c <= '9')
-      text += digits[static_cast<std::size_t>(c - '0')];
+      text += digits[c - '0'];
     else {
       raised = false;
       text += c;

@@ -114,7 +114,7 @@ void append_run(const std::string& file, const std::string& label, const std::ve
   }
   const Eigen::MatrixXd values = reader.read_rows(names, 0, reader.rows());
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const auto column = values.col(static_cast<Eigen::Index>(i));
+    const auto column = values.col(i);
     chosen[i].y.assign(column.begin(), column.end());
     all.push_back(std::move(chosen[i]));
   }

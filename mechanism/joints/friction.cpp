@@ -68,8 +68,7 @@ Slip slip_of(const Friction& friction, const LoadedJoint& loaded) {
   } else {
     const std::array<SlipRow, 3> rows = slip_rows(friction, loaded.joint.kind);
     for (int k = 0; k < 3; ++k)
-      if (const SlipRow& row = rows[static_cast<std::size_t>(k)]; row.factor != 0.0)
-        slip.S.row(k) = row.factor * evaluate(row.relation, p).G;
+      if (const SlipRow& row = rows[k]; row.factor != 0.0) slip.S.row(k) = row.factor * evaluate(row.relation, p).G;
   }
   Vector12d v;
   v << p.node_a.xd, p.node_a.Omega, p.node_b.xd, p.node_b.Omega;
@@ -92,7 +91,7 @@ SlipGradient slip_gradient(const Friction& friction, const LoadedJoint& loaded, 
   }
   const std::array<SlipRow, 3> rows = slip_rows(friction, loaded.joint.kind);
   for (int k = 0; k < 3; ++k) {
-    const SlipRow& row = rows[static_cast<std::size_t>(k)];
+    const SlipRow& row = rows[k];
     if (row.factor == 0.0) continue;
     gradient.rate.row(k) = row.factor * rate_gradient(row.relation, p);
     add_stiffness(row.relation, p, row.factor * weight[k], gradient.geometric);

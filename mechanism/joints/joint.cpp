@@ -23,8 +23,7 @@ constexpr Relation twist{RelationKind::twist, 0, 0};
 constexpr Relation distance{RelationKind::distance, 0, 0};
 
 void hold(Joint& joint, std::initializer_list<Relation> relations) {
-  for (const Relation& relation : relations)
-    joint.relations[static_cast<std::size_t>(joint.relation_count++)] = relation;
+  for (const Relation& relation : relations) joint.relations[joint.relation_count++] = relation;
 }
 
 /// No turn: x_A ⟂ y_B, y_A ⟂ z_B, z_A ⟂ x_B.
@@ -36,18 +35,18 @@ void hold_axis(Joint& joint, int k) { hold(joint, {normal((k + 1) % 3, k), norma
 void hold_chosen(const std::array<bool, 6>& held, Joint& joint) {
   joint.coincident = held[0] && held[1] && held[2];
   for (int i = 0; i < 3 && !joint.coincident; ++i)
-    if (held[static_cast<std::size_t>(i)]) hold(joint, {along(i)});
+    if (held[i]) hold(joint, {along(i)});
   const int turns = held[3] + held[4] + held[5];
   if (turns == 3) hold_orientation(joint);
   for (int k = 0; k < 3; ++k) {
-    const bool this_one = held[static_cast<std::size_t>(3 + k)];
+    const bool this_one = held[3 + k];
     if (turns == 2 && !this_one) hold_axis(joint, k);
     if (turns == 1 && this_one) hold(joint, {normal((k + 1) % 3, (k + 2) % 3)});
   }
 }
 
 const Relation& relation_of(const Joint& joint, int equation) {
-  return joint.relations[static_cast<std::size_t>(equation - (joint.coincident ? 3 : 0))];
+  return joint.relations[equation - (joint.coincident ? 3 : 0)];
 }
 
 constexpr std::array<const char*, 3> axis_name{"x", "y", "z"};
@@ -62,7 +61,7 @@ namespace {
 int count_normals(const Joint& joint, int column) {
   int count = 0;
   for (int k = 0; k < joint.relation_count; ++k) {
-    const Relation& r = joint.relations[static_cast<std::size_t>(k)];
+    const Relation& r = joint.relations[k];
     count += r.kind == RelationKind::normal && (column < 0 || r.j == column);
   }
   return count;
@@ -160,15 +159,14 @@ std::vector<NamedRelation> free_coordinates(const Joint& joint) {
       for (int i = 0; i < 3 && !joint.coincident; ++i) {
         bool held = false;
         for (int k = 0; k < joint.relation_count; ++k) {
-          const Relation& r = joint.relations[static_cast<std::size_t>(k)];
+          const Relation& r = joint.relations[k];
           held = held || (r.kind == RelationKind::along && r.i == i);
         }
-        if (!held) free.push_back({axis_name[static_cast<std::size_t>(i)], along(i)});
+        if (!held) free.push_back({axis_name[i], along(i)});
       }
       int normals = 0, axis = 0;
       for (int k = 0; k < joint.relation_count; ++k)
-        if (const Relation& r = joint.relations[static_cast<std::size_t>(k)]; r.kind == RelationKind::normal)
-          ++normals, axis = r.j;
+        if (const Relation& r = joint.relations[k]; r.kind == RelationKind::normal) ++normals, axis = r.j;
       if (normals == 2 && axis == 2) free.push_back({"angle", angle(2)});
       return free;
     }
@@ -182,8 +180,7 @@ std::vector<NamedRelation> free_coordinates(const Joint& joint) {
 }
 
 std::string joint_equation_name(const Joint& joint, int equation) {
-  if (joint.coincident && equation < 3)
-    return std::string("translation ") + axis_name[static_cast<std::size_t>(equation)];
+  if (joint.coincident && equation < 3) return std::string("translation ") + axis_name[equation];
   const Relation& r = relation_of(joint, equation);
   switch (r.kind) {
     case RelationKind::along:
@@ -212,7 +209,7 @@ void joint_constraints(const Joint& joint, const NodeMotion& a, const NodeMotion
   }
   const MarkerPair pair{joint.a, joint.b, a, b};
   for (int k = 0; k < joint.relation_count; ++k, ++row) {
-    const RelationTerms relation = evaluate(joint.relations[static_cast<std::size_t>(k)], pair);
+    const RelationTerms relation = evaluate(joint.relations[k], pair);
     terms.phi[row] = relation.value - joint.constant;
     terms.B.row(row) = relation.G;
   }
@@ -226,8 +223,7 @@ void joint_bias(const Joint& joint, const NodeMotion& a, const NodeMotion& b, Jo
     row = 3;
   }
   const MarkerPair pair{joint.a, joint.b, a, b};
-  for (int k = 0; k < joint.relation_count; ++k, ++row)
-    terms.bias[row] = bias(joint.relations[static_cast<std::size_t>(k)], pair);
+  for (int k = 0; k < joint.relation_count; ++k, ++row) terms.bias[row] = bias(joint.relations[k], pair);
 }
 
 void joint_rate_gradient(const Joint& joint, const NodeMotion& a, const NodeMotion& b,
@@ -240,8 +236,7 @@ void joint_rate_gradient(const Joint& joint, const NodeMotion& a, const NodeMoti
     row = 3;
   }
   const MarkerPair pair{joint.a, joint.b, a, b};
-  for (int k = 0; k < joint.relation_count; ++k, ++row)
-    N.row(row) = rate_gradient(joint.relations[static_cast<std::size_t>(k)], pair);
+  for (int k = 0; k < joint.relation_count; ++k, ++row) N.row(row) = rate_gradient(joint.relations[k], pair);
 }
 
 void joint_stiffness(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda, Square12& K) {
@@ -255,8 +250,7 @@ void joint_stiffness(const Joint& joint, const NodeMotion& a, const NodeMotion& 
     row = 3;
   }
   const MarkerPair pair{joint.a, joint.b, a, b};
-  for (int k = 0; k < joint.relation_count; ++k, ++row)
-    add_stiffness(joint.relations[static_cast<std::size_t>(k)], pair, lambda[row], K);
+  for (int k = 0; k < joint.relation_count; ++k, ++row) add_stiffness(joint.relations[k], pair, lambda[row], K);
 }
 
 JointReaction reaction_of(const Row12& pulled_back, const MarkerPair& pair) {

@@ -50,7 +50,7 @@ struct Normal {
 RelationTerms evaluate(const NormalSum& sum, const MarkerPair& p) {
   RelationTerms terms;
   for (int k = 0; k < sum.count; ++k) {
-    const NormalTerm& term = sum.term[static_cast<std::size_t>(k)];
+    const NormalTerm& term = sum.term[k];
     const Normal n(term, p);
     terms.value += term.sign * n.alpha.dot(n.u);
     terms.G.segment<3>(3) += term.sign * n.alpha.cross(n.u).transpose();
@@ -62,7 +62,7 @@ RelationTerms evaluate(const NormalSum& sum, const MarkerPair& p) {
 double bias(const NormalSum& sum, const MarkerPair& p) {
   double value = 0.0;
   for (int k = 0; k < sum.count; ++k) {
-    const NormalTerm& term = sum.term[static_cast<std::size_t>(k)];
+    const NormalTerm& term = sum.term[k];
     const Normal n(term, p);
     const Vector3d &Omega_A = p.node_a.Omega, &Omega_B = p.node_b.Omega;
     const Vector3d u_dot = n.u.cross(Omega_A) + p.node_a.R.transpose() * (p.node_b.R * Omega_B.cross(n.beta));
@@ -75,7 +75,7 @@ double bias(const NormalSum& sum, const MarkerPair& p) {
 Row12 rate_gradient(const NormalSum& sum, const MarkerPair& p) {
   Row12 N = Row12::Zero();
   for (int k = 0; k < sum.count; ++k) {
-    const NormalTerm& term = sum.term[static_cast<std::size_t>(k)];
+    const NormalTerm& term = sum.term[k];
     const Normal n(term, p);
     const Vector3d alpha_dot = p.node_a.Omega.cross(n.alpha), beta_dot = p.node_b.Omega.cross(n.beta);
     N.segment<3>(3) +=
@@ -90,7 +90,7 @@ Row12 rate_gradient(const NormalSum& sum, const MarkerPair& p) {
 void add_stiffness(const NormalSum& sum, const MarkerPair& p, double weight, Square12& K) {
   const Matrix3d R_AB = p.node_a.R.transpose() * p.node_b.R;
   for (int k = 0; k < sum.count; ++k) {
-    const NormalTerm& term = sum.term[static_cast<std::size_t>(k)];
+    const NormalTerm& term = sum.term[k];
     const Normal n(term, p);
     const Matrix3d alpha = weight * term.sign * skew<double>(n.alpha), beta = skew<double>(n.beta);
     K.block<3, 3>(3, 3) += alpha * skew<double>(n.u);

@@ -33,7 +33,7 @@ void add_body(const Nodes& nodes, const std::string& name, double mass, NodeFact
   const auto first = static_cast<std::size_t>(nodes.front());
   for (const int node : nodes) {
     facts.sets.unite(first, static_cast<std::size_t>(node));
-    facts.name[static_cast<std::size_t>(node)] = name;
+    facts.name[node] = name;
   }
   facts.mass[first] += mass;
 }
@@ -57,8 +57,7 @@ Parts find_parts(const Model& model) {
     add_body(nodes, model.modal_bodies[i].name, model.modal_bodies[i].mass, facts);
   }
   const auto add_beams = [&](const auto& beams) {
-    for (const auto& beam : beams)
-      add_body(beam.nodes, body_of(model.nodes[static_cast<std::size_t>(beam.nodes[0])].name), beam.mass, facts);
+    for (const auto& beam : beams) add_body(beam.nodes, body_of(model.nodes[beam.nodes[0]].name), beam.mass, facts);
   };
   add_beams(model.beams2);
   add_beams(model.beams3);
@@ -74,7 +73,7 @@ Parts find_parts(const Model& model) {
       parts.mass.push_back(0.0);
     }
     parts.of_node[i] = at->second;
-    parts.mass[static_cast<std::size_t>(at->second)] += facts.mass[i];
+    parts.mass[at->second] += facts.mass[i];
   }
   return parts;
 }
@@ -83,7 +82,7 @@ std::vector<std::vector<std::string>> connected_groups(const Model& model, const
   const auto ground = static_cast<std::size_t>(parts.count());
   Sets sets(ground + 1);
   const auto part_of = [&](const Marker& marker) {
-    return marker.node < 0 ? ground : static_cast<std::size_t>(parts.of_node[static_cast<std::size_t>(marker.node)]);
+    return marker.node < 0 ? ground : static_cast<std::size_t>(parts.of_node[marker.node]);
   };
   for (const Joint& joint : model.joints) sets.unite(part_of(joint.a), part_of(joint.b));
   for (const Bushing& bushing : model.bushings) sets.unite(part_of(bushing.a), part_of(bushing.b));
@@ -91,8 +90,8 @@ std::vector<std::vector<std::string>> connected_groups(const Model& model, const
     if (c.active) sets.unite(part_of(c.a), part_of(c.b));
   for (const Coupling& coupling : model.couplings)
     for (const CouplingTerm& term : coupling.terms)
-      sets.unite(part_of(model.coordinates[static_cast<std::size_t>(coupling.terms.front().coordinate)].b),
-                 part_of(model.coordinates[static_cast<std::size_t>(term.coordinate)].b));
+      sets.unite(part_of(model.coordinates[coupling.terms.front().coordinate].b),
+                 part_of(model.coordinates[term.coordinate].b));
   std::map<std::size_t, std::vector<std::string>> groups;
   groups[sets.find(ground)].push_back("ground");
   for (std::size_t i = 0; i < ground; ++i) groups[sets.find(i)].push_back(parts.name[i]);

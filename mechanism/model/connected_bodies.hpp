@@ -14,9 +14,7 @@ struct Parts {
   std::vector<int> first_node;    ///< one node of each, whose place is the part's origin
   std::vector<double> mass;       ///< 0: a body without mass
   int count() const { return static_cast<int>(name.size()); }
-  bool is_massless(int node) const {
-    return mass[static_cast<std::size_t>(of_node[static_cast<std::size_t>(node)])] == 0.0;
-  }
+  bool is_massless(int node) const { return mass[of_node[node]] == 0.0; }
 };
 
 /// One part per superelement, rigid body, nonlinear beam (elements that share nodes) and massless node.

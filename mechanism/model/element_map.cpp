@@ -9,7 +9,7 @@ void append_carrier(const Model& model, int node, std::vector<int>& coordinates)
   const int modal = modal_node(model, node);
   const int owner = modal < 0 ? node : modal_body_of(model, modal).node;
   for (int k = 0; k < 6; ++k) {
-    const Node* own = owner < 0 ? nullptr : &model.nodes[static_cast<std::size_t>(owner)];
+    const Node* own = owner < 0 ? nullptr : &model.nodes[owner];
     const int first = own == nullptr ? -1 : k < 3 ? own->translation : own->rotation;
     coordinates.push_back(first < 0 ? -1 : first + k % 3);
   }

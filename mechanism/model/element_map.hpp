@@ -8,13 +8,11 @@
 namespace tisserand::mechanism {
 
 /// Index of the modal node that carries, −1 for ground and nodes that own their coordinates.
-inline int modal_node(const Model& model, int node) {
-  return node < 0 ? -1 : model.nodes[static_cast<std::size_t>(node)].modal;
-}
+inline int modal_node(const Model& model, int node) { return node < 0 ? -1 : model.nodes[node].modal; }
 
 /// The modal body that a modal node belongs to.
 inline const ModalBody& modal_body_of(const Model& model, int modal) {
-  return model.modal_bodies[static_cast<std::size_t>(model.modal_nodes[static_cast<std::size_t>(modal)].body)];
+  return model.modal_bodies[model.modal_nodes[modal].body];
 }
 
 /// Appends the coordinates of a node: six (−1 where it owns none; ground: all −1), or 6 + m of the body it follows.

@@ -67,18 +67,18 @@ void number_elements(Model& model) {
   for (const Coordinate& c : model.coordinates) add(model.coordinate_maps, c.a.node, c.b.node);
   for (const ChannelUse& use : model.channel_uses) {
     const auto owner = static_cast<std::size_t>(use.index);
-    const Channel& channel = model.channels[static_cast<std::size_t>(use.channel)];
+    const Channel& channel = model.channels[use.channel];
     if (use.owner == ChannelUse::Owner::load) {
       add(model.channel_use_maps, model.loads[owner].at.node, channel.a.node, channel.b.node);
     } else {
-      const Coordinate& c = model.coordinates[static_cast<std::size_t>(model.springs[owner].coordinate)];
+      const Coordinate& c = model.coordinates[model.springs[owner].coordinate];
       add(model.channel_use_maps, c.a.node, c.b.node, channel.a.node, channel.b.node);
     }
   }
   for (const Coupling& coupling : model.couplings) {
     ElementMap map;
     for (const CouplingTerm& term : coupling.terms) {
-      const std::vector<int>& columns = model.coordinate_maps[static_cast<std::size_t>(term.coordinate)].coordinates;
+      const std::vector<int>& columns = model.coordinate_maps[term.coordinate].coordinates;
       map.coordinates.insert(map.coordinates.end(), columns.begin(), columns.end());
     }
     model.coupling_maps.push_back(std::move(map));
@@ -173,13 +173,11 @@ void scale_equations(Model& model) {
   for (const ModalBody& body : model.modal_bodies)
     model.equation_scale.segment(model.sizes.first_modal() + body.offset, body.modes) = std::sqrt(body.mass);
   for (int row = 0; row < model.sizes.constraints; ++row)
-    if (!model.length_row[static_cast<std::size_t>(row)])
-      model.equation_scale[model.sizes.boundary + row] = model.length;
+    if (!model.length_row[row]) model.equation_scale[model.sizes.boundary + row] = model.length;
   model.value_scale.setOnes(pattern.values());
   for (int j = 0; j < pattern.size(); ++j)
-    for (int at = pattern.column_start()[static_cast<std::size_t>(j)];
-         at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
-      const int i = pattern.rows()[static_cast<std::size_t>(at)];
+    for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
+      const int i = pattern.rows()[at];
       model.value_scale[pattern.slot(i, j)] = model.equation_scale[i] * model.equation_scale[j];
     }
 }
@@ -197,8 +195,7 @@ void finish_model(Model& model, formats::LinearSolver solver) {
   for_each_map(model, [&](const ElementMap& map, const EntryFlags& entries) {
     add_block(map, entries, positions);
     for (const int node : map.carriers)
-      if (const int modal = node < 0 ? -1 : model.nodes[static_cast<std::size_t>(node)].modal; modal >= 0)
-        model.modal_nodes[static_cast<std::size_t>(modal)].active = true;
+      if (const int modal = node < 0 ? -1 : model.nodes[node].modal; modal >= 0) model.modal_nodes[modal].active = true;
   });
   for (std::size_t j = 0; j < model.joints.size(); ++j)
     add_constraint(model.joint_maps[j], block_of(model, j), positions);
@@ -217,14 +214,13 @@ void finish_model(Model& model, formats::LinearSolver solver) {
 }
 
 bool has_translation(const Model& model, int node) {
-  return node < 0 || model.nodes[static_cast<std::size_t>(node)].translation >= 0 ||
-         model.nodes[static_cast<std::size_t>(node)].modal >= 0;
+  return node < 0 || model.nodes[node].translation >= 0 || model.nodes[node].modal >= 0;
 }
 
 bool has_rotation(const Model& model, int node) {
   if (node < 0) return true;
-  const Node& n = model.nodes[static_cast<std::size_t>(node)];
-  return n.rotation >= 0 || (n.modal >= 0 && model.modal_nodes[static_cast<std::size_t>(n.modal)].turns);
+  const Node& n = model.nodes[node];
+  return n.rotation >= 0 || (n.modal >= 0 && model.modal_nodes[n.modal].turns);
 }
 
 std::string coordinate_name(const Model& model, int coordinate) {

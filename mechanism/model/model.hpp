@@ -128,7 +128,7 @@ struct Model {
 
 /// The body of a superelement.
 inline const SuperelementBody& body_of(const Model& model, std::size_t superelement) {
-  return model.superelement_bodies[static_cast<std::size_t>(model.superelements[superelement].body)];
+  return model.superelement_bodies[model.superelements[superelement].body];
 }
 
 /// Whether a joint or load can act on the position or the orientation of a node; ground (−1) has both.

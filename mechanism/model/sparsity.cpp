@@ -12,7 +12,7 @@ class Flags {
  public:
   Flags(int rows, int columns) : rows_(rows), flags_(static_cast<std::size_t>(rows * columns), false) {}
 
-  void set(int row, int column) { flags_[static_cast<std::size_t>(row + rows_ * column)] = true; }
+  void set(int row, int column) { flags_[row + rows_ * column] = true; }
   void set_block(int row, int column, int height, int width) {
     for (int j = 0; j < width; ++j)
       for (int i = 0; i < height; ++i) set(row + i, column + j);
@@ -43,7 +43,7 @@ EntryFlags stiffness_entries(const Joint& joint) {
   if (joint.coincident && !joint.a.p.isZero(0.0)) flags.set_block(3, 3, 3, 3);
   if (joint.coincident && !joint.b.p.isZero(0.0)) flags.set_block(9, 9, 3, 3);
   for (int k = 0; k < joint.relation_count; ++k) {
-    if (!turns_only(joint.relations[static_cast<std::size_t>(k)].kind)) {
+    if (!turns_only(joint.relations[k].kind)) {
       flags.set_block(0, 0, 12, 12);
       continue;
     }
@@ -63,7 +63,7 @@ EntryFlags gradient_entries(const Joint& joint) {
   }
   for (int k = 0; k < joint.relation_count; ++k) {
     const int row = (joint.coincident ? 3 : 0) + k;
-    if (turns_only(joint.relations[static_cast<std::size_t>(k)].kind)) {
+    if (turns_only(joint.relations[k].kind)) {
       for (const int column : first_turn) flags.set_block(row, column, 1, 3);
     } else {
       flags.set_block(row, 0, 1, 12);

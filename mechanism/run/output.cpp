@@ -94,8 +94,8 @@ void fill_joints(const Model& model, const State& state, Workspace& workspace, f
   }
   fill_ties(model, state, lambda, workspace, row);
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
-    row.joint_coordinate[static_cast<Eigen::Index>(i)] = workspace.coordinates[i].value;
-    row.joint_rate[static_cast<Eigen::Index>(i)] = workspace.coordinates[i].rate;
+    row.joint_coordinate[i] = workspace.coordinates[i].value;
+    row.joint_rate[i] = workspace.coordinates[i].rate;
   }
 }
 
@@ -113,9 +113,9 @@ void fill_springs(const Model& model, const State& state, Workspace& workspace, 
   Eigen::Index stops = 0;
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
     const Spring& spring = model.springs[i];
-    const CoordinateTerms& c = workspace.coordinates[static_cast<std::size_t>(spring.coordinate)];
+    const CoordinateTerms& c = workspace.coordinates[spring.coordinate];
     const SpringForce f = spring_force(spring, c.value, c.rate, applied_force(model, i, state.load_time(), workspace));
-    row.spring_force[static_cast<Eigen::Index>(i)] = f.Q;
+    row.spring_force[i] = f.Q;
     if (has_stops(spring)) row.stop_force[stops++] = f.stop;
   }
 }
@@ -124,29 +124,28 @@ void fill_bushings(const Model& model, const Workspace& workspace, formats::Resu
   for (std::size_t i = 0; i < model.bushings.size(); ++i) {
     const JointReaction reaction =
         reaction_of(workspace.bushings[i].force.transpose(), markers_of(model.bushings[i], workspace));
-    row.bushing_force.col(static_cast<Eigen::Index>(i)) = reaction.force;
-    row.bushing_moment.col(static_cast<Eigen::Index>(i)) = reaction.moment;
+    row.bushing_force.col(i) = reaction.force;
+    row.bushing_moment.col(i) = reaction.moment;
   }
 }
 
 void fill_frictions(const Model& model, const Workspace& workspace, formats::ResultsRow& row) {
   for (std::size_t i = 0; i < model.frictions.size(); ++i) {
-    const Joint& joint = model.joints[static_cast<std::size_t>(model.frictions[i].joint)];
+    const Joint& joint = model.joints[model.frictions[i].joint];
     const JointReaction reaction = reaction_of(workspace.frictions[i].force.transpose(), markers_of(joint, workspace));
-    row.friction_force.col(static_cast<Eigen::Index>(i)) = reaction.force;
-    row.friction_moment.col(static_cast<Eigen::Index>(i)) = reaction.moment;
+    row.friction_force.col(i) = reaction.force;
+    row.friction_moment.col(i) = reaction.moment;
   }
 }
 
 void add_force_names(const Model& model, formats::ResultsLayout& layout) {
   for (const Spring& spring : model.springs) {
-    const Relation& relation = model.coordinates[static_cast<std::size_t>(spring.coordinate)].relation;
+    const Relation& relation = model.coordinates[spring.coordinate].relation;
     layout.springs.push_back({spring.name, is_length(relation)});
     if (has_stops(spring)) layout.stops.push_back(layout.springs.back());
   }
   for (const Bushing& bushing : model.bushings) layout.bushings.push_back(bushing.name);
-  for (const Friction& friction : model.frictions)
-    layout.frictions.push_back(model.joints[static_cast<std::size_t>(friction.joint)].name);
+  for (const Friction& friction : model.frictions) layout.frictions.push_back(model.joints[friction.joint].name);
 }
 
 }  // namespace

@@ -85,7 +85,7 @@ void note_redundancy(Run& run) {
       "reactions of {} are not unique, those of least norm are stored",
       mobility.redundant.size(), mobility.constraints, join(rows, ", "), join(run.report.not_unique, ", ")));
   for (const Friction& friction : run.built.model.frictions) {
-    const std::string& name = run.built.model.joints[static_cast<std::size_t>(friction.joint)].name;
+    const std::string& name = run.built.model.joints[friction.joint].name;
     if (std::ranges::count(run.report.not_unique, name) > 0)
       run.report.notes.push_back(fmt::format(
           "the friction of joint '{}' follows from a reaction that is not unique: another choice of it moves otherwise",

@@ -85,10 +85,8 @@ void read_nodes(const Model& model, const StoredRow& stored, State& state) {
 /// Canonical internal coordinates of those of the file.
 VectorXd canonical(const SuperelementBody& body, const VectorXd& file) {
   VectorXd boundary(body.boundary_size), internal(static_cast<Eigen::Index>(body.file.internal_row.size()));
-  for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i)
-    boundary[static_cast<Eigen::Index>(i)] = file[body.file.boundary_row[i]];
-  for (std::size_t k = 0; k < body.file.internal_row.size(); ++k)
-    internal[static_cast<Eigen::Index>(k)] = file[body.file.internal_row[k]];
+  for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i) boundary[i] = file[body.file.boundary_row[i]];
+  for (std::size_t k = 0; k < body.file.internal_row.size(); ++k) internal[k] = file[body.file.internal_row[k]];
   return body.file.modal_part.colPivHouseholderQr().solve(internal - body.file.static_part * boundary);
 }
 
@@ -96,7 +94,7 @@ void read_superelements(const Model& model, const StoredRow& stored, State& stat
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const SuperelementBody& body = body_of(model, i);
     const std::string& name = model.superelements[i].name;
-    state.frames().col(static_cast<Eigen::Index>(i)) = stored.quaternion("superelements/frame_rotation", name);
+    state.frames().col(i) = stored.quaternion("superelements/frame_rotation", name);
     if (body.modes == 0) continue;
     std::vector<std::string> columns;
     for (Eigen::Index k = 0; k < file_coordinate_count(body); ++k) columns.push_back(fmt::format("{}", k));

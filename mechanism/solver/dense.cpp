@@ -45,7 +45,7 @@ void SmallDense::exchange_rows(int k) {
   int pivot = k;
   for (int i = k + 1; i < n_; ++i)
     if (std::abs(a[i]) > std::abs(a[pivot])) pivot = i;
-  exchange_[static_cast<std::size_t>(k)] = pivot;
+  exchange_[k] = pivot;
   if (pivot == k) return;
   for (int j = 0; j < k; ++j) std::swap(lower_column(j)[k], lower_column(j)[pivot]);
   for (int j = k; j < n_; ++j) std::swap(upper_column(j)[k], upper_column(j)[pivot]);
@@ -65,7 +65,7 @@ FactorReport SmallDense::factor(const SparsePattern&, const double* values) {
       weakest = k;
     }
     greatest = std::max(greatest, size);
-    diagonal_[static_cast<std::size_t>(k)] = 1.0 / pivot;
+    diagonal_[k] = 1.0 / pivot;
     std::fill_n(l, k + 1, 0.0);
     for (int i = k + 1; i < n_; ++i) l[i] = u[i] / pivot;
     std::fill_n(u + k, n_ - k, 0.0);
@@ -78,12 +78,10 @@ FactorReport SmallDense::factor(const SparsePattern&, const double* values) {
 
 void SmallDense::solve(const SparsePattern&, const double*, double* b) {
   std::copy_n(b, n_, work_.data());
-  for (int k = 0; k < n_; ++k)
-    std::swap(work_[static_cast<std::size_t>(k)],
-              work_[static_cast<std::size_t>(exchange_[static_cast<std::size_t>(k)])]);
-  for (int k = 0; k < n_; ++k) subtract(work_[static_cast<std::size_t>(k)], lower_column(k), k + 1, n_, work_.data());
+  for (int k = 0; k < n_; ++k) std::swap(work_[k], work_[exchange_[k]]);
+  for (int k = 0; k < n_; ++k) subtract(work_[k], lower_column(k), k + 1, n_, work_.data());
   for (int k = n_ - 1; k >= 0; --k) {
-    const double x = work_[static_cast<std::size_t>(k)] * diagonal_[static_cast<std::size_t>(k)];
+    const double x = work_[k] * diagonal_[k];
     subtract(x, upper_column(k), 0, k, work_.data());
     b[k] = x;
   }
@@ -92,16 +90,16 @@ void SmallDense::solve(const SparsePattern&, const double*, double* b) {
 void SmallDense::solve_transposed(const SparsePattern&, const double*, double* b) {
   using ConstMap = Eigen::Map<const Eigen::VectorXd>;
   for (int k = 0; k < n_; ++k)  // Uᵀ
-    b[k] = (b[k] - ConstMap(upper_column(k), k).dot(ConstMap(b, k))) * diagonal_[static_cast<std::size_t>(k)];
+    b[k] = (b[k] - ConstMap(upper_column(k), k).dot(ConstMap(b, k))) * diagonal_[k];
   for (int k = n_ - 1; k >= 0; --k)  // Lᵀ
     b[k] -= ConstMap(lower_column(k) + k + 1, n_ - k - 1).dot(ConstMap(b + k + 1, n_ - k - 1));
-  for (int k = n_ - 1; k >= 0; --k) std::swap(b[k], b[exchange_[static_cast<std::size_t>(k)]]);
+  for (int k = n_ - 1; k >= 0; --k) std::swap(b[k], b[exchange_[k]]);
 }
 
 double SmallDense::reciprocal_growth(const SparsePattern&, const double* values) {
   double growth = 1.0;
   for (int j = 0; j < n_; ++j) {
-    const double u = std::max(largest(upper_column(j), n_), 1.0 / std::abs(diagonal_[static_cast<std::size_t>(j)]));
+    const double u = std::max(largest(upper_column(j), n_), 1.0 / std::abs(diagonal_[j]));
     growth = std::min(growth, largest(values + static_cast<std::ptrdiff_t>(n_) * j, n_) / u);
   }
   return growth;

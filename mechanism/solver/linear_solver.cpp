@@ -52,7 +52,7 @@ void for_column(const SparsePattern& pattern, const double* values, int j, Visit
   }
   const auto k = static_cast<std::size_t>(j);
   for (int at = pattern.column_start()[k]; at < pattern.column_start()[k + 1]; ++at)
-    visit(pattern.rows()[static_cast<std::size_t>(at)], values[at]);
+    visit(pattern.rows()[at], values[at]);
 }
 
 double norm_1(const SparsePattern& pattern, const double* values) {

@@ -29,7 +29,7 @@ SparsePattern::SparsePattern(int size, std::vector<Position> positions, Storage 
 
 int SparsePattern::slot(int row, int column) const {
   if (storage_ == Storage::dense) return row + column * size_;
-  const auto begin = rows_.begin() + column_start_[static_cast<std::size_t>(column)];
+  const auto begin = rows_.begin() + column_start_[column];
   const auto end = rows_.begin() + column_start_[static_cast<std::size_t>(column) + 1];
   const auto found = std::lower_bound(begin, end, row);
   TISSERAND_ENSURE(found != end && *found == row, "row {}, column {}", row, column);

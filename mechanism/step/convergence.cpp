@@ -74,7 +74,7 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
   }
   const Closed closed = closed_constraints(model, options, step, state);
   for (int row = 0; row < model.sizes.constraints; ++row) {
-    const double length = model.length_row[static_cast<std::size_t>(row)] ? model.length : 1.0;
+    const double length = model.length_row[row] ? model.length : 1.0;
     norms.constraint = std::max(norms.constraint, std::abs(workspace.constraint[row]) / length * model.length);
     if (workspace.active[row] == 0.0) continue;
     raise(norms.constraint_ratio, norms.worst_constraint,

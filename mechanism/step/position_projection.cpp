@@ -24,9 +24,7 @@ bool serves(const Closing& closing, double step) {
 
 /// The least weight for all coordinates; and which of them turn a body with mass.
 void weigh(const Model& model, Closing& closing) {
-  const auto weight = [&](int i) -> double& {
-    return closing.values[static_cast<std::size_t>(model.pattern->slot(i, i))];
-  };
+  const auto weight = [&](int i) -> double& { return closing.values[model.pattern->slot(i, i)]; };
   closing.turns.setZero();
   for (const Node& node : model.nodes)
     for (int k = 0; k < 3 && node.rotation >= 0; ++k)

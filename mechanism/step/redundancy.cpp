@@ -48,9 +48,8 @@ WeightedJacobian weighted_jacobian(const Model& model, const Workspace& workspac
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](const std::vector<int>& coordinates, int column, const auto& row) {
     for (int j = 0; j < static_cast<int>(coordinates.size()); ++j)
-      if (coordinates[static_cast<std::size_t>(j)] >= 0 && row[j] != 0.0)
-        entries.emplace_back(coordinates[static_cast<std::size_t>(j)], column,
-                             row[j] * model.equation_scale[coordinates[static_cast<std::size_t>(j)]]);
+      if (coordinates[j] >= 0 && row[j] != 0.0)
+        entries.emplace_back(coordinates[j], column, row[j] * model.equation_scale[coordinates[j]]);
   };
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
@@ -73,7 +72,7 @@ WeightedJacobian weighted_jacobian(const Model& model, const Workspace& workspac
       square += unit_wrench(row, pair_of(model.coordinates[at], workspace), model.length).squaredNorm();
     }
     const double weight = std::sqrt(square);
-    result.coupling_weight[static_cast<Eigen::Index>(i)] = weight;
+    result.coupling_weight[i] = weight;
     for (const CouplingTerm& term : model.couplings[i].terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
       const Row12 row = (term.factor / weight) * workspace.coordinates[at].G;
@@ -109,8 +108,7 @@ double largest_violation_left_out(const Model& model, const Workspace& workspace
   double largest = 0.0;
   for (int row = 0; row < model.sizes.constraints; ++row)
     if (workspace.active[row] == 0.0)
-      largest = std::max(largest, std::abs(workspace.constraint[row]) /
-                                      (model.length_row[static_cast<std::size_t>(row)] ? model.length : 1.0));
+      largest = std::max(largest, std::abs(workspace.constraint[row]) / (model.length_row[row] ? model.length : 1.0));
   return largest;
 }
 
@@ -129,15 +127,13 @@ Eigen::VectorXd least_norm_multipliers(const Model& model, const Workspace& work
     auto part = mu.segment(model.joints[i].row, model.joints[i].size());
     part = (weighted.triangle[i].triangularView<Eigen::Upper>() * part).eval();
   }
-  for (std::size_t i = 0; i < model.couplings.size(); ++i)
-    mu[model.couplings[i].row] *= weighted.coupling_weight[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < model.couplings.size(); ++i) mu[model.couplings[i].row] *= weighted.coupling_weight[i];
   mu = without_null_space(weighted.A, mu);
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     auto part = mu.segment(model.joints[i].row, model.joints[i].size());
     part = weighted.triangle[i].triangularView<Eigen::Upper>().solve(part).eval();
   }
-  for (std::size_t i = 0; i < model.couplings.size(); ++i)
-    mu[model.couplings[i].row] /= weighted.coupling_weight[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < model.couplings.size(); ++i) mu[model.couplings[i].row] /= weighted.coupling_weight[i];
   return mu;
 }
 

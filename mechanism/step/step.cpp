@@ -116,8 +116,7 @@ void accept(const Model& model, double step, State& state, Workspace& workspace)
   for (Eigen::Index i = 0; i < Q.cols(); ++i) Q.col(i).normalize();
   auto frames = state.frames();
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    frames.col(static_cast<Eigen::Index>(i)) =
-        wxyz(Eigen::Quaterniond(workspace.superelements[i].motion.R0).normalized());
+    frames.col(i) = wxyz(Eigen::Quaterniond(workspace.superelements[i].motion.R0).normalized());
   unwrap_hinges(model, workspace, state);
   for (int k = 0; k < 3; ++k) state.force_scale(k) = std::max(state.force_scale(k), workspace.force_scale[k]);
   state.acceleration_scale() = std::max(state.acceleration_scale(), size_of(model, state.algorithmic()));

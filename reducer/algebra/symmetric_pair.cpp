@@ -29,9 +29,9 @@ Eigen::MatrixXd multiply(const SymmetricPair& pair, const std::vector<double>& v
   const RowMajor in = X;
   RowMajor out = RowMajor::Zero(X.rows(), X.cols());
   for (int i = 0; i < pair.size(); ++i)
-    for (int k = pair.begin[static_cast<std::size_t>(i)]; k < pair.begin[static_cast<std::size_t>(i) + 1]; ++k) {
-      const int j = pair.column[static_cast<std::size_t>(k)];
-      const double value = values[static_cast<std::size_t>(k)];
+    for (int k = pair.begin[i]; k < pair.begin[static_cast<std::size_t>(i) + 1]; ++k) {
+      const int j = pair.column[k];
+      const double value = values[k];
       out.row(i) += value * in.row(j);
       if (j != i) out.row(j) += value * in.row(i);
     }

@@ -16,15 +16,13 @@ namespace {
 constexpr std::size_t most_told = 10;
 
 std::string element_name(const Mesh& mesh, const BeamElement& beam) {
-  return fmt::format("beam {} of '{}'", beam.id, mesh.beam_properties[static_cast<std::size_t>(beam.property)].name);
+  return fmt::format("beam {} of '{}'", beam.id, mesh.beam_properties[beam.property].name);
 }
 std::string element_name(const Mesh& mesh, const ShellElement& shell) {
-  return fmt::format("shell {} of '{}'", shell.id,
-                     mesh.shell_properties[static_cast<std::size_t>(shell.property)].name);
+  return fmt::format("shell {} of '{}'", shell.id, mesh.shell_properties[shell.property].name);
 }
 std::string element_name(const Mesh& mesh, const SolidElement& solid) {
-  return fmt::format("solid {} of '{}'", solid.id,
-                     mesh.solid_properties[static_cast<std::size_t>(solid.property)].name);
+  return fmt::format("solid {} of '{}'", solid.id, mesh.solid_properties[solid.property].name);
 }
 
 /// The first texts of a kind and how many there were.
@@ -57,8 +55,8 @@ void check_all(const Mesh& mesh, const std::vector<Element>& elements, ShapeRepo
 double longest_edge(const Mesh& mesh, const ShellElement& shell) {
   double longest = 0.0;
   for (int i = 0; i < shell.corners(); ++i) {
-    const int a = shell.nodes[static_cast<std::size_t>(i)];
-    const int b = shell.nodes[static_cast<std::size_t>((i + 1) % shell.corners())];
+    const int a = shell.nodes[i];
+    const int b = shell.nodes[(i + 1) % shell.corners()];
     longest = std::max(longest, (mesh.position.col(a) - mesh.position.col(b)).norm());
   }
   return longest;

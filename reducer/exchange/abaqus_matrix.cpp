@@ -97,7 +97,7 @@ std::vector<RowKey> element_rows(const abaqus::Input& input, const abaqus::Block
       throw Error(fmt::format("position {} with {} components in an element of {} nodes", position, numbers.size(),
                               nodes.size()),
                   input.where(line), "give the position of a node and its components");
-    from[static_cast<std::size_t>(position)] = numbers;
+    from[position] = numbers;
   }
   if (!from.contains(1)) throw Error("has no components", input.where(user), "give a line such as 1, 2, 3, 4, 5, 6");
   std::vector<RowKey> rows;

@@ -118,11 +118,11 @@ std::string matrix_text(const std::string& name, const Eigen::MatrixXd& A, const
   for (Eigen::Index j = 0; j < A.cols(); ++j) {
     std::string column;
     for (Eigen::Index i = j; i < A.rows(); ++i) {
-      const RowKey& row = keys[static_cast<std::size_t>(i)];
+      const RowKey& row = keys[i];
       if (A(i, j) != 0.0)
         column += fmt::format("*       {:>16}{:>16}{:>16}\n", row.node, row.component + 1, real_field(A(i, j), 'D'));
     }
-    const RowKey& key = keys[static_cast<std::size_t>(j)];
+    const RowKey& key = keys[j];
     if (!column.empty())
       text += fmt::format("DMIG*   {:<16}{:>16}{:>16}\n{}", name, key.node, key.component + 1, column);
   }
@@ -193,7 +193,7 @@ std::string dmig_text(const formats::Superelement& element) {
                                                                      element.units.mass.label, element.units.time.label)
                                                        : "consistent, without names");
   for (std::size_t b = 0; b < element.node_name.size(); ++b) {
-    const Eigen::RowVector3d x = element.node_position.row(static_cast<Eigen::Index>(b));
+    const Eigen::RowVector3d x = element.node_position.row(b);
     text += fmt::format("$ node {}\nGRID*   {:>16}{:>16}{:>16}{:>16}\n*       {:>16}\n", element.node_name[b], b + 1,
                         "", real_field(x[0], 'E'), real_field(x[1], 'E'), real_field(x[2], 'E'));
   }

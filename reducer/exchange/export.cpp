@@ -51,8 +51,8 @@ formats::Superelement ordered(const formats::Superelement& element) {
   std::sort(rows.begin(), rows.end(), [&](Eigen::Index a, Eigen::Index b) { return key(a) < key(b); });
   formats::Superelement result = element;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    result.dof_node[i] = element.dof_node[static_cast<std::size_t>(rows[i])];
-    result.dof_component[i] = element.dof_component[static_cast<std::size_t>(rows[i])];
+    result.dof_node[i] = element.dof_node[rows[i]];
+    result.dof_component[i] = element.dof_component[rows[i]];
   }
   result.stiffness = element.stiffness(rows, rows);
   result.mass = element.mass(rows, rows);

@@ -43,12 +43,11 @@ std::string numbers(const Eigen::VectorXd& values) {
 std::array<Eigen::Index, 6> rows_of_node(const formats::Superelement& element, int node, const std::string& where) {
   std::array<Eigen::Index, 6> rows{-1, -1, -1, -1, -1, -1};
   for (std::size_t i = 0; i < element.dof_node.size(); ++i)
-    if (element.dof_node[i] == node)
-      rows[static_cast<std::size_t>(element.dof_component[i])] = static_cast<Eigen::Index>(i);
+    if (element.dof_node[i] == node) rows[element.dof_component[i]] = static_cast<Eigen::Index>(i);
   for (const Eigen::Index row : rows)
     if (row < 0)
       throw Error(fmt::format("node '{}' has not all six coordinates, as MBDyn demands of a node that it connects",
-                              element.node_name[static_cast<std::size_t>(node)]),
+                              element.node_name[node]),
                   where, "connect the boundary node to its surface with a spider, which gives it rotations");
   return rows;
 }

@@ -31,8 +31,7 @@ Places read_table(TextLines& lines) {
       throw Error(fmt::format("has {} fields, expected number, x, y, z and perhaps a name", words.size()),
                   lines.where(), "give lines such as 101, 0.5, 0, 1.2, tip");
     NodePlace place;
-    for (std::size_t k = 0; k < 3; ++k)
-      place.position[static_cast<Eigen::Index>(k)] = number_of(words[k + 1], "a coordinate", lines);
+    for (std::size_t k = 0; k < 3; ++k) place.position[k] = number_of(words[k + 1], "a coordinate", lines);
     if (words.size() == 5) place.name = words[4];
     add(places, integer_of(words[0], "the number of a node", lines), place, lines.where());
   }
@@ -53,7 +52,7 @@ void read_node_block(const abaqus::Input& input, const abaqus::Block& block, Pla
       if (fields[k].empty()) continue;
       const std::optional<double> value = abaqus::to_number(fields[k]);
       good = value.has_value();
-      if (good) place.position[static_cast<Eigen::Index>(k - 1)] = *value;
+      if (good) place.position[k - 1] = *value;
     }
     if (!good)
       throw Error(fmt::format("'{}' is no node", shown(line.text)), input.where(line),

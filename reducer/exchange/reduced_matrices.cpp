@@ -71,8 +71,7 @@ double symmetrise(const TextMatrix& matrix, const std::vector<RowKey>& rows, Eig
       worst = std::max(worst, difference / scale);
       if (!(difference <= symmetry_accepted * scale))
         throw Error(fmt::format("{} is not symmetric: {} and {} give {}, the other way round {}", matrix.title,
-                                key_text(rows[static_cast<std::size_t>(i)]),
-                                key_text(rows[static_cast<std::size_t>(j)]), A(i, j), A(j, i)),
+                                key_text(rows[i]), key_text(rows[j]), A(i, j), A(j, i)),
                     matrix.file,
                     "export stiffness and mass of a structure without follower loads, damping and gyroscopic terms; a "
                     "matrix of which one triangle is given must say so in its header");
@@ -89,7 +88,7 @@ std::string key_text(const RowKey& key) {
                                              "rotation x",    "rotation y",    "rotation z"};
   if (key.component == scalar_component) return fmt::format("scalar point {}", key.node);
   if (key.component < 0 || key.component > 5) return fmt::format("node {}, component {}", key.node, key.component + 1);
-  return fmt::format("node {}, {}", key.node, words[static_cast<std::size_t>(key.component)]);
+  return fmt::format("node {}, {}", key.node, words[key.component]);
 }
 
 void add_entry(TextMatrix& matrix, const MatrixEntry& entry) {

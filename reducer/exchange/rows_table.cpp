@@ -50,8 +50,7 @@ long RowReader::node(const std::vector<std::string_view>& cells) {
   place.name = name;
   if (cells.size() != 6)
     throw Error(fmt::format("has {} cells, expected 6: {}", cells.size(), heading), lines.where(), "complete the line");
-  for (std::size_t k = 0; k < 3; ++k)
-    place.position[static_cast<Eigen::Index>(k)] = number_of(cells[k + 3], "a coordinate", lines);
+  for (std::size_t k = 0; k < 3; ++k) place.position[k] = number_of(cells[k + 3], "a coordinate", lines);
   const auto [found, is_new] = number_of_name.emplace(name, static_cast<long>(number_of_name.size()) + 1);
   if (is_new)
     matrices.places.emplace(found->second, place);
@@ -107,8 +106,8 @@ std::string rows_text(const formats::Superelement& element) {
       continue;
     }
     const Eigen::RowVector3d x = element.node_position.row(node);
-    text += fmt::format("{},{},{},{:.17g},{:.17g},{:.17g}\n", i + 1, element.node_name[static_cast<std::size_t>(node)],
-                        component_words[static_cast<std::size_t>(element.dof_component[i])], x[0], x[1], x[2]);
+    text += fmt::format("{},{},{},{:.17g},{:.17g},{:.17g}\n", i + 1, element.node_name[node],
+                        component_words[element.dof_component[i]], x[0], x[1], x[2]);
   }
   return text;
 }

@@ -57,9 +57,9 @@ void require_places(const ReducedMatrices& matrices, const Order& order) {
 void turn_axes(const ReducedMatrices& matrices, const Order& order, Eigen::MatrixXd& A, Eigen::MatrixXd& B) {
   std::map<std::pair<long, int>, std::array<Eigen::Index, 3>> triples;  // node and 0 (translations) or 1 (rotations)
   for (Eigen::Index i = 0; i < order.boundary; ++i) {
-    const RowKey& key = matrices.rows[static_cast<std::size_t>(order.row[static_cast<std::size_t>(i)])];
+    const RowKey& key = matrices.rows[order.row[i]];
     auto [found, is_new] = triples.try_emplace({key.node, key.component / 3}, std::array<Eigen::Index, 3>{-1, -1, -1});
-    found->second[static_cast<std::size_t>(key.component % 3)] = i;
+    found->second[key.component % 3] = i;
   }
   for (const auto& [key, triple] : triples) {
     const Eigen::Matrix3d& axes = matrices.places.at(key.first).axes;
@@ -100,11 +100,11 @@ formats::Superelement describe(const ReducedMatrices& matrices, const ImportOpti
   std::map<long, int> node_row;
   for (std::size_t b = 0; b < order.nodes.size(); ++b) {
     element.node_name.push_back(name_of(matrices, options, order.nodes[b]));
-    element.node_position.row(static_cast<Eigen::Index>(b)) = matrices.places.at(order.nodes[b]).position.transpose();
+    element.node_position.row(b) = matrices.places.at(order.nodes[b]).position.transpose();
     node_row.emplace(order.nodes[b], static_cast<int>(b));
   }
   for (std::size_t i = 0; i < order.row.size(); ++i) {
-    const RowKey& key = matrices.rows[static_cast<std::size_t>(order.row[i])];
+    const RowKey& key = matrices.rows[order.row[i]];
     const bool boundary = static_cast<Eigen::Index>(i) < order.boundary;
     element.dof_node.push_back(boundary ? node_row.at(key.node) : -1);
     element.dof_component.push_back(boundary ? key.component : static_cast<int>(i) - static_cast<int>(order.boundary));

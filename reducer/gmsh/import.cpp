@@ -221,7 +221,7 @@ class Reader {
       : request_(request), mesh_(mesh), nodes_(mesh, request.settings.scale) {}
 
   void read_entity(int dimension, int tag) {
-    Entity entity{dimension, tag, "", mesh_.cells[static_cast<std::size_t>(dimension)].size(), 0};
+    Entity entity{dimension, tag, "", mesh_.cells[dimension].size(), 0};
     gmsh::model::getEntityName(dimension, tag, entity.label);
     std::vector<int> types;
     std::vector<std::vector<std::size_t>> ids, nodes;
@@ -253,7 +253,7 @@ class Reader {
     const std::optional<CellShape> shape = shape_of(type);
     if (!shape) refuse(type);
     const auto count = static_cast<std::size_t>(form_of(*shape).nodes);
-    auto& cells = mesh_.cells[static_cast<std::size_t>(entity.dimension)];
+    auto& cells = mesh_.cells[entity.dimension];
     for (std::size_t e = 0; e < ids.size(); ++e) {
       Cell cell;
       cell.shape = *shape;

@@ -27,7 +27,7 @@ constexpr int point_type = 15, line_type = 1, triangle_type = 2, quadrilateral_t
 
 int gmsh_type(SolidShape shape) {
   constexpr std::array types{4, 11, 5, 17, 6, 18};
-  return types[static_cast<std::size_t>(shape)];
+  return types[shape];
 }
 
 template <class Property>
@@ -40,18 +40,17 @@ std::vector<Batch> batches_of(const std::vector<Property>& properties, int dimen
 std::vector<Batch> element_batches(const Mesh& mesh) {
   std::vector<Batch> all = batches_of(mesh.beam_properties, 1);
   for (const BeamElement& e : mesh.beams) {
-    auto& nodes = all[static_cast<std::size_t>(e.property)].nodes[line_type];
+    auto& nodes = all[e.property].nodes[line_type];
     nodes.insert(nodes.end(), {tag(e.first), tag(e.second)});
   }
   std::vector<Batch> shells = batches_of(mesh.shell_properties, 2), solids = batches_of(mesh.solid_properties, 3);
   for (const ShellElement& e : mesh.shells) {
-    auto& nodes =
-        shells[static_cast<std::size_t>(e.property)].nodes[e.corners() == 3 ? triangle_type : quadrilateral_type];
-    for (int k = 0; k < e.corners(); ++k) nodes.push_back(tag(e.nodes[static_cast<std::size_t>(k)]));
+    auto& nodes = shells[e.property].nodes[e.corners() == 3 ? triangle_type : quadrilateral_type];
+    for (int k = 0; k < e.corners(); ++k) nodes.push_back(tag(e.nodes[k]));
   }
   for (const SolidElement& e : mesh.solids) {
-    auto& nodes = solids[static_cast<std::size_t>(e.property)].nodes[gmsh_type(e.shape)];
-    for (int k = 0; k < node_count(e.shape); ++k) nodes.push_back(tag(e.nodes[static_cast<std::size_t>(k)]));
+    auto& nodes = solids[e.property].nodes[gmsh_type(e.shape)];
+    for (int k = 0; k < node_count(e.shape); ++k) nodes.push_back(tag(e.nodes[k]));
   }
   all.insert(all.end(), shells.begin(), shells.end());
   all.insert(all.end(), solids.begin(), solids.end());
@@ -73,7 +72,7 @@ void add_connections(const Mesh& mesh, std::vector<Batch>& batches) {
 /// Batches of the same name and dimension become one physical group.
 void add_entities(const Mesh& mesh, const std::vector<Batch>& batches) {
   std::vector<std::size_t> tags(static_cast<std::size_t>(mesh.nodes()));
-  for (int n = 0; n < mesh.nodes(); ++n) tags[static_cast<std::size_t>(n)] = tag(n);
+  for (int n = 0; n < mesh.nodes(); ++n) tags[n] = tag(n);
   const std::vector<double> coordinates(mesh.position.data(), mesh.position.data() + mesh.position.size());
   bool first = true;
   std::map<std::pair<int, std::string>, std::vector<int>> groups;

@@ -23,13 +23,13 @@ constexpr std::array<CellForm, 12> forms{{{1, 2, 2},
 using Points = std::vector<Eigen::Vector3d>;
 
 double tetrahedron_volume(const Points& x, const Cell& cell, const std::array<int, 4>& k) {
-  const auto at = [&](int i) { return x[static_cast<std::size_t>(cell.nodes[static_cast<std::size_t>(k[i])])]; };
+  const auto at = [&](int i) { return x[static_cast<std::size_t>(cell.nodes[k[i]])]; };
   return std::abs((at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0))) / 6.0;
 }
 
 /// Area of triangle or (warped) quadrilateral: half of the cross product of the diagonals.
 double face_area(const Points& x, const Cell& cell, int corners) {
-  const auto at = [&](int i) { return x[static_cast<std::size_t>(cell.nodes[static_cast<std::size_t>(i)])]; };
+  const auto at = [&](int i) { return x[cell.nodes[i]]; };
   if (corners == 3) return 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
   return 0.5 * (at(2) - at(0)).cross(at(3) - at(1)).norm();
 }
@@ -48,11 +48,11 @@ double volume(const Points& x, const Cell& cell, int corners) {
 
 }  // namespace
 
-CellForm form_of(CellShape shape) { return forms[static_cast<std::size_t>(shape)]; }
+CellForm form_of(CellShape shape) { return forms[shape]; }
 
 const char* dimension_word(int dimension) {
   constexpr std::array<const char*, 4> words{"node", "edge", "face", "volume"};
-  return words[static_cast<std::size_t>(dimension)];
+  return words[dimension];
 }
 
 std::string name_of(const Entity& entity) {
@@ -65,8 +65,7 @@ NodeShares node_shares(const Cell& cell, const Points& position) {
   const CellForm form = form_of(cell.shape);
   NodeShares result;
   if (form.dimension == 1)
-    result.size =
-        (position[static_cast<std::size_t>(cell.nodes[1])] - position[static_cast<std::size_t>(cell.nodes[0])]).norm();
+    result.size = (position[cell.nodes[1]] - position[cell.nodes[0]]).norm();
   else
     result.size = form.dimension == 2 ? face_area(position, cell, form.corners) : volume(position, cell, form.corners);
   // Share of one corner; the rest goes to the middle nodes in equal parts. Halving the edges gives these numbers: the
@@ -79,7 +78,7 @@ NodeShares node_shares(const Cell& cell, const Points& position) {
   if (form.dimension == 3 && form.nodes > form.corners) corner = 1.0 / 32.0;
   const int middle = form.nodes - form.corners;
   for (int i = 0; i < form.nodes; ++i)
-    result.share[static_cast<std::size_t>(i)] = i < form.corners ? corner : (1.0 - form.corners * corner) / middle;
+    result.share[i] = i < form.corners ? corner : (1.0 - form.corners * corner) / middle;
   return result;
 }
 

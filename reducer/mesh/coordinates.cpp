@@ -23,7 +23,7 @@ void use_element(const Mesh& mesh, int e, Use& use) {
   const auto k = static_cast<std::size_t>(e);
   const bool turns = k < surfaces || k >= surfaces + mesh.solids.size();
   for (int i = 0; i < nodes.count; ++i) {
-    const auto n = static_cast<std::size_t>(nodes.node[static_cast<std::size_t>(i)]);
+    const auto n = static_cast<std::size_t>(nodes.node[i]);
     use.element[n] = use.any[n] = true;
     if (turns) use.rotation[n] = true;
   }
@@ -95,7 +95,7 @@ Coordinates number_coordinates(const Mesh& mesh) {
   c.first.reserve(static_cast<std::size_t>(mesh.nodes()) + 1);
   c.first.push_back(0);
   for (int n = 0; n < mesh.nodes(); ++n) {
-    const int size = use.rotation[static_cast<std::size_t>(n)] ? 6 : 3;
+    const int size = use.rotation[n] ? 6 : 3;
     for (int k = 0; k < size; ++k) {
       c.node.push_back(n);
       c.component.push_back(k);
@@ -121,7 +121,7 @@ void check_retained(const Mesh& mesh, const Coordinates& coordinates, const std:
   for (const MeshBoundary& b : mesh.boundary)
     if (b.rotations && !coordinates.rotates(b.node))
       throw Error(fmt::format("boundary node '{}' retains rotations, but {} has none: only solid elements meet there",
-                              b.name, mesh.node_label[static_cast<std::size_t>(b.node)]),
+                              b.name, mesh.node_label[b.node]),
                   where, "retain translations only, or attach a boundary node by a spider to several nodes there");
 }
 
@@ -139,7 +139,7 @@ Eigen::MatrixXd rigid_motions(const Mesh& mesh, const Coordinates& coordinates, 
 std::string component_text(int component) {
   constexpr std::array<const char*, 6> words{"translation x", "translation y", "translation z",
                                              "rotation x",    "rotation y",    "rotation z"};
-  return words[static_cast<std::size_t>(component)];
+  return words[component];
 }
 
 }  // namespace tisserand::reducer

@@ -19,9 +19,9 @@ struct Coordinates {
   std::vector<int> component;  ///< of each coordinate, 0-5
 
   int count() const { return static_cast<int>(node.size()); }
-  bool rotates(int n) const { return first[static_cast<std::size_t>(n) + 1] - first[static_cast<std::size_t>(n)] == 6; }
+  bool rotates(int n) const { return first[static_cast<std::size_t>(n) + 1] - first[n] == 6; }
   /// Number of a node's coordinate; only if it has that component.
-  int of(int n, int c) const { return first[static_cast<std::size_t>(n)] + c; }
+  int of(int n, int c) const { return first[n] + c; }
 };
 
 Coordinates number_coordinates(const Mesh& mesh);

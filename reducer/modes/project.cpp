@@ -25,8 +25,7 @@ formats::Superelement describe(const formats::Part& part, const InternalProblem&
   element.node_position.resize(static_cast<Eigen::Index>(problem.mesh.boundary.size()), 3);
   for (std::size_t b = 0; b < problem.mesh.boundary.size(); ++b) {
     element.node_name.push_back(problem.mesh.boundary[b].name);
-    element.node_position.row(static_cast<Eigen::Index>(b)) =
-        problem.mesh.position.col(problem.mesh.boundary[b].node).transpose();
+    element.node_position.row(b) = problem.mesh.position.col(problem.mesh.boundary[b].node).transpose();
   }
   element.dof_node = problem.partition.boundary_node;
   element.dof_component = problem.partition.boundary_component;
@@ -41,9 +40,8 @@ formats::Superelement describe(const formats::Part& part, const InternalProblem&
 /// boundary node: S̄_BB = 0), to m ω² of the softest mode.
 double rigid_residual(const formats::Superelement& element, double length, const InternalModes& internal) {
   const Eigen::Index n_B = element.size() - internal.lambda.size();
-  const Eigen::VectorXd scale = Eigen::VectorXd::NullaryExpr(n_B, [&](Eigen::Index i) {
-    return element.dof_component[static_cast<std::size_t>(i)] >= 3 ? 1.0 / length : 1.0;
-  });
+  const Eigen::VectorXd scale = Eigen::VectorXd::NullaryExpr(
+      n_B, [&](Eigen::Index i) { return element.dof_component[i] >= 3 ? 1.0 / length : 1.0; });
   const Eigen::Vector3d middle = element.node_position.colwise().mean();
   Eigen::MatrixXd R = formats::rigid_motions(element, middle).topRows(n_B);
   R.rightCols<3>() /= length;

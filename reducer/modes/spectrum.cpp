@@ -63,7 +63,7 @@ class KrylovSchur {
     std::vector<Vec> vectors(static_cast<std::size_t>(known.cols()));
     for (Eigen::Index k = 0; k < known.cols(); ++k)
       petsc_check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(known.rows()), known.col(k).data(),
-                                        &vectors[static_cast<std::size_t>(k)]));
+                                        &vectors[k]));
     petsc_check(EPSSetDeflationSpace(eps_, static_cast<PetscInt>(known.cols()), vectors.data()));
     for (Vec& v : vectors) VecDestroy(&v);
   }

@@ -55,9 +55,9 @@ Matrix6 orthotropic_elasticity(const OrthotropicConstants& constants, const std:
 Matrix6 rotated_elasticity(const Matrix6& C_M, const Eigen::Matrix3d& R_PM) {
   Matrix6 T;  // strains in material axes from strains in part axes: ε_M = R_PMᵀ ε_P R_PM
   for (int j = 0; j < 6; ++j) {
-    const auto [a, b] = tensor_index[static_cast<std::size_t>(j)];
+    const auto [a, b] = tensor_index[j];
     for (int i = 0; i < 6; ++i) {
-      const auto [c, d] = tensor_index[static_cast<std::size_t>(i)];
+      const auto [c, d] = tensor_index[i];
       const double mixed = R_PM(a, c) * R_PM(b, d) + R_PM(b, c) * R_PM(a, d);
       T(i, j) = i < 3 ? 0.5 * mixed : mixed;
     }

@@ -32,7 +32,7 @@ Eigen::VectorXd row_scale(const formats::Superelement& element, double length) {
 std::vector<int> internal_rows(const formats::Superelement& element) {
   std::vector<int> rows;
   for (int i = 0; i < element.size(); ++i)
-    if (element.dof_node[static_cast<std::size_t>(i)] < 0) rows.push_back(i);
+    if (element.dof_node[i] < 0) rows.push_back(i);
   return rows;
 }
 
@@ -42,7 +42,7 @@ std::string coordinate_text(const formats::Superelement& element, Eigen::Index r
   const auto k = static_cast<std::size_t>(row);
   const auto component = static_cast<std::size_t>(element.dof_component[k]);
   if (element.dof_node[k] < 0) return fmt::format("internal coordinate {}", component);
-  return fmt::format("{} {}", element.node_name[static_cast<std::size_t>(element.dof_node[k])], words[component]);
+  return fmt::format("{} {}", element.node_name[element.dof_node[k]], words[component]);
 }
 
 std::vector<double> fixed_frequencies(const formats::Superelement& element) {

@@ -25,7 +25,7 @@ std::map<int, double> legs_of(const MeshBuilder& builder, const formats::SpiderL
   for (const long number : line.nodes) numbered.nodes.push_back(find_file_node(builder, number, user));
   if (!numbered.nodes.empty())
     for (const auto& [node, weight] : node_weights(builder, numbered)) legs[node] += weight;
-  std::erase_if(legs, [&](const auto& leg) { return builder.used[static_cast<std::size_t>(leg.first)] == 0; });
+  std::erase_if(legs, [&](const auto& leg) { return builder.used[leg.first] == 0; });
   if (legs.empty())
     throw Error(user.name + " grabs nothing: no element has a node there", user.where,
                 "name a group of faces or edges that carry elements; `reducer groups` lists them");

@@ -17,9 +17,9 @@ template <class Visit>
 void for_nodes(Mesh& mesh, Visit visit) {
   for (BeamElement& e : mesh.beams) visit(e.first), visit(e.second);
   for (ShellElement& e : mesh.shells)
-    for (int k = 0; k < e.corners(); ++k) visit(e.nodes[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < e.corners(); ++k) visit(e.nodes[k]);
   for (SolidElement& e : mesh.solids)
-    for (int k = 0; k < node_count(e.shape); ++k) visit(e.nodes[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < node_count(e.shape); ++k) visit(e.nodes[k]);
   for (Spring& e : mesh.springs) visit(e.first), visit(e.second);
   for (NodalMass& e : mesh.masses) visit(e.node);
   for (Spider& e : mesh.spiders) {
@@ -37,8 +37,7 @@ void tell_left_out(MeshBuilder& builder, const std::vector<int>& row) {
   std::vector<std::string> told;
   int count = 0;
   for (int n = builder.first_file_node; n < builder.last_file_node; ++n)
-    if (row[static_cast<std::size_t>(n)] < 0 && count++ < most_told)
-      told.push_back(builder.label[static_cast<std::size_t>(n)]);
+    if (row[n] < 0 && count++ < most_told) told.push_back(builder.label[n]);
   if (count > 0)
     builder.mesh.warnings.push_back(fmt::format("{} nodes of {} without elements, masses and ties are left out: {}{}",
                                                 count, builder.part.mesh.file, join(told, ", "),
@@ -51,7 +50,7 @@ void tell_left_out(MeshBuilder& builder, const std::vector<int>& row) {
 void finish(MeshBuilder& builder) {
   Mesh& mesh = builder.mesh;
   std::vector<int> row(builder.cells.position.size(), -1);
-  for_nodes(mesh, [&row](int& node) { row[static_cast<std::size_t>(node)] = 0; });
+  for_nodes(mesh, [&row](int& node) { row[node] = 0; });
   if (builder.file_is_deck) tell_left_out(builder, row);
   int count = 0;
   for (int& r : row)
@@ -61,9 +60,9 @@ void finish(MeshBuilder& builder) {
   for (std::size_t n = 0; n < row.size(); ++n) {
     if (row[n] < 0) continue;
     mesh.position.col(row[n]) = builder.cells.position[n];
-    mesh.node_label[static_cast<std::size_t>(row[n])] = std::move(builder.label[n]);
+    mesh.node_label[row[n]] = std::move(builder.label[n]);
   }
-  for_nodes(mesh, [&row](int& node) { node = row[static_cast<std::size_t>(node)]; });
+  for_nodes(mesh, [&row](int& node) { node = row[node]; });
 }
 
 Mesh build_mesh(const formats::Part& part) {

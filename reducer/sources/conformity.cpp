@@ -36,8 +36,7 @@ FaceEdges face_edges(const CellMesh& patches) {
       const Cell& cell = patches.cells[2][c];
       const int corners = form_of(cell.shape).corners;
       for (int k = 0; k < corners; ++k) {
-        const int a = cell.nodes[static_cast<std::size_t>(k)],
-                  b = cell.nodes[static_cast<std::size_t>((k + 1) % corners)];
+        const int a = cell.nodes[k], b = cell.nodes[(k + 1) % corners];
         if (++uses[std::minmax(a, b)] == 1) result.segments.push_back({a, b, owner});
       }
     }
@@ -52,9 +51,9 @@ FaceEdges face_edges(const CellMesh& patches) {
 }
 
 [[noreturn]] void refuse(const formats::Part& part, const OwnLines& lines, const Segment& segment, int node) {
-  const auto label = [&lines](int n) { return lines.label[static_cast<std::size_t>(n)]; };
+  const auto label = [&lines](int n) { return lines.label[n]; };
   const bool patch = segment.owner >= 0;
-  const std::string where = patch ? part.patches[static_cast<std::size_t>(segment.owner)].where : part.file;
+  const std::string where = patch ? part.patches[segment.owner].where : part.file;
   throw Error(fmt::format("node {} lies on the edge from {} to {} without being one of its nodes", label(node),
                           label(segment.first), label(segment.second)),
               where,
@@ -65,14 +64,14 @@ FaceEdges face_edges(const CellMesh& patches) {
 /// Throws if one of the nodes in the grid lies inside the segment.
 void check_segment(const formats::Part& part, const OwnLines& lines, const Segment& segment, const NodeGrid& grid,
                    double step) {
-  const Vector3d a = lines.position[static_cast<std::size_t>(segment.first)];
-  const Vector3d d = lines.position[static_cast<std::size_t>(segment.second)] - a;
+  const Vector3d a = lines.position[segment.first];
+  const Vector3d d = lines.position[segment.second] - a;
   const double length = d.norm();
   const int samples = static_cast<int>(length / step) + 1;
   for (int k = 0; k <= samples; ++k)
     grid.near(a + d * (static_cast<double>(k) / samples), [&](int node) {
       if (node == segment.first || node == segment.second) return;
-      const Vector3d x = lines.position[static_cast<std::size_t>(node)] - a;
+      const Vector3d x = lines.position[node] - a;
       const double s = x.dot(d) / (length * length);
       constexpr double slack = 1e-3;  // closer than this to an edge without a node there is no intention
       if (s > -slack && s < 1.0 + slack && (x - std::clamp(s, 0.0, 1.0) * d).norm() < slack * length)
@@ -82,9 +81,7 @@ void check_segment(const formats::Part& part, const OwnLines& lines, const Segme
 
 double mean_length(const OwnLines& lines, const std::vector<Segment>& segments) {
   double sum = 0.0;
-  for (const Segment& s : segments)
-    sum +=
-        (lines.position[static_cast<std::size_t>(s.second)] - lines.position[static_cast<std::size_t>(s.first)]).norm();
+  for (const Segment& s : segments) sum += (lines.position[s.second] - lines.position[s.first]).norm();
   return sum / static_cast<double>(segments.size());
 }
 
@@ -100,11 +97,11 @@ void check_conformity(const formats::Part& part, const CellMesh& patches, const 
   const double step = mean_length(lines, faces.segments);
   NodeGrid of_patches(step), of_all(step);
   for (const int node : faces.free_nodes) {
-    of_patches.add(lines.position[static_cast<std::size_t>(node)], node);
-    of_all.add(lines.position[static_cast<std::size_t>(node)], node);
+    of_patches.add(lines.position[node], node);
+    of_all.add(lines.position[node], node);
   }
   for (const std::vector<int>& beam : lines.beams)
-    for (const int node : beam) of_all.add(lines.position[static_cast<std::size_t>(node)], node);
+    for (const int node : beam) of_all.add(lines.position[node], node);
   for (const Segment& segment : faces.segments) check_segment(part, lines, segment, of_all, step);
   for (const Segment& segment : beams) check_segment(part, lines, segment, of_patches, step);
 }

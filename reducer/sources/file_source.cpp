@@ -35,12 +35,12 @@ void append_cells(MeshBuilder& builder, const CellMesh& file) {
     first[d] = all.cells[d].size();
     all.cells[d].reserve(first[d] + file.cells[d].size());
     for (Cell cell : file.cells[d]) {
-      for (int k = 0; k < form_of(cell.shape).nodes; ++k) cell.nodes[static_cast<std::size_t>(k)] += shift;
+      for (int k = 0; k < form_of(cell.shape).nodes; ++k) cell.nodes[k] += shift;
       all.cells[d].push_back(cell);
     }
   }
   for (Entity entity : file.entities) {
-    entity.first += first[static_cast<std::size_t>(entity.dimension)];
+    entity.first += first[entity.dimension];
     all.entities.push_back(entity);
   }
   for (EntityGroup group : file.groups) {
@@ -62,7 +62,7 @@ std::vector<SizedEntity> sized_entities(const MeshBuilder& builder, const Import
   for (const formats::MeshFile::LocalSize& local : settings.sizes) {
     const User user{"mesh: sizes", local.where};
     for (const int e : select(coarse, local.group, -1, user).entities) {
-      const Entity& entity = coarse.cells.entities[static_cast<std::size_t>(e)];
+      const Entity& entity = coarse.cells.entities[e];
       sizes.push_back({entity.dimension, entity.number, local.size});
     }
   }
@@ -97,11 +97,11 @@ void shift_deck(Mesh& deck, int nodes, const Mesh& before) {
   for (BeamElement& e : deck.beams)
     shift(e.first, by), shift(e.second, by), shift(e.property, before.beam_properties.size());
   for (ShellElement& e : deck.shells) {
-    for (int k = 0; k < e.corners(); ++k) shift(e.nodes[static_cast<std::size_t>(k)], by);
+    for (int k = 0; k < e.corners(); ++k) shift(e.nodes[k], by);
     shift(e.property, before.shell_properties.size());
   }
   for (SolidElement& e : deck.solids) {
-    for (int k = 0; k < node_count(e.shape); ++k) shift(e.nodes[static_cast<std::size_t>(k)], by);
+    for (int k = 0; k < node_count(e.shape); ++k) shift(e.nodes[k], by);
     shift(e.property, before.solid_properties.size());
   }
   for (Spring& e : deck.springs) shift(e.first, by), shift(e.second, by);
@@ -120,7 +120,7 @@ void append_deck(MeshBuilder& builder, Deck& deck) {
   const int shift = static_cast<int>(builder.cells.position.size());
   builder.first_file_node = shift;
   for (int n = 0; n < deck.mesh.nodes(); ++n)
-    builder.add_node(deck.mesh.position.col(n), std::move(deck.mesh.node_label[static_cast<std::size_t>(n)]));
+    builder.add_node(deck.mesh.position.col(n), std::move(deck.mesh.node_label[n]));
   builder.last_file_node = static_cast<int>(builder.cells.position.size());
   builder.file_is_deck = true;
   for (const auto& [id, node] : deck.node_of_id) builder.node_of_id[id] = node + shift;

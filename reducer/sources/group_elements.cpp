@@ -25,10 +25,9 @@ namespace {
 
 /// Marks an entity as taken; two properties for one entity are an error.
 void take(MeshBuilder& builder, int entity, const User& user) {
-  std::string& owner = builder.property_of_entity[static_cast<std::size_t>(entity)];
+  std::string& owner = builder.property_of_entity[entity];
   if (!owner.empty())
-    throw Error(fmt::format("{}: {} already belongs to {}", user.name,
-                            name_of(builder.cells.entities[static_cast<std::size_t>(entity)]), owner),
+    throw Error(fmt::format("{}: {} already belongs to {}", user.name, name_of(builder.cells.entities[entity]), owner),
                 user.where, "give every group one property");
   owner = user.name;
 }
@@ -52,8 +51,8 @@ std::vector<int> entities_for(MeshBuilder& builder, const std::vector<std::strin
 
 template <class Make>
 void for_cells(const MeshBuilder& builder, int entity, Make make) {
-  const Entity& e = builder.cells.entities[static_cast<std::size_t>(entity)];
-  const auto& cells = builder.cells.cells[static_cast<std::size_t>(e.dimension)];
+  const Entity& e = builder.cells.entities[entity];
+  const auto& cells = builder.cells.cells[e.dimension];
   for (std::size_t c = e.first; c < e.first + e.count; ++c) make(cells[c]);
 }
 
@@ -160,7 +159,7 @@ bool lies_on_elements(const MeshBuilder& builder, int entity) {
   bool covered = true;
   for_cells(builder, entity, [&](const Cell& cell) {
     for (int k = 0; k < form_of(cell.shape).nodes; ++k)
-      if (builder.used[static_cast<std::size_t>(cell.nodes[static_cast<std::size_t>(k)])] == 0) covered = false;
+      if (builder.used[cell.nodes[k]] == 0) covered = false;
   });
   return covered;
 }
@@ -173,14 +172,14 @@ void check_groups_have_properties(const MeshBuilder& builder) {
     if (named.contains(group.name) || group.dimension == 0) continue;
     std::size_t forgotten = 0;
     for (const int entity : group.entities)
-      if (builder.property_of_entity[static_cast<std::size_t>(entity)].empty() && !lies_on_elements(builder, entity))
-        forgotten += builder.cells.entities[static_cast<std::size_t>(entity)].count;
+      if (builder.property_of_entity[entity].empty() && !lies_on_elements(builder, entity))
+        forgotten += builder.cells.entities[entity].count;
     if (forgotten == 0) continue;
     constexpr std::array<const char*, 4> lists{"", "beams", "shells", "solids"};
     errors.emplace_back(fmt::format("group '{}' has {} elements without a property", group.name, forgotten),
                         builder.part.mesh.file,
-                        fmt::format("give it one under {} (on: {}), or mesh: {{ignore: [{}]}}",
-                                    lists[static_cast<std::size_t>(group.dimension)], group.name, group.name));
+                        fmt::format("give it one under {} (on: {}), or mesh: {{ignore: [{}]}}", lists[group.dimension],
+                                    group.name, group.name));
   }
   if (!errors.empty()) throw merge_errors(errors);
 }
@@ -211,12 +210,12 @@ void check_nothing_is_left(const MeshBuilder& builder) {
 void mark_used_nodes(MeshBuilder& builder) {
   const Mesh& mesh = builder.mesh;
   builder.used.assign(builder.cells.position.size(), 0);
-  const auto use = [&builder](int node) { builder.used[static_cast<std::size_t>(node)] = 1; };
+  const auto use = [&builder](int node) { builder.used[node] = 1; };
   for (const BeamElement& e : mesh.beams) use(e.first), use(e.second);
   for (const ShellElement& e : mesh.shells)
-    for (int k = 0; k < e.corners(); ++k) use(e.nodes[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < e.corners(); ++k) use(e.nodes[k]);
   for (const SolidElement& e : mesh.solids)
-    for (int k = 0; k < node_count(e.shape); ++k) use(e.nodes[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < node_count(e.shape); ++k) use(e.nodes[k]);
   for (const Spring& e : mesh.springs) use(e.first), use(e.second);
 }
 

@@ -40,10 +40,10 @@ Holds on_cylinder(const formats::CylinderSelection& cylinder, double tolerance) 
 
 /// Whether all corners of the entity's cells are where `holds` says.
 bool lies(const MeshBuilder& builder, const Entity& entity, const Holds& holds) {
-  const auto& cells = builder.cells.cells[static_cast<std::size_t>(entity.dimension)];
+  const auto& cells = builder.cells.cells[entity.dimension];
   for (std::size_t c = entity.first; c < entity.first + entity.count; ++c)
     for (int k = 0; k < form_of(cells[c].shape).corners; ++k)
-      if (!holds(builder.position(cells[c].nodes[static_cast<std::size_t>(k)]))) return false;
+      if (!holds(builder.position(cells[c].nodes[k]))) return false;
   return entity.count > 0;
 }
 
@@ -63,7 +63,7 @@ double to_triangle(const Vector3d& x, const Vector3d& a, const Vector3d& b, cons
 
 /// Distance from a point to an edge or face; to the nearest corner of a volume.
 double to_cell(const MeshBuilder& builder, const Cell& cell, const Vector3d& x) {
-  const auto at = [&](int k) { return builder.position(cell.nodes[static_cast<std::size_t>(k)]); };
+  const auto at = [&](int k) { return builder.position(cell.nodes[k]); };
   const CellForm form = form_of(cell.shape);
   if (form.dimension == 1) return to_segment(x, at(0), at(1));
   if (form.dimension == 2 && form.corners == 3) return to_triangle(x, at(0), at(1), at(2));
@@ -104,7 +104,7 @@ int nearest_entity(const MeshBuilder& builder, const formats::GroupDefinition& g
     const Entity& entity = builder.cells.entities[e];
     if (entity.dimension != dimension) continue;
     double own = std::numeric_limits<double>::infinity();
-    const auto& cells = builder.cells.cells[static_cast<std::size_t>(dimension)];
+    const auto& cells = builder.cells.cells[dimension];
     for (std::size_t c = entity.first; c < entity.first + entity.count; ++c)
       own = std::min(own, to_cell(builder, cells[c], *group.near));
     if (own < distance)
@@ -113,7 +113,7 @@ int nearest_entity(const MeshBuilder& builder, const formats::GroupDefinition& g
       second = static_cast<int>(e), next = own;
   }
   const double size = extent(builder), allowed = group.tolerance.value_or(0.1 * size);
-  const auto name = [&](int e) { return name_of(builder.cells.entities[static_cast<std::size_t>(e)]); };
+  const auto name = [&](int e) { return name_of(builder.cells.entities[e]); };
   if (best < 0) throw Error(fmt::format("{}: there are no {}s", user.name, dimension_word(dimension)), user.where, "");
   if (distance > allowed)
     throw Error(fmt::format("{}: the nearest is {}, {:.3g} away; the tolerance is {:.3g}", user.name, name(best),

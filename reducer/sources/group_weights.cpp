@@ -14,8 +14,7 @@ using Weights = std::map<int, double>;
 
 void add_cell(const MeshBuilder& builder, const Cell& cell, Weights& weights) {
   const NodeShares shares = node_shares(cell, builder.cells.position);
-  for (int k = 0; k < form_of(cell.shape).nodes; ++k)
-    weights[cell.nodes[static_cast<std::size_t>(k)]] += shares.size * shares.share[static_cast<std::size_t>(k)];
+  for (int k = 0; k < form_of(cell.shape).nodes; ++k) weights[cell.nodes[k]] += shares.size * shares.share[k];
 }
 
 Cell as_cell(const ShellElement& shell) {
@@ -29,7 +28,7 @@ Cell as_cell(const SolidElement& solid) {
   constexpr std::array shapes{CellShape::tetrahedron4, CellShape::tetrahedron10, CellShape::hexahedron8,
                               CellShape::hexahedron20, CellShape::prism6,        CellShape::prism15};
   Cell cell;
-  cell.shape = shapes[static_cast<std::size_t>(solid.shape)];
+  cell.shape = shapes[solid.shape];
   cell.nodes = solid.nodes;
   return cell;
 }
@@ -43,10 +42,10 @@ Cell line_cell(int first, int second) {
 
 void add_elements(const MeshBuilder& builder, const ElementSet& set, Weights& weights) {
   const Mesh& mesh = builder.mesh;
-  for (const int e : set.shells) add_cell(builder, as_cell(mesh.shells[static_cast<std::size_t>(e)]), weights);
-  for (const int e : set.solids) add_cell(builder, as_cell(mesh.solids[static_cast<std::size_t>(e)]), weights);
+  for (const int e : set.shells) add_cell(builder, as_cell(mesh.shells[e]), weights);
+  for (const int e : set.solids) add_cell(builder, as_cell(mesh.solids[e]), weights);
   for (const int e : set.beams) {
-    const BeamElement& beam = mesh.beams[static_cast<std::size_t>(e)];
+    const BeamElement& beam = mesh.beams[e];
     add_cell(builder, line_cell(beam.first, beam.second), weights);
   }
 }
@@ -79,11 +78,11 @@ Cell face_cell(const Cell& solid, const std::vector<int>& face) {
   const auto& edges = faces_of(form.corners).edges;
   for (std::size_t k = 0; k < n; ++k) {
     const int a = face[k], b = face[(k + 1) % n];
-    cell.nodes[k] = solid.nodes[static_cast<std::size_t>(a)];
+    cell.nodes[k] = solid.nodes[a];
     if (!second_order) continue;
     const auto edge = std::ranges::find_if(
         edges, [&](const auto& e) { return (e[0] == a && e[1] == b) || (e[0] == b && e[1] == a); });
-    cell.nodes[n + k] = solid.nodes[static_cast<std::size_t>(form.corners + (edge - edges.begin()))];
+    cell.nodes[n + k] = solid.nodes[form.corners + (edge - edges.begin())];
   }
   return cell;
 }
@@ -95,7 +94,7 @@ void add_solid_faces(const MeshBuilder& builder, const std::unordered_set<int>& 
     const Cell cell = as_cell(solid);
     for (const std::vector<int>& face : faces_of(form_of(cell.shape).corners).faces) {
       std::array<int, 4> key{-1, -1, -1, -1};
-      for (std::size_t k = 0; k < face.size(); ++k) key[k] = cell.nodes[static_cast<std::size_t>(face[k])];
+      for (std::size_t k = 0; k < face.size(); ++k) key[k] = cell.nodes[face[k]];
       if (!std::all_of(key.begin(), key.begin() + static_cast<std::ptrdiff_t>(face.size()),
                        [&](int n) { return nodes.contains(n); }))
         continue;
@@ -116,8 +115,7 @@ void add_shells_between(const MeshBuilder& builder, const std::unordered_set<int
     const int corners = shell.corners();
     int inside = 0;
     for (int k = 0; k < corners; ++k) {
-      const int a = shell.nodes[static_cast<std::size_t>(k)],
-                b = shell.nodes[static_cast<std::size_t>((k + 1) % corners)];
+      const int a = shell.nodes[k], b = shell.nodes[(k + 1) % corners];
       inside += nodes.contains(a) ? 1 : 0;
       if (nodes.contains(a) && nodes.contains(b)) edges[std::minmax(a, b)] = line_cell(a, b);
     }
@@ -142,8 +140,8 @@ void add_nodes(const MeshBuilder& builder, const std::vector<int>& named, Weight
 std::vector<std::pair<int, double>> node_weights(const MeshBuilder& builder, const Selection& selection) {
   Weights weights;
   for (const int e : selection.entities) {
-    const Entity& entity = builder.cells.entities[static_cast<std::size_t>(e)];
-    const auto& cells = builder.cells.cells[static_cast<std::size_t>(entity.dimension)];
+    const Entity& entity = builder.cells.entities[e];
+    const auto& cells = builder.cells.cells[entity.dimension];
     for (std::size_t c = entity.first; c < entity.first + entity.count; ++c) add_cell(builder, cells[c], weights);
   }
   add_elements(builder, selection.elements, weights);

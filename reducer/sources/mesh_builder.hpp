@@ -36,7 +36,7 @@ struct MeshBuilder {
   std::vector<int> used;                     ///< by elements: 1
 
   int add_node(const Eigen::Vector3d& x, std::string name);
-  const Eigen::Vector3d& position(int node) const { return cells.position[static_cast<std::size_t>(node)]; }
+  const Eigen::Vector3d& position(int node) const { return cells.position[node]; }
 };
 
 // In this order:

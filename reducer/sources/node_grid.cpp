@@ -26,7 +26,7 @@ int MergedNodes::find(const Eigen::Vector3d& x) const {
   int best = -1;
   double distance = tolerance_;
   grid_.near(x, [&](int number) {
-    const double d = (position_[static_cast<std::size_t>(number)] - x).norm();
+    const double d = (position_[number] - x).norm();
     if (d <= distance) distance = d, best = number;
   });
   return best;

@@ -145,7 +145,7 @@ void add_points(MeshBuilder& builder) {
   for (const formats::NamedPoint& point : builder.part.points) {
     if (point.place) continue;
     const int on_patch = builder.patch_nodes.find(point.position);
-    if (on_patch >= 0) builder.label[static_cast<std::size_t>(on_patch)] = point.name;
+    if (on_patch >= 0) builder.label[on_patch] = point.name;
     if (on_patch >= 0)
       builder.point_node[point.name] = on_patch;
     else if (used.contains(point.name))

@@ -56,9 +56,7 @@ Vector3d start_direction(const std::optional<Vector3d>& start, const Vector3d& a
 Grids grids_of(const formats::Plate& plate, const formats::ShellPatch& patch) {
   const auto& c = plate.corners;
   Grid grid;
-  const auto side = [&](int a, int b) {
-    return (c[static_cast<std::size_t>(a)] - c[static_cast<std::size_t>(b)]).norm();
-  };
+  const auto side = [&](int a, int b) { return (c[a] - c[b]).norm(); };
   const bool counted = !patch.elements.empty();
   grid.n = counted ? patch.elements[0] : count_from(std::max(side(0, 1), side(3, 2)), patch.size, patch);
   grid.m = counted ? patch.elements[1] : count_from(std::max(side(0, 3), side(1, 2)), patch.size, patch);
@@ -225,7 +223,7 @@ class GridWriter {
     const int dimension = form_of(shape).dimension;
     if (static_cast<int>(corners.size()) < dimension + 1) return;
     if (dimension == 2 && corners.size() == 3) shape = CellShape::triangle3;
-    auto& cells = mesh_.cells.cells[static_cast<std::size_t>(dimension)];
+    auto& cells = mesh_.cells.cells[dimension];
     Cell cell;
     cell.shape = shape;
     cell.id = static_cast<long>(cells.size() - mesh_.cells.entities.back().first) + 1;
@@ -241,7 +239,7 @@ class GridWriter {
 };
 
 void open_entity(PatchMesh& mesh, int dimension, const std::string& name) {
-  mesh.cells.entities.push_back({dimension, 0, name, mesh.cells.cells[static_cast<std::size_t>(dimension)].size(), 0});
+  mesh.cells.entities.push_back({dimension, 0, name, mesh.cells.cells[dimension].size(), 0});
 }
 
 /// Edges of the same name ("start" of each segment of a profile) become one entity.

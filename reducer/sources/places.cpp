@@ -29,7 +29,7 @@ int node_of_name(MeshBuilder& builder, const std::string& name, const User& user
   const auto point = std::ranges::find(builder.part.points, name, &formats::NamedPoint::name);
   if (point != builder.part.points.end() && point->place) {
     const int node = find_place(builder, *point->place, {fmt::format("point '{}'", name), point->where});
-    builder.label[static_cast<std::size_t>(node)] = name;
+    builder.label[node] = name;
     return builder.point_node[name] = node;
   }
   if (point != builder.part.points.end())
@@ -63,7 +63,7 @@ int nearest_file_node(const MeshBuilder& builder, const Eigen::Vector3d& x, std:
   double distance = std::numeric_limits<double>::infinity(), next = distance;
   Eigen::Vector3d low = Eigen::Vector3d::Constant(distance), high = -low;
   for (int n = builder.first_file_node; n < builder.last_file_node; ++n) {
-    if (builder.used[static_cast<std::size_t>(n)] == 0) continue;
+    if (builder.used[n] == 0) continue;
     low = low.cwiseMin(builder.position(n));
     high = high.cwiseMax(builder.position(n));
     const double d = (builder.position(n) - x).norm();
@@ -74,7 +74,7 @@ int nearest_file_node(const MeshBuilder& builder, const Eigen::Vector3d& x, std:
   }
   if (best < 0) throw Error(user.name + ": the mesh file has no nodes with elements", user.where, "");
   const double extent = (high - low).norm(), allowed = tolerance.value_or(1e-3 * extent);
-  const auto label = [&](int n) { return builder.label[static_cast<std::size_t>(n)]; };
+  const auto label = [&](int n) { return builder.label[n]; };
   if (distance > allowed)
     throw Error(fmt::format("{}: the node nearest to {} is {} at {}, {:.3g} away; the tolerance is {:.3g}", user.name,
                             text(x), label(best), text(builder.position(best)), distance, allowed),

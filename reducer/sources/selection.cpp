@@ -94,7 +94,7 @@ Selection by_label(const MeshBuilder& builder, const std::string& name, int dime
   const Selection& found = whole.entities.empty() ? last : whole;
   if (found.entities.size() < 2) return found;
   std::vector<std::string> names;
-  for (const int e : found.entities) names.push_back(name_of(builder.cells.entities[static_cast<std::size_t>(e)]));
+  for (const int e : found.entities) names.push_back(name_of(builder.cells.entities[e]));
   throw Error(fmt::format("{}: the label '{}' is that of {}", user.name, name, join(names, ", ")), user.where,
               "name one of them by its number");
 }
@@ -213,7 +213,7 @@ Selection select(const MeshBuilder& builder, const std::string& name, int dimens
   make_unique(selection.elements.solids);
   if (is_empty(selection)) refuse_name(builder, name, dimension, user);
   for (const int e : selection.entities) {
-    const Entity& entity = builder.cells.entities[static_cast<std::size_t>(e)];
+    const Entity& entity = builder.cells.entities[e];
     if (dimension > 0 && entity.dimension != dimension)
       throw Error(fmt::format("{}: '{}' holds {}s, but {}s are needed ({})", user.name, name,
                               dimension_word(entity.dimension), dimension_word(dimension), name_of(entity)),

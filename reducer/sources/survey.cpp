@@ -33,7 +33,7 @@ Row row_of(const MeshBuilder& builder, const std::string& name, const std::strin
   Row row;
   row.name = name;
   row.kind = kind;
-  for (const int e : selection.entities) row.elements += builder.cells.entities[static_cast<std::size_t>(e)].count;
+  for (const int e : selection.entities) row.elements += builder.cells.entities[e].count;
   const ElementSet& set = selection.elements;
   row.elements += set.beams.size() + set.shells.size() + set.solids.size() + set.springs.size();
   for (const auto& [node, weight] : node_weights(builder, selection)) {

@@ -87,7 +87,7 @@ void tell_unjoined_beams(MeshBuilder& builder) {
       texts.push_back(fmt::format(
           "node {} lies on beam '{}' and is not joined to it: beams join only where they end, at points of one name; "
           "end '{}' there, or tie the two by a spring or spider",
-          builder.label[static_cast<std::size_t>(node)], builder.part.beams[b].name, builder.part.beams[b].name));
+          builder.label[node], builder.part.beams[b].name, builder.part.beams[b].name));
     }
   const std::size_t told = std::min(texts.size(), most_told);
   builder.mesh.warnings.insert(builder.mesh.warnings.end(), texts.begin(),

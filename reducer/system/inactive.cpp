@@ -77,7 +77,7 @@ Eigen::MatrixXd null_directions(const Eigen::MatrixXd& A) {
   const int x = system.T.source[block.q[0]];
   const bool turns = system.coordinates.component[x] >= 3;
   throw Error(fmt::format("the boundary retains {} of {}, some of which have neither stiffness nor mass",
-                          turns ? "rotations" : "translations", mesh.node_label[static_cast<std::size_t>(block.node)]),
+                          turns ? "rotations" : "translations", mesh.node_label[block.node]),
               where,
               turns ? "retain its translations only, or connect something there that resists turning"
                     : "connect something to the node");
@@ -135,7 +135,7 @@ void compose(const Transformation& second, System& system) {
   std::vector<int> source;
   Eigen::MatrixXd R(second.independent, 6);
   for (const int q : second.source) {
-    R.row(static_cast<Eigen::Index>(source.size())) = system.R.row(q);
+    R.row(source.size()) = system.R.row(q);
     source.push_back(T.source[q]);
   }
   T.source = std::move(source);

@@ -16,9 +16,7 @@ namespace tisserand::reducer {
 namespace {
 
 Eigen::VectorXd mass_diagonal(const SymmetricPair& pair) {
-  return Eigen::VectorXd::NullaryExpr(pair.size(), [&](Eigen::Index i) {
-    return pair.M[static_cast<std::size_t>(pair.begin[static_cast<std::size_t>(i)])];
-  });
+  return Eigen::VectorXd::NullaryExpr(pair.size(), [&](Eigen::Index i) { return pair.M[pair.begin[i]]; });
 }
 
 /// Finite numbers everywhere: elements of sound shape can still overflow through their materials.
@@ -27,9 +25,9 @@ void check_finite(const SymmetricPair& pair, const Mesh& mesh, const Coordinates
   for (int i = 0; i < pair.size(); ++i)
     for (int k = pair.begin[i]; k < pair.begin[i + 1]; ++k)
       if (!std::isfinite(pair.S[k]) || !std::isfinite(pair.M[k]))
-        throw Error(fmt::format("the stiffness or mass at {} is not a finite number",
-                                mesh.node_label[static_cast<std::size_t>(coordinates.node[i])]),
-                    where, "check units and values of materials, sections and masses there");
+        throw Error(
+            fmt::format("the stiffness or mass at {} is not a finite number", mesh.node_label[coordinates.node[i]]),
+            where, "check units and values of materials, sections and masses there");
 }
 
 }  // namespace
@@ -51,8 +49,7 @@ System build_system(const Mesh& mesh, const std::string& where) {
   system.redundant = elimination.redundant;
   system.T = std::move(elimination.T);
   system.R.resize(system.size(), 6);
-  for (int q = 0; q < system.size(); ++q)
-    system.R.row(q) = ties.rigid[static_cast<std::size_t>(system.T.source[static_cast<std::size_t>(q)])].transpose();
+  for (int q = 0; q < system.size(); ++q) system.R.row(q) = ties.rigid[system.T.source[q]].transpose();
 
   SymmetricPair full = assemble(mesh, system.coordinates, threads);
   check_finite(full, mesh, system.coordinates, where);
@@ -65,7 +62,7 @@ System build_system(const Mesh& mesh, const std::string& where) {
 std::string coordinate_name(const Mesh& mesh, const System& system, int x) {
   const auto k = static_cast<std::size_t>(x);
   if (x >= system.coordinates.count()) return system.name[k - system.coordinates.node.size()];
-  return fmt::format("{} ({})", mesh.node_label[static_cast<std::size_t>(system.coordinates.node[k])],
+  return fmt::format("{} ({})", mesh.node_label[system.coordinates.node[k]],
                      component_text(system.coordinates.component[k]));
 }
 

@@ -114,8 +114,7 @@ class Gatherer {
   /// y = Q₁ᵀ x as auxiliary coordinates for items x (as lengths) with factors B: Bᵀ P = Q R, so B x = P R₁ᵀ y.
   std::vector<Item> compress(const std::vector<Item>& items) {
     Eigen::MatrixXd Bt(static_cast<Eigen::Index>(items.size()), 6);
-    for (std::size_t i = 0; i < items.size(); ++i)
-      Bt.row(static_cast<Eigen::Index>(i)) = items[i].factor.transpose() / scale(items[i]);
+    for (std::size_t i = 0; i < items.size(); ++i) Bt.row(i) = items[i].factor.transpose() / scale(items[i]);
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(Bt);
     qr.setThreshold(1e-12);
     const Eigen::Index rank = qr.rank();
@@ -134,9 +133,9 @@ class Gatherer {
     LinearEquation equation{{{y, -1.0}}, -1, group, tie_};
     Vector6 rigid = Vector6::Zero();
     for (std::size_t i = 0; i < items.size(); ++i) {
-      const double coefficient = q[static_cast<Eigen::Index>(i)] * scale(items[i]);
+      const double coefficient = q[i] * scale(items[i]);
       equation.terms.push_back({items[i].coordinate, coefficient});
-      rigid += coefficient * ties_.rigid[static_cast<std::size_t>(items[i].coordinate)];
+      rigid += coefficient * ties_.rigid[items[i].coordinate];
     }
     ties_.rigid.push_back(rigid);
     ties_.scale.push_back(1.0);
@@ -145,7 +144,7 @@ class Gatherer {
     return y;
   }
 
-  double scale(const Item& item) const { return ties_.scale[static_cast<std::size_t>(item.coordinate)]; }
+  double scale(const Item& item) const { return ties_.scale[item.coordinate]; }
 
   const Fit& fit_;
   int tie_;
@@ -178,7 +177,7 @@ Inverse invert(const Matrix6& matrix) {
   std::vector<std::string> words;
   for (const int c : components) words.push_back(component_text(c));
   throw Error(fmt::format("{}: its {} nodes do not define {} of its reference {}", name, spider.nodes.size(),
-                          join(words, ", "), mesh.node_label[static_cast<std::size_t>(spider.reference)]),
+                          join(words, ", "), mesh.node_label[spider.reference]),
               where,
               "take nodes that are not on one line, average rotations too, or leave these components of the reference "
               "out");
@@ -201,7 +200,7 @@ void append_averaging(const Mesh& mesh, const Coordinates& coordinates, const Sp
     if ((fitted.undefined * direction).norm() > 1e-6) undefined.push_back(c);
     wanted.emplace_back(c, direction);
   }
-  if (!undefined.empty()) fail_undefined(mesh, spider, undefined, ties.name[static_cast<std::size_t>(tie)], where);
+  if (!undefined.empty()) fail_undefined(mesh, spider, undefined, ties.name[tie], where);
 
   const std::vector<Item> items = Gatherer(fit, tie, ties).gather();
   for (const auto& [c, direction] : wanted) {

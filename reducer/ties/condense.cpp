@@ -23,10 +23,8 @@ struct Problem {
   std::vector<std::vector<Term>> moved;  ///< per computed q: the dependent x that follow it (coordinate: x)
   LowerParts lower;
 
-  bool is_dependent(int x) const { return T.row[static_cast<std::size_t>(x)] < 0; }
-  const std::vector<Term>& terms(int x) const {
-    return T.dependent[static_cast<std::size_t>(-1 - T.row[static_cast<std::size_t>(x)])];
-  }
+  bool is_dependent(int x) const { return T.row[x] < 0; }
+  const std::vector<Term>& terms(int x) const { return T.dependent[-1 - T.row[x]]; }
 };
 
 /// Rows that neighbour a dependent coordinate, or that one follows.

@@ -68,7 +68,7 @@ class Eliminator {
         sum_(ties.coordinates),
         row_of_(ties.scale.size(), -1),
         kept_(ties.scale.size(), false) {
-    for (const int b : boundary) kept_[static_cast<std::size_t>(b)] = true;
+    for (const int b : boundary) kept_[b] = true;
   }
 
   void add(const LinearEquation& equation) {
@@ -103,7 +103,7 @@ class Eliminator {
     }
     for (const TieRow& row : rows_) {
       std::vector<Term> terms = row.terms;
-      for (Term& term : terms) term.coordinate = result.T.row[static_cast<std::size_t>(term.coordinate)];
+      for (Term& term : terms) term.coordinate = result.T.row[term.coordinate];
       std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) { return a.coordinate < b.coordinate; });
       result.T.dependent.push_back(std::move(terms));
     }
@@ -112,14 +112,12 @@ class Eliminator {
 
  private:
   /// Size of a coefficient of the coordinate taken as a length.
-  double scaled(const Term& term) const {
-    return std::abs(term.coefficient) / ties_.scale[static_cast<std::size_t>(term.coordinate)];
-  }
+  double scaled(const Term& term) const { return std::abs(term.coefficient) / ties_.scale[term.coordinate]; }
 
   void add_expanded(const Term& term, std::vector<int>& sources) {
-    const int row = row_of_[static_cast<std::size_t>(term.coordinate)];
+    const int row = row_of_[term.coordinate];
     if (row < 0) return sum_.add(term.coordinate, term.coefficient);
-    const TieRow& known = rows_[static_cast<std::size_t>(row)];
+    const TieRow& known = rows_[row];
     for (const Term& t : known.terms) sum_.add(t.coordinate, term.coefficient * t.coefficient);
     merge(known.ties, sources);
   }
@@ -135,7 +133,7 @@ class Eliminator {
   Term choose_pivot(const std::vector<Term>& terms, const LinearEquation& equation) const {
     Term best, preferred, last_resort;
     for (const Term& term : terms) {
-      if (kept_[static_cast<std::size_t>(term.coordinate)]) continue;
+      if (kept_[term.coordinate]) continue;
       if (equation.last_resort >= 0 && term.coordinate >= equation.last_resort) {
         if (scaled(term) > scaled(last_resort)) last_resort = term;
         continue;
@@ -163,7 +161,7 @@ class Eliminator {
     const std::vector<int> affected = std::move(users->second);
     users_.erase(users);
     for (const int k : affected) {
-      TieRow& other = rows_[static_cast<std::size_t>(k)];
+      TieRow& other = rows_[k];
       double factor = 0.0;
       std::vector<int> before;
       for (const Term& term : other.terms) {
@@ -195,7 +193,7 @@ class Eliminator {
 
   void keep(TieRow row) {
     const int k = static_cast<int>(rows_.size());
-    row_of_[static_cast<std::size_t>(row.coordinate)] = k;
+    row_of_[row.coordinate] = k;
     for (const Term& term : row.terms) users_[term.coordinate].push_back(k);
     rows_.push_back(std::move(row));
   }
@@ -204,7 +202,7 @@ class Eliminator {
     std::vector<std::string> coordinates, ties;
     for (const Term& term : row.terms)
       if (scaled(term) > redundant * largest && coordinates.size() < 6) coordinates.push_back(name_(term.coordinate));
-    for (const int tie : row.ties) ties.push_back(ties_.name[static_cast<std::size_t>(tie)]);
+    for (const int tie : row.ties) ties.push_back(ties_.name[tie]);
     if (ties.size() > 6) ties.resize(6), ties.push_back("...");
     throw Error(
         fmt::format("{} {} {}", join(ties, ", "), coordinates.size() == 1 ? "fix" : "tie together rigidly",
@@ -241,8 +239,7 @@ Eigen::MatrixXd expand(const Transformation& T, const Eigen::MatrixXd& q) {
     if (T.row[i] >= 0)
       x.row(row) = q.row(T.row[i]);
     else
-      for (const Term& term : T.dependent[static_cast<std::size_t>(-1 - T.row[i])])
-        x.row(row) += term.coefficient * q.row(term.coordinate);
+      for (const Term& term : T.dependent[-1 - T.row[i]]) x.row(row) += term.coefficient * q.row(term.coordinate);
   }
   return x;
 }

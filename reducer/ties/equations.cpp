@@ -24,7 +24,7 @@ TieSystem start(const Mesh& mesh, const Coordinates& coordinates) {
   R.rightCols<3>() /= length;
   for (int i = 0; i < coordinates.count(); ++i) {
     ties.rigid.push_back(R.row(i).transpose());
-    ties.scale.push_back(coordinates.component[static_cast<std::size_t>(i)] < 3 ? 1.0 : length);
+    ties.scale.push_back(coordinates.component[i] < 3 ? 1.0 : length);
   }
   return ties;
 }
@@ -82,9 +82,8 @@ void check_rigid(const Mesh& mesh, const Coordinates& coordinates, const TieSyst
   for (int k = 0; k < 6; ++k)
     if (std::abs(sum[k]) > 1e-6 * size) motions.push_back(component_text(k));
   throw Error(
-      fmt::format("{} between {}{} stops the part as a whole from moving: {}",
-                  ties.name[static_cast<std::size_t>(equation.tie)], join(words, ", "),
-                  equation.terms.size() > 6 ? ", ..." : "", join(motions, ", ")),
+      fmt::format("{} between {}{} stops the part as a whole from moving: {}", ties.name[equation.tie],
+                  join(words, ", "), equation.terms.size() > 6 ? ", ..." : "", join(motions, ", ")),
       where,
       "a superelement floats: use a spider, which allows for the distance between the nodes, or put the support "
       "into the scene");
@@ -117,10 +116,9 @@ std::string coordinate_text(const Mesh& mesh, const Coordinates& coordinates, co
   const auto k = static_cast<std::size_t>(coordinate);
   if (coordinate >= ties.mesh_coordinates) {
     const int tie = ties.auxiliary_tie[k - static_cast<std::size_t>(ties.mesh_coordinates)];
-    return "a group of nodes of " + ties.name[static_cast<std::size_t>(tie)];
+    return "a group of nodes of " + ties.name[tie];
   }
-  return fmt::format("{} ({})", mesh.node_label[static_cast<std::size_t>(coordinates.node[k])],
-                     component_text(coordinates.component[k]));
+  return fmt::format("{} ({})", mesh.node_label[coordinates.node[k]], component_text(coordinates.component[k]));
 }
 
 }  // namespace tisserand::reducer

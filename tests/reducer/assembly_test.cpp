@@ -95,7 +95,7 @@ Mesh hubbed_bar(int n) {
     spider.reference = first + end;
     for (int k = 0; k < 4; ++k) spider.nodes.push_back(end == 0 ? k : 4 * n + k);
     spider.weight = {1.0, 1.5, 0.7, 1.2};
-    spider.name = mesh.node_label[static_cast<std::size_t>(first + end)];
+    spider.name = mesh.node_label[first + end];
     mesh.spiders.push_back(spider);
     mesh.boundary.push_back({spider.name, first + end, true, true});
   }

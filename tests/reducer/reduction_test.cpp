@@ -68,7 +68,7 @@ TEST(Reduction, InternalModesAreThoseOfTheHeldPart) {
   const reducer::Reduction r = reduce(space_frame(12));
   for (int k = 0; k < 12; ++k) {
     EXPECT_NEAR(std::sqrt(r.superelement.stiffness(18 + k, 18 + k)) / omega[k], 1.0, 1e-9);
-    EXPECT_NEAR(r.file.fixed_frequency[static_cast<std::size_t>(k)] * 2.0 * EIGEN_PI / omega[k], 1.0, 1e-9);
+    EXPECT_NEAR(r.file.fixed_frequency[k] * 2.0 * EIGEN_PI / omega[k], 1.0, 1e-9);
   }
   ASSERT_TRUE(r.model.first_dropped_frequency);
   EXPECT_NEAR(*r.model.first_dropped_frequency * 2.0 * EIGEN_PI / omega[12], 1.0, 1e-9);

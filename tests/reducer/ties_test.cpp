@@ -85,7 +85,7 @@ MatrixXd constraint_matrix(const Mesh& mesh) {
     }
   }
   MatrixXd G(static_cast<Eigen::Index>(rows.size()), n);
-  for (std::size_t i = 0; i < rows.size(); ++i) G.row(static_cast<Eigen::Index>(i)) = rows[i].transpose();
+  for (std::size_t i = 0; i < rows.size(); ++i) G.row(i) = rows[i].transpose();
   return G;
 }
 

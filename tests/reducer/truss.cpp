@@ -53,7 +53,7 @@ FullModel with_nastran_mass(formats::Part part) {
   for (formats::Section& section : part.sections) section.polar_moment = 0.0;
   FullModel full = full_model(part);
   for (const reducer::BeamElement& beam : full.mesh.beams) {
-    const reducer::BeamElementData& data = full.mesh.beam_properties[static_cast<std::size_t>(beam.property)].data;
+    const reducer::BeamElementData& data = full.mesh.beam_properties[beam.property].data;
     const Vector3d axis = beam.R_PE.col(0);
     const double length = (full.mesh.position.col(beam.second) - full.mesh.position.col(beam.first)).norm();
     const Eigen::Matrix3d more = data.material.density * data.section.area * length / 12.0 * axis * axis.transpose();

@@ -22,8 +22,7 @@ TEST(Truss, FullModelAgreesWithAnIndependentProgram) {
   const Eigen::VectorXd f = full_frequencies();
   const auto expected = reference_rows("truss/full_consistent_frequencies.csv");
   // Printed with eight decimals; 1e-6 leaves room for the rounding of the slow modes only.
-  for (std::size_t k = 6; k < 26; ++k)
-    EXPECT_NEAR(f[static_cast<Eigen::Index>(k)] / expected[k][1], 1.0, 1e-6) << "mode " << k + 1;
+  for (std::size_t k = 6; k < 26; ++k) EXPECT_NEAR(f[k] / expected[k][1], 1.0, 1e-6) << "mode " << k + 1;
 }
 
 TEST(Truss, FixedBoundaryFrequenciesAreThoseOfNastran) {
@@ -43,13 +42,12 @@ TEST(Truss, AgreesWithNastranGivenItsMass) {
   const json expected = json::parse(std::ifstream(TISSERAND_REFERENCES "/truss/frequencies.json"));
   const Eigen::VectorXd full = nastran_full_frequencies();
   for (Eigen::Index k = 6; k < 26; ++k)
-    EXPECT_NEAR(full[k] / expected.at("full_model")[static_cast<std::size_t>(k)].get<double>(), 1.0, 1e-6)
-        << "mode " << k + 1;
+    EXPECT_NEAR(full[k] / expected.at("full_model")[k].get<double>(), 1.0, 1e-6) << "mode " << k + 1;
   for (const std::string component : {"inboard", "outboard"}) {
     const json& held = expected.at(component + "_fixed_interface_below_50_Hz");
     const Eigen::VectorXd ours = nastran_held_frequencies(component);
     for (std::size_t k = 0; k < held.size(); ++k)
-      EXPECT_NEAR(ours[static_cast<Eigen::Index>(k)] / held[k].get<double>(), 1.0, 1e-6) << component << k;
+      EXPECT_NEAR(ours[k] / held[k].get<double>(), 1.0, 1e-6) << component << k;
   }
 }
 

@@ -32,11 +32,7 @@ Problem full_truss(const Eigen::VectorXd& full) {
       ""};
   const auto expected = reference_rows("truss/full_consistent_frequencies.csv");
   for (std::size_t k = 6; k < 26; ++k)
-    problem.rows.push_back({fmt::format("mode {}", k + 1),
-                            "beam",
-                            expected[k][1],
-                            Target::published,
-                            {full[static_cast<Eigen::Index>(k)]}});
+    problem.rows.push_back({fmt::format("mode {}", k + 1), "beam", expected[k][1], Target::published, {full[k]}});
   return problem;
 }
 
@@ -60,7 +56,7 @@ Problem full_truss_of_nastran(const Eigen::VectorXd& full) {
   for (Eigen::Index k = 6; k < 26; ++k)
     problem.rows.push_back({fmt::format("mode {}", k + 1),
                             "beam",
-                            expected[static_cast<std::size_t>(k)].get<double>(),
+                            expected[k].get<double>(),
                             Target::published,
                             {full[k], as_nastran[k]}});
   return problem;
@@ -82,7 +78,7 @@ Problem held_components() {
                               "beam",
                               nastran[k].get<double>(),
                               Target::published,
-                              {f[k], as_nastran[static_cast<Eigen::Index>(k)]}});
+                              {f[k], as_nastran[k]}});
   }
   return problem;
 }
@@ -100,11 +96,8 @@ Problem joined_components() {
   const Eigen::VectorXd ours = assembled_frequencies(8, 22);
   const nlohmann::json expected = nastran_results().at("assembled_reduced_model");
   for (Eigen::Index k = 6; k < 26; ++k)
-    problem.rows.push_back({fmt::format("mode {}", k + 1),
-                            "beam",
-                            expected[static_cast<std::size_t>(k)].get<double>(),
-                            Target::published,
-                            {ours[k]}});
+    problem.rows.push_back(
+        {fmt::format("mode {}", k + 1), "beam", expected[k].get<double>(), Target::published, {ours[k]}});
   return problem;
 }
 

@@ -38,13 +38,12 @@ Momentum momentum(Simulation& run) {
   p -= run.workspace.residual;
   Momentum sum;
   for (int i = 0; i < model.sizes.nodes; ++i) {
-    const Node& node = model.nodes[static_cast<std::size_t>(i)];
+    const Node& node = model.nodes[i];
     if (node.translation >= 0) {
       sum.linear += p.segment<3>(node.translation);
       sum.angular += Vector3d(run.state().x().col(i)).cross(p.segment<3>(node.translation));
     }
-    if (node.rotation >= 0)
-      sum.angular += run.workspace.motion[static_cast<std::size_t>(i)].R * p.segment<3>(node.rotation);
+    if (node.rotation >= 0) sum.angular += run.workspace.motion[i].R * p.segment<3>(node.rotation);
   }
   return sum;
 }

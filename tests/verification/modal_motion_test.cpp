@@ -190,7 +190,7 @@ formats::Superelement superelement_of(const test_support::LumpedModel& model) {
       element.dof_component.push_back(component);
     }
     element.mass.block<3, 3>(6 * k, 6 * k) = model.mass[k] * Eigen::Matrix3d::Identity();
-    element.mass.block<3, 3>(6 * k + 3, 6 * k + 3) = model.inertia[static_cast<std::size_t>(k)];
+    element.mass.block<3, 3>(6 * k + 3, 6 * k + 3) = model.inertia[k];
   }
   return element;
 }

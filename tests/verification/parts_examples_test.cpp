@@ -115,9 +115,7 @@ std::vector<Bar> bars_of(const formats::Part& part) {
   std::vector<Bar> bars;
   for (const formats::BeamLine& beam : part.beams) {
     Bar bar{point_index(part, beam.from.name), point_index(part, beam.to.name), 0.0, 0.0};
-    bar.length = (part.points[static_cast<std::size_t>(bar.to)].position -
-                  part.points[static_cast<std::size_t>(bar.from)].position)
-                     .norm();
+    bar.length = (part.points[bar.to].position - part.points[bar.from].position).norm();
     for (const formats::Section& section : part.sections)
       if (section.name == beam.section) bar.area = section.area;
     bars.push_back(bar);
@@ -131,7 +129,7 @@ double sinking_by_equilibrium(const formats::Part& part, const std::string& load
                               const std::vector<std::string>& held) {
   const std::vector<Bar> bars = bars_of(part);
   std::vector<int> row(part.points.size(), 0);
-  for (const std::string& name : held) row[static_cast<std::size_t>(point_index(part, name))] = -1;
+  for (const std::string& name : held) row[point_index(part, name)] = -1;
   int rows = 0;
   for (int& r : row)
     if (r >= 0) r = std::exchange(rows, rows + 3);
@@ -144,11 +142,10 @@ double sinking_by_equilibrium(const formats::Part& part, const std::string& load
   }
   EXPECT_EQ(A.rows(), A.cols()) << "not determinate";
   Eigen::VectorXd load = Eigen::VectorXd::Zero(rows);
-  load[row[static_cast<std::size_t>(point_index(part, loaded))] + 2] = -1.0;
+  load[row[point_index(part, loaded)] + 2] = -1.0;
   const Eigen::VectorXd N = A.partialPivLu().solve(-load);
   double sinking = 0.0;
-  for (std::size_t b = 0; b < bars.size(); ++b)
-    sinking += N[static_cast<Eigen::Index>(b)] * N[static_cast<Eigen::Index>(b)] * bars[b].length / bars[b].area;
+  for (std::size_t b = 0; b < bars.size(); ++b) sinking += N[b] * N[b] * bars[b].length / bars[b].area;
   return sinking / part.materials.front().youngs_modulus;
 }
 
@@ -160,7 +157,7 @@ double sinking_of(const formats::Superelement& element, const std::string& loade
   for (Eigen::Index i = 0; i < element.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (element.dof_node[k] < 0) continue;
-    const std::string& name = element.node_name[static_cast<std::size_t>(element.dof_node[k])];
+    const std::string& name = element.node_name[element.dof_node[k]];
     if (element.dof_component[k] < 3 && std::find(held.begin(), held.end(), name) != held.end()) continue;
     if (name == loaded && element.dof_component[k] == 2) at = static_cast<Eigen::Index>(free.size());
     free.push_back(static_cast<int>(i));
@@ -185,9 +182,7 @@ TEST_F(PartsExamples, JibWeighsWhatItsTubesDo) {
   for (const Bar& bar : bars_of(part)) {
     const double own = 7850 * bar.area * bar.length;
     mass += own;
-    moment += 0.5 * own *
-              (part.points[static_cast<std::size_t>(bar.from)].position +
-               part.points[static_cast<std::size_t>(bar.to)].position);
+    moment += 0.5 * own * (part.points[bar.from].position + part.points[bar.to].position);
   }
   const formats::RigidProperties rigid = element("jib").report.rigid;
   EXPECT_NEAR(rigid.mass, mass, 1e-9 * mass);
@@ -292,8 +287,8 @@ struct SliderCrank {
 double pin_compliance(const formats::Superelement& element) {
   std::vector<int> pin;
   for (int i = 0; i < element.size(); ++i) {
-    const int node = element.dof_node[static_cast<std::size_t>(i)];
-    if (node >= 0 && element.node_name[static_cast<std::size_t>(node)] == "pin") pin.push_back(i);
+    const int node = element.dof_node[i];
+    if (node >= 0 && element.node_name[node] == "pin") pin.push_back(i);
   }
   const Eigen::MatrixXd C = Eigen::MatrixXd(element.stiffness(pin, pin)).inverse();
   return 1e-3 * std::max(C(0, 0), C(1, 1));

@@ -145,7 +145,7 @@ TEST(OrderOfNodes, DoesNotMatter) {
     run.start();
     run.run(1.0);
     ASSERT_EQ(run.steps, 500);
-    tip[static_cast<std::size_t>(i)] = run.position("frame/n5");
+    tip[i] = run.position("frame/n5");
   }
   EXPECT_GT((tip[0] - Vector3d(1.5, 1, 0.7)).norm(), 0.5);
   EXPECT_LT((tip[0] - tip[1]).norm(), 1e-9);

@@ -58,10 +58,10 @@ void turn_components(const Context& context, const Eigen::Matrix3d& by, YamlNode
   for (int i = 0; i < 3; ++i) {
     std::vector<YamlNode> terms;
     for (int k = 0; k < 3; ++k) {
-      const YamlNode& function = value.children[static_cast<std::size_t>(k)];
+      const YamlNode& function = value.children[k];
       if (std::abs(by(i, k)) > negligible && !is_zero(function)) terms.push_back(scaled(context, by(i, k), function));
     }
-    YamlNode& component = turned.children[static_cast<std::size_t>(i)];
+    YamlNode& component = turned.children[i];
     if (terms.empty()) {
       component = scalar("0", component);
     } else if (terms.size() == 1) {

@@ -176,7 +176,7 @@ void Placement::mirror_file(YamlNode& body) {
   planes.kind = YamlKind::sequence;
   planes.place = plane.place = file->place;
   plane.kind = YamlKind::scalar;
-  plane.text = across[static_cast<std::size_t>(axis)];
+  plane.text = across[axis];
   if (const YamlNode* own = find_child(body, "mirror"))
     planes.children = own->kind == YamlKind::sequence ? own->children : std::vector<YamlNode>{*own};
   planes.children.push_back(std::move(plane));
@@ -249,7 +249,7 @@ void Placement::channel(YamlNode& channel) {
   if (axis == nullptr) return;
   constexpr std::array<const char*, 3> words{"x", "y", "z"};
   for (Eigen::Index i = 0; i < 3; ++i)
-    if (axis->kind == YamlKind::scalar && axis->text == words[static_cast<std::size_t>(i)])
+    if (axis->kind == YamlKind::scalar && axis->text == words[i])
       set(channel, "axis", list_node(Vector3d(Vector3d::Unit(i)), axis->place));
   transform(channel, "axis", frame_.G, Vector3d::Zero());
   if (word(channel, "type") != "position") return;

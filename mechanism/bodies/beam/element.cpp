@@ -13,7 +13,7 @@ template <int N>
 beam::Configuration<double, N> gather(const BeamElement<N>& element, std::span<const NodeMotion> nodes) {
   beam::Configuration<double, N> q;
   for (int i = 0; i < N; ++i) {
-    const NodeMotion& node = nodes[static_cast<std::size_t>(element.nodes[i])];
+    const NodeMotion& node = nodes[element.nodes[i]];
     q.x[i] = node.x;
     q.R[i] = node.R;
   }
@@ -23,7 +23,7 @@ beam::Configuration<double, N> gather(const BeamElement<N>& element, std::span<c
 template <int N>
 beam::NodePointers<NodeMotion, N> gather_motion(const BeamElement<N>& element, std::span<const NodeMotion> nodes) {
   beam::NodePointers<NodeMotion, N> motion;
-  for (int i = 0; i < N; ++i) motion[i] = &nodes[static_cast<std::size_t>(element.nodes[i])];
+  for (int i = 0; i < N; ++i) motion[i] = &nodes[element.nodes[i]];
   return motion;
 }
 

@@ -119,8 +119,8 @@ void add_elements(const formats::BeamBodySpec& spec, int first_node, const BeamM
     for (int i = 0; i < N; ++i) {
       const int node = k * (N - 1) + i;
       reference.nodes[i] = first_node + node;
-      reference.position[i] = mesh.position[static_cast<std::size_t>(node)];
-      reference.section[i] = mesh.section[static_cast<std::size_t>(node)];
+      reference.position[i] = mesh.position[node];
+      reference.section[i] = mesh.section[node];
     }
     elements.push_back(make_beam_element<N>(reference, spec.section, spec.material));
   }

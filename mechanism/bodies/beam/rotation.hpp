@@ -77,7 +77,7 @@ constexpr std::array<double, 10> curvature_series(int first, int order) {
     double value = power % 2 == 0 ? 1.0 : -1.0;
     for (int i = 2; i <= 2 * power + first; ++i) value /= i;
     for (int i = 0; i < order; ++i) value *= 2.0 * (power - i);
-    a[static_cast<std::size_t>(k)] = value;
+    a[k] = value;
   }
   return a;
 }

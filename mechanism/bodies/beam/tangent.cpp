@@ -80,7 +80,7 @@ void set_inertia(const BeamElement<N>& e, std::span<const NodeMotion> nodes, con
     for (int j = 0; j < N; ++j)
       for (int k = 0; k < 3; ++k) A(6 * i + k, 6 * j + k) = c.mass * e.mass * beam::Shares<N>::mass[i][j];
     const Matrix3d& J = e.inertia[i];
-    const Vector3d& Omega = nodes[static_cast<std::size_t>(e.nodes[i])].Omega;
+    const Vector3d& Omega = nodes[e.nodes[i]].Omega;
     const Vector3d spin = J * Omega;
     A.template block<3, 3>(6 * i + 3, 6 * i + 3) = c.mass * J + c.damping * (skew(Omega) * J - skew(spin));
   }
@@ -246,7 +246,7 @@ beam::Configuration<double, N> gather(const BeamElement<N>& element, std::span<c
                                       beam::NodePointers<NodeMotion, N>& motion) {
   beam::Configuration<double, N> q;
   for (int i = 0; i < N; ++i) {
-    motion[i] = &nodes[static_cast<std::size_t>(element.nodes[i])];
+    motion[i] = &nodes[element.nodes[i]];
     q.x[i] = motion[i]->x;
     q.R[i] = motion[i]->R;
   }

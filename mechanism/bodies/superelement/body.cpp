@@ -47,11 +47,10 @@ void order_rows(const formats::Superelement& element, const std::string& where, 
     }
     TISSERAND_ENSURE(node < static_cast<int>(nodes) && component >= 0 && component < 6, "node {} component {}", node,
                      component);
-    row[static_cast<std::size_t>(node)][static_cast<std::size_t>(component)] = static_cast<int>(i);
+    row[node][component] = static_cast<int>(i);
   }
-  std::stable_sort(body.file.internal_row.begin(), body.file.internal_row.end(), [&](int a, int b) {
-    return element.dof_component[static_cast<std::size_t>(a)] < element.dof_component[static_cast<std::size_t>(b)];
-  });
+  std::stable_sort(body.file.internal_row.begin(), body.file.internal_row.end(),
+                   [&](int a, int b) { return element.dof_component[a] < element.dof_component[b]; });
   for (std::size_t i = 0; i < nodes; ++i) {
     SuperelementNode node;
     node.name = element.node_name[i];
@@ -85,8 +84,7 @@ PartitionedMatrices partition(const formats::Superelement& element, const UnitCo
   rows.insert(rows.end(), body.file.internal_row.begin(), body.file.internal_row.end());
   Eigen::VectorXd unit = Eigen::VectorXd::Ones(n);
   for (Eigen::Index i = 0; i < nb; ++i)
-    if (element.dof_component[static_cast<std::size_t>(rows[static_cast<std::size_t>(i)])] < 3)
-      unit[i] = 1.0 / units.length;
+    if (element.dof_component[rows[i]] < 3) unit[i] = 1.0 / units.length;
   const double inertia = units.mass * units.length * units.length;
   const double energy = inertia / (units.time * units.time);
   PartitionedMatrices out;
@@ -147,7 +145,7 @@ Eigen::VectorXd choose_weights(const std::vector<int>& members, const std::vecto
     return static_cast<Eigen::Index>(found - members.begin());
   };
   if (frame_node >= 0) {
-    alpha[place(frame_node, body.node[static_cast<std::size_t>(frame_node)].name)] = 1.0;
+    alpha[place(frame_node, body.node[frame_node].name)] = 1.0;
     return alpha;
   }
   if (!given.empty()) {
@@ -182,7 +180,7 @@ void set_polar_weights(const SuperelementOptions& options, const Eigen::Matrix3X
   const Eigen::Vector3d mean = points * w;
   Eigen::Matrix3d D = Eigen::Matrix3d::Zero();
   for (Eigen::Index k = 0; k < count; ++k) {
-    SuperelementNode& node = body.node[static_cast<std::size_t>(body.translation_nodes[static_cast<std::size_t>(k)])];
+    SuperelementNode& node = body.node[body.translation_nodes[k]];
     node.polar_weight = w[k];
     node.X_polar = points.col(k) - mean;
     D += w[k] * (node.X_polar.squaredNorm() * Eigen::Matrix3d::Identity() - node.X_polar * node.X_polar.transpose());
@@ -201,11 +199,10 @@ void choose_frame(const SuperelementOptions& options, SuperelementBody& body) {
     return;
   }
   for (const int i : body.rotation_nodes)
-    if (std::abs(body.node[static_cast<std::size_t>(i)].alpha_rotation - 1.0) < 1e-15) body.frame_node = i;
-  const bool single =
-      body.frame_node >= 0 && std::all_of(body.rotation_nodes.begin(), body.rotation_nodes.end(), [&](int i) {
-        return i == body.frame_node || body.node[static_cast<std::size_t>(i)].alpha_rotation == 0.0;
-      });
+    if (std::abs(body.node[i].alpha_rotation - 1.0) < 1e-15) body.frame_node = i;
+  const bool single = body.frame_node >= 0 &&
+                      std::all_of(body.rotation_nodes.begin(), body.rotation_nodes.end(),
+                                  [&](int i) { return i == body.frame_node || body.node[i].alpha_rotation == 0.0; });
   if (single) {
     body.frame = FrameAlgorithm::single_node;
     return;
@@ -230,19 +227,17 @@ void set_frame(const formats::Superelement& element, const formats::RigidPropert
                                                center, "translation", options.where, body);
   for (std::size_t k = 0; k < body.translation_nodes.size(); ++k) {
     const int i = body.translation_nodes[k];
-    body.node[static_cast<std::size_t>(i)].alpha = alpha[static_cast<Eigen::Index>(k)];
-    body.reference_origin += alpha[static_cast<Eigen::Index>(k)] * position.col(i);
+    body.node[i].alpha = alpha[k];
+    body.reference_origin += alpha[k] * position.col(i);
   }
-  for (std::size_t i = 0; i < body.node.size(); ++i)
-    body.node[i].X = position.col(static_cast<Eigen::Index>(i)) - body.reference_origin;
+  for (std::size_t i = 0; i < body.node.size(); ++i) body.node[i].X = position.col(i) - body.reference_origin;
   if (body.rotation_nodes.empty()) {
     set_polar_weights(options, position, body);
   } else {
     const Eigen::VectorXd alpha_rotation = choose_weights(body.rotation_nodes, options.rotation_weights, attached,
                                                           position, center, "rotation", options.where, body);
     for (std::size_t k = 0; k < body.rotation_nodes.size(); ++k)
-      body.node[static_cast<std::size_t>(body.rotation_nodes[k])].alpha_rotation =
-          alpha_rotation[static_cast<Eigen::Index>(k)];
+      body.node[body.rotation_nodes[k]].alpha_rotation = alpha_rotation[k];
   }
   choose_frame(options, body);
   body.mass = options.units.mass * rigid.mass;
@@ -253,7 +248,7 @@ void set_gravity_constants(SuperelementBody& body) {
   body.Gamma_B.setZero(3, body.boundary_size);
   body.Gamma_I.setZero(3, body.modes);
   for (const int i : body.translation_nodes) {
-    const int row = body.node[static_cast<std::size_t>(i)].translation_row;
+    const int row = body.node[i].translation_row;
     body.Gamma_B += body.M_BB.middleRows<3>(row);
     body.Gamma_I += body.M_BI.middleRows<3>(row);
   }
@@ -277,8 +272,7 @@ void set_damping(const SuperelementOptions& options, SuperelementBody& body) {
   body.damping.stiffness = given.stiffness;
   body.damping.internal.resize(body.modes);
   for (Eigen::Index k = 0; k < body.modes; ++k) {
-    const double ratio =
-        k < static_cast<Eigen::Index>(given.ratios.size()) ? given.ratios[static_cast<std::size_t>(k)] : given.ratio;
+    const double ratio = k < static_cast<Eigen::Index>(given.ratios.size()) ? given.ratios[k] : given.ratio;
     body.damping.internal[k] = given.mass + given.stiffness * body.S_II[k] + 2.0 * ratio * std::sqrt(body.S_II[k]);
   }
   body.damping.active = given.mass > 0.0 || given.stiffness > 0.0 || (body.damping.internal.array() > 0.0).any();

@@ -110,8 +110,7 @@ Eigen::Index file_coordinate_count(const SuperelementBody& body) {
 void file_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
                       Eigen::Ref<Eigen::VectorXd> out) {
   const LocalMotion<double>& motion = scratch.motion;
-  for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i)
-    out[body.file.boundary_row[i]] = motion.y_B[static_cast<Eigen::Index>(i)];
+  for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i) out[body.file.boundary_row[i]] = motion.y_B[i];
   for (std::size_t k = 0; k < body.file.internal_row.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     out[body.file.internal_row[k]] =

@@ -110,8 +110,8 @@ double size(const Vec3<S>& a) {
 template <class S, class Node>
 void local_rotations(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   for (const int j : body.rotation_nodes) {
-    LocalNode<S>& local = motion.node[static_cast<std::size_t>(j)];
-    local.E.noalias() = motion.R0.transpose() * nodes[static_cast<std::size_t>(j)].R;
+    LocalNode<S>& local = motion.node[j];
+    local.E.noalias() = motion.R0.transpose() * nodes[j].R;
     local.psi = log_so3<S>(local.E);
     local.Tinv = inverse_tangent_so3<S>(local.psi);
   }
@@ -120,9 +120,9 @@ void local_rotations(const SuperelementBody& body, const NodeView<Node>& nodes, 
 /// R₀ = R_k, U_k = 1.
 template <class S, class Node>
 void single_node(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
-  motion.R0 = nodes[static_cast<std::size_t>(body.frame_node)].R;
+  motion.R0 = nodes[body.frame_node].R;
   local_rotations(body, nodes, motion);
-  motion.node[static_cast<std::size_t>(body.frame_node)].U.setIdentity();
+  motion.node[body.frame_node].U.setIdentity();
 }
 
 /// Uⱼ = A⁻¹ αⱼ T⁻¹(ψⱼ), A = Σ αⱼ T⁻¹(−ψⱼ): exact variation of the Karcher mean.
@@ -194,7 +194,7 @@ void incremental(const SuperelementBody& body, const NodeView<Node>& nodes, Loca
   motion.R0 = R_ref * exp_so3<S>(b0);
   const Mat3<S> T = tangent_so3<S>(b0);
   for (const int j : body.rotation_nodes) {
-    Mat3<S>& U = motion.node[static_cast<std::size_t>(j)].U;
+    Mat3<S>& U = motion.node[j].U;
     U = (T * U).eval();
   }
   local_rotations(body, nodes, motion);

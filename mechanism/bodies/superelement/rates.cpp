@@ -9,7 +9,7 @@ void file_rates(const SuperelementBody& body, SuperelementScratch& scratch, cons
   if (!body.damping.active)  // otherwise update_kinematics() has done it
     deformation_rates(body, nodes, motion);
   for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i)
-    out[body.file.boundary_row[i]] = motion.deformation_rate_B[static_cast<Eigen::Index>(i)];
+    out[body.file.boundary_row[i]] = motion.deformation_rate_B[i];
   for (std::size_t k = 0; k < body.file.internal_row.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     out[body.file.internal_row[k]] = body.file.static_part.row(row).dot(motion.deformation_rate_B) +

@@ -197,7 +197,7 @@ void read_all_following(Model& model, const std::vector<const Block*>& blocks, s
 }  // namespace
 
 void read_beam_section(Model& model, int scope, std::size_t index) {
-  const Scope& owner = model.scopes[static_cast<std::size_t>(scope)];
+  const Scope& owner = model.scopes[scope];
   const Block& block = *owner.blocks[index];
   const std::string where = model.input.where(block);
   for (const char* name : {"OFFSET1", "OFFSET2"})

@@ -20,18 +20,16 @@ Components unite(Components a, Components b) { return static_cast<Components>(a 
 /// Components of each node that an element, a mass or a constraint uses.
 std::vector<Components> used_components(const Mesh& mesh) {
   std::vector<Components> used(static_cast<std::size_t>(mesh.nodes()), 0);
-  const auto use = [&](int node, Components components) {
-    used[static_cast<std::size_t>(node)] = unite(used[static_cast<std::size_t>(node)], components);
-  };
+  const auto use = [&](int node, Components components) { used[node] = unite(used[node], components); };
   for (const BeamElement& beam : mesh.beams) {
-    const formats::Section& s = mesh.beam_properties[static_cast<std::size_t>(beam.property)].data.section;
+    const formats::Section& s = mesh.beam_properties[beam.property].data.section;
     const bool is_rod = s.second_moment_y == 0.0 && s.second_moment_z == 0.0;
     for (const int node : {beam.first, beam.second}) use(node, is_rod ? translations_only : all_components);
   }
   for (const ShellElement& shell : mesh.shells)
-    for (int k = 0; k < shell.corners(); ++k) use(shell.nodes[static_cast<std::size_t>(k)], all_components);
+    for (int k = 0; k < shell.corners(); ++k) use(shell.nodes[k], all_components);
   for (const SolidElement& solid : mesh.solids)
-    for (int k = 0; k < node_count(solid.shape); ++k) use(solid.nodes[static_cast<std::size_t>(k)], translations_only);
+    for (int k = 0; k < node_count(solid.shape); ++k) use(solid.nodes[k], translations_only);
   for (const Spring& spring : mesh.springs)
     for (int row = 0; row < 12; ++row)
       if (spring.stiffness(row, row) != 0.0)
@@ -88,9 +86,8 @@ void read_support(Model& model, int scope, const Block& block, Supports& support
     const auto nodes = find_nodes(model, scope, first, model.input.where(line));
     const std::optional<Components> held = held_components(model, line);
     if (!nodes || !held) continue;
-    const auto bearing = std::find_if(nodes->begin(), nodes->end(), [&](int node) {
-      return (supports.used[static_cast<std::size_t>(node)] & *held) != 0;
-    });
+    const auto bearing =
+        std::find_if(nodes->begin(), nodes->end(), [&](int node) { return (supports.used[node] & *held) != 0; });
     if (bearing == nodes->end()) {
       if (supports.lines_without_effect++ == 0)
         supports.example = fmt::format("{}: '{}'", model.input.where(line), line.text.substr(0, 60));

@@ -85,7 +85,7 @@ enum class Order { linear, quadratic };
 
 std::span<const int> face_of(std::span<const Face> faces, int face, Order order) {
   if (face < 0 || static_cast<std::size_t>(face) >= faces.size()) return {};
-  const Face& chosen = faces[static_cast<std::size_t>(face)];
+  const Face& chosen = faces[face];
   return std::span<const int>(chosen.nodes).first(chosen.corners * (order == Order::linear ? 1 : 2));
 }
 

@@ -69,7 +69,7 @@ bool read_node_line(Model& model, const Line& line, long& id, Eigen::Vector3d& p
 }
 
 void read_node_block(Model& model, int scope_index, const Block& block, const Placement& system) {
-  Scope& scope = model.scopes[static_cast<std::size_t>(scope_index)];
+  Scope& scope = model.scopes[scope_index];
   const std::string axes = block.find("SYSTEM") != nullptr ? upper_without_blanks(*block.find("SYSTEM")) : "R";
   if (axes != "R" && axes != "C") {
     model.findings.add(fmt::format("*NODE, SYSTEM={} is not understood", axes), model.input.where(block),
@@ -116,7 +116,7 @@ class ElementBlock {
   }
 
  private:
-  Scope& scope() { return model_.scopes[static_cast<std::size_t>(scope_index_)]; }
+  Scope& scope() { return model_.scopes[scope_index_]; }
 
   void read_line(const Line& line) {
     last_line_ = &line;
@@ -183,7 +183,7 @@ class ElementBlock {
     const auto other = scope().elements.find(element_.id);
     if (other == scope().elements.end()) return true;
     model_.findings.add(fmt::format("element {} is defined twice, first at {}", element_.id,
-                                    model_.where(model_.elements[static_cast<std::size_t>(other->second)])),
+                                    model_.where(model_.elements[other->second])),
                         model_.input.where(line), "renumber or delete one of them");
     return false;
   }
@@ -233,14 +233,14 @@ void read_element_block(Model& model, int scope, const Block& block) {
 
 void read_nodes(Model& model, int scope) {
   Placement system;
-  for (const Block* block : model.scopes[static_cast<std::size_t>(scope)].blocks) {
+  for (const Block* block : model.scopes[scope].blocks) {
     if (block->keyword == "SYSTEM") system = read_system(model, *block);
     if (block->keyword == "NODE") read_node_block(model, scope, *block, system);
   }
 }
 
 void read_elements(Model& model, int scope) {
-  for (const Block* block : model.scopes[static_cast<std::size_t>(scope)].blocks)
+  for (const Block* block : model.scopes[scope].blocks)
     if (block->keyword == "ELEMENT") read_element_block(model, scope, *block);
 }
 

@@ -19,9 +19,7 @@ int short_id(long id) { return id <= std::numeric_limits<int>::max() ? static_ca
 
 const int* nodes_of(const Model& model, const RawElement& element) { return model.connectivity.data() + element.first; }
 
-const Eigen::Vector3d& position(const Model& model, int node) {
-  return model.positions[static_cast<std::size_t>(node)];
-}
+const Eigen::Vector3d& position(const Model& model, int node) { return model.positions[node]; }
 
 /// Without *ORIENTATION the material x axis is the projection of the global x axis, of z if x is within 0.1° of the
 /// normal (Abaqus, "Conventions").
@@ -59,7 +57,7 @@ int beam_property(Model& model, const RawElement& element, SectionUse& use) {
   if (element.type->kind == ElementKind::truss || element.type->theory == formats::BeamTheory::timoshenko)
     return use.property;
   if (use.slender_property < 0) {
-    BeamProperty slender = model.deck.mesh.beam_properties[static_cast<std::size_t>(use.property)];
+    BeamProperty slender = model.deck.mesh.beam_properties[use.property];
     slender.data.theory = formats::BeamTheory::euler_bernoulli;
     use.slender_property = static_cast<int>(model.deck.mesh.beam_properties.size());
     model.deck.mesh.beam_properties.push_back(std::move(slender));
@@ -194,7 +192,7 @@ void fill_ids(Model& model) {
     while (end < sorted.size() && sorted[end].first == sorted[i].first) ++end;
     const auto of_assembly =
         std::find_if(sorted.begin() + static_cast<std::ptrdiff_t>(i), sorted.begin() + static_cast<std::ptrdiff_t>(end),
-                     [&](const auto& entry) { return model.node_scopes[static_cast<std::size_t>(entry.second)] == 0; });
+                     [&](const auto& entry) { return model.node_scopes[entry.second] == 0; });
     if (of_assembly != sorted.begin() + static_cast<std::ptrdiff_t>(end))
       ids.emplace_hint(ids.end(), *of_assembly);
     else if (end == i + 1)
@@ -210,7 +208,7 @@ void fill_nodes(Model& model) {
   mesh.position.resize(3, static_cast<Eigen::Index>(model.positions.size()));
   mesh.node_label.reserve(model.positions.size());
   for (std::size_t node = 0; node < model.positions.size(); ++node) {
-    mesh.position.col(static_cast<Eigen::Index>(node)) = model.positions[node];
+    mesh.position.col(node) = model.positions[node];
     mesh.node_label.push_back(model.node_text(static_cast<int>(node)));
   }
   fill_ids(model);
@@ -224,7 +222,7 @@ void fill_elements(Model& model) {
   model.deck.mesh.beams.reserve(count[2]);
   for (RawElement& element : model.elements) {
     if (element.section >= 0) {
-      element.row = add_element(model, element, model.sections[static_cast<std::size_t>(element.section)]);
+      element.row = add_element(model, element, model.sections[element.section]);
     } else if (element.type->kind == ElementKind::ground_spring) {
       SectionUse none;
       element.row = add_element(model, element, none);

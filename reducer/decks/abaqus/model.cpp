@@ -7,12 +7,12 @@ namespace tisserand::reducer::abaqus {
 
 std::string Model::node_text(int node) const {
   const std::size_t n = static_cast<std::size_t>(node);
-  const std::string& scope = scopes[static_cast<std::size_t>(node_scopes[n])].name;
+  const std::string& scope = scopes[node_scopes[n]].name;
   return scope.empty() ? fmt::format("node {}", node_ids[n]) : fmt::format("node {}.{}", scope, node_ids[n]);
 }
 
 std::string Model::element_text(const RawElement& element) const {
-  const std::string& scope = scopes[static_cast<std::size_t>(element.scope)].name;
+  const std::string& scope = scopes[element.scope].name;
   return scope.empty() ? fmt::format("element {} ({})", element.id, element.type->name)
                        : fmt::format("element {}.{} ({})", scope, element.id, element.type->name);
 }

@@ -34,10 +34,10 @@ double side_of_normals(Model& model, int scope, const Block& block, const Eigen:
   const auto elements = find_elements(model, scope, block.name_of("ELSET"), where);
   double side = 0.0;
   for (const int row : elements.value_or(std::vector<int>())) {
-    const RawElement& element = model.elements[static_cast<std::size_t>(row)];
+    const RawElement& element = model.elements[row];
     if (element.type->kind != ElementKind::shell) continue;
     const int* nodes = model.connectivity.data() + element.first;
-    const auto x = [&](int k) -> const Eigen::Vector3d& { return model.positions[static_cast<std::size_t>(nodes[k])]; };
+    const auto x = [&](int k) -> const Eigen::Vector3d& { return model.positions[nodes[k]]; };
     const double height = (x(2) - x(0)).cross(x(element.count - 1) - x(1)).dot(axis);
     if (side * height < 0.0)
       throw Error(fmt::format("layers with orientations on both sides of their axis, for example {}",

@@ -83,7 +83,7 @@ class Sorter {
       if (part_ != nullptr)
         part_->blocks.push_back(&block);
       else
-        model_.scopes[static_cast<std::size_t>(std::max(instance_, 0))].blocks.push_back(&block);
+        model_.scopes[std::max(instance_, 0)].blocks.push_back(&block);
     }
   }
 

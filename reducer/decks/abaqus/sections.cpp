@@ -103,7 +103,7 @@ void read_shear(Model& model, const Block& block, ShellSection& section) {
 }
 
 void read_shell_section(Model& model, int scope, std::size_t index) {
-  const std::vector<const Block*>& blocks = model.scopes[static_cast<std::size_t>(scope)].blocks;
+  const std::vector<const Block*>& blocks = model.scopes[scope].blocks;
   const Block& block = *blocks[index];
   if (refuse_parameters(model, block, {"NODALTHICKNESS", "SHELLTHICKNESS", "STACKDIRECTION", "SYMMETRIC"})) return;
   SectionUse use;
@@ -126,8 +126,7 @@ void read_shell_section(Model& model, int scope, std::size_t index) {
 
 /// Kinds of elements in the set of a section.
 bool holds(const Model& model, const std::vector<int>& elements, ElementKind kind) {
-  return std::any_of(elements.begin(), elements.end(),
-                     [&](int row) { return model.elements[static_cast<std::size_t>(row)].type->kind == kind; });
+  return std::any_of(elements.begin(), elements.end(), [&](int row) { return model.elements[row].type->kind == kind; });
 }
 
 void read_truss(Model& model, int scope, const Block& block, const AbaqusMaterial& material) {
@@ -208,7 +207,7 @@ void read_rotary_inertia(Model& model, int scope, const Block& block) {
   if (!(principal.minCoeff() >= -1e-9 * principal.cwiseAbs().maxCoeff()))
     throw Error(fmt::format("*ROTARY INERTIA has the negative principal value {:.6g}", principal.minCoeff()),
                 model.input.where(block), "check the six entries I11, I22, I33, I12, I13, I23");
-  Eigen::Matrix3d axes = model.scopes[static_cast<std::size_t>(scope)].placement.R;
+  Eigen::Matrix3d axes = model.scopes[scope].placement.R;
   if (const std::string* name = block.find("ORIENTATION"); name != nullptr) {
     const Orientation* orientation = find_orientation(model, scope, *name, model.input.where(block));
     if (orientation == nullptr) return;
@@ -286,13 +285,13 @@ void give_section(Model& model, int scope, const Block& block, const SectionUse&
   model.sections.push_back(use);
   model.sections.back().name = set;
   for (const int row : *elements) {
-    RawElement& element = model.elements[static_cast<std::size_t>(row)];
+    RawElement& element = model.elements[row];
     if (element.type->kind != use.kind)
       model.findings.add(fmt::format("{}, ELSET={} does not fit {}", block.title, set, model.element_text(element)),
                          where, "name a set with elements of one kind");
     else if (element.section >= 0 && element.section != section)
       model.findings.add(fmt::format("{} has two sections, of '{}' and of '{}'", model.element_text(element),
-                                     model.sections[static_cast<std::size_t>(element.section)].name, set),
+                                     model.sections[element.section].name, set),
                          where, "let the sets of sections not overlap");
     else
       element.section = section;
@@ -300,7 +299,7 @@ void give_section(Model& model, int scope, const Block& block, const SectionUse&
 }
 
 void read_sections(Model& model, int scope) {
-  const std::vector<const Block*>& blocks = model.scopes[static_cast<std::size_t>(scope)].blocks;
+  const std::vector<const Block*>& blocks = model.scopes[scope].blocks;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const Block& block = *blocks[i];
     try {

@@ -26,7 +26,7 @@ Place place_of(const Model& model, int scope, std::string_view text) {
   const std::size_t dot = text.rfind('.');
   if (dot != std::string_view::npos && model.scopes.size() > 1)
     if (const Scope* named = find_scope(model, text.substr(0, dot))) return {named, text.substr(dot + 1)};
-  return {&model.scopes[static_cast<std::size_t>(scope)], text};
+  return {&model.scopes[scope], text};
 }
 
 std::optional<int> find_in(const std::unordered_map<long, int>& ids, std::string_view text) {
@@ -100,7 +100,7 @@ void unify(std::vector<int>& members) {
 /// The nodes of all elements of a set.
 void add_nodes_of(const Model& model, const std::vector<int>& elements, std::vector<int>& members) {
   for (const int row : elements) {
-    const RawElement& element = model.elements[static_cast<std::size_t>(row)];
+    const RawElement& element = model.elements[row];
     const auto begin = model.connectivity.begin() + static_cast<std::ptrdiff_t>(element.first);
     members.insert(members.end(), begin, begin + element.type->nodes);
   }
@@ -123,18 +123,18 @@ void read_set(Model& model, int scope_index, const Block& block, const SetKind& 
     }
     source = static_cast<int>(named - model.scopes.data());
   }
-  std::vector<int>& members = (model.scopes[static_cast<std::size_t>(scope_index)].*kind.sets)[name];
+  std::vector<int>& members = (model.scopes[scope_index].*kind.sets)[name];
   if (const std::string elements = block.name_of("ELSET"); kind.ids == &Scope::nodes && !elements.empty())
     if (const auto found = find_elements(model, source, elements, where)) add_nodes_of(model, *found, members);
   for (const Line& line : block.data) {
     if (block.find("GENERATE") != nullptr) {
-      add_range(model, model.scopes[static_cast<std::size_t>(source)], kind, line, members);
+      add_range(model, model.scopes[source], kind, line, members);
       continue;
     }
     Fields fields(line.text);
     for (std::string_view field; fields.next(field);) {
       if (field.empty()) continue;
-      const Scope& scope = model.scopes[static_cast<std::size_t>(source)];
+      const Scope& scope = model.scopes[source];
       if (const std::optional<int> row = find_in(scope.*kind.ids, field)) {
         members.push_back(*row);
       } else if (const auto found = find_members(model, source, field, kind, model.input.where(line))) {
@@ -160,7 +160,7 @@ void publish(const Model& model, Members members, const Publish& publish_set) {
 ElementSet rows_of(const Model& model, const std::vector<int>& members) {
   ElementSet set;
   for (const int row : members) {
-    const RawElement& element = model.elements[static_cast<std::size_t>(row)];
+    const RawElement& element = model.elements[row];
     if (element.row < 0) continue;
     switch (element.type->kind) {
       case ElementKind::shell:
@@ -189,7 +189,7 @@ ElementSet rows_of(const Model& model, const std::vector<int>& members) {
 }  // namespace
 
 std::optional<int> find_node(const Model& model, int scope, std::string_view text) {
-  const auto& ids = model.scopes[static_cast<std::size_t>(scope)].nodes;
+  const auto& ids = model.scopes[scope].nodes;
   if (const std::optional<int> node = find_in(ids, text)) return node;
   const Place place = place_of(model, scope, text);
   return find_in(place.scope->nodes, place.rest);
@@ -214,7 +214,7 @@ const Surface* find_surface(Model& model, int scope, const std::string& name, co
 
 const Orientation* find_orientation(Model& model, int scope, const std::string& name, const std::string& where) {
   for (const int index : {scope, 0}) {
-    const auto& known = model.scopes[static_cast<std::size_t>(index)].orientations;
+    const auto& known = model.scopes[index].orientations;
     const auto found = known.find(lower(name));
     if (found != known.end()) return &found->second;
   }
@@ -224,7 +224,7 @@ const Orientation* find_orientation(Model& model, int scope, const std::string& 
 }
 
 void read_sets(Model& model, int scope) {
-  const std::vector<const Block*> blocks = model.scopes[static_cast<std::size_t>(scope)].blocks;
+  const std::vector<const Block*> blocks = model.scopes[scope].blocks;
   for (const Block* block : blocks)
     if (block->keyword == "ELSET") read_set(model, scope, *block, kElements, "ELSET");
   for (const Block* block : blocks)

@@ -28,7 +28,7 @@ std::size_t corners_of(const std::vector<int>& face) { return face.size() >= 6 ?
 
 /// Area spanned by the corners: half of the cross product of the diagonals, for three corners of two sides.
 double area_of(const Model& model, const std::vector<int>& face) {
-  const auto x = [&](std::size_t i) { return model.positions[static_cast<std::size_t>(face[i])]; };
+  const auto x = [&](std::size_t i) { return model.positions[face[i]]; };
   if (corners_of(face) == 3) return 0.5 * (x(1) - x(0)).cross(x(2) - x(0)).norm();
   return 0.5 * (x(2) - x(0)).cross(x(3) - x(1)).norm();
 }
@@ -37,7 +37,7 @@ double area_of(const Model& model, const std::vector<int>& face) {
 std::vector<SurfaceFace> free_faces(const Model& model, const std::vector<int>& elements) {
   std::map<std::vector<int>, std::vector<SurfaceFace>> users;
   for (const int row : elements) {
-    const RawElement& element = model.elements[static_cast<std::size_t>(row)];
+    const RawElement& element = model.elements[row];
     const int faces = element.type->kind == ElementKind::solid ? 6 : 1;
     for (int face = 0; face < faces; ++face) {
       std::vector<int> nodes = nodes_of_face(model, element, face);
@@ -63,7 +63,7 @@ std::optional<int> face_number(std::string_view label) {
 
 bool add_faces(Model& model, const std::vector<int>& elements, int face, const Line& line, Surface& surface) {
   for (const int row : elements) {
-    const RawElement& element = model.elements[static_cast<std::size_t>(row)];
+    const RawElement& element = model.elements[row];
     const bool is_shell = element.type->kind == ElementKind::shell;
     const bool has_face = is_shell ? face <= 0
                                    : element.type->kind == ElementKind::solid &&
@@ -148,7 +148,7 @@ void read_surface(Model& model, int scope, const Block& block) {
     if (const auto elements = find_elements(model, scope, fields[0], where))
       add_faces(model, *elements, *face, line, surface);
   }
-  model.scopes[static_cast<std::size_t>(scope)].surfaces[name] = std::move(surface);
+  model.scopes[scope].surfaces[name] = std::move(surface);
 }
 
 void read_orientation(Model& model, int scope, const Block& block) {
@@ -159,7 +159,7 @@ void read_orientation(Model& model, int scope, const Block& block) {
       block.find("DEFINITION") == nullptr ? "COORDINATES" : upper_without_blanks(*block.find("DEFINITION"));
   Orientation orientation;
   orientation.where = model.input.where(block);
-  Scope& owner = model.scopes[static_cast<std::size_t>(scope)];
+  Scope& owner = model.scopes[scope];
   orientation.is_rectangular = system == "RECTANGULAR" && definition == "COORDINATES";
   if (orientation.is_rectangular) {
     const std::optional<Eigen::Matrix3d> axes = read_axes(model, block);
@@ -182,16 +182,14 @@ void read_transform(Model& model, int scope, const Block& block) {
   const auto nodes = find_nodes(model, scope, block.name_of("NSET"), where);
   const std::optional<Eigen::Matrix3d> axes = read_axes(model, block);
   if (!nodes || !axes) return;
-  for (const int node : *nodes)
-    model.node_axes[node] = model.scopes[static_cast<std::size_t>(scope)].placement.R * *axes;
+  for (const int node : *nodes) model.node_axes[node] = model.scopes[scope].placement.R * *axes;
 }
 
 std::map<int, double> surface_weights(const Model& model, const Surface& surface) {
   std::map<int, double> weight;
   for (const int node : surface.nodes) weight[node] = 1.0;
   for (const SurfaceFace& face : surface.faces) {
-    const std::vector<int> nodes =
-        nodes_of_face(model, model.elements[static_cast<std::size_t>(face.element)], face.face);
+    const std::vector<int> nodes = nodes_of_face(model, model.elements[face.element], face.face);
     const double area = area_of(model, nodes);
     const std::vector<double> share = face_weights(nodes.size());
     for (std::size_t i = 0; i < nodes.size(); ++i) weight[nodes[i]] += area * share[i];

@@ -50,10 +50,8 @@ void remove_distant(const Model& model, const Block& block, int reference, std::
   const std::string* text = block.find("INFLUENCERADIUS");
   const std::optional<double> radius = text == nullptr ? std::nullopt : to_number(*text);
   if (!radius) return;
-  const Eigen::Vector3d& center = model.positions[static_cast<std::size_t>(reference)];
-  std::erase_if(weights, [&](const auto& entry) {
-    return (model.positions[static_cast<std::size_t>(entry.first)] - center).norm() > *radius;
-  });
+  const Eigen::Vector3d& center = model.positions[reference];
+  std::erase_if(weights, [&](const auto& entry) { return (model.positions[entry.first] - center).norm() > *radius; });
 }
 
 void make_distributing(Model& model, const Block& block, const Block& kind, Spider spider,
@@ -81,7 +79,7 @@ void make_distributing(Model& model, const Block& block, const Block& kind, Spid
 
 /// The block at `index`; *KINEMATIC or *DISTRIBUTING is the next one.
 void read_coupling(Model& model, int scope, std::size_t index) {
-  const std::vector<const Block*>& blocks = model.scopes[static_cast<std::size_t>(scope)].blocks;
+  const std::vector<const Block*>& blocks = model.scopes[scope].blocks;
   const Block& block = *blocks[index];
   const std::string where = model.input.where(block);
   const Block* kind = index + 1 < blocks.size() ? blocks[index + 1] : nullptr;
@@ -135,7 +133,7 @@ void read_kinematic_coupling(Model& model, int scope, const Block& block) {
 std::vector<int> nodes_of_elements(const Model& model, const std::vector<int>& elements) {
   std::vector<int> nodes;
   for (const int row : elements) {
-    const RawElement& element = model.elements[static_cast<std::size_t>(row)];
+    const RawElement& element = model.elements[row];
     for (int k = 0; k < element.type->nodes; ++k)
       nodes.push_back(model.connectivity[element.first + static_cast<std::size_t>(k)]);
   }
@@ -196,9 +194,8 @@ std::optional<MpcKind> mpc_kind(std::string_view word) {
 
 void read_mpc_pair(Model& model, const Block& block, const Line& line, const MpcKind& kind,
                    const std::array<int, 2>& pair) {
-  const double distance =
-      (model.positions[static_cast<std::size_t>(pair[0])] - model.positions[static_cast<std::size_t>(pair[1])]).norm();
-  const double size = model.positions[static_cast<std::size_t>(pair[1])].norm() + distance;
+  const double distance = (model.positions[pair[0]] - model.positions[pair[1]]).norm();
+  const double size = model.positions[pair[1]].norm() + distance;
   if (kind.must_coincide && distance > 1e-6 * size) {
     model.findings.add(fmt::format("*MPC: {} and {} are {:.6g} apart, so that equal motions hold the part against "
                                    "turning",
@@ -265,7 +262,7 @@ std::optional<int> find_one_node(Model& model, int scope, std::string_view text,
 }
 
 void read_ties(Model& model, int scope) {
-  const std::vector<const Block*>& blocks = model.scopes[static_cast<std::size_t>(scope)].blocks;
+  const std::vector<const Block*>& blocks = model.scopes[scope].blocks;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const Block& block = *blocks[i];
     if (block.keyword == "COUPLING") read_coupling(model, scope, i);

@@ -169,11 +169,11 @@ void add_rods(NastranModel& model) {
   if (rods.empty()) return;
   Mesh& mesh = model.deck.mesh;
   const std::vector<Components> attached = attachments(mesh);
-  const auto turns = [&](int node) { return (attached[static_cast<std::size_t>(node)] & rotations_only) != 0; };
+  const auto turns = [&](int node) { return (attached[node] & rotations_only) != 0; };
   std::map<int, int> without_torsion;
   for (const Rod& rod : rods) {
     BeamElement beam = rod.beam;
-    const BeamProperty property = mesh.beam_properties[static_cast<std::size_t>(beam.property)];
+    const BeamProperty property = mesh.beam_properties[beam.property];
     if (property.data.section.torsion_constant > 0.0 && !(turns(beam.first) && turns(beam.second))) {
       const auto [row, fresh] =
           without_torsion.try_emplace(beam.property, static_cast<int>(mesh.beam_properties.size()));

@@ -16,7 +16,7 @@ namespace {
 constexpr double drilling_cosine = 0.985;  // 10 degrees: what the program of these decks holds by itself in flat shells
 
 void attach(std::vector<Components>& attached, int node, Components components) {
-  Components& of_node = attached[static_cast<std::size_t>(node)];
+  Components& of_node = attached[node];
   of_node = static_cast<Components>(of_node | components);
 }
 
@@ -99,8 +99,8 @@ std::map<int, std::vector<Eigen::Vector3d>> shell_normals(const NastranModel& mo
   std::map<int, std::vector<Eigen::Vector3d>> normals;
   for (const ShellElement& shell : mesh.shells)
     for (int i = 0; i < shell.corners(); ++i) {
-      const int node = shell.nodes[static_cast<std::size_t>(i)];
-      if (!wanted.contains(node) || (turned[static_cast<std::size_t>(node)] & rotations_only) != 0) continue;
+      const int node = shell.nodes[i];
+      if (!wanted.contains(node) || (turned[node] & rotations_only) != 0) continue;
       const auto x = [&](std::size_t k) { return model.position(shell.nodes[k]); };
       const Eigen::Vector3d n =
           shell.corners() == 3 ? (x(1) - x(0)).cross(x(2) - x(0)) : (x(2) - x(0)).cross(x(3) - x(1));
@@ -112,7 +112,7 @@ std::map<int, std::vector<Eigen::Vector3d>> shell_normals(const NastranModel& mo
 /// Takes from held.components those to which nothing is attached: all that is left holds the part.
 void drop_idle(const NastranModel& model, const std::vector<Components>& attached,
                const std::map<int, std::vector<Eigen::Vector3d>>& normals, HeldNode& held) {
-  const Components present = attached[static_cast<std::size_t>(held.node)];
+  const Components present = attached[held.node];
   Components left = held.components;
   if ((present & translations_only) == 0) left &= rotations_only;
   if ((present & rotations_only) == 0) left &= translations_only;
@@ -162,16 +162,14 @@ std::string digits(Components components) {
 std::vector<Components> attachments(const Mesh& mesh) {
   std::vector<Components> attached(static_cast<std::size_t>(mesh.nodes()), 0);
   for (const BeamElement& beam : mesh.beams) {
-    const formats::Section& s = mesh.beam_properties[static_cast<std::size_t>(beam.property)].data.section;
+    const formats::Section& s = mesh.beam_properties[beam.property].data.section;
     const bool turns = s.second_moment_y > 0.0 || s.second_moment_z > 0.0 || s.torsion_constant > 0.0;
     for (const int node : {beam.first, beam.second}) attach(attached, node, turns ? all_components : translations_only);
   }
   for (const ShellElement& shell : mesh.shells)
-    for (int i = 0; i < shell.corners(); ++i)
-      attach(attached, shell.nodes[static_cast<std::size_t>(i)], all_components);
+    for (int i = 0; i < shell.corners(); ++i) attach(attached, shell.nodes[i], all_components);
   for (const SolidElement& solid : mesh.solids)
-    for (int i = 0; i < node_count(solid.shape); ++i)
-      attach(attached, solid.nodes[static_cast<std::size_t>(i)], translations_only);
+    for (int i = 0; i < node_count(solid.shape); ++i) attach(attached, solid.nodes[i], translations_only);
   for (const Spring& spring : mesh.springs) {
     attach(attached, spring.first, of_block(spring.stiffness.topLeftCorner<6, 6>()));
     attach(attached, spring.second, of_block(spring.stiffness.bottomRightCorner<6, 6>()));
@@ -195,18 +193,18 @@ void add_boundary(NastranModel& model) {
     model.for_each(name, [&](CardFields& f) { read_list(model, f, boundary); });
   const std::vector<Components> attached = attachments(model.deck.mesh);
   for (const HeldNode& entry : boundary.nodes()) {
-    const long id = model.grid_id[static_cast<std::size_t>(entry.node)];
+    const long id = model.grid_id[entry.node];
     Components c = entry.components;
     CardFields f(model.cards, model.cards.cards[entry.card], model.faults);
     if (c != translations_only && c != rotations_only && c != all_components) {
       f.fault(fmt::format("GRID {}: components {} alone cannot be boundary", id, digits(c)), "give 123, 456 or 123456");
       continue;
     }
-    if ((c & rotations_only) != 0 && (attached[static_cast<std::size_t>(entry.node)] & rotations_only) == 0) {
+    if ((c & rotations_only) != 0 && (attached[entry.node] & rotations_only) == 0) {
       model.remarks.add("boundary rotations without stiffness and mass are left out, GRID", std::to_string(id));
       c &= translations_only;
     }
-    if (model.displacement_frame[static_cast<std::size_t>(entry.node)] != 0)
+    if (model.displacement_frame[entry.node] != 0)
       model.remarks.add("boundary coordinates have the axes of the part, not those of CD, GRID", std::to_string(id));
     if (c != 0)
       model.deck.mesh.boundary.push_back(
@@ -230,7 +228,7 @@ void judge_supports(NastranModel& model) {
   for (const HeldNode& entry : model.held) {
     HeldNode held = entry;
     drop_idle(model, attached, normals, held);
-    const long id = model.grid_id[static_cast<std::size_t>(held.node)];
+    const long id = model.grid_id[held.node];
     if (held.components == 0) {
       model.remarks.add("supports of components without stiffness and mass have no effect, GRID",
                         fmt::format("{} ({})", id, digits(entry.components)));

@@ -12,19 +12,19 @@ namespace {
 std::vector<int> nodes_of(const Mesh& mesh, const ElementSet& set) {
   std::vector<int> nodes;
   for (const int row : set.beams) {
-    const BeamElement& beam = mesh.beams[static_cast<std::size_t>(row)];
+    const BeamElement& beam = mesh.beams[row];
     nodes.insert(nodes.end(), {beam.first, beam.second});
   }
   for (const int row : set.shells) {
-    const ShellElement& shell = mesh.shells[static_cast<std::size_t>(row)];
+    const ShellElement& shell = mesh.shells[row];
     nodes.insert(nodes.end(), shell.nodes.begin(), shell.nodes.begin() + shell.corners());
   }
   for (const int row : set.solids) {
-    const SolidElement& solid = mesh.solids[static_cast<std::size_t>(row)];
+    const SolidElement& solid = mesh.solids[row];
     nodes.insert(nodes.end(), solid.nodes.begin(), solid.nodes.begin() + node_count(solid.shape));
   }
   for (const int row : set.springs) {
-    const Spring& spring = mesh.springs[static_cast<std::size_t>(row)];
+    const Spring& spring = mesh.springs[row];
     nodes.insert(nodes.end(), {spring.first, spring.second});
   }
   std::sort(nodes.begin(), nodes.end());

@@ -68,7 +68,7 @@ void Placement::add_frame(FrameCard card) {
 void Placement::add_by_grids(CardFields& fields, FrameKind kind, int first) {
   FrameCard card{fields, 0, kind, true, {}, 0, {}, FrameCard::State::open};
   card.id = fields.id(first, "CID");
-  for (int i = 0; i < 3; ++i) card.grids[static_cast<std::size_t>(i)] = fields.id(first + 1 + i, "G");
+  for (int i = 0; i < 3; ++i) card.grids[i] = fields.id(first + 1 + i, "G");
   card.fields = fields;
   add_frame(std::move(card));
 }
@@ -132,7 +132,7 @@ void Placement::read_grids() {
   const GridDefaults defaults = read_defaults();
   model_.for_each("GRID", [&](CardFields& fields) { read_grid(fields, defaults); });
   for (const int row : model_.grid_rows.build(model_.grid_id)) {
-    CardFields fields(model_.cards, model_.cards.cards[model_.grid_card[static_cast<std::size_t>(row)]], model_.faults);
+    CardFields fields(model_.cards, model_.cards.cards[model_.grid_card[row]], model_.faults);
     fields.fault("this grid point is given twice", "remove one of the cards");
   }
 }
@@ -144,21 +144,21 @@ std::optional<Eigen::Vector3d> Placement::corner(FrameCard& card, std::size_t i,
   if (card.by_grids) {
     const int node = model_.node_of(card.fields, card.grids[i], "G");
     if (node < 0) return std::nullopt;
-    frame = grids_[static_cast<std::size_t>(node)].position_frame;
-    x = grids_[static_cast<std::size_t>(node)].x;
+    frame = grids_[node].position_frame;
+    x = grids_[node].x;
   } else if (frame < 0) {
     card.fields.fault(fmt::format("RID names coordinate system {}, which is missing", card.reference),
                       "add its CORD card");
     return std::nullopt;
   }
   if (!resolve(frame, card.fields, depth + 1)) return std::nullopt;
-  return frame_point(model_.frames.frames[static_cast<std::size_t>(frame)], x);
+  return frame_point(model_.frames.frames[frame], x);
 }
 
 /// z from A to B; C lies in the half-plane of positive x.
 bool Placement::resolve(int row, CardFields& asked, int depth) {
   if (row == 0) return true;
-  FrameCard& card = frames_[static_cast<std::size_t>(row - 1)];
+  FrameCard& card = frames_[row - 1];
   if (card.state == FrameCard::State::done) return true;
   if (card.state == FrameCard::State::failed) return false;
   if (card.state == FrameCard::State::busy || depth > deepest_chain) {
@@ -187,7 +187,7 @@ bool Placement::resolve(int row, CardFields& asked, int depth) {
                       "move the third point away from the z axis");
     return false;
   }
-  NastranFrame& frame = model_.frames.frames[static_cast<std::size_t>(row)];
+  NastranFrame& frame = model_.frames.frames[row];
   frame.origin = p[0];
   frame.axes.col(2) = z;
   frame.axes.col(1) = y.normalized();
@@ -202,13 +202,13 @@ void Placement::place() {
   mesh.position.resize(3, static_cast<Eigen::Index>(grids_.size()));
   mesh.node_label.reserve(grids_.size());
   for (std::size_t i = 0; i < grids_.size(); ++i) {
-    const NastranFrame& frame = model_.frames.frames[static_cast<std::size_t>(grids_[i].position_frame)];
+    const NastranFrame& frame = model_.frames.frames[grids_[i].position_frame];
     const Eigen::Vector3d position = frame_point(frame, grids_[i].x);
     if (!(position.cwiseAbs().maxCoeff() < farthest)) {
       CardFields fields(model_.cards, model_.cards.cards[model_.grid_card[i]], model_.faults);
       fields.fault(fmt::format("a coordinate exceeds {:g}", farthest), "correct the coordinates");
     }
-    mesh.position.col(static_cast<Eigen::Index>(i)) = position;
+    mesh.position.col(i) = position;
     mesh.node_label.push_back("node " + std::to_string(model_.grid_id[i]));
   }
 }
@@ -252,9 +252,9 @@ int NastranModel::frame(CardFields& fields, int index, std::string_view name) {
 }
 
 Eigen::Matrix3d NastranModel::displacement_axes(int node) const {
-  const int row = displacement_frame[static_cast<std::size_t>(node)];
+  const int row = displacement_frame[node];
   if (row == 0) return Eigen::Matrix3d::Identity();
-  return frame_axes_at(frames.frames[static_cast<std::size_t>(row)], position(node));
+  return frame_axes_at(frames.frames[row], position(node));
 }
 
 }  // namespace tisserand::reducer

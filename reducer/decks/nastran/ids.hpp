@@ -24,8 +24,7 @@ class IdTable {
 
   /// The (first) row, or −1.
   int find(long id) const {
-    if (!dense_.empty())
-      return id < 0 || id >= static_cast<long>(dense_.size()) ? -1 : dense_[static_cast<std::size_t>(id)];
+    if (!dense_.empty()) return id < 0 || id >= static_cast<long>(dense_.size()) ? -1 : dense_[id];
     const auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair<long, int>(id, 0));
     return at != sorted_.end() && at->first == id ? at->second : -1;
   }
@@ -46,8 +45,7 @@ class IdTable {
     const auto largest = static_cast<std::size_t>(sorted_.back().first);
     if (largest > 8 * sorted_.size() + 1000) return;
     dense_.assign(largest + 1, -1);
-    for (auto at = sorted_.rbegin(); at != sorted_.rend(); ++at)
-      dense_[static_cast<std::size_t>(at->first)] = at->second;
+    for (auto at = sorted_.rbegin(); at != sorted_.rend(); ++at) dense_[at->first] = at->second;
   }
 
   std::vector<std::pair<long, int>> sorted_;

@@ -65,7 +65,7 @@ std::optional<Eigen::Matrix3d> solid_axes(NastranModel& model, CardFields& f) {
     f.fault(fmt::format("CORDM names coordinate system {}, which is missing", id), "add its CORD card");
     return std::nullopt;
   }
-  const NastranFrame& frame = model.frames.frames[static_cast<std::size_t>(row)];
+  const NastranFrame& frame = model.frames.frames[row];
   if (frame.kind != FrameKind::rectangular) {
     f.fault(fmt::format("CORDM {}: a solid with MAT9 needs a rectangular system", id), "name a CORD2R system");
     return std::nullopt;

@@ -23,9 +23,8 @@ void read_material_axis(NastranModel& model, CardFields& f, int index, ShellElem
     const int row = model.frame(f, index, "MCID");
     if (row < 0) return;
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (int i = 0; i < shell.corners(); ++i)
-      middle += model.position(shell.nodes[static_cast<std::size_t>(i)]) / shell.corners();
-    shell.material_x = frame_axes_at(model.frames.frames[static_cast<std::size_t>(row)], middle).col(0);
+    for (int i = 0; i < shell.corners(); ++i) middle += model.position(shell.nodes[i]) / shell.corners();
+    shell.material_x = frame_axes_at(model.frames.frames[row], middle).col(0);
     if (!(shell.material_x.cross(n).norm() > 1e-6))
       f.fault(fmt::format("the x axis of coordinate system {} is normal to the element", *id), "choose another MCID");
     return;
@@ -69,11 +68,11 @@ void add_shell(NastranModel& model, CardFields& f, int corners) {
   ShellElement shell;
   shell.id = model.element_id(f);
   const long pid = f.blank(1) ? shell.id : f.id(1, "PID");
-  for (int i = 0; i < corners; ++i) shell.nodes[static_cast<std::size_t>(i)] = model.node(f, 2 + i, "G");
+  for (int i = 0; i < corners; ++i) shell.nodes[i] = model.node(f, 2 + i, "G");
   if (!f.ok()) return;
   for (int i = 0; i < corners; ++i)
     for (int j = 0; j < i; ++j)
-      if (shell.nodes[static_cast<std::size_t>(i)] == shell.nodes[static_cast<std::size_t>(j)])
+      if (shell.nodes[i] == shell.nodes[j])
         return f.fault(fmt::format("GRID {} stands at two corners", f.text(2 + i)), "use a triangle");
   read_material_axis(model, f, 2 + corners, shell);
   shell.offset = f.real(3 + corners, "ZOFFS", 0.0);

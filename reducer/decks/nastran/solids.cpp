@@ -39,7 +39,7 @@ void add_solid(NastranModel& model, CardFields& f, const SolidCard& card) {
   if (f.size() > 2 + card.most) return f.fault(fmt::format("more than {} grid points", card.most), "remove the rest");
   solid.shape = edge_nodes == 0 ? card.linear : card.quadratic;
   const int count = edge_nodes == 0 ? card.corners : card.most;
-  for (int i = 0; i < count; ++i) solid.nodes[static_cast<std::size_t>(i)] = model.node(f, 2 + card.order[i], "G");
+  for (int i = 0; i < count; ++i) solid.nodes[i] = model.node(f, 2 + card.order[i], "G");
   if (!f.ok()) return;
   solid.property = solid_property(model, f, pid);
   if (solid.property < 0) return;

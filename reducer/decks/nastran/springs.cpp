@@ -64,7 +64,7 @@ std::optional<Eigen::Matrix3d> bush_axes(NastranModel& model, CardFields& f, con
   if (!f.blank(7)) {
     const int row = model.frame(f, 7, "CID");
     if (row < 0) return std::nullopt;
-    return frame_axes_at(model.frames.frames[static_cast<std::size_t>(row)], a);
+    return frame_axes_at(model.frames.frames[row], a);
   }
   if (!(axis.norm() > 0.0)) {
     f.fault("the grid points coincide and CID is blank", "give CID");
@@ -96,7 +96,7 @@ Eigen::Vector3d bush_point(NastranModel& model, CardFields& f, const Spring& spr
   if (f.integer(9, "OCID", -1) < 0) return a + f.real(8, "S", 0.5) * (b - a);
   const int row = model.frame(f, 9, "OCID");
   if (row < 0) return a;
-  return frame_point(model.frames.frames[static_cast<std::size_t>(row)], f.vector(10, "S"));
+  return frame_point(model.frames.frames[row], f.vector(10, "S"));
 }
 
 void add_bush(NastranModel& model, CardFields& f) {
@@ -134,7 +134,7 @@ void add_mass(NastranModel& model, CardFields& f) {
   for (std::size_t i = 0; i < 6; ++i) I[i] = f.real(8 + static_cast<int>(i), "I", 0.0) * model.mass_scale;
   if (!f.ok()) return;
   const Eigen::Vector3d node = model.position(mass.node);
-  const Eigen::Matrix3d axes = frame_axes_at(model.frames.frames[static_cast<std::size_t>(row)], node);
+  const Eigen::Matrix3d axes = frame_axes_at(model.frames.frames[row], node);
   mass.offset = absolute ? Eigen::Vector3d(x - node) : Eigen::Vector3d(axes * x);
   Eigen::Matrix3d J;
   J << I[0], -I[1], -I[3], -I[1], I[2], -I[4], -I[3], -I[4], I[5];

@@ -32,7 +32,7 @@ void add_rigid(NastranModel& model, CardFields& f, int reference, const std::vec
   std::vector<Spider> spiders;
   for (const Follower& follower : followers) {
     if (follower.node == reference)
-      return f.fault(fmt::format("GRID {} depends on itself", model.grid_id[static_cast<std::size_t>(reference)]),
+      return f.fault(fmt::format("GRID {} depends on itself", model.grid_id[reference]),
                      "remove it from the dependent ones");
     const Eigen::Matrix3d axes =
         free_of_axes(follower.components) ? Eigen::Matrix3d::Identity() : model.displacement_axes(follower.node);

@@ -20,7 +20,7 @@ Eigen::Vector3d axis_of(const Mesh& mesh, const BeamElement& beam) {
 }
 
 BeamElementData data_of(const Mesh& mesh, const BeamElement& beam) {
-  BeamElementData data = mesh.beam_properties[static_cast<std::size_t>(beam.property)].data;
+  BeamElementData data = mesh.beam_properties[beam.property].data;
   data.length = axis_of(mesh, beam).norm();
   return data;
 }

@@ -19,7 +19,7 @@ Eigen::Vector3d in_plane_axis(const Eigen::Vector3d& direction, const Eigen::Vec
 template <int Corners>
 ShellGeometry<Corners> shell_geometry(const Mesh& mesh, const ShellElement& shell) {
   Eigen::Matrix<double, 3, Corners> X;
-  for (int i = 0; i < Corners; ++i) X.col(i) = mesh.position.col(shell.nodes[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < Corners; ++i) X.col(i) = mesh.position.col(shell.nodes[i]);
   const Eigen::Vector3d centre = X.rowwise().mean();
   X.colwise() -= centre;
   const Eigen::Vector3d twice_area =

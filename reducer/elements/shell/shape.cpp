@@ -35,8 +35,7 @@ Edges edges_of(const Mesh& mesh, const ShellElement& shell) {
   Edges edges;
   const int corners = shell.corners();
   for (int i = 0; i < corners; ++i) {
-    const int a = shell.nodes[static_cast<std::size_t>(i)],
-              b = shell.nodes[static_cast<std::size_t>((i + 1) % corners)];
+    const int a = shell.nodes[i], b = shell.nodes[(i + 1) % corners];
     const double length = (mesh.position.col(b) - mesh.position.col(a)).norm();
     if (i == 0 || !(length >= edges.shortest)) edges = {length, edges.longest, a, b};
     edges.longest = std::max(edges.longest, length);
@@ -53,7 +52,7 @@ void check_angles(const Mesh& mesh, const ShellElement& shell, const ShellGeomet
     const Eigen::Vector2d last = geometry.corner.col((i + Corners - 1) % Corners) - geometry.corner.col(i);
     double angle = std::atan2(next.x() * last.y() - next.y() * last.x(), next.dot(last)) * 180.0 / std::numbers::pi;
     if (angle < 0.0) angle += 360.0;
-    const std::string at = node_name(mesh, shell.nodes[static_cast<std::size_t>(i)]);
+    const std::string at = node_name(mesh, shell.nodes[i]);
     if (angle >= 180.0)
       findings.errors.push_back(
           fmt::format("inner angle {:.1f}° at {}: the element is concave or its nodes cross", angle, at));
@@ -97,7 +96,7 @@ void check(const Mesh& mesh, const ShellElement& shell, const Edges& edges, Shap
   if (edges.longest > largest_aspect * edges.shortest)
     findings.warnings.push_back(fmt::format("aspect ratio {:.3g}: edges from {:.3g} to {:.3g}",
                                             edges.longest / edges.shortest, edges.shortest, edges.longest));
-  const double thickness = mesh.shell_properties[static_cast<std::size_t>(shell.property)].section.thickness;
+  const double thickness = mesh.shell_properties[shell.property].section.thickness;
   if (thickness > edges.longest)
     findings.warnings.push_back(
         fmt::format("thickness {:.3g} exceeds the longest edge {:.3g}", thickness, edges.longest));

@@ -70,7 +70,7 @@ Eigen::Matrix<double, 6 * Corners, 6 * Corners> stiffness(const ShellGeometry<Co
 template <int Corners>
 void matrices(const Mesh& mesh, const ShellElement& shell, ElementMatrices& out) {
   using Arms = Eigen::Matrix<double, Corners, 1>;
-  const ShellProperty& property = mesh.shell_properties[static_cast<std::size_t>(shell.property)];
+  const ShellProperty& property = mesh.shell_properties[shell.property];
   const ShellGeometry<Corners> geometry = shell_geometry<Corners>(mesh, shell);
   Eigen::Matrix<double, 6 * Corners, 6 * Corners> K = stiffness<Corners>(geometry, property.section);
   move_along_normal<Corners>(Arms(Arms::Constant(shell.offset) - geometry.height), K);

@@ -61,12 +61,12 @@ Eigen::Matrix<double, 9, 9> higher_stiffness(const Corners& corner, double area,
   std::array<Eigen::Vector2d, 3> edge;  // 2-1, 3-2, 1-3
   Eigen::Vector3d length2;
   for (int k = 0; k < 3; ++k) {
-    edge[static_cast<std::size_t>(k)] = corner.col((k + 1) % 3) - corner.col(k);
-    length2[k] = edge[static_cast<std::size_t>(k)].squaredNorm();
+    edge[k] = corner.col((k + 1) % 3) - corner.col(k);
+    length2[k] = edge[k].squaredNorm();
   }
   Eigen::Matrix3d to_natural;  // natural strains from Cartesian ones
   for (int k = 0; k < 3; ++k) {
-    const Eigen::Vector2d& d = edge[static_cast<std::size_t>(k)];
+    const Eigen::Vector2d& d = edge[k];
     to_natural.row(k) << d.x() * d.x(), d.y() * d.y(), d.x() * d.y();
     to_natural.row(k) /= length2[k];
   }

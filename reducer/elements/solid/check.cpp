@@ -31,8 +31,7 @@ double jacobian_at(const Positions<shape>& x, const NaturalPoint& point) {
   const auto jets = natural_jets(point);
   const auto N = SolidBasis<shape>::functions(jets[0], jets[1], jets[2]);
   Eigen::Matrix3d J = Eigen::Matrix3d::Zero();
-  for (std::size_t a = 0; a < N.size(); ++a)
-    J += x.col(static_cast<Eigen::Index>(a)) * Eigen::RowVector3d::Map(N[a].slope.data());
+  for (std::size_t a = 0; a < N.size(); ++a) J += x.col(a) * Eigen::RowVector3d::Map(N[a].slope.data());
   return J.determinant();
 }
 
@@ -85,7 +84,7 @@ EdgeLengths edge_lengths(const Positions<shape>& x) {
   EdgeLengths result;
   for (std::size_t e = 0; e < SolidBasis<shape>::edges.size(); ++e) {
     const auto [a, b] = SolidBasis<shape>::edges[e];
-    const double length = (x.col(static_cast<Eigen::Index>(a)) - x.col(static_cast<Eigen::Index>(b))).norm();
+    const double length = (x.col(a) - x.col(b)).norm();
     result.longest = std::max(result.longest, length);
     if (length >= result.shortest) continue;
     result.shortest = length;
@@ -99,7 +98,7 @@ template <SolidShape shape>
 double flatness(const Positions<shape>& x) {
   double wide = 0.0, height = INFINITY;
   for (const auto& [a, b] : SolidBasis<shape>::edges) {
-    const double length = (x.col(static_cast<Eigen::Index>(a)) - x.col(static_cast<Eigen::Index>(b))).norm();
+    const double length = (x.col(a) - x.col(b)).norm();
     if (b == a + 3)
       height = std::min(height, length);
     else
@@ -165,7 +164,7 @@ void check(const Mesh& mesh, const SolidElement& solid, ShapeFindings& findings)
                                               node_text(mesh, solid.nodes[a]), b + 1, a + 1));
         return;
       }
-    x.col(static_cast<Eigen::Index>(a)) = mesh.position.col(solid.nodes[a]) - mesh.position.col(solid.nodes[0]);
+    x.col(a) = mesh.position.col(solid.nodes[a]) - mesh.position.col(solid.nodes[0]);
   }
   const EdgeLengths edges = edge_lengths<shape>(x);
   const Jacobians J = jacobians<shape>(x);

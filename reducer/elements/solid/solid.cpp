@@ -214,9 +214,8 @@ template <SolidShape shape>
 void matrices(const Mesh& mesh, const SolidElement& solid, ElementMatrices& out) {
   constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
   NodePositions<nodes> x;
-  for (int a = 0; a < nodes; ++a)
-    x.col(a) = mesh.position.col(solid.nodes[static_cast<std::size_t>(a)]) - mesh.position.col(solid.nodes[0]);
-  const SolidProperty& property = mesh.solid_properties[static_cast<std::size_t>(solid.property)];
+  for (int a = 0; a < nodes; ++a) x.col(a) = mesh.position.col(solid.nodes[a]) - mesh.position.col(solid.nodes[0]);
+  const SolidProperty& property = mesh.solid_properties[solid.property];
   stiffness<shape>(x, property.material.C, solid.id, out.S);
   mass<shape>(x, property, out.M);
 }

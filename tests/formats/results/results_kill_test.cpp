@@ -60,7 +60,7 @@ void expect_true_rows(const std::string& path, const ResultsLayout& layout) {
     // coordinate.
     for (Eigen::Index j = 2; j < values.cols(); ++j) {
       const double step = values(static_cast<Eigen::Index>(t), j) - values(static_cast<Eigen::Index>(t), j - 1);
-      ASSERT_TRUE(step == 1.0 || std::isnan(step)) << path << " row " << t << " " << names[static_cast<std::size_t>(j)];
+      ASSERT_TRUE(step == 1.0 || std::isnan(step)) << path << " row " << t << " " << names[j];
     }
   }
   if (reader.completed()) {

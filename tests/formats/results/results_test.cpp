@@ -116,7 +116,7 @@ TEST(Results, EveryChannelComesBackBitEqual) {
     ASSERT_EQ(values.size(), 700u);
     for (int t = 0; t < rows; ++t) {
       fill_row(t, row);
-      ASSERT_EQ(values[static_cast<std::size_t>(t)], value()) << name << " " << t;
+      ASSERT_EQ(values[t], value()) << name << " " << t;
     }
   }
   EXPECT_TRUE(std::isnan(reader.read("joints/coordinate/slide")[5]));
@@ -142,8 +142,7 @@ TEST(Results, RowsOfSeveralChannelsAreThoseOfEachChannel) {
   const Eigen::MatrixXd rows = reader.read_rows(names, 250, 50);
   for (std::size_t j = 0; j < names.size(); ++j) {
     const std::vector<double> column = reader.read(names[j]);
-    for (Eigen::Index i = 0; i < 50; ++i)
-      EXPECT_EQ(rows(i, static_cast<Eigen::Index>(j)), column[static_cast<std::size_t>(250 + i)]);
+    for (Eigen::Index i = 0; i < 50; ++i) EXPECT_EQ(rows(i, static_cast<Eigen::Index>(j)), column[250 + i]);
   }
 }
 

@@ -50,14 +50,13 @@ Superelement spring_truss(const std::vector<Eigen::Vector3d>& points, double sti
   e.mass = mass * Eigen::MatrixXd::Identity(3 * count, 3 * count);
   for (Eigen::Index i = 0; i < count; ++i) {
     e.node_name.push_back(std::string(1, static_cast<char>('a' + i)));
-    e.node_position.row(i) = points[static_cast<std::size_t>(i)].transpose();
+    e.node_position.row(i) = points[i].transpose();
     for (int k = 0; k < 3; ++k) {
       e.dof_node.push_back(static_cast<int>(i));
       e.dof_component.push_back(k);
     }
     for (Eigen::Index j = 0; j < i; ++j) {
-      const Eigen::Vector3d d =
-          (points[static_cast<std::size_t>(i)] - points[static_cast<std::size_t>(j)]).normalized();
+      const Eigen::Vector3d d = (points[i] - points[j]).normalized();
       const Eigen::Matrix3d k = stiffness * d * d.transpose();
       e.stiffness.block<3, 3>(3 * i, 3 * i) += k;
       e.stiffness.block<3, 3>(3 * j, 3 * j) += k;

@@ -102,7 +102,7 @@ TYPED_TEST(BeamElementTest, TangentEqualsCentralDifferences) {
   for (int dof = 0; dof < 6 * N; ++dof) {
     const double h = 1e-5;
     std::vector<NodeMotion> moved = nodes;
-    NodeMotion& n = moved[static_cast<std::size_t>(dof / 6)];
+    NodeMotion& n = moved[dof / 6];
     const Vector3d step = h * Vector3d::Unit(dof % 3);
     const NodeMotion start = n;
     if (dof % 6 < 3)

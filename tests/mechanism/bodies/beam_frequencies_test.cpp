@@ -52,7 +52,7 @@ Eigen::VectorXd eigenvalues(const BeamMesh& mesh, int free_displacement, int fre
       columns.push_back(column);
     }
   Eigen::MatrixXd V(K.rows(), static_cast<Eigen::Index>(columns.size()));
-  for (std::size_t k = 0; k < columns.size(); ++k) V.col(static_cast<Eigen::Index>(k)) = columns[k];
+  for (std::size_t k = 0; k < columns.size(); ++k) V.col(k) = columns[k];
   const Eigen::MatrixXd Kr = V.transpose() * K * V, Mr = V.transpose() * M * V;
   return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(Kr, Mr, Eigen::EigenvaluesOnly).eigenvalues();
 }

@@ -161,7 +161,7 @@ TEST(SuperelementBuild, DoesNotDependOnTheOrderOfRowsAndNodes) {
     const SuperelementBody a = build(element, options), b = build(mixed, options);
     const BodyState state = test_support::random_state(a, 3, 0.1);
     BodyState permuted = state;
-    for (std::size_t i = 0; i < nodes.size(); ++i) permuted.nodes[i] = state.nodes[static_cast<std::size_t>(nodes[i])];
+    for (std::size_t i = 0; i < nodes.size(); ++i) permuted.nodes[i] = state.nodes[nodes[i]];
     const Eigen::VectorXd r = test_support::residual_vector(a, state, kGravity);
     const Eigen::VectorXd s = test_support::residual_vector(b, permuted, kGravity);
     for (std::size_t i = 0; i < nodes.size(); ++i)

@@ -69,8 +69,8 @@ class KnownAnswers : public ::testing::TestWithParam<std::tuple<std::string, Fra
 TEST_P(KnownAnswers, Weights) {
   const Eigen::VectorXd alpha = to_vector(known_.entry["alpha_robust"]);
   for (std::size_t i = 0; i < body_.node.size(); ++i) {
-    EXPECT_NEAR(body_.node[i].alpha, alpha[static_cast<Eigen::Index>(i)], kTolerance);
-    EXPECT_NEAR(body_.node[i].alpha_rotation, alpha[static_cast<Eigen::Index>(i)], kTolerance);
+    EXPECT_NEAR(body_.node[i].alpha, alpha[i], kTolerance);
+    EXPECT_NEAR(body_.node[i].alpha_rotation, alpha[i], kTolerance);
   }
 }
 

@@ -123,11 +123,11 @@ Outcome run(const std::string& text) {
     outcome.rotation[name] = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
   }
   for (std::size_t i = 0; i < layout.coordinates.size(); ++i) {
-    outcome.coordinate[own(layout.coordinates[i].name)] = row.joint_coordinate[static_cast<Eigen::Index>(i)];
-    outcome.rate[own(layout.coordinates[i].name)] = row.joint_rate[static_cast<Eigen::Index>(i)];
+    outcome.coordinate[own(layout.coordinates[i].name)] = row.joint_coordinate[i];
+    outcome.rate[own(layout.coordinates[i].name)] = row.joint_rate[i];
   }
   for (std::size_t i = 0; i < layout.springs.size(); ++i)
-    outcome.force[own(layout.springs[i].name)] = row.spring_force[static_cast<Eigen::Index>(i)];
+    outcome.force[own(layout.springs[i].name)] = row.spring_force[i];
   outcome.energy = row.kinetic + row.strain;
   return outcome;
 }

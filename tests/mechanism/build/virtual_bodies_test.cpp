@@ -332,7 +332,7 @@ TEST(OrientationOfAGroup, MustBeDetermined) {
   for (const int one : element.dof_node) ++components[one];
   for (std::size_t i = 0; i < element.dof_node.size(); ++i)
     if (element.dof_node[i] >= 0 && components[element.dof_node[i]] == 3 && element.dof_component[i] < 3)
-      node = "frame/" + element.node_name[static_cast<std::size_t>(element.dof_node[i])];
+      node = "frame/" + element.node_name[element.dof_node[i]];
   scene.bodies.push_back(virtual_body("hub", {0, 0, 0}));
   scene.bodies.push_back(virtual_body("rim", {0, 0, 0}));
   scene.joints = {fixed_joint("one", "hub", node), fixed_joint("two", "hub", "rim")};

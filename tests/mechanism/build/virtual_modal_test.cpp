@@ -45,7 +45,7 @@ void place(Simulation& run, const std::string& name, const nlohmann::json& known
   State& state = run.state();
   state.x().col(node) = to_vector(known.at("r"));
   state.Q().col(node) = wxyz(Eigen::Quaterniond(Matrix3d(to_matrix(known.at("A")))));
-  const Node& at = run.model().nodes[static_cast<std::size_t>(node)];
+  const Node& at = run.model().nodes[node];
   state.v().segment<3>(at.translation) = to_vector(known.at("rdot"));
   state.v().segment<3>(at.rotation) = to_vector(known.at("omega"));
 }
@@ -108,7 +108,7 @@ struct KnownJoints {
     const VectorXd v = run.state().v();
     MatrixXd J(rows, static_cast<Eigen::Index>(columns.size()));
     for (Eigen::Index j = 0; j < J.cols(); ++j) {
-      run.state().v() = VectorXd::Unit(v.size(), columns[static_cast<std::size_t>(j)]);
+      run.state().v() = VectorXd::Unit(v.size(), columns[j]);
       evaluate(run.model(), run.state(), run.workspace);
       J.col(j) = run.workspace.constraint_rate.segment(row, rows);
     }
@@ -122,7 +122,7 @@ struct KnownJoints {
   std::vector<int> columns(const std::vector<std::string>& bodies) const {
     std::vector<int> all;
     for (const std::string& name : bodies) {
-      const Node& node = run.model().nodes[static_cast<std::size_t>(run.node(name))];
+      const Node& node = run.model().nodes[run.node(name)];
       for (int i = 0; i < 3; ++i) all.push_back(node.translation + i);
       for (int i = 0; i < 3; ++i) all.push_back(node.rotation + i);
       const int modes = run.model().sizes.boundary - (name == "F" ? 6 : 3);

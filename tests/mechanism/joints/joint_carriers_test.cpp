@@ -241,7 +241,7 @@ TEST_P(JointBetweenCarriers, RigidMotionOfTheWorldChangesNothing) {
       turned.x().col(i) = Q * turned.x().col(i) + shift;
       const Eigen::Vector4d q = turned.Q().col(i);
       turned.Q().col(i) = wxyz(Eigen::Quaterniond(Q) * Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
-      const int row = model.nodes[static_cast<std::size_t>(i)].translation;
+      const int row = model.nodes[i].translation;
       if (row >= 0) turned.v().segment<3>(row) = (Q * turned.v().segment<3>(row)).eval();
     }
     for (const Joint& one : model.joints)

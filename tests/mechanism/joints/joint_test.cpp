@@ -273,9 +273,7 @@ TEST_P(EveryJoint, RigidMotionOfTheWorldChangesNothing) {
 JointReaction world_reaction(test_support::Simulation& run) {
   const Joint& joint = run.model().joints.front();
   evaluate(run.model(), run.state(), run.workspace);
-  const auto motion = [&](int node) {
-    return node < 0 ? NodeMotion{} : run.workspace.motion[static_cast<std::size_t>(node)];
-  };
+  const auto motion = [&](int node) { return node < 0 ? NodeMotion{} : run.workspace.motion[node]; };
   const JointReaction r =
       joint_reaction(joint, motion(joint.a.node), motion(joint.b.node), run.state().lambda().data() + joint.row);
   const Matrix3d R = marker_rotation(joint.a, motion(joint.a.node));

@@ -278,8 +278,8 @@ TEST(ModalModel, AccelerationsAndMultipliersAreTheKnownAnswers) {
     const int node = run.node(name);
     state.x().col(node) = x;
     state.Q().col(node) = wxyz(Eigen::Quaterniond(R));
-    state.v().segment<3>(run.model().nodes[static_cast<std::size_t>(node)].translation) = xd;
-    state.v().segment<3>(run.model().nodes[static_cast<std::size_t>(node)].rotation) = Omega;
+    state.v().segment<3>(run.model().nodes[node].translation) = xd;
+    state.v().segment<3>(run.model().nodes[node].rotation) = Omega;
   };
   place("F", known.frame.x, known.frame.R, known.frame.xd, known.frame.Omega);
   place("B", to_vector(kkt.at("B").at("r")), to_matrix(kkt.at("B").at("A")), to_vector(kkt.at("B").at("rdot")),

@@ -197,8 +197,7 @@ TEST(Condensation, NewtonStepOfTheWholeSystemEqualsTheUncondensedOne) {
       whole.topLeftCorner(n, n) = element;  // the only body: its coordinates are the global ones in order
       Eigen::Matrix<double, 12, 12> K;
       const Joint& joint = model.joints[0];
-      joint_stiffness(joint, NodeMotion{}, run.workspace.motion[static_cast<std::size_t>(joint.b.node)],
-                      state.lambda().data(), K);
+      joint_stiffness(joint, NodeMotion{}, run.workspace.motion[joint.b.node], state.lambda().data(), K);
       whole.topLeftCorner(6, 6) += c.stiffness * K.bottomRightCorner(6, 6);
       whole.block(n, 0, m, 6) = run.workspace.joints[0].B.topRightCorner(m, 6);
       whole.block(0, n, 6, m) = run.workspace.joints[0].B.topRightCorner(m, 6).transpose();

@@ -41,8 +41,7 @@ Eigen::MatrixXd matrix(int n, unsigned seed, int saddle) {
 
 std::vector<double> values(const SparsePattern& pattern, const Eigen::MatrixXd& A) {
   std::vector<double> result(static_cast<std::size_t>(pattern.values()), 0.0);
-  for (const Position& p : positions(pattern.size()))
-    result[static_cast<std::size_t>(pattern.slot(p.row, p.column))] = A(p.row, p.column);
+  for (const Position& p : positions(pattern.size())) result[pattern.slot(p.row, p.column)] = A(p.row, p.column);
   return result;
 }
 

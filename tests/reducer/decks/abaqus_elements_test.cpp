@@ -40,9 +40,7 @@ const std::vector<SolidCase> kSolids = {
 
 std::string solid_deck(const SolidCase& solid) {
   std::vector<Eigen::Vector3d> nodes = solid.corners;
-  for (const auto& [a, b] : solid.edges)
-    nodes.push_back(0.5 *
-                    (solid.corners[static_cast<std::size_t>(a - 1)] + solid.corners[static_cast<std::size_t>(b - 1)]));
+  for (const auto& [a, b] : solid.edges) nodes.push_back(0.5 * (solid.corners[a - 1] + solid.corners[b - 1]));
   std::string text = "*NODE\n", element = "*ELEMENT, TYPE=" + solid.type + ", ELSET=Block\n5";
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     text += fmt::format("{}, {}, {}, {}\n", 10 * (i + 1), nodes[i].x(), nodes[i].y(), nodes[i].z());
@@ -60,8 +58,7 @@ TEST(AbaqusElements, QuadraticSolidsComeInTheOrderOfGmsh) {
     for (std::size_t k = 0; k < solid.corners.size(); ++k)
       EXPECT_EQ(deck.mesh.position.col(element.nodes[k]), solid.corners[k]) << solid.type << " corner " << k;
     for (std::size_t k = 0; k < solid.gmsh.size(); ++k) {
-      const Eigen::Vector3d middle = 0.5 * (solid.corners[static_cast<std::size_t>(solid.gmsh[k][0])] +
-                                            solid.corners[static_cast<std::size_t>(solid.gmsh[k][1])]);
+      const Eigen::Vector3d middle = 0.5 * (solid.corners[solid.gmsh[k][0]] + solid.corners[solid.gmsh[k][1]]);
       EXPECT_EQ(deck.mesh.position.col(element.nodes[solid.corners.size() + k]), middle) << solid.type << " edge " << k;
     }
   }

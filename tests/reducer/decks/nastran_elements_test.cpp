@@ -83,7 +83,7 @@ TEST(NastranBeams, RodsCarryTorsionOnlyBetweenNodesThatTurn) {
   const std::string grids = "GRID,1\nGRID,2,,2.\nGRID,3,,4.\n" + steel;
   const Deck free = read_deck(grids + "CROD,11,5,1,2\nPROD,5,7,.02,3.-4,,1.5\nCONROD,12,2,3,7,.01\n");
   ASSERT_EQ(free.mesh.beams.size(), 2u);
-  const BeamElementData& rod = free.mesh.beam_properties[static_cast<std::size_t>(free.mesh.beams[0].property)].data;
+  const BeamElementData& rod = free.mesh.beam_properties[free.mesh.beams[0].property].data;
   EXPECT_TRUE(is_rod(rod));
   EXPECT_EQ(rod.section.torsion_constant, 0.0);
   EXPECT_EQ(rod.added_mass.first, 1.5);
@@ -91,9 +91,7 @@ TEST(NastranBeams, RodsCarryTorsionOnlyBetweenNodesThatTurn) {
   const Deck held = read_deck(grids +
                               "CROD,11,5,1,2\nPROD,5,7,.02,3.-4\nCBAR,12,6,1,3,0.,1.,0.\nCBAR,13,6,2,3,0.,1.,0.\nPBAR,"
                               "6,7,.02,3.-4,4.-4,5.-4\n");
-  EXPECT_EQ(
-      held.mesh.beam_properties[static_cast<std::size_t>(held.mesh.beams[2].property)].data.section.torsion_constant,
-      3e-4);
+  EXPECT_EQ(held.mesh.beam_properties[held.mesh.beams[2].property].data.section.torsion_constant, 3e-4);
   const Deck tube = read_deck(grids + "CTUBE,11,5,1,2\nPTUBE,5,7,.1,.01\nCONROD,12,2,3,7,.01\n");
   EXPECT_NEAR(tube.mesh.beam_properties[0].data.section.area, std::numbers::pi * 0.1 * 0.01 * 0.9, 1e-15);
 }
@@ -139,8 +137,7 @@ std::string quadratic(const std::vector<Vector3d>& corners, const std::vector<st
     card += "," + std::to_string(id);
   };
   for (const Vector3d& x : corners) add(x);
-  for (const auto& [a, b] : edges)
-    add(0.5 * (corners[static_cast<std::size_t>(a - 1)] + corners[static_cast<std::size_t>(b - 1)]));
+  for (const auto& [a, b] : edges) add(0.5 * (corners[a - 1] + corners[b - 1]));
   return text + card + "\nPSOLID,5,7\n" + steel;
 }
 

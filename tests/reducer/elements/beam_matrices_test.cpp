@@ -193,9 +193,9 @@ TEST(BeamBenchmarks, CoupledBendingAndTorsion) {
   }
   std::sort(exact.begin(), exact.end());
   for (int k = 0; k < 6; ++k) {
-    EXPECT_NEAR(omega2[1][k] / exact[static_cast<std::size_t>(k)], 1.0, 0.03) << k;
+    EXPECT_NEAR(omega2[1][k] / exact[k], 1.0, 0.03) << k;
     const double richardson = (4.0 * omega2[1][k] - omega2[0][k]) / 3.0;  // torsion: linear, order 2
-    EXPECT_NEAR(richardson / exact[static_cast<std::size_t>(k)], 1.0, 3e-4) << k;
+    EXPECT_NEAR(richardson / exact[k], 1.0, 3e-4) << k;
   }
   EXPECT_GT(E * s.second_moment_z * std::pow(pi / L, 4) / m / exact[0], 1.05) << "the coupling counts";
 }

@@ -35,7 +35,7 @@ inline Mesh one_shell(const Eigen::Matrix3Xd& corners, const ShellSection& secti
   mesh.position = corners;
   mesh.shell_properties.push_back({section, formats::MassMatrix::consistent, "shell"});
   ShellElement shell;
-  for (int i = 0; i < corners.cols(); ++i) shell.nodes[static_cast<std::size_t>(i)] = i;
+  for (int i = 0; i < corners.cols(); ++i) shell.nodes[i] = i;
   mesh.shells.push_back(shell);
   for (int i = 0; i < corners.cols(); ++i) mesh.node_label.push_back("node " + std::to_string(i + 1));
   return mesh;

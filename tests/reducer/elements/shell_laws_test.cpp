@@ -129,10 +129,10 @@ TEST_P(ShellLaws, NumberingAndSideOfTheNormalDoNotMatter) {
   mesh.shells[0].material_x = Vector3d(0.2, 0.9, -0.3);
   const ElementMatrices first = matrices_of(mesh);
   Mesh other = mesh;
-  for (int i = 0; i < n; ++i) other.shells[0].nodes[static_cast<std::size_t>(i)] = (i + 1) % n;
+  for (int i = 0; i < n; ++i) other.shells[0].nodes[i] = (i + 1) % n;
   const ElementMatrices shifted = matrices_of(other);
   other = mesh;
-  for (int i = 0; i < n; ++i) other.shells[0].nodes[static_cast<std::size_t>(i)] = n - 1 - i;
+  for (int i = 0; i < n; ++i) other.shells[0].nodes[i] = n - 1 - i;
   other.shells[0].offset = -mesh.shells[0].offset;
   ShellSection& s = other.shell_properties[0].section;  // x kept, y and z reversed
   const Vector3d flip(1.0, 1.0, -1.0);

@@ -30,8 +30,7 @@ Eigen::Matrix3Xd distorted(SolidShape shape, Geometry geometry, unsigned seed) {
       for (int i = 0; i < 3; ++i) x(i, static_cast<Eigen::Index>(a)) += size * shift(random);
     for (std::size_t a = corners; a < SolidBasis<s>::nodes.size(); ++a) {
       const auto [p, q] = SolidBasis<s>::edges[a - corners];
-      x.col(static_cast<Eigen::Index>(a)) =
-          0.5 * (x.col(static_cast<Eigen::Index>(p)) + x.col(static_cast<Eigen::Index>(q)));
+      x.col(a) = 0.5 * (x.col(p) + x.col(q));
       if (geometry == Geometry::curved)
         for (int i = 0; i < 3; ++i) x(i, static_cast<Eigen::Index>(a)) += 0.2 * size * shift(random);
     }
@@ -137,7 +136,7 @@ TEST_P(Solid, ConsistentMassHasTheMomentsOfTheBody) {
   Eigen::Matrix4d exact = Eigen::Matrix4d::Zero();
   for (const std::vector<int>& t : tetrahedra) {
     Eigen::Matrix<double, 3, 4> corners;
-    for (int a = 0; a < 4; ++a) corners.col(a) = x.col(t[static_cast<std::size_t>(a)]);
+    for (int a = 0; a < 4; ++a) corners.col(a) = x.col(t[a]);
     exact += tetrahedron_moments(corners, 1.7);
   }
   const Mesh mesh = one_solid(GetParam(), x, steel_like(formats::MassMatrix::consistent));
@@ -181,8 +180,7 @@ std::vector<Eigen::Matrix<double, 3, 4>> symmetries(SolidShape shape) {
     // An affine map is known from the images of four corners that are not in one plane.
     const std::array<int, 4> base = n == 8 ? std::array<int, 4>{0, 1, 3, 4} : std::array<int, 4>{0, 1, 2, 3};
     Eigen::Matrix4d X;
-    for (int k = 0; k < 4; ++k)
-      X.col(k) << Eigen::Vector3d::Map(corner[static_cast<std::size_t>(base[static_cast<std::size_t>(k)])].data()), 1.0;
+    for (int k = 0; k < 4; ++k) X.col(k) << Eigen::Vector3d::Map(corner[base[k]].data()), 1.0;
     const Eigen::Matrix4d inverse = X.inverse();
     for (int image = 0; image < n * n * n * n; ++image) {
       Eigen::Matrix<double, 3, 4> Y;
@@ -213,14 +211,14 @@ TEST_P(Solid, DoesNotDependOnTheNodeItStartsFrom) {
       std::vector<Eigen::Index> from(static_cast<std::size_t>(x.cols()));
       for (Eigen::Index a = 0; a < x.cols(); ++a) {
         const Eigen::Vector3d p = map.leftCols<3>() * nodes.col(a) + map.col(3);
-        (nodes.colwise() - p).colwise().norm().minCoeff(&from[static_cast<std::size_t>(a)]);
-        y.col(a) = x.col(from[static_cast<std::size_t>(a)]);
+        (nodes.colwise() - p).colwise().norm().minCoeff(&from[a]);
+        y.col(a) = x.col(from[a]);
       }
       const ElementMatrices f = matrices_of(one_solid(GetParam(), y, triclinic()));
       double difference = 0.0;
       for (Eigen::Index a = 0; a < x.cols(); ++a)
         for (Eigen::Index b = 0; b < x.cols(); ++b) {
-          const Eigen::Index i = from[static_cast<std::size_t>(a)], j = from[static_cast<std::size_t>(b)];
+          const Eigen::Index i = from[a], j = from[b];
           difference = std::max(
               {difference, (f.S.block<3, 3>(3 * a, 3 * b) - e.S.block<3, 3>(3 * i, 3 * j)).cwiseAbs().maxCoeff(),
                (f.M.block<3, 3>(3 * a, 3 * b) - e.M.block<3, 3>(3 * i, 3 * j)).cwiseAbs().maxCoeff()});

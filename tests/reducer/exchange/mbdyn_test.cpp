@@ -34,7 +34,7 @@ std::map<int, std::vector<std::string>> record_groups(const std::string& text) {
 
 Eigen::VectorXd values(const std::vector<std::string>& words) {
   Eigen::VectorXd v(static_cast<Eigen::Index>(words.size()));
-  for (std::size_t i = 0; i < words.size(); ++i) v[static_cast<Eigen::Index>(i)] = std::stod(words[i]);
+  for (std::size_t i = 0; i < words.size(); ++i) v[i] = std::stod(words[i]);
   return v;
 }
 

@@ -24,8 +24,7 @@ ReducedMatrices foreign(const formats::Superelement& element) {
   m.format = "test";
   m.source = "part.pch";
   for (std::size_t b = 0; b < element.node_name.size(); ++b)
-    m.places[100 * (static_cast<long>(b) + 1)].position =
-        element.node_position.row(static_cast<Eigen::Index>(b)).transpose();
+    m.places[100 * (static_cast<long>(b) + 1)].position = element.node_position.row(b).transpose();
   for (std::size_t i = 0; i < element.dof_node.size(); ++i)
     m.rows.push_back(element.dof_node[i] >= 0 ? RowKey{100 * (element.dof_node[i] + 1L), element.dof_component[i]}
                                               : RowKey{9000 + element.dof_component[i], scalar_component});

@@ -78,7 +78,7 @@ TEST(Decks, FreePointsServeThePartFile) {
   };
   const reducer::Mesh mesh = write("");
   ASSERT_EQ(mesh.nodes(), 5);
-  EXPECT_EQ(mesh.node_label[static_cast<std::size_t>(mesh.spiders.at(0).reference)], "node 100");
+  EXPECT_EQ(mesh.node_label[mesh.spiders.at(0).reference], "node 100");
   EXPECT_EQ(mesh.boundary.at(0).node, mesh.spiders[0].reference);
   EXPECT_THAT(mesh.warnings, ::testing::Contains(HasSubstr("1 nodes of")));
   EXPECT_THAT(mesh.warnings, ::testing::Contains(HasSubstr("are left out: node 99")));

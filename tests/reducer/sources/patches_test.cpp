@@ -17,14 +17,14 @@ using ::testing::HasSubstr;
 
 /// Half the cross product of the diagonals (edges of a triangle): area times normal.
 Vector3d area_vector(const reducer::Mesh& mesh, const reducer::ShellElement& shell) {
-  const auto at = [&](int k) -> Vector3d { return mesh.position.col(shell.nodes[static_cast<std::size_t>(k)]); };
+  const auto at = [&](int k) -> Vector3d { return mesh.position.col(shell.nodes[k]); };
   if (shell.corners() == 3) return 0.5 * (at(1) - at(0)).cross(at(2) - at(0));
   return 0.5 * (at(2) - at(0)).cross(at(3) - at(1));
 }
 
 Vector3d center(const reducer::Mesh& mesh, const reducer::ShellElement& shell) {
   Vector3d sum = Vector3d::Zero();
-  for (int k = 0; k < shell.corners(); ++k) sum += mesh.position.col(shell.nodes[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < shell.corners(); ++k) sum += mesh.position.col(shell.nodes[k]);
   return sum / shell.corners();
 }
 
@@ -47,7 +47,7 @@ TEST(Plates, AreDividedEquallyAndTurnAboutTheirNormal) {
   EXPECT_EQ(mesh.nodes(), 35);
   for (const reducer::ShellElement& shell : mesh.shells)
     EXPECT_LT((area_vector(mesh, shell) - 0.25 * Vector3d::UnitZ()).norm(), 1e-15);
-  EXPECT_EQ(mesh.node_label[static_cast<std::size_t>(mesh.boundary[0].node)], "o");
+  EXPECT_EQ(mesh.node_label[mesh.boundary[0].node], "o");
 }
 
 TEST(Plates, ThreeCornersMakeAParallelogramAndTrianglesHalveTheCells) {

@@ -101,7 +101,7 @@ formats::Superelement permute_nodes(const formats::Superelement& element, const 
   for (std::size_t i = 0; i < order.size(); ++i) {
     new_index[order[i]] = static_cast<int>(i);
     r.node_name[i] = element.node_name[order[i]];
-    r.node_position.row(static_cast<Eigen::Index>(i)) = element.node_position.row(order[i]);
+    r.node_position.row(i) = element.node_position.row(order[i]);
   }
   for (int& node : r.dof_node)
     if (node >= 0) node = new_index[node];

@@ -46,7 +46,7 @@ LumpedModel lumped_rod(const Rod& rod) {
     for (int side = 0; side < 2; ++side) {
       if (k + side < 1 || k + side > rod.elements) continue;
       model.mass[k] += 0.5 * l * rod.density * rod.area;
-      model.inertia[static_cast<std::size_t>(k)] += half;
+      model.inertia[k] += half;
     }
   }
   for (int e = 0; e < rod.elements; ++e) model.stiffness.block(6 * e, 6 * e, 12, 12) += beam_stiffness(rod, l);
@@ -59,7 +59,7 @@ void lumped_modes(const LumpedModel& model, const Conditions& conditions, int co
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index k = 0; k < model.nodes(); ++k) {
     M.block<3, 3>(6 * k, 6 * k) = model.mass[k] * Eigen::Matrix3d::Identity();
-    M.block<3, 3>(6 * k + 3, 6 * k + 3) = model.inertia[static_cast<std::size_t>(k)];
+    M.block<3, 3>(6 * k + 3, 6 * k + 3) = model.inertia[k];
   }
   std::vector<int> massive, massless;
   for (int i = 0; i < n; ++i) {
@@ -81,9 +81,9 @@ void lumped_modes(const LumpedModel& model, const Conditions& conditions, int co
   X.setZero(n, count);
   for (int j = 0; j < count; ++j) {
     Eigen::VectorXd mode = eigen.eigenvectors().col(first + j);
-    for (std::size_t i = 0; i < massive.size(); ++i) X(massive[i], j) = mode[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < massive.size(); ++i) X(massive[i], j) = mode[i];
     const Eigen::VectorXd rest = condensed * mode;
-    for (std::size_t i = 0; i < massless.size(); ++i) X(massless[i], j) = rest[static_cast<Eigen::Index>(i)];
+    for (std::size_t i = 0; i < massless.size(); ++i) X(massless[i], j) = rest[i];
     Eigen::Index largest = 0;
     X.col(j).cwiseAbs().maxCoeff(&largest);
     if (X(largest, j) < 0.0) X.col(j) *= -1.0;

@@ -19,7 +19,7 @@ formats::Superelement craig_bampton(const FullModel& model, const std::vector<Ke
   e.units = Units::si();
   std::vector<int> boundary, internal, boundary_nodes;
   for (int node = 0; node < static_cast<int>(keep.size()); ++node) {
-    const Keep k = keep[static_cast<std::size_t>(node)];
+    const Keep k = keep[node];
     if (k != Keep::nothing) boundary_nodes.push_back(node);
     for (int c = 0; c < model.components; ++c) {
       const bool kept = k == Keep::all || (k == Keep::translations && c < 3) || (k == Keep::rotations && c >= 3);
@@ -97,7 +97,7 @@ FullModel spring_network() {
   model.S.setZero(18, 18);
   model.M.setZero(18, 18);
   for (int i = 0; i < 6; ++i) {
-    model.M.block<3, 3>(3 * i, 3 * i) = mass[static_cast<std::size_t>(i)] * Eigen::Matrix3d::Identity();
+    model.M.block<3, 3>(3 * i, 3 * i) = mass[i] * Eigen::Matrix3d::Identity();
     for (int j = 0; j < i; ++j) {
       const Eigen::Vector3d direction = (model.position.row(i) - model.position.row(j)).transpose().normalized();
       const Eigen::Matrix3d k = (50.0 + 3.0 * i + 7.0 * j) * direction * direction.transpose();

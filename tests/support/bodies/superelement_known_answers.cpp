@@ -9,13 +9,13 @@ namespace tisserand::test_support {
 
 Eigen::VectorXd to_vector(const nlohmann::json& j) {
   Eigen::VectorXd v(static_cast<Eigen::Index>(j.size()));
-  for (std::size_t i = 0; i < j.size(); ++i) v[static_cast<Eigen::Index>(i)] = j[i].get<double>();
+  for (std::size_t i = 0; i < j.size(); ++i) v[i] = j[i].get<double>();
   return v;
 }
 
 Eigen::MatrixXd to_matrix(const nlohmann::json& j) {
   Eigen::MatrixXd A(static_cast<Eigen::Index>(j.size()), static_cast<Eigen::Index>(j[0].size()));
-  for (std::size_t i = 0; i < j.size(); ++i) A.row(static_cast<Eigen::Index>(i)) = to_vector(j[i]).transpose();
+  for (std::size_t i = 0; i < j.size(); ++i) A.row(i) = to_vector(j[i]).transpose();
   return A;
 }
 

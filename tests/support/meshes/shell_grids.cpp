@@ -69,7 +69,7 @@ Eigen::Vector3d area_vector(const Mesh& mesh, const ShellElement& shell) {
 void load_area(SmallModel& model, const Eigen::Vector3d& force_per_area) {
   for (const ShellElement& shell : model.mesh.shells)
     for (int k = 0; k < shell.corners(); ++k)
-      model.load.segment<3>(6 * shell.nodes[static_cast<std::size_t>(k)]) +=
+      model.load.segment<3>(6 * shell.nodes[k]) +=
           force_per_area * area_vector(model.mesh, shell).norm() / shell.corners();
 }
 

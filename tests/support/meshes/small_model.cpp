@@ -73,7 +73,7 @@ FreeSystem free_system(const SmallModel& model) {
   FreeSystem system{assemble_small(model.mesh), {}, {}, {}};
   std::vector<Eigen::Triplet<double>> select;
   for (int k = 0; k < system.whole.S.rows(); ++k)
-    if (!model.held[static_cast<std::size_t>(k)] && system.whole.S.coeff(k, k) != 0.0) {
+    if (!model.held[k] && system.whole.S.coeff(k, k) != 0.0) {
       select.emplace_back(k, static_cast<int>(system.free.size()), 1.0);
       system.free.push_back(k);
     }
@@ -88,13 +88,13 @@ Eigen::VectorXd solve_small(const SmallModel& model) {
   const FreeSystem system = free_system(model);
   const Eigen::VectorXd right = model.load - system.whole.S * model.value;
   Eigen::VectorXd b(system.S.rows());
-  for (Eigen::Index i = 0; i < b.size(); ++i) b[i] = right[system.free[static_cast<std::size_t>(i)]];
+  for (Eigen::Index i = 0; i < b.size(); ++i) b[i] = right[system.free[i]];
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(system.S);
   TISSERAND_ENSURE(factors.info() == Eigen::Success, "the supports leave a motion free");
   Eigen::VectorXd x = factors.solve(b);
   x += factors.solve(b - system.S * x);  // thin shells are ill-conditioned: one refinement
   Eigen::VectorXd u = model.value;
-  for (Eigen::Index i = 0; i < x.size(); ++i) u[system.free[static_cast<std::size_t>(i)]] = x[i];
+  for (Eigen::Index i = 0; i < x.size(); ++i) u[system.free[i]] = x[i];
   return u;
 }
 
@@ -122,7 +122,7 @@ SmallModes modes_small(const SmallModel& model, int count, double shift) {
   SmallModes modes{omega2, Eigen::MatrixXd::Zero(6 * model.mesh.nodes(), count)};
   for (int k = 0; k < count; ++k) {
     const double norm = std::sqrt(X.col(k).dot(system.M * X.col(k)));
-    for (Eigen::Index i = 0; i < n; ++i) modes.shape(system.free[static_cast<std::size_t>(i)], k) = X(i, k) / norm;
+    for (Eigen::Index i = 0; i < n; ++i) modes.shape(system.free[i], k) = X(i, k) / norm;
   }
   return modes;
 }

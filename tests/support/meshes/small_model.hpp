@@ -32,7 +32,7 @@ struct SmallModel {
 
   void hold(int node, Components components) {
     for (int c = 0; c < 6; ++c)
-      if ((components >> c) & 1) held[static_cast<std::size_t>(6 * node + c)] = 1;
+      if ((components >> c) & 1) held[6 * node + c] = 1;
   }
   /// Holds one component at a displacement other than zero.
   void prescribe(int node, int component, double displacement) {

@@ -10,8 +10,7 @@ namespace tisserand::reducer {
 
 std::string solid_name(SolidShape shape) {
   return std::array<const char*, 6>{
-      "tetrahedron4", "tetrahedron10", "hexahedron8", "hexahedron20", "prism6", "prism15"}[static_cast<std::size_t>(
-      shape)];
+      "tetrahedron4", "tetrahedron10", "hexahedron8", "hexahedron20", "prism6", "prism15"}[shape];
 }
 
 bool is_quadratic(SolidShape shape) {
@@ -22,7 +21,7 @@ Eigen::Matrix3Xd natural_nodes(SolidShape shape) {
   return with_shape(shape, []<SolidShape s>() {
     Eigen::Matrix3Xd points(3, SolidBasis<s>::nodes.size());
     for (std::size_t a = 0; a < SolidBasis<s>::nodes.size(); ++a)
-      points.col(static_cast<Eigen::Index>(a)) = Eigen::Vector3d::Map(SolidBasis<s>::nodes[a].data());
+      points.col(a) = Eigen::Vector3d::Map(SolidBasis<s>::nodes[a].data());
     return points;
   });
 }
@@ -34,7 +33,7 @@ Mesh one_solid(SolidShape shape, const Eigen::Matrix3Xd& position, const SolidPr
   SolidElement element;
   element.shape = shape;
   for (Eigen::Index a = 0; a < position.cols(); ++a) {
-    element.nodes[static_cast<std::size_t>(a)] = static_cast<int>(a);
+    element.nodes[a] = static_cast<int>(a);
     mesh.node_label.push_back("node " + std::to_string(a + 1));
   }
   mesh.solids = {element};
@@ -57,7 +56,7 @@ class MiddleNodes {
   explicit MiddleNodes(std::vector<Eigen::Vector3d>& nodes) : nodes_(nodes) {}
   int operator()(int a, int b) {
     const auto [place, is_new] = known_.try_emplace(std::minmax(a, b), static_cast<int>(nodes_.size()));
-    if (is_new) nodes_.push_back(0.5 * (nodes_[static_cast<std::size_t>(a)] + nodes_[static_cast<std::size_t>(b)]));
+    if (is_new) nodes_.push_back(0.5 * (nodes_[a] + nodes_[b]));
     return place->second;
   }
 
@@ -111,7 +110,7 @@ Mesh solid_block(const SolidBlock& block, const SolidProperty& property) {
       }
   mesh.position.resize(3, static_cast<Eigen::Index>(nodes.size()));
   for (std::size_t n = 0; n < nodes.size(); ++n) {
-    mesh.position.col(static_cast<Eigen::Index>(n)) = nodes[n];
+    mesh.position.col(n) = nodes[n];
     mesh.node_label.push_back("node " + std::to_string(n + 1));
   }
   return mesh;

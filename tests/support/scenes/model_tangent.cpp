@@ -22,10 +22,9 @@ Eigen::MatrixXd dense_matrix(const Simulation& run) {
   const int n = pattern.size(), boundary = run.built.model.sizes.boundary;
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
   for (int j = 0; j < n; ++j)
-    for (int k = pattern.column_start()[static_cast<std::size_t>(j)];
-         k < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++k) {
-      const int i = pattern.rows()[static_cast<std::size_t>(k)];
-      A(i, j) = run.workspace.values[static_cast<std::size_t>(pattern.slot(i, j))];
+    for (int k = pattern.column_start()[j]; k < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++k) {
+      const int i = pattern.rows()[k];
+      A(i, j) = run.workspace.values[pattern.slot(i, j)];
     }
   A.topLeftCorner(boundary, boundary) *= run.workspace.matrix_scale;
   return A;

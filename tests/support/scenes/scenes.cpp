@@ -135,11 +135,11 @@ Eigen::Quaterniond Simulation::rotation(const std::string& name) {
 }
 
 Eigen::Vector3d Simulation::velocity(const std::string& name) {
-  return state().v().segment<3>(built.model.nodes[static_cast<std::size_t>(node(name))].translation);
+  return state().v().segment<3>(built.model.nodes[node(name)].translation);
 }
 
 Eigen::Vector3d Simulation::Omega(const std::string& name) {
-  return state().v().segment<3>(built.model.nodes[static_cast<std::size_t>(node(name))].rotation);
+  return state().v().segment<3>(built.model.nodes[node(name)].rotation);
 }
 
 }  // namespace tisserand::test_support

@@ -63,7 +63,7 @@ inline Outcome outcome_of(const formats::Scene& scene, Simulation& run) {
   for (std::size_t i = 0; i < layout.joints.size(); ++i) {
     Eigen::VectorXd& reaction = outcome.reaction[layout.joints[i]];
     reaction.resize(6);
-    reaction << row.joint_force.col(static_cast<Eigen::Index>(i)), row.joint_moment.col(static_cast<Eigen::Index>(i));
+    reaction << row.joint_force.col(i), row.joint_moment.col(i);
   }
   return outcome;
 }
