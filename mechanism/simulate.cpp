@@ -23,7 +23,6 @@ namespace {
 void write_last_row(Run& run, const StepReport& step, double size, RowWriter& out) {
   const double time = run.built.state.time();
   if (run.report.steps == 0 || out.row.time == time || time < run.scene.output.from) return;
-  run.workspace.displacement.setZero();
   write_row(run, step, size, out);
 }
 
@@ -159,7 +158,7 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
   }
   RunReport& report = run.report;
   report.results = request.path;
-  report.solver_health = run.workspace.solver.health();
+  report.solver_health = run.workspace.matrix.health();
   report.seconds_model = begin_start - begin_model;
   report.seconds_start = begin_steps - begin_start;
   report.seconds_steps = run.seconds() - begin_steps - report.seconds_output;

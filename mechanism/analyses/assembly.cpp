@@ -98,11 +98,11 @@ void move(const Model& model, const VectorXd& d, Bodies& bodies, State& state) {
 double row_scale(const Model& model, int row) { return model.length_row[row] ? 1.0 / model.length : 1.0; }
 
 /// ∂(scaled Φ)/∂[t/L; θ] at the last evaluate().
-Sparse jacobian(const Model& model, const Bodies& bodies, const Workspace& workspace) {
+Sparse jacobian(const Model& model, const Bodies& bodies, const Evaluation& evaluation) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int row, int node, const Eigen::Ref<const Eigen::RowVectorXd>& B) {
     if (node < 0) return;
-    const NodeMotion& motion = motion_of(workspace, node);
+    const NodeMotion& motion = motion_of(evaluation, node);
     const int body = bodies.of_node[node];
     const Eigen::RowVector3d along = B.head<3>(), about = B.tail<3>();
     const Vector3d arm = motion.x - bodies.center[body];
@@ -116,7 +116,7 @@ Sparse jacobian(const Model& model, const Bodies& bodies, const Workspace& works
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
     for (int k = 0; k < joint.size(); ++k) {
-      const Eigen::RowVectorXd B = workspace.joints[i].B.row(k);
+      const Eigen::RowVectorXd B = evaluation.joints[i].B.row(k);
       add(joint.row + k, joint.a.node, B.head<6>());
       add(joint.row + k, joint.b.node, B.tail<6>());
     }
@@ -124,7 +124,7 @@ Sparse jacobian(const Model& model, const Bodies& bodies, const Workspace& works
   for (const Coupling& coupling : model.couplings)
     for (const CouplingTerm& term : coupling.terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
-      const Eigen::RowVectorXd B = term.factor * workspace.coordinates[at].G;
+      const Eigen::RowVectorXd B = term.factor * evaluation.coordinates[at].G;
       add(coupling.row, model.coordinates[at].a.node, B.head<6>());
       add(coupling.row, model.coordinates[at].b.node, B.tail<6>());
     }
@@ -144,10 +144,10 @@ VectorXd damped_step(const Sparse& J, const VectorXd& f, double mu) {
 }
 
 /// Scaled Φ at the state.
-VectorXd gaps(const Model& model, State& state, Workspace& workspace) {
-  evaluate(model, state, workspace);
-  unwrap_hinges(model, workspace, state);
-  VectorXd f = workspace.constraint;
+VectorXd gaps(const Model& model, State& state, Evaluation& evaluation) {
+  evaluate(model, state, evaluation);
+  unwrap_hinges(model, evaluation, state);
+  VectorXd f = evaluation.constraint;
   for (int row = 0; row < f.size(); ++row) f[row] *= row_scale(model, row);
   return f;
 }
@@ -156,14 +156,14 @@ double largest(const VectorXd& f) { return f.size() > 0 ? f.cwiseAbs().maxCoeff(
 
 /// Damped steps until the gaps are closed as far as round-off lets them, or no step helps any more.
 void close_gaps(const Model& model, const std::function<bool()>& interrupted, Bodies& bodies, State& state,
-                Workspace& workspace, AssemblyReport& report) {
-  VectorXd f = gaps(model, state, workspace);
+                Evaluation& evaluation, AssemblyReport& report) {
+  VectorXd f = gaps(model, state, evaluation);
   double mu = 1e-3;
   while (largest(f) > 1e-15 && report.iterations < most_iterations) {
     report.interrupted = interrupted && interrupted();
     if (report.interrupted) return;
     ++report.iterations;
-    const Sparse J = jacobian(model, bodies, workspace);
+    const Sparse J = jacobian(model, bodies, evaluation);
     VectorXd d = damped_step(J, f, mu);
     if (!d.allFinite()) return;
     const double size = d.cwiseAbs().maxCoeff();
@@ -171,7 +171,7 @@ void close_gaps(const Model& model, const std::function<bool()>& interrupted, Bo
     const State before = state;
     const std::vector<Vector3d> center = bodies.center;
     move(model, d, bodies, state);
-    const VectorXd next = gaps(model, state, workspace);
+    const VectorXd next = gaps(model, state, evaluation);
     if (next.norm() < f.norm()) {
       const bool slow = next.norm() > (1.0 - 1e-6) * f.norm() && mu < 1e-9;
       f = next;
@@ -181,17 +181,17 @@ void close_gaps(const Model& model, const std::function<bool()>& interrupted, Bo
     }
     state = before;
     bodies.center = center;
-    evaluate(model, state, workspace);
+    evaluate(model, state, evaluation);
     mu *= 10.0;
     if (mu > 1e6 || largest(f) < 1e-13) return;
   }
 }
 
 /// Turns a body whose axis meets that of its joint the wrong way round; true if there was one.
-bool turn_over(const Model& model, Bodies& bodies, State& state, Workspace& workspace) {
-  evaluate(model, state, workspace);
+bool turn_over(const Model& model, Bodies& bodies, State& state, Evaluation& evaluation) {
+  evaluate(model, state, evaluation);
   for (const Joint& joint : model.joints) {
-    const NodeMotion &a = motion_of(workspace, joint.a.node), &b = motion_of(workspace, joint.b.node);
+    const NodeMotion &a = motion_of(evaluation, joint.a.node), &b = motion_of(evaluation, joint.b.node);
     const Matrix3d R_WA = marker_rotation(joint.a, a), R_WB = marker_rotation(joint.b, b);
     const Matrix3d R_AB = R_WA.transpose() * R_WB;
     const int axis = aligned_axis(joint);
@@ -265,27 +265,27 @@ void set_velocities(const Model& model, const Bodies& bodies, const VectorXd& w,
 
 /// The smallest change of w with B v = −Φ_t, in repeated damped steps: each leaves μ/(σ² + μ) of the error.
 void close_velocities(const Model& model, const Bodies& bodies, const VectorXd& given, State& state,
-                      Workspace& workspace, AssemblyReport& report) {
+                      Evaluation& evaluation, AssemblyReport& report) {
   VectorXd w = given;
   for (int pass = 0; pass < 20; ++pass) {
     set_velocities(model, bodies, w, state);
-    evaluate(model, state, workspace);
-    VectorXd rate = workspace.constraint_rate;
+    evaluate(model, state, evaluation);
+    VectorXd rate = evaluation.constraint_rate;
     for (int row = 0; row < rate.size(); ++row) rate[row] *= row_scale(model, row);
     const double size = std::max(largest(w), largest(rate));
     report.velocity_gap = size > 0.0 ? largest(rate) / size : 0.0;
     if (report.velocity_gap < 1e-14) return;
-    w += damped_step(jacobian(model, bodies, workspace), rate, 1e-9);
+    w += damped_step(jacobian(model, bodies, evaluation), rate, 1e-9);
   }
 }
 
-std::vector<JointGap> open_joints(const Model& model, const Workspace& workspace, double tolerance) {
+std::vector<JointGap> open_joints(const Model& model, const Evaluation& evaluation, double tolerance) {
   std::vector<JointGap> open;
   const auto look = [&](const std::string& name, int first, int size) {
     JointGap gap{name, 0.0, 0.0};
     for (int row = first; row < first + size; ++row) {
       double& value = model.length_row[row] ? gap.length : gap.angle;
-      value = std::max(value, std::abs(workspace.constraint[row]));
+      value = std::max(value, std::abs(evaluation.constraint[row]));
     }
     if (std::max(gap.length / model.length, gap.angle) > tolerance) open.push_back(gap);
   };
@@ -305,9 +305,8 @@ std::string vector_text(const Eigen::Ref<const VectorXd>& v) {
 }  // namespace
 
 AssemblyReport assemble(const Model& model, double tolerance, const std::function<bool()>& interrupted, State& state,
-                        Workspace& workspace) {
+                        Evaluation& evaluation) {
   AssemblyReport report;
-  workspace.displacement.setZero();
   Bodies bodies = find_bodies(model, state);
   const VectorXd given = rigid_velocities(model, bodies, state);
   state.v().setZero();
@@ -318,12 +317,12 @@ AssemblyReport assemble(const Model& model, double tolerance, const std::functio
   for (int attempt = 0; attempt < most_fresh_starts && !report.interrupted; ++attempt) {
     AssemblyReport round;
     for (std::size_t turned = 0; turned <= model.joints.size(); ++turned) {
-      close_gaps(model, interrupted, bodies, state, workspace, round);
-      if (round.interrupted || !turn_over(model, bodies, state, workspace)) break;
+      close_gaps(model, interrupted, bodies, state, evaluation, round);
+      if (round.interrupted || !turn_over(model, bodies, state, evaluation)) break;
     }
     report.iterations += round.iterations;
     report.interrupted = round.interrupted;
-    const double gap = largest(gaps(model, state, workspace));
+    const double gap = largest(gaps(model, state, evaluation));
     if (gap < best_gap) {
       best_gap = gap;
       best = state;
@@ -333,12 +332,11 @@ AssemblyReport assemble(const Model& model, double tolerance, const std::functio
   }
   state = best;
   bodies.center = find_bodies(model, state).center;
-  close_velocities(model, bodies, given, state, workspace, report);
-  evaluate(model, state, workspace);
+  close_velocities(model, bodies, given, state, evaluation, report);
+  evaluate(model, state, evaluation);
   report.gap = best_gap;
   report.closed = best_gap <= tolerance;
-  report.open = open_joints(model, workspace, tolerance);
-  workspace.has_factors = false;
+  report.open = open_joints(model, evaluation, tolerance);
   return report;
 }
 

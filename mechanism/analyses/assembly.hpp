@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "formats/scene/scene.hpp"
-#include "mechanism/equations/workspace.hpp"
+#include "mechanism/equations/evaluation.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
 
@@ -36,7 +36,7 @@ struct AssemblyReport {
 /// turned; from a dead point it goes on from a small turn of all bodies. Then velocities of rigid bodies nearest to the
 /// given ones with B v = −Φ_t. v̇ and λ become 0. Masses and forces play no part.
 [[nodiscard]] AssemblyReport assemble(const Model& model, double tolerance, const std::function<bool()>& interrupted,
-                                      State& state, Workspace& workspace);
+                                      State& state, Evaluation& evaluation);
 
 /// Pose and motion of the part frame of a body: "bar: {position: [..], orientation: [w, x, y, z], ...}" as a scene
 /// takes them under `bodies`. `at_start`: the state that the model was built with, `scene` its poses.

@@ -13,7 +13,8 @@
 #include "mechanism/analyses/modes.hpp"
 #include "mechanism/equations/carriers.hpp"
 #include "mechanism/equations/evaluate.hpp"
-#include "mechanism/equations/newton.hpp"
+#include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/iteration_matrix.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -29,9 +30,9 @@ constexpr double left_open = 1e-7;
 double largest_gap(const Model& model, const Workspace& workspace, double active) {
   double largest = 0.0;
   for (int row = 0; row < model.sizes.constraints; ++row) {
-    if (workspace.active[row] != active) continue;
+    if (workspace.now.active[row] != active) continue;
     const double length = model.length_row[row] ? model.length : 1.0;
-    const double gap = std::abs(workspace.constraint[row]) / length;
+    const double gap = std::abs(workspace.now.constraint[row]) / length;
     if (!(gap <= largest)) largest = gap;
   }
   return largest;
@@ -39,36 +40,35 @@ double largest_gap(const Model& model, const Workspace& workspace, double active
 
 /// Factors [M Bᵀ; B 0] at the state of the last evaluate().
 FactorReport factor_constraints(const Model& model, const State& state, Workspace& workspace) {
-  FactorReport report = factor(model, state, {1.0, 0.0, 0.0}, TangentKind::step, {}, workspace);
+  FactorReport report = workspace.matrix.factor(model, state, {{1.0, 0.0, 0.0}, TangentKind::step, {}}, workspace.now);
   report.regular = report.regular && report.reciprocal_condition > dead_point;
   return report;
 }
 
 StepOutcome close_gaps(const Model& model, const formats::IntegratorSpec& options, State& state, Workspace& workspace,
                        StepReport& report) {
-  workspace.displacement.setZero();
   for (;; ++report.iterations) {
-    evaluate(model, state, workspace);
+    evaluate(model, state, workspace.now);
     report.constraint = largest_gap(model, workspace, 1.0);
     if (!std::isfinite(report.constraint)) return StepOutcome::diverged;
     const bool met = report.constraint <= options.constraint_tolerance;
     const bool still =
-        report.iterations > 0 && workspace.correction.cwiseAbs().maxCoeff() < increment_floor * model.length;
+        report.iterations > 0 && workspace.matrix.correction.cwiseAbs().maxCoeff() < increment_floor * model.length;
     if (met && (report.iterations > 1 || report.constraint < 1e-15 || still)) return StepOutcome::accepted;
     if (report.iterations >= options.max_iterations || still) return StepOutcome::too_many_iterations;
     const FactorReport factors = factor_constraints(model, state, workspace);
     ++report.factorisations;
     report.singular_column = factors.singular_column;
     if (!factors.regular) return StepOutcome::singular;
-    solve_correction(model, -workspace.constraint, workspace);
+    workspace.matrix.solve_projection(model, -workspace.now.constraint, workspace.now);
     const State before = state;
-    retract(model, before, workspace.correction, state);
+    retract(model, before, workspace.matrix.correction, state);
   }
 }
 
 void find_active_rows(const Model& model, State& state, Workspace& workspace) {
   state.active().setOnes();
-  for (const int row : count_mobility(model, state, workspace).redundant) state.active()[row] = 0.0;
+  for (const int row : count_mobility(model, state, workspace.now).redundant) state.active()[row] = 0.0;
 }
 
 /// The joint coordinate that moves most in a motion d that the constraints leave free, or the node.
@@ -77,7 +77,7 @@ std::string name_of_motion(const Model& model, const Workspace& workspace, const
   std::string name;
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
     const ElementMap& map = model.coordinate_maps[i];
-    const Eigen::MatrixXd row = model_rows(model, map, local_view(workspace.coordinates[i].G), workspace);
+    const Eigen::MatrixXd row = model_rows(model, map, local_view(workspace.now.coordinates[i].G), workspace.now);
     double rate = 0.0;
     for (std::size_t k = 0; k < map.coordinates.size(); ++k)
       if (const int at = map.coordinates[k]; at >= 0) rate += row(0, static_cast<Eigen::Index>(k)) * d[at];
@@ -107,9 +107,8 @@ void require_determined(const Model& model, const Mobility& mobility, const std:
   if (mobility.degrees_of_freedom == 0) return;
   std::vector<std::string> names;
   if (model.sizes.velocities() <= most_linearised) {
-    const Eigen::MatrixXd Z = null_space(model, active_jacobian(model, state, workspace));
-    evaluate_coordinates(model, state, workspace);
-    workspace.has_factors = false;
+    const Eigen::MatrixXd Z = null_space(model, active_jacobian(model, state, workspace.now));
+    evaluate_coordinates(model, state, workspace.now);
     for (Eigen::Index k = 0; k < Z.cols(); ++k) {
       const std::string name = name_of_motion(model, workspace, Z.col(k));
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -121,49 +120,45 @@ void require_determined(const Model& model, const Mobility& mobility, const std:
 }
 
 bool solve_rates(const Model& model, State& state, Workspace& workspace) {
-  workspace.displacement.setZero();
-  evaluate(model, state, workspace);
+  evaluate(model, state, workspace.now);
   if (!factor_constraints(model, state, workspace).regular) return false;
   for (int refinement = 0; refinement < 2; ++refinement) {
-    solve_correction(model, -workspace.constraint_rate, workspace);
-    state.v() += workspace.correction;
-    evaluate(model, state, workspace);
+    workspace.matrix.solve_projection(model, -workspace.now.constraint_rate, workspace.now);
+    state.v() += workspace.matrix.correction;
+    evaluate(model, state, workspace.now);
   }
-  evaluate_bias(model, workspace);
-  const Eigen::VectorXd bias = workspace.bias;
+  evaluate_bias(model, workspace.now);
+  const Eigen::VectorXd bias = workspace.now.bias;
   for (int refinement = 0; refinement < 2; ++refinement) {
-    apply_jacobian(model, workspace, state.vdot(), workspace.multipliers);
-    solve_correction(model, -bias - workspace.multipliers, workspace);
-    state.vdot() += workspace.correction;
+    apply_jacobian(model, workspace.now, state.vdot(), workspace.matrix.rows);
+    workspace.matrix.solve_projection(model, -bias - workspace.matrix.rows, workspace.now);
+    state.vdot() += workspace.matrix.correction;
   }
-  evaluate(model, state, workspace);
-  workspace.has_factors = false;
+  evaluate(model, state, workspace.now);
   return state.v().allFinite() && state.vdot().allFinite();
 }
 
 bool solve_multipliers(const Model& model, State& state, Workspace& workspace) {
-  workspace.displacement.setZero();
   for (Eigen::Index row = 0; row < state.lambda().size(); ++row)
     if (state.active()[row] == 0.0) state.lambda()[row] = 0.0;
-  evaluate(model, state, workspace);
+  evaluate(model, state, workspace.now);
   if (!factor_constraints(model, state, workspace).regular) return false;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.sizes.constraints);
   for (int refinement = 0; refinement < 2; ++refinement) {
-    solve_increment(model, none, workspace);
-    state.lambda() += workspace.unknowns.tail(model.sizes.constraints);
-    evaluate(model, state, workspace);
+    workspace.matrix.solve_increment(model, none, workspace.now);
+    state.lambda() += workspace.matrix.multipliers;
+    evaluate(model, state, workspace.now);
   }
-  workspace.has_factors = false;
   return state.lambda().allFinite();
 }
 
 StepReport move_along(const Model& model, const formats::IntegratorSpec& options, const StepEnd& end, State& state,
                       Workspace& workspace) {
   StepReport report;
-  workspace.previous.block() = state.block();
+  workspace.memory.previous.block() = state.block();
   const double h = end.time - state.time();
   const Eigen::VectorXd d = h * state.v() + (0.5 * h * h) * state.vdot();
-  retract(model, workspace.previous, d, state);
+  retract(model, workspace.memory.previous, d, state);
   state.v() += h * state.vdot();
   state.time() = end.time;
   state.load_time() = end.load_time;
@@ -181,12 +176,12 @@ StepReport move_along(const Model& model, const formats::IntegratorSpec& options
   if (report.outcome == StepOutcome::accepted && !solve_rates(model, state, workspace))
     report.outcome = StepOutcome::singular;
   if (report.outcome != StepOutcome::accepted) {
-    state.block() = workspace.previous.block();
+    state.block() = workspace.memory.previous.block();
     return report;
   }
   auto Q = state.Q();
   for (Eigen::Index i = 0; i < Q.cols(); ++i) Q.col(i).normalize();
-  unwrap_hinges(model, workspace, state);
+  unwrap_hinges(model, workspace.now, state);
   return report;
 }
 

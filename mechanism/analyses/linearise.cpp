@@ -17,12 +17,12 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
 /// Adds the blocks of one superelement, internal coordinates kept.
-void add_superelement(const Model& model, std::size_t i, const TangentCoefficients& c, const Workspace& workspace,
+void add_superelement(const Model& model, std::size_t i, const TangentCoefficients& c, const Evaluation& evaluation,
                       MatrixXd& A) {
   const SuperelementBody& body = body_of(model, i);
   MatrixXd local;
-  const Vector3d gravity = workspace.load_factor * model.superelements[i].gravity;
-  uncondensed_tangent(body, workspace.superelements[i], nodes_of(model, i, workspace), gravity, c, TangentKind::exact,
+  const Vector3d gravity = evaluation.load_factor * model.superelements[i].gravity;
+  uncondensed_tangent(body, evaluation.superelements[i], nodes_of(model, i, evaluation), gravity, c, TangentKind::exact,
                       local);
   std::vector<int> rows = model.superelement_maps[i].coordinates;
   for (int k = 0; k < body.modes; ++k) rows.push_back(model.sizes.boundary + model.internal_offset[i] + k);
@@ -30,23 +30,24 @@ void add_superelement(const Model& model, std::size_t i, const TangentCoefficien
     for (Eigen::Index row = 0; row < local.rows(); ++row) A(rows[row], rows[column]) += local(row, column);
 }
 
-/// c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q; the values of the pattern stay in the workspace.
-MatrixXd exact_matrix(const Model& model, const State& state, const TangentCoefficients& c, Workspace& workspace) {
+/// c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q; `matrix` receives the values of the pattern.
+MatrixXd exact_matrix(const Model& model, const State& state, const TangentCoefficients& c, Evaluation& evaluation,
+                      MatrixValues& matrix) {
   const SparsePattern& pattern = *model.pattern;
   const int n = model.sizes.velocities(), boundary = model.sizes.boundary;
   MatrixXd A = MatrixXd::Zero(n, n);
-  evaluate_tangent_without_superelements(model, state, c, {}, workspace);
+  evaluate_tangent_without_superelements(model, state, c, evaluation, matrix);
   for (int j = 0; j < boundary; ++j)
     for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
       const int i = pattern.rows()[at];
-      if (i < boundary) A(i, j) = workspace.matrix_scale * workspace.values[pattern.slot(i, j)];
+      if (i < boundary) A(i, j) = matrix.scale * matrix.values[pattern.slot(i, j)];
     }
-  for (std::size_t i = 0; i < model.superelements.size(); ++i) add_superelement(model, i, c, workspace, A);
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) add_superelement(model, i, c, evaluation, A);
   return A;
 }
 
-/// B from the values that exact_matrix() left.
-MatrixXd jacobian(const Model& model, const State& state, const Workspace& workspace) {
+/// B from the values of a tangent.
+MatrixXd jacobian(const Model& model, const State& state, const MatrixValues& matrix) {
   const SparsePattern& pattern = *model.pattern;
   const std::vector<int> kept = active_rows(state);
   const int boundary = model.sizes.boundary;
@@ -54,7 +55,7 @@ MatrixXd jacobian(const Model& model, const State& state, const Workspace& works
   for (int j = 0; j < boundary; ++j)
     for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
       const int i = pattern.rows()[at];
-      if (i >= boundary && kept[i - boundary] >= 0) B(kept[i - boundary], j) = workspace.values[pattern.slot(i, j)];
+      if (i >= boundary && kept[i - boundary] >= 0) B(kept[i - boundary], j) = matrix.values[pattern.slot(i, j)];
     }
   return B;
 }
@@ -81,10 +82,11 @@ void turn_rows(int row, const Matrix3d& R, Linearisation& l) {
 
 }  // namespace
 
-MatrixXd active_jacobian(const Model& model, const State& state, Workspace& workspace) {
-  evaluate(model, state, workspace);
-  evaluate_tangent_without_superelements(model, state, {0.0, 0.0, 1.0}, {}, workspace);
-  return jacobian(model, state, workspace);
+MatrixXd active_jacobian(const Model& model, const State& state, Evaluation& evaluation) {
+  evaluate(model, state, evaluation);
+  MatrixValues matrix(model);
+  evaluate_tangent_without_superelements(model, state, {0.0, 0.0, 1.0}, evaluation, matrix);
+  return jacobian(model, state, matrix);
 }
 
 std::vector<int> active_rows(const State& state) {
@@ -95,29 +97,28 @@ std::vector<int> active_rows(const State& state) {
   return kept;
 }
 
-Linearisation linearise(const Model& model, const State& state, const Vector3d& omega, Workspace& workspace) {
+Linearisation linearise(const Model& model, const State& state, const Vector3d& omega, Evaluation& evaluation) {
   const int n = model.sizes.velocities();
   if (n > most_linearised)
     throw Error(
         fmt::format("the linearised matrices are dense: {} coordinates, at most {} are possible", n, most_linearised),
         model.name, "use fewer elements, or superelements in place of beams");
-  workspace.displacement.setZero();
-  evaluate(model, state, workspace);
+  evaluate(model, state, evaluation);
   Linearisation l;
   l.r.setZero(n);
-  l.r.head(model.sizes.boundary) = workspace.residual;
+  l.r.head(model.sizes.boundary) = evaluation.residual;
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
     l.r.segment(model.sizes.boundary + model.internal_offset[i], body_of(model, i).modes) =
-        workspace.superelements[i].forces.r_I;
-  l.M = exact_matrix(model, state, {1.0, 0.0, 0.0}, workspace);
-  l.C = exact_matrix(model, state, {0.0, 1.0, 0.0}, workspace);
-  l.K = exact_matrix(model, state, {0.0, 0.0, 1.0}, workspace);
-  l.B = jacobian(model, state, workspace);
-  workspace.has_factors = false;
+        evaluation.superelements[i].forces.r_I;
+  MatrixValues matrix(model);
+  l.M = exact_matrix(model, state, {1.0, 0.0, 0.0}, evaluation, matrix);
+  l.C = exact_matrix(model, state, {0.0, 1.0, 0.0}, evaluation, matrix);
+  l.K = exact_matrix(model, state, {0.0, 0.0, 1.0}, evaluation, matrix);
+  l.B = jacobian(model, state, matrix);
   const Matrix3d W = skew<double>(omega), one = Matrix3d::Identity();
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
-    const NodeMotion& motion = workspace.motion[i];
+    const NodeMotion& motion = evaluation.motion[i];
     if (node.translation >= 0) transform(node.translation, {one, W, 2.0 * W, W * W}, l);
     if (node.rotation < 0) continue;
     const Matrix3d RT = motion.R.transpose(), spin = skew<double>(motion.Omega) * RT;

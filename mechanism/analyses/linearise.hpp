@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "mechanism/equations/workspace.hpp"
+#include "mechanism/equations/evaluation.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
 
@@ -27,12 +27,12 @@ struct Linearisation {
 };
 
 /// At `state` with its v̇ and λ; evaluates first. Dense: throws Error if n exceeds `most_linearised`.
-Linearisation linearise(const Model& model, const State& state, const Eigen::Vector3d& omega, Workspace& workspace);
+Linearisation linearise(const Model& model, const State& state, const Eigen::Vector3d& omega, Evaluation& evaluation);
 
 constexpr int most_linearised = 4000;
 
 /// B of the active constraints for material rotation increments, at `state`, which it evaluates.
-Eigen::MatrixXd active_jacobian(const Model& model, const State& state, Workspace& workspace);
+Eigen::MatrixXd active_jacobian(const Model& model, const State& state, Evaluation& evaluation);
 
 /// Rows of the constraints that are active: the row of B of each, −1 if left out.
 std::vector<int> active_rows(const State& state);

@@ -139,10 +139,10 @@ void normalise(const Model& model, VectorXcd& shape) {
 
 /// Acceleration of the state in axes that turn with ω: ẍ − ω×(2ẋ − ω×x) of what moves, Ω̇ − what a turning axis gives.
 double acceleration_in_axes(const Model& model, const State& state, const Eigen::Vector3d& omega,
-                            const Workspace& workspace) {
+                            const Evaluation& evaluation) {
   double largest = 0.0;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    const NodeMotion& m = workspace.motion[i];
+    const NodeMotion& m = evaluation.motion[i];
     if (model.nodes[i].translation >= 0) largest = std::max(largest, (m.xdd - omega.cross(m.xd)).norm() / model.length);
     if (model.nodes[i].rotation >= 0) largest = std::max(largest, (m.R * m.Omegad - omega.cross(m.R * m.Omega)).norm());
   }
@@ -188,13 +188,14 @@ MatrixXd null_space(const Model& model, const MatrixXd& B) {
   return scale.asDiagonal() * Z;
 }
 
-ModesReport solve_modes(const Model& model, const State& state, const formats::ModesSpec& spec, Workspace& workspace) {
+ModesReport solve_modes(const Model& model, const State& state, const formats::ModesSpec& spec,
+                        Evaluation& evaluation) {
   const Eigen::Vector3d omega = spec.rotation.value_or(Eigen::Vector3d::Zero());
-  const Linearisation l = linearise(model, state, omega, workspace);
+  const Linearisation l = linearise(model, state, omega, evaluation);
   const MatrixXd Z = null_space(model, l.B);
   ModesReport report;
   report.degrees_of_freedom = static_cast<int>(Z.cols());
-  report.largest_acceleration = acceleration_in_axes(model, state, omega, workspace);
+  report.largest_acceleration = acceleration_in_axes(model, state, omega, evaluation);
   if (Z.cols() == 0) return report;
   const Reduced reduced{Z.transpose() * l.M * Z, Z.transpose() * l.C * Z, Z.transpose() * l.K * Z};
   const double s = choose_shift(reduced);
@@ -227,7 +228,7 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
   return report;
 }
 
-formats::ModesTable modes_table(const Model& model, const Workspace& workspace, const ModesReport& report) {
+formats::ModesTable modes_table(const Model& model, const Evaluation& evaluation, const ModesReport& report) {
   const auto modes = static_cast<Eigen::Index>(report.modes.size());
   const auto places = static_cast<Eigen::Index>(model.places.size());
   formats::ModesTable table;
@@ -244,7 +245,7 @@ formats::ModesTable modes_table(const Model& model, const Workspace& workspace, 
     for (Eigen::Index p = 0; p < places; ++p) {
       const Marker& marker = model.places[p].marker;
       const Node& node = model.nodes[marker.node];
-      const Eigen::Vector3d arm = motion_of(workspace, marker.node).R * marker.p;
+      const Eigen::Vector3d arm = motion_of(evaluation, marker.node).R * marker.p;
       Eigen::Vector3cd x = Eigen::Vector3cd::Zero(), turn = x;
       if (node.translation >= 0) x = mode.shape.segment<3>(node.translation);
       if (node.rotation >= 0) turn = mode.shape.segment<3>(node.rotation);

@@ -37,10 +37,10 @@ Eigen::MatrixXd null_space(const Model& model, const Eigen::MatrixXd& B);
 /// others quasi-statically. Dense, O(n³): eigenvalues μ of the inverse (A − sE)⁻¹E of the first-order form, λ = s +
 /// 1/μ, with a shift s > 0 of the size of the lowest frequency, so that low modes keep all their digits beside stiff
 /// ones.
-ModesReport solve_modes(const Model& model, const State& state, const formats::ModesSpec& spec, Workspace& workspace);
+ModesReport solve_modes(const Model& model, const State& state, const formats::ModesSpec& spec, Evaluation& evaluation);
 
 /// Shapes at the places that results report.
-formats::ModesTable modes_table(const Model& model, const Workspace& workspace, const ModesReport& report);
+formats::ModesTable modes_table(const Model& model, const Evaluation& evaluation, const ModesReport& report);
 
 /// One line per mode for people: number, frequency, damping ratio, where it moves most.
 std::vector<std::string> modes_lines(const Model& model, const ModesReport& report);

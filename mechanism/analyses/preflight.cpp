@@ -10,7 +10,7 @@
 #include <Eigen/SVD>
 
 #include "common/text.hpp"
-#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/equations/tangent.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -69,7 +69,7 @@ std::vector<std::vector<int>> massless_groups(const Model& model) {
 }
 
 /// CᵀC of the columns of the group in the scaled iteration matrix.
-MatrixXd column_products(const Model& model, const std::vector<int>& group, const Workspace& workspace) {
+MatrixXd column_products(const Model& model, const std::vector<int>& group, const MatrixValues& matrix) {
   const SparsePattern& pattern = *model.pattern;
   std::map<int, std::vector<std::pair<int, double>>> rows;
   int column = 0;
@@ -79,7 +79,7 @@ MatrixXd column_products(const Model& model, const std::vector<int>& group, cons
         for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
           const int i = pattern.rows()[at];
           const int slot = pattern.slot(i, j);
-          const double value = workspace.values[slot] * model.value_scale[slot];
+          const double value = matrix.values[slot] * model.value_scale[slot];
           if (value != 0.0) rows[i].emplace_back(column, value);
         }
   MatrixXd products = MatrixXd::Zero(column, column);
@@ -152,13 +152,13 @@ std::string groups_text(const std::vector<std::vector<std::string>>& groups) {
 
 }  // namespace
 
-std::vector<MarkerGap> marker_gaps(const Model& model, const Workspace& workspace) {
+std::vector<MarkerGap> marker_gaps(const Model& model, const Evaluation& evaluation) {
   std::vector<MarkerGap> gaps;
   const auto add = [&](const std::string& name, int first, int size) {
     MarkerGap gap{name, 0.0, 0.0};
     double square = 0.0;
     for (int row = first; row < first + size; ++row) {
-      const double value = workspace.constraint[row];
+      const double value = evaluation.constraint[row];
       if (model.length_row[row])
         square += value * value;
       else
@@ -172,30 +172,30 @@ std::vector<MarkerGap> marker_gaps(const Model& model, const Workspace& workspac
   return gaps;
 }
 
-Preflight examine(const Model& model, const Workspace& workspace) {
+Preflight examine(const Model& model, const Evaluation& evaluation) {
   Preflight preflight;
-  preflight.gaps = marker_gaps(model, workspace);
+  preflight.gaps = marker_gaps(model, evaluation);
   preflight.groups = connected_groups(model, find_parts(model));
   add_mass_doubts(model, preflight.doubts);
   add_inertia_doubts(model, preflight.doubts);
   return preflight;
 }
 
-std::vector<std::string> undetermined_motions(const Model& model, const State& state, Workspace& workspace) {
+std::vector<std::string> undetermined_motions(const Model& model, const State& state, Evaluation& evaluation) {
   std::vector<std::string> motions;
   const std::vector<std::vector<int>> groups = massless_groups(model);
   if (groups.empty()) return motions;
-  evaluate_tangent(model, state, {1.0, 1.0, 1.0}, TangentKind::step, {}, workspace);
+  MatrixValues matrix(model);
+  evaluate_tangent(model, state, {{1.0, 1.0, 1.0}, TangentKind::step, {}}, evaluation, matrix);
   for (const std::vector<int>& group : groups) {
     if (group.size() > most_nodes) continue;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(column_products(model, group, workspace));
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(column_products(model, group, matrix));
     const double limit = null_tolerance * std::max(1e-300, eigen.eigenvalues().maxCoeff());
     const Eigen::Index null = (eigen.eigenvalues().array() <= limit).count();
     for (std::size_t i = 0; i < group.size(); ++i)
-      describe(model.nodes[group[i]].name, motion_of(workspace, group[i]).R,
+      describe(model.nodes[group[i]].name, motion_of(evaluation, group[i]).R,
                eigen.eigenvectors().block(6 * static_cast<Eigen::Index>(i), 0, 6, null), motions);
   }
-  workspace.has_factors = false;
   return motions;
 }
 

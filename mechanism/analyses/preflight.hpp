@@ -23,16 +23,16 @@ struct Preflight {
 };
 
 /// Of the state before the projection, after evaluate().
-Preflight examine(const Model& model, const Workspace& workspace);
+Preflight examine(const Model& model, const Evaluation& evaluation);
 
 /// Joints and couplings that are open by more than 1e-9 of the characteristic length or radians, at the last
 /// evaluate().
-std::vector<MarkerGap> marker_gaps(const Model& model, const Workspace& workspace);
+std::vector<MarkerGap> marker_gaps(const Model& model, const Evaluation& evaluation);
 
 /// Motions of massless bodies that no constraint, stiffness or damping determines: "'hub' can turn about [0, 0, 1]". A
 /// null vector of the columns of [M + C + K; B] that belong to massless nodes ([GA00] section 4: condition for a
 /// regular system of equations). At the state of the last evaluate(); overwrites the iteration matrix.
-std::vector<std::string> undetermined_motions(const Model& model, const State& state, Workspace& workspace);
+std::vector<std::string> undetermined_motions(const Model& model, const State& state, Evaluation& evaluation);
 
 /// Lines "quantity, value" of a table for people.
 struct PreflightLine {

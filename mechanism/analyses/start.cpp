@@ -9,7 +9,8 @@
 #include "common/text.hpp"
 #include "mechanism/equations/carriers.hpp"
 #include "mechanism/equations/evaluate.hpp"
-#include "mechanism/equations/newton.hpp"
+#include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/iteration_matrix.hpp"
 #include "mechanism/solver/matrix_rank.hpp"
 #include "mechanism/step/step.hpp"
 #include "mechanism/step/step_control.hpp"
@@ -47,14 +48,13 @@ double largest_velocity(const Model& model, const State& state) {
   return largest;
 }
 
-void require_factors(const Model& model, const FactorReport& factors, const std::string& where, Workspace& workspace) {
+void require_factors(const Model& model, const FactorReport& factors, const std::string& where) {
   if (factors.regular && factors.reciprocal_condition > 1e-300) return;
   std::string name = "a direction of the scene";
   if (factors.singular_column >= 0)
     name = factors.singular_column < model.sizes.boundary
                ? coordinate_name(model, factors.singular_column)
                : constraint_name(model, factors.singular_column - model.sizes.boundary);
-  workspace.has_factors = false;
   throw Error(fmt::format("{} has no mass, no stiffness and no constraint", name), where,
               "give the body mass or inertia there, or hold the direction with a joint");
 }
@@ -63,8 +63,8 @@ void require_factors(const Model& model, const FactorReport& factors, const std:
 /// ones.
 void require_facing(const Model& model, const std::string& where, const Workspace& workspace) {
   for (const Joint& joint : model.joints) {
-    const Eigen::Matrix3d R_AB = marker_rotation(joint.a, motion_of(workspace, joint.a.node)).transpose() *
-                                 marker_rotation(joint.b, motion_of(workspace, joint.b.node));
+    const Eigen::Matrix3d R_AB = marker_rotation(joint.a, motion_of(workspace.now, joint.a.node)).transpose() *
+                                 marker_rotation(joint.b, motion_of(workspace.now, joint.b.node));
     const int axis = aligned_axis(joint);
     const bool hinge = axis >= 0 && R_AB(axis, axis) <= 0.0;
     const bool fixed = keeps_orientation(joint) && R_AB.diagonal().minCoeff() <= 0.0;
@@ -79,7 +79,7 @@ void require_facing(const Model& model, const std::string& where, const Workspac
 
 /// Massless bodies that nothing moves have no equation.
 void require_determined(const Model& model, const std::string& where, const State& state, Workspace& workspace) {
-  const std::vector<std::string> motions = undetermined_motions(model, state, workspace);
+  const std::vector<std::string> motions = undetermined_motions(model, state, workspace.now);
   if (motions.empty()) return;
   throw Error(fmt::format("nothing determines the motion of massless bodies: {}", join(motions, ", ")), where,
               "tie them with fixed joints, hold these directions with other joints or springs, or give them mass");
@@ -100,35 +100,35 @@ std::string gaps_text(const std::vector<MarkerGap>& gaps) {
 Projection project_initial_state(const Model& model, double tolerance, double step, const std::string& where,
                                  State& state, Workspace& workspace) {
   Projection projection;
-  workspace.displacement.setZero();
   for (int iteration = 0;; ++iteration) {
-    evaluate(model, state, workspace);
-    const Violation worst = largest_violation(model, workspace.constraint);
+    evaluate(model, state, workspace.now);
+    const Violation worst = largest_violation(model, workspace.now.constraint);
     if (iteration == 0) {
       projection.position = worst.value;
       if (!(worst.value <= tolerance))
         throw Error(
             fmt::format("joint '{}' is not met at the start: off by {:.3g} {} (initial_tolerance allows {:.3g}). {}",
                         constraint_name(model, worst.row), worst.value, "of the characteristic length or radians",
-                        tolerance, gaps_text(marker_gaps(model, workspace))),
+                        tolerance, gaps_text(marker_gaps(model, workspace.now))),
             where, "correct poses or markers, or raise initial_tolerance to let the program move the bodies");
     }
     if (worst.value <= 1e-14 || iteration == 20) break;
-    require_factors(model, factor(model, state, {1.0, 0.0, step * step}, TangentKind::step, {}, workspace), where,
-                    workspace);
-    solve_correction(model, -workspace.constraint, workspace);
+    require_factors(
+        model, workspace.matrix.factor(model, state, {{1.0, 0.0, step * step}, TangentKind::step, {}}, workspace.now),
+        where);
+    workspace.matrix.solve_projection(model, -workspace.now.constraint, workspace.now);
     const State before = state;
-    retract(model, before, workspace.correction, state);
-    if (workspace.correction.head(model.sizes.boundary).cwiseAbs().maxCoeff() < 1e-15 * model.length) break;
+    retract(model, before, workspace.matrix.correction, state);
+    if (workspace.matrix.correction.head(model.sizes.boundary).cwiseAbs().maxCoeff() < 1e-15 * model.length) break;
   }
-  const Violation left = largest_violation(model, workspace.constraint);
+  const Violation left = largest_violation(model, workspace.now.constraint);
   if (!(left.value <= 1e-9))
     throw Error(fmt::format("the joints cannot be closed: '{}' stays open by {:.3g}", constraint_name(model, left.row),
                             left.value),
                 where, "correct the poses of the bodies");
   require_facing(model, where, workspace);
   const double velocity = largest_velocity(model, state);
-  const Violation worst = largest_violation(model, workspace.constraint_rate);
+  const Violation worst = largest_violation(model, workspace.now.constraint_rate);
   projection.velocity = velocity > 0.0 ? worst.value / velocity : 0.0;
   if (!(projection.velocity <= tolerance))
     throw Error(
@@ -137,50 +137,50 @@ Projection project_initial_state(const Model& model, double tolerance, double st
             constraint_name(model, worst.row), projection.velocity, tolerance),
         where, "give velocities that agree with the joints, or raise initial_tolerance to let the program change them");
   if (worst.value > 0.0) {
-    require_factors(model, factor(model, state, {1.0, 0.0, step * step}, TangentKind::step, {}, workspace), where,
-                    workspace);
-    solve_correction(model, -workspace.constraint_rate, workspace);
-    state.v() += workspace.correction;
+    require_factors(
+        model, workspace.matrix.factor(model, state, {{1.0, 0.0, step * step}, TangentKind::step, {}}, workspace.now),
+        where);
+    workspace.matrix.solve_projection(model, -workspace.now.constraint_rate, workspace.now);
+    state.v() += workspace.matrix.correction;
   }
-  workspace.has_factors = false;
   return projection;
 }
 
 bool solve_accelerations(const Model& model, double step, const std::string& where, State& state,
                          Workspace& workspace) {
-  workspace.displacement.setZero();
   state.vdot().setZero();
   state.lambda().setZero();
-  evaluate(model, state, workspace);
-  FactorReport factors = factor(model, state, {1.0, 0.0, 0.0}, TangentKind::step, {}, workspace);
+  evaluate(model, state, workspace.now);
+  FactorReport factors = workspace.matrix.factor(model, state, {{1.0, 0.0, 0.0}, TangentKind::step, {}}, workspace.now);
   const bool massless = !factors.regular || factors.reciprocal_condition < massless_condition;
   if (massless) {
-    factors = factor(model, state, {1.0, 0.0, step * step}, TangentKind::step, {}, workspace);
-    require_factors(model, factors, where, workspace);
+    factors = workspace.matrix.factor(model, state, {{1.0, 0.0, step * step}, TangentKind::step, {}}, workspace.now);
+    require_factors(model, factors, where);
   }
   // With friction the forces depend on the multipliers: Newton's iteration, otherwise one refinement.
   const bool rubs = !model.frictions.empty();
   bool settled = !rubs;
   for (int refinement = 0; refinement < (rubs ? most_refinements : 2); ++refinement) {
-    if (refinement > 0) evaluate(model, state, workspace);
+    if (refinement > 0) evaluate(model, state, workspace.now);
     if (refinement > 0 && rubs)
-      require_factors(model,
-                      factor(model, state, {1.0, 0.0, massless ? step * step : 0.0}, TangentKind::step, {}, workspace),
-                      where, workspace);
-    evaluate_bias(model, workspace);
-    apply_jacobian(model, workspace, state.vdot(), workspace.multipliers);
-    workspace.bias = -workspace.bias - workspace.multipliers;
-    solve_increment(model, workspace.bias, workspace);
-    state.vdot() += workspace.increment;
-    state.lambda() += workspace.unknowns.tail(model.sizes.constraints);
-    settled = settled || workspace.unknowns.tail(model.sizes.constraints).norm() <= 1e-12 * state.lambda().norm();
+      require_factors(
+          model,
+          workspace.matrix.factor(model, state, {{1.0, 0.0, massless ? step * step : 0.0}, TangentKind::step, {}},
+                                  workspace.now),
+          where);
+    evaluate_bias(model, workspace.now);
+    apply_jacobian(model, workspace.now, state.vdot(), workspace.matrix.rows);
+    workspace.matrix.rows = -workspace.now.bias - workspace.matrix.rows;
+    workspace.matrix.solve_increment(model, workspace.matrix.rows, workspace.now);
+    state.vdot() += workspace.matrix.increment;
+    state.lambda() += workspace.matrix.multipliers;
+    settled = settled || workspace.matrix.multipliers.norm() <= 1e-12 * state.lambda().norm();
     if (rubs && settled) break;
   }
   if (!settled)
     throw Error("the accelerations do not settle: reactions and friction of the joints drive each other", where,
                 "reduce the coefficients of friction, or raise their velocity");
-  workspace.has_factors = false;
-  evaluate(model, state, workspace);
+  evaluate(model, state, workspace.now);
   return massless;
 }
 
@@ -196,18 +196,17 @@ void start_algorithmic_acceleration(const Model& model, double shift, double ste
   const Eigen::VectorXd d = epsilon * state.v() + 0.5 * epsilon * epsilon * state.vdot();
   retract(model, state, d, ahead);
   ahead.v() += epsilon * state.vdot();
-  evaluate(model, ahead, workspace);
-  evaluate_bias(model, workspace);
+  evaluate(model, ahead, workspace.now);
+  evaluate_bias(model, workspace.now);
   // With M + h/2 C + h²/4 K in place of M: equal to it up to O(h) where the step resolves the motion; elsewhere the
   // rate of the acceleration would grow with the frequency squared and mean nothing.
-  const FactorReport factors =
-      factor(model, ahead, {1.0, 0.5 * step, 0.25 * step * step}, TangentKind::step, {}, workspace);
-  require_factors(model, factors, where, workspace);
-  apply_jacobian(model, workspace, ahead.vdot(), workspace.multipliers);
-  workspace.bias = -workspace.bias - workspace.multipliers;
-  solve_increment(model, workspace.bias, workspace);
-  workspace.has_factors = false;
-  state.algorithmic() += (shift * step / epsilon) * workspace.increment;
+  const FactorReport factors = workspace.matrix.factor(
+      model, ahead, {{1.0, 0.5 * step, 0.25 * step * step}, TangentKind::step, {}}, workspace.now);
+  require_factors(model, factors, where);
+  apply_jacobian(model, workspace.now, ahead.vdot(), workspace.matrix.rows);
+  workspace.matrix.rows = -workspace.now.bias - workspace.matrix.rows;
+  workspace.matrix.solve_increment(model, workspace.matrix.rows, workspace.now);
+  state.algorithmic() += (shift * step / epsilon) * workspace.matrix.increment;
 }
 
 StartReport start(const formats::Scene& scene, const Model& model, State& state, Workspace& workspace) {
@@ -216,8 +215,8 @@ StartReport start(const formats::Scene& scene, const Model& model, State& state,
   // Only regularises massless directions, where statics has no step of its own.
   const double step = dynamics ? scene.integrator.step : 1e-3;
   StartReport report;
-  report.mobility = count_mobility(model, state, workspace);
-  report.preflight = examine(model, workspace);
+  report.mobility = count_mobility(model, state, workspace.now);
+  report.preflight = examine(model, workspace.now);
   require_determined(model, where, state, workspace);
   for (const int row : report.mobility.redundant) state.active()[row] = 0.0;
   report.projection = project_initial_state(model, scene.initial_tolerance, step, where, state, workspace);
@@ -230,13 +229,13 @@ StartReport start(const formats::Scene& scene, const Model& model, State& state,
 }
 
 void begin(const Model& model, State& state, Workspace& workspace) {
-  evaluate(model, state, workspace);
+  evaluate(model, state, workspace.now);
   state.work() = state.dissipated() = 0.0;
-  state.initial_energy() = evaluate_energy(model, workspace).total();
-  state.load_power() = workspace.load_power;
-  state.damping_power() = workspace.damping_power;
-  for (int k = 0; k < 3; ++k) state.force_scale(k) = workspace.force_scale[k];
-  unwrap_hinges(model, workspace, state);
+  state.initial_energy() = evaluate_energy(model, workspace.now).total();
+  state.load_power() = workspace.now.load_power;
+  state.damping_power() = workspace.now.damping_power;
+  for (int k = 0; k < 3; ++k) state.force_scale(k) = workspace.now.force_scale[k];
+  unwrap_hinges(model, workspace.now, state);
 }
 
 void pass_breakpoint(const Model& model, const formats::Scene& scene, State& state, Workspace& workspace) {
@@ -246,12 +245,12 @@ void pass_breakpoint(const Model& model, const formats::Scene& scene, State& sta
     const double before = function(state.time() - side), after = function(state.time() + side);
     jumps = jumps || std::abs(after - before) > 1e-6 * std::max(std::abs(after), std::abs(before));
   };
-  for (auto& components : workspace.load_functions)
+  for (auto& components : workspace.now.load_functions)
     for (TimeFunction& function : components) look_at(function);
-  for (std::optional<TimeFunction>& function : workspace.spring_forces)
+  for (std::optional<TimeFunction>& function : workspace.now.spring_forces)
     if (function) look_at(*function);
   if (!jumps) return;
-  workspace.trend.known = workspace.trend.smooth = false;
+  workspace.memory.predictor.forget();
   state.load_time() = state.time() + side;
   solve_accelerations(model, scene.integrator.step, scene.file, state, workspace);
   const AlphaParameters alpha = alpha_parameters(scene.integrator);
@@ -259,9 +258,9 @@ void pass_breakpoint(const Model& model, const formats::Scene& scene, State& sta
   start_algorithmic_acceleration(model, alpha.alpha_m - alpha.alpha_f, scene.integrator.step, scene.file, state,
                                  workspace);
   rebuild_algorithmic_acceleration(step, state);
-  evaluate(model, state, workspace);
-  state.load_power() = workspace.load_power;
-  state.damping_power() = workspace.damping_power;
+  evaluate(model, state, workspace.now);
+  state.load_power() = workspace.now.load_power;
+  state.damping_power() = workspace.now.damping_power;
 }
 
 }  // namespace tisserand::mechanism

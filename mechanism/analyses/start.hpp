@@ -6,9 +6,9 @@
 #include "formats/scene/scene.hpp"
 #include "mechanism/analyses/preflight.hpp"
 #include "mechanism/equations/mobility.hpp"
-#include "mechanism/equations/workspace.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
+#include "mechanism/step/workspace.hpp"
 
 namespace tisserand::mechanism {
 

@@ -9,7 +9,8 @@
 
 #include "mechanism/analyses/steady_rotation.hpp"
 #include "mechanism/equations/evaluate.hpp"
-#include "mechanism/equations/newton.hpp"
+#include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/iteration_matrix.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -21,12 +22,12 @@ double largest_of(const Eigen::Ref<const Eigen::VectorXd>& values) {
 }
 
 double largest_residual(const Model& model, const Workspace& workspace) {
-  return largest_of(workspace.residual.cwiseProduct(model.equation_scale.matrix().head(model.sizes.boundary)));
+  return largest_of(workspace.now.residual.cwiseProduct(model.equation_scale.matrix().head(model.sizes.boundary)));
 }
 
 double largest_internal_residual(const Workspace& workspace) {
   double largest = 0.0;
-  for (const SuperelementScratch& scratch : workspace.superelements) {
+  for (const SuperelementScratch& scratch : workspace.now.superelements) {
     const double r = largest_of(scratch.forces.r_I);
     if (!(r <= largest)) largest = r;
   }
@@ -35,25 +36,26 @@ double largest_internal_residual(const Workspace& workspace) {
 
 /// Factors the stiffness at the state that was evaluated; names the motion that nothing holds, or nothing.
 std::string free_direction(const Model& model, const State& state, Workspace& workspace) {
-  const FactorReport factors = factor(model, state, {0.0, 0.0, 1.0}, TangentKind::exact, {}, workspace);
+  const FactorReport factors =
+      workspace.matrix.factor(model, state, {{0.0, 0.0, 1.0}, TangentKind::exact, {}}, workspace.now);
   if (factors.regular && factors.reciprocal_condition >= free_motion_condition) return {};
   if (factors.singular_column >= 0 && factors.singular_column < model.sizes.boundary)
     return coordinate_name(model, factors.singular_column);
-  return factors.regular ? weakest_equation(model, workspace) : std::string("a rigid motion");
+  return factors.regular ? workspace.matrix.weakest_equation(model) : std::string("a rigid motion");
 }
 
 /// Newton's iteration for one load factor.
 StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
                         State& state, Workspace& workspace, StaticsReport& report) {
   for (int iteration = 0;; ++iteration) {
-    evaluate(model, state, workspace);
+    evaluate(model, state, workspace.now);
     report.residual = largest_residual(model, workspace);
-    report.constraint = largest_of(workspace.constraint);
-    const double force = std::max(workspace.force_scale[0], workspace.force_scale[1] / model.length);
+    report.constraint = largest_of(workspace.now.constraint);
+    const double force = std::max(workspace.now.force_scale[0], workspace.now.force_scale[1] / model.length);
     // Positions are rounded to ε length, which the stiffness turns into forces that no iteration can remove.
     const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
     const bool forces = report.residual <= std::max(options.tolerance * force, round_off) &&
-                        largest_internal_residual(workspace) <= options.tolerance * workspace.force_scale[2];
+                        largest_internal_residual(workspace) <= options.tolerance * workspace.now.force_scale[2];
     if (iteration > 0 && forces && report.constraint <= options.tolerance * model.length) return StepOutcome::accepted;
     if (!std::isfinite(report.residual)) return StepOutcome::diverged;
     report.interrupted = interrupted && interrupted();
@@ -61,31 +63,28 @@ StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options,
     report.explanation = free_direction(model, state, workspace);
     // Only the first state is one of equilibrium: a later one may be singular because the load step is too long.
     if (!report.explanation.empty()) return iteration == 0 ? StepOutcome::singular : StepOutcome::diverged;
-    workspace.bias = -workspace.constraint;
-    solve_increment(model, workspace.bias, workspace);
-    state.lambda() += workspace.unknowns.tail(model.sizes.constraints);
+    workspace.matrix.solve_increment(model, -workspace.now.constraint, workspace.now);
+    state.lambda() += workspace.matrix.multipliers;
     const State before = state;
-    retract(model, before, workspace.increment, state);
+    retract(model, before, workspace.matrix.increment, state);
     ++report.iterations;
   }
 }
 
 }  // namespace
 
-void accept_equilibrium(const Model& model, State& state, const Workspace& workspace) {
+void accept_equilibrium(const Model& model, State& state, const Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    state.frames().col(i) = wxyz(Eigen::Quaterniond(workspace.superelements[i].motion.R0).normalized());
+    state.frames().col(i) = wxyz(Eigen::Quaterniond(evaluation.superelements[i].motion.R0).normalized());
   for (Eigen::Index i = 0; i < state.Q().cols(); ++i) state.Q().col(i).normalize();
-  unwrap_hinges(model, workspace, state);
+  unwrap_hinges(model, evaluation, state);
 }
 
 std::string free_motion(const Model& model, State state, Workspace& workspace) {
   state.v().setZero();
   state.vdot().setZero();
-  workspace.displacement.setZero();
-  evaluate(model, state, workspace);
+  evaluate(model, state, workspace.now);
   std::string direction = free_direction(model, state, workspace);
-  workspace.has_factors = false;
   return direction;
 }
 
@@ -109,21 +108,20 @@ StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& opti
 
 StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
                             State& state, Workspace& workspace) {
-  if (options.rotation) return solve_steady_rotation(model, options, interrupted, state, workspace);
+  if (options.rotation) return solve_steady_rotation(model, options, interrupted, state, workspace.now);
   StaticsReport report;
   state.v().setZero();
   state.vdot().setZero();
-  workspace.displacement.setZero();
   double reached = 0.0;
   double size = 1.0 / std::max(1, options.load_steps);
   int halvings = 0;
   while (reached < 1.0) {
     const State before = state;
-    workspace.load_factor = std::min(1.0, reached + size);
+    workspace.now.load_factor = std::min(1.0, reached + size);
     report.outcome = equilibrate(model, options, interrupted, state, workspace, report);
     if (report.outcome == StepOutcome::accepted) {
-      reached = workspace.load_factor;
-      accept_equilibrium(model, state, workspace);
+      reached = workspace.now.load_factor;
+      accept_equilibrium(model, state, workspace.now);
       ++report.load_steps;
       continue;
     }
@@ -131,8 +129,7 @@ StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& opti
     if (report.interrupted || report.outcome == StepOutcome::singular || ++halvings > most_halvings) break;
     size *= 0.5;
   }
-  workspace.load_factor = 1.0;
-  workspace.has_factors = false;
+  workspace.now.load_factor = 1.0;
   explain_statics(reached, size, report);
   return report;
 }

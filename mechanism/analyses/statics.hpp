@@ -5,10 +5,10 @@
 #include <string>
 
 #include "formats/scene/scene.hpp"
-#include "mechanism/equations/workspace.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
 #include "mechanism/step/step.hpp"
+#include "mechanism/step/workspace.hpp"
 
 namespace tisserand::mechanism {
 
@@ -42,7 +42,7 @@ std::string free_motion(const Model& model, State state, Workspace& workspace);
                                           Workspace& workspace);
 
 /// Takes the positions of the last evaluate() as those that floating frames and angles go on from.
-void accept_equilibrium(const Model& model, State& state, const Workspace& workspace);
+void accept_equilibrium(const Model& model, State& state, const Evaluation& evaluation);
 
 /// Completes the explanation of an outcome other than accepted: `reached` of the load, smallest load step.
 void explain_statics(double reached, double step, StaticsReport& report);

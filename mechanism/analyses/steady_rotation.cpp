@@ -9,7 +9,8 @@
 #include <Eigen/LU>
 
 #include "mechanism/analyses/linearise.hpp"
-#include "mechanism/equations/newton.hpp"
+#include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/iteration_matrix.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -21,12 +22,12 @@ using Eigen::VectorXd;
 constexpr double turning_floor = 1e-13;
 
 /// Largest internal force of any single term: also the inertia of the boundary, which excites internal modes.
-double internal_scale(const Model& model, const Workspace& workspace) {
-  double scale = workspace.force_scale[2];
+double internal_scale(const Model& model, const Evaluation& evaluation) {
+  double scale = evaluation.force_scale[2];
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const SuperelementBody& body = body_of(model, i);
     if (body.modes == 0) continue;
-    const VectorXd acceleration = workspace.superelements[i].motion.acceleration_B.cwiseAbs();
+    const VectorXd acceleration = evaluation.superelements[i].motion.acceleration_B.cwiseAbs();
     scale = std::max(scale, (body.M_IB.cwiseAbs() * acceleration).maxCoeff());
   }
   return scale;
@@ -34,23 +35,23 @@ double internal_scale(const Model& model, const Workspace& workspace) {
 
 /// What the iteration tests: largest force (moments over the length) and internal force against their scales.
 bool balanced(const Model& model, const formats::StaticsSpec& options, const Linearisation& l,
-              const Workspace& workspace, StaticsReport& report) {
+              const Evaluation& evaluation, StaticsReport& report) {
   const auto boundary = l.r.head(model.sizes.boundary);
   const auto internal = l.r.tail(l.r.size() - model.sizes.boundary);
   report.residual = 0.0;
   for (Eigen::Index i = 0; i < boundary.size(); ++i)
     report.residual = std::max(report.residual, std::abs(boundary[i]) * model.equation_scale[i]);
-  report.constraint = workspace.constraint.size() > 0 ? workspace.constraint.cwiseAbs().maxCoeff() : 0.0;
-  const double force = std::max(workspace.force_scale[0], workspace.force_scale[1] / model.length);
+  report.constraint = evaluation.constraint.size() > 0 ? evaluation.constraint.cwiseAbs().maxCoeff() : 0.0;
+  const double force = std::max(evaluation.force_scale[0], evaluation.force_scale[1] / model.length);
   const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
   const double largest_internal = internal.size() > 0 ? internal.cwiseAbs().maxCoeff() : 0.0;
   return report.residual <= std::max(options.tolerance * force, round_off) &&
-         largest_internal <= options.tolerance * internal_scale(model, workspace) &&
+         largest_internal <= options.tolerance * internal_scale(model, evaluation) &&
          report.constraint <= options.tolerance * model.length;
 }
 
 /// Solves [K Bᵀ; B 0][ξ; δλ] = [−r; −Φ] in scaled equations. False, with the name of the direction, if it is singular.
-bool solve(const Model& model, const State& state, const Linearisation& l, const Workspace& workspace, VectorXd& xi,
+bool solve(const Model& model, const State& state, const Linearisation& l, const Evaluation& evaluation, VectorXd& xi,
            VectorXd& multipliers, std::string& free) {
   const Eigen::Index n = l.K.rows(), m = l.B.rows();
   const double stiffness = std::max(l.K.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
@@ -61,7 +62,7 @@ bool solve(const Model& model, const State& state, const Linearisation& l, const
   for (std::size_t row = 0; row < rows.size(); ++row) {
     if (rows[row] < 0) continue;
     scale[n + rows[row]] = model.equation_scale[model.sizes.boundary + static_cast<Eigen::Index>(row)];
-    right[n + rows[row]] = -workspace.constraint[row];
+    right[n + rows[row]] = -evaluation.constraint[row];
   }
   MatrixXd A = MatrixXd::Zero(n + m, n + m);
   A.topLeftCorner(n, n) = l.K / stiffness;
@@ -82,12 +83,12 @@ bool solve(const Model& model, const State& state, const Linearisation& l, const
 }
 
 /// Rotation increments in world axes to the material ones of retract().
-void apply(const Model& model, const VectorXd& xi, const VectorXd& multipliers, const Workspace& workspace,
+void apply(const Model& model, const VectorXd& xi, const VectorXd& multipliers, const Evaluation& evaluation,
            State& state) {
   VectorXd d = xi;
   for (std::size_t i = 0; i < model.nodes.size(); ++i)
     if (const int row = model.nodes[i].rotation; row >= 0)
-      d.segment<3>(row) = (workspace.motion[i].R.transpose() * xi.segment<3>(row)).eval();
+      d.segment<3>(row) = (evaluation.motion[i].R.transpose() * xi.segment<3>(row)).eval();
   const State before = state;
   retract(model, before, d, state);
   const std::vector<int> rows = active_rows(state);
@@ -96,22 +97,22 @@ void apply(const Model& model, const VectorXd& xi, const VectorXd& multipliers, 
 }
 
 StepOutcome balance(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted, State& state,
-                    Workspace& workspace, StaticsReport& report) {
+                    Evaluation& evaluation, StaticsReport& report) {
   formats::RotationSpec rotation = *options.rotation;
-  rotation.angular_velocity *= std::sqrt(workspace.load_factor);
+  rotation.angular_velocity *= std::sqrt(evaluation.load_factor);
   VectorXd xi, multipliers;
   for (int iteration = 0;; ++iteration) {
     turn_steadily(model, rotation, state);
-    const Linearisation l = linearise(model, state, rotation.angular_velocity, workspace);
-    const bool done = balanced(model, options, l, workspace, report);
+    const Linearisation l = linearise(model, state, rotation.angular_velocity, evaluation);
+    const bool done = balanced(model, options, l, evaluation, report);
     if (iteration > 0 && (done || xi.cwiseAbs().maxCoeff() < turning_floor * model.length))
       return StepOutcome::accepted;
     if (!l.r.allFinite()) return StepOutcome::diverged;
     report.interrupted = interrupted && interrupted();
     if (iteration == options.max_iterations || report.interrupted) return StepOutcome::too_many_iterations;
-    if (!solve(model, state, l, workspace, xi, multipliers, report.explanation))
+    if (!solve(model, state, l, evaluation, xi, multipliers, report.explanation))
       return iteration == 0 ? StepOutcome::singular : StepOutcome::diverged;
-    apply(model, xi, multipliers, workspace, state);
+    apply(model, xi, multipliers, evaluation, state);
     ++report.iterations;
   }
 }
@@ -138,17 +139,17 @@ void turn_steadily(const Model& model, const formats::RotationSpec& rotation, St
 }
 
 StaticsReport solve_steady_rotation(const Model& model, const formats::StaticsSpec& options,
-                                    const Interrupt& interrupted, State& state, Workspace& workspace) {
+                                    const Interrupt& interrupted, State& state, Evaluation& evaluation) {
   StaticsReport report;
   double reached = 0.0, size = 1.0 / std::max(1, options.load_steps);
   int halvings = 0;
   while (reached < 1.0) {
     const State before = state;
-    workspace.load_factor = std::min(1.0, reached + size);
-    report.outcome = balance(model, options, interrupted, state, workspace, report);
+    evaluation.load_factor = std::min(1.0, reached + size);
+    report.outcome = balance(model, options, interrupted, state, evaluation, report);
     if (report.outcome == StepOutcome::accepted) {
-      reached = workspace.load_factor;
-      accept_equilibrium(model, state, workspace);
+      reached = evaluation.load_factor;
+      accept_equilibrium(model, state, evaluation);
       ++report.load_steps;
       continue;
     }
@@ -156,8 +157,7 @@ StaticsReport solve_steady_rotation(const Model& model, const formats::StaticsSp
     if (report.interrupted || report.outcome == StepOutcome::singular || ++halvings > most_halvings) break;
     size *= 0.5;
   }
-  workspace.load_factor = 1.0;
-  workspace.has_factors = false;
+  evaluation.load_factor = 1.0;
   explain_statics(reached, size, report);
   return report;
 }

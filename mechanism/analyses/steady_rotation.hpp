@@ -3,7 +3,7 @@
 
 #include "formats/scene/scene.hpp"
 #include "mechanism/analyses/statics.hpp"
-#include "mechanism/equations/workspace.hpp"
+#include "mechanism/equations/evaluation.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
 
@@ -16,6 +16,6 @@ void turn_steadily(const Model& model, const formats::RotationSpec& rotation, St
 /// `linearise` (dense, with the softening of the rotation); in load steps, in which the rate grows with the root of the
 /// load. The state ends with the velocities and accelerations of the rotation.
 [[nodiscard]] StaticsReport solve_steady_rotation(const Model& model, const formats::StaticsSpec& options,
-                                                  const Interrupt& interrupted, State& state, Workspace& workspace);
+                                                  const Interrupt& interrupted, State& state, Evaluation& evaluation);
 
 }  // namespace tisserand::mechanism

@@ -15,8 +15,8 @@
 
 #include "common/error.hpp"
 #include "mechanism/bdf/bdf.hpp"
+#include "mechanism/bdf/index1.hpp"
 #include "mechanism/equations/evaluate.hpp"
-#include "mechanism/equations/index1.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -108,9 +108,9 @@ struct BdfCallbacks {
       data.equations.load(t, data.window, values_of(y));
       if (!data.equations.try_accelerate()) return 1;  // CVODE may try a shorter step
       data.equations.rates(values_of(y), values_of(ydot));
-      values_of(ydot)[data.size - 2] = data.workspace.load_power;
-      values_of(ydot)[data.size - 1] = data.workspace.damping_power;
-      const bool finite = std::isfinite(data.state.vdot().sum()) && std::isfinite(data.workspace.load_power);
+      values_of(ydot)[data.size - 2] = data.workspace.now.load_power;
+      values_of(ydot)[data.size - 1] = data.workspace.now.damping_power;
+      const bool finite = std::isfinite(data.state.vdot().sum()) && std::isfinite(data.workspace.now.load_power);
       return finite ? 0 : 1;
     });
   }

@@ -16,7 +16,8 @@
 #include "mechanism/build/superelements.hpp"
 #include "mechanism/build/virtual_bodies.hpp"
 #include "mechanism/equations/evaluate.hpp"
-#include "mechanism/equations/newton.hpp"
+#include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/iteration_matrix.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -344,37 +345,38 @@ class Builder {
       if (model.nodes[i].rotation >= 0) state.v().segment<3>(model.nodes[i].rotation) = m.Omega;
     }
     for (std::size_t i = 0; i < frames_.size(); ++i) state.frames().col(i) = wxyz(frames_[i]);
-    Workspace workspace(model);
-    measure_start(model, state, workspace);
-    scale(model, state, workspace);
+    Evaluation evaluation(model);
+    measure_start(model, state, evaluation);
+    scale(model, state, evaluation);
     return state;
   }
 
   /// Angles at the start, and the constants that are values at the start.
-  static void measure_start(Model& model, State& state, Workspace& workspace) {
-    evaluate(model, state, workspace);
-    unwrap_hinges(model, workspace, state);
-    update_modal_nodes(model, workspace);
-    evaluate_coordinates(model, state, workspace);
+  static void measure_start(Model& model, State& state, Evaluation& evaluation) {
+    evaluate(model, state, evaluation);
+    unwrap_hinges(model, evaluation, state);
+    update_modal_nodes(model, evaluation);
+    evaluate_coordinates(model, state, evaluation);
     for (Coupling& coupling : model.couplings)
       for (const CouplingTerm& term : coupling.terms)
-        if (coupling.from_start) coupling.constant += term.factor * workspace.coordinates[term.coordinate].value;
+        if (coupling.from_start) coupling.constant += term.factor * evaluation.coordinates[term.coordinate].value;
     for (Spring& spring : model.springs)
-      if (spring.free_at_start) spring.free = workspace.coordinates[spring.coordinate].value;
+      if (spring.free_at_start) spring.free = evaluation.coordinates[spring.coordinate].value;
     for (std::size_t i = 0; i < model.bushings.size(); ++i)
-      if (model.bushings[i].free_at_start) model.bushings[i].free = workspace.bushings[i].deflection;
+      if (model.bushings[i].free_at_start) model.bushings[i].free = evaluation.bushings[i].deflection;
   }
 
   /// Largest diagonal entries of mass and stiffness, which the iteration matrix is scaled with.
-  static void scale(Model& model, const State& state, Workspace& workspace) {
-    evaluate(model, state, workspace);
+  static void scale(Model& model, const State& state, Evaluation& evaluation) {
+    evaluate(model, state, evaluation);
+    MatrixValues matrix(model);
     const auto largest_diagonal = [&](const TangentCoefficients& c) {
       model.mass_scale = model.stiffness_scale = 1.0;
-      evaluate_tangent(model, state, c, TangentKind::step, {}, workspace);
+      evaluate_tangent(model, state, {c, TangentKind::step, {}}, evaluation, matrix);
       double largest = 0.0;
       for (int i = 0; i < model.sizes.boundary; ++i) {
         const int slot = model.pattern->slot(i, i);
-        largest = std::max(largest, std::abs(workspace.values[slot]) * model.value_scale[slot]);
+        largest = std::max(largest, std::abs(matrix.values[slot]) * model.value_scale[slot]);
       }
       return largest;
     };

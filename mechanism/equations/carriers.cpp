@@ -25,7 +25,7 @@ void for_each_carrier(const Model& model, const ElementMap& map, Visit visit) {
   }
 }
 
-const ModalNodeTerms& terms_of(const Workspace& workspace, int modal) { return workspace.modal_nodes[modal]; }
+const ModalNodeTerms& terms_of(const Evaluation& evaluation, int modal) { return evaluation.modal_nodes[modal]; }
 
 }  // namespace
 
@@ -43,74 +43,74 @@ CarrierScratch make_carrier_scratch(const Model& model) {
   return scratch;
 }
 
-void scatter_pulled(const Model& model, const ElementMap& map, const double* force, Workspace& workspace) {
+void scatter_pulled(const Model& model, const ElementMap& map, const double* force, Evaluation& evaluation) {
   for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
     const Eigen::Map<const Vector6d> f(force + local);
     for (Index j = 0; j < width; ++j) {
       const int coordinate = map.coordinates[first + j];
       if (coordinate < 0) continue;
-      workspace.residual[coordinate] += modal < 0 ? f[j] : terms_of(workspace, modal).T.col(j).dot(f);
+      evaluation.residual[coordinate] += modal < 0 ? f[j] : terms_of(evaluation, modal).T.col(j).dot(f);
     }
   });
 }
 
-CarrierMatrix pulled_rows(const Model& model, const ElementMap& map, const LocalMatrix& B, const Workspace& workspace,
+CarrierMatrix pulled_rows(const Model& model, const ElementMap& map, const LocalMatrix& B, const Evaluation& evaluation,
                           Eigen::VectorXd& buffer) {
   CarrierMatrix rows(buffer.data(), B.rows(), static_cast<Index>(map.coordinates.size()));
   for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
     if (modal < 0)
       rows.middleCols(first, width) = B.middleCols<6>(local);
     else
-      rows.middleCols(first, width).noalias() = B.middleCols<6>(local).lazyProduct(terms_of(workspace, modal).T);
+      rows.middleCols(first, width).noalias() = B.middleCols<6>(local).lazyProduct(terms_of(evaluation, modal).T);
   });
   return rows;
 }
 
 CarrierMatrix pulled_tangent(const Model& model, const ElementMap& map, const LocalMatrix& K, const double* force,
-                             Workspace& workspace) {
+                             Evaluation& evaluation) {
   const auto n = static_cast<Index>(map.coordinates.size());
-  const CarrierMatrix half = pulled_rows(model, map, K, workspace, workspace.carriers.half);
-  CarrierMatrix full(workspace.carriers.full.data(), n, n);
+  const CarrierMatrix half = pulled_rows(model, map, K, evaluation, evaluation.carriers.half);
+  CarrierMatrix full(evaluation.carriers.full.data(), n, n);
   for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
     if (modal < 0) {
       full.middleRows(first, width) = half.middleRows<6>(local);
       return;
     }
-    const ModalNodeTerms& terms = terms_of(workspace, modal);
+    const ModalNodeTerms& terms = terms_of(evaluation, modal);
     full.middleRows(first, width).noalias() = terms.T.transpose().lazyProduct(half.middleRows<6>(local));
   });
   for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
     if (modal < 0) return;
-    add_geometric_stiffness(model.modal_nodes[modal], terms_of(workspace, modal),
+    add_geometric_stiffness(model.modal_nodes[modal], terms_of(evaluation, modal),
                             Eigen::Map<const Vector6d>(force + local), full.block(first, first, width, width));
   });
   return full;
 }
 
 CarrierMatrix pulled_rate_gradient(const Model& model, const ElementMap& map, const LocalMatrix& B,
-                                   const LocalMatrix& N, Workspace& workspace, Eigen::VectorXd& buffer) {
-  CarrierMatrix rows = pulled_rows(model, map, N, workspace, buffer);
+                                   const LocalMatrix& N, Evaluation& evaluation, Eigen::VectorXd& buffer) {
+  CarrierMatrix rows = pulled_rows(model, map, N, evaluation, buffer);
   for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
     if (modal < 0) return;
     const ModalNode& node = model.modal_nodes[modal];
-    CarrierMatrix Z(workspace.carriers.gradient.data(), 6, width);
-    rate_gradient(node, workspace.modal_bodies[node.body], terms_of(workspace, modal), Z);
+    CarrierMatrix Z(evaluation.carriers.gradient.data(), 6, width);
+    rate_gradient(node, evaluation.modal_bodies[node.body], terms_of(evaluation, modal), Z);
     rows.middleCols(first, width).noalias() += B.middleCols<6>(local).lazyProduct(Z);
   });
   return rows;
 }
 
-void carrier_bias(const Model& model, const ElementMap& map, const Workspace& workspace, double* bias) {
+void carrier_bias(const Model& model, const ElementMap& map, const Evaluation& evaluation, double* bias) {
   for_each_carrier(model, map, [&](Index local, Index, int modal, Index) {
     Eigen::Map<Vector6d> b(bias + local);
     if (modal < 0)
       b.setZero();
     else
-      b = terms_of(workspace, modal).bias;
+      b = terms_of(evaluation, modal).bias;
   });
 }
 
-void pushed_increment(const Model& model, const ElementMap& map, const Workspace& workspace, const Eigen::VectorXd& d,
+void pushed_increment(const Model& model, const ElementMap& map, const Evaluation& evaluation, const Eigen::VectorXd& d,
                       double* local_increment) {
   for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
     const auto at = [&](Index j) {
@@ -119,19 +119,19 @@ void pushed_increment(const Model& model, const ElementMap& map, const Workspace
     };
     const int node = map.carriers[local / 6];
     const Vector3d move(at(0), at(1), at(2));
-    const Vector3d turn = step_tangent(model, workspace, node) * Vector3d(at(3), at(4), at(5));
+    const Vector3d turn = step_tangent(model, evaluation, node) * Vector3d(at(3), at(4), at(5));
     Eigen::Map<Vector6d> increment(local_increment + local);
     increment << move, turn;
     if (modal < 0) return;
-    const auto& T = terms_of(workspace, modal).T;
+    const auto& T = terms_of(evaluation, modal).T;
     increment = (T.leftCols<6>() * increment).eval();
     for (Index j = 6; j < width; ++j) increment += at(j) * T.col(j);
   });
 }
 
-void turn_columns(const Model& model, const ElementMap& map, const Workspace& workspace, CarrierMatrix& rows) {
+void turn_columns(const Model& model, const ElementMap& map, const Evaluation& evaluation, CarrierMatrix& rows) {
   for_each_carrier(model, map, [&](Index local, Index first, int, Index) {
-    const Matrix3d T = step_tangent(model, workspace, map.carriers[local / 6]);
+    const Matrix3d T = step_tangent(model, evaluation, map.carriers[local / 6]);
     for (Index k = 0; k < rows.rows(); ++k) {
       const Eigen::RowVector3d turned = rows.row(k).segment<3>(first + 3) * T;
       rows.row(k).segment<3>(first + 3) = turned;
@@ -140,17 +140,17 @@ void turn_columns(const Model& model, const ElementMap& map, const Workspace& wo
 }
 
 Eigen::MatrixXd model_rows(const Model& model, const ElementMap& map, const LocalMatrix& B,
-                           const Workspace& workspace) {
+                           const Evaluation& evaluation) {
   if (map.carriers.empty()) return B;
   Eigen::VectorXd buffer(B.rows() * static_cast<Index>(map.coordinates.size()));
-  return pulled_rows(model, map, B, workspace, buffer);
+  return pulled_rows(model, map, B, evaluation, buffer);
 }
 
-Matrix3d step_tangent(const Model& model, const Workspace& workspace, int node) {
+Matrix3d step_tangent(const Model& model, const Evaluation& evaluation, int node) {
   const int modal = modal_node(model, node);
   const int owner = modal < 0 ? node : modal_body_of(model, modal).node;
   if (owner < 0 || model.nodes[owner].rotation < 0) return Matrix3d::Identity();
-  const Vector3d turn = workspace.displacement.segment<3>(model.nodes[owner].rotation);
+  const Vector3d turn = evaluation.displacement.segment<3>(model.nodes[owner].rotation);
   return turn.isZero(0.0) ? Matrix3d(Matrix3d::Identity()) : tangent_so3<double>(turn);
 }
 

@@ -27,35 +27,36 @@ LocalMatrix local_view(const Matrix& m) {
 // map.coordinates.
 
 /// residual += Tᵀ force; six numbers per carrier.
-void scatter_pulled(const Model& model, const ElementMap& map, const double* force, Workspace& workspace);
+void scatter_pulled(const Model& model, const ElementMap& map, const double* force, Evaluation& evaluation);
 
 /// Tᵀ K T + ∂(Tᵀ force)/∂q, n x n: the tangent of a force that the carriers receive.
 CarrierMatrix pulled_tangent(const Model& model, const ElementMap& map, const LocalMatrix& K, const double* force,
-                             Workspace& workspace);
+                             Evaluation& evaluation);
 
 /// B T, in `buffer`.
-CarrierMatrix pulled_rows(const Model& model, const ElementMap& map, const LocalMatrix& B, const Workspace& workspace,
+CarrierMatrix pulled_rows(const Model& model, const ElementMap& map, const LocalMatrix& B, const Evaluation& evaluation,
                           Eigen::VectorXd& buffer);
 
 /// ∂(B T v)/∂q = N T + B ∂(T v)/∂q for N = ∂(B v)/∂(local q), in `buffer`.
 CarrierMatrix pulled_rate_gradient(const Model& model, const ElementMap& map, const LocalMatrix& B,
-                                   const LocalMatrix& N, Workspace& workspace, Eigen::VectorXd& buffer);
+                                   const LocalMatrix& N, Evaluation& evaluation, Eigen::VectorXd& buffer);
 
 /// Ṫ v, six numbers per carrier: what the carriers' accelerations have besides T v̇.
-void carrier_bias(const Model& model, const ElementMap& map, const Workspace& workspace, double* bias);
+void carrier_bias(const Model& model, const ElementMap& map, const Evaluation& evaluation, double* bias);
 
 /// T d for the increments d of all coordinates, turns as increments of the rotation vectors of the step.
-void pushed_increment(const Model& model, const ElementMap& map, const Workspace& workspace, const Eigen::VectorXd& d,
+void pushed_increment(const Model& model, const ElementMap& map, const Evaluation& evaluation, const Eigen::VectorXd& d,
                       double* local);
 
 /// Multiplies the columns of turns with T(displacement of the step): rows for increments of rotation vectors.
-void turn_columns(const Model& model, const ElementMap& map, const Workspace& workspace, CarrierMatrix& rows);
+void turn_columns(const Model& model, const ElementMap& map, const Evaluation& evaluation, CarrierMatrix& rows);
 
 /// B in the columns of map.coordinates, for maps with and without carriers; takes memory: not for the step.
-Eigen::MatrixXd model_rows(const Model& model, const ElementMap& map, const LocalMatrix& B, const Workspace& workspace);
+Eigen::MatrixXd model_rows(const Model& model, const ElementMap& map, const LocalMatrix& B,
+                           const Evaluation& evaluation);
 
 /// T(dΘ) of the rotation that a node owns, or the body it follows, over the step; 1 for ground and where nothing
 /// turned.
-Eigen::Matrix3d step_tangent(const Model& model, const Workspace& workspace, int node);
+Eigen::Matrix3d step_tangent(const Model& model, const Evaluation& evaluation, int node);
 
 }  // namespace tisserand::mechanism

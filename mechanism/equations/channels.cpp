@@ -4,17 +4,17 @@
 namespace tisserand::mechanism {
 namespace {
 
-TimeFunction& function_of(const ChannelUse& use, Workspace& workspace) {
+TimeFunction& function_of(const ChannelUse& use, Evaluation& evaluation) {
   const auto at = static_cast<std::size_t>(use.index);
-  return use.owner == ChannelUse::Owner::load ? workspace.load_functions[at][use.component]
-                                              : *workspace.spring_forces[at];
+  return use.owner == ChannelUse::Owner::load ? evaluation.load_functions[at][use.component]
+                                              : *evaluation.spring_forces[at];
 }
 
 /// c_c ∂(channel)/∂v + c_k ∂(channel)/∂q.
 Row12 channel_row(const Model& model, const Channel& channel, const TangentCoefficients& coefficients,
-                  const Workspace& workspace) {
+                  const Evaluation& evaluation) {
   const Relation* relation = channel.coordinate < 0 ? nullptr : &model.coordinates[channel.coordinate].relation;
-  const ChannelGradient gradient = channel_gradient(channel, relation, markers_of(channel, workspace));
+  const ChannelGradient gradient = channel_gradient(channel, relation, markers_of(channel, evaluation));
   return coefficients.stiffness * gradient.by_position + coefficients.damping * gradient.by_velocity;
 }
 
@@ -26,36 +26,35 @@ Eigen::Matrix<double, size, 1> no_force() {
 
 }  // namespace
 
-void update_channels(const Model& model, Workspace& workspace) {
+void update_channels(const Model& model, Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.channels.size(); ++i) {
     const Channel& channel = model.channels[i];
-    const CoordinateTerms* terms = channel.coordinate < 0 ? nullptr : &workspace.coordinates[channel.coordinate];
-    workspace.channels[i] = channel_value(channel, markers_of(channel, workspace), terms);
+    const CoordinateTerms* terms = channel.coordinate < 0 ? nullptr : &evaluation.coordinates[channel.coordinate];
+    evaluation.channels[i] = channel_value(channel, markers_of(channel, evaluation), terms);
   }
-  for (const ChannelUse& use : model.channel_uses) function_of(use, workspace).set_channels(workspace.channels);
+  for (const ChannelUse& use : model.channel_uses) function_of(use, evaluation).set_channels(evaluation.channels);
 }
 
-void add_channel_tangents(const Model& model, const State& state, const TangentCoefficients& coefficients,
-                          double factor, Workspace& workspace) {
+void add_channel_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target) {
   Eigen::Matrix<double, 18, 18> on_load = Eigen::Matrix<double, 18, 18>::Zero();
   Eigen::Matrix<double, 24, 24> on_spring = Eigen::Matrix<double, 24, 24>::Zero();
   for (std::size_t i = 0; i < model.channel_uses.size(); ++i) {
     const ChannelUse& use = model.channel_uses[i];
     const auto owner = static_cast<std::size_t>(use.index);
-    const Row12 row = channel_row(model, model.channels[use.channel], coefficients, workspace);
+    const Row12 row = channel_row(model, model.channels[use.channel], target.coefficients, evaluation);
     const double slope =
-        workspace.load_factor *
-        function_of(use, workspace).derivative(static_cast<std::size_t>(use.argument), state.load_time());
+        evaluation.load_factor *
+        function_of(use, evaluation).derivative(static_cast<std::size_t>(use.argument), state.load_time());
     if (use.owner == ChannelUse::Owner::load) {
       const Load& load = model.loads[owner];
       const Vector6d force =
-          load_force(load, motion_of(workspace, load.at.node), slope * Eigen::Vector3d::Unit(use.component));
+          load_force(load, motion_of(evaluation, load.at.node), slope * Eigen::Vector3d::Unit(use.component));
       on_load.topRightCorner<6, 12>().noalias() = -force * row;
-      add_matrix(model, model.channel_use_maps[i], on_load, factor, workspace, no_force<18>);
+      add_matrix(model, model.channel_use_maps[i], on_load, target.factor, evaluation, target.values, no_force<18>);
     } else {
-      const Row12& G = workspace.coordinates[model.springs[owner].coordinate].G;
+      const Row12& G = evaluation.coordinates[model.springs[owner].coordinate].G;
       on_spring.topRightCorner<12, 12>().noalias() = -slope * G.transpose() * row;
-      add_matrix(model, model.channel_use_maps[i], on_spring, factor, workspace, no_force<24>);
+      add_matrix(model, model.channel_use_maps[i], on_spring, target.factor, evaluation, target.values, no_force<24>);
     }
   }
 }

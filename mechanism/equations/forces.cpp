@@ -4,10 +4,11 @@
 namespace tisserand::mechanism {
 namespace {
 
-LoadedJoint loaded_joint(const Model& model, const State& state, const Workspace& workspace, const Friction& friction) {
+LoadedJoint loaded_joint(const Model& model, const State& state, const Evaluation& evaluation,
+                         const Friction& friction) {
   const auto at = static_cast<std::size_t>(friction.joint);
   const Joint& joint = model.joints[at];
-  LoadedJoint loaded{joint, markers_of(joint, workspace), workspace.joints[at], state.lambda().data() + joint.row};
+  LoadedJoint loaded{joint, markers_of(joint, evaluation), evaluation.joints[at], state.lambda().data() + joint.row};
   if (friction.thread >= 0) loaded.thread_lambda = state.lambda()[model.couplings[friction.thread].row];
   return loaded;
 }
@@ -22,34 +23,35 @@ void add_upper(const ConstraintMap& map, int size, const Rows& rows, std::vector
 
 }  // namespace
 
-void add_frictions(const Model& model, const State& state, Workspace& workspace) {
+void add_frictions(const Model& model, const State& state, Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.frictions.size(); ++i) {
     const Friction& friction = model.frictions[i];
-    FrictionTerms& terms = workspace.frictions[i];
-    terms = evaluate(friction, loaded_joint(model, state, workspace, friction));
-    add_force(model, model.joint_maps[friction.joint], terms.force, workspace);
-    note_scale(terms.force, workspace);
-    workspace.damping_power += terms.power;
+    FrictionTerms& terms = evaluation.frictions[i];
+    terms = evaluate(friction, loaded_joint(model, state, evaluation, friction));
+    add_force(model, model.joint_maps[friction.joint], terms.force, evaluation);
+    note_scale(terms.force, evaluation);
+    evaluation.damping_power += terms.power;
   }
 }
 
-void add_friction_tangents(const Model& model, const State& state, const TangentCoefficients& coefficients,
-                           double factor, Workspace& workspace) {
+void add_friction_tangents(const Model& model, const State& state, Evaluation& evaluation,
+                           const TangentTarget& target) {
+  const TangentCoefficients& coefficients = target.coefficients;
   FrictionTangent result;
   for (std::size_t i = 0; i < model.frictions.size(); ++i) {
     const Friction& friction = model.frictions[i];
     const auto at = static_cast<std::size_t>(friction.joint);
     const ElementMap& map = model.joint_maps[at];
-    const LoadedJoint loaded = loaded_joint(model, state, workspace, friction);
+    const LoadedJoint loaded = loaded_joint(model, state, evaluation, friction);
     tangent(friction, loaded, coefficients, result);
-    add_matrix(model, map, result.A, factor, workspace,
-               [&] { return Vector12d(coefficients.stiffness * workspace.frictions[i].force); });
+    add_matrix(model, map, result.A, target.factor, evaluation, target.values,
+               [&] { return Vector12d(coefficients.stiffness * evaluation.frictions[i].force); });
     const auto add = [&](const ConstraintMap& slots, int size, const auto& rows) {
       if (map.carriers.empty())
-        add_upper(slots, size, rows, workspace.values);
+        add_upper(slots, size, rows, target.values);
       else
-        add_upper(slots, size, pulled_rows(model, map, local_view(rows), workspace, workspace.carriers.upper),
-                  workspace.values);
+        add_upper(slots, size, pulled_rows(model, map, local_view(rows), evaluation, evaluation.carriers.upper),
+                  target.values);
     };
     const Eigen::Matrix<double, 6, 12> by_lambda = result.by_lambda.transpose();
     add(model.constraint_maps[at], loaded.joint.size(), by_lambda);
@@ -60,26 +62,26 @@ void add_friction_tangents(const Model& model, const State& state, const Tangent
   }
 }
 
-void add_bushings(const Model& model, Workspace& workspace) {
+void add_bushings(const Model& model, Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.bushings.size(); ++i) {
-    BushingTerms& terms = workspace.bushings[i];
-    evaluate(model.bushings[i], markers_of(model.bushings[i], workspace), terms);
-    add_force(model, model.bushing_maps[i], terms.force, workspace);
-    note_scale(terms.force, workspace);
-    workspace.spring_energy += terms.energy;
-    workspace.damping_power += terms.dissipated;
-    workspace.load_power += terms.supplied;
+    BushingTerms& terms = evaluation.bushings[i];
+    evaluate(model.bushings[i], markers_of(model.bushings[i], evaluation), terms);
+    add_force(model, model.bushing_maps[i], terms.force, evaluation);
+    note_scale(terms.force, evaluation);
+    evaluation.spring_energy += terms.energy;
+    evaluation.damping_power += terms.dissipated;
+    evaluation.load_power += terms.supplied;
   }
 }
 
-void add_bushing_tangents(const Model& model, const TangentCoefficients& coefficients, double factor,
-                          Workspace& workspace) {
+void add_bushing_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target) {
+  const TangentCoefficients& coefficients = target.coefficients;
   Square12 A;
   for (std::size_t i = 0; i < model.bushings.size(); ++i) {
     const Bushing& bushing = model.bushings[i];
-    tangent(bushing, markers_of(bushing, workspace), workspace.bushings[i], coefficients, A);
-    add_matrix(model, model.bushing_maps[i], A, factor, workspace,
-               [&] { return Vector12d(coefficients.stiffness * workspace.bushings[i].force); });
+    tangent(bushing, markers_of(bushing, evaluation), evaluation.bushings[i], coefficients, A);
+    add_matrix(model, model.bushing_maps[i], A, target.factor, evaluation, target.values,
+               [&] { return Vector12d(coefficients.stiffness * evaluation.bushings[i].force); });
   }
 }
 

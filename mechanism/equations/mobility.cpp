@@ -22,15 +22,15 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 /// Visits the rows of B in the motions [ẋ Ω] of the two nodes of each joint or coupling term:
 /// visit(row, coordinate map, markers, values).
 template <class Visit>
-void for_each_row(const Model& model, const Workspace& workspace, Visit visit) {
+void for_each_row(const Model& model, const Evaluation& evaluation, Visit visit) {
   for (std::size_t i = 0; i < model.joints.size(); ++i)
     for (int k = 0; k < model.joints[i].size(); ++k)
-      visit(model.joints[i].row + k, model.joint_maps[i], model.joints[i], Row12(workspace.joints[i].B.row(k)));
+      visit(model.joints[i].row + k, model.joint_maps[i], model.joints[i], Row12(evaluation.joints[i].B.row(k)));
   for (const Coupling& coupling : model.couplings)
     for (const CouplingTerm& term : coupling.terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
       visit(coupling.row, model.coordinate_maps[at], model.coordinates[at],
-            Row12(term.factor * workspace.coordinates[at].G));
+            Row12(term.factor * evaluation.coordinates[at].G));
     }
 }
 
@@ -44,10 +44,10 @@ Eigen::SparseMatrix<double> compressed(int rows, int columns, const Triplets& en
 }
 
 /// Bᵀ with rotation rows divided by the characteristic length and angle columns multiplied with it.
-Eigen::SparseMatrix<double> scaled_jacobian(const Model& model, const Workspace& workspace) {
+Eigen::SparseMatrix<double> scaled_jacobian(const Model& model, const Evaluation& evaluation) {
   Triplets entries;
-  for_each_row(model, workspace, [&](int row, const ElementMap& map, const auto&, const Row12& values) {
-    const Eigen::MatrixXd columns = model_rows(model, map, local_view(values), workspace);
+  for_each_row(model, evaluation, [&](int row, const ElementMap& map, const auto&, const Row12& values) {
+    const Eigen::MatrixXd columns = model_rows(model, map, local_view(values), evaluation);
     for (std::size_t j = 0; j < map.coordinates.size(); ++j) {
       const double value = columns(0, static_cast<Eigen::Index>(j));
       if (map.coordinates[j] < 0 || value == 0.0) continue;
@@ -60,20 +60,20 @@ Eigen::SparseMatrix<double> scaled_jacobian(const Model& model, const Workspace&
 
 /// The same for rigid motions [velocity of the first node; angular velocity, world] of the parts: a node at x moves
 /// with ẋ = v − (x − x_0)~ ω, Ω = Rᵀ ω.
-Eigen::SparseMatrix<double> rigid_jacobian(const Model& model, const Parts& parts, const Workspace& workspace) {
+Eigen::SparseMatrix<double> rigid_jacobian(const Model& model, const Parts& parts, const Evaluation& evaluation) {
   Triplets entries;
   const auto add = [&](int row, const Marker& marker, const Eigen::Matrix<double, 1, 6>& values) {
     if (marker.node < 0) return;
     const int part = parts.of_node[marker.node];
-    const NodeMotion& node = motion_of(workspace, marker.node);
-    const Eigen::Vector3d arm = node.x - motion_of(workspace, parts.first_node[part]).x;
+    const NodeMotion& node = motion_of(evaluation, marker.node);
+    const Eigen::Vector3d arm = node.x - motion_of(evaluation, parts.first_node[part]).x;
     Eigen::Matrix<double, 1, 6> rigid;
     rigid.head<3>() = values.head<3>();
     rigid.tail<3>() = (values.tail<3>() * node.R.transpose() - values.head<3>() * skew<double>(arm)) / model.length;
     for (int j = 0; j < 6; ++j)
       if (rigid[j] != 0.0) entries.emplace_back(6 * part + j, row, rigid[j] * row_scale(model, row));
   };
-  for_each_row(model, workspace, [&](int row, const ElementMap&, const auto& pair, const Row12& values) {
+  for_each_row(model, evaluation, [&](int row, const ElementMap&, const auto& pair, const Row12& values) {
     add(row, pair.a, values.head<6>());
     add(row, pair.b, values.tail<6>());
   });
@@ -100,19 +100,19 @@ ColumnRank rank_of(const Eigen::SparseMatrix<double>& A) {
 
 }  // namespace
 
-Mobility count_mobility(const Model& model, const State& state, Workspace& workspace) {
-  evaluate(model, state, workspace);
+Mobility count_mobility(const Model& model, const State& state, Evaluation& evaluation) {
+  evaluate(model, state, evaluation);
   const Parts parts = find_parts(model);
   Mobility mobility;
   mobility.coordinates = model.sizes.velocities();
   mobility.constraints = model.sizes.constraints;
   mobility.parts = parts.count();
-  ColumnRank rank = rank_of(scaled_jacobian(model, workspace));
+  ColumnRank rank = rank_of(scaled_jacobian(model, evaluation));
   mobility.rank = rank.rank;
   mobility.redundant = std::move(rank.dependent);
   mobility.degrees_of_freedom = mobility.coordinates - mobility.rank;
   const bool all_rigid = 6 * mobility.parts == mobility.coordinates;
-  const int rigid_rank = all_rigid ? mobility.rank : rank_of(rigid_jacobian(model, parts, workspace)).rank;
+  const int rigid_rank = all_rigid ? mobility.rank : rank_of(rigid_jacobian(model, parts, evaluation)).rank;
   mobility.rigid_mobility = 6 * mobility.parts - rigid_rank;
   return mobility;
 }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "mechanism/equations/workspace.hpp"
+#include "mechanism/equations/evaluation.hpp"
 #include "mechanism/model/connected_bodies.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
@@ -23,6 +23,6 @@ struct Mobility {
 
 /// Rank of B by a rank-revealing QR (rotations scaled with the characteristic length; up to 400 rows dense, above
 /// sparse), and that of B on the motions of rigid parts.
-Mobility count_mobility(const Model& model, const State& state, Workspace& workspace);
+Mobility count_mobility(const Model& model, const State& state, Evaluation& evaluation);
 
 }  // namespace tisserand::mechanism

@@ -6,14 +6,23 @@
 #include <vector>
 
 #include "mechanism/equations/carriers.hpp"
-#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/equations/tangent.hpp"
 
 namespace tisserand::mechanism {
 
+/// Where kernels add their derivatives: c_m, c_c, c_k, the kind of constraint rows, the factor of A (0: rows alone),
+/// and the stored values.
+struct TangentTarget {
+  const TangentCoefficients& coefficients;
+  const ConstraintRows& rows;
+  double factor = 1.0;
+  std::vector<double>& values;
+};
+
 /// The markers of a joint, a coordinate or a force element with the motion of their carriers.
 template <class Item>
-MarkerPair markers_of(const Item& item, const Workspace& workspace) {
-  return {item.a, item.b, motion_of(workspace, item.a.node), motion_of(workspace, item.b.node)};
+MarkerPair markers_of(const Item& item, const Evaluation& evaluation) {
+  return {item.a, item.b, motion_of(evaluation, item.a.node), motion_of(evaluation, item.b.node)};
 }
 
 /// Adds the local vector to the global one.
@@ -35,24 +44,24 @@ void scatter_matrix(const ElementMap& map, const Matrix& local, double factor, s
 
 /// Adds a local vector [force; moment] per carrier to the residual.
 template <class Vector>
-void add_force(const Model& model, const ElementMap& map, const Vector& local, Workspace& workspace) {
+void add_force(const Model& model, const ElementMap& map, const Vector& local, Evaluation& evaluation) {
   if (map.carriers.empty())
-    scatter(map, local, workspace.residual);
+    scatter(map, local, evaluation.residual);
   else
-    scatter_pulled(model, map, local.data(), workspace);
+    scatter_pulled(model, map, local.data(), evaluation);
 }
 
 /// Adds factor times the local matrix ∂(force)/∂(local coordinates) to the stored values; `force()` gives the local
 /// force, which modal bodies feel through moving nodes.
 template <class Matrix, class Force>
-void add_matrix(const Model& model, const ElementMap& map, const Matrix& local, double factor, Workspace& workspace,
-                Force force) {
+void add_matrix(const Model& model, const ElementMap& map, const Matrix& local, double factor, Evaluation& evaluation,
+                std::vector<double>& values, Force force) {
   if (map.carriers.empty()) {
-    scatter_matrix(map, local, factor, workspace.values);
+    scatter_matrix(map, local, factor, values);
     return;
   }
   const auto f = force();
-  scatter_matrix(map, pulled_tangent(model, map, local_view(local), f.data(), workspace), factor, workspace.values);
+  scatter_matrix(map, pulled_tangent(model, map, local_view(local), f.data(), evaluation), factor, values);
 }
 
 /// Adds the first `size` rows of `lower` and, transposed, of `upper`, which begin at slot `first` of the map.
@@ -69,50 +78,44 @@ void add_rows(const ConstraintMap& map, std::size_t first, int size, const Lower
 
 /// Force and moment rows of nodes with six coordinates.
 template <class Vector>
-void note_scale(const Vector& local, Workspace& workspace) {
+void note_scale(const Vector& local, Evaluation& evaluation) {
   for (Eigen::Index i = 0; i < local.size(); i += 6) {
-    workspace.force_scale[0] = std::max(workspace.force_scale[0], local.template segment<3>(i).cwiseAbs().maxCoeff());
-    workspace.force_scale[1] =
-        std::max(workspace.force_scale[1], local.template segment<3>(i + 3).cwiseAbs().maxCoeff());
+    evaluation.force_scale[0] = std::max(evaluation.force_scale[0], local.template segment<3>(i).cwiseAbs().maxCoeff());
+    evaluation.force_scale[1] =
+        std::max(evaluation.force_scale[1], local.template segment<3>(i + 3).cwiseAbs().maxCoeff());
   }
 }
 
 /// F(t) of spring i at the load time, scaled as loads are.
-double applied_force(const Model& model, std::size_t i, double time, Workspace& workspace);
+double applied_force(const Model& model, std::size_t i, double time, Evaluation& evaluation);
 
-/// evaluate_tangent() without the superelements, whose internal coordinates a caller may want to keep; exact.
-void evaluate_tangent_without_superelements(const Model& model, const State& state,
-                                            const TangentCoefficients& coefficients, const ConstraintRows& rows,
-                                            Workspace& workspace);
+/// Φ, B and B v of the joints.
+void update_joints(const Model& model, Evaluation& evaluation);
+/// Values, rates and gradients G of the active coordinates.
+void update_coordinates(const Model& model, const State& state, Evaluation& evaluation);
+/// Φ and its rate of couplings and motions, after their coordinates.
+void update_couplings(const Model& model, const State& state, Evaluation& evaluation);
 
-/// Φ, its rate and Bᵀλ of the joints.
-void add_joints(const Model& model, const State& state, Workspace& workspace);
-
-/// The active coordinates; Φ, its rate and Bᵀλ of couplings and motions, and the forces of springs.
-void add_coordinates(const Model& model, const State& state, Workspace& workspace);
+/// Bᵀλ of joints, of couplings and motions; forces, energy and powers of springs.
+void add_joints(const Model& model, const State& state, Evaluation& evaluation);
+void add_couplings(const Model& model, const State& state, Evaluation& evaluation);
+void add_springs(const Model& model, const State& state, Evaluation& evaluation);
 
 /// Values of the channels, and their passing on to the expressions that use them; after the active coordinates.
-void update_channels(const Model& model, Workspace& workspace);
-/// Derivatives of loads and spring forces by the channels, times `factor`.
-void add_channel_tangents(const Model& model, const State& state, const TangentCoefficients& coefficients,
-                          double factor, Workspace& workspace);
+void update_channels(const Model& model, Evaluation& evaluation);
 
-/// Forces of friction in joints, after add_joints(). Their tangents: A times `factor`, and ∂r/∂λ beside Bᵀ.
-void add_frictions(const Model& model, const State& state, Workspace& workspace);
-void add_friction_tangents(const Model& model, const State& state, const TangentCoefficients& coefficients,
-                           double factor, Workspace& workspace);
+/// Forces of friction in joints, after add_joints().
+void add_frictions(const Model& model, const State& state, Evaluation& evaluation);
+/// Forces, energy and powers of bushings.
+void add_bushings(const Model& model, Evaluation& evaluation);
 
-/// Forces, energy and powers of bushings, and their tangents times `factor`.
-void add_bushings(const Model& model, Workspace& workspace);
-void add_bushing_tangents(const Model& model, const TangentCoefficients& coefficients, double factor,
-                          Workspace& workspace);
-
-/// Rows, columns and geometric stiffness (times `stiffness`) of the joints.
-void add_joint_tangents(const Model& model, const State& state, double stiffness, const ConstraintRows& kind,
-                        Workspace& workspace);
-
-/// The same for couplings and motions, and the tangents of springs times `factor`.
-void add_coordinate_tangents(const Model& model, const State& state, const TangentCoefficients& coefficients,
-                             double factor, const ConstraintRows& kind, Workspace& workspace);
+/// Rows, columns and geometric stiffness of joints, of couplings and motions; tangents of springs, friction (also ∂r/∂λ
+/// beside Bᵀ), bushings, and of loads and spring forces by the channels.
+void add_joint_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
+void add_coordinate_tangents(const Model& model, const State& state, Evaluation& evaluation,
+                             const TangentTarget& target);
+void add_friction_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
+void add_bushing_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target);
+void add_channel_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
 
 }  // namespace tisserand::mechanism

@@ -34,7 +34,7 @@ void resume_checkpoint(Run& run, const std::string& file) {
   require_before_end(run.scene, checkpoint.time, file);
   state.block() = checkpoint.state;
   run.schedule_memory = checkpoint.schedule;
-  run.report.mobility = count_mobility(run.built.model, state, run.workspace);
+  run.report.mobility = count_mobility(run.built.model, state, run.workspace.now);
   run.workspace.forget();
   run.report.notes.push_back(
       fmt::format("goes on from {} at t = {:.9g}{}", file, checkpoint.time,

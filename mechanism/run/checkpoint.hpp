@@ -5,11 +5,11 @@
 #include <string>
 
 #include "formats/results/checkpoint.hpp"
-#include "mechanism/equations/workspace.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
 #include "mechanism/run/run.hpp"
 #include "mechanism/run/schedule.hpp"
+#include "mechanism/step/workspace.hpp"
 
 namespace tisserand::mechanism {
 

@@ -25,10 +25,10 @@ void blank_missing(const Model& model, const Marker& marker, Eigen::Index column
   }
 }
 
-void fill_places(const Model& model, const Workspace& workspace, formats::ResultsRow& row) {
+void fill_places(const Model& model, const Evaluation& evaluation, formats::ResultsRow& row) {
   for (std::size_t i = 0; i < model.places.size(); ++i) {
     const Marker& marker = model.places[i].marker;
-    const NodeMotion& node = motion_of(workspace, marker.node);
+    const NodeMotion& node = motion_of(evaluation, marker.node);
     const auto column = static_cast<Eigen::Index>(i);
     row.node_position.col(column) = marker_position(marker, node);
     row.node_rotation.col(column) = wxyz(Eigen::Quaterniond(marker_rotation(marker, node)));
@@ -41,12 +41,12 @@ void fill_places(const Model& model, const Workspace& workspace, formats::Result
   }
 }
 
-void fill_superelements(const Model& model, Workspace& workspace, formats::ResultsRow& row) {
+void fill_superelements(const Model& model, Evaluation& evaluation, formats::ResultsRow& row) {
   Eigen::Index y = 0, boundary = 0;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const SuperelementBody& body = body_of(model, i);
-    SuperelementScratch& scratch = workspace.superelements[i];
-    const NodeView<NodeMotion> nodes = nodes_of(model, i, workspace);
+    SuperelementScratch& scratch = evaluation.superelements[i];
+    const NodeView<NodeMotion> nodes = nodes_of(model, i, evaluation);
     const auto column = static_cast<Eigen::Index>(i);
     row.frame_position.col(column) = scratch.motion.x0;
     row.frame_rotation.col(column) = wxyz(Eigen::Quaterniond(scratch.motion.R0));
@@ -66,36 +66,36 @@ void fill_superelements(const Model& model, Workspace& workspace, formats::Resul
 }
 
 /// Reactions of the fixed joints that vanished, behind those of the joints.
-void fill_ties(const Model& model, const State& state, const double* lambda, Workspace& workspace,
+void fill_ties(const Model& model, const State& state, const double* lambda, Evaluation& evaluation,
                formats::ResultsRow& row) {
   if (model.ties.empty()) return;
-  evaluate_ties(model, state, lambda, workspace);
+  evaluate_ties(model, state, lambda, evaluation);
   for (std::size_t i = 0; i < model.ties.size(); ++i) {
-    const JointReaction reaction = tie_reaction(model, i, workspace);
+    const JointReaction reaction = tie_reaction(model, i, evaluation);
     const auto column = static_cast<Eigen::Index>(model.joints.size() + i);
     row.joint_force.col(column) = reaction.force;
     row.joint_moment.col(column) = reaction.moment;
   }
 }
 
-void fill_joints(const Model& model, const State& state, Workspace& workspace, formats::ResultsRow& row) {
-  evaluate_coordinates(model, state, workspace);
+void fill_joints(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
+  evaluate_coordinates(model, state, evaluation);
   Eigen::VectorXd least;
-  if (is_overconstrained(state)) least = least_norm_multipliers(model, workspace, state.lambda());
+  if (is_overconstrained(state)) least = least_norm_multipliers(model, evaluation, state.lambda());
   const double* lambda = least.size() > 0 ? least.data() : state.lambda().data();
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
-    const NodeMotion& a = motion_of(workspace, joint.a.node);
-    const NodeMotion& b = motion_of(workspace, joint.b.node);
+    const NodeMotion& a = motion_of(evaluation, joint.a.node);
+    const NodeMotion& b = motion_of(evaluation, joint.b.node);
     const JointReaction reaction = joint_reaction(joint, a, b, lambda + joint.row);
     const auto column = static_cast<Eigen::Index>(i);
     row.joint_force.col(column) = reaction.force;
     row.joint_moment.col(column) = reaction.moment;
   }
-  fill_ties(model, state, lambda, workspace, row);
+  fill_ties(model, state, lambda, evaluation, row);
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
-    row.joint_coordinate[i] = workspace.coordinates[i].value;
-    row.joint_rate[i] = workspace.coordinates[i].rate;
+    row.joint_coordinate[i] = evaluation.coordinates[i].value;
+    row.joint_rate[i] = evaluation.coordinates[i].rate;
   }
 }
 
@@ -109,30 +109,31 @@ void fill_motions(const Model& model, const State& state, formats::ResultsRow& r
 bool has_stops(const Spring& spring) { return spring.lower || spring.upper; }
 
 /// After evaluate_coordinates().
-void fill_springs(const Model& model, const State& state, Workspace& workspace, formats::ResultsRow& row) {
+void fill_springs(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
   Eigen::Index stops = 0;
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
     const Spring& spring = model.springs[i];
-    const CoordinateTerms& c = workspace.coordinates[spring.coordinate];
-    const SpringForce f = spring_force(spring, c.value, c.rate, applied_force(model, i, state.load_time(), workspace));
+    const CoordinateTerms& c = evaluation.coordinates[spring.coordinate];
+    const SpringForce f = spring_force(spring, c.value, c.rate, applied_force(model, i, state.load_time(), evaluation));
     row.spring_force[i] = f.Q;
     if (has_stops(spring)) row.stop_force[stops++] = f.stop;
   }
 }
 
-void fill_bushings(const Model& model, const Workspace& workspace, formats::ResultsRow& row) {
+void fill_bushings(const Model& model, const Evaluation& evaluation, formats::ResultsRow& row) {
   for (std::size_t i = 0; i < model.bushings.size(); ++i) {
     const JointReaction reaction =
-        reaction_of(workspace.bushings[i].force.transpose(), markers_of(model.bushings[i], workspace));
+        reaction_of(evaluation.bushings[i].force.transpose(), markers_of(model.bushings[i], evaluation));
     row.bushing_force.col(i) = reaction.force;
     row.bushing_moment.col(i) = reaction.moment;
   }
 }
 
-void fill_frictions(const Model& model, const Workspace& workspace, formats::ResultsRow& row) {
+void fill_frictions(const Model& model, const Evaluation& evaluation, formats::ResultsRow& row) {
   for (std::size_t i = 0; i < model.frictions.size(); ++i) {
     const Joint& joint = model.joints[model.frictions[i].joint];
-    const JointReaction reaction = reaction_of(workspace.frictions[i].force.transpose(), markers_of(joint, workspace));
+    const JointReaction reaction =
+        reaction_of(evaluation.frictions[i].force.transpose(), markers_of(joint, evaluation));
     row.friction_force.col(i) = reaction.force;
     row.friction_moment.col(i) = reaction.moment;
   }
@@ -183,20 +184,20 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
   return layout;
 }
 
-void fill_row(const Model& model, const State& state, Workspace& workspace, formats::ResultsRow& row) {
-  evaluate(model, state, workspace);
-  update_modal_nodes(model, workspace);
+void fill_row(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
+  evaluate(model, state, evaluation);
+  update_modal_nodes(model, evaluation);
   row.time = state.time();
-  fill_places(model, workspace, row);
-  fill_superelements(model, workspace, row);
+  fill_places(model, evaluation, row);
+  fill_superelements(model, evaluation, row);
   row.w = state.w();
   row.w_rate = state.v().segment(model.sizes.first_modal(), model.sizes.modal);
-  fill_joints(model, state, workspace, row);
+  fill_joints(model, state, evaluation, row);
   fill_motions(model, state, row);
-  fill_springs(model, state, workspace, row);
-  fill_bushings(model, workspace, row);
-  fill_frictions(model, workspace, row);
-  const Energy energy = evaluate_energy(model, workspace);
+  fill_springs(model, state, evaluation, row);
+  fill_bushings(model, evaluation, row);
+  fill_frictions(model, evaluation, row);
+  const Energy energy = evaluate_energy(model, evaluation);
   row.kinetic = energy.kinetic;
   row.strain = energy.strain;
   row.potential = energy.potential;

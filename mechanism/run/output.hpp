@@ -5,7 +5,7 @@
 
 #include "formats/results/results.hpp"
 #include "formats/scene/scene.hpp"
-#include "mechanism/equations/workspace.hpp"
+#include "mechanism/equations/evaluation.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
 
@@ -14,6 +14,6 @@ namespace tisserand::mechanism {
 formats::ResultsLayout results_layout(const Model& model, const formats::Scene& scene);
 
 /// Evaluates the state and fills all but step, iterations, residual and constraint.
-void fill_row(const Model& model, const State& state, Workspace& workspace, formats::ResultsRow& row);
+void fill_row(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row);
 
 }  // namespace tisserand::mechanism

@@ -66,7 +66,8 @@ std::string nonfinite_text(const std::string& what, const formats::TimeFunctionS
 }
 
 void require_finite_loads(Run& run) {
-  if (!run.built.model.channels.empty()) evaluate(run.built.model, run.built.state, run.workspace);  // sets channels
+  if (!run.built.model.channels.empty())
+    evaluate(run.built.model, run.built.state, run.workspace.now);  // sets channels
   const std::string bad = nonfinite_load(run, run.scene.integrator.start);
   if (!bad.empty()) throw Error(bad, run.scene.file, "correct the formula, for example with t > 0 ? .. : ..");
 }
@@ -78,8 +79,8 @@ void note_redundancy(Run& run) {
   std::vector<std::string> rows;
   for (const int row : mobility.redundant) rows.push_back(fmt::format("'{}'", constraint_name(run.built.model, row)));
   if (rows.size() > 20) rows.resize(20), rows.push_back("...");
-  evaluate(run.built.model, run.built.state, run.workspace);
-  run.report.not_unique = joints_without_unique_reaction(run.built.model, run.workspace);
+  evaluate(run.built.model, run.built.state, run.workspace.now);
+  run.report.not_unique = joints_without_unique_reaction(run.built.model, run.workspace.now);
   run.report.notes.push_back(fmt::format(
       "{} of {} constraint equations repeat what the others already demand: {}. The motion is right; the "
       "reactions of {} are not unique, those of least norm are stored",
@@ -116,19 +117,20 @@ std::string nonfinite_load(Run& run, double time) {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::string what = fmt::format("load '{}', {} component", model.loads[i].name, "xyz"[k]);
       const std::string text =
-          nonfinite_text(what, model.loads[i].components[k], time, workspace.load_functions[i][k](time));
+          nonfinite_text(what, model.loads[i].components[k], time, workspace.now.load_functions[i][k](time));
       if (!text.empty()) return text;
     }
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
-    if (!workspace.spring_forces[i]) continue;
+    if (!workspace.now.spring_forces[i]) continue;
     const std::string what = fmt::format("spring '{}', force", model.springs[i].name);
-    const std::string text = nonfinite_text(what, model.springs[i].force, time, (*workspace.spring_forces[i])(time));
+    const std::string text =
+        nonfinite_text(what, model.springs[i].force, time, (*workspace.now.spring_forces[i])(time));
     if (!text.empty()) return text;
   }
   for (const Coupling& coupling : model.couplings) {
     if (coupling.motion < 0) continue;
     const auto at = static_cast<std::size_t>(coupling.motion);
-    const MotionFunction::Value f = workspace.motions[at](time);
+    const MotionFunction::Value f = workspace.now.motions[at](time);
     const std::string text = nonfinite_text(coupling.name, model.motions[at], time, f.value + f.rate + f.acceleration);
     if (!text.empty()) return text;
   }
@@ -174,7 +176,7 @@ void begin_from(Run& run, const State& end) {
 void start(Run& run) {
   require_finite_loads(run);
   if (run.scene.analysis == formats::AnalysisKind::assembly) {  // makes what the others start from
-    run.report.mobility = count_mobility(run.built.model, run.built.state, run.workspace);
+    run.report.mobility = count_mobility(run.built.model, run.built.state, run.workspace.now);
     return;
   }
   const StartReport report = start(run.scene, run.built.model, run.built.state, run.workspace);
@@ -193,7 +195,7 @@ void write_row(Run& run, const StepReport& step, double size, RowWriter& out) { 
 void write_row(Run& run, const StepReport& step, double size, RowWriter& out, const RowEdit& edit) {
   formats::ResultsRow& row = out.row;
   const double before = run.seconds();
-  fill_row(run.built.model, run.built.state, run.workspace, row);
+  fill_row(run.built.model, run.built.state, run.workspace.now, row);
   row.step = size;
   row.iterations = step.iterations;
   row.residual = step.residual;

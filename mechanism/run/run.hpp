@@ -7,9 +7,9 @@
 
 #include "formats/results/results.hpp"
 #include "mechanism/build/build_model.hpp"
-#include "mechanism/equations/workspace.hpp"
 #include "mechanism/run/report.hpp"
 #include "mechanism/step/step.hpp"
+#include "mechanism/step/workspace.hpp"
 
 namespace tisserand::mechanism {
 

@@ -34,10 +34,10 @@ void blank(formats::AnalysisKind kind, formats::ResultsRow& row) {
 
 /// Work of drives, loads and dampers by the trapezoidal rule over the step that has ended.
 void count_work(double size, State& state, const Workspace& workspace) {
-  state.work() += 0.5 * size * (state.load_power() + workspace.load_power);
-  state.dissipated() += 0.5 * size * (state.damping_power() + workspace.damping_power);
-  state.load_power() = workspace.load_power;
-  state.damping_power() = workspace.damping_power;
+  state.work() += 0.5 * size * (state.load_power() + workspace.now.load_power);
+  state.dissipated() += 0.5 * size * (state.damping_power() + workspace.now.damping_power);
+  state.load_power() = workspace.now.load_power;
+  state.damping_power() = workspace.now.damping_power;
 }
 
 /// Forces of the present motion, if the analysis asks for them.
@@ -92,7 +92,7 @@ void move_along(Run& run, RowWriter& out) {
     if (step.outcome == StepOutcome::accepted && !solve_forces(run)) step.outcome = StepOutcome::singular;
     if (step.outcome != StepOutcome::accepted) {
       ++report.rejected;
-      state.block() = run.workspace.previous.block();
+      state.block() = run.workspace.memory.previous.block();
       if (schedule.retry(before, step)) continue;
       stop_at_dead_point(run, before, step);
       break;
@@ -111,14 +111,14 @@ void assemble(Run& run, RowWriter& out) {
   State& state = run.built.state;
   RunReport& report = run.report;
   const AssemblyReport assembly =
-      assemble(model, run.scene.integrator.constraint_tolerance, run.control.interrupted, state, run.workspace);
+      assemble(model, run.scene.integrator.constraint_tolerance, run.control.interrupted, state, run.workspace.now);
   report.time = state.time();
   report.iterations = report.factorisations = assembly.iterations;
   report.steps = 1;
   report.largest_constraint = assembly.gap * model.length;
   report.table = body_poses(run.scene, model, run.at_start, state);
   report.table_title = "poses, as `bodies` takes them";
-  report.mobility = count_mobility(model, state, run.workspace);
+  report.mobility = count_mobility(model, state, run.workspace.now);
   StepReport step;
   step.iterations = assembly.iterations;
   step.constraint = assembly.gap * model.length;
@@ -145,7 +145,7 @@ void find_modes(Run& run, RowWriter& out) {
   const Model& model = run.built.model;
   State& state = run.built.state;
   RunReport& report = run.report;
-  const ModesReport modes = solve_modes(model, state, run.scene.modes, run.workspace);
+  const ModesReport modes = solve_modes(model, state, run.scene.modes, run.workspace.now);
   report.time = state.time();
   report.steps = 1;
   report.table = modes_lines(model, modes);
@@ -161,7 +161,7 @@ void find_modes(Run& run, RowWriter& out) {
   if (const auto unstable = std::ranges::count_if(modes.modes, &Mode::unstable); unstable > 0)
     report.notes.push_back(fmt::format("{} modes grow: the state is unstable", unstable));
   write_row(run, {}, 0.0, out, [](formats::ResultsRow& row) { row.work = row.dissipated = row.balance = none; });
-  out.writer.set_modes(modes_table(model, run.workspace, modes));
+  out.writer.set_modes(modes_table(model, run.workspace.now, modes));
 }
 
 }  // namespace tisserand::mechanism

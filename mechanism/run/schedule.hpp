@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "formats/scene/scene.hpp"
-#include "mechanism/equations/workspace.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
 #include "mechanism/step/step.hpp"
+#include "mechanism/step/workspace.hpp"
 
 namespace tisserand::mechanism {
 

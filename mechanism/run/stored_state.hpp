@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
-#include "mechanism/equations/workspace.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
+#include "mechanism/step/workspace.hpp"
 
 namespace tisserand::mechanism {
 

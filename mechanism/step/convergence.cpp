@@ -49,10 +49,10 @@ double size_of(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& incr
 }
 
 Norms measure(const Model& model, const IntegratorSpec& options, double step, const State& state,
-              Workspace& workspace) {
+              Evaluation& evaluation) {
   Norms norms;
   double scale[3];
-  for (int k = 0; k < 3; ++k) scale[k] = std::max(state.force_scale(k), workspace.force_scale[k]);
+  for (int k = 0; k < 3; ++k) scale[k] = std::max(state.force_scale(k), evaluation.force_scale[k]);
   // Forces and moments measure each other through the length, so that a scale of zero in one does not stall the test.
   const double force = std::max(scale[0], scale[1] / model.length);
   const double internal = std::max(scale[2], 1e-300);
@@ -60,28 +60,28 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
   const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
   const double allowed = std::max(options.tolerance * force, round_off) + 1e-300;
   for (int i = 0; i < model.sizes.boundary; ++i) {
-    const double r = std::abs(workspace.residual[i]) * model.equation_scale[i];
+    const double r = std::abs(evaluation.residual[i]) * model.equation_scale[i];
     norms.residual = std::max(norms.residual, r);
     raise(norms.force_ratio, norms.worst_coordinate, r / allowed, i);
   }
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    const auto& r = workspace.superelements[i].forces.r_I;
+    const auto& r = evaluation.superelements[i].forces.r_I;
     for (Eigen::Index k = 0; k < r.size(); ++k)
       raise(norms.force_ratio, norms.worst_coordinate, std::abs(r[k]) / (options.tolerance * internal),
             model.sizes.boundary + model.internal_offset[i] + static_cast<int>(k));
-    raise(norms.force_ratio, norms.worst_coordinate, workspace.superelements[i].motion.frame_error / frame_tolerance,
+    raise(norms.force_ratio, norms.worst_coordinate, evaluation.superelements[i].motion.frame_error / frame_tolerance,
           model.superelement_maps[i].coordinates.front());
   }
   const Closed closed = closed_constraints(model, options, step, state);
   for (int row = 0; row < model.sizes.constraints; ++row) {
     const double length = model.length_row[row] ? model.length : 1.0;
-    norms.constraint = std::max(norms.constraint, std::abs(workspace.constraint[row]) / length * model.length);
-    if (workspace.active[row] == 0.0) continue;
+    norms.constraint = std::max(norms.constraint, std::abs(evaluation.constraint[row]) / length * model.length);
+    if (evaluation.active[row] == 0.0) continue;
     raise(norms.constraint_ratio, norms.worst_constraint,
-          std::abs(workspace.constraint[row]) / (length * closed.position), row);
+          std::abs(evaluation.constraint[row]) / (length * closed.position), row);
     if (options.formulation == Formulation::stabilised_index2)
       raise(norms.constraint_ratio, norms.worst_constraint,
-            std::abs(workspace.constraint_rate[row]) / (length * closed.rate), row);
+            std::abs(evaluation.constraint_rate[row]) / (length * closed.rate), row);
   }
   return norms;
 }

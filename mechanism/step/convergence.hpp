@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "formats/scene/scene.hpp"
-#include "mechanism/equations/workspace.hpp"
+#include "mechanism/equations/evaluation.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
 
@@ -32,6 +32,6 @@ double size_of(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& incr
 /// Largest residuals against the running maxima of forces, moments and internal forces; largest violations against the
 /// characteristic length (rates: against length/step).
 Norms measure(const Model& model, const formats::IntegratorSpec& options, double step, const State& state,
-              Workspace& workspace);
+              Evaluation& evaluation);
 
 }  // namespace tisserand::mechanism

@@ -3,91 +3,87 @@
 
 #include <algorithm>
 
-#include "mechanism/equations/evaluate.hpp"
-#include "mechanism/equations/newton.hpp"
+#include "mechanism/equations/increments.hpp"
 
 namespace tisserand::mechanism {
 namespace {
 
-/// Radians that bodies may turn on one W⁻¹Bᵀ, and steps that it may serve.
-constexpr double farthest = 0.1;
-constexpr double most_steps = 16.0;
-/// Weight of every direction, for those without mass and stiffness, relative to the largest.
+/// Weight of every direction, for those without mass and stiffness, relative to the largest: above round-off of the
+/// factors, and far below any body of the same mechanism (mass ratio 1e10).
 constexpr double least_weight = 1e-12;
-/// A solution leaves open the share by which B has turned since; they are repeated until less than this is left.
-constexpr double open_share = 0.15;
-constexpr int most_solutions = 4;
 
-bool serves(const Closing& closing, double step) {
-  return closing.step > 0.0 && closing.age < 1.0 && step <= 2.0 * closing.step && closing.step <= 2.0 * step;
+bool serves(const PositionProjection& projection, double step) {
+  return projection.has_factors() && projection.age < 1.0 && step <= 2.0 * projection.step &&
+         projection.step <= 2.0 * step;
 }
 
 /// The least weight for all coordinates; and which of them turn a body with mass.
-void weigh(const Model& model, Closing& closing) {
-  const auto weight = [&](int i) -> double& { return closing.values[model.pattern->slot(i, i)]; };
-  closing.turns.setZero();
+void weigh(const Model& model, PositionProjection& projection) {
+  std::vector<double>& values = projection.system->matrix.values;
+  const auto weight = [&](int i) -> double& { return values[model.pattern->slot(i, i)]; };
+  projection.turns.setZero();
   for (const Node& node : model.nodes)
     for (int k = 0; k < 3 && node.rotation >= 0; ++k)
-      if (weight(node.rotation + k) != 0.0) closing.turns[node.rotation + k] = 1.0;
+      if (weight(node.rotation + k) != 0.0) projection.turns[node.rotation + k] = 1.0;
   for (int i = 0; i < model.sizes.boundary; ++i)
     weight(i) += least_weight / (model.equation_scale[i] * model.equation_scale[i]);
 }
 
 /// Radians by which bodies turn in the step so far.
-double turn_of_step(const Model& model, const Workspace& workspace) {
-  const Eigen::VectorXd& turns = workspace.closing.turns;
-  return workspace.displacement.head(model.sizes.boundary).cwiseProduct(turns).lpNorm<Eigen::Infinity>();
+double turn_of_step(const Model& model, const Evaluation& evaluation, const PositionProjection& projection) {
+  return evaluation.displacement.head(model.sizes.boundary).cwiseProduct(projection.turns).lpNorm<Eigen::Infinity>();
 }
 
 }  // namespace
 
-FactorReport prepare_closing(const Model& model, const State& state, const TangentCoefficients& coefficients,
-                             double step, Workspace& workspace) {
-  Closing& closing = workspace.closing;
-  if (serves(closing, step)) return {true, 1.0, -1, 1.0};
-  if (!closing.solver) {
-    closing.solver.emplace(*model.pattern, model.solver.kind);
-    closing.values.resize(workspace.values.size());
-    closing.turns.setZero(model.sizes.boundary);
-    closing.unknowns.setZero(model.pattern->size());
-    closing.product.setZero(model.sizes.constraints);
+void PositionProjection::forget() {
+  if (system) system->forget();
+  step = 0.0;
+}
+
+FactorReport prepare_projection(const Model& model, const State& state, const StepScheme& scheme,
+                                Evaluation& evaluation, PositionProjection& projection) {
+  if (serves(projection, scheme.step)) return {true, 1.0, -1, 1.0};
+  if (!projection.system) {
+    projection.system.emplace(model);
+    projection.turns.setZero(model.sizes.boundary);
+    projection.open.setZero(model.sizes.constraints);
+    projection.closed.setZero(model.sizes.constraints);
   }
-  workspace.displacement.setZero();
-  evaluate(model, state, workspace);
-  evaluate_weight(model, state, {coefficients.mass, 0.0, coefficients.stiffness}, workspace, closing.values);
-  weigh(model, closing);
-  Eigen::Map<Eigen::ArrayXd>(closing.values.data(), model.value_scale.size()) *= model.value_scale;
-  const FactorReport report = closing.solver->numeric(closing.values);
-  closing.step = report.regular ? step : 0.0;
-  closing.age = 0.0;
+  evaluate(model, state, evaluation);
+  const TangentCoefficients& c = scheme.request.coefficients;
+  evaluate_weight(model, state, {c.mass, 0.0, c.stiffness}, evaluation, projection.system->matrix);
+  weigh(model, projection);
+  const FactorReport report = projection.system->factor(model);
+  projection.step = report.regular ? scheme.step : 0.0;
+  projection.age = 0.0;
   return report;
 }
 
-void close_positions(const Model& model, Workspace& workspace) {
-  Closing& closing = workspace.closing;
+void project_positions(const Model& model, const StepTuning& tuning, const Evaluation& evaluation,
+                       PositionProjection& projection, Eigen::VectorXd& correction) {
   const int n = model.sizes.boundary;
-  const double share = closing.age * farthest + turn_of_step(model, workspace);
-  workspace.correction.setZero();
+  SaddleSystem& system = *projection.system;
+  const double share = projection.age * tuning.farthest_turn + turn_of_step(model, evaluation, projection);
+  correction.setZero();
   double open = 1.0;
   for (int solution = 1;; ++solution) {
-    Eigen::VectorXd& unknowns = closing.unknowns;
-    unknowns.head(n).setZero();
-    unknowns.tail(model.sizes.constraints) = workspace.bias.cwiseProduct(workspace.active);
-    unknowns.array() *= model.equation_scale;
-    closing.solver->solve({unknowns.data(), static_cast<std::size_t>(unknowns.size())});
-    unknowns.array() *= model.equation_scale;
-    workspace.correction.head(n) += unknowns.head(n);
+    system.unknowns.head(n).setZero();
+    system.unknowns.tail(model.sizes.constraints) = projection.open.cwiseProduct(evaluation.active);
+    system.solve(model);
+    correction.head(n) += system.unknowns.head(n);
     open *= share;
-    if (open <= open_share || solution == most_solutions) return;
-    apply_jacobian(model, workspace, unknowns, closing.product);
-    workspace.bias -= closing.product;
+    if (open <= tuning.open_share || solution == tuning.most_projections) return;
+    apply_jacobian(model, evaluation, system.unknowns, projection.closed);
+    projection.open -= projection.closed;
   }
 }
 
-void age_closing(const Model& model, Workspace& workspace) {
-  Closing& closing = workspace.closing;
-  if (closing.step == 0.0) return;
-  closing.age += std::max(turn_of_step(model, workspace) / farthest, 1.0 / most_steps);
+void age_projection(const Model& model, const StepTuning& tuning, const Evaluation& evaluation,
+                    PositionProjection& projection) {
+  if (!projection.has_factors()) return;
+  projection.age +=
+      std::max(turn_of_step(model, evaluation, projection) / tuning.farthest_turn, 1.0 / tuning.most_steps);
 }
 
 }  // namespace tisserand::mechanism

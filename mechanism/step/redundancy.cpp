@@ -39,11 +39,11 @@ Vector6 unit_wrench(const Row12& row, const MarkerPair& pair, double length) {
 }
 
 template <class Item>
-MarkerPair pair_of(const Item& item, const Workspace& workspace) {
-  return {item.a, item.b, motion_of(workspace, item.a.node), motion_of(workspace, item.b.node)};
+MarkerPair pair_of(const Item& item, const Evaluation& evaluation) {
+  return {item.a, item.b, motion_of(evaluation, item.a.node), motion_of(evaluation, item.b.node)};
 }
 
-WeightedJacobian weighted_jacobian(const Model& model, const Workspace& workspace) {
+WeightedJacobian weighted_jacobian(const Model& model, const Evaluation& evaluation) {
   WeightedJacobian result;
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](const std::vector<int>& coordinates, int column, const auto& row) {
@@ -55,11 +55,11 @@ WeightedJacobian weighted_jacobian(const Model& model, const Workspace& workspac
     const Joint& joint = model.joints[i];
     Eigen::MatrixXd W(6, joint.size());
     for (int k = 0; k < joint.size(); ++k)
-      W.col(k) = unit_wrench(workspace.joints[i].B.row(k), pair_of(joint, workspace), model.length);
+      W.col(k) = unit_wrench(evaluation.joints[i].B.row(k), pair_of(joint, evaluation), model.length);
     const Eigen::MatrixXd U = (W.transpose() * W).llt().matrixU();
     const Eigen::MatrixXd B = U.transpose().triangularView<Eigen::Lower>().solve(
-        Eigen::MatrixXd(workspace.joints[i].B.topRows(joint.size())));
-    const Eigen::MatrixXd rows = model_rows(model, model.joint_maps[i], local_view(B), workspace);
+        Eigen::MatrixXd(evaluation.joints[i].B.topRows(joint.size())));
+    const Eigen::MatrixXd rows = model_rows(model, model.joint_maps[i], local_view(B), evaluation);
     for (int k = 0; k < joint.size(); ++k) add(model.joint_maps[i].coordinates, joint.row + k, rows.row(k));
     result.triangle.push_back(U);
   }
@@ -68,16 +68,16 @@ WeightedJacobian weighted_jacobian(const Model& model, const Workspace& workspac
     double square = 0.0;
     for (const CouplingTerm& term : model.couplings[i].terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
-      const Row12 row = term.factor * workspace.coordinates[at].G;
-      square += unit_wrench(row, pair_of(model.coordinates[at], workspace), model.length).squaredNorm();
+      const Row12 row = term.factor * evaluation.coordinates[at].G;
+      square += unit_wrench(row, pair_of(model.coordinates[at], evaluation), model.length).squaredNorm();
     }
     const double weight = std::sqrt(square);
     result.coupling_weight[i] = weight;
     for (const CouplingTerm& term : model.couplings[i].terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
-      const Row12 row = (term.factor / weight) * workspace.coordinates[at].G;
+      const Row12 row = (term.factor / weight) * evaluation.coordinates[at].G;
       add(model.coordinate_maps[at].coordinates, model.couplings[i].row,
-          model_rows(model, model.coordinate_maps[at], local_view(row), workspace).row(0));
+          model_rows(model, model.coordinate_maps[at], local_view(row), evaluation).row(0));
     }
   }
   result.A.resize(model.sizes.boundary, model.sizes.constraints);
@@ -104,24 +104,25 @@ Eigen::VectorXd without_null_space(const Eigen::SparseMatrix<double>& A, const E
 
 bool is_overconstrained(const State& state) { return state.active().size() > 0 && state.active().minCoeff() == 0.0; }
 
-double largest_violation_left_out(const Model& model, const Workspace& workspace) {
+double largest_violation_left_out(const Model& model, const Evaluation& evaluation) {
   double largest = 0.0;
   for (int row = 0; row < model.sizes.constraints; ++row)
-    if (workspace.active[row] == 0.0)
-      largest = std::max(largest, std::abs(workspace.constraint[row]) / (model.length_row[row] ? model.length : 1.0));
+    if (evaluation.active[row] == 0.0)
+      largest = std::max(largest, std::abs(evaluation.constraint[row]) / (model.length_row[row] ? model.length : 1.0));
   return largest;
 }
 
-bool choose_active_rows(const Model& model, State& state, Workspace& workspace) {
+bool choose_active_rows(const Model& model, State& state, Evaluation& evaluation) {
   Eigen::VectorXd chosen = Eigen::VectorXd::Ones(model.sizes.constraints);
-  for (const int row : count_mobility(model, state, workspace).redundant) chosen[row] = 0.0;
+  for (const int row : count_mobility(model, state, evaluation).redundant) chosen[row] = 0.0;
   if (chosen == state.active()) return false;
   state.active() = chosen;
   return true;
 }
 
-Eigen::VectorXd least_norm_multipliers(const Model& model, const Workspace& workspace, const Eigen::VectorXd& lambda) {
-  const WeightedJacobian weighted = weighted_jacobian(model, workspace);
+Eigen::VectorXd least_norm_multipliers(const Model& model, const Evaluation& evaluation,
+                                       const Eigen::VectorXd& lambda) {
+  const WeightedJacobian weighted = weighted_jacobian(model, evaluation);
   Eigen::VectorXd mu = lambda;
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     auto part = mu.segment(model.joints[i].row, model.joints[i].size());
@@ -137,13 +138,13 @@ Eigen::VectorXd least_norm_multipliers(const Model& model, const Workspace& work
   return mu;
 }
 
-std::vector<std::string> joints_without_unique_reaction(const Model& model, const Workspace& workspace) {
+std::vector<std::string> joints_without_unique_reaction(const Model& model, const Evaluation& evaluation) {
   // A random vector has, with certainty for all practical purposes, a part along every direction of the null space.
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   const Eigen::VectorXd probe =
       Eigen::VectorXd::NullaryExpr(model.sizes.constraints, [&](Eigen::Index) { return normal(random); });
-  const Eigen::VectorXd null = probe - without_null_space(weighted_jacobian(model, workspace).A, probe);
+  const Eigen::VectorXd null = probe - without_null_space(weighted_jacobian(model, evaluation).A, probe);
   std::vector<std::string> names;
   for (const Joint& joint : model.joints)
     if (null.segment(joint.row, joint.size()).cwiseAbs().maxCoeff() > 1e-7) names.push_back(joint.name);

@@ -1,47 +1,25 @@
 // Time step of the constrained equations on SO(3): generalised alpha and HHT, index 3 and stabilised index 2.
 //
-// [BCA12] Bruls, Cardona, Arnold 2012 (Lie group generalised alpha), [ABC15] Arnold, Bruls, Cardona 2015 (start values,
-// stabilised index 2), [GGL85] Gear, Gupta, Leimkuhler 1985.
+// Numbers of these equations stand beside the verbs of step.cpp. ∘ exp: retract(), on SO(3) the exponential of a
+// material rotation vector. a: the algorithmic acceleration.
+//   (1)  r(q, v, v̇, λ, t) = G_iner + G_int + Bᵀλ − F = 0,  Φ(q, t) = 0                                    [BCA12] (1)
+//   (2)  (1−α_m) a_{n+1} + α_m a_n = (1−α_f) v̇_{n+1} + α_f v̇_n                                           [BCA12] (8)
+//   (3)  v_{n+1} = v_n + h ((1−γ) a_n + γ a_{n+1})
+//   (4)  q_{n+1} = q_n ∘ exp(h v_n + h² ((1/2−β) a_n + β a_{n+1}) + δ)
+//   (5)  index 3: δ = 0. Stabilised index 2: B v_{n+1} + Φ_t = 0 in place of Φ = 0 in (1), and δ with W δ + Bᵀμ = 0
+//        brings Φ(q_{n+1}) to zero; W = c_m M + c_k K of the bodies                                         [GGL85],
+//        [ABC15]
+//   (6)  Unknowns: d = h² β Δa and Δλ. Δv̇ = c_m d, Δv = c_c d, Δq = c_k d (+ δ) with
+//        c_m = (1−α_m)/((1−α_f) β h²), c_c = γ/(β h), c_k = 1
+//   (7)  [A Bᵀ; C 0][d; Δλ] = −[r; φ], A = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q. Index 3: φ = Φ, C = B T(θ), since d is an
+//        increment of the rotation vector θ of the step. Stabilised: φ = (β h/γ)(B v + Φ_t), C = B + (β h/γ) ∂(B v)/∂q
 #pragma once
 
-#include <string>
-
 #include "formats/scene/scene.hpp"
-#include "mechanism/equations/workspace.hpp"
-#include "mechanism/model/model.hpp"
-#include "mechanism/model/state.hpp"
+#include "mechanism/step/step_report.hpp"
+#include "mechanism/step/workspace.hpp"
 
 namespace tisserand::mechanism {
-
-/// (1−α_m) a_{n+1} + α_m a_n = (1−α_f) v̇_{n+1} + α_f v̇_n;  v_{n+1} = v_n + h ((1−γ) a_n + γ a_{n+1});
-/// q_{n+1} = q_n ∘ exp(h v_n + h² ((1/2−β) a_n + β a_{n+1}) + δ), δ = 0 for index 3.
-struct AlphaParameters {
-  double alpha_m = 0.0, alpha_f = 0.0, beta = 0.25, gamma = 0.5;
-};
-
-/// Generalised alpha: α_m = (2ρ−1)/(ρ+1), α_f = ρ/(ρ+1); HHT: α_m = 0, α_f = α; γ = 1/2 + α_f − α_m, β = (γ+1/2)²/4.
-AlphaParameters alpha_parameters(const formats::IntegratorSpec& spec);
-
-/// c_m, c_c, c_k for an increment of h² β a_{n+1}.
-TangentCoefficients step_coefficients(const AlphaParameters& alpha, double step);
-
-enum class StepOutcome { accepted, singular, diverged, too_many_iterations, inaccurate };
-
-/// What one step did. Ratios are measured values divided by their tolerance: at most 1 when accepted.
-struct StepReport {
-  StepOutcome outcome = StepOutcome::accepted;
-  int iterations = 0;
-  int factorisations = 0;
-  double force_ratio = 0.0;
-  double constraint_ratio = 0.0;
-  double error_ratio = 0.0;   ///< estimated local error, where the step is controlled
-  double residual = 0.0;      ///< largest |r| of force rows, of moment rows / length
-  double constraint = 0.0;    ///< largest |Φ| (positions, and angles times length)
-  int worst_coordinate = -1;  ///< of the largest residual, when not accepted
-  int worst_constraint = -1;  ///< of the largest violation, when not accepted and larger in ratio
-  int singular_column = -1;
-  int row_choices = 0;  ///< how often the constraint rows that are solved for were chosen anew
-};
 
 /// Where a step ends, and the instant at which loads are evaluated there (just before a jump).
 struct StepEnd {
@@ -54,11 +32,5 @@ struct StepEnd {
 /// overconstrained mechanism) the rows are chosen anew and the step is taken again. No heap allocation but there.
 [[nodiscard]] StepReport advance(const Model& model, const formats::IntegratorSpec& options, const StepEnd& end,
                                  State& state, Workspace& workspace);
-
-/// a_n for a new step size: a = v̇ + (h_new/h_old) (a − v̇), since a_n stands for v̇ at t_n + (α_m − α_f) h.
-void rebuild_algorithmic_acceleration(double step, State& state);
-
-/// "body/node, translation x; likely cause ..." for a step that was not accepted.
-std::string explain(const Model& model, const StepReport& report);
 
 }  // namespace tisserand::mechanism

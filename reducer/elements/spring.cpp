@@ -2,7 +2,6 @@
 #include "reducer/elements/spring.hpp"
 
 #include "common/math/rotation.hpp"
-#include "reducer/elements/beam/beam.hpp"
 #include "reducer/elements/element_matrices.hpp"
 
 namespace tisserand::reducer {

@@ -27,7 +27,7 @@ constexpr int point_type = 15, line_type = 1, triangle_type = 2, quadrilateral_t
 
 int gmsh_type(SolidShape shape) {
   constexpr std::array types{4, 11, 5, 17, 6, 18};
-  return types[shape];
+  return types[static_cast<int>(shape)];
 }
 
 template <class Property>

@@ -48,7 +48,7 @@ double volume(const Points& x, const Cell& cell, int corners) {
 
 }  // namespace
 
-CellForm form_of(CellShape shape) { return forms[shape]; }
+CellForm form_of(CellShape shape) { return forms[static_cast<int>(shape)]; }
 
 const char* dimension_word(int dimension) {
   constexpr std::array<const char*, 4> words{"node", "edge", "face", "volume"};

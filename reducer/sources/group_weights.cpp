@@ -28,7 +28,7 @@ Cell as_cell(const SolidElement& solid) {
   constexpr std::array shapes{CellShape::tetrahedron4, CellShape::tetrahedron10, CellShape::hexahedron8,
                               CellShape::hexahedron20, CellShape::prism6,        CellShape::prism15};
   Cell cell;
-  cell.shape = shapes[solid.shape];
+  cell.shape = shapes[static_cast<int>(solid.shape)];
   cell.nodes = solid.nodes;
   return cell;
 }

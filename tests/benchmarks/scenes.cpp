@@ -111,7 +111,7 @@ struct Output {
   }
   void write(const mechanism::Model& model, const mechanism::StepReport& step, double size,
              const mechanism::State& state, mechanism::Workspace& workspace) {
-    mechanism::fill_row(model, state, workspace, row);
+    mechanism::fill_row(model, state, workspace.now, row);
     row.step = size;
     row.iterations = step.iterations;
     row.residual = step.residual;

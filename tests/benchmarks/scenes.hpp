@@ -7,7 +7,7 @@
 
 #include "formats/scene/scene.hpp"
 #include "mechanism/build/build_model.hpp"
-#include "mechanism/equations/workspace.hpp"
+#include "mechanism/step/workspace.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
 
 namespace tisserand::benchmarks {

@@ -11,7 +11,8 @@
 #include <fmt/format.h>
 
 #include "formats/yaml/override.hpp"
-#include "mechanism/equations/newton.hpp"
+#include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/iteration_matrix.hpp"
 #include "mechanism/simulate.hpp"
 #include "mechanism/solver/back_ends.hpp"
 #include "tests/support/scenes/scenes.hpp"
@@ -89,15 +90,19 @@ double flops(const mechanism::SparsePattern& pattern, const Cost& cost, bool spa
 double solution_seconds(test_support::Simulation& run, const formats::IntegratorSpec& integrator, const Cost& cost) {
   mechanism::Workspace& workspace = run.workspace;
   const auto c = mechanism::step_coefficients(mechanism::alpha_parameters(integrator), integrator.step);
-  mechanism::evaluate(run.model(), run.state(), workspace);
-  mechanism::evaluate_tangent(run.model(), run.state(), c, mechanism::TangentKind::step, {}, workspace);
+  mechanism::evaluate(run.model(), run.state(), workspace.now);
+  mechanism::SaddleSystem system(run.model());
+  // Factoring scales the values in place: they are evaluated before each one.
+  const auto fill = [&] { mechanism::evaluate_tangent(run.model(), run.state(), {c}, workspace.now, system.matrix); };
+  const double tangent = seconds_of(fill);
   const double factor = seconds_of([&] {
-    if (!workspace.solver.numeric(workspace.values).regular) throw std::runtime_error("singular");
-  });
-  Eigen::VectorXd right(cost.unknowns);
+                          fill();
+                          if (!system.factor(run.model()).regular) throw std::runtime_error("singular");
+                        }) -
+                        tangent;
   const double solve = seconds_of([&] {
-    right.setOnes();
-    workspace.solver.solve({right.data(), static_cast<std::size_t>(right.size())});
+    system.unknowns.setOnes();
+    system.solve(run.model());
   });
   return static_cast<double>(cost.factorisations) * factor + static_cast<double>(cost.solutions) * solve;
 }

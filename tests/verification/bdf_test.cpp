@@ -127,10 +127,10 @@ TEST_P(WithCvode, HeavyTopMeetsTheReference) {
 TEST_P(WithCvode, AndrewsMechanismMeetsThePublishedSolution) {
   BdfRun run(with(test_support::andrews(1e-5), 1e-7, GetParam()), {});
   const auto angle = [&run](const std::string& name) {
-    evaluate(run->model(), run->state(), run->workspace);
-    evaluate_coordinates(run->model(), run->state(), run->workspace);
+    evaluate(run->model(), run->state(), run->workspace.now);
+    evaluate_coordinates(run->model(), run->state(), run->workspace.now);
     for (std::size_t i = 0; i < run->model().coordinates.size(); ++i)
-      if (run->model().coordinates[i].name == name) return run->workspace.coordinates[i].value;
+      if (run->model().coordinates[i].name == name) return run->workspace.now.coordinates[i].value;
     return 0.0;
   };
   run.run(0.03);

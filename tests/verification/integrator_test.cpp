@@ -9,7 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "mechanism/equations/newton.hpp"
+#include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/iteration_matrix.hpp"
 #include "tests/support/bodies/reduced_frames.hpp"
 #include "tests/support/reference_table.hpp"
 #include "tests/support/scenes/scenes.hpp"
@@ -110,9 +111,8 @@ TEST_P(EveryScheme, ConditioningDoesNotDependOnTheStep) {
     }
     EXPECT_EQ(run.rejected, 0) << h;
     EXPECT_LE(run.iterations, 200 * 8) << h;
-    const FactorReport factors =
-        factor(run.model(), run.state(), step_coefficients(alpha_parameters(run.scene.integrator), h),
-               TangentKind::step, {}, run.workspace);
+    const FactorReport factors = run.workspace.matrix.factor(
+        run.model(), run.state(), {step_coefficients(alpha_parameters(run.scene.integrator), h)}, run.workspace.now);
     least = std::min(least, factors.reciprocal_condition);
     most = std::max(most, factors.reciprocal_condition);
     // λ of size 20 N; the error of the method is 4e-2 at 1e-2 and falls with h².

@@ -32,10 +32,10 @@ Momentum momentum(Simulation& run) {
   State without = with;
   with.vdot() = with.v();
   without.vdot().setZero();
-  evaluate(model, with, run.workspace);
-  Eigen::VectorXd p = run.workspace.residual;
-  evaluate(model, without, run.workspace);
-  p -= run.workspace.residual;
+  evaluate(model, with, run.workspace.now);
+  Eigen::VectorXd p = run.workspace.now.residual;
+  evaluate(model, without, run.workspace.now);
+  p -= run.workspace.now.residual;
   Momentum sum;
   for (int i = 0; i < model.sizes.nodes; ++i) {
     const Node& node = model.nodes[i];
@@ -43,7 +43,7 @@ Momentum momentum(Simulation& run) {
       sum.linear += p.segment<3>(node.translation);
       sum.angular += Vector3d(run.state().x().col(i)).cross(p.segment<3>(node.translation));
     }
-    if (node.rotation >= 0) sum.angular += run.workspace.motion[i].R * p.segment<3>(node.rotation);
+    if (node.rotation >= 0) sum.angular += run.workspace.now.motion[i].R * p.segment<3>(node.rotation);
   }
   return sum;
 }

@@ -18,10 +18,10 @@ using formats::JointKind;
 
 /// Position of a place at the last state, whether a joint acts there or not.
 Vector3d place(test_support::Simulation& run, const std::string& name) {
-  evaluate(run.model(), run.state(), run.workspace);
-  update_modal_nodes(run.model(), run.workspace);
+  evaluate(run.model(), run.state(), run.workspace.now);
+  update_modal_nodes(run.model(), run.workspace.now);
   for (const Place& p : run.model().places)
-    if (p.name == name) return marker_position(p.marker, motion_of(run.workspace, p.marker.node));
+    if (p.name == name) return marker_position(p.marker, motion_of(run.workspace.now, p.marker.node));
   throw std::runtime_error("no place " + name);
 }
 
@@ -46,10 +46,10 @@ Drift free_flight(const std::string& reference, double step) {
   run.state().w() = Vector3d(0.05, -0.04, 0.03);
   run.start();
   const auto momenta = [&run] {
-    evaluate(run.model(), run.state(), run.workspace);
-    tangent(run.model().modal_bodies[0], {1, 0, 0}, run.workspace.modal_bodies[0]);
-    const VectorXd p = run.workspace.modal_bodies[0].tangent * run.state().v();
-    const NodeMotion& frame = run.workspace.motion[0];
+    evaluate(run.model(), run.state(), run.workspace.now);
+    tangent(run.model().modal_bodies[0], {1, 0, 0}, run.workspace.now.modal_bodies[0]);
+    const VectorXd p = run.workspace.now.modal_bodies[0].tangent * run.state().v();
+    const NodeMotion& frame = run.workspace.now.motion[0];
     Eigen::Matrix<double, 6, 1> sum;
     sum << p.head<3>(), frame.x.cross(p.head<3>()) + frame.R * p.segment<3>(3);
     return sum;

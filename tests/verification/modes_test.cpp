@@ -25,7 +25,7 @@ const Vector3d z = Vector3d::UnitZ();
 
 ModesReport modes_of(Simulation& run, const formats::ModesSpec& spec) {
   solve_accelerations(run.model(), 1e-3, "test", run.state(), run.workspace);
-  return solve_modes(run.model(), run.state(), spec, run.workspace);
+  return solve_modes(run.model(), run.state(), spec, run.workspace.now);
 }
 
 /// Of the scene as it stands.

@@ -28,10 +28,10 @@ using test_support::Simulation;
 const Vector3d z = Vector3d::UnitZ();
 
 double coordinate(Simulation& run, const std::string& name) {
-  evaluate(run.model(), run.state(), run.workspace);
-  evaluate_coordinates(run.model(), run.state(), run.workspace);
+  evaluate(run.model(), run.state(), run.workspace.now);
+  evaluate_coordinates(run.model(), run.state(), run.workspace.now);
   for (std::size_t i = 0; i < run.model().coordinates.size(); ++i)
-    if (run.model().coordinates[i].name == name) return run.workspace.coordinates[i].value;
+    if (run.model().coordinates[i].name == name) return run.workspace.now.coordinates[i].value;
   ADD_FAILURE() << "no coordinate " << name;
   return 0.0;
 }
@@ -39,7 +39,7 @@ double coordinate(Simulation& run, const std::string& name) {
 double rate(Simulation& run, const std::string& name) {
   coordinate(run, name);
   for (std::size_t i = 0; i < run.model().coordinates.size(); ++i)
-    if (run.model().coordinates[i].name == name) return run.workspace.coordinates[i].rate;
+    if (run.model().coordinates[i].name == name) return run.workspace.now.coordinates[i].rate;
   return 0.0;
 }
 
@@ -90,7 +90,7 @@ TEST(FourBar, TurnsLikeTheExactEquation) {
   EXPECT_NEAR(-coordinate(run, "a0"), 12.68425959, 2e-5);
   EXPECT_NEAR(-rate(run, "a0"), 1.07651118, 2e-4);
   // The library allows 0.1 J of 35.8 J.
-  EXPECT_NEAR(evaluate_energy(run.model(), run.workspace).total(), run.state().initial_energy(), 0.01);
+  EXPECT_NEAR(evaluate_energy(run.model(), run.workspace.now).total(), run.state().initial_energy(), 0.01);
 }
 
 /// θ at `end` from θ(0) = π/2, θ'(0) = 1 by the symplectic scheme of order two, error below 1e-8.
@@ -114,8 +114,8 @@ TEST(FourBar, MovesOnFromWhereItLiesFlat) {
   run.run(1.5, [&] { choices += run.report.row_choices; });
   EXPECT_GT(choices, 0);
   EXPECT_NEAR(-coordinate(run, "a0"), four_bar_angle(1.5) - 0.5 * std::numbers::pi, 1e-3);
-  EXPECT_NEAR(evaluate_energy(run.model(), run.workspace).total(), run.state().initial_energy(), 0.01);
-  EXPECT_LT(largest_violation_left_out(run.model(), run.workspace), 1e-7);
+  EXPECT_NEAR(evaluate_energy(run.model(), run.workspace.now).total(), run.state().initial_energy(), 0.01);
+  EXPECT_LT(largest_violation_left_out(run.model(), run.workspace.now), 1e-7);
 }
 
 TEST(FourBar, RedundantRowsAreCounted) {
@@ -169,8 +169,8 @@ formats::Scene bricard(double step) {
 }
 
 Vector3d third_corner(Simulation& run) {
-  evaluate(run.model(), run.state(), run.workspace);
-  return marker_position({2, Vector3d(0, 0, 0.5), Eigen::Matrix3d::Identity()}, run.workspace.motion[2]);
+  evaluate(run.model(), run.state(), run.workspace.now);
+  return marker_position({2, Vector3d(0, 0, 0.5), Eigen::Matrix3d::Identity()}, run.workspace.now.motion[2]);
 }
 
 // Path of P3 (one-coordinate reduction, energy drift 1.6e-10 J): 30 rows of rank 29.
@@ -230,9 +230,9 @@ TEST(Motion, WorkOfTheDriveIsTheEnergyOfTheMechanism) {
     Simulation run(scene, {});
     run.start();
     run.run(1.0);
-    evaluate(run.model(), run.state(), run.workspace);
+    evaluate(run.model(), run.state(), run.workspace.now);
     const double error =
-        evaluate_energy(run.model(), run.workspace).total() - run.state().initial_energy() - run.state().work();
+        evaluate_energy(run.model(), run.workspace.now).total() - run.state().initial_energy() - run.state().work();
     if (previous != 0.0) {
       EXPECT_NEAR(previous / error, 4.0, 0.8);
     }
@@ -369,9 +369,9 @@ TEST(SpringAlongAJoint, SwingsLikeTheDampedOscillator) {
   const double delta = 1.0, omega = std::sqrt(25.0 - 1.0);
   const double exact = -0.1 + 0.1 * std::exp(-delta) * (std::cos(omega) + delta / omega * std::sin(omega));
   EXPECT_NEAR(coordinate(run, "guide"), exact, 1e-7);  // (ωh)²/12 of 0.1
-  evaluate(run.model(), run.state(), run.workspace);
+  evaluate(run.model(), run.state(), run.workspace.now);
   const double balance =
-      evaluate_energy(run.model(), run.workspace).total() - run.state().initial_energy() + run.state().dissipated();
+      evaluate_energy(run.model(), run.workspace.now).total() - run.state().initial_energy() + run.state().dissipated();
   EXPECT_NEAR(balance, 0.0, 1e-6);
 }
 

@@ -25,7 +25,7 @@ TEST(Solvers, AndrewsMechanismMovesAlikeWithEach) {
     run.run(0.004);
     if (first.size() == 0) first = run.state().x();
     EXPECT_LT((run.state().x() - first).cwiseAbs().maxCoeff(), 1e-9) << static_cast<int>(solver);
-    const SolverHealth& health = run.workspace.solver.health();
+    const SolverHealth& health = run.workspace.matrix.health();
     EXPECT_GT(health.reciprocal_condition, 1e-14);
     EXPECT_LT(health.reciprocal_condition, 0.1);
     EXPECT_GT(health.reciprocal_growth, 1e-6);

@@ -63,9 +63,9 @@ TEST(SuperelementCantilever, TipDeflectionIsTheAnalyticOne) {
   EXPECT_NEAR(run.position("beam/tip").y() / (P * L * L * L / (3 * EI)), 1.0, 1e-6);
   EXPECT_NEAR(2 * run.rotation("beam/tip").z() / (P * L * L / (2 * EI)), 1.0, 1e-6);
   // The clamp carries −P and −P L about z.
-  evaluate(run.model(), run.state(), run.workspace);
+  evaluate(run.model(), run.state(), run.workspace.now);
   const JointReaction r =
-      joint_reaction(run.model().joints[0], NodeMotion{}, run.workspace.motion[0], run.state().lambda().data());
+      joint_reaction(run.model().joints[0], NodeMotion{}, run.workspace.now.motion[0], run.state().lambda().data());
   EXPECT_LT((r.force - Vector3d(0, -P, 0)).norm(), 1e-6 * P);
   EXPECT_LT((r.moment - Vector3d(0, 0, -P * L)).norm(), 1e-6 * P * L);
 }
@@ -169,9 +169,9 @@ TEST(SuperelementCantilever, ClampCarriesWeightAndItsMoment) {
   Simulation run(c.scene, c.files);
   const StaticsReport report = solve(run);
   ASSERT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
-  evaluate(run.model(), run.state(), run.workspace);
+  evaluate(run.model(), run.state(), run.workspace.now);
   const JointReaction r =
-      joint_reaction(run.model().joints[0], NodeMotion{}, run.workspace.motion[0], run.state().lambda().data());
+      joint_reaction(run.model().joints[0], NodeMotion{}, run.workspace.now.motion[0], run.state().lambda().data());
   const double W = 9.81 * c.data.density * c.data.area * c.data.length;
   EXPECT_LT((r.force - Vector3d(0, 0, W)).norm(), 1e-8 * W);
   EXPECT_NEAR(r.moment.y() / (-W * c.data.length / 2), 1.0,

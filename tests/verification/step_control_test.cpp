@@ -280,7 +280,7 @@ TEST(LocalError, IsThatOfOneStep) {
               StepOutcome::accepted);
     const double error = std::abs(run.position("body").x() - 1e-3 / 6.0);
     Eigen::VectorXd estimate = Eigen::VectorXd::Zero(6);
-    estimate_error(scene.integrator, 0.1, run.state(), run.workspace.previous, estimate);
+    estimate_error(scene.integrator, 0.1, run.state(), run.workspace.memory.previous, estimate);
     EXPECT_NEAR(estimate[0], error, 1e-3 * error);
     // A tenth of the time may add a tenth of the tolerance.
     EXPECT_NEAR(measure_error(run.model(), scene.integrator, 0.1, estimate).ratio, 10.0 * error, 1e-2 * error);

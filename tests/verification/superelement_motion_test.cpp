@@ -51,11 +51,12 @@ SuperelementFiles one_file(const formats::Superelement& element) {
 /// Angular momentum about the world's origin: rows of M v are the momenta of nodes, forces in world and moments in node
 /// axes.
 Vector3d angular_momentum(Simulation& run) {
-  evaluate(run.model(), run.state(), run.workspace);
+  evaluate(run.model(), run.state(), run.workspace.now);
   const SuperelementBody& body = body_of(run.model(), 0);
-  const NodeView<NodeMotion> nodes = nodes_of(run.model(), 0, run.workspace);
+  const NodeView<NodeMotion> nodes = nodes_of(run.model(), 0, run.workspace.now);
   Eigen::MatrixXd M;
-  uncondensed_tangent(body, run.workspace.superelements[0], nodes, Vector3d::Zero(), {1, 0, 0}, TangentKind::step, M);
+  uncondensed_tangent(body, run.workspace.now.superelements[0], nodes, Vector3d::Zero(), {1, 0, 0}, TangentKind::step,
+                      M);
   const Eigen::VectorXd p = M * Eigen::VectorXd(run.state().v());
   Vector3d sum = Vector3d::Zero();
   for (std::size_t j = 0; j < body.node.size(); ++j) {
@@ -120,7 +121,7 @@ TEST_P(FreeTop, EnergyAndMomentumErrorsStayBoundedOverTenThousandSteps) {
     momentum_error[tenth] =
         std::max(momentum_error[tenth], (angular_momentum(run) - momentum).norm() / momentum.norm());
     energy_error[tenth] =
-        std::max(energy_error[tenth], std::abs(evaluate_energy(run.model(), run.workspace).total() / energy - 1.0));
+        std::max(energy_error[tenth], std::abs(evaluate_energy(run.model(), run.workspace.now).total() / energy - 1.0));
   });
   EXPECT_LT(energy_error[0], 1e-3);
   EXPECT_LT(momentum_error[0], 1e-3);

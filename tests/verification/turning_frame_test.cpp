@@ -58,7 +58,7 @@ TEST_P(TurningFrame, KeepsEnergyAllTheWayRound) {
   const double kinetic = run.energy().total();
   double largest_strain = 0.0, largest_error = 0.0;
   run.run(6.5, [&] {
-    const Energy now = evaluate_energy(run.model(), run.workspace);
+    const Energy now = evaluate_energy(run.model(), run.workspace.now);
     largest_strain = std::max(largest_strain, now.strain);
     largest_error = std::max(largest_error, std::abs(now.total() - kinetic));
   });

@@ -75,13 +75,13 @@ TEST(Mobility, IsCounted) {
 // in place of the last hinge two of three superfluous equations go (and the translation along z stays).
 TEST(Mobility, OfAFourBarLinkage) {
   Simulation run(four_bar(JointKind::revolute), {});
-  const Mobility mobility = count_mobility(run.model(), run.state(), run.workspace);
+  const Mobility mobility = count_mobility(run.model(), run.state(), run.workspace.now);
   EXPECT_EQ(mobility.constraints, 20);
   EXPECT_EQ(mobility.rank, 17);
   EXPECT_EQ(mobility.degrees_of_freedom, 1);
   EXPECT_EQ(mobility.redundant.size(), 3u);
   Simulation ball(four_bar(JointKind::spherical), {});
-  EXPECT_EQ(count_mobility(ball.model(), ball.state(), ball.workspace).redundant.size(), 1u);
+  EXPECT_EQ(count_mobility(ball.model(), ball.state(), ball.workspace.now).redundant.size(), 1u);
 }
 
 TEST(RedundantConstraints, AreMadeInactiveAndNamed) {

@@ -33,8 +33,8 @@ formats::VirtualBodySpec hub_at(const Vector3d& position) {
 
 Preflight examined(const formats::Scene& scene, const SuperelementFiles& files) {
   Simulation run(scene, files);
-  evaluate(run.model(), run.state(), run.workspace);
-  return examine(run.model(), run.workspace);
+  evaluate(run.model(), run.state(), run.workspace.now);
+  return examine(run.model(), run.workspace.now);
 }
 
 // A flexible body counts as one rigid part, whatever its nodes: on a hinge it has one degree of freedom then, and on
@@ -47,13 +47,13 @@ TEST(RigidMobility, CountsFlexibleBodiesAsRigid) {
   const Vector3d tip = files.at("beam").superelement.node_position.row(1);
   scene.joints = {joint("one", JointKind::revolute, "ground", "beam/base", {0, 0, 0}, {1, 0, 0})};
   Simulation hinged(scene, files);
-  Mobility mobility = count_mobility(hinged.model(), hinged.state(), hinged.workspace);
+  Mobility mobility = count_mobility(hinged.model(), hinged.state(), hinged.workspace.now);
   EXPECT_EQ(mobility.parts, 1);
   EXPECT_EQ(mobility.rigid_mobility, 1);
   EXPECT_GT(mobility.degrees_of_freedom, 1);
   scene.joints.push_back(joint("two", JointKind::revolute, "ground", "beam/tip", tip, {1, 0, 0}));
   Simulation held(scene, files);
-  mobility = count_mobility(held.model(), held.state(), held.workspace);
+  mobility = count_mobility(held.model(), held.state(), held.workspace.now);
   EXPECT_TRUE(mobility.redundant.empty());  // the deformable body meets all ten
   EXPECT_EQ(mobility.rigid_mobility, 1);
 }
@@ -67,8 +67,8 @@ std::vector<std::string> undetermined(Extra extra) {
   scene.bodies.push_back(hub_at({0, 0, 0}));
   extra(scene);
   Simulation run(scene, {});
-  evaluate(run.model(), run.state(), run.workspace);
-  return undetermined_motions(run.model(), run.state(), run.workspace);
+  evaluate(run.model(), run.state(), run.workspace.now);
+  return undetermined_motions(run.model(), run.state(), run.workspace.now);
 }
 
 // The violations that [GA00] section 4 is about: a virtual body on a hinge, between balls, on nothing.

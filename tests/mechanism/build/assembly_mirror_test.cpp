@@ -109,8 +109,7 @@ Outcome run(const std::string& text) {
   const formats::ResultsLayout layout = results_layout(simulation.model(), scene);
   formats::ResultsRow row;
   row.resize(layout);
-  simulation.workspace.displacement.setZero();
-  fill_row(simulation.model(), simulation.state(), simulation.workspace, row);
+  fill_row(simulation.model(), simulation.state(), simulation.workspace.now, row);
   const auto own = [](const std::string& name) { return name.starts_with("one/") ? name.substr(4) : name; };
   Outcome outcome;
   for (std::size_t i = 0; i < layout.nodes.size(); ++i) {

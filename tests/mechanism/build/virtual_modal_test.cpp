@@ -5,7 +5,8 @@
 
 #include "common/error.hpp"
 #include "common/math/rotation.hpp"
-#include "mechanism/equations/newton.hpp"
+#include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/iteration_matrix.hpp"
 #include "tests/support/bodies/modal_known_answers.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"
 #include "tests/support/scenes/virtual_bodies.hpp"
@@ -109,12 +110,12 @@ struct KnownJoints {
     MatrixXd J(rows, static_cast<Eigen::Index>(columns.size()));
     for (Eigen::Index j = 0; j < J.cols(); ++j) {
       run.state().v() = VectorXd::Unit(v.size(), columns[j]);
-      evaluate(run.model(), run.state(), run.workspace);
-      J.col(j) = run.workspace.constraint_rate.segment(row, rows);
+      evaluate(run.model(), run.state(), run.workspace.now);
+      J.col(j) = run.workspace.now.constraint_rate.segment(row, rows);
     }
     run.state().v() = v;
-    evaluate(run.model(), run.state(), run.workspace);
-    evaluate_bias(run.model(), run.workspace);
+    evaluate(run.model(), run.state(), run.workspace.now);
+    evaluate_bias(run.model(), run.workspace.now);
     return J;
   }
 
@@ -140,10 +141,11 @@ TEST(JointsOfModalBodies, SphericalOnesAreTheKnownAnswers) {
   for (const auto& [name, row, bodies] : joints) {
     const nlohmann::json& known = k.known.at(name);
     EXPECT_LT(relative_difference(k.jacobian(row, 3, k.columns(bodies)), to_matrix(known.at("J"))), known_tolerance);
-    EXPECT_LT(relative_difference(k.run.workspace.constraint.segment<3>(row), to_vector(known.at("Phi"))),
+    EXPECT_LT(relative_difference(k.run.workspace.now.constraint.segment<3>(row), to_vector(known.at("Phi"))),
               known_tolerance)
         << name;
-    EXPECT_LT(relative_difference(-k.run.workspace.bias.segment<3>(row), to_vector(known.at("gamma"))), known_tolerance)
+    EXPECT_LT(relative_difference(-k.run.workspace.now.bias.segment<3>(row), to_vector(known.at("gamma"))),
+              known_tolerance)
         << name;
   }
 }
@@ -155,9 +157,9 @@ TEST(JointsOfModalBodies, RigidJointIsTheKnownAnswer) {
   const nlohmann::json& known = k.known.at("rigid_joint_off_manifold");
   const MatrixXd J = k.jacobian(9, 6, k.columns({"R", "F"})), expected = to_matrix(known.at("J"));
   EXPECT_LT(relative_difference(J.topRows(3), expected.topRows(3)), known_tolerance);
-  EXPECT_LT(relative_difference(k.run.workspace.constraint.segment<3>(9), to_vector(known.at("Phi")).head<3>()),
+  EXPECT_LT(relative_difference(k.run.workspace.now.constraint.segment<3>(9), to_vector(known.at("Phi")).head<3>()),
             known_tolerance);
-  EXPECT_LT(relative_difference(-k.run.workspace.bias.segment<3>(9), to_vector(known.at("gamma")).head<3>()),
+  EXPECT_LT(relative_difference(-k.run.workspace.now.bias.segment<3>(9), to_vector(known.at("gamma")).head<3>()),
             known_tolerance);
   const MatrixXd rows = J.bottomRows(3).transpose(), wanted = expected.bottomRows(3).transpose();
   const MatrixXd combination = rows.colPivHouseholderQr().solve(wanted);
@@ -214,9 +216,9 @@ TEST(VirtualBodyOnAModalNode, AccelerationsAndTieAreTheKnownAnswers) {
     if (kept) place(run, "V", kkt.at("V"));
     run.state().w() = to_vector(F.at("w"));
     run.state().v().tail(3) = to_vector(F.at("wdot"));
-    evaluate(run.model(), run.state(), run.workspace);
-    EXPECT_LT(run.workspace.constraint.norm(), 1e-14);
-    EXPECT_LT(run.workspace.constraint_rate.norm(), 1e-14);
+    evaluate(run.model(), run.state(), run.workspace.now);
+    EXPECT_LT(run.workspace.now.constraint.norm(), 1e-14);
+    EXPECT_LT(run.workspace.now.constraint_rate.norm(), 1e-14);
     ASSERT_FALSE(solve_accelerations(run.model(), 1e-3, "", run.state(), run.workspace));
     VectorXd expected(kept ? 21 : 15);  // the virtual body after those with mass, modes last
     if (kept)

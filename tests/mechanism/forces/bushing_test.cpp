@@ -184,7 +184,7 @@ TEST(Bushing, EquilibriumUnderAPreload) {
   run.start();
   const StaticsReport report = solve_statics(run.model(), scene.statics, run.state(), run.workspace);
   ASSERT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
-  EXPECT_LT((run.workspace.bushings[0].deflection - d).norm(), 1e-8);
+  EXPECT_LT((run.workspace.now.bushings[0].deflection - d).norm(), 1e-8);
 }
 
 // Torsion about a principal axis through the centre of mass: θ'' = −(c θ + d θ')/J, amplitude 2.5 rad: linear at any
@@ -212,8 +212,8 @@ TEST(Bushing, LargeTurnsVibrateHarmonically) {
     const double delta = 0.5 * d / J, omega = std::sqrt(c / J - delta * delta);
     const double expected =
         theta0 * std::exp(-delta * 2.0) * (std::cos(2.0 * omega) + delta / omega * std::sin(2.0 * omega));
-    evaluate(run.model(), run.state(), run.workspace);
-    return std::abs(run.workspace.bushings[0].deflection[5] - expected);
+    evaluate(run.model(), run.state(), run.workspace.now);
+    return std::abs(run.workspace.now.bushings[0].deflection[5] - expected);
   };
   const double coarse = error(0.01), fine = error(0.005);
   EXPECT_LT(fine, 2e-3);

@@ -180,7 +180,7 @@ TEST(Inputs, MayBeCubicAndMixWithChannels) {
   scene.channels = {of_marker("v", ChannelKind::velocity, "mass", 0)};
   test_support::Simulation run(scene, {});
   EXPECT_TRUE(run.model().breakpoints.empty());
-  TimeFunction& f = run.workspace.load_functions[0][0];
+  TimeFunction& f = run.workspace.now.load_functions[0][0];
   f.set_channels(Eigen::VectorXd::Constant(1, 0.5));
   EXPECT_DOUBLE_EQ(f(0.0), -1.0);
   EXPECT_DOUBLE_EQ(f(0.3), 9.0);

@@ -23,8 +23,7 @@ Stored at_start(const std::string& text) {
   run.start();
   Stored stored{results_layout(run.model(), run.scene), {}};
   stored.row.resize(stored.layout);
-  run.workspace.displacement.setZero();
-  fill_row(run.model(), run.state(), run.workspace, stored.row);
+  fill_row(run.model(), run.state(), run.workspace.now, stored.row);
   return stored;
 }
 

@@ -8,7 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "common/math/rotation.hpp"
-#include "mechanism/equations/newton.hpp"
+#include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/iteration_matrix.hpp"
 #include "tests/support/bodies/beam_states.hpp"
 #include "tests/support/bodies/reduced_frames.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"
@@ -131,18 +132,17 @@ struct Opened {
   }
   /// Bᵀλ: the residual less that without multipliers.
   VectorXd reactions(const State& state) {
-    evaluate(run.model(), state, run.workspace);
-    const VectorXd with = run.workspace.residual;
+    evaluate(run.model(), state, run.workspace.now);
+    const VectorXd with = run.workspace.now.residual;
     State without = state;
     without.lambda().setZero();
-    evaluate(run.model(), without, run.workspace);
-    return with - run.workspace.residual;
+    evaluate(run.model(), without, run.workspace.now);
+    return with - run.workspace.now.residual;
   }
   /// Dense [A Bᵀ; B 0], A unscaled.
   MatrixXd matrix(const State& state, const ConstraintRows& rows) {
-    evaluate(run.model(), state, run.workspace);
-    evaluate_tangent(run.model(), state, {1, 0, 1}, TangentKind::step, rows, run.workspace);
-    return test_support::dense_matrix(run);
+    evaluate(run.model(), state, run.workspace.now);
+    return test_support::dense_matrix(run, state, {{1, 0, 1}, TangentKind::step, rows});
   }
 };
 
@@ -178,11 +178,11 @@ TEST_P(JointBetweenCarriers, RowsColumnsAndGeometricStiffnessAreDerivatives) {
       retract(model, at, d * VectorXd::Unit(v, j), plus);
       retract(model, at, -d * VectorXd::Unit(v, j), minus);
       K.col(j) = opened.reactions(plus) / (2 * d);
-      B.col(j) = opened.run.workspace.constraint / (2 * d);
-      N.col(j) = opened.run.workspace.constraint_rate / (2 * d);
+      B.col(j) = opened.run.workspace.now.constraint / (2 * d);
+      N.col(j) = opened.run.workspace.now.constraint_rate / (2 * d);
       K.col(j) -= opened.reactions(minus) / (2 * d);
-      B.col(j) -= opened.run.workspace.constraint / (2 * d);
-      N.col(j) -= opened.run.workspace.constraint_rate / (2 * d);
+      B.col(j) -= opened.run.workspace.now.constraint / (2 * d);
+      N.col(j) -= opened.run.workspace.now.constraint_rate / (2 * d);
     }
     EXPECT_LT((A.bottomLeftCorner(m, n) - B).cwiseAbs().maxCoeff(), accuracy);
     EXPECT_LT((A.topRightCorner(n, m) - B.transpose()).cwiseAbs().maxCoeff(), accuracy);
@@ -204,12 +204,12 @@ TEST_P(JointBetweenCarriers, BiasIsTheChangeOfTheRate) {
     for (const double sign : {1.0, -1.0}) {
       State moved = at;
       retract(model, at, sign * h * at.v(), moved);
-      evaluate(model, moved, opened.run.workspace);
-      change += sign * opened.run.workspace.constraint_rate / (2 * h);
+      evaluate(model, moved, opened.run.workspace.now);
+      change += sign * opened.run.workspace.now.constraint_rate / (2 * h);
     }
-    evaluate(model, at, opened.run.workspace);
-    evaluate_bias(model, opened.run.workspace);
-    EXPECT_LT((opened.run.workspace.bias - change).cwiseAbs().maxCoeff(), 2e-8);
+    evaluate(model, at, opened.run.workspace.now);
+    evaluate_bias(model, opened.run.workspace.now);
+    EXPECT_LT((opened.run.workspace.now.bias - change).cwiseAbs().maxCoeff(), 2e-8);
   }
 }
 
@@ -221,7 +221,7 @@ TEST_P(JointBetweenCarriers, ReactionsDoNoWork) {
     const State& state = opened.run.state();
     const VectorXd reactions = opened.reactions(state);
     const double power = reactions.dot(state.v().head(reactions.size()));
-    EXPECT_NEAR(power, state.lambda().dot(opened.run.workspace.constraint_rate), 1e-9);
+    EXPECT_NEAR(power, state.lambda().dot(opened.run.workspace.now.constraint_rate), 1e-9);
   }
 }
 
@@ -247,13 +247,13 @@ TEST_P(JointBetweenCarriers, RigidMotionOfTheWorldChangesNothing) {
     for (const Joint& one : model.joints)
       if (one.coincident) turned.lambda().segment<3>(one.row) = (Q * turned.lambda().segment<3>(one.row)).eval();
     const auto values = [&](const State& state) {
-      evaluate(model, state, opened.run.workspace);
-      evaluate_bias(model, opened.run.workspace);
+      evaluate(model, state, opened.run.workspace.now);
+      evaluate_bias(model, opened.run.workspace.now);
       VectorXd all(2 * model.sizes.constraints + 6);
       const JointReaction r =
-          joint_reaction(joint, motion_of(opened.run.workspace, joint.a.node),
-                         motion_of(opened.run.workspace, joint.b.node), state.lambda().data() + joint.row);
-      all << opened.run.workspace.constraint, opened.run.workspace.bias, r.force, r.moment;
+          joint_reaction(joint, motion_of(opened.run.workspace.now, joint.a.node),
+                         motion_of(opened.run.workspace.now, joint.b.node), state.lambda().data() + joint.row);
+      all << opened.run.workspace.now.constraint, opened.run.workspace.now.bias, r.force, r.moment;
       return all;
     };
     VectorXd before = values(opened.run.state());
@@ -267,8 +267,8 @@ TEST_P(JointBetweenCarriers, RigidMotionOfTheWorldChangesNothing) {
 /// World force and moment on B at its origin, from the accelerations at the start.
 JointReaction world_reaction(Simulation& run) {
   const Joint& joint = run.model().joints.front();
-  evaluate(run.model(), run.state(), run.workspace);
-  const NodeMotion &a = motion_of(run.workspace, joint.a.node), &b = motion_of(run.workspace, joint.b.node);
+  evaluate(run.model(), run.state(), run.workspace.now);
+  const NodeMotion &a = motion_of(run.workspace.now, joint.a.node), &b = motion_of(run.workspace.now, joint.b.node);
   const JointReaction r = joint_reaction(joint, a, b, run.state().lambda().data() + joint.row);
   const Matrix3d R = marker_rotation(joint.a, a);
   return {R * r.force, R * r.moment};

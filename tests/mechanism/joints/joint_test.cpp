@@ -272,8 +272,8 @@ TEST_P(EveryJoint, RigidMotionOfTheWorldChangesNothing) {
 /// World force and moment on B of the only joint of a scene, at its origin.
 JointReaction world_reaction(test_support::Simulation& run) {
   const Joint& joint = run.model().joints.front();
-  evaluate(run.model(), run.state(), run.workspace);
-  const auto motion = [&](int node) { return node < 0 ? NodeMotion{} : run.workspace.motion[node]; };
+  evaluate(run.model(), run.state(), run.workspace.now);
+  const auto motion = [&](int node) { return node < 0 ? NodeMotion{} : run.workspace.now.motion[node]; };
   const JointReaction r =
       joint_reaction(joint, motion(joint.a.node), motion(joint.b.node), run.state().lambda().data() + joint.row);
   const Matrix3d R = marker_rotation(joint.a, motion(joint.a.node));
@@ -326,9 +326,9 @@ TEST(JointReaction, SignAgainstAStaticCalculationByHand) {
   scene.joints.push_back(clamp);
   test_support::Simulation run(scene, {});
   run.start();
-  evaluate(run.model(), run.state(), run.workspace);
+  evaluate(run.model(), run.state(), run.workspace.now);
   const JointReaction r =
-      joint_reaction(run.model().joints[0], NodeMotion{}, run.workspace.motion[0], run.state().lambda().data());
+      joint_reaction(run.model().joints[0], NodeMotion{}, run.workspace.now.motion[0], run.state().lambda().data());
   const double weight = 2.0 * 9.81;
   // A's axes: y along world z, z along world −y.
   EXPECT_LT((r.force - Vector3d(0, weight, 0)).norm(), 1e-12 * weight);

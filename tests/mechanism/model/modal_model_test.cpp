@@ -7,7 +7,8 @@
 #include "common/error.hpp"
 #include "common/math/rotation.hpp"
 #include "mechanism/equations/carriers.hpp"
-#include "mechanism/equations/newton.hpp"
+#include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/iteration_matrix.hpp"
 #include "tests/support/bodies/modal_known_answers.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"
 #include "tests/support/scenes/model_tangent.hpp"
@@ -101,16 +102,15 @@ struct Everything {
     state.lambda() = random_vector_n(random, state.lambda().size(), 5.0);
     state.time() = state.load_time() = 0.4;
   }
-  void at(const State& state) { evaluate(run.model(), state, run.workspace); }
+  void at(const State& state) { evaluate(run.model(), state, run.workspace.now); }
   VectorXd residual(const State& state) {
     at(state);
-    return run.workspace.residual;
+    return run.workspace.now.residual;
   }
   /// Dense [A Bᵀ; B 0], A unscaled, at the state of the run.
   MatrixXd matrix(const TangentCoefficients& c, const ConstraintRows& rows) {
-    at(run.state());
-    evaluate_tangent(run.model(), run.state(), c, TangentKind::step, rows, run.workspace);
-    return test_support::dense_matrix(run);
+    evaluate_in_step(run.model(), run.state(), run.workspace.now);
+    return test_support::dense_matrix(run, {c, TangentKind::step, rows});
   }
   int n() const { return run.model().sizes.boundary; }
   int m() const { return run.model().sizes.constraints; }
@@ -156,11 +156,11 @@ TEST(ModalModel, StiffnessAndRowsAreDerivativesOfResidualAndConstraints) {
     retract(model, at, d * VectorXd::Unit(n, j), plus);
     retract(model, at, -d * VectorXd::Unit(n, j), minus);
     K.col(j) = e.residual(plus) / (2 * d);
-    B.col(j) = e.run.workspace.constraint / (2 * d);
-    N.col(j) = e.run.workspace.constraint_rate / (2 * d);
+    B.col(j) = e.run.workspace.now.constraint / (2 * d);
+    N.col(j) = e.run.workspace.now.constraint_rate / (2 * d);
     K.col(j) -= e.residual(minus) / (2 * d);
-    B.col(j) -= e.run.workspace.constraint / (2 * d);
-    N.col(j) -= e.run.workspace.constraint_rate / (2 * d);
+    B.col(j) -= e.run.workspace.now.constraint / (2 * d);
+    N.col(j) -= e.run.workspace.now.constraint_rate / (2 * d);
   }
   const MatrixXd A = e.matrix({0, 0, 1}, {});
   EXPECT_LT(relative_difference(A.topLeftCorner(n, n), K), 1e-8);
@@ -183,14 +183,14 @@ TEST(ModalModel, RatesAndBiasAreTimeDerivativesOfTheConstraints) {
   };
   const double h = 1e-5;
   along(h);
-  VectorXd rate = e.run.workspace.constraint / (2 * h), second = e.run.workspace.constraint_rate / (2 * h);
+  VectorXd rate = e.run.workspace.now.constraint / (2 * h), second = e.run.workspace.now.constraint_rate / (2 * h);
   along(-h);
-  rate -= e.run.workspace.constraint / (2 * h);
-  second -= e.run.workspace.constraint_rate / (2 * h);
+  rate -= e.run.workspace.now.constraint / (2 * h);
+  second -= e.run.workspace.now.constraint_rate / (2 * h);
   const MatrixXd B = e.matrix({0, 0, 1}, {}).bottomLeftCorner(e.m(), e.n());
-  evaluate_bias(e.run.model(), e.run.workspace);
-  EXPECT_LT(relative_difference(e.run.workspace.constraint_rate, rate), 1e-8);
-  EXPECT_LT(relative_difference(B * at.vdot() + e.run.workspace.bias, second), 1e-8);
+  evaluate_bias(e.run.model(), e.run.workspace.now);
+  EXPECT_LT(relative_difference(e.run.workspace.now.constraint_rate, rate), 1e-8);
+  EXPECT_LT(relative_difference(B * at.vdot() + e.run.workspace.now.bias, second), 1e-8);
 }
 
 // Rows for increments of the rotation vector of the step: derivatives of Φ(retract(from, θ)) at θ = displacement.
@@ -208,17 +208,17 @@ TEST(ModalModel, PositionRowsAreDerivativesByTheRotationVectorOfTheStep) {
     retract(model, from, displacement + d * VectorXd::Unit(n, j), plus);
     retract(model, from, displacement - d * VectorXd::Unit(n, j), minus);
     e.at(plus);
-    B.col(j) = e.run.workspace.constraint / (2 * d);
+    B.col(j) = e.run.workspace.now.constraint / (2 * d);
     e.at(minus);
-    B.col(j) -= e.run.workspace.constraint / (2 * d);
+    B.col(j) -= e.run.workspace.now.constraint / (2 * d);
   }
   retract(model, from, displacement, e.run.state());
-  e.run.workspace.displacement = displacement;
+  e.run.workspace.now.displacement = displacement;
   const MatrixXd A = e.matrix({0, 0, 1}, {ConstraintRows::Kind::position, 0.0});
   EXPECT_LT(relative_difference(A.bottomLeftCorner(m, n), B), 1e-8);
   const VectorXd direction = random_vector_n(random, n, 1.0);
   VectorXd product(m);
-  apply_jacobian(model, e.run.workspace, direction, product);
+  apply_jacobian(model, e.run.workspace.now, direction, product);
   EXPECT_LT(relative_difference(product, A.bottomLeftCorner(m, n) * direction), 1e-13);
 }
 
@@ -227,13 +227,13 @@ TEST(ModalModel, PowerOfTheResidualIsTheRateOfEnergyAndLossesMinusThePowerOfLoad
   State& state = e.run.state();
   state.lambda().setZero();
   const VectorXd r = e.residual(state);
-  const double power = e.run.workspace.load_power, loss = e.run.workspace.damping_power;
+  const double power = e.run.workspace.now.load_power, loss = e.run.workspace.now.damping_power;
   const auto energy_at = [&](double t) {
     State moved = state;
     retract(e.run.model(), state, VectorXd(t * state.v() + 0.5 * t * t * state.vdot()), moved);
     moved.v() = state.v() + t * state.vdot();
     e.at(moved);
-    return evaluate_energy(e.run.model(), e.run.workspace).total();
+    return evaluate_energy(e.run.model(), e.run.workspace.now).total();
   };
   const double h = 1e-5, rate = (energy_at(h) - energy_at(-h)) / (2 * h);
   EXPECT_GT(loss, 0.01);
@@ -286,9 +286,9 @@ TEST(ModalModel, AccelerationsAndMultipliersAreTheKnownAnswers) {
         to_vector(kkt.at("B").at("omega")));
   state.w() = known.w;
   state.v().tail(3) = known.wd;
-  evaluate(run.model(), state, run.workspace);
-  EXPECT_LT(run.workspace.constraint.norm(), 1e-14);
-  EXPECT_LT(run.workspace.constraint_rate.norm(), 1e-14);
+  evaluate(run.model(), state, run.workspace.now);
+  EXPECT_LT(run.workspace.now.constraint.norm(), 1e-14);
+  EXPECT_LT(run.workspace.now.constraint_rate.norm(), 1e-14);
   ASSERT_FALSE(solve_accelerations(run.model(), 1e-3, "", state, run.workspace));
   // Order of the file: F with its modes, then B; here the modes come last.
   const VectorXd file = to_vector(eliminated.at("vdot"));
@@ -297,8 +297,8 @@ TEST(ModalModel, AccelerationsAndMultipliersAreTheKnownAnswers) {
   EXPECT_LT(relative_difference(state.vdot(), expected), 1e-11);
   const Vector3d lambda = to_vector(eliminated.at("lambda"));
   EXPECT_LT(std::min(relative_difference(state.lambda(), lambda), relative_difference(state.lambda(), -lambda)), 1e-11);
-  evaluate(run.model(), state, run.workspace);
-  EXPECT_LT(run.workspace.residual.norm(), 1e-12);
+  evaluate(run.model(), state, run.workspace.now);
+  EXPECT_LT(run.workspace.now.residual.norm(), 1e-12);
 }
 
 TEST(ModalModel, NodesWithoutRotationsRefuseWhatNeedsThem) {

@@ -6,7 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "common/math/rotation.hpp"
-#include "mechanism/equations/newton.hpp"
+#include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/iteration_matrix.hpp"
 #include "tests/support/bodies/beam_states.hpp"
 #include "tests/support/bodies/reduced_frames.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"
@@ -73,14 +74,13 @@ struct Mixed {
     state.lambda() = test_support::random_vector_n(random, state.lambda().size(), 5.0);
   }
   VectorXd residual(const State& state) {
-    evaluate(run.model(), state, run.workspace);
-    return run.workspace.residual;
+    evaluate(run.model(), state, run.workspace.now);
+    return run.workspace.now.residual;
   }
   /// Dense [A Bᵀ; B 0], A unscaled.
   MatrixXd matrix(const TangentCoefficients& c, TangentKind kind, const ConstraintRows& rows) {
-    evaluate(run.model(), run.state(), run.workspace);
-    evaluate_tangent(run.model(), run.state(), c, kind, rows, run.workspace);
-    return test_support::dense_matrix(run);
+    evaluate_in_step(run.model(), run.state(), run.workspace.now);
+    return test_support::dense_matrix(run, {c, kind, rows});
   }
 };
 
@@ -123,11 +123,11 @@ TEST(MixedScene, ExactStiffnessIsTheDerivativeOfTheResidualAndConstraintRowsOfTh
     retract(model, at, d * VectorXd::Unit(n, j), plus);
     retract(model, at, -d * VectorXd::Unit(n, j), minus);
     K.col(j) = mixed.residual(plus) / (2 * d);
-    B.col(j) = mixed.run.workspace.constraint / (2 * d);
-    N.col(j) = mixed.run.workspace.constraint_rate / (2 * d);
+    B.col(j) = mixed.run.workspace.now.constraint / (2 * d);
+    N.col(j) = mixed.run.workspace.now.constraint_rate / (2 * d);
     K.col(j) -= mixed.residual(minus) / (2 * d);
-    B.col(j) -= mixed.run.workspace.constraint / (2 * d);
-    N.col(j) -= mixed.run.workspace.constraint_rate / (2 * d);
+    B.col(j) -= mixed.run.workspace.now.constraint / (2 * d);
+    N.col(j) -= mixed.run.workspace.now.constraint_rate / (2 * d);
   }
   const MatrixXd A = mixed.matrix({0, 0, 1}, TangentKind::exact, {});
   EXPECT_LT(difference(A.topLeftCorner(n, n), K), 1e-8);
@@ -153,12 +153,12 @@ TEST(MixedScene, PositionRowsAreDerivativesByTheRotationVectorOfTheStep) {
     retract(model, from, displacement + d * VectorXd::Unit(n, j), plus);
     retract(model, from, displacement - d * VectorXd::Unit(n, j), minus);
     mixed.residual(plus);
-    B.col(j) = mixed.run.workspace.constraint / (2 * d);
+    B.col(j) = mixed.run.workspace.now.constraint / (2 * d);
     mixed.residual(minus);
-    B.col(j) -= mixed.run.workspace.constraint / (2 * d);
+    B.col(j) -= mixed.run.workspace.now.constraint / (2 * d);
   }
   retract(model, from, displacement, mixed.run.state());
-  mixed.run.workspace.displacement = displacement;
+  mixed.run.workspace.now.displacement = displacement;
   const MatrixXd A = mixed.matrix({0, 0, 1}, TangentKind::step, {ConstraintRows::Kind::position, 0.0});
   EXPECT_LT(difference(A.bottomLeftCorner(m, n), B), 1e-8);
 }
@@ -187,22 +187,23 @@ TEST(Condensation, NewtonStepOfTheWholeSystemEqualsTheUncondensedOne) {
       state.v() = test_support::random_vector_n(random, state.v().size(), 1.0);
       state.vdot() = test_support::random_vector_n(random, state.v().size(), 1.0);
       state.lambda() = test_support::random_vector_n(random, state.lambda().size(), 5.0);
-      evaluate(model, state, run.workspace);
+      evaluate(model, state, run.workspace.now);
 
       const TangentCoefficients c{4e4, 2e2, 1.0};
       const int nb = model.sizes.boundary, n = model.sizes.velocities(), m = model.sizes.constraints;
       MatrixXd whole = MatrixXd::Zero(n + m, n + m), element;
-      uncondensed_tangent(body_of(model, 0), run.workspace.superelements[0], nodes_of(model, 0, run.workspace),
+      uncondensed_tangent(body_of(model, 0), run.workspace.now.superelements[0], nodes_of(model, 0, run.workspace.now),
                           scene.gravity, c, kind, element);
       whole.topLeftCorner(n, n) = element;  // the only body: its coordinates are the global ones in order
       Eigen::Matrix<double, 12, 12> K;
       const Joint& joint = model.joints[0];
-      joint_stiffness(joint, NodeMotion{}, run.workspace.motion[joint.b.node], state.lambda().data(), K);
+      joint_stiffness(joint, NodeMotion{}, run.workspace.now.motion[joint.b.node], state.lambda().data(), K);
       whole.topLeftCorner(6, 6) += c.stiffness * K.bottomRightCorner(6, 6);
-      whole.block(n, 0, m, 6) = run.workspace.joints[0].B.topRightCorner(m, 6);
-      whole.block(0, n, 6, m) = run.workspace.joints[0].B.topRightCorner(m, 6).transpose();
+      whole.block(n, 0, m, 6) = run.workspace.now.joints[0].B.topRightCorner(m, 6);
+      whole.block(0, n, 6, m) = run.workspace.now.joints[0].B.topRightCorner(m, 6).transpose();
       VectorXd right(n + m);
-      right << -run.workspace.residual, -run.workspace.superelements[0].forces.r_I, -run.workspace.constraint;
+      right << -run.workspace.now.residual, -run.workspace.now.superelements[0].forces.r_I,
+          -run.workspace.now.constraint;
       const double s = 1e5;  // rows of constraints and multipliers scaled, so that the reference is accurate
       whole.bottomRows(m) *= s;
       right.tail(m) *= s;
@@ -210,13 +211,13 @@ TEST(Condensation, NewtonStepOfTheWholeSystemEqualsTheUncondensedOne) {
       VectorXd expected = whole.fullPivLu().solve(right);
       expected.tail(m) *= s;
 
-      ASSERT_TRUE(factor(model, state, c, kind, {}, run.workspace).regular);
-      const VectorXd rows = -run.workspace.constraint;
-      solve_increment(model, rows, run.workspace);
-      ASSERT_EQ(run.workspace.increment.size(), n);
+      ASSERT_TRUE(run.workspace.matrix.factor(model, state, {c, kind, {}}, run.workspace.now).regular);
+      const VectorXd rows = -run.workspace.now.constraint;
+      run.workspace.matrix.solve_increment(model, rows, run.workspace.now);
+      ASSERT_EQ(run.workspace.matrix.increment.size(), n);
       ASSERT_GT(n, nb);
-      EXPECT_LT(test_support::relative_difference(run.workspace.increment, expected.head(n)), 1e-12);
-      EXPECT_LT(test_support::relative_difference(run.workspace.unknowns.tail(m), expected.tail(m)), 1e-12);
+      EXPECT_LT(test_support::relative_difference(run.workspace.matrix.increment, expected.head(n)), 1e-12);
+      EXPECT_LT(test_support::relative_difference(run.workspace.matrix.multipliers, expected.tail(m)), 1e-12);
     }
 }
 
@@ -236,14 +237,14 @@ TEST(MixedScene, PowerOfTheResidualIsTheRateOfEnergyMinusThePowerOfLoads) {
   State& state = mixed.run.state();
   state.lambda().setZero();
   const VectorXd r = mixed.residual(state);
-  const double power = mixed.run.workspace.load_power;
+  const double power = mixed.run.workspace.now.load_power;
   const double h = 1e-5;
   const auto energy_at = [&](double t) {
     State moved = state;
     retract(mixed.run.model(), state, VectorXd(t * state.v() + 0.5 * t * t * state.vdot()), moved);
     moved.v() = state.v() + t * state.vdot();
-    evaluate(mixed.run.model(), moved, mixed.run.workspace);
-    return evaluate_energy(mixed.run.model(), mixed.run.workspace).total();
+    evaluate(mixed.run.model(), moved, mixed.run.workspace.now);
+    return evaluate_energy(mixed.run.model(), mixed.run.workspace.now).total();
   };
   const double rate = (energy_at(h) - energy_at(-h)) / (2 * h);
   EXPECT_GT(std::abs(rate), 1.0);

@@ -89,7 +89,7 @@ TEST(AcceptedStep, AllocatesNothing) {
       std::size_t allocations = 0;
       for (int i = 0; i < 40; ++i) {
         // New factors every fifth step, which the rule of reuse might not ask for in so short a run.
-        if (i % 5 == 0) run.workspace.has_factors = false;
+        if (i % 5 == 0) run.workspace.matrix.invalidate();
         const StepEnd end = run.schedule.next(run.state().time());
         const std::size_t before = test_support::allocation_count();
         run.report = advance(run.model(), run.scene.integrator, end, run.state(), run.workspace);

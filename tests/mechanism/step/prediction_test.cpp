@@ -36,7 +36,7 @@ Fall fall(Prediction prediction) {
   Simulation run(falling_chain(), {});
   run.start();
   run.run(0.5, [&] {
-    if (prediction == Prediction::constant) run.workspace.trend.known = run.workspace.trend.smooth = false;
+    if (prediction == Prediction::constant) run.workspace.memory.predictor.forget();
   });
   return {run.iterations, run.state().x()};
 }
@@ -57,9 +57,9 @@ TEST(Prediction, NothingIsForetoldAfterAJump) {
   Simulation run(scene, {});
   run.start();
   run.run(0.1);
-  EXPECT_FALSE(run.workspace.trend.known);
+  EXPECT_FALSE(run.workspace.memory.predictor.known);
   run.run(0.11);
-  EXPECT_TRUE(run.workspace.trend.smooth);
+  EXPECT_TRUE(run.workspace.memory.predictor.smooth);
 }
 
 }  // namespace

@@ -34,11 +34,11 @@ TEST(LeastNormReactions, OfADoorOnTwoHinges) {
   run.start();
   ASSERT_EQ(run.started.mobility.redundant.size(), 5u);
   ASSERT_TRUE(is_overconstrained(run.state()));
-  evaluate(run.model(), run.state(), run.workspace);
-  const Eigen::VectorXd lambda = least_norm_multipliers(run.model(), run.workspace, run.state().lambda());
+  evaluate(run.model(), run.state(), run.workspace.now);
+  const Eigen::VectorXd lambda = least_norm_multipliers(run.model(), run.workspace.now, run.state().lambda());
   const double weight = 6.0 * 9.81, M = 0.5 * weight, h = 0.4, L = run.model().length;
   for (const Joint& hinge : run.model().joints) {
-    const JointReaction r = joint_reaction(hinge, NodeMotion{}, run.workspace.motion[0], lambda.data() + hinge.row);
+    const JointReaction r = joint_reaction(hinge, NodeMotion{}, run.workspace.now.motion[0], lambda.data() + hinge.row);
     const double side = hinge.name == "upper" ? 1.0 : -1.0;
     // In the axes of marker A, whose z is that of the world: turned back.
     const Vector3d force = hinge.a.R * r.force, moment = hinge.a.R * r.moment;
@@ -46,20 +46,20 @@ TEST(LeastNormReactions, OfADoorOnTwoHinges) {
     EXPECT_NEAR(force.x(), -side * M * h / (2 * (h * h + L * L)), 1e-9 * weight) << hinge.name;
     EXPECT_NEAR(moment.y(), -M * L * L / (2 * (h * h + L * L)), 1e-9 * weight) << hinge.name;
   }
-  EXPECT_THAT(joints_without_unique_reaction(run.model(), run.workspace), ::testing::ElementsAre("upper", "lower"));
+  EXPECT_THAT(joints_without_unique_reaction(run.model(), run.workspace.now), ::testing::ElementsAre("upper", "lower"));
 }
 
 // The same generalised forces Bᵀλ, so the same motion.
 TEST(LeastNormReactions, CauseTheSameMotion) {
   Simulation run(door(), {});
   run.start();
-  evaluate(run.model(), run.state(), run.workspace);
-  const Eigen::VectorXd before = run.workspace.residual;
+  evaluate(run.model(), run.state(), run.workspace.now);
+  const Eigen::VectorXd before = run.workspace.now.residual;
   State changed = run.state();
-  changed.lambda() = least_norm_multipliers(run.model(), run.workspace, run.state().lambda());
+  changed.lambda() = least_norm_multipliers(run.model(), run.workspace.now, run.state().lambda());
   EXPECT_GT((changed.lambda() - run.state().lambda()).norm(), 1.0);
-  evaluate(run.model(), changed, run.workspace);
-  EXPECT_LT((run.workspace.residual - before).cwiseAbs().maxCoeff(), 1e-11);
+  evaluate(run.model(), changed, run.workspace.now);
+  EXPECT_LT((run.workspace.now.residual - before).cwiseAbs().maxCoeff(), 1e-11);
 }
 
 // λ = K^(-1/2) (Bᵀ K^(-1/2))⁺ Bᵀλ with K = WᵀW, W the wrenches [f; m/L] of unit multipliers, by singular values.
@@ -69,18 +69,18 @@ TEST(LeastNormReactions, AreThoseOfThePseudoinverse) {
   scene.joints.push_back(joint("stay", JointKind::point_on_plane, "ground", "door", {0.7, 0, 0}, Vector3d::UnitX()));
   Simulation run(scene, {});
   run.start();
-  evaluate(run.model(), run.state(), run.workspace);
+  evaluate(run.model(), run.state(), run.workspace.now);
   const Eigen::Index n = run.model().sizes.constraints, size = run.model().sizes.boundary;
   Eigen::MatrixXd Bt = Eigen::MatrixXd::Zero(size, n), W = Eigen::MatrixXd::Zero(6 * n, n);
   for (std::size_t i = 0; i < run.model().joints.size(); ++i) {
     const Joint& one = run.model().joints[i];
     for (int k = 0; k < one.size(); ++k) {
       Eigen::Matrix<double, 6, 1> unit = Eigen::Matrix<double, 6, 1>::Unit(k);
-      const JointReaction r = joint_reaction(one, NodeMotion{}, run.workspace.motion[0], unit.data());
+      const JointReaction r = joint_reaction(one, NodeMotion{}, run.workspace.now.motion[0], unit.data());
       W.block<3, 1>(6 * static_cast<Eigen::Index>(i), one.row + k) = r.force;
       W.block<3, 1>(6 * static_cast<Eigen::Index>(i) + 3, one.row + k) = r.moment / run.model().length;
       for (int j = 6; j < 12; ++j)
-        Bt(run.model().joint_maps[i].coordinates[j], one.row + k) = run.workspace.joints[i].B(k, j);
+        Bt(run.model().joint_maps[i].coordinates[j], one.row + k) = run.workspace.now.joints[i].B(k, j);
     }
   }
   const Eigen::MatrixXd root = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(W.transpose() * W).operatorInverseSqrt();
@@ -89,7 +89,7 @@ TEST(LeastNormReactions, AreThoseOfThePseudoinverse) {
   for (double& value : inverse) value = value > 1e-10 * svd.singularValues()[0] ? 1.0 / value : 0.0;
   const Eigen::VectorXd expected =
       root * (svd.matrixV() * (inverse.asDiagonal() * (svd.matrixU().transpose() * (Bt * run.state().lambda()))));
-  const Eigen::VectorXd found = least_norm_multipliers(run.model(), run.workspace, run.state().lambda());
+  const Eigen::VectorXd found = least_norm_multipliers(run.model(), run.workspace.now, run.state().lambda());
   EXPECT_GT((found - run.state().lambda()).norm(), 1.0);
   EXPECT_LT((found - expected).norm(), 1e-10 * expected.norm());
 }

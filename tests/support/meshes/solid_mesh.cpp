@@ -10,7 +10,7 @@ namespace tisserand::reducer {
 
 std::string solid_name(SolidShape shape) {
   return std::array<const char*, 6>{
-      "tetrahedron4", "tetrahedron10", "hexahedron8", "hexahedron20", "prism6", "prism15"}[shape];
+      "tetrahedron4", "tetrahedron10", "hexahedron8", "hexahedron20", "prism6", "prism15"}[static_cast<int>(shape)];
 }
 
 bool is_quadratic(SolidShape shape) {

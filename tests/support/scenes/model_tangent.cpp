@@ -3,7 +3,8 @@
 
 #include <random>
 
-#include "mechanism/equations/newton.hpp"
+#include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/iteration_matrix.hpp"
 
 namespace tisserand::test_support {
 
@@ -17,23 +18,28 @@ void randomise(Simulation& run, unsigned seed, double turn, double size) {
   state.lambda() = random_vector_n(random, state.lambda().size(), size);
 }
 
-Eigen::MatrixXd dense_matrix(const Simulation& run) {
+Eigen::MatrixXd dense_matrix(Simulation& run, const mechanism::TangentRequest& request) {
+  return dense_matrix(run, run.state(), request);
+}
+
+Eigen::MatrixXd dense_matrix(Simulation& run, const mechanism::State& state, const mechanism::TangentRequest& request) {
+  mechanism::MatrixValues matrix(run.model());
+  mechanism::evaluate_tangent(run.model(), state, request, run.workspace.now, matrix);
   const mechanism::SparsePattern& pattern = *run.built.model.pattern;
   const int n = pattern.size(), boundary = run.built.model.sizes.boundary;
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
   for (int j = 0; j < n; ++j)
     for (int k = pattern.column_start()[j]; k < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++k) {
       const int i = pattern.rows()[k];
-      A(i, j) = run.workspace.values[pattern.slot(i, j)];
+      A(i, j) = matrix.values[pattern.slot(i, j)];
     }
-  A.topLeftCorner(boundary, boundary) *= run.workspace.matrix_scale;
+  A.topLeftCorner(boundary, boundary) *= matrix.scale;
   return A;
 }
 
 Eigen::MatrixXd iteration_matrix(Simulation& run, const mechanism::TangentCoefficients& c) {
-  mechanism::evaluate(run.model(), run.state(), run.workspace);
-  mechanism::evaluate_tangent(run.model(), run.state(), c, mechanism::TangentKind::exact, {}, run.workspace);
-  return dense_matrix(run);
+  mechanism::evaluate(run.model(), run.state(), run.workspace.now);
+  return dense_matrix(run, {c, mechanism::TangentKind::exact, {}});
 }
 
 Eigen::MatrixXd damping_matrix(Simulation& run) {
@@ -52,8 +58,8 @@ Eigen::MatrixXd residual_difference(Simulation& run, Argument argument, double h
     if (argument == Argument::position) mechanism::retract(run.model(), at, increment, moved);
     if (argument == Argument::velocity) moved.v() += increment;
     if (argument == Argument::multiplier) moved.lambda() += increment;
-    mechanism::evaluate(run.model(), moved, run.workspace);
-    return Eigen::VectorXd(run.workspace.residual);
+    mechanism::evaluate(run.model(), moved, run.workspace.now);
+    return Eigen::VectorXd(run.workspace.now.residual);
   };
   for (Eigen::Index j = 0; j < columns; ++j) A.col(j) = (residual(j, h) - residual(j, -h)) / (2.0 * h);
   return A;

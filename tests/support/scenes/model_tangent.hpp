@@ -11,8 +11,9 @@ namespace tisserand::test_support {
 /// Moves positions by up to `turn` and gives random velocities, accelerations and multipliers up to `size`.
 void randomise(Simulation& run, unsigned seed, double turn, double size);
 
-/// [A Bᵀ; B 0] of the last evaluate_tangent(), A unscaled.
-Eigen::MatrixXd dense_matrix(const Simulation& run);
+/// [A Bᵀ; B 0] at the last evaluate(), A unscaled; of `state` if it was another than that of the run.
+Eigen::MatrixXd dense_matrix(Simulation& run, const mechanism::TangentRequest& request);
+Eigen::MatrixXd dense_matrix(Simulation& run, const mechanism::State& state, const mechanism::TangentRequest& request);
 
 /// [A ∂r/∂λ; B 0] with A unscaled; mass or stiffness must take part, which it is scaled with.
 Eigen::MatrixXd iteration_matrix(Simulation& run, const mechanism::TangentCoefficients& c);

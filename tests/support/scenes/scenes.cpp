@@ -117,8 +117,8 @@ void Simulation::run(double time) {
 }
 
 mechanism::Energy Simulation::energy() {
-  mechanism::evaluate(built.model, built.state, workspace);
-  return mechanism::evaluate_energy(built.model, workspace);
+  mechanism::evaluate(built.model, built.state, workspace.now);
+  return mechanism::evaluate_energy(built.model, workspace.now);
 }
 
 int Simulation::node(const std::string& name) const {

@@ -12,9 +12,9 @@
 #include "mechanism/analyses/start.hpp"
 #include "mechanism/build/build_model.hpp"
 #include "mechanism/equations/evaluate.hpp"
-#include "mechanism/equations/workspace.hpp"
 #include "mechanism/run/schedule.hpp"
 #include "mechanism/step/step.hpp"
+#include "mechanism/step/workspace.hpp"
 
 namespace tisserand::test_support {
 

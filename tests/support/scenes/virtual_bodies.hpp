@@ -49,8 +49,7 @@ inline Outcome outcome_of(const formats::Scene& scene, Simulation& run) {
   const formats::ResultsLayout layout = mechanism::results_layout(run.model(), scene);
   formats::ResultsRow row;
   row.resize(layout);
-  run.workspace.displacement.setZero();
-  mechanism::fill_row(run.model(), run.state(), run.workspace, row);
+  mechanism::fill_row(run.model(), run.state(), run.workspace.now, row);
   Outcome outcome;
   for (std::size_t i = 0; i < layout.nodes.size(); ++i) {
     const auto c = static_cast<Eigen::Index>(i);

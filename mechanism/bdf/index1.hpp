@@ -4,9 +4,9 @@
 #include <string>
 
 #include "formats/scene/scene.hpp"
-#include "mechanism/equations/workspace.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
+#include "mechanism/step/workspace.hpp"
 
 namespace tisserand::mechanism {
 
@@ -61,6 +61,7 @@ class Index1 {
   const Model& model_;
   State& state_;
   Workspace& workspace_;
+  Eigen::VectorXd reactions_;  ///< kept while positions are projected
   FlatLayout layout_;
   long evaluations_ = 0;
   long factorisations_ = 0;

@@ -1,12 +1,13 @@
 // Accelerations from [M Bᵀ; B 0], projection in the mass norm.
-#include "mechanism/equations/index1.hpp"
+#include "mechanism/bdf/index1.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/error.hpp"
 #include "mechanism/equations/evaluate.hpp"
-#include "mechanism/equations/newton.hpp"
+#include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/iteration_matrix.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -39,9 +40,7 @@ FlatLayout flat_layout(const State& state) {
 }
 
 Index1::Index1(const formats::Scene& scene, const Model& model, State& state, Workspace& workspace)
-    : scene_(scene), model_(model), state_(state), workspace_(workspace), layout_(flat_layout(state)) {
-  workspace_.displacement.setZero();
-}
+    : scene_(scene), model_(model), state_(state), workspace_(workspace), layout_(flat_layout(state)) {}
 
 void Index1::load(double time, const LoadWindow& window, const double* y) {
   std::copy_n(y, layout_.size(), state_.block().data() + layout_.first);
@@ -52,13 +51,13 @@ void Index1::load(double time, const LoadWindow& window, const double* y) {
 }
 
 void Index1::factor_mass() {
-  const FactorReport factors = factor(model_, state_, {1.0, 0.0, 0.0}, TangentKind::step, {}, workspace_);
+  const FactorReport factors =
+      workspace_.matrix.factor(model_, state_, {{1.0, 0.0, 0.0}, TangentKind::step, {}}, workspace_.now);
   ++factorisations_;
-  workspace_.has_factors = false;
   if (factors.regular && factors.reciprocal_condition >= mass_condition) return;
   std::string name = "a direction of the scene";
   if (factors.regular)
-    name = weakest_equation(model_, workspace_);
+    name = workspace_.matrix.weakest_equation(model_);
   else if (factors.singular_column >= 0)
     name = factors.singular_column < model_.sizes.boundary
                ? coordinate_name(model_, factors.singular_column)
@@ -75,21 +74,21 @@ bool Index1::try_accelerate() {
   if (!rubs) state_.lambda().setZero();
   ++evaluations_;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    evaluate(model_, state_, workspace_);
+    evaluate(model_, state_, workspace_.now);
     factor_mass();
-    evaluate_bias(model_, workspace_);
-    apply_jacobian(model_, workspace_, state_.vdot(), workspace_.multipliers);
-    workspace_.bias = -workspace_.bias - workspace_.multipliers;
+    evaluate_bias(model_, workspace_.now);
+    apply_jacobian(model_, workspace_.now, state_.vdot(), workspace_.matrix.rows);
+    workspace_.matrix.rows = -workspace_.now.bias - workspace_.matrix.rows;
     if (scene_.integrator.bdf.stabilisation == formats::Stabilisation::baumgarte) {
       const double alpha = scene_.integrator.bdf.alpha, beta = scene_.integrator.bdf.beta;
-      workspace_.bias -= 2.0 * alpha * workspace_.constraint_rate + beta * beta * workspace_.constraint;
+      workspace_.matrix.rows -= 2.0 * alpha * workspace_.now.constraint_rate + beta * beta * workspace_.now.constraint;
     }
-    solve_increment(model_, workspace_.bias, workspace_);
-    state_.vdot() += workspace_.increment;
-    state_.lambda() += workspace_.unknowns.tail(model_.sizes.constraints);
+    workspace_.matrix.solve_increment(model_, workspace_.matrix.rows, workspace_.now);
+    state_.vdot() += workspace_.matrix.increment;
+    state_.lambda() += workspace_.matrix.multipliers;
     if (!rubs) return true;
     if (!state_.lambda().allFinite()) break;
-    if (workspace_.unknowns.tail(model_.sizes.constraints).norm() <= settled * state_.lambda().norm()) return true;
+    if (workspace_.matrix.multipliers.norm() <= settled * state_.lambda().norm()) return true;
   }
   state_.lambda().setZero();
   return false;
@@ -122,8 +121,9 @@ void Index1::rates(const double* y, double* ydot) const {
 double Index1::worst_violation() const {
   double worst = 0.0;
   for (int row = 0; row < model_.sizes.constraints; ++row)
-    if (workspace_.active[row] != 0.0)
-      worst = std::max(worst, std::abs(workspace_.constraint[row]) / (model_.length_row[row] ? model_.length : 1.0));
+    if (workspace_.now.active[row] != 0.0)
+      worst =
+          std::max(worst, std::abs(workspace_.now.constraint[row]) / (model_.length_row[row] ? model_.length : 1.0));
   return worst;
 }
 
@@ -132,17 +132,17 @@ double Index1::violation() const { return worst_violation() * model_.length; }
 bool Index1::project() {
   if (model_.sizes.constraints == 0) return true;
   // Without reactions there is no friction: its derivatives would turn the projection out of the mass norm.
-  workspace_.multipliers = state_.lambda();
+  reactions_ = state_.lambda();
   state_.lambda().setZero();
   const bool done = project_without_reactions();
-  state_.lambda() = workspace_.multipliers;
+  state_.lambda() = reactions_;
   return done;
 }
 
 bool Index1::project_without_reactions() {
   double last = 0.0;
   for (int iteration = 0;; ++iteration) {
-    evaluate(model_, state_, workspace_);
+    evaluate(model_, state_, workspace_.now);
     const double worst = worst_violation();
     if (!std::isfinite(worst)) return false;
     if (iteration == 0 || worst > closed) factor_mass();
@@ -150,25 +150,25 @@ bool Index1::project_without_reactions() {
     if (worst <= closed || (iteration > 1 && worst > 0.5 * last && worst < 1e-10)) break;
     if (iteration == most_projections) return false;
     last = worst;
-    workspace_.previous.block() = state_.block();
-    workspace_.bias = -workspace_.constraint;
-    solve_correction(model_, workspace_.bias, workspace_);
-    retract(model_, workspace_.previous, workspace_.correction, state_);
+    workspace_.memory.previous.block() = state_.block();
+    workspace_.matrix.rows = -workspace_.now.constraint;
+    workspace_.matrix.solve_projection(model_, workspace_.matrix.rows, workspace_.now);
+    retract(model_, workspace_.memory.previous, workspace_.matrix.correction, state_);
   }
-  workspace_.bias = -workspace_.constraint_rate;
-  solve_correction(model_, workspace_.bias, workspace_);
-  state_.v() += workspace_.correction;
+  workspace_.matrix.rows = -workspace_.now.constraint_rate;
+  workspace_.matrix.solve_projection(model_, workspace_.matrix.rows, workspace_.now);
+  state_.v() += workspace_.matrix.correction;
   return true;
 }
 
 void Index1::settle() {
   auto frames = state_.frames();
   for (std::size_t i = 0; i < model_.superelements.size(); ++i)
-    frames.col(i) = wxyz(Eigen::Quaterniond(workspace_.superelements[i].motion.R0).normalized());
-  unwrap_hinges(model_, workspace_, state_);
-  for (int k = 0; k < 3; ++k) state_.force_scale(k) = std::max(state_.force_scale(k), workspace_.force_scale[k]);
-  state_.load_power() = workspace_.load_power;
-  state_.damping_power() = workspace_.damping_power;
+    frames.col(i) = wxyz(Eigen::Quaterniond(workspace_.now.superelements[i].motion.R0).normalized());
+  unwrap_hinges(model_, workspace_.now, state_);
+  for (int k = 0; k < 3; ++k) state_.force_scale(k) = std::max(state_.force_scale(k), workspace_.now.force_scale[k]);
+  state_.load_power() = workspace_.now.load_power;
+  state_.damping_power() = workspace_.now.damping_power;
 }
 
 void Index1::tolerances(double* absolute) const {

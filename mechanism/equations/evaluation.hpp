@@ -1,0 +1,101 @@
+// Evaluation: everything that was computed of a model at one state, in stages; sized once, so that no stage allocates.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "mechanism/bodies/superelement/evaluate.hpp"
+#include "mechanism/forces/motion_function.hpp"
+#include "mechanism/model/model.hpp"
+
+namespace tisserand::mechanism {
+
+/// Sums over the bodies at one instant.
+struct Energy {
+  double kinetic = 0.0;
+  double strain = 0.0;     ///< of bodies and springs
+  double potential = 0.0;  ///< of gravity
+  double total() const { return kinetic + strain + potential; }
+};
+
+/// Buffers for joints and loads on nodes of modal bodies (carriers.hpp).
+struct CarrierScratch {
+  Eigen::VectorXd half, full;          ///< K T and Tᵀ K T
+  Eigen::VectorXd gradient;            ///< ∂(T v)/∂q of one carrier
+  Eigen::VectorXd lower, upper, rate;  ///< rows of constraints and of rates
+};
+
+/// How far the latest evaluate() of a state has come; each stage needs the one before (evaluate.hpp).
+enum class Stage { nothing, motion, constraints, forces };
+
+/// Results of the stages motion, constraints, forces, and of what is asked for after them. Where assertions are on,
+/// every evaluation of a state begins by filling the results of later stages with NaN, and who reads them asks
+/// require_stage(): what belongs to another state cannot be taken for this one.
+struct Evaluation {
+  explicit Evaluation(const Model& model);
+
+  Stage stage = Stage::nothing;
+  double load_factor = 1.0;  ///< of loads and gravity (load steps of statics): set by the caller
+  /// θ of every node and displacement of every other coordinate since the state from which a step is taken: rows of Φ
+  /// are derivatives by it (ConstraintRows). Zero unless evaluate_in_step() was given one.
+  Eigen::VectorXd displacement;
+
+  // Stage motion.
+  std::vector<NodeMotion> motion;  ///< of every node; one more at the end: ground
+  std::vector<ModalScratch> modal_bodies;
+  std::vector<ModalNodeTerms> modal_nodes;  ///< active ones; all of them after update_modal_nodes()
+
+  // Stage constraints.
+  std::vector<JointTerms> joints;
+  std::vector<CoordinateTerms> coordinates;  ///< active ones; all of them after evaluate_coordinates()
+  std::vector<MotionFunction::Value> motion_values;
+  Eigen::VectorXd channels;         ///< values
+  Eigen::VectorXd active;           ///< of the state: 1, or 0 for rows that others imply
+  Eigen::VectorXd constraint;       ///< Φ
+  Eigen::VectorXd constraint_rate;  ///< B v + Φ_t
+
+  // Stage forces.
+  std::vector<SuperelementScratch> superelements;
+  std::vector<FrictionTerms> frictions;
+  std::vector<BushingTerms> bushings;
+  std::vector<Eigen::Vector3d> load_values;
+  Eigen::VectorXd residual;             ///< r, boundary coordinates (uncondensed)
+  std::array<double, 3> force_scale{};  ///< largest force, moment and internal force of any single term
+  double load_power = 0.0;
+  double damping_power = 0.0;
+  double spring_energy = 0.0;  ///< strain energy of springs, stops and bushings
+
+  // On request.
+  Eigen::VectorXd bias;                ///< Ḃ v + Φ_tt, after evaluate_bias()
+  std::vector<Vector6d> tie_wrenches;  ///< on each follower [force world; moment about the carrier, its axes]
+
+  // Compiled functions of time, and buffers.
+  std::vector<MotionFunction> motions;
+  std::vector<std::optional<TimeFunction>> spring_forces;
+  std::vector<std::array<TimeFunction, 3>> load_functions;
+  std::vector<SuperelementWork> superelement_work;  ///< of each body
+  CarrierScratch carriers;
+};
+
+/// Fails (a fault of the program) unless the latest evaluation has come so far.
+void require_stage(const Evaluation& evaluation, Stage stage);
+
+/// Motion of a node at the last evaluate(); −1: ground.
+inline const NodeMotion& motion_of(const Evaluation& evaluation, int node) {
+  return node < 0 ? evaluation.motion.back() : evaluation.motion[node];
+}
+
+/// Motion of the nodes of a superelement, in the order of its body.
+inline NodeView<NodeMotion> nodes_of(const Model& model, std::size_t superelement, const Evaluation& evaluation) {
+  return {evaluation.motion.data(), model.superelements[superelement].nodes.data()};
+}
+
+/// What the uses of a superelement's body work with in turn.
+inline SuperelementWork& work_of(const Model& model, std::size_t superelement, Evaluation& evaluation) {
+  return evaluation.superelement_work[model.superelements[superelement].body];
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,81 @@
+// Exponential of rotation vectors, and the rows of constraints.
+#include "mechanism/equations/increments.hpp"
+
+#include "common/math/rotation.hpp"
+#include "mechanism/equations/carriers.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+/// exp of a rotation vector as a quaternion.
+Eigen::Quaterniond exp_quaternion(const Eigen::Vector3d& turn) {
+  const double a2 = turn.squaredNorm();
+  const AngleFunctions<double> half(0.25 * a2);
+  // cos(a/2) = 1 − (a/2)² c(a/2), sin(a/2)/a = s(a/2)/2
+  Eigen::Quaterniond q;
+  q.w() = 1.0 - 0.25 * a2 * half.c;
+  q.vec() = 0.5 * half.s * turn;
+  return q;
+}
+
+/// Material increment T(θ) d of a node's rotation for an increment d of the rotation vector θ of the step.
+Eigen::Vector3d turn_increment(const Model& model, const Evaluation& evaluation, int node, const Eigen::Vector3d& d) {
+  if (node < 0 || model.nodes[node].rotation < 0) return d;
+  const Eigen::Vector3d theta = evaluation.displacement.segment<3>(model.nodes[node].rotation);
+  const AngleFunctions<double> f(theta.squaredNorm());
+  const Eigen::Vector3d across = theta.cross(d);
+  return d - f.c * across + f.d * theta.cross(across);
+}
+
+}  // namespace
+
+void apply_jacobian(const Model& model, const Evaluation& evaluation, const Eigen::VectorXd& d,
+                    Eigen::Ref<Eigen::VectorXd> rows) {
+  Eigen::Matrix<double, 12, 1> local;
+  const auto gather_local = [&](const ElementMap& map, const auto& pair) {
+    if (!map.carriers.empty()) {
+      pushed_increment(model, map, evaluation, d, local.data());
+      return;
+    }
+    for (int k = 0; k < 12; ++k) {
+      const int coordinate = map.coordinates[k];
+      local[k] = coordinate < 0 ? 0.0 : d[coordinate];
+    }
+    local.segment<3>(3) = turn_increment(model, evaluation, pair.a.node, local.segment<3>(3));
+    local.segment<3>(9) = turn_increment(model, evaluation, pair.b.node, local.segment<3>(9));
+  };
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    gather_local(model.joint_maps[i], model.joints[i]);
+    const Vector6d product = evaluation.joints[i].B.lazyProduct(local);  // rows beyond the joint's size are zero
+    for (int k = 0; k < model.joints[i].size(); ++k) rows[model.joints[i].row + k] = product[k];
+  }
+  for (const Coupling& coupling : model.couplings) {
+    double sum = 0.0;
+    for (const CouplingTerm& term : coupling.terms) {
+      const auto at = static_cast<std::size_t>(term.coordinate);
+      gather_local(model.coordinate_maps[at], model.coordinates[at]);
+      sum += term.factor * evaluation.coordinates[at].G.dot(local);
+    }
+    rows[coupling.row] = sum;
+  }
+}
+
+void retract(const Model& model, const State& from, const Eigen::VectorXd& d, State& to) {
+  auto x = to.x();
+  auto Q = to.Q();
+  const auto x0 = from.x();
+  const auto Q0 = from.Q();
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const Node& node = model.nodes[i];
+    const auto column = static_cast<Eigen::Index>(i);
+    if (node.translation >= 0) x.col(column) = x0.col(column) + d.segment<3>(node.translation);
+    if (node.rotation >= 0) {
+      const Eigen::Quaterniond q0(Q0(0, column), Q0(1, column), Q0(2, column), Q0(3, column));
+      Q.col(column) = wxyz(q0 * exp_quaternion(d.segment<3>(node.rotation)));
+    }
+  }
+  to.w() = from.w() + d.segment(model.sizes.first_modal(), model.sizes.modal);
+  to.y() = from.y() + d.tail(model.sizes.internal);
+}
+
+}  // namespace tisserand::mechanism

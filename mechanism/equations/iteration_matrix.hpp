@@ -1,0 +1,54 @@
+// The matrix of a Newton iteration: a saddle system whose internal coordinates are condensed, with the request that its
+// factors belong to.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "mechanism/equations/saddle_system.hpp"
+
+namespace tisserand::mechanism {
+
+/// [A/s Bᵀ; rows 0] of the boundary coordinates and multipliers, its factors, and the solutions found with them.
+/// It alone knows whether its factors serve: they belong to the request that they were made for, and are nobody's after
+/// a failed factorisation or forget().
+class IterationMatrix {
+ public:
+  explicit IterationMatrix(const Model& model);
+
+  /// Evaluates the tangent at the state of the last evaluate() and factors it.
+  [[nodiscard]] FactorReport factor(const Model& model, const State& state, const TangentRequest& request,
+                                    Evaluation& evaluation);
+  /// Whether the factors belong to this request, at whatever state.
+  bool serves(const TangentRequest& request) const { return factored_ == request; }
+  /// The next iteration factors anew.
+  void invalidate() { factored_.reset(); }
+  /// As new: the next factorisation chooses its pivots like the first one.
+  void forget();
+
+  /// Solves A d + Bᵀ dλ = −r, B d = rows with the factors. `increment` (boundary and internal) receives d,
+  /// `multipliers` dλ.
+  void solve_increment(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& rows, Evaluation& evaluation);
+  /// Solves A d + Bᵀ μ = 0, B d = rows: the smallest change, weighted with A, that does `rows` to the constraints.
+  /// `correction` receives d.
+  void solve_projection(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& rows, Evaluation& evaluation);
+
+  /// Name of the coordinate or constraint that dominates the solution for a unit right-hand side: with nearly singular
+  /// factors the direction that nothing holds.
+  std::string weakest_equation(const Model& model);
+  const SolverHealth& health() const { return system_.health(); }
+
+  Eigen::VectorXd increment;    ///< d of solve_increment()
+  Eigen::VectorXd multipliers;  ///< dλ of solve_increment()
+  Eigen::VectorXd correction;   ///< d of solve_projection()
+  Eigen::VectorXd rows;         ///< buffer for right-hand sides of constraint rows
+
+ private:
+  void gather(const Model& model, std::size_t superelement, const Eigen::VectorXd& boundary);
+
+  SaddleSystem system_;
+  std::optional<TangentRequest> factored_;
+  Eigen::VectorXd element_boundary_;  ///< d_B of one superelement
+};
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,52 @@
+// Derivatives of evaluate(): the values of [A/s Bᵀ; B 0] at the state of the last evaluate().
+#pragma once
+
+#include <vector>
+
+#include "mechanism/equations/evaluate.hpp"
+
+namespace tisserand::mechanism {
+
+/// What the constraint rows of a tangent are derivatives of.
+struct ConstraintRows {
+  enum class Kind {
+    plain,     ///< B: Φ for material increments
+    position,  ///< B T(displacement of the step): Φ for increments of the rotation vector of the step
+    velocity  ///< B + rate_factor ∂(B v)/∂q: rate_factor times B v for increments whose velocity is 1/rate_factor of
+              ///< them
+  };
+  Kind kind = Kind::plain;
+  double rate_factor = 0.0;
+  bool operator==(const ConstraintRows&) const = default;
+};
+
+/// A = c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q by hand-written or exact derivatives, and the rows beside it.
+struct TangentRequest {
+  TangentCoefficients coefficients;
+  TangentKind kind = TangentKind::step;
+  ConstraintRows rows;
+  bool operator==(const TangentRequest&) const = default;
+};
+
+/// The stored values of [A/s Bᵀ; rows 0] in the slots of the model's pattern.
+struct MatrixValues {
+  explicit MatrixValues(const Model& model) : values(model.pattern->values(), 0.0) {}
+  std::vector<double> values;
+  double scale = 1.0;  ///< s: so that A/s is of order one
+};
+
+/// Internal coordinates of superelements are condensed; their blocks stay in the evaluation for condense() and
+/// expand().
+void evaluate_tangent(const Model& model, const State& state, const TangentRequest& request, Evaluation& evaluation,
+                      MatrixValues& matrix);
+
+/// The same without the superelements, whose internal coordinates a caller may want to keep; exact.
+void evaluate_tangent_without_superelements(const Model& model, const State& state,
+                                            const TangentCoefficients& coefficients, Evaluation& evaluation,
+                                            MatrixValues& matrix);
+
+/// W = c_m M + c_k K of the bodies alone in place of A, and B; superelements with their boundary coordinates.
+void evaluate_weight(const Model& model, const State& state, const TangentCoefficients& coefficients,
+                     Evaluation& evaluation, MatrixValues& matrix);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,86 @@
+// What is done once per step.
+#include "mechanism/step/accept.hpp"
+
+#include <algorithm>
+
+#include "mechanism/step/convergence.hpp"
+#include "mechanism/step/redundancy.hpp"
+#include "mechanism/step/step_control.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+/// Unit quaternions, frames and unwrapped angles, scales, and the powers integrated by the trapezoidal rule.
+void accept(const Model& model, double step, const Evaluation& now, State& state) {
+  auto Q = state.Q();
+  for (Eigen::Index i = 0; i < Q.cols(); ++i) Q.col(i).normalize();
+  auto frames = state.frames();
+  for (std::size_t i = 0; i < model.superelements.size(); ++i)
+    frames.col(i) = wxyz(Eigen::Quaterniond(now.superelements[i].motion.R0).normalized());
+  unwrap_hinges(model, now, state);
+  for (int k = 0; k < 3; ++k) state.force_scale(k) = std::max(state.force_scale(k), now.force_scale[k]);
+  state.acceleration_scale() = std::max(state.acceleration_scale(), size_of(model, state.algorithmic()));
+  state.work() += 0.5 * step * (state.load_power() + now.load_power);
+  state.dissipated() += 0.5 * step * (state.damping_power() + now.damping_power);
+  state.load_power() = now.load_power;
+  state.damping_power() = now.damping_power;
+}
+
+}  // namespace
+
+bool ready_projection(const Model& model, const StepScheme& scheme, const State& state, Workspace& workspace,
+                      StepReport& report) {
+  if (!scheme.projects) return true;
+  const FactorReport factors = prepare_projection(model, state, scheme, workspace.now, workspace.memory.projection);
+  if (factors.regular && factors.reciprocal_condition >= singular_condition) return true;
+  report.outcome = StepOutcome::singular;
+  report.singular_column = factors.singular_column;
+  return false;
+}
+
+void finish(const Model& model, const formats::IntegratorSpec& options, const StepScheme& scheme, State& state,
+            Workspace& workspace, StepReport& report) {
+  StepMemory& memory = workspace.memory;
+  if (options.error_control.active) {
+    Eigen::VectorXd& error = workspace.matrix.increment;
+    estimate_error(options, scheme.step, state, memory.previous, error);
+    const LocalError worst = measure_error(model, options, scheme.step, error);
+    report.error_ratio = worst.ratio;
+    if (!(worst.ratio <= 1.0)) {
+      report.outcome = StepOutcome::inaccurate;
+      report.worst_coordinate = worst.worst_coordinate;
+      report.worst_constraint = -1;
+      state.block() = memory.previous.block();
+      return;
+    }
+  }
+  // Index 3 doubly integrates what Newton leaves of its constraints: there a step has to end far below the tolerance,
+  // as it does from the constant prediction.
+  if (options.formulation == formats::Formulation::stabilised_index2) {
+    learn(model, scheme.step, memory.tuning.smooth_rate, memory.previous, state, memory.predictor);
+    age_projection(model, memory.tuning, workspace.now, memory.projection);
+  }
+  accept(model, scheme.step, workspace.now, state);
+}
+
+bool rows_are_doubtful(const Model& model, const StepReport& report, const State& state, const Evaluation& evaluation) {
+  if (report.outcome == StepOutcome::inaccurate) return false;
+  if (report.outcome == StepOutcome::accepted) return largest_violation_left_out(model, evaluation) > largest_left_out;
+  return is_overconstrained(state) || report.outcome == StepOutcome::singular;
+}
+
+bool choose_rows_again(const Model& model, State& state, Workspace& workspace) {
+  const State end = state;
+  state.block() = workspace.memory.previous.block();
+  if (!choose_active_rows(model, state, workspace.now) || state.active().sum() < end.active().sum()) {
+    state.block() = end.block();
+    if (!choose_active_rows(model, state, workspace.now)) return false;
+    const Eigen::VectorXd rows = state.active();
+    state.block() = workspace.memory.previous.block();
+    state.active() = rows;
+  }
+  workspace.forget();
+  return true;
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,29 @@
+// Before and after Newton's iteration of a step: the projection's factors, the local error, what an accepted state
+// keeps, and doubts about the rows that were solved for.
+#pragma once
+
+#include "mechanism/step/step_report.hpp"
+#include "mechanism/step/workspace.hpp"
+
+namespace tisserand::mechanism {
+
+/// Factors of the position projection for this step, if it has one. False, with the outcome: singular.
+bool ready_projection(const Model& model, const StepScheme& scheme, const State& state, Workspace& workspace,
+                      StepReport& report);
+
+/// The solution of a step becomes the state and is learnt from, unless its error is too large: `inaccurate`, and the
+/// state as before.
+void finish(const Model& model, const formats::IntegratorSpec& options, const StepScheme& scheme, State& state,
+            Workspace& workspace, StepReport& report);
+
+/// Whether the rank of the constraints may have changed in the step: rows that are left out are open, or an
+/// overconstrained or singular step failed.
+bool rows_are_doubtful(const Model& model, const StepReport& report, const State& state, const Evaluation& evaluation);
+
+/// After a doubtful step: back to where it began, with other rows to solve for. Those that are independent there, for
+/// the old ones may have become dependent on the way and the end of the step satisfies nothing; if that says no more
+/// than was known (the step left a position of lower rank), those that are independent where it ended. False, and the
+/// state as it was, if they stay.
+bool choose_rows_again(const Model& model, State& state, Workspace& workspace);
+
+}  // namespace tisserand::mechanism

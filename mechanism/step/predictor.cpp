@@ -1,0 +1,35 @@
+// What the last changes say about the next one.
+#include "mechanism/step/predictor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tisserand::mechanism {
+
+void foresee(const Predictor& predictor, const StepScheme& scheme, const State& last, State& state,
+             Evaluation& evaluation) {
+  if (!predictor.smooth || last.step() != scheme.step) return;
+  state.lambda() += predictor.multipliers;
+  add_acceleration(scheme, predictor.acceleration, state, evaluation);
+}
+
+void learn(const Model& model, double step, double smooth_rate, const State& last, const State& state,
+           Predictor& predictor) {
+  if (last.step() != step) {
+    predictor.forget();
+    return;
+  }
+  // The largest change of an acceleration, rotations times the length; and what the change before leaves of it.
+  double change = 0.0, rest = 0.0;
+  for (int i = 0; i < model.sizes.boundary; ++i) {
+    const double one = state.algorithmic()[i] - last.algorithmic()[i];
+    change = std::max(change, std::abs(one) / model.equation_scale[i]);
+    rest = std::max(rest, std::abs(one - predictor.acceleration[i]) / model.equation_scale[i]);
+  }
+  predictor.smooth = predictor.known && rest < smooth_rate * change;
+  predictor.known = true;
+  predictor.acceleration = state.algorithmic() - last.algorithmic();
+  predictor.multipliers = state.lambda() - last.lambda();
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,43 @@
+// Outcomes in words.
+#include "mechanism/step/step_report.hpp"
+
+#include <fmt/format.h>
+
+namespace tisserand::mechanism {
+
+std::string explain(const Model& model, const StepReport& report) {
+  std::string place;
+  if (report.outcome == StepOutcome::singular && report.singular_column >= 0)
+    place = report.singular_column < model.sizes.boundary
+                ? coordinate_name(model, report.singular_column)
+                : constraint_name(model, report.singular_column - model.sizes.boundary);
+  else if (report.worst_constraint >= 0)
+    place = constraint_name(model, report.worst_constraint);
+  else if (report.worst_coordinate >= 0)
+    place = coordinate_name(model, report.worst_coordinate);
+  switch (report.outcome) {
+    case StepOutcome::accepted:
+      return "accepted";
+    case StepOutcome::inaccurate:
+      return fmt::format("the local error is {:.2g} times the tolerance, worst at {}", report.error_ratio, place);
+    case StepOutcome::singular:
+      return fmt::format(
+          "the iteration matrix is singular{}{}: a direction without mass, stiffness or constraint, or "
+          "redundant constraints",
+          place.empty() ? "" : " at ", place);
+    case StepOutcome::diverged:
+      return fmt::format(
+          "the iteration left the range of numbers, first at {}: the step is too long for the motion, or "
+          "a load is not finite",
+          place);
+    case StepOutcome::too_many_iterations:
+      return fmt::format(
+          "Newton's iteration does not converge, worst at {} (residual {:.1e} times the tolerance, "
+          "constraint {:.1e} times): the step is too long, or parts turn so far that their elements are "
+          "no longer small",
+          place, report.force_ratio, report.constraint_ratio);
+  }
+  return {};
+}
+
+}  // namespace tisserand::mechanism

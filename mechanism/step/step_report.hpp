@@ -1,0 +1,31 @@
+// What one step did, as a value and in words.
+#pragma once
+
+#include <string>
+
+#include "mechanism/model/model.hpp"
+
+namespace tisserand::mechanism {
+
+enum class StepOutcome { accepted, singular, diverged, too_many_iterations, inaccurate };
+
+/// What one step did. Ratios are measured values divided by their tolerance: at most 1 when accepted.
+struct StepReport {
+  StepOutcome outcome = StepOutcome::accepted;
+  int iterations = 0;
+  int factorisations = 0;
+  double force_ratio = 0.0;
+  double constraint_ratio = 0.0;
+  double error_ratio = 0.0;   ///< estimated local error, where the step is controlled
+  double residual = 0.0;      ///< largest |r| of force rows, of moment rows / length
+  double constraint = 0.0;    ///< largest |Φ| (positions, and angles times length)
+  int worst_coordinate = -1;  ///< of the largest residual, when not accepted
+  int worst_constraint = -1;  ///< of the largest violation, when not accepted and larger in ratio
+  int singular_column = -1;
+  int row_choices = 0;  ///< how often the constraint rows that are solved for were chosen anew
+};
+
+/// "body/node, translation x; likely cause ..." for a step that was not accepted.
+std::string explain(const Model& model, const StepReport& report);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,42 @@
+// What a run computes with besides model and state: three things with an owner each.
+#pragma once
+
+#include "mechanism/equations/iteration_matrix.hpp"
+#include "mechanism/step/factor_reuse.hpp"
+#include "mechanism/step/position_projection.hpp"
+#include "mechanism/step/predictor.hpp"
+
+namespace tisserand::mechanism {
+
+/// All that a step remembers of the steps before it, besides the factors of the iteration matrix. None of it decides
+/// what a step converges to, all of it how.
+struct StepMemory {
+  explicit StepMemory(const Model& model) : previous(model.sizes), predictor(model.sizes) {}
+  void forget() {
+    reuse = {};
+    predictor.forget();
+    projection.forget();
+  }
+
+  State previous;  ///< the state where the step begins: the last accepted one
+  Predictor predictor;
+  FactorReuse reuse;
+  PositionProjection projection;
+  StepTuning tuning;
+};
+
+struct Workspace {
+  explicit Workspace(const Model& model) : now(model), matrix(model), memory(model) {}
+  /// As new: the next step factors and learns from the start, so that a run continued from a copy of the state in a
+  /// workspace of its own takes bit-equal steps (tests/verification/checkpoint_test.cpp).
+  void forget() {
+    matrix.forget();
+    memory.forget();
+  }
+
+  Evaluation now;
+  IterationMatrix matrix;
+  StepMemory memory;
+};
+
+}  // namespace tisserand::mechanism
