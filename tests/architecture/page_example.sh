@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# page_example.sh <source> <build> <page> [heading]: does what a page tells, in its order and in an empty folder; with a heading
-# only what stands in that section (up to the next heading of its level).
+# page_example.sh <source> <build> <page> [heading]: does what a page tells, in its order and in an empty folder; with a
+# heading only what stands in that section (up to the next heading of its level).
 #   ```yaml blocks become files. Their name is the first line, "# name.yaml", or the last `name` of the paragraph before;
-#   ```sh blocks run as they stand, each in a shell of its own that stops at the first error; TISSERAND names the source folder;
-#   ```text blocks are lines that the commands before must have printed: equal word by word, numbers within 5e-4 or one unit of
-#   their last digit, integers exactly, values below 1e-9 (round-off) all alike; "..." stands for any rest of a line.
+#   ```sh blocks run as they stand, each in a shell of its own that stops at the first error; TISSERAND names <source>;
+#   ```text blocks are lines that the commands before must have printed: equal word by word, numbers within 5e-4 or one
+#   unit of their last digit, integers exactly, values below 1e-9 (round-off) all alike; "..." is any rest of a line.
 set -euo pipefail
 export TISSERAND="$1" PATH="$2/bin:$PATH"
 page="$1/$3" heading="${4:-}"
@@ -106,8 +106,8 @@ They printed:"
     *.yaml.*) cp "$block" "${name#*.yaml.}" ;;
   esac
 done
-[ "$commands" -gt 0 ] || fail 0 "no commands found${heading:+ under '$heading'}"
+[ "$commands" -gt 0 ] || fail 0 "no commands found${heading:+ under "$heading"}"
 # What the commands were told to write is there.
-for file in $(sed -nE 's/.*(^| )-o ([A-Za-z0-9_.]+)( .*|$)/\2/p' "$folder"/blocks/*.sh | sort -u); do
+while read -r file; do
   [ -s "$file" ] || fail 0 "$file was not written"
-done
+done < <(sed -nE 's/.*(^| )-o ([A-Za-z0-9_.]+)( .*|$)/\2/p' "$folder"/blocks/*.sh)
