@@ -53,3 +53,24 @@ foreach(program IN LISTS programs)
 endforeach()
 add_custom_target(manuals ALL DEPENDS ${manuals})
 install(FILES ${manuals} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+
+# A package must run on other processors than that which built it: `cpack` works where TISSERAND_NATIVE is off.
+if(NOT TISSERAND_NATIVE)
+  set(CPACK_GENERATOR DEB)
+  set(CPACK_PACKAGE_NAME tisserand)
+  set(CPACK_PACKAGE_CONTACT "Tisserand maintainers <maintainers@tisserand.invalid>")
+  set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "flexible multibody dynamics from CAD, meshes and decks")
+  set(CPACK_PACKAGE_DESCRIPTION
+      "reducer turns a part (beams, shells and solids; drawn, from CAD, meshes, Nastran
+or Abaqus decks) into a superelement: reduced stiffness and mass of its boundary
+nodes and internal modes. mechanism runs mechanisms of superelements, nonlinear
+beams and rigid bodies: assembly, equilibrium, kinematics, dynamics, vibrations.")
+  set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+  set(CPACK_STRIP_FILES ON)
+  set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+  set(CPACK_DEBIAN_PACKAGE_SECTION science)
+  set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS gnuplot-nox)
+  include(CPack)
+endif()
