@@ -33,7 +33,8 @@ arguments_of_example() {
     esac
     shift
   done
-  [ -n "$out" ] || out="$root/build/examples/$(basename "$example")"
+  if [ -z "$out" ] && [ -f "$root/CMakeLists.txt" ]; then out="$root/build/examples/$(basename "$example")"; fi
+  [ -n "$out" ] || out="$PWD/$(basename "$example")"  # installed: the sources are read only
   if [ -z "$bin" ] && [ -x "$root/build/release/bin/mechanism" ]; then bin="$root/build/release/bin"; fi
   for name in mechanism reducer; do
     local program="${bin:+$bin/}$name"

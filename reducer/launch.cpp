@@ -15,12 +15,20 @@
 namespace tisserand::reducer {
 namespace {
 
-/// reducer-solver in the folder of this program.
-std::string solver_path() {
+/// The folder of this program, with / at its end.
+std::string own_folder() {
   std::array<char, PATH_MAX> buffer{};
   const ssize_t length = readlink("/proc/self/exe", buffer.data(), buffer.size() - 1);
   const std::string self(buffer.data(), length > 0 ? static_cast<std::size_t>(length) : 0);
-  return self.substr(0, self.rfind('/') + 1) + "reducer-solver";
+  return self.substr(0, self.rfind('/') + 1);
+}
+
+/// Beside this program, as built; else where it is installed, relative to this program: a prefix may be moved as a
+/// whole.
+std::string solver_path() {
+  const std::string folder = own_folder();
+  const std::string built = folder + "reducer-solver";
+  return access(built.c_str(), X_OK) == 0 ? built : folder + TISSERAND_SOLVER_INSTALLED;
 }
 
 }  // namespace
@@ -30,7 +38,7 @@ int perform(const Arguments&, char** argv) {
   const std::string solver = solver_path();
   execv(solver.c_str(), argv);
   throw Error(std::string("cannot start the solver: ") + std::strerror(errno), solver,
-              "keep reducer-solver in the folder of reducer");
+              "keep reducer-solver in the folder of reducer, or install anew");
 }
 
 }  // namespace tisserand::reducer
