@@ -21,9 +21,11 @@ pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
 # another flavour).
 function(link_archive target name)
   find_library(${name}_ARCHIVE NAMES lib${name}.a ${name} ${ARGN} PATH_SUFFIXES openblas-serial REQUIRED)
-  cmake_path(GET ${name}_ARCHIVE FILENAME file)
   target_link_libraries(${target} INTERFACE ${${name}_ARCHIVE})
-  target_link_options(${target} INTERFACE LINKER:--exclude-libs,${file})
+  cmake_path(GET ${name}_ARCHIVE FILENAME file)
+  if(file MATCHES "\\.a$")
+    target_link_options(${target} INTERFACE LINKER:--exclude-libs,${file})
+  endif()
 endfunction()
 
 # dep_simple(name header path-suffix library...): libraries that ship neither a CMake config nor a .pc file.
