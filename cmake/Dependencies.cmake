@@ -20,7 +20,8 @@ pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
 # them: seen from outside, it would replace what shared libraries beside them have from elsewhere (PETSc's HDF5 is of
 # another flavour).
 function(link_archive target name)
-  find_library(${name}_ARCHIVE NAMES lib${name}.a ${name} ${ARGN} PATH_SUFFIXES openblas-serial REQUIRED)
+  find_library(${name}_ARCHIVE NAMES lib${name}.a ${name} ${ARGN} PATHS ${CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES}
+               PATH_SUFFIXES openblas-serial REQUIRED)
   target_link_libraries(${target} INTERFACE ${${name}_ARCHIVE})
   cmake_path(GET ${name}_ARCHIVE FILENAME file)
   if(file MATCHES "\\.a$")
@@ -46,12 +47,13 @@ dep_simple(crypto openssl/sha.h "" crypto)
 dep_simple(hdf5 hdf5.h hdf5/serial hdf5_serial sz aec z)
 target_link_libraries(dep_hdf5 INTERFACE ${CMAKE_DL_LIBS} m)
 
-# With an OpenBLAS without threads: an idle one spins for 30 ms, longer than a short run takes. METIS and Fortran by their
-# full names, because the links without a version are in packages of no other use here.
+# With an OpenBLAS without threads: an idle one spins for 30 ms, longer than a short run takes. Where METIS and Fortran have
+# no archive, their full names will do; the names without a version are in packages of no other use here.
 dep_simple(suitesparse klu.h suitesparse klu btf umfpack spqr cholmod amd colamd camd ccolamd suitesparseconfig)
 link_archive(dep_suitesparse metis libmetis.so.5)
 link_archive(dep_suitesparse openblas)
 link_archive(dep_suitesparse gfortran libgfortran.so.5)
+link_archive(dep_suitesparse quadmath libquadmath.so.0)
 target_link_libraries(dep_suitesparse INTERFACE gomp m)
 
 # Debian's libsundials-dev drags PETSc and MPI in as packages; libsundials_cvode itself links neither.
