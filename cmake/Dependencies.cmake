@@ -1,13 +1,11 @@
 # Every library of the project as a dep::<name> target. The packages are listed in packages.txt.
 find_package(PkgConfig REQUIRED)
 find_package(Threads REQUIRED)
-find_package(MPI REQUIRED COMPONENTS C)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)
 find_package(yaml-cpp REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
-find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 if(TISSERAND_TESTS)
   find_package(GTest REQUIRED)
 endif()
@@ -15,13 +13,21 @@ if(TISSERAND_BENCHMARKS)
   find_package(benchmark REQUIRED)
 endif()
 
-pkg_check_modules(HDF5_OPENMPI REQUIRED IMPORTED_TARGET hdf5-openmpi)
-add_library(dep_hdf5 INTERFACE)
-add_library(dep::hdf5 ALIAS dep_hdf5)
-target_link_libraries(dep_hdf5 INTERFACE PkgConfig::HDF5_OPENMPI MPI::MPI_C)
-target_compile_definitions(dep_hdf5 INTERFACE OMPI_SKIP_MPICXX=1)
-
 pkg_check_modules(MUPARSER REQUIRED IMPORTED_TARGET muparser)
+
+# link_archive(target name [file-name...]): lib<name>.a, else the shared library. Each start of a program pays for its
+# shared libraries, 0.1 to 8 ms apiece, and next to nothing for archives. What programs take from archives stays inside
+# them: seen from outside, it would replace what shared libraries beside them have from elsewhere (PETSc's HDF5 is of
+# another flavour).
+function(link_archive target name)
+  find_library(${name}_ARCHIVE NAMES lib${name}.a ${name} ${ARGN} PATHS ${CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES}
+               PATH_SUFFIXES openblas-serial REQUIRED)
+  target_link_libraries(${target} INTERFACE ${${name}_ARCHIVE})
+  cmake_path(GET ${name}_ARCHIVE FILENAME file)
+  if(file MATCHES "\\.a$")
+    target_link_options(${target} INTERFACE LINKER:--exclude-libs,${file})
+  endif()
+endfunction()
 
 # dep_simple(name header path-suffix library...): libraries that ship neither a CMake config nor a .pc file.
 function(dep_simple name header suffix)
@@ -30,12 +36,25 @@ function(dep_simple name header suffix)
   add_library(dep::${name} ALIAS dep_${name})
   target_include_directories(dep_${name} SYSTEM INTERFACE ${${name}_INCLUDE})
   foreach(library ${ARGN})
-    find_library(${name}_${library}_LIBRARY ${library} REQUIRED)
-    target_link_libraries(dep_${name} INTERFACE ${${name}_${library}_LIBRARY})
+    link_archive(dep_${name} ${library})
   endforeach()
 endfunction()
 
-dep_simple(suitesparse klu.h suitesparse klu btf umfpack spqr cholmod amd colamd suitesparseconfig)
+# SHA-256 only, which needs nothing else of OpenSSL.
+dep_simple(crypto openssl/sha.h "" crypto)
+
+# The serial HDF5, in `reducer` too, where PETSc brings the Open MPI one.
+dep_simple(hdf5 hdf5.h hdf5/serial hdf5_serial sz aec z)
+target_link_libraries(dep_hdf5 INTERFACE ${CMAKE_DL_LIBS} m)
+
+# With an OpenBLAS without threads: an idle one spins for 30 ms, longer than a short run takes. Where METIS and Fortran have
+# no archive, their full names will do; the names without a version are in packages of no other use here.
+dep_simple(suitesparse klu.h suitesparse klu btf umfpack spqr cholmod amd colamd camd ccolamd suitesparseconfig)
+link_archive(dep_suitesparse metis libmetis.so.5)
+link_archive(dep_suitesparse openblas)
+link_archive(dep_suitesparse gfortran libgfortran.so.5)
+link_archive(dep_suitesparse quadmath libquadmath.so.0)
+target_link_libraries(dep_suitesparse INTERFACE gomp m)
 
 # Debian's libsundials-dev drags PETSc and MPI in as packages; libsundials_cvode itself links neither.
 find_path(cvode_header cvode/cvode.h)
@@ -49,14 +68,14 @@ if(has_cvode)
              sundials_sunlinsolspgmr)
 endif()
 
-set(BLA_VENDOR OpenBLAS)
-find_package(BLAS REQUIRED)
-find_package(LAPACK REQUIRED)
-add_library(dep_blas INTERFACE)
-add_library(dep::blas ALIAS dep_blas)
-target_link_libraries(dep_blas INTERFACE LAPACK::LAPACK BLAS::BLAS)
-
 if(TISSERAND_REDUCER)
+  find_package(MPI REQUIRED COMPONENTS C)
+  set(BLA_VENDOR OpenBLAS)
+  find_package(BLAS REQUIRED)
+  find_package(LAPACK REQUIRED)
+  add_library(dep_blas INTERFACE)
+  add_library(dep::blas ALIAS dep_blas)
+  target_link_libraries(dep_blas INTERFACE LAPACK::LAPACK BLAS::BLAS)
   pkg_check_modules(SLEPC REQUIRED IMPORTED_TARGET slepc>=3.18 petsc>=3.18)
   get_target_property(slepc_options PkgConfig::SLEPC INTERFACE_COMPILE_OPTIONS)
   if(slepc_options)

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
@@ -98,10 +99,21 @@ void equilibrate(Run& run, RowWriter& out) {
   write_row(run, step, 0.0, out);
 }
 
+/// Each once, in the order of the bodies.
+std::vector<std::string> superelement_files(const formats::Scene& scene) {
+  std::vector<std::string> files;
+  for (const formats::BodySpec& body : scene.bodies)
+    if (const auto* spec = std::get_if<formats::SuperelementBodySpec>(&body))
+      if (std::find(files.begin(), files.end(), spec->file) == files.end()) files.push_back(spec->file);
+  return files;
+}
+
 }  // namespace
 
 BodyFiles read_body_files(const formats::Scene& scene) {
   BodyFiles files;
+  const bool rehearsed = formats::rehearse_superelements(superelement_files(scene));
+  const auto read_superelement = rehearsed ? formats::read_rehearsed_superelement : formats::read_superelement;
   std::vector<Error> errors;
   std::set<std::string> superelements, modal_bodies;  // also those that cannot be read, which are named once
   for (const formats::BodySpec& body : scene.bodies) {
@@ -109,7 +121,7 @@ BodyFiles read_body_files(const formats::Scene& scene) {
     const auto* modal = std::get_if<formats::ModalBodySpec>(&body);
     try {
       if (superelement != nullptr && superelements.insert(superelement->file).second)
-        files.superelements[superelement->file] = formats::read_superelement(superelement->file);
+        files.superelements[superelement->file] = read_superelement(superelement->file);
       if (modal != nullptr && modal_bodies.insert(modal->file).second)
         files.modal_bodies[modal->file] = formats::read_modal_body(modal->file);
     } catch (const Error& error) {

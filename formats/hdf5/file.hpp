@@ -114,6 +114,9 @@ class InputFile {
 /// to be met again when the caller reads.
 void rehearse(const std::string& path, const std::function<void()>& read);
 
+/// The same for many files in one child process, in their order; false if it dies or needs too long at one of them.
+[[nodiscard]] bool survives(const std::vector<std::string>& paths, const std::function<void(const std::string&)>& read);
+
 // Writing, used by the writers of superelements and results. `file` is a file or group identifier; missing groups on
 // the way are made. Texts are UTF-8. All throw Error with `where` in front.
 void write_text_attribute(Id file, const std::string& object, const std::string& name, const std::string& value,

@@ -15,6 +15,7 @@
 #include <complex>
 #include <cstdio>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -189,7 +190,7 @@ struct ResultsWriter::Impl {
   struct Column {
     Block block;
     hdf5::Handle dataset;
-    std::vector<double> waiting;  ///< capacity x width, sized once
+    std::unique_ptr<double[]> waiting;  ///< capacity x width, taken once; not zeroed: a short run touches few pages
   };
 
   std::string path;
@@ -273,7 +274,7 @@ void ResultsWriter::Impl::write_rows(std::size_t rows) {
         memory(H5Screate_simple(1, &total, nullptr), H5Sclose);
     ok = ok && H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0;
     ok = ok && H5Dwrite(column.dataset.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT,
-                        column.waiting.data()) >= 0;
+                        column.waiting.get()) >= 0;
     if (!ok) {
       broken = true;
       throw hdf5::last_error(
@@ -338,7 +339,8 @@ ResultsWriter::ResultsWriter(const std::string& path, const ResultsLayout& layou
     hdf5::Handle dataset(H5Dopen2(impl_->file.id(), block.dataset.c_str(), H5P_DEFAULT), H5Dclose);
     if (!dataset.valid())
       throw hdf5::last_error("cannot open dataset " + block.dataset, impl_->part, "choose another place");
-    impl_->columns.push_back({block, std::move(dataset), std::vector<double>(impl_->capacity * block.width())});
+    auto waiting = std::make_unique_for_overwrite<double[]>(impl_->capacity * block.width());
+    impl_->columns.push_back({block, std::move(dataset), std::move(waiting)});
   }
 }
 
@@ -358,7 +360,7 @@ void ResultsWriter::append(const ResultsRow& row) {
   for (Impl::Column& column : impl_->columns) {
     const std::size_t width = column.block.width();
     std::copy_n(column.block.values(row), width,
-                column.waiting.begin() + static_cast<std::ptrdiff_t>(impl_->waiting * width));
+                column.waiting.get() + static_cast<std::ptrdiff_t>(impl_->waiting * width));
   }
   ++impl_->waiting;
   if (Clock::now() - impl_->last_flush >= flush_interval) impl_->flush();

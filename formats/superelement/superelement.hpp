@@ -69,6 +69,12 @@ std::string content_id(const Superelement& element);
 /// Reads, checks and (residual between 1e-9 and 1e-4) filters. Throws Error naming dataset, indices, value and meaning.
 LoadedSuperelement read_superelement(const std::string& path);
 
+/// Many files at less cost: HDF5 can crash on a damaged file, so each is read in a child process first, which takes
+/// longer than the reading. One child for all of them: true if none of `paths` makes it crash or loop, so that
+/// read_rehearsed_superelement() may read them. If false, read_superelement() finds out which one does.
+[[nodiscard]] bool rehearse_superelements(const std::vector<std::string>& paths);
+LoadedSuperelement read_rehearsed_superelement(const std::string& path);
+
 /// Checks, then writes beside and renames. Fills element.content_id.
 void write_superelement(const std::string& path, Superelement& element);
 
