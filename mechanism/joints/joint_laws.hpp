@@ -12,7 +12,7 @@ namespace tisserand::mechanism {
 
 using formats::JointKind;
 
-/// Up to six relations, in the order of the equations or coordinates; + puts one list after the other.
+/// Up to six relations, in the order of the equations or coordinates.
 struct Relations {
   std::array<Relation, 6> list{};
   int count = 0;
