@@ -256,20 +256,20 @@ namespace {
 
 void check_joint(const SceneIndex& scene, const JointSpec& joint, Faults& faults) {
   const std::string subject = fmt::format("joint '{}'", joint.name);
+  const JointKindRow& kind = joint_kind(joint.kind);
   check_marker_pair(scene, joint, subject, joint.where, faults);
-  if (needs_axis(joint.kind) && !joint.axis && !joint.a.orientation && !joint.b.orientation)
-    faults.add(joint.where, "", fmt::format("{}: a {} joint needs an axis", subject, joint_word(joint.kind)),
+  if (kind.axes == JointAxes::required && !joint.axis && !joint.a.orientation && !joint.b.orientation)
+    faults.add(joint.where, "", fmt::format("{}: a {} joint needs an axis", subject, kind.word),
                "give axis: [x, y, z], or an orientation to a or b");
   if (joint.friction) check_friction(joint, subject, faults);
-  if (!std::isfinite(joint.pitch) || (joint.kind == JointKind::screw && joint.pitch == 0.0))
+  if (!std::isfinite(joint.pitch) || (kind.key == JointKey::pitch && joint.pitch == 0.0))
     faults.add(joint.where, "pitch",
                fmt::format("{}: pitch {:g} must be a finite length that is not zero", subject, joint.pitch),
                "use a revolute joint for no advance");
   if (joint.length && !(*joint.length > 0.0 && std::isfinite(*joint.length)))
     faults.add(joint.where, "length", fmt::format("{}: length {:g} must be positive", subject, *joint.length),
                "use a spherical joint for a distance of zero");
-  if (joint.kind == JointKind::generic &&
-      std::none_of(joint.hold.begin(), joint.hold.end(), [](bool held) { return held; }))
+  if (kind.key == JointKey::hold && std::none_of(joint.hold.begin(), joint.hold.end(), [](bool held) { return held; }))
     faults.add(joint.where, "hold", fmt::format("{}: holds no direction", subject), "name some of x, y, z, rx, ry, rz");
 }
 

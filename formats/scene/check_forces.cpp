@@ -59,7 +59,7 @@ void check_stops(const SpringSpec& spring, const std::string& subject, Faults& f
 
 void check_friction(const JointSpec& joint, const std::string& subject, Faults& faults) {
   const FrictionSpec& friction = *joint.friction;
-  const FrictionKeys keys = friction_keys(joint.kind);
+  const FrictionKeys keys = joint_kind(joint.kind).friction;
   if (!keys.has_friction)
     faults.add(joint.where, "friction",
                fmt::format("{}: a {} joint has no contact surface, so no friction", subject, joint_word(joint.kind)),

@@ -1,4 +1,6 @@
 // `joints` of scene.yaml, and the markers that joints and forces use.
+#include <algorithm>
+
 #include "formats/scene/reader.hpp"
 #include "formats/yaml/geometry.hpp"
 
@@ -54,25 +56,28 @@ std::array<bool, 6> read_hold(const MapReader& map) {
   return held;
 }
 
-constexpr Choice<JointKind> joint_kinds[] = {{"fixed", JointKind::fixed},
-                                             {"revolute", JointKind::revolute},
-                                             {"spherical", JointKind::spherical},
-                                             {"universal", JointKind::universal},
-                                             {"constant_velocity", JointKind::constant_velocity},
-                                             {"cylindrical", JointKind::cylindrical},
-                                             {"screw", JointKind::screw},
-                                             {"prismatic", JointKind::prismatic},
-                                             {"planar", JointKind::planar},
-                                             {"point_on_line", JointKind::point_on_line},
-                                             {"point_on_plane", JointKind::point_on_plane},
-                                             {"distance", JointKind::distance},
-                                             {"constant_orientation", JointKind::constant_orientation},
-                                             {"parallel_axes", JointKind::parallel_axes},
-                                             {"generic", JointKind::generic}};
+JointKind read_kind(const MapReader& map) {
+  const YamlNode* node = map.require("type");
+  if (node == nullptr) return JointKind::spherical;
+  std::vector<std::string> words;
+  for (const JointKindRow& row : joint_kinds()) words.emplace_back(row.word);
+  const auto index = read_word(map.context(), *node, "type", words);
+  return index ? joint_kinds()[*index].kind : JointKind::spherical;
+}
 
-void refuse_without(const MapReader& map, const char* key, bool used, const char* kind) {
-  if (const YamlNode* node = map.find(key); node != nullptr && !used)
-    map.context().fail(node->key_place, fmt::format("'{}' belongs to joints of type {}", key, kind), "remove it");
+/// The key that this kind alone or with some others takes; those of other kinds are errors.
+void read_own_key(const MapReader& map, JointSpec& joint) {
+  const JointKey own = joint_kind(joint.kind).key;
+  if (own == JointKey::hold) joint.hold = read_hold(map);
+  if (own == JointKey::pitch) joint.pitch = map.number("pitch");
+  if (own == JointKey::length && map.has("length")) joint.length = map.number("length");
+  for (const JointKindRow& other : joint_kinds()) {
+    const std::string_view key = joint_key_word(other.key);
+    if (other.key == JointKey::none || other.key == own) continue;
+    if (const YamlNode* node = map.find(key))
+      map.context().fail(node->key_place, fmt::format("'{}' belongs to joints of type {}", key, other.word),
+                         "remove it");
+  }
 }
 
 FrictionSpec read_friction(const Context& context, const YamlNode& node, JointKind kind) {
@@ -81,7 +86,7 @@ FrictionSpec read_friction(const Context& context, const YamlNode& node, JointKi
   friction.coefficient = map.number("coefficient");
   if (map.has("static_coefficient")) friction.static_coefficient = map.number("static_coefficient");
   friction.velocity = map.number("velocity");
-  const FrictionKeys keys = friction_keys(kind);
+  const FrictionKeys keys = joint_kind(kind).friction;
   const YamlNode* radius = map.find("radius");
   if (radius && keys.has_friction && !keys.radius)
     map.context().fail(radius->key_place, fmt::format("'radius' has no effect in a {} joint", joint_word(kind)),
@@ -96,27 +101,21 @@ JointSpec read_joint(const Context& context, const YamlNode& node) {
   JointSpec joint;
   joint.name = node.key;
   joint.where = context.entry;
-  map.require("type");
-  joint.kind = map.choice("type", joint_kinds, JointKind::spherical);
+  joint.kind = read_kind(map);
   read_marker_pair(map, joint);
-  if (joint.kind == JointKind::generic) joint.hold = read_hold(map);
-  if (joint.kind == JointKind::screw) joint.pitch = map.number("pitch");
-  if (joint.kind == JointKind::distance && map.has("length")) joint.length = map.number("length");
+  read_own_key(map, joint);
   if (const YamlNode* friction = map.find("friction")) joint.friction = read_friction(context, *friction, joint.kind);
-  refuse_without(map, "hold", joint.kind == JointKind::generic, "generic");
-  refuse_without(map, "pitch", joint.kind == JointKind::screw, "screw");
-  refuse_without(map, "length", joint.kind == JointKind::distance, "distance");
   return joint;
 }
 
 /// `{type: gear, between: [hinge_1, hinge_2], ratio: -2}` or `{type: rack_and_pinion, between: [hinge, slide], radius:
 /// r}`.
-GearSpec read_gear(const Context& context, const YamlNode& node, const std::string& ratio_key) {
-  const MapReader map(context, node, ratio_key == "ratio" ? "gear" : "rack_and_pinion");
+GearSpec read_gear(const Context& context, const YamlNode& node, const GearKindRow& kind) {
+  const MapReader map(context, node, kind.word);
   GearSpec gear;
   gear.name = node.key;
   gear.where = context.entry;
-  gear.ratio = map.number(ratio_key);
+  gear.ratio = map.number(kind.key);
   const YamlNode* between = map.require("between");
   if (between == nullptr) return gear;
   if (between->kind != YamlKind::sequence || between->children.size() != 2) {
@@ -138,62 +137,13 @@ std::string type_of(const YamlNode& joint) {
 
 }  // namespace
 
-FrictionKeys friction_keys(JointKind kind) {
-  switch (kind) {
-    case JointKind::spherical:
-      return {true, true, false};
-    case JointKind::revolute:
-    case JointKind::universal:
-    case JointKind::constant_velocity:
-    case JointKind::cylindrical:
-    case JointKind::screw:
-    case JointKind::planar:
-      return {true, true, true};
-    case JointKind::prismatic:
-      return {true, false, true};
-    case JointKind::point_on_line:
-    case JointKind::point_on_plane:
-      return {true, false, false};
-    default:
-      return {};
-  }
-}
-
-std::string joint_word(JointKind kind) {
-  for (const Choice<JointKind>& choice : joint_kinds)
-    if (choice.value == kind) return std::string(choice.word);
-  return {};
-}
-
-bool needs_axis(JointKind kind) {
-  switch (kind) {
-    case JointKind::revolute:
-    case JointKind::universal:
-    case JointKind::constant_velocity:
-    case JointKind::cylindrical:
-    case JointKind::screw:
-    case JointKind::prismatic:
-    case JointKind::planar:
-    case JointKind::point_on_line:
-    case JointKind::point_on_plane:
-    case JointKind::parallel_axes:
-      return true;
-    case JointKind::fixed:
-    case JointKind::spherical:
-    case JointKind::distance:
-    case JointKind::constant_orientation:
-    case JointKind::generic:
-      return false;
-  }
-  return false;
-}
-
 void read_joints(const MapReader& map, Scene& scene) {
   for (const YamlNode* node : map.entries("joints", "joint")) {
     const Context context = entry_context(map.context().reader, "joint", *node);
     const std::string type = type_of(*node);
-    if (type == "gear" || type == "rack_and_pinion")
-      scene.gears.push_back(read_gear(context, *node, type == "gear" ? "ratio" : "radius"));
+    const auto gear = std::ranges::find(gear_kinds, type, &GearKindRow::word);
+    if (gear != gear_kinds.end())
+      scene.gears.push_back(read_gear(context, *node, *gear));
     else
       scene.joints.push_back(read_joint(context, *node));
   }

@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "common/units.hpp"
+#include "formats/joints/joint_kinds.hpp"
 #include "formats/scene/analysis.hpp"
 #include "formats/scene/body_spec.hpp"
 #include "formats/sections/section.hpp"
@@ -19,30 +20,6 @@
 #include "formats/yaml/override.hpp"
 
 namespace tisserand::formats {
-
-enum class JointKind {
-  fixed,
-  revolute,
-  spherical,
-  universal,
-  constant_velocity,
-  cylindrical,
-  screw,
-  prismatic,
-  planar,
-  point_on_line,
-  point_on_plane,
-  distance,
-  constant_orientation,
-  parallel_axes,
-  generic
-};
-
-/// The word of a kind in scene.yaml.
-std::string joint_word(JointKind kind);
-
-/// Whether the direction of the z axis matters to a joint of this kind, so that the scene must give it.
-bool needs_axis(JointKind kind);
 
 /// A place on a body: "ground", "<body>" (rigid), "<body>/<node>"; position and orientation in the node's axes.
 struct MarkerSpec {
@@ -61,14 +38,6 @@ struct MarkerPairSpec {
   std::optional<Eigen::Vector3d> x_axis;    ///< its part across `axis` is x of both markers; absent: any
 };
 
-/// What friction in a joint of some kind needs and may have. Kinds without a contact surface have no friction.
-struct FrictionKeys {
-  bool has_friction = false;
-  bool radius = false;  ///< of the contact, for parts of the slip that are turns
-  bool arm = false;     ///< the joint takes moments that press its surfaces together
-};
-FrictionKeys friction_keys(JointKind kind);
-
 /// Coulomb friction of a joint (mechanism/joints/friction.hpp).
 struct FrictionSpec {
   double coefficient = 0.0;
@@ -81,9 +50,9 @@ struct FrictionSpec {
 struct JointSpec : MarkerPairSpec {
   std::string name;
   JointKind kind = JointKind::spherical;
-  std::array<bool, 6> hold{};    ///< generic: x y z rx ry rz of A that are held
-  double pitch = 0.0;            ///< screw: advance per turn [length]
-  std::optional<double> length;  ///< distance: absent: that at the start
+  std::array<bool, 6> hold{};    ///< JointKey::hold: x y z rx ry rz of A that are held
+  double pitch = 0.0;            ///< JointKey::pitch: advance per turn [length]
+  std::optional<double> length;  ///< JointKey::length: absent: that at the start
   std::optional<FrictionSpec> friction;
   std::string where;
 };

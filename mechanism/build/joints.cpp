@@ -29,17 +29,18 @@ void JointBuilder::add(const formats::JointSpec& spec) {
                 joint.a.follower < 0 && joint.b.follower < 0
                     ? "connect two different nodes"
                     : "fixed joints tie these bodies together already: remove the joint, or one of the fixed ones");
-  if (formats::needs_axis(spec.kind) && !spec.axis && !spec.a.orientation && !spec.b.orientation)
+  if (formats::joint_kind(spec.kind).axes == formats::JointAxes::required && !spec.axis && !spec.a.orientation &&
+      !spec.b.orientation)
     throw Error(fmt::format("{} joint '{}' has no axis", formats::joint_word(spec.kind), spec.name), spec.where,
                 "give `axis: [x, y, z]` in the world frame at the start, or orientations of its markers");
-  if (spec.kind != JointKind::distance) place_markers(markers_, spec, joint.a, joint.b);
+  if (!keeps_distance(joint)) place_markers(markers_, spec, joint.a, joint.b);
   const std::string subject = fmt::format("joint '{}'", spec.name);
   const MarkerUse use = uses_axes(joint) ? MarkerUse::position_and_axes : MarkerUse::position;
   check_marker(model_, subject, use, spec.a, joint.a);
   check_marker(model_, subject, use, spec.b, joint.b);
-  if (spec.kind == JointKind::distance) set_length(spec, joint);
+  if (keeps_distance(joint)) set_length(spec, joint);
   add_coordinates(joint);
-  if (spec.kind == JointKind::screw) add_screw(spec);
+  if (joint_law(spec.kind).threaded) add_thread(spec);
   if (spec.friction) add_friction(spec);
   model_.joints.push_back(std::move(joint));
 }
@@ -79,21 +80,21 @@ void JointBuilder::add_friction(const formats::JointSpec& joint) {
   friction.velocity = spec.velocity;
   friction.radius = spec.radius;
   friction.inverse_arm = spec.arm ? 1.0 / *spec.arm : 0.0;
-  if (joint.kind == JointKind::screw) {
+  if (joint_law(joint.kind).threaded) {
     friction.thread = static_cast<int>(model_.couplings.size()) - 1;
     friction.lead = joint.pitch / (2.0 * EIGEN_PI);
   }
   model_.frictions.push_back(friction);
 }
 
-void JointBuilder::add_screw(const formats::JointSpec& spec) {
-  Coupling screw;
-  screw.name = spec.name + ", advance with the turn";
-  screw.length = true;
-  screw.from_start = true;
+void JointBuilder::add_thread(const formats::JointSpec& spec) {
+  Coupling thread;
+  thread.name = spec.name + ", advance with the turn";
+  thread.length = true;
+  thread.from_start = true;
   const int angle = coordinate_.at(spec.name + "/angle"), z = coordinate_.at(spec.name + "/z");
-  screw.terms = {{z, 1.0}, {angle, static_cast<double>(-spec.pitch / (2.0 * EIGEN_PI))}};
-  activate(screw);
+  thread.terms = {{z, 1.0}, {angle, static_cast<double>(-spec.pitch / (2.0 * EIGEN_PI))}};
+  activate(thread);
 }
 
 void JointBuilder::activate(Coupling& coupling) {

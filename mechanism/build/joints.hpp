@@ -35,7 +35,7 @@ class JointBuilder {
   void add_coordinates(const Joint& joint);
   void add_friction(const formats::JointSpec& joint);
   /// z = pitch angle/(2π), with the values at the start as the reference.
-  void add_screw(const formats::JointSpec& spec);
+  void add_thread(const formats::JointSpec& spec);
   void activate(Coupling& coupling);
   int find_coordinate(const formats::CoordinateRef& ref) const;
   bool is_length_coordinate(int coordinate) const;

@@ -32,7 +32,7 @@ class Grouping {
       : scene_(scene), model_(model), first_(first), markers_(markers), placed_(count(), false), edges_of_(count()) {
     result_.pose.resize(count());
     for (const formats::JointSpec& spec : scene.joints) {
-      if (spec.kind != formats::JointKind::fixed) continue;
+      if (joint_law(spec.kind).holds.size() < 6) continue;
       const Edge edge{&spec, markers.find(spec.a), markers.find(spec.b)};
       if (edge.a.node == edge.b.node) continue;
       for (const int node : {edge.a.node, edge.b.node})

@@ -27,13 +27,10 @@ struct SlipGradient {
 };
 
 constexpr Relation turn{RelationKind::angle, 2, 0};
-constexpr Relation shift_x{RelationKind::along, 0, 0}, shift_y{RelationKind::along, 1, 0},
-    shift_z{RelationKind::along, 2, 0};
+constexpr Relation shift_z{RelationKind::along, 2, 0};
 
 /// Whether the slip is that of a ball, a turn in any direction.
-bool slips_like_a_ball(JointKind kind) {
-  return kind == JointKind::spherical || kind == JointKind::universal || kind == JointKind::constant_velocity;
-}
+bool slips_like_a_ball(JointKind kind) { return joint_law(kind).slip == SlipKind::ball; }
 
 /// Relation and factor of each row, for joints whose slip is made of joint coordinates; factor 0: no row.
 struct SlipRow {
@@ -41,22 +38,14 @@ struct SlipRow {
   double factor = 0.0;
 };
 std::array<SlipRow, 3> slip_rows(const Friction& friction, JointKind kind) {
-  const SlipRow turning{turn, friction.radius};
-  switch (kind) {
-    case JointKind::revolute:
-      return {turning};
-    case JointKind::prismatic:
-    case JointKind::point_on_line:
-      return {{{shift_z, 1.0}}};
-    case JointKind::cylindrical:
-    case JointKind::screw:
-      return {{turning, {shift_z, 1.0}}};
-    case JointKind::point_on_plane:
-      return {{{shift_x, 1.0}, {shift_y, 1.0}}};
-    default:
-      TISSERAND_ENSURE(kind == JointKind::planar, "friction in a joint of kind {}", static_cast<int>(kind));
-      return {{{shift_x, 1.0}, {shift_y, 1.0}, turning}};
+  const JointLaw& law = joint_law(kind);
+  TISSERAND_ENSURE(law.slip == SlipKind::coordinates, "friction in a joint of kind {}", static_cast<int>(kind));
+  std::array<SlipRow, 3> rows;
+  for (int k = 0; k < law.coordinates.count; ++k) {
+    const Relation& coordinate = law.coordinates.list[k];
+    rows[k] = {coordinate, is_length(coordinate) ? 1.0 : friction.radius};
   }
+  return rows;
 }
 
 Slip slip_of(const Friction& friction, const LoadedJoint& loaded) {
@@ -99,30 +88,6 @@ SlipGradient slip_gradient(const Friction& friction, const LoadedJoint& loaded, 
   return gradient;
 }
 
-/// Which components of force and moment (axes of A) press the surfaces together.
-struct Pressing {
-  Vector3d force;
-  Vector3d moment;
-};
-Pressing pressing(JointKind kind) {
-  const Vector3d all = Vector3d::Ones(), across(1, 1, 0), along(0, 0, 1);
-  switch (kind) {
-    case JointKind::revolute:
-    case JointKind::screw:
-      return {all, across};
-    case JointKind::prismatic:
-    case JointKind::point_on_line:
-      return {across, all};
-    case JointKind::cylindrical:
-      return {across, across};
-    case JointKind::planar:
-    case JointKind::point_on_plane:
-      return {along, across};
-    default:
-      return {all, all};
-  }
-}
-
 /// N and its derivatives by force and moment.
 struct ContactForce {
   double N = 0.0;
@@ -130,8 +95,9 @@ struct ContactForce {
   Vector3d by_moment = Vector3d::Zero();
 };
 ContactForce normal_of(const Friction& friction, JointKind kind, const JointReaction& reaction) {
-  const Pressing part = pressing(kind);
-  const Vector3d f = part.force.cwiseProduct(reaction.force), m = part.moment.cwiseProduct(reaction.moment);
+  const Pressing& pressing = joint_law(kind).pressing;
+  const Eigen::Map<const Vector3d> by_force(pressing.force.data()), by_moment(pressing.moment.data());
+  const Vector3d f = by_force.cwiseProduct(reaction.force), m = by_moment.cwiseProduct(reaction.moment);
   const double force = f.norm(), moment = m.norm(), factor = 2.0 * friction.inverse_arm;
   ContactForce normal;
   normal.N = force + factor * moment;

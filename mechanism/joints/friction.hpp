@@ -7,14 +7,10 @@
 
 namespace tisserand::mechanism {
 
-/// Sliding velocity s of the contact: radius × rate of the angle (revolute), rate of z (prismatic, point_on_line), both
-/// (cylindrical, screw), rates of x and y (point_on_plane), also with radius × rate of the angle (planar), or radius ×
-/// relative angular velocity (spherical, universal, constant_velocity). The friction −N μ(|s|) s/|s| acts along s; the
-/// normal force is N = |f| + 2|m|/arm of the components of the reaction that press the surfaces together, axes of A:
-/// f across z (prismatic, cylindrical, point_on_line), along z (planar, point_on_plane), else all three; m across z
-/// (revolute, cylindrical, screw, planar), else all three.
-/// μ rises to the static coefficient at |s| = velocity (quadratic), falls to the kinetic one at 3 velocity (cubic) and
-/// stays: a joint that should stick creeps at (1 − √(1 − F/(μ_s N))) velocity.
+/// The friction −N μ(|s|) s/|s| acts along the sliding velocity s of the contact (SlipKind). The normal force is N =
+/// |f| + 2|m|/arm of the components of the reaction that press the surfaces together (Pressing). μ rises to the static
+/// coefficient at |s| = velocity (quadratic), falls to the kinetic one at 3 velocity (cubic) and stays: a joint that
+/// should stick creeps at (1 − √(1 − F/(μ_s N))) velocity.
 struct Friction {
   int joint = 0;             ///< index in Model::joints
   double kinetic = 0.0;      ///< coefficient μ
@@ -22,8 +18,8 @@ struct Friction {
   double velocity = 0.0;     ///< [length/time]
   double radius = 0.0;       ///< of the contact surface; unused where the slip has no turn
   double inverse_arm = 0.0;  ///< 1/distance of the two supports that take reaction moments; 0: they do not count
-  int thread = -1;           ///< screw: index in Model::couplings of z − lead × angle
-  double lead = 0.0;         ///< screw: advance per radian [length]
+  int thread = -1;           ///< of threaded joints: index in Model::couplings of z − lead × angle
+  double lead = 0.0;         ///< of threaded joints: advance per radian [length]
 };
 
 /// μ(s)/s and its derivative.
@@ -33,7 +29,7 @@ struct FrictionLaw {
 };
 FrictionLaw friction_law(const Friction& friction, double speed);
 
-/// A joint with its Jacobian and multipliers at one instant; of a screw also that of its thread.
+/// A joint with its Jacobian and multipliers at one instant; if it is threaded also that of its thread.
 struct LoadedJoint {
   const Joint& joint;
   MarkerPair pair;

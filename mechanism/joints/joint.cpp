@@ -1,7 +1,7 @@
-// The table of joints, and sums over their relations.
+// Sums over the relations of a joint.
 #include "mechanism/joints/joint.hpp"
 
-#include <initializer_list>
+#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -13,37 +13,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-constexpr Relation along(int i) { return {RelationKind::along, static_cast<std::uint8_t>(i), 0}; }
-constexpr Relation normal(int i, int j) {
-  return {RelationKind::normal, static_cast<std::uint8_t>(i), static_cast<std::uint8_t>(j)};
-}
-constexpr Relation angle(int i) { return {RelationKind::angle, static_cast<std::uint8_t>(i), 0}; }
-constexpr Relation twist{RelationKind::twist, 0, 0};
-constexpr Relation distance{RelationKind::distance, 0, 0};
-
-void hold(Joint& joint, std::initializer_list<Relation> relations) {
-  for (const Relation& relation : relations) joint.relations[joint.relation_count++] = relation;
-}
-
-/// No turn: x_A ⟂ y_B, y_A ⟂ z_B, z_A ⟂ x_B.
-void hold_orientation(Joint& joint) { hold(joint, {normal(0, 1), normal(1, 2), normal(2, 0)}); }
-
-/// The axis `k` of B stays along that of A.
-void hold_axis(Joint& joint, int k) { hold(joint, {normal((k + 1) % 3, k), normal((k + 2) % 3, k)}); }
-
-void hold_chosen(const std::array<bool, 6>& held, Joint& joint) {
-  joint.coincident = held[0] && held[1] && held[2];
-  for (int i = 0; i < 3 && !joint.coincident; ++i)
-    if (held[i]) hold(joint, {along(i)});
-  const int turns = held[3] + held[4] + held[5];
-  if (turns == 3) hold_orientation(joint);
-  for (int k = 0; k < 3; ++k) {
-    const bool this_one = held[3 + k];
-    if (turns == 2 && !this_one) hold_axis(joint, k);
-    if (turns == 1 && this_one) hold(joint, {normal((k + 1) % 3, (k + 2) % 3)});
-  }
-}
 
 const Relation& relation_of(const Joint& joint, int equation) {
   return joint.relations[equation - (joint.coincident ? 3 : 0)];
@@ -75,108 +44,42 @@ int aligned_axis(const Joint& joint) {
 }
 bool keeps_orientation(const Joint& joint) { return count_normals(joint, -1) == 3; }
 
+namespace {
+/// Whether what `hold` chose leaves a displacement along an axis free, or the turn about it alone.
+bool is_free(const Joint& joint, const Relation& coordinate) {
+  if (coordinate.kind == RelationKind::angle) return aligned_axis(joint) == coordinate.i;
+  const Relation* end = joint.relations.data() + joint.relation_count;
+  return !joint.coincident && std::none_of(joint.relations.data(), end, [&](const Relation& held) {
+    return held.kind == RelationKind::along && held.i == coordinate.i;
+  });
+}
+}  // namespace
+
+bool keeps_distance(const Joint& joint) {
+  for (int k = 0; k < joint.relation_count; ++k)
+    if (joint.relations[k].kind == RelationKind::distance) return true;
+  return false;
+}
+
 void set_relations(JointKind kind, const std::array<bool, 6>& held, Joint& joint) {
+  const JointLaw& law = joint_law(kind);
+  const Held holds = law.chosen ? held_directions(held) : law.holds;
   joint.kind = kind;
-  joint.relation_count = 0;
-  joint.coincident = false;
-  switch (kind) {
-    case JointKind::fixed:
-      joint.coincident = true;
-      hold_orientation(joint);
-      return;
-    case JointKind::revolute:
-      joint.coincident = true;
-      hold_axis(joint, 2);
-      return;
-    case JointKind::spherical:
-      joint.coincident = true;
-      return;
-    case JointKind::universal:
-      joint.coincident = true;
-      hold(joint, {normal(0, 1)});
-      return;
-    case JointKind::constant_velocity:
-      joint.coincident = true;
-      hold(joint, {twist});
-      return;
-    case JointKind::cylindrical:
-    case JointKind::screw:
-      hold(joint, {along(0), along(1)});
-      hold_axis(joint, 2);
-      return;
-    case JointKind::prismatic:
-      hold(joint, {along(0), along(1)});
-      hold_orientation(joint);
-      return;
-    case JointKind::planar:
-      hold(joint, {along(2)});
-      hold_axis(joint, 2);
-      return;
-    case JointKind::point_on_line:
-      hold(joint, {along(0), along(1)});
-      return;
-    case JointKind::point_on_plane:
-      hold(joint, {along(2)});
-      return;
-    case JointKind::distance:
-      hold(joint, {distance});
-      return;
-    case JointKind::constant_orientation:
-      hold_orientation(joint);
-      return;
-    case JointKind::parallel_axes:
-      hold_axis(joint, 2);
-      return;
-    case JointKind::generic:
-      hold_chosen(held, joint);
-      return;
-  }
-  TISSERAND_ENSURE(false, "joint of kind {}", static_cast<int>(kind));
+  joint.coincident = holds.coincident;
+  joint.relation_count = holds.relations.count;
+  joint.relations = holds.relations.list;
 }
 
 std::vector<NamedRelation> free_coordinates(const Joint& joint) {
-  switch (joint.kind) {
-    case JointKind::revolute:
-      return {{"angle", angle(2)}};
-    case JointKind::cylindrical:
-    case JointKind::screw:
-      return {{"angle", angle(2)}, {"z", along(2)}};
-    case JointKind::prismatic:
-    case JointKind::point_on_line:
-      return {{"z", along(2)}};
-    case JointKind::planar:
-      return {{"x", along(0)}, {"y", along(1)}, {"angle", angle(2)}};
-    case JointKind::universal:
-      return {{"angle_x", angle(0)}, {"angle_y", angle(1)}};
-    case JointKind::point_on_plane:
-      return {{"x", along(0)}, {"y", along(1)}};
-    case JointKind::constant_orientation:
-      return {{"x", along(0)}, {"y", along(1)}, {"z", along(2)}};
-    case JointKind::parallel_axes:
-      return {{"x", along(0)}, {"y", along(1)}, {"z", along(2)}, {"angle", angle(2)}};
-    case JointKind::generic: {
-      std::vector<NamedRelation> free;
-      for (int i = 0; i < 3 && !joint.coincident; ++i) {
-        bool held = false;
-        for (int k = 0; k < joint.relation_count; ++k) {
-          const Relation& r = joint.relations[k];
-          held = held || (r.kind == RelationKind::along && r.i == i);
-        }
-        if (!held) free.push_back({axis_name[i], along(i)});
-      }
-      int normals = 0, axis = 0;
-      for (int k = 0; k < joint.relation_count; ++k)
-        if (const Relation& r = joint.relations[k]; r.kind == RelationKind::normal) ++normals, axis = r.j;
-      if (normals == 2 && axis == 2) free.push_back({"angle", angle(2)});
-      return free;
-    }
-    case JointKind::fixed:
-    case JointKind::spherical:
-    case JointKind::constant_velocity:
-    case JointKind::distance:
-      return {};
-  }
-  return {};
+  const JointLaw& law = joint_law(joint.kind);
+  const formats::CoordinateNames& names = formats::joint_kind(joint.kind).coordinates;
+  TISSERAND_ENSURE(names.count == law.coordinates.count, "{} names of {} coordinates", names.count,
+                   law.coordinates.count);
+  std::vector<NamedRelation> free;
+  for (int k = 0; k < names.count; ++k)
+    if (const Relation& coordinate = law.coordinates.list[k]; !law.chosen || is_free(joint, coordinate))
+      free.push_back({std::string(names.names[k]), coordinate});
+  return free;
 }
 
 std::string joint_equation_name(const Joint& joint, int equation) {

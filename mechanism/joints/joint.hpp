@@ -1,5 +1,5 @@
-// Joints between two markers: which relations each kind holds at zero, with constraints Φ, Jacobian B, the bias of Φ̈
-// and the geometric stiffness of the reactions.
+// Joints between two markers: the relations that they hold at zero, with constraints Φ, Jacobian B, the bias of Φ̈ and
+// the geometric stiffness of the reactions. What each kind holds stands in joint_laws.cpp.
 #pragma once
 
 #include <array>
@@ -9,11 +9,10 @@
 #include <Eigen/Core>
 
 #include "formats/scene/scene.hpp"
+#include "mechanism/joints/joint_laws.hpp"
 #include "mechanism/joints/relation.hpp"
 
 namespace tisserand::mechanism {
-
-using formats::JointKind;
 
 /// First, if the joint keeps the origins together, Φ = x_B − x_A in world axes; then the relations, minus `constant`.
 struct Joint {
@@ -24,7 +23,7 @@ struct Joint {
   bool coincident = true;
   std::array<Relation, 6> relations{};
   int relation_count = 0;
-  double constant = 0.0;  ///< length of a joint of constant distance; 0 for all others
+  double constant = 0.0;  ///< length of a joint that keeps a distance; 0 for all others
   int row = 0;            ///< first multiplier
 
   int size() const { return (coincident ? 3 : 0) + relation_count; }
@@ -38,13 +37,13 @@ bool is_length(const Joint& joint, int equation);
 int aligned_axis(const Joint& joint);
 bool keeps_orientation(const Joint& joint);
 
-/// Coincidence and relations of the joint from its kind; for JointKind::generic from `held`, [x y z rx ry rz] in axes
-/// of A, of which all, two, one or none of the turns may be held.
+/// Coincidence and relations of the joint from the law of its kind, or from `held` if `hold` says what is held.
 void set_relations(JointKind kind, const std::array<bool, 6>& held, Joint& joint);
 
-/// What the joint lets move, by name: "angle" (revolute, screw), "z" (prismatic, point on line), "z" and "angle"
-/// (cylindrical), "x", "y" and "angle" (planar), "angle_x" and "angle_y" (universal), "x" and "y" (point on plane),
-/// "distance"; empty for those whose freedom has no coordinates of this kind.
+/// Whether the joint keeps a distance: its markers are then apart, and their axes do not matter.
+bool keeps_distance(const Joint& joint);
+
+/// The coordinates that the joint leaves free, by the names of formats::JointKindRow.
 struct NamedRelation {
   std::string name;
   Relation relation;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "formats/joints/joint_kinds.hpp"
 #include "formats/scene/expand/load_placement.hpp"
 #include "formats/scene/expand/parameters.hpp"
 #include "formats/yaml/geometry.hpp"
@@ -66,13 +67,17 @@ std::string word(const YamlNode& map, const char* key) {
 
 bool is_list(const YamlNode* node) { return node != nullptr && node->kind == YamlKind::sequence; }
 
-/// How the axes of a joint's markers follow a mirror: F of determinant −1, so that marker frames G R F are rotations.
-/// The coordinates keep their signs: angles about z and displacements along x and y; along z where there is no angle;
-/// the angles of a universal joint.
+/// How the axes of the markers of a joint, spring or bushing follow a mirror (JointKindRow::mirrored_axes).
 Matrix3d axes_of_mirrored_markers(const std::string& type) {
-  if (type == "prismatic" || type == "point_on_line") return Vector3d(1.0, -1.0, 1.0).asDiagonal();
-  if (type == "universal") return -Matrix3d::Identity();
-  return Vector3d(1.0, 1.0, -1.0).asDiagonal();
+  const JointKindRow* joint = find_joint_kind(type);
+  const std::array<double, 3> axes = joint ? joint->mirrored_axes : JointKindRow{}.mirrored_axes;
+  return Vector3d(axes[0], axes[1], axes[2]).asDiagonal();
+}
+
+/// Whether directions of the markers matter to a joint, spring or bushing.
+bool uses_axes(const std::string& type) {
+  const JointKindRow* joint = find_joint_kind(type);
+  return joint ? joint->axes != JointAxes::unused : !type.empty() && type != "line";
 }
 
 /// The x axis that the model builder gives to markers of which only z is known.
@@ -195,8 +200,8 @@ void Placement::pair(YamlNode& entry, const std::string& type) {
   };
   const bool has_axis = is_list(find_child(entry, "axis"));
   const bool has_markers = find_child(entry, "a") != nullptr && find_child(entry, "b") != nullptr;
-  const bool joint = has_markers && !type.empty() && type != "distance" && type != "line";
-  if (!frame_.turned() || (!has_axis && (!joint || oriented("a") || oriented("b")))) return;
+  const bool directed = has_markers && uses_axes(type);
+  if (!frame_.turned() || (!has_axis && (!directed || oriented("a") || oriented("b")))) return;
   const Vector3d z = has_axis ? read_vector(context(entry), *find_child(entry, "axis"), "axis") : Vector3d::UnitZ();
   if (!z.allFinite() || z.isZero(0.0)) return;
   if (!has_axis) set(entry, "axis", list_node(z, entry.place));
@@ -267,12 +272,18 @@ void Placement::load(YamlNode& load) {
 }
 
 std::set<std::string> Placement::reversed_coordinates(const YamlNode& joint) {
-  const std::string type = word(joint, "type");
-  constexpr std::array<const char*, 5> kinds{"cylindrical", "screw", "constant_orientation", "parallel_axes",
-                                             "generic"};
-  if (std::ranges::find(kinds, type) == kinds.end()) return {};
-  std::set<std::string> names{joint.key + "/z"};
-  if (type == "generic") names.insert(joint.key);
+  const JointKindRow* kind = find_joint_kind(word(joint, "type"));
+  std::set<std::string> names;
+  if (kind == nullptr) return names;
+  constexpr std::array<std::string_view, 3> displacements{"x", "y", "z"};
+  for (int i = 0; i < 3; ++i) {
+    if (kind->mirrored_axes[i] > 0.0 ||
+        std::ranges::find(kind->coordinates, displacements[i]) == kind->coordinates.end())
+      continue;
+    names.insert(fmt::format("{}/{}", joint.key, displacements[i]));
+    // The only coordinate of a joint is called by the joint's name, and `hold` may leave this one alone.
+    if (kind->coordinates.count == 1 || kind->key == JointKey::hold) names.insert(joint.key);
+  }
   return names;
 }
 

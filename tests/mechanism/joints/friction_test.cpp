@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/scenes/joint_kinds.hpp"
 #include "tests/support/scenes/model_tangent.hpp"
 
 namespace tisserand::mechanism::friction_test {
@@ -37,19 +38,13 @@ TEST(FrictionLaw, IsSmoothAndReachesItsCoefficients) {
 formats::JointSpec rubbing(JointKind kind, const Vector3d& axis, double coefficient, double velocity) {
   formats::JointSpec joint = test_support::joint("joint", kind, "ground", "body", Vector3d::Zero(), axis);
   joint.friction =
-      formats::FrictionSpec{coefficient, {}, velocity, formats::friction_keys(kind).radius ? 0.1 : 0.0, {}};
+      formats::FrictionSpec{coefficient, {}, velocity, formats::joint_kind(kind).friction.radius ? 0.1 : 0.0, {}};
   return joint;
 }
 
 class RubbingJoint : public ::testing::TestWithParam<JointKind> {};
-INSTANTIATE_TEST_SUITE_P(Kinds, RubbingJoint,
-                         ::testing::Values(JointKind::revolute, JointKind::prismatic, JointKind::cylindrical,
-                                           JointKind::spherical, JointKind::universal, JointKind::constant_velocity,
-                                           JointKind::screw, JointKind::planar, JointKind::point_on_line,
-                                           JointKind::point_on_plane),
-                         [](const ::testing::TestParamInfo<JointKind>& kind) {
-                           return formats::joint_word(kind.param);
-                         });
+INSTANTIATE_TEST_SUITE_P(Kinds, RubbingJoint, ::testing::ValuesIn(test_support::every_joint_with_friction()),
+                         test_support::joint_test_name);
 
 // Between two bodies with offset and turned markers, speeds on all branches of the law. Central differences with 1e-6:
 // kinks aside, 1e-8 relative to the largest entry.
@@ -62,7 +57,7 @@ TEST_P(RubbingJoint, IterationMatrixIsTheDerivativeOfTheResidual) {
   joint.position = Vector3d(0.4, -0.2, 0.1);
   joint.friction->static_coefficient = 0.5;
   joint.pitch = 0.7;
-  if (formats::friction_keys(GetParam()).arm) joint.friction->arm = 0.6;
+  if (formats::joint_kind(GetParam()).friction.arm) joint.friction->arm = 0.6;
   for (const double velocity : {0.02, 0.1, 3.0}) {
     joint.friction->velocity = velocity;
     scene.joints = {joint};

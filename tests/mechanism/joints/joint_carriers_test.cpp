@@ -13,6 +13,7 @@
 #include "tests/support/bodies/beam_states.hpp"
 #include "tests/support/bodies/reduced_frames.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"
+#include "tests/support/scenes/joint_kinds.hpp"
 #include "tests/support/scenes/model_tangent.hpp"
 #include "tests/support/scenes/scenes.hpp"
 
@@ -97,14 +98,7 @@ formats::Scene jointed(JointKind kind, const Pair& pair, bool swapped) {
   const std::string a = add_body(pair.a, "one", spin, scene, ties), b = add_body(pair.b, "two", spin, scene, ties);
   formats::JointSpec spec =
       test_support::joint("j", kind, swapped ? b : a, swapped ? a : b, Vector3d::Zero(), {0.3, 0.5, 1.0});
-  if (kind == JointKind::generic) spec.hold = {true, false, true, true, false, true};
-  if (kind == JointKind::screw) spec.pitch = 0.2;
-  if (kind == JointKind::distance) {
-    spec.position.reset();
-    spec.axis.reset();
-    (swapped ? spec.b : spec.a).position = Vector3d(0.5, 0.2, -0.3);
-    (swapped ? spec.a : spec.b).position = Vector3d(-0.3, 0.6, 0.1);
-  }
+  test_support::give_own_key(spec, a);
   scene.joints.push_back(spec);
   scene.joints.insert(scene.joints.end(), ties.begin(), ties.end());
   return scene;
@@ -151,13 +145,8 @@ class JointBetweenCarriers : public ::testing::TestWithParam<JointKind> {
   const SuperelementFiles files_ = files();
 };
 
-INSTANTIATE_TEST_SUITE_P(
-    Joints, JointBetweenCarriers,
-    ::testing::Values(JointKind::fixed, JointKind::revolute, JointKind::spherical, JointKind::universal,
-                      JointKind::constant_velocity, JointKind::cylindrical, JointKind::screw, JointKind::prismatic,
-                      JointKind::planar, JointKind::point_on_line, JointKind::point_on_plane, JointKind::distance,
-                      JointKind::constant_orientation, JointKind::parallel_axes, JointKind::generic),
-    [](const ::testing::TestParamInfo<JointKind>& kind) { return formats::joint_word(kind.param); });
+INSTANTIATE_TEST_SUITE_P(Joints, JointBetweenCarriers, ::testing::ValuesIn(test_support::every_joint()),
+                         test_support::joint_test_name);
 
 // Central differences with d = 1e-5 of functions of size one to ten: truncation 1e-10, round-off 1e-10.
 TEST_P(JointBetweenCarriers, RowsColumnsAndGeometricStiffnessAreDerivatives) {

@@ -1,14 +1,17 @@
 // One suite for all joints: derivatives against central differences, reactions by their power and by hand.
 #include "mechanism/joints/joint.hpp"
 
+#include <map>
 #include <numbers>
 #include <random>
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
+#include <Eigen/SVD>
 
 #include "common/math/rotation.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"
+#include "tests/support/scenes/joint_kinds.hpp"
 #include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::mechanism::joint_test {
@@ -38,42 +41,27 @@ struct Placement {
   Matrix3d R = Matrix3d::Identity();
 };
 
-Placement placement(JointKind kind, double angle, std::mt19937& random) {
-  const Vector3d d = random_vector(random, 1.0);
-  const Matrix3d any = exp_so3<double>(random_vector(random, 2.0));
-  switch (kind) {
-    case JointKind::fixed:
-      return {};
-    case JointKind::revolute:
-      return {Vector3d::Zero(), turn(2, angle)};
-    case JointKind::spherical:
-      return {Vector3d::Zero(), any};
-    case JointKind::universal:
-      return {Vector3d::Zero(), turn(0, angle) * turn(1, -0.4)};
-    case JointKind::constant_velocity:  // a turn about an axis in the x-y plane has no part about the bisector of the z
-                                        // axes
-      return {Vector3d::Zero(), exp_so3<double>(Vector3d(d.x(), d.y(), 0))};
-    case JointKind::cylindrical:
-    case JointKind::screw:
-      return {{0, 0, d.z()}, turn(2, angle)};
-    case JointKind::prismatic:
-      return {{0, 0, d.z()}, Matrix3d::Identity()};
-    case JointKind::planar:
-      return {{d.x(), d.y(), 0}, turn(2, angle)};
-    case JointKind::point_on_line:
-      return {{0, 0, d.z()}, any};
-    case JointKind::point_on_plane:
-      return {{d.x(), d.y(), 0}, any};
-    case JointKind::distance:
-      return {d, any};
-    case JointKind::constant_orientation:
-      return {d, Matrix3d::Identity()};
-    case JointKind::parallel_axes:
-      return {d, turn(2, angle)};
-    case JointKind::generic:  // holds x, z, rx, rz
-      return {{0, d.y(), 0}, turn(1, angle)};
+/// The turn that the relations of a joint leave free, of size `angle` if about one axis; else as of two pins, of a
+/// bend, or any.
+Matrix3d free_turn(const Joint& joint, double angle, const Vector3d& d, const Matrix3d& any) {
+  if (keeps_orientation(joint)) return Matrix3d::Identity();
+  if (const int axis = aligned_axis(joint); axis >= 0) return turn(axis, angle);
+  for (int k = 0; k < joint.relation_count; ++k) {
+    const Relation& r = joint.relations[k];
+    if (r.kind == RelationKind::normal) return turn(r.i, angle) * turn(r.j, -0.4);
+    // A turn about an axis in the x-y plane has no part about the bisector of the z axes.
+    if (r.kind == RelationKind::twist) return exp_so3<double>(Vector3d(d.x(), d.y(), 0));
   }
-  return {};
+  return any;
+}
+
+Placement placement(const Joint& joint, double angle, std::mt19937& random) {
+  Vector3d d = random_vector(random, 1.0);
+  const Matrix3d R = free_turn(joint, angle, d, exp_so3<double>(random_vector(random, 2.0)));
+  if (joint.coincident) d.setZero();
+  for (int k = 0; k < joint.relation_count; ++k)
+    if (joint.relations[k].kind == RelationKind::along) d[joint.relations[k].i] = 0.0;
+  return {d, R};
 }
 
 /// Two bodies with offset markers; `closed`: B stands so that the joint is met.
@@ -88,8 +76,8 @@ struct Pair {
     set_relations(kind, {true, false, true, true, false, true}, joint);
     a = random_motion(random);
     b = random_motion(random);
-    const Placement p = placement(kind, angle, random);
-    if (kind == JointKind::distance) joint.constant = p.d.norm();
+    const Placement p = placement(joint, angle, random);
+    if (keeps_distance(joint)) joint.constant = p.d.norm();
     b.R = marker_rotation(joint.a, a) * p.R * joint.b.R.transpose();
     b.x = marker_position(joint.a, a) + marker_rotation(joint.a, a) * p.d - b.R * joint.b.p;
   }
@@ -133,13 +121,8 @@ class EveryJoint : public ::testing::TestWithParam<JointKind> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(
-    Joints, EveryJoint,
-    ::testing::Values(JointKind::fixed, JointKind::revolute, JointKind::spherical, JointKind::universal,
-                      JointKind::constant_velocity, JointKind::cylindrical, JointKind::screw, JointKind::prismatic,
-                      JointKind::planar, JointKind::point_on_line, JointKind::point_on_plane, JointKind::distance,
-                      JointKind::constant_orientation, JointKind::parallel_axes, JointKind::generic),
-    [](const ::testing::TestParamInfo<JointKind>& kind) { return formats::joint_word(kind.param); });
+INSTANTIATE_TEST_SUITE_P(Joints, EveryJoint, ::testing::ValuesIn(test_support::every_joint()),
+                         test_support::joint_test_name);
 
 // Central differences with d = 1e-5 of functions of size one: truncation 1e-10, round-off 1e-11.
 constexpr double step = 1e-5;
@@ -292,13 +275,7 @@ TEST_P(EveryJoint, SwappingTheBodiesFlipsTheReactions) {
       scene.bodies.push_back(body);
     }
     formats::JointSpec spec = test_support::joint("j", GetParam(), a, b, Vector3d::Zero(), {0.3, 0.5, 1.0});
-    if (GetParam() == JointKind::generic) spec.hold = {true, false, true, true, false, true};
-    if (GetParam() == JointKind::screw) spec.pitch = 0.2;
-    if (GetParam() == JointKind::distance) {
-      spec.position.reset();
-      (a == "one" ? spec.a : spec.b).position = Vector3d(0.5, 0.2, -0.3);
-      (a == "one" ? spec.b : spec.a).position = Vector3d(-0.3, 0.6, 0.1);
-    }
+    test_support::give_own_key(spec, "one");
     scene.joints.push_back(spec);
     scene.loads.push_back(test_support::constant_load("m", formats::LoadKind::moment, "one", {2, 3, -4}));
     test_support::Simulation run(scene, {});
@@ -335,31 +312,32 @@ TEST(JointReaction, SignAgainstAStaticCalculationByHand) {
   EXPECT_LT((r.moment - Vector3d(0, 0, 0.3 * weight)).norm(), 1e-12 * weight);
 }
 
-/// Value and gradient of the coordinate of that name.
-RelationTerms coordinate(const Pair& pair, const std::string& name) {
-  for (const NamedRelation& free : free_coordinates(pair.joint))
-    if (free.name == name) return evaluate(free.relation, {pair.joint.a, pair.joint.b, pair.a, pair.b});
-  ADD_FAILURE() << "no coordinate " << name;
-  return {};
+// What the joint holds and what its coordinates measure are independent: a driven coordinate adds a constraint.
+TEST_P(EveryJoint, CoordinatesAreFree) {
+  for (unsigned seed = 0; seed < states; ++seed) {
+    const Pair pair(GetParam(), seed, 0.7);
+    const std::vector<NamedRelation> free = free_coordinates(pair.joint);
+    const int held = size(), count = static_cast<int>(free.size());
+    Eigen::MatrixXd rows(held + count, 12);
+    rows.topRows(held) = pair.terms().B.topRows(held);
+    for (int k = 0; k < count; ++k)
+      rows.row(held + k) = evaluate(free[k].relation, {pair.joint.a, pair.joint.b, pair.a, pair.b}).G;
+    EXPECT_GT(rows.jacobiSvd().singularValues().minCoeff(), 1e-3);
+  }
 }
 
 // What placement() put in: the turn about z, the shift along the axes of A, and R = R_x(angle) R_y(−0.4).
-TEST(JointCoordinate, MeasuresThePlacement) {
+TEST_P(EveryJoint, CoordinatesMeasureThePlacement) {
   for (const double angle : {-3.0, -1.2, 0.0, 0.4, 2.9}) {
-    for (const JointKind kind :
-         {JointKind::revolute, JointKind::cylindrical, JointKind::screw, JointKind::planar, JointKind::parallel_axes})
-      EXPECT_NEAR(coordinate(Pair(kind, 3, angle), "angle").value, angle, 1e-14) << formats::joint_word(kind);
-    EXPECT_NEAR(coordinate(Pair(JointKind::universal, 3, angle), "angle_x").value, angle, 1e-14);
-    EXPECT_NEAR(coordinate(Pair(JointKind::universal, 3, angle), "angle_y").value, -0.4, 1e-14);
-  }
-  for (const JointKind kind : {JointKind::prismatic, JointKind::planar, JointKind::constant_orientation}) {
-    const Pair pair(kind, 4, 0.3);
+    const Pair pair(GetParam(), 3, angle);
     const Vector3d d = marker_rotation(pair.joint.a, pair.a).transpose() *
                        (marker_position(pair.joint.b, pair.b) - marker_position(pair.joint.a, pair.a));
-    for (const NamedRelation& free : free_coordinates(pair.joint))
-      if (free.relation.kind == RelationKind::along) {
-        EXPECT_NEAR(coordinate(pair, free.name).value, d[free.relation.i], 1e-14) << formats::joint_word(kind);
-      }
+    const std::map<std::string, double> expected{{"x", d.x()},     {"y", d.y()},       {"z", d.z()},
+                                                 {"angle", angle}, {"angle_x", angle}, {"angle_y", -0.4}};
+    for (const NamedRelation& free : free_coordinates(pair.joint)) {
+      const double value = evaluate(free.relation, {pair.joint.a, pair.joint.b, pair.a, pair.b}).value;
+      EXPECT_NEAR(value, expected.at(free.name), 1e-14) << free.name;
+    }
   }
 }
 

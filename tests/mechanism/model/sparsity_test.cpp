@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/math/rotation.hpp"
+#include "tests/support/scenes/joint_kinds.hpp"
 
 namespace tisserand::mechanism::sparsity_test {
 namespace {
@@ -76,13 +77,8 @@ TEST_P(Sparsity, HoldsAllThatIsNotZero) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Sparsity,
-                         ::testing::Values(JointKind::fixed, JointKind::revolute, JointKind::spherical,
-                                           JointKind::universal, JointKind::constant_velocity, JointKind::cylindrical,
-                                           JointKind::prismatic, JointKind::planar, JointKind::point_on_line,
-                                           JointKind::point_on_plane, JointKind::distance,
-                                           JointKind::constant_orientation, JointKind::parallel_axes,
-                                           JointKind::generic));
+INSTANTIATE_TEST_SUITE_P(Kinds, Sparsity, ::testing::ValuesIn(test_support::every_joint()),
+                         test_support::joint_test_name);
 
 }  // namespace
 }  // namespace tisserand::mechanism::sparsity_test

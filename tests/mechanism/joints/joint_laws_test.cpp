@@ -1,0 +1,86 @@
+// The laws of the kinds of joints against what a scene may say of them.
+#include "mechanism/joints/joint_laws.hpp"
+
+#include <algorithm>
+#include <map>
+#include <string_view>
+
+#include <gtest/gtest.h>
+
+#include "mechanism/joints/joint.hpp"
+
+namespace tisserand::mechanism::joint_laws_test {
+namespace {
+
+bool same(const Relation& a, const Relation& b) { return a.kind == b.kind && a.i == b.i && a.j == b.j; }
+
+TEST(JointLaws, AgreeWithTheRowsOfTheScene) {
+  for (const formats::JointKindRow& row : formats::joint_kinds()) {
+    SCOPED_TRACE(row.word);
+    const JointLaw& law = joint_law(row.kind);
+    EXPECT_EQ(law.kind, row.kind);
+    EXPECT_EQ(law.holds.size() + law.threaded, row.equations);
+    EXPECT_EQ(law.chosen, row.key == formats::JointKey::hold);
+    EXPECT_EQ(law.threaded, row.key == formats::JointKey::pitch);
+    Joint joint;
+    set_relations(row.kind, {}, joint);
+    EXPECT_EQ(keeps_distance(joint), row.key == formats::JointKey::length);
+    EXPECT_EQ(keeps_distance(joint), row.axes == formats::JointAxes::unused);
+  }
+}
+
+TEST(JointLaws, CoordinatesAreWhatTheirNamesSay) {
+  const std::map<std::string_view, Relation> meaning{
+      {"x", {RelationKind::along, 0, 0}},       {"y", {RelationKind::along, 1, 0}},
+      {"z", {RelationKind::along, 2, 0}},       {"angle", {RelationKind::angle, 2, 0}},
+      {"angle_x", {RelationKind::angle, 0, 0}}, {"angle_y", {RelationKind::angle, 1, 0}}};
+  for (const formats::JointKindRow& row : formats::joint_kinds()) {
+    SCOPED_TRACE(row.word);
+    const Relations& coordinates = joint_law(row.kind).coordinates;
+    ASSERT_EQ(coordinates.count, row.coordinates.count);
+    for (int k = 0; k < coordinates.count; ++k)
+      EXPECT_TRUE(same(coordinates.list[k], meaning.at(row.coordinates.names[k]))) << row.coordinates.names[k];
+  }
+}
+
+// A radius is needed where the slip has a turn; an arm makes sense where some relation of axes takes a moment:
+// displacements along axes of A are of B's origin, about which their forces have none.
+TEST(JointLaws, FrictionNeedsWhatTheSurfacesDo) {
+  for (const formats::JointKindRow& row : formats::joint_kinds()) {
+    SCOPED_TRACE(row.word);
+    const JointLaw& law = joint_law(row.kind);
+    EXPECT_EQ(row.friction.has_friction, law.slip != SlipKind::none);
+    if (law.slip == SlipKind::none) continue;
+    const bool turns = std::ranges::any_of(law.coordinates, [](const Relation& r) { return !is_length(r); });
+    EXPECT_EQ(row.friction.radius, turns || law.slip == SlipKind::ball);
+    EXPECT_EQ(row.friction.arm, std::ranges::any_of(law.holds.relations, [](const Relation& r) {
+                return r.kind == RelationKind::normal || r.kind == RelationKind::twist;
+              }));
+  }
+}
+
+// All 64 choices: as many equations as directions, and coordinates as SCENE.md has them: those of x, y, z that are
+// free, `angle` if rx and ry are held and rz is not.
+TEST(JointLaws, ChosenDirectionsAreHeldAndTheOthersFree) {
+  for (unsigned choice = 0; choice < 64; ++choice) {
+    SCOPED_TRACE(choice);
+    std::array<bool, 6> held{};
+    int count = 0;
+    for (int i = 0; i < 6; ++i) {
+      held[i] = (choice >> i & 1u) != 0;
+      count += held[i];
+    }
+    Joint joint;
+    set_relations(JointKind::generic, held, joint);
+    EXPECT_EQ(joint.size(), count);
+    std::vector<std::string> expected, found;
+    for (int i = 0; i < 3; ++i)
+      if (!held[i]) expected.emplace_back(1, "xyz"[i]);
+    if (held[3] && held[4] && !held[5]) expected.emplace_back("angle");
+    for (const NamedRelation& free : free_coordinates(joint)) found.push_back(free.name);
+    EXPECT_EQ(found, expected);
+  }
+}
+
+}  // namespace
+}  // namespace tisserand::mechanism::joint_laws_test
