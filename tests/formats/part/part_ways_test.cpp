@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/part/part.hpp"
-#include "text_input.hpp"
+#include "tests/formats/yaml/text_input.hpp"
 
 namespace tisserand::formats::part_ways_test {
 namespace {

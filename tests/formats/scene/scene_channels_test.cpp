@@ -7,7 +7,7 @@
 #include "formats/hdf5/file.hpp"
 #include "formats/scene/scene.hpp"
 #include "formats/tables/input_table.hpp"
-#include "text_input.hpp"
+#include "tests/formats/yaml/text_input.hpp"
 
 namespace tisserand::formats::scene_channels_test {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/scene/scene.hpp"
-#include "text_input.hpp"
+#include "tests/formats/yaml/text_input.hpp"
 
 namespace tisserand::formats::scene_joints_test {
 namespace {

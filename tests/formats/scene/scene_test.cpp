@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "text_input.hpp"
+#include "tests/formats/yaml/text_input.hpp"
 
 namespace tisserand::formats::scene_test {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "common/math/rotation.hpp"
 #include "formats/scene/scene.hpp"
-#include "text_input.hpp"
+#include "tests/formats/yaml/text_input.hpp"
 
 namespace tisserand::formats::scene_tree_test {
 namespace {

@@ -8,7 +8,7 @@
 #include "formats/sections/profiles.hpp"
 #include "formats/sections/shapes.hpp"
 #include "formats/sections/walls.hpp"
-#include "text_input.hpp"
+#include "tests/formats/yaml/text_input.hpp"
 
 namespace tisserand::formats::section_reader_test {
 namespace {
