@@ -7,6 +7,7 @@
 #include "formats/sections/profiles.hpp"
 #include "formats/sections/shapes.hpp"
 #include "formats/sections/walls.hpp"
+#include "formats/yaml/fields.hpp"
 
 namespace tisserand::formats {
 
@@ -213,24 +214,38 @@ Section read_walls(const MapReader& map, const Units& units) {
 }  // namespace
 
 std::vector<KeySet> shape_key_sets() {
-  std::vector<KeySet> sets{{"section_circle", {"shape", "radius"}},
-                           {"section_hollow_circle", {"shape", "radius", "thickness"}},
-                           {"section_rectangle", {"shape", "width", "height"}},
-                           {"section_hollow_rectangle", {"shape", "width", "height", "thickness"}},
-                           {"section_rod", {"shape", "A", "J"}},
-                           {"section_polygon", {"shape", "outline", "holes", "axis"}},
-                           {"section_walls", {"shape", "walls", "axis"}},
-                           {"section_wall", {"along", "thickness"}}};
-  static const std::vector<std::string> nouns = [] {
-    std::vector<std::string> all;
-    for (const Profile& profile : profiles()) all.push_back("section_" + std::string(profile.shape));
+  const Field radius{"radius", "positive", "", "required"}, thickness{"thickness", "positive", "", "required"},
+      width{"width", "positive", "", "required"}, height{"height", "positive", "", "required"},
+      axis = words<axis_choices>("axis", "");
+  std::vector<KeySet> sets{
+      {"section_circle", {{"shape", "'circle'", "", "required"}, radius}},
+      {"section_hollow_circle", {{"shape", "'hollow_circle'", "", "required"}, radius, thickness}},
+      {"section_rectangle", {{"shape", "'rectangle'", "", "required"}, width, height}},
+      {"section_hollow_rectangle", {{"shape", "'hollow_rectangle'", "", "required"}, width, height, thickness}},
+      {"section_rod",
+       {{"shape", "'rod'", "", "required"}, {"A", "positive", "", "required"}, {"J", "not_negative", ""}}},
+      {"section_polygon",
+       {{"shape", "'polygon'", "", "required"},
+        {"outline", "section_ring", "", "required"},
+        {"holes", "[section_ring]", ""},
+        axis}},
+      {"section_walls", {{"shape", "'walls'", "", "required"}, {"walls", "[section_wall]1..", "", "required"}, axis}},
+      {"section_wall", {{"along", "section_ring", "", "required"}, thickness}}};
+  struct Words {
+    std::string noun, type;
+  };
+  static const std::vector<Words> profile_words = [] {
+    std::vector<Words> all;
+    for (const Profile& profile : profiles())
+      all.push_back({fmt::format("section_{}", profile.shape), fmt::format("'{}'", profile.shape)});
     return all;
   }();
-  for (std::size_t i = 0; i < nouns.size(); ++i) {
-    KeySet set{nouns[i], {"shape"}};
-    set.keys.insert(set.keys.end(), profiles()[i].keys.begin(), profiles()[i].keys.end());
-    set.keys.push_back("axis");
-    sets.push_back(set);
+  for (std::size_t i = 0; i < profile_words.size(); ++i) {
+    std::vector<Field> fields{{"shape", profile_words[i].type, "", "required"}};
+    for (const std::string_view key : profiles()[i].keys)
+      fields.push_back({key, "positive", "", key.starts_with("bottom_") ? "" : "required"});
+    fields.push_back(words<profile_axis_choices>("axis", ""));
+    sets.push_back({profile_words[i].noun, fields});
   }
   return sets;
 }

@@ -1,0 +1,35 @@
+// All lists of fields of part.yaml, and the types they refer to.
+#include "formats/part/fields.hpp"
+
+#include "formats/part/reader.hpp"
+#include "formats/sections/reader.hpp"
+
+namespace tisserand::formats {
+
+std::vector<KeySet> part_key_sets() {
+  std::vector<KeySet> sets{{"part", part_fields()}};
+  for (const auto& lists : {common_key_sets(), section_key_sets(), place_key_sets(), patch_key_sets(), shell_key_sets(),
+                            attachment_key_sets()})
+    sets.insert(sets.end(), lists.begin(), lists.end());
+  return sets;
+}
+
+std::vector<NamedType> part_types() {
+  std::vector<NamedType> types{{"position", "vector | name"},
+                               {"at", "vector | name | place"},
+                               {"text_list", "text+ | [text+]", "names of groups, one or a list"},
+                               {"numbers", "integer | [integer]"},
+                               {"component", "'x' | 'y' | 'z' | 'rx' | 'ry' | 'rz'"},
+                               {"components", "component | [component]"}};
+  for (const auto& more : {common_types(), section_types()}) types.insert(types.end(), more.begin(), more.end());
+  return types;
+}
+
+std::vector<std::string_view> part_collections() {
+  std::vector<std::string_view> keys;
+  for (const Field& field : part_fields())
+    if (field.type.starts_with("{name: ")) keys.push_back(field.key);
+  return keys;
+}
+
+}  // namespace tisserand::formats

@@ -1,0 +1,58 @@
+// Tables of the pages.
+#include "formats/specification/specification.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "common/error.hpp"
+#include "formats/part/fields.hpp"
+#include "formats/scene/fields.hpp"
+
+namespace tisserand::formats {
+
+std::string FileKind::page_file() const {
+  std::string upper = name;
+  std::ranges::transform(upper, upper.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return "formats/" + upper + ".md";
+}
+
+std::vector<FileKind> file_kinds() {
+  return {{"part", part_key_sets(), part_types(), false}, {"scene", scene_key_sets(), scene_types(), true}};
+}
+
+std::string field_table(const std::vector<KeySet>& sets, const std::string& table) {
+  const auto belongs = [&](const Field& field) { return field.table == table && !field.meaning.empty(); };
+  const auto set =
+      std::ranges::find_if(sets, [&](const KeySet& one) { return std::ranges::any_of(one.fields, belongs); });
+  if (set == sets.end()) return "";
+  std::string text = "| key | meaning | default |\n| --- | --- | --- |\n";
+  std::string keys;
+  for (std::size_t i = 0; i < set->fields.size(); ++i) {
+    const Field& field = set->fields[i];
+    if (!belongs(field)) continue;
+    keys += fmt::format("{}`{}`", keys.empty() ? "" : ", ", field.key);
+    if (i + 1 < set->fields.size() && set->fields[i + 1].same_row) continue;
+    text += fmt::format("| {} | {} |{}{} |\n", keys, field.meaning, field.fallback.empty() ? "" : " ", field.fallback);
+    keys.clear();
+  }
+  return text;
+}
+
+std::string with_field_tables(const std::string& page, const std::string& file, const std::vector<KeySet>& sets) {
+  const std::string open = "<!-- fields: ", close = " -->\n", end = "<!-- end -->\n";
+  std::string result;
+  std::size_t at = 0;
+  for (std::size_t mark = page.find(open); mark != std::string::npos; mark = page.find(open, at)) {
+    const std::size_t head = page.find(close, mark), tail = page.find(end, mark);
+    if (head == std::string::npos || tail == std::string::npos)
+      throw Error("a mark of a table of fields has no end", file, "write <!-- end --> behind the table");
+    const std::string name = page.substr(mark + open.size(), head - mark - open.size());
+    const std::string table = field_table(sets, name);
+    if (table.empty()) throw Error(fmt::format("no list of fields has a table '{}'", name), file, "");
+    result += page.substr(at, head + close.size() - at) + table + end;
+    at = tail + end.size();
+  }
+  return result + page.substr(at);
+}
+
+}  // namespace tisserand::formats
