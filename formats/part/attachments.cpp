@@ -200,7 +200,7 @@ std::vector<KeySet> attachment_key_sets() {
             "to_section", "name",
             "section at `to`: tapered. Of the same shape the sizes vary linearly, else the constants", "`section`"),
         {"elements", "count", "number of equal elements, 1 or more", "one of both"},
-        plain<&BeamLine::size>("size", "positive", "instead: largest length of an element [length]"),
+        plain<&BeamLine::size>("size", "positive", "instead: largest length of an element [length]", "one of both"),
         plain<&BeamLine::orientation>(
             "orientation", "vector",
             "direction whose part across the axis is the local y axis; not parallel to the axis",
@@ -213,16 +213,14 @@ std::vector<KeySet> attachment_key_sets() {
          "`{start: [ry, rz], end: [rx]}`: end forces x, y, z and moments rx, ry, rz in the axes of the beam that are "
          "zero; `on` groups: of every element",
          "none"},
-        choice<&BeamLine::theory, theories>("theory", "`timoshenko` or `euler_bernoulli` (no shear deformation)",
-                                            "`timoshenko`"),
-        choice<&BeamLine::mass_matrix, mass_matrices>("mass_matrix", "`consistent` or `lumped`", "`consistent`"),
+        choice<&BeamLine::theory, theories>("theory", "`timoshenko` or `euler_bernoulli` (no shear deformation)"),
+        choice<&BeamLine::mass_matrix, mass_matrices>("mass_matrix", "`consistent` or `lumped`"),
         {"rotary_inertia", "'on' | 'off' | true | false",
          "`on` or `off`; off drops the bending terms, the torsional one stays", "`on`"}}},
       {"releases", {{"start", "components", ""}, {"end", "components", ""}}},
       {"point_mass",
        {{"at", "at", "place", "required"},
-        plain<&PointMass::offset>("offset", "vector", "from the place to the centre of mass, in part axes [length]",
-                                  "[0, 0, 0]"),
+        plain<&PointMass::offset>("offset", "vector", "from the place to the centre of mass, in part axes [length]"),
         plain<&PointMass::mass>("mass", "not_negative", "not negative [mass]", "required"),
         {"inertia", "inertia_tensor",
          "about the centre of mass, in part axes [mass length²]: `[Ixx, Iyy, Izz]`, `[Ixx, Iyy, Izz, Ixy, Ixz, Iyz]`, "
@@ -250,7 +248,7 @@ std::vector<KeySet> attachment_key_sets() {
         {"at", "at", "place of its own node, or `centroid` of what it is on", "`centroid`"},
         {"on", "text | integer | [text | integer]", "groups, or numbers of nodes", "required"},
         choice<&SpiderLine::weights, spider_weights>(
-            "weights", "averaging: `area` (length, volume) that belongs to each node, or `equal`", "`area`")}},
+            "weights", "averaging: `area` (length, volume) that belongs to each node, or `equal`")}},
       {"boundary_entry",
        {{"at", "at", ""},
         {"node", "integer", ""},

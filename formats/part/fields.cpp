@@ -25,11 +25,4 @@ std::vector<NamedType> part_types() {
   return types;
 }
 
-std::vector<std::string_view> part_collections() {
-  std::vector<std::string_view> keys;
-  for (const Field& field : part_fields())
-    if (field.type.starts_with("{name: ")) keys.push_back(field.key);
-  return keys;
-}
-
 }  // namespace tisserand::formats

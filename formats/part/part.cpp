@@ -76,7 +76,7 @@ std::vector<Field> part_fields() {
            "names to `all`, `translations`, `rotations`, or to a place with `keep`",
            "required; with a deck: its ASET, BSET"},
           plain<&ModeSelection::count>("modes", "number_of",
-                                       "number of internal modes, lowest first; 0 is Guyan reduction", "0"),
+                                       "number of internal modes, lowest first; 0 is Guyan reduction"),
           plain<&ModeSelection::cutoff>(
               "cutoff", "positive",
               "instead of `modes`: all internal modes below this frequency [1/time, not rad/time]", "-")};
@@ -84,8 +84,9 @@ std::vector<Field> part_fields() {
 
 Part read_part(const std::string& path, const std::vector<Override>& overrides) {
   YamlDocument document = load_yaml(path);
-  apply_overrides(document, overrides, part_collections());
-  YamlReader reader(document, part_key_sets());
+  const std::vector<KeySet> legal_keys = part_key_sets();
+  apply_overrides(document, overrides, collection_keys(legal_keys));
+  YamlReader reader(document, legal_keys);
   require_kind(reader, "part", "scene", "give it to `mechanism run`");
   Part part = read_tree(reader, path);
   reader.raise(find_faults(part));

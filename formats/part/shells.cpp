@@ -162,18 +162,16 @@ std::vector<Field> layout_fields() {
         "or this"},
        plain<&ShellLayout::x>("x", "vector", "direction whose projection on the element is the x axis of the laminate",
                               "the first edge of each element"),
-       plain<&ShellLayout::offset>("offset", "number", "of the middle surface from the mesh along the normal [length]",
-                                   "0"),
-       choice<&ShellLayout::mass_matrix, mass_matrices>("mass_matrix", "`consistent` or `lumped`", "`consistent`")});
+       plain<&ShellLayout::offset>("offset", "number", "of the middle surface from the mesh along the normal [length]"),
+       choice<&ShellLayout::mass_matrix, mass_matrices>("mass_matrix", "`consistent` or `lumped`")});
 }
 
 /// Keys of all that this file draws, behind its own ones.
 std::vector<Field> patch_fields() {
   std::vector<Field> fields = shared_fields(
-      "patch",
-      {plain<&ShellPatch::size>("size", "positive", "instead of `elements`: largest edge of an element [length]",
-                                "one of both"),
-       choice<&ShellPatch::cells, cell_words>("cells", "`quadrilaterals` or `triangles`", "`quadrilaterals`")});
+      "patch", {plain<&ShellPatch::size>("size", "positive",
+                                         "instead of `elements`: largest edge of an element [length]", "one of both"),
+                choice<&ShellPatch::cells, cell_words>("cells", "`quadrilaterals` or `triangles`")});
   const std::vector<Field> layout = layout_fields();
   fields.insert(fields.end(), layout.begin(), layout.end());
   return fields;
@@ -191,7 +189,7 @@ std::vector<KeySet> patch_key_sets() {
       {"disc",
        {{"center", "position", "a point or position", "required"},
         plain<&Disc::radius>("radius", "positive", "outer radius", "required"),
-        plain<&Disc::inner_radius>("inner_radius", "not_negative", "of the hole", "0"),
+        plain<&Disc::inner_radius>("inner_radius", "not_negative", "of the hole"),
         plain<&Disc::normal>("normal", "vector", "direction", "[0, 0, 1]"),
         plain<&Disc::start>("start", "vector", "direction in which angles begin", "see below"),
         {"elements", "[count]2", "around (a full disc: a multiple of 4), radial", "these or `size`"}},
@@ -221,25 +219,24 @@ std::vector<KeySet> patch_key_sets() {
 }
 
 std::vector<KeySet> shell_key_sets() {
-  return {
-      {"material_orthotropic",
-       {plain<&OrthotropicMaterial::E1>("E1", "positive", "Young's moduli along and across the fibres", "required"),
-        plain<&OrthotropicMaterial::E2>("E2", "positive", ditto),
-        plain<&OrthotropicMaterial::nu12>("nu12", "number", "contraction along 2 under tension along 1, nu12² < E1/E2",
-                                          "required"),
-        plain<&OrthotropicMaterial::G12>("G12", "positive", "shear moduli", "required"),
-        plain<&OrthotropicMaterial::G13>("G13", "positive", ditto),
-        plain<&OrthotropicMaterial::G23>("G23", "positive", ditto),
-        plain<&OrthotropicMaterial::density>("density", "positive", "[mass/length³]", "required")}},
-      {"ply",
-       {plain<&Ply::material>("material", "name", "", "required"),
-        plain<&Ply::thickness>("thickness", "positive", "", "required"),
-        {"angle_deg", "number", ""}}},
-      {"shell", {{"on", "text_list", "groups of faces, or `all`", "required"}}, layout_fields()},
-      {"solid",
-       {{"on", "text_list", "groups of volumes, or `all`", "required"},
-        plain<&SolidGroup::material>("material", "name", "isotropic", "required"),
-        choice<&SolidGroup::mass_matrix, mass_matrices>("mass_matrix", "`consistent` or `lumped`", "`consistent`")}}};
+  return {{"material_orthotropic",
+           {plain<&OrthotropicMaterial::E1>("E1", "positive", "Young's moduli along and across the fibres", "required"),
+            plain<&OrthotropicMaterial::E2>("E2", "positive", ditto),
+            plain<&OrthotropicMaterial::nu12>("nu12", "number",
+                                              "contraction along 2 under tension along 1, nu12² < E1/E2", "required"),
+            plain<&OrthotropicMaterial::G12>("G12", "positive", "shear moduli", "required"),
+            plain<&OrthotropicMaterial::G13>("G13", "positive", ditto),
+            plain<&OrthotropicMaterial::G23>("G23", "positive", ditto),
+            plain<&OrthotropicMaterial::density>("density", "positive", "[mass/length³]", "required")}},
+          {"ply",
+           {plain<&Ply::material>("material", "name", "", "required"),
+            plain<&Ply::thickness>("thickness", "positive", "", "required"),
+            {"angle_deg", "number", ""}}},
+          {"shell", {{"on", "text_list", "groups of faces, or `all`", "required"}}, layout_fields()},
+          {"solid",
+           {{"on", "text_list", "groups of volumes, or `all`", "required"},
+            plain<&SolidGroup::material>("material", "name", "isotropic", "required"),
+            choice<&SolidGroup::mass_matrix, mass_matrices>("mass_matrix", "`consistent` or `lumped`")}}};
 }
 
 void read_part_materials(const MapReader& map, Part& part) {

@@ -247,9 +247,9 @@ std::vector<Field> start_fields(std::vector<Field> gravity) {
   std::vector<Field> fields{
       {"pose", "pose", "`{position: [x, y, z], orientation: ..}` of the part frame in the world",
        "at the origin, unrotated"},
-      plain<&InitialMotion::velocity>("velocity", "vector", "of the origin of the part frame, world axes [length/time]",
-                                      "0"),
-      plain<&InitialMotion::angular_velocity>("angular_velocity", "vector", "world axes [rad/time]", "0")};
+      plain<&InitialMotion::velocity>("velocity", "vector",
+                                      "of the origin of the part frame, world axes [length/time]"),
+      plain<&InitialMotion::angular_velocity>("angular_velocity", "vector", "world axes [rad/time]")};
   fields.insert(fields.end(), gravity.begin(), gravity.end());
   return shared_fields("body_start", fields);
 }
@@ -274,8 +274,7 @@ KeySet superelement_fields() {
        choice<&SuperelementBodySpec::rigid, uses>(
            "use",
            "`flexible`, or `rigid`: a rigid body with the mass and inertia that the file represents; the keys below "
-           "have no effect then and are errors",
-           "`flexible`"),
+           "have no effect then and are errors"),
        plain<&SuperelementBodySpec::modes>("modes", "number_of", "use only the lowest internal modes, 0 or more",
                                            "all"),
        plain<&SuperelementBodySpec::cutoff>(
@@ -285,8 +284,7 @@ KeySet superelement_fields() {
            "angular velocities in the kinetic energy: `A` turned to the axes of the floating frame, `B` material, "
            "in the axes of each node ([Car00] sections 6 and 7; B is the more accurate), `M` as B with the exact "
            "motion of the centre of mass: for bodies that turn and translate fast (rods of slider-cranks, wheels "
-           "on the road); not with `frame: paper`",
-           "`B`"),
+           "on the road); not with `frame: paper`"),
        {"frame", "/^(karcher|paper|node: ?[^ ]+)$/ | frame",
         "floating frame: `karcher` (mean rotation), `paper` (incremental mean, [Car00] (16)), `{node: base}` "
         "(attached to a node; also as text `\"node: base\"`)",
@@ -326,7 +324,7 @@ KeySet beam_fields() {
                "orientation", "vector", "vector of the part frame whose part across the axis is the section's y axis",
                "the axis of the part frame most nearly normal to the beam (among equals y before z before x)"),
            plain<&BeamBodySpec::elements>("elements", "integer>=1<=100000", "1 to 100 000", "required"),
-           plain<&BeamBodySpec::nodes_per_element>("nodes_per_element", "2 | 3", "2 or 3", "2"),
+           plain<&BeamBodySpec::nodes_per_element>("nodes_per_element", "2 | 3", "2 or 3"),
            {"section", "name | section",
             "a name from `sections`, `materials`, or the map itself. Of the section: shear areas are needed; y and z "
             "are principal axes; centroid and shear centre lie on the axis (angles, channels and the like are for "
@@ -347,7 +345,7 @@ std::vector<KeySet> body_key_sets() {
       {"body_rigid",
        {{"type", "'rigid'", "", "required"},
         plain<&RigidBodySpec::mass>("mass", "positive", "positive [mass]", "required"),
-        plain<&RigidBodySpec::center_of_mass>("center_of_mass", "vector", "in the part frame [length]", "`[0, 0, 0]`"),
+        plain<&RigidBodySpec::center_of_mass>("center_of_mass", "vector", "in the part frame [length]"),
         {"inertia", "inertia_tensor", "about the centre of mass, part axes [mass length²]; forms as in PART.md",
          "required"},
         nodes},

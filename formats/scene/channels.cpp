@@ -128,8 +128,7 @@ std::vector<KeySet> channel_key_sets() {
         {"value", "text | integer", ditto},
         choice<&InputSpec::interpolation, interpolations>(
             "interpolation",
-            "`linear`: steps of the integrator end on the points; `cubic`: monotone as for curves, no such ends",
-            "`linear`")}},
+            "`linear`: steps of the integrator end on the points; `cubic`: monotone as for curves, no such ends")}},
       {"channel",
        {choice<&ChannelSpec::kind, channel_kinds>("type",
                                                   "`coordinate` or `rate` of a joint coordinate; `position` or "
@@ -138,8 +137,7 @@ std::vector<KeySet> channel_key_sets() {
         {"of", "place", "joint coordinate, or marker", "required but for `distance`"},
         {"axis", "'x' | 'y' | 'z' | vector",
          "`x`, `y` or `z` of the world, or a direction `[x, y, z]`, for `position` and `velocity`", "required there"},
-        plain<&ChannelSpec::origin>("origin", "vector", "point from which a `position` counts, world frame",
-                                    "`[0, 0, 0]`"),
+        plain<&ChannelSpec::origin>("origin", "vector", "point from which a `position` counts, world frame"),
         {"a", "place", "markers of `distance`, on two different nodes", "required there"},
         {"b", "place", ditto}}}};
 }

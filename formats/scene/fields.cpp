@@ -1,7 +1,7 @@
 // All lists of fields of scene.yaml, those of assemblies and instances, and the types they refer to.
 #include "formats/scene/fields.hpp"
 
-#include <string>
+#include <algorithm>
 
 #include "formats/scene/integrator_reader.hpp"
 #include "formats/scene/reader.hpp"
@@ -12,15 +12,15 @@ namespace tisserand::formats {
 
 namespace {
 
-/// What an assembly has in common with a scene: entries by name.
+/// What an assembly has in common with a scene: maps from names.
 std::vector<Field> assembly_fields() {
   std::vector<Field> fields{{"assembly", "text", "title, in a file of its own"},
-                            {"parameters", "parameters", "with their defaults"},
-                            {"assemblies", "assemblies", "as those of a scene"},
-                            {"instances", "instances", ditto}};
-  for (const Field& field : scene_fields())
-    if (field.type.starts_with("{name: ") && field.key != "analyses")
-      fields.push_back({field.key, "{name: any}", ditto});
+                            {"parameters", "{parameter_name: any}", "with their defaults"},
+                            {"assemblies", "{name: text | assembly}", "as those of a scene"},
+                            {"instances", "{name: instance}", ditto}};
+  for (const std::string_view key : collection_keys({{"scene", scene_fields()}}))
+    if (key != "analyses" && std::ranges::find(fields, key, &Field::key) == fields.end())
+      fields.push_back({key, "{name: any}", ditto});
   return fields;
 }
 
@@ -50,10 +50,7 @@ std::vector<KeySet> scene_key_sets() {
 
 std::vector<NamedType> scene_types() {
   std::vector<NamedType> types{
-      {"parameters", "{/^[A-Za-z_][A-Za-z0-9_]*$/: any}",
-       "name -> number, list, text or anything else that stands at $name"},
-      {"assemblies", "{name: text | assembly}"},
-      {"instances", "{name: instance}"},
+      {"parameter_name", "/^[A-Za-z_][A-Za-z0-9_]*$/"},
       {"body", "body_superelement | body_rigid | body_rigid_from | body_beam | body_virtual | body_modal"},
       {"plane", "'yz' | 'xz' | 'xy'"},
       {"mirror", "plane | [plane]",

@@ -192,8 +192,7 @@ std::vector<KeySet> force_key_sets() {
             "type",
             "between two markers: `line`, along the line between them, its coordinate q is their distance; `torsion`, "
             "about their z axes, q is the angle of b against a [rad], right-handed and unwrapped: "
-            "atan2(y_A·x_B − x_A·y_B, x_A·x_B + y_A·y_B)",
-            "`line`"),
+            "atan2(y_A·x_B − x_A·y_B, x_A·x_B + y_A·y_B)"),
         {"axis", "vector", "`torsion`: z and x axes of the markers at the start as for joints", "-"},
         {"x_axis", "vector", ditto},
         {"stiffness", "number | curve",
@@ -226,7 +225,7 @@ std::vector<KeySet> force_key_sets() {
        {choice<&LoadSpec::kind, load_kinds>("type", "`force` [mass length/time²] or `moment` [mass length²/time²]",
                                             "required"),
         {"at", "place", "node or marker, not `ground`", "required"},
-        choice<&LoadSpec::axes, load_axes>("axes", "`world`, or `body`: follows the node", "`world`"),
+        choice<&LoadSpec::axes, load_axes>("axes", "`world`, or `body`: follows the node"),
         {"value", "[function]3", "three components, each a function of time", "required"}}}};
 }
 

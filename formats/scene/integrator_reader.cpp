@@ -102,57 +102,49 @@ IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
 std::vector<KeySet> integrator_key_sets() {
   const std::vector<Field> of_bdf = shared_fields(
       "integrator_bdf",
-      {plain<&BdfSpec::relative_tolerance>("relative_tolerance", "positive", "of each coordinate and velocity per step",
-                                           "1e-6"),
+      {plain<&BdfSpec::relative_tolerance>("relative_tolerance", "positive",
+                                           "of each coordinate and velocity per step"),
        plain<&BdfSpec::absolute_tolerance>("absolute_tolerance", "positive",
                                            "of positions relative to the extent of the scene, of Euler parameters; of "
-                                           "velocities the same per unit of time",
-                                           "1e-8"),
+                                           "velocities the same per unit of time"),
        choice<&BdfSpec::stabilisation, stabilisations>(
-           "stabilisation", "`projection`: after each step onto the constraints, in the mass norm; or `baumgarte`",
-           "`projection`"),
+           "stabilisation", "`projection`: after each step onto the constraints, in the mass norm; or `baumgarte`"),
        {"baumgarte", "baumgarte", "`{alpha: 5, beta: 5}` [1/time]: Φ̈ + 2 α Φ̇ + β² Φ = 0", "5, 5"}});
   return {
       {"integrator",
-       {choice<&IntegratorSpec::method, methods>("method", "`generalised_alpha`, `hht`, or `bdf` (below)",
-                                                 "`generalised_alpha`"),
+       {choice<&IntegratorSpec::method, methods>("method", "`generalised_alpha`, `hht`, or `bdf` (below)"),
         plain<&IntegratorSpec::rho>("rho", "number>=0<=1",
-                                    "spectral radius at infinity of generalised_alpha, 0 to 1; an error with hht",
-                                    "0.9"),
+                                    "spectral radius at infinity of generalised_alpha, 0 to 1; an error with hht"),
         plain<&IntegratorSpec::alpha>("alpha", "number>=0<=0.3333333333333333",
-                                      "of hht, 0 to 1/3; an error with generalised_alpha", "0.05"),
+                                      "of hht, 0 to 1/3; an error with generalised_alpha"),
         choice<&IntegratorSpec::formulation, formulations>("formulation", "`stabilised_index2` or `index3`",
                                                            "`stabilised_index2`"),
         {"step", "positive | 'auto'", "[time]; with `error_control` the first one, or `auto` (1e-4 of the whole time)",
          "required in dynamics"},
-        plain<&IntegratorSpec::start>("start", "number", "[time]", "0"),
+        plain<&IntegratorSpec::start>("start", "number", "[time]"),
         plain<&IntegratorSpec::end>("end", "number", "[time], later than `start`", "required in dynamics"),
         plain<&IntegratorSpec::tolerance>("tolerance", "positive",
-                                          "of Newton, relative to the running maximum of the forces", "1e-8"),
+                                          "of Newton, relative to the running maximum of the forces"),
         plain<&IntegratorSpec::constraint_tolerance>(
             "constraint_tolerance", "positive",
             "largest violation of a constraint, relative to the characteristic length (of its rate: that over the "
             "step). Where a step moves little, less is allowed: 10 `tolerance` × step² × the largest acceleration, "
-            "down to round-off",
-            "1e-10"),
-        plain<&IntegratorSpec::max_iterations>("max_iterations", "count", "per step", "20"),
-        plain<&IntegratorSpec::max_halvings>("max_halvings", "number_of", "of the step when it does not converge",
-                                             "10"),
+            "down to round-off"),
+        plain<&IntegratorSpec::max_iterations>("max_iterations", "count", "per step"),
+        plain<&IntegratorSpec::max_halvings>("max_halvings", "number_of", "of the step when it does not converge"),
         choice<&IntegratorSpec::linear_solver, linear_solvers>(
             "linear_solver",
             "`klu` (sparse LU for little fill), `umfpack` (sparse LU for much), `dense` (LU of our own or LAPACK's), "
             "`qr` (sparse QR, slow and always stable), or `auto`: the least counted work of the first three; the "
-            "report says which",
-            "`auto`"),
+            "report says which"),
         {"error_control", "error_control", "lets the local error choose the steps (below)", "steps as given"}},
        of_bdf},
       {"error_control",
        {plain<&ErrorControl::tolerance>("tolerance", "positive",
                                         "error of positions at the end of the run, relative to the extent of the "
                                         "scene, of rotations in rad: each step may add its share of the time. Errors "
-                                        "fall with it: a tenth costs about 3.2 times the steps",
-                                        "1e-3"),
-        plain<&ErrorControl::absolute>("absolute", "not_negative", "[length] added to the tolerance of positions", "0"),
+                                        "fall with it: a tenth costs about 3.2 times the steps"),
+        plain<&ErrorControl::absolute>("absolute", "not_negative", "[length] added to the tolerance of positions"),
         plain<&ErrorControl::min_step>("min_step", "not_negative", "[time] the run ends where the error asks for less",
                                        "1e-12 of the whole time"),
         plain<&ErrorControl::max_step>("max_step", "not_negative", "[time]", "a tenth of the whole time")}},

@@ -112,9 +112,9 @@ void read_groups(const MapReader& map, const Context& entry, std::optional<doubl
 std::vector<KeySet> settings_key_sets() {
   return {
       {"statics",
-       {plain<&StaticsSpec::load_steps>("load_steps", "count", "loads and gravity grow in so many equal steps", "1"),
-        plain<&StaticsSpec::tolerance>("tolerance", "positive", "of Newton", "1e-9"),
-        plain<&StaticsSpec::max_iterations>("max_iterations", "count", "per load step", "50"),
+       {plain<&StaticsSpec::load_steps>("load_steps", "count", "loads and gravity grow in so many equal steps"),
+        plain<&StaticsSpec::tolerance>("tolerance", "positive", "of Newton"),
+        plain<&StaticsSpec::max_iterations>("max_iterations", "count", "per load step"),
         {"rotation", "steady_rotation",
          "`{angular_velocity: [x, y, z], about: [x, y, z]}`: equilibrium while everything turns about the axis through "
          "`about` (default the origin), world axes. Dense matrices: up to 4000 coordinates. Drives of the turn must "
@@ -124,8 +124,7 @@ std::vector<KeySet> settings_key_sets() {
        {plain<&RotationSpec::angular_velocity>("angular_velocity", "vector", "", "required"),
         plain<&RotationSpec::about>("about", "vector", "")}},
       {"modes",
-       {plain<&ModesSpec::count>("count", "count", "the lowest ones that are stored and printed, and all that grow",
-                                 "20"),
+       {plain<&ModesSpec::count>("count", "count", "the lowest ones that are stored and printed, and all that grow"),
         plain<&ModesSpec::rotation>("rotation", "vector",
                                     "angular velocity of the axes in which the state is steady, world axes",
                                     "that of a `from` with `statics.rotation`, else 0")}},
@@ -134,7 +133,7 @@ std::vector<KeySet> settings_key_sets() {
         plain<&CheckpointSpec::interval>(
             "interval", "positive", "instead: after the first step that reaches `start` + k `interval`", "never")}},
       {"output",
-       {plain<&OutputSpec::every>("every", "count", "store every n-th step, and the end", "1"),
+       {plain<&OutputSpec::every>("every", "count", "store every n-th step, and the end"),
         plain<&OutputSpec::interval>("interval", "positive",
                                      "instead: store at `start` + k `interval`, k = 0, 1, ..., and at the end; no step "
                                      "is cut for it: the row is that of the first step that reaches the instant",
@@ -149,7 +148,7 @@ std::vector<Field> scene_fields() {
   return {
       plain<&Scene::name>("scene", "text+", "name, goes into the results", "required"),
       {"units", "'consistent' | units", "as in PART.md; superelements are converted on load", "SI"},
-      plain<&Scene::gravity>("gravity", "vector", "acceleration, world axes [length/time²]", "`[0, 0, 0]`"),
+      plain<&Scene::gravity>("gravity", "vector", "acceleration, world axes [length/time²]"),
       {"materials", "{name: material}", "as in PART.md, for beams of the scene", "none"},
       {"sections", "{name: section}", ditto},
       {"bodies", "{name: body}+", "name -> body; `ground` is taken", "required, unless instances bring them"},
@@ -161,8 +160,8 @@ std::vector<Field> scene_fields() {
        "name -> spring, damper and stops along a joint coordinate, between two points or about an axis", "none"},
       {"bushings", "{name: bushing}", "name -> stiffness and damping between two markers in all directions", "none"},
       {"loads", "{name: load}", "name -> load", "none"},
-      choice<&Scene::virtual_bodies, virtual_body_ways>(
-          "virtual_bodies", "`eliminate` or `keep`, see [below](#type-virtual)", "`eliminate`"),
+      choice<&Scene::virtual_bodies, virtual_body_ways>("virtual_bodies",
+                                                        "`eliminate` or `keep`, see [below](#type-virtual)"),
       words<analysis_kinds>(
           "analysis",
           "kind of the only analysis: `dynamics`, `statics`, `assembly`, `kinematics`, `inverse_dynamics`, `modes`",
@@ -174,13 +173,12 @@ std::vector<Field> scene_fields() {
       {"output", "output", ditto},
       {"checkpoint", "checkpoint", ditto},
       {"include", "text | [text]", "see [scenes at scale](#scenes-at-scale)", "none"},
-      {"parameters", "parameters", ditto},
-      {"assemblies", "assemblies", ditto},
-      {"instances", "instances", ditto},
+      {"parameters", "{parameter_name: any}", ditto},
+      {"assemblies", "{name: text | assembly}", ditto},
+      {"instances", "{name: instance}", ditto},
       plain<&Scene::initial_tolerance>("initial_tolerance", "positive",
                                        "largest correction that makes the initial state satisfy the joints: "
-                                       "positions relative to the characteristic length, velocities",
-                                       "1e-6")};
+                                       "positions relative to the characteristic length, velocities")};
 }
 
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {

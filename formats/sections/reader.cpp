@@ -54,8 +54,8 @@ std::vector<KeySet> section_key_sets() {
                                          "∫ z² dA about the centroid: bending in the x-z plane [length⁴]", "required"),
         plain<&Section::second_moment_z>("Iz", "positive",
                                          "∫ y² dA about the centroid: bending in the x-y plane [length⁴]", "required"),
-        plain<&Section::second_moment_yz>("Iyz", "number", "∫ y z dA about the centroid: 0 in principal axes [length⁴]",
-                                          "0"),
+        plain<&Section::second_moment_yz>("Iyz", "number",
+                                          "∫ y z dA about the centroid: 0 in principal axes [length⁴]"),
         plain<&Section::torsion_constant>("J", "positive", "torsion constant [length⁴]", "required"),
         plain<&Section::shear_area_y>("shear_area_y", "not_negative",
                                       "shear areas for shear forces along y and z [length²]; both or none. Without "

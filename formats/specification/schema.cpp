@@ -138,8 +138,9 @@ class TypeReader {
 };
 
 std::string description(const Field& field) {
-  const bool says_default = !field.fallback.empty() && !field.required() && field.fallback != "-";
-  return std::string(field.meaning) + (says_default ? fmt::format(" (default: {})", field.fallback) : "");
+  const std::string without = field.default_text();
+  const bool says_default = !without.empty() && !field.required() && without != "-";
+  return std::string(field.meaning) + (says_default ? fmt::format(" (default: {})", without) : "");
 }
 
 /// The words of a choice in the notation of types.

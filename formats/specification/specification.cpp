@@ -32,7 +32,8 @@ std::string field_table(const std::vector<KeySet>& sets, const std::string& tabl
     if (!belongs(field)) continue;
     keys += fmt::format("{}`{}`", keys.empty() ? "" : ", ", field.key);
     if (i + 1 < set->fields.size() && set->fields[i + 1].same_row) continue;
-    text += fmt::format("| {} | {} |{}{} |\n", keys, field.meaning, field.fallback.empty() ? "" : " ", field.fallback);
+    const std::string without = field.default_text();
+    text += fmt::format("| {} | {} |{}{} |\n", keys, field.meaning, without.empty() ? "" : " ", without);
     keys.clear();
   }
   return text;

@@ -1,6 +1,8 @@
 // Rows of lists that share a meaning; types and lists of both kinds of files.
 #include "formats/yaml/field.hpp"
 
+#include <algorithm>
+
 namespace tisserand::formats {
 
 std::vector<Field> shared_fields(std::string_view table, std::vector<Field> fields) {
@@ -11,6 +13,7 @@ std::vector<Field> shared_fields(std::string_view table, std::vector<Field> fiel
     if (field.same_row) {
       field.meaning = before->meaning;
       field.fallback = before->fallback;
+      field.standard = before->standard;
     }
     before = &field;
   }
@@ -20,6 +23,16 @@ std::vector<Field> shared_fields(std::string_view table, std::vector<Field> fiel
 KeySet::KeySet(std::string_view own_noun, std::vector<Field> own, const std::vector<Field>& shared, KeyCount key_count)
     : noun(own_noun), fields(shared_fields(own_noun, std::move(own))), count(key_count) {
   fields.insert(fields.end(), shared.begin(), shared.end());
+}
+
+std::vector<std::string_view> collection_keys(const std::vector<KeySet>& sets) {
+  std::vector<std::string_view> keys;
+  for (const KeySet& set : sets)
+    for (const Field& field : set.fields)
+      if (field.type.starts_with("{") && !field.type.starts_with("{text") &&
+          std::ranges::find(keys, field.key) == keys.end())
+        keys.push_back(field.key);
+  return keys;
 }
 
 std::vector<NamedType> common_types() {

@@ -7,6 +7,18 @@
 
 namespace tisserand::formats {
 
+std::string standard_text(double value) {
+  std::string text = fmt::format("{:g}", value);
+  const std::size_t zero = text.find("e-0");  // 1e-06
+  return zero == std::string::npos ? text : text.erase(zero + 2, 1);
+}
+
+std::string standard_text(int value) { return fmt::format("{}", value); }
+
+std::string standard_text(const Eigen::Vector3d& value) {
+  return fmt::format("`[{:g}, {:g}, {:g}]`", value.x(), value.y(), value.z());
+}
+
 const YamlNode* find_or_require(const MapReader& map, const Field& field) {
   return field.required() ? map.require(field.key) : map.find(field.key);
 }

@@ -29,6 +29,15 @@ void read_value(const MapReader& map, const Field& field, std::optional<Eigen::V
 /// The node of the key; null if there is none, an error too where it is required.
 const YamlNode* find_or_require(const MapReader& map, const Field& field);
 
+/// Values as the pages write them: 0.9, 1e-6, `[0, 0, 1]`; nothing for types without a value that says something.
+std::string standard_text(double value);
+std::string standard_text(int value);
+std::string standard_text(const Eigen::Vector3d& value);
+template <class T>
+std::string standard_text(const T& /*value*/) {
+  return "";
+}
+
 template <class T>
 struct MemberPointer;
 template <class Struct, class Value>
@@ -49,7 +58,7 @@ inline constexpr auto words_of = [] {
   return words;
 }();
 
-/// A key whose value becomes the member.
+/// A key whose value becomes the member. Without `fallback` the page says the value of the member in a new struct.
 template <auto member>
 Field plain(std::string_view key, std::string_view type, std::string_view meaning, std::string_view fallback = {}) {
   Field field{key, type, meaning, fallback};
@@ -57,6 +66,7 @@ Field plain(std::string_view key, std::string_view type, std::string_view meanin
   field.read = [](const MapReader& map, const Field& read, void* owner) {
     read_value(map, read, static_cast<OwnerOf<member>*>(owner)->*member);
   };
+  field.standard = [] { return standard_text(OwnerOf<member>{}.*member); };
   return field;
 }
 
@@ -76,6 +86,11 @@ Field choice(std::string_view key, std::string_view meaning, std::string_view fa
     if (node == nullptr) return;
     auto& value = static_cast<OwnerOf<member>*>(owner)->*member;
     value = map.choice(read.key, choices, value);
+  };
+  field.standard = [] {
+    for (const auto& one : choices)
+      if (one.value == OwnerOf<member>{}.*member) return fmt::format("`{}`", one.word);
+    return std::string();
   };
   return field;
 }

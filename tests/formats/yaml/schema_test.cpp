@@ -14,7 +14,7 @@
 #include "formats/part/part.hpp"
 #include "formats/scene/scene.hpp"
 #include "formats/specification/specification.hpp"
-#include "formats/yaml/reader.hpp"
+#include "formats/yaml/fields.hpp"
 #include "tests/formats/yaml/text_input.hpp"
 
 namespace tisserand::formats::schema_test {
@@ -180,6 +180,56 @@ TEST(Specification, TablesJoinRowsAndKeepSharedFieldsApart) {
             "a\n<!-- fields: common -->\n" + head + "| `colour` | paint | `red` |\n<!-- end -->\nb\n");
   EXPECT_THROW(with_field_tables("<!-- fields: bax -->\n<!-- end -->\n", "page", sets), Error);
   EXPECT_THROW(with_field_tables("<!-- fields: box -->\n", "page", sets), Error);
+}
+
+struct Paint {
+  double gloss = 2.5e-4;
+  int coats = 2;
+  Eigen::Vector3d light = Eigen::Vector3d::UnitZ();
+  bool matt = true;
+  std::optional<double> area;
+};
+constexpr Choice<bool> surfaces[] = {{"bright", false}, {"matt", true}};
+
+TEST(Specification, DefaultsAreThoseOfTheMembers) {
+  const std::vector<KeySet> sets{
+      {"paint",
+       {plain<&Paint::gloss>("gloss", "number", "a"), plain<&Paint::coats>("coats", "count", "b"),
+        plain<&Paint::light>("light", "vector", "c"), choice<&Paint::matt, surfaces>("surface", "d"),
+        plain<&Paint::area>("area", "positive", "e")}}};
+  EXPECT_EQ(field_table(sets, "paint"),
+            "| key | meaning | default |\n| --- | --- | --- |\n| `gloss` | a | 0.00025 |\n| `coats` | b | 2 |\n"
+            "| `light` | c | `[0, 0, 1]` |\n| `surface` | d | `matt` |\n| `area` | e | |\n");
+}
+
+TEST(Specification, PlainFieldsAreRead) {
+  const std::vector<KeySet> sets{
+      {"paint",
+       {plain<&Paint::gloss>("gloss", "number", "", "required"), plain<&Paint::coats>("coats", "count", ""),
+        plain<&Paint::light>("light", "vector", ""), choice<&Paint::matt, surfaces>("surface", ""),
+        plain<&Paint::area>("area", "positive", "")}}};
+  const auto read = [&](const std::string& text) {
+    const YamlDocument document = parse_yaml(text, "paint.yaml");
+    YamlReader reader(document, sets);
+    Paint paint;
+    read_fields(MapReader(Context{reader, "paint", "here"}, reader.root(), "paint"), paint);
+    reader.raise({});
+    return paint;
+  };
+  const Paint all = read("{gloss: 3, coats: 1, light: [1, 2, 3], surface: bright, area: 4}");
+  EXPECT_EQ(all.gloss, 3.0);
+  EXPECT_EQ(all.coats, 1);
+  EXPECT_EQ(all.light, Eigen::Vector3d(1, 2, 3));
+  EXPECT_FALSE(all.matt);
+  EXPECT_EQ(all.area, 4.0);
+  const Paint least = read("gloss: 3");
+  EXPECT_EQ(least.coats, 2);
+  EXPECT_TRUE(least.matt);
+  EXPECT_FALSE(least.area.has_value());
+  const Folder folder;
+  EXPECT_EQ(error_of(folder, [&] { read("coats: 1"); }), "paint.yaml:1:1: paint: missing key 'gloss'");
+  EXPECT_EQ(error_of(folder, [&] { read("{gloss: 3, surface: mat}"); }),
+            "paint.yaml:1:21: paint: unknown surface 'mat'; did you mean 'matt'?");
 }
 
 TEST(Specification, NotationOfTypes) {
