@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <regex>
 
 #include "common/error.hpp"
 #include "formats/part/fields.hpp"
@@ -39,18 +40,32 @@ std::string field_table(const std::vector<KeySet>& sets, const std::string& tabl
   return text;
 }
 
+bool tells_kind(const Field& field) {
+  return field.type.starts_with("'") && field.type.find('\'', 1) == field.type.size() - 1;
+}
+
+std::string kind_table(const std::vector<KeySet>& sets, const std::string& key) {
+  std::string rows;
+  for (const KeySet& set : sets)
+    for (const Field& field : set.fields)
+      if (field.key == key && tells_kind(field) && !field.meaning.empty())
+        rows += fmt::format("| `{}` | {} |\n", field.type.substr(1, field.type.size() - 2), field.meaning);
+  return rows.empty() ? "" : fmt::format("| `{}` | meaning |\n| --- | --- |\n{}", key, rows);
+}
+
 std::string with_field_tables(const std::string& page, const std::string& file, const std::vector<KeySet>& sets) {
-  const std::string open = "<!-- fields: ", close = " -->\n", end = "<!-- end -->\n";
+  static const std::regex mark("<!-- (fields|kinds): (\\w+) -->\n");
+  const std::string end = "<!-- end -->\n";
   std::string result;
   std::size_t at = 0;
-  for (std::size_t mark = page.find(open); mark != std::string::npos; mark = page.find(open, at)) {
-    const std::size_t head = page.find(close, mark), tail = page.find(end, mark);
-    if (head == std::string::npos || tail == std::string::npos)
+  std::smatch found;
+  for (auto from = page.begin(); std::regex_search(from, page.end(), found, mark); from = page.begin() + at) {
+    const std::size_t head = static_cast<std::size_t>(found[0].second - page.begin()), tail = page.find(end, head);
+    if (tail == std::string::npos)
       throw Error("a mark of a table of fields has no end", file, "write <!-- end --> behind the table");
-    const std::string name = page.substr(mark + open.size(), head - mark - open.size());
-    const std::string table = field_table(sets, name);
-    if (table.empty()) throw Error(fmt::format("no list of fields has a table '{}'", name), file, "");
-    result += page.substr(at, head + close.size() - at) + table + end;
+    const std::string table = found[1] == "fields" ? field_table(sets, found[2]) : kind_table(sets, found[2]);
+    if (table.empty()) throw Error(fmt::format("no list of fields has a table '{}'", found[2].str()), file, "");
+    result += page.substr(at, head - at) + table + end;
     at = tail + end.size();
   }
   return result + page.substr(at);

@@ -28,8 +28,14 @@ std::string schema_text(const FileKind& kind);
 /// The rows | key | meaning | default | of the fields of one table; empty if no list has it.
 std::string field_table(const std::vector<KeySet>& sets, const std::string& table);
 
-/// The page with what stands between `<!-- fields: table -->` and `<!-- end -->` made anew. Throws Error for a table
-/// that no list has and for a mark without end.
+/// Whether the field says by one word of what kind the map is: `shape: circle`.
+bool tells_kind(const Field& field);
+
+/// The rows | word | meaning | of all fields with that key that tell the kind of a map; empty if there is none.
+std::string kind_table(const std::vector<KeySet>& sets, const std::string& key);
+
+/// The page with what stands between `<!-- fields: table -->` or `<!-- kinds: key -->` and `<!-- end -->` made anew.
+/// Throws Error for a table that no list has and for a mark without end.
 std::string with_field_tables(const std::string& page, const std::string& file, const std::vector<KeySet>& sets);
 
 }  // namespace tisserand::formats

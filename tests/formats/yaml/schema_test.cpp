@@ -148,7 +148,7 @@ TEST(Specification, EveryTableOfFieldsStandsInAPage) {
   for (const FileKind& kind : file_kinds())
     for (const KeySet& set : kind.sets)
       for (const Field& field : set.fields)
-        EXPECT_TRUE(field.meaning.empty() ||
+        EXPECT_TRUE(field.meaning.empty() || tells_kind(field) ||
                     pages.find(fmt::format("<!-- fields: {} -->", field.table)) != std::string::npos)
             << field.key << " of " << set.noun << ": no page has the mark <!-- fields: " << field.table << " -->";
 }
@@ -180,6 +180,16 @@ TEST(Specification, TablesJoinRowsAndKeepSharedFieldsApart) {
             "a\n<!-- fields: common -->\n" + head + "| `colour` | paint | `red` |\n<!-- end -->\nb\n");
   EXPECT_THROW(with_field_tables("<!-- fields: bax -->\n<!-- end -->\n", "page", sets), Error);
   EXPECT_THROW(with_field_tables("<!-- fields: box -->\n", "page", sets), Error);
+}
+
+TEST(Specification, KindsAreRowsOfOneTable) {
+  const std::vector<KeySet> sets{{"box", {{"shape", "'box'", "with corners", "required"}, {"x", "any", ""}}},
+                                 {"ball", {{"shape", "'ball'", "without"}}},
+                                 {"either", {{"shape", "'box' | 'ball'", "no kind"}}}};
+  const std::string table = "| `shape` | meaning |\n| --- | --- |\n| `box` | with corners |\n| `ball` | without |\n";
+  EXPECT_EQ(kind_table(sets, "shape"), table);
+  EXPECT_EQ(with_field_tables("<!-- kinds: shape -->\n<!-- end -->\n", "page", sets),
+            "<!-- kinds: shape -->\n" + table + "<!-- end -->\n");
 }
 
 struct Paint {
