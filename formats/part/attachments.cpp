@@ -2,11 +2,17 @@
 #include <cmath>
 
 #include "formats/part/reader.hpp"
+#include "formats/yaml/fields.hpp"
 #include "formats/yaml/geometry.hpp"
 
 namespace tisserand::formats {
 
 namespace {
+
+constexpr Choice<BeamTheory> theories[] = {{"timoshenko", BeamTheory::timoshenko},
+                                           {"euler_bernoulli", BeamTheory::euler_bernoulli}};
+constexpr Choice<SpiderType> spider_types[] = {{"rigid", SpiderType::rigid}, {"averaging", SpiderType::averaging}};
+constexpr Choice<SpiderWeights> spider_weights[] = {{"area", SpiderWeights::area}, {"equal", SpiderWeights::equal}};
 
 void read_division(const MapReader& map, BeamLine& beam) {
   if (map.has("elements") == map.has("size"))
@@ -17,7 +23,6 @@ void read_division(const MapReader& map, BeamLine& beam) {
     if (beam.elements < 1)
       map.context().fail(node->place, fmt::format("elements {} must be 1 or more", beam.elements), "");
   }
-  if (map.has("size")) beam.size = map.number("size");
 }
 
 /// From ends and division, or on groups of lines.
@@ -34,7 +39,6 @@ void read_line(const MapReader& map, BeamLine& beam, const Part& part) {
   if (const YamlNode* to = map.require("to")) beam.to = read_place(map.context(), *to, "to", part);
   if (const YamlNode* through = map.find("through"))
     beam.through = read_position(map.context(), *through, "through", part);
-  if (map.has("to_section")) beam.to_section = map.text("to_section");
   read_division(map, beam);
 }
 
@@ -67,15 +71,8 @@ BeamLine read_beam(const Context& context, const YamlNode& node, const Part& par
   BeamLine beam;
   beam.name = node.key;
   beam.where = context.entry;
+  read_fields(map, beam);
   read_line(map, beam, part);
-  beam.section = map.text("section");
-  beam.material = map.text("material");
-  beam.orientation = read_optional_vector(map, "orientation");
-  beam.theory = map.choice(
-      "theory",
-      {Choice<BeamTheory>{"timoshenko", BeamTheory::timoshenko}, {"euler_bernoulli", BeamTheory::euler_bernoulli}},
-      BeamTheory::timoshenko);
-  beam.mass_matrix = read_mass_matrix(map);
   beam.rotary_inertia =
       map.choice("rotary_inertia", {Choice<bool>{"on", true}, {"off", false}, {"true", true}, {"false", false}}, true);
   read_ends(map, beam);
@@ -88,9 +85,8 @@ PointMass read_point_mass(const Context& context, const YamlNode& node, const Pa
   mass.name = node.key;
   mass.where = context.entry;
   if (const YamlNode* at = map.require("at")) mass.at = read_place(context, *at, "at", part);
-  mass.mass = map.number("mass");
+  read_fields(map, mass);
   if (const YamlNode* inertia = map.find("inertia")) mass.inertia = read_inertia(context, *inertia, "inertia");
-  mass.offset = read_vector(map, "offset", Eigen::Vector3d::Zero());
   return mass;
 }
 
@@ -152,19 +148,13 @@ SpiderLine read_spider(const Context& context, const YamlNode& node, const Part&
   SpiderLine spider;
   spider.name = node.key;
   spider.where = context.entry;
-  spider.type =
-      map.choice("kind", {Choice<SpiderType>{"rigid", SpiderType::rigid}, {"averaging", SpiderType::averaging}},
-                 SpiderType::averaging);
-  map.require("kind");
+  read_fields(map, spider);
   const YamlNode* at = map.find("at");
   if (at == nullptr || (at->kind == YamlKind::scalar && at->text == "centroid"))
     spider.at.kind = PlaceKind::centroid;
   else
     spider.at = read_place(context, *at, "at", part);
   read_legs(map, spider);
-  spider.weights =
-      map.choice("weights", {Choice<SpiderWeights>{"area", SpiderWeights::area}, {"equal", SpiderWeights::equal}},
-                 SpiderWeights::area);
   if (spider.type == SpiderType::rigid && map.has("weights"))
     context.fail(map.find("weights")->key_place, "a rigid spider has no weights", "remove them, or kind: averaging");
   return spider;
@@ -195,6 +185,78 @@ BoundaryNode read_boundary_entry(const Context& context, const YamlNode& entry, 
 }
 
 }  // namespace
+
+std::vector<KeySet> attachment_key_sets() {
+  return {
+      {"beam",
+       {{"from", "at", "places of its ends; its local x axis goes from `from` to `to`", "required without `on`"},
+        {"to", "at", ditto},
+        {"on", "text_list", "instead: groups of edges, whose lines become the elements", "-"},
+        {"through", "position",
+         "a third point of a circular arc, by name or as `[x, y, z]`, not on the line through the ends", "straight"},
+        plain<&BeamLine::section>("section", "name", "names", "required"),
+        plain<&BeamLine::material>("material", "name", ditto),
+        plain<&BeamLine::to_section>(
+            "to_section", "name",
+            "section at `to`: tapered. Of the same shape the sizes vary linearly, else the constants", "`section`"),
+        {"elements", "count", "number of equal elements, 1 or more", "one of both"},
+        plain<&BeamLine::size>("size", "positive", "instead: largest length of an element [length]", "one of both"),
+        plain<&BeamLine::orientation>(
+            "orientation", "vector",
+            "direction whose part across the axis is the local y axis; not parallel to the axis",
+            "the global axis most nearly normal to the axis (the first of y, z, x among equals)"),
+        {"angle_deg", "number", "turns the section about x, right-handed, from that", "0"},
+        {"offset", "vector", "from the nodes to the axis, in part axes [length]", "[0, 0, 0]"},
+        {"from_offset", "vector", "at one end; linear between", "`offset`"},
+        {"to_offset", "vector", ditto},
+        {"releases", "releases",
+         "`{start: [ry, rz], end: [rx]}`: end forces x, y, z and moments rx, ry, rz in the axes of the beam that are "
+         "zero; `on` groups: of every element",
+         "none"},
+        choice<&BeamLine::theory, theories>("theory", "`timoshenko` or `euler_bernoulli` (no shear deformation)"),
+        choice<&BeamLine::mass_matrix, mass_matrices>("mass_matrix", "`consistent` or `lumped`"),
+        {"rotary_inertia", "'on' | 'off' | true | false",
+         "`on` or `off`; off drops the bending terms, the torsional one stays", "`on`"}}},
+      {"releases", {{"start", "components", ""}, {"end", "components", ""}}},
+      {"point_mass",
+       {{"at", "at", "place", "required"},
+        plain<&PointMass::offset>("offset", "vector", "from the place to the centre of mass, in part axes [length]"),
+        plain<&PointMass::mass>("mass", "not_negative", "not negative [mass]", "required"),
+        {"inertia", "inertia_tensor",
+         "about the centre of mass, in part axes [mass length²]: `[Ixx, Iyy, Izz]`, `[Ixx, Iyy, Izz, Ixy, Ixz, Iyz]`, "
+         "or three rows. Off-diagonal numbers are entries of the tensor: Ixy = -∫ x y dm. Positive semidefinite, and "
+         "no principal moment larger than the sum of the other two",
+         "0"}}},
+      {"spring",
+       {{"from", "at", "two places", "required"},
+        {"to", "at", ditto},
+        {"stiffness", "six_by_six",
+         "six numbers, or six rows (symmetric, positive semidefinite): [force; moment] of [relative displacement; "
+         "relative rotation] in the middle between the nodes, where both are seen as rigid [force/length, force, force "
+         "length]",
+         "required"},
+        {"axes", "rotation",
+         "of the stiffness, as orientations in SCENE.md: `{x: [..], y: [..]}`, `{axis: [..], angle_deg: 30}`, a "
+         "quaternion or rows",
+         "part axes"}}},
+      {"spider",
+       {choice<&SpiderLine::type, spider_types>(
+            "kind",
+            "`rigid`: the group's nodes follow the spider's node (RBE2). `averaging`: the spider's node follows the "
+            "weighted mean motion of the group, which stays free to deform (RBE3)",
+            "required"),
+        {"at", "at", "place of its own node, or `centroid` of what it is on", "`centroid`"},
+        {"on", "text | integer | [text | integer]", "groups, or numbers of nodes", "required"},
+        choice<&SpiderLine::weights, spider_weights>(
+            "weights", "averaging: `area` (length, volume) that belongs to each node, or `equal`")}},
+      {"boundary_entry",
+       {{"at", "at", ""},
+        {"node", "integer", ""},
+        {"near", "position", ""},
+        {"tolerance", "not_negative", ""},
+        {"centroid", "text+", ""},
+        {"keep", "'all' | 'translations' | 'rotations'", ""}}}};
+}
 
 void read_beams(const MapReader& map, Part& part) {
   for (const YamlNode* node : map.entries("beams", "beam"))

@@ -2,9 +2,10 @@
 #include "formats/part/part.hpp"
 
 #include "formats/part/check.hpp"
-#include "formats/part/keys.hpp"
+#include "formats/part/fields.hpp"
 #include "formats/part/reader.hpp"
 #include "formats/sections/reader.hpp"
+#include "formats/yaml/fields.hpp"
 #include "formats/yaml/reader.hpp"
 #include "formats/yaml/units_reader.hpp"
 
@@ -18,8 +19,7 @@ ModeSelection read_modes(const MapReader& map) {
   if (both)
     map.context().fail(map.find("cutoff")->key_place, "both 'modes' and 'cutoff' are given", "give one of them");
   modes.where = map.context().entry;
-  modes.count = map.integer("modes", 0);
-  if (map.has("cutoff")) modes.cutoff = map.number("cutoff");
+  read_fields(map, modes);
   return modes;
 }
 
@@ -28,7 +28,7 @@ Part read_tree(YamlReader& reader, const std::string& path) {
   const MapReader map(context, reader.root(), "part");
   Part part;
   part.file = path;
-  part.name = map.text("part");
+  read_fields(map, part);
   part.units = read_units(map);
   read_part_materials(map, part);
   part.sections = read_sections(map, part.units);
@@ -46,10 +46,47 @@ Part read_tree(YamlReader& reader, const std::string& path) {
 
 }  // namespace
 
+std::vector<Field> part_fields() {
+  return {plain<&Part::name>("part", "text+", "name of the part, goes into the superelement file", "required"),
+          {"units", "'consistent' | units",
+           "`{length, mass, time}` by label, or `consistent` for numbers without named units (such files mix only with "
+           "scenes that are `consistent` too). Length `m mm cm km in ft`, mass `kg g t lb slug` (t = 1000 kg), time `s "
+           "ms`",
+           "SI"},
+          {"mesh", "mesh", "a geometry, mesh or deck of another program", "none"},
+          {"materials", "{name: material | material_orthotropic}", "name -> material", "none"},
+          {"sections", "{name: section}", "name -> section", "none"},
+          {"points", "{name: vector | place}",
+           "name -> position `[x, y, z]`, or a [place](#place) in the mesh file (`{near: ..}`, `{node: ..}`, "
+           "`{centroid: ..}`)",
+           "none"},
+          {"groups", "{name: group}", "name -> group of faces, edges, volumes or nodes", "none"},
+          {"plates", "{name: plate}", "name -> walls that this file draws", "none"},
+          {"discs", "{name: disc}", ditto},
+          {"cylinders", "{name: cylinder}", ditto},
+          {"extrusions", "{name: extrusion}", ditto},
+          {"shells", "{name: shell}", "name -> what groups consist of", "none"},
+          {"solids", "{name: solid}", ditto},
+          {"beams", "{name: beam}", "name -> beam", "none"},
+          {"point_masses", "{name: point_mass}", "name -> point mass", "none"},
+          {"springs", "{name: spring}", "name -> spring", "none"},
+          {"spiders", "{name: spider}", "name -> spider", "none"},
+          {"boundary", "[name]1.. | {name: 'all' | 'translations' | 'rotations' | boundary_entry}+",
+           "places kept as nodes of the superelement: a list of points and spiders (all six directions), or a map from "
+           "names to `all`, `translations`, `rotations`, or to a place with `keep`",
+           "required; with a deck: its ASET, BSET"},
+          plain<&ModeSelection::count>("modes", "number_of",
+                                       "number of internal modes, lowest first; 0 is Guyan reduction"),
+          plain<&ModeSelection::cutoff>(
+              "cutoff", "positive",
+              "instead of `modes`: all internal modes below this frequency [1/time, not rad/time]", "-")};
+}
+
 Part read_part(const std::string& path, const std::vector<Override>& overrides) {
   YamlDocument document = load_yaml(path);
-  apply_overrides(document, overrides, part_collections());
-  YamlReader reader(document, part_key_sets());
+  const std::vector<KeySet> legal_keys = part_key_sets();
+  apply_overrides(document, overrides, collection_keys(legal_keys));
+  YamlReader reader(document, legal_keys);
   require_kind(reader, "part", "scene", "give it to `mechanism run`");
   Part part = read_tree(reader, path);
   reader.raise(find_faults(part));

@@ -5,18 +5,19 @@
 #include <limits>
 
 #include "formats/part/reader.hpp"
+#include "formats/yaml/fields.hpp"
 #include "formats/yaml/geometry.hpp"
 
 namespace tisserand::formats {
 
 namespace {
 
-Eigen::Vector3d unreadable() { return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()); }
+constexpr Choice<Dimension> dimensions[] = {
+    {"nodes", Dimension::node}, {"edges", Dimension::edge}, {"faces", Dimension::face}, {"volumes", Dimension::volume}};
+constexpr Choice<UnknownContent> unknown_ways[] = {{"refuse", UnknownContent::refuse},
+                                                   {"ignore", UnknownContent::ignore}};
 
-std::optional<double> optional_number(const MapReader& map, std::string_view key) {
-  if (!map.has(key)) return std::nullopt;
-  return map.number(key);
-}
+Eigen::Vector3d unreadable() { return Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()); }
 
 std::vector<long> read_numbers_of(const MapReader& map, std::string_view key) {
   std::vector<long> numbers;
@@ -47,7 +48,7 @@ CylinderSelection read_bore(const MapReader& map, const Part& part) {
   CylinderSelection selection{unreadable(), unreadable(), 0.0};
   if (const YamlNode* node = bore.require("from")) selection.from = read_position(bore.context(), *node, "from", part);
   if (const YamlNode* node = bore.require("to")) selection.to = read_position(bore.context(), *node, "to", part);
-  selection.radius = bore.number("radius");
+  read_fields(bore, selection);
   return selection;
 }
 
@@ -76,18 +77,12 @@ GroupDefinition read_group(const Context& context, const YamlNode& node, const P
   GroupDefinition group;
   group.name = node.key;
   group.where = context.entry;
-  group.of = map.choice("of",
-                        {Choice<Dimension>{"nodes", Dimension::node},
-                         {"edges", Dimension::edge},
-                         {"faces", Dimension::face},
-                         {"volumes", Dimension::volume}},
-                        Dimension::face);
+  read_fields(map, group);
   read_numbered(map, group);
   if (const YamlNode* names = map.find("groups")) group.groups = read_name_list(context, *names, "groups");
   if (map.has("box")) group.box = read_box(map);
   if (map.has("cylinder")) group.cylinder = read_bore(map, part);
   if (const YamlNode* near = map.find("near")) group.near = read_position(context, *near, "near", part);
-  group.tolerance = optional_number(map, "tolerance");
   return group;
 }
 
@@ -127,7 +122,7 @@ Place read_place_keys(const MapReader& map, const Part& part) {
   if (const YamlNode* node = map.find("near")) {
     place.kind = PlaceKind::near;
     place.position = read_position(map.context(), *node, "near", part);
-    place.tolerance = optional_number(map, "tolerance");
+    if (map.has("tolerance")) place.tolerance = map.number("tolerance");
   }
   if (map.has("centroid")) {
     place.kind = PlaceKind::centroid;
@@ -159,15 +154,56 @@ double read_angle(const MapReader& map, double fallback) {
   return map.has("angle_deg") ? map.number("angle_deg") * (M_PI / 180.0) : fallback;
 }
 
-MassMatrix read_mass_matrix(const MapReader& map) {
-  return map.choice("mass_matrix",
-                    {Choice<MassMatrix>{"consistent", MassMatrix::consistent}, {"lumped", MassMatrix::lumped}},
-                    MassMatrix::consistent);
-}
-
-Cells read_cells(const MapReader& map) {
-  return map.choice("cells", {Choice<Cells>{"quadrilaterals", Cells::quadrilaterals}, {"triangles", Cells::triangles}},
-                    Cells::quadrilaterals);
+std::vector<KeySet> place_key_sets() {
+  return {
+      {"mesh",
+       {plain<&MeshFile::file>(
+            "file", "text+",
+            "relative names start from the folder of this file. Geometry: `.geo` of gmsh, `.step .stp .iges .igs "
+            ".brep`; meshes: `.msh` 2.2 and 4.1, text or binary; decks: Nastran `.bdf .nas .dat`, Abaqus and CalculiX "
+            "`.inp`",
+            "required"),
+        plain<&MeshFile::size>("size", "positive", "geometry: largest edge of an element", "by gmsh"),
+        plain<&MeshFile::smallest>("smallest", "positive", "geometry: lower bound of the size"),
+        plain<&MeshFile::curvature>("curvature", "number_of", "geometry: elements per full turn of curved faces",
+                                    "off"),
+        {"sizes", "{text: positive}+", "geometry: group -> size on it", "none"},
+        plain<&MeshFile::order>("order", "1 | 2", "geometry: 1, or 2 for solids of 10, 15 and 20 nodes",
+                                "1, or that of the `.geo` file"),
+        words<cell_words>("cells", "geometry: `triangles` or `quadrilaterals` (gmsh recombines) on faces",
+                          "triangles, or those of the `.geo` file"),
+        plain<&MeshFile::scale>("scale", "positive", "multiplies all coordinates (not of decks)"),
+        choice<&MeshFile::unknown, unknown_ways>(
+            "unknown", "decks: `refuse` or `ignore` cards that are not understood; ignored ones are listed"),
+        {"ignore", "text_list", "groups that need no property", "none"}}},
+      {"group",
+       {{"faces", "numbers", "numbers of a geometry, one of these keys", "-"},
+        {"edges", "numbers", ditto},
+        {"volumes", "numbers", ditto},
+        {"nodes", "numbers", "numbers of the mesh file", "-"},
+        {"groups", "text_list", "names of other groups", "-"},
+        choice<&GroupDefinition::of, dimensions>(
+            "of", "what `box`, `cylinder`, `near` select: `nodes`, `edges`, `faces`, `volumes`"),
+        {"box", "[vector]2", "two corners: what lies whole inside", "-"},
+        {"cylinder", "group_cylinder", "`{from, to, radius}`: what lies whole on this wall, such as a bore", "-"},
+        {"near", "position", "position: the nearest one; two equally near ones are an error", "-"},
+        plain<&GroupDefinition::tolerance>(
+            "tolerance", "not_negative", "of these [length]",
+            "box: 1e-6 of the extent; cylinder: 1e-3 of the radius; near: a tenth of the extent")},
+       {},
+       {1, 0}},
+      {"group_cylinder",
+       {{"from", "position", "", "required"},
+        {"to", "position", "", "required"},
+        plain<&CylinderSelection::radius>("radius", "positive", "", "required")}},
+      {"place",
+       {{"node", "integer", "by its number in the mesh file", "one of these three"},
+        {"near", "position",
+         "`[x, y, z]` or a point: the nearest node of the mesh file that belongs to an element. Two equally near: an "
+         "error",
+         "-"},
+        {"centroid", "text+", "a new node at the centroid of a group's area (length, volume)", "-"},
+        {"tolerance", "not_negative", "of `near`: farther is an error [length]", "1e-3 of the extent of the mesh"}}}};
 }
 
 void read_part_points(const MapReader& map, Part& part) {
@@ -196,19 +232,11 @@ void read_mesh_file(const MapReader& top, Part& part) {
   const MapReader map(context, *node, "mesh");
   MeshFile& mesh = part.mesh;
   mesh.where = context.entry;
-  mesh.file = map.text("file");
+  read_fields(map, mesh);
   if (!mesh.file.empty()) mesh.file = resolved(mesh.file, part.file);
-  mesh.size = map.number("size", 0.0);
-  mesh.smallest = map.number("smallest", 0.0);
-  mesh.curvature = map.integer("curvature", 0);
   for (const YamlNode* entry : map.entries("sizes", "group"))
     mesh.sizes.push_back({entry->key, read_number(context, *entry, "size"), reader.where(entry->key_place)});
-  mesh.order = map.integer("order", 0);
-  if (map.has("cells")) mesh.cells = read_cells(map);
-  mesh.scale = map.number("scale", 1.0);
-  mesh.unknown = map.choice(
-      "unknown", {Choice<UnknownContent>{"refuse", UnknownContent::refuse}, {"ignore", UnknownContent::ignore}},
-      UnknownContent::refuse);
+  if (map.has("cells")) mesh.cells = map.choice("cells", cell_words, Cells::quadrilaterals);
   if (const YamlNode* ignored = map.find("ignore")) mesh.ignore = read_name_list(context, *ignored, "ignore");
 }
 

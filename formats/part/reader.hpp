@@ -11,6 +11,11 @@
 
 namespace tisserand::formats {
 
+inline constexpr Choice<MassMatrix> mass_matrices[] = {{"consistent", MassMatrix::consistent},
+                                                       {"lumped", MassMatrix::lumped}};
+inline constexpr Choice<Cells> cell_words[] = {{"quadrilaterals", Cells::quadrilaterals},
+                                               {"triangles", Cells::triangles}};
+
 /// Coordinates, or the name of a point (then its position; it must come earlier and be given by coordinates).
 /// Not-a-number after an error.
 Eigen::Vector3d read_position(const Context& context, const YamlNode& node, const std::string& what, const Part& part);
@@ -25,9 +30,6 @@ std::vector<std::string> read_name_list(const Context& context, const YamlNode& 
 /// An angle in degrees, as radians; `fallback` in radians.
 double read_angle(const MapReader& map, double fallback);
 
-MassMatrix read_mass_matrix(const MapReader& map);
-Cells read_cells(const MapReader& map);
-
 void read_part_materials(const MapReader& map, Part& part);
 void read_part_points(const MapReader& map, Part& part);
 void read_mesh_file(const MapReader& map, Part& part);
@@ -37,5 +39,12 @@ void read_shells_and_solids(const MapReader& map, Part& part);
 void read_beams(const MapReader& map, Part& part);
 void read_attachments(const MapReader& map, Part& part);
 void read_boundary(const MapReader& map, Part& part);
+
+// Lists of fields, each beside the functions that read them.
+std::vector<Field> part_fields();
+std::vector<KeySet> place_key_sets();
+std::vector<KeySet> patch_key_sets();
+std::vector<KeySet> shell_key_sets();
+std::vector<KeySet> attachment_key_sets();
 
 }  // namespace tisserand::formats

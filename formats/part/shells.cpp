@@ -6,6 +6,7 @@
 
 #include "formats/part/reader.hpp"
 #include "formats/sections/reader.hpp"
+#include "formats/yaml/fields.hpp"
 #include "formats/yaml/geometry.hpp"
 
 namespace tisserand::formats {
@@ -17,13 +18,7 @@ OrthotropicMaterial read_orthotropic(const Context& context, const YamlNode& nod
   OrthotropicMaterial material;
   material.name = node.key;
   material.where = context.entry;
-  material.E1 = map.number("E1");
-  material.E2 = map.number("E2");
-  material.nu12 = map.number("nu12");
-  material.G12 = map.number("G12");
-  material.G13 = map.number("G13");
-  material.G23 = map.number("G23");
-  material.density = map.number("density");
+  read_fields(map, material);
   return material;
 }
 
@@ -37,7 +32,8 @@ std::vector<Ply> read_plies(const MapReader& map) {
   }
   for (std::size_t i = 0; i < list.children.size(); ++i) {
     const MapReader ply(map.context(), list.children[i], "ply", fmt::format("laminate.{}.", i));
-    plies.push_back({ply.text("material"), ply.number("thickness"), read_angle(ply, 0.0)});
+    read_fields(ply, plies.emplace_back());
+    plies.back().angle = read_angle(ply, 0.0);
   }
   return plies;
 }
@@ -56,9 +52,7 @@ ShellLayout read_layout(const MapReader& map) {
     layout.thickness = map.number("thickness");
     layout.material = map.text("material");
   }
-  layout.offset = map.number("offset", 0.0);
-  layout.x = read_optional_vector(map, "x");
-  layout.mass_matrix = read_mass_matrix(map);
+  read_fields(map, layout);
   return layout;
 }
 
@@ -95,10 +89,8 @@ Plate read_plate(const MapReader& map, const Part& part) {
 Disc read_disc(const MapReader& map, const Part& part) {
   Disc disc;
   disc.center = require_position(map, "center", part);
-  disc.normal = read_vector(map, "normal", Eigen::Vector3d::UnitZ());
-  disc.start = read_optional_vector(map, "start");
-  disc.radius = map.number("radius");
-  disc.inner_radius = map.number("inner_radius", 0.0);
+  disc.normal = Eigen::Vector3d::UnitZ();
+  read_fields(map, disc);
   return disc;
 }
 
@@ -106,8 +98,7 @@ Cylinder read_cylinder(const MapReader& map, const Part& part) {
   Cylinder cylinder;
   cylinder.from = require_position(map, "from", part);
   cylinder.to = require_position(map, "to", part);
-  cylinder.start = read_optional_vector(map, "start");
-  cylinder.radius = map.number("radius");
+  read_fields(map, cylinder);
   cylinder.end_radius = map.number("end_radius", cylinder.radius);
   cylinder.angle = read_angle(map, 2.0 * M_PI);
   return cylinder;
@@ -122,8 +113,9 @@ Extrusion read_extrusion(const MapReader& map, const Part& part) {
   if (const YamlNode* along = map.find("along")) extrusion.path = read_vector(map.context(), *along, "along");
   if (const YamlNode* arc = map.find("arc")) {
     const MapReader turn(map.context(), *arc, "arc", "arc.");
-    ArcPath path{require_position(turn, "through", part), read_vector(turn, "axis", Eigen::Vector3d::UnitZ()),
+    ArcPath path{require_position(turn, "through", part), Eigen::Vector3d::UnitZ(),
                  turn.number("angle_deg") * (M_PI / 180.0)};
+    read_fields(turn, path);
     extrusion.path = path;
   }
   return extrusion;
@@ -133,7 +125,6 @@ void read_division(const MapReader& map, ShellPatch& patch) {
   if (map.has("elements") == map.has("size"))
     map.fail(map.has("size") ? "both 'elements' and 'size' are given" : "neither 'elements' nor 'size' is given",
              "give one of them: elements: [10, 20]");
-  if (map.has("size")) patch.size = map.number("size");
   const YamlNode* elements = map.find("elements");
   if (elements == nullptr) return;
   if (elements->kind != YamlKind::sequence || elements->children.size() != 2) {
@@ -153,14 +144,100 @@ void read_patches_of(const MapReader& top, const char* key, const char* noun, Pa
     patch.name = node->key;
     patch.where = map.context().entry;
     patch.shape = read(map, part);
+    read_fields(map, patch);
     read_division(map, patch);
-    patch.cells = read_cells(map);
     if (has_layout(map)) patch.layout = read_layout(map);
     part.patches.push_back(std::move(patch));
   }
 }
 
+std::vector<Field> layout_fields() {
+  return shared_fields(
+      "layout",
+      {{"thickness", "positive", "one layer", "these two"},
+       {"material", "name", ditto},
+       {"laminate", "[ply]1..",
+        "instead: plies `{material, thickness, angle_deg}` from the side opposite to the normal to the side of the "
+        "normal; `angle_deg` (0) turns from the x axis to the fibres, right-handed about the normal",
+        "or this"},
+       plain<&ShellLayout::x>("x", "vector", "direction whose projection on the element is the x axis of the laminate",
+                              "the first edge of each element"),
+       plain<&ShellLayout::offset>("offset", "number", "of the middle surface from the mesh along the normal [length]"),
+       choice<&ShellLayout::mass_matrix, mass_matrices>("mass_matrix", "`consistent` or `lumped`")});
+}
+
+/// Keys of all that this file draws, behind its own ones.
+std::vector<Field> patch_fields() {
+  std::vector<Field> fields = shared_fields(
+      "patch", {plain<&ShellPatch::size>("size", "positive",
+                                         "instead of `elements`: largest edge of an element [length]", "one of both"),
+                choice<&ShellPatch::cells, cell_words>("cells", "`quadrilaterals` or `triangles`")});
+  const std::vector<Field> layout = layout_fields();
+  fields.insert(fields.end(), layout.begin(), layout.end());
+  return fields;
+}
+
 }  // namespace
+
+std::vector<KeySet> patch_key_sets() {
+  return {
+      {"plate",
+       {{"corners", "[position]3..4",
+         "four points or positions in order, right-handed about the normal, or three for a parallelogram", "required"},
+        {"elements", "[count]2", "along corners 1-2, along 1-4", "these or `size`"}},
+       patch_fields()},
+      {"disc",
+       {{"center", "position", "a point or position", "required"},
+        plain<&Disc::radius>("radius", "positive", "outer radius", "required"),
+        plain<&Disc::inner_radius>("inner_radius", "not_negative", "of the hole"),
+        plain<&Disc::normal>("normal", "vector", "direction", "[0, 0, 1]"),
+        plain<&Disc::start>("start", "vector", "direction in which angles begin", "see below"),
+        {"elements", "[count]2", "around (a full disc: a multiple of 4), radial", "these or `size`"}},
+       patch_fields()},
+      {"cylinder",
+       {{"from", "position", "ends of its axis; the normal points outwards", "required"},
+        {"to", "position", ditto},
+        plain<&Cylinder::radius>("radius", "positive", "at `from`", "required"),
+        {"end_radius", "positive", "at `to`", "`radius`"},
+        plain<&Cylinder::start>("start", "vector", "direction in which angles begin", "see below"),
+        {"angle_deg", "number>0<=360", "angle of the wall", "360"},
+        {"elements", "[count]2", "around, along", "these or `size`"}},
+       patch_fields()},
+      {"extrusion",
+       {{"profile", "[position]2..",
+         "points of a polyline, closed if the last is the first. Normal: (direction of the profile) × (direction of "
+         "the path)",
+         "required"},
+        {"along", "vector", "path: a straight line", "one of both"},
+        {"arc", "arc", "path: `{through, axis, angle_deg}` about an axis ([0, 0, 1]) through a point"},
+        {"elements", "[count]2", "per segment of the profile, along", "these or `size`"}},
+       patch_fields()},
+      {"arc",
+       {{"through", "position", "", "required"},
+        plain<&ArcPath::axis>("axis", "vector", ""),
+        {"angle_deg", "number>=-360<=360", "", "required"}}}};
+}
+
+std::vector<KeySet> shell_key_sets() {
+  return {{"material_orthotropic",
+           {plain<&OrthotropicMaterial::E1>("E1", "positive", "Young's moduli along and across the fibres", "required"),
+            plain<&OrthotropicMaterial::E2>("E2", "positive", ditto),
+            plain<&OrthotropicMaterial::nu12>("nu12", "number",
+                                              "contraction along 2 under tension along 1, nu12² < E1/E2", "required"),
+            plain<&OrthotropicMaterial::G12>("G12", "positive", "shear moduli", "required"),
+            plain<&OrthotropicMaterial::G13>("G13", "positive", ditto),
+            plain<&OrthotropicMaterial::G23>("G23", "positive", ditto),
+            plain<&OrthotropicMaterial::density>("density", "positive", "[mass/length³]", "required")}},
+          {"ply",
+           {plain<&Ply::material>("material", "name", "", "required"),
+            plain<&Ply::thickness>("thickness", "positive", "", "required"),
+            {"angle_deg", "number", ""}}},
+          {"shell", {{"on", "text_list", "groups of faces, or `all`", "required"}}, layout_fields()},
+          {"solid",
+           {{"on", "text_list", "groups of volumes, or `all`", "required"},
+            plain<&SolidGroup::material>("material", "name", "isotropic", "required"),
+            choice<&SolidGroup::mass_matrix, mass_matrices>("mass_matrix", "`consistent` or `lumped`")}}};
+}
 
 void read_part_materials(const MapReader& map, Part& part) {
   for (const YamlNode* node : map.entries("materials", "material")) {
@@ -195,8 +272,7 @@ void read_shells_and_solids(const MapReader& top, Part& part) {
     solid.name = node->key;
     solid.where = map.context().entry;
     if (const YamlNode* on = map.require("on")) solid.on = read_name_list(map.context(), *on, "on");
-    solid.material = map.text("material");
-    solid.mass_matrix = read_mass_matrix(map);
+    read_fields(map, solid);
     part.solids.push_back(std::move(solid));
   }
 }

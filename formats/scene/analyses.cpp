@@ -4,16 +4,11 @@
 
 #include "common/text.hpp"
 #include "formats/scene/reader.hpp"
+#include "formats/yaml/fields.hpp"
 
 namespace tisserand::formats {
 namespace {
 
-constexpr Choice<AnalysisKind> kinds[] = {{"dynamics", AnalysisKind::dynamics},
-                                          {"statics", AnalysisKind::statics},
-                                          {"assembly", AnalysisKind::assembly},
-                                          {"kinematics", AnalysisKind::kinematics},
-                                          {"inverse_dynamics", AnalysisKind::inverse_dynamics},
-                                          {"modes", AnalysisKind::modes}};
 constexpr const char* groups[] = {"integrator", "statics", "modes", "output", "checkpoint"};
 
 /// The groups of the scene with the values that the analysis gives in their place.
@@ -64,7 +59,7 @@ Analysis read_analysis(const Context& context, const YamlNode& scene, const Yaml
   Analysis analysis;
   analysis.name = own.key;
   analysis.where = context.entry;
-  if (map.require("type") != nullptr) analysis.kind = map.choice("type", kinds, AnalysisKind::dynamics);
+  read_fields(map, analysis);
   const Analysis* from = read_from(map, before, analysis);
   std::optional<double> start;
   if (from != nullptr) start = end_time(*from);
@@ -78,7 +73,7 @@ Analysis read_analysis(const Context& context, const YamlNode& scene, const Yaml
 }  // namespace
 
 std::string analysis_word(AnalysisKind kind) {
-  const auto found = std::ranges::find(kinds, kind, &Choice<AnalysisKind>::value);
+  const auto found = std::ranges::find(analysis_kinds, kind, &Choice<AnalysisKind>::value);
   return std::string(found->word);
 }
 
@@ -108,11 +103,24 @@ Scene scene_of(const Scene& scene, const Analysis& analysis) {
   return one;
 }
 
+std::vector<KeySet> analysis_key_sets() {
+  return {
+      {"analysis",
+       {choice<&Analysis::kind, analysis_kinds>("type", "kind of the analysis", "required"),
+        {"from", "text",
+         "an analysis above: its end gives positions and velocities in place of the poses of the bodies", "none"},
+        {"integrator", "integrator", "as below; single values in place of those of the scene", "those of the scene"},
+        {"statics", "statics", ditto},
+        {"modes", "modes", ditto},
+        {"output", "output", ditto},
+        {"checkpoint", "checkpoint", ditto}}}};
+}
+
 void read_analyses(const MapReader& map, Scene& scene) {
   const YamlNode* several = map.find("analyses");
   if (several == nullptr) {
     Analysis only;
-    only.kind = map.choice("analysis", kinds, AnalysisKind::dynamics);
+    only.kind = map.choice("analysis", analysis_kinds, AnalysisKind::dynamics);
     read_groups(map, Context{map.context().reader, "", scene.file}, std::nullopt, only);
     scene = scene_of(scene, only);
     return;

@@ -5,11 +5,16 @@
 #include "formats/scene/reader.hpp"
 #include "formats/sections/axis.hpp"
 #include "formats/sections/reader.hpp"
+#include "formats/yaml/fields.hpp"
 #include "formats/yaml/geometry.hpp"
 
 namespace tisserand::formats {
 
 namespace {
+
+constexpr Choice<bool> uses[] = {{"flexible", false}, {"rigid", true}};
+constexpr Choice<InertiaOption> inertia_options[] = {
+    {"A", InertiaOption::A}, {"B", InertiaOption::B}, {"M", InertiaOption::M}};
 
 std::string resolve(const std::string& folder, const std::string& file) {
   return file.empty() ? file : (std::filesystem::path(folder) / file).lexically_normal().string();
@@ -18,7 +23,7 @@ std::string resolve(const std::string& folder, const std::string& file) {
 Pose read_pose(const Context& context, const YamlNode& node, const std::string& prefix) {
   const MapReader map(context, node, "pose", prefix);
   Pose pose;
-  pose.position = read_vector(map, "position", pose.position);
+  read_fields(map, pose);
   if (const YamlNode* orientation = map.find("orientation"))
     pose.orientation = read_orientation(context, *orientation, "orientation");
   return pose;
@@ -27,8 +32,7 @@ Pose read_pose(const Context& context, const YamlNode& node, const std::string& 
 InitialMotion read_start(const MapReader& map) {
   InitialMotion start;
   if (const YamlNode* pose = map.find("pose")) start.pose = read_pose(map.context(), *pose, "pose.");
-  start.velocity = read_vector(map, "velocity", start.velocity);
-  start.angular_velocity = read_vector(map, "angular_velocity", start.angular_velocity);
+  read_fields(map, start);
   return start;
 }
 
@@ -72,10 +76,7 @@ std::vector<NodeWeight> read_weights(const MapReader& map, std::string_view key)
 
 Damping read_damping(const MapReader& map) {
   Damping damping;
-  damping.mass = map.number("mass", 0.0);
-  damping.stiffness = map.number("stiffness", 0.0);
-  damping.ratio = map.number("ratio", 0.0);
-  if (const YamlNode* ratios = map.find("ratios")) damping.ratios = read_numbers(map.context(), *ratios, "ratios");
+  read_fields(map, damping);
   return damping;
 }
 
@@ -94,9 +95,7 @@ Context inside(const Context& context, const std::string& what) {
 
 /// `modes` or `cutoff`, not both.
 template <class Body>
-void read_mode_choice(const MapReader& map, Body& body) {
-  if (map.has("modes")) body.modes = map.integer("modes", 0);
-  if (map.has("cutoff")) body.cutoff = map.number("cutoff");
+void check_mode_choice(const MapReader& map, const Body& body) {
   if (body.modes && body.cutoff)
     map.context().fail(map.find("cutoff")->key_place, "both 'modes' and 'cutoff' are given", "give one of them");
 }
@@ -107,16 +106,12 @@ SuperelementBodySpec read_superelement(const Context& context, const YamlNode& n
   SuperelementBodySpec body;
   body.name = node.key;
   body.where = context.entry;
-  body.file = resolve(definitions.folder, map.text("file"));
+  read_fields(map, body);
+  body.file = resolve(definitions.folder, body.file);
   body.mirror = read_mirror(map);
   body.start = read_start(map);
-  body.gravity = read_optional_vector(map, "gravity");
-  body.rigid = map.choice("use", {Choice<bool>{"flexible", false}, {"rigid", true}}, false);
   if (body.rigid) refuse_flexible_keys(map);
-  read_mode_choice(map, body);
-  body.inertia = map.choice(
-      "inertia", {Choice<InertiaOption>{"A", InertiaOption::A}, {"B", InertiaOption::B}, {"M", InertiaOption::M}},
-      InertiaOption::B);
+  check_mode_choice(map, body);
   if (const YamlNode* frame = map.find("frame")) read_frame(context, *frame, body);
   if (const YamlNode* weights = map.find("weights")) {
     const MapReader inner(inside(context, "weights"), *weights, "weights", "weights.");
@@ -133,11 +128,11 @@ ModalBodySpec read_modal(const Context& context, const YamlNode& node, const Sce
   ModalBodySpec body;
   body.name = node.key;
   body.where = context.entry;
-  body.file = resolve(definitions.folder, map.text("file"));
+  read_fields(map, body);
+  body.file = resolve(definitions.folder, body.file);
   body.mirror = read_mirror(map);
   body.start = read_start(map);
-  body.gravity = read_optional_vector(map, "gravity");
-  read_mode_choice(map, body);
+  check_mode_choice(map, body);
   if (const YamlNode* damping = map.find("damping"))
     body.damping = read_damping(MapReader(inside(context, "damping"), *damping, "damping", "damping."));
   return body;
@@ -149,10 +144,10 @@ SuperelementBodySpec read_rigid_from(const Context& context, const YamlNode& nod
   SuperelementBodySpec body;
   body.name = node.key;
   body.where = context.entry;
-  body.file = resolve(definitions.folder, map.text("from"));
+  read_fields(map, body);
+  body.file = resolve(definitions.folder, body.file);
   body.mirror = read_mirror(map);
   body.start = read_start(map);
-  body.gravity = read_optional_vector(map, "gravity");
   body.rigid = true;
   return body;
 }
@@ -173,9 +168,7 @@ RigidBodySpec read_rigid(const Context& context, const YamlNode& node) {
   body.name = node.key;
   body.where = context.entry;
   body.start = read_start(map);
-  body.gravity = read_optional_vector(map, "gravity");
-  body.mass = map.number("mass");
-  body.center_of_mass = read_vector(map, "center_of_mass", body.center_of_mass);
+  read_fields(map, body);
   if (const YamlNode* inertia = map.require("inertia")) body.inertia = read_inertia(context, *inertia, "inertia");
   body.nodes = read_nodes(map);
   return body;
@@ -233,16 +226,9 @@ BeamBodySpec read_beam(const Context& context, const YamlNode& node, const Scene
   body.name = node.key;
   body.where = context.entry;
   body.start = read_start(map);
-  body.gravity = read_optional_vector(map, "gravity");
-  map.require("from");
-  map.require("to");
-  body.from = read_vector(map, "from", absent);
-  body.to = read_vector(map, "to", absent);
-  body.through = read_optional_vector(map, "through");
-  body.orientation = read_optional_vector(map, "orientation");
-  map.require("elements");
-  body.elements = map.integer("elements", 0);
-  body.nodes_per_element = map.integer("nodes_per_element", 2);
+  body.from = body.to = absent;
+  body.elements = 0;
+  read_fields(map, body);
   read_properties(map, definitions, body);
   return body;
 }
@@ -256,7 +242,127 @@ SuperelementBodySpec unreadable_body(const Context& context, const YamlNode& nod
   return body;
 }
 
+/// How a body starts, as fields of all kinds; `gravity` is a member of those with mass.
+std::vector<Field> start_fields(std::vector<Field> gravity) {
+  std::vector<Field> fields{
+      {"pose", "pose", "`{position: [x, y, z], orientation: ..}` of the part frame in the world",
+       "at the origin, unrotated"},
+      plain<&InitialMotion::velocity>("velocity", "vector",
+                                      "of the origin of the part frame, world axes [length/time]"),
+      plain<&InitialMotion::angular_velocity>("angular_velocity", "vector", "world axes [rad/time]")};
+  fields.insert(fields.end(), gravity.begin(), gravity.end());
+  return shared_fields("body_start", fields);
+}
+
+template <class Body>
+std::vector<Field> start_fields() {
+  return start_fields({plain<&Body::gravity>(
+      "gravity", "vector",
+      "acceleration of this body instead of the scene's, world axes [length/time²]; `[0, 0, 0]` for none",
+      "that of the scene")});
+}
+
+KeySet superelement_fields() {
+  return {
+      "body_superelement",
+      {{"type", "'superelement'", "", "required"},
+       plain<&SuperelementBodySpec::file>("file", "text", "superelement file, relative to the scene file", "required"),
+       {"mirror", "mirror",
+        "`yz`, `xz` or `xy`: the part of the file, mirrored at this plane of its frame, before the pose; a list: "
+        "one plane after another",
+        "no"},
+       choice<&SuperelementBodySpec::rigid, uses>(
+           "use",
+           "`flexible`, or `rigid`: a rigid body with the mass and inertia that the file represents; the keys below "
+           "have no effect then and are errors"),
+       plain<&SuperelementBodySpec::modes>("modes", "number_of", "use only the lowest internal modes, 0 or more",
+                                           "all"),
+       plain<&SuperelementBodySpec::cutoff>(
+           "cutoff", "positive", "instead: internal modes below this frequency [1/time of the scene]", "all"),
+       choice<&SuperelementBodySpec::inertia, inertia_options>(
+           "inertia",
+           "angular velocities in the kinetic energy: `A` turned to the axes of the floating frame, `B` material, "
+           "in the axes of each node ([Car00] sections 6 and 7; B is the more accurate), `M` as B with the exact "
+           "motion of the centre of mass: for bodies that turn and translate fast (rods of slider-cranks, wheels "
+           "on the road); not with `frame: paper`"),
+       {"frame", "/^(karcher|paper|node: ?[^ ]+)$/ | frame",
+        "floating frame: `karcher` (mean rotation), `paper` (incremental mean, [Car00] (16)), `{node: base}` "
+        "(attached to a node; also as text `\"node: base\"`)",
+        "`karcher`"},
+       {"weights", "weights",
+        "`{positions: {base: 0.5, tip: 0.5}, rotations: {..}}` of the nodes in the mean; the sum of each is 1; an "
+        "error beside `frame: {node: ..}`",
+        "from the centre of mass"},
+       {"damping", "damping",
+        "`{mass: a, stiffness: b, ratio: z, ratios: [z1, z2]}`: Rayleigh a M + b S [1/time, time], ratio of "
+        "critical damping of every internal mode, of the first ones",
+        "0"}},
+      start_fields<SuperelementBodySpec>()};
+}
+
+KeySet modal_fields() {
+  return {
+      "body_modal",
+      {{"type", "'modal'", "", "required"},
+       plain<&ModalBodySpec::file>("file", "text", "modal body file, relative to the scene file", "required"),
+       {"mirror", "mirror", "as of superelements", "no"},
+       plain<&ModalBodySpec::modes>("modes", "number_of", "use only the lowest modes, 0 or more", "all"),
+       plain<&ModalBodySpec::cutoff>("cutoff", "positive", "instead: modes below this frequency [1/time of the scene]",
+                                     "all"),
+       {"damping", "damping",
+        "as of superelements, added to the ratios of the file; on the modes alone: rigid motion is not damped", "0"}},
+      start_fields<ModalBodySpec>()};
+}
+
+KeySet beam_fields() {
+  return {"body_beam",
+          {{"type", "'beam'", "", "required"},
+           plain<&BeamBodySpec::from>("from", "vector", "its ends in the part frame [length]", "required"),
+           plain<&BeamBodySpec::to>("to", "vector", ditto, "required"),
+           plain<&BeamBodySpec::through>("through", "vector", "a third point of a circular arc", "straight"),
+           plain<&BeamBodySpec::orientation>(
+               "orientation", "vector", "vector of the part frame whose part across the axis is the section's y axis",
+               "the axis of the part frame most nearly normal to the beam (among equals y before z before x)"),
+           plain<&BeamBodySpec::elements>("elements", "integer>=1<=100000", "1 to 100 000", "required"),
+           plain<&BeamBodySpec::nodes_per_element>("nodes_per_element", "2 | 3", "2 or 3"),
+           {"section", "name | section",
+            "a name from `sections`, `materials`, or the map itself. Of the section: shear areas are needed; y and z "
+            "are principal axes; centroid and shear centre lie on the axis (angles, channels and the like are for "
+            "superelements)",
+            "required"},
+           {"material", "name | material", ditto}},
+          start_fields<BeamBodySpec>()};
+}
+
 }  // namespace
+
+std::vector<KeySet> body_key_sets() {
+  const Field nodes{"nodes", "{name: pose}", "name -> `{position, orientation}` in the part frame", "none"};
+  return {
+      superelement_fields(),
+      modal_fields(),
+      beam_fields(),
+      {"body_rigid",
+       {{"type", "'rigid'", "", "required"},
+        plain<&RigidBodySpec::mass>("mass", "positive", "positive [mass]", "required"),
+        plain<&RigidBodySpec::center_of_mass>("center_of_mass", "vector", "in the part frame [length]"),
+        {"inertia", "inertia_tensor", "about the centre of mass, part axes [mass length²]; forms as in PART.md",
+         "required"},
+        nodes},
+       start_fields<RigidBodySpec>()},
+      {"body_rigid_from",
+       {{"type", "'rigid'", "", "required"},
+        plain<&SuperelementBodySpec::file>("from", "text", "", "required"),
+        {"mirror", "mirror", ""}},
+       start_fields<SuperelementBodySpec>()},
+      {"body_virtual", {{"type", "'virtual'", "", "required"}, nodes}, start_fields({})},
+      {"pose", {plain<&Pose::position>("position", "vector", ""), {"orientation", "rotation", ""}}},
+      {"frame", {{"node", "text", "", "required"}}},
+      {"weights", {{"positions", "{text: number}+", ""}, {"rotations", "{text: number}+", ""}}},
+      {"damping",
+       {plain<&Damping::mass>("mass", "not_negative", ""), plain<&Damping::stiffness>("stiffness", "not_negative", ""),
+        plain<&Damping::ratio>("ratio", "not_negative", ""), plain<&Damping::ratios>("ratios", "[not_negative]", "")}}};
+}
 
 std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& definitions) {
   std::vector<BodySpec> bodies;

@@ -7,6 +7,7 @@
 #include "formats/scene/reader.hpp"
 #include "formats/scene/time_function_reader.hpp"
 #include "formats/tables/input_table.hpp"
+#include "formats/yaml/fields.hpp"
 #include "formats/yaml/geometry.hpp"
 #include "formats/yaml/name_check.hpp"
 
@@ -43,8 +44,7 @@ ChannelSpec read_channel(const Context& context, const YamlNode& node) {
   ChannelSpec channel;
   channel.name = node.key;
   channel.where = context.entry;
-  map.require("type");
-  channel.kind = map.choice("type", channel_kinds, channel.kind);
+  read_fields(map, channel);
   if (channel.kind == ChannelKind::distance) {
     channel.a = read_marker(map, "a");
     channel.b = read_marker(map, "b");
@@ -62,10 +62,7 @@ ChannelSpec read_channel(const Context& context, const YamlNode& node) {
   } else {
     refuse(map, "axis", "position and velocity");
   }
-  if (channel.kind == ChannelKind::position)
-    channel.origin = read_vector(map, "origin", channel.origin);
-  else
-    refuse(map, "origin", "position");
+  if (channel.kind != ChannelKind::position) refuse(map, "origin", "position");
   return channel;
 }
 
@@ -74,9 +71,7 @@ InputSpec read_input(const Context& context, const YamlNode& node, const SceneDe
   InputSpec input;
   input.name = node.key;
   input.where = context.entry;
-  input.interpolation = map.choice(
-      "interpolation", {Choice<Interpolation>{"linear", Interpolation::linear}, {"cubic", Interpolation::cubic}},
-      input.interpolation);
+  read_fields(map, input);
   const std::string time = map.has("time") ? map.text("time") : "1", value = map.has("value") ? map.text("value") : "2";
   const YamlNode* file = map.require("file");
   const std::string name = file == nullptr ? "" : read_text(context, *file, "file");
@@ -116,6 +111,35 @@ std::vector<InputSpec> read_inputs(const MapReader& map, const SceneDefinitions&
   for (const YamlNode* node : map.entries("inputs", "input"))
     inputs.push_back(read_input(entry_context(map.context().reader, "input", *node), *node, definitions));
   return inputs;
+}
+
+std::vector<KeySet> channel_key_sets() {
+  return {
+      {"input",
+       {{"file", "text",
+         "text table or HDF5 file (recognised by its first bytes), relative to the scene file; at most ten million "
+         "points",
+         "required"},
+        {"time", "text | integer",
+         "text: columns, by the name in the first line or by number from 1; cells are separated by commas, semicolons, "
+         "tabs or blanks, the first of these in the first line; `#` begins a comment line. HDF5: paths of "
+         "one-dimensional datasets of 64-bit floats",
+         "1, 2"},
+        {"value", "text | integer", ditto},
+        choice<&InputSpec::interpolation, interpolations>(
+            "interpolation",
+            "`linear`: steps of the integrator end on the points; `cubic`: monotone as for curves, no such ends")}},
+      {"channel",
+       {choice<&ChannelSpec::kind, channel_kinds>("type",
+                                                  "`coordinate` or `rate` of a joint coordinate; `position` or "
+                                                  "`velocity` of a marker; `distance` of two markers",
+                                                  "required"),
+        {"of", "place", "joint coordinate, or marker", "required but for `distance`"},
+        {"axis", "'x' | 'y' | 'z' | vector",
+         "`x`, `y` or `z` of the world, or a direction `[x, y, z]`, for `position` and `velocity`", "required there"},
+        plain<&ChannelSpec::origin>("origin", "vector", "point from which a `position` counts, world frame"),
+        {"a", "place", "markers of `distance`, on two different nodes", "required there"},
+        {"b", "place", ditto}}}};
 }
 
 void check_channels(const SceneIndex& index, Faults& faults) {

@@ -1,11 +1,16 @@
 // `motions`, `springs`, `bushings` and `loads` of scene.yaml.
 #include "formats/scene/reader.hpp"
 #include "formats/scene/time_function_reader.hpp"
+#include "formats/yaml/fields.hpp"
 #include "formats/yaml/geometry.hpp"
 
 namespace tisserand::formats {
 
 namespace {
+
+constexpr Choice<SpringKind> spring_kinds[] = {{"line", SpringKind::line}, {"torsion", SpringKind::torsion}};
+constexpr Choice<LoadKind> load_kinds[] = {{"force", LoadKind::force}, {"moment", LoadKind::moment}};
+constexpr Choice<LoadAxes> load_axes[] = {{"world", LoadAxes::world}, {"body", LoadAxes::body}};
 
 TimeFunctionSpec read_function(const MapReader& map, const YamlNode& node, const std::string& key,
                                const SceneDefinitions& definitions) {
@@ -22,8 +27,6 @@ LawSpec read_law(const MapReader& map, const YamlNode& node, const std::string& 
 
 /// What a spring acts along: a coordinate, or the distance or angle of two markers.
 void read_ends(const MapReader& map, SpringSpec& spring) {
-  spring.kind =
-      map.choice("type", {Choice<SpringKind>{"line", SpringKind::line}, {"torsion", SpringKind::torsion}}, spring.kind);
   if (const YamlNode* coordinate = map.find("coordinate")) {
     spring.coordinate = read_coordinate(map, *coordinate, "coordinate");
     if (map.has("a") || map.has("b"))
@@ -91,12 +94,8 @@ LoadSpec read_load(const Context& context, const YamlNode& node, const SceneDefi
   LoadSpec load;
   load.name = node.key;
   load.where = context.entry;
-  map.require("type");
-  load.kind =
-      map.choice("type", {Choice<LoadKind>{"force", LoadKind::force}, {"moment", LoadKind::moment}}, LoadKind::force);
+  read_fields(map, load);
   load.at = read_marker(map, "at");
-  load.axes =
-      map.choice("axes", {Choice<LoadAxes>{"world", LoadAxes::world}, {"body", LoadAxes::body}}, LoadAxes::world);
   const YamlNode* value = map.require("value");
   if (value == nullptr) return load;
   if (value->kind != YamlKind::sequence || value->children.size() != 3) {
@@ -139,15 +138,12 @@ std::vector<SpringSpec> read_springs(const MapReader& map, const SceneDefinition
     SpringSpec spring;
     spring.name = node->key;
     spring.where = context.entry;
+    read_fields(inner, spring);
     read_ends(inner, spring);
     if (const YamlNode* law = inner.find("stiffness"))
       spring.stiffness = read_law(inner, *law, "stiffness", definitions);
     if (const YamlNode* law = inner.find("damping")) spring.damping = read_law(inner, *law, "damping", definitions);
-    if (inner.has("free")) spring.free = inner.number("free");
-    if (inner.has("lower")) spring.lower = inner.number("lower");
-    if (inner.has("upper")) spring.upper = inner.number("upper");
     if (spring.lower || spring.upper) spring.stop_stiffness = inner.number("stop_stiffness");
-    spring.stop_damping = inner.number("stop_damping", 0.0);
     if (const YamlNode* force = inner.find("force")) spring.force = read_function(inner, *force, "force", definitions);
     springs.push_back(std::move(spring));
   }
@@ -177,6 +173,60 @@ std::vector<LoadSpec> read_loads(const MapReader& map, const SceneDefinitions& d
   for (const YamlNode* node : map.entries("loads", "load"))
     loads.push_back(read_load(entry_context(map.context().reader, "load", *node), *node, definitions));
   return loads;
+}
+
+std::vector<KeySet> force_key_sets() {
+  return {
+      {"motion",
+       {{"coordinate", "text", "joint coordinate; a position [length] or an angle [rad]", "required"},
+        {"value", "function",
+         "number, expression in t and inputs, or table as for loads. Tables become a natural cubic spline, going on "
+         "with the last slope outside; expressions are differentiated by differences of order six, a quarter of the "
+         "step apart",
+         "required"}}},
+      {"spring",
+       {{"coordinate", "text", "joint coordinate", "one of both"},
+        {"a", "place", "markers"},
+        {"b", "place", ditto},
+        choice<&SpringSpec::kind, spring_kinds>(
+            "type",
+            "between two markers: `line`, along the line between them, its coordinate q is their distance; `torsion`, "
+            "about their z axes, q is the angle of b against a [rad], right-handed and unwrapped: "
+            "atan2(y_A·x_B − x_A·y_B, x_A·x_B + y_A·y_B)"),
+        {"axis", "vector", "`torsion`: z and x axes of the markers at the start as for joints", "-"},
+        {"x_axis", "vector", ditto},
+        {"stiffness", "number | curve",
+         "k [force/length or moment/rad], or a curve of the force f over the deflection q − free", "0"},
+        {"damping", "not_negative | curve",
+         "c, not negative, or a curve of the force d over the rate q̇, with the sign of the rate", "0"},
+        plain<&SpringSpec::free>("free", "number", "value of the coordinate without force", "that at the start"),
+        plain<&SpringSpec::lower>("lower", "number", "stops", "none"),
+        plain<&SpringSpec::upper>("upper", "number", ditto),
+        {"stop_stiffness", "positive", "a stop passed by g pushes back with k_s g (1 + d ġ), never pulling",
+         "required with a stop; 0"},
+        plain<&SpringSpec::stop_damping>("stop_damping", "not_negative", ditto),
+        {"force", "function", "number, expression in t or table as for loads, positive along the positive coordinate",
+         "0"}}},
+      {"bushing",
+       {{"a", "place", "markers on two different nodes", "required"},
+        {"b", "place", ditto},
+        {"position", "vector", "places them as those of joints; axes of the world without `axis` and orientations",
+         "as in joints"},
+        {"axis", "vector", ditto},
+        {"x_axis", "vector", ditto},
+        {"stiffness", "six_by_six",
+         "K: six numbers of its diagonal `[x, y, z, rx, ry, rz]`, or a field: six rows of six [force/length, "
+         "force/rad; moment/length, moment/rad]",
+         "0"},
+        {"damping", "six_by_six", "D in the same forms; its symmetric part must not be negative", "0"},
+        {"free", "six", "deflection without force, six numbers", "that at the start"},
+        {"preload", "six", "what acts on b at the deflection `free` besides, six numbers [force, moment]", "0"}}},
+      {"load",
+       {choice<&LoadSpec::kind, load_kinds>("type", "`force` [mass length/time²] or `moment` [mass length²/time²]",
+                                            "required"),
+        {"at", "place", "node or marker, not `ground`", "required"},
+        choice<&LoadSpec::axes, load_axes>("axes", "`world`, or `body`: follows the node"),
+        {"value", "[function]3", "three components, each a function of time", "required"}}}};
 }
 
 }  // namespace tisserand::formats

@@ -3,9 +3,23 @@
 
 #include <algorithm>
 
+#include "formats/yaml/fields.hpp"
+
 namespace tisserand::formats {
 
 namespace {
+
+constexpr Choice<Method> methods[] = {
+    {"generalised_alpha", Method::generalised_alpha}, {"hht", Method::hht}, {"bdf", Method::bdf}};
+constexpr Choice<Formulation> formulations[] = {{"index3", Formulation::index3},
+                                                {"stabilised_index2", Formulation::stabilised_index2}};
+constexpr Choice<LinearSolver> linear_solvers[] = {{"auto", LinearSolver::automatic},
+                                                   {"klu", LinearSolver::klu},
+                                                   {"umfpack", LinearSolver::umfpack},
+                                                   {"dense", LinearSolver::dense},
+                                                   {"qr", LinearSolver::qr}};
+constexpr Choice<Stabilisation> stabilisations[] = {{"projection", Stabilisation::projection},
+                                                    {"baumgarte", Stabilisation::baumgarte}};
 
 /// First step of `step: auto`, as a part of the whole time: the error control finds its own within a few steps.
 constexpr double automatic_part = 1e-4;
@@ -36,21 +50,13 @@ void check_keys(const MapReader& map, Method method) {
 ErrorControl read_error_control(const MapReader& map) {
   ErrorControl control;
   control.active = true;
-  control.tolerance = map.number("tolerance", control.tolerance);
-  control.absolute = map.number("absolute", control.absolute);
-  control.min_step = map.number("min_step", control.min_step);
-  control.max_step = map.number("max_step", control.max_step);
+  read_fields(map, control);
   return control;
 }
 
 BdfSpec read_bdf(const MapReader& map) {
   BdfSpec spec;
-  spec.relative_tolerance = map.number("relative_tolerance", spec.relative_tolerance);
-  spec.absolute_tolerance = map.number("absolute_tolerance", spec.absolute_tolerance);
-  spec.stabilisation = map.choice(
-      "stabilisation",
-      {Choice<Stabilisation>{"projection", Stabilisation::projection}, {"baumgarte", Stabilisation::baumgarte}},
-      spec.stabilisation);
+  read_fields(map, spec);
   const YamlNode* baumgarte = map.find("baumgarte");
   if (baumgarte == nullptr) return spec;
   if (spec.stabilisation == Stabilisation::projection)
@@ -58,8 +64,7 @@ BdfSpec read_bdf(const MapReader& map) {
                        "give stabilisation: baumgarte");
   const Context inside{map.context().reader, "integrator baumgarte", map.context().entry};
   const MapReader numbers(inside, *baumgarte, "baumgarte", "integrator.baumgarte.");
-  spec.alpha = numbers.number("alpha", spec.alpha);
-  spec.beta = numbers.number("beta", spec.beta);
+  read_fields(numbers, spec);
   return spec;
 }
 
@@ -82,37 +87,69 @@ double read_step(const MapReader& map, const IntegratorSpec& spec, AnalysisKind 
 
 IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
   IntegratorSpec spec;
-  spec.method = map.choice(
-      "method",
-      {Choice<Method>{"generalised_alpha", Method::generalised_alpha}, {"hht", Method::hht}, {"bdf", Method::bdf}},
-      spec.method);
+  read_fields(map, spec);
+  if (takes_steps(analysis)) map.require("end");
   check_keys(map, spec.method);
-  spec.rho = map.number("rho", spec.rho);
-  spec.alpha = map.number("alpha", spec.alpha);
-  spec.formulation = map.choice(
-      "formulation",
-      {Choice<Formulation>{"index3", Formulation::index3}, {"stabilised_index2", Formulation::stabilised_index2}},
-      spec.formulation);
   if (const YamlNode* control = map.find("error_control")) {
     const Context inside{map.context().reader, "integrator error_control", map.context().entry};
     spec.error_control = read_error_control(MapReader(inside, *control, "error_control", "integrator.error_control."));
   }
   spec.bdf = read_bdf(map);
-  spec.start = map.number("start", spec.start);
-  spec.end = takes_steps(analysis) ? map.number("end") : map.number("end", spec.end);
   spec.step = read_step(map, spec, analysis);
-  spec.tolerance = map.number("tolerance", spec.tolerance);
-  spec.constraint_tolerance = map.number("constraint_tolerance", spec.constraint_tolerance);
-  spec.max_iterations = map.integer("max_iterations", spec.max_iterations);
-  spec.max_halvings = map.integer("max_halvings", spec.max_halvings);
-  spec.linear_solver = map.choice("linear_solver",
-                                  {Choice<LinearSolver>{"auto", LinearSolver::automatic},
-                                   {"klu", LinearSolver::klu},
-                                   {"umfpack", LinearSolver::umfpack},
-                                   {"dense", LinearSolver::dense},
-                                   {"qr", LinearSolver::qr}},
-                                  spec.linear_solver);
   return spec;
+}
+
+std::vector<KeySet> integrator_key_sets() {
+  const std::vector<Field> of_bdf = shared_fields(
+      "integrator_bdf",
+      {plain<&BdfSpec::relative_tolerance>("relative_tolerance", "positive",
+                                           "of each coordinate and velocity per step"),
+       plain<&BdfSpec::absolute_tolerance>("absolute_tolerance", "positive",
+                                           "of positions relative to the extent of the scene, of Euler parameters; of "
+                                           "velocities the same per unit of time"),
+       choice<&BdfSpec::stabilisation, stabilisations>(
+           "stabilisation", "`projection`: after each step onto the constraints, in the mass norm; or `baumgarte`"),
+       {"baumgarte", "baumgarte", "`{alpha: 5, beta: 5}` [1/time]: Φ̈ + 2 α Φ̇ + β² Φ = 0", "5, 5"}});
+  return {
+      {"integrator",
+       {choice<&IntegratorSpec::method, methods>("method", "`generalised_alpha`, `hht`, or `bdf` (below)"),
+        plain<&IntegratorSpec::rho>("rho", "number>=0<=1",
+                                    "spectral radius at infinity of generalised_alpha, 0 to 1; an error with hht"),
+        plain<&IntegratorSpec::alpha>("alpha", "number>=0<=0.3333333333333333",
+                                      "of hht, 0 to 1/3; an error with generalised_alpha"),
+        choice<&IntegratorSpec::formulation, formulations>("formulation", "`stabilised_index2` or `index3`",
+                                                           "`stabilised_index2`"),
+        {"step", "positive | 'auto'", "[time]; with `error_control` the first one, or `auto` (1e-4 of the whole time)",
+         "required in dynamics"},
+        plain<&IntegratorSpec::start>("start", "number", "[time]"),
+        plain<&IntegratorSpec::end>("end", "number", "[time], later than `start`", "required in dynamics"),
+        plain<&IntegratorSpec::tolerance>("tolerance", "positive",
+                                          "of Newton, relative to the running maximum of the forces"),
+        plain<&IntegratorSpec::constraint_tolerance>(
+            "constraint_tolerance", "positive",
+            "largest violation of a constraint, relative to the characteristic length (of its rate: that over the "
+            "step). Where a step moves little, less is allowed: 10 `tolerance` × step² × the largest acceleration, "
+            "down to round-off"),
+        plain<&IntegratorSpec::max_iterations>("max_iterations", "count", "per step"),
+        plain<&IntegratorSpec::max_halvings>("max_halvings", "number_of", "of the step when it does not converge"),
+        choice<&IntegratorSpec::linear_solver, linear_solvers>(
+            "linear_solver",
+            "`klu` (sparse LU for little fill), `umfpack` (sparse LU for much), `dense` (LU of our own or LAPACK's), "
+            "`qr` (sparse QR, slow and always stable), or `auto`: the least counted work of the first three; the "
+            "report says which"),
+        {"error_control", "error_control", "lets the local error choose the steps (below)", "steps as given"}},
+       of_bdf},
+      {"error_control",
+       {plain<&ErrorControl::tolerance>("tolerance", "positive",
+                                        "error of positions at the end of the run, relative to the extent of the "
+                                        "scene, of rotations in rad: each step may add its share of the time. Errors "
+                                        "fall with it: a tenth costs about 3.2 times the steps"),
+        plain<&ErrorControl::absolute>("absolute", "not_negative", "[length] added to the tolerance of positions"),
+        plain<&ErrorControl::min_step>("min_step", "not_negative", "[time] the run ends where the error asks for less",
+                                       "1e-12 of the whole time"),
+        plain<&ErrorControl::max_step>("max_step", "not_negative", "[time]", "a tenth of the whole time")}},
+      {"baumgarte",
+       {plain<&BdfSpec::alpha>("alpha", "not_negative", ""), plain<&BdfSpec::beta>("beta", "not_negative", "")}}};
 }
 
 }  // namespace tisserand::formats

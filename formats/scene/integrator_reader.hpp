@@ -1,6 +1,8 @@
 // `integrator` of scene.yaml to the struct IntegratorSpec.
 #pragma once
 
+#include <vector>
+
 #include "formats/scene/scene.hpp"
 #include "formats/yaml/reader.hpp"
 
@@ -8,5 +10,6 @@ namespace tisserand::formats {
 
 /// Times may be missing where the analysis needs none.
 IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis);
+std::vector<KeySet> integrator_key_sets();
 
 }  // namespace tisserand::formats

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "formats/scene/reader.hpp"
+#include "formats/yaml/fields.hpp"
 #include "formats/yaml/geometry.hpp"
 
 namespace tisserand::formats {
@@ -18,9 +19,8 @@ MarkerSpec read_marker(const MapReader& map, const std::string& key) {
     return marker;
   }
   const MapReader inner(context, *node, "marker", key + ".");
-  marker.node = inner.text("node");
+  read_fields(inner, marker);
   if (const YamlNode* place = inner.find("node")) marker.where = context.reader.where(place->place);
-  marker.position = read_optional_vector(inner, "position");
   if (const YamlNode* orientation = inner.find("orientation"))
     marker.orientation = read_orientation(context, *orientation, "orientation");
   return marker;
@@ -83,16 +83,13 @@ void read_own_key(const MapReader& map, JointSpec& joint) {
 FrictionSpec read_friction(const Context& context, const YamlNode& node, JointKind kind) {
   const MapReader map({context.reader, context.subject + ": friction", context.entry}, node, "friction", "friction.");
   FrictionSpec friction;
-  friction.coefficient = map.number("coefficient");
-  if (map.has("static_coefficient")) friction.static_coefficient = map.number("static_coefficient");
-  friction.velocity = map.number("velocity");
+  read_fields(map, friction);
   const FrictionKeys keys = joint_kind(kind).friction;
   const YamlNode* radius = map.find("radius");
   if (radius && keys.has_friction && !keys.radius)
     map.context().fail(radius->key_place, fmt::format("'radius' has no effect in a {} joint", joint_word(kind)),
                        "remove it");
   if (keys.radius) friction.radius = map.number("radius");
-  if (map.has("arm")) friction.arm = map.number("arm");
   return friction;
 }
 
@@ -136,6 +133,60 @@ std::string type_of(const YamlNode& joint) {
 }
 
 }  // namespace
+
+std::vector<KeySet> joint_key_sets() {
+  static const std::vector<std::string_view> words = [] {
+    std::vector<std::string_view> all;
+    for (const JointKindRow& row : joint_kinds()) all.push_back(row.word);
+    return all;
+  }();
+  return {
+      {"joint",
+       {{"type", "", "one of the table below", "required", words},
+        {"a", "place",
+         "markers on two different nodes: `ground`, `block`, `beam/base`, or `{node: beam/base, position: [..], "
+         "orientation: ..}` with an offset in the node's axes",
+         "required"},
+        {"b", "place", ditto},
+        {"position", "vector",
+         "where the markers without a position of their own are at the start, world frame; an error if both have one",
+         "at marker b; at marker a if b is `ground`, or if only a has a position"},
+        {"axis", "vector",
+         "z axis at the start, world axes, of the markers without an orientation of their own; an error if both have "
+         "one",
+         "-"},
+        {"x_axis", "vector", "with `axis`: direction whose part across it is the x axis of these markers", "any"},
+        {"hold", "['x' | 'y' | 'z' | 'rx' | 'ry' | 'rz']1..",
+         "`generic`: list of directions of a's axes that are held, of `x y z rx ry rz`", "required there"},
+        {"pitch", "number", "`screw`: advance along z per turn [length]; negative: left-handed", "required there"},
+        {"length", "positive", "`distance`: the distance that is kept", "that at the start"},
+        {"friction", "friction", "Coulomb friction of kinds with a contact surface, see below", "none"}}},
+      {"friction",
+       {plain<&FrictionSpec::coefficient>("coefficient", "not_negative", "μ while sliding", "required"),
+        plain<&FrictionSpec::static_coefficient>("static_coefficient", "not_negative",
+                                                 "μ_s to break loose, not below μ", "μ"),
+        plain<&FrictionSpec::velocity>("velocity", "positive",
+                                       "v: sliding velocity at which μ_s is reached [length/time]", "required"),
+        {"radius", "positive",
+         "r of the contact surface [length]; not for `prismatic`, `point_on_line`, `point_on_plane`",
+         "required by the others"},
+        plain<&FrictionSpec::arm>("arm", "positive",
+                                  "distance of two supports that take the reaction moment [length]; not for "
+                                  "`spherical`, `point_on_line`, `point_on_plane`",
+                                  "moments do not count")}},
+      {"gear",
+       {{"type", "'gear'", "", "required"},
+        {"between", "[text]2", "", "required"},
+        {"ratio", "number", "", "required"}}},
+      {"rack_and_pinion",
+       {{"type", "'rack_and_pinion'", "", "required"},
+        {"between", "[text]2", "", "required"},
+        {"radius", "number", "", "required"}}},
+      {"marker",
+       {plain<&MarkerSpec::node>("node", "text", "", "required"),
+        plain<&MarkerSpec::position>("position", "vector", ""),
+        {"orientation", "rotation", ""}}}};
+}
 
 void read_joints(const MapReader& map, Scene& scene) {
   for (const YamlNode* node : map.entries("joints", "joint")) {

@@ -10,6 +10,13 @@
 
 namespace tisserand::formats {
 
+inline constexpr Choice<AnalysisKind> analysis_kinds[] = {{"dynamics", AnalysisKind::dynamics},
+                                                          {"statics", AnalysisKind::statics},
+                                                          {"assembly", AnalysisKind::assembly},
+                                                          {"kinematics", AnalysisKind::kinematics},
+                                                          {"inverse_dynamics", AnalysisKind::inverse_dynamics},
+                                                          {"modes", AnalysisKind::modes}};
+
 /// What bodies may refer to.
 struct SceneDefinitions {
   std::string folder;  ///< of the scene file: paths are relative to it
@@ -38,5 +45,14 @@ void read_analyses(const MapReader& map, Scene& scene);
 /// The groups of settings below `map`, which belong to `entry`: the scene, or one analysis of the given kind. `start`:
 /// of the integrator, if it gives none.
 void read_groups(const MapReader& map, const Context& entry, std::optional<double> start, Analysis& analysis);
+
+// Lists of fields, each beside the functions that read them.
+std::vector<Field> scene_fields();
+std::vector<KeySet> body_key_sets();
+std::vector<KeySet> joint_key_sets();
+std::vector<KeySet> force_key_sets();
+std::vector<KeySet> channel_key_sets();
+std::vector<KeySet> analysis_key_sets();
+std::vector<KeySet> settings_key_sets();
 
 }  // namespace tisserand::formats

@@ -5,48 +5,45 @@
 
 #include "formats/scene/check.hpp"
 #include "formats/scene/expand/tree.hpp"
+#include "formats/scene/fields.hpp"
 #include "formats/scene/integrator_reader.hpp"
-#include "formats/scene/keys.hpp"
 #include "formats/scene/reader.hpp"
 #include "formats/sections/reader.hpp"
-#include "formats/yaml/geometry.hpp"
+#include "formats/yaml/fields.hpp"
 #include "formats/yaml/units_reader.hpp"
 
 namespace tisserand::formats {
 
 namespace {
 
+constexpr Choice<VirtualBodies> virtual_body_ways[] = {{"keep", VirtualBodies::keep},
+                                                       {"eliminate", VirtualBodies::eliminate}};
+
 RotationSpec read_rotation(const MapReader& map, const YamlNode& node) {
   const Context context{map.context().reader, map.context().subject + ": rotation", map.context().entry};
   const MapReader inner(context, node, "steady_rotation", "statics.rotation.");
   RotationSpec spec;
-  if (inner.require("angular_velocity") != nullptr)
-    spec.angular_velocity = read_vector(inner, "angular_velocity", spec.angular_velocity);
-  spec.about = read_vector(inner, "about", spec.about);
+  read_fields(inner, spec);
   return spec;
 }
 
 StaticsSpec read_statics(const MapReader& map) {
   StaticsSpec spec;
   if (const YamlNode* rotation = map.find("rotation")) spec.rotation = read_rotation(map, *rotation);
-  spec.load_steps = map.integer("load_steps", spec.load_steps);
-  spec.tolerance = map.number("tolerance", spec.tolerance);
-  spec.max_iterations = map.integer("max_iterations", spec.max_iterations);
+  read_fields(map, spec);
   return spec;
 }
 
 ModesSpec read_modes(const MapReader& map) {
   ModesSpec spec;
-  spec.count = map.integer("count", spec.count);
-  if (map.has("rotation")) spec.rotation = read_vector(map, "rotation", Eigen::Vector3d::Zero());
+  read_fields(map, spec);
   return spec;
 }
 
 CheckpointSpec read_checkpoint(const MapReader& map) {
   CheckpointSpec spec;
   if (map.has("every") && map.has("interval")) map.fail("both 'every' and 'interval' are given", "give one of them");
-  if (map.has("every")) spec.every = map.integer("every", 1);
-  if (map.has("interval")) spec.interval = map.number("interval");
+  read_fields(map, spec);
   return spec;
 }
 
@@ -54,9 +51,8 @@ CheckpointSpec read_checkpoint(const MapReader& map) {
 OutputSpec read_output(const MapReader& map, double start) {
   OutputSpec spec;
   if (map.has("every") && map.has("interval")) map.fail("both 'every' and 'interval' are given", "give one of them");
-  spec.every = map.integer("every", spec.every);
-  if (map.has("interval")) spec.interval = map.number("interval");
-  spec.from = map.number("from", start);
+  spec.from = start;
+  read_fields(map, spec);
   const YamlNode* channels = map.find("channels");
   if (channels == nullptr) return spec;
   if (channels->kind != YamlKind::sequence) {
@@ -73,9 +69,8 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
   const MapReader map(Context{reader, "", path}, reader.root(), "scene");
   Scene scene;
   scene.file = path;
-  scene.name = map.text("scene");
+  read_fields(map, scene);
   scene.units = read_units(map);
-  scene.gravity = read_vector(map, "gravity", scene.gravity);
   const SceneDefinitions definitions{std::filesystem::path(path).parent_path().string(), scene.units,
                                      read_materials(map), read_sections(map, scene.units)};
   check_definitions(definitions.materials, definitions.sections, faults);
@@ -87,11 +82,7 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
   scene.springs = read_springs(map, definitions);
   scene.bushings = read_bushings(map);
   scene.loads = read_loads(map, definitions);
-  scene.virtual_bodies = map.choice(
-      "virtual_bodies", {Choice<VirtualBodies>{"keep", VirtualBodies::keep}, {"eliminate", VirtualBodies::eliminate}},
-      scene.virtual_bodies);
   read_analyses(map, scene);
-  scene.initial_tolerance = map.number("initial_tolerance", scene.initial_tolerance);
   return scene;
 }
 
@@ -116,6 +107,78 @@ void read_groups(const MapReader& map, const Context& entry, std::optional<doubl
   analysis.output.from = analysis.integrator.start;
   if (const YamlNode* node = map.find("output"))
     analysis.output = read_output(group("output", *node), analysis.integrator.start);
+}
+
+std::vector<KeySet> settings_key_sets() {
+  return {
+      {"statics",
+       {plain<&StaticsSpec::load_steps>("load_steps", "count", "loads and gravity grow in so many equal steps"),
+        plain<&StaticsSpec::tolerance>("tolerance", "positive", "of Newton"),
+        plain<&StaticsSpec::max_iterations>("max_iterations", "count", "per load step"),
+        {"rotation", "steady_rotation",
+         "`{angular_velocity: [x, y, z], about: [x, y, z]}`: equilibrium while everything turns about the axis through "
+         "`about` (default the origin), world axes. Dense matrices: up to 4000 coordinates. Drives of the turn must "
+         "agree with it",
+         "at rest"}}},
+      {"steady_rotation",
+       {plain<&RotationSpec::angular_velocity>("angular_velocity", "vector", "", "required"),
+        plain<&RotationSpec::about>("about", "vector", "")}},
+      {"modes",
+       {plain<&ModesSpec::count>("count", "count", "the lowest ones that are stored and printed, and all that grow"),
+        plain<&ModesSpec::rotation>("rotation", "vector",
+                                    "angular velocity of the axes in which the state is steady, world axes",
+                                    "that of a `from` with `statics.rotation`, else 0")}},
+      {"checkpoint",
+       {plain<&CheckpointSpec::every>("every", "count", "accepted steps between two", "never"),
+        plain<&CheckpointSpec::interval>(
+            "interval", "positive", "instead: after the first step that reaches `start` + k `interval`", "never")}},
+      {"output",
+       {plain<&OutputSpec::every>("every", "count", "store every n-th step, and the end"),
+        plain<&OutputSpec::interval>("interval", "positive",
+                                     "instead: store at `start` + k `interval`, k = 0, 1, ..., and at the end; no step "
+                                     "is cut for it: the row is that of the first step that reaches the instant",
+                                     "-"),
+        plain<&OutputSpec::from>("from", "number", "store from this time on, not later than `end`",
+                                 "`integrator.start`"),
+        {"channels", "[text+]",
+         "groups or datasets of the results file (`nodes`, `nodes/position`, `joints`, `energy`, ...)", "all"}}}};
+}
+
+std::vector<Field> scene_fields() {
+  return {
+      plain<&Scene::name>("scene", "text+", "name, goes into the results", "required"),
+      {"units", "'consistent' | units", "as in PART.md; superelements are converted on load", "SI"},
+      plain<&Scene::gravity>("gravity", "vector", "acceleration, world axes [length/time²]"),
+      {"materials", "{name: material}", "as in PART.md, for beams of the scene", "none"},
+      {"sections", "{name: section}", ditto},
+      {"bodies", "{name: body}+", "name -> body; `ground` is taken", "required, unless instances bring them"},
+      {"joints", "{name: joint | gear | rack_and_pinion}", "name -> joint, gear, or rack and pinion", "none"},
+      {"inputs", "{name: input}", "name -> history from a file, for expressions", "none"},
+      {"channels", "{name: channel}", "name -> quantity of the mechanism, for expressions", "none"},
+      {"motions", "{name: motion}", "name -> joint coordinate that follows a function of time", "none"},
+      {"springs", "{name: spring}",
+       "name -> spring, damper and stops along a joint coordinate, between two points or about an axis", "none"},
+      {"bushings", "{name: bushing}", "name -> stiffness and damping between two markers in all directions", "none"},
+      {"loads", "{name: load}", "name -> load", "none"},
+      choice<&Scene::virtual_bodies, virtual_body_ways>("virtual_bodies",
+                                                        "`eliminate` or `keep`, see [below](#type-virtual)"),
+      words<analysis_kinds>(
+          "analysis",
+          "kind of the only analysis: `dynamics`, `statics`, `assembly`, `kinematics`, `inverse_dynamics`, `modes`",
+          "`dynamics`"),
+      {"analyses", "{name: analysis}+", "instead: several by name, see below", "none"},
+      {"integrator", "integrator", "see below", "required in dynamics"},
+      {"statics", "statics", "see below", "defaults"},
+      {"modes", "modes", ditto},
+      {"output", "output", ditto},
+      {"checkpoint", "checkpoint", ditto},
+      {"include", "text | [text]", "see [scenes at scale](#scenes-at-scale)", "none"},
+      {"parameters", "{parameter_name: any}", ditto},
+      {"assemblies", "{name: text | assembly}", ditto},
+      {"instances", "{name: instance}", ditto},
+      plain<&Scene::initial_tolerance>("initial_tolerance", "positive",
+                                       "largest correction that makes the initial state satisfy the joints: "
+                                       "positions relative to the characteristic length, velocities")};
 }
 
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "formats/tables/csv_table.hpp"
+#include "formats/yaml/fields.hpp"
 
 namespace tisserand::formats {
 
@@ -114,9 +115,7 @@ CurveSpec read_curve(const Context& context, const YamlNode& node, const std::st
   const Context inner{context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
   const MapReader map(inner, node, "curve", what + ".");
   CurveSpec curve;
-  curve.interpolation = map.choice(
-      "interpolation", {Choice<Interpolation>{"linear", Interpolation::linear}, {"cubic", Interpolation::cubic}},
-      curve.interpolation);
+  read_fields(map, curve);
   if (map.has("table") == map.has("file"))
     map.fail("a curve needs either 'table' or 'file'", "write table: [[-1, -5], [0, 0], [1, 5]]");
   TimeTable points;
@@ -149,6 +148,22 @@ void check_curve(const CurveSpec& curve, const std::string& subject, const std::
                  "");
       return;
     }
+}
+
+std::vector<KeySet> time_function_key_sets() {
+  return {{"time_function",
+           {{"table", "[[number]2]1..", ""},
+            {"file", "text", ""},
+            {"expression", "text+", ""},
+            {"breakpoints", "[number]", ""}},
+           {},
+           {1, 2}},
+          {"curve",
+           {{"table", "[[number]2]2..", ""},
+            {"file", "text", ""},
+            choice<&CurveSpec::interpolation, interpolations>("interpolation", "")},
+           {},
+           {1, 2}}};
 }
 
 }  // namespace tisserand::formats

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "formats/scene/scene.hpp"
 #include "formats/yaml/reader.hpp"
 
 namespace tisserand::formats {
+
+inline constexpr Choice<Interpolation> interpolations[] = {{"linear", Interpolation::linear},
+                                                           {"cubic", Interpolation::cubic}};
 
 /// A number, a text (expression in t), {expression: .., breakpoints: [..]}, {table: [[t, value], ..]} or {file:
 /// table.csv} (relative to `folder`).
@@ -23,5 +27,8 @@ CurveSpec read_curve(const Context& context, const YamlNode& node, const std::st
 /// At least two points, x increases, values are finite.
 void check_curve(const CurveSpec& curve, const std::string& subject, const std::string& where, const std::string& key,
                  Faults& faults);
+
+/// Lists of fields of the maps above.
+std::vector<KeySet> time_function_key_sets();
 
 }  // namespace tisserand::formats

@@ -82,14 +82,39 @@ std::vector<Limit> limits(std::string_view shape) {
 }  // namespace
 
 const std::vector<Profile>& profiles() {
-  static const std::vector<Profile> all{{"I", {"height", "width", "web", "flange", "bottom_width", "bottom_flange"}},
-                                        {"channel", {"height", "width", "web", "flange"}},
-                                        {"angle", {"height", "width", "web", "flange"}},
-                                        {"tee", {"height", "width", "web", "flange"}},
-                                        {"zed", {"height", "width", "web", "flange"}},
-                                        {"box", {"height", "width", "top", "bottom", "left", "right"}},
-                                        {"hat", {"height", "width", "brim", "thickness"}},
-                                        {"cross", {"height", "width", "web", "flange"}}};
+  static const std::vector<Profile> all{
+      {"I",
+       {"height", "width", "web", "flange", "bottom_width", "bottom_flange"},
+       "outer `height` along z; `width` and `flange` thickness of the upper flange; `web` thickness; `bottom_width`, "
+       "`bottom_flange` if the lower one differs: `{shape: I, height: 0.2, width: 0.1, web: 0.006, flange: 0.009}`"},
+      {"channel",
+       {"height", "width", "web", "flange"},
+       "outer `height`, `width`; `web` (at the left), `flange` (to +y): `{shape: channel, height: 0.1, width: 0.05, "
+       "web: 0.005, flange: 0.008}`"},
+      {"angle",
+       {"height", "width", "web", "flange"},
+       "outer `height`, `width`; `web` stands at the left end of the `flange`: `{shape: angle, height: 0.06, width: "
+       "0.04, web: 0.005, flange: 0.005}`"},
+      {"tee",
+       {"height", "width", "web", "flange"},
+       "outer `height`, `width`; `web`, `flange` at the top: `{shape: tee, height: 0.06, width: 0.05, web: 0.005, "
+       "flange: 0.006}`"},
+      {"zed",
+       {"height", "width", "web", "flange"},
+       "outer `height`, `width` of each flange with the web; `web`, `flange`: upper one to +y, lower one to -y: "
+       "`{shape: zed, height: 0.08, width: 0.04, web: 0.003, flange: 0.003}`"},
+      {"box",
+       {"height", "width", "top", "bottom", "left", "right"},
+       "outer `height`, `width`; walls `top`, `bottom`, `left`, `right`: `{shape: box, height: 0.1, width: 0.06, top: "
+       "0.004, bottom: 0.006, left: 0.003, right: 0.003}`"},
+      {"hat",
+       {"height", "width", "brim", "thickness"},
+       "outer `height`, `width` of the top, `brim` of each side at the open bottom, `thickness`: `{shape: hat, height: "
+       "0.05, width: 0.04, brim: 0.015, thickness: 0.002}`"},
+      {"cross",
+       {"height", "width", "web", "flange"},
+       "outer `height`, `width`; `web` of the upright, `flange` of the horizontal: `{shape: cross, height: 0.1, width: "
+       "0.08, web: 0.01, flange: 0.006}`"}};
   return all;
 }
 

@@ -10,18 +10,11 @@
 
 namespace tisserand::formats {
 
-/// Shapes bounded by straight lines; y to the right, z up. Sizes in the order of `keys`, all outer measures:
-///   I        height, width and flange of the top, web, bottom_width, bottom_flange; web in the middle of both flanges;
-///   channel  height, width, web, flange; the web at the left, flanges to +y;
-///   angle    height, width, web, flange: the web stands up at the left end of the flange;
-///   tee      height, width, web, flange: the flange at the top;
-///   zed      height, width of each flange (web included), web, flange: top flange to +y, bottom flange to −y;
-///   box      height, width, top, bottom, left, right: thicknesses of the walls;
-///   hat      height, width of the top, brim (each), thickness: open at the bottom, brims at the bottom;
-///   cross    height, width, web (of the upright), flange (of the horizontal).
+/// A shape bounded by straight lines; y to the right, z up. Sizes in the order of `keys`, all outer measures.
 struct Profile {
   std::string_view shape;
   std::vector<std::string_view> keys;
+  std::string_view meaning;  ///< of the keys, with an example, for PART.md
 };
 const std::vector<Profile>& profiles();
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "formats/sections/shape_reader.hpp"
+#include "formats/yaml/fields.hpp"
 
 namespace tisserand::formats {
 
@@ -12,14 +13,8 @@ namespace {
 Section read_constants(const Context& context, const YamlNode& node, const std::string& prefix) {
   const MapReader map(context, node, "section_constants", prefix);
   Section section;
-  section.area = map.number("A");
-  section.second_moment_y = map.number("Iy");
-  section.second_moment_z = map.number("Iz");
-  section.torsion_constant = map.number("J");
+  read_fields(map, section);
   section.polar_moment = section.second_moment_y + section.second_moment_z;
-  section.shear_area_y = map.number("shear_area_y", 0.0);
-  section.shear_area_z = map.number("shear_area_z", 0.0);
-  section.second_moment_yz = map.number("Iyz", 0.0);
   const auto pair = [&map](std::string_view key, double& y, double& z) {
     const YamlNode* entry = map.find(key);
     if (entry == nullptr) return;
@@ -36,10 +31,41 @@ Section read_constants(const Context& context, const YamlNode& node, const std::
 
 }  // namespace
 
+std::vector<NamedType> section_types() {
+  static const std::string either = [] {
+    std::string text = "section_constants";
+    for (const KeySet& set : shape_key_sets())
+      if (set.noun != "section_wall") text += fmt::format(" | {}", set.noun);
+    return text;
+  }();
+  return {{"section_point", "[number]2"}, {"section_ring", "[section_point]2.."}, {"section", either}};
+}
+
 std::vector<KeySet> section_key_sets() {
   std::vector<KeySet> sets{
-      {"material", {"E", "nu", "density"}},
-      {"section_constants", {"A", "Iy", "Iz", "J", "Iyz", "shear_area_y", "shear_area_z", "centroid", "shear_center"}}};
+      {"material",
+       {plain<&Material::youngs_modulus>("E", "positive", "Young's modulus [mass/(length time²)]", "required"),
+        plain<&Material::poisson_ratio>("nu", "number>-1<0.5",
+                                        "Poisson's ratio, between -1 and 0.5; G = E / (2 (1 + nu))", "required"),
+        plain<&Material::density>("density", "positive", "[mass/length³]", "required")}},
+      {"section_constants",
+       {plain<&Section::area>("A", "positive", "area [length²]", "required"),
+        plain<&Section::second_moment_y>("Iy", "positive",
+                                         "∫ z² dA about the centroid: bending in the x-z plane [length⁴]", "required"),
+        plain<&Section::second_moment_z>("Iz", "positive",
+                                         "∫ y² dA about the centroid: bending in the x-y plane [length⁴]", "required"),
+        plain<&Section::second_moment_yz>("Iyz", "number",
+                                          "∫ y z dA about the centroid: 0 in principal axes [length⁴]"),
+        plain<&Section::torsion_constant>("J", "positive", "torsion constant [length⁴]", "required"),
+        plain<&Section::shear_area_y>("shear_area_y", "not_negative",
+                                      "shear areas for shear forces along y and z [length²]; both or none. Without "
+                                      "them only `theory: euler_bernoulli` is possible",
+                                      "none"),
+        plain<&Section::shear_area_z>("shear_area_z", "not_negative", ditto),
+        {"centroid", "section_point",
+         "[y, z] of the centroid from the axis of the beam, the line through its points [length]", "[0, 0]"},
+        {"shear_center", "section_point",
+         "[y, z] of the shear centre from the centroid: forces beside it twist the beam [length]", "[0, 0]"}}}};
   const std::vector<KeySet> shapes = shape_key_sets();
   sets.insert(sets.end(), shapes.begin(), shapes.end());
   return sets;
@@ -49,9 +75,7 @@ Material read_material(const Context& context, const YamlNode& node, const std::
   const MapReader map(context, node, "material", prefix);
   Material material;
   material.name = node.key;
-  material.youngs_modulus = map.number("E");
-  material.poisson_ratio = map.number("nu");
-  material.density = map.number("density");
+  read_fields(map, material);
   material.where = context.entry;
   return material;
 }

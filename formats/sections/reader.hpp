@@ -10,9 +10,9 @@
 
 namespace tisserand::formats {
 
-/// The key sets "material", "section_constants", "section_circle", "section_hollow_circle", "section_rectangle" and
-/// "section_hollow_rectangle".
+/// Lists of materials, sections by constants and the shapes, and types that they refer to.
 std::vector<KeySet> section_key_sets();
+std::vector<NamedType> section_types();
 
 /// `context` names the entry; `prefix` precedes the keys in findings when the map stands inside another entry.
 Material read_material(const Context& context, const YamlNode& node, const std::string& prefix);

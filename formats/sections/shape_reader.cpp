@@ -7,6 +7,7 @@
 #include "formats/sections/profiles.hpp"
 #include "formats/sections/shapes.hpp"
 #include "formats/sections/walls.hpp"
+#include "formats/yaml/fields.hpp"
 
 namespace tisserand::formats {
 
@@ -213,25 +214,66 @@ Section read_walls(const MapReader& map, const Units& units) {
 }  // namespace
 
 std::vector<KeySet> shape_key_sets() {
-  std::vector<KeySet> sets{{"section_circle", {"shape", "radius"}},
-                           {"section_hollow_circle", {"shape", "radius", "thickness"}},
-                           {"section_rectangle", {"shape", "width", "height"}},
-                           {"section_hollow_rectangle", {"shape", "width", "height", "thickness"}},
-                           {"section_rod", {"shape", "A", "J"}},
-                           {"section_polygon", {"shape", "outline", "holes", "axis"}},
-                           {"section_walls", {"shape", "walls", "axis"}},
-                           {"section_wall", {"along", "thickness"}}};
-  static const std::vector<std::string> nouns = [] {
-    std::vector<std::string> all;
-    for (const Profile& profile : profiles()) all.push_back("section_" + std::string(profile.shape));
+  const Field radius{"radius", "positive", "", "required"}, thickness{"thickness", "positive", "", "required"},
+      width{"width", "positive", "", "required"}, height{"height", "positive", "", "required"},
+      axis = words<axis_choices>("axis", "");
+  std::vector<KeySet> sets{
+      {"section_circle", {{"shape", "'circle'", "`radius`: `{shape: circle, radius: 0.01}`", "required"}, radius}},
+      {"section_hollow_circle",
+       {{"shape", "'hollow_circle'",
+         "outer `radius`, `thickness` of the wall: `{shape: hollow_circle, radius: 0.05, thickness: 0.002}`",
+         "required"},
+        radius,
+        thickness}},
+      {"section_rectangle",
+       {{"shape", "'rectangle'", "`width` along y, `height` along z: `{shape: rectangle, width: 0.02, height: 0.04}`",
+         "required"},
+        width,
+        height}},
+      {"section_hollow_rectangle",
+       {{"shape", "'hollow_rectangle'",
+         "outer `width` along y and `height` along z, `thickness`: `{shape: hollow_rectangle, width: 0.06, height: "
+         "0.1, thickness: 0.003}`",
+         "required"},
+        width,
+        height,
+        thickness}}};
+  struct Words {
+    std::string noun, type;
+  };
+  static const std::vector<Words> profile_words = [] {
+    std::vector<Words> all;
+    for (const Profile& profile : profiles())
+      all.push_back({fmt::format("section_{}", profile.shape), fmt::format("'{}'", profile.shape)});
     return all;
   }();
-  for (std::size_t i = 0; i < nouns.size(); ++i) {
-    KeySet set{nouns[i], {"shape"}};
-    set.keys.insert(set.keys.end(), profiles()[i].keys.begin(), profiles()[i].keys.end());
-    set.keys.push_back("axis");
-    sets.push_back(set);
+  for (std::size_t i = 0; i < profile_words.size(); ++i) {
+    std::vector<Field> fields{{"shape", profile_words[i].type, profiles()[i].meaning, "required"}};
+    for (const std::string_view key : profiles()[i].keys)
+      fields.push_back({key, "positive", "", key.starts_with("bottom_") ? "" : "required"});
+    fields.push_back(words<profile_axis_choices>("axis", ""));
+    sets.push_back({profile_words[i].noun, fields});
   }
+  sets.push_back({"section_polygon",
+                  {{"shape", "'polygon'",
+                    "`outline`: corners [y, z] in order; `holes`: lists of corners; 200 corners at most: `{shape: "
+                    "polygon, outline: [[0, 0], [0.1, 0], [0, 0.05]]}`",
+                    "required"},
+                   {"outline", "section_ring", "", "required"},
+                   {"holes", "[section_ring]", ""},
+                   axis}});
+  sets.push_back({"section_walls",
+                  {{"shape", "'walls'",
+                    "middle lines of thin walls: `along` points [y, z], `thickness`; joined where lines share a point: "
+                    "`{shape: walls, walls: [{along: [[0.05, 0], [0, 0], [0, 0.1]], thickness: 0.002}]}`",
+                    "required"},
+                   {"walls", "[section_wall]1..", "", "required"},
+                   axis}});
+  sets.push_back({"section_wall", {{"along", "section_ring", "", "required"}, thickness}});
+  sets.push_back({"section_rod",
+                  {{"shape", "'rod'", "`A`, and `J` (default 0): no bending: `{shape: rod, A: 1e-4}`", "required"},
+                   {"A", "positive", "", "required"},
+                   {"J", "not_negative", ""}}});
   return sets;
 }
 

@@ -40,7 +40,15 @@ std::string number_remedy(const YamlNode& node) {
   return "";
 }
 
-std::vector<std::string> words_of(const KeySet& set) { return {set.keys.begin(), set.keys.end()}; }
+std::vector<std::string> key_words(const KeySet& set) {
+  std::vector<std::string> words;
+  for (const Field& field : set.fields) words.emplace_back(field.key);
+  return words;
+}
+
+bool has_key(const KeySet& set, std::string_view key) {
+  return std::ranges::find(set.fields, key, &Field::key) != set.fields.end();
+}
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& known) {
   const auto close = nearest(word, known);
@@ -180,15 +188,15 @@ MapReader::MapReader(Context context, const YamlNode& node, std::string_view nou
     : context_(std::move(context)), node_(node), keys_(context_.reader.keys(noun)) {
   if (node.kind != YamlKind::map) {
     context_.fail(node.place, fmt::format("must be a map of keys and values, not {}", describe(node)),
-                  fmt::format("keys are {}", join(words_of(keys_), ", ")));
+                  fmt::format("keys are {}", join(key_words(keys_), ", ")));
     return;
   }
   std::map<std::string_view, YamlPlace> seen;
   for (const YamlNode& child : node.children) {
     const auto [first, is_new] = seen.try_emplace(child.key, child.key_place);
-    if (std::ranges::find(keys_.keys, child.key) == keys_.keys.end())
+    if (!has_key(keys_, child.key))
       context_.fail(child.key_place, fmt::format("unknown key '{}'", child.key),
-                    suggestion(child.key, words_of(keys_)));
+                    suggestion(child.key, key_words(keys_)));
     else if (!is_new)
       context_.fail(child.key_place,
                     fmt::format("key '{}' is given twice (first in line {})", child.key, first->second.line),
@@ -207,7 +215,7 @@ void require_kind(const YamlReader& reader, std::string_view own, std::string_vi
 }
 
 const YamlNode* MapReader::find(std::string_view key) const {
-  TISSERAND_ENSURE(std::ranges::find(keys_.keys, key) != keys_.keys.end(), "key '{}' of '{}'", key, keys_.noun);
+  TISSERAND_ENSURE(has_key(keys_, key), "key '{}' of '{}'", key, keys_.noun);
   if (node_.kind != YamlKind::map) return nullptr;
   const auto found = std::ranges::find(node_.children, key, &YamlNode::key);
   return found == node_.children.end() ? nullptr : &*found;

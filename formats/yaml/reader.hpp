@@ -12,15 +12,10 @@
 
 #include "common/error.hpp"
 #include "formats/yaml/fault.hpp"
+#include "formats/yaml/field.hpp"
 #include "formats/yaml/tree.hpp"
 
 namespace tisserand::formats {
-
-/// The keys that a kind of map may have; `noun` is also its name in the JSON Schema.
-struct KeySet {
-  std::string_view noun;
-  std::vector<std::string_view> keys;
-};
 
 class YamlReader;
 
@@ -101,6 +96,7 @@ class MapReader {
   MapReader(Context context, const YamlNode& node, std::string_view noun, std::string prefix = "");
 
   const Context& context() const { return context_; }
+  const std::vector<Field>& fields() const { return keys_.fields; }
   bool has(std::string_view key) const { return find(key) != nullptr; }
   /// The value or null. A key without a value is found; reading its value is then an error.
   const YamlNode* find(std::string_view key) const;

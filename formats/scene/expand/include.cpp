@@ -22,10 +22,6 @@ constexpr std::size_t most_values = 2'000'000;
 /// Maps whose keys are settings: an included one fills in what the including file leaves out.
 constexpr std::array<std::string_view, 3> settings{"integrator", "statics", "output"};
 
-bool is_collection(const std::string& key) {
-  return std::ranges::find(scene_collections(), key) != scene_collections().end();
-}
-
 std::string canonical(const std::string& path) {
   std::error_code ignored;
   const fs::path found = fs::weakly_canonical(path, ignored);
@@ -51,13 +47,14 @@ void merge_settings(YamlNode&& from, YamlNode& into) {
 }
 
 /// What an included file adds: entries of collections, settings, and other values that the including file leaves out.
-void merge(const YamlDocument& document, YamlNode&& included, YamlNode& root) {
+void merge(const YamlDocument& document, const std::vector<std::string_view>& collections, YamlNode&& included,
+           YamlNode& root) {
   for (YamlNode& child : included.children) {
     YamlNode* own = find_child(root, child.key);
     const bool maps = own != nullptr && own->kind == YamlKind::map && child.kind == YamlKind::map;
     if (own == nullptr)
       root.children.push_back(std::move(child));
-    else if (maps && is_collection(child.key))
+    else if (maps && std::ranges::find(collections, child.key) != collections.end())
       merge_entries(document, std::move(child), *own);
     else if (maps && std::ranges::find(settings, child.key) != settings.end())
       merge_settings(std::move(child), *own);
@@ -67,13 +64,6 @@ void merge(const YamlDocument& document, YamlNode&& included, YamlNode& root) {
 }
 
 }  // namespace
-
-const std::vector<std::string_view>& scene_collections() {
-  static const std::vector<std::string_view> collections{
-      "materials", "sections", "bodies",   "joints", "motions",    "springs",    "bushings", "inputs",
-      "channels",  "loads",    "analyses", "nodes",  "parameters", "assemblies", "instances"};
-  return collections;
-}
 
 void TreeLoader::fail(const std::string& what, const std::string& where, const std::string& remedy) const {
   std::string text = what;
@@ -153,7 +143,7 @@ void TreeLoader::include(YamlDocument& document, YamlNode& root, const YamlNode&
   const std::string path = canonical((fs::path(folder_) / base / item.text).string());
   const bool open = std::ranges::any_of(chain_, [&](const Visit& visit) { return visit.path == path; });
   if (item.kind == YamlKind::scalar && seen_.contains(path) && !open) return;  // once is enough
-  merge(document, load_into(document, item), root);
+  merge(document, collections_, load_into(document, item), root);
 }
 
 }  // namespace tisserand::formats

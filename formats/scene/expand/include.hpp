@@ -4,18 +4,19 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "formats/yaml/tree.hpp"
 
 namespace tisserand::formats {
 
-/// Maps of a scene whose keys are names chosen by the user; entries of several files come together in them.
-const std::vector<std::string_view>& scene_collections();
-
 /// Reads files into one document: each has a source of its own, with the folder that its paths are relative to.
 class TreeLoader {
  public:
+  /// Entries of several files come together in maps with the keys `collections`.
+  explicit TreeLoader(std::vector<std::string_view> collections) : collections_(std::move(collections)) {}
+
   /// The first file, with all that it includes.
   YamlDocument load(const std::string& path);
 
@@ -32,6 +33,7 @@ class TreeLoader {
   void include(YamlDocument& document, YamlNode& root, const YamlNode& item);
   [[noreturn]] void fail(const std::string& what, const std::string& where, const std::string& remedy) const;
 
+  std::vector<std::string_view> collections_;
   std::string folder_;          ///< of the first file
   std::vector<Visit> chain_;    ///< from the first file to the one being read
   std::set<std::string> seen_;  ///< canonical

@@ -22,11 +22,12 @@ std::vector<Override> chosen(const std::vector<Override>& overrides, bool of_ins
 
 YamlDocument load_scene_tree(const std::string& path, const std::vector<Override>& overrides,
                              const std::vector<KeySet>& legal_keys) {
-  TreeLoader loader;
+  const std::vector<std::string_view> collections = collection_keys(legal_keys);
+  TreeLoader loader(collections);
   YamlDocument document = loader.load(path);
-  apply_overrides(document, chosen(overrides, false), scene_collections());
+  apply_overrides(document, chosen(overrides, false), collections);
   SceneExpander(document, loader, legal_keys).run();
-  apply_overrides(document, chosen(overrides, true), scene_collections());
+  apply_overrides(document, chosen(overrides, true), collections);
   return document;
 }
 

@@ -15,7 +15,7 @@ namespace tisserand::formats {
 /// bodies, joints, motions, springs and loads stand in the maps of the scene with names such as `corner_fl/upper_arm`
 /// and `link[3]/bar`. Overrides of such names are applied to the flat tree, all others before. File names of included
 /// files are made relative to the folder of the scene. Throws Error (all errors of one stage together). `legal_keys`:
-/// of scene.yaml, for messages about keys that do not exist.
+/// of scene.yaml, for messages about keys that do not exist and to know maps whose keys are names.
 YamlDocument load_scene_tree(const std::string& path, const std::vector<Override>& overrides,
                              const std::vector<KeySet>& legal_keys);
 

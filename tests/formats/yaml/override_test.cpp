@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/scene/scene.hpp"
-#include "text_input.hpp"
+#include "tests/formats/yaml/text_input.hpp"
 
 namespace tisserand::formats::override_test {
 namespace {

@@ -1,5 +1,5 @@
-// Tests that the JSON Schemas of part.yaml and scene.yaml say the same as the readers: equal keys, and every example of
-// the project (also those in PART.md and SCENE.md) is accepted by both.
+// Tests that the JSON Schemas of part.yaml and scene.yaml and the tables of PART.md and SCENE.md are those of the lists
+// of fields, and that every example of the project (also those in the pages) is accepted by schemas and readers.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -11,11 +11,11 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "formats/part/keys.hpp"
 #include "formats/part/part.hpp"
-#include "formats/scene/keys.hpp"
 #include "formats/scene/scene.hpp"
-#include "text_input.hpp"
+#include "formats/specification/specification.hpp"
+#include "formats/yaml/fields.hpp"
+#include "tests/formats/yaml/text_input.hpp"
 
 namespace tisserand::formats::schema_test {
 namespace {
@@ -130,25 +130,134 @@ class Validator {
   const json& root_;
 };
 
-void expect_equal_keys(const json& schema, const std::vector<KeySet>& sets) {
-  for (const KeySet& set : sets) {
-    SCOPED_TRACE(set.noun);
-    ASSERT_TRUE(schema.at("$defs").contains(std::string(set.noun)));
-    std::set<std::string> in_schema;
-    const json& definition = schema.at("$defs").at(std::string(set.noun));
-    for (const auto& [key, rule] : definition.at("properties").items()) in_schema.insert(key);
-    EXPECT_EQ(in_schema, std::set<std::string>(set.keys.begin(), set.keys.end()));
-    EXPECT_EQ(definition.at("additionalProperties"), false);
+TEST(Specification, SchemasAndPagesAgreeWithTheFields) {
+  const std::string source = std::string(TISSERAND_SOURCE_DIR) + "/";
+  for (const FileKind& kind : file_kinds()) {
+    EXPECT_TRUE(content(source + kind.schema_file()) == schema_text(kind))
+        << kind.schema_file() << " is out of date: run scripts/specification";
+    const std::string page = content(source + kind.page_file());
+    EXPECT_TRUE(page == with_field_tables(page, kind.page_file(), kind.sets))
+        << kind.page_file() << " is out of date: run scripts/specification";
   }
-  std::set<std::string> nouns;
-  for (const KeySet& set : sets) nouns.emplace(set.noun);
-  for (const auto& [noun, definition] : schema.at("$defs").items())
-    EXPECT_TRUE(!definition.contains("properties") || nouns.contains(noun)) << noun << " is unknown to the reader";
 }
 
-TEST(Schema, KeysEqualThoseOfTheReaders) {
-  expect_equal_keys(schema_of("part"), part_key_sets());
-  expect_equal_keys(schema_of("scene"), scene_key_sets());
+TEST(Specification, EveryTableOfFieldsStandsInAPage) {
+  std::string pages;
+  for (const FileKind& kind : file_kinds())
+    pages += content(std::string(TISSERAND_SOURCE_DIR) + "/" + kind.page_file());
+  for (const FileKind& kind : file_kinds())
+    for (const KeySet& set : kind.sets)
+      for (const Field& field : set.fields)
+        EXPECT_TRUE(field.meaning.empty() || tells_kind(field) ||
+                    pages.find(fmt::format("<!-- fields: {} -->", field.table)) != std::string::npos)
+            << field.key << " of " << set.noun << ": no page has the mark <!-- fields: " << field.table << " -->";
+}
+
+TEST(Specification, EveryMapHasAListOfItsOwnWithDistinctKeys) {
+  for (const FileKind& kind : file_kinds()) {
+    std::set<std::string_view> nouns;
+    for (const KeySet& set : kind.sets) {
+      EXPECT_TRUE(nouns.insert(set.noun).second) << set.noun;
+      std::set<std::string_view> keys;
+      for (const Field& field : set.fields) EXPECT_TRUE(keys.insert(field.key).second) << set.noun << ' ' << field.key;
+    }
+  }
+}
+
+TEST(Specification, TablesJoinRowsAndKeepSharedFieldsApart) {
+  const std::vector<KeySet> sets{{"box",
+                                  {{"low", "number", "sides", "required"},
+                                   {"high", "number", ditto},
+                                   {"hidden", "text", ""},
+                                   {"x", "any", "else"}},
+                                  shared_fields("common", {{"colour", "text", "paint", "`red`"}})}};
+  const std::string head = "| key | meaning | default |\n| --- | --- | --- |\n";
+  EXPECT_EQ(field_table(sets, "box"), head + "| `low`, `high` | sides | required |\n| `x` | else | |\n");
+  EXPECT_EQ(field_table(sets, "common"), head + "| `colour` | paint | `red` |\n");
+  EXPECT_TRUE(sets[0].fields[1].required());
+  const std::string page = "a\n<!-- fields: common -->\nold\n<!-- end -->\nb\n";
+  EXPECT_EQ(with_field_tables(page, "page", sets),
+            "a\n<!-- fields: common -->\n" + head + "| `colour` | paint | `red` |\n<!-- end -->\nb\n");
+  EXPECT_THROW(with_field_tables("<!-- fields: bax -->\n<!-- end -->\n", "page", sets), Error);
+  EXPECT_THROW(with_field_tables("<!-- fields: box -->\n", "page", sets), Error);
+}
+
+TEST(Specification, KindsAreRowsOfOneTable) {
+  const std::vector<KeySet> sets{{"box", {{"shape", "'box'", "with corners", "required"}, {"x", "any", ""}}},
+                                 {"ball", {{"shape", "'ball'", "without"}}},
+                                 {"either", {{"shape", "'box' | 'ball'", "no kind"}}}};
+  const std::string table = "| `shape` | meaning |\n| --- | --- |\n| `box` | with corners |\n| `ball` | without |\n";
+  EXPECT_EQ(kind_table(sets, "shape"), table);
+  EXPECT_EQ(with_field_tables("<!-- kinds: shape -->\n<!-- end -->\n", "page", sets),
+            "<!-- kinds: shape -->\n" + table + "<!-- end -->\n");
+}
+
+struct Paint {
+  double gloss = 2.5e-4;
+  int coats = 2;
+  Eigen::Vector3d light = Eigen::Vector3d::UnitZ();
+  bool matt = true;
+  std::optional<double> area;
+};
+constexpr Choice<bool> surfaces[] = {{"bright", false}, {"matt", true}};
+
+TEST(Specification, DefaultsAreThoseOfTheMembers) {
+  const std::vector<KeySet> sets{
+      {"paint",
+       {plain<&Paint::gloss>("gloss", "number", "a"), plain<&Paint::coats>("coats", "count", "b"),
+        plain<&Paint::light>("light", "vector", "c"), choice<&Paint::matt, surfaces>("surface", "d"),
+        plain<&Paint::area>("area", "positive", "e")}}};
+  EXPECT_EQ(field_table(sets, "paint"),
+            "| key | meaning | default |\n| --- | --- | --- |\n| `gloss` | a | 0.00025 |\n| `coats` | b | 2 |\n"
+            "| `light` | c | `[0, 0, 1]` |\n| `surface` | d | `matt` |\n| `area` | e | |\n");
+}
+
+TEST(Specification, PlainFieldsAreRead) {
+  const std::vector<KeySet> sets{
+      {"paint",
+       {plain<&Paint::gloss>("gloss", "number", "", "required"), plain<&Paint::coats>("coats", "count", ""),
+        plain<&Paint::light>("light", "vector", ""), choice<&Paint::matt, surfaces>("surface", ""),
+        plain<&Paint::area>("area", "positive", "")}}};
+  const auto read = [&](const std::string& text) {
+    const YamlDocument document = parse_yaml(text, "paint.yaml");
+    YamlReader reader(document, sets);
+    Paint paint;
+    read_fields(MapReader(Context{reader, "paint", "here"}, reader.root(), "paint"), paint);
+    reader.raise({});
+    return paint;
+  };
+  const Paint all = read("{gloss: 3, coats: 1, light: [1, 2, 3], surface: bright, area: 4}");
+  EXPECT_EQ(all.gloss, 3.0);
+  EXPECT_EQ(all.coats, 1);
+  EXPECT_EQ(all.light, Eigen::Vector3d(1, 2, 3));
+  EXPECT_FALSE(all.matt);
+  EXPECT_EQ(all.area, 4.0);
+  const Paint least = read("gloss: 3");
+  EXPECT_EQ(least.coats, 2);
+  EXPECT_TRUE(least.matt);
+  EXPECT_FALSE(least.area.has_value());
+  const Folder folder;
+  EXPECT_EQ(error_of(folder, [&] { read("coats: 1"); }), "paint.yaml:1:1: paint: missing key 'gloss'");
+  EXPECT_EQ(error_of(folder, [&] { read("{gloss: 3, surface: mat}"); }),
+            "paint.yaml:1:21: paint: unknown surface 'mat'; did you mean 'matt'?");
+}
+
+TEST(Specification, NotationOfTypes) {
+  const auto definition = [](std::string_view type, bool parameters) {
+    const FileKind kind{"box", {{"box", {{"low", type, ""}}}}, {{"count", "integer>=1"}}, parameters};
+    return json::parse(schema_text(kind)).at("$defs").at("box").at("properties").at("low");
+  };
+  EXPECT_EQ(definition("number>-1<=0.5", false),
+            json::parse(R"({"type": "number", "exclusiveMinimum": -1, "maximum": 0.5})"));
+  EXPECT_EQ(definition("'on' | 2 | true", false), json::parse(R"({"enum": ["on", 2, true]})"));
+  EXPECT_EQ(definition("'box'", true), json::parse(R"({"const": "box"})"));
+  EXPECT_EQ(definition("[count]2..", true), json::parse(R"({"anyOf": [{"type": "array",
+            "items": {"$ref": "#/$defs/count"}, "minItems": 2}, {"$ref": "#/$defs/parameter"}]})"));
+  EXPECT_EQ(definition("[any]3..4", false),
+            json::parse(R"({"type": "array", "items": {}, "minItems": 3, "maxItems": 4})"));
+  EXPECT_EQ(definition("{/^a|b$/: text+}", false), json::parse(R"({"type": ["object", "null"], "propertyNames":
+            {"type": "string", "pattern": "^a|b$"}, "additionalProperties": {"type": "string", "minLength": 1}})"));
+  EXPECT_EQ(definition("{text: any}+", true), json::parse(R"({"type": "object"})"));
 }
 
 /// A part or scene by its text and where it comes from.

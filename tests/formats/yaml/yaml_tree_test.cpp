@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "text_input.hpp"
+#include "tests/formats/yaml/text_input.hpp"
 
 namespace tisserand::formats::yaml_tree_test {
 namespace {

@@ -1,0 +1,105 @@
+// Fields that are read straight into a member: numbers, counts, texts, vectors, words.
+#pragma once
+
+#include <array>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/yaml/field.hpp"
+#include "formats/yaml/reader.hpp"
+
+namespace tisserand::formats {
+
+/// The value of the key; an absent one leaves `value` alone. If it is required that is an error, and a number becomes
+/// not-a-number.
+void read_value(const MapReader& map, const Field& field, double& value);
+void read_value(const MapReader& map, const Field& field, int& value);
+void read_value(const MapReader& map, const Field& field, std::string& value);
+void read_value(const MapReader& map, const Field& field, Eigen::Vector3d& value);
+void read_value(const MapReader& map, const Field& field, std::vector<double>& value);
+void read_value(const MapReader& map, const Field& field, std::optional<double>& value);
+void read_value(const MapReader& map, const Field& field, std::optional<int>& value);
+void read_value(const MapReader& map, const Field& field, std::optional<Eigen::Vector3d>& value);
+
+/// The node of the key; null if there is none, an error too where it is required.
+const YamlNode* find_or_require(const MapReader& map, const Field& field);
+
+/// Values as the pages write them: 0.9, 1e-6, `[0, 0, 1]`; nothing for types without a value that says something.
+std::string standard_text(double value);
+std::string standard_text(int value);
+std::string standard_text(const Eigen::Vector3d& value);
+template <class T>
+std::string standard_text(const T& /*value*/) {
+  return "";
+}
+
+template <class T>
+struct MemberPointer;
+template <class Struct, class Value>
+struct MemberPointer<Value Struct::*> {
+  using Owner = Struct;
+};
+template <auto member>
+using OwnerOf = typename MemberPointer<decltype(member)>::Owner;
+
+/// Its address stands for the type.
+template <class Struct>
+inline constexpr char owner_mark = 0;
+
+template <const auto& choices>
+inline constexpr auto words_of = [] {
+  std::array<std::string_view, std::size(choices)> words;
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] = choices[i].word;
+  return words;
+}();
+
+/// A key whose value becomes the member. Without `fallback` the page says the value of the member in a new struct.
+template <auto member>
+Field plain(std::string_view key, std::string_view type, std::string_view meaning, std::string_view fallback = {}) {
+  Field field{key, type, meaning, fallback};
+  field.owner = &owner_mark<OwnerOf<member>>;
+  field.read = [](const MapReader& map, const Field& read, void* owner) {
+    read_value(map, read, static_cast<OwnerOf<member>*>(owner)->*member);
+  };
+  field.standard = [] { return standard_text(OwnerOf<member>{}.*member); };
+  return field;
+}
+
+/// A key with one of some words, read by hand; `choices` is a table of Choice.
+template <const auto& choices>
+Field words(std::string_view key, std::string_view meaning, std::string_view fallback = {}) {
+  return {key, "", meaning, fallback, words_of<choices>};
+}
+
+/// A key with one of some words, whose value in the table becomes the member.
+template <auto member, const auto& choices>
+Field choice(std::string_view key, std::string_view meaning, std::string_view fallback = {}) {
+  Field field = words<choices>(key, meaning, fallback);
+  field.owner = &owner_mark<OwnerOf<member>>;
+  field.read = [](const MapReader& map, const Field& read, void* owner) {
+    const YamlNode* node = find_or_require(map, read);
+    if (node == nullptr) return;
+    auto& value = static_cast<OwnerOf<member>*>(owner)->*member;
+    value = map.choice(read.key, choices, value);
+  };
+  field.standard = [] {
+    for (const auto& one : choices)
+      if (one.value == OwnerOf<member>{}.*member) return fmt::format("`{}`", one.word);
+    return std::string();
+  };
+  return field;
+}
+
+/// Reads the keys of the map that are members of `spec`.
+template <class Spec>
+void read_fields(const MapReader& map, Spec& spec) {
+  for (const Field& field : map.fields())
+    if (field.owner == &owner_mark<Spec>) field.read(map, field, &spec);
+}
+
+}  // namespace tisserand::formats
