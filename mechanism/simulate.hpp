@@ -12,9 +12,6 @@
 
 namespace tisserand::mechanism {
 
-/// Reads the superelement and modal body files of a scene, each once. Throws Error: all that cannot be read, each once.
-BodyFiles read_body_files(const formats::Scene& scene);
-
 /// One analysis of a scene: what it reads and starts from, and where its rows go.
 struct RunRequest {
   const formats::Scene& scene;  ///< with the kind and the settings of this analysis (formats::scene_of)

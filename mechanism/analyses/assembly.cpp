@@ -15,6 +15,7 @@
 
 #include "common/math/rotation.hpp"
 #include "mechanism/equations/evaluate.hpp"
+#include "mechanism/model/bodies.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -45,10 +46,7 @@ Bodies find_bodies(const Model& model, const State& state) {
   const auto join_all = [&](const auto& nodes) {
     for (const int node : nodes) parent[root(node)] = root(nodes[0]);
   };
-  for (const SuperelementUse& use : model.superelements) join_all(use.nodes);
-  for (const BeamElement2& beam : model.beams2) join_all(beam.nodes);
-  for (const BeamElement3& beam : model.beams3) join_all(beam.nodes);
-  for (const ModalNode& node : model.modal_nodes) join_all(std::array{model.modal_bodies[node.body].node, node.node});
+  for_each_body(model, [&](const auto& body) { join_all(attached_nodes(model, body)); });
   Bodies bodies;
   bodies.of_node.assign(model.nodes.size(), -1);
   std::vector<int> number(model.nodes.size(), -1), count;

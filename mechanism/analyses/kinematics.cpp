@@ -15,6 +15,7 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/equations/iteration_matrix.hpp"
+#include "mechanism/model/bodies.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -76,7 +77,7 @@ std::string name_of_motion(const Model& model, const Workspace& workspace, const
   double largest = 0.0;
   std::string name;
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
-    const ElementMap& map = model.coordinate_maps[i];
+    const ElementMap& map = model.coordinates.maps[i];
     const Eigen::MatrixXd row = model_rows(model, map, local_view(workspace.now.coordinates[i].G), workspace.now);
     double rate = 0.0;
     for (std::size_t k = 0; k < map.coordinates.size(); ++k)
@@ -97,10 +98,9 @@ std::string name_of_motion(const Model& model, const Workspace& workspace, const
 void require_determined(const Model& model, const Mobility& mobility, const std::string& where, const State& state,
                         Workspace& workspace) {
   std::string flexible;
-  if (!model.superelements.empty()) flexible = fmt::format("body '{}'", model.superelements.front().name);
-  if (!model.modal_bodies.empty()) flexible = fmt::format("body '{}'", model.modal_bodies.front().name);
-  if (!model.beams2.empty()) flexible = model.nodes[model.beams2.front().nodes[0]].name;
-  if (!model.beams3.empty()) flexible = model.nodes[model.beams3.front().nodes[0]].name;
+  for_each_body(model, [&](const auto& body) {
+    if (flexible.empty() && is_flexible(body)) flexible = fmt::format("body '{}'", name_of(model, body));
+  });
   if (!flexible.empty())
     throw Error(fmt::format("{} is flexible: its deformation is no matter of kinematics", flexible), where,
                 "take superelements with `use: rigid` and rigid bodies in place of beams, or run dynamics");

@@ -24,7 +24,7 @@ void add_superelement(const Model& model, std::size_t i, const TangentCoefficien
   const Vector3d gravity = evaluation.load_factor * model.superelements[i].gravity;
   uncondensed_tangent(body, evaluation.superelements[i], nodes_of(model, i, evaluation), gravity, c, TangentKind::exact,
                       local);
-  std::vector<int> rows = model.superelement_maps[i].coordinates;
+  std::vector<int> rows = model.superelements.maps[i].coordinates;
   for (int k = 0; k < body.modes; ++k) rows.push_back(model.sizes.boundary + model.internal_offset[i] + k);
   for (Eigen::Index column = 0; column < local.cols(); ++column)
     for (Eigen::Index row = 0; row < local.rows(); ++row) A(rows[row], rows[column]) += local(row, column);

@@ -24,6 +24,9 @@ struct BodyFiles {
   std::map<std::string, formats::LoadedModalBody> modal_bodies;
 };
 
+/// Reads the superelement and modal body files of a scene, each once. Throws Error: all that cannot be read, each once.
+BodyFiles read_body_files(const formats::Scene& scene);
+
 struct BuiltModel {
   Model model;
   State state;                     ///< positions and velocities of the scene, not yet projected on the constraints

@@ -28,9 +28,20 @@ void add_frictions(const Model& model, const State& state, Evaluation& evaluatio
     const Friction& friction = model.frictions[i];
     FrictionTerms& terms = evaluation.frictions[i];
     terms = evaluate(friction, loaded_joint(model, state, evaluation, friction));
-    add_force(model, model.joint_maps[friction.joint], terms.force, evaluation);
+    add_force(model, model.joints.maps[friction.joint], terms.force, evaluation);
     note_scale(terms.force, evaluation);
     evaluation.damping_power += terms.power;
+  }
+}
+
+void add_load_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target) {
+  Matrix6d A;
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    const Load& load = model.loads[i];
+    const NodeMotion& node = motion_of(evaluation, load.at.node);
+    A = load_stiffness(load, node, evaluation.load_values[i]);
+    add_matrix(model, model.loads.maps[i], A, -target.coefficients.stiffness * target.factor, evaluation, target.values,
+               [&] { return load_force(load, node, evaluation.load_values[i]); });
   }
 }
 
@@ -41,7 +52,7 @@ void add_friction_tangents(const Model& model, const State& state, Evaluation& e
   for (std::size_t i = 0; i < model.frictions.size(); ++i) {
     const Friction& friction = model.frictions[i];
     const auto at = static_cast<std::size_t>(friction.joint);
-    const ElementMap& map = model.joint_maps[at];
+    const ElementMap& map = model.joints.maps[at];
     const LoadedJoint loaded = loaded_joint(model, state, evaluation, friction);
     tangent(friction, loaded, coefficients, result);
     add_matrix(model, map, result.A, target.factor, evaluation, target.values,
@@ -62,11 +73,24 @@ void add_friction_tangents(const Model& model, const State& state, Evaluation& e
   }
 }
 
+void add_loads(const Model& model, const State& state, Evaluation& evaluation) {
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    const Load& load = model.loads[i];
+    const NodeMotion& node = motion_of(evaluation, load.at.node);
+    Vector3d& value = evaluation.load_values[i];
+    for (int k = 0; k < 3; ++k) value[k] = evaluation.load_factor * evaluation.load_functions[i][k](state.load_time());
+    const Vector6d force = load_force(load, node, value);
+    add_force(model, model.loads.maps[i], Vector6d(-force), evaluation);
+    note_scale(force, evaluation);
+    evaluation.load_power += force.head<3>().dot(node.xd) + force.tail<3>().dot(node.Omega);
+  }
+}
+
 void add_bushings(const Model& model, Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.bushings.size(); ++i) {
     BushingTerms& terms = evaluation.bushings[i];
     evaluate(model.bushings[i], markers_of(model.bushings[i], evaluation), terms);
-    add_force(model, model.bushing_maps[i], terms.force, evaluation);
+    add_force(model, model.bushings.maps[i], terms.force, evaluation);
     note_scale(terms.force, evaluation);
     evaluation.spring_energy += terms.energy;
     evaluation.damping_power += terms.dissipated;
@@ -80,7 +104,7 @@ void add_bushing_tangents(const Model& model, Evaluation& evaluation, const Tang
   for (std::size_t i = 0; i < model.bushings.size(); ++i) {
     const Bushing& bushing = model.bushings[i];
     tangent(bushing, markers_of(bushing, evaluation), evaluation.bushings[i], coefficients, A);
-    add_matrix(model, model.bushing_maps[i], A, target.factor, evaluation, target.values,
+    add_matrix(model, model.bushings.maps[i], A, target.factor, evaluation, target.values,
                [&] { return Vector12d(coefficients.stiffness * evaluation.bushings[i].force); });
   }
 }

@@ -45,7 +45,7 @@ void apply_jacobian(const Model& model, const Evaluation& evaluation, const Eige
     local.segment<3>(9) = turn_increment(model, evaluation, pair.b.node, local.segment<3>(9));
   };
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    gather_local(model.joint_maps[i], model.joints[i]);
+    gather_local(model.joints.maps[i], model.joints[i]);
     const Vector6d product = evaluation.joints[i].B.lazyProduct(local);  // rows beyond the joint's size are zero
     for (int k = 0; k < model.joints[i].size(); ++k) rows[model.joints[i].row + k] = product[k];
   }
@@ -53,7 +53,7 @@ void apply_jacobian(const Model& model, const Evaluation& evaluation, const Eige
     double sum = 0.0;
     for (const CouplingTerm& term : coupling.terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
-      gather_local(model.coordinate_maps[at], model.coordinates[at]);
+      gather_local(model.coordinates.maps[at], model.coordinates[at]);
       sum += term.factor * evaluation.coordinates[at].G.dot(local);
     }
     rows[coupling.row] = sum;

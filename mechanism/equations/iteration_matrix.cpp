@@ -32,7 +32,7 @@ void IterationMatrix::forget() {
 }
 
 void IterationMatrix::gather(const Model& model, std::size_t superelement, const Eigen::VectorXd& boundary) {
-  const std::vector<int>& coordinates = model.superelement_maps[superelement].coordinates;
+  const std::vector<int>& coordinates = model.superelements.maps[superelement].coordinates;
   for (std::size_t k = 0; k < coordinates.size(); ++k) element_boundary_[k] = boundary[coordinates[k]];
 }
 
@@ -47,7 +47,7 @@ void IterationMatrix::solve_increment(const Model& model, const Eigen::Ref<const
     const SuperelementScratch& scratch = evaluation.superelements[i];
     SuperelementWork& work = work_of(model, i, evaluation);
     condense(body_of(model, i), scratch, work);
-    const std::vector<int>& coordinates = model.superelement_maps[i].coordinates;
+    const std::vector<int>& coordinates = model.superelements.maps[i].coordinates;
     for (std::size_t k = 0; k < coordinates.size(); ++k)
       boundary[coordinates[k]] += scratch.forces.r_B[k] - work.r_B_condensed[k];
   }

@@ -134,7 +134,7 @@ void update_couplings(const Model& model, const State& state, Evaluation& evalua
 void add_joints(const Model& model, const State& state, Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Vector12 force = joint_force(model.joints[i], evaluation.joints[i], state);
-    add_force(model, model.joint_maps[i], force, evaluation);
+    add_force(model, model.joints.maps[i], force, evaluation);
     note_scale(force, evaluation);
   }
 }
@@ -145,7 +145,7 @@ void add_couplings(const Model& model, const State& state, Evaluation& evaluatio
     if (coupling.motion >= 0) evaluation.load_power -= lambda * evaluation.motion_values[coupling.motion].rate;
     for (const CouplingTerm& term : coupling.terms) {
       const Vector12 force = (lambda * term.factor) * evaluation.coordinates[term.coordinate].G.transpose();
-      add_force(model, model.coordinate_maps[term.coordinate], force, evaluation);
+      add_force(model, model.coordinates.maps[term.coordinate], force, evaluation);
       note_scale(force, evaluation);
     }
   }
@@ -158,7 +158,7 @@ void add_springs(const Model& model, const State& state, Evaluation& evaluation)
     const double applied = applied_force(model, i, state.load_time(), evaluation);
     const SpringForce f = spring_force(model.springs[i], c.value, c.rate, applied);
     const Vector12 force = -f.Q * c.G.transpose();
-    add_force(model, model.coordinate_maps[at], force, evaluation);
+    add_force(model, model.coordinates.maps[at], force, evaluation);
     note_scale(force, evaluation);
     evaluation.spring_energy += f.energy;
     evaluation.damping_power += f.dissipated;
@@ -176,9 +176,9 @@ void evaluate_bias(const Model& model, Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
     joint_bias(joint, motion_of(evaluation, joint.a.node), motion_of(evaluation, joint.b.node), evaluation.joints[i]);
-    if (!model.joint_maps[i].carriers.empty()) {
+    if (!model.joints.maps[i].carriers.empty()) {
       Vector12 own;
-      carrier_bias(model, model.joint_maps[i], evaluation, own.data());
+      carrier_bias(model, model.joints.maps[i], evaluation, own.data());
       evaluation.joints[i].bias += evaluation.joints[i].B.lazyProduct(own);
     }
     evaluation.bias.segment(joint.row, joint.size()) = evaluation.joints[i].bias.head(joint.size());
@@ -189,9 +189,9 @@ void evaluate_bias(const Model& model, Evaluation& evaluation) {
       const auto at = static_cast<std::size_t>(term.coordinate);
       const Coordinate& c = model.coordinates[at];
       sum += term.factor * bias(c.relation, markers_of(c, evaluation));
-      if (model.coordinate_maps[at].carriers.empty()) continue;
+      if (model.coordinates.maps[at].carriers.empty()) continue;
       Vector12 own;
-      carrier_bias(model, model.coordinate_maps[at], evaluation, own.data());
+      carrier_bias(model, model.coordinates.maps[at], evaluation, own.data());
       sum += term.factor * evaluation.coordinates[at].G.dot(own);
     }
     evaluation.bias[coupling.row] = sum;
@@ -204,7 +204,7 @@ namespace {
 void add_pulled_spring(const Model& model, const Coordinate& c, const SpringForce& f, std::size_t at,
                        Evaluation& evaluation, const TangentTarget& target) {
   const TangentCoefficients& coefficients = target.coefficients;
-  const ElementMap& map = model.coordinate_maps[at];
+  const ElementMap& map = model.coordinates.maps[at];
   const MarkerPair pair = markers_of(c, evaluation);
   const Row12& G = evaluation.coordinates[at].G;
   Square12 K = Square12::Zero();
@@ -232,9 +232,9 @@ void add_joint_tangents(const Model& model, const State& state, Evaluation& eval
     const JointTerms& terms = evaluation.joints[i];
     const MarkerPair pair = markers_of(joint, evaluation);
     joint_stiffness(joint, pair.node_a, pair.node_b, state.lambda().data() + joint.row, K);
-    add_matrix(model, model.joint_maps[i], K, stiffness, evaluation, target.values,
+    add_matrix(model, model.joints.maps[i], K, stiffness, evaluation, target.values,
                [&] { return joint_force(joint, terms, state); });
-    add_constraint_rows(model, joint, model.joint_maps[i], terms.B, joint.size(), model.constraint_maps[i], 0, target,
+    add_constraint_rows(model, joint, model.joints.maps[i], terms.B, joint.size(), model.constraint_maps[i], 0, target,
                         evaluation, [&] {
                           Eigen::Matrix<double, 6, 12> gradient;
                           joint_rate_gradient(joint, pair.node_a, pair.node_b, gradient);
@@ -258,7 +258,7 @@ void add_coordinate_tangents(const Model& model, const State& state, Evaluation&
       K.setZero();
       add_stiffness(c.relation, pair, term.factor * state.lambda()[coupling.row], K);
       const Row12 B = term.factor * evaluation.coordinates[at].G;
-      const ElementMap& columns = model.coordinate_maps[at];
+      const ElementMap& columns = model.coordinates.maps[at];
       add_matrix(model, columns, K, coefficients.stiffness * target.factor, evaluation, target.values,
                  [&] { return Vector12(state.lambda()[coupling.row] * B.transpose()); });
       add_constraint_rows(model, c, columns, B, 1, map, slot, target, evaluation,
@@ -274,14 +274,14 @@ void add_coordinate_tangents(const Model& model, const State& state, Evaluation&
     const Row12& G = terms.G;
     const double applied = applied_force(model, i, state.load_time(), evaluation);
     const SpringForce f = spring_force(model.springs[i], terms.value, terms.rate, applied);
-    if (!model.coordinate_maps[at].carriers.empty()) {
+    if (!model.coordinates.maps[at].carriers.empty()) {
       add_pulled_spring(model, c, f, at, evaluation, target);
       continue;
     }
     K.noalias() = -(coefficients.stiffness * f.dQ_dq + coefficients.damping * f.dQ_dqd) * G.transpose() * G;
     K.noalias() -= (coefficients.stiffness * f.dQ_dqd) * G.transpose() * rate_gradient(c.relation, pair);
     add_stiffness(c.relation, pair, -coefficients.stiffness * f.Q, K);
-    scatter_matrix(model.coordinate_maps[at], K, target.factor, target.values);
+    scatter_matrix(model.coordinates.maps[at], K, target.factor, target.values);
   }
 }
 

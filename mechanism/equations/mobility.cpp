@@ -25,11 +25,11 @@ template <class Visit>
 void for_each_row(const Model& model, const Evaluation& evaluation, Visit visit) {
   for (std::size_t i = 0; i < model.joints.size(); ++i)
     for (int k = 0; k < model.joints[i].size(); ++k)
-      visit(model.joints[i].row + k, model.joint_maps[i], model.joints[i], Row12(evaluation.joints[i].B.row(k)));
+      visit(model.joints[i].row + k, model.joints.maps[i], model.joints[i], Row12(evaluation.joints[i].B.row(k)));
   for (const Coupling& coupling : model.couplings)
     for (const CouplingTerm& term : coupling.terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
-      visit(coupling.row, model.coordinate_maps[at], model.coordinates[at],
+      visit(coupling.row, model.coordinates.maps[at], model.coordinates[at],
             Row12(term.factor * evaluation.coordinates[at].G));
     }
 }

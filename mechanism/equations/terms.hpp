@@ -89,6 +89,10 @@ void note_scale(const Vector& local, Evaluation& evaluation) {
 /// F(t) of spring i at the load time, scaled as loads are.
 double applied_force(const Model& model, std::size_t i, double time, Evaluation& evaluation);
 
+/// Motion of all nodes that own their coordinates; of modal bodies and those of their nodes that something acts on.
+void update_motion(const Model& model, const State& state, Evaluation& evaluation);
+void update_modal_bodies(const Model& model, const State& state, Evaluation& evaluation);
+
 /// Φ, B and B v of the joints.
 void update_joints(const Model& model, Evaluation& evaluation);
 /// Values, rates and gradients G of the active coordinates.
@@ -106,6 +110,8 @@ void update_channels(const Model& model, Evaluation& evaluation);
 
 /// Forces of friction in joints, after add_joints().
 void add_frictions(const Model& model, const State& state, Evaluation& evaluation);
+/// Loads F (with the sign of r) and their power.
+void add_loads(const Model& model, const State& state, Evaluation& evaluation);
 /// Forces, energy and powers of bushings.
 void add_bushings(const Model& model, Evaluation& evaluation);
 
@@ -114,6 +120,7 @@ void add_bushings(const Model& model, Evaluation& evaluation);
 void add_joint_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
 void add_coordinate_tangents(const Model& model, const State& state, Evaluation& evaluation,
                              const TangentTarget& target);
+void add_load_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target);
 void add_friction_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
 void add_bushing_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target);
 void add_channel_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);

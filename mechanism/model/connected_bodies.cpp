@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "mechanism/model/bodies.hpp"
+
 namespace tisserand::mechanism {
 namespace {
 
@@ -38,29 +40,15 @@ void add_body(const Nodes& nodes, const std::string& name, double mass, NodeFact
   facts.mass[first] += mass;
 }
 
-/// "rod/3" -> "rod".
-std::string body_of(const std::string& node) { return node.substr(0, node.rfind('/')); }
-
 }  // namespace
 
 Parts find_parts(const Model& model) {
   const std::size_t count = model.nodes.size();
   NodeFacts facts{Sets(count), std::vector<std::string>(count), std::vector<double>(count, 0.0)};
   for (std::size_t i = 0; i < count; ++i) facts.name[i] = model.nodes[i].name;
-  for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    add_body(model.superelements[i].nodes, model.superelements[i].name, body_of(model, i).mass, facts);
-  for (const RigidBody& body : model.rigid_bodies) add_body(std::vector<int>{body.node}, body.name, body.mass, facts);
-  for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
-    std::vector<int> nodes{model.modal_bodies[i].node};
-    for (const ModalNode& node : model.modal_nodes)
-      if (node.body == static_cast<int>(i)) nodes.push_back(node.node);
-    add_body(nodes, model.modal_bodies[i].name, model.modal_bodies[i].mass, facts);
-  }
-  const auto add_beams = [&](const auto& beams) {
-    for (const auto& beam : beams) add_body(beam.nodes, body_of(model.nodes[beam.nodes[0]].name), beam.mass, facts);
-  };
-  add_beams(model.beams2);
-  add_beams(model.beams3);
+  for_each_body(model, [&](const auto& body) {
+    add_body(attached_nodes(model, body), name_of(model, body), mass_of(model, body), facts);
+  });
 
   Parts parts;
   parts.of_node.resize(count);

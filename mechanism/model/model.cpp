@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/model/bodies.hpp"
 #include "mechanism/model/element_map.hpp"
 #include "mechanism/model/sparsity.hpp"
 
@@ -40,48 +41,33 @@ void fill_slots(const SparsePattern& pattern, const EntryFlags& entries, Element
 
 /// The coordinates of all elements; every list of maps gets one entry per element of its pool.
 void number_elements(Model& model) {
-  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    const SuperelementBody& body = body_of(model, i);
-    ElementMap map;
-    for (std::size_t j = 0; j < body.node.size(); ++j) {
-      const Node& node = model.nodes[model.superelements[i].nodes[j]];
-      for (int k = 0; k < 3 && body.node[j].has_translation(); ++k) map.coordinates.push_back(node.translation + k);
-      for (int k = 0; k < 3 && body.node[j].has_rotation(); ++k) map.coordinates.push_back(node.rotation + k);
-    }
-    model.superelement_maps.push_back(std::move(map));
-  }
+  for_each_body_pool(model, [&model](auto& pool) {
+    for (const auto& body : pool) pool.maps.push_back(body_map(model, body));
+  });
   const auto add = [&model](std::vector<ElementMap>& maps, auto... nodes) {
     maps.push_back(carrier_map(model, {nodes...}));
   };
-  for (const ModalBody& body : model.modal_bodies) {
-    add(model.modal_maps, body.node);
-    for (int k = 0; k < body.modes; ++k)
-      model.modal_maps.back().coordinates.push_back(model.sizes.first_modal() + body.offset + k);
-  }
-  for (const RigidBody& body : model.rigid_bodies) add(model.rigid_maps, body.node);
-  for (const BeamElement2& beam : model.beams2) add(model.beam2_maps, beam.nodes[0], beam.nodes[1]);
-  for (const BeamElement3& beam : model.beams3) add(model.beam3_maps, beam.nodes[0], beam.nodes[1], beam.nodes[2]);
-  for (const Joint& joint : model.joints) add(model.joint_maps, joint.a.node, joint.b.node);
-  for (const Bushing& bushing : model.bushings) add(model.bushing_maps, bushing.a.node, bushing.b.node);
-  for (const Load& load : model.loads) add(model.load_maps, load.at.node);
-  for (const Coordinate& c : model.coordinates) add(model.coordinate_maps, c.a.node, c.b.node);
+  for (const Joint& joint : model.joints) add(model.joints.maps, joint.a.node, joint.b.node);
+  for (const Bushing& bushing : model.bushings) add(model.bushings.maps, bushing.a.node, bushing.b.node);
+  for (const Load& load : model.loads) add(model.loads.maps, load.at.node);
+  for (const Coordinate& c : model.coordinates) add(model.coordinates.maps, c.a.node, c.b.node);
   for (const ChannelUse& use : model.channel_uses) {
     const auto owner = static_cast<std::size_t>(use.index);
     const Channel& channel = model.channels[use.channel];
     if (use.owner == ChannelUse::Owner::load) {
-      add(model.channel_use_maps, model.loads[owner].at.node, channel.a.node, channel.b.node);
+      add(model.channel_uses.maps, model.loads[owner].at.node, channel.a.node, channel.b.node);
     } else {
       const Coordinate& c = model.coordinates[model.springs[owner].coordinate];
-      add(model.channel_use_maps, c.a.node, c.b.node, channel.a.node, channel.b.node);
+      add(model.channel_uses.maps, c.a.node, c.b.node, channel.a.node, channel.b.node);
     }
   }
   for (const Coupling& coupling : model.couplings) {
     ElementMap map;
     for (const CouplingTerm& term : coupling.terms) {
-      const std::vector<int>& columns = model.coordinate_maps[term.coordinate].coordinates;
+      const std::vector<int>& columns = model.coordinates.maps[term.coordinate].coordinates;
       map.coordinates.insert(map.coordinates.end(), columns.begin(), columns.end());
     }
-    model.coupling_maps.push_back(std::move(map));
+    model.couplings.maps.push_back(std::move(map));
   }
 }
 
@@ -95,7 +81,7 @@ struct ConstraintBlock {
 /// Friction loads every coordinate of the markers, by a force that depends on every multiplier; nodes of modal bodies
 /// pass everything on to all coordinates of their body.
 bool fills_all(const Model& model, std::size_t joint) {
-  return !model.joint_maps[joint].carriers.empty() || std::ranges::any_of(model.frictions, [&](const Friction& f) {
+  return !model.joints.maps[joint].carriers.empty() || std::ranges::any_of(model.frictions, [&](const Friction& f) {
     return static_cast<std::size_t>(f.joint) == joint;
   });
 }
@@ -155,14 +141,15 @@ void number_constraints(Model& model) {
 template <class Visit>
 void for_each_map(Model& model, Visit visit) {
   const EntryFlags all, rigid = rigid_entries();
-  for (auto* maps : {&model.superelement_maps, &model.modal_maps, &model.beam2_maps, &model.beam3_maps,
-                     &model.bushing_maps, &model.load_maps, &model.channel_use_maps})
+  for_each_body_pool(model, [&]<class T>(Pool<T>& pool) {
+    for (ElementMap& map : pool.maps) visit(map, std::is_same_v<T, RigidBody> ? rigid : all);
+  });
+  for (auto* maps : {&model.bushings.maps, &model.loads.maps, &model.channel_uses.maps})
     for (ElementMap& map : *maps) visit(map, all);
-  for (ElementMap& map : model.rigid_maps) visit(map, rigid);
   for (std::size_t i = 0; i < model.joints.size(); ++i)
-    visit(model.joint_maps[i], fills_all(model, i) ? all : stiffness_entries(model.joints[i]));
+    visit(model.joints.maps[i], fills_all(model, i) ? all : stiffness_entries(model.joints[i]));
   for (std::size_t i = 0; i < model.coordinates.size(); ++i)
-    if (model.coordinates[i].active) visit(model.coordinate_maps[i], all);
+    if (model.coordinates[i].active) visit(model.coordinates.maps[i], all);
 }
 
 void scale_equations(Model& model) {
@@ -198,18 +185,18 @@ void finish_model(Model& model, formats::LinearSolver solver) {
       if (const int modal = node < 0 ? -1 : model.nodes[node].modal; modal >= 0) model.modal_nodes[modal].active = true;
   });
   for (std::size_t j = 0; j < model.joints.size(); ++j)
-    add_constraint(model.joint_maps[j], block_of(model, j), positions);
+    add_constraint(model.joints.maps[j], block_of(model, j), positions);
   for (std::size_t j = 0; j < model.couplings.size(); ++j)
-    add_constraint(model.coupling_maps[j], block_of(model, model.couplings[j]), positions);
+    add_constraint(model.couplings.maps[j], block_of(model, model.couplings[j]), positions);
   model.solver = choose_solver(SparsePattern(size, positions, SparsePattern::Storage::sparse), solver);
   model.pattern = std::make_unique<SparsePattern>(size, std::move(positions), solver_storage(model.solver.kind));
 
   for_each_map(model, [&](ElementMap& map, const EntryFlags& entries) { fill_slots(*model.pattern, entries, map); });
   for (std::size_t j = 0; j < model.joints.size(); ++j)
-    model.constraint_maps.push_back(constraint_slots(*model.pattern, model.joint_maps[j], block_of(model, j)));
+    model.constraint_maps.push_back(constraint_slots(*model.pattern, model.joints.maps[j], block_of(model, j)));
   for (std::size_t j = 0; j < model.couplings.size(); ++j)
     model.coupling_constraint_maps.push_back(
-        constraint_slots(*model.pattern, model.coupling_maps[j], block_of(model, model.couplings[j])));
+        constraint_slots(*model.pattern, model.couplings.maps[j], block_of(model, model.couplings[j])));
   scale_equations(model);
 }
 

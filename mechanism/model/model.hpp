@@ -20,6 +20,7 @@
 #include "mechanism/joints/friction.hpp"
 #include "mechanism/joints/joint.hpp"
 #include "mechanism/model/channel.hpp"
+#include "mechanism/model/pool.hpp"
 #include "mechanism/model/state.hpp"
 #include "mechanism/solver/linear_solver.hpp"
 #include "mechanism/solver/solver_choice.hpp"
@@ -52,14 +53,6 @@ struct Tie {
   bool is_loop = false;  ///< closes a loop of ties and holds no follower: left without force
 };
 
-/// Where the local rows and columns of an element go: coordinate −1 is absent (ground, or not owned by the node).
-/// slots[i + j n]: index of entry (i, j) in the values of the iteration matrix, −1 if absent.
-struct ElementMap {
-  std::vector<int> coordinates;
-  std::vector<int> slots;
-  std::vector<int> carriers;  ///< the nodes, if one of them follows a modal body (carriers.hpp); else empty
-};
-
 /// Slots of the rows of a joint or a coupling: B at (row k, column j) and Bᵀ at (j, k), index k + size·j.
 struct ConstraintMap {
   std::vector<int> lower;
@@ -81,39 +74,28 @@ struct Model {
   std::vector<Tie> ties;  ///< of eliminated virtual bodies: row i holds follower i, rows that close loops at the end
 
   std::vector<SuperelementBody> superelement_bodies;  ///< each with one or many uses
-  std::vector<SuperelementUse> superelements;
-  std::vector<ElementMap> superelement_maps;
+  Pool<SuperelementUse> superelements;
   std::vector<int> internal_offset;  ///< superelements + 1; into the internal coordinates
   std::vector<std::string> superelement_content_ids;
-  std::vector<RigidBody> rigid_bodies;
-  std::vector<ElementMap> rigid_maps;
-  std::vector<ModalBody> modal_bodies;
-  std::vector<ElementMap> modal_maps;
+  Pool<RigidBody> rigid_bodies;
+  Pool<ModalBody> modal_bodies;
   std::vector<ModalNode> modal_nodes;
-  std::vector<BeamElement2> beams2;
-  std::vector<ElementMap> beam2_maps;
-  std::vector<BeamElement3> beams3;
-  std::vector<ElementMap> beam3_maps;
-  std::vector<Joint> joints;
-  std::vector<ElementMap> joint_maps;
+  Pool<BeamElement2> beams2;
+  Pool<BeamElement3> beams3;
+  Pool<Joint> joints;
   std::vector<ConstraintMap> constraint_maps;
   std::vector<Friction> frictions;
-  std::vector<Coordinate> coordinates;
-  std::vector<ElementMap> coordinate_maps;
-  std::vector<Coupling> couplings;
-  std::vector<ElementMap> coupling_maps;  ///< coordinates of all terms one after the other; no slots
+  Pool<Coordinate> coordinates;
+  Pool<Coupling> couplings;  ///< maps: coordinates of all terms one after the other; no slots
   std::vector<ConstraintMap> coupling_constraint_maps;
   ExpressionScope scope;  ///< what expressions may use; its channels are those below
   std::vector<Channel> channels;
-  std::vector<ChannelUse> channel_uses;
-  std::vector<ElementMap> channel_use_maps;        ///< rows of the owner, then [x_A Θ_A x_B Θ_B] of the channel
+  Pool<ChannelUse> channel_uses;                   ///< maps: rows of the owner, then [x_A Θ_A x_B Θ_B] of the channel
   std::vector<formats::TimeFunctionSpec> motions;  ///< f(t) of driven coordinates
   double motion_spacing = 1e-4;                    ///< of the differences that give their rates
   std::vector<Spring> springs;
-  std::vector<Bushing> bushings;
-  std::vector<ElementMap> bushing_maps;
-  std::vector<Load> loads;
-  std::vector<ElementMap> load_maps;
+  Pool<Bushing> bushings;
+  Pool<Load> loads;
   std::vector<double> breakpoints;  ///< ascending, of all loads
 
   /// Factor of each equation and unknown of the iteration matrix: 1/length for rotations, √mass for modes and length

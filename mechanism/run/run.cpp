@@ -10,6 +10,7 @@
 #include "mechanism/analyses/kinematics.hpp"
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/equations/evaluate.hpp"
+#include "mechanism/model/bodies.hpp"
 #include "mechanism/run/output.hpp"
 #include "mechanism/step/redundancy.hpp"
 
@@ -21,10 +22,9 @@ constexpr double massless_step = 1e-3;
 
 /// What the model contains: pools and terms that are on.
 bool has_gravity(const Model& model) {
-  const auto any = [](const auto& pool) {
-    return std::ranges::any_of(pool, [](const auto& body) { return !body.gravity.isZero(0.0); });
-  };
-  return any(model.superelements) || any(model.rigid_bodies) || any(model.beams2) || any(model.beams3);
+  bool any = false;
+  for_each_body(model, [&any](const auto& body) { any = any || !body.gravity.isZero(0.0); });
+  return any;
 }
 
 std::vector<std::string> effects(const Model& model) {
@@ -49,10 +49,8 @@ std::vector<std::string> effects(const Model& model) {
   add(model.bushings.size(), "bushings");
   add(model.loads.size(), "loads");
   if (has_gravity(model)) list.push_back("gravity");
-  const bool damped = std::any_of(model.superelement_bodies.begin(), model.superelement_bodies.end(),
-                                  [](const SuperelementBody& body) { return body.damping.active; }) ||
-                      std::any_of(model.modal_bodies.begin(), model.modal_bodies.end(),
-                                  [](const ModalBody& body) { return !body.damping.isZero(0.0); });
+  bool damped = false;
+  for_each_body(model, [&](const auto& body) { damped = damped || is_damped(model, body); });
   if (damped) list.push_back("damping");
   return list;
 }

@@ -56,6 +56,10 @@ using RowEdit = std::function<void(formats::ResultsRow&)>;
 void write_row(Run& run, const StepReport& step, double size, RowWriter& out);
 void write_row(Run& run, const StepReport& step, double size, RowWriter& out, const RowEdit& edit);
 
+/// Takes the steps of the schedule; a step that fails is taken again in halves.
+void integrate(Run& run, RowWriter& out);
+/// Statics.
+void equilibrate(Run& run, RowWriter& out);
 /// Kinematics and inverse dynamics: through the steps of the integrator along the driven motion.
 void move_along(Run& run, RowWriter& out);
 void assemble(Run& run, RowWriter& out);

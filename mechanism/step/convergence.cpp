@@ -70,7 +70,7 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
       raise(norms.force_ratio, norms.worst_coordinate, std::abs(r[k]) / (options.tolerance * internal),
             model.sizes.boundary + model.internal_offset[i] + static_cast<int>(k));
     raise(norms.force_ratio, norms.worst_coordinate, evaluation.superelements[i].motion.frame_error / frame_tolerance,
-          model.superelement_maps[i].coordinates.front());
+          model.superelements.maps[i].coordinates.front());
   }
   const Closed closed = closed_constraints(model, options, step, state);
   for (int row = 0; row < model.sizes.constraints; ++row) {

@@ -59,8 +59,8 @@ WeightedJacobian weighted_jacobian(const Model& model, const Evaluation& evaluat
     const Eigen::MatrixXd U = (W.transpose() * W).llt().matrixU();
     const Eigen::MatrixXd B = U.transpose().triangularView<Eigen::Lower>().solve(
         Eigen::MatrixXd(evaluation.joints[i].B.topRows(joint.size())));
-    const Eigen::MatrixXd rows = model_rows(model, model.joint_maps[i], local_view(B), evaluation);
-    for (int k = 0; k < joint.size(); ++k) add(model.joint_maps[i].coordinates, joint.row + k, rows.row(k));
+    const Eigen::MatrixXd rows = model_rows(model, model.joints.maps[i], local_view(B), evaluation);
+    for (int k = 0; k < joint.size(); ++k) add(model.joints.maps[i].coordinates, joint.row + k, rows.row(k));
     result.triangle.push_back(U);
   }
   result.coupling_weight.resize(static_cast<Eigen::Index>(model.couplings.size()));
@@ -76,8 +76,8 @@ WeightedJacobian weighted_jacobian(const Model& model, const Evaluation& evaluat
     for (const CouplingTerm& term : model.couplings[i].terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
       const Row12 row = (term.factor / weight) * evaluation.coordinates[at].G;
-      add(model.coordinate_maps[at].coordinates, model.couplings[i].row,
-          model_rows(model, model.coordinate_maps[at], local_view(row), evaluation).row(0));
+      add(model.coordinates.maps[at].coordinates, model.couplings[i].row,
+          model_rows(model, model.coordinates.maps[at], local_view(row), evaluation).row(0));
     }
   }
   result.A.resize(model.sizes.boundary, model.sizes.constraints);

@@ -19,7 +19,6 @@ constexpr double massless_limit = 1e-12;    ///< share of the largest eigenvalue
 constexpr double unresisted_limit = 1e-13;  ///< the same of S̄
 constexpr int most_frequencies = 20;
 
-double frequency(double lambda) { return std::sqrt(std::max(lambda, 0.0)) / (2.0 * EIGEN_PI); }
 
 /// Rotations divided by the characteristic length: entries of one unit.
 Eigen::VectorXd row_scale(const formats::Superelement& element, double length) {
@@ -73,6 +72,8 @@ std::vector<double> free_frequencies(const formats::Superelement& element, int m
 }
 
 }  // namespace
+
+double frequency(double lambda) { return std::sqrt(std::max(lambda, 0.0)) / (2.0 * EIGEN_PI); }
 
 FileCertificate certify(const formats::Superelement& element, const formats::SuperelementReport& report) {
   FileCertificate c;

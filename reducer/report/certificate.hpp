@@ -85,4 +85,7 @@ std::optional<ModelCertificate> read_certificate(const std::string& superelement
 std::string certificate_text(const formats::Superelement& element, const FileCertificate& file,
                              const std::optional<ModelCertificate>& model);
 
+/// Frequency [1/time] of an eigenvalue ω²; 0 where round-off has made it negative.
+double frequency(double lambda);
+
 }  // namespace tisserand::reducer

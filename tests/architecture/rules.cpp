@@ -333,6 +333,30 @@ std::vector<Violation> check_lengths(const SourceTree& tree) {
   return violations;
 }
 
+std::vector<Violation> check_rooms(const SourceTree& tree) {
+  constexpr int most = 30;
+  std::map<std::string, int> count;
+  for (const SourceFile& file : tree.files)
+    if (file.is_source()) ++count[file.path.substr(0, file.path.rfind('/'))];
+  std::vector<Violation> violations;
+  for (const auto& [folder, files] : count)
+    if (files > most)
+      violations.push_back({folder, 0, std::to_string(files) + " sources, at most " + std::to_string(most)});
+  return violations;
+}
+
+std::vector<Violation> check_stories(const SourceTree& tree) {
+  constexpr std::size_t page = 80;
+  static const std::set<std::string> stories = {"mechanism/simulate.cpp", "mechanism/step/step.cpp",
+                                                "mechanism/equations/evaluate.cpp", "mechanism/build/build_model.cpp",
+                                                "reducer/reduce.cpp"};
+  std::vector<Violation> violations;
+  for (const SourceFile& file : tree.files)
+    if (stories.contains(file.path) && file.lines.size() > page)
+      violations.push_back({file.path, 0, std::to_string(file.lines.size()) + " lines, a story has at most 80"});
+  return violations;
+}
+
 std::vector<Violation> check_wording(const SourceTree& tree) {
   // Split, so that this file does not find itself.
   static const std::regex promises(

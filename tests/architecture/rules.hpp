@@ -50,6 +50,12 @@ std::vector<Violation> check_headers(const SourceTree& tree);
 /// .cpp up to 500 lines, .hpp up to 300.
 std::vector<Violation> check_lengths(const SourceTree& tree);
 
+/// At most 30 sources (headers counted) in a folder: a room that a person takes in.
+std::vector<Violation> check_rooms(const SourceTree& tree);
+
+/// Files that tell a story (simulate, reduce, step, evaluate, build_model) fit on a page: up to 80 lines.
+std::vector<Violation> check_stories(const SourceTree& tree);
+
 /// No promises instead of code, no places of one machine, no typographic dashes and quotes, no stray blanks.
 std::vector<Violation> check_wording(const SourceTree& tree);
 

@@ -43,6 +43,8 @@ TEST_F(PlantedTree, IsCleanAtFirst) {
   EXPECT_EQ(to_text(check_cycles(tree())), "");
   EXPECT_EQ(to_text(check_headers(tree())), "");
   EXPECT_EQ(to_text(check_lengths(tree())), "");
+  EXPECT_EQ(to_text(check_rooms(tree())), "");
+  EXPECT_EQ(to_text(check_stories(tree())), "");
   EXPECT_EQ(to_text(check_wording(tree())), "");
   EXPECT_EQ(to_text(check_links(tree())), "");
 }
@@ -127,6 +129,19 @@ TEST_F(PlantedTree, LengthIsBounded) {
   EXPECT_EQ(to_text(check_lengths(tree())), "");
   plant("common/long.hpp", lines(301));
   EXPECT_EQ(to_text(check_lengths(tree())), "common/long.hpp: 301 lines, at most 300\n");
+}
+
+TEST_F(PlantedTree, FullRoomsAndLongStoriesAreFound) {
+  for (int i = 0; i < 30; ++i) plant("common/math/" + std::to_string(i) + ".hpp", "#pragma once\n");
+  EXPECT_EQ(to_text(check_rooms(tree())), "");
+  plant("common/math/more.cpp", "\n");
+  EXPECT_EQ(to_text(check_rooms(tree())), "common/math: 31 sources, at most 30\n");
+  std::string page;
+  for (int i = 0; i < 80; ++i) page += "\n";
+  plant("mechanism/step/step.cpp", page);
+  EXPECT_EQ(to_text(check_stories(tree())), "");
+  plant("mechanism/step/step.cpp", page + "\n");
+  EXPECT_EQ(to_text(check_stories(tree())), "mechanism/step/step.cpp: 81 lines, a story has at most 80\n");
 }
 
 TEST_F(PlantedTree, WordingIsChecked) {

@@ -80,7 +80,7 @@ TEST(LeastNormReactions, AreThoseOfThePseudoinverse) {
       W.block<3, 1>(6 * static_cast<Eigen::Index>(i), one.row + k) = r.force;
       W.block<3, 1>(6 * static_cast<Eigen::Index>(i) + 3, one.row + k) = r.moment / run.model().length;
       for (int j = 6; j < 12; ++j)
-        Bt(run.model().joint_maps[i].coordinates[j], one.row + k) = run.workspace.now.joints[i].B(k, j);
+        Bt(run.model().joints.maps[i].coordinates[j], one.row + k) = run.workspace.now.joints[i].B(k, j);
     }
   }
   const Eigen::MatrixXd root = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(W.transpose() * W).operatorInverseSqrt();

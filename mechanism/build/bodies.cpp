@@ -1,0 +1,259 @@
+// One function per type of body.
+#include "mechanism/build/bodies.hpp"
+
+#include <map>
+#include <utility>
+
+#include "common/text.hpp"
+#include "mechanism/bodies/beam/mesh.hpp"
+#include "mechanism/build/modal_bodies.hpp"
+#include "mechanism/build/virtual_bodies.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+NodeMotion motion_at(const formats::InitialMotion& start, const Vector3d& position) {
+  NodeMotion motion;
+  motion.R = start.pose.orientation.normalized().toRotationMatrix();
+  const Vector3d arm = motion.R * position;
+  motion.x = start.pose.position + arm;
+  motion.xd = start.velocity + start.angular_velocity.cross(arm);
+  motion.Omega = motion.R.transpose() * start.angular_velocity;
+  return motion;
+}
+
+/// A node at `position` (part frame) of a body that starts with `start`.
+int add_node(const std::string& name, const formats::InitialMotion& start, const Vector3d& position, int translations,
+             int rotations, Construction& c) {
+  Node node{name, -1, -1, -1};
+  if (translations) node.translation = std::exchange(c.model.sizes.boundary, c.model.sizes.boundary + 3);
+  if (rotations) node.rotation = std::exchange(c.model.sizes.boundary, c.model.sizes.boundary + 3);
+  c.model.nodes.push_back(node);
+  c.markers.start.push_back(motion_at(start, position));
+  return static_cast<int>(c.model.nodes.size()) - 1;
+}
+
+int add_virtual_node(const formats::VirtualBodySpec& spec, Construction& c) {
+  ++c.model.virtual_nodes;
+  return add_node(spec.name, spec.start, Vector3d::Zero(), 1, 1, c);
+}
+
+/// Virtual bodies of a scene that eliminates them: behind all nodes in the table until their carriers are known.
+std::vector<const formats::VirtualBodySpec*> eliminated_bodies(const formats::Scene& scene) {
+  std::vector<const formats::VirtualBodySpec*> list;
+  if (scene.virtual_bodies == formats::VirtualBodies::keep) return list;
+  for (const formats::BodySpec& body : scene.bodies)
+    if (const auto* spec = std::get_if<formats::VirtualBodySpec>(&body)) list.push_back(spec);
+  return list;
+}
+
+class BodyBuilder {
+ public:
+  BodyBuilder(const BodyFiles& files, Construction& c)
+      : c_(c), superelements_(files.superelements), modal_bodies_(files.modal_bodies) {}
+
+  void add_place(const std::string& name, const Marker& marker) {
+    c_.model.places.push_back({name, marker});
+    c_.markers.places[name] = marker;
+  }
+
+  void note_units(const std::string& name, const Units& from, const UnitConversion& units) {
+    if (from.named() && (units.length != 1.0 || units.mass != 1.0 || units.time != 1.0))
+      c_.notes.push_back(fmt::format("body '{}': converted from {}, {}, {} to {}, {}, {}", name, from.length.label,
+                                     from.mass.label, from.time.label, c_.scene.units.length.label,
+                                     c_.scene.units.mass.label, c_.scene.units.time.label));
+  }
+
+  void add_body(const formats::ModalBodySpec& spec) {
+    const formats::LoadedModalBody& file = modal_bodies_.at(spec.file, spec.mirror);
+    const UnitConversion units = convert_units(file.body.units, c_.scene.units, spec.file);
+    note_units(spec.name, file.body.units, units);
+    for (const std::string& warning : file.warnings)
+      c_.notes.push_back(fmt::format("body '{}': {}", spec.name, warning));
+    BuiltModalBody built = build_modal_body(file.body, spec, units);
+    if (built.body.modes < static_cast<int>(file.body.modes()))
+      c_.notes.push_back(
+          fmt::format("body '{}': {} of {} modes are used", spec.name, built.body.modes, file.body.modes()));
+    formats::InitialMotion start = spec.start;
+    const Matrix3d turn = start.pose.orientation.normalized().toRotationMatrix();
+    const Vector3d arm = turn * built.frame_position;
+    start.pose.position += arm;
+    start.velocity += start.angular_velocity.cross(arm);
+    start.pose.orientation = Eigen::Quaterniond(turn * built.frame_rotation);
+    built.body.node = add_node(spec.name, start, Vector3d::Zero(), 1, 1, c_);
+    built.body.gravity = spec.gravity.value_or(c_.scene.gravity);
+    built.body.offset = std::exchange(c_.model.sizes.modal, c_.model.sizes.modal + built.body.modes);
+    const Matrix3d part_axes = built.frame_rotation.transpose();
+    add_place(spec.name, {built.body.node, Vector3d::Zero(), part_axes});
+    for (ModalNode& node : built.nodes) {
+      const std::string name = spec.name + "/" + node.name;
+      node.body = static_cast<int>(c_.model.modal_bodies.size());
+      node.node = add_node(name, start, node.x, 0, 0, c_);
+      c_.model.nodes.back().modal = static_cast<int>(c_.model.modal_nodes.size());
+      c_.model.modal_nodes.push_back(std::move(node));
+      add_place(name, {c_.model.modal_nodes.back().node, Vector3d::Zero(), part_axes});
+    }
+    c_.model.modal_bodies.push_back(std::move(built.body));
+  }
+
+  void add_body(const formats::SuperelementBodySpec& spec) {
+    const formats::LoadedSuperelement& file = superelements_.at(spec.file, spec.mirror);
+    const formats::Superelement& element = file.superelement;
+    const UnitConversion units = convert_units(element.units, c_.scene.units, spec.file);
+    note_units(spec.name, element.units, units);
+    for (const std::string& warning : file.report.warnings)
+      c_.notes.push_back(fmt::format("body '{}': {}", spec.name, warning));
+    if (spec.rigid) {
+      add_rigid_superelement(spec, file, units);
+      return;
+    }
+    SuperelementUse use;
+    use.name = spec.name;
+    use.body = find_or_build(spec, file, units, built_superelements_, c_.model.superelement_bodies);
+    use.gravity = spec.gravity.value_or(c_.scene.gravity);
+    const SuperelementBody& body = c_.model.superelement_bodies[use.body];
+    for (const std::string& note : body.notes) c_.notes.push_back(fmt::format("body '{}': {}", spec.name, note));
+    for (const SuperelementNode& node : body.node) {
+      const std::string name = spec.name + "/" + node.name;
+      const Vector3d position = body.reference_origin + node.X;
+      use.nodes.push_back(add_node(name, spec.start, position, node.has_translation(), node.has_rotation(), c_));
+      add_place(name, {use.nodes.back(), Vector3d::Zero(), Matrix3d::Identity()});
+    }
+    c_.model.internal_offset.push_back(c_.model.internal_offset.back() + body.modes);
+    c_.model.superelement_content_ids.push_back(element.content_id);
+    c_.model.superelements.push_back(std::move(use));
+    c_.frames.push_back(spec.start.pose.orientation.normalized());
+  }
+
+  void add_rigid_superelement(const formats::SuperelementBodySpec& spec, const formats::LoadedSuperelement& file,
+                              const UnitConversion& units) {
+    formats::RigidBodySpec rigid;
+    rigid.name = spec.name;
+    rigid.gravity = spec.gravity;
+    rigid.start = spec.start;
+    rigid.mass = file.report.rigid.mass * units.mass;
+    rigid.center_of_mass = file.report.rigid.center_of_mass * units.length;
+    rigid.inertia = file.report.rigid.inertia * (units.mass * units.length * units.length);
+    rigid.where = spec.where;
+    const formats::Superelement& element = file.superelement;
+    for (std::size_t j = 0; j < element.node_name.size(); ++j) {
+      formats::RigidNodeSpec node;
+      node.name = element.node_name[j];
+      node.pose.position = element.node_position.row(j).transpose() * units.length;
+      rigid.nodes.push_back(node);
+    }
+    add_body(rigid);
+  }
+
+  void add_body(const formats::RigidBodySpec& spec) {
+    const int node = add_node(spec.name, spec.start, spec.center_of_mass, 1, 1, c_);
+    c_.model.rigid_bodies.push_back(
+        {spec.name, node, spec.mass, spec.inertia, spec.gravity.value_or(c_.scene.gravity)});
+    add_place(spec.name, {node, -spec.center_of_mass, Matrix3d::Identity()});
+    for (const formats::RigidNodeSpec& place : spec.nodes)
+      add_place(spec.name + "/" + place.name, {node, place.pose.position - spec.center_of_mass,
+                                               place.pose.orientation.normalized().toRotationMatrix()});
+  }
+
+  void add_body(const formats::BeamBodySpec& spec) {
+    const BeamMesh mesh = mesh_beam(spec, 0);
+    std::vector<int> nodes;
+    for (std::size_t i = 0; i < mesh.position.size(); ++i) {
+      const std::string name = fmt::format("{}/{}", spec.name, i);
+      nodes.push_back(add_node(name, spec.start, mesh.position[i], 1, 1, c_));
+      add_place(name, {nodes.back(), Vector3d::Zero(), Matrix3d::Identity()});
+    }
+    c_.markers.places[spec.name + "/start"] = {nodes.front(), Vector3d::Zero(), Matrix3d::Identity()};
+    c_.markers.places[spec.name + "/end"] = {nodes.back(), Vector3d::Zero(), Matrix3d::Identity()};
+    const Vector3d gravity = spec.gravity.value_or(c_.scene.gravity);
+    const auto append = [&nodes, &gravity](const auto& elements, auto& pool) {
+      for (auto element : elements) {
+        element.gravity = gravity;
+        for (int& node : element.nodes) node = nodes[node];
+        pool.push_back(element);
+      }
+    };
+    append(mesh.elements2, c_.model.beams2);
+    append(mesh.elements3, c_.model.beams3);
+  }
+
+  void add_body(const formats::VirtualBodySpec&) {}  // after all others: add_virtual_body()
+
+  /// Kept ones are nodes.
+  void add_virtual_body(const formats::VirtualBodySpec& spec) {
+    int node = static_cast<int>(c_.markers.start.size());
+    switch (c_.scene.virtual_bodies) {
+      case formats::VirtualBodies::keep:
+        node = add_virtual_node(spec, c_);
+        break;
+      case formats::VirtualBodies::eliminate:
+        c_.markers.start.push_back(motion_at(spec.start, Vector3d::Zero()));
+        break;
+    }
+    add_place(spec.name, {node});
+    for (const formats::RigidNodeSpec& place : spec.nodes)
+      add_place(spec.name + "/" + place.name,
+                {node, place.pose.position, place.pose.orientation.normalized().toRotationMatrix()});
+  }
+
+ private:
+  Construction& c_;
+  MirroredFiles<formats::LoadedSuperelement> superelements_;
+  MirroredFiles<formats::LoadedModalBody> modal_bodies_;
+  BuiltSuperelements built_superelements_;
+};
+
+}  // namespace
+
+void add_bodies(const BodyFiles& files, Construction& c) {
+  BodyBuilder builder(files, c);
+  for (const formats::BodySpec& body : c.scene.bodies)
+    c.collect([&] { std::visit([&](const auto& spec) { builder.add_body(spec); }, body); });
+  for (const formats::BodySpec& body : c.scene.bodies)
+    if (const auto* spec = std::get_if<formats::VirtualBodySpec>(&body))
+      c.collect([&] { builder.add_virtual_body(*spec); });
+}
+
+void measure_length(Construction& c) {
+  if (c.markers.start.empty()) throw Error("the scene has no bodies", c.scene.file, "add a body under `bodies:`");
+  Vector3d low = c.markers.start.front().x, high = low;
+  for (const NodeMotion& m : c.markers.start) {
+    low = low.cwiseMin(m.x);
+    high = high.cwiseMax(m.x);
+  }
+  Model& model = c.model;
+  model.length = (high - low).norm();
+  for (const Place& place : model.places) model.length = std::max(model.length, place.marker.p.norm());
+  if (!(model.length > 0.0)) model.length = 1.0;
+}
+
+void eliminate_virtual_bodies(Construction& c) {
+  const std::vector<const formats::VirtualBodySpec*> virtual_bodies = eliminated_bodies(c.scene);
+  if (virtual_bodies.empty()) return;
+
+  const int first = static_cast<int>(c.model.nodes.size());
+  TiedBodies tied = tie_virtual_bodies(c.scene, c.model, first, c.markers);
+  c.markers.start.resize(static_cast<std::size_t>(first));
+  std::map<int, int> node_of_root;
+  for (const int root : tied.roots) node_of_root[first + root] = add_virtual_node(*virtual_bodies[root], c);
+  const auto renumber = [&](Marker& marker) {
+    if (marker.node >= first) marker.node = node_of_root.at(marker.node);
+  };
+  for (Marker& pose : tied.pose) renumber(pose);
+  for (Tie& tie : tied.ties) {
+    renumber(tie.a);
+    renumber(tie.b);
+  }
+  const auto move = [&](Marker& place) {
+    if (place.node >= first) place = composed(tied.pose[place.node - first], place);
+  };
+  for (Place& place : c.model.places) move(place.marker);
+  for (auto& [name, place] : c.markers.places) move(place);
+  c.model.ties = std::move(tied.ties);
+  c.vanished = std::move(tied.vanished);
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,51 @@
+// From the bodies of a scene to nodes, places and pools; virtual bodies are kept or eliminated.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/error.hpp"
+#include "mechanism/build/build_model.hpp"
+#include "mechanism/build/markers.hpp"
+#include "mechanism/build/mirrored_files.hpp"
+#include "mechanism/build/superelements.hpp"
+
+namespace tisserand::mechanism {
+
+/// What grows while a model is built; errors are collected and thrown together.
+struct Construction {
+  explicit Construction(const formats::Scene& from) : scene(from) {}
+
+  const formats::Scene& scene;
+  Model model;
+  MarkerTable markers;
+  std::vector<Eigen::Quaterniond> frames;  ///< of the superelements at the start
+  std::set<std::string> vanished;          ///< joints that eliminated virtual bodies hung on
+  std::set<double> breakpoints;
+  std::vector<std::string> notes;
+  std::vector<Error> errors;
+
+  template <class Action>
+  void collect(Action action) {
+    try {
+      action();
+    } catch (const Error& error) {
+      errors.push_back(error);
+    }
+  }
+  void throw_errors() const {
+    if (!errors.empty()) throw merge_errors(errors);
+  }
+};
+
+/// All bodies of the scene, virtual ones last.
+void add_bodies(const BodyFiles& files, Construction& c);
+
+/// Characteristic length of the scene: extent of the nodes. Throws Error where there are none.
+void measure_length(Construction& c);
+
+/// Places on virtual bodies become places on their carriers; the joints that tie them vanish.
+void eliminate_virtual_bodies(Construction& c);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,57 @@
+// Stage motion: what nodes and modes do at a state.
+#include "mechanism/equations/terms.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+void update_modal_node(const Model& model, std::size_t i, Evaluation& evaluation) {
+  const ModalNode& node = model.modal_nodes[i];
+  const auto body = static_cast<std::size_t>(node.body);
+  update_node(node, evaluation.modal_bodies[body], motion_of(evaluation, model.modal_bodies[body].node),
+              evaluation.motion[node.node], evaluation.modal_nodes[i]);
+}
+
+}  // namespace
+
+void update_motion(const Model& model, const State& state, Evaluation& evaluation) {
+  const auto x = state.x();
+  const auto Q = state.Q();
+  const auto v = state.v();
+  const auto vdot = state.vdot();
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const Node& node = model.nodes[i];
+    if (node.modal >= 0) continue;
+    NodeMotion& motion = evaluation.motion[i];
+    const auto column = static_cast<Eigen::Index>(i);
+    motion.x = x.col(column);
+    motion.R = Eigen::Quaterniond(Q(0, column), Q(1, column), Q(2, column), Q(3, column)).toRotationMatrix();
+    if (node.translation >= 0) {
+      motion.xd = v.segment<3>(node.translation);
+      motion.xdd = vdot.segment<3>(node.translation);
+    }
+    if (node.rotation >= 0) {
+      motion.Omega = v.segment<3>(node.rotation);
+      motion.Omegad = vdot.segment<3>(node.rotation);
+    }
+  }
+}
+
+/// Frames, modes and the nodes that something acts on.
+void update_modal_bodies(const Model& model, const State& state, Evaluation& evaluation) {
+  for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
+    const ModalBody& body = model.modal_bodies[i];
+    const int first = model.sizes.first_modal() + body.offset;
+    update_kinematics(body, motion_of(evaluation, body.node),
+                      {state.w().data() + body.offset, state.v().data() + first, state.vdot().data() + first},
+                      evaluation.load_factor * body.gravity, evaluation.modal_bodies[i]);
+  }
+  for (std::size_t i = 0; i < model.modal_nodes.size(); ++i)
+    if (model.modal_nodes[i].active) update_modal_node(model, i, evaluation);
+}
+
+void update_modal_nodes(const Model& model, Evaluation& evaluation) {
+  for (std::size_t i = 0; i < model.modal_nodes.size(); ++i)
+    if (!model.modal_nodes[i].active) update_modal_node(model, i, evaluation);
+}
+
+}  // namespace tisserand::mechanism

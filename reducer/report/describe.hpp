@@ -1,0 +1,38 @@
+// What a reduction tells of itself: the figures of the certificate, and doubts about the mesh.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/part/part.hpp"
+#include "reducer/modes/boundary_modes.hpp"
+#include "reducer/modes/internal_modes.hpp"
+#include "reducer/modes/project.hpp"
+#include "reducer/report/certificate.hpp"
+
+namespace tisserand::reducer {
+
+/// Modes asked for and kept, defects before they were removed.
+ModelCertificate describe(const formats::Part& part, const BoundaryModes& boundary, const InternalModes& internal,
+                          const ProjectionDefects& defects);
+
+/// Counts of nodes, elements and ties.
+void describe_mesh(const Mesh& mesh, const System& system, ModelCertificate& c);
+
+/// Lowest free frequencies of the full model, for parts that are small enough to compute them beside the reduction: up
+/// to 6000 coordinates, where the dense eigenvalue problem takes no longer than the rest. Else empty.
+std::vector<double> compared_frequencies(const System& system, const InternalModes& internal);
+
+/// What is doubtful about the mesh; `numbers`: of the plausibility of its numbers alone.
+struct Doubts {
+  std::vector<std::string> all;
+  std::vector<std::string> numbers;
+};
+
+/// Throws Error for elements of bad shape.
+Doubts check_mesh(const Mesh& mesh, const formats::Part& part);
+
+/// Throws Error for a part without mass.
+formats::RigidProperties require_mass(const System& system, const std::string& where);
+
+}  // namespace tisserand::reducer
