@@ -24,7 +24,7 @@ struct ConstraintRows {
 struct TangentRequest {
   TangentCoefficients coefficients;
   TangentKind kind = TangentKind::step;
-  ConstraintRows rows;
+  ConstraintRows rows = {};
   bool operator==(const TangentRequest&) const = default;
 };
 

@@ -8,7 +8,7 @@ namespace tisserand::mechanism {
 /// them one by one (docs/PERFORMANCE.md, "Numbers that steer a step").
 struct StepTuning {
   /// Kept factors are given up when an increment exceeds this times the one before. A simplified Newton iteration that
-  /// contracts by θ needs ln(tolerance)/ln θ iterations ([HW96] IV.8, (8.10)): above 1/4 more than a factorisation
+  /// contracts by θ needs ln(tolerance)/ln θ iterations ([HW96] IV.8): above 1/4 more than a factorisation
   /// costs.
   double slow_rate = 0.25;
   /// New factors serve the next iteration of the same step too if the residual fell below this times the one before.

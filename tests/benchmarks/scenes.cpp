@@ -127,6 +127,7 @@ Cost run_and_visit(const Case& input, Visit visit) {
   const double at_start = cpu_seconds();
   mechanism::BuiltModel built = mechanism::build_model(scene, input.files);
   mechanism::Workspace workspace(built.model);
+  workspace.memory.tuning = input.tuning;
   const double built_at = cpu_seconds();
   (void)mechanism::start(scene, built.model, built.state, workspace);
   cost.seconds_model = built_at - at_start;

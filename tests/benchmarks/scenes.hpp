@@ -16,6 +16,7 @@ namespace tisserand::benchmarks {
 struct Case {
   formats::Scene scene;
   mechanism::SuperelementFiles files;
+  mechanism::StepTuning tuning = {};
 };
 
 /// Hinged beam of [Car00] 8.1, moment 200, 2000 steps of 0.01, as one reduced body: 24 beam elements, boundary nodes

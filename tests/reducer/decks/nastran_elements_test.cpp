@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <Eigen/LU>
 
+#include "reducer/elements/beam/beam.hpp"
 #include "reducer/elements/element_matrices.hpp"
 #include "tests/reducer/decks/nastran_deck.hpp"
 

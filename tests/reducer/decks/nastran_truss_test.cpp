@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "reducer/elements/beam/beam.hpp"
 #include "tests/reducer/decks/nastran_deck.hpp"
 #include "tests/support/meshes/small_model.hpp"
 

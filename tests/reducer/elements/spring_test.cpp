@@ -8,6 +8,7 @@
 
 #include "common/math/rotation.hpp"
 #include "reducer/elements/element_matrices.hpp"
+#include "reducer/elements/beam/beam.hpp"
 
 namespace tisserand::reducer::spring_test {
 namespace {
