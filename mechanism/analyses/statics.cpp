@@ -71,8 +71,7 @@ StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options,
   }
 }
 
-}  // namespace
-
+/// Takes the positions of the last evaluate() as those that floating frames and angles go on from.
 void accept_equilibrium(const Model& model, State& state, const Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
     state.frames().col(i) = wxyz(Eigen::Quaterniond(evaluation.superelements[i].motion.R0).normalized());
@@ -80,14 +79,7 @@ void accept_equilibrium(const Model& model, State& state, const Evaluation& eval
   unwrap_hinges(model, evaluation, state);
 }
 
-std::string free_motion(const Model& model, State state, Workspace& workspace) {
-  state.v().setZero();
-  state.vdot().setZero();
-  evaluate(model, state, workspace.now);
-  std::string direction = free_direction(model, state, workspace);
-  return direction;
-}
-
+/// Completes the explanation of an outcome other than accepted: `reached` of the load, smallest load step.
 void explain_statics(double reached, double step, StaticsReport& report) {
   if (report.outcome == StepOutcome::singular)
     report.explanation = reached == 0.0
@@ -101,6 +93,39 @@ void explain_statics(double reached, double step, StaticsReport& report) {
         reached, report.residual, step);
 }
 
+}  // namespace
+
+std::string free_motion(const Model& model, State state, Workspace& workspace) {
+  state.v().setZero();
+  state.vdot().setZero();
+  evaluate(model, state, workspace.now);
+  std::string direction = free_direction(model, state, workspace);
+  return direction;
+}
+
+void ramp_loads(const Model& model, const formats::StaticsSpec& options, State& state, Evaluation& evaluation,
+                StaticsReport& report, const std::function<StepOutcome()>& solve) {
+  double reached = 0.0;
+  double size = 1.0 / std::max(1, options.load_steps);
+  int halvings = 0;
+  while (reached < 1.0) {
+    const State before = state;
+    evaluation.load_factor = std::min(1.0, reached + size);
+    report.outcome = solve();
+    if (report.outcome == StepOutcome::accepted) {
+      reached = evaluation.load_factor;
+      accept_equilibrium(model, state, evaluation);
+      ++report.load_steps;
+      continue;
+    }
+    state = before;
+    if (report.interrupted || report.outcome == StepOutcome::singular || ++halvings > most_halvings) break;
+    size *= 0.5;
+  }
+  evaluation.load_factor = 1.0;
+  explain_statics(reached, size, report);
+}
+
 StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, State& state,
                             Workspace& workspace) {
   return solve_statics(model, options, {}, state, workspace);
@@ -112,25 +137,8 @@ StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& opti
   StaticsReport report;
   state.v().setZero();
   state.vdot().setZero();
-  double reached = 0.0;
-  double size = 1.0 / std::max(1, options.load_steps);
-  int halvings = 0;
-  while (reached < 1.0) {
-    const State before = state;
-    workspace.now.load_factor = std::min(1.0, reached + size);
-    report.outcome = equilibrate(model, options, interrupted, state, workspace, report);
-    if (report.outcome == StepOutcome::accepted) {
-      reached = workspace.now.load_factor;
-      accept_equilibrium(model, state, workspace.now);
-      ++report.load_steps;
-      continue;
-    }
-    state = before;
-    if (report.interrupted || report.outcome == StepOutcome::singular || ++halvings > most_halvings) break;
-    size *= 0.5;
-  }
-  workspace.now.load_factor = 1.0;
-  explain_statics(reached, size, report);
+  ramp_loads(model, options, state, workspace.now, report,
+             [&] { return equilibrate(model, options, interrupted, state, workspace, report); });
   return report;
 }
 

@@ -41,10 +41,10 @@ std::string free_motion(const Model& model, State state, Workspace& workspace);
 [[nodiscard]] StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, State& state,
                                           Workspace& workspace);
 
-/// Takes the positions of the last evaluate() as those that floating frames and angles go on from.
-void accept_equilibrium(const Model& model, State& state, const Evaluation& evaluation);
-
-/// Completes the explanation of an outcome other than accepted: `reached` of the load, smallest load step.
-void explain_statics(double reached, double step, StaticsReport& report);
+/// From zero to the whole of loads and gravity (the evaluation's load factor) in load steps: `solve` brings the state
+/// to equilibrium under the present factor. Load steps are halved where it fails; an outcome other than accepted is
+/// explained in the report. Ends with a load factor of one.
+void ramp_loads(const Model& model, const formats::StaticsSpec& options, State& state, Evaluation& evaluation,
+                StaticsReport& report, const std::function<StepOutcome()>& solve);
 
 }  // namespace tisserand::mechanism

@@ -141,24 +141,8 @@ void turn_steadily(const Model& model, const formats::RotationSpec& rotation, St
 StaticsReport solve_steady_rotation(const Model& model, const formats::StaticsSpec& options,
                                     const Interrupt& interrupted, State& state, Evaluation& evaluation) {
   StaticsReport report;
-  double reached = 0.0, size = 1.0 / std::max(1, options.load_steps);
-  int halvings = 0;
-  while (reached < 1.0) {
-    const State before = state;
-    evaluation.load_factor = std::min(1.0, reached + size);
-    report.outcome = balance(model, options, interrupted, state, evaluation, report);
-    if (report.outcome == StepOutcome::accepted) {
-      reached = evaluation.load_factor;
-      accept_equilibrium(model, state, evaluation);
-      ++report.load_steps;
-      continue;
-    }
-    state = before;
-    if (report.interrupted || report.outcome == StepOutcome::singular || ++halvings > most_halvings) break;
-    size *= 0.5;
-  }
-  evaluation.load_factor = 1.0;
-  explain_statics(reached, size, report);
+  ramp_loads(model, options, state, evaluation, report,
+             [&] { return balance(model, options, interrupted, state, evaluation, report); });
   return report;
 }
 

@@ -41,6 +41,8 @@ std::string what_may_stand(const ExpressionScope& scope) {
 void TimeFunction::compile(const formats::TimeExpression& text, const ExpressionScope& scope) {
   expression_ = std::make_unique<Expression>();
   Expression& e = *expression_;
+  if (const std::string fault = formats::formula_fault(text.text); !fault.empty())
+    throw Error(fmt::format("expression '{}': {}", text.text, fault), text.where, what_may_stand(scope));
   const std::set<std::string> words = formats::names_of(text.text);
   std::vector<std::string> names;
   for (const auto& input : scope.inputs) {

@@ -11,7 +11,8 @@
 namespace tisserand::mechanism::back_end {
 namespace {
 
-/// Kept pivots are given up where they grow more than this.
+/// Kept pivots are given up where they grow more than the reciprocal of this: half of the digits are gone then, and
+/// what is left of them is what one refinement restores.
 constexpr double least_growth = 1e-8;
 
 /// KLU's interface knows no const; it changes neither pattern nor values.

@@ -10,9 +10,11 @@ namespace {
 using formats::Formulation;
 using formats::IntegratorSpec;
 
-/// Largest error of an iterated floating frame [rad].
+/// Largest error of an iterated floating frame [rad]: its iteration ends at 1e-14 where it converges (frame.hpp), a
+/// larger error is one of a frame that does not.
 constexpr double frame_tolerance = 1e-10;
-/// Violations of constraints relative to what accelerations move in a step, in units of Newton's tolerance.
+/// Violations of constraints relative to what accelerations move in a step, in units of Newton's tolerance: Φ stands
+/// for an acceleration of 4 Φ/h² (β about 1/4), so that 5 lets it be about as wrong as the forces may be.
 constexpr double share_of_motion = 5.0;
 
 /// The first NaN stays.

@@ -18,6 +18,8 @@
 namespace tisserand::mechanism {
 namespace {
 
+/// Constraints up to which a dense decomposition is taken: a QR of 400 x 400 takes 15 ms, above conjugate gradients are
+/// faster.
 constexpr int dense_limit = 400;
 
 /// μ = U λ with |μ|² = Σ |f|² + |m|²/L²: one upper triangle per joint (its wrenches are independent), a number per

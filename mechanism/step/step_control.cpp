@@ -10,6 +10,9 @@
 namespace tisserand::mechanism {
 namespace {
 
+/// Safety, and bounds of the change, as usual for one-step methods ([HW96] IV.8 has 0.9, 0.2 and steps that stay where
+/// they would grow by less than 1.2, which keeps factors); growth is bounded by 2, since multipliers carry a transient
+/// after each change (DECISIONS.md, "Index 3 and a change of step").
 constexpr double safety = 0.9;
 constexpr double most_growth = 2.0;
 constexpr double least_growth = 1.2;

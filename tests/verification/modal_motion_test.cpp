@@ -1,5 +1,6 @@
 // Motion of modal bodies: conserved quantities, the slider-crank of [GA00] 4.3, agreement with superelements and
 // nonlinear beams where deformations are small.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "formats/results/results.hpp"
@@ -77,6 +78,17 @@ TEST(ModalMotion, FreeBodyKeepsItsMomentaAndEnergy) {
     EXPECT_NEAR(coarse.angular / fine.angular, 16.0, 3.0) << reference;
     EXPECT_NEAR(coarse.energy / fine.energy, 16.0, 3.0) << reference;
   }
+}
+
+TEST(ModalMotion, ReportCountsGravityOfAModalBodyAlone) {
+  formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
+  formats::ModalBodySpec body;
+  body.name = "rod";
+  body.file = TISSERAND_SOURCE_DIR "/examples/modal_slider_crank/rod.modal.h5";
+  scene.bodies.emplace_back(body);
+  EXPECT_THAT(inspect(scene, {}).effects, ::testing::Not(::testing::Contains("gravity")));
+  scene.gravity = {0.0, 0.0, -9.81};
+  EXPECT_THAT(inspect(scene, {}).effects, ::testing::Contains("gravity"));
 }
 
 // ---- slider-crank of [GA00] 4.3 ------------------------------------------------------------------------------------

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <vector>
 
 #include <muParser.h>
 
@@ -59,6 +60,22 @@ std::set<std::string> names_of(const std::string& formula) {
   return names;
 }
 
+std::string formula_fault(const std::string& formula) {
+  std::vector<bool> is_call;  // of the brackets that are open
+  char before = '\0';         // the last character that is no blank
+  for (std::size_t i = 0; i < formula.size(); ++i) {
+    const char c = formula[i], next = i + 1 < formula.size() ? formula[i + 1] : '\0';
+    if (c == '(') is_call.push_back(starts_name(before) || is_digit(before));
+    if (c == ')' && !is_call.empty()) is_call.pop_back();
+    if (c == ',' && (is_call.empty() || !is_call.back()))
+      return "a comma stands between arguments of a function only; decimals have a point: 2.5, not 2,5";
+    const bool compares = next == '=' || before == '=' || before == '<' || before == '>' || before == '!';
+    if (c == '=' && !compares) return "'=' assigns nothing here; compare with ==, or write the value alone";
+    if (c != ' ' && c != '\t') before = c;
+  }
+  return {};
+}
+
 std::string with_names(const std::string& formula, const std::function<std::string(const std::string&)>& replacement) {
   std::string text;
   std::size_t done = 0;
@@ -92,6 +109,8 @@ Calculator::~Calculator() = default;
 
 double Calculator::operator()(const std::string& formula, const NamedValues& values) {
   check_extent(formula);
+  if (const std::string fault = formula_fault(formula); !fault.empty())
+    throw Error(fmt::format("expression '{}': {}", formula, fault), "", "");
   KnownValues known;  // all looked up before the parser is touched: values may be formulas themselves
   for (const std::string& name : names_of(formula))
     if (const std::optional<double> value = values(name)) known[name] = *value;

@@ -16,6 +16,11 @@ using NamedValues = std::function<std::optional<double>(const std::string& name)
 /// exponents of its numbers (1e5).
 std::set<std::string> names_of(const std::string& formula);
 
+/// What muParser would take in silence: an assignment ("t=5" is 5), and a comma that separates no arguments of a
+/// function
+/// ("2,5*t" is 5*t). Empty: neither. A sentence with the remedy.
+std::string formula_fault(const std::string& formula);
+
 /// The formula with every name that no bracket follows replaced by what `replacement` makes of it.
 std::string with_names(const std::string& formula, const std::function<std::string(const std::string&)>& replacement);
 

@@ -22,6 +22,25 @@ TEST(TimeFunction, Constant) {
   EXPECT_TRUE(f.breakpoints().empty());
 }
 
+TEST(TimeFunction, WhatLooksLikeAnotherFormulaIsAnError) {
+  const auto error = [](const std::string& text) -> std::string {
+    try {
+      TimeFunction f(TimeExpression{text, {}, "scene.yaml:7:3"}, {});
+      return "";
+    } catch (const Error& fault) {
+      return fault.what();
+    }
+  };
+  for (const std::string text : {"2,5*t", "(2,5)*t", "sin(t),1", "3*(t,2)"})
+    EXPECT_THAT(error(text), ::testing::AllOf(::testing::HasSubstr("expression '" + text + "': a comma"),
+                                              ::testing::HasSubstr("scene.yaml:7:3")));
+  for (const std::string text : {"t=5", "t = 5", "2*(t=1)"})
+    EXPECT_THAT(error(text), ::testing::HasSubstr("expression '" + text + "': '='"));
+  for (const std::string text : {"max(1, 2.5)*t", "t <= 1 ? 2 : 3", "t == 1 ? 2 : 3", "min(max(t, 1), 2)",
+                                 "t != 0 ? 1 : 0", "t >= 1 ? 2 : sum(1, (2 + t) * 3, 4)"})
+    EXPECT_EQ(error(text), "");
+}
+
 TEST(TimeFunction, TableIsLinearBetweenPointsAndConstantOutside) {
   const TimeTable table{{1.0, 2.0, 4.0}, {10.0, 20.0, -20.0}};
   TimeFunction f(table);
