@@ -1,5 +1,5 @@
 # tisserand_rooms(target): one translation unit per folder ("room"). Headers of templates are then parsed and instances made
-# once per room, not once per file: a first build takes about half the time. While you edit, -DTISSERAND_UNITY=OFF compiles
+# once per room, not once per file: a first build takes three quarters of the time and less. While you edit, -DTISSERAND_UNITY=OFF compiles
 # only the files that changed. Folders named after the target compile file by file.
 function(tisserand_rooms target)
   if(NOT TISSERAND_UNITY)
