@@ -77,7 +77,7 @@ void add_loads(const Model& model, const State& state, Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.loads.size(); ++i) {
     const Load& load = model.loads[i];
     const NodeMotion& node = motion_of(evaluation, load.at.node);
-    Vector3d& value = evaluation.load_values[i];
+    Eigen::Vector3d& value = evaluation.load_values[i];
     for (int k = 0; k < 3; ++k) value[k] = evaluation.load_factor * evaluation.load_functions[i][k](state.load_time());
     const Vector6d force = load_force(load, node, value);
     add_force(model, model.loads.maps[i], Vector6d(-force), evaluation);

@@ -8,7 +8,7 @@
 
 namespace tisserand::mechanism {
 
-AlphaParameters alpha_parameters(const IntegratorSpec& spec) {
+AlphaParameters alpha_parameters(const formats::IntegratorSpec& spec) {
   AlphaParameters p;
   switch (spec.method) {
     case formats::Method::bdf:  // its start is that of generalised alpha
