@@ -38,6 +38,7 @@ struct Evaluation {
   explicit Evaluation(const Model& model);
 
   Stage stage = Stage::nothing;
+  long tangents = 0;         ///< how often the blocks of superelements were made anew: factors go with one of them
   double load_factor = 1.0;  ///< of loads and gravity (load steps of statics): set by the caller
   /// θ of every node and displacement of every other coordinate since the state from which a step is taken: rows of Φ
   /// are derivatives by it (ConstraintRows). Zero unless evaluate_in_step() was given one.

@@ -23,6 +23,7 @@ FactorReport IterationMatrix::factor(const Model& model, const State& state, con
   const FactorReport report = system_.factor(model);
   factored_.reset();
   if (report.regular) factored_ = request;
+  tangent_ = evaluation.tangents;
   return report;
 }
 

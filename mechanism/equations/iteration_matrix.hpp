@@ -19,8 +19,11 @@ class IterationMatrix {
   /// Evaluates the tangent at the state of the last evaluate() and factors it.
   [[nodiscard]] FactorReport factor(const Model& model, const State& state, const TangentRequest& request,
                                     Evaluation& evaluation);
-  /// Whether the factors belong to this request, at whatever state.
-  bool serves(const TangentRequest& request) const { return factored_ == request; }
+  /// Whether the factors belong to this request, at whatever state, and the blocks of superelements in the evaluation,
+  /// which condense and expand internal coordinates, to the factors: another tangent makes them anew.
+  bool serves(const TangentRequest& request, const Evaluation& evaluation) const {
+    return factored_ == request && tangent_ == evaluation.tangents;
+  }
   /// The next iteration factors anew.
   void invalidate() { factored_.reset(); }
   /// As new: the next factorisation chooses its pivots like the first one.
@@ -48,6 +51,7 @@ class IterationMatrix {
 
   SaddleSystem system_;
   std::optional<TangentRequest> factored_;
+  long tangent_ = 0;                  ///< Evaluation::tangents of the factors
   Eigen::VectorXd element_boundary_;  ///< d_B of one superelement
 };
 

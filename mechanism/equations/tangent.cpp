@@ -58,6 +58,7 @@ void add_node_tangents(const Model& model, const State& state, TangentKind kind,
 void evaluate_tangent(const Model& model, const State& state, const TangentRequest& request, Evaluation& evaluation,
                       MatrixValues& matrix) {
   require_stage(evaluation, Stage::forces);
+  ++evaluation.tangents;
   const TangentTarget target = clear(model, request.coefficients, request.rows, matrix);
   add_tangents(model, model.superelements, request.kind, evaluation, target);
   add_node_tangents(model, state, request.kind, evaluation, target);

@@ -38,7 +38,7 @@ struct Coupling {
   std::string name;
   std::vector<CouplingTerm> terms;
   double constant = 0.0;
-  int motion = -1;          ///< index of f in Workspace::motions, −1: none
+  int motion = -1;          ///< index of f in Evaluation::motions, −1: none
   bool length = false;      ///< whether Φ is a length
   bool from_start = false;  ///< the constant is the value at the start: gears hold changes only
   int row = 0;              ///< its multiplier

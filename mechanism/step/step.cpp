@@ -46,7 +46,7 @@ StepReport take_step(const Model& model, const formats::IntegratorSpec& options,
     finish(model, options, scheme, state, workspace, report);
     return true;
   };
-  if (workspace.matrix.serves(scheme.request) && memory.reuse.tries_kept()) {
+  if (workspace.matrix.serves(scheme.request, workspace.now) && memory.reuse.tries_kept()) {
     if (succeeds_with(Factors::kept)) {
       memory.reuse.succeeded();
       return report;
