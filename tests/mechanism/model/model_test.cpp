@@ -251,5 +251,23 @@ TEST(MixedScene, PowerOfTheResidualIsTheRateOfEnergyMinusThePowerOfLoads) {
   EXPECT_NEAR(r.dot(state.v()), rate - power, 1e-6 * std::abs(rate));
 }
 
+// Internal coordinates are condensed with blocks that stay in the evaluation: factors end with them, whoever made
+// others.
+TEST(MixedScene, AnotherTangentEndsTheFactors) {
+  Mixed mixed;
+  Workspace& workspace = mixed.run.workspace;
+  const TangentRequest request{{100.0, 10.0, 1.0}, TangentKind::step, {}};
+  evaluate(mixed.run.model(), mixed.run.state(), workspace.now);
+  ASSERT_TRUE(workspace.matrix.factor(mixed.run.model(), mixed.run.state(), request, workspace.now).regular);
+  EXPECT_TRUE(workspace.matrix.serves(request, workspace.now));
+  EXPECT_FALSE(workspace.matrix.serves({{50.0, 10.0, 1.0}, TangentKind::step, {}}, workspace.now));
+  evaluate(mixed.run.model(), mixed.run.state(), workspace.now);
+  EXPECT_TRUE(workspace.matrix.serves(request, workspace.now));
+  MatrixValues other(mixed.run.model());
+  evaluate_tangent(mixed.run.model(), mixed.run.state(), {{1.0, 0.0, 0.0}, TangentKind::step, {}}, workspace.now,
+                   other);
+  EXPECT_FALSE(workspace.matrix.serves(request, workspace.now));
+}
+
 }  // namespace
 }  // namespace tisserand::mechanism::model_test
