@@ -225,7 +225,7 @@ std::vector<KeySet> attachment_key_sets() {
         {"inertia", "inertia_tensor",
          "about the centre of mass, in part axes [mass length²]: `[Ixx, Iyy, Izz]`, `[Ixx, Iyy, Izz, Ixy, Ixz, Iyz]`, "
          "or three rows. Off-diagonal numbers are entries of the tensor: Ixy = -∫ x y dm. Positive semidefinite, and "
-         "no principal moment larger than the sum of the other two",
+         "no principal moment larger than the sum of the other two by more than 1e-3 (up to that a note: typed digits)",
          "0"}}},
       {"spring",
        {{"from", "at", "two places", "required"},

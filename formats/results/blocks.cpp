@@ -133,6 +133,19 @@ Block along(const std::string& dataset, const std::vector<ResultsLayout::Coordin
   return force;
 }
 
+void add_couplings(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  std::vector<ResultsLayout::Coordinate> first, second;
+  for (const ResultsLayout::Coupling& coupling : layout.couplings) {
+    first.push_back({coupling.name, coupling.first_length});
+    second.push_back({coupling.name, coupling.second_length});
+  }
+  using Row = const ResultsRow&;
+  blocks.push_back(
+      along("/couplings/first_force", first, layout.units, [](Row r) { return r.coupling_first_force.data(); }));
+  blocks.push_back(
+      along("/couplings/second_force", second, layout.units, [](Row r) { return r.coupling_second_force.data(); }));
+}
+
 void add_forces(const ResultsLayout& layout, std::vector<Block>& blocks) {
   using Row = const ResultsRow&;
   const Units& u = layout.units;
@@ -197,6 +210,8 @@ void ResultsRow::resize(const ResultsLayout& layout) {
   joint_moment.setZero(3, joints);
   joint_coordinate.setZero(coordinates);
   joint_rate.setZero(coordinates);
+  for (Eigen::VectorXd* block : {&coupling_first_force, &coupling_second_force})
+    block->setZero(static_cast<Eigen::Index>(layout.couplings.size()));
   motion_force.setZero(static_cast<Eigen::Index>(layout.motions.size()));
   spring_force.setZero(static_cast<Eigen::Index>(layout.springs.size()));
   stop_force.setZero(static_cast<Eigen::Index>(layout.stops.size()));
@@ -213,6 +228,7 @@ std::vector<Block> all_blocks(const ResultsLayout& layout) {
   add_superelements(layout, blocks);
   add_modal_bodies(layout, blocks);
   add_joints(layout, blocks);
+  add_couplings(layout, blocks);
   add_forces(layout, blocks);
   add_scalars(layout, blocks);
   std::erase_if(blocks, [](const Block& block) { return block.width() == 0; });
@@ -225,6 +241,7 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
   ResultsLayout full;
   full.nodes = full.superelements = full.modal_bodies = full.joints = full.bushings = full.frictions = {"a"};
   full.coordinates = full.motions = full.springs = full.stops = {{"a", false}};
+  full.couplings = {{"a", false, false}};
   full.modes_offset = full.boundary_offset = full.modal_offset = {0, 1};
   for (const Block& block : all_blocks(full)) {
     const std::string name = block.dataset.substr(1), group = name.substr(0, name.find('/'));

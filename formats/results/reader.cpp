@@ -67,6 +67,17 @@ std::vector<ResultsLayout::Coordinate> read_coordinates(const hdf5::InputFile& f
   return list;
 }
 
+std::vector<ResultsLayout::Coupling> read_couplings(const hdf5::InputFile& file) {
+  const std::vector<std::string> words = names(file, "/couplings/name");
+  std::vector<std::string> first = names(file, "/couplings/first_kind"), second = names(file, "/couplings/second_kind");
+  first.resize(words.size(), "angle");
+  second.resize(words.size(), "angle");
+  std::vector<ResultsLayout::Coupling> list;
+  for (std::size_t i = 0; i < words.size(); ++i)
+    list.push_back({words[i], first[i] == "length", second[i] == "length"});
+  return list;
+}
+
 ResultsLayout read_layout(const hdf5::InputFile& file) {
   ResultsLayout l;
   l.scene = file.text_attribute("/", "scene");
@@ -75,6 +86,7 @@ ResultsLayout read_layout(const hdf5::InputFile& file) {
   l.nodes = names(file, "/nodes/name");
   l.joints = names(file, "/joints/name");
   l.coordinates = read_coordinates(file, "/joints/coordinate_");
+  l.couplings = read_couplings(file);
   l.motions = read_coordinates(file, "/motions/");
   l.springs = read_coordinates(file, "/forces/spring_");
   l.stops = read_coordinates(file, "/forces/stop_");

@@ -30,9 +30,15 @@ struct ResultsLayout {
     bool length = false;  ///< or an angle
   };
   std::vector<Coordinate> coordinates;  ///< joint coordinates
-  std::vector<Coordinate> motions;      ///< driven coordinates, by the name of the drive
-  std::vector<Coordinate> springs;      ///< by name, with the kind of what they act along
-  std::vector<Coordinate> stops;        ///< those of the springs that have stops
+  struct Coupling {
+    std::string name;
+    bool first_length = false;  ///< the first coordinate is a length, or an angle
+    bool second_length = false;
+  };
+  std::vector<Coupling> couplings;  ///< gears, racks and pinions
+  std::vector<Coordinate> motions;  ///< driven coordinates, by the name of the drive
+  std::vector<Coordinate> springs;  ///< by name, with the kind of what they act along
+  std::vector<Coordinate> stops;    ///< those of the springs that have stops
   std::vector<std::string> bushings;
   std::vector<std::string> frictions;  ///< joints with friction
   std::vector<std::string> channels;   ///< selection, as in OutputSpec; empty: all
@@ -54,7 +60,8 @@ struct ResultsRow {
   Eigen::VectorXd w;                                        ///< all modal bodies, modal_offset
   Eigen::VectorXd w_rate;                                   ///< of w
   Eigen::Matrix3Xd joint_force, joint_moment;
-  Eigen::VectorXd joint_coordinate, joint_rate;  ///< of layout.coordinates
+  Eigen::VectorXd joint_coordinate, joint_rate;                 ///< of layout.coordinates
+  Eigen::VectorXd coupling_first_force, coupling_second_force;  ///< along the two coordinates, as of springs
   Eigen::VectorXd motion_force;              ///< of layout.motions: force or moment of the drive along its coordinate
   Eigen::VectorXd spring_force, stop_force;  ///< along the coordinate, on b; the stop's is part of the spring's
   Eigen::Matrix3Xd bushing_force, bushing_moment, friction_force, friction_moment;  ///< as of joints

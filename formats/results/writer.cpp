@@ -89,6 +89,18 @@ hdf5::Handle access_properties() {
   return access;
 }
 
+void write_couplings(hdf5::Id file, const std::vector<ResultsLayout::Coupling>& couplings, const std::string& where) {
+  std::vector<std::string> names, first, second;
+  for (const ResultsLayout::Coupling& coupling : couplings) {
+    names.push_back(coupling.name);
+    first.push_back(coupling.first_length ? "length" : "angle");
+    second.push_back(coupling.second_length ? "length" : "angle");
+  }
+  hdf5::write_texts(file, "/couplings/name", names, where);
+  hdf5::write_texts(file, "/couplings/first_kind", first, where);
+  hdf5::write_texts(file, "/couplings/second_kind", second, where);
+}
+
 /// A file with everything that does not change during the run. The names of a group are stored if any of its datasets
 /// is.
 void create_head(const std::string& path, const ResultsLayout& layout, const std::vector<Block>& blocks,
@@ -97,7 +109,7 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
   hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
   if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
   hdf5::write_text_attribute(file.id(), "/", "format", "tisserand-results", where);
-  hdf5::write_text_attribute(file.id(), "/", "version", "1.3", where);
+  hdf5::write_text_attribute(file.id(), "/", "version", "1.4", where);
   hdf5::write_text_attribute(file.id(), "/", "scene", layout.scene, where);
   hdf5::write_text_attribute(file.id(), "/", "producer", layout.producer, where);
   write_unit(file.id(), "length_unit", layout.units.length, where);
@@ -123,6 +135,7 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
     hdf5::write_texts(file.id(), "/joints/name", layout.joints, where);
     coordinates("/joints/coordinate_", layout.coordinates);
   }
+  if (stores("/couplings/")) write_couplings(file.id(), layout.couplings, where);
   if (stores("/motions/")) coordinates("/motions/", layout.motions);
   if (stores("/forces/spring")) coordinates("/forces/spring_", layout.springs);
   if (stores("/forces/stop")) coordinates("/forces/stop_", layout.stops);

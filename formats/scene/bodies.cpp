@@ -346,7 +346,7 @@ std::vector<KeySet> body_key_sets() {
        {{"type", "'rigid'", "", "required"},
         plain<&RigidBodySpec::mass>("mass", "positive", "positive [mass]", "required"),
         plain<&RigidBodySpec::center_of_mass>("center_of_mass", "vector", "in the part frame [length]"),
-        {"inertia", "inertia_tensor", "about the centre of mass, part axes [mass length²]; forms as in PART.md",
+        {"inertia", "inertia_tensor", "about the centre of mass, part axes [mass length²]; forms and limits as in PART.md",
          "required"},
         nodes},
        start_fields<RigidBodySpec>()},

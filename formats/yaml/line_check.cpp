@@ -68,12 +68,12 @@ void check_mass(const MassToCheck& body, MassSign sign, Faults& faults) {
   const Eigen::Matrix3d scaled = body.inertia / scale;
   const Eigen::Vector3d principal =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
-  constexpr double slack = 1e-9;
+  constexpr double slack = 1e-9, typed = 1e-3;
   const Eigen::Vector3d shown = scale * principal;
   if (principal[0] < -slack) {
     faults.add(body.where, "inertia",
                fmt::format("{}: inertia has the negative principal moment {:g}", body.subject, shown[0]), "");
-  } else if (principal[2] > principal[0] + principal[1] + slack) {
+  } else if (principal[2] > principal[0] + principal[1] + typed * principal[2]) {
     faults.add(
         body.where, "inertia",
         fmt::format("{}: principal moments of inertia {:g}, {:g}, {:g}: the largest exceeds the sum of the others, "
@@ -81,6 +81,17 @@ void check_mass(const MassToCheck& body, MassSign sign, Faults& faults) {
                     body.subject, shown[0], shown[1], shown[2]),
         "check values, order and units");
   }
+}
+
+std::string inertia_doubt(const std::string& subject, const Eigen::Matrix3d& inertia) {
+  const Eigen::Vector3d principal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  const double excess = principal[2] - principal[0] - principal[1];
+  if (!(excess > 1e-9 * principal[2])) return {};
+  return fmt::format(
+      "{}: of the principal moments of inertia {:g}, {:g}, {:g} the largest exceeds the sum of the others "
+      "by {:.2g} of it, which no body's does; they are taken as given",
+      subject, principal[0], principal[1], principal[2], excess / principal[2]);
 }
 
 }  // namespace tisserand::formats

@@ -34,7 +34,11 @@ struct MassToCheck {
 enum class MassSign { positive, zero_allowed };
 
 /// Sign of the mass; inertia finite, symmetric, positive semidefinite, and no principal moment above the sum of the
-/// others.
+/// others by more than 1e-3 of it: four typed digits of a flat body do that.
 void check_mass(const MassToCheck& body, MassSign sign, Faults& faults);
+
+/// A sentence where a principal moment exceeds the sum of the others beyond round-off, which no body's does; else
+/// empty.
+std::string inertia_doubt(const std::string& subject, const Eigen::Matrix3d& inertia);
 
 }  // namespace tisserand::formats

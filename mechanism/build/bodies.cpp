@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/text.hpp"
+#include "formats/yaml/line_check.hpp"
 #include "mechanism/bodies/beam/mesh.hpp"
 #include "mechanism/build/modal_bodies.hpp"
 #include "mechanism/build/virtual_bodies.hpp"
@@ -60,6 +61,11 @@ class BodyBuilder {
     c_.markers.places[name] = marker;
   }
 
+  void add_frame(const std::string& name, const Marker& marker) {
+    add_place(name, marker);
+    c_.markers.frames.insert(name);
+  }
+
   void note_units(const std::string& name, const Units& from, const UnitConversion& units) {
     if (from.named() && (units.length != 1.0 || units.mass != 1.0 || units.time != 1.0))
       c_.notes.push_back(fmt::format("body '{}': converted from {}, {}, {} to {}, {}, {}", name, from.length.label,
@@ -87,7 +93,7 @@ class BodyBuilder {
     built.body.gravity = spec.gravity.value_or(c_.scene.gravity);
     built.body.offset = std::exchange(c_.model.sizes.modal, c_.model.sizes.modal + built.body.modes);
     const Matrix3d part_axes = built.frame_rotation.transpose();
-    add_place(spec.name, {built.body.node, Vector3d::Zero(), part_axes});
+    add_frame(spec.name, {built.body.node, Vector3d::Zero(), part_axes});
     for (ModalNode& node : built.nodes) {
       const std::string name = spec.name + "/" + node.name;
       node.body = static_cast<int>(c_.model.modal_bodies.size());
@@ -145,14 +151,20 @@ class BodyBuilder {
       node.pose.position = element.node_position.row(j).transpose() * units.length;
       rigid.nodes.push_back(node);
     }
-    add_body(rigid);
+    add_rigid_body(rigid);
   }
 
   void add_body(const formats::RigidBodySpec& spec) {
+    const std::string doubt = formats::inertia_doubt(fmt::format("body '{}'", spec.name), spec.inertia);
+    if (!doubt.empty()) c_.notes.push_back(doubt);
+    add_rigid_body(spec);
+  }
+
+  void add_rigid_body(const formats::RigidBodySpec& spec) {
     const int node = add_node(spec.name, spec.start, spec.center_of_mass, 1, 1, c_);
     c_.model.rigid_bodies.push_back(
         {spec.name, node, spec.mass, spec.inertia, spec.gravity.value_or(c_.scene.gravity)});
-    add_place(spec.name, {node, -spec.center_of_mass, Matrix3d::Identity()});
+    add_frame(spec.name, {node, -spec.center_of_mass, Matrix3d::Identity()});
     for (const formats::RigidNodeSpec& place : spec.nodes)
       add_place(spec.name + "/" + place.name, {node, place.pose.position - spec.center_of_mass,
                                                place.pose.orientation.normalized().toRotationMatrix()});
@@ -193,7 +205,7 @@ class BodyBuilder {
         c_.markers.start.push_back(motion_at(spec.start, Vector3d::Zero()));
         break;
     }
-    add_place(spec.name, {node});
+    add_frame(spec.name, {node});
     for (const formats::RigidNodeSpec& place : spec.nodes)
       add_place(spec.name + "/" + place.name,
                 {node, place.pose.position, place.pose.orientation.normalized().toRotationMatrix()});
@@ -254,6 +266,7 @@ void eliminate_virtual_bodies(Construction& c) {
   for (auto& [name, place] : c.markers.places) move(place);
   c.model.ties = std::move(tied.ties);
   c.vanished = std::move(tied.vanished);
+  c.arms = std::move(tied.arms);
 }
 
 }  // namespace tisserand::mechanism

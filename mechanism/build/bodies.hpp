@@ -22,6 +22,7 @@ struct Construction {
   MarkerTable markers;
   std::vector<Eigen::Quaterniond> frames;  ///< of the superelements at the start
   std::set<std::string> vanished;          ///< joints that eliminated virtual bodies hung on
+  std::vector<RigidArm> arms;
   std::set<double> breakpoints;
   std::vector<std::string> notes;
   std::vector<Error> errors;

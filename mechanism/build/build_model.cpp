@@ -38,6 +38,8 @@ BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files) {
   for (const formats::JointSpec& joint : scene.joints)
     if (!c.vanished.contains(joint.name)) c.collect([&] { joints.add(joint); });
   c.throw_errors();
+  c.arms.insert(c.arms.end(), joints.rigid_arms().begin(), joints.rigid_arms().end());
+  if (const std::string arms = rigid_arms_text(c.arms, c.model.units); !arms.empty()) c.notes.push_back(arms);
   for (const formats::GearSpec& gear : scene.gears) c.collect([&] { joints.add(gear); });
   for (const formats::InputSpec& input : scene.inputs) joints.add(input);
   for (const formats::ChannelSpec& channel : scene.channels) c.collect([&] { joints.add(channel); });

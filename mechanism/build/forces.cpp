@@ -40,8 +40,8 @@ int JointBuilder::add_distance(const std::string& name, const std::string& subje
   coordinate.b = markers_.find(spec.b);
   coordinate.relation = {RelationKind::distance, 0, 0};
   require_two_nodes(subject, spec, where, coordinate.a, coordinate.b);
-  check_marker(model_, subject, MarkerUse::position, spec.a, coordinate.a);
-  check_marker(model_, subject, MarkerUse::position, spec.b, coordinate.b);
+  check_marker(model_, subject, use_position, spec.a, coordinate.a);
+  check_marker(model_, subject, use_position, spec.b, coordinate.b);
   if (!(distance_at_start(coordinate.a, coordinate.b) > 1e-9 * model_.length))
     throw Error(fmt::format("{} has no direction: its ends are at the same place", subject), where,
                 "move one end, or use the coordinates of a joint");
@@ -58,8 +58,8 @@ int JointBuilder::add_angle(const formats::SpringSpec& spec) {
   const std::string subject = fmt::format("spring '{}'", spec.name);
   require_two_nodes(subject, spec, spec.where, coordinate.a, coordinate.b);
   place_markers(markers_, spec, coordinate.a, coordinate.b);
-  check_marker(model_, subject, MarkerUse::position_and_axes, spec.a, coordinate.a);
-  check_marker(model_, subject, MarkerUse::position_and_axes, spec.b, coordinate.b);
+  check_marker(model_, subject, use_axes, spec.a, coordinate.a);
+  check_marker(model_, subject, use_axes, spec.b, coordinate.b);
   model_.coordinates.push_back(std::move(coordinate));
   return static_cast<int>(model_.coordinates.size()) - 1;
 }
@@ -72,8 +72,8 @@ void JointBuilder::add(const formats::BushingSpec& spec) {
   const std::string subject = fmt::format("bushing '{}'", spec.name);
   require_two_nodes(subject, spec, spec.where, bushing.a, bushing.b);
   place_markers(markers_, spec, bushing.a, bushing.b);
-  check_marker(model_, subject, MarkerUse::position_and_axes, spec.a, bushing.a);
-  check_marker(model_, subject, MarkerUse::position_and_axes, spec.b, bushing.b);
+  check_marker(model_, subject, use_position_and_axes, spec.a, bushing.a);
+  check_marker(model_, subject, use_position_and_axes, spec.b, bushing.b);
   bushing.stiffness = spec.stiffness;
   bushing.damping = spec.damping;
   bushing.free = spec.free.value_or(bushing.free);
@@ -121,7 +121,7 @@ void JointBuilder::add(const formats::ChannelSpec& spec) {
     case formats::ChannelKind::position:
     case formats::ChannelKind::velocity:
       channel.a = markers_.find(spec.a);
-      check_marker(model_, subject, MarkerUse::position, spec.a, channel.a);
+      check_marker(model_, subject, use_position, spec.a, channel.a);
       break;
   }
   if (channel.coordinate >= 0) {

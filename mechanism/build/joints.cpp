@@ -10,10 +10,12 @@ namespace tisserand::mechanism {
 
 using Eigen::Vector3d;
 
-bool JointBuilder::uses_axes(const Joint& joint) {
-  for (int k = 0; k < joint.relation_count; ++k)
-    if (joint.relations[k].kind != RelationKind::distance) return true;
-  return false;
+void JointBuilder::check_markers(const formats::JointSpec& spec, const Joint& joint) const {
+  const std::string subject = fmt::format("joint '{}'", spec.name);
+  const Dependence needs = depends_on(joint);
+  const bool other_way_round = !needs.axes_b && has_rotation(model_, joint.b.node);
+  check_marker(model_, subject, {needs.places, needs.axes_a, other_way_round}, spec.a, joint.a);
+  check_marker(model_, subject, {needs.places, needs.axes_b}, spec.b, joint.b);
 }
 
 void JointBuilder::add(const formats::JointSpec& spec) {
@@ -34,13 +36,11 @@ void JointBuilder::add(const formats::JointSpec& spec) {
     throw Error(fmt::format("{} joint '{}' has no axis", formats::joint_word(spec.kind), spec.name), spec.where,
                 "give `axis: [x, y, z]` in the world frame at the start, or orientations of its markers");
   if (!keeps_distance(joint)) place_markers(markers_, spec, joint.a, joint.b);
-  const std::string subject = fmt::format("joint '{}'", spec.name);
-  const MarkerUse use = uses_axes(joint) ? MarkerUse::position_and_axes : MarkerUse::position;
-  check_marker(model_, subject, use, spec.a, joint.a);
-  check_marker(model_, subject, use, spec.b, joint.b);
+  check_markers(spec, joint);
+  add_rigid_arms(markers_, spec, joint, model_.length, arms_);
   if (keeps_distance(joint)) set_length(spec, joint);
   add_coordinates(joint);
-  if (joint_law(spec.kind).threaded) add_thread(spec);
+  if (joint_law(spec.kind).threaded) joint.thread = add_thread(spec);
   if (spec.friction) add_friction(spec);
   model_.joints.push_back(std::move(joint));
 }
@@ -58,7 +58,9 @@ double JointBuilder::distance_at_start(const Marker& a, const Marker& b) const {
 }
 
 void JointBuilder::add_coordinates(const Joint& joint) {
-  const std::vector<NamedRelation> all = free_coordinates(joint);
+  std::vector<NamedRelation> all = free_coordinates(joint);
+  if (!has_translation(model_, joint.a.node) || !has_translation(model_, joint.b.node))
+    std::erase_if(all, [](const NamedRelation& free) { return depends_on(free.relation).places; });
   for (const NamedRelation& free : all) {
     Coordinate coordinate;
     coordinate.name = all.size() == 1 ? joint.name : joint.name + "/" + free.name;
@@ -87,14 +89,16 @@ void JointBuilder::add_friction(const formats::JointSpec& joint) {
   model_.frictions.push_back(friction);
 }
 
-void JointBuilder::add_thread(const formats::JointSpec& spec) {
+int JointBuilder::add_thread(const formats::JointSpec& spec) {
   Coupling thread;
   thread.name = spec.name + ", advance with the turn";
   thread.length = true;
+  thread.thread = true;
   thread.from_start = true;
   const int angle = coordinate_.at(spec.name + "/angle"), z = coordinate_.at(spec.name + "/z");
   thread.terms = {{z, 1.0}, {angle, static_cast<double>(-spec.pitch / (2.0 * EIGEN_PI))}};
   activate(thread);
+  return static_cast<int>(model_.couplings.size()) - 1;
 }
 
 void JointBuilder::activate(Coupling& coupling) {

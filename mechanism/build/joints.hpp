@@ -20,6 +20,7 @@ class JointBuilder {
       : markers_(markers), model_(model), breakpoints_(breakpoints) {}
 
   void add(const formats::JointSpec& spec);
+  const std::vector<RigidArm>& rigid_arms() const { return arms_; }
   void add(const formats::GearSpec& spec);
   void add(const formats::MotionSpec& spec);
   void add(const formats::SpringSpec& spec);
@@ -28,14 +29,14 @@ class JointBuilder {
   void add(const formats::ChannelSpec& spec);
 
  private:
-  /// Whether the joint uses directions of the marker.
-  static bool uses_axes(const Joint& joint);
+  /// Throws Error where the nodes of the joint lack what it holds.
+  void check_markers(const formats::JointSpec& spec, const Joint& joint) const;
   void set_length(const formats::JointSpec& spec, Joint& joint) const;
   double distance_at_start(const Marker& a, const Marker& b) const;
   void add_coordinates(const Joint& joint);
   void add_friction(const formats::JointSpec& joint);
-  /// z = pitch angle/(2π), with the values at the start as the reference.
-  void add_thread(const formats::JointSpec& spec);
+  /// z = pitch angle/(2π), with the values at the start as the reference. Its index.
+  int add_thread(const formats::JointSpec& spec);
   void activate(Coupling& coupling);
   int find_coordinate(const formats::CoordinateRef& ref) const;
   bool is_length_coordinate(int coordinate) const;
@@ -50,6 +51,7 @@ class JointBuilder {
   const MarkerTable& markers_;
   Model& model_;
   std::set<double>& breakpoints_;
+  std::vector<RigidArm> arms_;
   std::map<std::string, int> coordinate_;  ///< "hinge", "slide/z" -> row of Model::coordinates
 };
 

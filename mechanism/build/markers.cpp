@@ -1,6 +1,9 @@
 // Finding places by name.
 #include "mechanism/build/markers.hpp"
 
+#include <algorithm>
+#include <functional>
+
 #include <fmt/format.h>
 
 #include "common/error.hpp"
@@ -72,17 +75,52 @@ Marker MarkerTable::find(const formats::MarkerSpec& spec) const { return with_of
 void check_marker(const Model& model, const std::string& subject, MarkerUse use, const formats::MarkerSpec& place,
                   const Marker& marker) {
   if (marker.node < 0) return;
-  if (!has_translation(model, marker.node))
+  if (use.position && !has_translation(model, marker.node))
     throw Error(fmt::format("{} holds the position of node '{}', which has no translations", subject, place.node),
                 place.where, "keep the translations of that node in the superelement");
   if (has_rotation(model, marker.node)) return;
-  if (use == MarkerUse::position_and_axes)
+  if (use.axes && use.other_way_round)
+    throw Error(fmt::format("{} takes its axes from node '{}', which has no rotations", subject, place.node),
+                place.where,
+                "exchange a and b: the axes are those of a; or keep the rotations of that node in the superelement");
+  if (use.axes)
     throw Error(fmt::format("{} holds the rotation of node '{}', which has none", subject, place.node), place.where,
                 "use a spherical joint, or keep the rotations of that node in the superelement");
-  if (marker.p.norm() > 1e-12 * model.length)
+  if (use.position && marker.p.norm() > 1e-12 * model.length)
     throw Error(fmt::format("{} is {:.3g} away from node '{}', which has no rotations to carry the offset", subject,
                             marker.p.norm(), place.node),
                 place.where, "put it at the node, or keep the rotations of that node in the superelement");
+}
+
+void add_rigid_arms(const MarkerTable& markers, const formats::JointSpec& spec, const Joint& joint, double length,
+                    std::vector<RigidArm>& arms) {
+  constexpr double shown = 1e-6;
+  const bool told = spec.position || spec.a.position || spec.b.position;
+  const bool axes_kept = keeps_orientation(joint) || aligned_axis(joint) >= 0;
+  const auto add = [&](const formats::MarkerSpec& side, const Marker& marker) {
+    if (marker.node < 0 || side.position || (told && markers.frames.contains(side.node))) return;
+    const Vector3d arm = markers.position(marker) - markers.position(markers.find(side));
+    const Vector3d in_A = marker_rotation(joint.a, markers.motion(joint.a.node)).transpose() * arm;
+    const bool is_b = &side == &spec.b;
+    const double held = is_b && !axes_kept && depends_on(joint).places ? arm.norm() : held_length(joint, in_A);
+    if (held > shown * length) arms.push_back({spec.name, side.node, held});
+  };
+  if (keeps_distance(joint)) return;
+  add(spec.a, joint.a);
+  add(spec.b, joint.b);
+}
+
+std::string rigid_arms_text(std::vector<RigidArm> arms, const Units& units) {
+  constexpr std::size_t shown = 10;
+  if (arms.empty()) return {};
+  std::ranges::stable_sort(arms, std::greater{}, &RigidArm::length);
+  const std::string unit = unit_label(units, 1, 0, 0);
+  std::vector<std::string> texts;
+  for (std::size_t i = 0; i < std::min(shown, arms.size()); ++i)
+    texts.push_back(fmt::format("'{}' {:.4g}{}{} from '{}'", arms[i].joint, arms[i].length, unit.empty() ? "" : " ",
+                                unit, arms[i].place));
+  if (arms.size() > shown) texts.push_back(fmt::format("{} more", arms.size() - shown));
+  return fmt::format("joints away from the nodes that they name, which rigid arms bridge: {}", join(texts, ", "));
 }
 
 }  // namespace tisserand::mechanism

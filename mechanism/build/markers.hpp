@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,16 @@
 
 namespace tisserand::mechanism {
 
+/// A joint that stands away from a place which it names, without the scene having said so: a rigid arm bridges it.
+struct RigidArm {
+  std::string joint;
+  std::string place;
+  double length = 0.0;  ///< along directions that the joint holds
+};
+
 struct MarkerTable {
   std::map<std::string, Marker> places;
+  std::set<std::string> frames;   ///< places that are the frame of a body, not a node of it
   std::vector<NodeMotion> start;  ///< of each node
 
   /// The marker that a scene names, with its own offset. Throws Error with the nearest name.
@@ -26,10 +35,26 @@ struct MarkerTable {
 /// axes of the marker that has an orientation, or those of the world.
 void place_markers(const MarkerTable& markers, const formats::MarkerPairSpec& spec, Marker& a, Marker& b);
 
-/// Throws Error unless the node of the marker has translations, and rotations if the marker is away from it or `turns`:
-/// whether the axes of the marker matter.
-enum class MarkerUse { position, position_and_axes };
+/// What acts on a marker needs its place, a direction of its axes, or all of them.
+struct MarkerUse {
+  bool position = true;
+  bool axes = false;
+  bool other_way_round = false;  ///< axes: those of the other marker would do if a and b were exchanged
+};
+inline constexpr MarkerUse use_position{true, false}, use_axes{false, true}, use_position_and_axes{true, true};
+
+/// Throws Error unless the node of the marker has the translations and rotations that the use needs; rotations also
+/// where the marker is away from it.
 void check_marker(const Model& model, const std::string& subject, MarkerUse use, const formats::MarkerSpec& place,
                   const Marker& marker);
+
+/// The rigid arms of a joint whose markers were placed, from the places that it names to where it stands: those which
+/// neither `position` of a marker says, nor that of the joint or of the other marker where the place is the frame of a
+/// body. `length`: size of the scene; less than 1e-6 of it is the round-off of files with seven digits.
+void add_rigid_arms(const MarkerTable& markers, const formats::JointSpec& spec, const Joint& joint, double length,
+                    std::vector<RigidArm>& arms);
+
+/// One sentence with the ten longest; none without arms.
+std::string rigid_arms_text(std::vector<RigidArm> arms, const Units& units);
 
 }  // namespace tisserand::mechanism

@@ -127,6 +127,7 @@ class Grouping {
     if (std::exchange(edge.is_done, true)) return;
     place_markers(markers_, *edge.spec, edge.a, edge.b);
     Tie tie{edge.spec->name, edge.a, edge.b, -1, Tie::Side::b, false};
+    note_arms(edge);
     const bool a_is_placed = is_placed(edge.a.node), b_is_placed = is_placed(edge.b.node);
     if (a_is_placed && b_is_placed) {
       tie.is_loop = true;
@@ -143,6 +144,14 @@ class Grouping {
     result_.vanished.insert(tie.name);
     if (tie.is_loop) require_closed(tie, *edge.spec);
     (tie.is_loop ? loops_ : result_.ties).push_back(std::move(tie));
+  }
+
+  void note_arms(const Edge& edge) {
+    Joint joint;
+    set_relations(JointKind::fixed, {}, joint);
+    joint.a = edge.a;
+    joint.b = edge.b;
+    add_rigid_arms(markers_, *edge.spec, joint, model_.length, result_.arms);
   }
 
   /// Places a body so that its marker `own` is at `place` of the carrier.

@@ -16,6 +16,7 @@ struct TiedBodies {
   std::vector<int> roots;    ///< virtual bodies (from 0) of groups without a carrier, one per group: they stay nodes
   std::vector<Tie> ties;     ///< of the joints that vanish, markers on the carrier
   std::set<std::string> vanished;  ///< their names
+  std::vector<RigidArm> arms;      ///< of these joints
 };
 
 /// Groups virtual bodies that fixed joints tie together ([GA00] section 4). The carrier of a group is ground if it is

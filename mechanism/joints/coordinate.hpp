@@ -40,6 +40,7 @@ struct Coupling {
   double constant = 0.0;
   int motion = -1;          ///< index of f in Evaluation::motions, −1: none
   bool length = false;      ///< whether Φ is a length
+  bool thread = false;      ///< of a screw: its force is part of the joint's reaction
   bool from_start = false;  ///< the constant is the value at the start: gears hold changes only
   int row = 0;              ///< its multiplier
 };

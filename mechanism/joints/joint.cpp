@@ -2,6 +2,7 @@
 #include "mechanism/joints/joint.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -59,6 +60,21 @@ bool keeps_distance(const Joint& joint) {
   for (int k = 0; k < joint.relation_count; ++k)
     if (joint.relations[k].kind == RelationKind::distance) return true;
   return false;
+}
+
+Dependence depends_on(const Joint& joint) {
+  Dependence all{.places = joint.coincident};
+  for (int k = 0; k < joint.relation_count; ++k) all |= depends_on(joint.relations[k]);
+  return all;
+}
+
+double held_length(const Joint& joint, const Vector3d& displacement) {
+  if (joint.coincident) return displacement.norm();
+  double square = 0.0;
+  for (int k = 0; k < joint.relation_count; ++k)
+    if (const Relation& held = joint.relations[k]; held.kind == RelationKind::along)
+      square += displacement[held.i] * displacement[held.i];
+  return std::sqrt(square);
 }
 
 void set_relations(JointKind kind, const std::array<bool, 6>& held, Joint& joint) {

@@ -30,6 +30,34 @@ inline bool is_length(const Relation& relation) {
   return relation.kind == RelationKind::along || relation.kind == RelationKind::distance;
 }
 
+/// What a relation depends on. Axes: those of a marker, beyond the place of its origin; a marker away from its node
+/// feels the rotation of the node in any case.
+struct Dependence {
+  bool places = false;
+  bool axes_a = false;
+  bool axes_b = false;
+
+  constexpr Dependence& operator|=(const Dependence& other) {
+    places |= other.places;
+    axes_a |= other.axes_a;
+    axes_b |= other.axes_b;
+    return *this;
+  }
+};
+constexpr Dependence depends_on(const Relation& relation) {
+  switch (relation.kind) {
+    case RelationKind::along:
+      return {true, true, false};
+    case RelationKind::distance:
+      return {true, false, false};
+    case RelationKind::normal:
+    case RelationKind::twist:
+    case RelationKind::angle:
+      return {false, true, true};
+  }
+  return {};
+}
+
 /// Both markers with the motion of their carriers.
 struct MarkerPair {
   const Marker& a;

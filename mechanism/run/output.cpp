@@ -78,19 +78,29 @@ void fill_ties(const Model& model, const State& state, const double* lambda, Eva
   }
 }
 
-void fill_joints(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
-  evaluate_coordinates(model, state, evaluation);
-  Eigen::VectorXd least;
-  if (is_overconstrained(state)) least = least_norm_multipliers(model, evaluation, state.lambda());
-  const double* lambda = least.size() > 0 ? least.data() : state.lambda().data();
+/// What the thread of a screw exerts; after evaluate_coordinates().
+JointReaction thread_reaction(const Model& model, const Joint& joint, const double* lambda,
+                              const Evaluation& evaluation) {
+  if (joint.thread < 0) return {};
+  const Coupling& thread = model.couplings[joint.thread];
+  Row12 row = Row12::Zero();
+  for (const CouplingTerm& term : thread.terms)
+    row += (lambda[thread.row] * term.factor) * evaluation.coordinates[term.coordinate].G;
+  return reaction_of(row, markers_of(joint, evaluation));
+}
+
+/// After evaluate_coordinates().
+void fill_joints(const Model& model, const State& state, const double* lambda, Evaluation& evaluation,
+                 formats::ResultsRow& row) {
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
     const NodeMotion& a = motion_of(evaluation, joint.a.node);
     const NodeMotion& b = motion_of(evaluation, joint.b.node);
     const JointReaction reaction = joint_reaction(joint, a, b, lambda + joint.row);
     const auto column = static_cast<Eigen::Index>(i);
-    row.joint_force.col(column) = reaction.force;
-    row.joint_moment.col(column) = reaction.moment;
+    const JointReaction thread = thread_reaction(model, joint, lambda, evaluation);
+    row.joint_force.col(column) = reaction.force + thread.force;
+    row.joint_moment.col(column) = reaction.moment + thread.moment;
   }
   fill_ties(model, state, lambda, evaluation, row);
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
@@ -99,11 +109,18 @@ void fill_joints(const Model& model, const State& state, Evaluation& evaluation,
   }
 }
 
-/// What drives exert along their coordinates.
-void fill_motions(const Model& model, const State& state, formats::ResultsRow& row) {
-  Eigen::Index at = 0;
-  for (const Coupling& coupling : model.couplings)
-    if (coupling.motion >= 0) row.motion_force[at++] = -state.lambda()[coupling.row] * coupling.terms.front().factor;
+bool is_gear(const Coupling& coupling) { return coupling.motion < 0 && !coupling.thread; }
+
+/// What drives, gears and racks exert along their coordinates.
+void fill_couplings(const Model& model, const double* lambda, formats::ResultsRow& row) {
+  Eigen::Index motion = 0, gear = 0;
+  for (const Coupling& coupling : model.couplings) {
+    const double force = -lambda[coupling.row];
+    if (coupling.motion >= 0) row.motion_force[motion++] = force * coupling.terms.front().factor;
+    if (!is_gear(coupling)) continue;
+    row.coupling_second_force[gear] = force * coupling.terms.front().factor;
+    row.coupling_first_force[gear++] = force * coupling.terms.back().factor;
+  }
 }
 
 bool has_stops(const Spring& spring) { return spring.lower || spring.upper; }
@@ -175,6 +192,13 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
   for (const Tie& tie : model.ties) layout.joints.push_back(tie.name);
   for (const Coordinate& c : model.coordinates)
     layout.coordinates.push_back({c.name, c.relation.kind != RelationKind::angle});
+  const auto is_length_at = [&](const CouplingTerm& term) {
+    return is_length(model.coordinates[term.coordinate].relation);
+  };
+  for (const Coupling& coupling : model.couplings)
+    if (is_gear(coupling))
+      layout.couplings.push_back(
+          {coupling.name, is_length_at(coupling.terms.back()), is_length_at(coupling.terms.front())});
   for (const Coupling& coupling : model.couplings)
     if (coupling.motion >= 0)
       layout.motions.push_back({scene.motions.at(static_cast<std::size_t>(coupling.motion)).name, coupling.length});
@@ -192,8 +216,12 @@ void fill_row(const Model& model, const State& state, Evaluation& evaluation, fo
   fill_superelements(model, evaluation, row);
   row.w = state.w();
   row.w_rate = state.v().segment(model.sizes.first_modal(), model.sizes.modal);
-  fill_joints(model, state, evaluation, row);
-  fill_motions(model, state, row);
+  evaluate_coordinates(model, state, evaluation);
+  Eigen::VectorXd least;
+  if (is_overconstrained(state)) least = least_norm_multipliers(model, evaluation, state.lambda());
+  const double* lambda = least.size() > 0 ? least.data() : state.lambda().data();
+  fill_joints(model, state, lambda, evaluation, row);
+  fill_couplings(model, lambda, row);
   fill_springs(model, state, evaluation, row);
   fill_bushings(model, evaluation, row);
   fill_frictions(model, evaluation, row);

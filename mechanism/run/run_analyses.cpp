@@ -22,6 +22,8 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 void blank(formats::AnalysisKind kind, formats::ResultsRow& row) {
   row.joint_force.setConstant(none);
   row.joint_moment.setConstant(none);
+  row.coupling_first_force.setConstant(none);
+  row.coupling_second_force.setConstant(none);
   row.motion_force.setConstant(none);
   row.boundary_force.setConstant(none);
   row.friction_force.setConstant(none);

@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "formats/yaml/line_check.hpp"
 #include "reducer/elements/element_matrices.hpp"
 
 namespace tisserand::reducer {
@@ -141,6 +142,10 @@ std::vector<std::string> check_shapes(const Mesh& mesh, const std::string& where
 std::vector<std::string> plausibility_warnings(const Mesh& mesh, const Units& units) {
   std::vector<std::string> warnings;
   warn_thick_shells(mesh, warnings);
+  for (const NodalMass& mass : mesh.masses)
+    if (std::string doubt = formats::inertia_doubt(fmt::format("point mass '{}'", mass.name), mass.inertia);
+        !doubt.empty())
+      warnings.push_back(std::move(doubt));
   if (!units.named()) return warnings;
   warn_wave_speeds(mesh, units, warnings);
   const double size = 2.0 * characteristic_length(mesh) * units.length.factor;

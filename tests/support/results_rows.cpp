@@ -19,6 +19,7 @@ formats::ResultsLayout example_layout() {
   layout.modal_offset = {0, 2};
   layout.joints = {"hinge", "slide"};
   layout.coordinates = {{"hinge", false}, {"slide", true}};
+  layout.couplings = {{"pair", false, false}, {"rack", false, true}};
   layout.motions = {{"drive", false}, {"push", true}};
   layout.springs = {{"strut", true}, {"door", false}};
   layout.stops = {{"door", false}};
@@ -53,6 +54,8 @@ void fill_row(int t, formats::ResultsRow& row) {
   fill(row.joint_moment);
   fill(row.joint_coordinate);
   fill(row.joint_rate);
+  fill(row.coupling_first_force);
+  fill(row.coupling_second_force);
   fill(row.motion_force);
   fill(row.spring_force);
   fill(row.stop_force);

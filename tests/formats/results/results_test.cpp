@@ -76,8 +76,9 @@ TEST(Results, EveryChannelComesBackBitEqual) {
   std::map<std::string, std::string> unit;
   for (const Channel& channel : reader.channels()) unit[channel.name] = channel.unit;
   // 1 time, 3 nodes x (5 x 3 + 4), 2 frames x 7, 5 coordinates y with rates, 2 of a modal body with rates, 3 boundary
-  // nodes x 6, 2 joints x 8, 2 drives, 2 springs, 1 stop, 2 bushings x 6, friction x 6, 7 energies, 4 of solver.
-  EXPECT_EQ(unit.size(), 1u + 57 + 14 + 10 + 4 + 18 + 16 + 2 + 21 + 7 + 4);
+  // nodes x 6, 2 joints x 8, 2 couplings x 2, 2 drives, 2 springs, 1 stop, 2 bushings x 6, friction x 6, 7 energies, 4
+  // of solver.
+  EXPECT_EQ(unit.size(), 1u + 57 + 14 + 10 + 4 + 18 + 16 + 4 + 2 + 21 + 7 + 4);
   ResultsRow row;
   row.resize(layout);
   const std::map<std::string, std::function<double()>> expected{
@@ -99,6 +100,8 @@ TEST(Results, EveryChannelComesBackBitEqual) {
       {"joints/moment/hinge/x", [&] { return row.joint_moment(0, 0); }},
       {"joints/coordinate/hinge", [&] { return row.joint_coordinate[0]; }},
       {"joints/rate/hinge", [&] { return row.joint_rate[0]; }},
+      {"couplings/first_force/rack", [&] { return row.coupling_first_force[1]; }},
+      {"couplings/second_force/pair", [&] { return row.coupling_second_force[0]; }},
       {"motions/force/push", [&] { return row.motion_force[1]; }},
       {"forces/spring/door", [&] { return row.spring_force[1]; }},
       {"forces/stop/door", [&] { return row.stop_force[0]; }},
@@ -125,6 +128,8 @@ TEST(Results, EveryChannelComesBackBitEqual) {
   EXPECT_EQ(unit["nodes/angular_velocity/hub/x"], "rad s^-1");
   EXPECT_EQ(unit["superelements/boundary_force/beam/tip/force_x"], "N");
   EXPECT_EQ(unit["superelements/boundary_force/beam/tip/moment_x"], "N m");
+  EXPECT_EQ(unit["couplings/first_force/rack"], "N m");
+  EXPECT_EQ(unit["couplings/second_force/rack"], "N");
   EXPECT_EQ(unit["forces/spring/strut"], "N");
   EXPECT_EQ(unit["forces/spring/door"], "N m");
   EXPECT_EQ(unit["forces/stop/door"], "N m");

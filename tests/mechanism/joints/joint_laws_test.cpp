@@ -82,5 +82,48 @@ TEST(JointLaws, ChosenDirectionsAreHeldAndTheOthersFree) {
   }
 }
 
+/// Of random unit rotation.
+NodeMotion random_node() {
+  NodeMotion node;
+  node.x.setRandom();
+  node.R = Eigen::Quaterniond::UnitRandom().toRotationMatrix();
+  return node;
+}
+
+// The gradients say what a joint needs of its nodes when its markers are at their origins: the columns that are zero in
+// every state are rotations and translations that a node may lack. All kinds and all 63 choices of `hold`.
+TEST(JointLaws, DependOnWhatTheirGradientsFeel) {
+  const auto expect = [](const Joint& joint) {
+    Eigen::Matrix<double, 1, 12> felt = Eigen::Matrix<double, 1, 12>::Zero();
+    for (int i = 0; i < 5; ++i) {
+      const NodeMotion a = random_node(), b = random_node();
+      JointTerms terms;
+      joint_constraints(joint, a, b, terms);
+      felt = felt.cwiseMax(terms.B.topRows(joint.size()).cwiseAbs().colwise().maxCoeff());
+    }
+    const Dependence found = depends_on(joint);
+    const auto feels = [&](int first) { return felt.segment<3>(first).maxCoeff() > 1e-12; };
+    EXPECT_EQ(found.places, feels(0));
+    EXPECT_EQ(found.places, feels(6));
+    EXPECT_EQ(found.axes_a, feels(3));
+    EXPECT_EQ(found.axes_b, feels(9));
+  };
+  for (const formats::JointKindRow& row : formats::joint_kinds()) {
+    SCOPED_TRACE(row.word);
+    if (row.key == formats::JointKey::hold) continue;
+    Joint joint;
+    set_relations(row.kind, {}, joint);
+    expect(joint);
+  }
+  for (unsigned choice = 1; choice < 64; ++choice) {
+    SCOPED_TRACE(choice);
+    Joint joint;
+    std::array<bool, 6> held{};
+    for (int i = 0; i < 6; ++i) held[i] = (choice >> i & 1u) != 0;
+    set_relations(JointKind::generic, held, joint);
+    expect(joint);
+  }
+}
+
 }  // namespace
 }  // namespace tisserand::mechanism::joint_laws_test
