@@ -1,21 +1,17 @@
-// Random mechanisms by Simbody (M. A. Sherman, A. Seth, S. L. Delp, Simbody: multibody dynamics for biomedical
-// research, Procedia IUTAM 2 (2011) 241-261): accelerations and reactions at the start against those of mechanism.
-//   compare_simbody [count]
-#include <algorithm>
-#include <cstdlib>
+// One mechanism by Simbody (M. A. Sherman, A. Seth, S. L. Delp, Simbody: multibody dynamics for biomedical research,
+// Procedia IUTAM 2 (2011) 241-261): accelerations and reactions at the start. C++17, the last that its headers know.
+#include "tests/comparison/simbody.hpp"
+
 #include <map>
-#include <memory>
-#include <utility>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <Simbody.h>
-#include <fmt/format.h>
-
-#include "tests/support/scenes/random_mechanism.hpp"
 
 namespace tisserand::comparison {
 namespace {
 
-using formats::JointKind;
 using SimTK::Constraint;
 using SimTK::MobilizedBody;
 using SimTK::SpatialVec;
@@ -28,26 +24,6 @@ using test_support::RandomJoint;
 using test_support::RandomMechanism;
 using test_support::StartOfMotion;
 using test_support::Wrench;
-
-// Simbody has no joint of constant velocity, and none that holds what the generic one here does; its screw is a joint
-// of trees alone.
-const std::vector<JointKind> kinds{JointKind::fixed,          JointKind::revolute,    JointKind::spherical,
-                                   JointKind::universal,      JointKind::cylindrical, JointKind::screw,
-                                   JointKind::prismatic,      JointKind::planar,      JointKind::point_on_line,
-                                   JointKind::point_on_plane, JointKind::distance,    JointKind::constant_orientation,
-                                   JointKind::parallel_axes};
-const std::vector<JointKind> closing{JointKind::fixed,
-                                     JointKind::revolute,
-                                     JointKind::spherical,
-                                     JointKind::universal,
-                                     JointKind::cylindrical,
-                                     JointKind::prismatic,
-                                     JointKind::planar,
-                                     JointKind::point_on_line,
-                                     JointKind::point_on_plane,
-                                     JointKind::distance,
-                                     JointKind::constant_orientation,
-                                     JointKind::parallel_axes};
 
 Vec3 to_vec3(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Eigen::Vector3d from_vec3(const Vec3& v) { return {v[0], v[1], v[2]}; }
@@ -123,45 +99,29 @@ class Model {
 
   void grow(std::size_t number) {
     const RandomJoint& joint = m_.joints[number];
+    const std::string word = test_support::word_of(joint);
     MobilizedBody& parent = body(joint.a);
     const SimTK::Body::Rigid rigid(mass_of(m_.bodies[joint.b]));
     const Transform a = to_transform(joint.in_a), b = to_transform(joint.in_b);
     const auto hang = [&](const MobilizedBody& mobiliser) { index_[joint.b] = mobiliser.getMobilizedBodyIndex(); };
-    switch (joint.kind) {
-      case JointKind::fixed:
-        return hang(MobilizedBody::Weld(parent, a, rigid, b));
-      case JointKind::revolute:
-        return hang(MobilizedBody::Pin(parent, a, rigid, b));
-      case JointKind::spherical:
-        return hang(MobilizedBody::Ball(parent, a, rigid, b));
-      case JointKind::universal:
-        return hang(MobilizedBody::Universal(parent, a, rigid, b));
-      case JointKind::cylindrical:
-        return hang(MobilizedBody::Cylinder(parent, a, rigid, b));
-      case JointKind::screw:
-        return hang(MobilizedBody::Screw(parent, a, rigid, b, joint.pitch / (2.0 * SimTK::Pi)));
-      case JointKind::prismatic:
-        return hang(MobilizedBody::Slider(parent, to_transform(slider_frame(joint.in_a)), rigid,
-                                          to_transform(slider_frame(joint.in_b))));
-      case JointKind::planar:
-        return hang(MobilizedBody::Planar(parent, a, rigid, b));
-      case JointKind::constant_orientation:
-        return hang(MobilizedBody::Translation(parent, a, rigid, b));
-      case JointKind::point_on_line:
-      case JointKind::point_on_plane:
-      case JointKind::distance:
-      case JointKind::parallel_axes:
-        hang(MobilizedBody::Free(parent, a, rigid, b));
-        return constrain(number);
-      case JointKind::constant_velocity:
-      case JointKind::generic:
-        break;
-    }
-    throw std::logic_error("a kind of joint that Simbody lacks");
+    if (word == "fixed") return hang(MobilizedBody::Weld(parent, a, rigid, b));
+    if (word == "revolute") return hang(MobilizedBody::Pin(parent, a, rigid, b));
+    if (word == "spherical") return hang(MobilizedBody::Ball(parent, a, rigid, b));
+    if (word == "universal") return hang(MobilizedBody::Universal(parent, a, rigid, b));
+    if (word == "cylindrical") return hang(MobilizedBody::Cylinder(parent, a, rigid, b));
+    if (word == "screw") return hang(MobilizedBody::Screw(parent, a, rigid, b, joint.pitch / (2.0 * SimTK::Pi)));
+    if (word == "prismatic")
+      return hang(MobilizedBody::Slider(parent, to_transform(slider_frame(joint.in_a)), rigid,
+                                        to_transform(slider_frame(joint.in_b))));
+    if (word == "planar") return hang(MobilizedBody::Planar(parent, a, rigid, b));
+    if (word == "constant_orientation") return hang(MobilizedBody::Translation(parent, a, rigid, b));
+    hang(MobilizedBody::Free(parent, a, rigid, b));
+    constrain(number);
   }
 
   void constrain(std::size_t number) {
     const RandomJoint& joint = m_.joints[number];
+    const std::string word = test_support::word_of(joint);
     MobilizedBody &a = body(joint.a), &b = body(joint.b);
     const Frame &A = joint.in_a, &B = joint.in_b;
     std::vector<Constraint>& parts = constraints_[number];
@@ -177,42 +137,35 @@ class Model {
     const auto no_turn = [&] {
       parts.push_back(Constraint::ConstantOrientation(a, to_rotation(A.R), b, to_rotation(B.R)));
     };
-    switch (joint.kind) {
-      case JointKind::revolute:
-        return together(), along_z();
-      case JointKind::spherical:
-        return together();
-      case JointKind::universal:
-        return together(), normal(0, 1);
-      case JointKind::cylindrical:
-        return on_line(), along_z();
-      case JointKind::prismatic:
-        return on_line(), no_turn();
-      case JointKind::planar:
-        return in_plane(), along_z();
-      case JointKind::point_on_line:
-        return on_line();
-      case JointKind::point_on_plane:
-        return in_plane();
-      case JointKind::distance: {
-        const auto place = [&](int i, const Frame& f) { return i < 0 ? f.p : (m_.bodies[i].pose * f).p; };
-        parts.push_back(
-            Constraint::Rod(a, to_vec3(A.p), b, to_vec3(B.p), (place(joint.b, B) - place(joint.a, A)).norm()));
-        return;
-      }
-      case JointKind::constant_orientation:
-        return no_turn();
-      case JointKind::parallel_axes:
-        return along_z();
-      case JointKind::fixed:
-        parts.push_back(Constraint::Weld(a, to_transform(A), b, to_transform(B)));
-        return;
-      case JointKind::screw:
-      case JointKind::constant_velocity:
-      case JointKind::generic:
-        break;
+    if (word == "fixed") {
+      parts.push_back(Constraint::Weld(a, to_transform(A), b, to_transform(B)));
+    } else if (word == "revolute") {
+      together(), along_z();
+    } else if (word == "spherical") {
+      together();
+    } else if (word == "universal") {
+      together(), normal(0, 1);
+    } else if (word == "cylindrical") {
+      on_line(), along_z();
+    } else if (word == "prismatic") {
+      on_line(), no_turn();
+    } else if (word == "planar") {
+      in_plane(), along_z();
+    } else if (word == "point_on_line") {
+      on_line();
+    } else if (word == "point_on_plane") {
+      in_plane();
+    } else if (word == "distance") {
+      const auto place = [&](int i, const Frame& f) { return i < 0 ? f.p : (m_.bodies[i].pose * f).p; };
+      parts.push_back(
+          Constraint::Rod(a, to_vec3(A.p), b, to_vec3(B.p), (place(joint.b, B) - place(joint.a, A)).norm()));
+    } else if (word == "constant_orientation") {
+      no_turn();
+    } else if (word == "parallel_axes") {
+      along_z();
+    } else {
+      throw std::logic_error("Simbody lacks joints of kind " + word);
     }
-    throw std::logic_error("a kind of joint that Simbody does not close loops with here");
   }
 
   /// The coordinate z of a cylinder is its second; all others that are used are the first.
@@ -240,7 +193,7 @@ class Model {
   void set_state() {
     for (const RandomJoint& joint : m_.joints) {
       if (joint.closes_loop) continue;
-      const bool slider = joint.kind == JointKind::prismatic;
+      const bool slider = test_support::word_of(joint) == "prismatic";
       const Frame A = slider ? slider_frame(joint.in_a) : joint.in_a,
                   B = slider ? slider_frame(joint.in_b) : joint.in_b;
       const Frame parent = joint.a < 0 ? Frame{} : m_.bodies[joint.a].pose, &child = m_.bodies[joint.b].pose;
@@ -271,8 +224,8 @@ class Model {
       const SimTK::Vector_<SpatialVec> forces = part.getConstrainedBodyForcesAsVector(state_);
       for (SimTK::ConstrainedBodyIndex k(0); k < part.getNumConstrainedBodies(); ++k) {
         if (!part.getMobilizedBodyFromConstrainedBody(k).isSameMobilizedBody(b)) continue;
-        sum.force += from_vec3(forces[k][1]);
-        sum.moment += from_vec3(forces[k][0]);
+        sum.force -= from_vec3(forces[k][1]);  // as of multipliers: on the left side of the equations of motion
+        sum.moment -= from_vec3(forces[k][0]);
       }
     }
     const Eigen::Vector3d arm = from_vec3(b.getBodyTransform(state_).R() * to_vec3(joint.in_b.p));
@@ -308,49 +261,8 @@ class Model {
   std::vector<Constraint> gears_, drives_;
 };
 
-/// The worst mechanism of those with or without loops.
-struct Worst {
-  int count = 0;
-  test_support::Differences largest;
-  unsigned seed = 0;
-};
-
-void note(unsigned seed, const test_support::Differences& d, Worst& worst) {
-  const auto size = [](const test_support::Differences& x) {
-    return std::max({x.accelerations, x.reactions, x.others});
-  };
-  ++worst.count;
-  if (size(d) >= size(worst.largest)) worst.seed = seed;
-  worst.largest = {std::max(d.accelerations, worst.largest.accelerations),
-                   std::max(d.reactions, worst.largest.reactions), std::max(d.others, worst.largest.others)};
-}
-
-int compare_all(unsigned count) {
-  constexpr double accepted = 1e-11;
-  Worst trees, loops;
-  for (unsigned seed = 0; seed < count; ++seed) {
-    const RandomMechanism m = test_support::random_mechanism(seed, kinds, closing);
-    const test_support::Differences d = test_support::compare(Model(m).start(), test_support::start_of_motion(m));
-    const bool has_loop = std::ranges::any_of(m.joints, &RandomJoint::closes_loop);
-    note(seed, d, has_loop ? loops : trees);
-  }
-  fmt::print("{:<8}{:>12}{:>16}{:>12}{:>28}{:>14}\n", "", "mechanisms", "accelerations", "reactions",
-             "springs, gears, drives", "worst seed");
-  bool good = true;
-  for (const auto& [name, worst] : {std::pair{"trees", trees}, std::pair{"loops", loops}}) {
-    const test_support::Differences& d = worst.largest;
-    fmt::print("{:<8}{:>12}{:>16.1e}{:>12.1e}{:>28.1e}{:>14}\n", name, worst.count, d.accelerations, d.reactions,
-               d.others, worst.seed);
-    good = good && std::max({d.accelerations, d.reactions, d.others}) < accepted;
-  }
-  fmt::print("{}: largest differences relative to the largest value of a mechanism, at most {:g} expected\n",
-             good ? "agreed" : "DIFFERENT", accepted);
-  return good ? 0 : 1;
-}
-
 }  // namespace
-}  // namespace tisserand::comparison
 
-int main(int count, char** words) {
-  return tisserand::comparison::compare_all(count > 1 ? static_cast<unsigned>(std::atoi(words[1])) : 230u);
-}
+test_support::StartOfMotion start_by_simbody(const RandomMechanism& mechanism) { return Model(mechanism).start(); }
+
+}  // namespace tisserand::comparison

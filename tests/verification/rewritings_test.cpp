@@ -201,8 +201,7 @@ Rewriting split_bodies(const RandomMechanism& before) {
   const int count = static_cast<int>(before.bodies.size());
   const Vector3d d(0.06, -0.04, 0.05);
   for (int i = 0; i < count; ++i) {
-    RandomBody& first = m.bodies[i];
-    RandomBody second = first;
+    RandomBody first = m.bodies[i], second = first;
     const Matrix3d steiner = d.squaredNorm() * Matrix3d::Identity() - d * d.transpose();
     const Matrix3d rest = first.inertia - 0.24 * first.mass * steiner;
     second.name += "_rest";
@@ -212,6 +211,7 @@ Rewriting split_bodies(const RandomMechanism& before) {
     first.mass *= 0.4;
     first.center -= 0.6 * d;
     first.inertia = 0.4 * rest;
+    m.bodies[i] = first;
     m.bodies.push_back(second);
     RandomJoint weld;
     weld.name = "weld_" + first.name;

@@ -11,6 +11,7 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
+#include "formats/scene/scene.hpp"
 #include "mechanism/run/output.hpp"
 #include "tests/support/scenes/scenes.hpp"
 
@@ -361,6 +362,8 @@ RandomMechanism random_mechanism(unsigned seed, const std::vector<JointKind>& ki
   }
   throw std::runtime_error(fmt::format("seed {} gives no mechanism of independent constraints", seed));
 }
+
+std::string word_of(const RandomJoint& joint) { return formats::joint_word(joint.kind); }
 
 formats::Scene scene_of(const RandomMechanism& m) {
   formats::Scene scene = empty_scene(1.0, 1.0);  // motions are differentiated a quarter of the step apart

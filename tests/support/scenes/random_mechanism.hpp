@@ -1,5 +1,6 @@
 // Random mechanisms of rigid bodies: trees and loops of all joints in a random consistent state, and what they do at
 // it.
+// In C++17, for programs whose other headers know no later one.
 #pragma once
 
 #include <array>
@@ -9,7 +10,12 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "formats/scene/scene.hpp"
+#include "common/units.hpp"
+
+namespace tisserand::formats {
+enum class JointKind;
+struct Scene;
+}  // namespace tisserand::formats
 
 namespace tisserand::test_support {
 
@@ -35,7 +41,7 @@ struct RandomBody {
 /// From body a to body b (rows of the list; -1: ground), at frames in their axes.
 struct RandomJoint {
   std::string name;
-  formats::JointKind kind = formats::JointKind::fixed;
+  formats::JointKind kind{};
   int a = -1;
   int b = 0;
   Frame in_a;
@@ -86,6 +92,9 @@ struct RandomMechanism {
 /// Jacobian above 1e-2 of the largest) and leave a degree of freedom; velocities meet them.
 RandomMechanism random_mechanism(unsigned seed, const std::vector<formats::JointKind>& kinds,
                                  const std::vector<formats::JointKind>& closing);
+
+/// The word of its kind.
+std::string word_of(const RandomJoint& joint);
 
 formats::Scene scene_of(const RandomMechanism& mechanism);
 
