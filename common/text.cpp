@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "common/error.hpp"
 #include "common/output_path.hpp"
@@ -60,6 +61,19 @@ std::optional<std::string> nearest(const std::string& word, const std::vector<st
   return best;
 }
 
+std::vector<std::string> nearest_names(const std::string& word, const std::vector<std::string>& known) {
+  constexpr std::size_t most = 10;
+  std::vector<std::pair<std::size_t, std::size_t>> ranked;  // distance, index
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const bool holds = !word.empty() && known[i].find(word) != std::string::npos;
+    ranked.emplace_back(holds ? 0 : 1 + edit_distance(word, known[i]), i);
+  }
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(most, ranked.size()); ++i) names.push_back(known[ranked[i].second]);
+  return names;
+}
+
 std::string join(const std::vector<std::string>& parts, const std::string& separator) {
   std::string text;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -67,6 +81,15 @@ std::string join(const std::vector<std::string>& parts, const std::string& separ
     text += parts[i];
   }
   return text;
+}
+
+std::string listed(const std::vector<std::string>& names, const std::string& separator, std::size_t total) {
+  constexpr std::size_t shown = 10;
+  total = std::max(total, names.size());
+  const auto count = static_cast<std::ptrdiff_t>(std::min(shown, names.size()));
+  const std::string text = join({names.begin(), names.begin() + count}, separator);
+  const std::size_t more = total - static_cast<std::size_t>(count);
+  return more == 0 ? text : fmt::format("{} and {} more", text, more);
 }
 
 bool matches_wildcard(const std::string& text, const std::string& pattern) {

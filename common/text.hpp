@@ -16,8 +16,16 @@ std::size_t edit_distance(const std::string& a, const std::string& b);
 /// third of its letters (at least one, at most three).
 std::optional<std::string> nearest(const std::string& word, const std::vector<std::string>& known);
 
+/// The members of `known` nearest to `word`, the nearest first, at most ten: those that hold it, then by edit distance.
+std::vector<std::string> nearest_names(const std::string& word, const std::vector<std::string>& known);
+
 /// The parts with `separator` between them.
 std::string join(const std::vector<std::string>& parts, const std::string& separator);
+
+/// Names of the user's things for one line of a note, an error or a report: the first ten, "a, b, c and 290 more".
+/// Lists of words that the program knows (keys, kinds, formats) are told whole, by join(). `total`: how many there are,
+/// where `names` holds only the first ones.
+std::string listed(const std::vector<std::string>& names, const std::string& separator = ", ", std::size_t total = 0);
 
 /// Whether `text` matches `pattern`, in which * stands for any run of characters (also none, also with /).
 bool matches_wildcard(const std::string& text, const std::string& pattern);

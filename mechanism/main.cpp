@@ -110,11 +110,12 @@ constexpr const char* about_check =
 Exit codes: 0 no errors found, 1 errors, 2 wrong usage.)help";
 
 constexpr const char* about_export =
-    R"help(Writes channels of a results file as CSV: time, then one column per channel, with units.
+    R"help(Writes channels of a results file as CSV: time, then one column per channel, with units; of modes one row per mode.
 
   mechanism export arm.results.h5 -o arm.csv
   mechanism export arm.results.h5 -c nodes/position -c 'joints/*/hinge/*' -o arm.csv
-  mechanism export arm.results.h5 -c energy -o /dev/stdout | head)help";
+  mechanism export arm.results.h5 -c energy -o /dev/stdout | head
+  mechanism export tones.results.h5 -c modes/frequency -c modes/damping_ratio -o tones.csv)help";
 
 constexpr const char* about_channels = R"help(Lists the channels of a results file with their units.
 
@@ -122,16 +123,20 @@ constexpr const char* about_channels = R"help(Lists the channels of a results fi
   mechanism channels arm.results.h5 -c 'nodes/position/arm/*')help";
 
 constexpr const char* about_plot =
-    R"help(Draws channels of results files over one another, one panel per unit (png or svg, by gnuplot).
+    R"help(Draws channels of results files over one another, one panel per unit (png or svg, by gnuplot); modes as bars.
 
   mechanism plot arm.results.h5 -c nodes/position/arm/tip/z -o tip.png
   mechanism plot coarse.results.h5 fine.results.h5 --label coarse --label fine -c energy/total -o energy.svg --range 0 2
-  mechanism plot arm.results.h5 -c nodes/position/arm/tip/z --reference 'measured.csv:t:z:measured' -o tip.png)help";
+  mechanism plot arm.results.h5 -c nodes/position/arm/tip/z --reference 'measured.csv:t:z:measured' -o tip.png
+  mechanism plot tones.results.h5 -c modes/frequency -c modes/damping_ratio -o tones.png)help";
 
 constexpr const char* about_compare =
     R"help(Measures channels against a reference history: largest and root-mean-square deviation.
 
-  mechanism compare arm.results.h5 -c nodes/position/arm/tip/z --reference reference.csv:t:z --from 1 --to 5)help";
+  mechanism compare arm.results.h5 -c nodes/position/arm/tip/z --reference reference.csv:t:z --from 1 --to 5
+  mechanism compare arm.results.h5 -c nodes/position/rod/end/z --reference other.csv:1:3
+
+The columns of a CSV file are named, or counted from 1.)help";
 
 /// "dir/pendulum.scene.yaml" -> "pendulum.results.h5" in the working folder.
 std::string default_results(const std::string& scene) {
@@ -180,8 +185,9 @@ int exit_code(const mechanism::RunReport& report) {
   return exit_error;
 }
 
-mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunRequest& request,
-                          const std::string& name) {
+/// Runs one analysis and prints its report; doubts about the scene only where no analysis before has `told` any.
+mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunRequest& request, const std::string& name,
+                          bool& told) {
   const double start = request.scene.integrator.start;
   Progress progress(name.empty() ? "simulating" : name, request.scene.integrator.end - start);
   mechanism::RunControl control;
@@ -190,6 +196,8 @@ mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunReq
   control.progress = [&progress, start](double t) { progress.update(t - start, ""); };
   mechanism::RunEnd end = mechanism::simulate(request, control);
   progress.finish();
+  if (told) end.report.preflight = {};
+  told = told || !mechanism::preflight_doubts(end.report.preflight, request.scene.units).empty();
   say(fmt::format("{}: {}{}\n{}  {:<16} {}\n", arguments.scene, request.scene.name,
                   name.empty() ? "" : fmt::format(": {}", name),
                   mechanism::report_text(end.report, request.scene.units), "results", end.report.results));
@@ -217,11 +225,12 @@ int run(const RunArguments& arguments) {
   listen_for_interrupts();
   const mechanism::BodyFiles files = mechanism::read_body_files(scene);
   std::map<std::string, mechanism::State> ends;
+  bool told = false;
   for (const mechanism::PlannedAnalysis& one : planned) {
     std::optional<mechanism::State> begin;
     if (!one.from.empty()) begin = ends.at(one.from);
     mechanism::RunEnd end = run_one(
-        arguments, {one.scene, files, std::move(begin), one.results, arguments.restart, arguments.at}, one.name);
+        arguments, {one.scene, files, std::move(begin), one.results, arguments.restart, arguments.at}, one.name, told);
     if (const int code = exit_code(end.report); code != 0) return code;
     ends.insert_or_assign(one.name, std::move(end.state));
   }
@@ -262,7 +271,8 @@ void add_series_arguments(CLI::App& command, SeriesArguments& arguments) {
       ->allow_extra_args(false);
   command.add_option("--label", arguments.request.labels, "label of each file, in order")->allow_extra_args(false);
   command
-      .add_option("--reference", arguments.references, "history from a CSV file: file.csv:x column:y column[:label]")
+      .add_option("--reference", arguments.references,
+                  "history from a CSV file: file.csv:x column:y column[:label], columns by name or number")
       ->allow_extra_args(false);
 }
 

@@ -22,6 +22,7 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
   else
     resume(run, request.restart, request.at);
   const double begin_steps = run.seconds();
+  keep_chosen_places(run.scene, run.built.model);
   const formats::ResultsLayout layout = results_layout(run.built.model, run.scene);
   formats::ResultsRow row;
   row.resize(layout);
@@ -66,6 +67,7 @@ RunReport simulate(const formats::Scene& scene, const std::string& path, const R
 RunReport inspect(const formats::Scene& scene, const RunControl& control) {
   Run run(scene, read_body_files(scene), control);
   start(run);
+  keep_chosen_places(run.scene, run.built.model);
   return run.report;
 }
 

@@ -2,6 +2,7 @@
 #include "formats/results/blocks.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
@@ -186,6 +187,30 @@ bool chooses(const std::string& entry, const std::string& dataset) {
   return dataset == wanted || dataset.starts_with(wanted + "/") || matches_wildcard(dataset, wanted);
 }
 
+std::string bare(const std::string& entry) { return entry.starts_with("/") ? entry.substr(1) : entry; }
+
+/// "nodes/position/arm/tip", also with more behind it: up to the second slash, and the rest; no rest: no node is named.
+std::pair<std::string, std::string> dataset_and_member(const std::string& entry) {
+  const std::string wanted = bare(entry);
+  const std::size_t slash = wanted.find('/', wanted.find('/') + 1);
+  if (wanted.find('/') == std::string::npos || slash == std::string::npos) return {wanted, ""};
+  return {wanted.substr(0, slash), wanted.substr(slash + 1)};
+}
+
+/// Whether the entry names a dataset of nodes, or a pattern of some, and nodes in it.
+bool names_nodes(const std::string& entry, const std::string& dataset) {
+  const auto [group, member] = dataset_and_member(entry);
+  return !member.empty() && dataset.starts_with("/nodes/") && matches_wildcard(dataset.substr(1), group);
+}
+
+/// Whether the rest of the entry means the node: its name, the beginning or a pattern of it, or one of its components.
+bool means_node(const std::string& entry, const std::string& node) {
+  const std::string member = dataset_and_member(entry).second;
+  if (member == node || node.starts_with(member + "/") || matches_wildcard(node, member)) return true;
+  return std::any_of(wxyz.begin(), wxyz.end(),
+                     [&](const std::string& component) { return matches_wildcard(node + "/" + component, member); });
+}
+
 }  // namespace
 
 void ResultsRow::resize(const ResultsLayout& layout) {
@@ -235,6 +260,52 @@ std::vector<Block> all_blocks(const ResultsLayout& layout) {
   return blocks;
 }
 
+std::vector<Block> mode_blocks(const ResultsLayout& layout) {
+  const std::string rate = unit_label(layout.units, 0, 0, -1), frequency = rate == "s^-1" ? "Hz" : rate;
+  const std::vector<std::string> complex{"real", "imaginary"};
+  std::vector<Block> blocks{scalar("/modes/frequency", frequency, nullptr),
+                            scalar("/modes/damping_ratio", "1", nullptr)};
+  blocks.push_back({"/modes/eigenvalue", {2}, complex, {rate, rate}, rate, nullptr});
+  for (const char* dataset : {"/modes/translation", "/modes/rotation"}) {
+    Block shape{dataset, {layout.nodes.size(), 3, 2}, {}, {}, "1", nullptr};
+    for (const std::string& node : layout.nodes)
+      for (const std::string& axis : xyz)
+        for (const std::string& part : complex) shape.columns.push_back(node + "/" + axis + "/" + part);
+    shape.units.assign(shape.columns.size(), "1");
+    if (!layout.nodes.empty()) blocks.push_back(std::move(shape));
+  }
+  return blocks;
+}
+
+std::vector<bool> chosen_nodes(const ResultsLayout& layout, const std::string& where) {
+  const std::vector<Block> all = all_blocks(layout);
+  std::vector<bool> chosen(layout.nodes.size(), layout.channels.empty());
+  std::vector<std::string> known = layout.nodes;
+  for (const ResultsLayout::Alias& alias : layout.node_aliases) known.push_back(alias.name);
+  bool any = false, whole = false;
+  for (const std::string& entry : layout.channels) {
+    const auto chooses_whole = [&](const Block& block) {
+      return block.dataset.starts_with("/nodes/") && chooses(entry, block.dataset);
+    };
+    whole = whole || std::ranges::any_of(all, chooses_whole);
+    if (std::ranges::none_of(all, [&](const Block& block) { return names_nodes(entry, block.dataset); })) continue;
+    bool found = false;
+    for (std::size_t i = 0; i < known.size(); ++i) {
+      if (!means_node(entry, known[i])) continue;
+      const std::size_t node =
+          i < layout.nodes.size() ? i : static_cast<std::size_t>(layout.node_aliases[i - layout.nodes.size()].node);
+      chosen[node] = found = any = true;
+    }
+    if (!found) {
+      const std::string member = dataset_and_member(entry).second;
+      throw Error(fmt::format("output channel '{}': there is no node '{}'", entry, member), where,
+                  "the nearest nodes are " + listed(nearest_names(member, known)));
+    }
+  }
+  if (whole || !any) chosen.assign(chosen.size(), true);
+  return chosen;
+}
+
 std::optional<std::pair<std::string, std::string>> fault_of_selection(const std::string& entry) {
   // Groups and datasets that this mechanism has no member of may be chosen without effect ("joints" without joints).
   std::vector<std::string> known{"time"};
@@ -248,11 +319,16 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
     known.push_back(name);
     if (std::find(known.begin(), known.end(), group) == known.end()) known.push_back(group);
   }
-  if (std::any_of(known.begin(), known.end(), [&](const std::string& name) { return chooses(entry, "/" + name); }))
-    return {};
-  const std::optional<std::string> near = nearest(entry, known);
-  return {{fmt::format("output channel '{}' does not exist", entry),
-           near ? fmt::format("did you mean '{}'?", *near) : "choose among " + join(known, ", ")}};
+  const auto is_meant = [&](const std::string& name) {
+    return chooses(entry, "/" + name) || names_nodes(entry, "/" + name);
+  };
+  if (std::any_of(known.begin(), known.end(), is_meant)) return {};
+  const std::string message = fmt::format("output channel '{}' does not exist", entry);
+  const std::string dataset = dataset_and_member(entry).first;
+  if (std::ranges::find(known, dataset) != known.end())
+    return {{message, fmt::format("single members can be named of nodes; choose all of '{}'", dataset)}};
+  const std::optional<std::string> near = nearest(bare(entry), known);
+  return {{message, near ? fmt::format("did you mean '{}'?", *near) : "choose among " + join(known, ", ")}};
 }
 
 std::vector<Block> chosen_blocks(const ResultsLayout& layout, const std::string& where) {
@@ -263,7 +339,7 @@ std::vector<Block> chosen_blocks(const ResultsLayout& layout, const std::string&
   for (const std::string& entry : layout.channels) {
     if (const auto fault = fault_of_selection(entry)) throw Error(fault->first, where, fault->second);
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (chooses(entry, all[i].dataset)) chosen[i] = true;
+      if (chooses(entry, all[i].dataset) || names_nodes(entry, all[i].dataset)) chosen[i] = true;
   }
   std::vector<Block> blocks;
   for (std::size_t i = 0; i < all.size(); ++i)

@@ -28,11 +28,19 @@ struct Block {
 /// All blocks that the layout has columns for, in the order of RESULTS.md, /time first; the selection is not applied.
 std::vector<Block> all_blocks(const ResultsLayout& layout);
 
+/// Those of /modes, whose rows are modes and no instants.
+std::vector<Block> mode_blocks(const ResultsLayout& layout);
+
+/// Which nodes the selection layout.channels stores: all, or, where entries name single ones
+/// ("nodes/position/arm/tip"), the union of these; an entry means a node by either of its names. Throws Error for an
+/// entry that means none.
+std::vector<bool> chosen_nodes(const ResultsLayout& layout, const std::string& where);
+
 /// Finds out what is wrong with an entry of a selection, or nothing: {what, remedy}.
 std::optional<std::pair<std::string, std::string>> fault_of_selection(const std::string& entry);
 
-/// Those that layout.channels chooses (groups, datasets, patterns), always with /time. Throws Error for an entry that
-/// means none.
+/// Those that layout.channels chooses (groups, datasets, patterns, single nodes), always with /time. Throws Error for
+/// an entry that means none.
 std::vector<Block> chosen_blocks(const ResultsLayout& layout, const std::string& where);
 
 }  // namespace tisserand::formats

@@ -22,17 +22,28 @@ std::string header_cell(const std::string& name, const std::string& unit) {
 }  // namespace
 
 void export_csv(const ResultsReader& reader, const std::vector<std::string>& selection, const std::string& path) {
-  const std::vector<Channel> all = reader.channels();
-  std::vector<std::string> names{"time"};
-  std::string header;
-  for (const Channel& channel : all)
-    if (channel.name == "time") header = header_cell(channel.name, channel.unit);
-  for (const Channel& channel : select_channels(all, selection, reader.path())) {
+  std::vector<Channel> chosen = select_channels(reader.channels(), selection, reader.path());
+  const bool of_modes = selection.empty() ? reader.modes() > 0 : chosen.front().rows == Rows::modes;
+  const auto is_left_out = [of_modes](const Channel& c) {
+    return (c.rows == Rows::modes) != of_modes || !c.same_as.empty();
+  };
+  if (selection.empty()) std::erase_if(chosen, is_left_out);
+  std::vector<std::string> names;
+  std::string header = "mode";
+  if (!of_modes) {
+    names.push_back("time");
+    header = header_cell("time", reader.channels().front().unit);
+  }
+  for (const Channel& channel : chosen) {
     if (channel.name == "time") continue;
+    if ((channel.rows == Rows::modes) != of_modes)
+      throw Error(fmt::format("'{}' is over {}, '{}' over {}", chosen.front().name, of_modes ? "modes" : "time",
+                              channel.name, of_modes ? "time" : "modes"),
+                  reader.path(), "write them into two files");
     names.push_back(channel.name);
     header += ',' + header_cell(channel.name, channel.unit);
   }
-  const std::size_t rows = reader.rows();
+  const std::size_t rows = of_modes ? reader.modes() : reader.rows();
   const std::size_t per_block = std::max<std::size_t>(1, values_per_block / names.size());
   TextFile file(path);
   file.write(header + '\n');
@@ -40,9 +51,11 @@ void export_csv(const ResultsReader& reader, const std::vector<std::string>& sel
     const std::size_t count = std::min(per_block, rows - first);
     const Eigen::MatrixXd values = reader.read_rows(names, first, count);
     fmt::memory_buffer text;
-    for (Eigen::Index i = 0; i < values.rows(); ++i)
+    for (Eigen::Index i = 0; i < values.rows(); ++i) {
+      if (of_modes) fmt::format_to(std::back_inserter(text), "{},", first + static_cast<std::size_t>(i) + 1);
       for (Eigen::Index j = 0; j < values.cols(); ++j)
         fmt::format_to(std::back_inserter(text), "{}{}", values(i, j), j + 1 < values.cols() ? ',' : '\n');
+    }
     file.write(std::string(text.data(), text.size()));
   }
   file.publish();

@@ -78,12 +78,28 @@ std::vector<ResultsLayout::Coupling> read_couplings(const hdf5::InputFile& file)
   return list;
 }
 
+/// Other names of nodes, each with the index of its node.
+std::vector<ResultsLayout::Alias> read_aliases(const hdf5::InputFile& file, std::size_t nodes) {
+  const std::vector<std::string> words = names(file, "/nodes/alias");
+  if (words.empty()) return {};
+  std::vector<std::int64_t> node(bounded_length(file, "/nodes/alias_of"));
+  file.read("/nodes/alias_of", {node.size()}, "indices of nodes", node.data());
+  const auto exists = [nodes](std::int64_t i) { return i >= 0 && i < static_cast<std::int64_t>(nodes); };
+  if (node.size() != words.size() || !std::all_of(node.begin(), node.end(), exists))
+    throw Error(fmt::format("does not hold the indices of {} of the {} nodes", words.size(), nodes),
+                file.path() + ": /nodes/alias_of", "compare the file with formats/RESULTS.md");
+  std::vector<ResultsLayout::Alias> list;
+  for (std::size_t i = 0; i < words.size(); ++i) list.push_back({words[i], static_cast<int>(node[i])});
+  return list;
+}
+
 ResultsLayout read_layout(const hdf5::InputFile& file) {
   ResultsLayout l;
   l.scene = file.text_attribute("/", "scene");
   l.producer = file.text_attribute("/", "producer");
   l.units = {read_unit(file, "length_unit"), read_unit(file, "mass_unit"), read_unit(file, "time_unit")};
   l.nodes = names(file, "/nodes/name");
+  l.node_aliases = read_aliases(file, l.nodes.size());
   l.joints = names(file, "/joints/name");
   l.coordinates = read_coordinates(file, "/joints/coordinate_");
   l.couplings = read_couplings(file);
@@ -145,12 +161,16 @@ struct ResultsReader::Impl {
 
   hdf5::InputFile file;
   ResultsLayout layout;
-  std::vector<Block> blocks;
+  std::vector<Block> blocks;       ///< over time, then over modes
+  std::size_t blocks_of_time = 0;  ///< the first ones
   std::uint64_t rows = 0;
+  std::uint64_t modes = 0;
   std::vector<Channel> channels;
   std::unordered_map<std::string, Place> place;
 
   const Place& find(const std::string& channel) const;
+  bool is_of_modes(std::size_t block) const { return block >= blocks_of_time; }
+  void add_aliases();
 };
 
 ResultsReader::Impl::Impl(const std::string& path) : file(existing_path(path), hdf5::Completeness::any) {
@@ -164,13 +184,41 @@ ResultsReader::Impl::Impl(const std::string& path) : file(existing_path(path), h
   }
   if (blocks.empty() || blocks.front().dataset != "/time")
     throw Error("is missing", file.path() + ": /time", "compare the file with formats/RESULTS.md");
-  for (std::size_t b = 0; b < blocks.size(); ++b)
+  blocks_of_time = blocks.size();
+  modes = max_rows;
+  for (Block& block : mode_blocks(layout)) {
+    if (!file.has(block.dataset)) continue;
+    modes = std::min(modes, rows_of(file, block));
+    blocks.push_back(std::move(block));
+  }
+  if (blocks.size() == blocks_of_time) modes = 0;
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    if (b == blocks_of_time) add_aliases();
     for (std::size_t c = 0; c < blocks[b].width(); ++c) {
       const std::string& column = blocks[b].columns[c];
       const std::string name = blocks[b].dataset.substr(1) + (column.empty() ? "" : "/" + column);
       place.emplace(name, Place{b, c});
-      channels.push_back({name, blocks[b].units[c]});
+      channels.push_back({name, blocks[b].units[c], is_of_modes(b) ? Rows::modes : Rows::instants, ""});
     }
+  }
+  if (modes == 0) add_aliases();
+}
+
+/// "nodes/position/rod/end/x" beside "nodes/position/rod/10/x".
+void ResultsReader::Impl::add_aliases() {
+  for (std::size_t b = 0; b < blocks_of_time; ++b) {
+    const Block& block = blocks[b];
+    if (!block.dataset.starts_with("/nodes/")) continue;
+    const std::size_t width = block.width() / layout.nodes.size();
+    for (const ResultsLayout::Alias& alias : layout.node_aliases)
+      for (std::size_t k = 0; k < width; ++k) {
+        const std::size_t column = static_cast<std::size_t>(alias.node) * width + k;
+        const std::string same = block.dataset.substr(1) + "/" + block.columns[column];
+        const std::string name = block.dataset.substr(1) + "/" + alias.name + same.substr(same.rfind('/'));
+        if (place.emplace(name, Place{b, column}).second)
+          channels.push_back({name, block.units[column], Rows::instants, same});
+      }
+  }
 }
 
 const ResultsReader::Impl::Place& ResultsReader::Impl::find(const std::string& channel) const {
@@ -206,27 +254,30 @@ std::string ResultsReader::report_json() const {
 
 std::string ResultsReader::scene() const { return impl_->layout.scene; }
 std::size_t ResultsReader::rows() const { return impl_->rows; }
+std::size_t ResultsReader::modes() const { return impl_->modes; }
 std::vector<double> ResultsReader::time() const { return read("time"); }
 std::vector<Channel> ResultsReader::channels() const { return impl_->channels; }
 
 std::vector<double> ResultsReader::read(const std::string& channel) const {
   const Impl::Place& place = impl_->find(channel);
-  std::vector<double> values(impl_->rows);
+  std::vector<double> values(impl_->is_of_modes(place.block) ? impl_->modes : impl_->rows);
   if (!values.empty())
-    impl_->file.read_column(impl_->blocks[place.block].dataset, place.column, impl_->rows, values.data());
+    impl_->file.read_column(impl_->blocks[place.block].dataset, place.column, values.size(), values.data());
   return values;
 }
 
 Eigen::MatrixXd ResultsReader::read_rows(const std::vector<std::string>& channels, std::size_t first,
                                          std::size_t count) const {
-  TISSERAND_ENSURE(first <= impl_->rows && count <= impl_->rows - first, "rows {} + {} of {}", first, count,
-                   impl_->rows);
+  const bool of_modes = !channels.empty() && impl_->is_of_modes(impl_->find(channels.front()).block);
+  const std::uint64_t all = of_modes ? impl_->modes : impl_->rows;
+  TISSERAND_ENSURE(first <= all && count <= all - first, "rows {} + {} of {}", first, count, all);
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const auto rows = static_cast<Eigen::Index>(count);
   Eigen::MatrixXd values(rows, static_cast<Eigen::Index>(channels.size()));
   std::vector<std::vector<std::pair<Eigen::Index, Eigen::Index>>> wanted(impl_->blocks.size());  // from, to
   for (std::size_t i = 0; i < channels.size(); ++i) {
     const Impl::Place& place = impl_->find(channels[i]);
+    TISSERAND_ENSURE(impl_->is_of_modes(place.block) == of_modes, "instants and modes");
     wanted[place.block].emplace_back(static_cast<Eigen::Index>(place.column), static_cast<Eigen::Index>(i));
   }
   for (std::size_t b = 0; b < wanted.size(); ++b) {
@@ -261,9 +312,12 @@ std::vector<Channel> select_channels(const std::vector<Channel>& channels, const
   for (const Channel& channel : channels) known.push_back(channel.name);
   for (const std::string& entry : selection) {
     const std::string wanted = entry.starts_with("/") ? entry.substr(1) : entry;
+    const auto is_meant = [&wanted](const std::string& name) {
+      return name == wanted || name.starts_with(wanted + "/") || matches_wildcard(name, wanted);
+    };
     bool found = false;
     for (std::size_t i = 0; i < known.size(); ++i) {
-      if (known[i] != wanted && !known[i].starts_with(wanted + "/") && !matches_wildcard(known[i], wanted)) continue;
+      if (!is_meant(known[i]) || (!channels[i].same_as.empty() && is_meant(channels[i].same_as))) continue;
       chosen[i] = found = true;
     }
     if (found) continue;

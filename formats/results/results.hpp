@@ -17,6 +17,11 @@ struct ResultsLayout {
   std::string producer;
   Units units;
   std::vector<std::string> nodes;
+  struct Alias {
+    std::string name;  ///< "rod/end"
+    int node = 0;      ///< the one of `nodes` that it means
+  };
+  std::vector<Alias> node_aliases;
   std::vector<std::string> superelements;
   std::vector<int> modes_offset;     ///< superelements.size() + 1; into the columns of y
   std::vector<int> boundary_offset;  ///< superelements.size() + 1; into the rows of boundary_force
@@ -101,10 +106,15 @@ class ResultsWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// One scalar column of a results file, e.g. "nodes/position/beam/tip/x".
+/// What the rows of a channel are: instants, or the modes of a linearised scene.
+enum class Rows { instants, modes };
+
+/// One scalar column of a results file, e.g. "nodes/position/beam/tip/x", "modes/frequency".
 struct Channel {
   std::string name;
   std::string unit;
+  Rows rows = Rows::instants;
+  std::string same_as;  ///< the channel that this name means too ("nodes/position/rod/10/x"); empty: itself
 };
 
 class ResultsReader {
@@ -118,11 +128,14 @@ class ResultsReader {
   std::string report_json() const;
   std::string scene() const;
   std::size_t rows() const;
+  std::size_t modes() const;  ///< 0: the file holds none
   std::vector<double> time() const;
+  /// Those over time, then other names of some of them, then those over modes.
   std::vector<Channel> channels() const;
   /// Values over time. Throws Error with the nearest channel names if there is none of that name.
   std::vector<double> read(const std::string& channel) const;
   /// Rows [first, first + count) of several channels, count x channels.size(); each dataset is read once.
+  /// All of instants or all of modes.
   Eigen::MatrixXd read_rows(const std::vector<std::string>& channels, std::size_t first, std::size_t count) const;
 
  private:
@@ -132,11 +145,14 @@ class ResultsReader {
 
 /// Names of the channels that a selection means: exact names, groups and datasets ("nodes", "nodes/position"), patterns
 /// with
-/// * (any run of characters, also /). Empty: all. In the order of the file. Throws Error for an entry that means none.
+/// * (any run of characters, also /). Empty: all. In the order of the file; another name of a channel only where the
+/// entry does not mean the channel itself. Throws Error for an entry that means none.
 std::vector<Channel> select_channels(const std::vector<Channel>& channels, const std::vector<std::string>& selection,
                                      const std::string& where);
 
-/// CSV with one header line "time [s],name [unit],..."; empty selection: all channels. Wildcards * are allowed.
+/// CSV with one header line "time [s],name [unit],...", or "mode,modes/frequency [Hz],..." for channels of modes,
+/// counted from 1; empty selection: the modes of a file that holds some, else all channels over time. Wildcards * are
+/// allowed. Throws Error for instants and modes in one selection.
 void export_csv(const ResultsReader& reader, const std::vector<std::string>& selection, const std::string& path);
 
 }  // namespace tisserand::formats

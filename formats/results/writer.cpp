@@ -101,6 +101,19 @@ void write_couplings(hdf5::Id file, const std::vector<ResultsLayout::Coupling>& 
   hdf5::write_texts(file, "/couplings/second_kind", second, where);
 }
 
+void write_node_names(hdf5::Id file, const ResultsLayout& layout, const std::string& where) {
+  hdf5::write_texts(file, "/nodes/name", layout.nodes, where);
+  if (layout.node_aliases.empty()) return;
+  std::vector<std::string> names;
+  std::vector<std::int32_t> nodes;
+  for (const ResultsLayout::Alias& alias : layout.node_aliases) {
+    names.push_back(alias.name);
+    nodes.push_back(alias.node);
+  }
+  hdf5::write_texts(file, "/nodes/alias", names, where);
+  hdf5::write_dataset(file, "/nodes/alias_of", {nodes.size()}, nodes.data(), where);
+}
+
 /// A file with everything that does not change during the run. The names of a group are stored if any of its datasets
 /// is.
 void create_head(const std::string& path, const ResultsLayout& layout, const std::vector<Block>& blocks,
@@ -121,7 +134,7 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
   const auto stores = [&](const std::string& group) {
     return std::any_of(blocks.begin(), blocks.end(), [&](const Block& b) { return b.dataset.starts_with(group); });
   };
-  if (stores("/nodes/")) hdf5::write_texts(file.id(), "/nodes/name", layout.nodes, where);
+  if (stores("/nodes/")) write_node_names(file.id(), layout, where);
   const auto coordinates = [&](const std::string& before, const std::vector<ResultsLayout::Coordinate>& list) {
     std::vector<std::string> names, kinds;
     for (const ResultsLayout::Coordinate& c : list) {
@@ -219,6 +232,7 @@ struct ResultsWriter::Impl {
   bool finished = false;
 
   std::optional<ModesTable> modes;
+  ResultsLayout layout;
   std::string shortage;  ///< why rows were given up, or empty
 
   std::uint64_t bytes_needed(std::size_t rows) const;
@@ -323,6 +337,7 @@ void ResultsWriter::Impl::write_end(int completed, const std::string& reason, co
   hdf5::Handle end = open_for_writing(part, 0);
   hdf5::write_text(end.id(), "/report", report_json, part);
   if (modes) write_modes(end.id(), *modes, part);
+  if (modes && H5Lexists(end.id(), "/nodes", H5P_DEFAULT) <= 0) write_node_names(end.id(), layout, part);
   hdf5::write_text_attribute(end.id(), "/", "reason", reason.substr(0, 4096), part);
   hdf5::write_integer_attribute(end.id(), "/", "completed", completed, part);
   if (end.reset() < 0)
@@ -341,6 +356,7 @@ ResultsWriter::ResultsWriter(const std::string& path, const ResultsLayout& layou
   hdf5::silence();
   impl_->path = path;
   impl_->part = path + ".part";
+  impl_->layout = layout;
   const std::vector<Block> blocks = chosen_blocks(layout, layout.scene);
   publish_head(impl_->part, layout, blocks);
   impl_->file = open_for_writing(impl_->part, H5F_ACC_SWMR_WRITE);

@@ -282,7 +282,7 @@ KeySet superelement_fields() {
        choice<&SuperelementBodySpec::inertia, inertia_options>(
            "inertia",
            "angular velocities in the kinetic energy: `A` turned to the axes of the floating frame, `B` material, "
-           "in the axes of each node ([Car00] sections 6 and 7; B is the more accurate), `M` as B with the exact "
+           "in the axes of each node ([Car00] sections 6 and 7; B is the more accurate there), `M` as B with the exact "
            "motion of the centre of mass: for bodies that turn and translate fast (rods of slider-cranks, wheels "
            "on the road); not with `frame: paper`"),
        {"frame", "/^(karcher|paper|node: ?[^ ]+)$/ | frame",

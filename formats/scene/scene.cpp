@@ -141,7 +141,10 @@ std::vector<KeySet> settings_key_sets() {
         plain<&OutputSpec::from>("from", "number", "store from this time on, not later than `end`",
                                  "`integrator.start`"),
         {"channels", "[text+]",
-         "groups or datasets of the results file (`nodes`, `nodes/position`, `joints`, `energy`, ...)", "all"}}}};
+         "groups or datasets of the results file (`nodes`, `nodes/position`, `joints`, `energy`, ...), patterns of "
+         "them, and "
+         "single nodes in datasets of nodes (`nodes/position/arm/tip`, `nodes/*/rod/end`)",
+         "all"}}}};
 }
 
 std::vector<Field> scene_fields() {

@@ -85,10 +85,7 @@ std::string unknown_items(const hdf5::InputFile& file) {
     if (std::find(known_attributes.begin(), known_attributes.end(), name) == known_attributes.end())
       unknown.push_back(fmt::format("attribute '{}'", name));
   if (unknown.empty()) return "";
-  const std::size_t more = unknown.size() > 10 ? unknown.size() - 10 : 0;
-  if (more > 0) unknown.resize(10);
-  return fmt::format("{}: ignored, as version 1.0 does not know them: {}{}.", file.path(), join(unknown, ", "),
-                     more > 0 ? fmt::format(" and {} more", more) : "");
+  return fmt::format("{}: ignored, as version 1.0 does not know them: {}.", file.path(), listed(unknown));
 }
 
 Superelement read_fields(const hdf5::InputFile& file) {

@@ -70,9 +70,12 @@ std::size_t find_column(const std::vector<std::string_view>& header, const std::
   for (std::size_t i = 0; i < header.size(); ++i)
     if (header[i] == wanted) return i;
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < std::min<std::size_t>(header.size(), 20); ++i)
-    names.emplace_back(header[i].substr(0, 40));
-  throw Error(fmt::format("there is no column '{}'", wanted), where, "its columns are " + join(names, ", "));
+  for (const std::string_view name : header) names.emplace_back(name.substr(0, 40));
+  const std::optional<std::string> near = nearest(wanted, names);
+  throw Error(
+      fmt::format("there is no column '{}'", wanted), where,
+      near ? fmt::format("did you mean '{}'?", *near)
+           : fmt::format("take one of its {} columns, by name or by number from 1: {}", names.size(), listed(names)));
 }
 
 double read_cell(const std::vector<std::string_view>& cells, std::size_t column, const std::string& where) {

@@ -63,7 +63,7 @@ void check_reference(const std::string& subject, const std::string& noun, const 
   faults.add(where, key, fmt::format("{}: there is no {} '{}'", subject, noun, name),
              close           ? fmt::format("did you mean '{}'?", *close)
              : known.empty() ? fmt::format("define it; no {} is defined", noun)
-                             : fmt::format("known are {}", join(known, ", ")));
+                             : fmt::format("known are {}", listed(known)));
 }
 
 }  // namespace tisserand::formats

@@ -55,7 +55,7 @@ YamlNode& enter_map(const Walk& walk, YamlNode& node, std::size_t i) {
     walk.fail(fmt::format("'{}' has no entry '{}'", walk.path_to(i), step),
               close           ? fmt::format("did you mean '{}'?", *close)
               : known.empty() ? ""
-                              : fmt::format("entries are {}", join(known, ", ")));
+                              : fmt::format("entries are {}", listed(known)));
   }
   YamlNode child;
   child.key = step;

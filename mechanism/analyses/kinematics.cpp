@@ -72,13 +72,14 @@ void find_active_rows(const Model& model, State& state, Workspace& workspace) {
   for (const int row : count_mobility(model, state, workspace.now).redundant) state.active()[row] = 0.0;
 }
 
-/// The joint coordinate that moves most in a motion d that the constraints leave free, or the node.
-std::string name_of_motion(const Model& model, const Workspace& workspace, const Eigen::VectorXd& d) {
+}  // namespace
+
+std::string name_of_motion(const Model& model, const Evaluation& evaluation, const Eigen::VectorXd& d) {
   double largest = 0.0;
   std::string name;
   for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
     const ElementMap& map = model.coordinates.maps[i];
-    const Eigen::MatrixXd row = model_rows(model, map, local_view(workspace.now.coordinates[i].G), workspace.now);
+    const Eigen::MatrixXd row = model_rows(model, map, local_view(evaluation.coordinates[i].G), evaluation);
     double rate = 0.0;
     for (std::size_t k = 0; k < map.coordinates.size(); ++k)
       if (const int at = map.coordinates[k]; at >= 0) rate += row(0, static_cast<Eigen::Index>(k)) * d[at];
@@ -92,8 +93,6 @@ std::string name_of_motion(const Model& model, const Workspace& workspace, const
   d.cwiseAbs().maxCoeff(&at);
   return coordinate_name(model, static_cast<int>(at));
 }
-
-}  // namespace
 
 void require_determined(const Model& model, const Mobility& mobility, const std::string& where, const State& state,
                         Workspace& workspace) {
@@ -110,12 +109,12 @@ void require_determined(const Model& model, const Mobility& mobility, const std:
     const Eigen::MatrixXd Z = null_space(model, active_jacobian(model, state, workspace.now));
     evaluate_coordinates(model, state, workspace.now);
     for (Eigen::Index k = 0; k < Z.cols(); ++k) {
-      const std::string name = name_of_motion(model, workspace, Z.col(k));
+      const std::string name = name_of_motion(model, workspace.now, Z.col(k));
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
   }
   throw Error(fmt::format("{} degrees of freedom are not driven{}{}", mobility.degrees_of_freedom,
-                          names.empty() ? "" : "; free: ", join(names, ", ")),
+                          names.empty() ? "" : "; free: ", listed(names)),
               where, "drive them under `motions:`, hold them with joints, or run dynamics");
 }
 

@@ -13,6 +13,10 @@
 
 namespace tisserand::mechanism {
 
+/// The joint coordinate that moves most in a motion d (velocity coordinates, after evaluate_coordinates()), or the
+/// node.
+std::string name_of_motion(const Model& model, const Evaluation& evaluation, const Eigen::VectorXd& d);
+
 /// Throws Error that names what is free: flexible bodies, or joint coordinates that nothing drives.
 void require_determined(const Model& model, const Mobility& mobility, const std::string& where, const State& state,
                         Workspace& workspace);

@@ -135,19 +135,9 @@ void add_inertia_doubts(const Model& model, std::vector<std::string>& doubts) {
 }
 
 std::string groups_text(const std::vector<std::vector<std::string>>& groups) {
-  constexpr std::size_t shown = 8;
   std::vector<std::string> texts;
-  for (std::vector<std::string> names : groups) {
-    if (names.size() > shown) {
-      const std::size_t more = names.size() - shown;
-      names.resize(shown);
-      names.push_back(fmt::format("{} more", more));
-    }
-    texts.push_back(join(names, ", "));
-    if (texts.size() == shown) break;
-  }
-  return fmt::format("{} groups that nothing connects: {}{}", groups.size(), join(texts, " | "),
-                     groups.size() > shown ? " | ..." : "");
+  for (const std::vector<std::string>& names : groups) texts.push_back(listed(names));
+  return fmt::format("{} groups that nothing connects: {}", groups.size(), listed(texts, " | "));
 }
 
 }  // namespace
@@ -199,8 +189,20 @@ std::vector<std::string> undetermined_motions(const Model& model, const State& s
   return motions;
 }
 
-std::vector<PreflightLine> preflight_table(const Preflight& preflight, const Mobility& mobility, const Units& units) {
+std::vector<PreflightLine> preflight_doubts(const Preflight& preflight, const Units& units) {
   const std::string length = unit_label(units, 1, 0, 0);
+  std::vector<PreflightLine> lines;
+  if (preflight.groups.size() > 1) lines.push_back({"connections", groups_text(preflight.groups)});
+  std::vector<std::string> gaps;
+  for (const MarkerGap& gap : preflight.gaps)
+    gaps.push_back(fmt::format("'{}' by {:.3g}{}{} and {:.3g} rad", gap.joint, gap.length, length.empty() ? "" : " ",
+                               length, gap.angle));
+  if (!gaps.empty()) lines.push_back({"open joints", listed(gaps)});
+  for (const std::string& doubt : preflight.doubts) lines.push_back({"doubtful", doubt});
+  return lines;
+}
+
+std::vector<PreflightLine> preflight_table(const Preflight& preflight, const Mobility& mobility, const Units& units) {
   std::vector<PreflightLine> lines;
   lines.push_back({"bodies", fmt::format("{}, as rigid ones: mobility {}, by Gruebler's count 6 · {} - {} = {}",
                                          mobility.parts, mobility.rigid_mobility, mobility.parts, mobility.constraints,
@@ -209,17 +211,10 @@ std::vector<PreflightLine> preflight_table(const Preflight& preflight, const Mob
                                    ? "no constraint equation"
                                    : fmt::format("{} of {} constraint equations", mobility.redundant.size(),
                                                  mobility.constraints)});
-  lines.push_back(
-      {"connections", preflight.groups.size() <= 1 ? "all bodies with the ground" : groups_text(preflight.groups)});
+  if (preflight.groups.size() <= 1) lines.push_back({"connections", "all bodies with the ground"});
   if (preflight.gaps.empty()) lines.push_back({"joints", "all meet at the start"});
-  constexpr std::size_t shown = 10;
-  for (std::size_t i = 0; i < std::min(shown, preflight.gaps.size()); ++i)
-    lines.push_back({"open joint",
-                     fmt::format("'{}' by {:.3g}{}{} and {:.3g} rad", preflight.gaps[i].joint, preflight.gaps[i].length,
-                                 length.empty() ? "" : " ", length, preflight.gaps[i].angle)});
-  if (preflight.gaps.size() > shown) lines.push_back({"", fmt::format("and {} more", preflight.gaps.size() - shown)});
   if (preflight.doubts.empty()) lines.push_back({"masses", "plausible"});
-  for (const std::string& doubt : preflight.doubts) lines.push_back({"doubtful", doubt});
+  for (PreflightLine& doubt : preflight_doubts(preflight, units)) lines.push_back(std::move(doubt));
   return lines;
 }
 

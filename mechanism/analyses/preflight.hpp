@@ -39,6 +39,11 @@ struct PreflightLine {
   std::string name;
   std::string value;
 };
+/// All that `check` tells.
 std::vector<PreflightLine> preflight_table(const Preflight& preflight, const Mobility& mobility, const Units& units);
+
+/// Of these what may be a mistake, which a run tells too: bodies that nothing connects, joints that are open at the
+/// start, masses and inertias.
+std::vector<PreflightLine> preflight_doubts(const Preflight& preflight, const Units& units);
 
 }  // namespace tisserand::mechanism

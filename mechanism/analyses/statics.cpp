@@ -95,12 +95,21 @@ void explain_statics(double reached, double step, StaticsReport& report) {
 
 }  // namespace
 
-std::string free_motion(const Model& model, State state, Workspace& workspace) {
+std::string free_motion(const Model& model, const formats::StaticsSpec& options, State state, Workspace& workspace) {
+  // Dense matrices: larger scenes are told by the equation at which the sparse factors fail, or while they are solved.
+  constexpr int most_named = 600;
+  const bool small = model.sizes.velocities() <= most_named;
+  if (options.rotation) {
+    const std::string turn = free_turn_name(model, *options.rotation, state, workspace.now);
+    return turn.empty() && small ? free_motion_name(model, *options.rotation, state, workspace.now) : turn;
+  }
   state.v().setZero();
   state.vdot().setZero();
   evaluate(model, state, workspace.now);
-  std::string direction = free_direction(model, state, workspace);
-  return direction;
+  const std::string direction = free_direction(model, state, workspace);
+  if (direction.empty() || !small) return direction;
+  const std::string name = free_motion_name(model, {}, state, workspace.now);
+  return name.empty() ? direction : name;
 }
 
 void ramp_loads(const Model& model, const formats::StaticsSpec& options, State& state, Evaluation& evaluation,

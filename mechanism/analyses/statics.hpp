@@ -30,8 +30,9 @@ struct StaticsReport {
   std::string explanation;  ///< of a failure: equation and likely cause
 };
 
-/// The coordinate that moves most in a motion of the state at rest that nothing holds, or empty.
-std::string free_motion(const Model& model, State state, Workspace& workspace);
+/// The joint coordinate, or the node, that moves most in a motion of the state that nothing holds, or empty: of the
+/// state at rest, or in the steady rotation of the options, in which centrifugal forces hold too.
+std::string free_motion(const Model& model, const formats::StaticsSpec& options, State state, Workspace& workspace);
 
 /// Equilibrium under loads (at the state's time) and gravity, from `state` with all velocities zero, in load steps that
 /// are halved where the iteration fails; in the steady rotation of the options, if there is one. A scene that can move

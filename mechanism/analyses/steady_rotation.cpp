@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
+#include "mechanism/analyses/kinematics.hpp"
 #include "mechanism/analyses/linearise.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/equations/iteration_matrix.hpp"
@@ -20,6 +22,8 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr double turning_floor = 1e-13;
+/// Forces against a turn of the whole scene, relative to the largest stiffness, that are round-off.
+constexpr double turn_resistance = 1e-13;
 
 /// Largest internal force of any single term: also the inertia of the boundary, which excites internal modes.
 double internal_scale(const Model& model, const Evaluation& evaluation) {
@@ -50,35 +54,66 @@ bool balanced(const Model& model, const formats::StaticsSpec& options, const Lin
          report.constraint <= options.tolerance * model.length;
 }
 
-/// Solves [K Bᵀ; B 0][ξ; δλ] = [−r; −Φ] in scaled equations. False, with the name of the direction, if it is singular.
-bool solve(const Model& model, const State& state, const Linearisation& l, const Evaluation& evaluation, VectorXd& xi,
+/// [K Bᵀ; B 0] in scaled equations and unknowns.
+struct Saddle {
+  MatrixXd A;
+  VectorXd scale;
+  double stiffness = 1.0;  ///< by which K was divided
+};
+
+Saddle saddle(const Model& model, const State& state, const Linearisation& l) {
+  const Eigen::Index n = l.K.rows(), m = l.B.rows();
+  Saddle s{MatrixXd::Zero(n + m, n + m), VectorXd::Ones(n + m),
+           std::max(l.K.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min())};
+  s.scale.head(model.sizes.boundary) = model.equation_scale.head(model.sizes.boundary).matrix();
+  const std::vector<int> rows = active_rows(state);
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    if (rows[row] >= 0)
+      s.scale[n + rows[row]] = model.equation_scale[model.sizes.boundary + static_cast<Eigen::Index>(row)];
+  s.A.topLeftCorner(n, n) = l.K / s.stiffness;
+  s.A.topRightCorner(n, m) = l.B.transpose();
+  s.A.bottomLeftCorner(m, n) = l.B;
+  s.A = s.scale.asDiagonal() * s.A * s.scale.asDiagonal();
+  return s;
+}
+
+/// name_of_motion() of a motion whose turns have world axes.
+std::string name_of_material(const Model& model, const State& state, VectorXd motion, Evaluation& evaluation) {
+  for (std::size_t i = 0; i < model.nodes.size(); ++i)
+    if (const int row = model.nodes[i].rotation; row >= 0)
+      motion.segment<3>(row) = (evaluation.motion[i].R.transpose() * motion.segment<3>(row)).eval();
+  evaluate_coordinates(model, state, evaluation);
+  return name_of_motion(model, evaluation, motion);
+}
+
+/// The joint coordinate, or the node, that moves most in a null vector of the system, which inverse iteration finds.
+std::string name_of_null_vector(const Model& model, const State& state, Saddle s, Evaluation& evaluation) {
+  const Eigen::Index n = model.sizes.velocities();
+  s.A.diagonal().head(n).array() += 1e-13 * s.A.cwiseAbs().maxCoeff();
+  const Eigen::PartialPivLU<MatrixXd> factors(s.A);
+  VectorXd d = VectorXd::Ones(s.A.rows());
+  for (int iteration = 0; iteration < 3; ++iteration) d = factors.solve(d).normalized();
+  return name_of_material(model, state, s.scale.cwiseProduct(d).head(n), evaluation);
+}
+
+/// Solves [K Bᵀ; B 0][ξ; δλ] = [−r; −Φ]. False, with the name of the direction, if it is singular.
+bool solve(const Model& model, const State& state, const Linearisation& l, Evaluation& evaluation, VectorXd& xi,
            VectorXd& multipliers, std::string& free) {
   const Eigen::Index n = l.K.rows(), m = l.B.rows();
-  const double stiffness = std::max(l.K.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
-  VectorXd scale = VectorXd::Ones(n + m), right(n + m);
-  scale.head(model.sizes.boundary) = model.equation_scale.head(model.sizes.boundary).matrix();
-  right.head(n) = -l.r / stiffness;
-  const std::vector<int> rows = active_rows(state);
-  for (std::size_t row = 0; row < rows.size(); ++row) {
-    if (rows[row] < 0) continue;
-    scale[n + rows[row]] = model.equation_scale[model.sizes.boundary + static_cast<Eigen::Index>(row)];
-    right[n + rows[row]] = -evaluation.constraint[row];
-  }
-  MatrixXd A = MatrixXd::Zero(n + m, n + m);
-  A.topLeftCorner(n, n) = l.K / stiffness;
-  A.topRightCorner(n, m) = l.B.transpose();
-  A.bottomLeftCorner(m, n) = l.B;
-  A = scale.asDiagonal() * A * scale.asDiagonal();
-  const Eigen::PartialPivLU<MatrixXd> factors(A);
+  const Saddle s = saddle(model, state, l);
+  const Eigen::PartialPivLU<MatrixXd> factors(s.A);
   if (!(factors.rcond() > free_motion_condition)) {
-    Eigen::Index at = 0;
-    factors.solve(VectorXd::Ones(n + m)).head(n).cwiseAbs().maxCoeff(&at);
-    free = coordinate_name(model, static_cast<int>(at));
+    free = name_of_null_vector(model, state, s, evaluation);
     return false;
   }
-  const VectorXd d = scale.cwiseProduct(factors.solve(scale.cwiseProduct(right)));
+  VectorXd right(n + m);
+  right.head(n) = -l.r / s.stiffness;
+  const std::vector<int> rows = active_rows(state);
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    if (rows[row] >= 0) right[n + rows[row]] = -evaluation.constraint[row];
+  const VectorXd d = s.scale.cwiseProduct(factors.solve(s.scale.cwiseProduct(right)));
   xi = d.head(n);
-  multipliers = stiffness * d.tail(m);
+  multipliers = s.stiffness * d.tail(m);
   return true;
 }
 
@@ -96,14 +131,30 @@ void apply(const Model& model, const VectorXd& xi, const VectorXd& multipliers, 
     if (rows[row] >= 0) state.lambda()[row] += multipliers[rows[row]];
 }
 
+/// The linearisation in the steady rotation. Where no reactions are known, those that balance it best come first: it is
+/// they that hold a blade on a hinge against flapping.
+Linearisation linearise_turning(const Model& model, const formats::RotationSpec& rotation, State& state,
+                                Evaluation& evaluation) {
+  turn_steadily(model, rotation, state);
+  Linearisation l = linearise(model, state, rotation.angular_velocity, evaluation);
+  if (l.B.rows() == 0 || !state.lambda().isZero(0.0) || !l.r.allFinite()) return l;
+  VectorXd scale = VectorXd::Ones(l.r.size());
+  scale.head(model.sizes.boundary) = model.equation_scale.head(model.sizes.boundary).matrix();
+  const MatrixXd BT = scale.asDiagonal() * l.B.transpose();
+  const VectorXd multipliers = BT.colPivHouseholderQr().solve(-scale.cwiseProduct(l.r));
+  const std::vector<int> rows = active_rows(state);
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    if (rows[row] >= 0) state.lambda()[row] = multipliers[rows[row]];
+  return linearise(model, state, rotation.angular_velocity, evaluation);
+}
+
 StepOutcome balance(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted, State& state,
                     Evaluation& evaluation, StaticsReport& report) {
   formats::RotationSpec rotation = *options.rotation;
   rotation.angular_velocity *= std::sqrt(evaluation.load_factor);
   VectorXd xi, multipliers;
   for (int iteration = 0;; ++iteration) {
-    turn_steadily(model, rotation, state);
-    const Linearisation l = linearise(model, state, rotation.angular_velocity, evaluation);
+    const Linearisation l = linearise_turning(model, rotation, state, evaluation);
     const bool done = balanced(model, options, l, evaluation, report);
     if (iteration > 0 && (done || xi.cwiseAbs().maxCoeff() < turning_floor * model.length))
       return StepOutcome::accepted;
@@ -136,6 +187,35 @@ void turn_steadily(const Model& model, const formats::RotationSpec& rotation, St
       state.v().segment<3>(node.rotation) = Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]).conjugate() * omega;
     }
   }
+}
+
+std::string free_turn_name(const Model& model, const formats::RotationSpec& rotation, State state,
+                           Evaluation& evaluation) {
+  if (rotation.angular_velocity.isZero(0.0)) return {};
+  state.v().setZero();
+  state.vdot().setZero();
+  const Linearisation l = linearise(model, state, Vector3d::Zero(), evaluation);
+  const Vector3d axis = rotation.angular_velocity.normalized();
+  VectorXd turn = VectorXd::Zero(l.r.size());
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const Node& node = model.nodes[i];
+    if (node.translation >= 0)
+      turn.segment<3>(node.translation) = axis.cross(state.x().col(static_cast<Eigen::Index>(i)) - rotation.about);
+    if (node.rotation >= 0) turn.segment<3>(node.rotation) = axis;
+  }
+  const double motion = turn.cwiseAbs().maxCoeff();
+  const double gap = l.B.rows() > 0 ? (l.B * turn).cwiseAbs().maxCoeff() : 0.0;
+  const double force = (l.K * turn).cwiseAbs().maxCoeff();
+  if (gap > 1e-9 * motion || force > turn_resistance * l.K.cwiseAbs().maxCoeff() * motion) return {};
+  return name_of_material(model, state, std::move(turn), evaluation);
+}
+
+std::string free_motion_name(const Model& model, const formats::RotationSpec& rotation, State state,
+                             Evaluation& evaluation) {
+  const Linearisation l = linearise_turning(model, rotation, state, evaluation);
+  const Saddle s = saddle(model, state, l);
+  if (Eigen::PartialPivLU<MatrixXd>(s.A).rcond() > free_motion_condition) return {};
+  return name_of_null_vector(model, state, s, evaluation);
 }
 
 StaticsReport solve_steady_rotation(const Model& model, const formats::StaticsSpec& options,

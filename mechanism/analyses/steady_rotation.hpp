@@ -1,6 +1,8 @@
 // Relative equilibrium: the scene at rest in axes that turn steadily.
 #pragma once
 
+#include <string>
+
 #include "formats/scene/scene.hpp"
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/equations/evaluation.hpp"
@@ -11,6 +13,17 @@ namespace tisserand::mechanism {
 
 /// ẋ = ω×(x − p), Ω = Rᵀω, ẍ = ω×ẋ, Ω̇ = 0, internal coordinates at rest.
 void turn_steadily(const Model& model, const formats::RotationSpec& rotation, State& state);
+
+/// The joint coordinate, or the node, that moves most where the scene as a whole turns about the axis of the rotation,
+/// or empty: joints, drives or springs hold it. Away from equilibrium the stiffness does not show that nothing holds
+/// this turn.
+std::string free_turn_name(const Model& model, const formats::RotationSpec& rotation, State state,
+                           Evaluation& evaluation);
+
+/// The joint coordinate, or the node, that moves most in a motion of the steadily turning state that nothing holds, or
+/// empty.
+std::string free_motion_name(const Model& model, const formats::RotationSpec& rotation, State state,
+                             Evaluation& evaluation);
 
 /// Equilibrium of loads, gravity and the inertia of a steady rotation, by Newton's iteration with the stiffness of
 /// `linearise` (dense, with the softening of the rotation); in load steps, in which the rate grows with the root of the

@@ -66,6 +66,11 @@ class BodyBuilder {
     c_.markers.frames.insert(name);
   }
 
+  void add_alias(const std::string& name, int place) {
+    c_.model.place_aliases.push_back({name, place});
+    c_.markers.places[name] = c_.model.places[place].marker;
+  }
+
   void note_units(const std::string& name, const Units& from, const UnitConversion& units) {
     if (from.named() && (units.length != 1.0 || units.mass != 1.0 || units.time != 1.0))
       c_.notes.push_back(fmt::format("body '{}': converted from {}, {}, {} to {}, {}, {}", name, from.length.label,
@@ -178,8 +183,9 @@ class BodyBuilder {
       nodes.push_back(add_node(name, spec.start, mesh.position[i], 1, 1, c_));
       add_place(name, {nodes.back(), Vector3d::Zero(), Matrix3d::Identity()});
     }
-    c_.markers.places[spec.name + "/start"] = {nodes.front(), Vector3d::Zero(), Matrix3d::Identity()};
-    c_.markers.places[spec.name + "/end"] = {nodes.back(), Vector3d::Zero(), Matrix3d::Identity()};
+    const int last = static_cast<int>(c_.model.places.size()) - 1;
+    add_alias(spec.name + "/start", last + 1 - static_cast<int>(nodes.size()));
+    add_alias(spec.name + "/end", last);
     const Vector3d gravity = spec.gravity.value_or(c_.scene.gravity);
     const auto append = [&nodes, &gravity](const auto& elements, auto& pool) {
       for (auto element : elements) {

@@ -116,8 +116,8 @@ int JointBuilder::find_coordinate(const formats::CoordinateRef& ref) const {
     if (name.starts_with(joint + "/")) of_joint.push_back(name);
   }
   throw Error(fmt::format("there is no joint coordinate '{}'", ref.name), ref.where,
-              !of_joint.empty() ? fmt::format("joint '{}' has {}", joint, join(of_joint, ", "))
-                                : "coordinates of this scene: " + (all.empty() ? "none" : join(all, ", ")));
+              !of_joint.empty() ? fmt::format("joint '{}' has {}", joint, listed(of_joint))
+                                : "coordinates of this scene: " + (all.empty() ? "none" : listed(all)));
 }
 
 bool JointBuilder::is_length_coordinate(int coordinate) const {

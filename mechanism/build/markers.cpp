@@ -23,10 +23,8 @@ Marker find_place(const std::map<std::string, Marker>& places, const formats::Ma
   std::vector<std::string> names{"ground"};
   for (const auto& [name, marker] : places) names.push_back(name);
   const auto suggestion = nearest(spec.node, names);
-  if (names.size() > 12) names = {names.begin(), names.begin() + 12};
   throw Error(fmt::format("there is no node '{}'", spec.node), spec.where,
-              suggestion ? fmt::format("did you mean '{}'?", *suggestion)
-                         : "the scene has " + join(names, ", ") + (places.size() > 11 ? ", ..." : ""));
+              suggestion ? fmt::format("did you mean '{}'?", *suggestion) : "the scene has " + listed(names));
 }
 
 Marker with_offset(Marker marker, const formats::MarkerSpec& spec) {

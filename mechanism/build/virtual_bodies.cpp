@@ -98,7 +98,7 @@ class Grouping {
     if (is_virtual(carrier) && !turning.empty())
       throw Error(fmt::format("nothing determines the orientation of virtual body '{}': it is tied only to {}, without "
                               "rotations",
-                              name(group.front()), join(turning, ", ")),
+                              name(group.front()), listed(turning)),
                   where(group.front()),
                   "tie it to a node with rotations, or hold three of these nodes with spherical joints");
     return carrier;

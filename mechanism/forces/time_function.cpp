@@ -30,10 +30,7 @@ std::string what_may_stand(const ExpressionScope& scope) {
   for (const auto& input : scope.inputs) names.push_back(input->name);
   names.insert(names.end(), scope.channels.begin(), scope.channels.end());
   if (names.empty()) return "write a formula in t, for example \"10*sin(2*pi*t)\"";
-  constexpr std::size_t most = 20;
-  const bool all = names.size() <= most;
-  names.resize(std::min(names.size(), most));
-  return "write a formula in t and " + join(names, ", ") + (all ? "" : ", ...");
+  return "write a formula in t and " + listed(names);
 }
 
 }  // namespace

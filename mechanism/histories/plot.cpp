@@ -153,11 +153,27 @@ std::string curve(const std::vector<Series>& series, std::size_t index, std::siz
                      kColours[rank % kColours.size()], kDashes[rank % kDashes.size()], title);
 }
 
+bool is_of_modes(const Series& series) { return series.x_name == "mode"; }
+
+/// Bars over the numbers of modes, those of several series side by side.
+std::string bars(const std::vector<Series>& series, std::size_t index, std::size_t rank, std::size_t count) {
+  const double width = 0.8 / static_cast<double>(count);
+  return fmt::format("$d{} using ($1{:+.6g}):2:({:.6g}) with boxes lc rgb '{}' title {}", index,
+                     width * (static_cast<double>(rank) - 0.5 * static_cast<double>(count - 1)), 0.95 * width,
+                     kColours[rank % kColours.size()], gnuplot_quoted(legend_of(series, series[index])));
+}
+
 void append_panel(std::string& script, const std::vector<Series>& series, const Panel& panel,
                   const PlotOptions& options) {
   const std::string label = options.y_label.empty() ? y_label_of(series, panel) : options.y_label;
   script += "set ylabel " + gnuplot_quoted(label) + " noenhanced\n";
   std::vector<std::string> curves;
+  if (is_of_modes(series.front())) {
+    for (std::size_t rank = 0; rank < panel.members.size(); ++rank)
+      curves.push_back(bars(series, panel.members[rank], rank, panel.members.size()));
+    script += "plot " + join(curves, ", \\\n     ") + "\n";
+    return;
+  }
   for (const SeriesKind kind : {SeriesKind::reference, SeriesKind::run}) {
     std::size_t rank = 0;
     for (const std::size_t i : panel.members)
@@ -175,6 +191,33 @@ std::optional<std::array<double, 2>> range_of_runs(const std::vector<Series>& se
     range = range ? std::array{std::min((*range)[0], *low), std::max((*range)[1], *high)} : std::array{*low, *high};
   }
   return range && (*range)[0] < (*range)[1] ? range : std::nullopt;
+}
+
+/// Half a bar more at both ends where modes are drawn.
+std::optional<std::array<double, 2>> range_of(const std::vector<Series>& series) {
+  std::optional<std::array<double, 2>> range = range_of_runs(series);
+  if (!is_of_modes(series.front())) return range;
+  std::size_t modes = 1;
+  for (const Series& one : series) modes = std::max(modes, one.x.size());
+  return std::array{0.5, static_cast<double>(modes) + 0.5};
+}
+
+/// Filled bars that stand on zero, over whole numbers.
+std::string modes_axes(const std::vector<Series>& series, const PlotOptions& options) {
+  std::size_t modes = 1;
+  for (const Series& one : series) modes = std::max(modes, one.x.size());
+  return fmt::format("set style fill solid 0.8 noborder\nset xtics {}\n{}", (modes + 29) / 30,
+                     options.y_scale == AxisScale::linear ? "set yrange [*<0:0<*]\n" : "");
+}
+
+/// Time and modes share no axis.
+void check_abscissae(const std::vector<Series>& series) {
+  for (const Series& one : series)
+    if (one.kind == SeriesKind::run && is_of_modes(one) != is_of_modes(series.front()))
+      throw Error(
+          fmt::format("'{}' is over modes, '{}' over time", is_of_modes(one) ? one.channel : series.front().channel,
+                      is_of_modes(one) ? series.front().channel : one.channel),
+          "plot", "draw them as two pictures");
 }
 
 std::string terminal_of(const std::string& picture, std::size_t panels) {
@@ -296,8 +339,9 @@ std::string gnuplot_script(const std::vector<Series>& series, const PlotOptions&
       "set rmargin 4\n";
   if (options.x_scale == AxisScale::logarithmic) script += "set logscale x\nset format x '10^{%T}'\n";
   if (options.y_scale == AxisScale::logarithmic) script += "set logscale y\nset format y '10^{%T}'\n";
+  if (is_of_modes(series.front())) script += modes_axes(series, options);
   const bool may_start_at_zero = options.x_scale == AxisScale::linear;
-  append_range(script, "x", options.x_range || !may_start_at_zero ? options.x_range : range_of_runs(series));
+  append_range(script, "x", options.x_range || !may_start_at_zero ? options.x_range : range_of(series));
   append_range(script, "y", options.y_range);
   if (panels.size() > 1) {
     fmt::format_to(std::back_inserter(script), "set multiplot layout {},1 title {} noenhanced font ',20'\n",
@@ -318,6 +362,7 @@ std::string gnuplot_script(const std::vector<Series>& series, const PlotOptions&
 void plot(const std::vector<Series>& series, const PlotOptions& options) {
   const bool has_points = std::any_of(series.begin(), series.end(), [](const Series& s) { return !s.x.empty(); });
   if (!has_points) throw Error("nothing to draw: the chosen channels hold no instant", "plot", "choose another run");
+  check_abscissae(series);
   check_finite(series);
   terminal_of(options.output, 1);  // throws for another ending before anything is done
   const std::filesystem::path output(options.output);

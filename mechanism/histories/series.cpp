@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string_view>
 
@@ -53,7 +54,12 @@ std::size_t find_column(const std::vector<std::string>& header, const std::strin
     names.push_back(split_unit(header[i]).name);
     if (header[i] == wanted || names.back() == wanted) return i;
   }
-  throw Error("no column '" + wanted + "'", file + ":1", "its columns are " + join(names, ", "));
+  std::size_t number = 0;
+  const auto [rest, code] = std::from_chars(wanted.data(), wanted.data() + wanted.size(), number);
+  if (code == std::errc() && rest == wanted.data() + wanted.size() && number >= 1 && number <= header.size())
+    return number - 1;
+  throw Error(fmt::format("no column '{}' among {}", wanted, header.size()), file + ":1",
+              fmt::format("take a number from 1, or a name: the nearest are {}", listed(nearest_names(wanted, names))));
 }
 
 double number(const std::string& cell, const std::string& file, std::size_t line, std::size_t column) {
@@ -90,33 +96,41 @@ std::vector<formats::Channel> chosen_channels(const std::vector<formats::Channel
   return formats::select_channels(channels, present, file);
 }
 
-/// The series of one file: the chosen channels over time.
+/// The series of one file: the chosen channels over time, then those over the numbers of modes.
 void append_run(const std::string& file, const std::string& label, const std::vector<std::string>& patterns,
                 Misses& misses, std::vector<Series>& all) {
   const formats::ResultsReader reader(file);
   const std::vector<formats::Channel> channels = reader.channels();
   std::string time_unit;
-  std::vector<std::string> names;
-  std::vector<Series> chosen;
   for (const formats::Channel& channel : channels)
     if (channel.name == "time") time_unit = channel.unit;
-  for (const formats::Channel& channel : chosen_channels(channels, file, patterns, misses)) {
-    if (channel.name == "time") continue;
-    names.push_back(channel.name);
-    Series series;
-    series.source = label.empty() ? stem(file) : label;
-    series.channel = channel.name;
-    series.unit = channel.unit;
-    series.x_unit = time_unit;
-    series.x = reader.time();
-    series.has_own_label = !label.empty();
-    chosen.push_back(std::move(series));
-  }
-  const Eigen::MatrixXd values = reader.read_rows(names, 0, reader.rows());
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const auto column = values.col(i);
-    chosen[i].y.assign(column.begin(), column.end());
-    all.push_back(std::move(chosen[i]));
+  const std::vector<formats::Channel> meant = chosen_channels(channels, file, patterns, misses);
+  std::vector<double> numbers(reader.modes());
+  std::iota(numbers.begin(), numbers.end(), 1.0);
+  for (const formats::Rows rows : {formats::Rows::instants, formats::Rows::modes}) {
+    const bool of_modes = rows == formats::Rows::modes;
+    std::vector<std::string> names;
+    std::vector<Series> chosen;
+    for (const formats::Channel& channel : meant) {
+      if (channel.name == "time" || channel.rows != rows) continue;
+      names.push_back(channel.name);
+      Series series;
+      series.source = label.empty() ? stem(file) : label;
+      series.channel = channel.name;
+      series.unit = channel.unit;
+      series.x_name = of_modes ? "mode" : "time";
+      series.x_unit = of_modes ? "" : time_unit;
+      series.x = of_modes ? numbers : reader.time();
+      series.has_own_label = !label.empty();
+      chosen.push_back(std::move(series));
+    }
+    if (names.empty()) continue;
+    const Eigen::MatrixXd values = reader.read_rows(names, 0, of_modes ? reader.modes() : reader.rows());
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+      const auto column = values.col(i);
+      chosen[i].y.assign(column.begin(), column.end());
+      all.push_back(std::move(chosen[i]));
+    }
   }
 }
 

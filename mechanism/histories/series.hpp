@@ -13,10 +13,10 @@ enum class SeriesKind { run, reference };
 /// One quantity over another, in the units of its file.
 struct Series {
   SeriesKind kind = SeriesKind::run;
-  std::string source;   ///< label of the file: its own label, else the file name without endings
-  std::string channel;  ///< "nodes/position/beam/tip/x", or the column of a CSV file
-  std::string unit;     ///< "" if unnamed or unknown
-  std::string x_name = "time";
+  std::string source;           ///< label of the file: its own label, else the file name without endings
+  std::string channel;          ///< "nodes/position/beam/tip/x", or the column of a CSV file
+  std::string unit;             ///< "" if unnamed or unknown
+  std::string x_name = "time";  ///< "mode": x counts the modes of a linearised scene from 1
   std::string x_unit;
   std::vector<double> x;
   std::vector<double> y;
@@ -41,8 +41,9 @@ struct SeriesRequest {
 /// "file.csv:x column:y column[:label]"; the label may hold colons. Throws Error with the form.
 ReferenceColumn parse_reference(const std::string& text);
 
-/// Reads two columns; a header cell "name [unit]" is found by "name" as well. Rows in which either cell is empty or nan
-/// are left out. Throws Error with file:line:column, or with the names of the columns there are.
+/// Reads two columns; a header cell "name [unit]" is found by "name" as well, any by its number from 1. Rows in which
+/// either cell is empty or nan are left out. Throws Error with file:line:column, or with the names of the nearest
+/// columns.
 Series read_reference(const ReferenceColumn& column);
 
 /// All series of a request: files in order, in each its channels, then the references. A channel may be missing in some

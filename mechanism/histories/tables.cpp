@@ -43,14 +43,18 @@ std::string channels_table(const std::string& file, const std::vector<std::strin
   const std::vector<double> time = reader.time();
   std::string text = fmt::format("{}: scene '{}', {} instants", file, reader.scene(), time.size());
   if (!time.empty()) text += fmt::format(" from {:g} to {:g}", time.front(), time.back());
+  if (reader.modes() > 0) text += fmt::format(", {} modes", reader.modes());
   if (!reader.completed()) text += fmt::format("\nnot completed: {}", reader.reason());
   text += "\n";
   const std::vector<formats::Channel> chosen = formats::select_channels(reader.channels(), patterns, file);
   std::size_t width = 0;
   for (const formats::Channel& channel : chosen) width = std::max(width, channel.name.size());
-  for (const formats::Channel& channel : chosen)
-    text +=
-        channel.unit.empty() ? channel.name + "\n" : fmt::format("{:<{}}  [{}]\n", channel.name, width, channel.unit);
+  for (const formats::Channel& channel : chosen) {
+    std::string line = channel.name;
+    if (!channel.unit.empty()) line = fmt::format("{:<{}}  [{}]", channel.name, width, channel.unit);
+    if (!channel.same_as.empty()) line += "  = " + channel.same_as;
+    text += line + "\n";
+  }
   return text;
 }
 
@@ -116,8 +120,8 @@ std::string deviations_table(const std::vector<Deviation>& deviations) {
   }
   if (!deviations.empty()) {
     const Deviation& d = deviations.front();
-    text += fmt::format("Compared at {} instants of the reference from {:g} to {:g}; its RMS is {:.3e}.\n", d.instants,
-                        d.from, d.to, d.reference_rms);
+    text += fmt::format("Compared at {} {} of the reference from {:g} to {:g}; its RMS is {:.3e}.\n", d.instants,
+                        d.channel.starts_with("modes/") ? "modes" : "instants", d.from, d.to, d.reference_rms);
   }
   return text;
 }

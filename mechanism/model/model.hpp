@@ -41,6 +41,12 @@ struct Place {
   Marker marker;
 };
 
+/// Another name of a place: the ends of beams.
+struct PlaceAlias {
+  std::string name;
+  int place = 0;  ///< index into Model::places
+};
+
 /// A fixed joint between virtual bodies, or of one with its carrier, which vanished when the model was built: both
 /// markers are on the carrier. The first ties hold one follower each, after those that they hang on.
 struct Tie {
@@ -70,6 +76,7 @@ struct Model {
   Sizes sizes;
   std::vector<Node> nodes;
   std::vector<Place> places;
+  std::vector<PlaceAlias> place_aliases;
   int virtual_nodes = 0;  ///< nodes of virtual bodies
   std::vector<Tie> ties;  ///< of eliminated virtual bodies: row i holds follower i, rows that close loops at the end
 

@@ -22,7 +22,7 @@ const formats::Analysis& find(const formats::Scene& scene, const std::string& na
   throw Error(fmt::format("there is no analysis '{}'", name), scene.file,
               names.empty() ? std::string("the scene has no `analyses:`; leave --analysis out")
               : near        ? fmt::format("did you mean '{}'?", *near)
-                            : fmt::format("its analyses are {}", join(names, ", ")));
+                            : fmt::format("its analyses are {}", listed(names)));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "formats/results/blocks.hpp"
 #include "mechanism/bodies/superelement/rates.hpp"
 #include "mechanism/equations/terms.hpp"
 #include "mechanism/step/redundancy.hpp"
@@ -168,12 +169,27 @@ void add_force_names(const Model& model, formats::ResultsLayout& layout) {
 
 }  // namespace
 
+void keep_chosen_places(const formats::Scene& scene, Model& model) {
+  const std::vector<bool> chosen = formats::chosen_nodes(results_layout(model, scene), scene.file);
+  std::vector<Place> places;
+  std::vector<int> at(model.places.size(), -1);
+  for (std::size_t i = 0; i < model.places.size(); ++i) {
+    if (!chosen[i]) continue;
+    at[i] = static_cast<int>(places.size());
+    places.push_back(std::move(model.places[i]));
+  }
+  model.places = std::move(places);
+  for (PlaceAlias& alias : model.place_aliases) alias.place = at[alias.place];
+  std::erase_if(model.place_aliases, [](const PlaceAlias& alias) { return alias.place < 0; });
+}
+
 formats::ResultsLayout results_layout(const Model& model, const formats::Scene& scene) {
   formats::ResultsLayout layout;
   layout.scene = scene.name;
   layout.producer = std::string("tisserand mechanism ") + TISSERAND_VERSION;
   layout.units = scene.units;
   for (const Place& place : model.places) layout.nodes.push_back(place.name);
+  for (const PlaceAlias& alias : model.place_aliases) layout.node_aliases.push_back({alias.name, alias.place});
   layout.modes_offset = {0};
   layout.boundary_offset = {0};
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {

@@ -11,6 +11,10 @@
 
 namespace tisserand::mechanism {
 
+/// Leaves the places that output.channels stores. After that the model reads no stored states any more. Throws Error
+/// for a channel that names no node.
+void keep_chosen_places(const formats::Scene& scene, Model& model);
+
 formats::ResultsLayout results_layout(const Model& model, const formats::Scene& scene);
 
 /// Evaluates the state and fills all but step, iterations, residual and constraint.

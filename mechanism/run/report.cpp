@@ -108,9 +108,9 @@ std::string report_text(const RunReport& report, const Units& units) {
   line("mobility", fmt::format("{} degrees of freedom: {} coordinates, {} constraints of rank {}",
                                report.mobility.degrees_of_freedom, report.mobility.coordinates,
                                report.mobility.constraints, report.mobility.rank));
-  if (report.steps == 0)
-    for (const PreflightLine& row : preflight_table(report.preflight, report.mobility, units))
-      line(row.name.c_str(), row.value);
+  for (const PreflightLine& row : report.steps == 0 ? preflight_table(report.preflight, report.mobility, units)
+                                                    : preflight_doubts(report.preflight, units))
+    line(row.name.c_str(), row.value);
   line("solver", fmt::format("{}, {} unknowns, {} nonzeros", report.solver, report.unknowns, report.nonzeros));
   if (report.steps == 0 && report.outcome == RunOutcome::completed) return text;
   line("outcome", report.reason.empty() ? outcome_name(report.outcome)

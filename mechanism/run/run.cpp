@@ -76,13 +76,12 @@ void note_redundancy(Run& run) {
   if (mobility.redundant.empty()) return;
   std::vector<std::string> rows;
   for (const int row : mobility.redundant) rows.push_back(fmt::format("'{}'", constraint_name(run.built.model, row)));
-  if (rows.size() > 20) rows.resize(20), rows.push_back("...");
   evaluate(run.built.model, run.built.state, run.workspace.now);
   run.report.not_unique = joints_without_unique_reaction(run.built.model, run.workspace.now);
-  run.report.notes.push_back(fmt::format(
-      "{} of {} constraint equations repeat what the others already demand: {}. The motion is right; the "
-      "reactions of {} are not unique, those of least norm are stored",
-      mobility.redundant.size(), mobility.constraints, join(rows, ", "), join(run.report.not_unique, ", ")));
+  run.report.notes.push_back(
+      fmt::format("{} of {} constraint equations repeat what the others already demand: {}. The motion is right; the "
+                  "reactions of {} are not unique, those of least norm are stored",
+                  mobility.redundant.size(), mobility.constraints, listed(rows), listed(run.report.not_unique)));
   for (const Friction& friction : run.built.model.frictions) {
     const std::string& name = run.built.model.joints[friction.joint].name;
     if (std::ranges::count(run.report.not_unique, name) > 0)
@@ -144,10 +143,12 @@ void prepare(Run& run) {
     case formats::AnalysisKind::assembly:
       break;
     case formats::AnalysisKind::statics: {
-      const std::string free = free_motion(run.built.model, run.built.state, run.workspace);
+      const std::string free = free_motion(run.built.model, run.scene.statics, run.built.state, run.workspace);
       if (!free.empty())
         throw Error(fmt::format("statics: the scene can move freely: nothing holds {}", free), run.scene.file,
-                    "hold it with a joint, or use `analysis: dynamics`");
+                    run.scene.statics.rotation
+                        ? "drive it under `motions:` if it turns with the scene, or hold it with a joint"
+                        : "hold it with a joint, or use `analysis: dynamics`");
       break;
     }
     case formats::AnalysisKind::kinematics:

@@ -131,11 +131,9 @@ void assemble(Run& run, RowWriter& out) {
   } else if (!assembly.closed) {
     std::vector<std::string> open;
     for (const JointGap& gap : assembly.open)
-      if (open.size() < 10)
-        open.push_back(fmt::format("'{}' by {:.3g} and {:.3g} rad", gap.name, gap.length, gap.angle));
+      open.push_back(fmt::format("'{}' by {:.3g} and {:.3g} rad", gap.name, gap.length, gap.angle));
     report.outcome = RunOutcome::not_converged;
-    report.reason =
-        fmt::format("joints stay open: {}; give better guesses, or correct what cannot meet", join(open, ", "));
+    report.reason = fmt::format("joints stay open: {}; give better guesses, or correct what cannot meet", listed(open));
   } else if (!(assembly.velocity_gap <= 1e-9)) {
     report.outcome = RunOutcome::not_converged;
     report.reason =

@@ -99,7 +99,7 @@ const TextMatrix& find_matrix(const Reader& reader, const std::string& wanted, c
   std::vector<std::string> names;
   for (const auto& [name, matrix] : reader.matrices) names.push_back(name);
   throw Error(fmt::format("holds no DMIG matrix {}{}", wanted,
-                          names.empty() ? std::string() : fmt::format(", but {}", join(names, ", "))),
+                          names.empty() ? std::string() : fmt::format(", but {}", listed(names))),
               path, "name the matrices with --stiffness and --mass");
 }
 

@@ -110,10 +110,10 @@ void check_used(const Mesh& mesh, const std::string& where) {
   const auto unused = std::count(use.any.begin(), use.any.end(), false);
   if (unused == 0) return;
   std::vector<std::string> names;
-  for (std::size_t n = 0; n < use.any.size() && names.size() < 5; ++n)
+  for (std::size_t n = 0; n < use.any.size() && names.size() < 10; ++n)
     if (!use.any[n]) names.push_back(mesh.node_label[n]);
-  throw Error(fmt::format("{} nodes are used by no element and no spider: {}{}", unused, join(names, ", "),
-                          unused > 5 ? ", ..." : ""),
+  throw Error(fmt::format("{} nodes are used by no element and no spider: {}", unused,
+                          listed(names, ", ", static_cast<std::size_t>(unused))),
               where, "remove them, or connect them by an element or a spider");
 }
 

@@ -120,13 +120,14 @@ void check_connected(const Mesh& mesh, const std::string& where) {
     if (piece[i] == i) first.push_back(i);
   if (first.size() <= 1) return;
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < std::min<std::size_t>(first.size(), 5); ++i)
+  for (std::size_t i = 0; i < std::min<std::size_t>(first.size(), 10); ++i)
     names.push_back(fmt::format("one with {} ({} nodes)", mesh.node_label[first[i]],
                                 std::count(piece.begin(), piece.end(), first[i])));
-  if (first.size() > names.size()) names.push_back("...");
   const NearestPair gap = nearest_pair(mesh, piece, first[1]);
   throw Error(
-      fmt::format("the part is in {} pieces that no element connects: {}", first.size(), join(names, ", ")), where,
+      fmt::format("the part is in {} pieces that no element connects: {}", first.size(),
+                  listed(names, ", ", first.size())),
+      where,
       fmt::format("connect them: the nearest nodes are {} and {}, {:.6g} apart; elements are connected only where they "
                   "share a node (beams: a point of the same name), or by a spider",
                   mesh.node_label[gap.inside], mesh.node_label[gap.outside], gap.distance));

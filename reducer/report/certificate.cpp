@@ -19,7 +19,6 @@ constexpr double massless_limit = 1e-12;    ///< share of the largest eigenvalue
 constexpr double unresisted_limit = 1e-13;  ///< the same of S̄
 constexpr int most_frequencies = 20;
 
-
 /// Rotations divided by the characteristic length: entries of one unit.
 Eigen::VectorXd row_scale(const formats::Superelement& element, double length) {
   return Eigen::VectorXd::NullaryExpr(element.size(), [&](Eigen::Index i) {
@@ -96,7 +95,7 @@ FileCertificate certify(const formats::Superelement& element, const formats::Sup
     std::vector<std::string> words;
     for (Eigen::Index i = 0; i < direction.size(); ++i)
       if (direction[i] > 0.5 * direction.maxCoeff()) words.push_back(coordinate_text(element, i));
-    c.massless.push_back(join(words, " with "));
+    c.massless.push_back(listed(words, " with "));
   }
   const auto free = (S.eigenvalues().array() < unresisted_limit * S.eigenvalues().maxCoeff()).count();
   if (free > 6) {

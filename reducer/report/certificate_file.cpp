@@ -193,13 +193,9 @@ std::string contents_text(const ModelCertificate& c) {
   if (c.eliminated > 0)
     text += fmt::format("{:<19}{} spiders, {} coordinates eliminated, {} redundant equations\n", "ties", c.spiders,
                         c.eliminated, c.redundant);
-  if (!c.inactive.empty()) {
-    constexpr std::size_t most = 5;
-    const std::vector<std::string> first(c.inactive.begin(),
-                                         c.inactive.begin() + static_cast<long>(std::min(most, c.inactive.size())));
-    text += fmt::format("{:<19}{} coordinates without stiffness and mass: {}{}\n", "inactive", c.inactive.size(),
-                        join(first, ", "), c.inactive.size() > most ? ", ..." : "");
-  }
+  if (!c.inactive.empty())
+    text += fmt::format("{:<19}{} coordinates without stiffness and mass: {}\n", "inactive", c.inactive.size(),
+                        listed(c.inactive));
   return text;
 }
 
@@ -258,14 +254,14 @@ std::string certificate_text(const formats::Superelement& element, const FileCer
   text += fmt::format("{:<19}{}\n", "content id", element.content_id.substr(0, 16));
   const auto internal = static_cast<Eigen::Index>(file.fixed_frequency.size());
   text += fmt::format("{:<19}{} ({} coordinates) and {} internal coordinates\n", "boundary nodes",
-                      join(element.node_name, ", "), element.size() - internal, internal);
+                      listed(element.node_name), element.size() - internal, internal);
   if (model) text += model_text(*model);
   text += rigid_text("from reduced mass", file.rigid, file.characteristic_length, element.units);
   if (model) text += rigid_text("from the mesh", model->rigid, file.characteristic_length, element.units);
   text += fmt::format("{:<19}{:.1e}\n", "rigid motions S R", file.rigid_residual);
   text += fmt::format("{:<19}S {:.2e}, M {:.2e} (rotations scaled by {:.6g})\n", "condition", file.stiffness_condition,
                       file.mass_condition, file.characteristic_length);
-  text += fmt::format("{:<19}{}\n", "without mass", file.massless.empty() ? "none" : join(file.massless, "; "));
+  text += fmt::format("{:<19}{}\n", "without mass", file.massless.empty() ? "none" : listed(file.massless, "; "));
   text += frequency_table(file, model ? model->free_frequency : std::vector<double>{}, element.units);
   if (!file.free_frequency_note.empty())
     text += fmt::format("{:<19}no free frequencies: {}\n", "note", file.free_frequency_note);

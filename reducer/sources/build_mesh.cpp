@@ -33,15 +33,15 @@ void for_nodes(Mesh& mesh, Visit visit) {
 
 /// A deck may hold nodes by mistake, a geometry always holds points.
 void tell_left_out(MeshBuilder& builder, const std::vector<int>& row) {
-  constexpr int most_told = 5;
+  constexpr int most_told = 10;
   std::vector<std::string> told;
   int count = 0;
   for (int n = builder.first_file_node; n < builder.last_file_node; ++n)
     if (row[n] < 0 && count++ < most_told) told.push_back(builder.label[n]);
   if (count > 0)
-    builder.mesh.warnings.push_back(fmt::format("{} nodes of {} without elements, masses and ties are left out: {}{}",
-                                                count, builder.part.mesh.file, join(told, ", "),
-                                                count > most_told ? ", ..." : ""));
+    builder.mesh.warnings.push_back(fmt::format("{} nodes of {} without elements, masses and ties are left out: {}",
+                                                count, builder.part.mesh.file,
+                                                listed(told, ", ", static_cast<std::size_t>(count))));
 }
 
 }  // namespace

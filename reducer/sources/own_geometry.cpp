@@ -27,7 +27,7 @@ const Named& find_named(const std::vector<Named>& all, const std::string& name, 
   }
   const std::optional<std::string> guess = nearest(name, known);
   throw Error(fmt::format("beam '{}': {} '{}' does not exist", line.name, kind, name), line.where,
-              guess ? fmt::format("did you mean '{}'?", *guess) : fmt::format("{}s: {}", kind, join(known, ", ")));
+              guess ? fmt::format("did you mean '{}'?", *guess) : fmt::format("{}s: {}", kind, listed(known)));
 }
 
 /// Names of points at which beams, springs and spiders end: only these become nodes.

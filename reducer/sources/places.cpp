@@ -41,9 +41,8 @@ int node_of_name(MeshBuilder& builder, const std::string& name, const User& user
             : fmt::format("to take the nearest node of the mesh file, write {{near: {}}}", name));
   std::vector<std::string> known = place_names(builder);
   const std::optional<std::string> guess = nearest(name, known);
-  if (known.size() > 20) known.resize(20), known.push_back("...");
   throw Error(fmt::format("{}: point '{}' does not exist", user.name, name), user.where,
-              guess ? fmt::format("did you mean '{}'?", *guess) : "points: " + join(known, ", "));
+              guess ? fmt::format("did you mean '{}'?", *guess) : "points: " + listed(known));
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ Selection by_label(const MeshBuilder& builder, const std::string& name, int dime
   if (found.entities.size() < 2) return found;
   std::vector<std::string> names;
   for (const int e : found.entities) names.push_back(name_of(builder.cells.entities[e]));
-  throw Error(fmt::format("{}: the label '{}' is that of {}", user.name, name, join(names, ", ")), user.where,
+  throw Error(fmt::format("{}: the label '{}' is that of {}", user.name, name, listed(names)), user.where,
               "name one of them by its number");
 }
 
@@ -184,11 +184,10 @@ Selection by_name(const MeshBuilder& builder, const std::string& name, int dimen
                 "`reducer groups` lists what there is");
   std::vector<std::string> known = group_names(builder);
   const std::optional<std::string> guess = nearest(name, known);
-  if (known.size() > 20) known.resize(20), known.push_back("...");
   throw Error(fmt::format("{}: there is no group '{}'", user.name, name), user.where,
               guess           ? fmt::format("did you mean '{}'?", *guess)
               : known.empty() ? "there are no named groups; define one under groups"
-                              : "known are " + join(known, ", "));
+                              : "known are " + listed(known));
 }
 
 }  // namespace

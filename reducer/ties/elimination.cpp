@@ -201,12 +201,11 @@ class Eliminator {
   [[noreturn]] void fail(const TieRow& row, double largest) const {
     std::vector<std::string> coordinates, ties;
     for (const Term& term : row.terms)
-      if (scaled(term) > redundant * largest && coordinates.size() < 6) coordinates.push_back(name_(term.coordinate));
+      if (scaled(term) > redundant * largest) coordinates.push_back(name_(term.coordinate));
     for (const int tie : row.ties) ties.push_back(ties_.name[tie]);
-    if (ties.size() > 6) ties.resize(6), ties.push_back("...");
     throw Error(
-        fmt::format("{} {} {}", join(ties, ", "), coordinates.size() == 1 ? "fix" : "tie together rigidly",
-                    join(coordinates, ", ") + ", which the boundary retains"),
+        fmt::format("{} {} {}", listed(ties), coordinates.size() == 1 ? "fix" : "tie together rigidly",
+                    listed(coordinates) + ", which the boundary retains"),
         where_,
         "boundary coordinates must be free to move: keep only one boundary node per rigid piece, or retain fewer "
         "components");

@@ -77,13 +77,12 @@ void check_rigid(const Mesh& mesh, const Coordinates& coordinates, const TieSyst
   }
   if (sum.cwiseAbs().maxCoeff() <= 1e-6 * size) return;
   std::vector<std::string> words, motions;
-  for (std::size_t i = 0; i < std::min<std::size_t>(equation.terms.size(), 6); ++i)
-    words.push_back(coordinate_text(mesh, coordinates, ties, equation.terms[i].coordinate));
+  for (const Term& term : equation.terms) words.push_back(coordinate_text(mesh, coordinates, ties, term.coordinate));
   for (int k = 0; k < 6; ++k)
     if (std::abs(sum[k]) > 1e-6 * size) motions.push_back(component_text(k));
   throw Error(
-      fmt::format("{} between {}{} stops the part as a whole from moving: {}", ties.name[equation.tie],
-                  join(words, ", "), equation.terms.size() > 6 ? ", ..." : "", join(motions, ", ")),
+      fmt::format("{} between {} stops the part as a whole from moving: {}", ties.name[equation.tie], listed(words),
+                  join(motions, ", ")),
       where,
       "a superelement floats: use a spider, which allows for the distance between the nodes, or put the support "
       "into the scene");

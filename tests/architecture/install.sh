@@ -59,12 +59,42 @@ complete_words() {
   )
 }
 
-# offers <expected lines> <words...>
+# The same of zsh: through its own search for functions, with what would be shown printed instead.
+zsh_words() {
+  (cd "$folder/work" && zsh -f -c '
+    fpath=("$1" $fpath)
+    shift
+    autoload -Uz compinit && compinit -D -u
+    compadd() { while [[ $1 != -- ]]; do shift; done; shift; print -rl -- "$@" }
+    words=("$@") CURRENT=$#words
+    $_comps[${words[1]:t}]' zsh "$prefix/share/zsh/vendor-completions" "$@")
+}
+
+# The same of fish, which can be asked for what it would show; it marks folders.
+fish_words() {
+  (cd "$folder/work" && PATH="$prefix/bin:$PATH" fish --no-config -c '
+    source $argv[1]
+    complete -C (string join " " -- $argv[2..])' "$prefix/share/fish/vendor_completions.d/$(basename "$1").fish" \
+    "$(basename "$1")" "${@:2}" | sed 's,^sub/$,sub,')
+}
+
+shells=(complete_words)
+for shell in zsh fish; do
+  if command -v "$shell" >/dev/null; then
+    shells+=("${shell}_words")
+  else
+    printf 'install: completion of %s: not tested, %s is not installed\n' "$shell" "$shell"
+  fi
+done
+
+# offers <expected lines> <words...>: every shell that is here offers these
 offers() {
-  local expected="$1" got
+  local expected="$1" got shell
   shift
-  got="$(complete_words "$@" | sort | tr '\n' ' ')"
-  [ "$got" = "$expected " ] || fail "completion of '$*' offers '$got', not '$expected '"
+  for shell in "${shells[@]}"; do
+    got="$("$shell" "$@" | LC_ALL=C sort | tr '\n' ' ')"
+    [ "$got" = "$expected " ] || fail "$shell: completion of '$*' offers '$got', not '$expected '"
+  done
 }
 
 mkdir "$folder/work" "$folder/work/sub"
@@ -81,7 +111,7 @@ touch "$folder/work/notes.yaml" "$folder/work/arm.part.yaml" "$folder/work/frame
 for program in "${programs[@]}"; do
   bash -n "$prefix/share/bash-completion/completions/$program"
   # shellcheck disable=SC2046 # commands are words
-  offers "$(printf '%s\n' --help --version $(commands "$program") | sort | tr '\n' ' ' | sed 's/ $//')" \
+  offers "$(printf '%s\n' --help --version $(commands "$program") | LC_ALL=C sort | tr '\n' ' ' | sed 's/ $//')" \
     "$prefix/bin/$program" ""
 done
 offers "drop.scene.yaml sub" "$prefix/bin/mechanism" run ""

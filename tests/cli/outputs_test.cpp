@@ -137,6 +137,55 @@ TEST_F(Outputs, RhythmOfOutput) {
               AllOf(HasSubstr("energy/total"), HasSubstr("nodes/position/rod/1/x"), Not(HasSubstr("velocity"))));
 }
 
+TEST_F(Outputs, SingleNodesAreStoredUnderBothNames) {
+  ASSERT_EQ(mechanism({"run", "arm.scene.yaml", "-o", "arm.results.h5", "--set",
+                       "output.channels=[nodes/position/rod/end, nodes/velocity/block/hook/z]"})
+                .code,
+            0);
+  const std::string channels = mechanism({"channels", "arm.results.h5"}).out;
+  EXPECT_THAT(channels, AllOf(HasSubstr("nodes/position/rod/2/x"), HasSubstr("nodes/velocity/block/hook/y"),
+                              HasSubstr("  = nodes/position/rod/2/x\n"), Not(HasSubstr("rod/1")),
+                              Not(HasSubstr("rod/start")), Not(HasSubstr("rotation")), Not(HasSubstr("energy"))));
+  const auto column = [&](const std::string& name) {
+    const Outcome outcome = mechanism({"export", "arm.results.h5", "-c", name, "-o", "/dev/stdout"});
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    return outcome.out.substr(outcome.out.find('\n'));
+  };
+  EXPECT_EQ(column("nodes/position/rod/end/z"), column("nodes/position/rod/2/z"));
+  expect_error(with("run", {"output.channels=[nodes/position/rod/edn]"}),
+               {"there is no node 'rod/edn'", "the nearest nodes are rod/end"});
+  expect_error(with("check", {"output.channels=[nodes/position/rod/edn]"}), {"there is no node 'rod/edn'"});
+}
+
+TEST_F(Outputs, ShapesAreThoseOfTheStoredNodes) {
+  const Outcome run = mechanism({"run", "arm.scene.yaml", "-o", "tones.results.h5", "--set", "analysis=modes", "--set",
+                                 "output.channels=[nodes/position/rod/end]", "--set", "modes.count=3"});
+  ASSERT_EQ(run.code, 0) << run.error;
+  const std::string csv = mechanism({"export", "tones.results.h5", "-c", "modes", "-o", "/dev/stdout"}).out;
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3);
+  EXPECT_THAT(csv, AllOf(HasSubstr("modes/frequency [Hz]"), HasSubstr("modes/rotation/rod/2/z/imaginary"),
+                         Not(HasSubstr("rod/1"))));
+  const Outcome plot = mechanism({"plot", "tones.results.h5", "-c", "modes/frequency", "-o", "tones.svg"});
+  if (plot.error.find("gnuplot is not installed") == std::string::npos) {
+    EXPECT_EQ(plot.code, 0) << plot.error;
+  }
+}
+
+TEST_F(Outputs, RunTellsTheDoubtsOfCheckOnce) {
+  const std::string told = "2 groups that nothing connects: ";  // nothing holds the superelement
+  EXPECT_THAT(mechanism({"check", "arm.scene.yaml"}).out, HasSubstr(told));
+  const auto count = [&](const std::string& text) {
+    int n = 0;
+    for (auto at = text.find(told); at != std::string::npos; at = text.find(told, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count(mechanism({"run", "arm.scene.yaml"}).out), 1);
+  const std::string plan = "analyses={first: {type: dynamics}, second: {type: dynamics, from: first}}";
+  EXPECT_EQ(count(mechanism({"run", "arm.scene.yaml", "--set", "integrator.end=0.02", "--set", plan}).out), 1);
+  const Outcome heavy = mechanism({"run", "arm.scene.yaml", "--set", "bodies.block.mass=2e16"});
+  EXPECT_THAT(heavy.out, AllOf(HasSubstr("doubtful"), HasSubstr("differ by more than")));
+}
+
 TEST_F(Outputs, UsageErrorsAreTwoAndHelpTeaches) {
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{},

@@ -39,6 +39,24 @@ TEST(Text, NearestSuggestsOnlyWhatIsSimilar) {
   EXPECT_EQ(nearest("x", {}), std::nullopt);
 }
 
+TEST(Text, ListsShowTenNamesAndACount) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 10; ++i) names.push_back(std::string(1, static_cast<char>('a' + i)));
+  EXPECT_EQ(listed({}), "");
+  EXPECT_EQ(listed({"a", "b"}), "a, b");
+  EXPECT_EQ(listed(names, " "), "a b c d e f g h i j");
+  EXPECT_EQ(listed(names, " ", 300), "a b c d e f g h i j and 290 more");
+  names.resize(300, "k");
+  EXPECT_EQ(listed(names, " "), "a b c d e f g h i j and 290 more");
+}
+
+TEST(Text, NearestNamesHoldTheWordOrResembleIt) {
+  const std::vector<std::string> names{"energy/total", "rod/tip/x", "rod/tpi/y", "tip/x"};
+  EXPECT_EQ(nearest_names("tip/x", names),
+            (std::vector<std::string>{"rod/tip/x", "tip/x", "rod/tpi/y", "energy/total"}));
+  EXPECT_EQ(nearest_names("a", std::vector<std::string>(300, "b")).size(), 10u);
+}
+
 TEST(Text, JoinPutsTheSeparatorBetween) {
   EXPECT_EQ(join({}, ", "), "");
   EXPECT_EQ(join({"a"}, ", "), "a");

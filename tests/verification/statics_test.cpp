@@ -3,15 +3,20 @@
 #include "mechanism/analyses/statics.hpp"
 
 #include <cmath>
+#include <fstream>
 #include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/error.hpp"
+#include "formats/results/results.hpp"
+#include "mechanism/simulate.hpp"
 #include "tests/support/bodies/beam_states.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/reference_table.hpp"
 #include "tests/support/scenes/scenes.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::mechanism::statics_test {
 namespace {
@@ -141,6 +146,75 @@ TEST(BeamScene, RollUp) {
   EXPECT_LT(run.position("beam/20").norm(), 1e-2);
   // Half way round stands the circle's opposite point: diameter L/π.
   EXPECT_NEAR(run.position("beam/10").norm(), 10 / pi, 1e-2);
+}
+
+/// A hub on a mast and a blade on a flapping hinge, which hangs on nothing but its centrifugal force.
+struct FlappingBlade {
+  static constexpr const char* text = R"yaml(scene: blade
+analysis: statics
+gravity: [0, 0, -9.81]
+bodies:
+  hub: {type: rigid, mass: 1, inertia: [1, 1, 1], nodes: {arm: {position: [0.1, 0, 0]}}}
+  blade: {type: rigid, mass: 2, inertia: [0.01, 0.1, 0.1], center_of_mass: [0.5, 0, 0], pose: {position: [0.1, 0, 0]}}
+joints:
+  mast: {type: revolute, a: ground, b: hub, axis: [0, 0, 1]}
+  flap: {type: revolute, a: hub/arm, b: blade, axis: [0, 1, 0]}
+motions: {turn: {coordinate: mast, value: 20*t}}
+statics: {rotation: {angular_velocity: [0, 0, 20]}}
+)yaml";
+
+  formats::Scene read(const std::vector<formats::Override>& overrides) const {
+    std::ofstream(folder.file("blade.scene.yaml")) << text;
+    return formats::read_scene(folder.file("blade.scene.yaml"), overrides);
+  }
+  test_support::TemporaryFolder folder;
+};
+
+TEST(SteadyRotation, HoldsABladeOnItsFlappingHinge) {
+  const FlappingBlade blade;
+  const formats::Scene scene = blade.read({});
+  const RunReport report = simulate(scene, blade.folder.file("a.h5"), {});
+  ASSERT_EQ(report.outcome, RunOutcome::completed) << report.reason;
+  const formats::ResultsReader results(blade.folder.file("a.h5"));
+  const double droop = results.read("joints/coordinate/flap")[0];
+  // Stationary potential m g z - Ω²/2 J(β), J = m (e + r cos β)² + I₁ sin² β + I₃ cos² β, by Newton's iteration.
+  double b = 0.0;
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    const auto slope = [](double x) {
+      return 400.0 * (2.0 * (0.1 + 0.5 * std::cos(x)) * 0.5 * std::sin(x) + 0.09 * std::sin(x) * std::cos(x)) -
+             2.0 * 9.81 * 0.5 * std::cos(x);
+    };
+    b -= slope(b) / ((slope(b + 1e-6) - slope(b - 1e-6)) / 2e-6);
+  }
+  EXPECT_NEAR(droop, b, 1e-9);
+  EXPECT_GT(b, 0.03);
+}
+
+TEST(SceneThatCanMove, IsCalledByItsFreeJoint) {
+  const auto error = [](const formats::Scene& scene) -> std::string {
+    try {
+      (void)inspect(scene, {});
+    } catch (const Error& e) {
+      return e.what();
+    }
+    return "no error";
+  };
+  const FlappingBlade blade;
+  formats::Scene scene = blade.read({});
+  EXPECT_EQ(error(scene), "no error");
+  scene.motions.clear();  // the rotation leaves its own angle free
+  EXPECT_THAT(error(scene), ::testing::HasSubstr("nothing holds coordinate 'mast'; drive it under `motions:`"));
+  scene.joints.back().kind = JointKind::fixed;
+  EXPECT_THAT(error(scene), ::testing::HasSubstr("nothing holds coordinate 'mast'"));
+  const formats::Scene beam =
+      formats::read_scene(TISSERAND_SOURCE_DIR "/examples/flexible_benchmarks/spin_up_steady.scene.yaml", {});
+  EXPECT_EQ(error(beam), "no error");
+  scene = beam;  // stretched by the rotation: far from equilibrium where it begins
+  scene.motions.clear();
+  EXPECT_THAT(error(scene), ::testing::HasSubstr("nothing holds coordinate 'root'"));
+  scene = blade.read({});
+  scene.statics.rotation.reset();  // nothing else holds the blade
+  EXPECT_THAT(error(scene), ::testing::HasSubstr("nothing holds coordinate 'flap'; hold it with a joint"));
 }
 
 TEST(SceneThatCanMove, IsAnOutcomeThatNamesTheDirection) {

@@ -109,7 +109,7 @@ Assembly& SceneExpander::find_assembly(const YamlNode& use, const Assembly& from
   throw Error(fmt::format("there is no assembly '{}'", use.text), document_.where(use.place),
               close           ? fmt::format("did you mean '{}'?", *close)
               : known.empty() ? "define it under `assemblies`"
-                              : fmt::format("known are {}", join(known, ", ")));
+                              : fmt::format("known are {}", listed(known)));
 }
 
 YamlNode& SceneExpander::flat(const std::string& collection, const YamlPlace& place) {
@@ -251,7 +251,7 @@ void SceneExpander::define_parameters(const Instance& instance, int index, const
                     document_.where(value.key_place),
                     close           ? fmt::format("did you mean '{}'?", *close)
                     : known.empty() ? "it has none"
-                                    : fmt::format("its parameters are {}", join(known, ", ")));
+                                    : fmt::format("its parameters are {}", listed(known)));
       }
       own.define(value, around);
     }

@@ -146,7 +146,7 @@ const YamlNode& Substitution::value_of(const std::string& name, ParameterScope& 
   fail(place, fmt::format("there is no parameter '{}'", name),
        close           ? fmt::format("did you mean '{}'?", *close)
        : known.empty() ? "define it under `parameters`; a $ that is meant is written $$"
-                       : fmt::format("parameters here are {}", join(known, ", ")));
+                       : fmt::format("parameters here are {}", listed(known)));
 }
 
 std::optional<double> Substitution::named_number(const std::string& name, ParameterScope& scope,
@@ -184,7 +184,7 @@ double Substitution::number_of(const std::string& formula, ParameterScope& scope
     fail(place, error.message(),
          !error.remedy().empty() ? error.remedy()
          : known.empty()         ? ""
-                                 : fmt::format("parameters here are {}", join(known, ", ")));
+                                 : fmt::format("parameters here are {}", listed(known)));
   }
   if (!std::isfinite(value)) fail(place, fmt::format("expression '{}' is {}, not a finite number", formula, value), "");
   return value;

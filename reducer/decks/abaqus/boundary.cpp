@@ -182,7 +182,7 @@ void read_boundary(Model& model) {
   std::vector<std::string> words;
   for (const auto& [title, count] : in_steps) words.push_back(fmt::format("{} ({})", title, count));
   if (!words.empty())
-    model.deck.mesh.warnings.push_back(fmt::format("keywords of steps that are not used: {}", join(words, ", ")));
+    model.deck.mesh.warnings.push_back(fmt::format("keywords of steps that are not used: {}", listed(words)));
 }
 
 }  // namespace tisserand::reducer::abaqus

@@ -235,13 +235,13 @@ void judge_supports(NastranModel& model) {
       continue;
     }
     Support& support = supports[entry.card];
-    if (++support.number <= 5) support.nodes.push_back(fmt::format("{} ({})", id, digits(held.components)));
+    if (++support.number <= 10) support.nodes.push_back(fmt::format("{} ({})", id, digits(held.components)));
   }
   for (const auto& [card, support] : supports) {
     CardFields f(model.cards, model.cards.cards[card], model.faults);
-    const std::string more = support.number > 5 ? fmt::format(" and {} more", support.number - 5) : "";
-    f.fault(fmt::format("holds GRID {}{} to ground, but a superelement floats", join(support.nodes, ", "), more),
-            "put the support into the scene");
+    f.fault(
+        fmt::format("holds GRID {} to ground, but a superelement floats", listed(support.nodes, ", ", support.number)),
+        "put the support into the scene");
   }
 }
 

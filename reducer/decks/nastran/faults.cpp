@@ -35,10 +35,8 @@ void NastranRemarks::add(const std::string& kind, const std::string& name) {
 
 std::vector<std::string> NastranRemarks::texts() const {
   std::vector<std::string> texts;
-  for (const auto& [kind, remark] : remarks_) {
-    const std::string rest = remark.number > remark.names.size() ? fmt::format(", ... ({})", remark.number) : "";
-    texts.push_back(fmt::format("{}: {}{}", kind, join(remark.names, ", "), rest));
-  }
+  for (const auto& [kind, remark] : remarks_)
+    texts.push_back(fmt::format("{}: {}", kind, listed(remark.names, ", ", remark.number)));
   return texts;
 }
 

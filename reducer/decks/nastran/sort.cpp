@@ -56,14 +56,8 @@ void judge_unknown(const std::map<std::string, std::size_t>& unknown, const std:
                    const DeckOptions& options, NastranModel& model) {
   if (unknown.empty()) return;
   std::vector<std::string> names;
-  for (const auto& [name, count] : unknown) {
-    if (names.size() == 20) {
-      names.push_back(fmt::format("... ({} names)", unknown.size()));
-      break;
-    }
-    names.push_back(fmt::format("{} ({})", name, count));
-  }
-  const std::string text = "cards that are not understood: " + join(names, ", ");
+  for (const auto& [name, count] : unknown) names.push_back(fmt::format("{} ({})", name, count));
+  const std::string text = "cards that are not understood: " + listed(names);
   if (options.unknown == UnknownCards::ignore)
     model.deck.mesh.warnings.push_back(text);
   else

@@ -20,6 +20,7 @@
 
 #include "common/error.hpp"
 #include "formats/hdf5/file.hpp"
+#include "formats/results/blocks.hpp"
 #include "tests/support/results_rows.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -168,6 +169,106 @@ TEST(Results, OnlyChosenChannelsAreStored) {
   EXPECT_FALSE(file.has("/solver"));
 }
 
+TEST(Results, SingleNodesAreChosenWithTheirDatasets) {
+  ResultsLayout layout = example_layout();
+  layout.node_aliases = {{"beam/end", 1}};
+  const auto chosen = [&](const std::vector<std::string>& channels) {
+    layout.channels = channels;
+    return chosen_nodes(layout, "scene.yaml");
+  };
+  using Nodes = std::vector<bool>;  // of beam/base, beam/tip, hub
+  EXPECT_EQ(chosen({"nodes/position/beam/tip"}), (Nodes{false, true, false}));
+  EXPECT_EQ(chosen({"/nodes/position/beam/tip/z", "energy"}), (Nodes{false, true, false}));
+  EXPECT_EQ(chosen({"nodes/*/beam/end", "nodes/velocity/hub"}), (Nodes{false, true, true}));
+  EXPECT_EQ(chosen({"nodes/position/beam"}), (Nodes{true, true, false}));
+  EXPECT_EQ(chosen({"nodes/position/*/tip"}), (Nodes{false, true, false}));
+  EXPECT_EQ(chosen({"nodes/position/beam/tip", "nodes/velocity"}), (Nodes{true, true, true}));
+  EXPECT_EQ(chosen({"energy"}), (Nodes{true, true, true}));
+  EXPECT_EQ(chosen({}), (Nodes{true, true, true}));
+  EXPECT_THAT(error_of([&] { (void)chosen({"nodes/position/beam/tup"}); }),
+              AllOf(HasSubstr("there is no node 'beam/tup'"), HasSubstr("the nearest nodes are beam/tip, ")));
+
+  layout.channels = {"nodes/*/beam/tip"};
+  EXPECT_EQ(chosen_blocks(layout, "").size(), 1u + 6);  // time, and all datasets of nodes
+  layout.channels = {"nodes/position/beam/tip"};
+  EXPECT_EQ(chosen_blocks(layout, "").size(), 2u);
+  EXPECT_THAT(fault_of_selection("joints/force/hinge").value().second, HasSubstr("choose all of 'joints/force'"));
+  EXPECT_THAT(fault_of_selection("nodes/positon/beam/tip").value().first, HasSubstr("does not exist"));
+}
+
+TEST(Results, SecondNamesOfNodesAreChannels) {
+  const TemporaryFolder folder;
+  ResultsLayout layout = example_layout();
+  layout.node_aliases = {{"beam/end", 1}};
+  layout.channels = {"nodes/position", "nodes/rotation"};
+  write_rows(folder.file("a.h5"), layout, 3);
+  const ResultsReader reader(folder.file("a.h5"));
+  EXPECT_EQ(reader.read("nodes/rotation/beam/end/w"), reader.read("nodes/rotation/beam/tip/w"));
+  const auto names = [&](const std::vector<std::string>& selection) {
+    std::vector<std::string> list;
+    for (const Channel& channel : select_channels(reader.channels(), selection, "")) list.push_back(channel.name);
+    return list;
+  };
+  EXPECT_THAT(names({"nodes/position/beam/end"}),
+              ElementsAre("nodes/position/beam/end/x", "nodes/position/beam/end/y", "nodes/position/beam/end/z"));
+  EXPECT_THAT(names({"nodes/position/*/x"}), ElementsAre("nodes/position/beam/base/x", "nodes/position/beam/tip/x",
+                                                         "nodes/position/hub/x"));  // each once
+  export_csv(reader, {}, folder.file("a.csv"));
+  EXPECT_THAT(text_of(folder.file("a.csv")), Not(HasSubstr("beam/end")));
+}
+
+TEST(Results, IndicesOfSecondNamesAreChecked) {
+  const TemporaryFolder folder;
+  ResultsLayout layout = example_layout();
+  layout.node_aliases = {{"beam/end", 3}};  // of three nodes
+  write_rows(folder.file("a.h5"), layout, 1);
+  EXPECT_THAT(error_of([&] { ResultsReader reader(folder.file("a.h5")); }), HasSubstr("/nodes/alias_of"));
+}
+
+/// Two modes of the example's nodes; the shapes are numbers that tell their place.
+ModesTable example_modes(const ResultsLayout& layout) {
+  ModesTable table;
+  table.eigenvalue = Eigen::Vector2cd(std::complex<double>(-1.0, 3.0), std::complex<double>(-2.0, 5.0));
+  table.frequency = Eigen::Vector2d(0.5, 0.75);
+  table.damping_ratio = Eigen::Vector2d(0.01, 0.02);
+  const auto rows = 3 * static_cast<Eigen::Index>(layout.nodes.size());
+  table.translation.setZero(rows, 2);
+  table.rotation.setZero(rows, 2);
+  table.translation(3, 1) = {7.0, 8.0};  // beam/tip, x, of the second mode
+  return table;
+}
+
+TEST(Results, ModesAreChannelsOverModes) {
+  const TemporaryFolder folder;
+  for (const std::vector<std::string>& channels : {std::vector<std::string>{}, {"energy"}}) {  // with and without nodes
+    ResultsLayout layout = example_layout();
+    layout.channels = channels;
+    {
+      ResultsWriter writer(folder.file("a.h5"), layout);
+      ResultsRow row;
+      row.resize(layout);
+      writer.append(row);
+      writer.set_modes(example_modes(layout));
+      writer.finish(true, "", "{}");
+    }
+    const ResultsReader reader(folder.file("a.h5"));
+    EXPECT_EQ(reader.rows(), 1u);
+    EXPECT_EQ(reader.modes(), 2u);
+    EXPECT_THAT(reader.read("modes/frequency"), ElementsAre(0.5, 0.75));
+    EXPECT_THAT(reader.read("modes/eigenvalue/imaginary"), ElementsAre(3.0, 5.0));
+    EXPECT_THAT(reader.read("modes/translation/beam/tip/x/imaginary"), ElementsAre(0.0, 8.0));
+    export_csv(reader, {"modes/frequency", "modes/damping_ratio"}, folder.file("a.csv"));
+    EXPECT_EQ(text_of(folder.file("a.csv")),
+              "mode,modes/frequency [Hz],modes/damping_ratio [1]\n1,0.5,0.01\n2,0.75,0.02\n");
+    export_csv(reader, {}, folder.file("all.csv"));  // of a file with modes those
+    EXPECT_THAT(text_of(folder.file("all.csv")), ::testing::StartsWith("mode,modes/frequency [Hz],"));
+    EXPECT_THAT(error_of([&] {
+                  export_csv(reader, {"modes/frequency", "energy"}, folder.file("b.csv"));
+                }),
+                HasSubstr("write them into two files"));
+  }
+}
+
 TEST(Results, UnknownChannelOfTheSceneIsAnErrorWithSuggestion) {
   const TemporaryFolder folder;
   ResultsLayout layout = example_layout();
@@ -298,7 +399,7 @@ TEST(Results, OtherFilesAreRejected) {
   edit([](hid_t f) { hdf5::write_text_attribute(f, "/", "version", "2.0", ""); });
   EXPECT_THAT(open(path), HasSubstr("is '2.0'"));
   edit([](hid_t f) {
-    hdf5::write_text_attribute(f, "/", "version", "1.3", "");
+    hdf5::write_text_attribute(f, "/", "version", "1.4", "");
     const std::int32_t offset[] = {0, 9, 5};
     H5Ldelete(f, "/superelements/offset", H5P_DEFAULT);
     hdf5::write_dataset(f, "/superelements/offset", {3}, offset, "");

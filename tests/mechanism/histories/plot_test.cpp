@@ -123,6 +123,23 @@ TEST(GnuplotScript, RangesAndLogarithmicScales) {
   EXPECT_THAT(script, Not(HasSubstr("set logscale x")));
 }
 
+TEST(GnuplotScript, DrawsModesAsBarsBesideOneAnother) {
+  std::vector<Series> series = {wave("a", "modes/frequency", "Hz", 5), wave("b", "modes/frequency", "Hz", 5)};
+  for (Series& one : series) {
+    one.x = {1, 2, 3, 4, 5};
+    one.x_name = "mode";
+    one.x_unit = "";
+  }
+  const std::string script = gnuplot_script(series, {}, "a.svg");
+  EXPECT_THAT(script, HasSubstr("$d0 using ($1-0.2):2:(0.38) with boxes"));
+  EXPECT_THAT(script, HasSubstr("$d1 using ($1+0.2):2:(0.38) with boxes"));
+  EXPECT_THAT(script, HasSubstr("set xrange [0.5:5.5]"));
+  EXPECT_THAT(script, HasSubstr("set xlabel 'mode'"));
+  series.push_back(wave("a", "energy/total", "J", 5));
+  EXPECT_THAT(error_of([&] { plot(series, {}); }),
+              HasSubstr("'modes/frequency' is over modes, 'energy/total' over time"));
+}
+
 TEST(GnuplotScript, ShowsTheTimeOfTheRuns) {
   const Series run = wave("a", "energy/total", "J", 5);  // 0 to 0.04; the reference goes on to 0.09
   EXPECT_THAT(gnuplot_script({run, reference("exact")}, {}, "a.svg"), HasSubstr("set xrange [0:0.04]"));

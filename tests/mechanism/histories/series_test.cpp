@@ -18,6 +18,7 @@
 namespace tisserand::mechanism::series_test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -74,11 +75,28 @@ TEST_F(CsvFile, FaultsNameTheirPlace) {
   const auto fault = [this](const std::string& text) {
     return error_of([&] { (void)read_reference({write(text), "t", "w", ""}); });
   };
-  EXPECT_THAT(fault("t,v\n0,1\n"), HasSubstr("no column 'w'; its columns are t, v"));
+  EXPECT_THAT(fault("t,v\n0,1\n"),
+              HasSubstr("no column 'w' among 2; take a number from 1, or a name: the nearest are t, v"));
   EXPECT_THAT(fault("t,w\n0,1\n1,x2\n"), HasSubstr("history.csv:3: 'x2' in column 2 is not a number"));
   EXPECT_THAT(fault("t,w\n0,1,2\n"), HasSubstr("history.csv:2: 3 cells where the header names 2"));
   EXPECT_THAT(fault(""), HasSubstr("is empty"));
   EXPECT_THAT(error_of([] { (void)read_reference({"none.csv", "t", "w", ""}); }), HasSubstr("none.csv"));
+}
+
+TEST_F(CsvFile, ColumnsAreFoundByNumberAndByTheirNearestNames) {
+  std::string header = "t", row = "0", next = "1";
+  for (int i = 0; i < 300; ++i) {
+    header += ",nodes/position/rod/" + std::to_string(i) + "/x";
+    row += ",5";
+    next += "," + std::to_string(i);
+  }
+  const std::string path = write(header + ",2\n" + row + ",8\n" + next + ",9\n");
+  EXPECT_THAT(read_reference({path, "1", "4", ""}).y, ElementsAre(5.0, 2.0));
+  EXPECT_THAT(read_reference({path, "t", "2", ""}).y, ElementsAre(8.0, 9.0));  // a name before a number
+  const std::string error = error_of([&] { (void)read_reference({path, "t", "nodes/position/rod/12/y", ""}); });
+  EXPECT_THAT(error, HasSubstr("the nearest are nodes/position/rod/12/x, "));
+  EXPECT_EQ(std::count(error.begin(), error.end(), ','), 9 + 1);  // ten names
+  EXPECT_THAT(error_of([&] { (void)read_reference({path, "t", "303", ""}); }), HasSubstr("no column '303' among 302"));
 }
 
 class ResultsFile : public CsvFile {
@@ -146,6 +164,33 @@ TEST_F(ResultsFile, IsComparedWithItsOwnExport) {
                 (void)compare({{a}, {}, {"energy/total"}, {}}, {});
               }),
               HasSubstr("0 references, one is needed"));
+}
+
+TEST_F(ResultsFile, ModesAreListedAndReadOverTheirNumbers) {
+  const std::string path = (folder_ / "tones.results.h5").string();
+  {
+    formats::ResultsLayout layout;
+    layout.units = Units::si();
+    formats::ResultsWriter writer(path, layout);
+    formats::ResultsRow row;
+    row.resize(layout);
+    writer.append(row);
+    formats::ModesTable modes;
+    modes.eigenvalue = Eigen::Vector3cd::Zero();
+    modes.frequency = Eigen::Vector3d(2.0, 3.0, 5.0);
+    modes.damping_ratio = Eigen::Vector3d::Zero();
+    modes.translation.resize(0, 3);
+    modes.rotation.resize(0, 3);
+    writer.set_modes(modes);
+    writer.finish(true, "", "{}");
+  }
+  EXPECT_THAT(channels_table(path, {}), AllOf(HasSubstr(", 3 modes\n"), HasSubstr("modes/frequency")));
+  const std::vector<Series> series = read_series({{path}, {}, {"modes/frequency"}, {}});
+  ASSERT_EQ(series.size(), 1u);
+  EXPECT_THAT(series[0].x, ElementsAre(1.0, 2.0, 3.0));
+  EXPECT_THAT(series[0].y, ElementsAre(2.0, 3.0, 5.0));
+  EXPECT_EQ(series[0].x_name, "mode");
+  EXPECT_EQ(series[0].unit, "Hz");
 }
 
 TEST_F(ResultsFile, ChannelsAreListedWithUnits) {
