@@ -315,12 +315,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "^: body 'beam': velocity has 2 numbers instead of 3; write it as [x, y, z]"},
         BadText{"mass: 3", "mass: ^0", "^: body 'block': mass 0 must be positive"},
         BadText{"mass: 3", "mass: ^-3", "^: body 'block': mass -3 must be positive"},
-        BadText{"inertia: [1, 2, 2.5]", "inertia: ^[1, 2, 4]",
-                "^: body 'block': principal moments of inertia 1, 2, 4: the largest exceeds the sum of the others, "
+        BadText{"inertia: [1, 2, 2.5]", "inertia: ^[1, 2, 3.01]",
+                "^: body 'block': principal moments of inertia 1, 2, 3.01: the largest exceeds the sum of the others, "
                 "which no body can have; check values, order and units"},
-        BadText{"inertia: [1, 2, 2.5]", "inertia: ^[0.0833, 0.0833, 0.1669]",
-                "^: body 'block': principal moments of inertia 0.0833, 0.0833, 0.1669: the largest exceeds the sum of "
-                "the others, which no body can have; check values, order and units"},
         BadText{"block: {type: rigid, mass: 3, inertia: [1, 2, 2.5],", "^block: {type: rigid, mass: 3,",
                 "^: body 'block': missing key 'inertia'"},
         BadText{"hook: {position: [1, 0, 0]}", "hook: {^positon: [1, 0, 0]}",

@@ -5,6 +5,7 @@
 #include "common/error.hpp"
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/run/output.hpp"
+#include "tests/formats/yaml/text_input.hpp"
 #include "tests/support/bodies/reduced_frames.hpp"
 #include "tests/support/scenes/scenes.hpp"
 #include "tests/support/scenes/virtual_bodies.hpp"
@@ -169,13 +170,17 @@ TEST(RigidArms, OfManyJointsTheLongestAreNamed) {
 
 // 0.0833 + 0.0833 < 0.1667, by 6e-4 of it: four typed digits of a flat square of 1 m and 1 kg.
 TEST(FlatBodies, TypedWithFourDigitsAreAcceptedWithANote) {
-  formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
-  scene.bodies.push_back(test_support::rigid_body("plate", 1.0, {0, 0, 0}, {0.0833, 0.0833, 0.1667}));
-  EXPECT_THAT(build_model(scene, {}).notes,
+  const auto notes = [](const std::string& inertia) {
+    const formats::Folder folder;
+    const std::string text =
+        "scene: flat\nintegrator: {step: 0.01, end: 1}\nbodies: {plate: {type: rigid, mass: 1, inertia: ";
+    return build_model(formats::read_scene(folder.file("scene.yaml", text + inertia + "}}\n"), {}), {}).notes;
+  };
+  EXPECT_THAT(notes("[0.0833, 0.0833, 0.1667]"),
               ElementsAre(AllOf(HasSubstr("body 'plate': of the principal moments of inertia 0.0833, 0.0833, 0.1667"),
                                 HasSubstr("by 0.0006 of it"))));
-  scene.bodies[0] = test_support::rigid_body("plate", 1.0, {0, 0, 0}, {1, 1, 2});
-  EXPECT_THAT(build_model(scene, {}).notes, IsEmpty());
+  EXPECT_THAT(notes("[1, 1, 2]"), IsEmpty());
+  EXPECT_THROW(notes("[0.0833, 0.0833, 0.1669]"), Error);  // by 1.8e-3
 }
 
 }  // namespace
