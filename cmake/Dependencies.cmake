@@ -87,4 +87,6 @@ if(TISSERAND_REDUCER)
   target_link_libraries(dep_slepc INTERFACE PkgConfig::SLEPC MPI::MPI_C)
   target_compile_definitions(dep_slepc INTERFACE OMPI_SKIP_MPICXX=1)
   dep_simple(gmsh gmsh.h "" gmsh)
+  # What the process that runs gmsh may not do.
+  dep_simple(seccomp seccomp.h "" seccomp)
 endif()

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cctype>
 #include <cerrno>
@@ -20,6 +21,34 @@ namespace tisserand {
 namespace {
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
+/// Length and value of the UTF-8 sequence at the beginning, or length 0 where there is none.
+struct Character {
+  std::size_t length = 0;
+  unsigned value = 0;
+};
+
+Character first_character(std::string_view text) {
+  const auto byte = [text](std::size_t k) { return static_cast<unsigned char>(text[k]); };
+  const unsigned lead = byte(0);
+  if (lead < 0x80) return {1, lead};
+  const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4 || text.size() < length) return {};
+  unsigned value = lead & (0x7fU >> length);
+  for (std::size_t k = 1; k < length; ++k) {
+    if ((byte(k) & 0xc0U) != 0x80U) return {};
+    value = value << 6U | (byte(k) & 0x3fU);
+  }
+  constexpr std::array<unsigned, 5> least{0, 0, 0x80, 0x800, 0x10000};
+  if (value < least[length] || value > 0x10ffff || (value >= 0xd800 && value < 0xe000)) return {};
+  return {length, value};
+}
+
+bool is_harmless(unsigned value) {
+  const bool turns = (value >= 0x202a && value <= 0x202e) || (value >= 0x2066 && value <= 0x2069) || value == 0x200e ||
+                     value == 0x200f || value == 0x2028 || value == 0x2029;
+  return value >= 0x20 && (value < 0x7f || value > 0x9f) && !turns;
+}
 
 [[noreturn]] void fail(const std::string& action, const std::string& path, int number) {
   throw Error(fmt::format("{}: {}", action, std::strerror(number)), path, remedy_of_errno(number));
@@ -90,6 +119,23 @@ std::string listed(const std::vector<std::string>& names, const std::string& sep
   const std::string text = join({names.begin(), names.begin() + count}, separator);
   const std::size_t more = total - static_cast<std::size_t>(count);
   return more == 0 ? text : fmt::format("{} and {} more", text, more);
+}
+
+std::string printable(std::string_view text, std::size_t most) {
+  std::string result;
+  while (!text.empty()) {
+    const Character c = first_character(text);
+    const std::size_t length = std::max<std::size_t>(c.length, 1);
+    if (result.size() + length > most) return result + "...";
+    if (text[0] == '\n' || text[0] == '\r' || text[0] == '\t')
+      result += ' ';
+    else if (c.length > 0 && is_harmless(c.value))
+      result += text.substr(0, length);
+    else
+      result += '?';
+    text.remove_prefix(length);
+  }
+  return result;
 }
 
 bool matches_wildcard(const std::string& text, const std::string& pattern) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tisserand {
@@ -29,6 +30,10 @@ std::string listed(const std::vector<std::string>& names, const std::string& sep
 
 /// Whether `text` matches `pattern`, in which * stands for any run of characters (also none, also with /).
 bool matches_wildcard(const std::string& text, const std::string& pattern);
+
+/// Text of a file for messages and JSON: control characters, marks that turn the direction of writing, and bytes that
+/// are no UTF-8 become ?, line ends and tabs blanks; at most `most` bytes, then "...".
+std::string printable(std::string_view text, std::size_t most);
 
 /// A text file that grows beside its name and takes it in publish(); without that, nothing is left. Streams such as
 /// /dev/stdout are written as they are. Throws Error.

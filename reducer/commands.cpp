@@ -14,7 +14,7 @@
 #include "formats/superelement/superelement.hpp"
 #include "formats/yaml/override.hpp"
 #include "reducer/algebra/petsc.hpp"
-#include "reducer/gmsh/write.hpp"
+#include "reducer/mesh/gmsh_file.hpp"
 #include "reducer/reduce.hpp"
 #include "reducer/report/certificate.hpp"
 #include "reducer/report/phases.hpp"
@@ -31,6 +31,12 @@ std::vector<formats::Override> overrides(const Arguments& arguments) {
   return result;
 }
 
+formats::Part part_of(const Arguments& arguments) {
+  formats::Part part = formats::read_part(arguments.input, overrides(arguments));
+  part.mesh.permission = arguments.permission;
+  return part;
+}
+
 /// The input's path without .part.yaml or .yaml, plus `ending`.
 std::string beside(const std::string& input, const std::string& ending) {
   for (const std::string known : {".part.yaml", ".part.yml", ".yaml", ".yml"})
@@ -42,7 +48,7 @@ std::string beside(const std::string& input, const std::string& ending) {
 int run(const Arguments& arguments) {
   Phases phases;
   phases.begin("read");
-  const formats::Part part = formats::read_part(arguments.input, overrides(arguments));
+  const formats::Part part = part_of(arguments);
   const std::string output = arguments.output.empty() ? beside(arguments.input, ".superelement.h5") : arguments.output;
   require_output(output, {arguments.input}, Replaces::hdf5_only);
   phases.begin("start solvers");
@@ -86,13 +92,14 @@ std::string count_text(const Mesh& mesh) {
 
 /// part.yaml, or a mesh, geometry or deck alone.
 formats::Part part_or_file(const Arguments& arguments) {
-  if (arguments.input.ends_with(".yaml") || arguments.input.ends_with(".yml"))
-    return formats::read_part(arguments.input, overrides(arguments));
-  return part_of_file(arguments.input);
+  if (arguments.input.ends_with(".yaml") || arguments.input.ends_with(".yml")) return part_of(arguments);
+  formats::Part part = part_of_file(arguments.input);
+  part.mesh.permission = arguments.permission;
+  return part;
 }
 
 int mesh(const Arguments& arguments) {
-  const formats::Part part = formats::read_part(arguments.input, overrides(arguments));
+  const formats::Part part = part_of(arguments);
   const std::string output = arguments.output.empty() ? beside(arguments.input, ".msh") : arguments.output;
   std::vector<std::string> inputs{arguments.input};
   if (!part.mesh.file.empty()) inputs.push_back(part.mesh.file);
@@ -110,7 +117,7 @@ int groups(const Arguments& arguments) {
 }
 
 int section(const Arguments& arguments) {
-  const formats::Part part = formats::read_part(arguments.input, overrides(arguments));
+  const formats::Part part = part_of(arguments);
   if (part.sections.empty()) throw Error("the part has no sections", arguments.input, "give some under `sections:`");
   say(formats::section_report(part.sections, part.units));
   return 0;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/part/part.hpp"
 #include "reducer/exchange/request.hpp"
 
 namespace tisserand::reducer {
@@ -15,12 +16,13 @@ struct Arguments {
   std::string input;
   std::string output;            ///< empty: beside the input
   std::vector<std::string> set;  ///< path=value
+  formats::MeshFile::Permission permission;
   exchange::ImportRequest import_request;
   exchange::ExportRequest export_request;
 };
 
 /// Returns the exit code; throws Error. Two definitions: commands.cpp does the work (program reducer-solver),
-/// launch.cpp hands over to that program (program reducer), so that help and usage errors need not wait for 180 shared
+/// launch.cpp hands over to that program (program reducer), so that help and usage errors need not wait for 110 shared
 /// libraries.
 int perform(const Arguments& arguments, char** argv);
 

@@ -2,9 +2,7 @@
 // solver.
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <climits>
 #include <cstring>
 #include <string>
 
@@ -15,18 +13,10 @@
 namespace tisserand::reducer {
 namespace {
 
-/// The folder of this program, with / at its end.
-std::string own_folder() {
-  std::array<char, PATH_MAX> buffer{};
-  const ssize_t length = readlink("/proc/self/exe", buffer.data(), buffer.size() - 1);
-  const std::string self(buffer.data(), length > 0 ? static_cast<std::size_t>(length) : 0);
-  return self.substr(0, self.rfind('/') + 1);
-}
-
 /// Beside this program, as built; else where it is installed, relative to this program: a prefix may be moved as a
 /// whole.
 std::string solver_path() {
-  const std::string folder = own_folder();
+  const std::string folder = program_folder();
   const std::string built = folder + "reducer-solver";
   return access(built.c_str(), X_OK) == 0 ? built : folder + TISSERAND_SOLVER_INSTALLED;
 }

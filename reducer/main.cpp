@@ -131,6 +131,19 @@ CLI::App* add_export(CLI::App& app, const std::string& asked, tisserand::reducer
   return command;
 }
 
+/// Options of commands that read mesh files.
+void add_permission(CLI::App* command, tisserand::formats::MeshFile::Permission& permission) {
+  command->add_flag("--trust-geometry", permission.trusted, "the geometry may read files of other folders");
+  command
+      ->add_option("--geometry-memory", permission.memory,
+                   "GB that reading and meshing it may take (default: 4, more for large files)")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--geometry-time", permission.time,
+                   "seconds of processor time that it may take (default: 600, more for large files)")
+      ->check(CLI::PositiveNumber);
+}
+
 /// Prints what is wrong with the words of the command line.
 int tell_usage(const CLI::ParseError& error, const std::string& asked) {
   const std::vector<std::string> commands{"run", "show", "mesh", "groups", "section", "import", "export"};
@@ -171,6 +184,8 @@ int main(int argc, char** argv) {
   section_command->add_option("part", arguments.input, "part.yaml")->required();
   section_command->add_option("--set", arguments.set, "path=value: override a value of the part")
       ->allow_extra_args(false);
+  for (CLI::App* const command : {run_command, mesh_command, groups_command})
+    add_permission(command, arguments.permission);
   CLI::App* const import_command = add_import(app, asked, arguments.import_request);
   CLI::App* const export_command = add_export(app, asked, arguments.export_request);
   try {

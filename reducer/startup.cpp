@@ -1,9 +1,11 @@
-// Environment variables for OpenBLAS and OpenMPI.
+// Environment variables for OpenBLAS and OpenMPI; where the program lies.
 #include "reducer/startup.hpp"
 
 #include <dlfcn.h>
 #include <unistd.h>
 
+#include <array>
+#include <climits>
 #include <cstdlib>
 #include <string_view>
 
@@ -40,6 +42,13 @@ std::string_view loaded_core() {
 }
 
 }  // namespace
+
+std::string program_folder() {
+  std::array<char, PATH_MAX> buffer{};
+  const ssize_t length = readlink("/proc/self/exe", buffer.data(), buffer.size() - 1);
+  const std::string self(buffer.data(), length > 0 ? static_cast<std::size_t>(length) : 0);
+  return self.substr(0, self.rfind('/') + 1);
+}
 
 void prepare_environment() {
   setenv("OPENBLAS_NUM_THREADS", "1", keep);

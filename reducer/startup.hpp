@@ -1,7 +1,12 @@
 // What must be right in the environment of the process before the libraries of the solver are loaded.
 #pragma once
 
+#include <string>
+
 namespace tisserand::reducer {
+
+/// The folder of the program that runs, with / at its end: other programs of ours are found from there.
+std::string program_folder();
 
 /// OpenBLAS 0.3.21 takes processors that it does not know for the oldest (4-5 times slower) and reads OPENBLAS_CORETYPE
 /// only while it is loaded; OpenMPI starts a daemon per process unless told otherwise. Sets the variables for this

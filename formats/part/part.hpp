@@ -43,6 +43,13 @@ struct MeshFile {
   UnknownContent unknown = UnknownContent::refuse;
   std::vector<std::string> ignore;  ///< groups that need no property
   std::string where;
+  /// What reading the file may do and take. From the command line only: a part file may be as strange as its geometry.
+  struct Permission {
+    bool trusted = false;  ///< may read files anywhere
+    double memory = 0.0;   ///< limit [GB]; 0: by the size of the file
+    double time = 0.0;     ///< limit of processor time [s]; 0: by the size of the file
+  };
+  Permission permission = {};
 };
 
 enum class BeamTheory { timoshenko, euler_bernoulli };

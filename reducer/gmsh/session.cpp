@@ -1,25 +1,21 @@
-// Start, messages and end of gmsh.
+// Start and messages of gmsh.
 #include "reducer/gmsh/session.hpp"
 
 #include <gmsh.h>
 
+#include "common/error.hpp"
 #include "common/text.hpp"
 
 namespace tisserand::reducer {
 
-GmshSession::GmshSession() {
+void start_gmsh() {
   gmsh::initialize(0, nullptr, false);
-  gmsh::option::setNumber("General.Terminal", 0);
-  gmsh::option::setNumber("Mesh.Binary", 0);
+  gmsh::option::setNumber("General.Terminal", 1);
+  gmsh::option::setNumber("General.Verbosity", gmsh_verbosity);
   gmsh::logger::start();
 }
 
-GmshSession::~GmshSession() {
-  gmsh::logger::stop();
-  gmsh::finalize();
-}
-
-std::vector<std::string> GmshSession::messages(const std::string& kind) const {
+std::vector<std::string> gmsh_messages(const std::string& kind) {
   std::vector<std::string> log, result;
   gmsh::logger::get(log);
   constexpr std::size_t most = 5;
@@ -28,8 +24,8 @@ std::vector<std::string> GmshSession::messages(const std::string& kind) const {
   return result;
 }
 
-void check_gmsh_messages(const GmshSession& session, const std::string& where, const std::string& remedy) {
-  const std::vector<std::string> errors = session.messages("Error");
+void check_gmsh_messages(const std::string& where, const std::string& remedy) {
+  const std::vector<std::string> errors = gmsh_messages("Error");
   if (!errors.empty()) throw Error("gmsh: " + join(errors, "; "), where, remedy);
 }
 

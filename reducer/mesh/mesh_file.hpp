@@ -10,8 +10,7 @@ enum class MeshFileKind { geo, msh, step, iges, brep, nastran, abaqus };
 /// By the ending of the name. Throws Error for unknown endings; `where` is that of the part file.
 MeshFileKind mesh_file_kind(const std::string& file, const std::string& where);
 
-/// Throws Error if the file is missing, empty, does not begin like its kind, ends too early, or (.geo) would start
-/// programs or end this one.
+/// Throws Error if the file is missing, empty, does not begin like its kind, or ends too early.
 void check_mesh_file(const std::string& file, const std::string& where);
 
 }  // namespace tisserand::reducer

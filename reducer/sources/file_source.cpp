@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
-#include "reducer/gmsh/import.hpp"
 #include "reducer/mesh/mesh_file.hpp"
+#include "reducer/mesher/import.hpp"
 #include "reducer/sources/mesh_builder.hpp"
 #include "reducer/sources/selection.hpp"
 

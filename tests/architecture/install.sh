@@ -42,7 +42,9 @@ done
 # The page that a new user follows, with what is installed and nothing else.
 if [ -x "$prefix/bin/reducer" ]; then
   "$source_dir/tests/architecture/page_example.sh" "$pages" "$prefix" README.md "Your first part"
-  [ ! -e "$prefix/bin/reducer-solver" ] || fail "reducer-solver is no command for users"
+  for program in reducer-solver reducer-mesher; do
+    [ ! -e "$prefix/bin/$program" ] || fail "$program is no command for users"
+  done
   (cd "$folder" && "$prefix/bin/reducer" groups "$prefix/share/tisserand/meshes/square.step") | grep -q '^face 1' ||
     fail "reducer groups"
 fi

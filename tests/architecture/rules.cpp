@@ -98,6 +98,7 @@ constexpr std::size_t kAny = 1000000;
 const std::array kLibraryRules = {
     LibraryRule{"^(petsc|slepc).*", "^(tests/)?reducer/.*", kAny, "PETSc and SLEPc stay in reducer"},
     LibraryRule{"^gmshc?\\.h.*", "^reducer/gmsh/.*", kAny, "gmsh stays in reducer/gmsh"},
+    LibraryRule{"^(seccomp|linux/landlock)\\.h", "^reducer/gmsh/.*", 1, "the door is one file of reducer/gmsh"},
     LibraryRule{"^(suitesparse/)?(klu|umfpack|SuiteSparse.*|cholmod|amd|colamd)\\.h.*", "^mechanism/solver/.*", 4,
                 "SuiteSparse stays in four files of mechanism/solver"},
     LibraryRule{"^(cvode|nvector|sundials|sunlinsol|sunmatrix)/.*", "^mechanism/.*", 1,

@@ -74,6 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"mechanism/x.cpp", "#include <petscksp.h>\n", "PETSc and SLEPc stay in reducer"},
         Planted{"formats/x.cpp", "#include <slepceps.h>\n", "PETSc and SLEPc stay in reducer"},
         Planted{"reducer/other.cpp", "#include <gmsh.h>\n", "gmsh stays in reducer/gmsh"},
+        Planted{"reducer/other.cpp", "#include <seccomp.h>\n", "the door is one file of reducer/gmsh"},
         Planted{"mechanism/gmsh.cpp", "#include <gmsh.h>\n", "gmsh stays in reducer/gmsh"},
         Planted{"mechanism/equations/newton.cpp", "#include <suitesparse/klu.h>\n", "SuiteSparse stays in four files"},
         Planted{"reducer/x.cpp", "#include <cholmod.h>\n", "SuiteSparse stays in four files"},

@@ -63,6 +63,17 @@ TEST(Text, JoinPutsTheSeparatorBetween) {
   EXPECT_EQ(join({"a", "", "b"}, ", "), "a, , b");
 }
 
+/// Well-formed UTF-8 is that of RFC 3629, section 4.
+TEST(Text, PrintableKeepsLettersAndDropsWhatMovesTerminals) {
+  EXPECT_EQ(printable("Träger 7, \xe4\xb8\xad \xf0\x9f\x99\x82", 100), "Träger 7, \xe4\xb8\xad \xf0\x9f\x99\x82");
+  EXPECT_EQ(printable("a\x1b[2Jb\x7f", 100), "a?[2Jb?");
+  EXPECT_EQ(printable("a\nb\tc\rd", 100), "a b c d");
+  EXPECT_EQ(printable("\xc2\x9b\xe2\x80\xae", 100), "??") << "control sequence introducer, right-to-left override";
+  EXPECT_EQ(printable("\xff\xc3\xc0\xaf\xed\xa0\x80", 100), "???????") << "no UTF-8: cut, overlong, surrogate";
+  EXPECT_EQ(printable("abcdef", 3), "abc...");
+  EXPECT_EQ(printable("äää", 3), "ä...") << "letters are not cut";
+}
+
 TEST(Text, WildcardsMatchAnyRun) {
   EXPECT_TRUE(matches_wildcard("nodes/position/tip/x", "nodes/*/x"));
   EXPECT_TRUE(matches_wildcard("abc", "abc"));

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "common/error.hpp"
-#include "reducer/gmsh/write.hpp"
+#include "reducer/mesh/gmsh_file.hpp"
 #include "tests/reducer/parts.hpp"
 
 namespace tisserand::testing::mesher_test {

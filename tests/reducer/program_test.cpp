@@ -102,6 +102,16 @@ TEST_F(Program, WrongUsageIsTwoAndErrorsAreOne) {
   EXPECT_FALSE(std::filesystem::exists(folder / "beam.superelement.h5"));
 }
 
+/// Limits are set where the program is called, and named where they strike.
+TEST_F(Program, LimitsOfGeometryAreOptions) {
+  const std::string step = TISSERAND_SOURCE_DIR "/meshes/square.step";
+  EXPECT_EQ(call("groups " + step + " --geometry-memory 2 --geometry-time 100 --trust-geometry").code, 0);
+  const Outcome slow = call("groups " + step + " --geometry-time 0.001");
+  EXPECT_EQ(slow.code, 1);
+  EXPECT_THAT(slow.text, AllOf(HasSubstr("square.step"), HasSubstr("gmsh was stopped"), HasSubstr("--geometry-time")));
+  EXPECT_EQ(call("groups " + step + " --geometry-time -1").code, 2);
+}
+
 TEST_F(Program, FolderThatDoesNotExistIsToldBeforeTheWork) {
   const Outcome run = call("run " + part + " -o " + (folder / "none" / "x.superelement.h5").string());
   EXPECT_EQ(run.code, 1);

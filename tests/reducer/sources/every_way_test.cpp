@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/sections/shapes.hpp"
-#include "reducer/gmsh/write.hpp"
+#include "reducer/mesh/gmsh_file.hpp"
 #include "reducer/reduce.hpp"
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/sources/part_text.hpp"

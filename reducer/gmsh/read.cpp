@@ -1,12 +1,7 @@
 // A file opened, meshed if it is a geometry, and read out of gmsh.
-#include "reducer/gmsh/import.hpp"
-
-#include <fcntl.h>
-#include <unistd.h>
+#include "reducer/gmsh/read.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <iostream>
 #include <map>
 #include <optional>
 #include <set>
@@ -17,10 +12,8 @@
 #include <gmsh.h>
 
 #include "common/error.hpp"
-#include "common/text.hpp"
 #include "reducer/gmsh/curved.hpp"
 #include "reducer/gmsh/session.hpp"
-#include "reducer/mesh/mesh_file.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -61,78 +54,37 @@ std::optional<CellShape> shape_of(int gmsh_type) {
 
 void set_option(const char* name, double value) { gmsh::option::setNumber(name, value); }
 
-/// OpenCASCADE tells about its translations on the standard output, whatever gmsh says; results of commands go there.
-class QuietOutput {
- public:
-  QuietOutput() : output_(::dup(STDOUT_FILENO)), nowhere_(::open("/dev/null", O_WRONLY | O_CLOEXEC)) {
-    switch_to(nowhere_);
-  }
-  ~QuietOutput() {
-    switch_to(output_);
-    for (const int file : {output_, nowhere_})
-      if (file >= 0) ::close(file);
-  }
-  QuietOutput(const QuietOutput&) = delete;
-  QuietOutput& operator=(const QuietOutput&) = delete;
-
- private:
-  void switch_to(int file) const {
-    std::cout.flush();
-    std::fflush(stdout);
-    if (output_ >= 0 && file >= 0) ::dup2(file, STDOUT_FILENO);
-  }
-  int output_;
-  int nowhere_;
-};
-
-void open_quietly(const std::string& file) {
-  const QuietOutput quiet;
-  gmsh::open(file);
-}
-
-/// The unit into which OpenCASCADE converts STEP and IGES; files without named units stay in millimetres.
-std::string target_unit(const Units& units) {
-  static const std::map<std::string, std::string> known{{"m", "M"},   {"mm", "MM"}, {"cm", "CM"},
-                                                        {"km", "KM"}, {"in", "IN"}, {"ft", "FT"}};
-  const auto found = known.find(units.length.label);
-  return found == known.end() ? "MM" : found->second;
-}
-
 /// OpenCASCADE knows its target unit only after a STEP reader has been made; gmsh makes none for IGES. Reading a STEP
-/// file that is not there makes one and fails, once per process, in a session of its own.
+/// file that cannot be there makes one and fails.
 void make_step_reader() {
-  static const bool made = [] {
-    const GmshSession session;
-    try {
-      gmsh::vectorpair shapes;
-      gmsh::model::occ::importShapes("none.step", shapes);
-    } catch (const std::string&) {
-    }
-    return true;
-  }();
-  static_cast<void>(made);
+  set_option("General.Verbosity", 0);
+  try {
+    gmsh::vectorpair shapes;
+    gmsh::model::occ::importShapes("/dev/null/none.step", shapes);
+  } catch (const std::string&) {
+  }
+  set_option("General.Verbosity", gmsh_verbosity);
 }
 
-void set_sizes(const ImportRequest& request) {
-  const formats::MeshFile& settings = request.settings;
+void set_sizes(const GeometryRequest& settings) {
   const double to_file = 1.0 / settings.scale;  // coordinates are scaled after meshing
   set_option("Mesh.SecondOrderIncomplete", 1);
   if (settings.size > 0.0) set_option("Mesh.MeshSizeMax", settings.size * to_file);
   if (settings.smallest > 0.0) set_option("Mesh.MeshSizeMin", settings.smallest * to_file);
   if (settings.curvature > 0) set_option("Mesh.MeshSizeFromCurvature", settings.curvature);
   if (settings.order > 0) set_option("Mesh.ElementOrder", settings.order);
-  if (settings.cells && *settings.cells == formats::Cells::quadrilaterals) {
+  if (settings.quadrilaterals) {
     set_option("Mesh.RecombineAll", 1);
     set_option("Mesh.RecombinationAlgorithm", 1);
   }
 }
 
 /// Local sizes at the points around the entities; inside, sizes follow from the boundary.
-void set_local_sizes(const ImportRequest& request) {
+void set_local_sizes(const GeometryRequest& request) {
   for (const SizedEntity& sized : request.sizes) {
     gmsh::vectorpair points;
     gmsh::model::getBoundary({{sized.dimension, sized.number}}, points, false, false, true);
-    gmsh::model::mesh::setSize(points, sized.size / request.settings.scale);
+    gmsh::model::mesh::setSize(points, sized.size / request.scale);
   }
 }
 
@@ -157,8 +109,8 @@ void unfold(const std::string& file, std::vector<std::string>& warnings) {
 }
 
 /// Meshes the geometry, unless the file has done so itself.
-void generate(const ImportRequest& request, const GmshSession& session, std::vector<std::string>& warnings) {
-  const std::string& file = request.settings.file;
+void generate(const GeometryRequest& request, std::vector<std::string>& warnings) {
+  const std::string& file = request.file;
   const int dimension = std::min(request.dimension, gmsh::model::getDimension());
   gmsh::vectorpair entities;
   gmsh::model::getEntities(entities, dimension);
@@ -168,7 +120,7 @@ void generate(const ImportRequest& request, const GmshSession& session, std::vec
     set_local_sizes(request);
     gmsh::model::mesh::generate(dimension);
   }
-  check_gmsh_messages(session, file, "check the geometry with gmsh, heal it in the CAD program, or change mesh: size");
+  check_gmsh_messages(file, "check the geometry with gmsh, heal it in the CAD program, or change mesh: size");
   for (const auto& [d, tag] : entities)
     if (!has_cells(d, tag))
       throw Error(fmt::format("{} {} has no mesh: gmsh could not mesh it", dimension_word(d), tag), file,
@@ -217,8 +169,8 @@ struct NodesHash {
 /// physical groups) is left out.
 class Reader {
  public:
-  Reader(const ImportRequest& request, CellMesh& mesh)
-      : request_(request), mesh_(mesh), nodes_(mesh, request.settings.scale) {}
+  Reader(const GeometryRequest& request, CellMesh& mesh)
+      : request_(request), mesh_(mesh), nodes_(mesh, request.scale) {}
 
   void read_entity(int dimension, int tag) {
     Entity entity{dimension, tag, "", mesh_.cells[dimension].size(), 0};
@@ -259,7 +211,7 @@ class Reader {
       cell.shape = *shape;
       cell.id = static_cast<long>(ids[e]);
       cell.nodes.fill(-1);
-      for (std::size_t k = 0; k < count; ++k) cell.nodes[k] = nodes_.at(nodes[e * count + k], request_.settings.file);
+      for (std::size_t k = 0; k < count; ++k) cell.nodes[k] = nodes_.at(nodes[e * count + k], request_.file);
       std::array<int, 20> sorted = cell.nodes;
       std::ranges::sort(sorted);
       if (!seen_.insert(sorted).second) {
@@ -276,7 +228,7 @@ class Reader {
     int dimension = 0, order = 0, count = 0, primary = 0;
     std::vector<double> local;
     gmsh::model::mesh::getElementProperties(type, name, dimension, order, count, local, primary);
-    throw Error(fmt::format("elements of kind '{}' ({} nodes) are not supported", name, count), request_.settings.file,
+    throw Error(fmt::format("elements of kind '{}' ({} nodes) are not supported", name, count), request_.file,
                 count == 9 || count == 27 || count == 18
                     ? "write the mesh with Mesh.SecondOrderIncomplete = 1"
                     : "known are lines, triangles, quadrilaterals, tetrahedra, hexahedra and prisms of order 1 and 2");
@@ -286,14 +238,14 @@ class Reader {
   std::size_t duplicates = 0;
 
  private:
-  const ImportRequest& request_;
+  const GeometryRequest& request_;
   CellMesh& mesh_;
   NodeTable nodes_;
   std::map<std::pair<int, int>, int> row_of_;
   std::unordered_set<std::array<int, 20>, NodesHash> seen_;
 };
 
-CellMesh read_out(const ImportRequest& request, bool is_geometry) {
+CellMesh read_out(const GeometryRequest& request, bool is_geometry) {
   CellMesh mesh;
   Reader reader(request, mesh);
   const int highest = is_geometry ? std::min(request.dimension, 3) : 3;
@@ -304,37 +256,33 @@ CellMesh read_out(const ImportRequest& request, bool is_geometry) {
     reader.read_groups(dimension);
   }
   if (mesh.cells[1].empty() && mesh.cells[2].empty() && mesh.cells[3].empty())
-    throw Error("the mesh has no elements", request.settings.file,
+    throw Error("the mesh has no elements", request.file,
                 "mesh the geometry before writing the file, and save all elements (Mesh.SaveAll) or physical groups");
   if (reader.duplicates > 0)
     mesh.warnings.push_back(fmt::format("{}: {} elements that have the same nodes as another one are left out",
-                                        request.settings.file, reader.duplicates));
+                                        request.file, reader.duplicates));
   return mesh;
 }
 
 }  // namespace
 
-CellMesh import_with_gmsh(const ImportRequest& request) {
-  const std::string& file = request.settings.file;
-  return with_gmsh(file, remedy, [&] {
-    const MeshFileKind kind = mesh_file_kind(file, request.settings.where);
-    if (kind == MeshFileKind::iges) make_step_reader();
-    const GmshSession session;
-    set_sizes(request);
-    gmsh::option::setString("Geometry.OCCTargetUnit", target_unit(request.units));
-    open_quietly(file);
-    check_gmsh_messages(session, file, remedy);
-    const bool is_geometry = kind != MeshFileKind::msh;
-    std::vector<std::string> warnings;
-    if (is_geometry) {
-      set_sizes(request);  // a .geo file may have set its own; what the part file gives counts
-      generate(request, session, warnings);
-    }
-    CellMesh mesh = read_out(request, is_geometry);
-    mesh.warnings.insert(mesh.warnings.begin(), warnings.begin(), warnings.end());
-    for (const std::string& warning : session.messages("Warning")) mesh.warnings.push_back("gmsh: " + warning);
-    return mesh;
-  });
+CellMesh read_geometry(const GeometryRequest& request, const std::function<void(MesherPhase)>& begin) {
+  if (request.kind == MeshFileKind::iges) make_step_reader();
+  set_sizes(request);
+  gmsh::option::setString("Geometry.OCCTargetUnit", request.target_unit);
+  gmsh::open(request.file);
+  check_gmsh_messages(request.file, remedy);
+  const bool is_geometry = request.kind != MeshFileKind::msh;
+  std::vector<std::string> warnings;
+  if (is_geometry) {
+    begin(MesherPhase::meshing);
+    set_sizes(request);  // a .geo file may have set its own; what the part file gives counts
+    generate(request, warnings);
+  }
+  CellMesh mesh = read_out(request, is_geometry);
+  mesh.warnings.insert(mesh.warnings.begin(), warnings.begin(), warnings.end());
+  for (const std::string& warning : gmsh_messages("Warning")) mesh.warnings.push_back("gmsh: " + warning);
+  return mesh;
 }
 
 }  // namespace tisserand::reducer

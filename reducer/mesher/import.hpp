@@ -1,21 +1,14 @@
-// Geometry (.geo, STEP, IGES, BREP) and .msh files as cells, through gmsh.
+// Geometry (.geo, STEP, IGES, BREP) and .msh files as cells, through gmsh in a process of its own.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "common/units.hpp"
 #include "formats/part/part.hpp"
 #include "reducer/mesh/cells.hpp"
+#include "reducer/mesher/parcel.hpp"
 
 namespace tisserand::reducer {
-
-/// The size wanted on an entity of a geometry.
-struct SizedEntity {
-  int dimension = 0;
-  int number = 0;
-  double size = 0.0;
-};
 
 struct ImportRequest {
   const formats::MeshFile& settings;
@@ -26,7 +19,8 @@ struct ImportRequest {
 
 /// Cells of all dimensions up to the request's, each once, with entities, labels and physical groups; coordinates in
 /// units of the part. Second order means cells without nodes inside faces and volumes. Throws Error for files that gmsh
-/// does not accept, cells of an unknown kind, entities that could not be meshed, and an empty mesh.
+/// does not accept, that crash it, that reach a limit or for what geometry must not, for cells of an unknown kind,
+/// entities that could not be meshed, and an empty mesh. Costs the start of a process that loads gmsh (DECISIONS.md).
 CellMesh import_with_gmsh(const ImportRequest& request);
 
 }  // namespace tisserand::reducer

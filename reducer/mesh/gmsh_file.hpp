@@ -7,8 +7,8 @@
 
 namespace tisserand::reducer {
 
-/// Version 4.1; one physical group for each property of beams, shells and solids, springs, spiders (lines to their
-/// legs), boundary nodes and point masses, with their names. The file appears whole or not at all.
+/// Text of version 4.1; one physical group for each property of beams, shells and solids, springs, spiders (lines to
+/// their legs), boundary nodes and point masses, with their names. The file appears whole or not at all.
 void write_gmsh_file(const Mesh& mesh, const std::string& path);
 
 }  // namespace tisserand::reducer

@@ -1,0 +1,108 @@
+// The program reducer-mesher, started by reducer-solver: loads gmsh, closes the door behind it, reads a geometry or
+// mesh file and answers with its cells. What it is asked, and where the answer goes, are descriptors that are open when
+// it starts.
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <exception>
+#include <string>
+
+#include "common/error.hpp"
+#include "reducer/gmsh/door.hpp"
+#include "reducer/gmsh/read.hpp"
+#include "reducer/gmsh/session.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+constexpr const char* look = "open it with gmsh to see what is wrong";
+
+std::string whole_request() {
+  std::string bytes;
+  std::array<char, 4096> buffer;
+  for (ssize_t count = 1; count > 0 || (count < 0 && errno == EINTR);) {
+    count = ::read(request_descriptor, buffer.data(), buffer.size());
+    if (count > 0) bytes.append(buffer.data(), static_cast<std::size_t>(count));
+  }
+  ::close(request_descriptor);
+  return bytes;
+}
+
+void send(const char* bytes, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = ::write(answer_descriptor, bytes, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) ::_exit(1);
+    bytes += written;
+    size -= static_cast<std::size_t>(written);
+  }
+}
+
+void begin(MesherPhase phase) { send(reinterpret_cast<const char*>(&phase), 1); }
+
+/// A note if the kernel lacks what closes the door; then only what is no program is read, or what is trusted.
+std::string close_door(const GeometryRequest& request) {
+  const bool paths = request.is_trusted || close_paths(request.file, request.is_program);
+  const bool calls = close_calls();
+  if (paths && calls) return "";
+  const char* const missing = paths ? "seccomp" : calls ? "Landlock" : "Landlock and seccomp";
+  if (request.is_program && !request.is_trusted)
+    throw Error(
+        std::string(request.kind == MeshFileKind::geo ? "a .geo file is a program" : "the file has an .opt file") +
+            ", and this kernel cannot keep it from reading other files: it lacks " + missing,
+        request.file,
+        request.kind == MeshFileKind::geo ? "read it first; if you trust it: --trust-geometry"
+                                          : "remove that; if you trust it: --trust-geometry");
+  return std::string("gmsh reads the file with less protection from files made to do harm: this kernel lacks ") +
+         missing;
+}
+
+CellMesh mesh_of(const GeometryRequest& request) {
+  set_limits(request.seconds, request.bytes);
+  ::setenv("HOME", "/dev/null", 1);  // FLTK, a library of gmsh, makes folders there, or in /etc
+  start_gmsh();
+  ::clearenv();
+  const std::string note = close_door(request);
+  begin(MesherPhase::reading);
+  CellMesh mesh = read_geometry(request, begin);
+  if (!note.empty()) mesh.warnings.insert(mesh.warnings.begin(), request.file + ": " + note);
+  return mesh;
+}
+
+/// gmsh tells about lists that find no memory by a message.
+std::string answer_of(const Error& error) {
+  if (error.message().find("Out of memory") != std::string::npos) ::_exit(out_of_memory_code);
+  if (error.message().find("Unable to open file") != std::string::npos)
+    return pack(Error(error.message(), error.where(),
+                      "a geometry may read files of its own folder only (of others with --trust-geometry, if you trust "
+                      "it), and write none"));
+  return pack(error);
+}
+
+/// gmsh throws std::string; OpenCASCADE, what is no std::exception.
+std::string answer_to(const GeometryRequest& request) {
+  try {
+    return pack(mesh_of(request));
+  } catch (const Error& error) {
+    return answer_of(error);
+  } catch (const std::string& text) {
+    return answer_of(Error("gmsh: " + text, request.file, look));
+  } catch (const std::exception& error) {
+    return pack(Error(std::string("gmsh: ") + error.what(), request.file, look));
+  } catch (...) {
+    return pack(Error("gmsh: an exception of OpenCASCADE", request.file, look));
+  }
+}
+
+}  // namespace
+}  // namespace tisserand::reducer
+
+int main() {
+  using namespace tisserand::reducer;
+  const std::string answer = answer_to(unpack_request(whole_request()));
+  begin(MesherPhase::answering);
+  send(answer.data(), answer.size());
+  ::_exit(0);  // without the ends of the libraries, which tidy up where this process may not
+}

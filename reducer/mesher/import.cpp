@@ -1,0 +1,122 @@
+// From the wishes of a part file to the request, and from how the process ended to a mesh or an error.
+#include "reducer/mesher/import.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <filesystem>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "reducer/mesher/child.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+constexpr double gigabyte = 1e9;
+
+/// The unit into which OpenCASCADE converts STEP and IGES; files without named units stay in millimetres.
+std::string target_unit(const Units& units) {
+  static const std::map<std::string, std::string> known{{"m", "M"},   {"mm", "MM"}, {"cm", "CM"},
+                                                        {"km", "KM"}, {"in", "IN"}, {"ft", "FT"}};
+  const auto found = known.find(units.length.label);
+  return found == known.end() ? "MM" : found->second;
+}
+
+GeometryRequest geometry_request(const ImportRequest& request) {
+  const formats::MeshFile& settings = request.settings;
+  GeometryRequest result;
+  result.file = settings.file;
+  result.kind = mesh_file_kind(settings.file, settings.where);
+  result.target_unit = target_unit(request.units);
+  result.dimension = request.dimension;
+  result.size = settings.size;
+  result.smallest = settings.smallest;
+  result.curvature = settings.curvature;
+  result.order = settings.order;
+  result.quadrilaterals = settings.cells && *settings.cells == formats::Cells::quadrilaterals;
+  result.scale = settings.scale;
+  result.sizes = request.sizes;
+  // gmsh takes for commands: name.opt beside a file of any kind, and files with endings such as .Step.
+  std::error_code error;
+  const std::string ending = std::filesystem::path(settings.file).extension().string();
+  const bool is_mixed = std::ranges::any_of(ending, [](unsigned char c) { return std::isupper(c) != 0; }) &&
+                        std::ranges::any_of(ending, [](unsigned char c) { return std::islower(c) != 0; });
+  result.is_program = result.kind == MeshFileKind::geo || is_mixed ||
+                      std::filesystem::exists(settings.file + ".opt", error) || bool(error);
+  result.is_trusted = settings.permission.trusted;
+  const auto size = static_cast<double>(std::filesystem::file_size(settings.file, error));
+  const formats::MeshFile::Permission& given = settings.permission;
+  // Ten times and more of what gmsh takes for large .msh and STEP files; fine meshes of small geometries may need more.
+  result.bytes = given.memory > 0.0 ? given.memory * gigabyte : 4.0 * gigabyte + 40.0 * size;
+  result.seconds = given.time > 0.0 ? given.time : 600.0 + size / 2e5;
+  result.wall_seconds = 4.0 * result.seconds;  // other work may have most of the processor
+  return result;
+}
+
+/// A larger limit, in two digits.
+std::string twice(double value) { return fmt::format("{:.2g}", std::max(2.0 * value, 0.1)); }
+
+std::string doing(MesherPhase phase) {
+  switch (phase) {
+    case MesherPhase::starting:
+      return "starting";
+    case MesherPhase::reading:
+      return "reading the file";
+    case MesherPhase::meshing:
+      return "meshing the geometry";
+    case MesherPhase::answering:
+      return "handing over the mesh";
+  }
+  return "reading the file";  // a byte of its own
+}
+
+[[noreturn]] void explain(const MesherReport& report, const GeometryRequest& request) {
+  const std::string& file = request.file;
+  const std::string words = report.last_words.empty() ? "" : fmt::format(" (it said: {})", report.last_words);
+  const std::string at = doing(report.phase);
+  const std::string time = fmt::format(
+      "choose a larger mesh: size, or allow more if you trust the file: --geometry-time {}", twice(request.seconds));
+  switch (report.ending) {
+    case MesherEnding::memory:
+      throw Error(fmt::format("gmsh was stopped while {}: it wanted more than {:.4g} GB of memory", at,
+                              request.bytes / gigabyte),
+                  file,
+                  fmt::format("choose a larger mesh: size, or allow more if you trust the file: --geometry-memory {}",
+                              twice(request.bytes / gigabyte)));
+    case MesherEnding::processor_time:
+      throw Error(
+          fmt::format("gmsh was stopped while {}: it wanted more than {:.4g} s of processor time", at, request.seconds),
+          file, time);
+    case MesherEnding::wall_time:
+      throw Error(fmt::format("gmsh was stopped while {}: it was not done after {:.4g} s", at, request.wall_seconds),
+                  file, time);
+    case MesherEnding::forbidden:
+      throw Error("gmsh was stopped: the file wants to start a program, or to make, rename or remove files", file,
+                  "a geometry must only draw: remove such commands (SystemCall, CreateDir, ...)");
+    case MesherEnding::crashed:
+      throw Error(fmt::format("gmsh crashed while {}: {}{}", at, ::strsignal(report.signal), words), file,
+                  report.phase == MesherPhase::starting
+                      ? "install anew"
+                      : "the file is probably damaged: write it again, or heal it in the CAD program");
+    case MesherEnding::left:
+    case MesherEnding::answered:
+      throw Error(fmt::format("gmsh ended while {} and gave no mesh{}", at, words), file,
+                  report.phase == MesherPhase::starting ? "install anew"
+                                                        : "a geometry must not end gmsh (Exit); else it is damaged");
+  }
+  throw Error("gmsh ended", file, "");
+}
+
+}  // namespace
+
+CellMesh import_with_gmsh(const ImportRequest& request) {
+  const GeometryRequest geometry = geometry_request(request);
+  const MesherReport report = run_mesher(geometry);
+  if (report.ending != MesherEnding::answered) explain(report, geometry);
+  return unpack_answer(report.answer, geometry.file);
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,258 @@
+// Packing and unpacking between two processes of one machine.
+#include "reducer/mesher/parcel.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#include <fmt/format.h>
+
+#include "common/text.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+constexpr std::size_t longest_text = 4000;
+enum class AnswerKind : std::uint8_t { mesh = 1, error = 2 };
+
+class Packer {
+ public:
+  template <class T>
+  void value(T value) {
+    static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  void text(const std::string& text) {
+    value(text.size());
+    bytes += text;
+  }
+  template <class T>
+  void row(const std::vector<T>& values) {
+    value(values.size());
+    bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+  }
+  std::string bytes;
+};
+
+class Unpacker {
+ public:
+  Unpacker(std::string_view bytes, const std::string& file) : left_(bytes), file_(file) {}
+
+  template <class T>
+  T value() {
+    static_assert(std::is_arithmetic_v<T>);
+    T result{};
+    std::memcpy(&result, take(sizeof result).data(), sizeof result);
+    return result;
+  }
+  bool flag() { return value<std::uint8_t>() != 0; }
+  std::string raw_text() { return std::string(take(size(1))); }
+  std::string text() { return printable(raw_text(), longest_text); }
+  template <class T>
+  std::vector<T> row() {
+    static_assert(std::is_arithmetic_v<T>);
+    std::vector<T> values(size(sizeof(T)));
+    const std::string_view bytes = take(values.size() * sizeof(T));
+    if (!bytes.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+    return values;
+  }
+  /// A number of things of which each takes at least `least` bytes of what is left.
+  std::size_t size(std::size_t least) {
+    const auto count = value<std::size_t>();
+    require(count <= left_.size() / least && count <= std::numeric_limits<int>::max(), "it is too short");
+    return count;
+  }
+  void require(bool fits, const char* what) const {
+    if (!fits)
+      throw Error(fmt::format("what gmsh made of it is no mesh: {}", what), file_,
+                  "the file is damaged, or made to do harm: do not use it");
+  }
+  void end() const { require(left_.empty(), "it is too long"); }
+
+ private:
+  std::string_view take(std::size_t count) {
+    require(count <= left_.size(), "it is too short");
+    const std::string_view bytes = left_.substr(0, count);
+    left_.remove_prefix(count);
+    return bytes;
+  }
+  std::string_view left_;
+  const std::string& file_;
+};
+
+void pack_cells(Packer& to, const std::vector<Cell>& cells) {
+  std::vector<std::uint8_t> shapes;
+  std::vector<long> ids;
+  std::vector<int> nodes;
+  for (const Cell& cell : cells) {
+    shapes.push_back(static_cast<std::uint8_t>(cell.shape));
+    ids.push_back(cell.id);
+    nodes.insert(nodes.end(), cell.nodes.begin(), cell.nodes.begin() + form_of(cell.shape).nodes);
+  }
+  to.row(shapes);
+  to.row(ids);
+  to.row(nodes);
+}
+
+std::vector<Cell> unpack_cells(Unpacker& from, int dimension, std::size_t node_count) {
+  const auto shapes = from.row<std::uint8_t>();
+  const auto ids = from.row<long>();
+  const auto nodes = from.row<int>();
+  from.require(ids.size() == shapes.size(), "elements without numbers");
+  std::vector<Cell> cells(shapes.size());
+  std::size_t next = 0;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    from.require(shapes[c] <= static_cast<std::uint8_t>(CellShape::prism15), "an element of no known kind");
+    cells[c].shape = static_cast<CellShape>(shapes[c]);
+    cells[c].id = ids[c];
+    cells[c].nodes.fill(-1);
+    const CellForm form = form_of(cells[c].shape);
+    from.require(form.dimension == dimension, "an element of another dimension");
+    from.require(nodes.size() - next >= static_cast<std::size_t>(form.nodes), "an element without nodes");
+    for (int k = 0; k < form.nodes; ++k) {
+      const int node = nodes[next++];
+      from.require(node >= 0 && static_cast<std::size_t>(node) < node_count, "an element on a node that is not there");
+      cells[c].nodes[k] = node;
+    }
+  }
+  from.require(next == nodes.size(), "nodes without an element");
+  return cells;
+}
+
+void unpack_nodes(Unpacker& from, CellMesh& mesh) {
+  const auto coordinates = from.row<double>();
+  mesh.node_id = from.row<long>();
+  from.require(coordinates.size() == 3 * mesh.node_id.size(), "nodes without coordinates");
+  mesh.position.resize(mesh.node_id.size());
+  for (std::size_t n = 0; n < mesh.position.size(); ++n) {
+    mesh.position[n] = Eigen::Vector3d(coordinates[3 * n], coordinates[3 * n + 1], coordinates[3 * n + 2]);
+    from.require(mesh.position[n].allFinite(), "a coordinate that is no finite number");
+  }
+}
+
+void unpack_entities(Unpacker& from, CellMesh& mesh) {
+  std::array<std::size_t, 4> next{};  // entities of a dimension own its cells one after the other
+  mesh.entities.resize(from.size(4 * sizeof(int)));
+  for (Entity& entity : mesh.entities) {
+    entity.dimension = from.value<int>();
+    entity.number = from.value<int>();
+    entity.label = from.text();
+    entity.first = from.value<std::size_t>();
+    entity.count = from.value<std::size_t>();
+    from.require(entity.dimension >= 1 && entity.dimension <= 3, "an entity of no known dimension");
+    std::size_t& first = next[entity.dimension];
+    from.require(entity.first == first && entity.count <= mesh.cells[entity.dimension].size() - first,
+                 "an entity of elements that are not there");
+    first += entity.count;
+  }
+  for (int d = 1; d <= 3; ++d) from.require(next[d] == mesh.cells[d].size(), "elements without an entity");
+}
+
+void unpack_groups(Unpacker& from, CellMesh& mesh) {
+  mesh.groups.resize(from.size(2 * sizeof(int)));
+  for (EntityGroup& group : mesh.groups) {
+    group.name = from.text();
+    group.dimension = from.value<int>();
+    group.entities = from.row<int>();
+    from.require(group.dimension >= 1 && group.dimension <= 3, "a group of no known dimension");
+    for (const int row : group.entities)
+      from.require(row >= 0 && static_cast<std::size_t>(row) < mesh.entities.size() &&
+                       mesh.entities[row].dimension == group.dimension,
+                   "a group of entities that are not there");
+  }
+}
+
+}  // namespace
+
+std::string pack(const GeometryRequest& r) {
+  Packer to;
+  to.text(r.file);
+  to.value(static_cast<int>(r.kind));
+  to.text(r.target_unit);
+  for (const int value : {r.dimension, r.curvature, r.order}) to.value(value);
+  for (const double value : {r.size, r.smallest, r.scale, r.seconds, r.bytes}) to.value(value);
+  for (const bool value : {r.quadrilaterals, r.is_program, r.is_trusted}) to.value(static_cast<std::uint8_t>(value));
+  to.value(r.sizes.size());
+  for (const SizedEntity& sized : r.sizes) {
+    to.value(sized.dimension);
+    to.value(sized.number);
+    to.value(sized.size);
+  }
+  return to.bytes;
+}
+
+GeometryRequest unpack_request(const std::string& bytes) {
+  GeometryRequest r;
+  const std::string nowhere;
+  Unpacker from(bytes, nowhere);
+  r.file = from.raw_text();
+  r.kind = static_cast<MeshFileKind>(from.value<int>());
+  r.target_unit = from.raw_text();
+  for (int* value : {&r.dimension, &r.curvature, &r.order}) *value = from.value<int>();
+  for (double* value : {&r.size, &r.smallest, &r.scale, &r.seconds, &r.bytes}) *value = from.value<double>();
+  for (bool* value : {&r.quadrilaterals, &r.is_program, &r.is_trusted}) *value = from.flag();
+  r.sizes.resize(from.size(sizeof(double)));
+  for (SizedEntity& sized : r.sizes) {
+    sized.dimension = from.value<int>();
+    sized.number = from.value<int>();
+    sized.size = from.value<double>();
+  }
+  from.end();
+  return r;
+}
+
+std::string pack(const CellMesh& mesh) {
+  Packer to;
+  to.value(AnswerKind::mesh);
+  to.value(3 * mesh.position.size());
+  for (const Eigen::Vector3d& position : mesh.position)
+    for (const double value : position) to.value(value);
+  to.row(mesh.node_id);
+  for (int d = 1; d <= 3; ++d) pack_cells(to, mesh.cells[d]);
+  to.value(mesh.entities.size());
+  for (const Entity& entity : mesh.entities) {
+    to.value(entity.dimension);
+    to.value(entity.number);
+    to.text(entity.label);
+    to.value(entity.first);
+    to.value(entity.count);
+  }
+  to.value(mesh.groups.size());
+  for (const EntityGroup& group : mesh.groups) {
+    to.text(group.name);
+    to.value(group.dimension);
+    to.row(group.entities);
+  }
+  to.value(mesh.warnings.size());
+  for (const std::string& warning : mesh.warnings) to.text(warning);
+  return to.bytes;
+}
+
+std::string pack(const Error& error) {
+  Packer to;
+  to.value(AnswerKind::error);
+  for (const std::string& text : {error.message(), error.where(), error.remedy()}) to.text(text);
+  return to.bytes;
+}
+
+CellMesh unpack_answer(const std::string& bytes, const std::string& file) {
+  Unpacker from(bytes, file);
+  const auto kind = from.value<std::uint8_t>();
+  if (kind == static_cast<std::uint8_t>(AnswerKind::error)) {
+    const std::string what = from.text(), where = from.text(), remedy = from.text();
+    throw Error(what, where, remedy);
+  }
+  from.require(kind == static_cast<std::uint8_t>(AnswerKind::mesh), "it has no known kind");
+  CellMesh mesh;
+  unpack_nodes(from, mesh);
+  for (int d = 1; d <= 3; ++d) mesh.cells[d] = unpack_cells(from, d, mesh.position.size());
+  unpack_entities(from, mesh);
+  unpack_groups(from, mesh);
+  mesh.warnings.resize(from.size(sizeof(std::size_t)));
+  for (std::string& warning : mesh.warnings) warning = from.text();
+  from.end();
+  return mesh;
+}
+
+}  // namespace tisserand::reducer
