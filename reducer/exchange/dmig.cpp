@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -35,19 +36,43 @@ void read_scalar_points(NastranModel& model, Points& points) {
     });
 }
 
+/// A fault with the number of further cards that have it.
+struct Repeated {
+  std::string text, where, remedy;
+  std::size_t more = 0;
+};
+
 struct Reader {
   NastranModel& model;
   const Points& points;
-  std::map<std::string, TextMatrix> matrices;  ///< by name in capitals
+  std::map<std::string, TextMatrix> matrices = {};  ///< by name in capitals
+  std::set<std::string> refused = {};               ///< matrices whose header is told as a fault: columns are skipped
+  std::map<std::string, Repeated> faults = {};      ///< by what is wrong: a wrong value stands in many columns
+
+  void fault(CardFields& fields, const std::string& what, const std::string& remedy);
+  void raise_faults();
 
   void header(CardFields& fields, const std::string& name);
   void column(CardFields& fields, const std::string& name);
   RowKey key(CardFields& fields, int index);
 };
 
+void Reader::fault(CardFields& fields, const std::string& what, const std::string& remedy) {
+  fields.refuse();
+  const auto [found, is_new] = faults.try_emplace(what, Repeated{fields.label() + ": " + what, fields.where(), remedy});
+  if (!is_new) ++found->second.more;
+}
+
+void Reader::raise_faults() {
+  for (const auto& [what, f] : faults)
+    model.faults.add(f.more == 0 ? f.text : fmt::format("{} (and {} more cards)", f.text, f.more), f.where, f.remedy);
+  model.faults.raise();
+}
+
 void Reader::header(CardFields& fields, const std::string& name) {
   const long form = fields.integer(2, "IFO", 0), type = fields.integer(3, "TIN", 0);
   const long polar = fields.integer(5, "POLAR", 0);
+  refused.insert(name);  // until the header is accepted
   if (!fields.ok()) return;
   if (form != 1 && form != 6)
     return fields.fault(fmt::format("IFO is {}, expected 6 (symmetric) or 1 (square)", form),
@@ -58,7 +83,9 @@ void Reader::header(CardFields& fields, const std::string& name) {
   TextMatrix matrix{
       name, model.cards.files[fields.card().file], form == 6 ? Storage::one_triangle : Storage::square, {}};
   if (!matrices.emplace(name, std::move(matrix)).second)
-    fields.fault(fmt::format("matrix {} has a header already", name), "keep one matrix of that name in the file");
+    return fields.fault(fmt::format("matrix {} has a header already", name),
+                        "keep one matrix of that name in the file");
+  refused.erase(name);
 }
 
 RowKey Reader::key(CardFields& fields, int index) {
@@ -69,26 +96,28 @@ RowKey Reader::key(CardFields& fields, int index) {
   const bool scalar = points.scalar.contains(id) || (points.scalar.empty() && !grid && component == 0);
   if (scalar && component <= 1) return {id, scalar_component};
   if (component < 1 || component > 6) {
-    fields.fault(grid ? fmt::format("component {} of GRID {}, expected 1 to 6", component, id)
-                      : fmt::format("point {} with component {} is no SPOINT or EPOINT", id, component),
-                 grid ? "correct the component" : "add the SPOINT card, here or in the file of positions");
+    fault(fields,
+          grid ? fmt::format("component {} of GRID {}, expected 1 to 6", component, id)
+               : fmt::format("point {} with component {} is no SPOINT or EPOINT", id, component),
+          grid ? "correct the component" : "add the SPOINT card, here or in the file of positions");
     return {};
   }
-  if (scalar) fields.fault(fmt::format("component {} of scalar point {}", component, id), "a scalar point has one");
+  if (scalar) fault(fields, fmt::format("component {} of scalar point {}", component, id), "a scalar point has one");
   return {id, static_cast<int>(component) - 1};
 }
 
 void Reader::column(CardFields& fields, const std::string& name) {
+  if (refused.contains(name)) return;
   const auto found = matrices.find(name);
   if (found == matrices.end())
-    return fields.fault(fmt::format("column of {} before its header", name),
-                        "begin the matrix with a card DMIG, name, 0, IFO, TIN");
+    return fault(fields, fmt::format("column of {} before its header", name),
+                 "begin the matrix with a card DMIG, name, 0, IFO, TIN");
   const RowKey column = key(fields, 1);
   for (int i = first_term; i < fields.size() && fields.ok(); i += 4) {
     if (fields.blank(i) && fields.blank(i + 1) && fields.blank(i + 2)) continue;
     const RowKey row = key(fields, i);
     const double value = fields.real(i + 2, "A"), imaginary = fields.real(i + 3, "B", 0.0);
-    if (fields.ok() && imaginary != 0.0) fields.fault("has an imaginary part", "export real matrices");
+    if (fields.ok() && imaginary != 0.0) fault(fields, "has an imaginary part", "export real matrices");
     if (fields.ok()) add_entry(found->second, {row, column, value, fields.card().line});
   }
 }
@@ -100,7 +129,29 @@ const TextMatrix& find_matrix(const Reader& reader, const std::string& wanted, c
   for (const auto& [name, matrix] : reader.matrices) names.push_back(name);
   throw Error(fmt::format("holds no DMIG matrix {}{}", wanted,
                           names.empty() ? std::string() : fmt::format(", but {}", listed(names))),
-              path, "name the matrices with --stiffness and --mass");
+              path, "name the matrices with --matrices K,M");
+}
+
+/// What files of this program say of a matrix in a comment before it: a text that lost a line is still a legal one.
+std::string count_comment(const std::string& name, std::size_t terms) {
+  return fmt::format("$ {} below has {} terms", name, terms);
+}
+
+/// Throws Error if a comment before the matrix names another number of terms than were read.
+void check_count(const NastranModel& model, const TextMatrix& matrix) {
+  const std::string before = fmt::format("$ {} below has ", matrix.title);
+  for (const std::unique_ptr<std::string>& text : model.cards.texts) {
+    const std::size_t at = text->find(before);
+    if (at == std::string::npos || (at > 0 && (*text)[at - 1] != '\n')) continue;
+    const long terms = std::atol(text->c_str() + at + before.size());
+    if (count_comment(matrix.title, static_cast<std::size_t>(terms)) !=
+        trimmed(std::string_view(*text).substr(at, text->find('\n', at) - at)))
+      continue;
+    if (static_cast<std::size_t>(terms) != matrix.entries.size())
+      throw Error(
+          fmt::format("{} has {} terms, but the comment before it says {}", matrix.title, matrix.entries.size(), terms),
+          matrix.file, "lines were lost or added: export it again, or remove the comment");
+  }
 }
 
 std::string table(const std::vector<long>& values, const std::string& card, const std::string& before) {
@@ -115,18 +166,20 @@ std::string table(const std::vector<long>& values, const std::string& card, cons
 
 std::string matrix_text(const std::string& name, const Eigen::MatrixXd& A, const std::vector<RowKey>& keys) {
   std::string text = fmt::format("DMIG    {:<8}{:>8}{:>8}{:>8}{:>8}\n", name, 0, 6, 2, 0);
+  std::size_t terms = 0;
   for (Eigen::Index j = 0; j < A.cols(); ++j) {
     std::string column;
     for (Eigen::Index i = j; i < A.rows(); ++i) {
       const RowKey& row = keys[i];
-      if (A(i, j) != 0.0)
-        column += fmt::format("*       {:>16}{:>16}{:>16}\n", row.node, row.component + 1, real_field(A(i, j), 'D'));
+      if (A(i, j) == 0.0) continue;
+      ++terms;
+      column += fmt::format("*       {:>16}{:>16}{:>16}\n", row.node, row.component + 1, real_field(A(i, j), 'D'));
     }
     const RowKey& key = keys[j];
     if (!column.empty())
       text += fmt::format("DMIG*   {:<16}{:>16}{:>16}\n{}", name, key.node, key.component + 1, column);
   }
-  return text;
+  return count_comment(name, terms) + "\n" + text;
 }
 
 }  // namespace
@@ -147,7 +200,7 @@ ReducedMatrices read_dmig(const DmigSource& source) {
     if (points.places.contains(id))
       throw Error(fmt::format("point {} is a GRID and a scalar point", id), source.path, "remove one of the cards");
 
-  Reader reader{model, points, {}};
+  Reader reader{model, points};
   model.for_each("DMIG", [&](CardFields& fields) {
     const std::string name = capitals(fields.text(0));
     if (name.empty()) return fields.fault("has no name", "give the matrix a name");
@@ -156,7 +209,8 @@ ReducedMatrices read_dmig(const DmigSource& source) {
     else
       reader.column(fields, name);
   });
-  model.faults.raise();
+  reader.raise_faults();
+  for (const auto& [name, matrix] : reader.matrices) check_count(model, matrix);
   ReducedMatrices matrices;
   matrices.format = "dmig";
   matrices.source = source.path;

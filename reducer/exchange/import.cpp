@@ -1,5 +1,6 @@
 // The story of `reducer import`: from files of another program to a superelement file with certificate.
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -103,8 +104,11 @@ DmigSource dmig_source(const ImportRequest& request) {
 std::string companion(const ImportRequest& request, const std::string& asked, const std::string& guess,
                       const std::string& option) {
   if (!asked.empty()) return asked;
-  if (!guess.empty()) return guess;
-  throw Error(fmt::format("needs {}", option), request.input, fmt::format("name the file with {} FILE", option));
+  if (!guess.empty() && std::filesystem::exists(guess)) return guess;
+  const std::string what = option == "--rows" ? "the table of its rows" : "the mass matrix";
+  throw Error(guess.empty() ? fmt::format("comes without {}", what)
+                            : fmt::format("comes without {}: there is no file '{}'", what, guess),
+              request.input, fmt::format("name the file with {} FILE", option));
 }
 
 ReducedMatrices read_matrices(const ImportRequest& request) {

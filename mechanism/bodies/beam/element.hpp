@@ -7,8 +7,14 @@
 //   Γ = Λᵀ x' − Γ₀   axial and shear strains,   κ = axial(Λᵀ Λ') − κ₀   torsion and bending, both in section axes;
 //   ' is the derivative by arc length of the reference curve; Γ₀, κ₀ are the values of the same interpolation there,
 //   so that the reference configuration is free of stress, whatever its curvature.
-// Two nodes: ψ = log(Λ₁ᵀΛ₂), Λ(s) = Λ₁ exp(s ψ), κ = ψ/L; strains at the middle only (exact for the constant κ, and
-//   free of shear and membrane locking).
+// Two nodes: ψ = log(Λ₁ᵀΛ₂), Λ(s) = Λ₁ exp(s ψ), κ = ψ/L; strains at the middle only (free of shear and membrane
+//   locking), with three corrections that make the nodes of straight beams exact for loads at nodes and weight, and the
+//   element of order 4 as long as bending stays in one plane:
+//   - shear stiffness 1/(1/GA + L²/(12 EI)): residual bending flexibility [Mac78], of the linear part of the moment;
+//   - Γ = A(ψ) Λᵀ Δx/L − Γ₀ with A = 1 − ψ~²/24: the element is the arc of its curvature, not the chord Δx;
+//   - mass and weight along a parabola through the nodes that follows their sections (kernels.hpp, Parabola).
+//   What is left of order 2: the change of curvature κ × C_m κ along elements of bent and twisted beams (zero in a plane),
+//   axial and torsional waves, shear and rotary inertia of thick beams.
 // Three nodes: Φ_i = log(Λ₂ᵀΛ_i), Λ(s) = Λ₂ exp(N₁(s)Φ₁ + N₃(s)Φ₃) [CJ99]; two Gauss points.
 // Both depend on relative rotations of the nodes alone: strains do not change under a rigid motion and do not depend on
 // the path. Relative rotations inside an element must stay below π.
@@ -34,7 +40,7 @@ struct BeamElement {
   std::array<int, N> nodes{};                           ///< indices of nodes, along the beam
   double length = 0.0;                                  ///< L, arc length of the reference curve
   std::array<Eigen::Matrix3d, N> section{};             ///< D_i: section triad in node axes
-  Eigen::Vector3d force_stiffness = {0, 0, 0};          ///< C_n = (E A, G A_y, G A_z)
+  Eigen::Vector3d force_stiffness = {0, 0, 0};          ///< C_n = (E A, G A_y, G A_z), of two nodes less residual bending
   Eigen::Vector3d moment_stiffness = {0, 0, 0};         ///< C_m = (G J, E I_y, E I_z)
   std::array<Eigen::Vector3d, points> initial_gamma{};  ///< Γ₀ (including the 1 of the axis)
   std::array<Eigen::Vector3d, points> initial_kappa{};  ///< κ₀
@@ -87,7 +93,7 @@ template <int N>
 BeamEnergy energy(const BeamElement<N>& element, std::span<const NodeMotion> nodes, const Eigen::Vector3d& gravity);
 
 /// Strains and stress resultants at one quadrature point, in section axes; resultants act on the side that the negative
-/// axis points to (tension positive).
+/// axis points to (tension positive). The shear strains of two nodes hold the residual bending too; their forces do not.
 struct BeamSectionForces {
   double arc_length = 0.0;       ///< of the point, from the first node of the element
   Eigen::Matrix3d axes;          ///< Λ: section triad in world axes

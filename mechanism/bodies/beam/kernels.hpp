@@ -26,12 +26,24 @@ inline constexpr std::array<std::array<double, 3>, 2> shape = {
 inline constexpr std::array<std::array<double, 3>, 2> slope = {
     {{-2 * gauss - 1, 4 * gauss, 1 - 2 * gauss}, {2 * gauss - 1, -4 * gauss, 1 + 2 * gauss}}};
 
-/// The element state of two nodes: section axes in the middle, g = Λᵀx', strains and resultants (section axes).
+/// A(ψ) v = v − ψ×(ψ×v)/24: an arc of the angle ψ is longer than its chord by (a/2)/sin(a/2) = 1 + a²/24 + O(a⁴) across
+/// ψ, and as long along it. ∂(A v)/∂ψ: chord_gradient; its transpose times n: chord_gradient_transposed.
+template <class S>
+inline Vec3<S> chord_to_arc(const Vec3<S>& psi, const S& u, const Vec3<S>& v) {
+  return v + (v * u - psi * dot3(psi, v)) * S(1.0 / 24);
+}
+template <class S>
+inline Vec3<S> chord_gradient_transposed(const Vec3<S>& psi, const Vec3<S>& v, const Vec3<S>& n) {
+  return (psi * (2.0 * dot3(v, n)) - n * dot3(psi, v) - v * dot3(psi, n)) * S(1.0 / 24);
+}
+
+/// The element state of two nodes: section axes in the middle, g = Λᵀx', strains and resultants (section axes);
+/// on_g = A force and on_psi = moment + L ∂(A g)/∂ψᵀ force are what works on δg (times L) and δψ.
 template <class S>
 struct State2 {
   Logarithm<S> log;
   Mat3<S> axes;
-  Vec3<S> g, gamma, kappa, force, moment;
+  Vec3<S> g, gamma, kappa, force, moment, on_g, on_psi;
 
   State2(const BeamElement2& e, const Configuration<S, 2>& q)
       : State2(e, q, q.R[0] * e.section[0].template cast<S>()) {}
@@ -43,10 +55,12 @@ struct State2 {
     const S factor = 2.0 / (1.0 + dot3(log.w, log.w));
     axes = first + (first * (W + W * W)) * factor;
     g = axes.transpose() * (q.x[1] - q.x[0]) * S(1.0 / e.length);
-    gamma = g - e.initial_gamma[0].template cast<S>();
+    gamma = chord_to_arc(log.psi, log.u, g) - e.initial_gamma[0].template cast<S>();
     kappa = log.psi * S(1.0 / e.length) - e.initial_kappa[0].template cast<S>();
     force = e.force_stiffness.template cast<S>().cwiseProduct(gamma);
     moment = e.moment_stiffness.template cast<S>().cwiseProduct(kappa);
+    on_g = chord_to_arc(log.psi, log.u, force);
+    on_psi = moment + chord_gradient_transposed(log.psi, g, force) * S(e.length);
   }
 };
 
@@ -111,11 +125,11 @@ S strain_energy(const BeamElement3& e, const Configuration<S, 3>& q) {
 template <class S>
 void internal_force(const BeamElement2& e, const State2<S>& state, Eigen::Matrix<S, 12, 1>& r) {
   const Vec3<S>& psi = state.log.psi;
-  const Vec3<S> n = state.axes * state.force;
-  const Vec3<S> h = cross(state.force, state.g) * S(e.length);
-  const Vec3<S> psi_m = cross(psi, state.moment);
+  const Vec3<S> n = state.axes * state.on_g;
+  const Vec3<S> h = cross(state.on_g, state.g) * S(e.length);
+  const Vec3<S> psi_m = cross(psi, state.on_psi);
   const Vec3<S> sum = (h - psi_m) * S(0.5);
-  const Vec3<S> difference = cross(h, state.log.w) * S(0.5) + state.moment + cross(psi, psi_m) * state.log.e;
+  const Vec3<S> difference = cross(h, state.log.w) * S(0.5) + state.on_psi + cross(psi, psi_m) * state.log.e;
   r.template segment<3>(0) = -n;
   r.template segment<3>(3) = e.section[0].template cast<S>() * (sum - difference);
   r.template segment<3>(6) = n;
@@ -175,7 +189,42 @@ struct Shares<3> {
 template <class Motion, int N>
 using NodePointers = std::array<const Motion*, static_cast<std::size_t>(N)>;
 
-/// r += M ẍ − m_i g and J Ω̇ + Ω × J Ω. Motion: NodeMotion or the same with another scalar.
+/// The parabola between two nodes, x(ξ) = (1 − ξ) x₁ + ξ x₂ + ξ(1 − ξ) d with d = L (t₁ − t₂)/2 of the unit vectors t_i
+/// along the beam: the cubic through both without its odd part. Mass is spread along it, m ∫ of products of 1 − ξ, ξ
+/// and ξ(1 − ξ). d vanishes in every rigid motion of a straight element and is that of an arc to O(L⁴).
+struct Parabola {
+  static constexpr double by_node = 1.0 / 12, by_itself = 1.0 / 30, whole = 1.0 / 6;
+  static constexpr std::array<double, 2> sign = {0.5, -0.5};  ///< d = L Σ sign_i R_i a_i
+};
+
+/// a_i: unit vector along the beam in the axes of node i.
+inline Eigen::Vector3d along(const BeamElement2& e, int i) { return e.section[i].col(0); }
+
+/// d̈ and F_d, the inertia force less weight that works on δd.
+template <class S>
+struct ParabolaForce {
+  Vec3<S> acceleration, force;
+
+  template <class Motion>
+  ParabolaForce(const BeamElement2& e, const std::array<const Motion*, 2>& node, const Eigen::Vector3d& gravity) {
+    acceleration = Vec3<S>::Zero();
+    for (int i = 0; i < 2; ++i) acceleration += node[i]->R * (turned(*node[i], e, i) * S(Parabola::sign[i] * e.length));
+    force = ((node[0]->xdd + node[1]->xdd) * S(Parabola::by_node) + acceleration * S(Parabola::by_itself) -
+             gravity.template cast<S>() * S(Parabola::whole)) *
+            S(e.mass);
+  }
+
+  /// Rᵀ d²(R a)/dt² = Ω̇ × a + Ω × (Ω × a).
+  template <class Motion>
+  static Vec3<S> turned(const Motion& node, const BeamElement2& e, int i) {
+    const Vec3<S> a = along(e, i).template cast<S>();
+    const Vec3<S> rate = cross<S>(node.Omega, a);
+    return cross<S>(node.Omegad, a) + cross<S>(node.Omega, rate);
+  }
+};
+
+/// r += M ẍ − m_i g and J Ω̇ + Ω × J Ω; with two nodes also what the parabola adds. Motion: NodeMotion or the same with
+/// another scalar.
 template <class S, int N, class Motion>
 void add_inertia(const BeamElement<N>& e, const NodePointers<Motion, N>& node, const Eigen::Vector3d& gravity,
                  Eigen::Matrix<S, 6 * N, 1>& r) {
@@ -187,6 +236,15 @@ void add_inertia(const BeamElement<N>& e, const NodePointers<Motion, N>& node, c
     const Mat3<S> J = e.inertia[i].template cast<S>();
     const Vec3<S> spin = J * node[i]->Omega;
     r.template segment<3>(6 * i + 3) += J * node[i]->Omegad + cross<S>(node[i]->Omega, spin);
+  }
+  if constexpr (N == 2) {
+    const ParabolaForce<S> bow(e, node, gravity);
+    for (int i = 0; i < 2; ++i) {
+      r.template segment<3>(6 * i) += bow.acceleration * S(e.mass * Parabola::by_node);
+      const Vec3<S> arm = along(e, i).template cast<S>() * S(Parabola::sign[i] * e.length);
+      const Vec3<S> force = node[i]->R.transpose() * bow.force;
+      r.template segment<3>(6 * i + 3) += cross(arm, force);
+    }
   }
 }
 

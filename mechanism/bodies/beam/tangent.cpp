@@ -86,27 +86,82 @@ void set_inertia(const BeamElement<N>& e, std::span<const NodeMotion> nodes, con
   }
 }
 
-/// A += c ∂G_int/∂q, two nodes. With P_i = ∂θ_m/∂Θ_i, G_i = ∂ψ/∂Θ_i, g~-dependent H = N~ − g~ C_n:
-/// K_θθ = P_iᵀ L H g~ P_j + Y_i G_j, K_θx = P_iᵀ H Λᵀ = K_xθᵀ, K_xx = Λ C_n Λᵀ/L.
+/// What the parabola of two nodes adds to A. Q_i = change of d̈ with node i: −s_i R_i [c_m a~ + c_c ((Ω×a)~ + Ω~ a~) +
+/// c_k (Ω̇×a + Ω×(Ω×a))~], s_i = ±L/2.
+void add_parabola(const BeamElement2& e, const beam::NodePointers<NodeMotion, 2>& node, const Vector3d& gravity,
+                  const TangentCoefficients& c, Square<2>& A) {
+  using beam::Parabola;
+  const beam::ParabolaForce<double> bow(e, node, gravity);
+  std::array<Matrix3d, 2> Q, arm;  // arm: s_i a_i~ R_iᵀ, of forces on d
+  for (int i = 0; i < 2; ++i) {
+    const Vector3d a = Parabola::sign[i] * e.length * beam::along(e, i);
+    const Vector3d& Omega = node[i]->Omega;
+    const Matrix3d skew_a = skew(a);
+    const Vector3d rate = Omega.cross(a), turned = node[i]->Omegad.cross(a) + Omega.cross(rate);
+    Matrix3d change = c.mass * skew_a + skew(Vector3d(c.damping * rate + c.stiffness * turned));
+    change.noalias() += c.damping * (skew(Omega) * skew_a);
+    Q[i].noalias() = -(node[i]->R * change);
+    arm[i].noalias() = skew_a * node[i]->R.transpose();
+    A.block<3, 3>(6 * i + 3, 6 * i + 3) += c.stiffness * (skew_a * skew(Vector3d(node[i]->R.transpose() * bow.force)));
+  }
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) {
+      A.block<3, 3>(6 * i, 6 * j + 3) += e.mass * Parabola::by_node * Q[j];
+      A.block<3, 3>(6 * i + 3, 6 * j) += c.mass * e.mass * Parabola::by_node * arm[i];
+      A.block<3, 3>(6 * i + 3, 6 * j + 3) += e.mass * Parabola::by_itself * (arm[i] * Q[j]);
+    }
+}
+
+/// ∂(A(ψ) v)/∂ψ of chord_to_arc.
+Matrix3d chord_gradient(const Vector3d& psi, const Vector3d& v) {
+  Matrix3d B = (2.0 * v * psi.transpose() - psi * v.transpose()) / 24.0;
+  B.diagonal().array() -= psi.dot(v) / 24.0;
+  return B;
+}
+
+/// Second derivatives of the strain energy by g and ψ, times c: by_g = c A C_n A, mixed = c ∂(on_g)/∂ψ,
+/// by_psi = c ∂(on_psi)/∂ψ.
+struct Stiffness2 {
+  Matrix3d by_g, mixed, by_psi;
+
+  Stiffness2(const BeamElement2& e, const beam::State2<double>& state, double c) {
+    const Vector3d &psi = state.log.psi, &g = state.g, &n = state.force;
+    Matrix3d A = psi * psi.transpose() / -24.0;
+    A.diagonal().array() += 1.0 + state.log.u / 24.0;
+    const Matrix3d B = chord_gradient(psi, g);
+    const Matrix3d CA = (c * e.force_stiffness).asDiagonal() * A, CB = (c * e.force_stiffness).asDiagonal() * B;
+    by_g.noalias() = A * CA;
+    mixed = c * chord_gradient(psi, n);
+    mixed.noalias() += A * CB;
+    by_psi = (c * e.length / -24.0) * (n * g.transpose() + g * n.transpose());
+    by_psi.noalias() += e.length * (B.transpose() * CB);
+    by_psi.diagonal() += c / e.length * e.moment_stiffness;
+    by_psi.diagonal().array() += c * e.length / 12.0 * n.dot(g);
+  }
+};
+
+/// A += c ∂G_int/∂q, two nodes. With P_i = ∂θ_m/∂Θ_i, G_i = ∂ψ/∂Θ_i, N, M what works on δg and δψ, N_g, N_ψ, M_ψ their
+/// derivatives and H = N~ − g~ N_g: K_θθ = P_iᵀ L H g~ P_j + Y_i G_j − L P_iᵀ g~ N_ψ G_j + its transpose (i, j
+/// exchanged), K_θx = (P_iᵀ H + G_iᵀ N_ψᵀ) Λᵀ = K_xθᵀ, K_xx = Λ N_g Λᵀ/L.
 void add_stiffness(const BeamElement2& e, const beam::State2<double>& state, double c, Square<2>& A) {
   const LogarithmDerivatives f(state.log);
   const Vector3d &psi = state.log.psi, &w = state.log.w;
-  const Vector3d h = e.length * state.force.cross(state.g);
+  const Stiffness2 second(e, state, c);
+  const Vector3d h = e.length * state.on_g.cross(state.g);
   const Matrix3d skew_g = skew(state.g), skew_psi = skew(psi);
-  const Matrix3d H = c * (skew(state.force) - skew_g * e.force_stiffness.asDiagonal());
-  const Matrix3d Jh = e.length * (H * skew_g);
-  const Vector3d compliance = c / e.length * e.moment_stiffness;
+  const Matrix3d H = c * skew(state.on_g) - skew_g * second.by_g;
+  const Matrix3d Jh = e.length * (H * skew_g), across = -e.length * (skew_g * second.mixed);
 
   // Derivatives of the half sum and the half difference of the end moments by ψ.
-  const Matrix3d mean = 0.5 * (c * skew(state.moment) - skew_psi * compliance.asDiagonal());
-  const Vector3d b = psi.cross(state.moment);
+  const Matrix3d mean = 0.5 * (c * skew(state.on_psi) - skew_psi * second.by_psi);
+  const Vector3d b = psi.cross(state.on_psi);
   Matrix3d even = skew(Vector3d(c * (0.5 * f.t * h - state.log.e * b)));
-  even.noalias() -= (c * state.log.e) * (state.moment * psi.transpose());
-  even.diagonal().array() += c * state.log.e * psi.dot(state.moment);
+  even.noalias() -= (c * state.log.e) * (state.on_psi * psi.transpose());
+  even.diagonal().array() += c * state.log.e * psi.dot(state.on_psi);
   even.noalias() += (c * (0.5 * f.t1 * h.cross(psi) + f.e1 * psi.cross(b))) * psi.transpose();
   Matrix3d E = state.log.e * (skew_psi * skew_psi);
   E.diagonal().array() += 1.0;
-  even.noalias() += E * compliance.asDiagonal();
+  even.noalias() += E * second.by_psi;
 
   const Matrix3d &D1 = e.section[0], &D2 = e.section[1];
   const Matrix3d G = E + 0.5 * skew_psi;
@@ -114,16 +169,17 @@ void add_stiffness(const BeamElement2& e, const beam::State2<double>& state, dou
   const std::array<Matrix3d, 2> P = {half.transpose() * D1.transpose(), half * D2.transpose()};
   const std::array<Matrix3d, 2> Gn = {-(G.transpose() * D1.transpose()), G * D2.transpose()};
   const std::array<Matrix3d, 2> Y = {D1 * (mean - even), D2 * (mean + even)};
-  const Matrix3d HL = H * state.axes.transpose();
-  const Matrix3d K = state.axes * (c / e.length * e.force_stiffness).asDiagonal() * state.axes.transpose();
+  const Matrix3d HL = H * state.axes.transpose(), XL = second.mixed.transpose() * state.axes.transpose();
+  const Matrix3d K = state.axes * second.by_g * state.axes.transpose() / e.length;
   for (int i = 0; i < 2; ++i) {
-    const Matrix3d PJ = P[i].transpose() * Jh;
-    const Matrix3d Kx = P[i].transpose() * HL;
+    const Matrix3d PJ = P[i].transpose() * Jh + Gn[i].transpose() * across.transpose();
+    const Matrix3d YG = Y[i] + P[i].transpose() * across;
+    const Matrix3d Kx = P[i].transpose() * HL + Gn[i].transpose() * XL;
     for (int j = 0; j < 2; ++j) {
       const double sign = j == 0 ? -1.0 : 1.0;
-      A.block<3, 3>(6 * i + 3, 6 * j + 3) += PJ * P[j] + Y[i] * Gn[j];
-      A.block<3, 3>(6 * i + 3, 6 * j) = sign * Kx;
-      A.block<3, 3>(6 * j, 6 * i + 3) = sign * Kx.transpose();
+      A.block<3, 3>(6 * i + 3, 6 * j + 3) += PJ * P[j] + YG * Gn[j];
+      A.block<3, 3>(6 * i + 3, 6 * j) += sign * Kx;
+      A.block<3, 3>(6 * j, 6 * i + 3) += sign * Kx.transpose();
       A.block<3, 3>(6 * i, 6 * j) += (i == j ? 1.0 : -1.0) * K;
     }
   }
@@ -263,6 +319,7 @@ void residual_and_tangent(const BeamElement2& element, std::span<const NodeMotio
   beam::internal_force(element, state, r);
   beam::add_inertia(element, motion, gravity, r);
   set_inertia(element, nodes, coefficients, A);
+  add_parabola(element, motion, gravity, coefficients, A);
   add_stiffness(element, state, coefficients.stiffness, A);
 }
 

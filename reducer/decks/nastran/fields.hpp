@@ -56,6 +56,7 @@ class CardFields {
   std::string where() const { return cards_->where(*card_); }
   const NastranCard& card() const { return *card_; }
   bool ok() const { return ok_; }
+  void refuse() { ok_ = false; }  ///< for a fault that the caller tells itself
   void fault(const std::string& what, const std::string& remedy);
 
  private:

@@ -2,6 +2,7 @@
 // back.
 #include "reducer/exchange/dmig.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -136,6 +137,38 @@ TEST(Dmig, Errors) {
   };
   for (const auto& [text, expected] : cases) EXPECT_THAT(error_in(text), HasSubstr(expected)) << text;
   EXPECT_THAT(error_in(grids + stiffness("0,2,2", "1,1,,1,1,1.") + mass), HasSubstr("part.pch:3"));
+}
+
+/// A wrong value is told once, with the number of cards that have it besides.
+TEST(Dmig, OneFaultForOneWrongValue) {
+  const std::string mass = "DMIG,MAAX,0,6,2\nDMIG,MAAX,1,1,,1,1,1.\n";
+  const std::string columns = "DMIG,KAAX,1,1,,1,1,1.\nDMIG,KAAX,1,2,,1,2,1.\nDMIG,KAAX,1,3,,1,3,1.\n";
+  const auto lines = [](const std::string& text) { return std::count(text.begin(), text.end(), '\n') + 1; };
+  const std::string header = error_in(grids + "DMIG,KAAX,0,2,2\n" + columns + mass);
+  EXPECT_THAT(header, HasSubstr("IFO is 2"));
+  EXPECT_EQ(lines(header), 1) << header;
+  const std::string without = error_in(grids + columns + mass);
+  EXPECT_THAT(without, HasSubstr("part.pch:3: DMIG KAAX: column of KAAX before its header (and 2 more cards)"));
+  EXPECT_EQ(lines(without), 1) << without;
+  const std::string unknown =
+      error_in(grids + "SPOINT,9\nDMIG,KAAX,0,6,2\nDMIG,KAAX,1,1,,8,0,1.\nDMIG,KAAX,1,2,,8,0,1.\n" + mass);
+  EXPECT_THAT(unknown, HasSubstr("point 8 with component 0 is no SPOINT or EPOINT (and 1 more cards)"));
+  EXPECT_EQ(lines(unknown), 1) << unknown;
+  EXPECT_THAT(error_in(grids + mass), HasSubstr("--matrices K,M"));
+}
+
+/// A text of this program that lost a line is still a legal one: the count of terms in a comment tells.
+TEST(Dmig, LostLinesAreFoundByTheCount) {
+  const std::string text = dmig_text(testing::reduced_beam());
+  EXPECT_EQ(error_in(text), "no error");
+  const std::size_t matrix = text.find("DMIG    MAAX"), line = text.find("\n*", matrix) + 1;
+  ASSERT_NE(matrix, std::string::npos);
+  std::string cut = text;
+  cut.erase(line, text.find('\n', line) + 1 - line);
+  EXPECT_THAT(error_in(cut), HasSubstr("terms, but the comment before it says"));
+  const std::size_t comment = cut.find("$ MAAX below has ");
+  cut.erase(comment, cut.find('\n', comment) + 1 - comment);
+  EXPECT_EQ(error_in(cut), "no error");
 }
 
 /// A beam whose tip has axes turned by 30 degrees about y: the import turns it back.
