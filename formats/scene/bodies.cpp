@@ -247,9 +247,9 @@ std::vector<Field> start_fields(std::vector<Field> gravity) {
   std::vector<Field> fields{
       {"pose", "pose", "`{position: [x, y, z], orientation: ..}` of the part frame in the world",
        "at the origin, unrotated"},
-      plain<&InitialMotion::velocity>("velocity", "vector",
-                                      "of the origin of the part frame, world axes [length/time]"),
-      plain<&InitialMotion::angular_velocity>("angular_velocity", "vector", "world axes [rad/time]")};
+      plain<&InitialMotion::velocity>("velocity", "vector", "of the origin of the part frame, world axes [length/time]",
+                                      "free: see [initial](#initial)"),
+      plain<&InitialMotion::angular_velocity>("angular_velocity", "vector", "world axes [rad/time]", ditto)};
   fields.insert(fields.end(), gravity.begin(), gravity.end());
   return shared_fields("body_start", fields);
 }

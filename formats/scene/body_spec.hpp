@@ -18,11 +18,12 @@ struct Pose {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
-/// Rigid motion of a part at the start: the pose of the part frame and the motion of its origin, world axes.
+/// Rigid motion of a part at the start: the pose of the part frame and the motion of its origin, world axes. A velocity
+/// that is absent is free: joints, drives and what others are given decide (mechanism/analyses/start_velocities.hpp).
 struct InitialMotion {
   Pose pose;
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
-  Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();
+  std::optional<Eigen::Vector3d> velocity;
+  std::optional<Eigen::Vector3d> angular_velocity;
 };
 
 enum class FrameKind { karcher, paper, node };

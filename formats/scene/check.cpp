@@ -29,8 +29,8 @@ void check_start(const InitialMotion& start, const std::string& subject, const s
     if (!vector.allFinite()) faults.add(where, key, fmt::format("{}: {} must be finite", subject, key), "");
   };
   finite(start.pose.position, "pose.position");
-  finite(start.velocity, "velocity");
-  finite(start.angular_velocity, "angular_velocity");
+  if (start.velocity) finite(*start.velocity, "velocity");
+  if (start.angular_velocity) finite(*start.angular_velocity, "angular_velocity");
   if (!(std::abs(start.pose.orientation.norm() - 1.0) < 1e-9))
     faults.add(where, "pose.orientation",
                fmt::format("{}: the quaternion of the orientation has length {:g}, not 1", subject,
@@ -335,6 +335,7 @@ Faults find_faults(const Scene& scene) {
     check_path_name("motion", motion.name, motion.where, motions, faults);
     check_motion(index, motion, faults);
   }
+  for (const InitialSpec& initial : scene.initial) check_initial(index, initial, faults);
   for (const SpringSpec& spring : scene.springs) {
     check_path_name("spring", spring.name, spring.where, springs, faults);
     check_spring(index, spring, faults);

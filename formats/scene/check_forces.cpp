@@ -86,6 +86,16 @@ void check_friction(const JointSpec& joint, const std::string& subject, Faults& 
                fmt::format("{}: friction: a {} joint takes no moment", subject, joint_word(joint.kind)), "remove arm");
 }
 
+void check_initial(const SceneIndex& scene, const InitialSpec& initial, Faults& faults) {
+  const std::string subject = fmt::format("initial '{}'", initial.coordinate.name);
+  check_coordinate(initial.coordinate, scene, subject, initial.where, "", faults);
+  if (!initial.value && !initial.rate)
+    faults.add(initial.where, "", fmt::format("{}: neither value nor rate is given", subject), "give one or both");
+  for (const auto& [number, key] : {std::pair{initial.value, "value"}, std::pair{initial.rate, "rate"}})
+    if (number && !std::isfinite(*number))
+      faults.add(initial.where, key, fmt::format("{}: {} must be finite", subject, key), "");
+}
+
 void check_spring(const SceneIndex& scene, const SpringSpec& spring, Faults& faults) {
   const std::string subject = fmt::format("spring '{}'", spring.name);
   if (spring.coordinate) {

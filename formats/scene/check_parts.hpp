@@ -25,6 +25,7 @@ void check_channels(const SceneIndex& scene, Faults& faults);
 
 /// Of a joint that has one.
 void check_friction(const JointSpec& joint, const std::string& subject, Faults& faults);
+void check_initial(const SceneIndex& scene, const InitialSpec& initial, Faults& faults);
 void check_spring(const SceneIndex& scene, const SpringSpec& spring, Faults& faults);
 void check_bushing(const SceneIndex& scene, const BushingSpec& bushing, Faults& faults);
 void check_load(const SceneIndex& scene, const LoadSpec& load, Faults& faults);

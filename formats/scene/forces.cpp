@@ -1,4 +1,4 @@
-// `motions`, `springs`, `bushings` and `loads` of scene.yaml.
+// `motions`, `initial`, `springs`, `bushings` and `loads` of scene.yaml.
 #include "formats/scene/reader.hpp"
 #include "formats/scene/time_function_reader.hpp"
 #include "formats/yaml/fields.hpp"
@@ -130,6 +130,19 @@ std::vector<MotionSpec> read_motions(const MapReader& map, const SceneDefinition
   return motions;
 }
 
+std::vector<InitialSpec> read_initial(const MapReader& map) {
+  std::vector<InitialSpec> entries;
+  for (const YamlNode* node : map.entries("initial", "initial value")) {
+    const Context context = entry_context(map.context().reader, "initial", *node);
+    InitialSpec entry;
+    entry.coordinate = {node->key, context.entry};
+    entry.where = context.entry;
+    read_fields(MapReader(context, *node, "initial"), entry);
+    entries.push_back(std::move(entry));
+  }
+  return entries;
+}
+
 std::vector<SpringSpec> read_springs(const MapReader& map, const SceneDefinitions& definitions) {
   std::vector<SpringSpec> springs;
   for (const YamlNode* node : map.entries("springs", "spring")) {
@@ -184,6 +197,9 @@ std::vector<KeySet> force_key_sets() {
          "with the last slope outside; expressions are differentiated by differences of order six, a quarter of the "
          "step apart",
          "required"}}},
+      {"initial",
+       {plain<&InitialSpec::value>("value", "number", "where the coordinate stands [length or rad]", "as written"),
+        plain<&InitialSpec::rate>("rate", "number", "how fast it moves [length/time or rad/time]", "free")}},
       {"spring",
        {{"coordinate", "text", "joint coordinate", "one of both"},
         {"a", "place", "markers"},

@@ -37,6 +37,7 @@ void read_joints(const MapReader& map, Scene& scene);
 std::vector<InputSpec> read_inputs(const MapReader& map, const SceneDefinitions& definitions);
 std::vector<ChannelSpec> read_channels(const MapReader& map);
 std::vector<MotionSpec> read_motions(const MapReader& map, const SceneDefinitions& definitions);
+std::vector<InitialSpec> read_initial(const MapReader& map);
 std::vector<SpringSpec> read_springs(const MapReader& map, const SceneDefinitions& definitions);
 std::vector<BushingSpec> read_bushings(const MapReader& map);
 std::vector<LoadSpec> read_loads(const MapReader& map, const SceneDefinitions& definitions);

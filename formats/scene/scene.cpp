@@ -79,6 +79,7 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
   scene.inputs = read_inputs(map, definitions);
   scene.channels = read_channels(map);
   scene.motions = read_motions(map, definitions);
+  scene.initial = read_initial(map);
   scene.springs = read_springs(map, definitions);
   scene.bushings = read_bushings(map);
   scene.loads = read_loads(map, definitions);
@@ -159,6 +160,7 @@ std::vector<Field> scene_fields() {
       {"inputs", "{name: input}", "name -> history from a file, for expressions", "none"},
       {"channels", "{name: channel}", "name -> quantity of the mechanism, for expressions", "none"},
       {"motions", "{name: motion}", "name -> joint coordinate that follows a function of time", "none"},
+      {"initial", "{name: initial}", "joint coordinate -> its value and rate at the start", "none"},
       {"springs", "{name: spring}",
        "name -> spring, damper and stops along a joint coordinate, between two points or about an axis", "none"},
       {"bushings", "{name: bushing}", "name -> stiffness and damping between two markers in all directions", "none"},
@@ -180,8 +182,8 @@ std::vector<Field> scene_fields() {
       {"assemblies", "{name: text | assembly}", ditto},
       {"instances", "{name: instance}", ditto},
       plain<&Scene::initial_tolerance>("initial_tolerance", "positive",
-                                       "largest correction that makes the initial state satisfy the joints: "
-                                       "positions relative to the characteristic length, velocities")};
+                                       "largest correction that makes written poses and velocities satisfy the "
+                                       "joints: of the characteristic length, of the largest velocity")};
 }
 
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {

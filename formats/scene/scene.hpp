@@ -100,6 +100,14 @@ struct MotionSpec {
   std::string where;
 };
 
+/// A coordinate at the start, which is kept: where it stands, how fast it moves, or both.
+struct InitialSpec {
+  CoordinateRef coordinate;
+  std::optional<double> value;  ///< the bodies move rigidly until it has this value
+  std::optional<double> rate;
+  std::string where;
+};
+
 /// A law between two quantities: proportional, or a table y(x) with ascending x.
 enum class Interpolation { linear, cubic };
 struct CurveSpec {
@@ -168,6 +176,7 @@ struct Scene {
   std::vector<InputSpec> inputs;
   std::vector<ChannelSpec> channels;
   std::vector<MotionSpec> motions;
+  std::vector<InitialSpec> initial;
   std::vector<SpringSpec> springs;
   std::vector<BushingSpec> bushings;
   std::vector<LoadSpec> loads;
@@ -180,7 +189,7 @@ struct Scene {
   CheckpointSpec checkpoint;
   std::vector<Analysis> analyses;  ///< by name, in the order of the file; empty: `analysis` alone
   double initial_tolerance =
-      1e-6;  ///< largest correction of initial positions (times characteristic length) and velocities
+      1e-6;  ///< largest correction of written poses (times characteristic length) and velocities
 };
 
 /// Reads scene.yaml with the overrides applied, then checks. Paths in it are relative to its folder. Throws all errors

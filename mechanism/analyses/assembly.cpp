@@ -95,11 +95,31 @@ void move(const Model& model, const VectorXd& d, Bodies& bodies, State& state) {
 
 double row_scale(const Model& model, int row) { return model.length_row[row] ? 1.0 / model.length : 1.0; }
 
+/// Coordinates that are asked for a value or a rate, as rows after those of the constraints.
+struct AskedRow {
+  const CoordinateStart* entry;
+  double target;
+};
+using AskedRows = std::vector<AskedRow>;
+
+AskedRows asked_rows(const std::vector<CoordinateStart>& initial, std::optional<double> CoordinateStart::*target) {
+  AskedRows rows;
+  for (const CoordinateStart& entry : initial)
+    if (entry.*target) rows.push_back({&entry, *(entry.*target)});
+  return rows;
+}
+
+double row_scale(const Model& model, const AskedRow& row) {
+  return is_length(model.coordinates[row.entry->coordinate].relation) ? 1.0 / model.length : 1.0;
+}
+
 /// ∂(scaled Φ)/∂[t/L; θ] at the last evaluate().
-Sparse jacobian(const Model& model, const Bodies& bodies, const Evaluation& evaluation) {
+Sparse jacobian(const Model& model, const AskedRows& asked, const Bodies& bodies, const Evaluation& evaluation) {
   std::vector<Eigen::Triplet<double>> entries;
+  const int constraints = model.sizes.constraints;
   const auto add = [&](int row, int node, const Eigen::Ref<const Eigen::RowVectorXd>& B) {
     if (node < 0) return;
+    const double scale = row < constraints ? row_scale(model, row) : row_scale(model, asked[row - constraints]);
     const NodeMotion& motion = motion_of(evaluation, node);
     const int body = bodies.of_node[node];
     const Eigen::RowVector3d along = B.head<3>(), about = B.tail<3>();
@@ -107,8 +127,8 @@ Sparse jacobian(const Model& model, const Bodies& bodies, const Evaluation& eval
     Eigen::RowVector3d turn = -along * skew<double>(arm);
     if (has_rotation(model, node)) turn += about * motion.R.transpose();
     for (int k = 0; k < 3; ++k) {
-      entries.emplace_back(row, 6 * body + k, row_scale(model, row) * model.length * along[k]);
-      entries.emplace_back(row, 6 * body + 3 + k, row_scale(model, row) * turn[k]);
+      entries.emplace_back(row, 6 * body + k, scale * model.length * along[k]);
+      entries.emplace_back(row, 6 * body + 3 + k, scale * turn[k]);
     }
   };
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
@@ -126,7 +146,13 @@ Sparse jacobian(const Model& model, const Bodies& bodies, const Evaluation& eval
       add(coupling.row, model.coordinates[at].a.node, B.head<6>());
       add(coupling.row, model.coordinates[at].b.node, B.tail<6>());
     }
-  Sparse J(model.sizes.constraints, 6 * static_cast<Eigen::Index>(bodies.center.size()));
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const int at = asked[i].entry->coordinate, row = constraints + static_cast<int>(i);
+    const Eigen::RowVectorXd B = evaluation.coordinates[at].G;
+    add(row, model.coordinates[at].a.node, B.head<6>());
+    add(row, model.coordinates[at].b.node, B.tail<6>());
+  }
+  Sparse J(constraints + static_cast<Eigen::Index>(asked.size()), 6 * static_cast<Eigen::Index>(bodies.center.size()));
   J.setFromTriplets(entries.begin(), entries.end());
   return J;
 }
@@ -141,27 +167,45 @@ VectorXd damped_step(const Sparse& J, const VectorXd& f, double mu) {
   return -factors.solve(VectorXd(J.transpose() * f));
 }
 
+/// The constraints, and the coordinates that are asked for.
+void evaluate_rows(const Model& model, const AskedRows& asked, const State& state, Evaluation& evaluation) {
+  evaluate(model, state, evaluation);
+  if (asked.empty()) return;
+  update_modal_nodes(model, evaluation);
+  evaluate_coordinates(model, state, evaluation);
+}
+
+/// `rows` of the constraints and the gaps of what is asked for, scaled.
+VectorXd scaled_rows(const Model& model, const AskedRows& asked, const VectorXd& rows,
+                     double CoordinateTerms::*quantity, const Evaluation& evaluation) {
+  VectorXd f(rows.size() + static_cast<Eigen::Index>(asked.size()));
+  for (int row = 0; row < rows.size(); ++row) f[row] = row_scale(model, row) * rows[row];
+  for (std::size_t i = 0; i < asked.size(); ++i)
+    f[rows.size() + static_cast<Eigen::Index>(i)] =
+        row_scale(model, asked[i]) * (evaluation.coordinates[asked[i].entry->coordinate].*quantity - asked[i].target);
+  return f;
+}
+
 /// Scaled Φ at the state.
-VectorXd gaps(const Model& model, State& state, Evaluation& evaluation) {
+VectorXd gaps(const Model& model, const AskedRows& asked, State& state, Evaluation& evaluation) {
   evaluate(model, state, evaluation);
   unwrap_hinges(model, evaluation, state);
-  VectorXd f = evaluation.constraint;
-  for (int row = 0; row < f.size(); ++row) f[row] *= row_scale(model, row);
-  return f;
+  if (!asked.empty()) evaluate_rows(model, asked, state, evaluation);
+  return scaled_rows(model, asked, evaluation.constraint, &CoordinateTerms::value, evaluation);
 }
 
 double largest(const VectorXd& f) { return f.size() > 0 ? f.cwiseAbs().maxCoeff() : 0.0; }
 
 /// Damped steps until the gaps are closed as far as round-off lets them, or no step helps any more.
-void close_gaps(const Model& model, const std::function<bool()>& interrupted, Bodies& bodies, State& state,
-                Evaluation& evaluation, AssemblyReport& report) {
-  VectorXd f = gaps(model, state, evaluation);
+void close_gaps(const Model& model, const AskedRows& asked, const std::function<bool()>& interrupted, Bodies& bodies,
+                State& state, Evaluation& evaluation, AssemblyReport& report) {
+  VectorXd f = gaps(model, asked, state, evaluation);
   double mu = 1e-3;
   while (largest(f) > 1e-15 && report.iterations < most_iterations) {
     report.interrupted = interrupted && interrupted();
     if (report.interrupted) return;
     ++report.iterations;
-    const Sparse J = jacobian(model, bodies, evaluation);
+    const Sparse J = jacobian(model, asked, bodies, evaluation);
     VectorXd d = damped_step(J, f, mu);
     if (!d.allFinite()) return;
     const double size = d.cwiseAbs().maxCoeff();
@@ -169,7 +213,7 @@ void close_gaps(const Model& model, const std::function<bool()>& interrupted, Bo
     const State before = state;
     const std::vector<Vector3d> center = bodies.center;
     move(model, d, bodies, state);
-    const VectorXd next = gaps(model, state, evaluation);
+    const VectorXd next = gaps(model, asked, state, evaluation);
     if (next.norm() < f.norm()) {
       const bool slow = next.norm() > (1.0 - 1e-6) * f.norm() && mu < 1e-9;
       f = next;
@@ -179,7 +223,7 @@ void close_gaps(const Model& model, const std::function<bool()>& interrupted, Bo
     }
     state = before;
     bodies.center = center;
-    evaluate(model, state, evaluation);
+    evaluate_rows(model, asked, state, evaluation);
     mu *= 10.0;
     if (mu > 1e6 || largest(f) < 1e-13) return;
   }
@@ -262,22 +306,22 @@ void set_velocities(const Model& model, const Bodies& bodies, const VectorXd& w,
 }
 
 /// The smallest change of w with B v = −Φ_t, in repeated damped steps: each leaves μ/(σ² + μ) of the error.
-void close_velocities(const Model& model, const Bodies& bodies, const VectorXd& given, State& state,
-                      Evaluation& evaluation, AssemblyReport& report) {
+void close_velocities(const Model& model, const AskedRows& asked, const Bodies& bodies, const VectorXd& given,
+                      State& state, Evaluation& evaluation, AssemblyReport& report) {
   VectorXd w = given;
   for (int pass = 0; pass < 20; ++pass) {
     set_velocities(model, bodies, w, state);
-    evaluate(model, state, evaluation);
-    VectorXd rate = evaluation.constraint_rate;
-    for (int row = 0; row < rate.size(); ++row) rate[row] *= row_scale(model, row);
+    evaluate_rows(model, asked, state, evaluation);
+    const VectorXd rate = scaled_rows(model, asked, evaluation.constraint_rate, &CoordinateTerms::rate, evaluation);
     const double size = std::max(largest(w), largest(rate));
     report.velocity_gap = size > 0.0 ? largest(rate) / size : 0.0;
     if (report.velocity_gap < 1e-14) return;
-    w += damped_step(jacobian(model, bodies, evaluation), rate, 1e-9);
+    w += damped_step(jacobian(model, asked, bodies, evaluation), rate, 1e-9);
   }
 }
 
-std::vector<JointGap> open_joints(const Model& model, const Evaluation& evaluation, double tolerance) {
+std::vector<JointGap> open_joints(const Model& model, const AskedRows& asked, const Evaluation& evaluation,
+                                  double tolerance) {
   std::vector<JointGap> open;
   const auto look = [&](const std::string& name, int first, int size) {
     JointGap gap{name, 0.0, 0.0};
@@ -289,6 +333,12 @@ std::vector<JointGap> open_joints(const Model& model, const Evaluation& evaluati
   };
   for (const Joint& joint : model.joints) look(joint.name, joint.row, joint.size());
   for (const Coupling& coupling : model.couplings) look(coupling.name, coupling.row, 1);
+  for (const AskedRow& row : asked) {
+    const double gap = std::abs(evaluation.coordinates[row.entry->coordinate].value - row.target);
+    const bool length = is_length(model.coordinates[row.entry->coordinate].relation);
+    if (gap * row_scale(model, row) > tolerance)
+      open.push_back({"initial " + row.entry->name, length ? gap : 0.0, length ? 0.0 : gap});
+  }
   std::ranges::stable_sort(open, std::greater<>(),
                            [&](const JointGap& gap) { return std::max(gap.length / model.length, gap.angle); });
   return open;
@@ -304,6 +354,13 @@ std::string vector_text(const Eigen::Ref<const VectorXd>& v) {
 
 AssemblyReport assemble(const Model& model, double tolerance, const std::function<bool()>& interrupted, State& state,
                         Evaluation& evaluation) {
+  return assemble(model, {}, tolerance, interrupted, state, evaluation);
+}
+
+AssemblyReport assemble(const Model& model, const std::vector<CoordinateStart>& initial, double tolerance,
+                        const std::function<bool()>& interrupted, State& state, Evaluation& evaluation) {
+  const AskedRows values = asked_rows(initial, &CoordinateStart::value);
+  const AskedRows rates = asked_rows(initial, &CoordinateStart::rate);
   AssemblyReport report;
   Bodies bodies = find_bodies(model, state);
   const VectorXd given = rigid_velocities(model, bodies, state);
@@ -315,12 +372,12 @@ AssemblyReport assemble(const Model& model, double tolerance, const std::functio
   for (int attempt = 0; attempt < most_fresh_starts && !report.interrupted; ++attempt) {
     AssemblyReport round;
     for (std::size_t turned = 0; turned <= model.joints.size(); ++turned) {
-      close_gaps(model, interrupted, bodies, state, evaluation, round);
+      close_gaps(model, values, interrupted, bodies, state, evaluation, round);
       if (round.interrupted || !turn_over(model, bodies, state, evaluation)) break;
     }
     report.iterations += round.iterations;
     report.interrupted = round.interrupted;
-    const double gap = largest(gaps(model, state, evaluation));
+    const double gap = largest(gaps(model, values, state, evaluation));
     if (gap < best_gap) {
       best_gap = gap;
       best = state;
@@ -330,11 +387,11 @@ AssemblyReport assemble(const Model& model, double tolerance, const std::functio
   }
   state = best;
   bodies.center = find_bodies(model, state).center;
-  close_velocities(model, bodies, given, state, evaluation, report);
-  evaluate(model, state, evaluation);
+  close_velocities(model, rates, bodies, given, state, evaluation, report);
+  evaluate_rows(model, values, state, evaluation);
   report.gap = best_gap;
   report.closed = best_gap <= tolerance;
-  report.open = open_joints(model, evaluation, tolerance);
+  report.open = open_joints(model, values, evaluation, tolerance);
   return report;
 }
 

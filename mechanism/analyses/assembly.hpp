@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "formats/scene/scene.hpp"
+#include "mechanism/build/build_model.hpp"
 #include "mechanism/equations/evaluation.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
@@ -35,6 +36,9 @@ struct AssemblyReport {
 /// body, so that every step is nearly the smallest change that closes the gaps. Axes that meet the wrong way round are
 /// turned; from a dead point it goes on from a small turn of all bodies. Then velocities of rigid bodies nearest to the
 /// given ones with B v = −Φ_t. v̇ and λ become 0. Masses and forces play no part.
+/// `initial`: values that coordinates reach, and rates that they keep, as if they were driven.
+[[nodiscard]] AssemblyReport assemble(const Model& model, const std::vector<CoordinateStart>& initial, double tolerance,
+                                      const std::function<bool()>& interrupted, State& state, Evaluation& evaluation);
 [[nodiscard]] AssemblyReport assemble(const Model& model, double tolerance, const std::function<bool()>& interrupted,
                                       State& state, Evaluation& evaluation);
 

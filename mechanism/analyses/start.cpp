@@ -1,12 +1,14 @@
-// Pre-flight, projection and consistent start.
+// Pre-flight, initial values, projection and consistent start.
 #include "mechanism/analyses/start.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "mechanism/analyses/assembly.hpp"
 #include "mechanism/equations/carriers.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
@@ -20,6 +22,8 @@ namespace {
 
 /// Smallest reciprocal condition of a mass matrix that is solved as it is.
 constexpr double massless_condition = 1e-15;
+/// Largest gap of initial values and joints after the bodies were moved: the projection closes what is left.
+constexpr double value_tolerance = 1e-9;
 /// Iterations for accelerations and reactions that friction couples.
 constexpr int most_refinements = 30;
 
@@ -77,14 +81,6 @@ void require_facing(const Model& model, const std::string& where, const Workspac
   }
 }
 
-/// Massless bodies that nothing moves have no equation.
-void require_determined(const Model& model, const std::string& where, const State& state, Workspace& workspace) {
-  const std::vector<std::string> motions = undetermined_motions(model, state, workspace.now);
-  if (motions.empty()) return;
-  throw Error(fmt::format("nothing determines the motion of massless bodies: {}", join(motions, ", ")), where,
-              "tie them with fixed joints, hold these directions with other joints or springs, or give them mass");
-}
-
 /// The largest gaps of all open joints, which one message lists together.
 std::string gaps_text(const std::vector<MarkerGap>& gaps) {
   constexpr std::size_t shown = 8;
@@ -95,22 +91,72 @@ std::string gaps_text(const std::vector<MarkerGap>& gaps) {
   return fmt::format("Open joints: {}", join(texts, ", "));
 }
 
+/// Throws Error for the largest gap of joints and drives at the start, with all others.
+void require_met(const Model& model, const Violation& worst, double tolerance, const std::string& where,
+                 const Workspace& workspace) {
+  if (worst.value <= tolerance) return;
+  throw Error(fmt::format("joint '{}' is not met at the start: off by {:.3g} {} (initial_tolerance allows {:.3g}). {}",
+                          constraint_name(model, worst.row), worst.value, "of the characteristic length or radians",
+                          tolerance, gaps_text(marker_gaps(model, workspace.now))),
+              where,
+              "correct poses or markers; `initial: {<coordinate>: {value: ..}}` moves closed joints to a position, "
+              "`analysis: assembly` closes open ones; or raise initial_tolerance to let the program move the bodies");
+}
+
+/// Massless bodies that nothing moves have no equation.
+void require_determined(const Model& model, const std::string& where, const State& state, Workspace& workspace) {
+  const std::vector<std::string> motions = undetermined_motions(model, state, workspace.now);
+  if (motions.empty()) return;
+  throw Error(fmt::format("nothing determines the motion of massless bodies: {}", join(motions, ", ")), where,
+              "tie them with fixed joints, hold these directions with other joints or springs, or give them mass");
+}
+
+/// Moves whole bodies to the values that the scene gives coordinates at the start; returns the largest displacement of
+/// a node. Joints must meet as written; drives are met with the values.
+double move_to_values(const formats::Scene& scene, BuiltModel& built, Workspace& workspace) {
+  const Model& model = built.model;
+  State& state = built.state;
+  if (std::ranges::none_of(built.initial, [](const CoordinateStart& entry) { return entry.value.has_value(); }))
+    return 0.0;
+  evaluate(model, state, workspace.now);
+  Eigen::VectorXd undriven = workspace.now.constraint;
+  for (const Coupling& coupling : model.couplings)
+    if (coupling.motion >= 0) undriven[coupling.row] = 0.0;
+  require_met(model, largest_violation(model, undriven), scene.initial_tolerance, scene.file, workspace);
+  const State before = state;
+  const AssemblyReport assembly = assemble(model, built.initial, value_tolerance, {}, state, workspace.now);
+  if (!assembly.closed) {
+    std::vector<std::string> open;
+    for (const JointGap& gap : assembly.open)
+      if (open.size() < 8)
+        open.push_back(fmt::format("'{}' by {:.3g} and {:.3g} rad", gap.name, gap.length, gap.angle));
+    throw Error(fmt::format("no position of the bodies has the initial values: open stay {}", join(open, ", ")),
+                scene.file, "give values that joints and drives allow, or fewer of them");
+  }
+  set_written_velocities(built, state);
+  return (state.x() - before.x()).colwise().norm().maxCoeff();
+}
+
+/// Where drives determine everything, contradictions of drives are dead points, which the analysis tells of.
+double contradiction_limit(const formats::Scene& scene) {
+  const bool driven =
+      scene.analysis == formats::AnalysisKind::kinematics || scene.analysis == formats::AnalysisKind::inverse_dynamics;
+  const bool rates =
+      std::ranges::any_of(scene.initial, [](const formats::InitialSpec& entry) { return entry.rate.has_value(); });
+  return driven && !rates ? std::numeric_limits<double>::infinity() : scene.initial_tolerance;
+}
+
 }  // namespace
 
-Projection project_initial_state(const Model& model, double tolerance, double step, const std::string& where,
+double project_initial_positions(const Model& model, double tolerance, double step, const std::string& where,
                                  State& state, Workspace& workspace) {
-  Projection projection;
+  double corrected = 0.0;
   for (int iteration = 0;; ++iteration) {
     evaluate(model, state, workspace.now);
     const Violation worst = largest_violation(model, workspace.now.constraint);
     if (iteration == 0) {
-      projection.position = worst.value;
-      if (!(worst.value <= tolerance))
-        throw Error(
-            fmt::format("joint '{}' is not met at the start: off by {:.3g} {} (initial_tolerance allows {:.3g}). {}",
-                        constraint_name(model, worst.row), worst.value, "of the characteristic length or radians",
-                        tolerance, gaps_text(marker_gaps(model, workspace.now))),
-            where, "correct poses or markers, or raise initial_tolerance to let the program move the bodies");
+      corrected = worst.value;
+      require_met(model, worst, tolerance, where, workspace);
     }
     if (worst.value <= 1e-14 || iteration == 20) break;
     require_factors(
@@ -127,15 +173,21 @@ Projection project_initial_state(const Model& model, double tolerance, double st
                             left.value),
                 where, "correct the poses of the bodies");
   require_facing(model, where, workspace);
+  return corrected;
+}
+
+double project_initial_velocities(const Model& model, double tolerance, double step, const std::string& where,
+                                  State& state, Workspace& workspace) {
+  evaluate(model, state, workspace.now);
   const double velocity = largest_velocity(model, state);
   const Violation worst = largest_violation(model, workspace.now.constraint_rate);
-  projection.velocity = velocity > 0.0 ? worst.value / velocity : 0.0;
-  if (!(projection.velocity <= tolerance))
+  const double corrected = velocity > 0.0 ? worst.value / velocity : 0.0;
+  if (!(corrected <= tolerance))
     throw Error(
         fmt::format(
             "initial velocities violate joint '{}': {:.3g} of the largest velocity (initial_tolerance allows {:.3g})",
-            constraint_name(model, worst.row), projection.velocity, tolerance),
-        where, "give velocities that agree with the joints, or raise initial_tolerance to let the program change them");
+            constraint_name(model, worst.row), corrected, tolerance),
+        where, "give velocities that agree with the joints");
   if (worst.value > 0.0) {
     require_factors(
         model, workspace.matrix.factor(model, state, {{1.0, 0.0, step * step}, TangentKind::step, {}}, workspace.now),
@@ -143,7 +195,7 @@ Projection project_initial_state(const Model& model, double tolerance, double st
     workspace.matrix.solve_projection(model, -workspace.now.constraint_rate, workspace.now);
     state.v() += workspace.matrix.correction;
   }
-  return projection;
+  return corrected;
 }
 
 bool solve_accelerations(const Model& model, double step, const std::string& where, State& state,
@@ -209,17 +261,28 @@ void start_algorithmic_acceleration(const Model& model, double shift, double ste
   state.algorithmic() += (shift * step / epsilon) * workspace.matrix.increment;
 }
 
-StartReport start(const formats::Scene& scene, const Model& model, State& state, Workspace& workspace) {
+StartReport start(const formats::Scene& scene, StartFrom from, BuiltModel& built, Workspace& workspace) {
+  const Model& model = built.model;
+  State& state = built.state;
   const std::string& where = scene.file;
   const bool dynamics = scene.analysis == formats::AnalysisKind::dynamics;
   // Only regularises massless directions, where statics has no step of its own.
   const double step = dynamics ? scene.integrator.step : 1e-3;
   StartReport report;
+  if (from == StartFrom::poses) report.moved = move_to_values(scene, built, workspace);
   report.mobility = count_mobility(model, state, workspace.now);
   report.preflight = examine(model, workspace.now);
   require_determined(model, where, state, workspace);
   for (const int row : report.mobility.redundant) state.active()[row] = 0.0;
-  report.projection = project_initial_state(model, scene.initial_tolerance, step, where, state, workspace);
+  report.projection.position = project_initial_positions(model, scene.initial_tolerance, step, where, state, workspace);
+  if (scene.analysis == formats::AnalysisKind::statics) {  // at rest, or in a steady rotation of its own
+    state.v().setZero();
+    return report;
+  }
+  report.velocities = derive_velocities(built, from, contradiction_limit(scene), where, state, workspace.now);
+  report.projection.velocity =
+      project_initial_velocities(model, scene.initial_tolerance, step, where, state, workspace);
+  if (from == StartFrom::poses) require_followers(built, scene.initial_tolerance, where, state, workspace.now);
   if (!dynamics) return report;
   report.massless = solve_accelerations(model, step, where, state, workspace);
   const AlphaParameters alpha = alpha_parameters(scene.integrator);

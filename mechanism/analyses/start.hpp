@@ -1,10 +1,12 @@
-// Start of an analysis: pre-flight, projection of positions and velocities, consistent accelerations.
+// Start of an analysis: pre-flight, initial values, free velocities, projection, consistent accelerations.
 #pragma once
 
 #include <string>
 
 #include "formats/scene/scene.hpp"
 #include "mechanism/analyses/preflight.hpp"
+#include "mechanism/analyses/start_velocities.hpp"
+#include "mechanism/build/build_model.hpp"
 #include "mechanism/equations/mobility.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
@@ -19,10 +21,14 @@ struct Projection {
   double velocity = 0.0;
 };
 
-/// Moves positions and velocities onto the constraints in the mass norm. Throws Error that names joint and equation if
-/// more than `tolerance` has to be corrected. `step`: regularises massless directions with step² times the stiffness.
-Projection project_initial_state(const Model& model, double tolerance, double step, const std::string& where,
+/// Moves positions onto the constraints in the mass norm; returns what it corrected. Throws Error that names joint and
+/// equation if that is more than `tolerance`. `step`: regularises massless directions with step² times the stiffness.
+double project_initial_positions(const Model& model, double tolerance, double step, const std::string& where,
                                  State& state, Workspace& workspace);
+
+/// The same for velocities, at positions on the constraints.
+double project_initial_velocities(const Model& model, double tolerance, double step, const std::string& where,
+                                  State& state, Workspace& workspace);
 
 /// v̇ and λ from [M Bᵀ; B 0][v̇; λ] = [F − G; −Ḃ v]. A singular mass matrix is regularised with step² times the stiffness
 /// (its massless directions are in static equilibrium then); returns whether it was. Throws Error that names a
@@ -38,12 +44,15 @@ struct StartReport {
   Mobility mobility;
   Preflight preflight;
   Projection projection;
+  StartVelocities velocities;
   bool massless = false;  ///< the mass matrix was regularised
+  double moved = 0.0;     ///< largest displacement of a node by initial values
 };
 
-/// All of the above, with rows that others imply made inactive, for the analysis of the scene; dynamics: also the
-/// consistent start and energies counted from here.
-StartReport start(const formats::Scene& scene, const Model& model, State& state, Workspace& workspace);
+/// All of the above, with rows that others imply made inactive, for the analysis of the scene: initial values move the
+/// bodies rigidly, free velocities are derived (statics has none), then both are projected; dynamics: also the
+/// consistent start and energies counted from here. Initial values move `poses` alone.
+StartReport start(const formats::Scene& scene, StartFrom from, BuiltModel& built, Workspace& workspace);
 
 /// Work, dissipation and energy start from zero here.
 void begin(const Model& model, State& state, Workspace& workspace);

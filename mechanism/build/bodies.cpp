@@ -1,6 +1,7 @@
 // One function per type of body.
 #include "mechanism/build/bodies.hpp"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -21,8 +22,9 @@ NodeMotion motion_at(const formats::InitialMotion& start, const Vector3d& positi
   motion.R = start.pose.orientation.normalized().toRotationMatrix();
   const Vector3d arm = motion.R * position;
   motion.x = start.pose.position + arm;
-  motion.xd = start.velocity + start.angular_velocity.cross(arm);
-  motion.Omega = motion.R.transpose() * start.angular_velocity;
+  const Vector3d omega = start.angular_velocity.value_or(Vector3d::Zero());
+  motion.xd = start.velocity.value_or(Vector3d::Zero()) + omega.cross(arm);
+  motion.Omega = motion.R.transpose() * omega;
   return motion;
 }
 
@@ -35,6 +37,13 @@ int add_node(const std::string& name, const formats::InitialMotion& start, const
   c.model.nodes.push_back(node);
   c.markers.start.push_back(motion_at(start, position));
   return static_cast<int>(c.model.nodes.size()) - 1;
+}
+
+/// Notes what the scene says of the velocities of a body whose first node is `node`.
+void note_start(const std::string& name, const formats::InitialMotion& start, int node, Construction& c) {
+  const NodeMotion& motion = c.markers.start[node];
+  const Vector3d arm = motion.R.transpose() * (start.pose.position - motion.x);
+  c.starts.push_back({name, {node, arm}, false, start.velocity, start.angular_velocity});
 }
 
 int add_virtual_node(const formats::VirtualBodySpec& spec, Construction& c) {
@@ -92,9 +101,11 @@ class BodyBuilder {
     const Matrix3d turn = start.pose.orientation.normalized().toRotationMatrix();
     const Vector3d arm = turn * built.frame_position;
     start.pose.position += arm;
-    start.velocity += start.angular_velocity.cross(arm);
+    if (start.angular_velocity)
+      start.velocity = start.velocity.value_or(Vector3d::Zero()) + start.angular_velocity->cross(arm);
     start.pose.orientation = Eigen::Quaterniond(turn * built.frame_rotation);
     built.body.node = add_node(spec.name, start, Vector3d::Zero(), 1, 1, c_);
+    note_start(spec.name, spec.start, built.body.node, c_);
     built.body.gravity = spec.gravity.value_or(c_.scene.gravity);
     built.body.offset = std::exchange(c_.model.sizes.modal, c_.model.sizes.modal + built.body.modes);
     const Matrix3d part_axes = built.frame_rotation.transpose();
@@ -133,6 +144,7 @@ class BodyBuilder {
       use.nodes.push_back(add_node(name, spec.start, position, node.has_translation(), node.has_rotation(), c_));
       add_place(name, {use.nodes.back(), Vector3d::Zero(), Matrix3d::Identity()});
     }
+    note_start(spec.name, spec.start, use.nodes.front(), c_);
     c_.model.internal_offset.push_back(c_.model.internal_offset.back() + body.modes);
     c_.model.superelement_content_ids.push_back(element.content_id);
     c_.model.superelements.push_back(std::move(use));
@@ -167,6 +179,7 @@ class BodyBuilder {
 
   void add_rigid_body(const formats::RigidBodySpec& spec) {
     const int node = add_node(spec.name, spec.start, spec.center_of_mass, 1, 1, c_);
+    note_start(spec.name, spec.start, node, c_);
     c_.model.rigid_bodies.push_back(
         {spec.name, node, spec.mass, spec.inertia, spec.gravity.value_or(c_.scene.gravity)});
     add_frame(spec.name, {node, -spec.center_of_mass, Matrix3d::Identity()});
@@ -183,6 +196,7 @@ class BodyBuilder {
       nodes.push_back(add_node(name, spec.start, mesh.position[i], 1, 1, c_));
       add_place(name, {nodes.back(), Vector3d::Zero(), Matrix3d::Identity()});
     }
+    note_start(spec.name, spec.start, nodes.front(), c_);
     const int last = static_cast<int>(c_.model.places.size()) - 1;
     add_alias(spec.name + "/start", last + 1 - static_cast<int>(nodes.size()));
     add_alias(spec.name + "/end", last);
@@ -206,6 +220,7 @@ class BodyBuilder {
     switch (c_.scene.virtual_bodies) {
       case formats::VirtualBodies::keep:
         node = add_virtual_node(spec, c_);
+        note_start(spec.name, spec.start, node, c_);
         break;
       case formats::VirtualBodies::eliminate:
         c_.markers.start.push_back(motion_at(spec.start, Vector3d::Zero()));
@@ -270,6 +285,13 @@ void eliminate_virtual_bodies(Construction& c) {
   };
   for (Place& place : c.model.places) move(place.marker);
   for (auto& [name, place] : c.markers.places) move(place);
+  for (const formats::VirtualBodySpec* body : virtual_bodies) {
+    const Marker& place = c.markers.places.at(body->name);
+    const bool stays = std::ranges::any_of(node_of_root, [&](const auto& root) {
+      return root.second == place.node && c.model.nodes[place.node].name == body->name;
+    });
+    c.starts.push_back({body->name, place, !stays, body->start.velocity, body->start.angular_velocity});
+  }
   c.model.ties = std::move(tied.ties);
   c.vanished = std::move(tied.vanished);
   c.arms = std::move(tied.arms);

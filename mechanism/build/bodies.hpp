@@ -21,6 +21,7 @@ struct Construction {
   Model model;
   MarkerTable markers;
   std::vector<Eigen::Quaterniond> frames;  ///< of the superelements at the start
+  std::vector<BodyStart> starts;           ///< of all bodies
   std::set<std::string> vanished;          ///< joints that eliminated virtual bodies hung on
   std::vector<RigidArm> arms;
   std::set<double> breakpoints;

@@ -45,13 +45,15 @@ BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files) {
   for (const formats::ChannelSpec& channel : scene.channels) c.collect([&] { joints.add(channel); });
   c.throw_errors();
   for (const formats::MotionSpec& motion : scene.motions) c.collect([&] { joints.add(motion); });
+  std::vector<CoordinateStart> initial;
+  for (const formats::InitialSpec& entry : scene.initial) c.collect([&] { initial.push_back(joints.initial(entry)); });
   for (const formats::SpringSpec& spring : scene.springs) c.collect([&] { joints.add(spring); });
   for (const formats::BushingSpec& bushing : scene.bushings) c.collect([&] { joints.add(bushing); });
   for (const formats::LoadSpec& load : scene.loads) c.collect([&] { add_load(load, c); });
   c.throw_errors();
 
   finish(c);
-  BuiltModel built{std::move(c.model), State(Sizes{}), std::move(c.notes)};
+  BuiltModel built{std::move(c.model), State(Sizes{}), std::move(c.starts), std::move(initial), std::move(c.notes)};
   built.state = initial_state(c, built.model);
   return built;
 }

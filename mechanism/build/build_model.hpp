@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -27,9 +28,28 @@ struct BodyFiles {
 /// Reads the superelement and modal body files of a scene, each once. Throws Error: all that cannot be read, each once.
 BodyFiles read_body_files(const formats::Scene& scene);
 
+/// What a scene says of the velocity of a body at the start, world axes; what is absent is free.
+struct BodyStart {
+  std::string name;
+  Marker origin;  ///< of the part frame, on the first node of the body or on the carrier that a virtual body follows
+  bool follows = false;                     ///< an eliminated virtual body: moves as its carrier does
+  std::optional<Eigen::Vector3d> velocity;  ///< of the origin
+  std::optional<Eigen::Vector3d> angular_velocity;
+};
+
+/// A coordinate whose value or rate the scene gives at the start.
+struct CoordinateStart {
+  std::string name;
+  int coordinate = 0;  ///< row of Model::coordinates
+  std::optional<double> value;
+  std::optional<double> rate;
+};
+
 struct BuiltModel {
   Model model;
-  State state;                     ///< positions and velocities of the scene, not yet projected on the constraints
+  State state;  ///< positions and velocities of the scene, absent ones zero; not yet projected on the constraints
+  std::vector<BodyStart> starts;  ///< of every body
+  std::vector<CoordinateStart> initial;
   std::vector<std::string> notes;  ///< conversions, cut modes, warnings: whole sentences
 };
 

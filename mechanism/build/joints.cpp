@@ -120,6 +120,10 @@ int JointBuilder::find_coordinate(const formats::CoordinateRef& ref) const {
                                 : "coordinates of this scene: " + (all.empty() ? "none" : listed(all)));
 }
 
+CoordinateStart JointBuilder::initial(const formats::InitialSpec& spec) const {
+  return {spec.coordinate.name, find_coordinate(spec.coordinate), spec.value, spec.rate};
+}
+
 bool JointBuilder::is_length_coordinate(int coordinate) const {
   return is_length(model_.coordinates[coordinate].relation);
 }

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "mechanism/build/build_model.hpp"
 #include "mechanism/build/markers.hpp"
 #include "mechanism/forces/time_function.hpp"
 
@@ -27,6 +28,7 @@ class JointBuilder {
   void add(const formats::BushingSpec& spec);
   void add(const formats::InputSpec& spec);
   void add(const formats::ChannelSpec& spec);
+  CoordinateStart initial(const formats::InitialSpec& spec) const;
 
  private:
   /// Throws Error where the nodes of the joint lack what it holds.

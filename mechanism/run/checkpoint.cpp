@@ -47,6 +47,7 @@ void resume_results(Run& run, const std::string& file, const std::optional<doubl
   State& state = run.built.state;
   const StoredSums sums = read_stored_state(run.built.model, file, at, state, run.workspace);
   require_before_end(run.scene, state.time(), file);
+  run.from = StartFrom::motion;
   start(run);
   state.work() = sums.work;
   state.dissipated() = sums.dissipated;

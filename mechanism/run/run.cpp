@@ -91,6 +91,46 @@ void note_redundancy(Run& run) {
   }
 }
 
+/// "'rod', 'slider' and 3 more".
+std::string named(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 5;
+  std::vector<std::string> shown;
+  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) shown.push_back(fmt::format("'{}'", names[i]));
+  return join(shown, ", ") + (names.size() > most ? fmt::format(" and {} more", names.size() - most) : "");
+}
+
+/// What the start has made of free velocities and initial values.
+void note_start(const StartReport& start, Run& run) {
+  std::vector<std::string>& notes = run.report.notes;
+  const auto& initial = run.built.initial;
+  const auto gives = [&](auto member) {
+    return std::ranges::any_of(initial, [&](const CoordinateStart& entry) { return (entry.*member).has_value(); });
+  };
+  const bool values = gives(&CoordinateStart::value), rates = gives(&CoordinateStart::rate);
+  if (values && run.from == StartFrom::poses)
+    notes.push_back(
+        fmt::format("initial values moved the bodies by up to {:.4g} from the poses as written", start.moved));
+  if ((values && run.from != StartFrom::poses) || (rates && run.from == StartFrom::motion))
+    notes.push_back(fmt::format("initial {} not used: this analysis begins where another one ends",
+                                rates && run.from == StartFrom::motion ? "values and rates are" : "values are"));
+  const StartVelocities& velocities = start.velocities;
+  if (!velocities.derived.empty())
+    notes.push_back(
+        fmt::format("velocities of {} at the start follow from joints, drives and given velocities with "
+                    "the least kinetic energy: {:.6g} in all",
+                    named(velocities.derived), velocities.kinetic_energy));
+  if (!velocities.deforming.empty())
+    notes.push_back(
+        fmt::format("no rigid motion of {} agrees with the start: they begin to deform, with the smallest "
+                    "strain rate that does ({:.3g} of the kinetic energy)",
+                    named(velocities.deforming), velocities.deformation / velocities.kinetic_energy));
+  if (start.projection.velocity > 1e-6)
+    notes.push_back(
+        fmt::format("given velocities were corrected by up to {:.3g} of the largest, which initial_tolerance "
+                    "allows",
+                    start.projection.velocity));
+}
+
 }  // namespace
 
 Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunControl& run_control)
@@ -170,6 +210,7 @@ void begin_from(Run& run, const State& end) {
   state.block() = end.block();
   state.time() = state.load_time() = run.scene.integrator.start;
   state.active().setOnes();
+  run.from = state.v().isZero(0.0) ? StartFrom::rest : StartFrom::motion;
 }
 
 void start(Run& run) {
@@ -178,10 +219,11 @@ void start(Run& run) {
     run.report.mobility = count_mobility(run.built.model, run.built.state, run.workspace.now);
     return;
   }
-  const StartReport report = start(run.scene, run.built.model, run.built.state, run.workspace);
+  const StartReport report = start(run.scene, run.from, run.built, run.workspace);
   run.report.mobility = report.mobility;
   run.report.preflight = report.preflight;
   run.report.projection = report.projection;
+  note_start(report, run);
   note_redundancy(run);
   if (report.massless)
     run.report.notes.push_back(

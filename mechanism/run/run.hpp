@@ -26,6 +26,7 @@ struct Run {
   RunReport report;
   BuiltModel built;
   Workspace workspace;
+  StartFrom from = StartFrom::poses;
   State at_start;                       ///< as the model was built, before anything moved
   std::vector<double> schedule_memory;  ///< of a run that goes on from a file; empty: it begins
 

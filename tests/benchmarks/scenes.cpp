@@ -129,7 +129,7 @@ Cost run_and_visit(const Case& input, Visit visit) {
   mechanism::Workspace workspace(built.model);
   workspace.memory.tuning = input.tuning;
   const double built_at = cpu_seconds();
-  (void)mechanism::start(scene, built.model, built.state, workspace);
+  (void)mechanism::start(scene, mechanism::StartFrom::poses, built, workspace);
   cost.seconds_model = built_at - at_start;
   cost.seconds_start = cpu_seconds() - built_at;
   mechanism::Schedule schedule(scene, built.model.breakpoints);
@@ -265,7 +265,7 @@ Cost run_hinged_beam(const Case& input, const std::string& base) {
 
 Stopped::Stopped(const Case& input, double time)
     : scene(input.scene), built(mechanism::build_model(scene, input.files)), workspace(built.model) {
-  (void)mechanism::start(scene, built.model, built.state, workspace);
+  (void)mechanism::start(scene, mechanism::StartFrom::poses, built, workspace);
   mechanism::Schedule schedule(scene, built.model.breakpoints);
   while (built.state.time() < time) {
     const auto step =

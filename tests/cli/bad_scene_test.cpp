@@ -63,8 +63,8 @@ const Fault faults[] = {
     {"StoredAfterTheEnd", {"output.from=0.2"}, {"from 0.2 is later than the end 0.1", "give an earlier time"}},
     {"UnknownFrameNode", {"bodies.se.frame={node: bse}"}, {"has no node 'bse'", "its nodes are"}},
     {"InconsistentVelocity",
-     {"bodies.block.velocity=[1, 0, 0]"},
-     {"initial velocities violate joint 'weld", "initial_tolerance"}},
+     {"bodies.block.velocity=[1, 0, 0]", "bodies.rod.velocity=[0, 0, 0]", "bodies.rod.angular_velocity=[0, 0, 0]"},
+     {"initial velocities violate joint 'weld", "initial_tolerance", "leave out those that should follow"}},
     {"OpenJoint",
      {"joints.weld={type: fixed, a: {node: rod/end, position: [0, 0, 0]}, b: {node: block/hook, position: [0, 0.2, "
       "0]}}"},

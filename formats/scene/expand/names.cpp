@@ -34,8 +34,8 @@ constexpr std::array<Reference, 12> references{{{"joints", "a", Kind::body},
                                                 {"channels", "b", Kind::body},
                                                 {"loads", "at", Kind::body}}};
 
-constexpr std::array<std::string_view, 8> instantiated{"bodies",  "joints",  "inputs",   "channels",
-                                                       "motions", "springs", "bushings", "loads"};
+constexpr std::array<std::string_view, 9> instantiated{"bodies",  "joints",  "inputs",   "channels", "motions",
+                                                       "initial", "springs", "bushings", "loads"};
 
 /// "link[3]/bar/tip" -> "link[3]", and without the index "link".
 std::string first_word(const std::string& path) { return path.substr(0, path.find('/')); }
@@ -165,6 +165,8 @@ void resolve_references(const std::string& collection, const Level& level, YamlN
   };
   for (const Reference& reference : references)
     if (reference.collection == collection) resolve(reference.key, reference.kind);
+  if (collection == "initial" && level.frame.mirrored())  // the key is the reference
+    mirrored.push_back({level.prefix + entry.key, entry.key, entry.key, entry.key_place, entry.key_place});
   if (collection == "channels") resolve("of", kind_of_channel(entry));
   resolve_expressions(collection, level, entry);
 }

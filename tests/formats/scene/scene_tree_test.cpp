@@ -182,6 +182,7 @@ const std::string corner = R"yaml(assemblies:
       slide: {type: prismatic, a: {node: arm/ball, position: [0, 1, 0]}, b: hub, axis: [0, 1, 1]}
       ball: {type: spherical, a: body, b: hub}
     springs: {stop: {coordinate: hinge, stiffness: 3}}
+    initial: {hinge: {rate: 2}}
     loads:
       push: {type: force, at: arm/ball, value: [1, 2, 3]}
       twist: {type: moment, at: hub, axes: body, value: [1, "sin(t)", {table: [[0, 1], [1, 2]]}]
@@ -201,9 +202,11 @@ TEST(SceneInstances, ArePlacedWithPathsForNames) {
   const Matrix3d R = exp_so3<double>(Vector3d(0, 0, 0.5 * M_PI));
   EXPECT_LT((arm.start.pose.position - Vector3d(8, 1, 3)).norm(), 1e-14);
   EXPECT_LT((rotation_of(arm.start) - R * exp_so3<double>(Vector3d(0, 0, M_PI / 9))).norm(), 1e-14);
-  EXPECT_LT((arm.start.velocity - Vector3d(-2, 1, 3)).norm(), 1e-14);
-  EXPECT_LT((arm.start.angular_velocity - Vector3d(-5, 4, 6)).norm(), 1e-14);
+  EXPECT_LT((*arm.start.velocity - Vector3d(-2, 1, 3)).norm(), 1e-14);
+  EXPECT_LT((*arm.start.angular_velocity - Vector3d(-5, 4, 6)).norm(), 1e-14);
   EXPECT_EQ(arm.center_of_mass, Vector3d(0.1, 0.2, 0.3));
+  ASSERT_EQ(scene.initial.size(), 1u);
+  EXPECT_EQ(scene.initial[0].coordinate.name, "fl/hinge");
   const JointSpec& hinge = joint(scene, "fl/hinge");
   EXPECT_EQ(hinge.b.node, "fl/arm");
   EXPECT_LT((*hinge.axis - Vector3d(-1, 1, 0)).norm(), 1e-14);
@@ -235,8 +238,8 @@ TEST(SceneInstances, AreMirroredProperly) {
   // The inertia tensor in world axes is mirrored; velocities of points too: v + ω × a.
   EXPECT_LT((R_r * r.inertia * R_r.transpose() - M * R_l * l.inertia * R_l.transpose() * M).norm(), 1e-14);
   const Vector3d arm(0.3, -0.2, 0.7);
-  EXPECT_LT((r.start.velocity + r.start.angular_velocity.cross(M * arm) -
-             M * (l.start.velocity + l.start.angular_velocity.cross(arm)))
+  EXPECT_LT((*r.start.velocity + r.start.angular_velocity->cross(M * arm) -
+             M * (*l.start.velocity + l.start.angular_velocity->cross(arm)))
                 .norm(),
             1e-14);
   // A right-handed turn of b about the axis of the hinge: the mirror image of the motion of the other side.

@@ -91,7 +91,7 @@ Simulation::Simulation(formats::Scene scene_to_run, const mechanism::BodyFiles& 
       workspace(built.model),
       schedule(scene, built.model.breakpoints) {}
 
-void Simulation::start() { started = mechanism::start(scene, built.model, built.state, workspace); }
+void Simulation::start() { started = mechanism::start(scene, mechanism::StartFrom::poses, built, workspace); }
 
 bool Simulation::step() {
   while (true) {

@@ -1,0 +1,183 @@
+// Parts, rows and matrices.
+#include "mechanism/analyses/start_problem.hpp"
+
+#include <algorithm>
+
+#include "common/math/rotation.hpp"
+#include "mechanism/equations/carriers.hpp"
+#include "mechanism/model/bodies.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+Eigen::Quaterniond quaternion_of(const Eigen::Vector4d& Q) { return {Q[0], Q[1], Q[2], Q[3]}; }
+
+/// How a body has turned, also where its first node owns no rotation.
+Eigen::Quaterniond body_rotation(const Model& model, const State& state, int node) {
+  if (model.nodes[node].rotation < 0)
+    for (std::size_t i = 0; i < model.superelements.size(); ++i)
+      if (model.superelements[i].nodes.front() == node)
+        return quaternion_of(state.frames().col(static_cast<Eigen::Index>(i)));
+  return quaternion_of(state.Q().col(node));
+}
+
+/// B at the state of the last evaluate(), with evaluate_coordinates().
+StartMatrix start_rows(const StartProblem& problem, const Evaluation& evaluation) {
+  const Model& model = problem.model;
+  StartTriplets entries;
+  const auto add = [&](int row, const ElementMap& map, const Row12& values) {
+    const Eigen::MatrixXd columns = model_rows(model, map, local_view(values), evaluation);
+    for (std::size_t j = 0; j < map.coordinates.size(); ++j)
+      if (map.coordinates[j] >= 0)
+        entries.emplace_back(row, map.coordinates[j],
+                             start_row_scale(problem, row) * columns(0, static_cast<Eigen::Index>(j)));
+  };
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    for (int k = 0; k < model.joints[i].size(); ++k)
+      add(model.joints[i].row + k, model.joints.maps[i], Row12(evaluation.joints[i].B.row(k)));
+  const auto add_coordinate = [&](int row, int coordinate, double factor) {
+    add(row, model.coordinates.maps[coordinate], Row12(factor * evaluation.coordinates[coordinate].G));
+  };
+  for (const Coupling& coupling : model.couplings)
+    for (const CouplingTerm& term : coupling.terms) add_coordinate(coupling.row, term.coordinate, term.factor);
+  for (std::size_t i = 0; i < problem.rates.size(); ++i)
+    add_coordinate(model.sizes.constraints + static_cast<int>(i), problem.rates[i]->coordinate, 1.0);
+  StartMatrix B(problem.rows(), model.sizes.boundary);
+  B.setFromTriplets(entries.begin(), entries.end());
+  return B;
+}
+
+}  // namespace
+
+std::vector<PartStart> part_starts(const BuiltModel& built, StartFrom from, const Parts& parts, const State& state) {
+  const Model& model = built.model;
+  std::vector<PartStart> starts(static_cast<std::size_t>(parts.count()));
+  std::vector<int> count(starts.size(), 0);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    if (model.nodes[i].modal >= 0) continue;  // follows the frame of its body
+    const int part = parts.of_node[i];
+    starts[part].point += (state.x().col(static_cast<Eigen::Index>(i)) - starts[part].point) / ++count[part];
+  }
+  for_each_body(model, [&](const auto& body) {
+    if (is_flexible(body)) starts[parts.of_node[attached_nodes(model, body).front()]].deforms = true;
+  });
+  if (from == StartFrom::rest) return starts;
+  for (const BodyStart& body : built.starts) {
+    if (body.follows || (!body.velocity && !body.angular_velocity)) continue;
+    const int node = body.origin.node;
+    PartStart& start = starts[parts.of_node[node]];
+    start.point = state.x().col(node) + body_rotation(model, state, node) * body.origin.p;
+    start.w << body.velocity.value_or(Eigen::Vector3d::Zero()) / model.length,
+        body.angular_velocity.value_or(Eigen::Vector3d::Zero());
+    for (int k = 0; k < 6; ++k) start.given[k] = k < 3 ? body.velocity.has_value() : body.angular_velocity.has_value();
+    start.deforms = false;
+  }
+  return starts;
+}
+
+StartMatrix rigid_motions(const Model& model, const Parts& parts, const std::vector<PartStart>& starts,
+                          const State& state) {
+  StartTriplets entries;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const Node& node = model.nodes[i];
+    const auto at = static_cast<Eigen::Index>(i);
+    const int part = parts.of_node[i];
+    const Eigen::Matrix3d turn = -skew<double>(Eigen::Vector3d(state.x().col(at) - starts[part].point));
+    const Eigen::Matrix3d R = quaternion_of(state.Q().col(at)).toRotationMatrix();
+    for (int k = 0; k < 3; ++k) {
+      if (node.translation >= 0) entries.emplace_back(node.translation + k, 6 * part + k, model.length);
+      for (int j = 0; j < 3; ++j) {
+        if (node.translation >= 0) entries.emplace_back(node.translation + k, 6 * part + 3 + j, turn(k, j));
+        if (node.rotation >= 0) entries.emplace_back(node.rotation + k, 6 * part + 3 + j, R(j, k));
+      }
+    }
+  }
+  StartMatrix motions(model.sizes.boundary, 6 * static_cast<Eigen::Index>(parts.count()));
+  motions.setFromTriplets(entries.begin(), entries.end());
+  return motions;
+}
+
+StartMatrix boundary_block(const Model& model, const MatrixValues& matrix) {
+  const SparsePattern& pattern = *model.pattern;
+  StartTriplets entries;
+  for (int j = 0; j < model.sizes.boundary; ++j)
+    for (int at = pattern.column_start()[j]; at < pattern.column_start()[j + 1]; ++at) {
+      const int i = pattern.rows()[at];
+      if (i >= model.sizes.boundary) continue;
+      const double value = matrix.values[pattern.slot(i, j)];
+      if (value != 0.0) entries.emplace_back(i, j, matrix.scale * value);
+    }
+  StartMatrix block(model.sizes.boundary, model.sizes.boundary);
+  block.setFromTriplets(entries.begin(), entries.end());
+  return block;
+}
+
+double start_row_scale(const StartProblem& problem, int row) {
+  const Model& model = problem.model;
+  const bool length =
+      row < model.sizes.constraints
+          ? static_cast<bool>(model.length_row[row])
+          : is_length(model.coordinates[problem.rates[row - model.sizes.constraints]->coordinate].relation);
+  return length ? 1.0 / model.length : 1.0;
+}
+
+std::string start_row_name(const StartProblem& problem, int row) {
+  const int constraints = problem.model.sizes.constraints;
+  return row < constraints ? "joint '" + constraint_name(problem.model, row) + "'"
+                           : "the initial rate of '" + problem.rates[row - constraints]->name + "'";
+}
+
+State resting(const Model& model, const State& state, Evaluation& evaluation) {
+  State rest = state;
+  rest.v().setZero();
+  rest.vdot().setZero();
+  rest.lambda().setZero();
+  rest.active().setOnes();
+  evaluate(model, rest, evaluation);
+  update_modal_nodes(model, evaluation);
+  evaluate_coordinates(model, rest, evaluation);
+  return rest;
+}
+
+StartProblem start_problem(const BuiltModel& built, StartFrom from, const State& rest, Evaluation& evaluation) {
+  const Model& model = built.model;
+  StartProblem problem{model, find_parts(model), {}, {}, {}, {}, {}, {}, {}, {}};
+  problem.starts = part_starts(built, from, problem.parts, rest);
+  for (const CoordinateStart& entry : built.initial)
+    if (entry.rate) problem.rates.push_back(&entry);
+  problem.c.resize(model.sizes.constraints + static_cast<Eigen::Index>(problem.rates.size()));
+  problem.c.head(model.sizes.constraints) = -evaluation.constraint_rate;
+  for (std::size_t i = 0; i < problem.rates.size(); ++i)
+    problem.c[model.sizes.constraints + static_cast<Eigen::Index>(i)] = *problem.rates[i]->rate;
+  for (int row = 0; row < problem.rows(); ++row) problem.c[row] *= start_row_scale(problem, row);
+  problem.w.resize(6 * static_cast<Eigen::Index>(problem.parts.count()));
+  for (std::size_t i = 0; i < problem.starts.size(); ++i)
+    problem.w.segment<6>(6 * static_cast<Eigen::Index>(i)) = problem.starts[i].w;
+  return problem;
+}
+
+void fill_matrices(const State& rest, Evaluation& evaluation, StartProblem& problem) {
+  const Model& model = problem.model;
+  problem.R = rigid_motions(model, problem.parts, problem.starts, rest);
+  problem.B = start_rows(problem, evaluation);
+  problem.J = problem.B * problem.R;
+  MatrixValues weight(model);
+  evaluate_weight(model, rest, {1.0, 0.0, 0.0}, evaluation, weight);
+  problem.M = problem.R.transpose() * boundary_block(model, weight) * problem.R;
+}
+
+std::vector<int> parts_of_coordinates(const StartProblem& problem) {
+  const Model& model = problem.model;
+  std::vector<int> part(static_cast<std::size_t>(model.sizes.boundary), 0);
+  const auto mark = [&](int first, int count, int node) {
+    if (first >= 0) std::fill_n(part.begin() + first, count, problem.parts.of_node[node]);
+  };
+  for (int i = 0; i < model.sizes.nodes; ++i) {
+    mark(model.nodes[i].translation, 3, i);
+    mark(model.nodes[i].rotation, 3, i);
+  }
+  for (const ModalBody& body : model.modal_bodies) mark(model.sizes.first_modal() + body.offset, body.modes, body.node);
+  return part;
+}
+
+}  // namespace tisserand::mechanism
