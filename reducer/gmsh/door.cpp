@@ -64,7 +64,8 @@ bool is_alone() {
 
 using Calls = std::initializer_list<int>;
 
-/// What reading, computing, threads and giving up need.
+/// What reading, computing, threads and giving up need. Through pipes to themselves sanitizers see which memory is
+/// there.
 constexpr Calls harmless{SCMP_SYS(read),
                          SCMP_SYS(pread64),
                          SCMP_SYS(readv),
@@ -135,7 +136,9 @@ constexpr Calls harmless{SCMP_SYS(read),
                          SCMP_SYS(clock_nanosleep_time64),
                          SCMP_SYS(nanosleep),
                          SCMP_SYS(getrandom),
-                         SCMP_SYS(getcpu)};
+                         SCMP_SYS(getcpu),
+                         SCMP_SYS(pipe),
+                         SCMP_SYS(pipe2)};
 
 /// What no geometry does by accident: the process ends, and its parent says why. Sockets are not among them: the C
 /// library asks for names of users through one, which OpenCASCADE wants to know for IGES.

@@ -63,6 +63,7 @@ CellMesh mesh_of(const GeometryRequest& request) {
   set_limits(request.seconds, request.bytes);
   ::setenv("HOME", "/dev/null", 1);  // FLTK, a library of gmsh, makes folders there, or in /etc
   start_gmsh();
+  std::atexit([] { ::_exit(1); });  // a file may end gmsh; the ends of the libraries tidy up where this process may not
   ::clearenv();
   const std::string note = close_door(request);
   begin(MesherPhase::reading);
@@ -104,5 +105,5 @@ int main() {
   const std::string answer = answer_to(unpack_request(whole_request()));
   begin(MesherPhase::answering);
   send(answer.data(), answer.size());
-  ::_exit(0);  // without the ends of the libraries, which tidy up where this process may not
+  ::_exit(0);
 }

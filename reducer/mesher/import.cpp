@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <map>
@@ -98,8 +99,9 @@ std::string doing(MesherPhase phase) {
                   "a geometry must only draw: remove such commands (SystemCall, CreateDir, ...)");
     case MesherEnding::crashed:
       throw Error(fmt::format("gmsh crashed while {}: {}{}", at, ::strsignal(report.signal), words), file,
-                  report.phase == MesherPhase::starting
-                      ? "install anew"
+                  report.phase == MesherPhase::starting ? "install anew"
+                  : report.signal == SIGKILL
+                      ? "the machine may have run out of memory: choose a larger mesh: size"
                       : "the file is probably damaged: write it again, or heal it in the CAD program");
     case MesherEnding::left:
     case MesherEnding::answered:
