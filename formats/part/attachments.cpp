@@ -194,8 +194,9 @@ std::vector<KeySet> attachment_key_sets() {
         {"on", "text_list", "instead: groups of edges, whose lines become the elements", "-"},
         {"through", "position",
          "a third point of a circular arc, by name or as `[x, y, z]`, not on the line through the ends", "straight"},
-        plain<&BeamLine::section>("section", "name", "names", "required"),
-        plain<&BeamLine::material>("material", "name", ditto),
+        plain<&BeamLine::section>("section", "name", "name", "required"),
+        plain<&BeamLine::material>("material", "name", "name; none with a section by `stiffness`",
+                                   "required otherwise"),
         plain<&BeamLine::to_section>(
             "to_section", "name",
             "section at `to`: tapered. Of the same shape the sizes vary linearly, else the constants", "`section`"),

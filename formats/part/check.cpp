@@ -54,7 +54,21 @@ void check_section_of_beam(const Part& part, const BeamLine& beam, const std::st
   if (beam.theory == BeamTheory::timoshenko && section != part.sections.end() && section->shear_area_y == 0.0 &&
       section->area > 0.0 && section->shear_area_z == 0.0 && section->second_moment_y + section->second_moment_z > 0.0)
     faults.add(beam.where, "section", fmt::format("{}: section '{}' has no shear areas", subject, section->name),
-               "give shear_area_y and shear_area_z, or set theory: euler_bernoulli");
+               section->by_stiffness ? "give GAy and GAz, or set theory: euler_bernoulli"
+                                     : "give shear_area_y and shear_area_z, or set theory: euler_bernoulli");
+  const bool by_stiffness = section != part.sections.end() && section->by_stiffness;
+  if (by_stiffness && !beam.material.empty())
+    faults.add(beam.where, "material", fmt::format("{}: 'material' beside a section by stiffness", subject),
+               "remove it: the section needs none");
+  if (!by_stiffness && beam.material.empty())
+    faults.add(beam.where, "", fmt::format("{} has no 'material'", subject),
+               "add it, or give the section by stiffness");
+  const auto second = std::ranges::find(part.sections, beam.to_section, &Section::name);
+  if (section != part.sections.end() && second != part.sections.end() && second->by_stiffness != section->by_stiffness)
+    faults.add(beam.where, "to_section",
+               fmt::format("{}: only one of sections '{}' and '{}' is given by stiffness", subject, section->name,
+                           second->name),
+               "give both by stiffness or none");
   if (!std::isfinite(beam.angle))
     faults.add(beam.where, "angle_deg", fmt::format("{}: angle_deg must be finite", subject), "");
   if (!beam.from_offset.allFinite() || !beam.to_offset.allFinite())
@@ -87,7 +101,8 @@ void check_beam(const Part& part, const BeamLine& beam, const PartNames& names, 
   check_reference(subject, "section", beam.section, names.sections, beam.where, "section", faults);
   if (!beam.to_section.empty())
     check_reference(subject, "section", beam.to_section, names.sections, beam.where, "to_section", faults);
-  check_reference(subject, "material", beam.material, names.materials, beam.where, "material", faults);
+  if (!beam.material.empty())
+    check_reference(subject, "material", beam.material, names.materials, beam.where, "material", faults);
   check_section_of_beam(part, beam, subject, faults);
   if (!beam.on.empty()) return check_group_names(part, names, beam.on, subject, beam.where, "on", faults);
   check_place(part, names, beam.from, subject, beam.where, "from", faults);

@@ -209,7 +209,11 @@ void read_properties(const MapReader& map, const SceneDefinitions& definitions, 
           "use a section with two axes of symmetry, give `Iy`, `Iz` about principal axes without `shear_center`, "
           "or reduce the beam with `reducer` to a superelement");
   }
-  if (const YamlNode* node = map.require("material")) {
+  if (body.section.by_stiffness) {
+    body.material = unit_material(context.entry);
+    if (const YamlNode* node = map.find("material"))
+      context.fail(node->key_place, "'material' beside a section by stiffness", "remove it: the section needs none");
+  } else if (const YamlNode* node = map.require("material")) {
     if (node->kind == YamlKind::map) {
       body.material = read_material(inside(context, "material"), *node, "material.");
       body.material.name.clear();
@@ -328,9 +332,9 @@ KeySet beam_fields() {
            {"section", "name | section",
             "a name from `sections`, `materials`, or the map itself. Of the section: shear areas are needed; y and z "
             "are principal axes; centroid and shear centre lie on the axis (angles, channels and the like are for "
-            "superelements)",
+            "superelements). A section by `stiffness` has no material",
             "required"},
-           {"material", "name | material", ditto}},
+           {"material", "name | material", ditto, "required without `stiffness`"}},
           start_fields<BeamBodySpec>()};
 }
 

@@ -129,11 +129,13 @@ void check_body(const BeamBodySpec& body, const std::string& subject, Faults& fa
   const Material& material = body.material;
   check_section(section, section.name.empty() ? subject + ": section" : fmt::format("section '{}'", section.name),
                 section.name.empty() ? "section." : "", faults);
-  check_material(material, material.name.empty() ? subject + ": material" : fmt::format("material '{}'", material.name),
-                 material.name.empty() ? "material." : "", faults);
+  if (!section.by_stiffness)
+    check_material(material,
+                   material.name.empty() ? subject + ": material" : fmt::format("material '{}'", material.name),
+                   material.name.empty() ? "material." : "", faults);
   if (section.area > 0.0 && section.shear_area_y == 0.0 && section.shear_area_z == 0.0)
     faults.add(body.where, "section", fmt::format("{}: its section has no shear areas, which this beam needs", subject),
-               "give shear_area_y and shear_area_z");
+               section.by_stiffness ? "give GAy and GAz" : "give shear_area_y and shear_area_z");
 }
 
 /// Whether a beam has the node: 0 to N, start or end. Beams whose numbers are wrong already are given the benefit of

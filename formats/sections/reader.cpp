@@ -10,22 +10,43 @@ namespace tisserand::formats {
 
 namespace {
 
+/// Two numbers of the key `key`, [y, z]; both stay as they are without the key.
+void read_pair(const MapReader& map, std::string_view key, double& y, double& z) {
+  const YamlNode* entry = map.find(key);
+  if (entry == nullptr) return;
+  const std::vector<double> numbers = read_numbers(map.context(), *entry, std::string(key));
+  if (numbers.size() == 2)
+    y = numbers[0], z = numbers[1];
+  else if (!numbers.empty())
+    map.context().fail(entry->place, fmt::format("{} has {} numbers", key, numbers.size()), "give [y, z]");
+}
+
 Section read_constants(const Context& context, const YamlNode& node, const std::string& prefix) {
   const MapReader map(context, node, "section_constants", prefix);
   Section section;
   read_fields(map, section);
   section.polar_moment = section.second_moment_y + section.second_moment_z;
-  const auto pair = [&map](std::string_view key, double& y, double& z) {
-    const YamlNode* entry = map.find(key);
-    if (entry == nullptr) return;
-    const std::vector<double> numbers = read_numbers(map.context(), *entry, std::string(key));
-    if (numbers.size() == 2)
-      y = numbers[0], z = numbers[1];
-    else if (!numbers.empty())
-      map.context().fail(entry->place, fmt::format("{} has {} numbers", key, numbers.size()), "give [y, z]");
-  };
-  pair("centroid", section.centroid_y, section.centroid_z);
-  pair("shear_center", section.shear_center_y, section.shear_center_z);
+  read_pair(map, "centroid", section.centroid_y, section.centroid_z);
+  read_pair(map, "shear_center", section.shear_center_y, section.shear_center_z);
+  return section;
+}
+
+/// EA, EI, ... take the places of A, I, ...; see struct Section.
+Section read_by_stiffness(const Context& context, const YamlNode& node, const YamlNode& values,
+                          const std::string& prefix) {
+  const MapReader map(context, node, "section_by_stiffness", prefix);
+  Section section;
+  section.by_stiffness = true;
+  read_fields(map, section);
+  if (map.require("rotary_inertia") != nullptr)
+    read_pair(map, "rotary_inertia", section.rotary_inertia_y, section.rotary_inertia_z);
+  if (values.kind != YamlKind::map) {
+    context.fail(values.place, "stiffness is not a map",
+                 "write {EA: 1e7, GAy: 3e6, GAz: 3e6, EIy: 1e3, EIz: 1e3, GJ: 8e2}");
+    return section;
+  }
+  read_fields(MapReader(context, values, "section_stiffness", prefix + "stiffness."), section);
+  section.polar_moment = section.second_moment_y + section.second_moment_z;
   return section;
 }
 
@@ -33,7 +54,7 @@ Section read_constants(const Context& context, const YamlNode& node, const std::
 
 std::vector<NamedType> section_types() {
   static const std::string either = [] {
-    std::string text = "section_constants";
+    std::string text = "section_constants | section_by_stiffness";
     for (const KeySet& set : shape_key_sets())
       if (set.noun != "section_wall") text += fmt::format(" | {}", set.noun);
     return text;
@@ -66,6 +87,24 @@ std::vector<KeySet> section_key_sets() {
          "[y, z] of the centroid from the axis of the beam, the line through its points [length]", "[0, 0]"},
         {"shear_center", "section_point",
          "[y, z] of the shear centre from the centroid: forces beside it twist the beam [length]", "[0, 0]"}}}};
+  sets.push_back(
+      {"section_by_stiffness",
+       {{"stiffness", "section_stiffness", "the map of the next table, instead of constants or a shape; no `material`",
+         "required"},
+        plain<&Section::mass_per_length>("mass_per_length", "positive", "[mass/length]", "required"),
+        {"rotary_inertia", "section_point",
+         "[about y, about z] per length, ∫ρ z² dA and ∫ρ y² dA; about x their sum [mass length]", "required"}}});
+  sets.push_back(
+      {"section_stiffness",
+       {plain<&Section::area>("EA", "positive", "axial stiffness [force]", "required"),
+        plain<&Section::second_moment_y>("EIy", "positive", "bending in the x-z plane [force length²]", "required"),
+        plain<&Section::second_moment_z>("EIz", "positive", "bending in the x-y plane [force length²]", "required"),
+        plain<&Section::torsion_constant>("GJ", "positive", "torsion [force length²]", "required"),
+        plain<&Section::shear_area_y>("GAy", "not_negative",
+                                      "for shear forces along y and z, shear factor included [force]; both or none. "
+                                      "Without them only `theory: euler_bernoulli` is possible",
+                                      "none"),
+        plain<&Section::shear_area_z>("GAz", "not_negative", ditto)}});
   const std::vector<KeySet> shapes = shape_key_sets();
   sets.insert(sets.end(), shapes.begin(), shapes.end());
   return sets;
@@ -81,9 +120,10 @@ Material read_material(const Context& context, const YamlNode& node, const std::
 }
 
 Section read_section(const Context& context, const YamlNode& node, const Units& units, const std::string& prefix) {
-  const YamlNode* shape = find_child(node, "shape");
-  Section section =
-      shape != nullptr ? read_shape(context, node, *shape, units, prefix) : read_constants(context, node, prefix);
+  const YamlNode *shape = find_child(node, "shape"), *stiffness = find_child(node, "stiffness");
+  Section section = shape != nullptr       ? read_shape(context, node, *shape, units, prefix)
+                    : stiffness != nullptr ? read_by_stiffness(context, node, *stiffness, prefix)
+                                           : read_constants(context, node, prefix);
   section.name = node.key;
   section.where = context.entry;
   return section;
@@ -125,14 +165,27 @@ void check_section(const Section& section, const std::string& subject, const std
       faults.add(section.where, prefix + key, fmt::format("{}: {} {:g} must be positive or 0", subject, key, value),
                  "");
   };
-  positive("A", section.area);
+  if (section.by_stiffness) {
+    positive("mass_per_length", section.mass_per_length);
+    const double y = section.rotary_inertia_y, z = section.rotary_inertia_z;
+    if (!(y >= 0.0 && z >= 0.0 && y + z > 0.0) || !std::isfinite(y + z))
+      faults.add(section.where, prefix + "rotary_inertia",
+                 fmt::format("{}: rotary_inertia [{:g}, {:g}] must be positive", subject, y, z), "");
+  }
+  struct Words {
+    const char *area, *Iy, *Iz, *J, *shear_y, *shear_z;
+  };
+  const Words words = section.by_stiffness ? Words{"stiffness.EA", "stiffness.EIy", "stiffness.EIz",
+                                                   "stiffness.GJ", "stiffness.GAy", "stiffness.GAz"}
+                                           : Words{"A", "Iy", "Iz", "J", "shear_area_y", "shear_area_z"};
+  positive(words.area, section.area);
   if (section.shape == "rod") {
     positive_or_zero("J", section.torsion_constant);
     return;
   }
-  positive("Iy", section.second_moment_y);
-  positive("Iz", section.second_moment_z);
-  positive("J", section.torsion_constant);
+  positive(words.Iy, section.second_moment_y);
+  positive(words.Iz, section.second_moment_z);
+  positive(words.J, section.torsion_constant);
   const double Iyz = section.second_moment_yz, product = section.second_moment_y * section.second_moment_z;
   if (!(Iyz * Iyz < product) && product > 0.0)
     faults.add(section.where, prefix + "Iyz",
@@ -140,11 +193,12 @@ void check_section(const Section& section, const std::string& subject, const std
   for (const double value : {section.centroid_y, section.centroid_z, section.shear_center_y, section.shear_center_z})
     if (!std::isfinite(value))
       faults.add(section.where, "", fmt::format("{}: centroid or shear centre is not finite", subject), "");
-  positive_or_zero("shear_area_y", section.shear_area_y);
-  positive_or_zero("shear_area_z", section.shear_area_z);
+  positive_or_zero(words.shear_y, section.shear_area_y);
+  positive_or_zero(words.shear_z, section.shear_area_z);
   if ((section.shear_area_y == 0.0) != (section.shear_area_z == 0.0))
-    faults.add(section.where, prefix + (section.shear_area_y == 0.0 ? "shear_area_y" : "shear_area_z"),
-               fmt::format("{}: only one of the two shear areas is given", subject),
+    faults.add(section.where, prefix + (section.shear_area_y == 0.0 ? words.shear_y : words.shear_z),
+               fmt::format("{}: only one of {} is given", subject,
+                           section.by_stiffness ? "GAy and GAz" : "the two shear areas"),
                "give both, or neither for beams without shear deformation");
   const double polar = section.second_moment_y + section.second_moment_z;
   if (polar > 0.0 && std::abs(section.polar_moment - polar) > 1e-9 * polar)

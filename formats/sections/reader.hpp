@@ -17,7 +17,7 @@ std::vector<NamedType> section_types();
 /// `context` names the entry; `prefix` precedes the keys in findings when the map stands inside another entry.
 Material read_material(const Context& context, const YamlNode& node, const std::string& prefix);
 
-/// By constants or by `shape`. Sizes that contradict each other are errors here, since a Section no longer knows them.
+/// By constants, by `shape` or by `stiffness`. Sizes that contradict each other are errors here, since a Section no longer knows them.
 Section read_section(const Context& context, const YamlNode& node, const Units& units, const std::string& prefix);
 
 /// The top-level maps `materials` and `sections`.

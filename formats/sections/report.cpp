@@ -14,7 +14,22 @@ std::string line(const std::string& words, const std::string& symbol, double val
   return fmt::format("  {:<34} {:<6} {:>13.6g}{}\n", words, symbol, value + 0.0, end);  // + 0.0: no minus zero
 }
 
+std::string section_by_stiffness(const Section& s, const Units& units) {
+  const std::string force = unit_label(units, 1, 1, -2), bending = unit_label(units, 3, 1, -2);
+  std::string text = fmt::format("section '{}' (by stiffness)\n", s.name);
+  text += line("axial stiffness", "EA", s.area, force);
+  text += line("torsional stiffness", "GJ", s.torsion_constant, bending);
+  text += line("bends in x-z", "EIy", s.second_moment_y, bending);
+  text += line("bends in x-y", "EIz", s.second_moment_z, bending);
+  text += line("shear stiffness along y", "GAy", s.shear_area_y, force);
+  text += line("shear stiffness along z", "GAz", s.shear_area_z, force);
+  text += line("mass per length", "", s.mass_per_length, unit_label(units, -1, 1, 0));
+  text += line("rotary inertia per length, about y", "", s.rotary_inertia_y, unit_label(units, 1, 1, 0));
+  return text + line("rotary inertia per length, about z", "", s.rotary_inertia_z, unit_label(units, 1, 1, 0));
+}
+
 std::string one_section(const Section& s, const Units& units) {
+  if (s.by_stiffness) return section_by_stiffness(s, units);
   const auto unit = [&units](int power) { return unit_label(units, power, 0, 0); };
   std::string text = fmt::format("section '{}'{}\n", s.name, s.shape.empty() ? "" : " (" + s.shape + ")");
   text += line("area", "A", s.area, unit(2));

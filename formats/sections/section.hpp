@@ -15,10 +15,14 @@ struct Material {
   std::string where;
 };
 
+/// What stands for the material of a section that is given by stiffness: E = G = 1, no density.
+inline Material unit_material(const std::string& where) { return {"", 1.0, -0.5, 0.0, where}; }
+
 /// Constants of a section in its local axes: x along the beam, y and z across. All moments are about the centroid.
 /// Shear areas 0: no shear deformation (Euler-Bernoulli). Iy = Iz = 0: a rod, which bends without resistance. The
 /// fields below `where` are zero for a section whose axes are principal and whose centroid and shear centre lie on the
-/// axis.
+/// axis. By stiffness: all constants are multiplied by E or G already (area is EA, shear areas are GA, torsion_constant
+/// is GJ), the material is unit_material(), and mass and rotary inertia are given.
 struct Section {
   std::string name;
   double area = 0.0;
@@ -38,6 +42,24 @@ struct Section {
   double warping_constant = 0.0;   ///< about the shear centre; for reports, no element uses it
   std::string shape = {};          ///< word of PART.md with which `sizes` made the constants; empty: by constants
   std::vector<double> sizes = {};  ///< in the order of the table in PART.md
+  bool by_stiffness = false;
+  double mass_per_length = 0.0;   ///< of a section by stiffness, as the next two: rotary inertias per length
+  double rotary_inertia_y = 0.0;  ///< about y: ∫ρ z² dA
+  double rotary_inertia_z = 0.0;  ///< about z: ∫ρ y² dA
 };
+
+/// Mass and rotary inertias per length about the centroid; about_x = about_y + about_z.
+struct SectionInertia {
+  double mass = 0.0, about_x = 0.0, about_y = 0.0, about_z = 0.0;
+  double about_yz = 0.0;  ///< ∫ρ y z dA
+};
+
+inline SectionInertia section_inertia(const Section& s, const Material& material) {
+  if (s.by_stiffness)
+    return {s.mass_per_length, s.rotary_inertia_y + s.rotary_inertia_z, s.rotary_inertia_y, s.rotary_inertia_z, 0.0};
+  const double rho = material.density;
+  return {rho * s.area, rho * s.polar_moment, rho * s.second_moment_y, rho * s.second_moment_z,
+          rho * s.second_moment_yz};
+}
 
 }  // namespace tisserand::formats

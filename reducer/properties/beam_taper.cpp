@@ -10,11 +10,11 @@ namespace {
 
 using formats::Section;
 
-constexpr std::array<double Section::*, 13> constants{
-    &Section::area,           &Section::second_moment_y, &Section::second_moment_z, &Section::torsion_constant,
-    &Section::polar_moment,   &Section::shear_area_y,    &Section::shear_area_z,    &Section::second_moment_yz,
-    &Section::centroid_y,     &Section::centroid_z,      &Section::shear_center_y,  &Section::shear_center_z,
-    &Section::shear_coupling,
+constexpr std::array<double Section::*, 16> constants{
+    &Section::area,           &Section::second_moment_y, &Section::second_moment_z,  &Section::torsion_constant,
+    &Section::polar_moment,   &Section::shear_area_y,    &Section::shear_area_z,     &Section::second_moment_yz,
+    &Section::centroid_y,     &Section::centroid_z,      &Section::shear_center_y,   &Section::shear_center_z,
+    &Section::shear_coupling, &Section::mass_per_length, &Section::rotary_inertia_y, &Section::rotary_inertia_z,
 };
 
 }  // namespace
@@ -52,6 +52,7 @@ std::vector<Section> stations_between(const std::vector<Section>& stations, doub
 
 Section constants_at(const std::vector<Section>& stations, double xi) {
   Section result;
+  result.by_stiffness = stations[0].by_stiffness;
   const std::size_t n = stations.size();
   const double place = xi * static_cast<double>(n - 1);
   for (std::size_t i = 0; i < n; ++i) {

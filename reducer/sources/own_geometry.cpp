@@ -100,7 +100,8 @@ int MeshBuilder::add_node(const Eigen::Vector3d& x, std::string name) {
 BeamElementData beam_data(const formats::Part& part, const formats::BeamLine& line) {
   BeamElementData data;
   data.section = find_named(part.sections, line.section, "section", line);
-  data.material = find_named(part.materials, line.material, "material", line);
+  data.material = data.section.by_stiffness ? formats::unit_material(line.where)
+                                            : find_named(part.materials, line.material, "material", line);
   data.theory = line.theory;
   data.mass_matrix = line.mass_matrix;
   data.rotary_inertia = line.rotary_inertia ? RotaryInertia::with : RotaryInertia::without;

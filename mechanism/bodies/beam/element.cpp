@@ -93,10 +93,10 @@ BeamElement<N> make_beam_element(const BeamReference<N>& reference, const format
   element.force_stiffness = {E * section.area, G * section.shear_area_y, G * section.shear_area_z};
   element.moment_stiffness = {G * section.torsion_constant, E * section.second_moment_y, E * section.second_moment_z};
   if constexpr (N == 2) add_residual_bending(element);
-  element.mass = material.density * section.area * reference.length;
-  const Eigen::Vector3d inertia = material.density * reference.length *
-                                  Eigen::Vector3d(section.second_moment_y + section.second_moment_z,
-                                                  section.second_moment_y, section.second_moment_z);
+  const formats::SectionInertia rotary = formats::section_inertia(section, material);
+  element.mass = rotary.mass * reference.length;
+  const Eigen::Vector3d inertia =
+      reference.length * Eigen::Vector3d(rotary.about_y + rotary.about_z, rotary.about_y, rotary.about_z);
   beam::Configuration<double, N> q;
   for (int i = 0; i < N; ++i) {
     const Eigen::Matrix3d& D = reference.section[i];

@@ -77,31 +77,33 @@ Matrix4 bending_mass(double rho_A, double rho_I, double L, double phi) {
   return m;
 }
 
-double bending_rotary(const BeamElementData& beam, double second_moment) {
-  return beam.rotary_inertia == RotaryInertia::with ? beam.material.density * second_moment : 0.0;
+formats::SectionInertia inertia_of(const BeamElementData& beam) {
+  formats::SectionInertia inertia = formats::section_inertia(beam.section, beam.material);
+  if (beam.rotary_inertia == RotaryInertia::without) inertia.about_y = inertia.about_z = 0.0;
+  return inertia;
 }
 
 Matrix12 consistent_mass(const BeamElementData& beam) {
-  const double rho = beam.material.density, L = beam.length;
-  const double rho_A = rho * beam.section.area;
+  const double L = beam.length;
+  const formats::SectionInertia inertia = inertia_of(beam);
   const ShearFlexibility phi = shear_flexibility(beam);
   Eigen::Matrix2d linear;
   linear << 2.0, 1.0, 1.0, 2.0;
   linear *= L / 6.0;
   Matrix12 m = Matrix12::Zero();
-  add_pair(0, 6, rho_A * linear, m);
-  add_pair(3, 9, rho * beam.section.polar_moment * linear, m);
-  add_plane(plane_xy, bending_mass(rho_A, bending_rotary(beam, beam.section.second_moment_z), L, phi.xy), m);
-  add_plane(plane_xz, bending_mass(rho_A, bending_rotary(beam, beam.section.second_moment_y), L, phi.xz), m);
+  add_pair(0, 6, inertia.mass * linear, m);
+  add_pair(3, 9, inertia.about_x * linear, m);
+  add_plane(plane_xy, bending_mass(inertia.mass, inertia.about_z, L, phi.xy), m);
+  add_plane(plane_xz, bending_mass(inertia.mass, inertia.about_y, L, phi.xz), m);
   return m;
 }
 
 Matrix12 lumped_mass(const BeamElementData& beam) {
-  const double half = 0.5 * beam.length * beam.material.density;
-  const double bending = beam.rotary_inertia == RotaryInertia::with ? half : 0.0;
+  const double half = 0.5 * beam.length;
+  const formats::SectionInertia inertia = inertia_of(beam);
   Eigen::Matrix<double, 6, 1> node;
-  node << Eigen::Vector3d::Constant(half * beam.section.area), half * beam.section.polar_moment,
-      bending * beam.section.second_moment_y, bending * beam.section.second_moment_z;
+  node << Eigen::Vector3d::Constant(half * inertia.mass), half * inertia.about_x, half * inertia.about_y,
+      half * inertia.about_z;
   Matrix12 m = Matrix12::Zero();
   m.diagonal() << node, node;
   return m;

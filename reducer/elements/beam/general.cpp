@@ -73,17 +73,18 @@ void add_mass(double mass, double y, double z, Matrix6& mu) {
 
 /// Mass per length about the axis, [translation; rotation].
 Matrix6 section_mass(const BeamElementData& beam, const Section& s, double x) {
-  const double rho = beam.material.density, xi = x / beam.length;
+  const double xi = x / beam.length;
+  const formats::SectionInertia inertia = formats::section_inertia(s, beam.material);
   const AddedMass& added = beam.added_mass;
   Matrix6 mu = Matrix6::Zero();
-  add_mass(rho * s.area, s.centroid_y, s.centroid_z, mu);
+  add_mass(inertia.mass, s.centroid_y, s.centroid_z, mu);
   add_mass((1.0 - xi) * added.first + xi * added.second, added.offset_y, added.offset_z, mu);
-  mu(3, 3) += rho * s.polar_moment + added.inertia;
+  mu(3, 3) += inertia.about_x + added.inertia;
   if (beam.rotary_inertia == RotaryInertia::with) {
-    mu(4, 4) += rho * s.second_moment_y;
-    mu(5, 5) += rho * s.second_moment_z;
-    mu(4, 5) -= rho * s.second_moment_yz;
-    mu(5, 4) -= rho * s.second_moment_yz;
+    mu(4, 4) += inertia.about_y;
+    mu(5, 5) += inertia.about_z;
+    mu(4, 5) -= inertia.about_yz;
+    mu(5, 4) -= inertia.about_yz;
   }
   return mu;
 }

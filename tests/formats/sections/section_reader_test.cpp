@@ -120,6 +120,77 @@ TEST(SectionReader, FaultsAreNamed) {
   EXPECT_EQ(error("{shape: rod, A: 1, J: -1}"), "p.yaml:4:28: section 's': J -1 must be positive or 0");
 }
 
+const std::string by_stiffness =
+    "{stiffness: {EA: 1e7, GAy: 3e6, GAz: 2e6, EIy: 40, EIz: 50, GJ: 60}, mass_per_length: 0.3, rotary_inertia: [2e-4, "
+    "5e-4]}";
+
+TEST(SectionReader, ByStiffness) {
+  const Folder folder;
+  const auto part = [&folder](const std::string& section, const std::string& material) {
+    return read_part(folder.file("p.yaml", "part: p\nsections:\n  s: " + section +
+                                               "\nmaterials: {steel: {E: 2.1e11, nu: 0.3, density: 7800}}\npoints: {a: "
+                                               "[0, 0, 0], b: [1, 0, 0]}\nbeams: {l: {from: a, to: b, section: s, " +
+                                               material + "elements: 2}}\nboundary: [a, b]\nmodes: 2\n"),
+                     {});
+  };
+  const Section s = part(by_stiffness, "").sections.at(0);
+  EXPECT_TRUE(s.by_stiffness);
+  EXPECT_EQ(s.area, 1e7);
+  EXPECT_EQ(s.shear_area_y, 3e6);
+  EXPECT_EQ(s.shear_area_z, 2e6);
+  EXPECT_EQ(s.second_moment_y, 40.0);
+  EXPECT_EQ(s.second_moment_z, 50.0);
+  EXPECT_EQ(s.torsion_constant, 60.0);
+  const SectionInertia inertia = section_inertia(s, unit_material(""));
+  EXPECT_EQ(inertia.mass, 0.3);
+  EXPECT_EQ(inertia.about_y, 2e-4);
+  EXPECT_EQ(inertia.about_z, 5e-4);
+  EXPECT_EQ(inertia.about_x, 7e-4);
+  EXPECT_EQ(unit_material("").shear_modulus(), 1.0);
+
+  const auto error = [&](const std::string& section, const std::string& material) {
+    return error_of(folder, [&] { part(section, material); });
+  };
+  const auto changed = [](const std::string& from, const std::string& to) {
+    std::string text = by_stiffness;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  const auto has = [&](const std::string& section, const std::string& words) {
+    const std::string text = error(section, "");
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+  };
+  EXPECT_EQ(error(by_stiffness, "material: steel, "),
+            "p.yaml:6:43: beam 'l': 'material' beside a section by stiffness; remove it: the section needs none");
+  has("{shape: circle, radius: 0.1}", "beam 'l' has no 'material'; add it, or give the section by stiffness");
+  has(changed("EA: 1e7, ", ""), "EA");
+  has(changed("GJ: 60", "GJ: -60"), "section 's': stiffness.GJ -60 must be positive");
+  has(changed("GAy: 3e6, ", ""), "section 's': only one of GAy and GAz is given");
+  has(changed("mass_per_length: 0.3, ", ""), "mass_per_length");
+  has(changed("mass_per_length: 0.3", "mass_per_length: -1"), "mass_per_length -1 must be positive");
+  has(changed(", rotary_inertia: [2e-4, 5e-4]", ""), "rotary_inertia");
+  has(changed("[2e-4, 5e-4]", "[2e-4, -5e-4]"), "rotary_inertia [0.0002, -0.0005] must be positive");
+  has(changed("[2e-4, 5e-4]", "[2e-4]"), "rotary_inertia has 1 numbers");
+  has("{stiffness: 3, mass_per_length: 1, rotary_inertia: [1, 1]}", "stiffness is not a map");
+  has(changed("mass_per_length", "A: 1, mass_per_length"), "'A'");
+}
+
+TEST(SectionReader, BeamsOfScenesByStiffness) {
+  const Folder folder;
+  const auto text = [](const std::string& more) {
+    return "scene: s\nbodies:\n  rod: {type: beam, from: [0, 0, 0], to: [1, 0, 0], elements: 2, " + more +
+           "section: " + by_stiffness + "}\nintegrator: {step: 0.01, end: 0.1}\n";
+  };
+  const Scene scene = read_scene(folder.file("s.yaml", text("")), {});
+  const auto& rod = std::get<BeamBodySpec>(scene.bodies.at(0));
+  EXPECT_EQ(rod.section.area, 1e7);
+  EXPECT_EQ(rod.material.youngs_modulus, 1.0);
+  EXPECT_NE(
+      error_of(folder,
+               [&] { read_scene(folder.file("s.yaml", text("material: {E: 1e11, nu: 0.3, density: 7800}, ")), {}); })
+          .find("body 'rod': 'material' beside a section by stiffness; remove it"),
+      std::string::npos);
+}
+
 /// The geometrically exact beams of `mechanism` know one axis for bending, torsion and mass.
 TEST(SectionReader, NonlinearBeamsNeedPrincipalAxes) {
   const Folder folder;

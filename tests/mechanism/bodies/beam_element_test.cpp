@@ -253,6 +253,38 @@ TYPED_TEST(BeamElementTest, RotatingStraightRodHasTheMomentumOfTheContinuum) {
   EXPECT_NEAR(energy(element, nodes, Vector3d::Zero()).kinetic, 0.5 * omega.dot(J.cwiseProduct(omega)), 1e-14);
 }
 
+// EA, GA, EI, GJ, mass and rotary inertia per length instead of shape and material: the same element to rounding.
+TYPED_TEST(BeamElementTest, SectionByStiffnessIsTheSameElement) {
+  constexpr int N = TypeParam::value;
+  BeamReference<N> reference;
+  reference.length = 2.0;
+  for (int i = 0; i < N; ++i) {
+    reference.nodes[i] = i;
+    reference.position[i] = {2.0 * i / (N - 1), 0, 0};
+    reference.section[i].setIdentity();
+  }
+  const formats::Section shape = test::rectangle(0.3, 0.2, 0.001, 0.8);
+  const formats::Material material = test::material(2.0, 0.3, 3.0);
+  formats::Section stiffness;
+  const double E = 2.0, G = material.shear_modulus(), rho = 3.0;
+  stiffness.by_stiffness = true;
+  stiffness.area = E * shape.area;
+  stiffness.second_moment_y = E * shape.second_moment_y;
+  stiffness.second_moment_z = E * shape.second_moment_z;
+  stiffness.torsion_constant = G * shape.torsion_constant;
+  stiffness.shear_area_y = G * shape.shear_area_y;
+  stiffness.shear_area_z = G * shape.shear_area_z;
+  stiffness.mass_per_length = rho * shape.area;
+  stiffness.rotary_inertia_y = rho * shape.second_moment_y;
+  stiffness.rotary_inertia_z = rho * shape.second_moment_z;
+  const auto a = make_beam_element<N>(reference, shape, material);
+  const auto b = make_beam_element<N>(reference, stiffness, formats::unit_material(""));
+  EXPECT_LT((a.force_stiffness - b.force_stiffness).norm(), 1e-15);
+  EXPECT_LT((a.moment_stiffness - b.moment_stiffness).norm(), 1e-15);
+  EXPECT_NEAR(a.mass, b.mass, 1e-15);
+  for (int i = 0; i < N; ++i) EXPECT_LT((a.inertia[i] - b.inertia[i]).norm(), 1e-15);
+}
+
 // Pure torsion and pure bending with constant curvature: resultants are C_m κ, whatever the amount below π.
 TYPED_TEST(BeamElementTest, ConstantTwistGivesItsTorque) {
   constexpr int N = TypeParam::value;

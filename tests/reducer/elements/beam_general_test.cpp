@@ -57,6 +57,48 @@ Eigen::Matrix<double, 12, 6> rigid(double length, double from) {
   return R;
 }
 
+/// The same section with E, G and ρ multiplied in: all matrices agree to rounding.
+Section by_stiffness(const Section& s) {
+  Section result = s;
+  result.by_stiffness = true;
+  result.shape.clear();
+  result.area *= E;
+  result.second_moment_y *= E;
+  result.second_moment_z *= E;
+  result.polar_moment = result.second_moment_y + result.second_moment_z;
+  result.torsion_constant *= G;
+  result.shear_area_y *= G;
+  result.shear_area_z *= G;
+  result.mass_per_length = rho * s.area;
+  result.rotary_inertia_y = rho * s.second_moment_y;
+  result.rotary_inertia_z = rho * s.second_moment_z;
+  return result;
+}
+
+TEST(BeamByStiffness, MatricesAreThoseOfShapeAndMaterial) {
+  const Section wide = formats::rectangle_section(0.05, 0.1), thin = formats::rectangle_section(0.03, 0.08);
+  for (const bool tapered : {false, true})
+    for (const MassMatrix mass : {MassMatrix::consistent, MassMatrix::lumped})
+      for (const RotaryInertia rotary : {RotaryInertia::with, RotaryInertia::without}) {
+        BeamElementData shape = beam_with(wide, 0.7);
+        shape.mass_matrix = mass;
+        shape.rotary_inertia = rotary;
+        BeamElementData stiffness = shape;
+        stiffness.section = by_stiffness(wide);
+        stiffness.material = formats::unit_material("");
+        if (tapered) {
+          shape.stations = {wide, thin};  // linear constants, as those by stiffness
+          stiffness.stations = taper_stations(by_stiffness(wide), by_stiffness(thin));
+        }
+        const auto matrices = [&](const BeamElementData& beam) {
+          return tapered ? general_beam(beam) : BeamMatrices{beam_stiffness(beam), beam_mass(beam)};
+        };
+        const BeamMatrices a = matrices(shape), b = matrices(stiffness);
+        EXPECT_LT((a.stiffness - b.stiffness).norm(), 1e-13 * a.stiffness.norm());
+        EXPECT_LT((a.mass - b.mass).norm(), 1e-13 * a.mass.norm());
+      }
+}
+
 /// Two derivations of the same theory: closed formulas and integrals along the beam.
 TEST(GeneralBeam, OfAPlainBeamIsThePlainOne) {
   for (const BeamTheory theory : {BeamTheory::timoshenko, BeamTheory::euler_bernoulli})
