@@ -23,6 +23,7 @@ struct MarkerTable {
   std::map<std::string, Marker> places;
   std::set<std::string> frames;   ///< places that are the frame of a body, not a node of it
   std::vector<NodeMotion> start;  ///< of each node
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< Model::origin: positions of the scene have it, markers do not
 
   /// The marker that a scene names, with its own offset. Throws Error with the nearest name.
   Marker find(const formats::MarkerSpec& spec) const;
