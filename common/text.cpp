@@ -9,8 +9,10 @@
 #include <atomic>
 #include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <string_view>
 #include <utility>
 
 #include "common/error.hpp"
@@ -52,6 +54,40 @@ bool is_harmless(unsigned value) {
 
 [[noreturn]] void fail(const std::string& action, const std::string& path, int number) {
   throw Error(fmt::format("{}: {}", action, std::strerror(number)), path, remedy_of_errno(number));
+}
+
+/// The text with \xNN for what is no harmless character, cut after `most` bytes. In one line: ends of lines and tabs
+/// are blanks.
+std::string escaped(std::string_view text, bool one_line, std::size_t most) {
+  std::string result;
+  while (!text.empty()) {
+    const Character c = first_character(text);
+    const std::size_t length = std::max<std::size_t>(c.length, 1);
+    const bool blank = text[0] == '\n' || text[0] == '\t' || (one_line && text[0] == '\r');
+    std::string piece(text.substr(0, length));
+    if (blank && one_line)
+      piece = " ";
+    else if (!blank && (c.length == 0 || !is_harmless(c.value))) {
+      std::string bytes;
+      for (const char byte : piece) bytes += fmt::format("\\x{:02x}", static_cast<unsigned char>(byte));
+      piece = bytes;
+    }
+    if (result.size() + piece.size() > most) return result + "...";
+    result += piece;
+    text.remove_prefix(length);
+  }
+  return result;
+}
+
+/// The descriptor that a name such as /dev/stdout or /dev/fd/5 means, or -1.
+int own_stream(const std::string& path) {
+  if (path == "/dev/stdout") return STDOUT_FILENO;
+  if (path == "/dev/stderr") return STDERR_FILENO;
+  constexpr std::string_view folder = "/dev/fd/";
+  int number = -1;
+  if (!path.starts_with(folder)) return number;
+  const char* end = path.data() + path.size();
+  return std::from_chars(path.data() + folder.size(), end, number).ptr == end ? number : -1;
 }
 
 }  // namespace
@@ -121,22 +157,9 @@ std::string listed(const std::vector<std::string>& names, const std::string& sep
   return more == 0 ? text : fmt::format("{} and {} more", text, more);
 }
 
-std::string printable(std::string_view text, std::size_t most) {
-  std::string result;
-  while (!text.empty()) {
-    const Character c = first_character(text);
-    const std::size_t length = std::max<std::size_t>(c.length, 1);
-    if (result.size() + length > most) return result + "...";
-    if (text[0] == '\n' || text[0] == '\r' || text[0] == '\t')
-      result += ' ';
-    else if (c.length > 0 && is_harmless(c.value))
-      result += text.substr(0, length);
-    else
-      result += '?';
-    text.remove_prefix(length);
-  }
-  return result;
-}
+std::string printable(std::string_view text) { return escaped(text, false, std::string::npos); }
+
+std::string printable_line(std::string_view text, std::size_t most) { return escaped(text, true, most); }
 
 bool matches_wildcard(const std::string& text, const std::string& pattern) {
   std::size_t t = 0, p = 0, star = std::string::npos, resume = 0;
@@ -184,7 +207,9 @@ std::string temporary_beside(const std::string& path) {
 
 TextFile::TextFile(const std::string& path) : path_(path) {
   if (is_stream(path)) {
-    file_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    // Opened by its name, a file behind it would be written from its beginning: over what the shell's >> is to keep.
+    const int own = own_stream(path);
+    file_ = own >= 0 ? ::fcntl(own, F_DUPFD_CLOEXEC, 0) : ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (file_ < 0) fail("cannot open", path_, errno);
     return;
   }

@@ -31,12 +31,16 @@ std::string listed(const std::vector<std::string>& names, const std::string& sep
 /// Whether `text` matches `pattern`, in which * stands for any run of characters (also none, also with /).
 bool matches_wildcard(const std::string& text, const std::string& pattern);
 
-/// Text of a file for messages and JSON: control characters, marks that turn the direction of writing, and bytes that
-/// are no UTF-8 become ?, line ends and tabs blanks; at most `most` bytes, then "...".
-std::string printable(std::string_view text, std::size_t most);
+/// The text with what terminals would obey or stumble over as \xNN: control characters but line ends and tabs, marks
+/// that turn the direction of writing, and bytes that are no UTF-8. Names and messages may come from damaged or foreign
+/// files.
+std::string printable(std::string_view text);
+
+/// The same in one line: blanks for line ends and tabs; at most `most` bytes, then "...".
+std::string printable_line(std::string_view text, std::size_t most);
 
 /// A text file that grows beside its name and takes it in publish(); without that, nothing is left. Streams such as
-/// /dev/stdout are written as they are. Throws Error.
+/// /dev/stdout are written as they are, those of the program where it stands in them. Throws Error.
 class TextFile {
  public:
   explicit TextFile(const std::string& path);

@@ -180,7 +180,7 @@ std::string last_message(std::string text) {
     text.erase(std::min(text.find('\n'), text.size()));
   }
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
-  return printable(text.substr(text.rfind('\n') + 1), 300);  // npos + 1 is 0
+  return printable_line(text.substr(text.rfind('\n') + 1), 300);  // npos + 1 is 0
 }
 
 /// The bytes of phases at the beginning are cut off.

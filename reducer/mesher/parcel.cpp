@@ -48,7 +48,7 @@ class Unpacker {
   }
   bool flag() { return value<std::uint8_t>() != 0; }
   std::string raw_text() { return std::string(take(size(1))); }
-  std::string text() { return printable(raw_text(), longest_text); }
+  std::string text() { return printable_line(raw_text(), longest_text); }
   template <class T>
   std::vector<T> row() {
     static_assert(std::is_arithmetic_v<T>);

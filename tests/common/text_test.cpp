@@ -65,13 +65,15 @@ TEST(Text, JoinPutsTheSeparatorBetween) {
 
 /// Well-formed UTF-8 is that of RFC 3629, section 4.
 TEST(Text, PrintableKeepsLettersAndDropsWhatMovesTerminals) {
-  EXPECT_EQ(printable("Träger 7, \xe4\xb8\xad \xf0\x9f\x99\x82", 100), "Träger 7, \xe4\xb8\xad \xf0\x9f\x99\x82");
-  EXPECT_EQ(printable("a\x1b[2Jb\x7f", 100), "a?[2Jb?");
-  EXPECT_EQ(printable("a\nb\tc\rd", 100), "a b c d");
-  EXPECT_EQ(printable("\xc2\x9b\xe2\x80\xae", 100), "??") << "control sequence introducer, right-to-left override";
-  EXPECT_EQ(printable("\xff\xc3\xc0\xaf\xed\xa0\x80", 100), "???????") << "no UTF-8: cut, overlong, surrogate";
-  EXPECT_EQ(printable("abcdef", 3), "abc...");
-  EXPECT_EQ(printable("äää", 3), "ä...") << "letters are not cut";
+  EXPECT_EQ(printable_line("Träger 7, \xe4\xb8\xad \xf0\x9f\x99\x82", 100), "Träger 7, \xe4\xb8\xad \xf0\x9f\x99\x82");
+  EXPECT_EQ(printable_line("a\x1b[2Jb\x7f", 100), "a\\x1b[2Jb\\x7f");
+  EXPECT_EQ(printable_line("a\nb\tc\rd", 100), "a b c d");
+  EXPECT_EQ(printable_line("\xc2\x9b\xe2\x80\xae", 100), "\\xc2\\x9b\\xe2\\x80\\xae")
+      << "control sequence introducer, right-to-left override";
+  EXPECT_EQ(printable_line("\xff\xc3\xc0\xaf\xed\xa0\x80", 100), "\\xff\\xc3\\xc0\\xaf\\xed\\xa0\\x80")
+      << "no UTF-8: cut, overlong, surrogate";
+  EXPECT_EQ(printable_line("abcdef", 3), "abc...");
+  EXPECT_EQ(printable_line("äää", 3), "ä...") << "letters are not cut";
 }
 
 TEST(Text, WildcardsMatchAnyRun) {
@@ -123,6 +125,17 @@ TEST(Text, UnwritablePlacesAreErrorsWithRemedy) {
   EXPECT_THAT(error_of("/proc/self/a"), ::testing::HasSubstr("/proc/self/a: cannot create the file"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), std::filesystem::directory_iterator()),
             2);
+}
+
+TEST(Text, PrintableEscapesWhatTerminalsObeyAndWhatIsNoText) {
+  EXPECT_EQ(printable("leg\t\xc2\xb2 \xe2\x82\xac\n"),
+            "leg\t\xc2\xb2 \xe2\x82\xac\n");  // superscript two, the euro sign
+  EXPECT_EQ(printable("\x1b[31mred\r\x7f"), "\\x1b[31mred\\x0d\\x7f");
+  EXPECT_EQ(printable("\xff \xc3"), "\\xff \\xc3");
+  EXPECT_EQ(printable("\xc2\x9b"), "\\xc2\\x9b");                    // the control character U+009B
+  EXPECT_EQ(printable("\xc0\xaf"), "\\xc0\\xaf");                    // a longer form of /
+  EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");           // half of a surrogate pair
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");  // beyond U+10FFFF
 }
 
 }  // namespace
