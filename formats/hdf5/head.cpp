@@ -24,12 +24,6 @@ void write_unit(Id file, const std::string& name, const Unit& unit, const std::s
   write_text_attribute(file, "/", name + "_label", unit.label, where);
 }
 
-std::string printable(const std::string& text) {
-  std::string result;
-  for (const char c : text.substr(0, 60)) result += c >= 32 && c < 127 ? c : '?';
-  return result;
-}
-
 void check_unit(const Units& units, const Unit& unit, const std::string& name, Unit (*find)(const std::string&),
                 const std::string& where) {
   const std::string place = fmt::format("{}attribute '{}'", where.empty() ? "" : where + ": ", name);
@@ -47,7 +41,7 @@ void check_unit(const Units& units, const Unit& unit, const std::string& name, U
     return;  // labels of other units are free
   }
   if (std::abs(known.factor - unit.factor) > 1e-9 * known.factor)
-    throw Error(fmt::format("is {}, but its label '{}' means {}", unit.factor, printable(unit.label), known.factor),
+    throw Error(fmt::format("is {}, but its label '{}' means {}", unit.factor, printable_line(unit.label, 60), known.factor),
                 place, "correct the number or the label");
 }
 

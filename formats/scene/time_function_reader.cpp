@@ -42,11 +42,18 @@ TimeTable read_file(const Context& context, const YamlNode& node, const std::str
   }
 }
 
+TimeTable with_motion(const MapReader& map, TimeTable table) {
+  if (map.has("interpolation")) table.motion = map.choice("interpolation", table_motions, TableMotion::smooth);
+  return table;
+}
+
 TimeFunctionSpec read_map(const MapReader& map, const std::string& folder) {
   const int forms = (map.has("table") ? 1 : 0) + (map.has("file") ? 1 : 0) + (map.has("expression") ? 1 : 0);
   if (forms != 1) map.fail(fmt::format("{} of table, file, expression are given", forms), "give one of them");
-  if (const YamlNode* table = map.find("table")) return read_table(map.context(), *table);
-  if (const YamlNode* file = map.find("file")) return read_file(map.context(), *file, folder);
+  if (const YamlNode* table = map.find("table")) return with_motion(map, read_table(map.context(), *table));
+  if (const YamlNode* file = map.find("file")) return with_motion(map, read_file(map.context(), *file, folder));
+  if (const YamlNode* key = map.find("interpolation"))
+    map.context().fail(key->key_place, "'interpolation' belongs to tables", "remove it");
   TimeExpression expression;
   if (const YamlNode* text = map.find("expression")) {
     expression.text = read_text(map.context(), *text, "expression");
@@ -74,17 +81,28 @@ void check_times(const std::vector<double>& times, const std::string& noun, cons
   }
 }
 
-}  // namespace
-
-TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node, const std::string& what,
-                                    const std::string& folder) {
+/// `noun`: the list of keys that a map may have.
+TimeFunctionSpec read_function_of_time(const Context& context, const YamlNode& node, const std::string& what,
+                                       const std::string& folder, const char* noun) {
   if (node.kind == YamlKind::map) {
     const Context inner{context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
-    return read_map(MapReader(inner, node, "time_function", what + "."), folder);
+    return read_map(MapReader(inner, node, noun, what + "."), folder);
   }
   if (node.kind == YamlKind::scalar && !looks_like_number(node))
     return TimeExpression{node.text, {}, context.reader.where(node.place)};
   return read_number(context, node, what);
+}
+
+}  // namespace
+
+TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node, const std::string& what,
+                                    const std::string& folder) {
+  return read_function_of_time(context, node, what, folder, "time_function");
+}
+
+TimeFunctionSpec read_motion_function(const Context& context, const YamlNode& node, const std::string& what,
+                                      const std::string& folder) {
+  return read_function_of_time(context, node, what, folder, "motion_function");
 }
 
 void check_time_function(const TimeFunctionSpec& function, const std::string& subject, const std::string& where,
@@ -151,13 +169,14 @@ void check_curve(const CurveSpec& curve, const std::string& subject, const std::
 }
 
 std::vector<KeySet> time_function_key_sets() {
-  return {{"time_function",
-           {{"table", "[[number]2]1..", ""},
-            {"file", "text", ""},
-            {"expression", "text+", ""},
-            {"breakpoints", "[number]", ""}},
-           {},
-           {1, 2}},
+  const std::vector<Field> fields{{"table", "[[number]2]1..", ""},
+                                  {"file", "text", ""},
+                                  {"expression", "text+", ""},
+                                  {"breakpoints", "[number]", ""}};
+  std::vector<Field> of_motions = fields;
+  of_motions.push_back(choice<&TimeTable::motion, table_motions>("interpolation", ""));
+  return {{"time_function", fields, {}, {1, 2}},
+          {"motion_function", of_motions, {}, {1, 2}},
           {"curve",
            {{"table", "[[number]2]2..", ""},
             {"file", "text", ""},

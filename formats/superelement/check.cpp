@@ -37,12 +37,6 @@ bool valid_name(const std::string& name) {
   return letter(name[0]) && std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || digit(c); });
 }
 
-std::string printable(const std::string& text) {
-  std::string result;
-  for (const char c : text.substr(0, 60)) result += c >= 32 && c < 127 ? c : '?';
-  return result;
-}
-
 void check_sizes(const Superelement& e, const Place& place) {
   const Eigen::Index n = e.size(), nodes = static_cast<Eigen::Index>(e.node_name.size());
   const auto fail = [&](const std::string& dataset, const std::string& what, const std::string& remedy) {
@@ -72,7 +66,7 @@ void check_names(const Superelement& e, const Place& place) {
   std::set<std::string> seen;
   for (std::size_t i = 0; i < e.node_name.size(); ++i) {
     if (!valid_name(e.node_name[i]))
-      throw Error(fmt::format("entry {} is '{}', which is no name of a node", i, printable(e.node_name[i])),
+      throw Error(fmt::format("entry {} is '{}', which is no name of a node", i, printable_line(e.node_name[i], 60)),
                   place.dataset("/boundary/name"), "use letters, digits, _ and -, beginning with a letter or _");
     if (!seen.insert(e.node_name[i]).second)
       throw Error(fmt::format("entry {} is '{}', the name of an earlier node", i, e.node_name[i]),

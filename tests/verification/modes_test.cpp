@@ -1,6 +1,7 @@
 // Linearised modes against closed formulas and published frequencies: pendulums, tops, cantilevers at rest and turning.
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -164,6 +165,60 @@ TEST(Modes, OfATopThatSpinsTooSlowlyGrow) {
   for (const Mode& mode : report.modes)
     if (mode.unstable) largest = std::max(largest, mode.eigenvalue.real());
   EXPECT_NEAR(largest, growth, 1e-8 * growth);
+}
+
+// ---- damping by ratios of the free modes --------------------------------------------------------------------------
+
+/// A steel bar of unequal bending stiffnesses, in four elements reduced with `modes` internal modes (0: Guyan).
+ModesReport damped_bar(int modes, const formats::Damping& damping, std::optional<JointKind> at_base) {
+  formats::Scene scene = empty_scene(1e-3, 1.0);
+  formats::SuperelementBodySpec body = test_support::superelement_body("bar", "bar");
+  body.damping = damping;
+  scene.bodies.push_back(body);
+  if (at_base) scene.joints.push_back(joint("base", *at_base, "ground", "bar/base", Vector3d::Zero(), z));
+  SuperelementFiles files;
+  test_support::add_file("bar", test_support::craig_bampton_beam({}, modes), files);
+  Simulation run(scene, files);
+  run.start();
+  formats::ModesSpec spec;
+  spec.count = 40;
+  return modes_of(run, spec);
+}
+
+// D = M Phi diag(2 zeta omega) Phi^T M: each elastic mode of the free body, lowest first, has its ratio, and each rigid
+// motion none. LAPACK's eigenvalues are good to round-off times the square of the spread of frequencies, 1e4 here.
+TEST(Modes, RatiosAreThoseOfTheElasticModesOfTheFreeBody) {
+  for (const int modes : {0, 4}) {
+    formats::Damping damping;
+    damping.ratio = 0.01;
+    damping.ratios = {0.05, 0.3};
+    const ModesReport report = damped_bar(modes, damping, {});
+    EXPECT_EQ(report.rigid, 6);
+    ASSERT_EQ(report.modes.size(), static_cast<std::size_t>(12 + modes));
+    for (std::size_t k = 6; k < report.modes.size(); ++k)
+      EXPECT_NEAR(report.modes[k].damping_ratio(), k == 6 ? 0.05 : k == 7 ? 0.3 : 0.01, 1e-7) << modes << ' ' << k;
+  }
+}
+
+// Joints bend the shapes. With A = M^-1 S, the ratio of a mode psi is zeta <A^(1/2) psi, psi>/omega, which Cauchy and
+// Schwarz keep below zeta: the more equal, the fewer free modes psi is made of. That of internal modes, whose boundary
+// is held, misses the swinging cantilever nearly altogether.
+TEST(Modes, RatiosOfAJointedBodyAreNearlyThoseOfTheFreeOne) {
+  formats::Damping free, internal;
+  free.ratio = internal.ratio_internal = 0.01;
+  for (const JointKind kind : {JointKind::fixed, JointKind::revolute}) {
+    for (const int modes : {0, 4, 8}) {
+      const ModesReport report = damped_bar(modes, free, kind);
+      for (const Mode& mode : report.modes) {
+        if (mode.eigenvalue == 0.0) continue;
+        EXPECT_LE(mode.damping_ratio(), 0.01 * (1.0 + 1e-6));
+        EXPECT_GE(mode.damping_ratio(), 0.005);
+      }
+    }
+    const ModesReport held = damped_bar(8, internal, kind);
+    const std::size_t first = static_cast<std::size_t>(held.rigid);
+    EXPECT_LT(held.modes[first].damping_ratio(), 1e-4);
+  }
 }
 
 // ---- cantilevers ---------------------------------------------------------------------------------------------------
