@@ -1,5 +1,5 @@
 // One function for each thing that can be done to an attribute or a dataset.
-#include "tests/formats/superelement/superelement_container.hpp"
+#include "tests/formats/hdf5/mutated_container.hpp"
 
 #include <hdf5.h>
 
@@ -7,12 +7,14 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "common/error.hpp"
 #include "formats/hdf5/file.hpp"
-#include "tests/support/bodies/beam_superelement.hpp"
 
 namespace tisserand::test_support {
 namespace {
@@ -269,12 +271,12 @@ void put_table(Bytes& bytes, hid_t file, Table table) {
   write_table(file, table, usual, H5P_DEFAULT);
 }
 
-void put_text(Bytes& bytes, hid_t file, const std::string& name, std::string value) {
+void put_text(Bytes& bytes, hid_t object, const std::string& name, std::string value) {
   switch (bytes.byte() % 4) {
     case 1:
       return;
     case 2:
-      foreign_attribute(bytes, file, name);
+      foreign_attribute(bytes, object, name);
       return;
     case 3:
       for (std::size_t k = bytes.below(400); k > 0; --k) value += static_cast<char>(bytes.byte());
@@ -282,38 +284,42 @@ void put_text(Bytes& bytes, hid_t file, const std::string& name, std::string val
     default:
       break;
   }
-  formats::hdf5::write_text_attribute(file, "/", name, value, "");
+  formats::hdf5::write_text_attribute(object, ".", name, value, "");
 }
 
-void put_number(Bytes& bytes, hid_t file, const std::string& name, double value) {
+void put_number(Bytes& bytes, hid_t object, const std::string& name, double value, bool is_integer) {
   switch (bytes.byte() % 4) {
     case 1:
       return;
     case 2:
-      foreign_attribute(bytes, file, name);
+      foreign_attribute(bytes, object, name);
       return;
     case 3:
       value = bytes.number();
+      is_integer = false;
       break;
     default:
       break;
   }
-  formats::hdf5::write_number_attribute(file, "/", name, value, "");
+  if (is_integer)
+    formats::hdf5::write_integer_attribute(object, ".", name, static_cast<std::int32_t>(value), "");
+  else
+    formats::hdf5::write_number_attribute(object, ".", name, value, "");
 }
 
-void put_names(Bytes& bytes, hid_t file, std::vector<std::string> names) {
+void put_names(Bytes& bytes, hid_t file, const std::string& dataset, std::vector<std::string> names) {
   switch (bytes.byte() % 8) {
     case 1:
       return;
     case 2:
-      foreign_dataset(bytes, file, "/boundary/name");
+      foreign_dataset(bytes, file, dataset);
       return;
     case 3:
       for (std::string& name : names)
         for (std::size_t k = bytes.below(300); k > 0; --k) name += static_cast<char>(bytes.byte());
       break;
     case 4:
-      other_object(bytes, file, "/boundary/name");
+      other_object(bytes, file, dataset);
       return;
     case 5:
       names.assign(1 + bytes.below(3000), "node");
@@ -324,42 +330,108 @@ void put_names(Bytes& bytes, hid_t file, std::vector<std::string> names) {
     default:
       break;
   }
-  formats::hdf5::write_texts(file, "/boundary/name", names, "");
+  formats::hdf5::write_texts(file, dataset, names, "");
 }
 
-Table matrix_table(const std::string& name, const Eigen::MatrixXd& matrix) {
-  const hsize_t n = static_cast<hsize_t>(matrix.rows());
-  return {name, {n, n}, {matrix.data(), matrix.data() + matrix.size()}, false};  // symmetric: rows are columns
+/// Texts of fixed or variable length in an attribute or a dataset of `points` points.
+std::vector<std::string> texts_of(hid_t type, std::size_t points, const std::function<bool(hid_t, void*)>& read) {
+  std::vector<std::string> texts(points);
+  if (H5Tis_variable_str(type) > 0) {
+    const Id memory(text_type(H5T_VARIABLE));
+    std::vector<char*> pointers(points, nullptr);
+    if (!read(memory, pointers.data())) return {};
+    for (std::size_t i = 0; i < points; ++i) texts[i] = pointers[i] == nullptr ? "" : pointers[i];
+    for (char* pointer : pointers) H5free_memory(pointer);
+    return texts;
+  }
+  const std::size_t length = H5Tget_size(type);
+  std::vector<char> values(points * length);
+  if (!read(type, values.data())) return {};
+  for (std::size_t i = 0; i < points; ++i) texts[i].assign(&values[i * length], strnlen(&values[i * length], length));
+  return texts;
+}
+
+void put_attribute(Bytes& bytes, hid_t from, hid_t to, const std::string& name) {
+  const Id attribute(H5Aopen(from, name.c_str(), H5P_DEFAULT)), type(H5Aget_type(attribute));
+  if (H5Tget_class(type) == H5T_STRING) {
+    const auto texts = texts_of(type, 1, [&](hid_t as, void* values) { return H5Aread(attribute, as, values) >= 0; });
+    put_text(bytes, to, name, texts.empty() ? "" : texts[0]);
+  } else {
+    double value = 0.0;
+    H5Aread(attribute, H5T_NATIVE_DOUBLE, &value);
+    put_number(bytes, to, name, value, H5Tget_class(type) == H5T_INTEGER);
+  }
+}
+
+void put_dataset(Bytes& bytes, hid_t from, hid_t to, const std::string& name) {
+  const Id dataset(H5Dopen2(from, name.c_str(), H5P_DEFAULT)), type(H5Dget_type(dataset)), space(H5Dget_space(dataset));
+  const auto points = static_cast<std::size_t>(H5Sget_simple_extent_npoints(space));
+  const auto read = [&](hid_t as, void* values) {
+    return H5Dread(dataset, as, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0;
+  };
+  Table table{name, std::vector<hsize_t>(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space))), {}, false};
+  H5Sget_simple_extent_dims(space, table.shape.data(), nullptr);
+  if (H5Tget_class(type) == H5T_STRING) {
+    const std::vector<std::string> texts = texts_of(type, points, read);
+    if (table.shape.empty())
+      formats::hdf5::write_text(to, name, texts.empty() ? "" : texts[0], "");
+    else
+      put_names(bytes, to, name, texts);
+    return;
+  }
+  table.is_integer = H5Tget_class(type) == H5T_INTEGER;
+  table.values.resize(points);
+  read(H5T_NATIVE_DOUBLE, table.values.data());
+  if (points > 0 && !table.shape.empty())
+    put_table(bytes, to, table);
+  else
+    write_table(to, table, table.is_integer ? H5T_STD_I32LE : H5T_IEEE_F64LE, H5P_DEFAULT);
+}
+
+herr_t note_name(hid_t, const char* name, const H5A_info_t*, void* names) {
+  static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+  return 0;
+}
+
+void put_attributes(Bytes& bytes, hid_t from, hid_t to, const std::string& object) {
+  const Id source(H5Oopen(from, object.c_str(), H5P_DEFAULT)), copy(H5Oopen(to, object.c_str(), H5P_DEFAULT));
+  if (copy < 0) return;
+  std::vector<std::string> names;
+  hsize_t start = 0;
+  H5Aiterate2(source, H5_INDEX_NAME, H5_ITER_INC, &start, note_name, &names);
+  for (const std::string& name : names)
+    if (name != "content_id") put_attribute(bytes, source, copy, name);
+}
+
+struct Object {
+  std::string name;
+  H5O_type_t type;
+};
+
+herr_t note_object(hid_t, const char* name, const H5O_info_t* info, void* objects) {
+  static_cast<std::vector<Object>*>(objects)->push_back({name, info->type});
+  return 0;
 }
 
 }  // namespace
 
-std::string superelement_container(const std::uint8_t* data, std::size_t size) {
-  static const formats::Superelement sound = craig_bampton_beam(BeamData(), 1);
+std::string mutated_container(const std::string& sound, const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, size);
   formats::hdf5::Handle owner = formats::hdf5::create_in_memory("");
   const hid_t file = owner.id();
-  const Id boundary(H5Gcreate2(file, "/boundary", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  const Id dof(H5Gcreate2(file, "/dof", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
-  put_text(bytes, file, "format", "tisserand-superelement");
-  put_text(bytes, file, "version", "1.0");
-  for (const char* name : {"name", "method", "producer"}) put_text(bytes, file, name, "text");
-  put_number(bytes, file, "length_unit", 1.0);
-  put_text(bytes, file, "length_unit_label", "m");
-  put_number(bytes, file, "mass_unit", 1.0);
-  put_text(bytes, file, "mass_unit_label", "kg");
-  put_number(bytes, file, "time_unit", 1.0);
-  put_text(bytes, file, "time_unit_label", "s");
-  put_names(bytes, file, sound.node_name);
-  Table position{"/boundary/position", {static_cast<hsize_t>(sound.node_position.rows()), 3}, {}, false};
-  for (Eigen::Index i = 0; i < sound.node_position.rows(); ++i)
-    for (Eigen::Index k = 0; k < 3; ++k) position.values.push_back(sound.node_position(i, k));
-  put_table(bytes, file, position);
-  const hsize_t n = static_cast<hsize_t>(sound.size());
-  put_table(bytes, file, {"/dof/node", {n}, {sound.dof_node.begin(), sound.dof_node.end()}, true});
-  put_table(bytes, file, {"/dof/component", {n}, {sound.dof_component.begin(), sound.dof_component.end()}, true});
-  put_table(bytes, file, matrix_table("/stiffness", sound.stiffness));
-  put_table(bytes, file, matrix_table("/mass", sound.mass));
+  const Id from(H5Fopen(sound.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  if (from < 0) throw Error("cannot be opened", sound, "give a sound file");
+  put_attributes(bytes, from, file, "/");
+  std::vector<Object> objects;
+  H5Ovisit(from, H5_INDEX_NAME, H5_ITER_INC, note_object, &objects);
+  for (const Object& object : objects) {
+    if (object.name == ".") continue;
+    if (object.type == H5O_TYPE_GROUP)
+      Id(H5Gcreate2(file, object.name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+    else
+      put_dataset(bytes, from, file, object.name);
+    put_attributes(bytes, from, file, object.name);
+  }
   for (std::size_t k = bytes.below(4); k > 0; --k) foreign_dataset(bytes, file, "/more" + std::to_string(k));
   for (std::size_t k = bytes.below(4); k > 0; --k) foreign_attribute(bytes, file, "more" + std::to_string(k));
   if (bytes.byte() % 4 == 1) put_text(bytes, file, "content_id", std::string(64, 'a'));
