@@ -5,6 +5,7 @@
 #include <linux/landlock.h>
 #include <sched.h>
 #include <seccomp.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
@@ -152,7 +153,8 @@ constexpr Calls harmful{
 
 /// Rules that look at arguments too; the numbers are positions of arguments.
 bool add_conditional(scmp_filter_ctx filter) {
-  constexpr scmp_datum_t writing = O_ACCMODE | O_CREAT | O_TRUNC, thread = CLONE_THREAD | CLONE_VM | CLONE_SIGHAND;
+  constexpr scmp_datum_t writing = O_ACCMODE | O_CREAT | O_TRUNC, thread = CLONE_THREAD | CLONE_VM | CLONE_SIGHAND,
+                         uncounted = MAP_TYPE | MAP_GROWSDOWN;
   const auto own = static_cast<scmp_datum_t>(::getpid());
   const auto allow = [filter](int call, const scmp_arg_cmp& condition) {
     return seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 1, condition) == 0;
@@ -161,9 +163,9 @@ bool add_conditional(scmp_filter_ctx filter) {
               allow(SCMP_SYS(openat), SCMP_A2(SCMP_CMP_MASKED_EQ, writing, O_RDONLY)) &&
               allow(SCMP_SYS(clone), SCMP_A0(SCMP_CMP_MASKED_EQ, thread, thread)) &&
               allow(SCMP_SYS(tgkill), SCMP_A0(SCMP_CMP_EQ, own)) &&
-              // No memory that is shared with others, whom the limit of memory would not count.
-              allow(SCMP_SYS(mmap), SCMP_A3(SCMP_CMP_MASKED_EQ, 0xf, 2 /* MAP_PRIVATE */)) &&
-              allow(SCMP_SYS(mmap2), SCMP_A3(SCMP_CMP_MASKED_EQ, 0xf, 2)) &&
+              // Nothing shared and no stacks: the limit of memory would not count them.
+              allow(SCMP_SYS(mmap), SCMP_A3(SCMP_CMP_MASKED_EQ, uncounted, MAP_PRIVATE)) &&
+              allow(SCMP_SYS(mmap2), SCMP_A3(SCMP_CMP_MASKED_EQ, uncounted, MAP_PRIVATE)) &&
               allow(SCMP_SYS(prlimit64), SCMP_A2(SCMP_CMP_EQ, 0));
   for (const int question : {F_GETFD, F_SETFD, F_GETFL})
     done = done && allow(SCMP_SYS(fcntl), SCMP_A1(SCMP_CMP_EQ, static_cast<scmp_datum_t>(question)));

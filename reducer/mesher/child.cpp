@@ -136,10 +136,13 @@ class SpawnSettings {
   posix_spawnattr_t attributes_;
 };
 
+/// Of the child's memory: gmsh takes ten times the size of the answer and more, and unpacking takes six times its size.
+constexpr double answer_share = 0.125;
+
 struct Heard {
   std::string answer;
   std::string words;
-  bool too_long = false;  ///< more answer than the child may have memory
+  bool too_long = false;  ///< more answer than an honest child can have
   bool timed_out = false;
 };
 
@@ -161,7 +164,7 @@ Heard listen(Descriptor& answer, Descriptor& words, const GeometryRequest& reque
   while (answer.number() >= 0 || words.number() >= 0) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now()).count();
     heard.timed_out = left <= 0;
-    heard.too_long = static_cast<double>(heard.answer.size()) > request.bytes;
+    heard.too_long = static_cast<double>(heard.answer.size()) > answer_share * request.bytes;
     if (heard.timed_out || heard.too_long) break;
     std::array<pollfd, 2> files{pollfd{answer.number(), POLLIN, 0}, pollfd{words.number(), POLLIN, 0}};
     if (::poll(files.data(), files.size(), static_cast<int>(std::min<long>(left, 60'000))) <= 0) continue;
