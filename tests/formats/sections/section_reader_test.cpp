@@ -160,7 +160,7 @@ TEST(SectionReader, ByStiffness) {
     EXPECT_NE(text.find(words), std::string::npos) << text;
   };
   EXPECT_EQ(error(by_stiffness, "material: steel, "),
-            "p.yaml:6:43: beam 'l': 'material' beside a section by stiffness; remove it: the section needs none");
+            "p.yaml:6:51: beam 'l': 'material' beside a section by stiffness; remove it: the section needs none");
   has("{shape: circle, radius: 0.1}", "beam 'l' has no 'material'; add it, or give the section by stiffness");
   has(changed("EA: 1e7, ", ""), "EA");
   has(changed("GJ: 60", "GJ: -60"), "section 's': stiffness.GJ -60 must be positive");
