@@ -253,7 +253,7 @@ std::vector<Field> start_fields(std::vector<Field> gravity) {
        "at the origin, unrotated"},
       plain<&InitialMotion::velocity>("velocity", "vector", "of the origin of the part frame, world axes [length/time]",
                                       "free: see [initial](#initial)"),
-      plain<&InitialMotion::angular_velocity>("angular_velocity", "vector", "world axes [rad/time]", ditto)};
+      plain<&InitialMotion::angular_velocity>("angular_velocity", "vector", "world axes [rad/time]", "free")};
   fields.insert(fields.end(), gravity.begin(), gravity.end());
   return shared_fields("body_start", fields);
 }

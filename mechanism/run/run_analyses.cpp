@@ -112,8 +112,8 @@ void assemble(Run& run, RowWriter& out) {
   const Model& model = run.built.model;
   State& state = run.built.state;
   RunReport& report = run.report;
-  const AssemblyReport assembly =
-      assemble(model, run.built.initial, run.scene.integrator.constraint_tolerance, run.control.interrupted, state, run.workspace.now);
+  const AssemblyReport assembly = assemble(model, run.built.initial, run.scene.integrator.constraint_tolerance,
+                                           run.control.interrupted, state, run.workspace.now);
   report.time = state.time();
   report.iterations = report.factorisations = assembly.iterations;
   report.steps = 1;
