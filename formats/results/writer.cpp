@@ -250,7 +250,7 @@ struct ResultsWriter::Impl {
   ResultsLayout layout;
   std::string shortage;  ///< why rows were given up, or empty
 
-  void create(const ResultsLayout& layout);
+  void create();
   void begin_with(const ResultsBeginning& beginning);
   std::uint64_t bytes_needed(std::size_t rows) const;
   std::size_t rows_that_fit();
@@ -368,7 +368,7 @@ void ResultsWriter::Impl::rename_to_final() const {
               fmt::format("they are complete in {}", part));
 }
 
-void ResultsWriter::Impl::create(const ResultsLayout& layout) {
+void ResultsWriter::Impl::create() {
   const std::vector<Block> blocks = chosen_blocks(layout, layout.scene);
   held = publish_head(part, layout, blocks, run);
   file = open_for_writing(part, H5F_ACC_SWMR_WRITE);
@@ -436,7 +436,7 @@ ResultsWriter::ResultsWriter(const std::string& path, const ResultsLayout& layou
     impl_->rename_to_final();
     old.file = path;
   }
-  impl_->create(layout);
+  impl_->create();
   if (!old.file.empty()) impl_->begin_with(old);
 }
 
