@@ -40,6 +40,7 @@ nlohmann::ordered_json solver_json(const RunReport& report) {
           {"least_reciprocal_condition", health.reciprocal_condition},
           {"least_reciprocal_pivot_growth", health.reciprocal_growth},
           {"largest_backward_error", health.backward_error},
+          {"largest_fill", health.fill},
           {"refined_solutions", health.refined}};
 }
 
@@ -127,10 +128,12 @@ std::string report_text(const RunReport& report, const Units& units) {
     line("energy", fmt::format("largest balance error {:.2e} of the largest energy or work, at stored instants",
                                relative_balance(report)));
   line("constraints", fmt::format("largest violation {:.2e}", report.largest_constraint));
-  line("conditioning", fmt::format("least reciprocal condition {:.1e}, pivot growth {:.1e}, backward error {:.1e}, {} "
-                                   "solutions refined",
-                                   report.solver_health.reciprocal_condition, report.solver_health.reciprocal_growth,
-                                   report.solver_health.backward_error, report.solver_health.refined));
+  const SolverHealth& health = report.solver_health;
+  line("conditioning",
+       fmt::format("least reciprocal condition {:.1e}, pivot growth {:.1e}, backward error {:.1e}, {} "
+                   "solutions refined{}",
+                   health.reciprocal_condition, health.reciprocal_growth, health.backward_error, health.refined,
+                   health.fill > 0.0 ? fmt::format(", largest fill {:.2g}", health.fill) : ""));
   if (!report.table.empty()) text += fmt::format("  {}\n", report.table_title);
   for (const std::string& row : report.table) text += fmt::format("    {}\n", row);
   line("seconds", fmt::format("{:.3f} model, {:.3f} start, {:.3f} steps, {:.3f} output", report.seconds_model,

@@ -14,6 +14,11 @@ namespace {
 /// Kept pivots are given up where they grow more than the reciprocal of this: half of the digits are gone then, and
 /// what is left of them is what one refinement restores.
 constexpr double least_growth = 1e-8;
+/// Factors with more entries than this times KLU's count are tried with the other ordering: chains of bodies exceed the
+/// count by a quarter to a half, what is to be caught by 4 and more.
+constexpr double honest_fill = 2.0;
+/// Orderings of KLU.
+constexpr int by_amd = 0, by_colamd = 1;
 
 /// KLU's interface knows no const; it changes neither pattern nor values.
 int* starts(const SparsePattern& pattern) { return const_cast<int*>(pattern.column_start().data()); }
@@ -41,53 +46,101 @@ std::vector<double> made_up_values(const SparsePattern& pattern) {
 
 }  // namespace
 
+/// A symbolic analysis and the factors that belong to it.
+struct KluFactors {
+  klu_symbolic* symbolic = nullptr;
+  klu_numeric* numeric = nullptr;
+
+  void analyse(const SparsePattern& pattern, int ordering, klu_common& common) {
+    common.ordering = ordering;
+    symbolic = klu_analyze(pattern.size(), starts(pattern), rows(pattern), &common);
+    TISSERAND_ENSURE(symbolic != nullptr, "KLU status {}", common.status);
+  }
+  /// False: singular, and no factors.
+  bool factor(const SparsePattern& pattern, double* values, klu_common& common) {
+    numeric = klu_factor(starts(pattern), rows(pattern), values, symbolic, &common);
+    if (numeric == nullptr || common.status != KLU_OK) forget(common);
+    return numeric != nullptr;
+  }
+  void forget(klu_common& common) {
+    if (numeric) klu_free_numeric(&numeric, &common);
+    numeric = nullptr;
+  }
+  void free(klu_common& common) {
+    forget(common);
+    if (symbolic) klu_free_symbolic(&symbolic, &common);
+    symbolic = nullptr;
+  }
+  double entries() const { return static_cast<double>(numeric->lnz) + numeric->unz; }
+};
+
+namespace {
+
+/// Fresh pivots: in the order of AMD, which counts on pivots on the diagonal, or, where the zeros there have spoilt its
+/// fill, in that of COLAMD, whose fill no choice of pivots exceeds, if that fills less. Returns what has factors, null
+/// if singular. `by_columns` is analysed when it is first needed.
+KluFactors* factor_anew(const SparsePattern& pattern, double* values, KluFactors& by_diagonal, KluFactors& by_columns,
+                        klu_common& common) {
+  if (!by_diagonal.factor(pattern, values, common)) return nullptr;
+  if (by_diagonal.entries() <= honest_fill * (by_diagonal.symbolic->lnz + by_diagonal.symbolic->unz))
+    return &by_diagonal;
+  if (by_columns.symbolic == nullptr) by_columns.analyse(pattern, by_colamd, common);
+  if (!by_columns.factor(pattern, values, common)) return &by_diagonal;
+  KluFactors& worse = by_columns.entries() < by_diagonal.entries() ? by_diagonal : by_columns;
+  worse.forget(common);
+  return &worse == &by_columns ? &by_diagonal : &by_columns;
+}
+
+}  // namespace
+
 Effort klu_effort(const SparsePattern& pattern) {
   klu_common common = settings();
-  klu_symbolic* symbolic = klu_analyze(pattern.size(), starts(pattern), rows(pattern), &common);
-  TISSERAND_ENSURE(symbolic != nullptr, "KLU status {}", common.status);
-  const Effort effort{symbolic->est_flops, symbolic->lnz + symbolic->unz};
-  klu_free_symbolic(&symbolic, &common);
+  KluFactors factors;
+  factors.analyse(pattern, by_amd, common);
+  const Effort effort{factors.symbolic->est_flops, factors.symbolic->lnz + factors.symbolic->unz};
+  factors.free(common);
   return effort;
 }
 
 Effort klu_trial(const SparsePattern& pattern) {
   klu_common common = settings();
   std::vector<double> values = made_up_values(pattern);
-  klu_symbolic* symbolic = klu_analyze(pattern.size(), starts(pattern), rows(pattern), &common);
-  TISSERAND_ENSURE(symbolic != nullptr, "KLU status {}", common.status);
-  klu_numeric* numeric = klu_factor(starts(pattern), rows(pattern), values.data(), symbolic, &common);
+  KluFactors by_diagonal, by_columns;
+  by_diagonal.analyse(pattern, by_amd, common);
+  const KluFactors* factors = factor_anew(pattern, values.data(), by_diagonal, by_columns, common);
   Effort effort{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-  if (numeric != nullptr && klu_flops(symbolic, numeric, &common))
-    effort = {common.flops, static_cast<double>(numeric->lnz) + numeric->unz};
-  klu_free_numeric(&numeric, &common);
-  klu_free_symbolic(&symbolic, &common);
+  if (factors != nullptr && klu_flops(factors->symbolic, factors->numeric, &common))
+    effort = {common.flops, factors->entries()};
+  by_diagonal.free(common);
+  by_columns.free(common);
   return effort;
 }
 
 struct Klu::Data {
   klu_common common{};
-  klu_symbolic* symbolic = nullptr;
-  klu_numeric* numeric = nullptr;
+  KluFactors by_diagonal, by_columns;
+  KluFactors* used = nullptr;  ///< which of them has factors
 
   void forget() {
-    if (numeric) klu_free_numeric(&numeric, &common);
-    numeric = nullptr;
+    by_diagonal.forget(common);
+    by_columns.forget(common);
+    used = nullptr;
   }
-  FactorReport report() {
-    klu_rcond(symbolic, numeric, &common);
-    return {common.rcond > 0.0 && std::isfinite(common.rcond), common.rcond, -1, 1.0};
+  FactorReport report(const SparsePattern& pattern) {
+    klu_rcond(used->symbolic, used->numeric, &common);
+    return {common.rcond > 0.0 && std::isfinite(common.rcond), common.rcond, -1, 1.0,
+            used->entries() / pattern.nonzeros()};
   }
 };
 
 Klu::Klu(const SparsePattern& pattern) : data_(std::make_unique<Data>()) {
   data_->common = settings();
-  data_->symbolic = klu_analyze(pattern.size(), starts(pattern), rows(pattern), &data_->common);
-  TISSERAND_ENSURE(data_->symbolic != nullptr, "KLU status {}", data_->common.status);
+  data_->by_diagonal.analyse(pattern, by_amd, data_->common);
 }
 
 Klu::~Klu() {
-  data_->forget();
-  if (data_->symbolic) klu_free_symbolic(&data_->symbolic, &data_->common);
+  data_->by_diagonal.free(data_->common);
+  data_->by_columns.free(data_->common);
 }
 
 void Klu::forget() { data_->forget(); }
@@ -95,37 +148,35 @@ void Klu::forget() { data_->forget(); }
 FactorReport Klu::factor(const SparsePattern& pattern, const double* values) {
   auto* v = const_cast<double*>(values);
   klu_common& common = data_->common;
-  if (data_->numeric) {
-    const bool kept = klu_refactor(starts(pattern), rows(pattern), v, data_->symbolic, data_->numeric, &common) &&
-                      common.status == KLU_OK &&
-                      klu_rgrowth(starts(pattern), rows(pattern), v, data_->symbolic, data_->numeric, &common) &&
-                      common.rgrowth > least_growth;
+  if (data_->used) {
+    klu_symbolic* symbolic = data_->used->symbolic;
+    klu_numeric* numeric = data_->used->numeric;
+    const bool kept =
+        klu_refactor(starts(pattern), rows(pattern), v, symbolic, numeric, &common) && common.status == KLU_OK &&
+        klu_rgrowth(starts(pattern), rows(pattern), v, symbolic, numeric, &common) && common.rgrowth > least_growth;
     if (kept) {
-      FactorReport report = data_->report();
+      FactorReport report = data_->report(pattern);
       report.reciprocal_growth = common.rgrowth;
       return report;
     }
     data_->forget();
   }
-  data_->numeric = klu_factor(starts(pattern), rows(pattern), v, data_->symbolic, &common);
-  if (data_->numeric == nullptr || common.status != KLU_OK) {
-    const int column = common.singular_col;
-    data_->forget();
-    return {false, 0.0, column < pattern.size() ? column : -1, 1.0};
-  }
-  return data_->report();
+  data_->used = factor_anew(pattern, v, data_->by_diagonal, data_->by_columns, common);
+  if (data_->used != nullptr) return data_->report(pattern);
+  const int column = common.singular_col;
+  return {false, 0.0, column < pattern.size() ? column : -1, 1.0};
 }
 
 void Klu::solve(const SparsePattern& pattern, const double*, double* b) {
-  klu_solve(data_->symbolic, data_->numeric, pattern.size(), 1, b, &data_->common);
+  klu_solve(data_->used->symbolic, data_->used->numeric, pattern.size(), 1, b, &data_->common);
 }
 
 void Klu::solve_transposed(const SparsePattern& pattern, const double*, double* b) {
-  klu_tsolve(data_->symbolic, data_->numeric, pattern.size(), 1, b, &data_->common);
+  klu_tsolve(data_->used->symbolic, data_->used->numeric, pattern.size(), 1, b, &data_->common);
 }
 
 double Klu::reciprocal_growth(const SparsePattern& pattern, const double* values) {
-  klu_rgrowth(starts(pattern), rows(pattern), const_cast<double*>(values), data_->symbolic, data_->numeric,
+  klu_rgrowth(starts(pattern), rows(pattern), const_cast<double*>(values), data_->used->symbolic, data_->used->numeric,
               &data_->common);
   return data_->common.rgrowth;
 }

@@ -131,6 +131,9 @@ struct LinearSolver::Engine {
     FactorReport report = std::visit([&](auto& solver) { return solver.factor(*pattern, values); }, solvers);
     if (!report.regular) return report;
     ++factorisations;
+    if (pattern->storage() == SparsePattern::Storage::dense)
+      report.fill = static_cast<double>(pattern->size()) * pattern->size() / pattern->nonzeros();
+    health.fill = std::max(health.fill, report.fill);
     const bool look = (factorisations & (factorisations - 1)) == 0;
     refine = false;
     measure = look || report.reciprocal_growth < safe_growth || kind == SolverKind::umfpack;

@@ -23,6 +23,7 @@ struct FactorReport {
   double reciprocal_condition = 0.0;  ///< cheap estimate: least over largest pivot (of QR: diagonal entry of R)
   int singular_column = -1;           ///< where the elimination broke down, if known
   double reciprocal_growth = 1.0;     ///< least of max|a_j|/max|u_j| over the columns; 1 where it is not looked at
+  double fill = 0.0;  ///< entries of the factors relative to those of the matrix; 0: the solver tells not
 };
 
 /// The worst that a solver has seen since it was made. Looked at for factorisations 1, 2, 4, 8, ... and for those
@@ -31,6 +32,7 @@ struct SolverHealth {
   double reciprocal_condition = 1.0;  ///< least 1/(|A|₁ |A⁻¹|₁), the second norm estimated
   double reciprocal_growth = 1.0;     ///< least reciprocal growth of pivots; 1 with QR and UMFPACK, which do not tell
   double backward_error = 0.0;        ///< largest |b − A x|∞/(max|a| |x|₁ + |b|∞), before refinement
+  double fill = 0.0;                  ///< largest: entries of the factors relative to those of the matrix; 0 with QR
   long refined = 0;                   ///< solutions improved by a step of iterative refinement
 };
 

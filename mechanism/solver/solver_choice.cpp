@@ -82,8 +82,8 @@ SolverChoice choose_solver(const SparsePattern& pattern, formats::LinearSolver w
 
 std::string describe(const SolverChoice& choice) {
   if (choice.kind == SolverKind::qr) return solver_name(choice.kind);
-  return fmt::format("{} ({}{:.2g} flops per factorisation, fill {:.2g})", solver_name(choice.kind),
-                     choice.automatic ? "auto: " : "", choice.flops, choice.fill);
+  return fmt::format("{} ({}counted {:.2g} flops per factorisation, fill {:.2g})", solver_name(choice.kind),
+                     choice.automatic ? "auto; " : "", choice.flops, choice.fill);
 }
 
 }  // namespace tisserand::mechanism

@@ -19,7 +19,8 @@ struct SolverChoice {
 /// `pattern` in sparse storage.
 SolverChoice choose_solver(const SparsePattern& pattern, formats::LinearSolver wanted);
 
-/// "KLU (auto; 2.1e+05 flops, fill 1.8)".
+/// "KLU (auto; counted 2.1e+05 flops per factorisation, fill 1.8)": before there are values; what the factors then are
+/// stands in SolverHealth.
 std::string describe(const SolverChoice& choice);
 
 }  // namespace tisserand::mechanism

@@ -76,7 +76,9 @@ FactorReport Umfpack::factor(const SparsePattern& pattern, const double* values)
   data_->forget();
   const int status = umfpack_di_numeric(pattern.column_start().data(), pattern.rows().data(), values, data_->symbolic,
                                         &data_->numeric, data_->control.data(), data_->info.data());
-  if (status == UMFPACK_OK) return {true, data_->info[UMFPACK_RCOND], -1, 1.0};
+  if (status == UMFPACK_OK)
+    return {true, data_->info[UMFPACK_RCOND], -1, 1.0,
+            (data_->info[UMFPACK_LNZ] + data_->info[UMFPACK_UNZ]) / pattern.nonzeros()};
   TISSERAND_ENSURE(status == UMFPACK_WARNING_singular_matrix, "UMFPACK status {}", status);
   const int column = data_->singular_column(pattern.size());
   data_->forget();
