@@ -43,13 +43,14 @@ CarrierScratch make_carrier_scratch(const Model& model) {
   return scratch;
 }
 
-void scatter_pulled(const Model& model, const ElementMap& map, const double* force, Evaluation& evaluation) {
+void scatter_pulled(const Model& model, const ElementMap& map, const double* force, const Evaluation& evaluation,
+                    Eigen::VectorXd& result) {
   for_each_carrier(model, map, [&](Index local, Index first, int modal, Index width) {
     const Eigen::Map<const Vector6d> f(force + local);
     for (Index j = 0; j < width; ++j) {
       const int coordinate = map.coordinates[first + j];
       if (coordinate < 0) continue;
-      evaluation.residual[coordinate] += modal < 0 ? f[j] : terms_of(evaluation, modal).T.col(j).dot(f);
+      result[coordinate] += modal < 0 ? f[j] : terms_of(evaluation, modal).T.col(j).dot(f);
     }
   });
 }

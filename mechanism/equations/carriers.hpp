@@ -26,8 +26,9 @@ LocalMatrix local_view(const Matrix& m) {
 // For maps that list carriers; local matrices have six columns (and rows) per carrier, results n = size of
 // map.coordinates.
 
-/// residual += Tᵀ force; six numbers per carrier.
-void scatter_pulled(const Model& model, const ElementMap& map, const double* force, Evaluation& evaluation);
+/// result += Tᵀ force; six numbers per carrier. `result`: at least the boundary coordinates.
+void scatter_pulled(const Model& model, const ElementMap& map, const double* force, const Evaluation& evaluation,
+                    Eigen::VectorXd& result);
 
 /// Tᵀ K T + ∂(Tᵀ force)/∂q, n x n: the tangent of a force that the carriers receive.
 CarrierMatrix pulled_tangent(const Model& model, const ElementMap& map, const LocalMatrix& K, const double* force,

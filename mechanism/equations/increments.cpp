@@ -60,6 +60,30 @@ void apply_jacobian(const Model& model, const Evaluation& evaluation, const Eige
   }
 }
 
+void apply_transposed_jacobian(const Model& model, const Evaluation& evaluation, const Eigen::VectorXd& mu,
+                               Eigen::VectorXd& result) {
+  result.setZero();
+  const auto add = [&](const ElementMap& map, const Eigen::Matrix<double, 12, 1>& local) {
+    if (!map.carriers.empty()) {
+      scatter_pulled(model, map, local.data(), evaluation, result);
+      return;
+    }
+    for (int k = 0; k < 12; ++k)
+      if (map.coordinates[k] >= 0) result[map.coordinates[k]] += local[k];
+  };
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Joint& joint = model.joints[i];
+    Vector6d rows = Vector6d::Zero();
+    for (int k = 0; k < joint.size(); ++k) rows[k] = mu[joint.row + k];
+    add(model.joints.maps[i], evaluation.joints[i].B.transpose().lazyProduct(rows));
+  }
+  for (const Coupling& coupling : model.couplings)
+    for (const CouplingTerm& term : coupling.terms) {
+      const auto at = static_cast<std::size_t>(term.coordinate);
+      add(model.coordinates.maps[at], (term.factor * mu[coupling.row]) * evaluation.coordinates[at].G.transpose());
+    }
+}
+
 void retract(const Model& model, const State& from, const Eigen::VectorXd& d, State& to) {
   auto x = to.x();
   auto Q = to.Q();

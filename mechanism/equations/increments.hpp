@@ -13,4 +13,8 @@ void retract(const Model& model, const State& from, const Eigen::VectorXd& d, St
 void apply_jacobian(const Model& model, const Evaluation& evaluation, const Eigen::VectorXd& d,
                     Eigen::Ref<Eigen::VectorXd> rows);
 
+/// result <- Bᵀ μ in boundary coordinates (material turns) for the Jacobian of the last evaluate().
+void apply_transposed_jacobian(const Model& model, const Evaluation& evaluation, const Eigen::VectorXd& mu,
+                               Eigen::VectorXd& result);
+
 }  // namespace tisserand::mechanism

@@ -2,6 +2,7 @@
 #include "mechanism/step/position_projection.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mechanism/equations/increments.hpp"
 
@@ -11,6 +12,11 @@ namespace {
 /// Weight of every direction, for those without mass and stiffness, relative to the largest: above round-off of the
 /// factors, and far below any body of the same mechanism (mass ratio 1e10).
 constexpr double least_weight = 1e-12;
+
+/// A coordinate without mass that gives way to a force by more than this (1 is about what the heaviest body does, 1e12
+/// what the least weight does) is held by no constraint: nothing but the least weight would bound what (B₀ − B_m)ᵀμ₁
+/// does to it.
+constexpr double most_give = 1e4;
 
 bool serves(const PositionProjection& projection, double step) {
   return projection.has_factors() && projection.age < 1.0 && step <= 2.0 * projection.step &&
@@ -25,8 +31,60 @@ void weigh(const Model& model, PositionProjection& projection) {
   for (const Node& node : model.nodes)
     for (int k = 0; k < 3 && node.rotation >= 0; ++k)
       if (weight(node.rotation + k) != 0.0) projection.turns[node.rotation + k] = 1.0;
-  for (int i = 0; i < model.sizes.boundary; ++i)
+  for (int i = 0; i < model.sizes.boundary; ++i) {
+    projection.held[i] = weight(i) != 0.0;
     weight(i) += least_weight / (model.equation_scale[i] * model.equation_scale[i]);
+  }
+}
+
+/// Which of the coordinates without mass constraints hold: those that give way to forces on all of them are not held.
+void find_held(const Model& model, PositionProjection& projection) {
+  const int n = model.sizes.boundary;
+  if (projection.held.minCoeff() > 0.0) return;
+  SaddleSystem& system = *projection.system;
+  system.unknowns.setZero();
+  for (int i = 0; i < n; ++i)  // of unlike sizes, which cancel along no direction
+    if (projection.held[i] == 0.0) system.unknowns[i] = (1.0 + std::fmod(0.618 * i, 1.0)) / model.equation_scale[i];
+  system.solve(model);
+  for (int i = 0; i < n; ++i)
+    if (std::abs(system.unknowns[i]) <= most_give * model.equation_scale[i]) projection.held[i] = 1.0;
+}
+
+/// B₀ᵀ μ₁, from the columns of the factored matrix.
+void apply_old_rows(const Model& model, PositionProjection& projection) {
+  const SparsePattern& pattern = *model.pattern;
+  const std::vector<double>& values = projection.system->matrix.values;
+  projection.old.setZero();
+  for (int row = 0; row < model.sizes.constraints; ++row) {
+    const int column = model.sizes.boundary + row;
+    if (projection.expected[row] == 0.0) continue;
+    for (int at = pattern.column_start()[column]; at < pattern.column_start()[column + 1]; ++at) {
+      const int i = pattern.rows()[at];
+      if (i >= model.sizes.boundary) continue;
+      const int slot = pattern.slot(i, column);
+      projection.old[i] += values[slot] / model.value_scale[slot] * projection.expected[row];
+    }
+  }
+}
+
+/// μ₁ for a step of this length: δ, and with it μ over the scale of the matrix, goes with the cube of the step.
+void expect(const Model& model, double step, PositionProjection& projection) {
+  projection.taken = step;
+  if (projection.expected_step == 0.0) return;
+  const double ratio = step / projection.expected_step;
+  if (ratio != 1.0) projection.expected *= ratio * ratio * ratio;
+  projection.expected_step = step;
+  apply_old_rows(model, projection);
+}
+
+/// What the direction of the middle of the step asks of the upper rows, besides what they have been given; B is taken
+/// to turn evenly from B₀ to that of the last evaluate().
+void turn_direction(const Model& model, const Evaluation& evaluation, PositionProjection& projection) {
+  apply_transposed_jacobian(model, evaluation, projection.expected, projection.turned);
+  const double share = (projection.elapsed + 0.5 * projection.taken) / (projection.elapsed + projection.taken);
+  projection.turned = share * projection.held.cwiseProduct(projection.old - projection.turned);
+  projection.system->unknowns.head(model.sizes.boundary) = projection.turned - projection.upper;
+  projection.upper = projection.turned;
 }
 
 /// Radians by which bodies turn in the step so far.
@@ -39,16 +97,22 @@ double turn_of_step(const Model& model, const Evaluation& evaluation, const Posi
 void PositionProjection::forget() {
   if (system) system->forget();
   step = 0.0;
+  expected_step = 0.0;
 }
 
 FactorReport prepare_projection(const Model& model, const State& state, const StepScheme& scheme,
                                 Evaluation& evaluation, PositionProjection& projection) {
-  if (serves(projection, scheme.step)) return {true, 1.0, -1, 1.0};
+  if (serves(projection, scheme.step)) {
+    expect(model, scheme.step, projection);
+    return {true, 1.0, -1, 1.0};
+  }
   if (!projection.system) {
     projection.system.emplace(model);
     projection.turns.setZero(model.sizes.boundary);
     projection.open.setZero(model.sizes.constraints);
     projection.closed.setZero(model.sizes.constraints);
+    projection.multipliers = projection.expected = projection.closed;
+    projection.old = projection.turned = projection.upper = projection.held = projection.turns;
   }
   evaluate(model, state, evaluation);
   const TangentCoefficients& c = scheme.request.coefficients;
@@ -57,7 +121,16 @@ FactorReport prepare_projection(const Model& model, const State& state, const St
   const FactorReport report = projection.system->factor(model);
   projection.step = report.regular ? scheme.step : 0.0;
   projection.age = 0.0;
+  projection.elapsed = 0.0;
+  if (!report.regular) return report;
+  find_held(model, projection);
+  expect(model, scheme.step, projection);
   return report;
+}
+
+void start_projection(PositionProjection& projection) {
+  projection.multipliers.setZero();
+  projection.upper.setZero();
 }
 
 void project_positions(const Model& model, const StepTuning& tuning, const Evaluation& evaluation,
@@ -68,10 +141,14 @@ void project_positions(const Model& model, const StepTuning& tuning, const Evalu
   correction.setZero();
   double open = 1.0;
   for (int solution = 1;; ++solution) {
-    system.unknowns.head(n).setZero();
+    if (solution == 1 && projection.expected_step > 0.0)
+      turn_direction(model, evaluation, projection);
+    else
+      system.unknowns.head(n).setZero();
     system.unknowns.tail(model.sizes.constraints) = projection.open.cwiseProduct(evaluation.active);
     system.solve(model);
     correction.head(n) += system.unknowns.head(n);
+    projection.multipliers += system.unknowns.tail(model.sizes.constraints);
     open *= share;
     if (open <= tuning.open_share || solution == tuning.most_projections) return;
     apply_jacobian(model, evaluation, system.unknowns, projection.closed);
@@ -84,6 +161,9 @@ void age_projection(const Model& model, const StepTuning& tuning, const Evaluati
   if (!projection.has_factors()) return;
   projection.age +=
       std::max(turn_of_step(model, evaluation, projection) / tuning.farthest_turn, 1.0 / tuning.most_steps);
+  projection.elapsed += projection.taken;
+  projection.expected = projection.multipliers;
+  projection.expected_step = projection.taken;
 }
 
 }  // namespace tisserand::mechanism

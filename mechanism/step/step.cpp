@@ -18,6 +18,7 @@ bool iterate(Iteration& it, const StepEnd& end) {
   it.state.time() = end.time;
   it.state.load_time() = end.load_time;
   it.workspace.matrix.correction.setZero();
+  start_projection(it.workspace.memory.projection);
   predict(it.scheme, it.state, now);  // (2) to (4)
   foresee(memory.predictor, it.scheme, memory.previous, it.state, now);
   retract(it.model, memory.previous, now.displacement, it.state);

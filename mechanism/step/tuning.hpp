@@ -21,8 +21,8 @@ struct StepTuning {
   /// Most steps with new factors in every iteration before kept ones are tried again; 2^k − 1, since the pause doubles.
   int longest_pause = 63;
 
-  /// Radians that bodies may turn on one W⁻¹Bᵀ of the position projection: with 0.2 the old direction leans to one side
-  /// of the motion and the energy of a pendulum drifts at ρ = 1 (DECISIONS.md).
+  /// Radians that bodies may turn on one W⁻¹Bᵀ of the position projection: W, and what μ has changed by since the step
+  /// before, have the old direction, which leans to one side of the motion (DECISIONS.md).
   double farthest_turn = 0.1;
   /// Steps that one W⁻¹Bᵀ may serve.
   double most_steps = 16.0;
