@@ -356,10 +356,11 @@ std::vector<std::string> body_poses(const formats::Scene& scene, const Model& mo
       const Eigen::Quaterniond turn =
           q * Eigen::Quaterniond(Q_start[0], Q_start[1], Q_start[2], Q_start[3]).conjugate();
       const Eigen::Quaterniond orientation = (turn * start.pose.orientation).normalized();
-      const Vector3d arm = turn * Vector3d(at_start.x().col(column) - start.pose.position),
+      const Vector3d arm = turn * Vector3d(at_start.x().col(column) - (start.pose.position - model.origin)),
                      omega = q * Vector3d(state.v().segment<3>(node.rotation));
-      std::string line = fmt::format("{}: {{pose: {{position: {}, orientation: {}}}", name,
-                                     vector_text(state.x().col(column) - arm), vector_text(wxyz(orientation)));
+      std::string line =
+          fmt::format("{}: {{pose: {{position: {}, orientation: {}}}", name,
+                      vector_text(model.origin + state.x().col(column) - arm), vector_text(wxyz(orientation)));
       const Vector3d velocity = node.translation < 0
                                     ? Vector3d(Vector3d::Zero())
                                     : Vector3d(state.v().segment<3>(node.translation)) - omega.cross(arm);

@@ -127,7 +127,7 @@ void turn_steadily(const Model& model, const formats::RotationSpec& rotation, St
     const Node& node = model.nodes[i];
     const auto column = static_cast<Eigen::Index>(i);
     if (node.translation >= 0) {
-      const Vector3d velocity = omega.cross(state.x().col(column) - rotation.about);
+      const Vector3d velocity = omega.cross(state.x().col(column) - (rotation.about - model.origin));
       state.v().segment<3>(node.translation) = velocity;
       state.vdot().segment<3>(node.translation) = omega.cross(velocity);
     }

@@ -1,8 +1,12 @@
 // One function per type of body.
 #include "mechanism/build/bodies.hpp"
 
+#include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
+
+#include <Eigen/Geometry>
 
 #include "common/text.hpp"
 #include "mechanism/bodies/beam/mesh.hpp"
@@ -15,11 +19,15 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-NodeMotion motion_at(const formats::InitialMotion& start, const Vector3d& position) {
+/// Nodes further from the origin than this times the size of the scene count from a point of the scene: nearer ones
+/// lose less than three of their sixteen digits.
+constexpr double far_away = 1e3;
+
+NodeMotion motion_at(const formats::InitialMotion& start, const Vector3d& position, const Vector3d& origin) {
   NodeMotion motion;
   motion.R = start.pose.orientation.normalized().toRotationMatrix();
   const Vector3d arm = motion.R * position;
-  motion.x = start.pose.position + arm;
+  motion.x = start.pose.position - origin + arm;
   motion.xd = start.velocity + start.angular_velocity.cross(arm);
   motion.Omega = motion.R.transpose() * start.angular_velocity;
   return motion;
@@ -32,7 +40,7 @@ int add_node(const std::string& name, const formats::InitialMotion& start, const
   if (translations) node.translation = std::exchange(c.model.sizes.boundary, c.model.sizes.boundary + 3);
   if (rotations) node.rotation = std::exchange(c.model.sizes.boundary, c.model.sizes.boundary + 3);
   c.model.nodes.push_back(node);
-  c.markers.start.push_back(motion_at(start, position));
+  c.markers.start.push_back(motion_at(start, position, c.markers.origin));
   return static_cast<int>(c.model.nodes.size()) - 1;
 }
 
@@ -190,7 +198,7 @@ class BodyBuilder {
         node = add_virtual_node(spec, c_);
         break;
       case formats::VirtualBodies::eliminate:
-        c_.markers.start.push_back(motion_at(spec.start, Vector3d::Zero()));
+        c_.markers.start.push_back(motion_at(spec.start, Vector3d::Zero(), c_.markers.origin));
         break;
     }
     add_place(spec.name, {node});
@@ -206,8 +214,6 @@ class BodyBuilder {
   BuiltSuperelements built_superelements_;
 };
 
-}  // namespace
-
 void add_bodies(const BodyFiles& files, Construction& c) {
   BodyBuilder builder(files, c);
   for (const formats::BodySpec& body : c.scene.bodies)
@@ -217,17 +223,58 @@ void add_bodies(const BodyFiles& files, Construction& c) {
       c.collect([&] { builder.add_virtual_body(*spec); });
 }
 
+Eigen::AlignedBox3d extent(const Construction& c) {
+  Eigen::AlignedBox3d box;
+  for (const NodeMotion& m : c.markers.start) box.extend(m.x);
+  return box;
+}
+
 void measure_length(Construction& c) {
   if (c.markers.start.empty()) throw Error("the scene has no bodies", c.scene.file, "add a body under `bodies:`");
-  Vector3d low = c.markers.start.front().x, high = low;
-  for (const NodeMotion& m : c.markers.start) {
-    low = low.cwiseMin(m.x);
-    high = high.cwiseMax(m.x);
-  }
   Model& model = c.model;
-  model.length = (high - low).norm();
+  model.length = extent(c).diagonal().norm();
   for (const Place& place : model.places) model.length = std::max(model.length, place.marker.p.norm());
   if (!(model.length > 0.0)) model.length = 1.0;
+}
+
+/// Where positions of such a scene should count from: zero, or a point near the middle of its nodes where these stand
+/// far from the origin, on a grid of the size of the scene, so that differences to it are exact.
+Vector3d origin_for(const Construction& c) {
+  const Vector3d center = extent(c).center();
+  if (center.cwiseAbs().maxCoeff() <= far_away * c.model.length) return Vector3d::Zero();
+  const double grid = std::exp2(std::ceil(std::log2(c.model.length)));
+  return grid * (center / grid).array().round();
+}
+
+/// The bodies of the scene, their positions counted from `origin`.
+Construction with_bodies(const formats::Scene& scene, const BodyFiles& files, const Eigen::Vector3d& origin) {
+  Construction c(scene);
+  c.model.name = scene.name;
+  c.model.units = scene.units;
+  c.model.gravity = scene.gravity;
+  c.model.internal_offset = {0};
+  c.model.origin = c.markers.origin = origin;
+  add_bodies(files, c);
+  c.throw_errors();
+  measure_length(c);
+  return c;
+}
+
+}  // namespace
+
+Construction with_bodies(const formats::Scene& scene, const BodyFiles& files) {
+  Construction c = with_bodies(scene, files, Eigen::Vector3d::Zero());
+  const Eigen::Vector3d origin = origin_for(c);
+  if (origin.isZero(0.0)) return c;
+  Construction about = with_bodies(scene, files, origin);
+  const double distance = origin.cwiseAbs().maxCoeff();
+  about.notes.push_back(fmt::format(
+      "the scene stands {:.3g} times its size from the origin: it is computed about [{:.9g}, {:.9g}, {:.9g}], "
+      "from where its potential energy counts too; stored positions count from the origin, where they are "
+      "rounded to {:.1e} {}",
+      distance / about.model.length, origin.x(), origin.y(), origin.z(),
+      distance * std::numeric_limits<double>::epsilon(), scene.units.length.label));
+  return about;
 }
 
 void eliminate_virtual_bodies(Construction& c) {

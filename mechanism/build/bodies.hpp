@@ -39,11 +39,10 @@ struct Construction {
   }
 };
 
-/// All bodies of the scene, virtual ones last.
-void add_bodies(const BodyFiles& files, Construction& c);
-
-/// Characteristic length of the scene: extent of the nodes. Throws Error where there are none.
-void measure_length(Construction& c);
+/// All bodies of the scene, virtual ones last, and its characteristic length: the extent of the nodes. A scene far from
+/// the origin is built about a point of its own (Model::origin), with a note: 1e6 m away double numbers are 1e-10 m
+/// apart. Throws Error.
+Construction with_bodies(const formats::Scene& scene, const BodyFiles& files);
 
 /// Places on virtual bodies become places on their carriers; the joints that tie them vanish.
 void eliminate_virtual_bodies(Construction& c);

@@ -22,15 +22,7 @@ void finish(Construction& c) {
 }  // namespace
 
 BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files) {
-  Construction c(scene);
-  c.model.name = scene.name;
-  c.model.units = scene.units;
-  c.model.gravity = scene.gravity;
-  c.model.internal_offset = {0};
-
-  add_bodies(files, c);
-  c.throw_errors();
-  measure_length(c);
+  Construction c = with_bodies(scene, files);
   c.collect([&] { eliminate_virtual_bodies(c); });
   c.throw_errors();
 

@@ -104,7 +104,7 @@ void JointBuilder::add(const formats::ChannelSpec& spec) {
   channel.name = spec.name;
   channel.kind = spec.kind;
   channel.axis = spec.axis;
-  channel.origin = spec.origin;
+  channel.origin = spec.origin - markers_.origin;
   const std::string subject = fmt::format("channel '{}'", spec.name);
   switch (spec.kind) {
     case formats::ChannelKind::coordinate:

@@ -13,8 +13,13 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 /// The place that a marker names (without the marker's own offset).
-Marker find_place(const std::map<std::string, Marker>& places, const formats::MarkerSpec& spec) {
-  if (spec.node == "ground") return {};
+Marker find_place(const MarkerTable& markers, const formats::MarkerSpec& spec) {
+  if (spec.node == "ground") {
+    Marker ground;
+    ground.p -= markers.origin;
+    return ground;
+  }
+  const auto& places = markers.places;
   const auto found = places.find(spec.node);
   if (found != places.end()) return found->second;
   std::vector<std::string> names{"ground"};
@@ -55,7 +60,7 @@ void place_marker(const MarkerTable& markers, const formats::MarkerSpec& spec, c
 
 void place_markers(const MarkerTable& markers, const formats::MarkerPairSpec& spec, Marker& a, Marker& b) {
   const bool at_a = spec.b.node == "ground" || (spec.a.position && !spec.b.position);
-  const Vector3d position = spec.position ? *spec.position : markers.position(at_a ? a : b);
+  const Vector3d position = spec.position ? Vector3d(*spec.position - markers.origin) : markers.position(at_a ? a : b);
   Matrix3d R = Matrix3d::Identity();
   if (spec.axis)
     R = frame_with_z(*spec.axis, spec.x_axis);
@@ -67,7 +72,7 @@ void place_markers(const MarkerTable& markers, const formats::MarkerPairSpec& sp
   place_marker(markers, spec.b, position, R, b);
 }
 
-Marker MarkerTable::find(const formats::MarkerSpec& spec) const { return with_offset(find_place(places, spec), spec); }
+Marker MarkerTable::find(const formats::MarkerSpec& spec) const { return with_offset(find_place(*this, spec), spec); }
 
 void check_marker(const Model& model, const std::string& subject, MarkerUse use, const formats::MarkerSpec& place,
                   const Marker& marker) {

@@ -14,6 +14,7 @@ namespace tisserand::mechanism {
 struct MarkerTable {
   std::map<std::string, Marker> places;
   std::vector<NodeMotion> start;  ///< of each node
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< Model::origin: positions of the scene have it, markers do not
 
   /// The marker that a scene names, with its own offset. Throws Error with the nearest name.
   Marker find(const formats::MarkerSpec& spec) const;

@@ -97,6 +97,9 @@ struct Model {
   Pool<Bushing> bushings;
   Pool<Load> loads;
   std::vector<double> breakpoints;  ///< ascending, of all loads
+  /// Where positions of nodes and ground count from, in the world: zero but for scenes that stand far away, whose
+  /// positions would lose digits. Added where positions leave the stage.
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
 
   /// Factor of each equation and unknown of the iteration matrix: 1/length for rotations, √mass for modes and length
   /// for constraints of angles, so that pivots do not depend on the unit of length; and the product for each stored

@@ -30,7 +30,7 @@ void fill_places(const Model& model, const Evaluation& evaluation, formats::Resu
     const Marker& marker = model.places[i].marker;
     const NodeMotion& node = motion_of(evaluation, marker.node);
     const auto column = static_cast<Eigen::Index>(i);
-    row.node_position.col(column) = marker_position(marker, node);
+    row.node_position.col(column) = model.origin + marker_position(marker, node);
     row.node_rotation.col(column) = wxyz(Eigen::Quaterniond(marker_rotation(marker, node)));
     row.node_velocity.col(column) = marker_velocity(marker, node);
     row.node_angular_velocity.col(column) = node.R * node.Omega;
@@ -48,7 +48,7 @@ void fill_superelements(const Model& model, Evaluation& evaluation, formats::Res
     SuperelementScratch& scratch = evaluation.superelements[i];
     const NodeView<NodeMotion> nodes = nodes_of(model, i, evaluation);
     const auto column = static_cast<Eigen::Index>(i);
-    row.frame_position.col(column) = scratch.motion.x0;
+    row.frame_position.col(column) = model.origin + scratch.motion.x0;
     row.frame_rotation.col(column) = wxyz(Eigen::Quaterniond(scratch.motion.R0));
     const Eigen::Index count = file_coordinate_count(body);
     file_coordinates(body, scratch, row.y.segment(y, count));

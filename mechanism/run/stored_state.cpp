@@ -77,7 +77,7 @@ void read_nodes(const Model& model, const StoredRow& stored, State& state) {
     }
     if (node.translation < 0) continue;
     const Vector3d arm = R * place.marker.p;
-    state.x().col(column) = stored.vector("nodes/position", place.name) - arm;
+    state.x().col(column) = stored.vector("nodes/position", place.name) - model.origin - arm;
     state.v().segment<3>(node.translation) = stored.vector("nodes/velocity", place.name) - omega.cross(arm);
   }
 }

@@ -37,7 +37,7 @@ Closed closed_constraints(const Model& model, const IntegratorSpec& options, dou
   const double motion = share_of_motion * options.tolerance * step * step * acceleration;
   const double reach = state.x().cols() > 0 ? state.x().cwiseAbs().maxCoeff() / model.length : 0.0;
   const double round_off = 4.0 * std::numeric_limits<double>::epsilon();
-  return {std::min(options.constraint_tolerance, std::max(motion, round_off * (1.0 + reach))),
+  return {std::max(std::min(options.constraint_tolerance, motion), round_off * (1.0 + reach)),
           std::min(options.constraint_tolerance, std::max(motion, round_off)) / step};
 }
 
