@@ -1,4 +1,5 @@
-// Springs with curves and about axes, bushings and gravity of bodies in scene.yaml: every key, the text of every error.
+// Springs with curves and about axes, bushings, gravity and the start of bodies in scene.yaml: every key, the text of
+// every error.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -59,6 +60,22 @@ TEST(SceneForces, EveryKeyIsRead) {
   EXPECT_FALSE(scene.bushings[0].free);
   EXPECT_EQ(scene.bushings[1].stiffness(1, 5), 7.0);
   EXPECT_EQ((*scene.bushings[1].free)[2], 1.0);
+}
+
+// Zero that is written is given; nothing is free.
+TEST(SceneStart, WhatIsWrittenIsToldFromWhatIsNot) {
+  const Scene scene = read(replaced(replaced(machine, "end: 1}", "end: 1}\ninitial: {hinge: {rate: 2.5, value: -0.5}}"),
+                                    "gravity: [0, 0, 1.5]", "velocity: [0, 0, 0]"));
+  EXPECT_EQ(std::get<RigidBodySpec>(scene.bodies[0]).start.velocity, Eigen::Vector3d(0, 0, 0));
+  EXPECT_FALSE(std::get<RigidBodySpec>(scene.bodies[0]).start.angular_velocity.has_value());
+  ASSERT_EQ(scene.initial.size(), 1u);
+  EXPECT_EQ(scene.initial[0].coordinate.name, "hinge");
+  EXPECT_EQ(scene.initial[0].rate, 2.5);
+  EXPECT_EQ(scene.initial[0].value, -0.5);
+  EXPECT_THAT(error("end: 1}", "end: 1}\ninitial: {hinge: {}}"),
+              HasSubstr("initial 'hinge': neither value nor rate is given; give one or both"));
+  EXPECT_THAT(error("end: 1}", "end: 1}\ninitial: {hing: {rate: 1}}"),
+              HasSubstr("initial 'hing': there is no joint 'hing'; did you mean 'hinge'?"));
 }
 
 // z of the markers is reversed in the mirror: displacements along z and turns about x and y change their signs.

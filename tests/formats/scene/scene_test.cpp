@@ -166,17 +166,6 @@ TEST(Scene, SuperelementInAllItsNotations) {
   EXPECT_EQ(moving.pose.position, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(moving.velocity, Eigen::Vector3d(4, 5, 6));
   EXPECT_EQ(moving.angular_velocity, Eigen::Vector3d(7, 8, 9));
-  const auto half = beam("velocity: [0, 0, 0]").start;  // zero that is written is not the same as nothing
-  EXPECT_EQ(half.velocity, Eigen::Vector3d(0, 0, 0));
-  EXPECT_FALSE(half.angular_velocity.has_value());
-}
-
-TEST(Scene, InitialValuesAndRatesOfCoordinates) {
-  const Scene scene = read(replaced(swing, "end: 20}", "end: 20}\ninitial: {hinge: {rate: 2.5, value: -0.5}}"));
-  ASSERT_EQ(scene.initial.size(), 1u);
-  EXPECT_EQ(scene.initial[0].coordinate.name, "hinge");
-  EXPECT_EQ(scene.initial[0].rate, 2.5);
-  EXPECT_EQ(scene.initial[0].value, -0.5);
 }
 
 TEST(Scene, RigidBodyFromASuperelement) {
@@ -459,10 +448,6 @@ INSTANTIATE_TEST_SUITE_P(
                 "^: output: both 'every' and 'interval' are given; give one of them"},
         BadText{"end: 20}", "end: 20}\noutput: {channels: ^nodes}",
                 "^: output: channels must be a list, not 'nodes'; write it as [nodes, energy]"},
-        BadText{"end: 20}", "end: 20}\ninitial: {^hinge: {}}",
-                "^: initial 'hinge': neither value nor rate is given; give one or both"},
-        BadText{"end: 20}", "end: 20}\ninitial: {^hing: {rate: 1}}",
-                "^: initial 'hing': there is no joint 'hing'; did you mean 'hinge'?"},
         BadText{"end: 20}", "end: 20}\ninitial_tolerance: ^0", "^: initial_tolerance 0 must be positive"},
         BadText{"end: 20}", "end: 20}\nanalysis: ^modal",
                 "^: unknown analysis 'modal'; known are dynamics, statics, "
