@@ -1,6 +1,9 @@
 // Standard output of the programs.
 #include "common/console.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -16,11 +19,22 @@ void take_write_failures_as_errors() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-void say(const std::string& text) {
+void fill_standard_streams() {
+  int file = ::open("/dev/null", O_RDWR);
+  while (file >= 0 && file <= STDERR_FILENO) file = ::open("/dev/null", O_RDWR);
+  if (file > STDERR_FILENO) ::close(file);
+}
+
+void say(const std::string& raw) {
+  const std::string text = printable(raw);
   const bool ok = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
   if (ok || errno == EPIPE) return;
   const int number = errno;
   throw Error(fmt::format("cannot write: {}", std::strerror(number)), "standard output", remedy_of_errno(number));
+}
+
+void complain(const std::string& program, const std::string& text) {
+  fmt::print(stderr, "{}: {}\n", program, printable(text));
 }
 
 std::string unknown_command(const std::string& word, const std::vector<std::string>& commands) {

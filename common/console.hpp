@@ -9,8 +9,14 @@ namespace tisserand {
 /// A reader that leaves early (`| head -1`) and files over a limit of size then fail as writes, not as signals.
 void take_write_failures_as_errors();
 
-/// Writes to standard output and flushes. A reader that has left is no error; a full disk throws Error.
+/// Opens /dev/null in the place of closed standard streams (`program <&- >&- 2>&-`), before any file takes their
+/// numbers and with them what is meant for the terminal.
+void fill_standard_streams();
+
+/// Writes to standard output and flushes, printable(). A reader that has left is no error; a full disk throws Error.
 void say(const std::string& text);
+/// "mechanism: text" on the error stream, printable().
+void complain(const std::string& program, const std::string& text);
 
 /// The message for `word` in the place of a command, with the nearest one or the list of all.
 std::string unknown_command(const std::string& word, const std::vector<std::string>& commands);

@@ -8,8 +8,10 @@
 #include <atomic>
 #include <cctype>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
+#include <string_view>
 
 #include "common/error.hpp"
 #include "common/output_path.hpp"
@@ -22,6 +24,36 @@ char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned 
 
 [[noreturn]] void fail(const std::string& action, const std::string& path, int number) {
   throw Error(fmt::format("{}: {}", action, std::strerror(number)), path, remedy_of_errno(number));
+}
+
+/// Bytes of the UTF-8 character at `at` that may be shown; 0: none begins there, or it is a control character.
+std::size_t character_length(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+  const unsigned first = byte(at);
+  if (first < 0x80) return (first >= 0x20 && first != 0x7f) || first == '\n' || first == '\t' ? 1 : 0;
+  const std::size_t length = first >= 0xc2 && first < 0xe0   ? 2
+                             : first >= 0xe0 && first < 0xf0 ? 3
+                             : first >= 0xf0 && first < 0xf5 ? 4
+                                                             : 0;
+  for (std::size_t k = 1; k < length; ++k)
+    if ((byte(at + k) & 0xc0u) != 0x80) return 0;
+  const unsigned second = byte(at + 1);
+  const bool control = first == 0xc2 && second < 0xa0;  // U+0080 to U+009F
+  const bool overlong = (first == 0xe0 && second < 0xa0) || (first == 0xf0 && second < 0x90);
+  const bool beyond =
+      (first == 0xed && second >= 0xa0) || (first == 0xf4 && second >= 0x90);  // surrogates, above U+10FFFF
+  return control || overlong || beyond ? 0 : length;
+}
+
+/// The descriptor that a name such as /dev/stdout or /dev/fd/5 means, or -1.
+int own_stream(const std::string& path) {
+  if (path == "/dev/stdout") return STDOUT_FILENO;
+  if (path == "/dev/stderr") return STDERR_FILENO;
+  constexpr std::string_view folder = "/dev/fd/";
+  int number = -1;
+  if (!path.starts_with(folder)) return number;
+  const char* end = path.data() + path.size();
+  return std::from_chars(path.data() + folder.size(), end, number).ptr == end ? number : -1;
 }
 
 }  // namespace
@@ -113,9 +145,24 @@ std::string temporary_beside(const std::string& path) {
   return fmt::format("{}.tmp-{}-{}", path, ::getpid(), counter.fetch_add(1));
 }
 
+std::string printable(const std::string& text) {
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t length = character_length(text, i);
+    if (length > 0)
+      result.append(text, i, length);
+    else
+      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i]));
+    i += std::max<std::size_t>(length, 1);
+  }
+  return result;
+}
+
 TextFile::TextFile(const std::string& path) : path_(path) {
   if (is_stream(path)) {
-    file_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    // Opened by its name, a file behind it would be written from its beginning: over what the shell's >> is to keep.
+    const int own = own_stream(path);
+    file_ = own >= 0 ? ::fcntl(own, F_DUPFD_CLOEXEC, 0) : ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (file_ < 0) fail("cannot open", path_, errno);
     return;
   }

@@ -22,8 +22,12 @@ std::string join(const std::vector<std::string>& parts, const std::string& separ
 /// Whether `text` matches `pattern`, in which * stands for any run of characters (also none, also with /).
 bool matches_wildcard(const std::string& text, const std::string& pattern);
 
+/// The text with what terminals would obey or stumble over as \xNN: control characters but line ends and tabs, and
+/// bytes that are no UTF-8. Names and messages may come from damaged or foreign files.
+std::string printable(const std::string& text);
+
 /// A text file that grows beside its name and takes it in publish(); without that, nothing is left. Streams such as
-/// /dev/stdout are written as they are. Throws Error.
+/// /dev/stdout are written as they are, those of the program where it stands in them. Throws Error.
 class TextFile {
  public:
   explicit TextFile(const std::string& path);

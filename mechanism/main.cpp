@@ -17,11 +17,13 @@
 #include "common/error.hpp"
 #include "common/output_path.hpp"
 #include "common/progress.hpp"
+#include "formats/results/results.hpp"
 #include "formats/scene/scene.hpp"
 #include "formats/yaml/override.hpp"
 #include "mechanism/histories/plot.hpp"
 #include "mechanism/histories/tables.hpp"
 #include "mechanism/run/analyses.hpp"
+#include "mechanism/run/checkpoint.hpp"
 #include "mechanism/simulate.hpp"
 
 namespace {
@@ -91,10 +93,13 @@ and before it those that it starts from.
 
   mechanism run arm.scene.yaml --analysis tones
   mechanism run arm.scene.yaml --set checkpoint.every=1000
-  mechanism run arm.scene.yaml --restart arm.checkpoint.h5 -o arm2.results.h5
+  mechanism run arm.scene.yaml --restart arm.checkpoint.h5 --append
+  mechanism run arm.scene.yaml --restart arm.checkpoint.h5 -o rest.results.h5
 
 A run that goes on from a checkpoint is bit-equal to one that was never interrupted (same machine and program); from an
-instant of a results file it is accurate to the tolerance.
+instant of a results file it is accurate to the tolerance. With --append one file holds the rows of both, the joining
+instant once; the results that are gone on from stay as they are until the new ones, whole, take their place. Without it
+they are never overwritten.
 
 While it runs the results grow in <output>.part, readable at any time. Ctrl-C, a step that does not converge and a full disk
 close the file with what was reached and the reason; `channels`, `export` and `plot` accept it. Names of files in the scene
@@ -147,6 +152,7 @@ struct RunArguments {
   std::string analysis;
   std::string restart;
   std::optional<double> at;
+  mechanism::Joining joining = mechanism::Joining::apart;
   std::vector<std::string> settings;
 };
 
@@ -172,7 +178,7 @@ int exit_code(const mechanism::RunReport& report) {
     case mechanism::RunOutcome::completed:
       return 0;
     case mechanism::RunOutcome::not_converged:
-      fmt::print(stderr, "mechanism: did not converge: {}\n", report.reason);
+      complain("mechanism", fmt::format("did not converge: {}", report.reason));
       return exit_not_converged;
     case mechanism::RunOutcome::interrupted:
       return exit_interrupted;
@@ -196,32 +202,51 @@ mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunReq
   return end;
 }
 
+/// The results file that was asked for; empty: that of the scene. A run that goes on from a file never overwrites what
+/// the file belongs to.
+std::string output_of(const RunArguments& arguments, const std::optional<mechanism::RestartFile>& restart) {
+  const bool appends = arguments.joining == mechanism::Joining::appended;
+  if (!restart && appends)
+    throw Error("--append needs a run to go on from", "", "name its checkpoint or results file with --restart");
+  if (!restart) return arguments.output;
+  if (appends) return arguments.output.empty() ? restart->results : arguments.output;
+  if (arguments.output.empty())
+    throw Error("--restart needs a results file of its own", "",
+                "name it with -o, so that what was computed before is kept, or join both with --append");
+  mechanism::require_apart(*restart, arguments.output);
+  return arguments.output;
+}
+
 int run(const RunArguments& arguments) {
   const formats::Scene scene = read(arguments);
-  const bool restarts = !arguments.restart.empty();
-  if (restarts && arguments.output.empty())
-    throw Error("--restart needs a results file of its own", "",
-                "name it with -o, so that what was computed before is kept");
-  const bool chosen = !arguments.output.empty();
-  std::vector<mechanism::PlannedAnalysis> planned = mechanism::plan(
-      scene, arguments.analysis, {chosen ? arguments.output : default_results(arguments.scene), chosen});
+  std::optional<mechanism::RestartFile> restart;
+  if (!arguments.restart.empty()) restart = mechanism::find_restart(arguments.restart);
+  const std::string output = output_of(arguments, restart);
+  const bool chosen = !output.empty();
+  std::vector<mechanism::PlannedAnalysis> planned =
+      mechanism::plan(scene, arguments.analysis, {chosen ? output : default_results(arguments.scene), chosen});
   std::vector<std::string> files_read = inputs(scene);
-  if (restarts) {
+  if (restart) {
     if (planned.size() > 1 && arguments.analysis.empty())
       throw Error("the scene has several analyses", arguments.scene, "name the one that goes on with --analysis");
     planned.erase(planned.begin(), planned.end() - 1);
     planned.back().from.clear();
-    files_read.push_back(arguments.restart);
+    if (restart->checkpoint || arguments.joining == mechanism::Joining::apart) files_read.push_back(restart->path);
   }
-  for (const mechanism::PlannedAnalysis& one : planned) require_output(one.results, files_read, Replaces::hdf5_only);
+  for (const mechanism::PlannedAnalysis& one : planned) {
+    require_output(one.results, files_read, Replaces::hdf5_only);
+    formats::require_unheld_results(one.results);
+  }
   listen_for_interrupts();
   const mechanism::BodyFiles files = mechanism::read_body_files(scene);
   std::map<std::string, mechanism::State> ends;
   for (const mechanism::PlannedAnalysis& one : planned) {
     std::optional<mechanism::State> begin;
     if (!one.from.empty()) begin = ends.at(one.from);
-    mechanism::RunEnd end = run_one(
-        arguments, {one.scene, files, std::move(begin), one.results, arguments.restart, arguments.at}, one.name);
+    mechanism::RunEnd end =
+        run_one(arguments,
+                {one.scene, files, std::move(begin), one.results, arguments.restart, arguments.at, arguments.joining},
+                one.name);
     if (const int code = exit_code(end.report); code != 0) return code;
     ends.insert_or_assign(one.name, std::move(end.state));
   }
@@ -287,9 +312,10 @@ int tell_usage(const CLI::App& app, const CLI::ParseError& error, int argc, char
     if (argc > 1 && one->get_name() == argv[1]) command = one;
   }
   const bool is_word = argc > 1 && argv[1][0] != '-';
-  fmt::print(stderr, "mechanism: {}\n`mechanism {}--help` explains.\n",
-             is_word && command == nullptr ? unknown_command(argv[1], commands) : std::string(error.what()),
-             command == nullptr ? "" : command->get_name() + " ");
+  complain("mechanism",
+           fmt::format("{}\n`mechanism {}--help` explains.",
+                       is_word && command == nullptr ? unknown_command(argv[1], commands) : std::string(error.what()),
+                       command == nullptr ? "" : command->get_name() + " "));
   return exit_usage;
 }
 
@@ -316,9 +342,12 @@ int command_line(int argc, char** argv) {
   run_command->add_option("--analysis", run_arguments.analysis,
                           "one of the scene's `analyses`, after those that it starts from; default: all, in order");
   run_command->add_option("--restart", run_arguments.restart,
-                          "go on from a checkpoint, or from an instant of a results file; needs -o");
+                          "go on from a checkpoint, or from an instant of a results file; needs -o or --append");
   run_command->add_option("--at", run_arguments.at,
                           "with --restart: a stored instant of a results file; default: the last");
+  run_command->add_flag_callback(
+      "--append", [&] { run_arguments.joining = mechanism::Joining::appended; },
+      "with --restart: begin with the rows until then; without -o in place of the results that are gone on from");
   run_command->callback([&] { code = run(run_arguments); });
 
   RunArguments check_arguments;
@@ -399,15 +428,16 @@ int command_line(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  tisserand::fill_standard_streams();
   tisserand::take_write_failures_as_errors();
   try {
     return command_line(argc, argv);
   } catch (const tisserand::Error& error) {
-    fmt::print(stderr, "mechanism: {}\n", error.what());
+    tisserand::complain("mechanism", error.what());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "mechanism: out of memory\n");
+    tisserand::complain("mechanism", "out of memory");
   } catch (const std::exception& error) {
-    fmt::print(stderr, "mechanism: internal error: {}\n", error.what());
+    tisserand::complain("mechanism", fmt::format("internal error: {}", error.what()));
   }
   return exit_error;
 }

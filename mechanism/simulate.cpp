@@ -20,12 +20,12 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
   if (request.restart.empty())
     start(run);
   else
-    resume(run, request.restart, request.at);
+    resume(run, request.restart, request.at, request.joining);
   const double begin_steps = run.seconds();
   const formats::ResultsLayout layout = results_layout(run.built.model, run.scene);
   formats::ResultsRow row;
   row.resize(layout);
-  formats::ResultsWriter writer(request.path, layout);
+  formats::ResultsWriter writer(request.path, layout, run.beginning.value_or(formats::ResultsBeginning{}));
   RowWriter out{row, writer, request.path};
   switch (run.scene.analysis) {
     case formats::AnalysisKind::dynamics:

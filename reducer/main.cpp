@@ -136,15 +136,17 @@ int tell_usage(const CLI::ParseError& error, const std::string& asked) {
   const std::vector<std::string> commands{"run", "show", "mesh", "groups", "section", "import", "export"};
   const bool known = std::find(commands.begin(), commands.end(), asked) != commands.end();
   const bool is_word = !asked.empty() && asked[0] != '-';
-  fmt::print(stderr, "reducer: {}\n`reducer {}--help` explains.\n",
-             is_word && !known ? tisserand::unknown_command(asked, commands) : std::string(error.what()),
-             known ? asked + " " : "");
+  tisserand::complain("reducer", fmt::format("{}\n`reducer {}--help` explains.",
+                                             is_word && !known ? tisserand::unknown_command(asked, commands)
+                                                               : std::string(error.what()),
+                                             known ? asked + " " : ""));
   return 2;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  tisserand::fill_standard_streams();
   tisserand::take_write_failures_as_errors();
   const std::string asked = argc > 1 ? argv[1] : "";
   CLI::App app(description, "reducer");
@@ -188,9 +190,9 @@ int main(int argc, char** argv) {
   try {
     return tisserand::reducer::perform(arguments, argv);
   } catch (const tisserand::Error& error) {
-    fmt::print(stderr, "reducer: {}\n", error.what());
+    tisserand::complain("reducer", error.what());
   } catch (const std::exception& error) {
-    fmt::print(stderr, "reducer: {}\n", error.what());
+    tisserand::complain("reducer", error.what());
   }
   return 1;
 }

@@ -23,6 +23,8 @@ constexpr std::size_t max_text = 1u << 20;
 constexpr std::size_t max_report = 1u << 26;
 constexpr hsize_t max_members = 10000;
 constexpr std::size_t conversion_bytes = 16u << 10;
+constexpr const char* damaged_values =
+    "the file is damaged (checksums tell) or uses a filter that is not installed; write or copy it again";
 
 /// Properties of every file access: no locks (they fail on network disks and in readers beside a writer).
 Handle access_properties() {
@@ -110,6 +112,54 @@ std::string strip_padding(const char* text, std::size_t size, H5T_str_t padding)
   if (padding == H5T_STR_SPACEPAD)
     while (length > 0 && text[length - 1] == ' ') --length;
   return std::string(text, length);
+}
+
+/// Bytes that the values themselves take in the file: Fletcher's checksum adds four to each chunk.
+std::uint64_t without_checksums(Id creation, std::uint64_t stored, std::size_t element) {
+  std::vector<hsize_t> chunk(H5S_MAX_RANK);
+  const int rank = H5Pget_chunk(creation, H5S_MAX_RANK, chunk.data());
+  std::uint64_t bytes = element;
+  for (int axis = 0; axis < rank; ++axis) bytes *= chunk[axis];
+  return stored / (bytes + 4) * bytes;
+}
+
+bool has_only_checksums(Id creation) {
+  unsigned flags = 0;
+  std::size_t values = 0;
+  return H5Pget_nfilters(creation) == 1 &&
+         H5Pget_filter2(creation, 0, &flags, &values, nullptr, 0, nullptr, nullptr) == H5Z_FILTER_FLETCHER32;
+}
+
+/// Values of a dataset over time: rows [start[0], start[0] + count[0]) and a box of each.
+struct Selection {
+  std::vector<hsize_t> start, count;
+};
+
+bool read_selection(Id dataset, Id space, const Selection& selection, Id transfer, double* values) {
+  const hsize_t total = count_of(Shape(selection.count.begin(), selection.count.end()));
+  const Handle memory(H5Screate_simple(1, &total, nullptr), H5Sclose);
+  return H5Sselect_hyperslab(space, H5S_SELECT_SET, selection.start.data(), nullptr, selection.count.data(), nullptr) >=
+             0 &&
+         H5Dread(dataset, H5T_NATIVE_DOUBLE, memory.id(), space, transfer, values) >= 0;
+}
+
+/// The chunk in which the rows end is written again and again while a run goes on. Where its writer was met, or killed,
+/// amid that, the rows are there but their checksum is not yet: this chunk is then read without, the others with it.
+bool read_beside_writer(Id dataset, Id space, const Selection& selection, double* values) {
+  const Handle creation(H5Dget_create_plist(dataset), H5Pclose), transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+  std::vector<hsize_t> chunk(H5S_MAX_RANK);
+  if (H5Pget_chunk(creation.id(), H5S_MAX_RANK, chunk.data()) <= 0) return false;
+  H5Pset_edc_check(transfer.id(), H5Z_DISABLE_EDC);
+  const hsize_t rows = shape_of(space)[0], last = rows > 0 ? (rows - 1) / chunk[0] * chunk[0] : 0;
+  const hsize_t begin = selection.start[0], end = begin + selection.count[0];
+  const hsize_t middle = std::clamp(last, begin, end);
+  Selection before = selection, after = selection;
+  before.count[0] = middle - begin;
+  after.start[0] = middle;
+  after.count[0] = end - middle;
+  const std::uint64_t done = count_of(Shape(before.count.begin(), before.count.end()));
+  return (middle == begin || read_selection(dataset, space, before, H5P_DEFAULT, values)) &&
+         (middle == end || read_selection(dataset, space, after, transfer.id(), values + done));
 }
 
 herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* names) {
@@ -211,13 +261,21 @@ std::string InputFile::place(const std::string& object) const {
 bool InputFile::has(const std::string& object) const {
   if (object == "/") return true;
   for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
-    if (H5Lexists(file_.id(), object.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+    const std::string name = object.substr(0, end);
+    const htri_t found = H5Lexists(file_.id(), name.c_str(), H5P_DEFAULT);
+    if (found < 0) throw last_error("cannot be looked up", place(name), "the file is damaged; write or copy it again");
+    if (found == 0) return false;
     if (end == std::string::npos) return true;
   }
 }
 
 bool InputFile::has_attribute(const std::string& object, const std::string& name) const {
-  return has(object) && H5Aexists_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+  if (!has(object)) return false;
+  const htri_t found = H5Aexists_by_name(file_.id(), object.c_str(), name.c_str(), H5P_DEFAULT);
+  if (found < 0)
+    throw last_error("its attributes cannot be looked up", place(object),
+                     "the file is damaged; write or copy it again");
+  return found > 0;
 }
 
 Handle InputFile::open_object(const std::string& object) const {
@@ -320,7 +378,9 @@ DatasetInfo InputFile::info(const std::string& dataset) const {
   result.shape = shape_of(space.id());
   const auto count = static_cast<std::uint64_t>(H5Sget_simple_extent_npoints(space.id()));
   result.stored_bytes = H5Dget_storage_size(handle.id());
-  result.filtered = H5Pget_nfilters(creation.id()) > 0;
+  const bool checked = has_only_checksums(creation.id());
+  if (checked) result.stored_bytes = without_checksums(creation.id(), result.stored_bytes, H5Tget_size(type.id()));
+  result.filtered = !checked && H5Pget_nfilters(creation.id()) > 0;
   const bool whole = result.filtered || result.stored_bytes / H5Tget_size(type.id()) >= count;
   result.written = count == 0 || (result.stored_bytes > 0 && whole);
   return result;
@@ -342,7 +402,7 @@ void InputFile::require(const std::string& dataset, ElementKind kind, const Shap
 void InputFile::read(const std::string& dataset, const Shape& shape, const std::string& meaning, double* values) const {
   require(dataset, ElementKind::float64, shape, meaning);
   if (H5Dread(open_dataset(dataset).id(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
-    throw last_error("cannot be read", place(dataset), "the file is damaged or uses a filter that is not installed");
+    throw last_error("cannot be read", place(dataset), damaged_values);
 }
 
 void InputFile::read(const std::string& dataset, const Shape& shape, const std::string& meaning,
@@ -352,12 +412,11 @@ void InputFile::read(const std::string& dataset, const Shape& shape, const std::
   const Handle transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
   H5Pset_buffer(transfer.id(), conversion_bytes, nullptr, nullptr);
   if (H5Dread(open_dataset(dataset).id(), H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, transfer.id(), values) < 0)
-    throw last_error("cannot be read", place(dataset), "the file is damaged or uses a filter that is not installed");
+    throw last_error("cannot be read", place(dataset), damaged_values);
 }
 
 std::vector<std::string> InputFile::read_all_texts(Id dataset, std::uint64_t count, const std::string& where) const {
   const Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
-  const char* damaged = "the file is damaged or uses a filter that is not installed";
   std::vector<std::string> texts;
   if (count == 0) return texts;
   if (H5Tis_variable_str(type.id()) > 0) {
@@ -366,7 +425,7 @@ std::vector<std::string> InputFile::read_all_texts(Id dataset, std::uint64_t cou
     for (const char* text : pointers)
       texts.emplace_back(text == nullptr ? "" : std::string(text, ::strnlen(text, max_report)));
     H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, pointers.data());
-    if (!ok) throw last_error("cannot be read", where, damaged);
+    if (!ok) throw last_error("cannot be read", where, damaged_values);
     return texts;
   }
   const std::size_t size = H5Tget_size(type.id());
@@ -376,7 +435,7 @@ std::vector<std::string> InputFile::read_all_texts(Id dataset, std::uint64_t cou
         where, "shorten them");
   std::vector<char> buffer(size * count + 1, '\0');
   if (H5Dread(dataset, type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer.data()) < 0)
-    throw last_error("cannot be read", where, damaged);
+    throw last_error("cannot be read", where, damaged_values);
   for (std::uint64_t i = 0; i < count; ++i)
     texts.push_back(strip_padding(buffer.data() + i * size, size, H5Tget_strpad(type.id())));
   return texts;
@@ -401,11 +460,11 @@ void InputFile::read_rows(const std::string& dataset, std::uint64_t first, std::
                    count, dataset);
   start[0] = first;
   extent[0] = count;
-  const hsize_t total = count_of(Shape(extent.begin(), extent.end()));
-  const Handle memory(H5Screate_simple(1, &total, nullptr), H5Sclose);
-  H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
-  if (H5Dread(handle.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT, values) < 0)
-    throw last_error("cannot be read", place(dataset), "the file is damaged or uses a filter that is not installed");
+  start.resize(extent.size());
+  const Selection selection{start, extent};
+  if (read_selection(handle.id(), space.id(), selection, H5P_DEFAULT, values)) return;
+  if (!closed_properly_ && read_beside_writer(handle.id(), space.id(), selection, values)) return;
+  throw last_error("cannot be read", place(dataset), damaged_values);
 }
 
 void InputFile::read_column(const std::string& dataset, std::uint64_t column, std::uint64_t count,
@@ -419,11 +478,10 @@ void InputFile::read_column(const std::string& dataset, std::uint64_t column, st
     column /= shape[axis];
   }
   extent[0] = count;
-  const hsize_t total = count;
-  const Handle memory(H5Screate_simple(1, &total, nullptr), H5Sclose);
-  H5Sselect_hyperslab(space.id(), H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
-  if (H5Dread(handle.id(), H5T_NATIVE_DOUBLE, memory.id(), space.id(), H5P_DEFAULT, values) < 0)
-    throw last_error("cannot be read", place(dataset), "the file is damaged or uses a filter that is not installed");
+  const Selection selection{start, extent};
+  if (read_selection(handle.id(), space.id(), selection, H5P_DEFAULT, values)) return;
+  if (!closed_properly_ && read_beside_writer(handle.id(), space.id(), selection, values)) return;
+  throw last_error("cannot be read", place(dataset), damaged_values);
 }
 
 }  // namespace tisserand::formats::hdf5

@@ -42,11 +42,11 @@ enum class ElementKind { float64, integer, text, other };
 /// What the file says about a dataset, before any of its data are read.
 struct DatasetInfo {
   ElementKind kind = ElementKind::other;
-  std::string type_text;  ///< in words, e.g. "32-bit float"
-  Shape shape;            ///< empty: scalar
-  bool written = true;    ///< false: some of its storage was never written
-  bool filtered = false;  ///< compressed or otherwise packed
-  std::uint64_t stored_bytes = 0;
+  std::string type_text;           ///< in words, e.g. "32-bit float"
+  Shape shape;                     ///< empty: scalar
+  bool written = true;             ///< false: some of its storage was never written
+  bool filtered = false;           ///< compressed or otherwise packed; checksums do not count
+  std::uint64_t stored_bytes = 0;  ///< without checksums
 };
 
 /// Which files may be opened: only those that were closed properly, or also those of a run that still writes or was
@@ -109,10 +109,17 @@ class InputFile {
   Handle file_;
 };
 
+/// What reading in a child process may take.
+struct ReadingLimits {
+  unsigned processor_seconds = 0;
+  unsigned wall_seconds = 0;
+};
+
 /// Runs `read` in a child process first, because HDF5 itself can crash on damaged files. Throws Error if the child dies
-/// or needs ten times the processor time of an ordinary read (HDF5 can also loop for ever); what `read` throws is left
-/// to be met again when the caller reads.
+/// or needs ten times the processor time of an ordinary read (HDF5 can also loop for ever), or, where it waits, much
+/// more wall time than a slow disk; what `read` throws is left to be met again when the caller reads.
 void rehearse(const std::string& path, const std::function<void()>& read);
+void rehearse(const std::string& path, const std::function<void()>& read, const ReadingLimits& limits);
 
 /// The same for many files in one child process, in their order; false if it dies or needs too long at one of them.
 [[nodiscard]] bool survives(const std::vector<std::string>& paths, const std::function<void(const std::string&)>& read);
@@ -136,7 +143,7 @@ void write_text(Id file, const std::string& dataset, const std::string& value, c
 
 /// A new file in memory (core driver, nothing on disk), and its bytes when all is written.
 Handle create_in_memory(const std::string& where);
-std::string file_image(Id file, const std::string& where);
+std::string file_image(Handle file, const std::string& where);
 
 /// Switches off HDF5's own printing of errors and its work at exit; every opening function calls it.
 void silence();

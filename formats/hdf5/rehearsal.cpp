@@ -6,6 +6,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
+#include <cstdint>
 
 #include "formats/hdf5/file.hpp"
 
@@ -13,25 +15,36 @@ namespace tisserand::formats::hdf5 {
 
 namespace {
 
-constexpr rlim_t least_seconds = 2;
-constexpr rlim_t bytes_per_second = 20u << 20;  // a tenth of what HDF5 reads and unpacks in a second
+constexpr unsigned least_processor_seconds = 2, least_wall_seconds = 30;
+constexpr std::uint64_t bytes_per_processor_second = 20u << 20;  // a tenth of what HDF5 reads and unpacks in a second
+constexpr std::uint64_t bytes_per_wall_second = 1u << 20;        // a slow disk at the other end of a network
 
-/// Processor time that reading may take.
-rlim_t seconds_for(const std::vector<std::string>& paths) {
-  rlim_t bytes = 0;
+ReadingLimits limits_for(const std::vector<std::string>& paths) {
+  std::uint64_t bytes = 0;
   for (const std::string& path : paths) {
     struct stat file {};
-    if (::stat(path.c_str(), &file) == 0) bytes += static_cast<rlim_t>(file.st_size);
+    if (::stat(path.c_str(), &file) == 0) bytes += static_cast<std::uint64_t>(file.st_size);
   }
-  return least_seconds + bytes / bytes_per_second;
+  return {least_processor_seconds + static_cast<unsigned>(bytes / bytes_per_processor_second),
+          least_wall_seconds + static_cast<unsigned>(bytes / bytes_per_wall_second)};
 }
 
-[[noreturn]] void run_child(const std::vector<std::string>& paths,
-                            const std::function<void(const std::string&)>& read) {
-  const rlim_t seconds = seconds_for(paths);
-  const rlimit time{seconds, seconds}, core{0, 0};
+/// The alarm ends the child also where it waits and uses no processor time.
+void set_limits(const ReadingLimits& limits) {
+  const rlimit time{limits.processor_seconds, limits.processor_seconds}, core{0, 0};
   ::setrlimit(RLIMIT_CPU, &time);
   ::setrlimit(RLIMIT_CORE, &core);
+  sigset_t alarm;
+  ::sigemptyset(&alarm);
+  ::sigaddset(&alarm, SIGALRM);
+  ::signal(SIGALRM, SIG_DFL);
+  ::sigprocmask(SIG_UNBLOCK, &alarm, nullptr);
+  ::alarm(limits.wall_seconds);
+}
+
+[[noreturn]] void run_child(const std::vector<std::string>& paths, const std::function<void(const std::string&)>& read,
+                            const ReadingLimits& limits) {
+  set_limits(limits);
   const int silent = ::open("/dev/null", O_WRONLY);
   ::dup2(silent, STDOUT_FILENO);
   ::dup2(silent, STDERR_FILENO);
@@ -45,23 +58,37 @@ rlim_t seconds_for(const std::vector<std::string>& paths) {
   ::_exit(0);
 }
 
-}  // namespace
-
-bool survives(const std::vector<std::string>& paths, const std::function<void(const std::string&)>& read) {
-  if (paths.empty()) return true;
+/// How the child ended, as waitpid() says it; 0 without one.
+int status_of_child(const std::vector<std::string>& paths, const std::function<void(const std::string&)>& read,
+                    const ReadingLimits& limits) {
+  if (paths.empty()) return 0;
   silence();
   const pid_t child = ::fork();
-  if (child < 0) return true;  // no process to spare: the caller reads without rehearsal
-  if (child == 0) run_child(paths, read);
+  if (child < 0) return 0;  // no process to spare: the caller reads without rehearsal
+  if (child == 0) run_child(paths, read, limits);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  return !WIFSIGNALED(status) && !(WIFEXITED(status) && WEXITSTATUS(status) != 0);
+  return status;
 }
 
-void rehearse(const std::string& path, const std::function<void()>& read) {
-  if (!survives({path}, [&read](const std::string&) { read(); }))
-    throw Error("is an HDF5 file, but so damaged that HDF5 cannot read it", path, "write or copy the file again");
+}  // namespace
+
+bool survives(const std::vector<std::string>& paths, const std::function<void(const std::string&)>& read) {
+  return status_of_child(paths, read, limits_for(paths)) == 0;
+}
+
+void rehearse(const std::string& path, const std::function<void()>& read) { rehearse(path, read, limits_for({path})); }
+
+void rehearse(const std::string& path, const std::function<void()>& read, const ReadingLimits& limits) {
+  const int status = status_of_child(
+      {path}, [&read](const std::string&) { read(); }, limits);
+  if (status == 0) return;
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+    throw Error(
+        fmt::format("could not be read within {} s: it is damaged, or its disk does not answer", limits.wall_seconds),
+        path, "copy it to another disk, or write it again");
+  throw Error("is an HDF5 file, but so damaged that HDF5 cannot read it", path, "write or copy the file again");
 }
 
 }  // namespace tisserand::formats::hdf5

@@ -2,7 +2,9 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
+#include <vector>
 
 #include "formats/hdf5/file.hpp"
 
@@ -11,6 +13,9 @@ namespace tisserand::formats::hdf5 {
 namespace {
 
 constexpr const char* remedy = "choose another place for the file";
+constexpr std::uint64_t compact_bytes = 4096;         // of datasets whose values stand in their header
+constexpr std::uint64_t compact_text_bytes = 60'000;  // of one string; HDF5 allows 64 KiB of a header's message
+constexpr std::uint64_t chunk_bytes = 256u << 10;     // roughly; fits the cache of a dataset
 
 /// Zero-padded UTF-8 of `size` bytes.
 Handle text_type(std::size_t size) {
@@ -33,14 +38,45 @@ void write_attribute(Id file, const std::string& object, const std::string& name
     throw last_error(fmt::format("cannot write attribute '{}' of {}", name, object), where, remedy);
 }
 
+/// How values are stored so that damaged ones cannot be read as others: a few in the dataset's header, whose checksum
+/// HDF5 keeps, others in chunks with Fletcher's. A scalar cannot be in chunks: a longer text bears none.
+void set_checked_storage(Id creation, Id space, Id file_type) {
+  const int rank = H5Sget_simple_extent_ndims(space);
+  const auto count = static_cast<std::uint64_t>(H5Sget_simple_extent_npoints(space));
+  const std::uint64_t bytes = count * H5Tget_size(file_type);
+  if (bytes == 0) return;
+  if (bytes <= (rank == 0 ? compact_text_bytes : compact_bytes)) {
+    H5Pset_layout(creation, H5D_COMPACT);
+    return;
+  }
+  if (rank == 0) return;
+  std::vector<hsize_t> chunk(rank);
+  H5Sget_simple_extent_dims(space, chunk.data(), nullptr);
+  const hsize_t chunks = std::clamp<hsize_t>(bytes / chunk_bytes, 1, chunk[0]);
+  chunk[0] = (chunk[0] + chunks - 1) / chunks;
+  H5Pset_chunk(creation, rank, chunk.data());
+  H5Pset_fletcher32(creation);
+}
+
+/// The groups on the way to a dataset.
+void create_groups(Id file, const std::string& dataset) {
+  const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.id(), false);
+  for (std::size_t end = dataset.find('/', 1); end != std::string::npos; end = dataset.find('/', end + 1)) {
+    const std::string group = dataset.substr(0, end);
+    if (H5Lexists(file, group.c_str(), H5P_DEFAULT) > 0) continue;
+    const Handle made(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), H5Gclose);
+  }
+}
+
 /// Creates and writes; no times are stored, so that equal contents give equal bytes.
 void write_values(Id file, const std::string& dataset, Id space, Id file_type, Id memory_type, const void* values,
                   const std::string& where) {
-  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(links.id(), 1);
   H5Pset_obj_track_times(creation.id(), false);
-  const Handle handle(H5Dcreate2(file, dataset.c_str(), file_type, space, links.id(), creation.id(), H5P_DEFAULT),
+  set_checked_storage(creation.id(), space, file_type);
+  create_groups(file, dataset);
+  const Handle handle(H5Dcreate2(file, dataset.c_str(), file_type, space, H5P_DEFAULT, creation.id(), H5P_DEFAULT),
                       H5Dclose);
   if (!handle.valid() || H5Dwrite(handle.id(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
     throw last_error(fmt::format("cannot write dataset {}", dataset), where, remedy);
@@ -49,6 +85,17 @@ void write_values(Id file, const std::string& dataset, Id space, Id file_type, I
 Handle simple_space(const Shape& shape) {
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
   return Handle(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+}
+
+/// Where the bytes of a file in memory go when it is closed, as many as it takes; null: nowhere.
+thread_local std::string* closed_image = nullptr;
+
+void* resize_image(void* bytes, std::size_t size, H5FD_file_image_op_t, void*) { return std::realloc(bytes, size); }
+
+herr_t free_image(void* bytes, H5FD_file_image_op_t, void*) {
+  if (closed_image != nullptr) std::memcpy(closed_image->data(), bytes, closed_image->size());
+  std::free(bytes);
+  return 0;
 }
 
 }  // namespace
@@ -102,18 +149,33 @@ void write_text(Id file, const std::string& dataset, const std::string& value, c
 
 Handle create_in_memory(const std::string& where) {
   silence();
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_fapl_core(access.id(), 1u << 20, false);
-  Handle file(H5Fcreate("memory", H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
+  H5FD_file_image_callbacks_t callbacks{};
+  callbacks.image_realloc = resize_image;
+  callbacks.image_free = free_image;
+  H5Pset_file_image_callbacks(access.id(), &callbacks);
+  H5Pset_meta_block_size(access.id(), 0);  // no space in advance, which would be left over at the end
+  H5Pset_small_data_block_size(access.id(), 0);
+  H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
+  // From 1.8 on headers, and so names, attributes and small datasets, have checksums; every program of today reads
+  // them.
+  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+  H5Pset_obj_track_times(creation.id(), false);
+  Handle file(H5Fcreate("memory", H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
   if (!file.valid()) throw last_error("cannot compose the file in memory", where, "check the installation of HDF5");
   return file;
 }
 
-std::string file_image(Id file, const std::string& where) {
-  H5Fflush(file, H5F_SCOPE_GLOBAL);
-  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+std::string file_image(Handle file, const std::string& where) {
+  // H5Fget_file_image() would spoil the checksum of the superblock: it clears the mark of the writer behind its back.
+  const bool flushed = H5Fflush(file.id(), H5F_SCOPE_GLOBAL) >= 0;
+  const ssize_t size = H5Fget_file_image(file.id(), nullptr, 0);
   std::string image(size > 0 ? static_cast<std::size_t>(size) : 0, '\0');
-  if (size <= 0 || H5Fget_file_image(file, image.data(), image.size()) != size)
+  closed_image = &image;
+  const bool closed = file.reset() >= 0;
+  closed_image = nullptr;
+  if (size <= 0 || !flushed || !closed)
     throw last_error("cannot compose the file in memory", where, "check the installation of HDF5");
   return image;
 }

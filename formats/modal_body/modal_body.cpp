@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "common/text.hpp"
 #include "formats/hdf5/head.hpp"
@@ -190,8 +191,14 @@ void write_integrals(hdf5::Id file, const ModalIntegrals& sums, const std::strin
 
 }  // namespace
 
+void try_modal_body(const std::string& path) { static_cast<void>(read_unchecked(path)); }
+
 LoadedModalBody read_modal_body(const std::string& path) {
-  hdf5::rehearse(path, [&path] { static_cast<void>(read_unchecked(path)); });
+  hdf5::rehearse(path, [&path] { try_modal_body(path); });
+  return read_rehearsed_modal_body(path);
+}
+
+LoadedModalBody read_rehearsed_modal_body(const std::string& path) {
   LoadedModalBody loaded{read_unchecked(path), {}};
   loaded.warnings = check(loaded.body, path);
   return loaded;
@@ -199,11 +206,11 @@ LoadedModalBody read_modal_body(const std::string& path) {
 
 void write_modal_body(const std::string& path, const ModalBody& body) {
   static_cast<void>(check(body, path));
-  const hdf5::Handle file = hdf5::create_in_memory(path);
+  hdf5::Handle file = hdf5::create_in_memory(path);
   write_head(file.id(), body, path);
   write_nodes(file.id(), body, path);
   write_integrals(file.id(), body.integrals, path);
-  write_text_file(path, hdf5::file_image(file.id(), path));
+  write_text_file(path, hdf5::file_image(std::move(file), path));
 }
 
 }  // namespace tisserand::formats

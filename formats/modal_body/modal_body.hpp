@@ -64,6 +64,10 @@ struct LoadedModalBody {
 /// Reads and checks. Throws Error naming dataset, indices, value and meaning.
 LoadedModalBody read_modal_body(const std::string& path);
 
+/// As try_superelement() and read_rehearsed_superelement(): for many files in one child process.
+void try_modal_body(const std::string& path);
+LoadedModalBody read_rehearsed_modal_body(const std::string& path);
+
 /// Checks, then writes beside and renames.
 void write_modal_body(const std::string& path, const ModalBody& body);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/error.hpp"
 #include "common/sha256.hpp"
@@ -56,6 +57,11 @@ Checkpoint read_unchecked(const std::string& path) {
   c.fingerprint = file.text_attribute("/", "fingerprint");
   c.state_version = static_cast<int>(file.number_attribute("/", "state_version"));
   c.time = file.number_attribute("/", "time");
+  if (file.has_attribute("/", "run")) {  // since 1.1
+    c.results = file.text_attribute("/", "results");
+    c.run = file.text_attribute("/", "run");
+    c.rows = static_cast<std::size_t>(std::clamp(file.number_attribute("/", "rows"), 0.0, 1e15));
+  }
   c.state = read_numbers(file, "/state");
   c.schedule = read_numbers(file, "/schedule");
   const bool finite = std::isfinite(c.time) &&
@@ -69,21 +75,24 @@ Checkpoint read_unchecked(const std::string& path) {
 }  // namespace
 
 void write_checkpoint(const std::string& path, const Checkpoint& c) {
-  const hdf5::Handle file = hdf5::create_in_memory(path);
+  hdf5::Handle file = hdf5::create_in_memory(path);
   const auto text = [&](const char* name, const std::string& value) {
     hdf5::write_text_attribute(file.id(), "/", name, value, path);
   };
   text("format", format_name);
-  text("version", "1.0");
+  text("version", "1.1");
   text("scene", c.scene);
   text("producer", c.producer);
   text("fingerprint", c.fingerprint);
   text("content_id", content_id(c));
+  text("results", c.results);
+  text("run", c.run);
+  hdf5::write_number_attribute(file.id(), "/", "rows", static_cast<double>(c.rows), path);
   hdf5::write_integer_attribute(file.id(), "/", "state_version", c.state_version, path);
   hdf5::write_number_attribute(file.id(), "/", "time", c.time, path);
   hdf5::write_dataset(file.id(), "/state", {c.state.size()}, c.state.data(), path);
   hdf5::write_dataset(file.id(), "/schedule", {c.schedule.size()}, c.schedule.data(), path);
-  write_text_file(path, hdf5::file_image(file.id(), path));
+  write_text_file(path, hdf5::file_image(std::move(file), path));
 }
 
 Checkpoint read_checkpoint(const std::string& path) {

@@ -1,6 +1,7 @@
 // Checkpoint file *.checkpoint.h5: all that a run needs to go on (formats/RESULTS.md).
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ struct Checkpoint {
   std::string fingerprint;  ///< of the model: names, sizes, superelements
   int state_version = 0;
   double time = 0.0;
+  std::string results;           ///< name, without folder, of the results of the run, which lie beside it
+  std::string run;               ///< of these results: ResultsWriter::run()
+  std::size_t rows = 0;          ///< of these results until then
   std::vector<double> state;     ///< the state block
   std::vector<double> schedule;  ///< where steps and output stand
 };

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t values_per_block = 1u << 19;
 
 std::string header_cell(const std::string& name, const std::string& unit) {
-  const std::string cell = unit.empty() ? name : fmt::format("{} [{}]", name, unit);
+  const std::string cell = printable(unit.empty() ? name : fmt::format("{} [{}]", name, unit));
   if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
   std::string quoted = "\"";
   for (const char c : cell) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

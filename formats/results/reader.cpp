@@ -18,14 +18,6 @@ namespace {
 constexpr std::uint64_t max_names = 10'000'000;
 constexpr std::uint64_t max_rows = std::uint64_t{1} << 40;
 
-/// The file itself, or its unfinished form if only that is there.
-std::string existing_path(const std::string& path) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored) && std::filesystem::exists(path + ".part", ignored))
-    return path + ".part";
-  return path;
-}
-
 std::uint64_t bounded_length(const hdf5::InputFile& file, const std::string& dataset) {
   const hdf5::DatasetInfo info = file.info(dataset);
   if (info.shape.size() != 1 || info.shape[0] > max_names)
@@ -108,7 +100,14 @@ void check_format(const hdf5::InputFile& file) {
                 file.path() + ": attribute 'version'", "use a program of the same major version");
 }
 
-/// Rows of a dataset that are there: its first extent, and no more than its storage holds.
+[[noreturn]] void refuse_rows(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t found,
+                              std::uint64_t expected) {
+  throw Error(fmt::format("holds {} instants, expected {}: the file is damaged", found, expected),
+              fmt::format("{}: {}", file.path(), dataset), "write or copy it again");
+}
+
+/// Rows of a dataset that are there: its first extent, and no more than its storage holds, which only a killed run can
+/// leave behind.
 std::uint64_t rows_of(const hdf5::InputFile& file, const Block& block) {
   const hdf5::DatasetInfo info = file.info(block.dataset);
   hdf5::Shape expected = block.shape;
@@ -118,10 +117,20 @@ std::uint64_t rows_of(const hdf5::InputFile& file, const Block& block) {
                             hdf5::shape_text(info.shape), block.shape.empty() ? "" : " x ",
                             block.shape.empty() ? "" : hdf5::shape_text(block.shape)),
                 fmt::format("{}: {}", file.path(), block.dataset), "compare the file with formats/RESULTS.md");
-  return info.filtered ? expected[0] : std::min(expected[0], info.stored_bytes / (8 * block.width()));
+  if (info.filtered) return expected[0];
+  const std::uint64_t stored = info.stored_bytes / (8 * block.width());
+  if (stored < expected[0] && file.closed_properly()) refuse_rows(file, block.dataset, stored, expected[0]);
+  return std::min(expected[0], stored);
 }
 
 }  // namespace
+
+std::string existing_results(const std::string& path) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(path, ignored) && std::filesystem::exists(path + ".part", ignored))
+    return path + ".part";
+  return path;
+}
 
 struct ResultsReader::Impl {
   struct Place {
@@ -141,13 +150,15 @@ struct ResultsReader::Impl {
   const Place& find(const std::string& channel) const;
 };
 
-ResultsReader::Impl::Impl(const std::string& path) : file(existing_path(path), hdf5::Completeness::any) {
+ResultsReader::Impl::Impl(const std::string& path) : file(existing_results(path), hdf5::Completeness::any) {
   check_format(file);
   layout = read_layout(file);
   rows = max_rows;
   for (Block& block : all_blocks(layout)) {
     if (!file.has(block.dataset)) continue;
-    rows = std::min(rows, rows_of(file, block));
+    const std::uint64_t there = rows_of(file, block);
+    if (file.closed_properly() && !blocks.empty() && there != rows) refuse_rows(file, block.dataset, there, rows);
+    rows = std::min(rows, there);
     blocks.push_back(std::move(block));
   }
   if (blocks.empty() || blocks.front().dataset != "/time")
@@ -193,6 +204,9 @@ std::string ResultsReader::report_json() const {
 }
 
 std::string ResultsReader::scene() const { return impl_->layout.scene; }
+std::string ResultsReader::run() const {
+  return impl_->file.has_attribute("/", "run") ? impl_->file.text_attribute("/", "run") : "";
+}
 std::size_t ResultsReader::rows() const { return impl_->rows; }
 std::vector<double> ResultsReader::time() const { return read("time"); }
 std::vector<Channel> ResultsReader::channels() const { return impl_->channels; }

@@ -73,17 +73,39 @@ struct ModesTable {
   Eigen::MatrixXcd rotation;
 };
 
+/// The first rows of an older file of the same layout, with which a new one begins.
+struct ResultsBeginning {
+  std::string file;
+  std::size_t rows = 0;
+};
+
+/// Throws Error if a running program writes results under this name.
+void require_unheld_results(const std::string& path);
+
 /// Appends rows to <path>.part, flushes about every second, renames to path in finish(). The destructor of an
-/// unfinished writer closes the file as a partial one (completed = 0) and leaves it under `path`.
+/// unfinished writer closes the file as a partial one (completed = 0) and leaves it under `path`. Until its end no
+/// other writer can take the name: a lock of the kernel on the file, which ends with the program and which readers
+/// ignore.
 class ResultsWriter {
  public:
+  /// Throws Error: cannot be written, held by a running program.
   ResultsWriter(const std::string& path, const ResultsLayout& layout);
+  /// Begins with a copy of older rows (of no file: none), which their checksums vouch for. The older file stays as it
+  /// is until finish() puts the whole one in its place, if it has the same name; a killed one (.part) takes its final
+  /// name before.
+  ResultsWriter(const std::string& path, const ResultsLayout& layout, const ResultsBeginning& beginning);
   ~ResultsWriter();
   ResultsWriter(const ResultsWriter&) = delete;
   ResultsWriter& operator=(const ResultsWriter&) = delete;
 
   /// No heap allocation between flushes. Throws Error (disk full, ...).
   void append(const ResultsRow& row);
+  /// What was appended is on the disk when this returns.
+  void flush();
+  /// Rows appended or begun with.
+  std::size_t rows() const;
+  /// Names this file among all of the same scene; attribute `run`.
+  const std::string& run() const;
   /// Keeps modes for finish() to write.
   void set_modes(ModesTable modes);
   /// Writes the run report (JSON text), sets completed and reason ("" if completed), closes and renames.
@@ -100,6 +122,9 @@ struct Channel {
   std::string unit;
 };
 
+/// The file itself, or <path>.part of an unfinished run if only that is there.
+std::string existing_results(const std::string& path);
+
 class ResultsReader {
  public:
   explicit ResultsReader(const std::string& path);  ///< accepts partial files
@@ -110,6 +135,7 @@ class ResultsReader {
   std::string reason() const;
   std::string report_json() const;
   std::string scene() const;
+  std::string run() const;  ///< ResultsWriter::run(); empty before version 1.4
   std::size_t rows() const;
   std::vector<double> time() const;
   std::vector<Channel> channels() const;

@@ -17,11 +17,13 @@
 #include <cstring>
 #include <memory>
 #include <optional>
+#include <random>
 #include <utility>
 
 #include "common/text.hpp"
 #include "formats/hdf5/file.hpp"
 #include "formats/results/blocks.hpp"
+#include "formats/results/held_file.hpp"
 
 namespace tisserand::formats {
 
@@ -54,6 +56,7 @@ void create_growing(hdf5::Id file, const Block& block, const std::string& where)
   H5Pset_create_intermediate_group(links.id(), 1);
   H5Pset_obj_track_times(creation.id(), false);
   H5Pset_chunk(creation.id(), rank, chunk.data());
+  H5Pset_fletcher32(creation.id());
   H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
   const hdf5::Handle dataset(
       H5Dcreate2(file, block.dataset.c_str(), H5T_IEEE_F64LE, space.id(), links.id(), creation.id(), H5P_DEFAULT),
@@ -92,12 +95,13 @@ hdf5::Handle access_properties() {
 /// A file with everything that does not change during the run. The names of a group are stored if any of its datasets
 /// is.
 void create_head(const std::string& path, const ResultsLayout& layout, const std::vector<Block>& blocks,
-                 const std::string& where) {
+                 const std::string& run, const std::string& where) {
   const hdf5::Handle access = access_properties();  // lives on: closing it would forget why H5Fcreate failed
   hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
   if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
   hdf5::write_text_attribute(file.id(), "/", "format", "tisserand-results", where);
-  hdf5::write_text_attribute(file.id(), "/", "version", "1.3", where);
+  hdf5::write_text_attribute(file.id(), "/", "version", "1.4", where);
+  hdf5::write_text_attribute(file.id(), "/", "run", run, where);
   hdf5::write_text_attribute(file.id(), "/", "scene", layout.scene, where);
   hdf5::write_text_attribute(file.id(), "/", "producer", layout.producer, where);
   write_unit(file.id(), "length_unit", layout.units.length, where);
@@ -148,16 +152,25 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
   if (file.reset() < 0) throw hdf5::last_error("cannot write the file", where, "choose another place or name");
 }
 
-/// The file of create_head() under its name, whole or not at all.
-void publish_head(const std::string& part, const ResultsLayout& layout, const std::vector<Block>& blocks) {
+/// The file of create_head() under its name, whole or not at all, and held.
+HeldFile publish_head(const std::string& part, const ResultsLayout& layout, const std::vector<Block>& blocks,
+                      const std::string& run) {
   const std::string temporary = temporary_beside(part);
   try {
-    create_head(temporary, layout, blocks, part);
+    create_head(temporary, layout, blocks, run, part);
+    return HeldFile::publish(temporary, part);
   } catch (const Error&) {
     ::unlink(temporary.c_str());
     throw;
   }
-  publish_file(temporary, part);
+}
+
+/// 128 random bits, so that no two runs have the same.
+std::string name_of_run() {
+  std::random_device random;
+  std::string name;
+  for (int k = 0; k < 4; ++k) name += fmt::format("{:08x}", random());
+  return name;
 }
 
 hdf5::Handle open_for_writing(const std::string& path, unsigned mode) {
@@ -195,6 +208,8 @@ struct ResultsWriter::Impl {
 
   std::string path;
   std::string part;
+  std::string run = name_of_run();
+  HeldFile held;
   hdf5::Handle file;
   std::vector<Column> columns;
   std::size_t capacity = 0;   ///< rows that can wait
@@ -208,6 +223,8 @@ struct ResultsWriter::Impl {
   std::optional<ModesTable> modes;
   std::string shortage;  ///< why rows were given up, or empty
 
+  void create(const ResultsLayout& layout);
+  void begin_with(const ResultsBeginning& beginning);
   std::uint64_t bytes_needed(std::size_t rows) const;
   std::size_t rows_that_fit();
   void write_rows(std::size_t rows);
@@ -323,25 +340,75 @@ void ResultsWriter::Impl::rename_to_final() const {
               fmt::format("they are complete in {}", part));
 }
 
-ResultsWriter::ResultsWriter(const std::string& path, const ResultsLayout& layout) : impl_(std::make_unique<Impl>()) {
+void ResultsWriter::Impl::create(const ResultsLayout& layout) {
+  const std::vector<Block> blocks = chosen_blocks(layout, layout.scene);
+  held = publish_head(part, layout, blocks, run);
+  file = open_for_writing(part, H5F_ACC_SWMR_WRITE);
+  std::size_t width = 0;
+  for (const Block& block : blocks) width += block.width();
+  bytes_per_row = width * sizeof(double);
+  capacity = std::clamp<std::size_t>(buffer_bytes / bytes_per_row, 1, 4096);
+  for (const Block& block : blocks) {
+    hdf5::Handle dataset(H5Dopen2(file.id(), block.dataset.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!dataset.valid()) throw hdf5::last_error("cannot open dataset " + block.dataset, part, "choose another place");
+    columns.push_back({block, std::move(dataset), std::make_unique_for_overwrite<double[]>(capacity * block.width())});
+  }
+}
+
+/// In pieces of what can wait.
+void ResultsWriter::Impl::begin_with(const ResultsBeginning& beginning) {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const ResultsReader old(beginning.file);
+  std::vector<std::string> names;
+  std::size_t same = 0;
+  const std::vector<Channel> known = old.channels();
+  for (const Column& column : columns)
+    for (std::size_t c = 0; c < column.block.width(); ++c) {
+      const std::string& last = column.block.columns[c];
+      names.push_back(column.block.dataset.substr(1) + (last.empty() ? "" : "/" + last));
+      const std::size_t at = names.size() - 1;
+      if (at < known.size() && known[at].name == names[at] && known[at].unit == column.block.units[c]) ++same;
+    }
+  if (same != names.size() || same != known.size())
+    throw Error("holds other channels, or other units, than this run would store", old.path(),
+                "go on with the `output.channels` and the units of that run, or leave --append out");
+  if (old.rows() < beginning.rows)
+    throw Error(fmt::format("holds {} instants, {} were expected", old.rows(), beginning.rows), old.path(),
+                "go on from a stored instant of it");
+  while (written < beginning.rows) {
+    const std::size_t count = std::min<std::size_t>(capacity, beginning.rows - written);
+    const Eigen::MatrixXd rows = old.read_rows(names, written, count);
+    Eigen::Index at = 0;
+    for (Column& column : columns) {
+      const auto width = static_cast<Eigen::Index>(column.block.width());
+      Eigen::Map<RowMajor>(column.waiting.get(), rows.rows(), width) = rows.middleCols(at, width);
+      at += width;
+    }
+    waiting = count;
+    write_waiting();
+  }
+  flush();
+}
+
+void require_unheld_results(const std::string& path) { HeldFile::require_unheld(path + ".part", path); }
+
+ResultsWriter::ResultsWriter(const std::string& path, const ResultsLayout& layout)
+    : ResultsWriter(path, layout, ResultsBeginning{}) {}
+
+ResultsWriter::ResultsWriter(const std::string& path, const ResultsLayout& layout, const ResultsBeginning& beginning)
+    : impl_(std::make_unique<Impl>()) {
   check_layout(layout);
   hdf5::silence();
   impl_->path = path;
   impl_->part = path + ".part";
-  const std::vector<Block> blocks = chosen_blocks(layout, layout.scene);
-  publish_head(impl_->part, layout, blocks);
-  impl_->file = open_for_writing(impl_->part, H5F_ACC_SWMR_WRITE);
-  std::size_t width = 0;
-  for (const Block& block : blocks) width += block.width();
-  impl_->bytes_per_row = width * sizeof(double);
-  impl_->capacity = std::clamp<std::size_t>(buffer_bytes / impl_->bytes_per_row, 1, 4096);
-  for (const Block& block : blocks) {
-    hdf5::Handle dataset(H5Dopen2(impl_->file.id(), block.dataset.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!dataset.valid())
-      throw hdf5::last_error("cannot open dataset " + block.dataset, impl_->part, "choose another place");
-    auto waiting = std::make_unique_for_overwrite<double[]>(impl_->capacity * block.width());
-    impl_->columns.push_back({block, std::move(dataset), std::move(waiting)});
+  ResultsBeginning old = beginning;
+  if (old.file == impl_->part) {
+    HeldFile::require_unheld(impl_->part, path);
+    impl_->rename_to_final();
+    old.file = path;
   }
+  impl_->create(layout);
+  if (!old.file.empty()) impl_->begin_with(old);
 }
 
 ResultsWriter::~ResultsWriter() {
@@ -365,6 +432,15 @@ void ResultsWriter::append(const ResultsRow& row) {
   ++impl_->waiting;
   if (Clock::now() - impl_->last_flush >= flush_interval) impl_->flush();
 }
+
+void ResultsWriter::flush() {
+  if (impl_->broken) throw Error("an earlier write has failed", impl_->part, "choose another place for the results");
+  impl_->flush();
+  impl_->held.synchronise();
+}
+
+std::size_t ResultsWriter::rows() const { return impl_->written + impl_->waiting; }
+const std::string& ResultsWriter::run() const { return impl_->run; }
 
 void ResultsWriter::set_modes(ModesTable modes) { impl_->modes = std::move(modes); }
 

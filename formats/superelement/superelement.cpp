@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "common/error.hpp"
 #include "common/sha256.hpp"
@@ -180,12 +181,10 @@ std::string content_id(const Superelement& element) {
   return sha.hex();
 }
 
-bool rehearse_superelements(const std::vector<std::string>& paths) {
-  return hdf5::survives(paths, [](const std::string& path) { static_cast<void>(read_unchecked(path)); });
-}
+void try_superelement(const std::string& path) { static_cast<void>(read_unchecked(path)); }
 
 LoadedSuperelement read_superelement(const std::string& path) {
-  hdf5::rehearse(path, [&path] { static_cast<void>(read_unchecked(path)); });
+  hdf5::rehearse(path, [&path] { try_superelement(path); });
   return read_rehearsed_superelement(path);
 }
 
@@ -219,9 +218,9 @@ void write_superelement(const std::string& path, Superelement& element) {
   check_labels(element, path);
   static_cast<void>(check(element, path));
   element.content_id = content_id(element);
-  const hdf5::Handle file = hdf5::create_in_memory(path);
+  hdf5::Handle file = hdf5::create_in_memory(path);
   write_fields(file.id(), element, path);
-  write_text_file(path, hdf5::file_image(file.id(), path));
+  write_text_file(path, hdf5::file_image(std::move(file), path));
 }
 
 }  // namespace tisserand::formats

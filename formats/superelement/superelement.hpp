@@ -70,9 +70,9 @@ std::string content_id(const Superelement& element);
 LoadedSuperelement read_superelement(const std::string& path);
 
 /// Many files at less cost: HDF5 can crash on a damaged file, so each is read in a child process first, which takes
-/// longer than the reading. One child for all of them: true if none of `paths` makes it crash or loop, so that
-/// read_rehearsed_superelement() may read them. If false, read_superelement() finds out which one does.
-[[nodiscard]] bool rehearse_superelements(const std::vector<std::string>& paths);
+/// longer than the reading. One child tries them all (hdf5::survives); then read_rehearsed_superelement() may read
+/// them. If it does not survive, read_superelement() finds out which one is to blame.
+void try_superelement(const std::string& path);
 LoadedSuperelement read_rehearsed_superelement(const std::string& path);
 
 /// Checks, then writes beside and renames. Fills element.content_id.

@@ -1,28 +1,52 @@
 // The files that bodies are made from.
-#include <algorithm>
+#include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "common/error.hpp"
+#include "formats/hdf5/file.hpp"
 #include "mechanism/build/build_model.hpp"
 
 namespace tisserand::mechanism {
 namespace {
 
-/// Each once, in the order of the bodies.
-std::vector<std::string> superelement_files(const formats::Scene& scene) {
-  std::vector<std::string> files;
+using TryToRead = void (*)(const std::string& path);
+
+/// All files of a scene, and how each is tried.
+std::map<std::string, std::set<TryToRead>> trials(const formats::Scene& scene) {
+  std::map<std::string, std::set<TryToRead>> list;
   for (const formats::BodySpec& body : scene.bodies)
-    if (const auto* spec = std::get_if<formats::SuperelementBodySpec>(&body))
-      if (std::find(files.begin(), files.end(), spec->file) == files.end()) files.push_back(spec->file);
-  return files;
+    if (const auto* superelement = std::get_if<formats::SuperelementBodySpec>(&body))
+      list[superelement->file].insert(formats::try_superelement);
+    else if (const auto* modal = std::get_if<formats::ModalBodySpec>(&body))
+      list[modal->file].insert(formats::try_modal_body);
+  return list;
+}
+
+/// Whether a child process could read all of them.
+bool rehearse(const formats::Scene& scene) {
+  const std::map<std::string, std::set<TryToRead>> list = trials(scene);
+  std::vector<std::string> paths;
+  for (const auto& [path, kinds] : list) paths.push_back(path);
+  return formats::hdf5::survives(paths, [&list](const std::string& path) {
+    for (const TryToRead kind : list.at(path)) {
+      try {
+        kind(path);
+      } catch (const Error&) {
+        // Met again, and told, where the file is read.
+      }
+    }
+  });
 }
 
 }  // namespace
 
 BodyFiles read_body_files(const formats::Scene& scene) {
   BodyFiles files;
-  const bool rehearsed = formats::rehearse_superelements(superelement_files(scene));
+  const bool rehearsed = rehearse(scene);
   const auto read_superelement = rehearsed ? formats::read_rehearsed_superelement : formats::read_superelement;
+  const auto read_modal_body = rehearsed ? formats::read_rehearsed_modal_body : formats::read_modal_body;
   std::vector<Error> errors;
   std::set<std::string> superelements, modal_bodies;  // also those that cannot be read, which are named once
   for (const formats::BodySpec& body : scene.bodies) {
@@ -32,7 +56,7 @@ BodyFiles read_body_files(const formats::Scene& scene) {
       if (superelement != nullptr && superelements.insert(superelement->file).second)
         files.superelements[superelement->file] = read_superelement(superelement->file);
       if (modal != nullptr && modal_bodies.insert(modal->file).second)
-        files.modal_bodies[modal->file] = formats::read_modal_body(modal->file);
+        files.modal_bodies[modal->file] = read_modal_body(modal->file);
     } catch (const Error& error) {
       errors.push_back(error);
     }

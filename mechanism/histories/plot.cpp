@@ -7,10 +7,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include "common/error.hpp"
@@ -250,6 +252,17 @@ void run_gnuplot(const std::string& script) {
     throw Error("gnuplot failed: " + content(output.get()), "plot", "try other ranges or channels");
 }
 
+/// gnuplot does not notice a full disk: a picture that was cut short lacks its end.
+bool is_whole(const std::string& picture) {
+  const std::string end = picture.ends_with(".png") ? std::string("IEND\xae\x42\x60\x82") : std::string("</svg>");
+  std::ifstream file(picture, std::ios::binary);
+  file.seekg(0, std::ios::end);
+  const std::streamoff size = file.tellg(), tail = std::min<std::streamoff>(size, 64);
+  std::string text(tail > 0 ? static_cast<std::size_t>(tail) : 0, '\0');
+  file.seekg(size - tail);
+  return !text.empty() && file.read(text.data(), tail) && text.find(end) != std::string::npos;
+}
+
 }  // namespace
 
 std::string gnuplot_quoted(const std::string& text) {
@@ -330,6 +343,9 @@ void plot(const std::vector<Series>& series, const PlotOptions& options) {
     if (!std::filesystem::exists(picture))
       throw Error("the picture could not be written", options.output,
                   "check that its folder exists and may be written");
+    if (!is_whole(picture.string()))
+      throw Error("the picture could not be written to its end: the disk is full, or files may not grow so large",
+                  options.output, remedy_of_errno(ENOSPC));
     publish_file(picture.string(), options.output);
   } catch (...) {
     std::error_code ignored;

@@ -2,7 +2,10 @@
 #include "mechanism/run/checkpoint.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -13,6 +16,8 @@
 namespace tisserand::mechanism {
 namespace {
 
+namespace fs = std::filesystem;
+
 std::string producer() { return std::string("tisserand mechanism ") + TISSERAND_VERSION; }
 
 void require_before_end(const formats::Scene& scene, double time, const std::string& file) {
@@ -21,7 +26,48 @@ void require_before_end(const formats::Scene& scene, double time, const std::str
               "raise integrator.end");
 }
 
-void resume_checkpoint(Run& run, const std::string& file) {
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored) || fs::equivalent(a, b, ignored);
+}
+
+/// "arm.results.h5.part" -> "arm.results.h5".
+std::string final_name(const std::string& results) {
+  constexpr std::string_view part = ".part";
+  return results.ends_with(part) ? results.substr(0, results.size() - part.size()) : results;
+}
+
+std::string results_of(const formats::Checkpoint& checkpoint, const std::string& file) {
+  if (checkpoint.results.empty()) return "";
+  return (fs::path(file).parent_path() / fs::path(checkpoint.results).filename()).string();
+}
+
+/// The rows that the run of a checkpoint had stored until then.
+formats::ResultsBeginning rows_until(const formats::Checkpoint& checkpoint, const std::string& file) {
+  const std::string results = results_of(checkpoint, file);
+  if (results.empty())
+    throw Error("does not say which results belong to it, as checkpoints do since version 1.1", file,
+                "leave --append out and give -o a name of its own");
+  for (const std::string& candidate : {results, results + ".part"}) {
+    if (!fs::exists(candidate)) continue;
+    const formats::ResultsReader reader(candidate);
+    if (reader.run() == checkpoint.run && reader.rows() >= checkpoint.rows) return {candidate, checkpoint.rows};
+  }
+  throw Error(
+      fmt::format("the results of the run that wrote it are not there any more: {} is missing or of another run",
+                  results),
+      file, "leave --append out and give -o a name of its own");
+}
+
+/// With the report of that run, if it came to write one.
+void begin_with(Run& run, const formats::ResultsBeginning& beginning) {
+  run.beginning = beginning;
+  run.report.rows = static_cast<long>(beginning.rows);
+  run.report.before = formats::ResultsReader(beginning.file).report_json();
+  run.report.notes.push_back(fmt::format("begins with the {} instants of {}", beginning.rows, beginning.file));
+}
+
+void resume_checkpoint(Run& run, const std::string& file, Joining joining) {
   const formats::Checkpoint checkpoint = formats::read_checkpoint(file);
   State& state = run.built.state;
   const std::string own = fingerprint(run.built.model, state);
@@ -41,9 +87,10 @@ void resume_checkpoint(Run& run, const std::string& file) {
                   checkpoint.producer == producer()
                       ? ""
                       : fmt::format(", written by {}: equal to its tolerance, not bit for bit", checkpoint.producer)));
+  if (joining == Joining::appended) begin_with(run, rows_until(checkpoint, file));
 }
 
-void resume_results(Run& run, const std::string& file, const std::optional<double>& at) {
+void resume_results(Run& run, const std::string& file, const std::optional<double>& at, Joining joining) {
   State& state = run.built.state;
   const StoredSums sums = read_stored_state(run.built.model, file, at, state, run.workspace);
   require_before_end(run.scene, state.time(), file);
@@ -55,6 +102,7 @@ void resume_results(Run& run, const std::string& file, const std::optional<doubl
   schedule.skip_to(state.time());
   run.schedule_memory = schedule.memory();
   run.report.notes.push_back(fmt::format("goes on from {} at t = {:.9g}", file, state.time()));
+  if (joining == Joining::appended) begin_with(run, {file, sums.row + 1});
 }
 
 }  // namespace
@@ -83,6 +131,7 @@ Checkpoints::Checkpoints(const formats::Scene& scene, const std::string& results
     : spec_(scene.checkpoint),
       scene_(scene.name),
       path_(checkpoint_path(results)),
+      results_(fs::path(results).filename().string()),
       start_(scene.integrator.start),
       round_off_(1e-9 * scene.integrator.step) {
   set_next(time);
@@ -95,17 +144,37 @@ void Checkpoints::set_next(double time) {
     next_ = start_ + *spec_.interval * (std::floor((time - start_ + round_off_) / *spec_.interval) + 1.0);
 }
 
-void Checkpoints::after_step(const Model& model, const Schedule& schedule, const State& state, Workspace& workspace) {
+void Checkpoints::after_step(const Model& model, const Schedule& schedule, const State& state, Workspace& workspace,
+                             formats::ResultsWriter& results) {
   ++steps_;
   const bool due = (spec_.every && steps_ >= *spec_.every) || state.time() >= next_ - round_off_;
   if (!due) return;
+  results.flush();
   formats::write_checkpoint(path_, {scene_, producer(), fingerprint(model, state), State::version, state.time(),
-                                    state.block(), schedule.memory()});
+                                    results_, results.run(), results.rows(), state.block(), schedule.memory()});
   workspace.forget();
   set_next(state.time());
 }
 
-void resume(Run& run, const std::string& file, const std::optional<double>& at) {
+RestartFile find_restart(const std::string& file) {
+  RestartFile found{formats::existing_results(file), false, ""};
+  found.checkpoint = formats::is_checkpoint(found.path);
+  found.results =
+      found.checkpoint ? results_of(formats::read_checkpoint(found.path), found.path) : final_name(found.path);
+  return found;
+}
+
+void require_apart(const RestartFile& restart, const std::string& results) {
+  const bool own_results = !restart.results.empty() && is_same_file(restart.results, results);
+  const bool own_checkpoint = restart.checkpoint && is_same_file(restart.path, checkpoint_path(results));
+  if (own_results || own_checkpoint)
+    throw Error(
+        fmt::format("would overwrite the run that it goes on from, {}", own_results ? restart.results : restart.path),
+        results, "give -o another name, or join both with --append");
+}
+
+void resume(Run& run, const std::string& named, const std::optional<double>& at, Joining joining) {
+  const std::string file = formats::existing_results(named);
   if (run.scene.analysis != formats::AnalysisKind::dynamics)
     throw Error("only dynamics can go on from a file", file, "name an analysis of `type: dynamics` with --analysis");
   if (run.scene.integrator.method == formats::Method::bdf)
@@ -115,9 +184,9 @@ void resume(Run& run, const std::string& file, const std::optional<double>& at) 
     throw Error(fmt::format("is a checkpoint and holds one instant; t = {:.9g} cannot be chosen", *at), file,
                 "leave --at out, or give a results file");
   if (checkpoint)
-    resume_checkpoint(run, file);
+    resume_checkpoint(run, file, joining);
   else
-    resume_results(run, file, at);
+    resume_results(run, file, at, joining);
 }
 
 }  // namespace tisserand::mechanism

@@ -23,9 +23,11 @@ class Checkpoints {
   /// "arm.results.h5" -> "arm.checkpoint.h5". `time`: where the run begins or goes on.
   Checkpoints(const formats::Scene& scene, const std::string& results, double time);
 
-  /// After an accepted step. Where a checkpoint is written the workspace forgets factors and what it has learnt, so
-  /// that this run and one that goes on from the file execute the same arithmetic.
-  void after_step(const Model& model, const Schedule& schedule, const State& state, Workspace& workspace);
+  /// After an accepted step. Where a checkpoint is written all rows until then are on the disk, and the workspace
+  /// forgets factors and what it has learnt, so that this run and one that goes on from the file execute the same
+  /// arithmetic.
+  void after_step(const Model& model, const Schedule& schedule, const State& state, Workspace& workspace,
+                  formats::ResultsWriter& results);
 
  private:
   void set_next(double time);
@@ -33,6 +35,7 @@ class Checkpoints {
   formats::CheckpointSpec spec_;
   std::string scene_;
   std::string path_;
+  std::string results_;
   double start_ = 0.0;
   double round_off_ = 0.0;
   long steps_ = 0;
@@ -41,9 +44,27 @@ class Checkpoints {
 
 std::string checkpoint_path(const std::string& results);
 
+/// What `--restart` names, and the run that it belongs to.
+struct RestartFile {
+  std::string path;  ///< as it lies on the disk: .part where only that is there
+  bool checkpoint = false;
+  std::string results;  ///< name of the results of that run; empty: an older checkpoint does not know it
+};
+
+/// Throws Error: missing, damaged, of another kind.
+RestartFile find_restart(const std::string& file);
+
+/// Throws Error if writing `results` would overwrite the run that is gone on from: its results, finished or not, or the
+/// checkpoint itself.
+void require_apart(const RestartFile& restart, const std::string& results);
+
+enum class Joining { apart, appended };
+
 /// Puts the run where a checkpoint left it, or at a stored instant (`at`, absent: the last) of a results file: from a
 /// checkpoint bit for bit (same machine, same binary), from results through the start of an analysis, to the tolerance.
-/// Throws Error: not of this scene, past the end of the integrator, not dynamics, channels that are missing.
-void resume(Run& run, const std::string& file, const std::optional<double>& at);
+/// Appended, the results begin with the rows of the run that is gone on from, until then (run.beginning).
+/// Throws Error: not of this scene, past the end of the integrator, not dynamics, channels that are missing, the
+/// results of that run not found.
+void resume(Run& run, const std::string& file, const std::optional<double>& at, Joining joining);
 
 }  // namespace tisserand::mechanism

@@ -30,7 +30,9 @@ void integrate(Run& run, RowWriter& out) {
   StepReport last;
   double last_size = 0.0;
   if (!run.schedule_memory.empty()) schedule.restore(run.schedule_memory);
-  if (schedule.output_at_start() || !run.schedule_memory.empty()) write_row(run, {}, 0.0, out);
+  // A run that is appended has the row of this instant, if the run before it was to store one.
+  const bool begins_with_row = run.schedule_memory.empty() ? schedule.output_at_start() : !run.beginning;
+  if (begins_with_row) write_row(run, {}, 0.0, out);
   while (!schedule.finished(state.time())) {
     if (run.control.interrupted && run.control.interrupted()) {
       report.outcome = RunOutcome::interrupted;
@@ -66,7 +68,7 @@ void integrate(Run& run, RowWriter& out) {
     const Schedule::Event event = schedule.accept(state.time());
     if (event.output) write_row(run, step, last_size, out);
     if (event.breakpoint) pass_breakpoint(model, run.scene, state, run.workspace);
-    checkpoints.after_step(model, schedule, state, run.workspace);
+    checkpoints.after_step(model, schedule, state, run.workspace, out.writer);
     if (run.control.progress) run.control.progress(state.time());
   }
   report.time = state.time();

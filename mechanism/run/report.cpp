@@ -90,11 +90,13 @@ std::string report_json(const RunReport& report) {
   json["effects"] = report.effects;
   json["notes"] = report.notes;
   if (!report.table.empty()) json["table"] = {{"title", report.table_title}, {"lines", report.table}};
+  const auto before = nlohmann::ordered_json::parse(report.before, nullptr, false);
+  if (before.is_object() && !before.empty()) json["before"] = before;
   json["seconds"] = {{"model", report.seconds_model},
                      {"start", report.seconds_start},
                      {"steps", report.seconds_steps},
                      {"output", report.seconds_output}};
-  return json.dump(2);
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);  // names of files may be no UTF-8
 }
 
 std::string report_text(const RunReport& report, const Units& units) {

@@ -18,6 +18,7 @@ struct RunReport {
   RunOutcome outcome = RunOutcome::completed;
   std::string reason;   ///< of a run that did not complete
   std::string results;  ///< path of the results file
+  std::string before;   ///< report (JSON) of the run that this one is appended to, or empty
   double time = 0.0;    ///< reached
   long steps = 0;
   long iterations = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,9 @@ struct Run {
   RunReport report;
   BuiltModel built;
   Workspace workspace;
-  State at_start;                       ///< as the model was built, before anything moved
-  std::vector<double> schedule_memory;  ///< of a run that goes on from a file; empty: it begins
+  State at_start;                                      ///< as the model was built, before anything moved
+  std::vector<double> schedule_memory;                 ///< of a run that goes on from a file; empty: it begins
+  std::optional<formats::ResultsBeginning> beginning;  ///< rows of the run that this one is appended to
 
   Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunControl& run_control);
   double seconds() const { return control.clock ? control.clock() : 0.0; }

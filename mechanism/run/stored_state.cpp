@@ -140,6 +140,7 @@ StoredSums read_stored_state(const Model& model, const std::string& file, const 
   sums.dissipated = stored.sum("energy/dissipated");
   sums.initial_energy = stored.sum("energy/total") - sums.work + sums.dissipated - stored.sum("energy/balance");
   if (!std::isfinite(sums.initial_energy)) sums = {};
+  sums.row = stored.row;
   return sums;
 }
 

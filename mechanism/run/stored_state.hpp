@@ -1,6 +1,7 @@
 // The state of a scene from one instant of its results file.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,7 @@ struct StoredSums {
   double work = 0.0;
   double dissipated = 0.0;
   double initial_energy = 0.0;
+  std::size_t row = 0;  ///< of the instant
 };
 
 /// Positions, velocities, internal coordinates and their rates, floating frames and unwrapped angles at the stored

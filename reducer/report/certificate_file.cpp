@@ -227,14 +227,16 @@ void write_certificate(const std::string& superelement_path, const formats::Supe
                        const FileCertificate& file, const ModelCertificate& model) {
   json j = base_json(element, file);
   j["model"] = model_json(model);
-  write_text_file(certificate_path(superelement_path), j.dump(2) + "\n");
+  write_text_file(certificate_path(superelement_path),
+                  j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 void write_certificate(const std::string& superelement_path, const formats::Superelement& element,
                        const FileCertificate& file, const ImportCertificate& import) {
   json j = base_json(element, file);
   j["import"] = import_json(import);
-  write_text_file(certificate_path(superelement_path), j.dump(2) + "\n");
+  write_text_file(certificate_path(superelement_path),
+                  j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }
 
 std::optional<ModelCertificate> read_certificate(const std::string& superelement_path, const std::string& content_id) {

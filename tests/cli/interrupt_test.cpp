@@ -129,5 +129,21 @@ TEST_F(Interrupt, FormulaThatIsNoNumberEndsTheRunByName) {
   }
 }
 
+TEST_F(Interrupt, OutputOfARunningProgramIsRefused) {
+  const pid_t child = start_long_run();
+  wait_for_results();
+  Surroundings other = where;
+  other.folder = file("other");
+  std::filesystem::create_directory(other.folder);  // streams of its own
+  expect_error(call({program("mechanism"), "run", file("arm.scene.yaml"), "-o", file("long.h5")}, other),
+               {"long.h5", "a running program writes these results", "-o another name"});
+  expect_error(
+      call({program("mechanism"), "run", file("arm.scene.yaml"), "--restart", file("long.h5"), "--append"}, other),
+      {"long.h5", "a running program writes these results"});
+  ::kill(child, SIGKILL);
+  finish(child, where);
+  EXPECT_EQ(mechanism({"run", "arm.scene.yaml", "-o", "long.h5"}).code, 0);  // its end has freed the name
+}
+
 }  // namespace
 }  // namespace tisserand::cli::interrupt_test

@@ -159,5 +159,80 @@ TEST_F(Outputs, UsageErrorsAreTwoAndHelpTeaches) {
   EXPECT_THAT(mechanism({"--version"}).out, HasSubstr("tisserand mechanism " TISSERAND_VERSION));
 }
 
+TEST_F(Outputs, ExportIsAppendedWhereTheShellAppends) {
+  make_results();
+  write_text(file("log"), "kept\n");
+  const std::string command = program("mechanism") + " export arm.results.h5 -c time -o /dev/stdout >> log";
+  ASSERT_EQ(call({"/bin/sh", "-c", command}, where).code, 0);
+  EXPECT_THAT(read_text(file("log")), ::testing::StartsWith("kept\ntime [s]\n0\n0.01\n"));
+}
+
+TEST_F(Outputs, PictureThatIsCutShortIsAnError) {
+  make_results();
+  write_text(file("a.svg"), "older");
+  for (const char* picture : {"a.png", "a.svg"}) {
+    where.file_size = 12'000;  // in place of a full disk; both pictures take more, the script less
+    expect_error(mechanism({"plot", "arm.results.h5", "-c", "nodes/position/rod/*", "-o", picture}),
+                 {picture, "could not be written", "free some space"});
+    where.file_size = RLIM_INFINITY;
+    ASSERT_EQ(
+        mechanism({"plot", "arm.results.h5", "-c", "nodes/position/rod/*", "-o", "whole_" + std::string(picture)}).code,
+        0);
+    EXPECT_GT(std::filesystem::file_size(file("whole_" + std::string(picture))), 12'000u);
+  }
+  EXPECT_EQ(read_text(file("a.svg")), "older");
+  EXPECT_FALSE(std::filesystem::exists(file("a.png")));
+}
+
+// The numbers of closed streams were taken by the results: their bytes and messages went into one file.
+TEST_F(Outputs, ClosedStreamsHarmNothing) {
+  make_results();
+  const std::string streams = " <&- >&- 2>&-";
+  ASSERT_EQ(call({"/bin/sh", "-c", program("mechanism") + " run arm.scene.yaml -o closed.h5" + streams}, where).code,
+            0);
+  const auto table = [&](const std::string& name) { return mechanism({"export", name, "-o", "/dev/stdout"}).out; };
+  EXPECT_EQ(table("closed.h5"), table("arm.results.h5"));
+  EXPECT_EQ(call({"/bin/sh", "-c", program("mechanism") + " run none.yaml" + streams}, where).code, 1);
+  EXPECT_EQ(call({"/bin/sh", "-c", program("reducer") + " show se.superelement.h5" + streams}, where).code, 0);
+}
+
+TEST_F(Outputs, NamesThatAreNoTextReachNeitherTerminalNorReport) {
+  const std::string odd = "odd\xff\x1b[31m";
+  expect_error(mechanism({"channels", odd + ".h5"}), {"odd\\xff\\x1b[31m.h5"});
+  ASSERT_EQ(mechanism({"run", "arm.scene.yaml", "-o", "arm.results.h5", "--set", "checkpoint.every=3"}).code, 0);
+  std::filesystem::copy_file(file("arm.checkpoint.h5"), file(odd + ".checkpoint.h5"));
+  // The report (JSON) tells from which file the run goes on.
+  const Outcome outcome = mechanism({"run", "arm.scene.yaml", "--restart", odd + ".checkpoint.h5", "-o", "rest.h5"});
+  EXPECT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("goes on from odd\\xff\\x1b[31m"), Not(HasSubstr("\x1b"))));
+}
+
+TEST_F(Outputs, RestartNeverOverwritesWhatItGoesOnFrom) {
+  ASSERT_EQ(mechanism({"run", "arm.scene.yaml", "-o", "arm.results.h5", "--set", "checkpoint.every=3"}).code, 0);
+  const std::string before = read_text(file("arm.results.h5"));
+  const auto restart = [&](const std::string& from, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"run", "arm.scene.yaml", "--restart", from};
+    words.insert(words.end(), more.begin(), more.end());
+    return mechanism(words);
+  };
+  expect_error(restart("arm.checkpoint.h5", {}), {"--restart needs a results file of its own", "--append"});
+  expect_error(restart("arm.checkpoint.h5", {"-o", "./arm.results.h5"}), {"would overwrite the run", "--append"});
+  expect_error(restart("arm.checkpoint.h5", {"-o", "arm.h5"}), {"would overwrite the run", "arm.checkpoint.h5"});
+  expect_error(restart("arm.results.h5", {"-o", "arm.results.h5", "--at", "0.05"}), {"would overwrite the run"});
+  expect_error(mechanism({"run", "arm.scene.yaml", "--append"}), {"--append needs a run to go on from"});
+  EXPECT_EQ(read_text(file("arm.results.h5")), before);
+  // One that was killed: found by its final name, and its .part is as safe.
+  std::filesystem::rename(file("arm.results.h5"), file("arm.results.h5.part"));
+  expect_error(restart("arm.results.h5", {"-o", "arm.results.h5", "--at", "0.05"}), {"would overwrite the run"});
+  expect_error(restart("arm.checkpoint.h5", {"-o", "arm.results.h5"}), {"would overwrite the run"});
+  EXPECT_EQ(read_text(file("arm.results.h5.part")), before);
+  EXPECT_EQ(restart("arm.results.h5", {"-o", "rest.results.h5", "--at", "0.05"}).code, 0);
+  const Outcome joined = restart("arm.checkpoint.h5", {"--append", "--set", "integrator.end=0.2"});
+  EXPECT_EQ(joined.code, 0) << joined.error;
+  EXPECT_THAT(joined.out, HasSubstr("begins with the 10 instants of arm.results.h5.part"));
+  EXPECT_THAT(mechanism({"channels", "arm.results.h5"}).out, HasSubstr("21 instants from 0 to 0.2"));
+  EXPECT_FALSE(std::filesystem::exists(file("arm.results.h5.part")));
+}
+
 }  // namespace
 }  // namespace tisserand::cli::outputs_test

@@ -96,5 +96,16 @@ TEST(Text, UnwritablePlacesAreErrorsWithRemedy) {
             2);
 }
 
+TEST(Text, PrintableEscapesWhatTerminalsObeyAndWhatIsNoText) {
+  EXPECT_EQ(printable("leg\t\xc2\xb2 \xe2\x82\xac\n"),
+            "leg\t\xc2\xb2 \xe2\x82\xac\n");  // superscript two, the euro sign
+  EXPECT_EQ(printable("\x1b[31mred\r\x7f"), "\\x1b[31mred\\x0d\\x7f");
+  EXPECT_EQ(printable("\xff \xc3"), "\\xff \\xc3");
+  EXPECT_EQ(printable("\xc2\x9b"), "\\xc2\\x9b");                    // the control character U+009B
+  EXPECT_EQ(printable("\xc0\xaf"), "\\xc0\\xaf");                    // a longer form of /
+  EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");           // half of a surrogate pair
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");  // beyond U+10FFFF
+}
+
 }  // namespace
 }  // namespace tisserand::text_test

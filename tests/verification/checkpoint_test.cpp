@@ -1,6 +1,11 @@
 // Checkpoints: a run that goes on from one is bit-equal to a run that was never interrupted; from results to the
 // tolerance; bad files are refused.
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <cmath>
+#include <csignal>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -220,6 +225,130 @@ TEST(CheckpointFile, IsRefusedIfItIsNotOfThisSceneOrNotWhole) {
   bytes[at] ^= 1;
   std::ofstream(folder.file("bent.h5"), std::ios::binary) << bytes;
   EXPECT_THAT(refusal(scene, folder.file("bent.h5"), out), HasSubstr("damaged"));
+}
+
+/// All channels of a file, bit for bit; its instants in rows.
+Eigen::MatrixXd contents(const std::string& path) {
+  const formats::ResultsReader reader(path);
+  std::vector<std::string> names;
+  for (const formats::Channel& channel : reader.channels()) names.push_back(channel.name);
+  return reader.read_rows(names, 0, reader.rows());
+}
+
+bool is_bit_equal(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() &&
+         std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
+}
+
+/// Runs in a child that dies without a word (SIGKILL) at the first accepted step for which `when` holds.
+void die_in_run(const RunRequest& run, const std::function<bool(double)>& when) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    RunControl control;
+    control.progress = [&when](double time) {
+      if (when(time)) ::raise(SIGKILL);
+    };
+    static_cast<void>(simulate(run, control));
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status)) << "the run ended by itself";
+}
+
+/// Rows between checkpoints too, some of them lost by the death of the run.
+formats::Scene scene_with_checkpoints(formats::Scene (*make)()) {
+  formats::Scene scene = make();
+  scene.checkpoint.every = 20;
+  scene.output.every = 3;
+  return scene;
+}
+
+TEST_P(Checkpoint, RowsUntilThenAreOnTheDisk) {
+  TemporaryFolder folder;
+  const BodyFiles list = files();
+  const formats::Scene scene = scene_with_checkpoints(GetParam().scene);
+  const std::string file = folder.file("a.checkpoint.h5");
+  die_in_run(request(scene, list, folder.file("a.results.h5")), [&](double) { return std::filesystem::exists(file); });
+  const formats::Checkpoint checkpoint = formats::read_checkpoint(file);
+  const formats::ResultsReader reader(folder.file("a.results.h5"));
+  EXPECT_EQ(checkpoint.rows, 7u);  // of the start and of steps 3, 6, ... 18
+  EXPECT_GE(reader.rows(), checkpoint.rows);
+  EXPECT_EQ(checkpoint.run, reader.run());
+  EXPECT_EQ(checkpoint.results, "a.results.h5");
+}
+
+TEST_P(Checkpoint, AppendedRunIsBitEqualToOneThatWasNeverInterrupted) {
+  TemporaryFolder folder;
+  const BodyFiles list = files();
+  const formats::Scene scene = scene_with_checkpoints(GetParam().scene);
+  const double h = scene.integrator.step;
+  static_cast<void>(simulate(request(scene, list, folder.file("whole.results.h5")), {}));
+  const Eigen::MatrixXd whole = contents(folder.file("whole.results.h5"));
+  const std::string results = folder.file("a.results.h5");
+  RunRequest again = request(scene, list, results);
+  again.restart = folder.file("a.checkpoint.h5");
+  again.joining = Joining::appended;
+  // Killed after steps 28, 34 (on from 20, before the next checkpoint) and 47 (on from 20, after that of 40).
+  die_in_run(request(scene, list, results), [h](double t) { return t > 27.5 * h; });
+  die_in_run(again, [h](double t) { return t > 33.5 * h; });
+  EXPECT_TRUE(std::filesystem::exists(results));  // what the first run left, untouched
+  die_in_run(again, [h](double t) { return t > 46.5 * h; });
+  const RunReport report = simulate(again, {}).report;
+  EXPECT_EQ(report.outcome, RunOutcome::completed) << report.reason;
+  EXPECT_EQ(report.rows, whole.rows());
+  EXPECT_TRUE(is_bit_equal(contents(results), whole));
+  EXPECT_FALSE(std::filesystem::exists(results + ".part"));
+}
+
+TEST(CheckpointFile, AppendsToAnInterruptedRunAndToAStoredInstant) {
+  TemporaryFolder folder;
+  const BodyFiles list = files();
+  const formats::Scene scene = scene_with_checkpoints(swing);
+  static_cast<void>(simulate(request(scene, list, folder.file("whole.results.h5")), {}));
+  const Eigen::MatrixXd whole = contents(folder.file("whole.results.h5"));
+  const std::string results = folder.file("a.results.h5");
+  int polls = 0;
+  RunControl control;
+  control.interrupted = [&polls] { return ++polls > 20; };  // at a checkpoint, whose instant no row was due at
+  static_cast<void>(simulate(request(scene, list, results), control));
+  RunRequest again = request(scene, list, folder.file("joined.results.h5"));
+  again.restart = folder.file("a.checkpoint.h5");
+  again.joining = Joining::appended;
+  const RunReport report = simulate(again, {}).report;
+  EXPECT_TRUE(is_bit_equal(contents(folder.file("joined.results.h5")), whole));
+  EXPECT_THAT(report_json(report), HasSubstr("interrupted at t ="));  // what the first part told is kept
+  EXPECT_EQ(contents(results).rows(), 8);
+  // From a stored instant: its row once, what comes after it anew and to the tolerance.
+  again.restart = folder.file("whole.results.h5");
+  again.at = whole(30, 0);
+  static_cast<void>(simulate(again, {}));
+  const Eigen::MatrixXd rest = contents(folder.file("joined.results.h5"));
+  ASSERT_EQ(rest.rows(), whole.rows());
+  EXPECT_TRUE(is_bit_equal(rest.topRows(31), whole.topRows(31)));
+  EXPECT_LT((rest.col(0) - whole.col(0)).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(CheckpointFile, AppendsOnlyToTheRunThatWroteIt) {
+  TemporaryFolder folder;
+  const BodyFiles list = files();
+  const formats::Scene scene = scene_with_checkpoints(swing);
+  const std::string results = folder.file("a.results.h5");
+  RunControl control;
+  control.interrupted = [polls = 0]() mutable { return ++polls > 30; };
+  static_cast<void>(simulate(request(scene, list, results), control));
+  formats::Scene other = scene;
+  other.checkpoint = {};
+  static_cast<void>(simulate(request(other, list, results), {}));  // replaces the rows, not the checkpoint
+  RunRequest again = request(scene, list, results);
+  again.restart = folder.file("a.checkpoint.h5");
+  again.joining = Joining::appended;
+  try {
+    static_cast<void>(simulate(again, {}));
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("are not there any more"));
+  }
 }
 
 }  // namespace

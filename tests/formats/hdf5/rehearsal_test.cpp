@@ -1,4 +1,6 @@
 // Reading in a child process first: what kills the child is told, what only fails is left to the caller.
+#include <unistd.h>
+
 #include <csignal>
 #include <string>
 #include <vector>
@@ -43,6 +45,15 @@ TEST(Rehearsal, OfManyFilesReadsAllOfThem) {
   for (const char* deadly : {"absent", "sound", "damaged"})
     EXPECT_FALSE(hdf5::survives(paths, read_until(deadly))) << deadly;
   EXPECT_TRUE(hdf5::survives({}, read_until("none")));
+}
+
+TEST(Rehearsal, EndsAChildThatWaitsForEver) {
+  try {
+    hdf5::rehearse("far.superelement.h5", [] { ::pause(); }, {2, 1});
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).find("far.superelement.h5: could not be read within 1 s"), 0u) << error.what();
+  }
 }
 
 }  // namespace

@@ -122,12 +122,12 @@ TEST(InputTable, ColumnsMayBeSeparatedByBlanks) {
 TEST(InputTable, DatasetsOfHdf5Files) {
   const Folder folder;
   const std::vector<double> time{0, 1, 2}, value{5, 6, 8};
-  const hdf5::Handle file = hdf5::create_in_memory("test");
+  hdf5::Handle file = hdf5::create_in_memory("test");
   hdf5::write_dataset(file.id(), "/time", {3}, time.data(), "test");
   hdf5::write_dataset(file.id(), "/drive/throttle", {3}, value.data(), "test");
   hdf5::write_dataset(file.id(), "/short", {2}, value.data(), "test");
   hdf5::write_dataset(file.id(), "/table", {1, 3}, value.data(), "test");
-  const std::string path = folder.file("drive.h5", hdf5::file_image(file.id(), "test"));
+  const std::string path = folder.file("drive.h5", hdf5::file_image(std::move(file), "test"));
   const TimeTable table = read_input_table({path, "time", "drive/throttle"});
   EXPECT_EQ(table.time, time);
   EXPECT_EQ(table.value, value);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "formats/hdf5/file.hpp"
@@ -336,7 +337,7 @@ Table matrix_table(const std::string& name, const Eigen::MatrixXd& matrix) {
 std::string superelement_container(const std::uint8_t* data, std::size_t size) {
   static const formats::Superelement sound = craig_bampton_beam(BeamData(), 1);
   Bytes bytes(data, size);
-  const formats::hdf5::Handle owner = formats::hdf5::create_in_memory("");
+  formats::hdf5::Handle owner = formats::hdf5::create_in_memory("");
   const hid_t file = owner.id();
   const Id boundary(H5Gcreate2(file, "/boundary", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
   const Id dof(H5Gcreate2(file, "/dof", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
@@ -362,7 +363,7 @@ std::string superelement_container(const std::uint8_t* data, std::size_t size) {
   for (std::size_t k = bytes.below(4); k > 0; --k) foreign_dataset(bytes, file, "/more" + std::to_string(k));
   for (std::size_t k = bytes.below(4); k > 0; --k) foreign_attribute(bytes, file, "more" + std::to_string(k));
   if (bytes.byte() % 4 == 1) put_text(bytes, file, "content_id", std::string(64, 'a'));
-  return formats::hdf5::file_image(file, "");
+  return formats::hdf5::file_image(std::move(owner), "");
 }
 
 }  // namespace tisserand::test_support
