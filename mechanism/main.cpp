@@ -97,9 +97,9 @@ and before it those that it starts from.
   mechanism run arm.scene.yaml --restart arm.checkpoint.h5 -o rest.results.h5
 
 A run that goes on from a checkpoint is bit-equal to one that was never interrupted (same machine and program); from an
-instant of a results file it is accurate to the tolerance. With --append one file holds the rows of both, the joining instant
-once; the results that are gone on from stay as they are until the new ones, whole, take their place. Without it they are
-never overwritten.
+instant of a results file it is accurate to the tolerance. With --append one file holds the rows of both, the joining
+instant once; the results that are gone on from stay as they are until the new ones, whole, take their place. Without it
+they are never overwritten.
 
 While it runs the results grow in <output>.part, readable at any time. Ctrl-C, a step that does not converge and a full disk
 close the file with what was reached and the reason; `channels`, `export` and `plot` accept it. Names of files in the scene
