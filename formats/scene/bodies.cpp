@@ -295,7 +295,8 @@ KeySet superelement_fields() {
         "from the centre of mass"},
        {"damping", "damping",
         "`{mass: a, stiffness: b, ratio: z, ratios: [z1, z2]}`: Rayleigh a M + b S [1/time, time], ratio of "
-        "critical damping of every internal mode, of the first ones",
+        "critical damping of every elastic mode of the free body, of the lowest ones; `ratio_internal`, "
+        "`ratios_internal`: of the internal modes, whose boundary is held (see below). All add up",
         "0"}},
       start_fields<SuperelementBodySpec>()};
 }
@@ -310,7 +311,8 @@ KeySet modal_fields() {
        plain<&ModalBodySpec::cutoff>("cutoff", "positive", "instead: modes below this frequency [1/time of the scene]",
                                      "all"),
        {"damping", "damping",
-        "as of superelements, added to the ratios of the file; on the modes alone: rigid motion is not damped", "0"}},
+        "`{mass, stiffness, ratio, ratios}` of the modes of the file, added to its ratios: rigid motion is not damped",
+        "0"}},
       start_fields<ModalBodySpec>()};
 }
 
@@ -361,7 +363,9 @@ std::vector<KeySet> body_key_sets() {
       {"weights", {{"positions", "{text: number}+", ""}, {"rotations", "{text: number}+", ""}}},
       {"damping",
        {plain<&Damping::mass>("mass", "not_negative", ""), plain<&Damping::stiffness>("stiffness", "not_negative", ""),
-        plain<&Damping::ratio>("ratio", "not_negative", ""), plain<&Damping::ratios>("ratios", "[not_negative]", "")}}};
+        plain<&Damping::ratio>("ratio", "not_negative", ""), plain<&Damping::ratios>("ratios", "[not_negative]", ""),
+        plain<&Damping::ratio_internal>("ratio_internal", "not_negative", ""),
+        plain<&Damping::ratios_internal>("ratios_internal", "[not_negative]", "")}}};
 }
 
 std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& definitions) {

@@ -35,10 +35,12 @@ struct NodeWeight {
 };
 
 struct Damping {
-  double mass = 0.0;           ///< a of a M̄
-  double stiffness = 0.0;      ///< b of b S̄
-  double ratio = 0.0;          ///< of every internal mode
-  std::vector<double> ratios;  ///< of the first modes; overrides `ratio`
+  double mass = 0.0;            ///< a of a M̄
+  double stiffness = 0.0;       ///< b of b S̄
+  double ratio = 0.0;           ///< of every elastic mode of the free body, or of every mode of a modal body
+  std::vector<double> ratios;   ///< of the lowest of them; overrides `ratio`
+  double ratio_internal = 0.0;  ///< of every internal mode (boundary held) of a superelement
+  std::vector<double> ratios_internal = {};  ///< of the first of them; overrides `ratio_internal`
   bool operator==(const Damping&) const = default;
 };
 

@@ -56,6 +56,8 @@ void check_damping(const Damping& damping, const std::string& subject, const std
   not_negative(damping.stiffness, "stiffness");
   not_negative(damping.ratio, "ratio");
   for (const double ratio : damping.ratios) not_negative(ratio, "ratios");
+  not_negative(damping.ratio_internal, "ratio_internal");
+  for (const double ratio : damping.ratios_internal) not_negative(ratio, "ratios_internal");
 }
 
 void check_gravity(const std::optional<Eigen::Vector3d>& gravity, const std::string& subject, const std::string& where,
@@ -78,6 +80,10 @@ void check_modal_choice(const Body& body, const std::string& subject, const std:
 
 void check_body(const ModalBodySpec& body, const std::string& subject, Faults& faults) {
   check_modal_choice(body, subject, "modal body file", faults);
+  if (body.damping.ratio_internal != 0.0 || !body.damping.ratios_internal.empty())
+    faults.add(body.where, "damping",
+               fmt::format("{}: damping: modal bodies have no internal modes, whose boundary is held", subject),
+               "write ratio or ratios, which count the modes of the file");
 }
 
 void check_body(const SuperelementBodySpec& body, const std::string& subject, Faults& faults) {

@@ -161,6 +161,7 @@ TEST(Damping, LeavesRigidMotionAlone) {
     formats::Scene scene = free_beam(0.01, 2.0, InertiaOption::B);
     auto& body = std::get<formats::SuperelementBodySpec>(scene.bodies[0]);
     body.damping = {.mass = 50.0, .stiffness = 1.0, .ratio = 0.5, .ratios = {}};
+    body.damping.ratio_internal = 0.5;
     body.start.velocity = velocity;
     body.start.angular_velocity = {4, 0, 0};
     Simulation run(scene, one_file(test_support::craig_bampton_beam(stiff_symmetric_beam(), modes)));

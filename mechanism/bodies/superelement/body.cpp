@@ -1,4 +1,4 @@
-// From a superelement file to the constants of the body: order of rows, units, canonical form, weights, damping.
+// From a superelement file to the constants of the body: order of rows, units, canonical form, weights.
 #include "mechanism/bodies/superelement/body.hpp"
 
 #include <algorithm>
@@ -103,7 +103,7 @@ Eigen::Index modes_to_keep(const Eigen::VectorXd& eigenvalue, const Superelement
     wanted = *options.modes;
   }
   if (options.cutoff) {
-    if (!(*options.cutoff >= 0.0))
+    if (!(*options.cutoff > 0.0))
       throw Error(fmt::format("cutoff is {:g}", *options.cutoff), options.where, "choose a frequency above 0");
     const double limit = std::pow(2.0 * std::numbers::pi * *options.cutoff, 2);
     wanted = std::min<Eigen::Index>(wanted, (eigenvalue.array() <= limit).count());
@@ -254,30 +254,6 @@ void set_gravity_constants(SuperelementBody& body) {
   }
 }
 
-void set_damping(const SuperelementOptions& options, SuperelementBody& body) {
-  const formats::Damping& given = options.damping;
-  const auto require = [&](double value, const char* what) {
-    if (!(value >= 0.0))
-      throw Error(fmt::format("damping: {} is {:g}", what, value), options.where, "choose 0 or more");
-  };
-  require(given.mass, "mass");
-  require(given.stiffness, "stiffness");
-  require(given.ratio, "ratio");
-  for (const double ratio : given.ratios) require(ratio, "ratio of a mode");
-  if (given.ratios.size() > body.file.internal_row.size())
-    throw Error(
-        fmt::format("damping: {} ratios for {} internal modes", given.ratios.size(), body.file.internal_row.size()),
-        options.where, "give at most one ratio per mode");
-  body.damping.mass = given.mass;
-  body.damping.stiffness = given.stiffness;
-  body.damping.internal.resize(body.modes);
-  for (Eigen::Index k = 0; k < body.modes; ++k) {
-    const double ratio = k < static_cast<Eigen::Index>(given.ratios.size()) ? given.ratios[k] : given.ratio;
-    body.damping.internal[k] = given.mass + given.stiffness * body.S_II[k] + 2.0 * ratio * std::sqrt(body.S_II[k]);
-  }
-  body.damping.active = given.mass > 0.0 || given.stiffness > 0.0 || (body.damping.internal.array() > 0.0).any();
-}
-
 }  // namespace
 
 SuperelementBody build_superelement_body(const formats::Superelement& element, const formats::RigidProperties& rigid,
@@ -290,7 +266,7 @@ SuperelementBody build_superelement_body(const formats::Superelement& element, c
   cut_modes(options, matrices, body);
   set_frame(element, rigid, options, body);
   set_gravity_constants(body);
-  set_damping(options, body);
+  set_damping(options.damping, options.where, body);
   return body;
 }
 

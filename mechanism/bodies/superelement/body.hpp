@@ -52,12 +52,15 @@ struct SuperelementNode {
   bool has_rotation() const { return rotation_row >= 0; }
 };
 
-/// Damping on the deformation rates: D = a M̄ + b S̄ + diag(2 ζ ω) on the internal coordinates.
+/// Damping on the deformation rates: D = b S̄ + diag(2 ζ ω) on the internal coordinates + a full matrix, a M̄ + M̄ΦΔΦᵀM̄
+/// with the elastic modes Φ of the free body and Δ = diag(2 ζ ω) (damping.cpp). Rigid rates have no damping.
 struct SuperelementDamping {
-  double mass = 0.0;         ///< a [1/time]
-  double stiffness = 0.0;    ///< b [time]
-  Eigen::VectorXd internal;  ///< m: the whole diagonal of D_II = a + b ω² + 2 ζ ω
+  double stiffness = 0.0;      ///< b [time]
+  Eigen::VectorXd internal;    ///< m: b ω² + 2 ζ ω of the internal modes
+  Eigen::MatrixXd BB, BI, II;  ///< the full matrix; empty if there is none
+  Eigen::MatrixXd IB;          ///< BI transposed
   bool active = false;
+  bool is_full() const { return BB.size() > 0; }
 };
 
 /// From the coordinates of the body to those of the file: y_I(file) = static_part y_B + modal_part y_I.
@@ -107,6 +110,18 @@ struct SuperelementUse {
   std::vector<int> nodes;  ///< indices into the model's nodes, in the order of the body
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
 };
+
+/// Elastic modes of the free reduced body, ascending, and what they exert: f = S̄ φ with φᵀS̄φ = 1, so that
+/// M̄ΦΔΦᵀM̄ = Σ (2 ζ/ω) f fᵀ. Directions without mass are left out.
+struct FreeModes {
+  Eigen::VectorXd omega;  ///< [rad/time]
+  Eigen::MatrixXd force;  ///< (nb + m) x modes
+};
+/// Throws Error (at `where`) if the body has motions without strain besides the rigid ones.
+FreeModes free_modes(const SuperelementBody& body, const std::string& where);
+
+/// Sets body.damping from what the scene says of it. Throws Error.
+void set_damping(const formats::Damping& given, const std::string& where, SuperelementBody& body);
 
 /// Canonical form by congruence, modes cut, units converted, weights. Node poses of the reference configuration are
 /// those of the file. Throws Error.

@@ -15,7 +15,7 @@ using Columns = Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, 3>>;
 
 /// Transposed rows of the boundary, nb x 3 each.
 struct CenterColumns {
-  Columns w;  ///< W Γᵀ, W without the Rayleigh damping
+  Columns w;  ///< W Γᵀ
   Columns g;  ///< (Γ P)ᵀ
   Columns z;  ///< (Γ (Z − c_m P))ᵀ
   Columns J;
@@ -116,7 +116,7 @@ Eigen::MatrixXd center_of_mass_tangent(const SuperelementBody& body, const Local
   set_columns(body, motion, c, boundary);
   Eigen::VectorXd column(nb);
   for (int k = 0; k < 3; ++k) {
-    apply_inertia_of_W(body, frozen, body.Gamma_B.row(k), column);
+    apply_W(body, frozen, body.Gamma_B.row(k), column);
     w.col(k).head(nb) = column;
   }
   g.bottomRows(body.modes) = body.Gamma_I.transpose();
@@ -137,7 +137,7 @@ void add_center_of_mass_tangent(const SuperelementBody& body, SuperelementScratc
   set_columns(body, scratch.motion, c, columns);
   for (int k = 0; k < 3; ++k) {
     work.boundary_1 = body.Gamma_B.row(k);
-    apply_inertia_of_W(body, frozen, work.boundary_1, work.boundary_2);
+    apply_W(body, frozen, work.boundary_1, work.boundary_2);
     columns.w.col(k) = work.boundary_2;
   }
   work.A_BB.noalias() += body.mass * columns.J.lazyProduct(columns.F.transpose());
@@ -147,17 +147,12 @@ void add_center_of_mass_tangent(const SuperelementBody& body, SuperelementScratc
   // ΔA_BI = (Jᵀ (c_m + 2 c_c Ω₀~) − W Γ_Bᵀ/m) Γ_I and ΔA_IB = Γ_Iᵀ (c_m J + c_c A_v − Γ_B Z/m).
   columns.w = columns.J.lazyProduct(acceleration_of_rates(c, scratch.motion)) - columns.w / body.mass;
   columns.F -= (c.mass * columns.g + columns.z) / body.mass;
-  frozen.dense_coupling = true;
+  store_coupling(body, frozen, work);
   for (Eigen::Index k = 0; k < body.modes; ++k) {
-    work.boundary_1 = body.M_BI.col(k);
-    apply_W(body, frozen, work.boundary_1, work.boundary_2);
-    frozen.A_BI.col(k) = work.boundary_2;
     frozen.A_BI.col(k).noalias() += columns.w.lazyProduct(body.Gamma_I.col(k));
-    apply_Z_transposed(body, frozen, work.boundary_1, work.boundary_2);
-    work.boundary_2.noalias() += columns.F.lazyProduct(body.Gamma_I.col(k));
-    frozen.A_IB.row(k) = work.boundary_2;
-    work.A_BB.noalias() -= work.inverse_D[k] * frozen.A_BI.col(k).lazyProduct(work.boundary_2.transpose());
+    frozen.A_IB.row(k).transpose().noalias() += columns.F.lazyProduct(body.Gamma_I.col(k));
   }
+  eliminate_internal(body, frozen, work);
 }
 
 }  // namespace tisserand::mechanism

@@ -53,14 +53,36 @@ void apply_upsilon(const SuperelementBody& body, const SuperelementTangent& tang
   }
 }
 
+void add_upsilon_transposed(const SuperelementBody& body, const SuperelementTangent& tangent, double factor,
+                            const Eigen::VectorXd& t, Eigen::VectorXd& out) {
+  Vector3d moment = Vector3d::Zero(), total = Vector3d::Zero();
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    if (node.has_translation()) {
+      const Vector3d s = factor * t.segment<3>(node.translation_row);
+      total += s;
+      moment -= tangent.node[i].xh.cross(s);
+    }
+    if (node.has_rotation()) moment -= tangent.node[i].Tinv * (factor * t.segment<3>(node.rotation_row));
+  }
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    const LocalNode<double>& local = tangent.node[i];
+    if (node.has_translation()) {
+      out.segment<3>(node.translation_row) +=
+          tangent.R0 * (factor * t.segment<3>(node.translation_row) - node.alpha * total);
+      if (body.frame == FrameAlgorithm::polar) out.segment<3>(node.translation_row) += local.U_x.transpose() * moment;
+    }
+    if (node.has_rotation())
+      out.segment<3>(node.rotation_row) +=
+          local.Tinv.transpose() * (factor * t.segment<3>(node.rotation_row)) + local.U.transpose() * moment;
+  }
+}
+
 void apply_Z(const SuperelementBody& body, const SuperelementTangent& tangent, const double* v, Eigen::VectorXd& out) {
   const TangentCoefficients& c = tangent.coefficients;
   const Vector3d rotation = frame_rotation(body, tangent, v);
-  if (body.damping.mass > 0.0)
-    apply_upsilon(body, tangent, v, out);
-  else
-    out.setZero();
-  out *= c.damping * body.damping.mass;
+  out.setZero();
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     const LocalNode<double>& local = tangent.node[i];
@@ -79,38 +101,30 @@ void apply_Z(const SuperelementBody& body, const SuperelementTangent& tangent, c
 
 namespace {
 
-/// c_m Pᵀ t + c_c (Pᵀ (O₀ ∓ turn O_B) t − frame UᵀVᵀ t + damping Υᵀ t): W t with 1, 1, a; Zᵀ t with 0, −1, a.
+/// c_m Pᵀ t + c_c (Pᵀ (O₀ ∓ turn O_B) t − frame UᵀVᵀ t): W t with 1, 1; Zᵀ t with 0, −1.
 struct Side {
-  double turn, frame, damping;
+  double turn, frame;
 };
 
 void apply_side(const SuperelementBody& body, const SuperelementTangent& tangent, const Side& side,
                 const Eigen::VectorXd& t, Eigen::VectorXd& out) {
   const TangentCoefficients& c = tangent.coefficients;
-  const double a = c.damping * side.damping;
   const bool option_A = body.inertia == formats::InertiaOption::A;
-  Vector3d moment = Vector3d::Zero(), total = Vector3d::Zero();
+  Vector3d moment = Vector3d::Zero();
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     const LocalNode<double>& local = tangent.node[i];
-    if (node.has_translation()) {
-      const Vector3d s = t.segment<3>(node.translation_row);
-      total += s;
-      moment += side.frame * c.damping * local.xd.cross(s) - a * local.xh.cross(s);
-    }
-    if (node.has_rotation()) {
-      const Vector3d s = t.segment<3>(node.rotation_row);
-      if (option_A) moment += side.frame * c.damping * local.Omega.cross(s);
-      if (a > 0.0) moment -= a * (local.Tinv * s);
-    }
+    if (node.has_translation())
+      moment += side.frame * c.damping * local.xd.cross(Vector3d(t.segment<3>(node.translation_row)));
+    if (node.has_rotation() && option_A)
+      moment += side.frame * c.damping * local.Omega.cross(Vector3d(t.segment<3>(node.rotation_row)));
   }
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     const LocalNode<double>& local = tangent.node[i];
     if (node.has_translation()) {
       const Vector3d s = t.segment<3>(node.translation_row);
-      out.segment<3>(node.translation_row) =
-          tangent.R0 * ((c.mass + a) * s + c.damping * tangent.Omega0.cross(s) - a * node.alpha * total);
+      out.segment<3>(node.translation_row) = tangent.R0 * (c.mass * s + c.damping * tangent.Omega0.cross(s));
       if (body.frame == FrameAlgorithm::polar) out.segment<3>(node.translation_row) += local.U_x.transpose() * moment;
     }
     if (!node.has_rotation()) continue;
@@ -120,7 +134,6 @@ void apply_side(const SuperelementBody& body, const SuperelementTangent& tangent
       f = local.E.transpose() * (c.mass * s + c.damping * (tangent.Omega0 - side.turn * local.Omega).cross(s));
     else
       f = c.mass * s + (side.turn * c.damping) * local.Omega.cross(s);
-    if (a > 0.0) f += a * (local.Tinv.transpose() * s);
     out.segment<3>(node.rotation_row) = f + local.U.transpose() * moment;
   }
 }
@@ -129,24 +142,52 @@ void apply_side(const SuperelementBody& body, const SuperelementTangent& tangent
 
 void apply_W(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
              Eigen::VectorXd& out) {
-  apply_side(body, tangent, {.turn = 1.0, .frame = 1.0, .damping = body.damping.mass}, t, out);
-}
-
-void apply_inertia_of_W(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
-                        Eigen::VectorXd& out) {
-  apply_side(body, tangent, {.turn = 1.0, .frame = 1.0, .damping = 0.0}, t, out);
+  apply_side(body, tangent, {.turn = 1.0, .frame = 1.0}, t, out);
 }
 
 void apply_Z_transposed(const SuperelementBody& body, const SuperelementTangent& tangent, const Eigen::VectorXd& t,
                         Eigen::VectorXd& out) {
-  apply_side(body, tangent, {.turn = 0.0, .frame = -1.0, .damping = body.damping.mass}, t, out);
+  apply_side(body, tangent, {.turn = 0.0, .frame = -1.0}, t, out);
+}
+
+void store_coupling(const SuperelementBody& body, SuperelementTangent& tangent, SuperelementWork& work) {
+  tangent.dense_coupling = true;
+  const double damping = tangent.coefficients.damping;
+  const bool damped = damping != 0.0 && body.damping.is_full();
+  for (Eigen::Index k = 0; k < body.modes; ++k) {
+    work.boundary_1 = body.M_BI.col(k);
+    apply_W(body, tangent, work.boundary_1, work.boundary_2);
+    tangent.A_BI.col(k) = work.boundary_2;
+    apply_Z_transposed(body, tangent, work.boundary_1, work.boundary_2);
+    tangent.A_IB.row(k) = work.boundary_2;
+    if (!damped) continue;
+    work.boundary_1 = body.damping.BI.col(k);
+    work.boundary_2.setZero();
+    add_upsilon_transposed(body, tangent, damping, work.boundary_1, work.boundary_2);
+    tangent.A_BI.col(k) += work.boundary_2;
+    tangent.A_IB.row(k) += work.boundary_2;
+  }
+}
+
+void eliminate_internal(const SuperelementBody& body, const SuperelementTangent& tangent, SuperelementWork& work) {
+  const bool full = body.damping.is_full();
+  if (full) work.eliminated.noalias() = tangent.inverse_II.lazyProduct(tangent.A_IB);
+  for (Eigen::Index k = 0; k < body.modes; ++k) {
+    const Eigen::MatrixXd& rows = full ? work.eliminated : tangent.A_IB;
+    work.boundary_2 = rows.row(k);
+    const double factor = full ? 1.0 : work.inverse_D[k];
+    work.A_BB.noalias() -= factor * tangent.A_BI.col(k).lazyProduct(work.boundary_2.transpose());
+  }
 }
 
 void condense(const SuperelementBody& body, const SuperelementScratch& scratch, SuperelementWork& work) {
   work.r_B_condensed = scratch.forces.r_B;
   if (body.modes == 0) return;
   const SuperelementTangent& tangent = scratch.tangent;
-  work.internal_1 = tangent.inverse_D.cwiseProduct(scratch.forces.r_I);
+  if (body.damping.is_full())
+    work.internal_1.noalias() = tangent.inverse_II * scratch.forces.r_I;
+  else
+    work.internal_1 = tangent.inverse_D.cwiseProduct(scratch.forces.r_I);
   if (tangent.dense_coupling) {
     work.r_B_condensed.noalias() -= tangent.A_BI * work.internal_1;
     return;
@@ -178,7 +219,11 @@ void expand(const SuperelementBody& body, const SuperelementScratch& scratch, co
     apply_Z(body, tangent, dq_B, work.boundary_1);
     multiply_add<Eigen::Dynamic, double>(body.M_IB, work.boundary_1, work.internal_1);
   }
-  Eigen::Map<Eigen::VectorXd>(dy_I, body.modes) = -tangent.inverse_D.cwiseProduct(work.internal_1);
+  Eigen::Map<Eigen::VectorXd> out(dy_I, body.modes);
+  if (body.damping.is_full())
+    out.noalias() = -(tangent.inverse_II * work.internal_1);
+  else
+    out = -tangent.inverse_D.cwiseProduct(work.internal_1);
 }
 
 }  // namespace tisserand::mechanism

@@ -14,7 +14,8 @@ SuperelementScratch make_scratch(const SuperelementBody& body) {
   tangent.Omega0.setZero();
   tangent.node = scratch.motion.node;
   tangent.U.setZero(3, body.boundary_size);
-  if (body.inertia == formats::InertiaOption::M) {
+  if (body.damping.is_full()) tangent.inverse_II.setZero(body.modes, body.modes);
+  if (body.inertia == formats::InertiaOption::M || body.damping.is_full()) {
     tangent.A_BI.setZero(body.boundary_size, body.modes);
     tangent.A_IB.setZero(body.modes, body.boundary_size);
   }
@@ -31,6 +32,12 @@ SuperelementWork make_work(const SuperelementBody& body) {
     matrix->setZero(nb, 3);
   for (Eigen::VectorXd* vector : {&work.r_B_condensed, &work.boundary_1, &work.boundary_2}) vector->setZero(nb);
   work.internal_1.setZero(m);
+  if (body.damping.is_full()) {
+    work.K.setZero(nb, nb);
+    work.factor_II.setZero(m, m);
+    work.inverse_II.setZero(m, m);
+    work.eliminated.setZero(m, nb);
+  }
   return work;
 }
 
@@ -94,11 +101,13 @@ SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratc
     result.gravity_potential = -body.mass * gravity.dot(center);
   }
   if (body.damping.active) {
-    const double a = body.damping.mass, b = body.damping.stiffness;
+    const SuperelementDamping& damping = body.damping;
     const Eigen::VectorXd& rate = motion.deformation_rate_B;
-    result.damping_power = a * quadratic_form(body.M_BB, rate) + b * quadratic_form(body.S_BB, rate) +
-                           2.0 * a * coupling_form(body.M_BI, rate, motion.rate_I) +
-                           motion.rate_I.cwiseAbs2().dot(body.damping.internal);
+    result.damping_power =
+        damping.stiffness * quadratic_form(body.S_BB, rate) + motion.rate_I.cwiseAbs2().dot(damping.internal);
+    if (damping.is_full())
+      result.damping_power += quadratic_form(damping.BB, rate) + 2.0 * coupling_form(damping.BI, rate, motion.rate_I) +
+                              quadratic_form(damping.II, motion.rate_I);
   }
   return result;
 }

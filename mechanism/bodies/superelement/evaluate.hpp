@@ -20,6 +20,10 @@ struct SuperelementWork {
   Eigen::VectorXd inverse_D;  ///< m: 1/(c_m + c_c D_II + c_k S_II)
   Eigen::MatrixXd Q;          ///< nb x nb: M_BI D⁻¹ M_IB
   Eigen::MatrixXd N;          ///< nb x nb: M_BB − c_m Q
+  /// Only where the damping has a full matrix:
+  Eigen::MatrixXd K;                      ///< nb x nb: c_k S_BB + c_c D_BB
+  Eigen::MatrixXd factor_II, inverse_II;  ///< m x m: Cholesky factor and inverse of A_II
+  Eigen::MatrixXd eliminated;             ///< m x nb: A_II⁻¹ A_IB
 
   Eigen::MatrixXd A_BB;           ///< nb x nb, y_I eliminated: result of tangent()
   Eigen::VectorXd r_B_condensed;  ///< r_B − A_BI A_II⁻¹ r_I: result of condense()
@@ -32,15 +36,17 @@ struct SuperelementWork {
 /// The state at which the latest tangent of one use was formed: what condense() and expand() need.
 struct SuperelementTangent {
   TangentCoefficients coefficients;
-  Eigen::VectorXd inverse_D;  ///< m: inverse diagonal of A_II
+  Eigen::VectorXd inverse_D;   ///< m: inverse diagonal of A_II, where inverse_II is empty
+  Eigen::MatrixXd inverse_II;  ///< m x m: where the damping has a full matrix
   Eigen::Matrix3d R0;
   Eigen::Vector3d Omega0;
   std::vector<LocalNode<double>> node;
   Eigen::Matrix<double, 3, Eigen::Dynamic> U;  ///< 3 x nb, U P⁻¹: columns in axes of the frame
 
-  bool dense_coupling = false;  ///< A_BI and A_IB are stored (exact tangent) instead of W M_BI and M_IB Z
-  Eigen::MatrixXd A_BI;         ///< nb x m
-  Eigen::MatrixXd A_IB;         ///< m x nb
+  bool dense_coupling =
+      false;  ///< A_BI and A_IB are stored (exact tangent, inertia M, full damping) instead of W M_BI and M_IB Z
+  Eigen::MatrixXd A_BI;  ///< nb x m
+  Eigen::MatrixXd A_IB;  ///< m x nb
 };
 
 /// Scratch of one use, sized once.
@@ -75,7 +81,8 @@ void residual(const SuperelementBody& body, SuperelementScratch& scratch, const 
 ///   c_m Pᵀ M̄ P + c_c (C₁ + C₂ + C₃ + Υᵀ D Υ) + c_k Υᵀ S̄ Υ          ([Car00] (31), (49)-(51), (61)-(63), corrected)
 /// (the derivatives of Υ, of U and of the weight are left out), and what condense() and expand() need. The elimination
 /// of y_I is exact: C has no I-I block, so D = A_II is a constant diagonal and Q = M_BI D⁻¹ M_IB is kept while the
-/// coefficients stay.
+/// coefficients stay. Where the damping has a full matrix, D is the constant full matrix A_II, and A_BI = W M_BI + c_c
+/// Υᵀ D_BI, A_IB = M_IB Z + c_c D_IB Υ are stored.
 void tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
              SuperelementWork& work);
 

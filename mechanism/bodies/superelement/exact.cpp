@@ -1,5 +1,6 @@
 // Whole tangents of a superelement body: the step tangent in dense form, and the exact one by dual numbers.
 #include <Eigen/Core>
+#include <Eigen/LU>
 
 #include "common/math/dual.hpp"
 #include "mechanism/bodies/superelement/center_tangent.hpp"
@@ -125,8 +126,9 @@ DenseForm dense_form(const SuperelementBody& body, const SuperelementScratch& sc
   d.S.topLeftCorner(nb, nb) = body.S_BB;
   d.S.bottomRightCorner(m, m) = body.S_II.asDiagonal();
   d.M << body.M_BB, body.M_BI, body.M_IB, Eigen::MatrixXd::Identity(m, m);
-  d.D = body.damping.mass * d.M + body.damping.stiffness * d.S;
-  d.D.bottomRightCorner(m, m) = body.damping.internal.asDiagonal();
+  if (body.damping.is_full()) d.D << body.damping.BB, body.damping.BI, body.damping.IB, body.damping.II;
+  d.D.topLeftCorner(nb, nb) += body.damping.stiffness * body.S_BB;
+  d.D.bottomRightCorner(m, m).diagonal() += body.damping.internal;
   for (std::size_t i = 0; i < body.node.size(); ++i) set_node_blocks(body, scratch, i, d);
   SuperelementTangent frozen = scratch.tangent;
   frozen.R0 = scratch.motion.R0;
@@ -176,6 +178,11 @@ void exact_tangent(const SuperelementBody& body, const NodeView<NodeMotion>& nod
   frozen.dense_coupling = true;
   frozen.A_BI = A.topRightCorner(nb, m);
   frozen.A_IB = A.bottomLeftCorner(m, nb);
+  if (body.damping.is_full()) {
+    frozen.inverse_II = A.bottomRightCorner(m, m).inverse();
+    work.A_BB = A.topLeftCorner(nb, nb) - frozen.A_BI * frozen.inverse_II * frozen.A_IB;
+    return;
+  }
   frozen.inverse_D = A.bottomRightCorner(m, m).diagonal().cwiseInverse();
   work.A_BB = A.topLeftCorner(nb, nb) - frozen.A_BI * frozen.inverse_D.asDiagonal() * frozen.A_IB;
 }

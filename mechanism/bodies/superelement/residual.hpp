@@ -60,18 +60,18 @@ void local_forces(const SuperelementBody& body, const LocalMotion<S>& motion, Su
     multiply_add<Eigen::Dynamic>(body.M_IB, motion.acceleration_B, out.r_I);
   }
   if (!body.damping.active) return;
-  const double a = body.damping.mass, b = body.damping.stiffness;
+  const double b = body.damping.stiffness;
   const auto& rate = motion.deformation_rate_B;
-  for (Eigen::Index k = 0; k < body.boundary_size; ++k)
-    for (Eigen::Index i = 0; i < body.boundary_size; ++i)
-      out.s_B[i] += (a * body.M_BB(i, k) + b * body.S_BB(i, k)) * rate[k];
-  for (Eigen::Index k = 0; k < body.modes; ++k) {
-    out.r_I[k] += body.damping.internal[k] * motion.rate_I[k];
-    for (Eigen::Index i = 0; i < body.boundary_size; ++i) {
-      out.s_B[i] += a * body.M_BI(i, k) * motion.rate_I[k];
-      out.r_I[k] += a * body.M_BI(i, k) * rate[i];
-    }
-  }
+  if (b > 0.0)
+    for (Eigen::Index k = 0; k < body.boundary_size; ++k)
+      for (Eigen::Index i = 0; i < body.boundary_size; ++i) out.s_B[i] += b * body.S_BB(i, k) * rate[k];
+  for (Eigen::Index k = 0; k < body.modes; ++k) out.r_I[k] += body.damping.internal[k] * motion.rate_I[k];
+  if (!body.damping.is_full()) return;
+  multiply_add<NB>(body.damping.BB, rate, out.s_B);
+  if (body.modes == 0) return;
+  multiply_add<NB>(body.damping.BI, motion.rate_I, out.s_B);
+  multiply_add<Eigen::Dynamic>(body.damping.IB, rate, out.r_I);
+  multiply_add<Eigen::Dynamic>(body.damping.II, motion.rate_I, out.r_I);
 }
 
 /// Centre of mass relative to x₀, axes of the frame: X_cm + Φ_TᵀM̄ y / m.

@@ -1,4 +1,5 @@
 // Step tangent of a superelement body with the internal coordinates eliminated: the inner loop of every time step.
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "mechanism/bodies/superelement/center_tangent.hpp"
@@ -42,6 +43,15 @@ void update_constants(const SuperelementBody& body, const TangentCoefficients& c
       work.Q.col(j) += (work.inverse_D[k] * body.M_BI(j, k)) * body.M_BI.col(k);
   }
   work.N = body.M_BB - c.mass * work.Q;
+  if (!body.damping.is_full()) return;
+  work.K = (c.stiffness + c.damping * body.damping.stiffness) * body.S_BB + c.damping * body.damping.BB;
+  if (body.modes == 0) return;
+  work.factor_II = c.damping * body.damping.II;
+  work.factor_II.diagonal() +=
+      c.stiffness * body.S_II + c.damping * body.damping.internal + Eigen::VectorXd::Constant(body.modes, c.mass);
+  const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(work.factor_II);
+  work.inverse_II.setIdentity();
+  factor.solveInPlace(work.inverse_II);
 }
 
 /// Keeps the state of this tangent for condense() and expand(), and U P⁻¹.
@@ -50,6 +60,7 @@ void freeze(const SuperelementBody& body, const LocalMotion<double>& motion, con
   frozen.dense_coupling = false;
   frozen.coefficients = work.coefficients;
   frozen.inverse_D = work.inverse_D;
+  if (body.damping.is_full()) frozen.inverse_II = work.inverse_II;
   frozen.R0 = motion.R0;
   frozen.Omega0 = motion.Omega0;
   frozen.node = motion.node;
@@ -142,13 +153,14 @@ void add_times_O(const SuperelementBody& body, const SuperelementTangent& frozen
   }
 }
 
-/// Υᵀ S' Υ with S' = k S_BB, Υ = B + H U (S' has no stiffness against translation, so the weights of x₀ drop out):
-/// G = Bᵀ S' B = (S' B)ᵀ B, J = Bᵀ S' H + ½ Uᵀ (Hᵀ S' H); then Υᵀ S' Υ = G + J U + (J U)ᵀ. `SB` is work space.
+/// Υᵀ S' Υ with S' = k S, S = S_BB or work.K, Υ = B + H U (S' has no stiffness against translation, so the weights of
+/// x₀ drop out): G = Bᵀ S' B = (S' B)ᵀ B, J = Bᵀ S' H + ½ Uᵀ (Hᵀ S' H); then Υᵀ S' Υ = G + J U + (J U)ᵀ. `SB` is work
+/// space.
 template <int NB>
-void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& frozen, double k, Square<NB>& SB,
-                     Square<NB>& G, Thin<NB>& J) {
+void stiffness_parts(const SuperelementBody& body, const SuperelementTangent& frozen, const Eigen::MatrixXd& stiffness,
+                     double k, Square<NB>& SB, Square<NB>& G, Thin<NB>& J) {
   const int nb = body.boundary_size;
-  const ConstSquare<NB> S(body.S_BB.data(), nb, nb);
+  const ConstSquare<NB> S(stiffness.data(), nb, nb);
   SB = k * S;
   J.setZero();
   for (std::size_t i = 0; i < body.node.size(); ++i) {
@@ -239,7 +251,10 @@ void condensed_tangent(const SuperelementBody& body, const SuperelementScratch& 
     column_kernels::transpose<NB>(A.data(), nb, G1.data());
     Np -= c.damping * G1;
   }
-  stiffness_parts<NB>(body, frozen, c.stiffness + c.damping * body.damping.stiffness, G2, G1, J);
+  if (body.damping.is_full())
+    stiffness_parts<NB>(body, frozen, work.K, 1.0, G2, G1, J);
+  else
+    stiffness_parts<NB>(body, frozen, body.S_BB, c.stiffness + c.damping * body.damping.stiffness, G2, G1, J);
   G1 += c.mass * N;
   add_times_O<NB>(body, frozen, c.damping, Np, G1);
   multiply_V<NB>(body, frozen, N, F);
@@ -262,40 +277,15 @@ void condensed_tangent(const SuperelementBody& body, const SuperelementScratch& 
   multiply_P<NB>(body, frozen, G1, A);
 }
 
-/// The rarely used a M̄ of Rayleigh damping couples rates through Υ as well: adds c_c a Υᵀ M_BB Υ − W Q Z to A_BB, which
-/// must not have been condensed. W and Z column by column.
-void add_mass_damping(const SuperelementBody& body, const SuperelementTangent& frozen, SuperelementWork& work) {
-  const Eigen::Index nb = body.boundary_size;
-  Eigen::VectorXd &in = work.boundary_1, &out = work.boundary_2;
-  for (Eigen::Index j = 0; j < nb; ++j) {
-    in.setZero();
-    in[j] = 1.0;
-    apply_upsilon(body, frozen, in.data(), out);
-    work.work_1.col(j) = out;
-    apply_Z(body, frozen, in.data(), out);
-    work.work_2.col(j) = out;
-  }
-  const double a = work.coefficients.damping * body.damping.mass;
-  work.work_3.noalias() = body.M_BB.lazyProduct(work.work_1);
-  work.A_BB.noalias() += a * work.work_1.transpose().lazyProduct(work.work_3);
-  if (body.inertia == InertiaOption::M) return;  // eliminates with what it adds
-  work.work_3.noalias() = work.Q.lazyProduct(work.work_2);
-  for (Eigen::Index j = 0; j < nb; ++j) {
-    in = work.work_3.col(j);
-    apply_W(body, frozen, in, out);
-    work.A_BB.col(j) -= out;
-  }
-}
-
 }  // namespace
 
 void tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
              SuperelementWork& work) {
   update_constants(body, coefficients, work);
   freeze(body, scratch.motion, work, scratch.tangent);
-  const bool mass_damping = body.damping.mass > 0.0;
+  const bool full_damping = body.damping.is_full();
   const bool exact_center = body.inertia == InertiaOption::M;
-  const bool eliminate = body.modes > 0 && !mass_damping && !exact_center;
+  const bool eliminate = body.modes > 0 && !full_damping && !exact_center;
   switch (body.boundary_size) {
     case 12:
       condensed_tangent<12>(body, scratch, eliminate, work);
@@ -307,8 +297,12 @@ void tangent(const SuperelementBody& body, const TangentCoefficients& coefficien
       condensed_tangent<Eigen::Dynamic>(body, scratch, eliminate, work);
       break;
   }
-  if (mass_damping) add_mass_damping(body, scratch.tangent, work);
-  if (exact_center) add_center_of_mass_tangent(body, scratch, work);
+  if (exact_center) {
+    add_center_of_mass_tangent(body, scratch, work);
+  } else if (full_damping && body.modes > 0) {
+    store_coupling(body, scratch.tangent, work);
+    eliminate_internal(body, scratch.tangent, work);
+  }
 }
 
 }  // namespace tisserand::mechanism

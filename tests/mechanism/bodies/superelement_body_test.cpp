@@ -213,6 +213,8 @@ TEST(SuperelementBuild, CutsModesWithoutSplittingClusters) {
   EXPECT_EQ(build(element, options).modes, first + 2);
   options.cutoff = 1e-6;
   EXPECT_EQ(build(element, options).modes, 0);
+  options.cutoff = 0.0;
+  EXPECT_THAT(error_of(element, options), ::testing::HasSubstr("cutoff is 0; choose a frequency above 0"));
 }
 
 TEST(SuperelementBuild, TakesWeightsOfTheUser) {
@@ -243,8 +245,11 @@ TEST(SuperelementBuild, NamesWhatIsWrong) {
   EXPECT_THAT(error_of(element, options),
               ::testing::AllOf(::testing::HasSubstr("no node 'tip'"), ::testing::HasSubstr("n0, n2, n5")));
   options = {};
-  options.damping.ratios.assign(6, 0.01);
+  options.damping.ratios_internal.assign(6, 0.01);
   EXPECT_THAT(error_of(element, options), ::testing::HasSubstr("6 ratios for 5 internal modes"));
+  options.damping = {};
+  options.damping.ratios.assign(18, 0.01);  // 3 nodes of six coordinates and five modes, less six rigid motions: 17
+  EXPECT_THAT(error_of(element, options), ::testing::HasSubstr("18 ratios for 17 elastic modes"));
   options.damping = {.mass = -1.0, .stiffness = 0.0, .ratio = 0.0, .ratios = {}};
   EXPECT_THAT(error_of(element, options), ::testing::HasSubstr("mass is -1"));
 

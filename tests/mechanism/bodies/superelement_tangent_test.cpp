@@ -40,6 +40,7 @@ SuperelementBody make_body(const Case& c) {
   options.frame_node = element.node_name[0];
   options.inertia = c.inertia;
   options.damping = {.mass = c.damping, .stiffness = 0.1 * c.damping, .ratio = 0.05 * c.damping, .ratios = {}};
+  options.damping.ratio_internal = 0.03 * c.damping;
   return build_superelement_body(element, formats::rigid_properties(element), options);
 }
 
