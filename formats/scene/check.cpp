@@ -287,10 +287,25 @@ void check_gear(const SceneIndex& scene, const GearSpec& gear, Faults& faults) {
     faults.add(gear.where, "ratio", fmt::format("{}: ratio {:g} must be finite and not zero", subject, gear.ratio), "");
 }
 
-void check_motion(const SceneIndex& scene, const MotionSpec& motion, Faults& faults) {
+/// Whether an analysis of the scene takes forces from accelerations.
+bool has_dynamics(const Scene& scene) {
+  const auto dynamic = [](AnalysisKind kind) {
+    return kind == AnalysisKind::dynamics || kind == AnalysisKind::inverse_dynamics;
+  };
+  if (scene.analyses.empty()) return dynamic(scene.analysis);
+  return std::ranges::any_of(scene.analyses, [&](const Analysis& analysis) { return dynamic(analysis.kind); });
+}
+
+void check_motion(const SceneIndex& scene, const MotionSpec& motion, bool dynamic, Faults& faults) {
   const std::string subject = fmt::format("motion '{}'", motion.name);
   check_coordinate(motion.coordinate, scene, subject, motion.where, "coordinate", faults);
   check_time_function(motion.value, subject, motion.where, "value", faults);
+  const auto* table = std::get_if<TimeTable>(&motion.value);
+  if (dynamic && table != nullptr && table->motion == TableMotion::linear && table->time.size() > 2)
+    faults.add(
+        motion.where, "value",
+        fmt::format("{}: a table with interpolation: linear steps in velocity, which no mass can follow", subject),
+        "leave 'interpolation' out, or give natural; linear is for statics, assembly, kinematics and modes");
 }
 
 }  // namespace
@@ -339,7 +354,7 @@ Faults find_faults(const Scene& scene) {
   check_channels(index, faults);
   for (const MotionSpec& motion : scene.motions) {
     check_path_name("motion", motion.name, motion.where, motions, faults);
-    check_motion(index, motion, faults);
+    check_motion(index, motion, has_dynamics(scene), faults);
   }
   for (const SpringSpec& spring : scene.springs) {
     check_path_name("spring", spring.name, spring.where, springs, faults);

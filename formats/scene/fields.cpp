@@ -56,7 +56,9 @@ std::vector<NamedType> scene_types() {
       {"mirror", "plane | [plane]",
        "plane of the part frame at which the file is mirrored, before the pose; a list: one after another"},
       {"place", "text | marker", "ground, <body>, <body>/<node>, or a marker there"},
-      {"function", "number | text+ | time_function", "a number, an expression, or a table or file"}};
+      {"function", "number | text+ | time_function", "a number, an expression, or a table or file"},
+      {"motion_value", "number | text+ | motion_function",
+       "a number, an expression, or a table or file with its interpolation"}};
   for (const auto& more : {common_types(), section_types()}) types.insert(types.end(), more.begin(), more.end());
   return types;
 }

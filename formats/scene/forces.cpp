@@ -123,8 +123,10 @@ std::vector<MotionSpec> read_motions(const MapReader& map, const SceneDefinition
     motion.where = context.entry;
     if (const YamlNode* coordinate = inner.require("coordinate"))
       motion.coordinate = read_coordinate(inner, *coordinate, "coordinate");
-    if (const YamlNode* value = inner.require("value"))
-      motion.value = read_function(inner, *value, "value", definitions);
+    if (const YamlNode* value = inner.require("value")) {
+      context.reader.note(context.entry, "value", *value);
+      motion.value = read_motion_function(context, *value, "value", definitions.folder);
+    }
     motions.push_back(std::move(motion));
   }
   return motions;
@@ -179,10 +181,9 @@ std::vector<KeySet> force_key_sets() {
   return {
       {"motion",
        {{"coordinate", "text", "joint coordinate; a position [length] or an angle [rad]", "required"},
-        {"value", "function",
-         "number, expression in t and inputs, or table as for loads. Tables become a natural cubic spline, going on "
-         "with the last slope outside; expressions are differentiated by differences of order six, a quarter of the "
-         "step apart",
+        {"value", "motion_value",
+         "number, expression in t and inputs, or table as for loads, with `interpolation: smooth` (as if not given), "
+         "`natural` or `linear` beside it (see below)",
          "required"}}},
       {"spring",
        {{"coordinate", "text", "joint coordinate", "one of both"},

@@ -74,17 +74,35 @@ void check_times(const std::vector<double>& times, const std::string& noun, cons
   }
 }
 
+/// The context of the map of a function of time.
+Context inside_function(const Context& context, const std::string& what) {
+  return {context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
+}
+
 }  // namespace
 
 TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node, const std::string& what,
                                     const std::string& folder) {
   if (node.kind == YamlKind::map) {
-    const Context inner{context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
+    const Context inner = inside_function(context, what);
     return read_map(MapReader(inner, node, "time_function", what + "."), folder);
   }
   if (node.kind == YamlKind::scalar && !looks_like_number(node))
     return TimeExpression{node.text, {}, context.reader.where(node.place)};
   return read_number(context, node, what);
+}
+
+TimeFunctionSpec read_motion_function(const Context& context, const YamlNode& node, const std::string& what,
+                                      const std::string& folder) {
+  if (node.kind != YamlKind::map) return read_time_function(context, node, what, folder);
+  const Context inner = inside_function(context, what);
+  const MapReader map(inner, node, "motion_function", what + ".");
+  TimeFunctionSpec function = read_map(map, folder);
+  if (auto* table = std::get_if<TimeTable>(&function))
+    table->motion = map.choice("interpolation", table_motions, table->motion);
+  else if (const YamlNode* key = map.find("interpolation"))
+    inner.fail(key->key_place, "'interpolation' belongs to tables", "remove it");
+  return function;
 }
 
 void check_time_function(const TimeFunctionSpec& function, const std::string& subject, const std::string& where,
@@ -151,13 +169,14 @@ void check_curve(const CurveSpec& curve, const std::string& subject, const std::
 }
 
 std::vector<KeySet> time_function_key_sets() {
-  return {{"time_function",
-           {{"table", "[[number]2]1..", ""},
-            {"file", "text", ""},
-            {"expression", "text+", ""},
-            {"breakpoints", "[number]", ""}},
-           {},
-           {1, 2}},
+  const std::vector<Field> fields{{"table", "[[number]2]1..", ""},
+                                  {"file", "text", ""},
+                                  {"expression", "text+", ""},
+                                  {"breakpoints", "[number]", ""}};
+  std::vector<Field> of_motions = fields;
+  of_motions.push_back(choice<&TimeTable::motion, table_motions>("interpolation", ""));
+  return {{"time_function", fields, {}, {1, 2}},
+          {"motion_function", of_motions, {}, {1, 2}},
           {"curve",
            {{"table", "[[number]2]2..", ""},
             {"file", "text", ""},

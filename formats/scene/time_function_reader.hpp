@@ -12,10 +12,17 @@ namespace tisserand::formats {
 inline constexpr Choice<Interpolation> interpolations[] = {{"linear", Interpolation::linear},
                                                            {"cubic", Interpolation::cubic}};
 
+inline constexpr Choice<TableMotion> table_motions[] = {
+    {"smooth", TableMotion::smooth}, {"natural", TableMotion::natural}, {"linear", TableMotion::linear}};
+
 /// A number, a text (expression in t), {expression: .., breakpoints: [..]}, {table: [[t, value], ..]} or {file:
 /// table.csv} (relative to `folder`).
 TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node, const std::string& what,
                                     const std::string& folder);
+
+/// The same for prescribed motions, whose tables may have an `interpolation`.
+TimeFunctionSpec read_motion_function(const Context& context, const YamlNode& node, const std::string& what,
+                                      const std::string& folder);
 
 /// Times of a table and breakpoints increase; values are finite; the expression has a text.
 void check_time_function(const TimeFunctionSpec& function, const std::string& subject, const std::string& where,

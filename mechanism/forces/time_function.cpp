@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "formats/scene/expand/expression.hpp"
+#include "formats/scene/expand/steps.hpp"
 
 namespace tisserand::mechanism {
 
@@ -59,7 +60,8 @@ void TimeFunction::compile(const formats::TimeExpression& text, const Expression
   try {
     e.parser.DefineNameChars("0123456789_.[]abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
     e.parser.DefineVar("t", &e.t);
-    e.parser.DefineConst("pi", 3.14159265358979323846);
+    e.parser.DefineConst("pi", formats::steps::pi);
+    formats::steps::define(e.parser);
     for (std::size_t i = 0; i < names.size(); ++i) e.parser.DefineVar(names[i], &e.variables[i]);
     e.parser.SetExpr(text.text);
     e.parser.Eval();
@@ -67,6 +69,7 @@ void TimeFunction::compile(const formats::TimeExpression& text, const Expression
     throw Error(fmt::format("expression '{}': {}", text.text, error.GetMsg()), text.where, what_may_stand(scope));
   }
   breakpoints_ = text.breakpoints;
+  for (const double instant : formats::step_instants(text.text)) breakpoints_.push_back(instant);
   for (const Expression::UsedInput& used : e.inputs)
     breakpoints_.insert(breakpoints_.end(), used.input->breakpoints.begin(), used.input->breakpoints.end());
 }

@@ -2,6 +2,8 @@
 #include "formats/scene/expand/expression.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <vector>
@@ -9,6 +11,7 @@
 #include <muParser.h>
 
 #include "common/error.hpp"
+#include "formats/scene/expand/steps.hpp"
 
 namespace tisserand::formats {
 
@@ -50,7 +53,90 @@ void check_extent(const std::string& formula) {
     throw Error("the expression is too long or too deeply nested", "", "split it into parameters");
 }
 
+/// A call of a smooth step: its arguments, as far as they are constant.
+struct StepCall {
+  std::string name;
+  std::string variable;                                   ///< the text of the first argument
+  std::vector<std::pair<std::string, double>> arguments;  ///< text and value; NaN: not constant
+};
+
+/// The value of a formula without variables, or NaN.
+double constant_value(const std::string& formula) {
+  mu::Parser parser;
+  parser.DefineConst("pi", steps::pi);
+  steps::define(parser);
+  try {
+    parser.SetExpr(formula);
+    return parser.Eval();
+  } catch (const mu::Parser::exception_type&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+std::string without_blanks(std::string text) {
+  std::erase_if(text, [](char c) { return c == ' ' || c == '\t' || c == '\n'; });
+  return text;
+}
+
+/// Calls of smooth steps, also within each other; those with another number of arguments are left to the parser.
+std::vector<StepCall> step_calls(const std::string& formula) {
+  std::vector<StepCall> calls;
+  for_each_word(formula, [&](std::size_t begin, std::size_t end) {
+    const std::string name = formula.substr(begin, end - begin);
+    const bool trapezoid = name == "step_trapezoid";
+    if (!trapezoid && name != "step5" && name != "step_cycloid" && name != "step_harmonic") return;
+    std::size_t i = formula.find_first_not_of(' ', end);
+    if (i == std::string::npos || formula[i] != '(') return;
+    std::vector<std::string> arguments(1);
+    for (int depth = 0; i < formula.size(); ++i) {
+      const char c = formula[i];
+      depth += c == '(' ? 1 : c == ')' ? -1 : 0;
+      if (depth == 0) break;
+      if (depth == 1 && c == ',')
+        arguments.emplace_back();
+      else if (depth > 1 || c != '(')
+        arguments.back() += c;
+    }
+    if (arguments.size() != (trapezoid ? 6U : 5U)) return;
+    StepCall call{name, without_blanks(arguments[0]), {}};
+    for (const std::string& text : arguments) call.arguments.emplace_back(without_blanks(text), constant_value(text));
+    calls.push_back(std::move(call));
+  });
+  return calls;
+}
+
+/// Of the first smooth step whose constant times or share are out of range.
+std::string step_fault(const std::string& formula) {
+  if (formula.find("step") == std::string::npos) return {};
+  for (const StepCall& call : step_calls(formula)) {
+    const auto& start = call.arguments[1];
+    const auto& end = call.arguments[3];
+    if (end.second <= start.second)
+      return fmt::format("{}: its end t1 = {} must be later than its start t0 = {}", call.name, end.first, start.first);
+    if (call.arguments.size() < 6) continue;
+    const auto& [text, share] = call.arguments[5];
+    if (share <= 0.0 || share > 0.5)
+      return fmt::format("{}: the share {} of the time that it accelerates must lie above 0 and not above 0.5",
+                         call.name, text);
+  }
+  return {};
+}
+
 }  // namespace
+
+std::vector<double> step_instants(const std::string& formula) {
+  std::vector<double> instants;
+  if (formula.find("step") == std::string::npos) return instants;
+  for (const StepCall& call : step_calls(formula)) {
+    const double t0 = call.arguments[1].second, t1 = call.arguments[3].second;
+    if (call.variable != "t" || !std::isfinite(t0) || !std::isfinite(t1)) continue;
+    instants.insert(instants.end(), {t0, t1});
+    if (call.arguments.size() < 6 || !std::isfinite(call.arguments[5].second)) continue;
+    const double ramp = call.arguments[5].second * (t1 - t0);
+    instants.insert(instants.end(), {t0 + ramp, t1 - ramp});
+  }
+  return instants;
+}
 
 std::set<std::string> names_of(const std::string& formula) {
   std::set<std::string> names;
@@ -73,7 +159,7 @@ std::string formula_fault(const std::string& formula) {
     if (c == '=' && !compares) return "'=' assigns nothing here; compare with ==, or write the value alone";
     if (c != ' ' && c != '\t') before = c;
   }
-  return {};
+  return step_fault(formula);
 }
 
 std::string with_names(const std::string& formula, const std::function<std::string(const std::string&)>& replacement) {
@@ -103,6 +189,7 @@ struct Calculator::Parser {
 
 Calculator::Calculator() : parser_(std::make_unique<Parser>()) {
   parser_->parser.DefineConst("pi", 3.14159265358979323846);
+  steps::define(parser_->parser);
   parser_->parser.DefineNameChars("0123456789_.abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
 }
 Calculator::~Calculator() = default;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace tisserand::formats {
 
@@ -18,8 +19,13 @@ std::set<std::string> names_of(const std::string& formula);
 
 /// What muParser would take in silence: an assignment ("t=5" is 5), and a comma that separates no arguments of a
 /// function
-/// ("2,5*t" is 5*t). Empty: neither. A sentence with the remedy.
+/// ("2,5*t" is 5*t), and smooth steps (steps.hpp) whose constant arguments are none. Empty: neither. A sentence with
+/// the remedy.
 std::string formula_fault(const std::string& formula);
+
+/// Instants at which smooth steps in `t` with constant times begin, end, or change between acceleration and constant
+/// rate. The formula has no fault.
+std::vector<double> step_instants(const std::string& formula);
 
 /// The formula with every name that no bracket follows replaced by what `replacement` makes of it.
 std::string with_names(const std::string& formula, const std::function<std::string(const std::string&)>& replacement);

@@ -116,5 +116,36 @@ TEST(SceneForces, WhatIsWrongIsNamed) {
   EXPECT_THAT(error("a: ground, b: b, axis: [0, 0, 1]", "a: ground, b: c, axis: [0, 0, 1]"), HasSubstr("'c'"));
 }
 
+// The points of a drive as a smooth curve unless the scene says otherwise; steps of velocity only where nothing has
+// mass.
+TEST(SceneForces, TablesOfMotionsChooseTheirCurve) {
+  const auto turned = [](const std::string& value, const std::string& analysis) {
+    return replaced(
+        replaced(machine, "springs:", "motions: {drive: {coordinate: hinge, value: " + value + "}}\nsprings:"),
+        "integrator:", analysis + "\nintegrator:");
+  };
+  const auto chosen = [&](const std::string& value, const std::string& analysis) {
+    return std::get<TimeTable>(read(turned(value, analysis)).motions[0].value).motion;
+  };
+  EXPECT_EQ(chosen("{table: [[0, 0], [1, 1]]}", ""), TableMotion::smooth);
+  EXPECT_EQ(chosen("{file: bump.csv, interpolation: natural}", ""), TableMotion::natural);
+  EXPECT_EQ(chosen("{file: bump.csv, interpolation: linear}", "analysis: kinematics"), TableMotion::linear);
+  EXPECT_EQ(chosen("{table: [[0, 0], [1, 1]], interpolation: linear}", ""), TableMotion::linear);  // no step inside
+  const auto fault = [&](const std::string& value, const std::string& analysis) {
+    const Folder folder;
+    folder.file("bump.csv", "deflection, force\n-0.1, -50\n0, 0\n0.1, 20\n");
+    const std::string path = folder.file("scene.yaml", turned(value, analysis));
+    return error_of(folder, [&] { read_scene(path, {}); });
+  };
+  for (const char* analysis : {"", "analysis: inverse_dynamics", "analyses: {a: {type: statics}, b: {type: dynamics}}"})
+    EXPECT_THAT(fault("{file: bump.csv, interpolation: linear}", analysis),
+                HasSubstr("motion 'drive': a table with interpolation: linear steps in velocity"))
+        << analysis;
+  EXPECT_THAT(fault("{expression: t, interpolation: natural}", ""), HasSubstr("'interpolation' belongs to tables"));
+  EXPECT_THAT(fault("{file: bump.csv, interpolation: cubic}", ""), HasSubstr("smooth"));
+  EXPECT_THAT(error("stiffness: 30", "stiffness: 30, force: {table: [[0, 0], [1, 1]], interpolation: natural}"),
+              HasSubstr("unknown key 'interpolation'"));
+}
+
 }  // namespace
 }  // namespace tisserand::formats::scene_forces_test

@@ -51,20 +51,6 @@ TEST(MotionFunction, DifferentiatesExpressions) {
   EXPECT_NEAR(v.acceleration, -9 * std::sin(2.1), 2e-11);
 }
 
-// Natural cubic spline of y = |t| at -1, 0, 1: y = 3/2 t^2 - 1/2 t^3 for t > 0, straight on outside.
-TEST(MotionFunction, TablesAreNaturalSplines) {
-  MotionFunction f(formats::TimeTable{{-1, 0, 1}, {1, 0, 1}}, 0.01);
-  for (const double t : {0.0, 0.3, 0.9, 1.0}) {
-    const MotionFunction::Value v = f(t);
-    EXPECT_NEAR(v.value, 1.5 * t * t - 0.5 * t * t * t, 1e-14);
-    EXPECT_NEAR(v.rate, 3 * t - 1.5 * t * t, 1e-14);
-    EXPECT_NEAR(v.acceleration, 3 - 3 * t, 1e-14);
-  }
-  EXPECT_NEAR(f(3.0).value, 1.0 + 1.5 * 2.0, 1e-14);
-  EXPECT_NEAR(f(3.0).rate, 1.5, 1e-14);
-  EXPECT_EQ(f(3.0).acceleration, 0.0);
-}
-
 // A force along a guide that is switched on at 0.5: v = F (t - 0.5)/m to round-off, as the start after the jump is
 // exact.
 TEST(SpringForce, JumpsAreMetAtTheirInstant) {

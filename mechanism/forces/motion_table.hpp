@@ -1,0 +1,42 @@
+// The curve of a prescribed motion through the points of a table.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "formats/tables/time_table.hpp"
+
+namespace tisserand::mechanism {
+
+/// Value, rate and acceleration at one instant.
+struct MotionValue {
+  double value = 0.0;
+  double rate = 0.0;
+  double acceleration = 0.0;
+};
+
+/// Polynomials between the points of a table (times ascend), going on straight with the last rate outside.
+/// smooth: Hermite quintics, twice continuously differentiable, monotone between any two points. Rates and
+///   accelerations at the points are those of the quartic through the five nearest points, made smaller where a quintic
+///   would not be monotone; points that are equal are held, and where the data turn the rate is 0. Data of a polynomial
+///   of degree 4 are met exactly where no limit acts. Without a limit values err by O(h⁵) of the spacing h, rates and
+///   accelerations by O(h⁴) and O(h³); beside a turn that lies between two points by O(h²), O(h), O(1).
+/// natural: the natural cubic spline, which overshoots.
+/// linear: straight, with steps of the rate.
+class MotionTable {
+ public:
+  explicit MotionTable(const formats::TimeTable& table);
+  MotionValue operator()(double t) const;
+
+ private:
+  /// Σ cₖ (t − start)ᵏ
+  struct Piece {
+    double start = 0.0;
+    std::array<double, 6> c{};
+    MotionValue at(double t) const;
+  };
+  std::vector<Piece> pieces_;  ///< one per interval
+  double last_ = 0.0;          ///< end of the table
+};
+
+}  // namespace tisserand::mechanism
