@@ -42,18 +42,11 @@ TimeTable read_file(const Context& context, const YamlNode& node, const std::str
   }
 }
 
-TimeTable with_motion(const MapReader& map, TimeTable table) {
-  if (map.has("interpolation")) table.motion = map.choice("interpolation", table_motions, TableMotion::smooth);
-  return table;
-}
-
 TimeFunctionSpec read_map(const MapReader& map, const std::string& folder) {
   const int forms = (map.has("table") ? 1 : 0) + (map.has("file") ? 1 : 0) + (map.has("expression") ? 1 : 0);
   if (forms != 1) map.fail(fmt::format("{} of table, file, expression are given", forms), "give one of them");
-  if (const YamlNode* table = map.find("table")) return with_motion(map, read_table(map.context(), *table));
-  if (const YamlNode* file = map.find("file")) return with_motion(map, read_file(map.context(), *file, folder));
-  if (const YamlNode* key = map.find("interpolation"))
-    map.context().fail(key->key_place, "'interpolation' belongs to tables", "remove it");
+  if (const YamlNode* table = map.find("table")) return read_table(map.context(), *table);
+  if (const YamlNode* file = map.find("file")) return read_file(map.context(), *file, folder);
   TimeExpression expression;
   if (const YamlNode* text = map.find("expression")) {
     expression.text = read_text(map.context(), *text, "expression");
@@ -81,28 +74,35 @@ void check_times(const std::vector<double>& times, const std::string& noun, cons
   }
 }
 
-/// `noun`: the list of keys that a map may have.
-TimeFunctionSpec read_function_of_time(const Context& context, const YamlNode& node, const std::string& what,
-                                       const std::string& folder, const char* noun) {
-  if (node.kind == YamlKind::map) {
-    const Context inner{context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
-    return read_map(MapReader(inner, node, noun, what + "."), folder);
-  }
-  if (node.kind == YamlKind::scalar && !looks_like_number(node))
-    return TimeExpression{node.text, {}, context.reader.where(node.place)};
-  return read_number(context, node, what);
+/// The context of the map of a function of time.
+Context inside_function(const Context& context, const std::string& what) {
+  return {context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
 }
 
 }  // namespace
 
 TimeFunctionSpec read_time_function(const Context& context, const YamlNode& node, const std::string& what,
                                     const std::string& folder) {
-  return read_function_of_time(context, node, what, folder, "time_function");
+  if (node.kind == YamlKind::map) {
+    const Context inner = inside_function(context, what);
+    return read_map(MapReader(inner, node, "time_function", what + "."), folder);
+  }
+  if (node.kind == YamlKind::scalar && !looks_like_number(node))
+    return TimeExpression{node.text, {}, context.reader.where(node.place)};
+  return read_number(context, node, what);
 }
 
 TimeFunctionSpec read_motion_function(const Context& context, const YamlNode& node, const std::string& what,
                                       const std::string& folder) {
-  return read_function_of_time(context, node, what, folder, "motion_function");
+  if (node.kind != YamlKind::map) return read_time_function(context, node, what, folder);
+  const Context inner = inside_function(context, what);
+  const MapReader map(inner, node, "motion_function", what + ".");
+  TimeFunctionSpec function = read_map(map, folder);
+  if (auto* table = std::get_if<TimeTable>(&function))
+    table->motion = map.choice("interpolation", table_motions, table->motion);
+  else if (const YamlNode* key = map.find("interpolation"))
+    inner.fail(key->key_place, "'interpolation' belongs to tables", "remove it");
+  return function;
 }
 
 void check_time_function(const TimeFunctionSpec& function, const std::string& subject, const std::string& where,
