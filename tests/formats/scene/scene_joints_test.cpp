@@ -97,5 +97,14 @@ TEST(SceneJoints, EveryErrorIsToldWithItsRemedy) {
     EXPECT_THAT(error(c.from, c.to), HasSubstr(c.words)) << c.from << " -> " << c.to;
 }
 
+TEST(SceneJoints, OneOrientedMarkerGivesARevoluteJointItsAxis) {
+  for (const char* markers :
+       {"a: {node: ground, orientation: [0, 1, 0, 0]}, b: a", "a: ground, b: {node: a, orientation: [0, 1, 0, 0]}"}) {
+    const JointSpec hinge = read(replaced(machine, "a: ground, b: a, axis: [0, 0, 1]", markers)).joints[0];
+    EXPECT_FALSE(hinge.axis) << markers;
+    EXPECT_NE(hinge.a.orientation.has_value(), hinge.b.orientation.has_value()) << markers;
+  }
+}
+
 }  // namespace
 }  // namespace tisserand::formats::scene_joints_test

@@ -128,15 +128,6 @@ TEST(Scene, StoresFromTheStartUnlessToldOtherwise) {
   EXPECT_EQ(read(replaced(swing, "end: 20}", "end: 20}\noutput: {from: 20}")).output.from, 20.0);  // the last instant
 }
 
-TEST(Scene, OneOrientedMarkerGivesARevoluteJointItsAxis) {
-  for (const char* markers : {"a: {node: ground, orientation: [0, 1, 0, 0]}, b: beam/base",
-                              "a: ground, b: {node: beam/base, orientation: [0, 1, 0, 0]}"}) {
-    const JointSpec hinge = read(replaced(swing, "a: ground, b: beam/base, axis: [0, 0, 1]", markers)).joints[0];
-    EXPECT_FALSE(hinge.axis) << markers;
-    EXPECT_NE(hinge.a.orientation.has_value(), hinge.b.orientation.has_value()) << markers;
-  }
-}
-
 TEST(Scene, SuperelementInAllItsNotations) {
   const auto beam = [](const std::string& keys) {
     return std::get<SuperelementBodySpec>(read(replaced(swing, "frame: paper", keys)).bodies[0]);
