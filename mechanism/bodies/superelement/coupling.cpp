@@ -221,9 +221,10 @@ void expand(const SuperelementBody& body, const SuperelementScratch& scratch, co
   }
   Eigen::Map<Eigen::VectorXd> out(dy_I, body.modes);
   if (body.damping.is_full())
-    out.noalias() = -(tangent.inverse_II * work.internal_1);
+    out.noalias() = tangent.inverse_II * work.internal_1;
   else
-    out = -tangent.inverse_D.cwiseProduct(work.internal_1);
+    out = tangent.inverse_D.cwiseProduct(work.internal_1);
+  out = -out;
 }
 
 }  // namespace tisserand::mechanism

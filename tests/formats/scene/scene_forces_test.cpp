@@ -164,5 +164,27 @@ TEST(SceneForces, TablesOfMotionsChooseTheirCurve) {
               HasSubstr("unknown key 'interpolation'"));
 }
 
+// Those of internal modes beside those of the free body, which scene_test.cpp reads; modal bodies have none.
+TEST(SceneForces, RatiosOfInternalModesAreRead) {
+  const auto body = [](const std::string& type, const std::string& damping) {
+    return "scene: rod\nintegrator: {step: 0.01, end: 1}\nbodies: {rod: {type: " + type + ", file: rod.h5, damping: {" +
+           damping + "}}}\n";
+  };
+  const Damping damping = std::get<SuperelementBodySpec>(
+                              read(body("superelement", "ratio_internal: 0.01, ratios_internal: [0.02]")).bodies[0])
+                              .damping;
+  EXPECT_EQ(damping.ratio_internal, 0.01);
+  EXPECT_EQ(damping.ratios_internal, std::vector<double>{0.02});
+  const auto fault = [&](const std::string& type, const std::string& text) {
+    const Folder folder;
+    const std::string path = folder.file("scene.yaml", body(type, text));
+    return error_of(folder, [&] { read_scene(path, {}); });
+  };
+  EXPECT_THAT(fault("superelement", "ratios_internal: [0.1, -0.01]"),
+              HasSubstr("damping: ratios_internal -0.01 must not be negative"));
+  EXPECT_THAT(fault("modal", "ratio_internal: 0.1"),
+              HasSubstr("body 'rod': damping: modal bodies have no internal modes"));
+}
+
 }  // namespace
 }  // namespace tisserand::formats::scene_forces_test

@@ -150,9 +150,6 @@ TEST(Scene, SuperelementInAllItsNotations) {
   EXPECT_EQ(damped.damping.stiffness, 2.0);
   EXPECT_EQ(damped.damping.ratio, 0.01);
   EXPECT_EQ(damped.damping.ratios, (std::vector<double>{0.02, 0.03}));
-  const auto inside = beam("damping: {ratio_internal: 0.01, ratios_internal: [0.02]}");
-  EXPECT_EQ(inside.damping.ratio_internal, 0.01);
-  EXPECT_EQ(inside.damping.ratios_internal, std::vector<double>{0.02});
   const auto moving = beam("pose: {position: [1, 2, 3]}, velocity: [4, 5, 6], angular_velocity: [7, 8, 9]").start;
   EXPECT_EQ(moving.pose.position, Eigen::Vector3d(1, 2, 3));
   EXPECT_EQ(moving.velocity, Eigen::Vector3d(4, 5, 6));
@@ -303,12 +300,6 @@ INSTANTIATE_TEST_SUITE_P(
                 "give frame: karcher or paper"},
         BadText{"frame: paper", "damping: {ratio: ^-0.01}",
                 "^: body 'beam': damping: ratio -0.01 must not be negative"},
-        BadText{"frame: paper", "damping: {ratios_internal: ^[0.1, -0.01]}",
-                "^: body 'beam': damping: ratios_internal -0.01 must not be negative"},
-        BadText{"{type: superelement, file: parts/beam.superelement.h5, frame: paper}",
-                "{type: modal, file: rod.modal.h5, damping: ^{ratio_internal: 0.1}}",
-                "^: body 'beam': damping: modal bodies have no internal modes, whose boundary is held; write ratio or "
-                "ratios, which count the modes of the file"},
         BadText{"frame: paper", "damping: {^rato: 0.01}",
                 "^: body 'beam': damping: unknown key 'rato'; did you mean 'ratio'?"},
         BadText{"frame: paper", "velocity: ^[1, 2]",
