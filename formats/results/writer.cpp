@@ -389,7 +389,8 @@ void ResultsWriter::Impl::begin_with(const ResultsBeginning& beginning) {
   const ResultsReader old(beginning.file);
   std::vector<std::string> names;
   std::size_t same = 0;
-  const std::vector<Channel> known = old.channels();
+  std::vector<Channel> known = old.channels();
+  std::erase_if(known, [](const Channel& channel) { return !channel.same_as.empty(); });
   for (const Column& column : columns)
     for (std::size_t c = 0; c < column.block.width(); ++c) {
       const std::string& last = column.block.columns[c];

@@ -50,7 +50,7 @@ int add_node(const std::string& name, const formats::InitialMotion& start, const
 /// Notes what the scene says of the velocities of a body whose first node is `node`.
 void note_start(const std::string& name, const formats::InitialMotion& start, int node, Construction& c) {
   const NodeMotion& motion = c.markers.start[node];
-  const Vector3d arm = motion.R.transpose() * (start.pose.position - motion.x);
+  const Vector3d arm = motion.R.transpose() * (start.pose.position - c.markers.origin - motion.x);
   c.starts.push_back({name, {node, arm}, false, start.velocity, start.angular_velocity});
 }
 

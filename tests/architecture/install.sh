@@ -117,7 +117,7 @@ for program in "${programs[@]}"; do
     "$prefix/bin/$program" ""
 done
 offers "drop.scene.yaml sub" "$prefix/bin/mechanism" run ""
-offers "--analysis --at" "$prefix/bin/mechanism" run --a
+offers "--analysis --append --at" "$prefix/bin/mechanism" run --a
 offers "fall" "$prefix/bin/mechanism" run drop.scene.yaml --analysis ""
 offers "drop.results.h5 sub" "$prefix/bin/mechanism" plot ""
 offers "nodes/position/" "$prefix/bin/mechanism" plot drop.results.h5 -c nodes/p
