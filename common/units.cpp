@@ -74,4 +74,9 @@ std::string unit_label(const Units& units, int length, int mass, int time) {
   return powers(units, length, mass, time);
 }
 
+std::string energy_label(const Units& units) {
+  const std::string label = unit_label(units, 2, 1, -2);
+  return label == "N m" ? "J" : label;
+}
+
 }  // namespace tisserand

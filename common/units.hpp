@@ -42,4 +42,7 @@ Unit time_unit(const std::string& label);
 /// For example "N" for SI, "t mm s^-2" otherwise, "" if unnamed: label of length^l mass^m time^t.
 std::string unit_label(const Units& units, int length, int mass, int time);
 
+/// The same of an energy: "J" for SI.
+std::string energy_label(const Units& units);
+
 }  // namespace tisserand

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "common/text.hpp"
+
 namespace tisserand::formats::hdf5 {
 namespace {
 

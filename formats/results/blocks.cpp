@@ -167,7 +167,7 @@ void add_forces(const ResultsLayout& layout, std::vector<Block>& blocks) {
 void add_scalars(const ResultsLayout& layout, std::vector<Block>& blocks) {
   using Row = const ResultsRow&;
   const Units& u = layout.units;
-  const std::string label = unit_label(u, 2, 1, -2), energy = label == "N m" ? "J" : label;
+  const std::string energy = energy_label(u);
   blocks.push_back(scalar("/energy/kinetic", energy, [](Row r) { return &r.kinetic; }));
   blocks.push_back(scalar("/energy/strain", energy, [](Row r) { return &r.strain; }));
   blocks.push_back(scalar("/energy/potential", energy, [](Row r) { return &r.potential; }));

@@ -91,25 +91,27 @@ void note_redundancy(Run& run) {
   }
 }
 
-/// "'rod', 'slider' and 3 more".
-std::string named(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 5;
-  std::vector<std::string> shown;
-  for (std::size_t i = 0; i < std::min(most, names.size()); ++i) shown.push_back(fmt::format("'{}'", names[i]));
-  return join(shown, ", ") + (names.size() > most ? fmt::format(" and {} more", names.size() - most) : "");
+std::string quoted(std::vector<std::string> names) {
+  for (std::string& name : names) name = fmt::format("'{}'", name);
+  return listed(names);
+}
+
+std::string with_unit(double value, const std::string& unit) {
+  return fmt::format("{:.4g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
 /// What the start has made of free velocities and initial values.
 void note_start(const StartReport& start, Run& run) {
   std::vector<std::string>& notes = run.report.notes;
+  const Units& units = run.scene.units;
   const auto& initial = run.built.initial;
   const auto gives = [&](auto member) {
     return std::ranges::any_of(initial, [&](const CoordinateStart& entry) { return (entry.*member).has_value(); });
   };
   const bool values = gives(&CoordinateStart::value), rates = gives(&CoordinateStart::rate);
   if (values && run.from == StartFrom::poses)
-    notes.push_back(
-        fmt::format("initial values moved the bodies by up to {:.4g} from the poses as written", start.moved));
+    notes.push_back(fmt::format("initial values moved the bodies by up to {} from the poses as written",
+                                with_unit(start.moved, unit_label(units, 1, 0, 0))));
   if ((values && run.from != StartFrom::poses) || (rates && run.from == StartFrom::motion))
     notes.push_back(fmt::format("initial {} not used: this analysis begins where another one ends",
                                 rates && run.from == StartFrom::motion ? "values and rates are" : "values are"));
@@ -117,13 +119,13 @@ void note_start(const StartReport& start, Run& run) {
   if (!velocities.derived.empty())
     notes.push_back(
         fmt::format("velocities of {} at the start follow from joints, drives and given velocities with "
-                    "the least kinetic energy: {:.6g} in all",
-                    named(velocities.derived), velocities.kinetic_energy));
+                    "the least kinetic energy: {}",
+                    quoted(velocities.derived), with_unit(velocities.kinetic_energy, energy_label(units))));
   if (!velocities.deforming.empty())
     notes.push_back(
         fmt::format("no rigid motion of {} agrees with the start: they begin to deform, with the smallest "
                     "strain rate that does ({:.3g} of the kinetic energy)",
-                    named(velocities.deforming), velocities.deformation / velocities.kinetic_energy));
+                    quoted(velocities.deforming), velocities.deformation / velocities.kinetic_energy));
   if (start.projection.velocity > 1e-6)
     notes.push_back(
         fmt::format("given velocities were corrected by up to {:.3g} of the largest, which initial_tolerance "
