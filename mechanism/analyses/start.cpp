@@ -81,14 +81,12 @@ void require_facing(const Model& model, const std::string& where, const Workspac
   }
 }
 
-/// The largest gaps of all open joints, which one message lists together.
+/// All open joints, the largest gaps first, in one message.
 std::string gaps_text(const std::vector<MarkerGap>& gaps) {
-  constexpr std::size_t shown = 8;
   std::vector<std::string> texts;
-  for (std::size_t i = 0; i < std::min(shown, gaps.size()); ++i)
-    texts.push_back(fmt::format("'{}' by {:.3g} and {:.3g} rad", gaps[i].joint, gaps[i].length, gaps[i].angle));
-  if (gaps.size() > shown) texts.push_back(fmt::format("and {} more", gaps.size() - shown));
-  return fmt::format("Open joints: {}", join(texts, ", "));
+  for (const MarkerGap& gap : gaps)
+    texts.push_back(fmt::format("'{}' by {:.3g} and {:.3g} rad", gap.joint, gap.length, gap.angle));
+  return "Open joints: " + listed(texts);
 }
 
 /// Throws Error for the largest gap of joints and drives at the start, with all others.
@@ -107,7 +105,7 @@ void require_met(const Model& model, const Violation& worst, double tolerance, c
 void require_determined(const Model& model, const std::string& where, const State& state, Workspace& workspace) {
   const std::vector<std::string> motions = undetermined_motions(model, state, workspace.now);
   if (motions.empty()) return;
-  throw Error(fmt::format("nothing determines the motion of massless bodies: {}", join(motions, ", ")), where,
+  throw Error(fmt::format("nothing determines the motion of massless bodies: {}", listed(motions)), where,
               "tie them with fixed joints, hold these directions with other joints or springs, or give them mass");
 }
 
@@ -128,10 +126,9 @@ double move_to_values(const formats::Scene& scene, BuiltModel& built, Workspace&
   if (!assembly.closed) {
     std::vector<std::string> open;
     for (const JointGap& gap : assembly.open)
-      if (open.size() < 8)
-        open.push_back(fmt::format("'{}' by {:.3g} and {:.3g} rad", gap.name, gap.length, gap.angle));
-    throw Error(fmt::format("no position of the bodies has the initial values: open stay {}", join(open, ", ")),
-                scene.file, "give values that joints and drives allow, or fewer of them");
+      open.push_back(fmt::format("'{}' by {:.3g} and {:.3g} rad", gap.name, gap.length, gap.angle));
+    throw Error(fmt::format("no position of the bodies has the initial values: open stay {}", listed(open)), scene.file,
+                "give values that joints and drives allow, or fewer of them");
   }
   set_written_velocities(built, state);
   return (state.x() - before.x()).colwise().norm().maxCoeff();

@@ -27,7 +27,6 @@ constexpr double row_share = 1e-8;
 /// Weight of massless directions, of the largest: keeps them where nothing moves them.
 constexpr double massless_share = 1e-12;
 constexpr int most_passes = 40;
-constexpr std::size_t most_listed = 8;
 
 /// Velocity coordinates of parts that may deform, and the mass matrix of their boundary coordinates.
 struct Deformations {
@@ -182,9 +181,7 @@ std::string differences_text(const StartProblem& problem, const StartSolution& n
                                   problem.parts.name[i], model.length * change.head<3>().norm(),
                                   change.tail<3>().norm()));
   }
-  const std::size_t all = texts.size();
-  texts.resize(std::min(all, most_listed));
-  return join(texts, ", ") + (all > most_listed ? fmt::format(" and {} more", all - most_listed) : "");
+  return listed(texts);
 }
 
 [[noreturn]] void throw_contradiction(const StartProblem& problem, const Deformations& deformations,

@@ -195,12 +195,12 @@ std::string free_turn_name(const Model& model, const formats::RotationSpec& rota
   state.v().setZero();
   state.vdot().setZero();
   const Linearisation l = linearise(model, state, Vector3d::Zero(), evaluation);
-  const Vector3d axis = rotation.angular_velocity.normalized();
+  const Vector3d axis = rotation.angular_velocity.normalized(), about = rotation.about - model.origin;
   VectorXd turn = VectorXd::Zero(l.r.size());
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
     if (node.translation >= 0)
-      turn.segment<3>(node.translation) = axis.cross(state.x().col(static_cast<Eigen::Index>(i)) - rotation.about);
+      turn.segment<3>(node.translation) = axis.cross(state.x().col(static_cast<Eigen::Index>(i)) - about);
     if (node.rotation >= 0) turn.segment<3>(node.rotation) = axis;
   }
   const double motion = turn.cwiseAbs().maxCoeff();

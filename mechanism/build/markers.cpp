@@ -114,16 +114,14 @@ void add_rigid_arms(const MarkerTable& markers, const formats::JointSpec& spec, 
 }
 
 std::string rigid_arms_text(std::vector<RigidArm> arms, const Units& units) {
-  constexpr std::size_t shown = 10;
   if (arms.empty()) return {};
   std::ranges::stable_sort(arms, std::greater{}, &RigidArm::length);
   const std::string unit = unit_label(units, 1, 0, 0);
   std::vector<std::string> texts;
-  for (std::size_t i = 0; i < std::min(shown, arms.size()); ++i)
-    texts.push_back(fmt::format("'{}' {:.4g}{}{} from '{}'", arms[i].joint, arms[i].length, unit.empty() ? "" : " ",
-                                unit, arms[i].place));
-  if (arms.size() > shown) texts.push_back(fmt::format("{} more", arms.size() - shown));
-  return fmt::format("joints away from the nodes that they name, which rigid arms bridge: {}", join(texts, ", "));
+  for (const RigidArm& arm : arms)
+    texts.push_back(
+        fmt::format("'{}' {:.4g}{}{} from '{}'", arm.joint, arm.length, unit.empty() ? "" : " ", unit, arm.place));
+  return "joints away from the nodes that they name, which rigid arms bridge: " + listed(texts);
 }
 
 }  // namespace tisserand::mechanism

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/error.hpp"
 #include "mechanism/histories/series.hpp"
 #include "mechanism/simulate.hpp"
 #include "tests/support/scenes/scenes.hpp"
@@ -37,6 +38,7 @@ formats::Scene moved(formats::Scene scene, const Vector3d& by) {
   for (formats::JointSpec& one : scene.joints) move_pair(one, one.kind == JointKind::distance);
   for (formats::SpringSpec& spring : scene.springs) move_pair(spring, spring.kind == formats::SpringKind::line);
   for (formats::ChannelSpec& channel : scene.channels) channel.origin += by;
+  if (scene.statics.rotation) scene.statics.rotation->about += by;
   return scene;
 }
 
@@ -125,6 +127,21 @@ TEST_F(FarScene, FlexibleSliderCrankMovesAsAtTheOrigin) {
   EXPECT_LT(difference(scene, "nodes/position/rod/8/y", away.y()), 4.0 * rounding);
   const Series kinetic = history(scene, "near", "energy/kinetic");
   EXPECT_LT(difference(scene, "energy/kinetic", 0.0), 1e-7 * kinetic.y.front());
+}
+
+TEST_F(FarScene, SteadyRotationGoesAboutAPointOfTheWorld) {
+  formats::Scene scene =
+      formats::read_scene(TISSERAND_SOURCE_DIR "/examples/flexible_benchmarks/spin_up_steady.scene.yaml", {});
+  scene.output.channels.clear();
+  EXPECT_LT(difference(scene, "nodes/position/beam/8/x", away.x()), 4.0 * rounding);
+  EXPECT_LT(difference(scene, "nodes/position/beam/8/y", away.y()), 4.0 * rounding);
+  scene.motions.clear();  // nothing holds the angle of the rotation
+  try {
+    (void)inspect(moved(scene, away), {});
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), ::testing::HasSubstr("nothing holds coordinate 'root'"));
+  }
 }
 
 }  // namespace

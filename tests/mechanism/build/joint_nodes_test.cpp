@@ -165,7 +165,7 @@ TEST(RigidArms, OfManyJointsTheLongestAreNamed) {
   const BuiltModel built = build_model(scene, {});
   ASSERT_EQ(built.notes.size(), 1u);
   EXPECT_THAT(built.notes[0], AllOf(HasSubstr("'tie_12' 12 m from 'block', 'tie_11'"), HasSubstr("'tie_3'"),
-                                    HasSubstr(", 2 more"), Not(HasSubstr("'tie_2'"))));
+                                    HasSubstr(" and 2 more"), Not(HasSubstr("'tie_2'"))));
 }
 
 // 0.0833 + 0.0833 < 0.1667, by 6e-4 of it: four typed digits of a flat square of 1 m and 1 kg.
