@@ -79,4 +79,6 @@ std::string energy_label(const Units& units) {
   return label == "N m" ? "J" : label;
 }
 
+std::string after_number(const std::string& label) { return label.empty() ? "" : " " + label; }
+
 }  // namespace tisserand

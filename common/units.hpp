@@ -45,4 +45,7 @@ std::string unit_label(const Units& units, int length, int mass, int time);
 /// The same of an energy: "J" for SI.
 std::string energy_label(const Units& units);
 
+/// A label as it stands after a number: " N", or nothing for units without names.
+std::string after_number(const std::string& label);
+
 }  // namespace tisserand

@@ -10,8 +10,8 @@ namespace tisserand::formats {
 namespace {
 
 std::string line(const std::string& words, const std::string& symbol, double value, const std::string& unit) {
-  const std::string end = unit.empty() ? "" : " " + unit;
-  return fmt::format("  {:<34} {:<6} {:>13.6g}{}\n", words, symbol, value + 0.0, end);  // + 0.0: no minus zero
+  // + 0.0: no minus zero
+  return fmt::format("  {:<34} {:<6} {:>13.6g}{}\n", words, symbol, value + 0.0, after_number(unit));
 }
 
 std::string section_by_stiffness(const Section& s, const Units& units) {

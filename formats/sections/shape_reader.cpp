@@ -23,8 +23,7 @@ const std::vector<std::string>& shape_words() {
 }
 
 std::string with_unit(double value, const Units& units) {
-  const std::string label = unit_label(units, 1, 0, 0);
-  return label.empty() ? fmt::format("{:g}", value) : fmt::format("{:g} {}", value, label);
+  return fmt::format("{:g}{}", value, after_number(unit_label(units, 1, 0, 0)));
 }
 
 /// A size of a shape; nothing after an error.

@@ -190,13 +190,12 @@ std::vector<std::string> undetermined_motions(const Model& model, const State& s
 }
 
 std::vector<PreflightLine> preflight_doubts(const Preflight& preflight, const Units& units) {
-  const std::string length = unit_label(units, 1, 0, 0);
   std::vector<PreflightLine> lines;
   if (preflight.groups.size() > 1) lines.push_back({"connections", groups_text(preflight.groups)});
   std::vector<std::string> gaps;
   for (const MarkerGap& gap : preflight.gaps)
-    gaps.push_back(fmt::format("'{}' by {:.3g}{}{} and {:.3g} rad", gap.joint, gap.length, length.empty() ? "" : " ",
-                               length, gap.angle));
+    gaps.push_back(fmt::format("'{}' by {:.3g}{} and {:.3g} rad", gap.joint, gap.length,
+                               after_number(unit_label(units, 1, 0, 0)), gap.angle));
   if (!gaps.empty()) lines.push_back({"open joints", listed(gaps)});
   for (const std::string& doubt : preflight.doubts) lines.push_back({"doubtful", doubt});
   return lines;

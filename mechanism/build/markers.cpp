@@ -116,11 +116,10 @@ void add_rigid_arms(const MarkerTable& markers, const formats::JointSpec& spec, 
 std::string rigid_arms_text(std::vector<RigidArm> arms, const Units& units) {
   if (arms.empty()) return {};
   std::ranges::stable_sort(arms, std::greater{}, &RigidArm::length);
-  const std::string unit = unit_label(units, 1, 0, 0);
+  const std::string unit = after_number(unit_label(units, 1, 0, 0));
   std::vector<std::string> texts;
   for (const RigidArm& arm : arms)
-    texts.push_back(
-        fmt::format("'{}' {:.4g}{}{} from '{}'", arm.joint, arm.length, unit.empty() ? "" : " ", unit, arm.place));
+    texts.push_back(fmt::format("'{}' {:.4g}{} from '{}'", arm.joint, arm.length, unit, arm.place));
   return "joints away from the nodes that they name, which rigid arms bridge: " + listed(texts);
 }
 

@@ -118,7 +118,7 @@ std::string report_text(const RunReport& report, const Units& units) {
   if (report.steps == 0 && report.outcome == RunOutcome::completed) return text;
   line("outcome", report.reason.empty() ? outcome_name(report.outcome)
                                         : fmt::format("{}: {}", outcome_name(report.outcome), report.reason));
-  line("reached", fmt::format("t = {:.6g}{}{}", report.time, time.empty() ? "" : " ", time));
+  line("reached", fmt::format("t = {:.6g}{}", report.time, after_number(time)));
   line("steps", fmt::format("{} ({} taken again), {} iterations, {} factorisations", report.steps, report.rejected,
                             report.iterations, report.factorisations));
   constexpr std::size_t shown = 3;

@@ -97,7 +97,7 @@ std::string quoted(std::vector<std::string> names) {
 }
 
 std::string with_unit(double value, const std::string& unit) {
-  return fmt::format("{:.4g}{}{}", value, unit.empty() ? "" : " ", unit);
+  return fmt::format("{:.4g}{}", value, after_number(unit));
 }
 
 /// What the start has made of free velocities and initial values.

@@ -140,8 +140,6 @@ ModelCertificate model_from(const json& j) {
   return c;
 }
 
-std::string with_unit(const std::string& unit) { return unit.empty() ? "" : " " + unit; }
-
 /// Values below 1e-12 of the largest are round-off and shown as 0.
 double clean(double value, double largest) { return std::abs(value) < 1e-12 * largest ? 0.0 : value; }
 
@@ -149,13 +147,13 @@ std::string rigid_text(const char* source, const formats::RigidProperties& rigid
   const Eigen::Vector3d& c = rigid.center_of_mass;
   const double size = std::max(length, c.cwiseAbs().maxCoeff());
   std::string text = fmt::format("{:<19}mass {:.9g}{}, centre of mass ({:.9g}, {:.9g}, {:.9g}){}\n", source, rigid.mass,
-                                 with_unit(unit_label(units, 0, 1, 0)), clean(c.x(), size), clean(c.y(), size),
-                                 clean(c.z(), size), with_unit(unit_label(units, 1, 0, 0)));
+                                 after_number(unit_label(units, 0, 1, 0)), clean(c.x(), size), clean(c.y(), size),
+                                 clean(c.z(), size), after_number(unit_label(units, 1, 0, 0)));
   const double largest = rigid.inertia.cwiseAbs().maxCoeff();
   for (int i = 0; i < 3; ++i)
     text += fmt::format("{:<19}{} {:>16.9g} {:>16.9g} {:>16.9g}{}\n", "", i == 0 ? "inertia" : "       ",
                         clean(rigid.inertia(i, 0), largest), clean(rigid.inertia(i, 1), largest),
-                        clean(rigid.inertia(i, 2), largest), i == 0 ? with_unit(unit_label(units, 2, 1, 0)) : "");
+                        clean(rigid.inertia(i, 2), largest), i == 0 ? after_number(unit_label(units, 2, 1, 0)) : "");
   return text;
 }
 

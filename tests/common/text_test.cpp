@@ -14,11 +14,7 @@ namespace tisserand::text_test {
 namespace {
 
 using test_support::TemporaryFolder;
-
-std::string text_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(in), {});
-}
+using test_support::text_of;
 
 TEST(Text, EditDistanceCountsInsertionsDeletionsSubstitutionsAndSwaps) {
   EXPECT_EQ(edit_distance("", ""), 0u);

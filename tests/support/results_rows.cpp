@@ -69,4 +69,15 @@ void fill_row(int t, formats::ResultsRow& row) {
   if (row.joint_coordinate.size() > 1) row.joint_coordinate[1] = std::numeric_limits<double>::quiet_NaN();
 }
 
+void write_rows(const std::string& path, const formats::ResultsLayout& layout, int rows) {
+  formats::ResultsWriter writer(path, layout);
+  formats::ResultsRow row;
+  row.resize(layout);
+  for (int t = 0; t < rows; ++t) {
+    fill_row(t, row);
+    writer.append(row);
+  }
+  writer.finish(true, "", R"({"steps": 3})");
+}
+
 }  // namespace tisserand::test_support

@@ -1,6 +1,8 @@
 // Rows of results whose every value is a known function of its time and place, for tests of results files.
 #pragma once
 
+#include <string>
+
 #include "formats/results/results.hpp"
 
 namespace tisserand::test_support {
@@ -13,5 +15,8 @@ double row_value(int t, int k);
 
 /// Fills a row of any size. The second coordinate is not a number.
 void fill_row(int t, formats::ResultsRow& row);
+
+/// A finished file of `rows` such rows.
+void write_rows(const std::string& path, const formats::ResultsLayout& layout, int rows);
 
 }  // namespace tisserand::test_support

@@ -1,8 +1,10 @@
-// Makes and removes temporary folders.
+// Makes and removes temporary folders; reads files.
 #include "tests/support/temporary_folder.hpp"
 
 #include <stdlib.h>
 
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
 
@@ -20,5 +22,10 @@ TemporaryFolder::~TemporaryFolder() {
 }
 
 std::string TemporaryFolder::file(const std::string& name) const { return (path_ / name).string(); }
+
+std::string text_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(in), {});
+}
 
 }  // namespace tisserand::test_support

@@ -1,4 +1,4 @@
-// A folder of its own for a test that writes files; removed with all it holds.
+// A folder of its own for a test that writes files, removed with all it holds; the text of a file.
 #pragma once
 
 #include <filesystem>
@@ -19,5 +19,8 @@ class TemporaryFolder {
  private:
   std::filesystem::path path_;
 };
+
+/// All bytes of a file; none if it cannot be read.
+std::string text_of(const std::string& path);
 
 }  // namespace tisserand::test_support

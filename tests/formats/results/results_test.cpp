@@ -21,43 +21,22 @@
 #include "formats/results/blocks.hpp"
 #include "tests/support/results_rows.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/thrown.hpp"
 
 namespace tisserand::formats::results_test {
 namespace {
 
+using test_support::error_of;
 using test_support::example_layout;
 using test_support::fill_row;
 using test_support::TemporaryFolder;
+using test_support::text_of;
+using test_support::write_rows;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
-void write_rows(const std::string& path, const ResultsLayout& layout, int rows) {
-  ResultsWriter writer(path, layout);
-  ResultsRow row;
-  row.resize(layout);
-  for (int t = 0; t < rows; ++t) {
-    fill_row(t, row);
-    writer.append(row);
-  }
-  writer.finish(true, "", R"({"steps": 3})");
-}
-
-std::string text_of(const std::string& path) {
-  std::ifstream in(path);
-  return std::string(std::istreambuf_iterator<char>(in), {});
-}
 
 TEST(Results, EveryChannelComesBackBitEqual) {
   const TemporaryFolder folder;

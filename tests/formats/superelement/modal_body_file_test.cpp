@@ -12,10 +12,12 @@
 #include "formats/modal_body/modal_body.hpp"
 #include "tests/support/bodies/lumped_bodies.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/thrown.hpp"
 
 namespace tisserand::formats::modal_body_file_test {
 namespace {
 
+using test_support::error_of;
 using test_support::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -24,15 +26,6 @@ using ::testing::IsEmpty;
 ModalBody rod() {
   return test_support::modal_body(test_support::lumped_rod(test_support::paper_rod()), test_support::rod_conditions(8),
                                   6);
-}
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(ModalBodyFile, ReadsWhatWasWritten) {

@@ -15,11 +15,7 @@ namespace tisserand::formats::documentation_test {
 namespace {
 
 using test_support::TemporaryFolder;
-
-std::string text_of(const std::string& path) {
-  std::ifstream in(path);
-  return std::string(std::istreambuf_iterator<char>(in), {});
-}
+using test_support::text_of;
 
 std::string snippet(const std::string& page) {
   const std::string text = text_of(std::string(TISSERAND_SOURCE_DIR) + "/formats/" + page);

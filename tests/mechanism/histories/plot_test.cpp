@@ -13,9 +13,12 @@
 #include <limits>
 
 #include "common/error.hpp"
+#include "tests/support/thrown.hpp"
 
 namespace tisserand::mechanism::plot_test {
 namespace {
+
+using test_support::error_of;
 
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -43,15 +46,6 @@ std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;
   for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
   return n;
-}
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(GnuplotQuoted, ExpandsNothing) {

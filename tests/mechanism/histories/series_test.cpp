@@ -14,22 +14,16 @@
 #include "common/error.hpp"
 #include "mechanism/histories/tables.hpp"
 #include "tests/support/results_rows.hpp"
+#include "tests/support/thrown.hpp"
 
 namespace tisserand::mechanism::series_test {
 namespace {
 
+using test_support::error_of;
+
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 class CsvFile : public ::testing::Test {
  protected:

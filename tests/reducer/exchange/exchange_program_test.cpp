@@ -10,21 +10,17 @@
 
 #include "reducer/exchange/request.hpp"
 #include "tests/reducer/exchange/exchange_files.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::reducer::exchange::exchange_program_test {
 namespace {
+
+using test_support::text_of;
 
 using ::testing::AllOf;
 using testing::error_of;
 using testing::Files;
 using ::testing::HasSubstr;
-
-std::string text_of(const std::string& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 struct Outcome {
   int code = -1;
