@@ -17,6 +17,7 @@
 #include "formats/yaml/override.hpp"
 #include "reducer/algebra/petsc.hpp"
 #include "reducer/mesh/gmsh_file.hpp"
+#include "reducer/recover/recover.hpp"
 #include "reducer/reduce.hpp"
 #include "reducer/report/certificate.hpp"
 #include "reducer/report/phases.hpp"
@@ -156,6 +157,9 @@ int perform(const Arguments& arguments, char** argv) {
       return groups(arguments);
     case Command::section:
       return section(arguments);
+    case Command::recover:
+      say(recover(arguments.recover_request));
+      return 0;
     case Command::import_matrices:
       exchange::import_matrices(arguments.import_request);
       return 0;
