@@ -54,15 +54,9 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
 
 }  // namespace
 
-Reduction reduce(const formats::Part& part, const PhaseListener& begin) { return reduce(part, begin, nullptr); }
-
 Reduction reduce(const formats::Part& part, const PhaseListener& begin, const RecoveryListener& recover) {
   begin("mesh");
   return reduce_mesh(build_mesh(part), part, begin, recover);
-}
-
-Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin) {
-  return reduce_mesh(mesh, part, begin, nullptr);
 }
 
 Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin,

@@ -25,12 +25,14 @@ using PhaseListener = std::function<void(const std::string& phase)>;
 using RecoveryListener = std::function<void(const RecoverySource& source)>;
 
 /// Needs a SolverSession. Throws Error for whatever is wrong with the part.
-Reduction reduce(const formats::Part& part, const PhaseListener& begin);
 Reduction reduce(const formats::Part& part, const PhaseListener& begin, const RecoveryListener& recover);
+inline Reduction reduce(const formats::Part& part, const PhaseListener& begin) { return reduce(part, begin, nullptr); }
 
 /// The same from a mesh on; `part` gives name, units and the choice of modes.
-Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin);
 Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin,
                       const RecoveryListener& recover);
+inline Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin) {
+  return reduce_mesh(mesh, part, begin, nullptr);
+}
 
 }  // namespace tisserand::reducer

@@ -70,7 +70,8 @@ hsize_t select_rows(Id space, std::uint64_t first, std::uint64_t count) {
 OutputFile::OutputFile(const std::string& path) : path_(path), temporary_(temporary_beside(path)) {
   silence();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+  // From 1.10 on the index of the chunks has a checksum too: a flipped bit there let chunks vanish.
+  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_LATEST);
   H5Pset_file_locking(access.id(), false, true);
   H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
   H5Pset_obj_track_times(creation.id(), false);

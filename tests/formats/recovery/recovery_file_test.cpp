@@ -96,7 +96,7 @@ TEST(RecoveryFile, FlippedBitsAreErrorsOrChangeNothing) {
   const std::string bytes = bytes_of(folder.file("a.recovery.h5"));
   const RecoveryReader sound(folder.file("a.recovery.h5"));
   int noticed = 0, tried = 0;
-  for (std::size_t i = 0; i < bytes.size(); i += 97, ++tried) {
+  for (std::size_t i = 0; i < bytes.size(); i += 331, ++tried) {
     std::string flipped = bytes;
     flipped[i] = static_cast<char>(flipped[i] ^ (1 << (i % 8)));
     std::ofstream(folder.file("flip.h5"), std::ios::binary) << flipped;
