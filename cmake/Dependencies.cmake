@@ -47,6 +47,9 @@ dep_simple(crypto openssl/sha.h "" crypto)
 dep_simple(hdf5 hdf5.h hdf5/serial hdf5_serial sz aec z)
 target_link_libraries(dep_hdf5 INTERFACE ${CMAKE_DL_LIBS} m)
 
+# What HDF5 drags in, for pages.
+dep_simple(zlib zlib.h "" z)
+
 # With an OpenBLAS without threads: an idle one spins for 30 ms, longer than a short run takes. Where METIS and Fortran have
 # no archive, their full names will do; the names without a version are in packages of no other use here.
 dep_simple(suitesparse klu.h suitesparse klu btf umfpack spqr cholmod amd colamd camd ccolamd suitesparseconfig)

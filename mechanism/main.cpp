@@ -25,6 +25,7 @@
 #include "mechanism/run/analyses.hpp"
 #include "mechanism/run/checkpoint.hpp"
 #include "mechanism/simulate.hpp"
+#include "mechanism/view/view.hpp"
 
 namespace {
 
@@ -65,6 +66,7 @@ Examples:
   mechanism run arm.scene.yaml --set integrator.step=0.005 --set bodies.arm.modes=2
   mechanism channels arm.results.h5                    what the file holds, with units
   mechanism plot arm.results.h5 -c nodes/position/arm/tip/z -o arm.png
+  mechanism view arm.results.h5 -o arm.html            a page with the motion, for any browser
   mechanism export arm.results.h5 -c energy -o arm.csv
 
 A scene in ten lines:
@@ -134,6 +136,16 @@ constexpr const char* about_plot =
   mechanism plot coarse.results.h5 fine.results.h5 --label coarse --label fine -c energy/total -o energy.svg --range 0 2
   mechanism plot arm.results.h5 -c nodes/position/arm/tip/z --reference 'measured.csv:t:z:measured' -o tip.png
   mechanism plot tones.results.h5 -c modes/frequency -c modes/damping_ratio -o tones.png)help";
+
+constexpr const char* about_view =
+    R"help(Makes one page that shows a run: bodies in motion, curves, report. Any browser opens it, without a network.
+
+  mechanism view arm.results.h5 -o arm.html
+  mechanism view coarse.results.h5 fine.results.h5 -o both.html
+  mechanism view long.results.h5 -o long.html --instants 500 -c energy -c 'nodes/position/arm/*'
+
+Shapes are those of the scene (`shape` of a body), sections of beams, and of superelements the surface in the recovery file
+that lies beside them; else nodes and straight lines. Formats: formats/PAGE.md.)help";
 
 constexpr const char* about_compare =
     R"help(Measures channels against a reference history: largest and root-mean-square deviation.
@@ -410,6 +422,34 @@ int command_line(int argc, char** argv) {
     say(fmt::format("picture: {}\n", plot_options.output));
   });
 
+  mechanism::ViewRequest view_request;
+  std::vector<std::string> view_references;
+  CLI::App* view_command = app.add_subcommand("view", first_line(about_view));
+  view_command->add_option("results", view_request.files, "results files, also of interrupted runs")->required();
+  view_command->add_option("-o,--output", view_request.output, "page, .html")->required();
+  view_command->add_option("--title", view_request.title, "title of the page; default: the scene's name");
+  view_command->add_option("--instants", view_request.instants, "the most instants of a run, evenly chosen")
+      ->check(CLI::Range(2, 1'000'000));
+  view_command->add_option("--vertices", view_request.run.shapes.vertices, "the most vertices of a body")
+      ->check(CLI::Range(100, 10'000'000));
+  view_command
+      ->add_option("--channel,-c", view_request.run.channels, "curves: channel, group or pattern; default: what fits")
+      ->allow_extra_args(false);
+  view_command->add_option("--recovery", view_request.run.shapes.recovery, "recovery file of a superelement of the run")
+      ->allow_extra_args(false);
+  view_command
+      ->add_option("--reference", view_references, "history from a CSV file: file.csv:x column:y column[:label]")
+      ->allow_extra_args(false);
+  view_command->callback([&] {
+    std::vector<std::string> files_read = view_request.files;
+    for (const std::string& text : view_references) {
+      view_request.references.push_back(mechanism::parse_reference(text));
+      files_read.push_back(view_request.references.back().file);
+    }
+    require_output(view_request.output, files_read, Replaces::anything);
+    say(mechanism::view(view_request));
+  });
+
   SeriesArguments compare_arguments;
   mechanism::TimeWindow window;
   CLI::App* compare_command = app.add_subcommand("compare", first_line(about_compare));
@@ -425,6 +465,7 @@ int command_line(int argc, char** argv) {
             {"export", about_export},
             {"channels", about_channels},
             {"plot", about_plot},
+            {"view", about_view},
             {"compare", about_compare}},
            argc, argv);
   try {

@@ -9,6 +9,7 @@
 #include "mechanism/run/checkpoint.hpp"
 #include "mechanism/run/output.hpp"
 #include "mechanism/run/run.hpp"
+#include "mechanism/run/simulated_scene.hpp"
 
 namespace tisserand::mechanism {
 
@@ -23,7 +24,8 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
     resume(run, request.restart, request.at, request.joining);
   const double begin_steps = run.seconds();
   keep_chosen_places(run.scene, run.built.model);
-  const formats::ResultsLayout layout = results_layout(run.built.model, run.scene);
+  formats::ResultsLayout layout = results_layout(run.built.model, run.scene);
+  layout.simulated = simulated_scene(run.scene, request.files, run.built, run.at_start);
   formats::ResultsRow row;
   row.resize(layout);
   formats::ResultsWriter writer(request.path, layout, run.beginning.value_or(formats::ResultsBeginning{}));

@@ -1,6 +1,7 @@
 // The commands of stage 1: read, work, write, tell.
 #include "reducer/commands.hpp"
 
+#include <memory>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -10,11 +11,13 @@
 #include "common/output_path.hpp"
 #include "common/text.hpp"
 #include "formats/part/part.hpp"
+#include "formats/recovery/recovery.hpp"
 #include "formats/sections/report.hpp"
 #include "formats/superelement/superelement.hpp"
 #include "formats/yaml/override.hpp"
 #include "reducer/algebra/petsc.hpp"
 #include "reducer/mesh/gmsh_file.hpp"
+#include "reducer/recover/recover.hpp"
 #include "reducer/reduce.hpp"
 #include "reducer/report/certificate.hpp"
 #include "reducer/report/phases.hpp"
@@ -45,22 +48,37 @@ std::string beside(const std::string& input, const std::string& ending) {
   return input + ending;
 }
 
+/// Tables and fields; the file takes its name when its superelement is there.
+std::unique_ptr<formats::RecoveryWriter> write_recovery(const RecoverySource& source, const std::string& path) {
+  const formats::Recovery tables = recovery_tables(source);
+  auto writer = std::make_unique<formats::RecoveryWriter>(path, tables);
+  recovery_fields(source, tables,
+                  [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) { writer->append(field, rows); });
+  return writer;
+}
+
 int run(const Arguments& arguments) {
   Phases phases;
   phases.begin("read");
   const formats::Part part = part_of(arguments);
   const std::string output = arguments.output.empty() ? beside(arguments.input, ".superelement.h5") : arguments.output;
   require_output(output, {arguments.input}, Replaces::hdf5_only);
+  if (part.recovery) require_output(formats::recovery_path(output), {arguments.input}, Replaces::hdf5_only);
   phases.begin("start solvers");
   const SolverSession session;
-  Reduction reduction = reduce(part, [&phases](const std::string& phase) { phases.begin(phase); });
+  std::unique_ptr<formats::RecoveryWriter> recovery;
+  Reduction reduction = reduce(
+      part, [&phases](const std::string& phase) { phases.begin(phase); },
+      [&](const RecoverySource& source) { recovery = write_recovery(source, formats::recovery_path(output)); });
   phases.begin("write");
   formats::write_superelement(output, reduction.superelement);
+  if (recovery) recovery->finish();
   write_certificate(output, reduction.superelement, reduction.file, reduction.model);
   phases.end();
   say(certificate_text(reduction.superelement, reduction.file, reduction.model));
   say(fmt::format("{:<19}{}\n{:<19}{}\n{:<19}{}\n", "time", phases.text(), "written", output, "",
                   certificate_path(output)));
+  if (recovery) say(fmt::format("{:<19}{}\n", "", formats::recovery_path(output)));
   return 0;
 }
 
@@ -139,6 +157,9 @@ int perform(const Arguments& arguments, char** argv) {
       return groups(arguments);
     case Command::section:
       return section(arguments);
+    case Command::recover:
+      say(recover(arguments.recover_request));
+      return 0;
     case Command::import_matrices:
       exchange::import_matrices(arguments.import_request);
       return 0;

@@ -6,10 +6,11 @@
 
 #include "formats/part/part.hpp"
 #include "reducer/exchange/request.hpp"
+#include "reducer/recover/request.hpp"
 
 namespace tisserand::reducer {
 
-enum class Command { run, show, mesh, groups, section, import_matrices, export_matrices };
+enum class Command { run, show, mesh, groups, section, recover, import_matrices, export_matrices };
 
 struct Arguments {
   Command command = Command::run;
@@ -17,6 +18,7 @@ struct Arguments {
   std::string output;            ///< empty: beside the input
   std::vector<std::string> set;  ///< path=value
   formats::MeshFile::Permission permission;
+  RecoverRequest recover_request;
   exchange::ImportRequest import_request;
   exchange::ExportRequest export_request;
 };

@@ -28,6 +28,7 @@ Examples:
   reducer mesh beam.part.yaml                    writes beam.msh, to look at with gmsh
   reducer groups bracket.step                    faces, edges, volumes and groups with numbers, sizes and boxes
   reducer section beam.part.yaml                 constants of its sections
+  reducer recover beam.recovery.h5 run.results.h5   displacement and stress of the part in a run, for ParaView
 
 A part in ten lines:
   part: beam
@@ -78,6 +79,15 @@ constexpr const char* about_section =
     R"help(Prints all constants of the sections of a part: areas, moments, torsion, shear centre.
 
   reducer section frame.part.yaml)help";
+
+constexpr const char* about_recover = R"help(Displacement and stress of a part from the results of a run.
+
+  reducer recover arm.recovery.h5 run.results.h5 --body arm -o out
+  reducer recover arm.recovery.h5 run.results.h5 --times 0.1,0.2 --point tip --point 0.5,0,0
+
+The recovery file is written by `reducer run` if part.yaml says `recovery: yes`. Writes a series of VTU files with index
+arm.pvd (open it with ParaView), the envelope over time, and histories of points as CSV; prints the largest values.
+Exit codes: 0 done, 1 error, 2 wrong usage.)help";
 
 constexpr const char* about_import =
     R"help(Reduced matrices of another program become a superelement file with certificate.
@@ -131,6 +141,24 @@ CLI::App* add_export(CLI::App& app, const std::string& asked, tisserand::reducer
   return command;
 }
 
+CLI::App* add_recover(CLI::App& app, const std::string& asked, tisserand::reducer::RecoverRequest& request) {
+  using tisserand::reducer::RecoverFrame;
+  CLI::App* const command = add_command(app, "recover", about_recover, asked);
+  command->add_option("recovery", request.recovery, "name.recovery.h5")->required();
+  command->add_option("results", request.results, "name.results.h5")->required();
+  command->add_option("--body", request.body, "superelement of the results (default: the only one)");
+  command->add_option("-o,--output", request.output,
+                      "folder of the series (default: body.recovered beside the results)");
+  command->add_option("--times", request.times, "the stored instants nearest to these (default: all)")->delimiter(',');
+  command->add_option("--every", request.every, "only every n-th instant")->check(CLI::PositiveNumber);
+  command->add_option("--point", request.points, "history of a node: boundary node, label, or x,y,z of the part frame")
+      ->allow_extra_args(false);
+  command->add_option("--frame", request.frame, "world, or part: at rest in its own frame")
+      ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, RecoverFrame>>{
+          {"world", RecoverFrame::world}, {"part", RecoverFrame::part}}));
+  return command;
+}
+
 /// Options of commands that read mesh files.
 void add_permission(CLI::App* command, tisserand::formats::MeshFile::Permission& permission) {
   command->add_flag("--trust-geometry", permission.trusted, "the geometry may read files of other folders");
@@ -146,7 +174,7 @@ void add_permission(CLI::App* command, tisserand::formats::MeshFile::Permission&
 
 /// Prints what is wrong with the words of the command line.
 int tell_usage(const CLI::ParseError& error, const std::string& asked) {
-  const std::vector<std::string> commands{"run", "show", "mesh", "groups", "section", "import", "export"};
+  const std::vector<std::string> commands{"run", "show", "mesh", "groups", "section", "recover", "import", "export"};
   const bool known = std::find(commands.begin(), commands.end(), asked) != commands.end();
   const bool is_word = !asked.empty() && asked[0] != '-';
   tisserand::complain("reducer", fmt::format("{}\n`reducer {}--help` explains.",
@@ -188,6 +216,7 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false);
   for (CLI::App* const command : {run_command, mesh_command, groups_command})
     add_permission(command, arguments.permission);
+  CLI::App* const recover_command = add_recover(app, asked, arguments.recover_request);
   CLI::App* const import_command = add_import(app, asked, arguments.import_request);
   CLI::App* const export_command = add_export(app, asked, arguments.export_request);
   try {
@@ -200,6 +229,7 @@ int main(int argc, char** argv) {
                       : mesh_command->parsed() ? Command::mesh
                                                : Command::groups;
   if (section_command->parsed()) arguments.command = Command::section;
+  if (recover_command->parsed()) arguments.command = Command::recover;
   if (import_command->parsed()) arguments.command = Command::import_matrices;
   if (export_command->parsed()) arguments.command = Command::export_matrices;
   try {

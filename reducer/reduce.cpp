@@ -14,7 +14,8 @@
 namespace tisserand::reducer {
 namespace {
 
-Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin) {
+Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin,
+                         const RecoveryListener& recover) {
   begin("assembly");
   const System system = build_system(mesh, part.file);
   const formats::RigidProperties rigid = require_mass(system, part.file);
@@ -43,24 +44,30 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   describe_mesh(mesh, system, result.model);
   result.model.rigid = rigid;
   result.model.free_frequency = compared_frequencies(system, internal);
+
+  if (part.recovery && recover) {
+    begin("recovery");
+    recover({mesh, system, coordinates, boundary, internal, result.superelement});
+  }
   return result;
 }
 
 }  // namespace
 
-Reduction reduce(const formats::Part& part, const PhaseListener& begin) {
+Reduction reduce(const formats::Part& part, const PhaseListener& begin, const RecoveryListener& recover) {
   begin("mesh");
-  return reduce_mesh(build_mesh(part), part, begin);
+  return reduce_mesh(build_mesh(part), part, begin, recover);
 }
 
-Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin) {
+Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin,
+                      const RecoveryListener& recover) {
   begin("checks");
   check_used(mesh, part.file);
   check_connected(mesh, part.file);
   check_boundary_holds(mesh, part.file);
   const Doubts doubts = check_mesh(mesh, part);
   try {
-    Reduction result = reduce_checked(mesh, part, begin);
+    Reduction result = reduce_checked(mesh, part, begin, recover);
     result.model.warnings = doubts.all;
     if (const auto doubt = mass_doubt(result.model.rigid.mass, part.units)) result.model.warnings.push_back(*doubt);
     return result;

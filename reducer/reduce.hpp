@@ -7,6 +7,7 @@
 #include "formats/part/part.hpp"
 #include "formats/superelement/superelement.hpp"
 #include "reducer/mesh/mesh.hpp"
+#include "reducer/recovery/fields.hpp"
 #include "reducer/report/certificate.hpp"
 
 namespace tisserand::reducer {
@@ -20,10 +21,18 @@ struct Reduction {
 /// Called when a phase begins, with its name: the caller measures time and shows progress.
 using PhaseListener = std::function<void(const std::string& phase)>;
 
+/// Called with what a recovery file is made from, where the part asks for one (phase "recovery").
+using RecoveryListener = std::function<void(const RecoverySource& source)>;
+
 /// Needs a SolverSession. Throws Error for whatever is wrong with the part.
-Reduction reduce(const formats::Part& part, const PhaseListener& begin);
+Reduction reduce(const formats::Part& part, const PhaseListener& begin, const RecoveryListener& recover);
+inline Reduction reduce(const formats::Part& part, const PhaseListener& begin) { return reduce(part, begin, nullptr); }
 
 /// The same from a mesh on; `part` gives name, units and the choice of modes.
-Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin);
+Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin,
+                      const RecoveryListener& recover);
+inline Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin) {
+  return reduce_mesh(mesh, part, begin, nullptr);
+}
 
 }  // namespace tisserand::reducer

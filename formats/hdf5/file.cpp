@@ -68,7 +68,9 @@ std::string type_in_words(Id type) {
 ElementKind kind_of(Id type) {
   switch (H5Tget_class(type)) {
     case H5T_FLOAT:
-      return H5Tget_size(type) == 8 ? ElementKind::float64 : ElementKind::other;
+      return H5Tget_size(type) == 8   ? ElementKind::float64
+             : H5Tget_size(type) == 4 ? ElementKind::float32
+                                      : ElementKind::other;
     case H5T_INTEGER:
       return H5Tget_size(type) <= 8 ? ElementKind::integer : ElementKind::other;
     case H5T_STRING:
@@ -82,6 +84,8 @@ std::string kind_in_words(ElementKind kind) {
   switch (kind) {
     case ElementKind::float64:
       return "64-bit floating numbers";
+    case ElementKind::float32:
+      return "32-bit floating numbers";
     case ElementKind::integer:
       return "integers";
     case ElementKind::text:

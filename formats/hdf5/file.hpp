@@ -37,7 +37,7 @@ class Handle {
   int (*close_)(Id) = nullptr;
 };
 
-enum class ElementKind { float64, integer, text, other };
+enum class ElementKind { float64, float32, integer, text, other };
 
 /// What the file says about a dataset, before any of its data are read.
 struct DatasetInfo {
@@ -94,6 +94,8 @@ class InputFile {
 
   /// Rows [first, first + count) of a float64 dataset of `width` values per row.
   void read_rows(const std::string& dataset, std::uint64_t first, std::uint64_t count, double* values) const;
+  /// The same of a float32 dataset.
+  void read_rows(const std::string& dataset, std::uint64_t first, std::uint64_t count, float* values) const;
   /// Column `column` (flat index within a row) of rows [0, count).
   void read_column(const std::string& dataset, std::uint64_t column, std::uint64_t count, double* values) const;
 

@@ -41,6 +41,8 @@ Part read_tree(YamlReader& reader, const std::string& path) {
   read_attachments(map, part);
   read_boundary(map, part);
   part.modes = read_modes(map);
+  part.recovery =
+      map.choice("recovery", {Choice<bool>{"yes", true}, {"no", false}, {"true", true}, {"false", false}}, false);
   return part;
 }
 
@@ -79,7 +81,11 @@ std::vector<Field> part_fields() {
                                        "number of internal modes, lowest first; 0 is Guyan reduction"),
           plain<&ModeSelection::cutoff>(
               "cutoff", "positive",
-              "instead of `modes`: all internal modes below this frequency [1/time, not rad/time]", "-")};
+              "instead of `modes`: all internal modes below this frequency [1/time, not rad/time]", "-"),
+          {"recovery", "'yes' | 'no' | true | false",
+           "`yes`: also a [recovery file](RECOVERY.md) beside the superelement, by which displacements and stresses of "
+           "the whole part come back from results",
+           "no"}};
 }
 
 Part read_part(const std::string& path, const std::vector<Override>& overrides) {

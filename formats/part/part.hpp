@@ -144,6 +144,7 @@ struct Part {
   std::vector<PointMass> point_masses;
   std::vector<BoundaryNode> boundary;  ///< empty: that of the deck
   ModeSelection modes;
+  bool recovery = false;  ///< a recovery file beside the superelement
   MeshFile mesh;
   std::vector<OrthotropicMaterial> orthotropic;
   std::vector<ShellPatch> patches;  ///< plates, discs, cylinders, extrusions, in this order

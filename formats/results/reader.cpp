@@ -10,6 +10,7 @@
 #include "common/text.hpp"
 #include "formats/hdf5/file.hpp"
 #include "formats/results/blocks.hpp"
+#include "formats/results/simulated_scene_file.hpp"
 
 namespace tisserand::formats {
 
@@ -112,6 +113,7 @@ ResultsLayout read_layout(const hdf5::InputFile& file) {
   l.modal_offset = offsets(file, "/modal_bodies/offset", l.modal_bodies.size());
   const std::size_t boundary = l.boundary_offset.empty() ? 0 : static_cast<std::size_t>(l.boundary_offset.back());
   if (l.boundary_nodes.size() != boundary) l.boundary_nodes.clear();
+  l.simulated = read_simulated(file, l.nodes.size());
   return l;
 }
 
@@ -264,6 +266,7 @@ std::string ResultsReader::report_json() const {
 }
 
 std::string ResultsReader::scene() const { return impl_->layout.scene; }
+const ResultsLayout& ResultsReader::layout() const { return impl_->layout; }
 std::string ResultsReader::run() const {
   return impl_->file.has_attribute("/", "run") ? impl_->file.text_attribute("/", "run") : "";
 }
@@ -299,6 +302,19 @@ Eigen::MatrixXd ResultsReader::read_rows(const std::vector<std::string>& channel
     RowMajor block(rows, static_cast<Eigen::Index>(impl_->blocks[b].width()));
     impl_->file.read_rows(impl_->blocks[b].dataset, first, count, block.data());
     for (const auto& [from, to] : wanted[b]) values.col(to) = block.col(from);
+  }
+  return values;
+}
+
+Eigen::MatrixXd ResultsReader::read_dataset(const std::string& dataset, const std::vector<std::size_t>& rows) const {
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const auto found = std::ranges::find(impl_->blocks, "/" + dataset, &Block::dataset);
+  const auto count = static_cast<Eigen::Index>(rows.size());
+  if (found == impl_->blocks.end()) return Eigen::MatrixXd(count, 0);
+  RowMajor values(count, static_cast<Eigen::Index>(found->width()));
+  for (std::size_t at = 0, next = 0; at < rows.size(); at = next) {
+    for (next = at + 1; next < rows.size() && rows[next] == rows[next - 1] + 1;) ++next;
+    impl_->file.read_rows(found->dataset, rows[at], next - at, values.row(static_cast<Eigen::Index>(at)).data());
   }
   return values;
 }

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "common/units.hpp"
+#include "formats/results/simulated_scene.hpp"
 
 namespace tisserand::formats {
 
@@ -48,6 +49,7 @@ struct ResultsLayout {
   std::vector<std::string> frictions;  ///< joints with friction
   std::vector<std::string> channels;   ///< selection, as in OutputSpec; empty: all
   std::vector<std::string> superelement_content_ids;
+  SimulatedScene simulated;
 };
 
 /// One instant. World frame unless said; sized once by resize(layout). Joint force and moment: what A's body exerts on
@@ -152,6 +154,7 @@ class ResultsReader {
   std::string reason() const;
   std::string report_json() const;
   std::string scene() const;
+  const ResultsLayout& layout() const;  ///< what is stored; `simulated` is empty before version 1.5
   std::string run() const;  ///< ResultsWriter::run(); empty before version 1.4
   std::size_t rows() const;
   std::size_t modes() const;  ///< 0: the file holds none
@@ -163,6 +166,9 @@ class ResultsReader {
   /// Rows [first, first + count) of several channels, count x channels.size(); each dataset is read once.
   /// All of instants or all of modes.
   Eigen::MatrixXd read_rows(const std::vector<std::string>& channels, std::size_t first, std::size_t count) const;
+  /// The given rows, ascending, of a whole dataset ("nodes/position"): rows.size() x its columns; of none that is
+  /// stored: without columns.
+  Eigen::MatrixXd read_dataset(const std::string& dataset, const std::vector<std::size_t>& rows) const;
 
  private:
   struct Impl;

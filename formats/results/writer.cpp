@@ -24,6 +24,7 @@
 #include "formats/hdf5/file.hpp"
 #include "formats/results/blocks.hpp"
 #include "formats/results/held_file.hpp"
+#include "formats/results/simulated_scene_file.hpp"
 
 namespace tisserand::formats {
 
@@ -125,7 +126,7 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
   hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
   if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
   hdf5::write_text_attribute(file.id(), "/", "format", "tisserand-results", where);
-  hdf5::write_text_attribute(file.id(), "/", "version", "1.4", where);
+  hdf5::write_text_attribute(file.id(), "/", "version", "1.5", where);
   hdf5::write_text_attribute(file.id(), "/", "run", run, where);
   hdf5::write_text_attribute(file.id(), "/", "scene", layout.scene, where);
   hdf5::write_text_attribute(file.id(), "/", "producer", layout.producer, where);
@@ -175,6 +176,7 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
     hdf5::write_dataset(file.id(), "/modal_bodies/offset", {layout.modal_offset.size()}, layout.modal_offset.data(),
                         where);
   }
+  write_simulated(file.id(), layout.simulated, where);
   if (file.reset() < 0) throw hdf5::last_error("cannot write the file", where, "choose another place or name");
 }
 

@@ -110,6 +110,7 @@ SuperelementBodySpec read_superelement(const Context& context, const YamlNode& n
   body.file = resolve(definitions.folder, body.file);
   body.mirror = read_mirror(map);
   body.start = read_start(map);
+  body.shapes = read_shapes(map, definitions);
   if (body.rigid) refuse_flexible_keys(map);
   check_mode_choice(map, body);
   if (const YamlNode* frame = map.find("frame")) read_frame(context, *frame, body);
@@ -132,6 +133,7 @@ ModalBodySpec read_modal(const Context& context, const YamlNode& node, const Sce
   body.file = resolve(definitions.folder, body.file);
   body.mirror = read_mirror(map);
   body.start = read_start(map);
+  body.shapes = read_shapes(map, definitions);
   check_mode_choice(map, body);
   if (const YamlNode* damping = map.find("damping"))
     body.damping = read_damping(MapReader(inside(context, "damping"), *damping, "damping", "damping."));
@@ -148,6 +150,7 @@ SuperelementBodySpec read_rigid_from(const Context& context, const YamlNode& nod
   body.file = resolve(definitions.folder, body.file);
   body.mirror = read_mirror(map);
   body.start = read_start(map);
+  body.shapes = read_shapes(map, definitions);
   body.rigid = true;
   return body;
 }
@@ -162,7 +165,7 @@ std::vector<RigidNodeSpec> read_nodes(const MapReader& map) {
   return nodes;
 }
 
-RigidBodySpec read_rigid(const Context& context, const YamlNode& node) {
+RigidBodySpec read_rigid(const Context& context, const YamlNode& node, const SceneDefinitions& definitions) {
   const MapReader map(context, node, "body_rigid");
   RigidBodySpec body;
   body.name = node.key;
@@ -171,16 +174,18 @@ RigidBodySpec read_rigid(const Context& context, const YamlNode& node) {
   read_fields(map, body);
   if (const YamlNode* inertia = map.require("inertia")) body.inertia = read_inertia(context, *inertia, "inertia");
   body.nodes = read_nodes(map);
+  body.shapes = read_shapes(map, definitions);
   return body;
 }
 
-VirtualBodySpec read_virtual(const Context& context, const YamlNode& node) {
+VirtualBodySpec read_virtual(const Context& context, const YamlNode& node, const SceneDefinitions& definitions) {
   const MapReader map(context, node, "body_virtual");
   VirtualBodySpec body;
   body.name = node.key;
   body.where = context.entry;
   body.start = read_start(map);
   body.nodes = read_nodes(map);
+  body.shapes = read_shapes(map, definitions);
   return body;
 }
 
@@ -301,7 +306,8 @@ KeySet superelement_fields() {
         "`{mass: a, stiffness: b, ratio: z, ratios: [z1, z2]}`: Rayleigh a M + b S [1/time, time], ratio of "
         "critical damping of every elastic mode of the free body, of the lowest ones; `ratio_internal`, "
         "`ratios_internal`: of the internal modes, whose boundary is held (see below). All add up",
-        "0"}},
+        "0"},
+       shape_field()},
       start_fields<SuperelementBodySpec>()};
 }
 
@@ -316,7 +322,8 @@ KeySet modal_fields() {
                                      "all"),
        {"damping", "damping",
         "`{mass, stiffness, ratio, ratios}` of the modes of the file, added to its ratios: rigid motion is not damped",
-        "0"}},
+        "0"},
+       shape_field()},
       start_fields<ModalBodySpec>()};
 }
 
@@ -352,16 +359,18 @@ std::vector<KeySet> body_key_sets() {
        {{"type", "'rigid'", "", "required"},
         plain<&RigidBodySpec::mass>("mass", "positive", "positive [mass]", "required"),
         plain<&RigidBodySpec::center_of_mass>("center_of_mass", "vector", "in the part frame [length]"),
-        {"inertia", "inertia_tensor", "about the centre of mass, part axes [mass length²]; forms and limits as in PART.md",
-         "required"},
-        nodes},
+        {"inertia", "inertia_tensor",
+         "about the centre of mass, part axes [mass length²]; forms and limits as in PART.md", "required"},
+        nodes,
+        shape_field()},
        start_fields<RigidBodySpec>()},
       {"body_rigid_from",
        {{"type", "'rigid'", "", "required"},
         plain<&SuperelementBodySpec::file>("from", "text", "", "required"),
-        {"mirror", "mirror", ""}},
+        {"mirror", "mirror", ""},
+        shape_field()},
        start_fields<SuperelementBodySpec>()},
-      {"body_virtual", {{"type", "'virtual'", "", "required"}, nodes}, start_fields({})},
+      {"body_virtual", {{"type", "'virtual'", "", "required"}, nodes, shape_field()}, start_fields({})},
       {"pose", {plain<&Pose::position>("position", "vector", ""), {"orientation", "rotation", ""}}},
       {"frame", {{"node", "text", "", "required"}}},
       {"weights", {{"positions", "{text: number}+", ""}, {"rotations", "{text: number}+", ""}}},
@@ -393,14 +402,14 @@ std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& 
         if (find_child(*node, "from") != nullptr) {
           bodies.emplace_back(read_rigid_from(context, *node, definitions));
         } else {
-          bodies.emplace_back(read_rigid(context, *node));
+          bodies.emplace_back(read_rigid(context, *node, definitions));
         }
         break;
       case 2:
         bodies.emplace_back(read_beam(context, *node, definitions));
         break;
       case 3:
-        bodies.emplace_back(read_virtual(context, *node));
+        bodies.emplace_back(read_virtual(context, *node, definitions));
         break;
       case 4:
         bodies.emplace_back(read_modal(context, *node, definitions));

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "formats/scene/shape.hpp"
 #include "formats/sections/section.hpp"
 
 namespace tisserand::formats {
@@ -61,6 +62,7 @@ struct SuperelementBodySpec {
   std::vector<NodeWeight> rotation_weights;
   Damping damping;
   std::optional<Eigen::Vector3d> gravity;  ///< absent: that of the scene
+  std::vector<ShapeSpec> shapes;
   std::string where;
 };
 
@@ -77,6 +79,7 @@ struct RigidBodySpec {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();         ///< about the centre of mass, part axes
   std::vector<RigidNodeSpec> nodes;        ///< named places for joints and loads; the part frame itself is `<body>`
   std::optional<Eigen::Vector3d> gravity;  ///< absent: that of the scene
+  std::vector<ShapeSpec> shapes;
   std::string where;
 };
 
@@ -85,6 +88,7 @@ struct VirtualBodySpec {
   std::string name;
   InitialMotion start;
   std::vector<RigidNodeSpec> nodes;
+  std::vector<ShapeSpec> shapes;
   std::string where;
 };
 
@@ -119,6 +123,7 @@ struct ModalBodySpec {
   std::optional<double> cutoff;            ///< [1/time of the scene]
   Damping damping;                         ///< beside that of the file
   std::optional<Eigen::Vector3d> gravity;  ///< absent: that of the scene
+  std::vector<ShapeSpec> shapes;
   std::string where;
 };
 

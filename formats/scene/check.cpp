@@ -342,6 +342,8 @@ Faults find_faults(const Scene& scene) {
           check_start(spec.start, subject, spec.where, faults);
           if constexpr (requires { spec.gravity; }) check_gravity(spec.gravity, subject, spec.where, faults);
           check_body(spec, subject, faults);
+          if constexpr (requires { spec.shapes; })
+            for (const ShapeSpec& shape : spec.shapes) check_shape(shape, subject, faults);
         },
         body);
   }

@@ -20,6 +20,9 @@ void check_marker_pair(const SceneIndex& scene, const MarkerPairSpec& pair, cons
 void check_coordinate(const CoordinateRef& coordinate, const SceneIndex& scene, const std::string& subject,
                       const std::string& where, const std::string& key, Faults& faults);
 
+/// Sizes of a solid, ending of a file.
+void check_shape(const ShapeSpec& shape, const std::string& subject, Faults& faults);
+
 /// Channels and inputs; their names share one list.
 void check_channels(const SceneIndex& scene, Faults& faults);
 

@@ -41,9 +41,9 @@ KeySet instance_fields() {
 
 std::vector<KeySet> scene_key_sets() {
   std::vector<KeySet> sets{{"scene", scene_fields()}, {"assembly", assembly_fields()}, instance_fields()};
-  for (const auto& lists :
-       {common_key_sets(), section_key_sets(), body_key_sets(), joint_key_sets(), force_key_sets(), channel_key_sets(),
-        time_function_key_sets(), analysis_key_sets(), integrator_key_sets(), settings_key_sets()})
+  for (const auto& lists : {common_key_sets(), section_key_sets(), body_key_sets(), shape_of_body_key_sets(),
+                            joint_key_sets(), force_key_sets(), channel_key_sets(), time_function_key_sets(),
+                            analysis_key_sets(), integrator_key_sets(), settings_key_sets()})
     sets.insert(sets.end(), lists.begin(), lists.end());
   return sets;
 }
@@ -58,7 +58,8 @@ std::vector<NamedType> scene_types() {
       {"place", "text | marker", "ground, <body>, <body>/<node>, or a marker there"},
       {"function", "number | text+ | time_function", "a number, an expression, or a table or file"},
       {"motion_value", "number | text+ | motion_function",
-       "a number, an expression, or a table or file with its interpolation"}};
+       "a number, an expression, or a table or file with its interpolation"},
+      shape_of_body_type()};
   for (const auto& more : {common_types(), section_types()}) types.insert(types.end(), more.begin(), more.end());
   return types;
 }

@@ -31,6 +31,8 @@ MarkerSpec read_marker(const MapReader& map, const std::string& key);
 void read_marker_pair(const MapReader& map, MarkerPairSpec& pair);
 CoordinateRef read_coordinate(const MapReader& map, const YamlNode& node, const std::string& key);
 
+/// `shape` of a body.
+std::vector<ShapeSpec> read_shapes(const MapReader& body, const SceneDefinitions& definitions);
 std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& definitions);
 /// `joints`: joints, and gears and racks between their coordinates.
 void read_joints(const MapReader& map, Scene& scene);
@@ -50,6 +52,9 @@ void read_groups(const MapReader& map, const Context& entry, std::optional<doubl
 // Lists of fields, each beside the functions that read them.
 std::vector<Field> scene_fields();
 std::vector<KeySet> body_key_sets();
+std::vector<KeySet> shape_of_body_key_sets();
+NamedType shape_of_body_type();
+Field shape_field();
 std::vector<KeySet> joint_key_sets();
 std::vector<KeySet> force_key_sets();
 std::vector<KeySet> channel_key_sets();

@@ -186,6 +186,17 @@ std::vector<Field> scene_fields() {
                                        "joints: of the characteristic length, of the largest velocity")};
 }
 
+std::vector<BodySpec> read_bodies_of_text(const std::string& text, const std::string& file) {
+  const YamlDocument document = parse_yaml(text, file);
+  YamlReader reader(document, scene_key_sets());
+  const MapReader map(Context{reader, "", file}, reader.root(), "scene");
+  const Units units = read_units(map);
+  std::vector<BodySpec> bodies = read_bodies(
+      map, {std::filesystem::path(file).parent_path().string(), units, read_materials(map), read_sections(map, units)});
+  reader.raise({});
+  return bodies;
+}
+
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
   const YamlDocument document = load_scene_tree(path, overrides, scene_key_sets());
   YamlReader reader(document, scene_key_sets());
@@ -194,6 +205,7 @@ Scene read_scene(const std::string& path, const std::vector<Override>& overrides
   Scene scene = read_tree(reader, path, faults);
   for (Fault& fault : find_faults(scene).list) faults.list.push_back(std::move(fault));
   reader.raise(faults);
+  scene.text = yaml_text(document.root);
   return scene;
 }
 

@@ -168,6 +168,7 @@ struct InputSpec {
 struct Scene {
   std::string name;
   std::string file;
+  std::string text;  ///< as YAML after `include`, instances and overrides; empty: made by a program
   Units units = Units::si();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   std::vector<BodySpec> bodies;
@@ -195,6 +196,9 @@ struct Scene {
 /// Reads scene.yaml with the overrides applied, then checks. Paths in it are relative to its folder. Throws all errors
 /// together, each with file:line:column or the text of the override.
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides);
+
+/// The bodies of Scene::text; files in it count from the folder of `file`. Throws Error.
+std::vector<BodySpec> read_bodies_of_text(const std::string& text, const std::string& file);
 
 /// The scene with the kind and the settings of one of its analyses.
 Scene scene_of(const Scene& scene, const Analysis& analysis);

@@ -162,12 +162,34 @@ void Placement::mirror_part(YamlNode& body) {
     const Matrix3d J = read_inertia(context(body), *inertia, "inertia");
     if (J.allFinite()) set(body, "inertia", rows_node(frame_.S * J * frame_.S, inertia->place));
   }
+  if (YamlNode* shape = find_child(body, "shape")) {
+    if (shape->kind == YamlKind::map) mirror_shape(*shape);
+    for (YamlNode& one : shape->children)
+      if (one.kind == YamlKind::map && shape->kind == YamlKind::sequence) mirror_shape(one);
+  }
   YamlNode* nodes = find_child(body, "nodes");
   if (nodes == nullptr || nodes->kind != YamlKind::map) return;
   for (YamlNode& node : nodes->children) {
     transform(node, "position", frame_.S, Vector3d::Zero());
     turn_orientation(node, frame_.S, frame_.S);
   }
+}
+
+/// x = p + R s v of a file becomes S p + (S R S) (S s) v.
+void Placement::mirror_shape(YamlNode& shape) {
+  for (const char* key : {"position", "from", "to"}) transform(shape, key, frame_.S, Vector3d::Zero());
+  turn_orientation(shape, frame_.S, frame_.S);
+  if (YamlNode* points = find_child(shape, "points"); is_list(points))
+    for (YamlNode& point : points->children)
+      if (const Vector3d v = read_vector(context(shape), point, "a point"); v.allFinite())
+        point = list_node(Vector3d(frame_.S * v), point.place);
+  if (word(shape, "type") != "mesh") return;
+  const YamlNode* scale = find_child(shape, "scale");
+  const Vector3d factors = is_list(scale) ? read_vector(context(shape), *scale, "scale")
+                           : scale != nullptr
+                               ? Vector3d(Vector3d::Constant(read_number(context(shape), *scale, "scale")))
+                               : Vector3d(Vector3d::Ones());
+  if (factors.allFinite()) set(shape, "scale", list_node(Vector3d(frame_.S * factors), shape.place));
 }
 
 /// A file is mirrored where the body is made from it: the plane joins those that the body mirrors it at by itself.

@@ -41,6 +41,7 @@ class Placement {
   Context context(const YamlNode& entry) const;
   void body(YamlNode& body);
   void mirror_part(YamlNode& body);
+  void mirror_shape(YamlNode& shape);
   void mirror_file(YamlNode& body);
   void pair(YamlNode& entry, const std::string& type);
   void mirror_field(YamlNode& bushing);

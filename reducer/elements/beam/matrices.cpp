@@ -9,8 +9,10 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "common/math/rotation.hpp"
 #include "reducer/elements/beam/ends.hpp"
 #include "reducer/elements/beam/general.hpp"
+#include "reducer/elements/element_stress.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -53,6 +55,18 @@ void element_matrices(const Mesh& mesh, const BeamElement& beam, ElementMatrices
   }
   out.S = matrices.stiffness;
   out.M = matrices.mass;
+}
+
+Matrix12 beam_section_forces(const Mesh& mesh, const BeamElement& beam) {
+  BeamMatrices matrices = at_the_ends(data_of(mesh, beam));
+  if (beam.released != 0) release_ends(beam.released, matrices);
+  Matrix12 to_ends = Matrix12::Identity();  // motions of the ends from those of the nodes, part axes
+  to_ends.block<3, 3>(0, 3) = -skew<double>(beam.first_offset);
+  to_ends.block<3, 3>(6, 9) = -skew<double>(beam.second_offset);
+  for (int k = 0; k < 12; k += 3) to_ends.middleRows<3>(k) = (beam.R_PE.transpose() * to_ends.middleRows<3>(k)).eval();
+  Matrix12 forces = matrices.stiffness * to_ends;  // on the ends of the element
+  forces.topRows<6>() *= -1.0;
+  return forces;
 }
 
 void check_shape(const Mesh& mesh, const BeamElement& beam, ShapeFindings& findings) {

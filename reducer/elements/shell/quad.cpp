@@ -157,19 +157,43 @@ PlatePart plate_part(const ShellGeometry<4>& geometry, const ShellSection& secti
   return part;
 }
 
+/// Of the stress modes with the coordinates: ∫ Pᵀ n ds u, and the coupling with the curvatures.
+ModeRows mode_work(const Eigen::Matrix<double, 2, 4>& corner, double size, const PlatePart& plate) {
+  ModeRows F = edge_work(corner, size);
+  for (int i = 0; i < 4; ++i) F.block<modes, 3>(0, 6 * i + 2) += plate.coupling.block<modes, 3>(0, 3 * i);
+  return F;
+}
+
 }  // namespace
+
+Eigen::Matrix<double, 6, 24> quad_resultants(const ShellGeometry<4>& geometry, const ShellSection& section) {
+  constexpr int linear_modes = 7;
+  const double size = std::sqrt(geometry.area);
+  const Eigen::Matrix3d A_inverse = section.A.inverse();
+  const ModeRows F = mode_work(geometry.corner, size, plate_part(geometry, section, A_inverse, size));
+  const Eigen::Matrix<double, linear_modes, linear_modes> H =
+      complementary_energy(geometry.corner, size, A_inverse).topLeftCorner<linear_modes, linear_modes>();
+  const Eigen::Matrix<double, linear_modes, 24> beta = H.llt().solve(F.topRows<linear_modes>());
+  const BilinearShape centre = bilinear_shape(0.0, 0.0);
+  const Eigen::Matrix2d J = centre.slope * geometry.corner.transpose();
+  const Eigen::Matrix<double, 3, 12> kappa = curvature_rows<4>(J.inverse() * centre.slope);
+  const Eigen::Matrix<double, 3, 12> M = (section.D - section.B * A_inverse * section.B) * kappa;
+  Eigen::Matrix<double, 6, 24> rows;
+  rows.topRows<3>() = stress_modes(Eigen::Vector2d::Zero()).leftCols<linear_modes>() * beta;
+  rows.bottomRows<3>() = section.B * A_inverse * rows.topRows<3>();
+  for (int i = 0; i < 4; ++i) rows.block<3, 3>(3, 6 * i + 2) += M.block<3, 3>(0, 3 * i);
+  return rows;
+}
 
 QuadMatrix quad_stiffness(const ShellGeometry<4>& geometry, const ShellSection& section,
                           const DrillingFactors& drilling) {
   const double size = std::sqrt(geometry.area);
   const Eigen::Matrix3d A_inverse = section.A.inverse();
   const PlatePart plate = plate_part(geometry, section, A_inverse, size);
-  ModeRows F = edge_work(geometry.corner, size);
+  ModeRows F = mode_work(geometry.corner, size, plate);
   QuadMatrix K = QuadMatrix::Zero();
-  for (int i = 0; i < 4; ++i) {
-    F.block<modes, 3>(0, 6 * i + 2) += plate.coupling.block<modes, 3>(0, 3 * i);
+  for (int i = 0; i < 4; ++i)
     for (int j = 0; j < 4; ++j) K.block<3, 3>(6 * i + 2, 6 * j + 2) = plate.K.block<3, 3>(3 * i, 3 * j);
-  }
   // With H = L Lᵀ the rows of L⁻¹F belong to modes that are orthonormal in energy, the quadratic ones last.
   const Eigen::LLT<Eigen::Matrix<double, modes, modes>> H(complementary_energy(geometry.corner, size, A_inverse));
   H.matrixL().solveInPlace(F);

@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 
 #include "reducer/elements/element_matrices.hpp"
+#include "reducer/elements/element_stress.hpp"
 #include "reducer/elements/shell/geometry.hpp"
 #include "reducer/elements/shell/mass.hpp"
 #include "reducer/elements/shell/stiffness.hpp"
@@ -44,20 +45,31 @@ Eigen::Matrix<double, 18, 18> local_stiffness(const ShellGeometry<3>& geometry, 
   return triangle_stiffness(geometry, section);
 }
 
+Eigen::Matrix<double, 6, 24> local_resultants(const ShellGeometry<4>& geometry, const ShellSection& section) {
+  return quad_resultants(geometry, section);
+}
+Eigen::Matrix<double, 6, 18> local_resultants(const ShellGeometry<3>& geometry, const ShellSection& section) {
+  return triangle_resultants(geometry, section);
+}
+
 /// A sheet without membrane or without bending stiffness (PSHELL with MID1 or MID2 blank): the elements divide by what
-/// is missing, so a unit sheet takes its place and its rows and columns are cleared; B = 0 keeps both parts apart.
+/// is missing, so a unit sheet takes its place; B = 0 keeps both parts apart.
+ShellSection whole_section(ShellSection section) {
+  if (section.A.isZero(0.0)) section.A.setIdentity();
+  if (section.D.isZero(0.0)) {
+    section.D.setIdentity();
+    section.As.setIdentity();
+  }
+  return section;
+}
+
+/// The rows and columns of what is missing are cleared.
 template <int Corners>
 Eigen::Matrix<double, 6 * Corners, 6 * Corners> stiffness(const ShellGeometry<Corners>& geometry,
                                                           const ShellSection& section) {
   const bool has_membrane = !section.A.isZero(0.0), has_bending = !section.D.isZero(0.0);
   if (has_membrane && has_bending) return local_stiffness(geometry, section);
-  ShellSection whole = section;
-  if (!has_membrane) whole.A.setIdentity();
-  if (!has_bending) {
-    whole.D.setIdentity();
-    whole.As.setIdentity();
-  }
-  Eigen::Matrix<double, 6 * Corners, 6 * Corners> K = local_stiffness(geometry, whole);
+  Eigen::Matrix<double, 6 * Corners, 6 * Corners> K = local_stiffness(geometry, whole_section(section));
   for (int i = 0; i < 6 * Corners; ++i) {
     const bool in_plane = i % 6 < 2 || i % 6 == 5;
     if (in_plane ? has_membrane : has_bending) continue;
@@ -81,7 +93,33 @@ void matrices(const Mesh& mesh, const ShellElement& shell, ElementMatrices& out)
   turn<Corners>(geometry.R_PE, K, out.M);
 }
 
+/// The transports of matrices() on the right: from the projected corners in element axes to the nodes in part axes.
+template <int Corners>
+Eigen::Matrix<double, 6, Eigen::Dynamic> stress(const Mesh& mesh, const ShellElement& shell) {
+  const ShellSection& section = mesh.shell_properties[shell.property].section;
+  const ShellGeometry<Corners> geometry = shell_geometry<Corners>(mesh, shell);
+  Eigen::Matrix<double, 6, 6 * Corners> rows = local_resultants(geometry, whole_section(section));
+  if (section.A.isZero(0.0)) rows.template topRows<3>().setZero();
+  if (section.D.isZero(0.0)) rows.template bottomRows<3>().setZero();
+  const double t = section.thickness;
+  rows.template topRows<3>() *= t > 0.0 ? 1.0 / t : 0.0;
+  rows.template bottomRows<3>() *= t > 0.0 ? 6.0 / (t * t) : 0.0;
+  for (int i = 0; i < Corners; ++i) {
+    const double arm = shell.offset - geometry.height[i];
+    rows.col(6 * i + 4) += arm * rows.col(6 * i);
+    rows.col(6 * i + 3) -= arm * rows.col(6 * i + 1);
+  }
+  Eigen::Matrix<double, 6, Eigen::Dynamic> out(6, 6 * Corners);
+  for (int k = 0; k < 2 * Corners; ++k)
+    out.middleCols<3>(3 * k) = rows.template middleCols<3>(3 * k) * geometry.R_PE.transpose();
+  return out;
+}
+
 }  // namespace
+
+Eigen::Matrix<double, 6, Eigen::Dynamic> shell_stress(const Mesh& mesh, const ShellElement& shell) {
+  return shell.corners() == 3 ? stress<3>(mesh, shell) : stress<4>(mesh, shell);
+}
 
 void element_matrices(const Mesh& mesh, const ShellElement& shell, ElementMatrices& out) {
   if (shell.corners() == 3)

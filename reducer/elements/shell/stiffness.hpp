@@ -26,4 +26,9 @@ QuadMatrix quad_stiffness(const ShellGeometry<4>& geometry, const ShellSection& 
 /// Three corners. Membrane: Felippa's optimal triangle; bending and shear: Katili's DKMT; see the source file.
 TriangleMatrix triangle_stiffness(const ShellGeometry<3>& geometry, const ShellSection& section);
 
+/// [N; M] per unit length at the mean of the corners, as the stiffness has them: membrane forces of the linear stress
+/// modes (of triangles the basic part), moments of the curvature there.
+Eigen::Matrix<double, 6, 24> quad_resultants(const ShellGeometry<4>& geometry, const ShellSection& section);
+Eigen::Matrix<double, 6, 18> triangle_resultants(const ShellGeometry<3>& geometry, const ShellSection& section);
+
 }  // namespace tisserand::reducer

@@ -160,7 +160,22 @@ Eigen::Matrix<double, 2, 3> area_coordinate_slopes(const Corners& corner, double
   return slope;
 }
 
+constexpr std::array<int, 9> in_plane{0, 1, 5, 6, 7, 11, 12, 13, 17}, across{2, 3, 4, 8, 9, 10, 14, 15, 16};
+
 }  // namespace
+
+Eigen::Matrix<double, 6, 18> triangle_resultants(const ShellGeometry<3>& geometry, const ShellSection& section) {
+  const TriangleSides sides = triangle_sides(geometry.corner, section);
+  const Eigen::Matrix<double, 2, 3> slope = area_coordinate_slopes(geometry.corner, geometry.area);
+  const MembraneRows epsilon = basic_strain(geometry.corner, geometry.area);
+  const PlateRows kappa = curvature(slope, sides, Eigen::Vector3d::Constant(1.0 / 3.0));
+  Eigen::Matrix<double, 6, 18> rows;
+  rows(Eigen::seqN(0, 3), in_plane) = section.A * epsilon;
+  rows(Eigen::seqN(3, 3), in_plane) = section.B * epsilon;
+  rows(Eigen::seqN(0, 3), across) = section.B * kappa;
+  rows(Eigen::seqN(3, 3), across) = section.D * kappa;
+  return rows;
+}
 
 TriangleMatrix triangle_stiffness(const ShellGeometry<3>& geometry, const ShellSection& section) {
   const Corners& corner = geometry.corner;
@@ -181,7 +196,6 @@ TriangleMatrix triangle_stiffness(const ShellGeometry<3>& geometry, const ShellS
     plate.noalias() += kappa.transpose() * (dA * section.D * kappa) + gamma.transpose() * (dA * section.As * gamma);
     coupling.noalias() += epsilon.transpose() * (dA * section.B * kappa);
   }
-  constexpr std::array<int, 9> in_plane{0, 1, 5, 6, 7, 11, 12, 13, 17}, across{2, 3, 4, 8, 9, 10, 14, 15, 16};
   TriangleMatrix K;
   K(in_plane, in_plane) = membrane;
   K(across, across) = plate;

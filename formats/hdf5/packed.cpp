@@ -1,0 +1,147 @@
+// Chunks of rows behind shuffle, deflate and Fletcher's checksum, which vouches for the compressed bytes.
+#include "formats/hdf5/packed.hpp"
+
+#include <hdf5.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "common/text.hpp"
+
+namespace tisserand::formats::hdf5 {
+
+namespace {
+
+constexpr const char* packed_remedy = "free some space, or choose another place for the file";
+constexpr unsigned deflate_level = 1;           // higher ones take three times the time for a hundredth of the size
+constexpr std::uint64_t unpacked_bytes = 4096;  // of arrays that are stored as they are
+constexpr std::uint64_t packed_chunk_bytes = 1u << 20;
+
+Handle packed_dataset(Id file, const std::string& dataset, const Shape& shape, std::uint64_t chunk, Id type,
+                      const std::string& where) {
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(link.id(), 1);
+  H5Pset_obj_track_times(creation.id(), false);
+  const bool empty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
+  if (!empty) {
+    std::vector<hsize_t> rows = extent;
+    rows[0] = std::clamp<hsize_t>(chunk, 1, extent[0]);
+    H5Pset_chunk(creation.id(), static_cast<int>(rows.size()), rows.data());
+    H5Pset_shuffle(creation.id());
+    H5Pset_deflate(creation.id(), deflate_level);
+    H5Pset_fletcher32(creation.id());
+  }
+  Handle handle(H5Dcreate2(file, dataset.c_str(), type, space.id(), link.id(), creation.id(), H5P_DEFAULT), H5Dclose);
+  if (!handle.valid()) throw last_error(fmt::format("cannot write dataset {}", dataset), where, packed_remedy);
+  return handle;
+}
+
+std::uint64_t elements_of(const Shape& shape) {
+  std::uint64_t count = 1;
+  for (const std::uint64_t extent : shape) count *= extent;
+  return count;
+}
+
+void write_all(Id file, const std::string& dataset, const Shape& shape, std::uint64_t element, Id type, Id memory,
+               const void* values, const std::string& where) {
+  const std::uint64_t row =
+      std::max<std::uint64_t>(element * elements_of(shape) / std::max<std::uint64_t>(shape[0], 1), 1);
+  const Handle handle = packed_dataset(file, dataset, shape, packed_chunk_bytes / row, type, where);
+  if (elements_of(shape) > 0 && H5Dwrite(handle.id(), memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)
+    throw last_error(fmt::format("cannot write dataset {}", dataset), where, packed_remedy);
+}
+
+/// The box of rows [first, first + count) of `space`, selected; its number of values.
+hsize_t select_rows(Id space, std::uint64_t first, std::uint64_t count) {
+  std::vector<hsize_t> start(H5S_MAX_RANK, 0), extent(H5S_MAX_RANK, 0);
+  const int rank = H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+  TISSERAND_ENSURE(rank > 0 && first + count <= extent[0], "rows {} + {} of {}", first, count, extent[0]);
+  start[0] = first;
+  extent[0] = count;
+  H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, extent.data(), nullptr);
+  return static_cast<hsize_t>(H5Sget_select_npoints(space));
+}
+
+}  // namespace
+
+OutputFile::OutputFile(const std::string& path) : path_(path), temporary_(temporary_beside(path)) {
+  silence();
+  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose), creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  // From 1.10 on the index of the chunks has a checksum too: a flipped bit there let chunks vanish.
+  H5Pset_libver_bounds(access.id(), H5F_LIBVER_V110, H5F_LIBVER_LATEST);
+  H5Pset_file_locking(access.id(), false, true);
+  H5Pset_fclose_degree(access.id(), H5F_CLOSE_STRONG);
+  H5Pset_obj_track_times(creation.id(), false);
+  file_ = Handle(H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
+  if (!file_.valid()) throw last_error("cannot create the file", path, packed_remedy);
+}
+
+OutputFile::~OutputFile() {
+  if (!file_.valid()) return;
+  file_.reset();
+  ::unlink(temporary_.c_str());
+}
+
+void OutputFile::publish() {
+  if (file_.reset() < 0) {
+    ::unlink(temporary_.c_str());
+    throw last_error("cannot be written to its end", path_, packed_remedy);
+  }
+  publish_file(temporary_, path_);
+}
+
+Handle create_packed(Id file, const std::string& dataset, const Shape& shape, std::uint64_t chunk,
+                     const std::string& where) {
+  return packed_dataset(file, dataset, shape, chunk, H5T_IEEE_F32LE, where);
+}
+
+void write_packed_rows(const Handle& dataset, std::uint64_t first, std::uint64_t count, const float* values,
+                       const std::string& where) {
+  const Handle space(H5Dget_space(dataset.id()), H5Sclose);
+  const hsize_t total = select_rows(space.id(), first, count);
+  const Handle memory(H5Screate_simple(1, &total, nullptr), H5Sclose);
+  if (H5Dwrite(dataset.id(), H5T_NATIVE_FLOAT, memory.id(), space.id(), H5P_DEFAULT, values) < 0)
+    throw last_error("cannot be written", where, packed_remedy);
+}
+
+void write_packed(Id file, const std::string& dataset, const Shape& shape, const double* values,
+                  const std::string& where) {
+  if (elements_of(shape) * sizeof(double) <= unpacked_bytes) return write_dataset(file, dataset, shape, values, where);
+  write_all(file, dataset, shape, sizeof(double), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values, where);
+}
+
+void write_packed(Id file, const std::string& dataset, const Shape& shape, const std::int32_t* values,
+                  const std::string& where) {
+  if (elements_of(shape) * sizeof(std::int32_t) <= unpacked_bytes)
+    return write_dataset(file, dataset, shape, values, where);
+  write_all(file, dataset, shape, sizeof(std::int32_t), H5T_STD_I32LE, H5T_NATIVE_INT32, values, where);
+}
+
+void write_packed_texts(Id file, const std::string& dataset, const std::vector<std::string>& values,
+                        const std::string& where) {
+  std::size_t size = 1;
+  for (const std::string& value : values) size = std::max(size, value.size());
+  if (size * values.size() <= unpacked_bytes) return write_texts(file, dataset, values, where);
+  std::vector<char> buffer(size * values.size(), '\0');
+  for (std::size_t i = 0; i < values.size(); ++i) std::memcpy(&buffer[i * size], values[i].data(), values[i].size());
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.id(), size);
+  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
+  H5Tset_cset(type.id(), H5T_CSET_UTF8);
+  write_all(file, dataset, {values.size()}, size, type.id(), type.id(), buffer.data(), where);
+}
+
+void InputFile::read_rows(const std::string& dataset, std::uint64_t first, std::uint64_t count, float* values) const {
+  const Handle handle = open_dataset(dataset), space(H5Dget_space(handle.id()), H5Sclose);
+  const hsize_t total = select_rows(space.id(), first, count);
+  const Handle memory(H5Screate_simple(1, &total, nullptr), H5Sclose);
+  if (H5Dread(handle.id(), H5T_NATIVE_FLOAT, memory.id(), space.id(), H5P_DEFAULT, values) < 0)
+    throw last_error(
+        "cannot be read", place(dataset),
+        "the file is damaged (checksums tell) or uses a filter that is not installed; write or copy it again");
+}
+
+}  // namespace tisserand::formats::hdf5

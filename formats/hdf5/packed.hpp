@@ -1,0 +1,43 @@
+// Large arrays of 32-bit numbers in files on the disk: chunked, compressed, with checksums, read and written by rows.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/hdf5/file.hpp"
+
+namespace tisserand::formats::hdf5 {
+
+/// A file that grows beside its name and takes it in publish(); without that, nothing is left.
+class OutputFile {
+ public:
+  explicit OutputFile(const std::string& path);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  Id id() const { return file_.id(); }
+  const std::string& path() const { return path_; }
+  void publish();
+
+ private:
+  std::string path_, temporary_;
+  Handle file_;
+};
+
+/// A dataset of 32-bit floats whose chunks hold `chunk` rows each.
+Handle create_packed(Id file, const std::string& dataset, const Shape& shape, std::uint64_t chunk,
+                     const std::string& where);
+/// Rows [first, first + count) of it.
+void write_packed_rows(const Handle& dataset, std::uint64_t first, std::uint64_t count, const float* values,
+                       const std::string& where);
+
+/// All of a dataset of numbers or of strings, compressed.
+void write_packed(Id file, const std::string& dataset, const Shape& shape, const double* values,
+                  const std::string& where);
+void write_packed(Id file, const std::string& dataset, const Shape& shape, const std::int32_t* values,
+                  const std::string& where);
+void write_packed_texts(Id file, const std::string& dataset, const std::vector<std::string>& values,
+                        const std::string& where);
+
+}  // namespace tisserand::formats::hdf5

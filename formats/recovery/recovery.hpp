@@ -1,0 +1,162 @@
+// The recovery file *.recovery.h5: mesh, shapes and stresses of a part, by which the reduced motion of its superelement
+// becomes displacement and stress everywhere (formats/RECOVERY.md). Equations of motion never need it.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/units.hpp"
+#include "formats/superelement/superelement.hpp"
+
+namespace tisserand::formats {
+
+/// Shapes of elements; solids with the node order of gmsh. The numbers are those of the file.
+enum class ElementShape : int {
+  beam = 0,
+  triangle = 1,
+  quadrilateral = 2,
+  tetrahedron4 = 3,
+  tetrahedron10 = 4,
+  hexahedron8 = 5,
+  hexahedron20 = 6,
+  prism6 = 7,
+  prism15 = 8
+};
+inline constexpr int element_shapes = 9;
+int node_count(ElementShape shape);
+
+/// Section of a beam at one of its ends, in the axes of the element, about its axis (the line between its ends).
+struct RecoverySection {
+  double area = 0.0;  ///< 0: given by stiffness, so that there are forces and no stresses
+  double second_moment_y = 0.0, second_moment_z = 0.0, second_moment_yz = 0.0;  ///< about the centroid
+  double centroid_y = 0.0, centroid_z = 0.0;
+  std::vector<Eigen::Vector2d> outline;  ///< (y, z) of the outer contour, counter-clockwise seen against x
+  bool outline_known = false;            ///< or of an equivalent rectangle or circle
+};
+
+/// One element; beams come first, then shells, then solids.
+struct RecoveryElements {
+  std::vector<ElementShape> shape;
+  std::vector<int> group;  ///< row of Recovery::group_name
+  std::vector<int> id;     ///< number in the deck or in its group
+  std::vector<int> first;  ///< elements + 1; into `node`
+  std::vector<int> node;   ///< rows of Recovery::position
+
+  int count() const { return static_cast<int>(shape.size()); }
+};
+
+/// All but the fields, which are as long as nodes times coordinates. n coordinates, those of the superelement in its
+/// order.
+struct Recovery {
+  std::string name;
+  std::string producer;
+  std::string content_id;  ///< of the superelement file that it belongs to
+  /// Of the images of that file (mirrored()), mirror_axes() in order.
+  std::array<std::string, 7> mirror_content_id;
+  Units units;  ///< those of the superelement
+
+  std::vector<std::string> boundary_name;  ///< as in the superelement
+  std::vector<int> boundary_node;          ///< row of `position` of each
+  std::vector<int> dof_node, dof_component;
+
+  Eigen::Matrix3Xd position;            ///< 3 x nodes, part frame
+  std::vector<std::string> node_label;  ///< "tip", "spar[3]", "node 4711"
+  std::vector<int> rotates;             ///< 1: the node has rotations; 0: its rows of `rotation` are zero
+  std::vector<std::string> group_name;  ///< lines, groups or property cards
+  RecoveryElements elements;
+
+  std::vector<Eigen::Matrix3d> beam_axes;  ///< columns: x, y, z of the element in part axes
+  Eigen::Matrix3Xd beam_offset;            ///< 3 x 2 beams: from each node to the end of the axis
+  std::vector<int> beam_section;           ///< 2 per beam: rows of `sections`
+  std::vector<RecoverySection> sections;
+
+  std::vector<Eigen::Matrix3d> shell_axes;  ///< columns: x, y and normal in part axes
+  std::vector<double> shell_thickness;
+  std::vector<double> shell_offset;  ///< of the middle surface from the nodes along the normal
+
+  std::vector<int> stress_node, stress_group;  ///< points of solids: one per node and group of elements around it
+
+  Eigen::Matrix3Xi triangle;  ///< surface: nodes, counter-clockwise seen from outside (shells: from the normal's tip)
+  std::vector<int> triangle_element;  ///< shell or solid of each
+
+  int nodes() const { return static_cast<int>(position.cols()); }
+  int coordinates() const { return static_cast<int>(dof_node.size()); }
+  int beams() const { return static_cast<int>(beam_axes.size()); }
+  int shells() const { return static_cast<int>(shell_axes.size()); }
+  int stress_points() const { return static_cast<int>(stress_node.size()); }
+};
+
+/// Axes of the seven mirror images: (−1, 1, 1), (1, −1, 1), (−1, −1, 1), (1, 1, −1), ...
+Eigen::Vector3d mirror_axes(int image);
+
+/// What one unit of each coordinate does, by item of the mesh.
+///   translation, rotation: 3 per node, part axes
+///   beam_force: 12 per beam, [N Vy Vz Mx My Mz] at its first and its second end: what the part beyond exerts on
+///     the part before, in element axes about the axis
+///   shell_stress: 6 per shell at the mean of its corners, [xx yy xy] of membrane (N/t), [xx yy xy] of bending (6M/t²),
+///     in element axes; on the face of the normal their sum, on the other the difference
+///   solid_stress: 6 per stress point, [xx yy zz xy yz zx], part axes; mean of the elements of the group at the node
+enum class RecoveryField { translation, rotation, beam_force, shell_stress, solid_stress };
+inline constexpr std::array<RecoveryField, 5> recovery_fields{RecoveryField::translation, RecoveryField::rotation,
+                                                              RecoveryField::beam_force, RecoveryField::shell_stress,
+                                                              RecoveryField::solid_stress};
+/// Values per item, and items.
+int width(RecoveryField field);
+int items(const Recovery& recovery, RecoveryField field);
+/// Items of a chunk, which are read and written at best together.
+int chunk_items(const Recovery& recovery, RecoveryField field);
+
+/// (width · items) x n, row by row.
+using FieldRows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// All that RECOVERY.md demands of it; `where` is the file in messages. Throws Error.
+void check(const Recovery& recovery, const std::string& where);
+
+/// part.superelement.h5 -> part.recovery.h5
+std::string recovery_path(const std::string& superelement_file);
+
+/// Writes beside `path`, and publishes in finish(); without that nothing is left.
+class RecoveryWriter {
+ public:
+  RecoveryWriter(const std::string& path, const Recovery& recovery);
+  ~RecoveryWriter();
+  RecoveryWriter(const RecoveryWriter&) = delete;
+  RecoveryWriter& operator=(const RecoveryWriter&) = delete;
+
+  /// The next items of a field: whole chunks, or to the last item. Throws Error (values beyond 32-bit numbers, disk
+  /// full).
+  void append(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows);
+  /// All items must have been appended.
+  void finish();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Reads and checks everything but the fields. Throws Error.
+class RecoveryReader {
+ public:
+  explicit RecoveryReader(const std::string& path);
+  ~RecoveryReader();
+
+  const std::string& path() const;
+  const Recovery& recovery() const;
+  /// Items [first, first + count) of a field: (width · count) x n, finite.
+  FieldRows read(RecoveryField field, int first, int count) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Refuses a recovery file of another superelement. Returns the mirror image (signs of the axes, all 1: none) that
+/// `content_id` is of.
+Eigen::Vector3d require_same_superelement(const Recovery& recovery, const std::string& content_id,
+                                          const std::string& where, const std::string& body);
+
+}  // namespace tisserand::formats

@@ -1,0 +1,214 @@
+// Bodies with their masses, and markers of joints, springs and loads on stored nodes.
+#include "mechanism/run/simulated_scene.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "mechanism/build/mirrored_files.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using formats::SimulatedBody;
+using formats::SimulatedLink;
+using formats::SimulatedMarker;
+
+std::string absolute(const std::string& path) {
+  return path.empty() ? path : std::filesystem::absolute(path).lexically_normal().string();
+}
+
+double gyration_radius(const Eigen::Matrix3d& inertia, double mass) { return std::sqrt(inertia.trace() / 3.0 / mass); }
+
+using Superelements = MirroredFiles<formats::LoadedSuperelement>;
+
+SimulatedBody described(const formats::SuperelementBodySpec& spec, Superelements& files) {
+  SimulatedBody body;
+  body.kind = spec.rigid ? "rigid" : "superelement";
+  body.file = absolute(spec.file);
+  body.content_id = files.at(spec.file, spec.mirror).superelement.content_id;
+  return body;
+}
+
+SimulatedBody described(const formats::ModalBodySpec& spec, Superelements&) {
+  SimulatedBody body;
+  body.kind = "modal";
+  body.file = absolute(spec.file);
+  return body;
+}
+
+SimulatedBody described(const formats::RigidBodySpec& spec, Superelements&) {
+  SimulatedBody body;
+  body.kind = "rigid";
+  body.center_of_mass = spec.center_of_mass;
+  return body;
+}
+
+SimulatedBody described(const formats::BeamBodySpec&, Superelements&) {
+  SimulatedBody body;
+  body.kind = "beam";
+  return body;
+}
+
+SimulatedBody described(const formats::VirtualBodySpec&, Superelements&) {
+  SimulatedBody body;
+  body.kind = "virtual";
+  body.mass = body.gyration = 0.0;
+  body.center_of_mass.setZero();
+  return body;
+}
+
+/// Masses in the units of the scene, and origins of floating frames, as the model has them.
+void set_masses(const Model& model, const std::map<std::string, SimulatedBody*>& bodies) {
+  for (const RigidBody& rigid : model.rigid_bodies) {
+    SimulatedBody& body = *bodies.at(rigid.name);
+    body.mass = rigid.mass;
+    body.gyration = gyration_radius(rigid.inertia, rigid.mass);
+    for (const Place& place : model.places)
+      if (place.name == rigid.name) body.center_of_mass = -place.marker.p;
+  }
+  for (const SuperelementUse& use : model.superelements) {
+    const SuperelementBody& element = model.superelement_bodies[use.body];
+    SimulatedBody& body = *bodies.at(use.name);
+    body.mass = element.mass;
+    body.origin = element.reference_origin;
+    body.center_of_mass = element.reference_origin + element.center_of_mass;
+  }
+  for (const ModalBody& modal : model.modal_bodies) bodies.at(modal.name)->mass = modal.mass;
+}
+
+/// Where the nodes are in the part frames of their bodies before anything moves (3 x places).
+Eigen::Matrix3Xd node_references(const formats::Scene& scene, const Model& model, const State& start,
+                                 const std::vector<int>& body_of_node) {
+  Eigen::Matrix3Xd references(3, static_cast<Eigen::Index>(model.places.size()));
+  for (std::size_t i = 0; i < model.places.size(); ++i) {
+    const Marker& marker = model.places[i].marker;
+    NodeMotion node;
+    if (marker.node >= 0) {
+      node.x = start.x().col(marker.node);
+      const Eigen::Vector4d q = start.Q().col(marker.node);
+      node.R = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+    }
+    formats::Pose part;
+    if (body_of_node[i] >= 0)
+      part = std::visit([](const auto& one) { return one.start.pose; }, scene.bodies[body_of_node[i]]);
+    references.col(static_cast<Eigen::Index>(i)) =
+        part.orientation.normalized().conjugate() * (marker_position(marker, node) + model.origin - part.position);
+  }
+  return references;
+}
+
+/// Stored nodes by name, for markers of links.
+class StoredNodes {
+ public:
+  explicit StoredNodes(const Model& model) : model_(model) {
+    for (std::size_t i = 0; i < model.places.size(); ++i) {
+      by_name_[model.places[i].name] = static_cast<int>(i);
+      on_node_.emplace(model.places[i].marker.node, static_cast<int>(i));
+    }
+    for (const PlaceAlias& alias : model.place_aliases) by_name_[alias.name] = alias.place;
+  }
+
+  /// `name`: the node that the scene names, which is taken if it is stored and the marker is on it.
+  SimulatedMarker at(const Marker& marker, const std::string& name) const {
+    SimulatedMarker found;
+    found.position = marker.p;
+    found.orientation = Eigen::Quaterniond(marker.R).normalized();
+    if (marker.node < 0) {
+      found.node = SimulatedMarker::ground;
+      found.position += model_.origin;
+      return found;
+    }
+    const auto named = by_name_.find(name);
+    const auto any = on_node_.find(marker.node);
+    if (named != by_name_.end() && model_.places[named->second].marker.node == marker.node)
+      found.node = named->second;
+    else if (any != on_node_.end())
+      found.node = any->second;
+    else
+      return {};
+    const Marker& place = model_.places[found.node].marker;
+    found.position = place.R.transpose() * (marker.p - place.p);
+    found.orientation = Eigen::Quaterniond(place.R.transpose() * marker.R).normalized();
+    return found;
+  }
+
+ private:
+  const Model& model_;
+  std::map<std::string, int> by_name_;
+  std::map<int, int> on_node_;
+};
+
+void add_joints(const formats::Scene& scene, const Model& model, const StoredNodes& nodes,
+                std::vector<SimulatedLink>& links) {
+  std::map<std::string_view, const formats::JointSpec*> specs;
+  for (const formats::JointSpec& spec : scene.joints) specs[spec.name] = &spec;
+  const auto add = [&](const std::string& name, JointKind kind, const Marker& a, const Marker& b) {
+    const formats::JointSpec& spec = *specs.at(name);
+    links.push_back({name, "joint/" + formats::joint_word(kind), {nodes.at(a, spec.a.node), nodes.at(b, spec.b.node)}});
+  };
+  for (const Joint& joint : model.joints) add(joint.name, joint.kind, joint.a, joint.b);
+  for (const Tie& tie : model.ties) add(tie.name, JointKind::fixed, tie.a, tie.b);
+}
+
+void add_forces(const formats::Scene& scene, const Model& model, const StoredNodes& nodes,
+                std::vector<SimulatedLink>& links) {
+  for (std::size_t i = 0; i < model.springs.size(); ++i) {
+    const Coordinate& coordinate = model.coordinates[model.springs[i].coordinate];
+    const formats::SpringSpec& spec = scene.springs[i];
+    const bool is_line = spec.coordinate ? is_length(coordinate.relation) : spec.kind == formats::SpringKind::line;
+    links.push_back({spec.name,
+                     is_line ? "spring/line" : "spring/torsion",
+                     {nodes.at(coordinate.a, spec.a.node), nodes.at(coordinate.b, spec.b.node)}});
+  }
+  for (std::size_t i = 0; i < model.bushings.size(); ++i) {
+    const formats::BushingSpec& spec = scene.bushings[i];
+    links.push_back({spec.name,
+                     "bushing",
+                     {nodes.at(model.bushings[i].a, spec.a.node), nodes.at(model.bushings[i].b, spec.b.node)}});
+  }
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    const formats::LoadSpec& spec = scene.loads[i];
+    links.push_back({spec.name,
+                     fmt::format("load/{}/{}", spec.kind == formats::LoadKind::force ? "force" : "moment",
+                                 spec.axes == formats::LoadAxes::body ? "body" : "world"),
+                     {nodes.at(model.loads[i].at, spec.at.node), {}}});
+  }
+}
+
+}  // namespace
+
+formats::SimulatedScene simulated_scene(const formats::Scene& scene, const BodyFiles& files, const BuiltModel& built,
+                                        const State& start) {
+  const Model& model = built.model;
+  formats::SimulatedScene simulated;
+  simulated.analysis = formats::analysis_word(scene.analysis);
+  simulated.text = scene.text;
+  simulated.file = absolute(scene.file);
+  simulated.gravity = scene.gravity;
+  std::map<std::string, int> index;
+  Superelements superelements(files.superelements);
+  for (const formats::BodySpec& spec : scene.bodies) {
+    SimulatedBody body = std::visit([&](const auto& one) { return described(one, superelements); }, spec);
+    body.name = std::visit([](const auto& one) { return one.name; }, spec);
+    index[body.name] = static_cast<int>(simulated.bodies.size());
+    simulated.bodies.push_back(std::move(body));
+  }
+  std::map<std::string, SimulatedBody*> by_name;
+  for (SimulatedBody& body : simulated.bodies) by_name[body.name] = &body;
+  set_masses(model, by_name);
+  for (const Place& place : model.places) {  // names of bodies in assemblies hold slashes, those of nodes do not
+    auto found = index.find(place.name);
+    if (found == index.end()) found = index.find(place.name.substr(0, place.name.rfind('/')));
+    simulated.body_of_node.push_back(found == index.end() ? -1 : found->second);
+  }
+  simulated.node_reference = node_references(scene, model, start, simulated.body_of_node);
+  const StoredNodes nodes(model);
+  add_joints(scene, model, nodes, simulated.links);
+  add_forces(scene, model, nodes, simulated.links);
+  return simulated;
+}
+
+}  // namespace tisserand::mechanism

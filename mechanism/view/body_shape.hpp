@@ -1,0 +1,33 @@
+// What is drawn of a body, in the axes of its frame, and how it deforms.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mechanism/view/deformation.hpp"
+#include "mechanism/view/surface.hpp"
+#include "mechanism/view/viewed_run.hpp"
+
+namespace tisserand::mechanism {
+
+struct BodyShape {
+  std::string source;                         ///< recovery, section, scene, inertia, nodes, marker (formats/PAGE.md)
+  Surface surface;                            ///< undeformed; of a marker: empty
+  Deformation deformation;                    ///< without columns: none
+  bool points = false;                        ///< the vertices are drawn too
+  int all_vertices = 0;                       ///< before thinning
+  std::vector<int> stations;                  ///< nodes whose motion the amplitudes are, in the order of their columns
+  std::vector<Eigen::Matrix3d> station_axes;  ///< of swept sections: at rest, in axes of the node
+};
+
+struct ShapeOptions {
+  int vertices = 50'000;              ///< the most of one body
+  std::vector<std::string> recovery;  ///< recovery files beside those that lie beside the superelements
+};
+
+/// Notes go to the run. Throws Error: files of shapes, recovery files of another superelement.
+BodyShape shape_of_body(ViewedRun& run, const ViewedBody& body, const ShapeOptions& options);
+
+}  // namespace tisserand::mechanism

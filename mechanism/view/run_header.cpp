@@ -1,0 +1,286 @@
+// Bodies, nodes, joints, springs, arrows and report of a run, with their numbers in blocks.
+#include "mechanism/view/run_header.hpp"
+
+#include <cmath>
+#include <filesystem>
+#include <optional>
+
+
+#include "common/text.hpp"
+#include "mechanism/histories/series.hpp"
+#include "mechanism/view/page_channels.hpp"
+#include "mechanism/view/run_modes.hpp"
+#include "mechanism/view/run_report.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Index;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+constexpr double relative_error = 1e-3;                 // of the largest displacement of a body
+constexpr std::size_t most_channel_values = 4'000'000;  // of all curves together
+constexpr std::size_t most_node_values = 1'000'000;     // instants x nodes with places of their own
+
+Json list_of(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  Json list = Json::array();
+  for (const double value : values) list.push_back(value);
+  return list;
+}
+
+Json quaternion_of(const Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+/// Places of nodes and markers: fixed in a body that keeps its shape, or over time.
+class Places {
+ public:
+  Places(const ViewedRun& run, PageBlocks& blocks) : run_(run), blocks_(blocks) {}
+
+  Json at(int node, const Vector3d& position, const Quaterniond& orientation) {
+    if (node == formats::SimulatedMarker::ground)
+      return {{"point", list_of(position)}, {"rotation", quaternion_of(orientation)}};
+    const Track track = carried(run_.nodes[node], position, orientation);
+    const int owner = run_.body_of_node[node];
+    if (owner >= 0 && run_.bodies[owner].is_part_frame) {
+      const Track& frame = run_.bodies[owner].frame;
+      const Quaterniond back = frame.turn(0).conjugate();
+      const Vector3d point = back * Vector3d((track.position.row(0) - frame.position.row(0)).transpose());
+      return {{"body", owner}, {"point", list_of(point)}, {"rotation", quaternion_of(back * track.turn(0))}};
+    }
+    Json place{{"position", blocks_.add_track(track.position)}};
+    if (track.has_rotation()) place["rotation"] = blocks_.add_rotations(track.rotation);
+    if (owner >= 0) place["rest"] = list_of(place_at_rest(run_, run_.bodies[owner], node));
+    return place;
+  }
+  Json at(int node) { return at(node, Vector3d::Zero(), Quaterniond::Identity()); }
+  Json at(const formats::SimulatedMarker& marker) { return at(marker.node, marker.position, marker.orientation); }
+
+  /// Whether the motion of the node is there.
+  bool has(const formats::SimulatedMarker& marker) const {
+    return marker.node == formats::SimulatedMarker::ground ||
+           (marker.node >= 0 && run_.nodes[marker.node].has_position());
+  }
+  Json body(const formats::SimulatedMarker& marker) const {
+    if (marker.node < 0 || run_.body_of_node[marker.node] < 0) return nullptr;
+    return run_.body_of_node[marker.node];
+  }
+
+ private:
+  const ViewedRun& run_;
+  PageBlocks& blocks_;
+};
+
+Json box_of(const ViewedRun& run) {
+  Vector3d least = Vector3d::Constant(INFINITY), most = -least;
+  const auto extend = [&](const PageRows& position) {
+    if (position.rows() == 0) return;
+    least = least.cwiseMin(position.colwise().minCoeff().transpose());
+    most = most.cwiseMax(position.colwise().maxCoeff().transpose());
+  };
+  for (const Track& node : run.nodes) extend(node.position);
+  for (const ViewedBody& body : run.bodies) extend(body.frame.position);
+  return {list_of(least), list_of(most)};
+}
+
+std::vector<std::uint32_t> flat(const auto& faces) {
+  std::vector<std::uint32_t> indices;
+  for (const auto& face : faces)
+    for (const int corner : face) indices.push_back(static_cast<std::uint32_t>(corner));
+  return indices;
+}
+
+double size_of(const Surface& surface) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& vertex : surface.vertices) box.extend(vertex);
+  return surface.vertices.empty() ? 0.0 : box.diagonal().norm();
+}
+
+Json shape_json(const BodyShape& shape, const FewModes& few, PageBlocks& blocks) {
+  Json json{{"vertices", nullptr}, {"triangles", nullptr}, {"lines", nullptr},       {"points", shape.points},
+            {"modes", nullptr},    {"stress", nullptr},    {"source", shape.source}, {"thinned", nullptr}};
+  json["largest"] = few.largest;
+  json["error"] = few.error;
+  const Surface& surface = shape.surface;
+  if (surface.vertices.empty()) return json;
+  PageRows vertices(surface.size(), 3);
+  for (int i = 0; i < surface.size(); ++i) vertices.row(i) = surface.vertices[i].transpose();
+  json["vertices"] = blocks.add_positions(vertices);
+  if (!surface.triangles.empty()) json["triangles"] = blocks.add_indices(flat(surface.triangles), 3);
+  if (!surface.lines.empty()) json["lines"] = blocks.add_indices(flat(surface.lines), 2);
+  if (few.count() > 0) json["modes"] = blocks.add_modes(few.modes, few.step);
+  if (shape.all_vertices > surface.size())
+    json["thinned"] = {{"vertices", shape.all_vertices}, {"kept", surface.size()}};
+  return json;
+}
+
+/// Bodies and their shapes; bodies of one rigid shape share it.
+void add_bodies(ViewedRun& run, const ShapeOptions& options, ModesOfBodies& modes, PageBlocks& blocks, Json& json) {
+  json["bodies"] = json["shapes"] = Json::array();
+  for (std::size_t i = 0; i < run.bodies.size(); ++i) {
+    const ViewedBody& body = run.bodies[i];
+    BodyShape shape = shape_of_body(run, body, options);
+    modes.take(run, static_cast<int>(i), shape);
+    const FewModes few = few_modes(shape.deformation, relative_error, size_of(shape.surface));
+    modes.reduce(static_cast<int>(i), few, run.times.size());
+    Json one{{"name", body.name},
+             {"kind", body.kind},
+             {"shape", json["shapes"].size()},
+             {"position", blocks.add_track(body.frame.position)},
+             {"rotation", blocks.add_rotations(body.frame.rotation)},
+             {"amplitudes", nullptr},
+             {"mass", std::isfinite(body.file.mass) ? Json(body.file.mass) : Json()}};
+    if (few.count() > 0)
+      one["amplitudes"] = blocks.add_floats(PageRows(few.amplitudes.topRows(run.times.size()).cast<double>()),
+                                            {run.times.size(), few.count()});
+    json["shapes"].push_back(shape_json(shape, few, blocks));
+    json["bodies"].push_back(std::move(one));
+    if (shape.surface.size() > 5000) blocks.next();
+  }
+  blocks.next();
+}
+
+void add_nodes(const ViewedRun& run, Places& places, PageBlocks& blocks, Json& json) {
+  json["nodes"] = Json::array();
+  const formats::ResultsLayout& layout = run.layout();
+  std::map<int, Json> other_names;
+  for (const formats::ResultsLayout::Alias& alias : layout.node_aliases) other_names[alias.node].push_back(alias.name);
+  std::size_t values = 0, left_out = 0;
+  for (std::size_t i = 0; i < run.nodes.size(); ++i) {
+    const int owner = run.body_of_node[i], node = static_cast<int>(i);
+    if (owner < 0 || !run.nodes[i].has_position()) continue;
+    if (!run.bodies[owner].is_part_frame) values += run.rows.size();
+    if (values > most_node_values) {
+      ++left_out;
+      continue;
+    }
+    Json one{{"name", layout.nodes[i]}, {"body", owner}, {"place", places.at(node)}};
+    if (other_names.contains(node)) one["also"] = other_names[node];
+    json["nodes"].push_back(std::move(one));
+  }
+  if (left_out > 0) json["nodes_left_out"] = left_out;
+  blocks.next();
+}
+
+/// Indices of "forces/spring/strut" and the like that the page holds.
+Json held(const PageChannels& channels, const std::vector<std::string>& paths) {
+  Json list = Json::array();
+  for (const std::string& path : paths)
+    if (const int index = channels.find(path); index >= 0) list.push_back(index);
+  return list;
+}
+
+std::vector<std::string> components(const std::string& before, const std::string& ending) {
+  return {before + ending + "x", before + ending + "y", before + ending + "z"};
+}
+
+void add_arrow(const std::string& name, const char* kind, const Json& place, const std::vector<std::string>& paths,
+               const char* axes, const PageChannels& channels, Json& json) {
+  const Json indices = held(channels, paths);
+  if (indices.size() == 3)
+    json["arrows"].push_back({{"name", name}, {"kind", kind}, {"place", place}, {"channels", indices}, {"axes", axes}});
+}
+
+void add_joint(const formats::SimulatedLink& link, Places& places, const PageChannels& channels, Json& json) {
+  const Json place = places.at(link.ends[0]);
+  Json coordinates = Json::array();
+  for (const auto& [path, index] : channels.index)
+    if (path == "joints/coordinate/" + link.name || path.starts_with("joints/coordinate/" + link.name + "/"))
+      coordinates.push_back(index);
+  json["joints"].push_back({{"name", link.name},
+                            {"kind", link.kind.substr(link.kind.find('/') + 1)},
+                            {"bodies", {places.body(link.ends[0]), places.body(link.ends[1])}},
+                            {"place", place},
+                            {"coordinates", coordinates}});
+  add_arrow(link.name, "force", place, components("joints/force/" + link.name, "/"), "place", channels, json);
+  add_arrow(link.name, "moment", place, components("joints/moment/" + link.name, "/"), "place", channels, json);
+}
+
+void add_spring(const formats::SimulatedLink& link, Places& places, const PageChannels& channels, Json& json) {
+  const Json ends = {places.at(link.ends[0]), places.at(link.ends[1])};
+  std::vector<std::string> paths{"forces/spring/" + link.name};
+  for (const char* of : {"forces/bushing_force/", "forces/bushing_moment/"})
+    for (const std::string& path : components(of + link.name, "/")) paths.push_back(path);
+  const std::size_t slash = link.kind.find('/');
+  json["springs"].push_back({{"name", link.name},
+                             {"kind", slash == std::string::npos ? link.kind : link.kind.substr(slash + 1)},
+                             {"ends", ends},
+                             {"channels", held(channels, paths)}});
+}
+
+void add_links(const ViewedRun& run, Places& places, const PageChannels& channels, PageBlocks& blocks, Json& json) {
+  json["joints"] = json["springs"] = json["arrows"] = Json::array();
+  std::vector<std::string> unseen;
+  for (const formats::SimulatedLink& link : run.layout().simulated.links) {
+    const bool is_load = link.kind.starts_with("load/");
+    if (!places.has(link.ends[0]) || (!is_load && !places.has(link.ends[1]))) {
+      unseen.push_back(link.name);
+    } else if (link.kind.starts_with("joint/")) {
+      add_joint(link, places, channels, json);
+    } else if (!is_load) {
+      add_spring(link, places, channels, json);
+    }
+  }
+  if (!unseen.empty())
+    json["report"]["notes"].push_back("the motion of what these hang on is not stored, so that they are not shown: " +
+                                      listed(unseen));
+  const formats::ResultsLayout& layout = run.layout();
+  for (std::size_t i = 0; i < layout.nodes.size(); ++i) {
+    const std::string path = "superelements/boundary_force/" + layout.nodes[i];
+    if (channels.find(path + "/force_x") < 0 || !run.nodes[i].has_position()) continue;
+    const Json place = places.at(static_cast<int>(i));
+    add_arrow(layout.nodes[i], "force", place, components(path, "/force_"), "world", channels, json);
+    add_arrow(layout.nodes[i], "moment", place, components(path, "/moment_"), "world", channels, json);
+  }
+  blocks.next();
+}
+
+Json units_json(const Units& units) {
+  const std::string moment = unit_label(units, 2, 1, -2), force = unit_label(units, 1, 1, -2);
+  return {{"length", unit_label(units, 1, 0, 0)},
+          {"time", unit_label(units, 0, 0, 1)},
+          {"angle", "rad"},
+          {"force", force},
+          {"moment", moment},
+          {"stress", unit_label(units, -1, 1, -2)},
+          {"energy", energy_label(units)}};
+}
+
+}  // namespace
+
+Json run_header(ViewedRun& run, const RunOptions& options, PageBlocks& blocks) {
+  const formats::ResultsReader& reader = *run.reader;
+  const formats::SimulatedScene& scene = run.layout().simulated;
+  const Vector3d gravity = scene.empty() ? Vector3d::Zero() : scene.gravity;
+  Json json{{"name", reader.scene()},
+            {"file", std::filesystem::path(reader.path()).filename().string()},
+            {"kind", scene.analysis.empty() ? (reader.modes() > 0 ? "modes" : "dynamics") : scene.analysis},
+            {"completed", reader.completed()},
+            {"reason", reader.reason()},
+            {"units", units_json(run.layout().units)},
+            {"up", list_of(gravity.norm() > 0.0 ? Vector3d(-gravity.normalized()) : Vector3d::UnitZ())},
+            {"gravity", list_of(gravity)},
+            {"times", blocks.add_times(run.times)},
+            {"thinned", nullptr},
+            {"box", box_of(run)}};
+  if (run.rows.size() < reader.rows()) json["thinned"] = {{"rows", reader.rows()}, {"kept", run.rows.size()}};
+  ModesOfBodies modes(reader);
+  add_bodies(run, options.shapes, modes, blocks, json);
+  json["report"] = report_of_run(reader);
+  for (const std::string& note : run.notes) json["report"]["notes"].push_back(note);
+  Places places(run, blocks);
+  add_nodes(run, places, blocks, json);
+  const PageChannels channels = add_channels(run, options.channels, most_channel_values, blocks);
+  add_links(run, places, channels, blocks, json);
+  json["channels"] = channels.list;
+  json["channels_left_out"] = channels.left_out;
+  json["references"] = Json::array();
+  json["modes"] = modes.json();
+  for (const char* energy : {"kinetic", "strain", "potential", "work", "dissipated", "total", "balance"})
+    if (const int index = channels.find(std::string("energy/") + energy); index >= 0)
+      json["report"]["energy"][energy] = index;
+  if (const int index = channels.find("solver/step"); index >= 0) json["report"]["steps"] = index;
+  json["scene"] = scene.text.empty() ? Json() : Json(scene.text);
+  return json;
+}
+
+}  // namespace tisserand::mechanism

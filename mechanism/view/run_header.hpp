@@ -1,0 +1,21 @@
+// One run as an object of the page's header (formats/PAGE.md).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanism/view/body_shape.hpp"
+#include "mechanism/view/page_blocks.hpp"
+#include "mechanism/view/viewed_run.hpp"
+
+namespace tisserand::mechanism {
+
+struct RunOptions {
+  std::vector<std::string> channels;  ///< selection; empty: what fits
+  ShapeOptions shapes;
+};
+
+/// Throws Error: names of channels, files of shapes.
+Json run_header(ViewedRun& run, const RunOptions& options, PageBlocks& blocks);
+
+}  // namespace tisserand::mechanism

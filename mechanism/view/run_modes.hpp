@@ -1,0 +1,41 @@
+// Modes of a linearised scene as small motions of bodies and their shapes.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "mechanism/view/body_shape.hpp"
+#include "mechanism/view/deformation.hpp"
+#include "mechanism/view/page_blocks.hpp"
+#include "mechanism/view/viewed_run.hpp"
+
+namespace tisserand::mechanism {
+
+/// Motion of the nodes in each mode, split into that of the frames of the bodies and their deformation. Which part of
+/// it is the frame's does not matter to the sum; here the frame follows the first node that turns.
+class ModesOfBodies {
+ public:
+  explicit ModesOfBodies(const formats::ResultsReader& reader);
+
+  /// Appends to the amplitudes of the shape two rows per mode, real and imaginary.
+  void take(const ViewedRun& run, int body, BodyShape& shape);
+  /// Takes the amplitudes of the modes back from behind those of `instants` rows.
+  void reduce(int body, const FewModes& few, Eigen::Index instants);
+  /// null: the file holds no modes.
+  Json json() const;
+
+ private:
+  struct Small {
+    Eigen::Vector3d translation = Eigen::Vector3d::Zero(), rotation = Eigen::Vector3d::Zero();
+  };
+  /// `part`: 0 real, 1 imaginary.
+  Small motion_of(int node, Eigen::Index mode, int part) const;
+  Small frame_motion(const ViewedRun& run, int body, Eigen::Index mode, int part) const;
+
+  Eigen::VectorXd frequency_, damping_;
+  std::vector<Eigen::MatrixXd> translation_, rotation_;  ///< per node, modes x 6: x/real, x/imaginary, y/real, ...
+  std::vector<Json> bodies_;                             ///< per mode
+};
+
+}  // namespace tisserand::mechanism

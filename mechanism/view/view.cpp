@@ -1,0 +1,76 @@
+// results -> bodies in motion -> shapes -> blocks -> page, as a page of calls.
+#include "mechanism/view/view.hpp"
+
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "mechanism/view/page.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+Json header_of(const ViewRequest& request, PageBlocks& blocks) {
+  Json header{{"format", "tisserand-page"},
+              {"version", 1},
+              {"title", request.title},
+              {"program", std::string("tisserand mechanism ") + TISSERAND_VERSION},
+              {"runs", Json::array()}};
+  std::vector<std::string> names;
+  for (const std::string& file : request.files) {
+    ViewedRun run = read_viewed_run(file, static_cast<std::size_t>(request.instants));
+    header["runs"].push_back(run_header(run, request.run, blocks));
+    if (names.empty() || names.back() != run.reader->scene()) names.push_back(run.reader->scene());
+  }
+  if (request.title.empty()) header["title"] = join(names, ", ");
+  for (const ReferenceColumn& column : request.references) {
+    const Series series = read_reference(column);
+    const auto numbers = [&](const std::vector<double>& values) {
+      const Eigen::Map<const Eigen::VectorXd> map(values.data(), static_cast<Eigen::Index>(values.size()));
+      return blocks.add_floats(PageRows(map), {map.size()});
+    };
+    for (Json& run : header["runs"])
+      run["references"].push_back(
+          {{"name", series.source}, {"channel", ""}, {"x", numbers(series.x)}, {"y", numbers(series.y)}});
+  }
+  blocks.next();
+  return header;
+}
+
+/// What the page does not show as the file has it.
+std::string told(const Json& header) {
+  std::string text;
+  for (const Json& run : header["runs"]) {
+    const std::string name = printable_line(run["file"].get<std::string>(), 200);
+    if (!run["completed"].get<bool>())
+      text += fmt::format("{}: the run did not complete: {}\n", name, printable(run["reason"].get<std::string>()));
+    if (!run["thinned"].is_null())
+      text += fmt::format("{}: {} of {} instants\n", name, run["thinned"]["kept"].get<std::size_t>(),
+                          run["thinned"]["rows"].get<std::size_t>());
+    if (!run["channels_left_out"].is_null())
+      text +=
+          fmt::format("{}: {} channels are left out: {}\n", name, run["channels_left_out"]["count"].get<std::size_t>(),
+                      run["channels_left_out"]["why"].get<std::string>());
+    for (const Json& shape : run["shapes"])
+      if (!shape["thinned"].is_null())
+        text += fmt::format("{}: a surface is thinned from {} to {} vertices\n", name,
+                            shape["thinned"]["vertices"].get<int>(), shape["thinned"]["kept"].get<int>());
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string page_of(const ViewRequest& request) {
+  PageBlocks blocks;
+  return page_text(viewer_bundle(), header_of(request, blocks), blocks);
+}
+
+std::string view(const ViewRequest& request) {
+  PageBlocks blocks;
+  const Json header = header_of(request, blocks);
+  const std::string page = page_text(viewer_bundle(), header, blocks);
+  write_text_file(request.output, page);
+  return fmt::format("{}page: {} ({:.2f} MB)\n", told(header), request.output, 1e-6 * static_cast<double>(page.size()));
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,28 @@
+// `mechanism view`: from results files to one page that any browser opens.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanism/histories/series.hpp"
+#include "mechanism/view/run_header.hpp"
+
+namespace tisserand::mechanism {
+
+struct ViewRequest {
+  std::vector<std::string> files;           ///< results files
+  std::string output;                       ///< .html
+  std::string title;                        ///< empty: names of the scenes
+  int instants = 2000;                      ///< the most per run
+  RunOptions run;                           ///< of every run
+  std::vector<ReferenceColumn> references;  ///< drawn beside the curves
+};
+
+/// The page as text.
+std::string page_of(const ViewRequest& request);
+
+/// Writes it: whole or not at all. Returns what a user should know, one sentence per line: size, what was thinned or
+/// left out. Throws Error.
+std::string view(const ViewRequest& request);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,70 @@
+// A results file as a picture sees it: instants, nodes in motion, bodies with a frame each.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "formats/results/results.hpp"
+#include "formats/scene/scene.hpp"
+#include "mechanism/view/page_blocks.hpp"
+
+namespace tisserand::mechanism {
+
+/// Poses over the instants that are shown: T x 3 and T x 4 [w x y z]; without rows: it has none.
+struct Track {
+  PageRows position;
+  PageRows rotation;
+
+  bool has_position() const { return position.rows() > 0; }
+  bool has_rotation() const { return rotation.rows() > 0; }
+  Eigen::Quaterniond turn(Eigen::Index t) const {
+    if (!has_rotation()) return Eigen::Quaterniond::Identity();
+    return {rotation(t, 0), rotation(t, 1), rotation(t, 2), rotation(t, 3)};
+  }
+};
+
+struct ViewedBody {
+  std::string name;
+  std::string kind;  ///< as in SimulatedBody, or "unknown" in older files
+  formats::SimulatedBody file;
+  const formats::BodySpec* spec = nullptr;           ///< null: the file does not hold the text of the scene
+  std::vector<int> nodes;                            ///< stored nodes on it
+  Track frame;                                       ///< of its shapes: floating frame, part frame, or a node
+  bool is_part_frame = false;                        ///< the frame is the part frame of a body that keeps its shape
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the frame of the undeformed body, in the part frame
+  int superelement = -1;                             ///< of the layout, -1: none
+};
+
+struct ViewedRun {
+  std::unique_ptr<formats::ResultsReader> reader;
+  std::vector<std::size_t> rows;  ///< the instants that are shown
+  Eigen::VectorXd times;
+  std::vector<Track> nodes;  ///< of the layout
+  std::vector<ViewedBody> bodies;
+  std::vector<int> body_of_node;
+  std::vector<formats::BodySpec> specs;
+  std::vector<std::string> notes;  ///< what could not be shown, and why: whole sentences
+
+  const formats::ResultsLayout& layout() const { return reader->layout(); }
+};
+
+/// `instants`: the most that are shown. Throws Error: no nodes, no instants, positions that are no numbers.
+ViewedRun read_viewed_run(const std::string& file, std::size_t instants);
+
+/// `count` of the rows 0 .. all - 1, evenly, first and last among them.
+std::vector<std::size_t> even_rows(std::size_t all, std::size_t count);
+
+/// R^T (x - x_0) of a place in the axes of a frame, T x 3.
+PageRows local_positions(const Track& frame, const PageRows& position);
+
+/// Place of a stored node in the axes of the frame of its body, undeformed; of older files at the first instant.
+Eigen::Vector3d place_at_rest(const ViewedRun& run, const ViewedBody& body, int node);
+
+/// The pose of a marker on a carrier.
+Track carried(const Track& carrier, const Eigen::Vector3d& position, const Eigen::Quaterniond& orientation);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,165 @@
+// The story of recovery: results -> coordinates -> fields, batch by batch -> files and the largest values.
+#include "reducer/recover/recover.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "reducer/recover/history.hpp"
+#include "reducer/recover/vtu.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Index;
+using formats::Recovery;
+
+constexpr double batch_bytes = 256e6;
+
+/// Places of the nodes without deformation: in the part frame of the body, or carried by its floating frame.
+Eigen::Matrix3Xd rest_positions(const Recovery& r, const BodyMotion& motion, RecoverFrame frame, Index instant) {
+  Eigen::Matrix3Xd X = motion.to_scene.length * (motion.mirror.asDiagonal() * r.position);
+  if (frame == RecoverFrame::part) return X;
+  X.colwise() -= motion.origin;
+  const Eigen::Matrix3Xd turned = frame_axes(motion, frame, instant) * X;
+  return turned.colwise() + motion.position.col(instant);
+}
+
+/// Rows [from, from + width) of every `stride` rows, one set per element of a kind, on all cells: zero for others.
+VtuArray on_cells(const std::string& name, const Eigen::MatrixXf& all, Index instant, int stride, int from, int width,
+                  int first_cell, int cells) {
+  VtuArray array{name, width, std::vector<float>(static_cast<std::size_t>(cells) * static_cast<std::size_t>(width))};
+  for (Index item = 0; item < all.rows() / stride; ++item)
+    for (Index k = 0; k < width; ++k)
+      array.values[static_cast<std::size_t>((first_cell + item) * width + k)] = all(item * stride + from + k, instant);
+  return array;
+}
+
+std::vector<VtuArray> cell_data(const Recovery& r, const RecoveredFields& fields, const InstantValues& values,
+                                Index instant) {
+  const int cells = r.elements.count();
+  VtuArray group{"group", 1, {r.elements.group.begin(), r.elements.group.end()}};
+  std::vector<VtuArray> data{{"von_mises", 1, values.von_mises}, group};
+  const auto add = [&](const char* name, const Eigen::MatrixXf& all, int stride, int from, int width, int first_cell) {
+    data.push_back(on_cells(name, all, instant, stride, from, width, first_cell, cells));
+  };
+  if (r.shells() > 0) {
+    add("von_mises_top", fields.shell_von_mises, 2, 0, 1, r.beams());
+    add("von_mises_bottom", fields.shell_von_mises, 2, 1, 1, r.beams());
+    add("shell_membrane", fields.shell_stress, 6, 0, 3, r.beams());
+    add("shell_bending", fields.shell_stress, 6, 3, 3, r.beams());
+  }
+  if (r.beams() > 0) {
+    add("beam_stress", fields.beam_stress, 1, 0, 1, 0);
+    add("beam_force_1", fields.beam_force, 12, 0, 3, 0);
+    add("beam_moment_1", fields.beam_force, 12, 3, 3, 0);
+    add("beam_force_2", fields.beam_force, 12, 6, 3, 0);
+    add("beam_moment_2", fields.beam_force, 12, 9, 3, 0);
+  }
+  return data;
+}
+
+std::vector<VtuArray> point_data(const Recovery& r, const RecoveredFields& fields, const InstantValues& values,
+                                 const Eigen::Matrix3d& axes, Index instant) {
+  const Eigen::Map<const Eigen::Matrix3Xf> local(fields.displacement.col(instant).data(), 3, r.nodes());
+  const Eigen::Matrix3Xf u = axes.cast<float>() * local;
+  std::vector<VtuArray> data{{"displacement", 3, {u.data(), u.data() + u.size()}}};
+  if (r.stress_points() > 0) {
+    data.push_back({"solid_von_mises", 1, values.solid_von_mises});
+    data.push_back({"solid_stress", 6, values.solid_stress});
+  }
+  return data;
+}
+
+/// All files of one request, named after the body.
+struct Files {
+  fs::path folder;
+  std::string stem;
+  std::vector<std::pair<double, std::string>> series;
+
+  std::string path(const std::string& name) const { return (folder / name).string(); }
+};
+
+Files make_folder(const RecoverRequest& request, const std::string& body) {
+  Files files;
+  files.stem = body;
+  std::replace(files.stem.begin(), files.stem.end(), '/', '_');
+  files.folder = request.output.empty() ? fs::path(request.results).parent_path() / (files.stem + ".recovered")
+                                        : fs::path(request.output);
+  std::error_code error;
+  fs::create_directories(files.folder, error);
+  if (error)
+    throw Error("cannot create the folder: " + error.message(), files.folder.string(), "choose another one with -o");
+  return files;
+}
+
+void write_envelope(const Recovery& r, const BodyMotion& motion, const VtuCells& cells, const Envelope& envelope,
+                    const Files& files) {
+  const Eigen::Matrix3Xf X = rest_positions(r, motion, RecoverFrame::part, 0).cast<float>();
+  std::vector<VtuArray> points{{"displacement", 1, envelope.displacement},
+                               {"displacement_time", 1, envelope.displacement_time}};
+  if (r.stress_points() > 0) points.push_back({"solid_von_mises", 1, envelope.solid_von_mises});
+  write_vtu(files.path(files.stem + "_envelope.vtu"), X, cells, points,
+            {{"von_mises", 1, envelope.von_mises}, {"von_mises_time", 1, envelope.von_mises_time}});
+}
+
+std::string peak_line(const char* what, const Peak& peak, const std::string& unit, const std::string& time_unit,
+                      const std::string& place) {
+  return fmt::format("{:<29}{:.6g}{}{} at {:.6g}{}{} at {}\n", what, peak.value, unit.empty() ? "" : " ", unit,
+                     peak.time, time_unit.empty() ? "" : " ", time_unit, place);
+}
+
+std::string report(const Recovery& r, const BodyMotion& motion, const Envelope& envelope, const Files& files) {
+  const std::string length = unit_label(motion.scene_units, 1, 0, 0), time = unit_label(motion.scene_units, 0, 0, 1);
+  const std::string stress = unit_label(motion.scene_units, -1, 1, -2);
+  const auto node = [&r](int n) { return printable_line(r.node_label[static_cast<std::size_t>(n)], 60); };
+  std::string text = fmt::format("body '{}', {} instants\n", motion.body, motion.instants());
+  text += peak_line("largest displacement", envelope.moved, length, time, node(envelope.moved.at));
+  if (envelope.beam.at >= 0)
+    text += peak_line("largest stress of beams", envelope.beam, stress, time, element_text(r, envelope.beam.at));
+  if (envelope.shell.at >= 0)
+    text += peak_line("largest von Mises of shells", envelope.shell, stress, time, element_text(r, envelope.shell.at));
+  if (envelope.solid.at >= 0)
+    text += peak_line("largest von Mises of solids", envelope.solid, stress, time, node(envelope.solid.at));
+  return text + fmt::format("written {} (open it with ParaView)\n        {}\n", files.path(files.stem + ".pvd"),
+                            files.path(files.stem + "_envelope.vtu"));
+}
+
+}  // namespace
+
+std::string recover(const RecoverRequest& request) {
+  const formats::RecoveryReader file(request.recovery);
+  const Recovery& r = file.recovery();
+  const BodyMotion motion = body_motion(r, formats::ResultsReader(request.results), request);
+  PointHistory history(r, motion, request);
+  Files files = make_folder(request, motion.body);
+  const VtuCells cells = vtu_cells(r.elements);
+  const SolidPoints points = solid_points(r);
+  const auto batch = static_cast<Index>(std::max(batch_bytes / bytes_per_instant(r), 1.0));
+  Envelope envelope;
+  for (Index first = 0; first < motion.instants(); first += batch) {
+    const Index count = std::min(batch, motion.instants() - first);
+    const RecoveredFields fields = recover_fields(file, motion, first, count);
+    for (Index t = 0; t < count; ++t) {
+      const double time = motion.time[static_cast<std::size_t>(first + t)];
+      const InstantValues values = instant_values(r, points, fields, t);
+      const Eigen::Matrix3Xd rest = rest_positions(r, motion, request.frame, first + t);
+      const Eigen::Matrix3d axes = frame_axes(motion, request.frame, first + t);
+      extend(r, values, time, envelope);
+      history.add(fields, values, rest, axes, t, time);
+      files.series.emplace_back(time, fmt::format("{}_{:05}.vtu", files.stem, first + t));
+      write_vtu(files.path(files.series.back().second), rest.cast<float>(), cells,
+                point_data(r, fields, values, axes, t), cell_data(r, fields, values, t));
+    }
+  }
+  write_pvd(files.path(files.stem + ".pvd"), files.series);
+  write_envelope(r, motion, cells, envelope, files);
+  std::string text = report(r, motion, envelope, files);
+  if (history.empty()) return text;
+  write_text_file(files.path(files.stem + "_points.csv"), history.text());
+  return text + fmt::format("        {}\n", files.path(files.stem + "_points.csv"));
+}
+
+}  // namespace tisserand::reducer

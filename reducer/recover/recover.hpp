@@ -1,0 +1,13 @@
+// `reducer recover`: displacement and stress of a part from the results of a run.
+#pragma once
+
+#include <string>
+
+#include "reducer/recover/request.hpp"
+
+namespace tisserand::reducer {
+
+/// Writes the series, its index, the envelope and the histories of points; returns what is told. Throws Error.
+std::string recover(const RecoverRequest& request);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,164 @@
+// Displacements and stresses of the mesh for every coordinate, block by block.
+#include "reducer/recovery/fields.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "reducer/elements/element_stress.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using formats::RecoveryField;
+
+constexpr Index block_doubles = 1 << 20;  // of the motions of a block's nodes
+
+/// Calls work(first, count) over all items of a field, whole chunks at a time; `rows`: of motions, per item.
+void for_blocks(const formats::Recovery& tables, RecoveryField field, Index rows, const auto& work) {
+  const int total = formats::items(tables, field), chunk = formats::chunk_items(tables, field);
+  const Index per_chunk = std::max<Index>(rows * chunk * tables.coordinates(), 1);
+  const int block = chunk * static_cast<int>(std::max<Index>(block_doubles / per_chunk, 1));
+  for (int first = 0; first < total; first += block) work(first, std::min(block, total - first));
+}
+
+void displacements(const FullShapes& shapes, const formats::Recovery& tables, const FieldSink& sink) {
+  for_blocks(tables, RecoveryField::translation, 6, [&](int first, int count) {
+    std::vector<int> nodes(static_cast<std::size_t>(count));
+    std::iota(nodes.begin(), nodes.end(), first);
+    const MatrixXd all = shapes.motions(nodes);
+    const auto write = [&](RecoveryField field, Index component) {
+      MatrixXd rows(3 * count, all.cols());
+      for (Index i = 0; i < count; ++i) rows.middleRows<3>(3 * i) = all.middleRows<3>(6 * i + component);
+      sink(field, rows);
+    };
+    write(RecoveryField::translation, 0);
+    write(RecoveryField::rotation, 3);
+  });
+}
+
+/// Of elements whose matrix `stress_of` takes six coordinates per node; `nodes_of` appends their nodes.
+void element_field(const FullShapes& shapes, const formats::Recovery& tables, RecoveryField field, const auto& nodes_of,
+                   const auto& stress_of, const FieldSink& sink) {
+  const int width = formats::width(field);
+  for_blocks(tables, field, 24, [&](int first, int count) {
+    std::vector<int> nodes, begin{0};
+    for (int e = first; e < first + count; ++e) {
+      nodes_of(e, nodes);
+      begin.push_back(static_cast<int>(nodes.size()));
+    }
+    const MatrixXd motion = shapes.motions(nodes);
+    MatrixXd rows(static_cast<Index>(width) * count, motion.cols());
+    for (int e = 0; e < count; ++e)
+      rows.middleRows(static_cast<Index>(width) * e, width).noalias() =
+          stress_of(first + e) * motion.middleRows(6 * begin[e], 6 * (begin[e + 1] - begin[e]));
+    sink(field, rows);
+  });
+}
+
+void beam_forces(const Mesh& mesh, const FullShapes& shapes, const formats::Recovery& tables, const FieldSink& sink) {
+  const auto nodes_of = [&mesh](int e, std::vector<int>& nodes) {
+    nodes.insert(nodes.end(), {mesh.beams[e].first, mesh.beams[e].second});
+  };
+  const auto stress_of = [&mesh](int e) { return beam_section_forces(mesh, mesh.beams[e]); };
+  element_field(shapes, tables, RecoveryField::beam_force, nodes_of, stress_of, sink);
+}
+
+void shell_stresses(const Mesh& mesh, const FullShapes& shapes, const formats::Recovery& tables,
+                    const FieldSink& sink) {
+  const auto nodes_of = [&mesh](int e, std::vector<int>& nodes) {
+    const ShellElement& shell = mesh.shells[e];
+    nodes.insert(nodes.end(), shell.nodes.begin(), shell.nodes.begin() + shell.corners());
+  };
+  const auto stress_of = [&mesh](int e) { return shell_stress(mesh, mesh.shells[e]); };
+  element_field(shapes, tables, RecoveryField::shell_stress, nodes_of, stress_of, sink);
+}
+
+/// Which stress point each node of each solid counts for, and the solids around each point.
+struct PointTable {
+  std::vector<int> first;   ///< solids + 1; into `point`
+  std::vector<int> point;   ///< by solid, then by its nodes
+  std::vector<int> around;  ///< points + 1; into `solid`
+  std::vector<int> solid;
+};
+
+PointTable point_table(const Mesh& mesh, const formats::Recovery& tables) {
+  const int points = tables.stress_points(), beside = static_cast<int>(mesh.beams.size() + mesh.shells.size());
+  std::vector<int> of_node(static_cast<std::size_t>(mesh.nodes()) + 1, 0);
+  for (const int node : tables.stress_node) ++of_node[node + 1];
+  std::partial_sum(of_node.begin(), of_node.end(), of_node.begin());
+  PointTable table;
+  table.first.push_back(0);
+  table.around.assign(static_cast<std::size_t>(points) + 1, 0);
+  for (int s = 0; s < static_cast<int>(mesh.solids.size()); ++s) {
+    const SolidElement& solid = mesh.solids[s];
+    for (int k = 0; k < node_count(solid.shape); ++k) {
+      int point = of_node[solid.nodes[k]];
+      while (tables.stress_group[point] != tables.elements.group[beside + s]) ++point;
+      table.point.push_back(point);
+      ++table.around[point + 1];
+    }
+    table.first.push_back(static_cast<int>(table.point.size()));
+  }
+  std::partial_sum(table.around.begin(), table.around.end(), table.around.begin());
+  table.solid.resize(table.point.size());
+  std::vector<int> next = table.around;
+  for (int s = 0; s + 1 < static_cast<int>(table.first.size()); ++s)
+    for (int k = table.first[s]; k < table.first[s + 1]; ++k) table.solid[next[table.point[k]]++] = s;
+  return table;
+}
+
+/// Mean over the solids around each point of [first, first + count).
+MatrixXd point_stresses(const Mesh& mesh, const FullShapes& shapes, const PointTable& table, int first, int count) {
+  std::vector<int> solids(table.solid.begin() + table.around[first], table.solid.begin() + table.around[first + count]);
+  std::sort(solids.begin(), solids.end());
+  solids.erase(std::unique(solids.begin(), solids.end()), solids.end());
+  std::vector<int> nodes;
+  for (const int s : solids)
+    nodes.insert(nodes.end(), mesh.solids[s].nodes.begin(),
+                 mesh.solids[s].nodes.begin() + node_count(mesh.solids[s].shape));
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const MatrixXd motion = shapes.motions(nodes);
+  MatrixXd rows = MatrixXd::Zero(6 * static_cast<Index>(count), motion.cols());
+  MatrixXd of_solid;
+  for (const int s : solids) {
+    const SolidElement& solid = mesh.solids[s];
+    const int corners = node_count(solid.shape);
+    of_solid.resize(3 * corners, motion.cols());
+    for (int k = 0; k < corners; ++k) {
+      const auto place = std::lower_bound(nodes.begin(), nodes.end(), solid.nodes[k]) - nodes.begin();
+      of_solid.middleRows<3>(3 * k) = motion.middleRows<3>(6 * place);
+    }
+    const MatrixXd stress = solid_stress(mesh, solid) * of_solid;
+    for (int k = 0; k < corners; ++k) {
+      const int point = table.point[table.first[s] + k];
+      if (point < first || point >= first + count) continue;
+      rows.middleRows<6>(6 * (point - first)) +=
+          stress.middleRows<6>(6 * k) / static_cast<double>(table.around[point + 1] - table.around[point]);
+    }
+  }
+  return rows;
+}
+
+void solid_stresses(const Mesh& mesh, const FullShapes& shapes, const formats::Recovery& tables,
+                    const FieldSink& sink) {
+  if (mesh.solids.empty()) return;
+  const PointTable table = point_table(mesh, tables);
+  for_blocks(tables, RecoveryField::solid_stress, 6, [&](int first, int count) {
+    sink(RecoveryField::solid_stress, point_stresses(mesh, shapes, table, first, count));
+  });
+}
+
+}  // namespace
+
+void recovery_fields(const RecoverySource& source, const formats::Recovery& tables, const FieldSink& sink) {
+  const FullShapes shapes(source.system, source.partition, source.boundary, source.internal);
+  displacements(shapes, tables, sink);
+  beam_forces(source.mesh, shapes, tables, sink);
+  shell_stresses(source.mesh, shapes, tables, sink);
+  solid_stresses(source.mesh, shapes, tables, sink);
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,141 @@
+// Mesh and properties as the recovery file has them.
+#include <algorithm>
+#include <utility>
+
+#include "common/error.hpp"
+#include "formats/superelement/mirror.hpp"
+#include "reducer/elements/shell/geometry.hpp"
+#include "reducer/recovery/fields.hpp"
+#include "reducer/recovery/surface.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+using formats::ElementShape;
+using formats::Recovery;
+
+ElementShape shape_of(SolidShape shape) {
+  switch (shape) {
+    case SolidShape::tetrahedron4:
+      return ElementShape::tetrahedron4;
+    case SolidShape::tetrahedron10:
+      return ElementShape::tetrahedron10;
+    case SolidShape::hexahedron8:
+      return ElementShape::hexahedron8;
+    case SolidShape::hexahedron20:
+      return ElementShape::hexahedron20;
+    case SolidShape::prism6:
+      return ElementShape::prism6;
+    case SolidShape::prism15:
+      return ElementShape::prism15;
+  }
+  TISSERAND_ENSURE(false, "solid shape {}", static_cast<int>(shape));
+}
+
+void add_head(const RecoverySource& source, Recovery& r) {
+  const formats::Superelement& element = source.superelement;
+  r.name = element.name;
+  r.producer = element.producer;
+  r.units = element.units;
+  r.content_id = formats::content_id(element);
+  for (int image = 0; image < 7; ++image)
+    r.mirror_content_id[static_cast<std::size_t>(image)] =
+        formats::mirrored({element, {}}, formats::mirror_axes(image)).superelement.content_id;
+  r.boundary_name = element.node_name;
+  for (const MeshBoundary& boundary : source.mesh.boundary) r.boundary_node.push_back(boundary.node);
+  r.dof_node = element.dof_node;
+  r.dof_component = element.dof_component;
+}
+
+/// Rows of Recovery::elements; groups are the properties of beams, then of shells, then of solids.
+class ElementTable {
+ public:
+  explicit ElementTable(formats::RecoveryElements& elements) : elements_(elements) { elements_.first.push_back(0); }
+
+  void add(ElementShape shape, const int* nodes, int group, int id) {
+    elements_.shape.push_back(shape);
+    elements_.group.push_back(group);
+    elements_.id.push_back(id);
+    elements_.node.insert(elements_.node.end(), nodes, nodes + formats::node_count(shape));
+    elements_.first.push_back(static_cast<int>(elements_.node.size()));
+  }
+
+ private:
+  formats::RecoveryElements& elements_;
+};
+
+void add_beams(const Mesh& mesh, ElementTable& table, Recovery& r) {
+  for (const BeamProperty& property : mesh.beam_properties) {
+    const auto& stations = property.data.stations;
+    r.sections.push_back(recovery_section(stations.empty() ? property.data.section : stations.front()));
+    r.sections.push_back(recovery_section(stations.empty() ? property.data.section : stations.back()));
+  }
+  r.beam_offset.resize(3, 2 * static_cast<Eigen::Index>(mesh.beams.size()));
+  for (const BeamElement& beam : mesh.beams) {
+    const int nodes[] = {beam.first, beam.second};
+    table.add(ElementShape::beam, nodes, beam.property, beam.id);
+    const Eigen::Index column = 2 * static_cast<Eigen::Index>(r.beam_axes.size());
+    r.beam_offset.col(column) = beam.first_offset;
+    r.beam_offset.col(column + 1) = beam.second_offset;
+    r.beam_section.insert(r.beam_section.end(), {2 * beam.property, 2 * beam.property + 1});
+    r.beam_axes.push_back(beam.R_PE);
+  }
+}
+
+/// z along the normal of the middle plane, x as stresses have it: the axes of the element.
+Eigen::Matrix3d axes_of(const Mesh& mesh, const ShellElement& shell) {
+  return shell.corners() == 3 ? shell_geometry<3>(mesh, shell).R_PE : shell_geometry<4>(mesh, shell).R_PE;
+}
+
+void add_shells(const Mesh& mesh, int first_group, ElementTable& table, Recovery& r) {
+  for (const ShellElement& shell : mesh.shells) {
+    const bool triangle = shell.corners() == 3;
+    table.add(triangle ? ElementShape::triangle : ElementShape::quadrilateral, shell.nodes.data(),
+              first_group + shell.property, shell.id);
+    r.shell_axes.push_back(axes_of(mesh, shell));
+    r.shell_thickness.push_back(mesh.shell_properties[shell.property].section.thickness);
+    r.shell_offset.push_back(shell.offset);
+  }
+}
+
+void add_solids(const Mesh& mesh, int first_group, ElementTable& table, Recovery& r) {
+  std::vector<std::pair<int, int>> points;
+  for (const SolidElement& solid : mesh.solids) {
+    table.add(shape_of(solid.shape), solid.nodes.data(), first_group + solid.property, solid.id);
+    for (int k = 0; k < node_count(solid.shape); ++k) points.emplace_back(solid.nodes[k], first_group + solid.property);
+  }
+  std::sort(points.begin(), points.end());
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  for (const auto& [node, group] : points) {
+    r.stress_node.push_back(node);
+    r.stress_group.push_back(group);
+  }
+}
+
+}  // namespace
+
+Recovery recovery_tables(const RecoverySource& source) {
+  const Mesh& mesh = source.mesh;
+  Recovery r;
+  add_head(source, r);
+  r.position = mesh.position;
+  r.node_label = mesh.node_label;
+  for (int n = 0; n < mesh.nodes(); ++n) r.rotates.push_back(source.system.coordinates.rotates(n) ? 1 : 0);
+  for (const BeamProperty& property : mesh.beam_properties) r.group_name.push_back(property.name);
+  for (const ShellProperty& property : mesh.shell_properties) r.group_name.push_back(property.name);
+  for (const SolidProperty& property : mesh.solid_properties) r.group_name.push_back(property.name);
+  const int shell_groups = static_cast<int>(mesh.beam_properties.size());
+  const int solid_groups = shell_groups + static_cast<int>(mesh.shell_properties.size());
+  ElementTable table(r.elements);
+  add_beams(mesh, table, r);
+  add_shells(mesh, shell_groups, table, r);
+  add_solids(mesh, solid_groups, table, r);
+  const Surface seen = surface(mesh);
+  r.triangle.resize(3, static_cast<Eigen::Index>(seen.triangle.size()));
+  for (std::size_t k = 0; k < seen.triangle.size(); ++k)
+    r.triangle.col(static_cast<Eigen::Index>(k)) = seen.triangle[k];
+  r.triangle_element = seen.element;
+  return r;
+}
+
+}  // namespace tisserand::reducer

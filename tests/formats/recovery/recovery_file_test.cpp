@@ -1,0 +1,197 @@
+// Recovery files: round trip, blocks, damage, files of other parts.
+#include "formats/recovery/recovery.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/error.hpp"
+#include "tests/support/bodies/small_recovery.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace tisserand::formats::recovery_file_test {
+namespace {
+
+using test_support::small_field;
+using test_support::small_recovery;
+using test_support::TemporaryFolder;
+using test_support::write_small_recovery;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+template <class Work>
+std::string error_of(Work work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// All that a reader takes from a file.
+void read_all(const std::string& path) {
+  const RecoveryReader reader(path);
+  for (const RecoveryField field : recovery_fields)
+    static_cast<void>(reader.read(field, 0, items(reader.recovery(), field)));
+}
+
+std::string bytes_of(const std::string& path) {
+  std::stringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+TEST(RecoveryFile, RoundTripKeepsTablesAndRoundsFieldsToFloats) {
+  const TemporaryFolder folder;
+  write_small_recovery(folder.file("a.recovery.h5"));
+  const RecoveryReader reader(folder.file("a.recovery.h5"));
+  const Recovery &r = reader.recovery(), expected = small_recovery();
+  EXPECT_EQ(r.content_id, expected.content_id);
+  EXPECT_EQ(r.mirror_content_id, expected.mirror_content_id);
+  EXPECT_EQ(r.dof_node, expected.dof_node);
+  EXPECT_EQ(r.dof_component, expected.dof_component);
+  EXPECT_EQ(r.boundary_name, expected.boundary_name);
+  EXPECT_EQ(r.boundary_node, expected.boundary_node);
+  EXPECT_EQ(r.position, expected.position);
+  EXPECT_EQ(r.node_label, expected.node_label);
+  EXPECT_EQ(r.rotates, expected.rotates);
+  EXPECT_EQ(r.group_name, expected.group_name);
+  EXPECT_EQ(r.elements.shape, expected.elements.shape);
+  EXPECT_EQ(r.elements.group, expected.elements.group);
+  EXPECT_EQ(r.elements.id, expected.elements.id);
+  EXPECT_EQ(r.elements.first, expected.elements.first);
+  EXPECT_EQ(r.elements.node, expected.elements.node);
+  EXPECT_EQ(r.beam_section, expected.beam_section);
+  EXPECT_EQ(r.sections[0].second_moment_z, expected.sections[0].second_moment_z);
+  EXPECT_EQ(r.sections[0].outline, expected.sections[0].outline);
+  EXPECT_EQ(r.shell_thickness, expected.shell_thickness);
+  EXPECT_EQ(r.triangle, expected.triangle);
+  EXPECT_EQ(r.triangle_element, expected.triangle_element);
+  EXPECT_EQ(r.stress_node, expected.stress_node);
+  for (const RecoveryField field : recovery_fields) {
+    const FieldRows all = small_field(expected, field).cast<float>();
+    const int count = items(r, field);
+    EXPECT_EQ(reader.read(field, 0, count), all);
+    EXPECT_EQ(reader.read(field, count - 1, 1), all.bottomRows(width(field)));
+  }
+}
+
+TEST(RecoveryFile, EqualContentsGiveEqualBytes) {
+  const TemporaryFolder folder;
+  write_small_recovery(folder.file("a.recovery.h5"));
+  write_small_recovery(folder.file("b.recovery.h5"));
+  EXPECT_EQ(bytes_of(folder.file("a.recovery.h5")), bytes_of(folder.file("b.recovery.h5")));
+}
+
+// What one bit changes in names, matrices or bookkeeping must be an error or change nothing; nothing may crash.
+TEST(RecoveryFile, FlippedBitsAreErrorsOrChangeNothing) {
+  const TemporaryFolder folder;
+  write_small_recovery(folder.file("a.recovery.h5"));
+  const std::string bytes = bytes_of(folder.file("a.recovery.h5"));
+  const RecoveryReader sound(folder.file("a.recovery.h5"));
+  int noticed = 0, tried = 0;
+  for (std::size_t i = 0; i < bytes.size(); i += 331, ++tried) {
+    std::string flipped = bytes;
+    flipped[i] = static_cast<char>(flipped[i] ^ (1 << (i % 8)));
+    std::ofstream(folder.file("flip.h5"), std::ios::binary) << flipped;
+    const std::string message = error_of([&] {
+      const RecoveryReader reader(folder.file("flip.h5"));
+      for (const RecoveryField field : recovery_fields) {
+        const int count = items(sound.recovery(), field);
+        EXPECT_EQ(reader.read(field, 0, count), sound.read(field, 0, count)) << i;
+      }
+      EXPECT_EQ(reader.recovery().position, sound.recovery().position) << i;
+    });
+    noticed += message != "no error" ? 1 : 0;
+  }
+  EXPECT_GT(noticed, tried / 4);  // the rest are gaps between objects of HDF5
+}
+
+TEST(RecoveryFile, CutFilesAreErrors) {
+  const TemporaryFolder folder;
+  write_small_recovery(folder.file("a.recovery.h5"));
+  const std::string bytes = bytes_of(folder.file("a.recovery.h5"));
+  for (const double share : {0.0, 0.01, 0.3, 0.9, 0.999}) {
+    std::ofstream(folder.file("cut.h5"), std::ios::binary)
+        << bytes.substr(0, static_cast<std::size_t>(share * static_cast<double>(bytes.size())));
+    EXPECT_NE(error_of([&] { read_all(folder.file("cut.h5")); }), "no error") << share;
+  }
+}
+
+struct Fault {
+  const char* name;
+  std::function<void(Recovery&)> spoil;
+  const char* text;
+};
+
+class SpoiledRecovery : public ::testing::TestWithParam<Fault> {};
+
+TEST_P(SpoiledRecovery, IsRefusedWithDataset) {
+  Recovery r = small_recovery();
+  GetParam().spoil(r);
+  EXPECT_THAT(error_of([&] { check(r, "a.recovery.h5"); }),
+              AllOf(HasSubstr("a.recovery.h5"), HasSubstr(GetParam().text)));
+}
+
+std::vector<Fault> faults() {
+  return {
+      {"content", [](Recovery& r) { r.content_id = "12"; }, "content_id"},
+      {"image", [](Recovery& r) { r.mirror_content_id[3] = ""; }, "/mirror/content_id"},
+      {"nan", [](Recovery& r) { r.position(1, 2) = std::numeric_limits<double>::quiet_NaN(); }, "/nodes/position"},
+      {"node", [](Recovery& r) { r.elements.node[4] = 7; }, "/elements/node: entry 4 is 7"},
+      {"shape", [](Recovery& r) { r.elements.shape[1] = static_cast<ElementShape>(9); }, "/elements/shape"},
+      {"order", [](Recovery& r) { std::swap(r.elements.shape[1], r.elements.shape[2]); }, "beams come first"},
+      {"group", [](Recovery& r) { r.elements.group[2] = 3; }, "/elements/group"},
+      {"coordinate", [](Recovery& r) { r.dof_component[1] = 0; }, "/dof/component: entry 1"},
+      {"boundary", [](Recovery& r) { r.boundary_node[1] = -1; }, "/boundary/node"},
+      {"axes", [](Recovery& r) { r.shell_axes[0](0, 0) = -1.0; }, "/shells/axes: entry 0"},
+      {"section", [](Recovery& r) { r.beam_section[1] = 1; }, "/beams/section"},
+      {"area", [](Recovery& r) { r.sections[0].area = -1.0; }, "area"},
+      {"triangle", [](Recovery& r) { r.triangle(2, 1) = 9; }, "/surface/triangle"},
+      {"seen", [](Recovery& r) { r.triangle_element[0] = 0; }, "/surface/element"},
+      {"point", [](Recovery& r) { r.stress_group.pop_back(); }, "/stress_points/group"},
+      {"units", [](Recovery& r) { r.units.mass.factor = -1.0; }, "mass_unit"},
+  };
+}
+INSTANTIATE_TEST_SUITE_P(Faults, SpoiledRecovery, ::testing::ValuesIn(faults()),
+                         [](const auto& instance) { return std::string(instance.param.name); });
+
+TEST(RecoveryFile, OtherSuperelementIsRefusedAndImagesAreTold) {
+  const Recovery r = small_recovery();
+  EXPECT_EQ(require_same_superelement(r, r.content_id, "a", "rod"), Eigen::Vector3d(1, 1, 1));
+  EXPECT_EQ(require_same_superelement(r, r.mirror_content_id[0], "a", "rod"), Eigen::Vector3d(-1, 1, 1));
+  EXPECT_EQ(require_same_superelement(r, r.mirror_content_id[5], "a", "rod"), Eigen::Vector3d(1, -1, -1));
+  EXPECT_THAT(error_of([&] { require_same_superelement(r, std::string(64, 'a'), "a.recovery.h5", "rod"); }),
+              AllOf(HasSubstr("body 'rod'"), HasSubstr("aaaaaaaaaaaa...")));
+}
+
+TEST(RecoveryFile, UnfinishedOneLeavesNothing) {
+  const TemporaryFolder folder;
+  const Recovery r = small_recovery();
+  { const RecoveryWriter writer(folder.file("a.recovery.h5"), r); }
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  EXPECT_THAT(error_of([&] { RecoveryWriter(folder.file("none/a.recovery.h5"), r); }), HasSubstr("none/a.recovery.h5"));
+}
+
+TEST(RecoveryFile, ValuesBeyondFloatsAreAnError) {
+  const TemporaryFolder folder;
+  const Recovery r = small_recovery();
+  RecoveryWriter writer(folder.file("a.recovery.h5"), r);
+  Eigen::MatrixXd rows = small_field(r, RecoveryField::beam_force);
+  rows(3, 2) = 1e39;
+  EXPECT_THAT(error_of([&] { writer.append(RecoveryField::beam_force, rows); }), HasSubstr("1e+39"));
+}
+
+TEST(RecoveryFile, PathStandsBesideTheSuperelement) {
+  EXPECT_EQ(recovery_path("a/b.superelement.h5"), "a/b.recovery.h5");
+  EXPECT_EQ(recovery_path("a/b.h5"), "a/b.recovery.h5");
+}
+
+}  // namespace
+}  // namespace tisserand::formats::recovery_file_test

@@ -1,0 +1,311 @@
+// `recover` on written results: displacements, stresses and places against theory, mirrored bodies, other units, bad
+// input.
+#include "reducer/recover/recover.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include "common/error.hpp"
+#include "formats/results/results.hpp"
+#include "formats/sections/profiles.hpp"
+#include "formats/superelement/mirror.hpp"
+#include "reducer/recover/places.hpp"
+#include "reducer/recover/vtu.hpp"
+#include "reducer/sources/build_mesh.hpp"
+#include "tests/reducer/parts.hpp"
+#include "tests/reducer/recovery/recovered.hpp"
+#include "tests/support/meshes/solid_mesh.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace tisserand::testing::recover_test {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using reducer::RecoverRequest;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr double length = 2.0;
+
+/// A steel cantilever of rectangular section 0.02 x 0.03 along x, six elements, two modes.
+formats::Part cantilever() {
+  formats::Part part = plain_beam({0, 0, 0}, {length, 0, 0}, 6, 2);
+  part.sections = {formats::shape_section("rectangle", {0.02, 0.03})};
+  part.sections[0].name = part.beams[0].section;
+  return part;
+}
+
+void write(const Recovered& r, const std::string& path) {
+  formats::RecoveryWriter writer(path, r.tables);
+  for (const formats::RecoveryField field : formats::recovery_fields) writer.append(field, r.of(field));
+  writer.finish();
+}
+
+/// Results with superelements of the same coordinates, all frames at `position` turned by `rotation`.
+struct StoredRun {
+  std::vector<std::string> bodies{"arm"};
+  std::vector<std::string> ids;
+  std::vector<VectorXd> y;  ///< per instant and body, in turn
+  Units units = Units::si();
+  Vector3d position = Vector3d::Zero(), origin = Vector3d::Zero();
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+};
+
+void write(const StoredRun& run, const std::string& path) {
+  formats::ResultsLayout layout;
+  layout.scene = "test";
+  layout.producer = "tests";
+  layout.units = run.units;
+  layout.superelements = run.bodies;
+  layout.superelement_content_ids = run.ids;
+  layout.channels = {"superelements/y", "superelements/frame_position", "superelements/frame_rotation"};
+  layout.simulated.analysis = "dynamics";
+  const int n = static_cast<int>(run.y[0].size()), bodies = static_cast<int>(run.bodies.size());
+  for (int b = 0; b <= bodies; ++b) {
+    layout.modes_offset.push_back(b * n);
+    layout.boundary_offset.push_back(0);
+  }
+  for (const std::string& body : run.bodies) {
+    formats::SimulatedBody simulated;
+    simulated.name = body;
+    simulated.kind = "superelement";
+    simulated.origin = run.origin;
+    layout.simulated.bodies.push_back(simulated);
+  }
+  layout.simulated.node_reference.resize(3, 0);
+  formats::ResultsWriter writer(path, layout);
+  formats::ResultsRow row;
+  row.resize(layout);
+  for (std::size_t k = 0; k < run.y.size(); k += run.bodies.size()) {
+    row.time = 0.1 * static_cast<double>(k / run.bodies.size());
+    for (int b = 0; b < bodies; ++b) {
+      row.y.segment(b * n, n) = run.y[k + static_cast<std::size_t>(b)];
+      row.frame_position.col(b) = run.position;
+      row.frame_rotation.col(b) << run.rotation.w(), run.rotation.x(), run.rotation.y(), run.rotation.z();
+    }
+    writer.append(row);
+  }
+  writer.finish(true, "", "{}");
+}
+
+/// The last line of the CSV as numbers.
+std::vector<double> last_line(const std::string& path) {
+  std::ifstream file(path);
+  std::string line, last;
+  while (std::getline(file, line)) last = line;
+  std::vector<double> values;
+  std::stringstream words(last);
+  for (std::string word; std::getline(words, word, ',');) values.push_back(std::stod(word));
+  return values;
+}
+
+std::string error_of(const RecoverRequest& request) {
+  try {
+    reducer::recover(request);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+class Recover : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    data_ = recovered(reducer::build_mesh(cantilever()), 2);
+    write(data_, file("arm.recovery.h5"));
+    VectorXd f = VectorXd::Zero(6);
+    f.head<3>() = force_;
+    y_ = VectorXd::Zero(data_.tables.coordinates());
+    const MatrixXd S = data_.superelement.stiffness.block(6, 6, 6, 6);
+    y_.segment<6>(6) = S.ldlt().solve(f);
+    run_.ids = {data_.tables.content_id};
+    run_.y = {VectorXd::Zero(y_.size()), y_};
+  }
+  std::string file(const std::string& name) const { return folder_.file(name); }
+  RecoverRequest request() const {
+    RecoverRequest r;
+    r.recovery = file("arm.recovery.h5");
+    r.results = file("run.results.h5");
+    r.output = file("out");
+    return r;
+  }
+
+  const test_support::TemporaryFolder folder_;
+  Recovered data_;
+  const Vector3d force_{500.0, 30.0, -40.0};
+  VectorXd y_;
+  StoredRun run_;
+};
+
+// Stress at the clamped end: N/A + P_y L/W_z + P_z L/W_y with W_z = b²h/6 (b along y), exact for Timoshenko beams.
+TEST_F(Recover, CantileverHasTheStressAndDeflectionOfTheBeam) {
+  run_.position = {1.0, 2.0, 3.0};
+  run_.rotation = Eigen::Quaterniond(Eigen::AngleAxisd(0.5 * M_PI, Vector3d::UnitZ()));
+  write(run_, file("run.results.h5"));
+  RecoverRequest r = request();
+  r.points = {"tip", "0,0,0"};
+  const std::string text = reducer::recover(r);
+  EXPECT_THAT(text, AllOf(HasSubstr("body 'arm', 2 instants"), HasSubstr("largest stress of beams")));
+  const std::vector<double> line = last_line(file("out/arm_points.csv"));
+  ASSERT_EQ(line.size(), 15u);
+  const double b = 0.02, h = 0.03, A = b * h;
+  const double stress = 500.0 / A + 30.0 * length / (b * b * h / 6.0) + 40.0 * length / (b * h * h / 6.0);
+  EXPECT_NEAR(line[14], stress, 1e-5 * stress);
+  // In the world: turned by 90° about z, the tip moves by (−u_y, u_x, u_z) from (1, 2 + L, 3).
+  const Vector3d u = y_.segment<3>(6);
+  EXPECT_NEAR(line[1], -u.y(), 1e-6 * u.norm());
+  EXPECT_NEAR(line[2], u.x(), 1e-6 * u.norm());
+  EXPECT_NEAR(line[3], u.z(), 1e-6 * u.norm());
+  EXPECT_NEAR(line[4], 1.0 - u.y(), 1e-6);
+  EXPECT_NEAR(line[5], 2.0 + length + u.x(), 1e-6);
+  EXPECT_NEAR(line[6], 3.0 + u.z(), 1e-6);
+  for (const char* name : {"arm.pvd", "arm_00000.vtu", "arm_00001.vtu", "arm_envelope.vtu"})
+    EXPECT_TRUE(std::filesystem::exists(file(std::string("out/") + name))) << name;
+}
+
+// The image of the loaded beam: displacements D u, the same stress.
+TEST_F(Recover, MirroredBodyIsTheImage) {
+  const Vector3d axes(1, -1, 1);
+  formats::LoadedSuperelement image = formats::mirrored({data_.superelement, {}}, axes);
+  run_.ids = {image.superelement.content_id};
+  VectorXd y = y_;
+  for (Index k = 6; k < 12; ++k) y[k] *= k < 9 ? axes[k % 3] : -axes[k % 3];
+  run_.y = {y};
+  write(run_, file("run.results.h5"));
+  RecoverRequest r = request();
+  r.points = {"0.6666666666666666,0,0", "base"};
+  r.frame = reducer::RecoverFrame::part;
+  reducer::recover(r);
+  const std::vector<double> image_line = last_line(file("out/arm_points.csv"));
+  run_.ids = {data_.tables.content_id};
+  run_.y = {y_};
+  write(run_, file("run.results.h5"));
+  reducer::recover(r);
+  const std::vector<double> line = last_line(file("out/arm_points.csv"));
+  EXPECT_GT(std::abs(line[2]), 1e-6);
+  EXPECT_DOUBLE_EQ(image_line[1], line[1]);
+  EXPECT_DOUBLE_EQ(image_line[2], -line[2]);
+  EXPECT_DOUBLE_EQ(image_line[3], line[3]);
+  EXPECT_DOUBLE_EQ(image_line[14], line[14]);
+}
+
+// A scene in mm, t, s: displacements times 1000, stresses in N/mm².
+TEST_F(Recover, OtherUnitsOfTheSceneAreThoseOfTheOutput) {
+  run_.units = {{1e-3, "mm"}, {1e3, "t"}, {1.0, "s"}};
+  VectorXd y = y_;
+  y.segment<3>(6) *= 1e3;
+  run_.y = {y};
+  write(run_, file("run.results.h5"));
+  RecoverRequest r = request();
+  r.points = {"tip", "base"};
+  EXPECT_THAT(reducer::recover(r), HasSubstr(" mm at "));
+  const std::vector<double> line = last_line(file("out/arm_points.csv"));
+  EXPECT_NEAR(line[1], 1e3 * y_[6], 1e-6 * 1e3 * y_.head(9).norm());
+  const double b = 20.0, h = 30.0;
+  const double stress = 500.0 / (b * h) + 30.0 * 2000.0 / (b * b * h / 6.0) + 40.0 * 2000.0 / (b * h * h / 6.0);
+  EXPECT_NEAR(line[14], stress, 1e-5 * stress);
+}
+
+// Of two bodies the second is moved by a mode alone; a body with fewer modes holds zeros there.
+TEST_F(Recover, OneOfSeveralBodiesIsChosen) {
+  run_.bodies = {"left", "right"};
+  run_.ids = {data_.tables.content_id, data_.tables.content_id};
+  VectorXd mode = VectorXd::Zero(y_.size());
+  mode[12] = 1e-3;
+  run_.y = {y_, mode};
+  write(run_, file("run.results.h5"));
+  RecoverRequest r = request();
+  EXPECT_THAT(error_of(r), AllOf(HasSubstr("holds 2 superelements"), HasSubstr("--body left")));
+  r.body = "right";
+  r.points = {"0.6666666666666666,0,0"};
+  reducer::recover(r);
+  const std::vector<double> line = last_line(file("out/right_points.csv"));
+  const VectorXd u = data_.of(formats::RecoveryField::translation) * mode;
+  const int node = reducer::find_node(data_.tables, r.points[0], "test");
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(line[1 + static_cast<std::size_t>(c)], u[3 * node + c], 1e-6 * u.norm());
+}
+
+TEST_F(Recover, TimesChooseTheNearestInstants) {
+  run_.y = {y_, y_, y_, y_, y_};
+  write(run_, file("run.results.h5"));
+  RecoverRequest r = request();
+  r.times = {0.11, 0.38};
+  EXPECT_THAT(reducer::recover(r), HasSubstr("2 instants"));
+  std::stringstream index;
+  index << std::ifstream(file("out/arm.pvd")).rdbuf();
+  EXPECT_THAT(index.str(),
+              AllOf(HasSubstr("timestep=\"0.1000000000000"), HasSubstr("timestep=\"0.4"), HasSubstr("arm_00001.vtu")));
+  r.times = {0.9};
+  EXPECT_THAT(error_of(r), HasSubstr("time 0.9 is not within its instants 0 to 0.4"));
+}
+
+TEST_F(Recover, BadInputIsTold) {
+  write(run_, file("run.results.h5"));
+  RecoverRequest r = request();
+  r.body = "leg";
+  EXPECT_THAT(error_of(r), AllOf(HasSubstr("no superelement 'leg'"), HasSubstr("arm")));
+  r = request();
+  r.points = {"elbow"};
+  EXPECT_THAT(error_of(r), AllOf(HasSubstr("no node 'elbow'"), HasSubstr("base")));
+  r = request();
+  r.recovery = r.results;
+  EXPECT_THAT(error_of(r), HasSubstr("run.results.h5"));
+  r = request();
+  std::swap(r.recovery, r.results);
+  EXPECT_THAT(error_of(r), HasSubstr("recovery"));
+  run_.ids = {std::string(64, 'b')};
+  write(run_, file("run.results.h5"));
+  EXPECT_THAT(error_of(request()), AllOf(HasSubstr("arm.recovery.h5"), HasSubstr("bbbbbbbbbbbb")));
+  run_.ids = {data_.tables.content_id};
+  run_.y = {VectorXd::Constant(y_.size(), std::nan(""))};
+  write(run_, file("run.results.h5"));
+  EXPECT_THAT(error_of(request()), HasSubstr("not finite"));
+  run_.units = Units::consistent();
+  run_.y = {y_};
+  write(run_, file("run.results.h5"));
+  EXPECT_THAT(error_of(request()), HasSubstr("unnamed"));
+}
+
+// Volume of one cell by VTK's order of nodes: the tetrahedra that fan from the first corner over the outer faces as VTK
+// defines them (wedge: base looks outwards).
+TEST(Vtu, CellsHaveTheOrientationOfVtk) {
+  for (const reducer::SolidShape shape : reducer::all_solid_shapes) {
+    const reducer::Mesh mesh = reducer::one_solid(shape, reducer::natural_nodes(shape), {});
+    formats::RecoveryElements elements;
+    elements.shape = {static_cast<formats::ElementShape>(3 + static_cast<int>(shape))};
+    elements.first = {0, reducer::node_count(shape)};
+    elements.node.assign(mesh.solids[0].nodes.begin(), mesh.solids[0].nodes.begin() + reducer::node_count(shape));
+    const reducer::VtuCells cells = reducer::vtu_cells(elements);
+    const auto at = [&](int k) -> Vector3d {
+      return mesh.position.col(cells.connectivity[static_cast<std::size_t>(k)]);
+    };
+    const auto middle = [&](int node, int a, int b) {
+      EXPECT_LT((at(node) - 0.5 * (at(a) + at(b))).norm(), 1e-12) << reducer::solid_name(shape) << node;
+    };
+    const Vector3d up = (at(1) - at(0)).cross(at(2) - at(0));
+    const bool wedge = cells.type[0] == 13 || cells.type[0] == 26;
+    EXPECT_GT((wedge ? -1.0 : 1.0) * up.dot(at(cells.type[0] == 12 || cells.type[0] == 25 ? 4 : 3) - at(0)), 0.0);
+    const std::vector<std::pair<int, int>> edges =
+        cells.type[0] == 24   ? std::vector<std::pair<int, int>>{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}
+        : cells.type[0] == 25 ? std::vector<std::pair<int, int>>{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
+                                                                 {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}
+        : cells.type[0] == 26
+            ? std::vector<std::pair<int, int>>{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}
+            : std::vector<std::pair<int, int>>{};
+    const int corners = cells.type[0] == 24 ? 4 : cells.type[0] == 25 ? 8 : 6;
+    for (int e = 0; e < static_cast<int>(edges.size()); ++e) middle(corners + e, edges[e].first, edges[e].second);
+  }
+}
+
+}  // namespace
+}  // namespace tisserand::testing::recover_test

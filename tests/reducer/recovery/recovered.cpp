@@ -1,0 +1,56 @@
+// Reductions whose recovery data stay in memory.
+#include "tests/reducer/recovery/recovered.hpp"
+
+#include "common/error.hpp"
+#include "tests/reducer/parts.hpp"
+
+namespace tisserand::testing {
+
+Recovered recovered(const reducer::Mesh& mesh, int modes) {
+  start_solvers();
+  formats::Part part;
+  part.name = "part";
+  part.file = "part.yaml";
+  part.units = Units::si();
+  part.modes.count = modes;
+  part.recovery = true;
+  Recovered result;
+  std::array<Eigen::Index, 5> filled{};
+  const auto keep = [&](const reducer::RecoverySource& source) {
+    result.tables = reducer::recovery_tables(source);
+    formats::check(result.tables, "part.recovery.h5");
+    for (const formats::RecoveryField field : formats::recovery_fields)
+      result.field[static_cast<std::size_t>(field)].resize(
+          static_cast<Eigen::Index>(formats::width(field)) * formats::items(result.tables, field),
+          result.tables.coordinates());
+    reducer::recovery_fields(source, result.tables, [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) {
+      const auto f = static_cast<std::size_t>(field);
+      result.field[f].middleRows(filled[f], rows.rows()) = rows;
+      filled[f] += rows.rows();
+    });
+  };
+  result.superelement = reducer::reduce_mesh(
+                            mesh, part, [](const std::string&) {}, keep)
+                            .superelement;
+  for (std::size_t f = 0; f < filled.size(); ++f) TISSERAND_ENSURE(filled[f] == result.field[f].rows(), "field {}", f);
+  return result;
+}
+
+void set_boundary(reducer::Mesh& mesh, const std::vector<int>& nodes, bool rotations) {
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    mesh.boundary.push_back({"b" + std::to_string(k), nodes[k], true, rotations});
+}
+
+Eigen::VectorXd boundary_motion(const Recovered& r,
+                                const std::function<Eigen::Matrix<double, 6, 1>(const Eigen::Vector3d&)>& motion) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(r.tables.coordinates());
+  for (Eigen::Index k = 0; k < y.size(); ++k) {
+    const int node = r.tables.dof_node[static_cast<std::size_t>(k)];
+    if (node < 0) continue;
+    const Eigen::Vector3d X = r.tables.position.col(r.tables.boundary_node[static_cast<std::size_t>(node)]);
+    y[k] = motion(X)[r.tables.dof_component[static_cast<std::size_t>(k)]];
+  }
+  return y;
+}
+
+}  // namespace tisserand::testing

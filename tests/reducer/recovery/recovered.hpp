@@ -1,0 +1,33 @@
+// The recovery data of a reduction, kept in memory: what the tests of shapes and stresses look at.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/recovery/recovery.hpp"
+#include "reducer/mesh/mesh.hpp"
+
+namespace tisserand::testing {
+
+struct Recovered {
+  formats::Recovery tables;
+  std::array<Eigen::MatrixXd, 5> field;  ///< by RecoveryField
+  formats::Superelement superelement;
+
+  const Eigen::MatrixXd& of(formats::RecoveryField which) const { return field[static_cast<std::size_t>(which)]; }
+};
+
+/// Reduces the mesh with `modes` internal modes.
+Recovered recovered(const reducer::Mesh& mesh, int modes);
+
+/// Boundary nodes of six coordinates, or of translations, at these nodes, named b0, b1, ...
+void set_boundary(reducer::Mesh& mesh, const std::vector<int>& nodes, bool rotations);
+
+/// y of a prescribed motion [translation; rotation] of the boundary nodes; internal coordinates 0.
+Eigen::VectorXd boundary_motion(const Recovered& r,
+                                const std::function<Eigen::Matrix<double, 6, 1>(const Eigen::Vector3d&)>& motion);
+
+}  // namespace tisserand::testing
