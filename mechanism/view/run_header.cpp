@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <optional>
 
-
 #include "common/text.hpp"
 #include "mechanism/histories/series.hpp"
 #include "mechanism/view/page_channels.hpp"
+#include "mechanism/view/recovered_shape.hpp"
 #include "mechanism/view/run_modes.hpp"
 #include "mechanism/view/run_report.hpp"
 
@@ -49,6 +49,7 @@ class Places {
     }
     Json place{{"position", blocks_.add_track(track.position)}};
     if (track.has_rotation()) place["rotation"] = blocks_.add_rotations(track.rotation);
+    if (owner >= 0) place["body"] = owner;
     if (owner >= 0) place["rest"] = list_of(place_at_rest(run_, run_.bodies[owner], node));
     return place;
   }
@@ -263,6 +264,7 @@ Json run_header(ViewedRun& run, const RunOptions& options, PageBlocks& blocks) {
             {"thinned", nullptr},
             {"box", box_of(run)}};
   if (run.rows.size() < reader.rows()) json["thinned"] = {{"rows", reader.rows()}, {"kept", run.rows.size()}};
+  require_used_recovery(run, options.shapes);
   ModesOfBodies modes(reader);
   add_bodies(run, options.shapes, modes, blocks, json);
   json["report"] = report_of_run(reader);

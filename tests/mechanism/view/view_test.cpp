@@ -59,9 +59,9 @@ class Page : public ::testing::Test {
     EXPECT_EQ(report.outcome, RunOutcome::completed) << report.reason;
     return results;
   }
-  static PageReader page(const std::vector<std::string>& files, int instants = 2000) {
+  static PageReader page(const std::vector<std::string>& files, int instants = 2001) {
     ViewRequest request;
-    request.files = files;
+    request.shown.files = files;
     request.instants = instants;
     return PageReader(page_of(request));
   }
@@ -179,7 +179,7 @@ TEST_F(Page, PutsJointsSpringsAndForcesWhereTheyAct) {
 
 TEST_F(Page, RunsNoScriptOfAStranger) {
   ViewRequest request;
-  request.files = {run("arm", arm)};
+  request.shown.files = {run("arm", arm)};
   const std::string text = page_of(request);
   EXPECT_THAT(text, Not(HasSubstr("<script>alert")));
   const std::string header = test_support::script_of(text, "tisserand-header");
@@ -190,9 +190,9 @@ TEST_F(Page, RunsNoScriptOfAStranger) {
 
 TEST_F(Page, ThinsInstantsAndChannelsAndSaysSo) {
   ViewRequest request;
-  request.files = {run("arm", arm)};
+  request.shown.files = {run("arm", arm)};
   request.instants = 11;
-  request.run.channels = {"energy", "nodes/position/rod/end"};
+  request.shown.channels = {"energy", "nodes/position/rod/end"};
   const PageReader read(page_of(request));
   const json& one = read.run();
   EXPECT_EQ(one["thinned"], json({{"rows", 101}, {"kept", 11}}));
@@ -200,7 +200,7 @@ TEST_F(Page, ThinsInstantsAndChannelsAndSaysSo) {
   for (int t = 0; t < 11; ++t) EXPECT_NEAR(times(t, 0), 0.1 * t, 1e-6);
   EXPECT_EQ(one["channels"].size(), 7u + 3u);
   EXPECT_GT(one["channels_left_out"]["count"], 50);
-  request.run.channels = {"energy/kinetik"};
+  request.shown.channels = {"energy/kinetik"};
   EXPECT_THAT(error_of(request), HasSubstr("has no channel 'energy/kinetik'"));
 }
 
@@ -276,16 +276,16 @@ TEST_F(Page, ShowsNodesOfOlderFiles) {
 
 TEST_F(Page, RefusesWhatItCannotShow) {
   ViewRequest request;
-  request.files = {plain_results(folder_.file("a.h5"), {"energy"}, 0.0, 3, true)};
+  request.shown.files = {plain_results(folder_.file("a.h5"), {"energy"}, 0.0, 3, true)};
   EXPECT_THAT(error_of(request), HasSubstr("holds no positions of nodes"));
-  request.files = {plain_results(folder_.file("b.h5"), {}, 0.0, 0, false)};
+  request.shown.files = {plain_results(folder_.file("b.h5"), {}, 0.0, 0, false)};
   EXPECT_THAT(error_of(request), HasSubstr("holds no instants"));
-  request.files = {plain_results(folder_.file("c.h5"), {}, std::numeric_limits<double>::quiet_NaN(), 3, true)};
+  request.shown.files = {plain_results(folder_.file("c.h5"), {}, std::numeric_limits<double>::quiet_NaN(), 3, true)};
   EXPECT_THAT(error_of(request), HasSubstr("is no number at t = 1"));
-  request.files = {folder_.file("nowhere.h5")};
+  request.shown.files = {folder_.file("nowhere.h5")};
   EXPECT_THAT(error_of(request), HasSubstr("nowhere.h5"));
-  request.files = {plain_results(folder_.file("d.h5"), {}, 0.0, 3, true)};
-  request.run.shapes.recovery = {folder_.file("nowhere.recovery.h5")};
+  request.shown.files = {plain_results(folder_.file("d.h5"), {}, 0.0, 3, true)};
+  request.shapes.recovery = {folder_.file("nowhere.recovery.h5")};
   EXPECT_THAT(error_of(request), HasSubstr("nowhere.recovery.h5"));
 }
 
@@ -301,7 +301,7 @@ bodies: {stone: {type: rigid, mass: 1, inertia: [1, 1, 1], shape: {type: mesh, f
 integrator: {step: 0.01, end: 0.05}
 )";
   ViewRequest request;
-  request.files = {run("stone", scene)};
+  request.shown.files = {run("stone", scene)};
   EXPECT_THAT(error_of(request), ::testing::AllOf(HasSubstr("stone.stl"), HasSubstr("no such file")));
   write("stone.stl", "solid\nfacet\nvertex 0 0 x\n");
   EXPECT_THAT(error_of(request), HasSubstr("stone.stl:3: 'x'"));
