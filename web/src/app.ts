@@ -25,7 +25,8 @@ import type { Colouring, Settings } from "./view/settings";
 import { Viewport } from "./view/viewport";
 import type { Picked } from "./view/viewport";
 
-const SLOW = 1 / 28, QUALITIES = [1, 0.75, 0.5];
+/** Seconds a picture; share of pixels; milliseconds after which a still is drawn anew, smoothed. */
+const SLOW = 1 / 28, QUALITIES = [1, 0.75, 0.5], STILL = 300;
 
 export class App {
   readonly settings: Settings = { ...INITIAL };
@@ -262,7 +263,7 @@ export class App {
       this.viewport?.touch();
     }
     if (!this.viewport) return;
-    if (!this.player.playing) this.viewport.quality = 1;
+    if (!this.player.playing) this.viewport.quality = this.viewport.software && this.viewport.still > STILL ? 2 : 1;
     if (this.viewport.draw(always)) {
       this.triad.follow(this.viewport.camera);
       if (this.recorder.recording) this.recorder.picture(this.viewport.canvas, this.caption());
@@ -286,7 +287,7 @@ export class App {
   }
   savePicture(): Promise<Blob | null> {
     if (!this.viewport) return Promise.resolve(null);
-    this.viewport.quality = 1;
+    this.viewport.quality = 2;
     return savePicture(this.viewport.canvas, () => this.viewport!.draw(true), this.caption());
   }
   record(): void {

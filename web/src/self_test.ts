@@ -24,7 +24,7 @@ export function selfTestOf(app: App, openedAfter: number): SelfTest {
     get webglErrors() { return app.viewport ? [app.viewport.error].filter((code) => code !== 0).length + (app.viewport.fault ? 1 : 0) : -1; },
     get shaderFault() { return app.viewport?.fault ?? ""; },
     get contextLost() { return app.viewport?.contextLost ?? true; },
-    get software() { return app.viewport?.softwareRendering ?? true; },
+    get software() { return app.viewport?.software ?? true; },
     get framesPerSecond() { return app.framesPerSecond; },
     get quality() { return app.viewport?.quality ?? 0; },
     get time() { return app.player.time; },

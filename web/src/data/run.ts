@@ -140,6 +140,8 @@ export class Run {
     };
     require(entry.shape === null || this.shapes[entry.shape] !== undefined, `${where}: there is no shape ${entry.shape}.`);
     const amplitudes = entry.amplitudes ? fits(await this.blocks.read(entry.amplitudes, `${where}, amplitudes`), -1, "amplitudes") : null;
+    const modes = entry.shape === null ? null : this.shapes[entry.shape]!.modes;
+    require(!amplitudes || !modes || amplitudes.columns === modes.rows, `${where}: ${amplitudes?.columns} amplitudes for ${modes?.rows} modes.`);
     return {
       ...entry,
       position: fits(await this.blocks.read(entry.position, `${where}, position`), 3, "position"),

@@ -43,9 +43,10 @@ export interface Materials {
   pick: RawShaderMaterial;
 }
 
-/** One set a run and its glyphs: `own` holds their textures, opacity, tint, chosen. */
-export function materialsOf(shared: Uniforms, own: Uniforms): Materials {
-  const uniforms = { ...shared, ...own };
+/** One set for bodies (`mapped`: by the coloured quantity) and one for what keeps its colours. */
+export function materialsOf(shared: Uniforms, mapped: boolean): Materials {
+  const own = { opacity: { value: 1 }, chosen: { value: -1 }, tint: { value: new Vector4(0, 0, 0, 0) }, mapped: { value: mapped } };
+  const uniforms: Uniforms = { ...shared, ...own, ...(mapped ? {} : { colouring: { value: 0 } }) };
   const surface = material(SURFACE_VERTEX, SURFACE_FRAGMENT, uniforms);
   surface.polygonOffset = true;
   surface.polygonOffsetFactor = surface.polygonOffsetUnits = 1;

@@ -3,6 +3,7 @@ import type { Values } from "../data/arrays";
 import { add, rotate, subtract } from "../data/rotation";
 import type { Vec } from "../data/rotation";
 import type { Run, Shape } from "../data/run";
+import { mises } from "./deformer";
 import type { Colouring } from "./settings";
 
 const INSTANTS = 60, EVALUATIONS = 1.5e6;
@@ -14,11 +15,6 @@ export function combined(modes: Values | null, components: number, v: number, am
     for (let k = 0; k < modes.rows; ++k)
       for (let c = 0; c < components; ++c) sum[c]! += amplitudes[first + k]! * modes.at(k, components * v + c);
   return sum;
-}
-
-export function mises(s: ArrayLike<number>): number {
-  const [x, y, z, xy, yz, zx] = [s[0]!, s[1]!, s[2]!, s[3]!, s[4]!, s[5]!];
-  return Math.sqrt(0.5 * ((x - y) ** 2 + (y - z) ** 2 + (z - x) ** 2) + 3 * (xy * xy + yz * yz + zx * zx));
 }
 
 /** Place of vertex v of body b in the world, without exaggeration. */

@@ -1,18 +1,18 @@
 // One run in the picture: its bodies, joints, virtual bodies, springs, arrows, nodes and traces, moved with Run.motion.
-import { BufferAttribute, BufferGeometry, Group, Points, Vector4 } from "three";
+import { BufferAttribute, BufferGeometry, Group, Points } from "three";
+import type { Vector4 } from "three";
 import { add, rotate, scaled, subtract, turnOfZ } from "../data/rotation";
 import type { Vec } from "../data/rotation";
-import type { Place, Run } from "../data/run";
-import { batchOf } from "./batch";
-import type { Batch, Item } from "./batch";
+import type { Pose, Run } from "../data/run";
+import { Batch } from "./batch";
+import type { Item } from "./batch";
 import { BODY_COLOURS, GHOST_COLOURS, LINE_COLOURS, rgb } from "./colours";
 import { arrowShape, jointShape, markerShape } from "./glyphs";
 import { materialsOf, setOpacity } from "./materials";
 import type { Materials, Uniforms } from "./materials";
 import { Segments } from "./segments";
-import type { Settings } from "./settings";
+import type { Colouring, Settings } from "./settings";
 import { springLine } from "./spring_line";
-import { Amplitudes, modeTable, Records } from "./textures";
 
 const AXES: [Vec, string][] = [[[1, 0, 0], "#c23b3b"], [[0, 1, 0], "#3c8d3c"], [[0, 0, 1], "#3b62c2"]];
 const JOINT = rgb("#d9a441"), MARKER = rgb("#9aa3ad"), SPRING = rgb("#7b8794");
@@ -24,79 +24,57 @@ export class RunView {
   readonly traced = new Set<number>();
   /** Index of the chosen body, or -1. */
   chosen = -1;
-  private readonly records: Records;
-  private readonly amplitudes: Amplitudes;
-  private readonly factors: { at: number; modes: number; stresses: number }[] = [];
   private readonly materials: Materials;
-  private readonly glyphRecords: Records;
+  private readonly plain: Materials;
   private readonly glyphs: { joints: Batch; markers: Batch; arrows: Batch };
-  private readonly glyphMaterials: Materials;
   private readonly lines: Segments;
   private readonly traces: Segments;
   private readonly dots: Points;
+  /** Bodies that are drawn, and those that have no size of their own. */
+  private readonly drawn: number[] = [];
   private readonly markers: number[] = [];
   private largestForce = 0;
   private largestMoment = 0;
   private arrowValues: Float64Array[][] = [];
 
-  constructor(readonly run: Run, private readonly origin: Vec, shared: Uniforms, largestTexture: number) {
-    this.records = new Records(run.bodies.length);
-    this.amplitudes = new Amplitudes(run.motion.amplitudes.length);
-    const modes = modeTable(run.shapes.map((s) => s.modes), 3, largestTexture);
-    const stresses = modeTable(run.shapes.map((s) => s.stress?.modes ?? null), 6, largestTexture);
-    const own = (records: Records): Uniforms => ({
-      records: { value: records.texture }, amplitudes: { value: this.amplitudes.texture }, modes: { value: modes.texture },
-      stresses: { value: stresses.texture }, exaggeration: { value: 1 }, opacity: { value: 1 }, chosen: { value: -1 },
-      tint: { value: new Vector4(0, 0, 0, 0) },
-    });
-    const plain = (records: Records): Materials => materialsOf(shared, { ...own(records), colouring: { value: 0 } });
-    this.materials = materialsOf(shared, own(this.records));
+  constructor(readonly run: Run, private readonly origin: Vec, shared: Uniforms) {
+    this.materials = materialsOf(shared, true);
+    this.plain = materialsOf(shared, false);
     const items: Item[] = [];
     for (const [b, body] of run.bodies.entries()) {
       const shape = body.shape === null ? null : run.shapes[body.shape]!;
-      const drawn = shape !== null && shape.source !== "marker" && shape.vertices.length > 0;
-      if (drawn) items.push({ record: b, shape });
-      else this.markers.push(b);
-      const m = drawn ? modes.scales[body.shape!]!.length : 0;
-      if (body.amplitudes && drawn)
-        for (let k = 0; k < Math.min(m, body.amplitudes.columns); ++k)
-          this.factors.push({ at: body.first + k, modes: modes.scales[body.shape!]![k]!, stresses: stresses.scales[body.shape!]![k] ?? 0 });
-      this.records.meta(b, body.first, Math.min(m, body.amplitudes?.columns ?? 0), drawn ? modes.first[body.shape!]! : 0,
-        shape?.stress ? stresses.first[body.shape!]! : -1);
-      this.records.colour(b, rgb(BODY_COLOURS[b % BODY_COLOURS.length]!), true);
-      const pose = run.pose(b);
-      this.records.start(b, subtract(pose.position, origin), pose.rotation);
+      const isDrawn = shape !== null && shape.source !== "marker" && shape.vertices.length > 0;
+      (isDrawn ? this.drawn : this.markers).push(b);
+      if (isDrawn) items.push({ owner: b, shape, rgb: rgb(BODY_COLOURS[b % BODY_COLOURS.length]!), mapped: true });
     }
-    this.bodies = batchOf(items, this.materials);
-    const jointCount = run.joints.length, markerCount = this.markers.length;
-    this.glyphRecords = new Records(jointCount + markerCount + run.arrows.length);
-    this.glyphMaterials = plain(this.glyphRecords);
-    const glyphs = (shapes: Item["shape"][], first: number): Batch =>
-      batchOf(shapes.map((shape, i) => ({ record: first + i, shape })), this.glyphMaterials);
+    this.bodies = new Batch(items, this.materials);
+    const glyphs = (made: [Item["shape"], readonly number[]][]): Batch =>
+      new Batch(made.map(([shape, colour]) => ({ owner: 0, shape, rgb: colour, mapped: false })), this.plain);
     this.glyphs = {
-      joints: glyphs(run.joints.map((joint) => jointShape(joint.kind)), 0),
-      markers: glyphs(this.markers.map(() => markerShape()), jointCount),
-      arrows: glyphs(run.arrows.map((arrow) => arrowShape(arrow.kind)), jointCount + markerCount),
+      joints: glyphs(run.joints.map((joint) => [jointShape(joint.kind), JOINT])),
+      markers: glyphs(this.markers.map(() => [markerShape(), MARKER])),
+      arrows: glyphs(run.arrows.map((arrow) => [arrowShape(arrow.kind), rgb(arrow.kind === "moment" ? MOMENT : FORCE)])),
     };
-    for (let i = 0; i < jointCount; ++i) this.glyphRecords.colour(i, JOINT, false);
-    for (let i = 0; i < markerCount; ++i) this.glyphRecords.colour(jointCount + i, MARKER, false);
-    for (const [i, arrow] of run.arrows.entries())
-      this.glyphRecords.colour(jointCount + markerCount + i, rgb(arrow.kind === "moment" ? MOMENT : FORCE), false);
     for (const batch of Object.values(this.glyphs)) batch.edges.visible = false;
-    this.lines = new Segments(this.glyphMaterials.segment);
-    this.traces = new Segments(this.glyphMaterials.segment);
-    this.dots = this.nodeDots(plain);
-    for (const item of [this.bodies, ...Object.values(this.glyphs)]) this.group.add(item.group);
+    this.lines = new Segments(this.plain.segment);
+    this.traces = new Segments(this.plain.segment);
+    this.dots = this.nodeDots();
+    for (const batch of [this.bodies, ...Object.values(this.glyphs)]) this.group.add(batch.group);
     this.group.add(this.lines.mesh, this.traces.mesh, this.dots);
+    this.placeBodies("body", 1);
+    this.bodies.keepStart();
   }
 
-  private nodeDots(plain: (records: Records) => Materials): Points {
-    const count = this.run.nodes.length, geometry = new BufferGeometry(), still = new Records(1);
+  private nodeDots(): Points {
+    const count = this.run.nodes.length, geometry = new BufferGeometry();
+    const paint = new Uint8Array(4 * count);
+    for (let i = 0; i < count; ++i) paint.set([232, 89, 12, 0], 4 * i);
     geometry.setAttribute("position", new BufferAttribute(new Float32Array(3 * count), 3));
-    geometry.setAttribute("normal", new BufferAttribute(new Int8Array(3 * count), 3, true));
-    geometry.setAttribute("source", new BufferAttribute(new Uint32Array(2 * count), 2));
-    still.colour(0, rgb("#e8590c"), false);
-    const dots = new Points(geometry, plain(still).point);
+    geometry.setAttribute("normal", new BufferAttribute(new Float32Array(3 * count), 3));
+    geometry.setAttribute("paint", new BufferAttribute(paint, 4, true));
+    geometry.setAttribute("value", new BufferAttribute(new Float32Array(count), 1));
+    geometry.setAttribute("owner", new BufferAttribute(new Uint32Array(count), 1));
+    const dots = new Points(geometry, this.plain.point);
     dots.frustumCulled = false;
     return dots;
   }
@@ -116,7 +94,7 @@ export class RunView {
   }
 
   ghost(rank: number): void {
-    for (const materials of [this.materials, this.glyphMaterials]) {
+    for (const materials of [this.materials, this.plain]) {
       setOpacity(materials, rank === 0 ? 1 : 0.38);
       const tint = materials.surface.uniforms["tint"]!.value as Vector4;
       tint.set(...rgb(GHOST_COLOURS[rank % GHOST_COLOURS.length]!), rank === 0 ? 0 : 0.75);
@@ -124,54 +102,45 @@ export class RunView {
     this.group.renderOrder = rank;
   }
 
-  /** Textures and lines of the present state of the run. */
+  /** Moves everything to the present state of the run; `pixel` is the length of a pixel. */
   update(settings: Settings, pixel: number): void {
-    const { run, origin } = this;
-    this.group.visible = run.visible;
-    if (!run.visible) return;
-    run.exaggeration = settings.exaggeration;
-    for (let b = 0; b < run.bodies.length; ++b) {
-      const pose = run.pose(b);
-      this.records.pose(b, subtract(pose.position, origin), pose.rotation, 1);
-    }
-    for (const { at, modes, stresses } of this.factors) {
-      const a = run.motion.amplitudes[at]!;
-      this.amplitudes.data[4 * at] = a * modes;
-      this.amplitudes.data[4 * at + 1] = a * stresses;
-    }
-    this.amplitudes.texture.needsUpdate = true;
-    this.materials.surface.uniforms["exaggeration"]!.value = settings.exaggeration;
+    this.group.visible = this.run.visible;
+    if (!this.run.visible) return;
+    this.run.exaggeration = settings.exaggeration;
     this.materials.surface.uniforms["chosen"]!.value = this.chosen;
     this.bodies.edges.visible = settings.edges;
+    this.placeBodies(settings.colouring, settings.exaggeration);
     this.placeGlyphs(settings, pixel);
     this.placeLines(settings, pixel);
     this.placeDots(settings);
   }
 
-  /** Keeps the amplitudes at the start, from which displacement is measured. */
-  markStart(): void {
-    for (const { at, modes } of this.factors) this.amplitudes.data[4 * at + 2] = this.run.motion.amplitudes[at]! * modes;
+  private placeBodies(what: Colouring, exaggeration: number): void {
+    const { run, origin } = this;
+    for (const [i, b] of this.drawn.entries()) {
+      const pose = run.pose(b), body = run.bodies[b]!;
+      const isFlexible = body.amplitudes !== null && run.shapes[body.shape!]!.modes !== null;
+      this.bodies.place(i, subtract(pose.position, origin), pose.rotation, 1, isFlexible ? run.motion.amplitudes : null, body.first, exaggeration, what);
+    }
+    this.bodies.flush(what !== "body");
   }
 
-  private glyph(i: number, place: Place, size: number): void {
-    const pose = this.run.drawn(place);
-    this.glyphRecords.pose(i, subtract(pose.position, this.origin), pose.rotation, size);
+  private glyph(batch: Batch, i: number, pose: Pose, size: number): void {
+    batch.place(i, subtract(pose.position, this.origin), pose.rotation, size, null, 0, 1, "body");
   }
 
   private placeGlyphs(settings: Settings, pixel: number): void {
-    const size = settings.glyphScale * Math.min(0.03 * this.run.size, 11 * pixel);
-    this.glyphs.joints.group.visible = settings.joints;
-    this.glyphs.arrows.group.visible = settings.arrows && this.arrowValues.length > 0;
-    for (const [i, joint] of this.run.joints.entries()) this.glyph(i, joint.place, size);
-    for (const [i, b] of this.markers.entries()) {
-      const pose = this.run.pose(b);
-      this.glyphRecords.pose(this.run.joints.length + i, subtract(pose.position, this.origin), pose.rotation, size);
-    }
-    if (this.glyphs.arrows.group.visible) this.placeArrows(settings);
+    const size = settings.glyphScale * Math.min(0.03 * this.run.size, 11 * pixel), { joints, markers, arrows } = this.glyphs;
+    joints.group.visible = settings.joints;
+    arrows.group.visible = settings.arrows && this.arrowValues.length > 0;
+    if (settings.joints) for (const [i, joint] of this.run.joints.entries()) this.glyph(joints, i, this.run.drawn(joint.place), size);
+    for (const [i, b] of this.markers.entries()) this.glyph(markers, i, this.run.pose(b), size);
+    if (arrows.group.visible) this.placeArrows(settings);
+    for (const batch of Object.values(this.glyphs)) batch.flush(false);
   }
 
   private placeArrows(settings: Settings): void {
-    const { row, share } = this.run.locate(this.run.time), first = this.run.joints.length + this.markers.length;
+    const { row, share } = this.run.locate(this.run.time);
     for (const [i, arrow] of this.run.arrows.entries()) {
       const pose = this.run.drawn(arrow.place);
       let vector = [0, 1, 2].map((c) => {
@@ -183,7 +152,7 @@ export class RunView {
       if (arrow.axes === "place") vector = rotate(pose.rotation, vector);
       const largest = arrow.kind === "moment" ? this.largestMoment : this.largestForce;
       const size = largest > 0 ? (0.25 * this.run.size * settings.arrowScale * Math.hypot(...vector)) / largest : 0;
-      this.glyphRecords.pose(first + i, subtract(pose.position, this.origin), turnOfZ(vector), size);
+      this.glyph(this.glyphs.arrows, i, { position: pose.position, rotation: turnOfZ(vector) }, size);
     }
   }
 

@@ -12,7 +12,6 @@ import { RunView } from "./run_view";
 import { Segments } from "./segments";
 import { COLOURINGS } from "./settings";
 import type { Settings } from "./settings";
-import { Amplitudes, modeTable, Records } from "./textures";
 
 const PICK_DISTANCE = 10;
 
@@ -31,27 +30,27 @@ export class Viewport {
   contextLost = false;
   /** First fault of the shaders or the driver, for the reader. */
   fault = "";
+  readonly software: boolean;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly shared: Uniforms = sharedUniforms();
   private readonly ground: Segments;
   private readonly box: [Vec, Vec];
   private dirty = true;
+  private touched = 0;
   private ratio = 1;
 
   constructor(readonly canvas: HTMLCanvasElement, readonly runs: Run[], readonly settings: Settings) {
     this.box = unionOf(runs);
     this.origin = [0, 1, 2].map((i) => (this.box[0][i]! + this.box[1][i]!) / 2) as Vec;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: false, powerPreference: "high-performance" });
+    this.software = isSoftware();
+    this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, preserveDrawingBuffer: false, powerPreference: "high-performance" });
     this.renderer.debug.onShaderError = (gl, program, vertex, fragment) => {
       this.fault = [gl.getProgramInfoLog(program), gl.getShaderInfoLog(vertex), gl.getShaderInfoLog(fragment)].filter(Boolean).join(" ");
     };
     this.camera = new OrbitCamera(runs[0]!.entry.up, Math.hypot(...subtract(this.box[1], this.box[0])) || 1);
-    this.views = runs.map((run) => new RunView(run, this.origin, this.shared, this.renderer.capabilities.maxTextureSize));
-    const nothing = { value: modeTable([], 3, 1).texture };
-    const still = { records: { value: new Records(1).texture }, amplitudes: { value: new Amplitudes(1).texture }, modes: nothing, stresses: nothing,
-      exaggeration: { value: 1 }, opacity: { value: 1 }, chosen: { value: -1 }, tint: { value: new Vector4(0, 0, 0, 0) } };
-    const ground = materialsOf(this.shared, { ...still, colouring: { value: 0 } }).segment;
+    this.views = runs.map((run) => new RunView(run, this.origin, this.shared));
+    const ground = materialsOf(this.shared, false).segment;
     ground.transparent = true;
     ground.depthWrite = false;
     ground.uniforms["width"]!.value = 1.2;
@@ -59,10 +58,6 @@ export class Viewport {
     this.ground.mesh.renderOrder = -1;
     this.scene.add(this.ground.mesh);
     for (const view of this.views) this.scene.add(view.group);
-    for (const view of this.views) {
-      view.update(settings, 1);
-      view.markStart();
-    }
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();
       this.contextLost = true;
@@ -76,10 +71,11 @@ export class Viewport {
 
   touch(): void {
     this.dirty = true;
+    this.touched = performance.now();
   }
-  get softwareRendering(): boolean {
-    const gl = this.renderer.getContext(), info = gl.getExtension("WEBGL_debug_renderer_info");
-    return /swiftshader|llvmpipe|software/i.test(info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "");
+  /** Milliseconds since something changed. */
+  get still(): number {
+    return performance.now() - this.touched;
   }
   get error(): number {
     return this.renderer.getContext().getError();
@@ -121,9 +117,9 @@ export class Viewport {
     this.touch();
   }
 
-  /** Fewer pixels while a slow machine plays. */
+  /** Pixels drawn for each pixel of the screen, along each side: fewer while a slow machine plays, more in a still. */
   set quality(ratio: number) {
-    if (ratio !== this.ratio) this.ratio = ratio, this.touch();
+    if (ratio !== this.ratio) this.ratio = ratio, (this.dirty = true);
   }
   get quality(): number {
     return this.ratio;
@@ -200,6 +196,14 @@ export class Viewport {
     const index = firsts.findLastIndex((own) => own <= id), run = this.runs[index];
     return run && id - firsts[index]! < run.bodies.length ? { run, body: id - firsts[index]!, node: null } : null;
   }
+}
+
+/** Whether the browser draws without a graphics card: smoothing then costs more than it is worth in motion. */
+function isSoftware(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2"), info = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = gl && info ? String(gl.getParameter(info.UNMASKED_RENDERER_WEBGL)) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|software|basic render/i.test(name);
 }
 
 function unionOf(runs: Run[]): [Vec, Vec] {
