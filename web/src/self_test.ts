@@ -1,5 +1,6 @@
 // window.tisserand: what the page tells of itself to tests and to the curious (web/README.md lists it).
 import type { App } from "./app";
+import { csvOf } from "./curves/table";
 import type { Vec } from "./data/rotation";
 
 export interface SelfTest {
@@ -56,6 +57,14 @@ export function selfTestOf(app: App, openedAfter: number): SelfTest {
       const index = app.runs[run]!.entry.channels.findIndex((channel) => channel.path === path);
       return (await app.runs[run]!.channel(index))[row];
     },
+    /** Abscissa and ordinate of a column of a panel of curves, as it is drawn. */
+    curve: (panel: number, column: number) => {
+      const found = app.curves.panels[panel]?.table?.columns[column];
+      return found ? { label: found.label, unit: found.unit, x: [...found.x], y: [...found.y] } : null;
+    },
+    csv: (panel: number) => (app.curves.panels[panel]?.table ? csvOf(app.curves.panels[panel].table) : ""),
+    /** Bytes of the picture that is offered for saving. */
+    picture: async () => (await app.savePicture())?.size ?? 0,
     pick: (x: number, y: number) => {
       const picked = app.viewport?.pick(x, y);
       return picked ? { run: picked.run.index, body: picked.run.bodies[picked.body]!.name, node: picked.node === null ? null : picked.run.nodes[picked.node]!.name } : null;

@@ -60,7 +60,7 @@ export function swingingBeam(blocks, name, { rows = 201, end = 5, amplitude = 0.
     { name: "anchor", kind: "virtual", shape: null, mass: null, ...still, position: blocks.floats([1, 3], [-1, 0, -0.5]) },
   ];
   run.nodes = [
-    { name: "beam/tip", body: 0, place: { position: positions((t) => SWING.tip(t, amplitude)), rest: [length, 0, 0] }, also: ["beam/end"] },
+    { name: "beam/tip", body: 0, place: { body: 0, position: positions((t) => SWING.tip(t, amplitude)), rest: [length, 0, 0] }, also: ["beam/end"] },
     { name: "beam/root", body: 0, place: { position: blocks.floats([1, 3], [0, 0, 0]), rest: [0, 0, 0] } },
     { name: "frame/left", body: 1, place: { body: 1, point: [0, -0.3, 0] } },
   ];

@@ -94,13 +94,26 @@ export class Curves implements PanelHost {
   }
 }
 
-/** What is shown at first: a channel with a reference, else the first group of channels. */
+/** What is shown at first: channels with a reference, else the node that travels farthest. */
 function initialChannels(runs: Run[]): string[] {
   const channels = runs[0]!.entry.channels, known = new Set(channels.map((channel) => channel.path));
   const referred = runs.flatMap((run) => run.entry.references.map((reference) => reference.channel)).filter((path) => known.has(path));
   if (referred.length > 0) return [...new Set(referred)].slice(0, 3);
-  const first = channels.find((channel) => channel.path.startsWith("nodes/position")) ?? channels[0];
+  const far = `nodes/position/${farthestNode(runs[0]!)}/`;
+  const first = channels.find((channel) => channel.path.startsWith(far)) ?? channels.find((channel) => channel.path.startsWith("nodes/position")) ?? channels[0];
   if (!first) return [];
   const stem = first.path.slice(0, first.path.lastIndexOf("/") + 1);
   return channels.filter((channel) => channel.path.startsWith(stem) && channel.unit === first.unit).slice(0, 3).map((channel) => channel.path);
+}
+
+/** Name of the node whose track has the largest extent, over a sample of instants. */
+function farthestNode(run: Run): string {
+  const instants = Array.from({ length: 24 }, (_, i) => run.times[Math.floor((i * (run.times.length - 1)) / 23)]!);
+  let name = "", largest = -1;
+  for (const node of run.nodes.slice(0, 3000)) {
+    const track = instants.map((t) => run.placeAt(node.place, t).position);
+    const extent = Math.hypot(...[0, 1, 2].map((c) => Math.max(...track.map((p) => p[c]!)) - Math.min(...track.map((p) => p[c]!))));
+    if (extent > largest) largest = extent, name = node.name;
+  }
+  return name;
 }

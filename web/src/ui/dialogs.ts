@@ -14,7 +14,7 @@ export function helpDialog(commands: Command[], program: string): HTMLDialogElem
   const groups = (["Time", "View", "Show", "Page"] as const).map((group) =>
     h("section", {}, h("h3", {}, group), h("dl", { class: "keys" },
       ...commands.filter((command) => command.group === group).flatMap((command) => [
-        h("dt", {}, ...command.keys.map((key) => h("kbd", {}, written(key)))), h("dd", {}, command.name)]))));
+        h("dt", {}, h("kbd", {}, written(command.keys[0]!))), h("dd", {}, command.name)]))));
   const licences = dialog("Licences", h("pre", { class: "licences", tabindex: 0 }, document.getElementById("tisserand-licences")?.textContent ?? ""));
   return dialog("Keys and mouse", h("div", { class: "key-groups" }, ...groups),
     h("p", {}, "Drag turns the picture; with Shift or the right button it moves; the wheel or two fingers zoom. A click names a body or a node."),

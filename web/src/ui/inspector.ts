@@ -1,6 +1,6 @@
 // What was chosen in the picture: a body or a node, its place now, and the channels of its name.
 import { button, h } from "./dom";
-import { number } from "./numbers";
+import { number, steady } from "./numbers";
 import type { Run } from "../data/run";
 import type { Picked } from "../view/viewport";
 
@@ -40,7 +40,7 @@ export class Inspector {
       this.updates.push(() => (output.textContent = value()));
     };
     const place = (): number[] => (node === null ? run.placeAt(bodyPlace(body), run.time) : run.placeAt(run.nodes[node]!.place, run.time)).position;
-    row("position", run.unit("length"), () => place().map((x) => number(x)).join("  "));
+    row("position", run.unit("length"), () => place().map((x) => steady(x, 1e-5 * run.size)).join("  "));
     if (node === null) row("quaternion", "", () => run.pose(body).rotation.map((x) => x.toFixed(4)).join("  "));
     else row("of body", "", () => entry.name);
     if (node === null && entry.mass !== null) row("mass", run.unit("mass"), () => number(entry.mass));

@@ -4,6 +4,8 @@ import { length, scaled } from "../data/rotation";
 import type { Vec } from "../data/rotation";
 
 const OPENING = (28 * Math.PI) / 180;
+/** Room about what is shown. */
+const MARGIN = 1.12;
 
 export type Standard = "iso" | "front" | "back" | "left" | "right" | "top" | "bottom";
 const RIGHT = Math.PI / 2;
@@ -23,27 +25,38 @@ export class OrbitCamera {
   azimuth = STANDARD.iso[0];
   elevation = STANDARD.iso[1];
   private readonly axes: [Vec, Vec, Vec];
-  private aspect = 1;
+  private aspect = 0;
 
-  constructor(up: Vec, private size: number) {
+  private readonly size: number;
+
+  /** `half`: half the sides of the box of the motion, about the origin of the picture. */
+  constructor(up: Vec, private readonly half: Vec) {
+    this.size = 2 * length(half) || 1;
     const z = unit(up);
     // x of the world stays x of the picture where it can: front is seen along +y.
     const x = unit(Math.abs(z[0]) < 0.9 ? cross(cross(z, [1, 0, 0]), z) : cross(cross(z, [0, 1, 0]), z));
     this.axes = [x, cross(z, x), z];
-    this.fit();
   }
 
   get active(): PerspectiveCamera | OrthographicCamera {
     return this.parallel ? this.orthographic : this.perspective;
   }
 
-  fit(target: Vec = [0, 0, 0], size = this.size): void {
-    this.target = target;
-    this.size = size;
-    this.distance = (0.55 * size) / Math.sin(OPENING / 2) / Math.min(1, this.aspect);
+  /** Shows the whole box, seen from the present direction. */
+  fit(): void {
+    const { right, above, back } = this.directions(), tangent = Math.tan(OPENING / 2);
+    const along = (p: Vec, axis: Vec): number => p[0] * axis[0] + p[1] * axis[1] + p[2] * axis[2];
+    this.target = [0, 0, 0];
+    this.distance = 0.1 * this.size;
+    for (let i = 0; i < 8; ++i) {
+      const corner = this.half.map((x, c) => (i & (1 << c) ? x : -x)) as Vec, toward = this.parallel ? 0 : along(corner, back);
+      const reach = Math.max(Math.abs(along(corner, right)) / this.aspect, Math.abs(along(corner, above)));
+      this.distance = Math.max(this.distance, toward + (MARGIN * reach) / tangent);
+    }
   }
   standard(view: Standard): void {
     [this.azimuth, this.elevation] = STANDARD[view];
+    this.fit();
   }
   orbit(azimuth: number, elevation: number): void {
     this.azimuth += azimuth;
@@ -73,7 +86,9 @@ export class OrbitCamera {
   }
 
   update(width: number, height: number): void {
+    const isFirst = this.aspect === 0;
     this.aspect = width / Math.max(1, height);
+    if (isFirst) this.fit();
     const { above, back } = this.directions();
     const half = this.distance * Math.tan(OPENING / 2);
     const near = Math.max(this.distance - 4 * this.size, this.distance / 200);

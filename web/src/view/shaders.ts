@@ -56,7 +56,7 @@ void main() {
   shine *= shine;
   shine *= shine;
   vec3 base = painted(colour, share);
-  if (body == chosen) base = mix(base, vec3(1.0, 0.72, 0.2), 0.55);
+  if (body == chosen) base = mix(base, vec3(1.0, 0.72, 0.2), colouring > 0 ? 0.0 : 0.55);
   result = vec4(base * (0.30 + 0.52 * key + 0.24 * fill) + 0.07 * shine * shine, opacity);
 }`;
 

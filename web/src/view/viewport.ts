@@ -48,7 +48,7 @@ export class Viewport {
     this.renderer.debug.onShaderError = (gl, program, vertex, fragment) => {
       this.fault = [gl.getProgramInfoLog(program), gl.getShaderInfoLog(vertex), gl.getShaderInfoLog(fragment)].filter(Boolean).join(" ");
     };
-    this.camera = new OrbitCamera(runs[0]!.entry.up, Math.hypot(...subtract(this.box[1], this.box[0])) || 1);
+    this.camera = new OrbitCamera(runs[0]!.entry.up, subtract(this.box[1], this.origin));
     this.views = runs.map((run) => new RunView(run, this.origin, this.shared));
     const ground = materialsOf(this.shared, false).segment;
     ground.transparent = true;
