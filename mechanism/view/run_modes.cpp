@@ -36,7 +36,7 @@ ModesOfBodies::ModesOfBodies(const formats::ResultsReader& reader) {
   if (reader.modes() == 0) return;
   const MatrixXd values = reader.read_rows({"modes/frequency", "modes/damping_ratio"}, 0, reader.modes());
   frequency_ = values.col(0);
-  damping_ = values.col(1);
+  damping_ = (values.col(1).array().abs() < 1e-9).select(0.0, values.col(1));  // round-off
   translation_ = shapes_of_nodes(reader, "translation");
   rotation_ = shapes_of_nodes(reader, "rotation");
   bodies_.assign(reader.modes(), Json::array());

@@ -145,8 +145,9 @@ TEST_F(Page, ShowsBodiesWithTheirShapes) {
     // Solids of the scene: the middle of the box and of the sphere (whose vertices are symmetric) is the weight.
     const Eigen::Matrix3Xd solid = read.vertices(one, named(one["bodies"], "weight"), t);
     EXPECT_LT((solid.leftCols(8).rowwise().mean() - position("weight", t)).norm(), 1e-4);
-    // A homogeneous ball of 1 kg with 0.004 kg m2 has the radius sqrt(5/2 0.004) = 0.1 m; 13 rings of 24 corners.
-    const Eigen::Matrix3Xd ball = read.vertices(one, named(one["bodies"], "ball"), t).leftCols(13 * 24);
+    // A homogeneous ball of 1 kg with 0.004 kg m2 has the radius sqrt(5/2 0.004) = 0.1 m; 11 rings of 24 corners and
+    // two poles.
+    const Eigen::Matrix3Xd ball = read.vertices(one, named(one["bodies"], "ball"), t).leftCols(11 * 24 + 2);
     for (Index v = 0; v < ball.cols(); ++v) EXPECT_NEAR((ball.col(v) - position("ball", t)).norm(), 0.1, 1e-4);
   }
 }
@@ -160,7 +161,11 @@ TEST_F(Page, PutsJointsSpringsAndForcesWhereTheyAct) {
   EXPECT_EQ(one["bodies"][hinge["bodies"][1].get<int>()]["name"], "rod");
   // z of the marker is the axis of the joint, y of the world.
   const json& q = hinge["place"]["rotation"];
-  EXPECT_LT((Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * Vector3d::UnitZ() - Vector3d::UnitY()).norm(), 1e-12);
+  EXPECT_LT((Eigen::Quaterniond(q[0].get<double>(), q[1].get<double>(), q[2].get<double>(), q[3].get<double>()) *
+                 Vector3d::UnitZ() -
+             Vector3d::UnitY())
+                .norm(),
+            1e-12);
   EXPECT_EQ(one["channels"][hinge["coordinates"][0].get<int>()]["path"], "joints/coordinate/hinge");
   EXPECT_EQ(swing["kind"], "spherical");
   for (const int t : {0, 77}) {
