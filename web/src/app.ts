@@ -121,7 +121,8 @@ export class App {
   }
 
   private head(): HTMLElement {
-    const chips = this.runs.map((run, i) => {
+    const isNamed = this.runs.length === 1 && this.runs[0]!.name === this.page.header.title;
+    const chips = (isNamed ? [] : this.runs).map((run, i) => {
       const box = h("input", { type: "checkbox", onchange: () => this.showRun(i, box.checked) });
       box.checked = true;
       const mark = h("span", { class: "swatch" });

@@ -89,8 +89,9 @@ class Page {
   }
   /** Opens a file and waits until the page tells that it is open, or has failed. */
   async open(file) {
-    await this.send("Page.navigate", { url: pathToFileURL(file).href });
-    await this.until("location.protocol === 'file:' && window.tisserand !== undefined", 30000);
+    const { href } = pathToFileURL(file);
+    await this.send("Page.navigate", { url: href });
+    await this.until(`location.href === ${JSON.stringify(href)} && window.tisserand !== undefined`, 30000);
   }
   async evaluate(expression) {
     const { result, exceptionDetails } = await this.send("Runtime.evaluate", { expression, awaitPromise: true, returnByValue: true });

@@ -99,6 +99,7 @@ export class Panel {
     return {
       width: Math.max(220, this.canvas.clientWidth),
       height: HEIGHT,
+      pxAlign: 0,
       legend: { show: false },
       cursor: { drag: { x: true, y: false, dist: 6 }, points: { size: 5 }, bind: { dblclick: () => () => (this.host.zoomed(this, null), null) } },
       scales: {

@@ -81,7 +81,7 @@ export class Viewport {
     return this.renderer.getContext().getError();
   }
   get vertices(): number {
-    return this.views.reduce((sum, view) => sum + view.bodies.vertices, 0);
+    return this.views.reduce((sum, view) => sum + view.vertices, 0);
   }
   get pixel(): number {
     return this.camera.perPixel(Math.max(1, this.canvas.clientHeight));
