@@ -30,6 +30,7 @@ export class Panel {
   private readonly legend = h("ul", { class: "curve-legend" });
   private readonly canvas = h("div", { class: "curve-canvas" });
   private readonly remark = h("p", { class: "remark" });
+  private readonly line = h("div", { class: "time-line" });
   private readonly readings: HTMLElement[] = [];
   private built = 0;
 
@@ -121,9 +122,12 @@ export class Panel {
         points: column.rank < 0 ? { show: true, size: 5, stroke: column.colour, fill: styled("--paper") } : { show: false },
       }))],
       hooks: {
-        draw: [(u) => this.drawTime(u)],
+        draw: [(u) => this.placeTime(u)],
         setSelect: [(u) => this.zoom(u)],
-        ready: [(u) => u.over.addEventListener("click", (event) => this.clicked(u, event))],
+        ready: [(u) => {
+          u.over.append(this.line);
+          u.over.addEventListener("click", (event) => this.clicked(u, event));
+        }],
       },
     };
   }
@@ -140,24 +144,17 @@ export class Panel {
     this.host.seek(u.posToVal(event.offsetX, "x"));
   }
 
-  private drawTime(u: uPlot): void {
-    if (this.presentation === "spectrum") return;
-    const x = Math.round(u.valToPos(this.host.time(), "x", true)), { left, top, width, height } = u.bbox;
-    if (!(x >= left && x <= left + width)) return;
-    u.ctx.save();
-    u.ctx.strokeStyle = styled("--accent");
-    u.ctx.lineWidth = 1.5 * devicePixelRatio;
-    u.ctx.beginPath();
-    u.ctx.moveTo(x, top);
-    u.ctx.lineTo(x, top + height);
-    u.ctx.stroke();
-    u.ctx.restore();
+  /** The line of the time lies over the diagram: moving it draws nothing anew. */
+  private placeTime(u: uPlot): void {
+    const x = u.valToPos(this.host.time(), "x"), width = u.over.clientWidth;
+    this.line.hidden = this.presentation === "spectrum" || !(x >= 0 && x <= width);
+    this.line.style.transform = `translateX(${(x - 0.75).toFixed(2)}px)`;
   }
 
   /** Cursor and readings at the time of the animation. */
   follow(): void {
     if (!this.plot || !this.table) return;
-    if (this.presentation !== "spectrum") this.plot.redraw(false, false);
+    this.placeTime(this.plot);
     const t = this.host.time();
     for (const [i, column] of this.table.columns.entries())
       this.readings[i]!.textContent = this.presentation === "spectrum" ? "" : number(valueAt(column.x, column.y, t));
