@@ -109,6 +109,7 @@ export class App {
     listenToKeys(commands);
     this.viewport?.camera.listen(canvas, () => this.viewport!.touch(), (x, y) => this.choose(this.viewport!.pick(x, y)));
     this.player.onChange(() => (this.moved = true));
+    document.addEventListener("fullscreenchange", () => root.classList.toggle("full", document.fullscreenElement !== null));
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.theme());
     new ResizeObserver(() => {
       this.viewport?.touch();
@@ -305,6 +306,6 @@ export class App {
   }
   fullScreen(): void {
     if (document.fullscreenElement) void document.exitFullscreen();
-    else void this.stage.requestFullscreen?.().catch(() => this.tell("This browser gives no full screen here."));
+    else void document.documentElement.requestFullscreen?.().catch(() => this.tell("This browser gives no full screen here."));
   }
 }

@@ -98,7 +98,7 @@ class Page {
     if (exceptionDetails) throw new Error(`${expression}: ${exceptionDetails.exception?.description ?? exceptionDetails.text}`);
     return result.value;
   }
-  async until(expression, limit = 5000) {
+  async until(expression, limit = 20000) {
     const end = Date.now() + limit;
     while (Date.now() < end) {
       if (await this.evaluate(`Boolean(${expression})`).catch(() => false)) return;

@@ -109,7 +109,7 @@ export class Panel {
       },
       axes: [
         { ...axis, label: unit ? `${label} [${unit}]` : label, labelFont: font, labelSize: 16, size: 30, values: (_u, ticks) => ticks.map((t) => number(t, 6)) },
-        { ...axis, label: units ? `[${units}]` : "", labelFont: font, labelSize: 16, size: 56,
+        { ...axis, ...(isSpectrum ? { splits: (_u: uPlot, _axis: number, low: number, high: number) => decades(low, high) } : {}), label: units ? `[${units}]` : "", labelFont: font, labelSize: 16, size: 56,
           values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t, 5))) },
       ],
       series: [{}, ...table.columns.map((column): uPlot.Series => ({
@@ -164,4 +164,10 @@ export class Panel {
     const width = Math.max(220, this.canvas.clientWidth);
     if (this.plot && Math.abs(this.plot.width - width) > 1) this.plot.setSize({ width, height: HEIGHT });
   }
+}
+
+/** The powers of ten between low and high. */
+function decades(low: number, high: number): number[] {
+  const first = Math.ceil(Math.log10(low)), last = Math.floor(Math.log10(high));
+  return Array.from({ length: Math.max(0, last - first + 1) }, (_, i) => 10 ** (first + i));
 }
