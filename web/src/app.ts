@@ -109,6 +109,7 @@ export class App {
     listenToKeys(commands);
     this.viewport?.camera.listen(canvas, () => this.viewport!.touch(), (x, y) => this.choose(this.viewport!.pick(x, y)));
     this.player.onChange(() => (this.moved = true));
+    document.addEventListener("fullscreenchange", () => root.classList.toggle("full", document.fullscreenElement !== null));
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.theme());
     new ResizeObserver(() => {
       this.viewport?.touch();
@@ -121,7 +122,8 @@ export class App {
   }
 
   private head(): HTMLElement {
-    const chips = this.runs.map((run, i) => {
+    const isNamed = this.runs.length === 1 && this.runs[0]!.name === this.page.header.title;
+    const chips = (isNamed ? [] : this.runs).map((run, i) => {
       const box = h("input", { type: "checkbox", onchange: () => this.showRun(i, box.checked) });
       box.checked = true;
       const mark = h("span", { class: "swatch" });
@@ -304,6 +306,6 @@ export class App {
   }
   fullScreen(): void {
     if (document.fullscreenElement) void document.exitFullscreen();
-    else void this.stage.requestFullscreen?.().catch(() => this.tell("This browser gives no full screen here."));
+    else void document.documentElement.requestFullscreen?.().catch(() => this.tell("This browser gives no full screen here."));
   }
 }

@@ -9,7 +9,7 @@ export const CHROMIUM = ["chromium", "chromium-browser", "google-chrome"]
   .flatMap((name) => (process.env.PATH ?? "").split(":").map((folder) => join(folder, name))).find((path) => existsSync(path));
 
 const FLAGS = [
-  "--headless", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
+  "--headless", "--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run",
   "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-default-apps", "--disable-extensions", "--mute-audio",
   "--hide-scrollbars", "--disable-dev-shm-usage", "--disable-features=Translate,MediaRouter,OptimizationHints", "--force-color-profile=srgb", "--remote-debugging-pipe",
 ];
@@ -89,15 +89,16 @@ class Page {
   }
   /** Opens a file and waits until the page tells that it is open, or has failed. */
   async open(file) {
-    await this.send("Page.navigate", { url: pathToFileURL(file).href });
-    await this.until("location.protocol === 'file:' && window.tisserand !== undefined", 30000);
+    const { href } = pathToFileURL(file);
+    await this.send("Page.navigate", { url: href });
+    await this.until(`location.href === ${JSON.stringify(href)} && window.tisserand !== undefined`, 30000);
   }
   async evaluate(expression) {
     const { result, exceptionDetails } = await this.send("Runtime.evaluate", { expression, awaitPromise: true, returnByValue: true });
     if (exceptionDetails) throw new Error(`${expression}: ${exceptionDetails.exception?.description ?? exceptionDetails.text}`);
     return result.value;
   }
-  async until(expression, limit = 5000) {
+  async until(expression, limit = 20000) {
     const end = Date.now() + limit;
     while (Date.now() < end) {
       if (await this.evaluate(`Boolean(${expression})`).catch(() => false)) return;

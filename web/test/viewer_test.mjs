@@ -20,12 +20,12 @@ const viewer = readFileSync(process.argv[2] ?? join(dirname(fileURLToPath(import
 const folder = mkdtempSync(join(tmpdir(), "tisserand-pages-"));
 let browser;
 
-/** Opens a scene in a new tab; `change` edits its header, `damage` its numbers. */
-async function open(scene, { change = () => {}, damage, edit = (html) => html, before = "", ...options } = {}) {
+/** Opens a scene in a new tab, or in `tab`; `change` edits its header, `damage` its numbers, `edit` the text of the page. */
+async function open(scene, { change = () => {}, damage, edit = (html) => html, before = "", tab = null, ...options } = {}) {
   const { header, blocks } = sceneBlocks(scene), file = join(folder, `${scene}${Math.random().toString(36).slice(2)}.html`);
   change(header);
   writeFileSync(file, edit(pageOf(viewer, header, blocks, damage ? { damage } : {})));
-  const page = await browser.page(options);
+  const page = tab ?? (await browser.page(options));
   if (before) await page.send("Page.addScriptToEvaluateOnNewDocument", { source: before });
   await page.open(file);
   return page;
@@ -248,12 +248,13 @@ test("the viewer", async (suite) => {
       [/its block holds/, { change: (header) => (header.runs[0].times.shape = [100000000]) }],
       [/empty viewer/, { edit: () => viewer }],
     ];
+    let tab = null;
     for (const [message, options] of cases) {
-      const page = await open("beam", options);
+      const page = (tab = await open("beam", { ...options, tab }));
       assert.match(await page.evaluate("tisserand.failure ?? 'opened'"), message);
       assert.match(await page.evaluate("document.querySelector('[role=alert]').innerText"), message);
-      await page.close();
     }
+    await tab.close();
   });
 
   await suite.test("works without WebGL but for the picture", async () => {
@@ -268,8 +269,9 @@ test("the viewer", async (suite) => {
   });
 
   await suite.test("names its controls and has contrast", async () => {
-    for (const dark of [false, true]) {
-      const page = await open("beam", { dark });
+    const page = await open("beam");
+    for (const theme of ["light", "dark"]) {
+      await page.send("Emulation.setEmulatedMedia", { features: [{ name: "prefers-color-scheme", value: theme }] });
       const nameless = await page.evaluate(`[...document.querySelectorAll('button, input, select, [role=separator], canvas.picture')]
         .filter((e) => !(e.getAttribute('aria-label') || e.textContent.trim() || e.labels?.[0]?.textContent.trim())).map((e) => e.outerHTML)`);
       assert.deepEqual(nameless, []);
@@ -279,9 +281,10 @@ test("the viewer", async (suite) => {
         .reduce((sum, c, i) => sum + [0.2126, 0.7152, 0.0722][i] * c, 0);
       for (const [a, b] of [["ink", "paper"], ["ink-2", "paper"], ["ink-2", "stage"], ["ink-2", "ground"], ["ink-2", "hover"], ["accent", "paper"], ["accent-ink", "accent"], ["warn", "warn-ground"]]) {
         const [low, high] = [luminance(colours[a]), luminance(colours[b])].sort((x, y) => x - y);
-        assert.ok((high + 0.05) / (low + 0.05) >= 4.5, `${a} on ${b}: ${((high + 0.05) / (low + 0.05)).toFixed(2)} (WCAG AA asks 4.5)`);
+        assert.ok((high + 0.05) / (low + 0.05) >= 4.5, `${theme}, ${a} on ${b}: ${((high + 0.05) / (low + 0.05)).toFixed(2)} (WCAG AA asks 4.5)`);
       }
-      await page.close();
+      assert.equal(colours.paper, { light: "#ffffff", dark: "#15181c" }[theme], "the page follows the system");
     }
+    await quiet(page);
   });
 });

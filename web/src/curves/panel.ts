@@ -30,6 +30,7 @@ export class Panel {
   private readonly legend = h("ul", { class: "curve-legend" });
   private readonly canvas = h("div", { class: "curve-canvas" });
   private readonly remark = h("p", { class: "remark" });
+  private readonly line = h("div", { class: "time-line" });
   private readonly readings: HTMLElement[] = [];
   private built = 0;
 
@@ -99,6 +100,7 @@ export class Panel {
     return {
       width: Math.max(220, this.canvas.clientWidth),
       height: HEIGHT,
+      pxAlign: 0,
       legend: { show: false },
       cursor: { drag: { x: true, y: false, dist: 6 }, points: { size: 5 }, bind: { dblclick: () => () => (this.host.zoomed(this, null), null) } },
       scales: {
@@ -107,7 +109,7 @@ export class Panel {
       },
       axes: [
         { ...axis, label: unit ? `${label} [${unit}]` : label, labelFont: font, labelSize: 16, size: 30, values: (_u, ticks) => ticks.map((t) => number(t, 6)) },
-        { ...axis, label: units ? `[${units}]` : "", labelFont: font, labelSize: 16, size: 56,
+        { ...axis, ...(isSpectrum ? { splits: (_u: uPlot, _axis: number, low: number, high: number) => decades(low, high) } : {}), label: units ? `[${units}]` : "", labelFont: font, labelSize: 16, size: 56,
           values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t, 5))) },
       ],
       series: [{}, ...table.columns.map((column): uPlot.Series => ({
@@ -120,9 +122,12 @@ export class Panel {
         points: column.rank < 0 ? { show: true, size: 5, stroke: column.colour, fill: styled("--paper") } : { show: false },
       }))],
       hooks: {
-        draw: [(u) => this.drawTime(u)],
+        draw: [(u) => this.placeTime(u)],
         setSelect: [(u) => this.zoom(u)],
-        ready: [(u) => u.over.addEventListener("click", (event) => this.clicked(u, event))],
+        ready: [(u) => {
+          u.over.append(this.line);
+          u.over.addEventListener("click", (event) => this.clicked(u, event));
+        }],
       },
     };
   }
@@ -139,24 +144,17 @@ export class Panel {
     this.host.seek(u.posToVal(event.offsetX, "x"));
   }
 
-  private drawTime(u: uPlot): void {
-    if (this.presentation === "spectrum") return;
-    const x = Math.round(u.valToPos(this.host.time(), "x", true)), { left, top, width, height } = u.bbox;
-    if (!(x >= left && x <= left + width)) return;
-    u.ctx.save();
-    u.ctx.strokeStyle = styled("--accent");
-    u.ctx.lineWidth = 1.5 * devicePixelRatio;
-    u.ctx.beginPath();
-    u.ctx.moveTo(x, top);
-    u.ctx.lineTo(x, top + height);
-    u.ctx.stroke();
-    u.ctx.restore();
+  /** The line of the time lies over the diagram: moving it draws nothing anew. */
+  private placeTime(u: uPlot): void {
+    const x = u.valToPos(this.host.time(), "x"), width = u.over.clientWidth;
+    this.line.hidden = this.presentation === "spectrum" || !(x >= 0 && x <= width);
+    this.line.style.transform = `translateX(${(x - 0.75).toFixed(2)}px)`;
   }
 
   /** Cursor and readings at the time of the animation. */
   follow(): void {
     if (!this.plot || !this.table) return;
-    if (this.presentation !== "spectrum") this.plot.redraw(false, false);
+    this.placeTime(this.plot);
     const t = this.host.time();
     for (const [i, column] of this.table.columns.entries())
       this.readings[i]!.textContent = this.presentation === "spectrum" ? "" : number(valueAt(column.x, column.y, t));
@@ -166,4 +164,10 @@ export class Panel {
     const width = Math.max(220, this.canvas.clientWidth);
     if (this.plot && Math.abs(this.plot.width - width) > 1) this.plot.setSize({ width, height: HEIGHT });
   }
+}
+
+/** The powers of ten between low and high. */
+function decades(low: number, high: number): number[] {
+  const first = Math.ceil(Math.log10(low)), last = Math.floor(Math.log10(high));
+  return Array.from({ length: Math.max(0, last - first + 1) }, (_, i) => 10 ** (first + i));
 }

@@ -12,8 +12,8 @@ export interface Caption {
 
 /** Draws picture and caption into `context`. */
 function compose(context: CanvasRenderingContext2D, picture: HTMLCanvasElement, caption: Caption): void {
-  const { width, height } = picture, unit = Math.max(1, height / 700);
-  context.drawImage(picture, 0, 0);
+  const { width, height } = context.canvas, unit = Math.max(1, height / 700);
+  context.drawImage(picture, 0, 0, width, height);
   context.fillStyle = styled("--ink");
   context.textBaseline = "top";
   context.font = `600 ${15 * unit}px system-ui, sans-serif`;

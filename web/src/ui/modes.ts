@@ -2,6 +2,7 @@
 import { button, h } from "./dom";
 import { number } from "./numbers";
 import type { Player } from "./player";
+import type { ModeEntry } from "../data/header";
 import type { Run } from "../data/run";
 
 export class Modes {
@@ -38,21 +39,11 @@ export class Modes {
 
   /** Factor on the stored shape that makes its largest displacement `share` of the size of the run. */
   amplitude(run: Run, index: number): number {
-    const mode = run.entry.modes![index]!;
-    let largest = 0;
-    for (const moved of mode.bodies) {
-      const body = run.bodies[moved.body];
-      const shape = body && body.shape !== null ? run.shapes[body.shape]! : null;
-      for (const part of [0, 1]) {
-        const norm = (v: number[] | undefined): number => Math.hypot(...(v ?? [0]));
-        let size = norm(moved.translation[part]) + norm(moved.rotation[part]) * reach(shape?.vertices);
-        const a = moved.amplitudes?.[part];
-        if (a && shape?.modes) size += a.reduce((sum, x, k) => sum + Math.abs(x) * largestOf(shape.modes!, k), 0);
-        largest = Math.max(largest, size);
-      }
-    }
-    return largest > 0 ? (this.share * run.size) / largest : 0;
+    const mode = run.entry.modes![index]!, size = this.sizes.get(mode) ?? largestMotion(run, mode);
+    this.sizes.set(mode, size);
+    return size > 0 ? (this.share * run.size) / size : 0;
   }
+  private readonly sizes = new WeakMap<ModeEntry, number>();
 
   private follow(): void {
     for (const { run, index, row, choose } of this.rows) {
@@ -61,6 +52,23 @@ export class Modes {
       choose.setAttribute("aria-pressed", String(on));
     }
   }
+}
+
+/** Bound of the displacement of the stored shape: translation, rotation times reach, and the amplitudes of its body. */
+function largestMotion(run: Run, mode: ModeEntry): number {
+  let largest = 0;
+  for (const moved of mode.bodies) {
+    const body = run.bodies[moved.body];
+    const shape = body && body.shape !== null ? run.shapes[body.shape]! : null;
+    for (const part of [0, 1]) {
+      const norm = (v: number[] | undefined): number => Math.hypot(...(v ?? [0]));
+      let size = norm(moved.translation[part]) + norm(moved.rotation[part]) * reach(shape?.vertices);
+      const a = moved.amplitudes?.[part];
+      if (a && shape?.modes) size += a.reduce((sum, x, k) => sum + Math.abs(x) * largestOf(shape.modes!, k), 0);
+      largest = Math.max(largest, size);
+    }
+  }
+  return largest;
 }
 
 function reach(vertices: Float64Array | undefined): number {

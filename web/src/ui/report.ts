@@ -47,7 +47,7 @@ export class Report {
       const axis = { stroke: styled("--ink-2"), font: "11px system-ui, sans-serif", grid: { stroke: styled("--rule"), width: 1 }, ticks: { show: false } };
       const finite = values.map((v) => Array.from(v, (y) => (Number.isFinite(y) && (!logarithmic || y > 0) ? y : null)));
       this.plots.push(new uPlot({
-        width: Math.max(220, canvas.clientWidth), height: 180, legend: { show: false }, cursor: { show: false },
+        width: Math.max(220, canvas.clientWidth), height: 180, pxAlign: 0, legend: { show: false }, cursor: { show: false },
         scales: { x: { time: false }, y: logarithmic ? { distr: 3 } : {} },
         axes: [{ ...axis, label: `time [${run.unit("time")}]`, labelSize: 16, labelFont: axis.font, size: 28 },
           { ...axis, label: unit ? `[${unit}]` : "", labelSize: 16, labelFont: axis.font, size: 58, values: (_u, ticks) => ticks.map((t) => (t === null ? "" : number(t, 4))) }],

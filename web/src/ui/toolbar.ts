@@ -78,7 +78,7 @@ export class Toolbar {
     const field = h("input", { type: "number", min: 0, step: "any", value: this.settings.exaggeration, "aria-label": "Factor on deformations", class: "factor",
       onchange: () => this.set("exaggeration", Number.isFinite(field.valueAsNumber) ? Math.max(0, field.valueAsNumber) : 1) });
     this.controls.exaggeration = field;
-    return h("label", { class: "inline", title: "Factor on deformations; the rigid motion is not touched (+ and - keys: X, Y)" }, h("span", {}, "Deformation ×"), field);
+    return h("label", { class: "inline", title: "Factor on deformations; the rigid motion is not touched (X: less, Y: more)" }, h("span", {}, "Deformation ×"), field);
   }
 
   follow(): void {

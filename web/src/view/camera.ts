@@ -5,7 +5,7 @@ import type { Vec } from "../data/rotation";
 
 const OPENING = (28 * Math.PI) / 180;
 /** Room about what is shown. */
-const MARGIN = 1.12;
+const MARGIN = 1.2;
 
 export type Standard = "iso" | "front" | "back" | "left" | "right" | "top" | "bottom";
 const RIGHT = Math.PI / 2;

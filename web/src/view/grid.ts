@@ -10,12 +10,12 @@ export function roundStep(x: number): number {
   return power * (rest < 1.5 ? 1 : rest < 3.5 ? 2 : rest < 7.5 ? 5 : 10);
 }
 
-/** Draws the grid of the plane across `up` at the low side of the box; returns its spacing. */
+/** Draws the grid of the plane across `up` a little below the box; returns its spacing. */
 export function drawGrid(lines: Segments, box: [Vec, Vec], origin: Vec, up: Vec, ink: readonly number[]): number {
   const size = Math.hypot(...subtract(box[1], box[0])) || 1, step = roundStep(size / 10);
   const axis = [0, 1, 2].reduce((best, i) => (Math.abs(up[i]!) > Math.abs(up[best]!) ? i : best), 2);
   const [u, v] = [0, 1, 2].filter((i) => i !== axis) as [number, number];
-  const level = up[axis]! > 0 ? box[0][axis]! : box[1][axis]!;
+  const below = 0.03 * size, level = up[axis]! > 0 ? box[0][axis]! - below : box[1][axis]! + below;
   const bounds = [u, v].map((i) => [Math.floor((box[0][i]! - 0.2 * size) / step), Math.ceil((box[1][i]! + 0.2 * size) / step)] as const);
   const line = (along: number, across: number, k: number, reach: readonly [number, number]): void => {
     const a: Vec = [0, 0, 0], b: Vec = [0, 0, 0];

@@ -1,6 +1,6 @@
 // One run in the picture: its bodies, joints, virtual bodies, springs, arrows, nodes and traces, moved with Run.motion.
 import { BufferAttribute, BufferGeometry, Group, Points } from "three";
-import type { Vector4 } from "three";
+import type { Object3D, Vector4 } from "three";
 import { add, rotate, scaled, subtract, turnOfZ } from "../data/rotation";
 import type { Vec } from "../data/rotation";
 import type { Pose, Run } from "../data/run";
@@ -33,6 +33,10 @@ export class RunView {
   /** Bodies that are drawn, and those that have no size of their own. */
   private readonly drawn: number[] = [];
   private readonly markers: number[] = [];
+  private readonly balls: number[] = [];
+  /** Balls of inertia: seen through, for they are no shape of the body. */
+  private readonly inertia: Batch;
+  private readonly glass: Materials;
   private largestForce = 0;
   private largestMoment = 0;
   private arrowValues: Float64Array[][] = [];
@@ -40,14 +44,18 @@ export class RunView {
   constructor(readonly run: Run, private readonly origin: Vec, shared: Uniforms) {
     this.materials = materialsOf(shared, true);
     this.plain = materialsOf(shared, false);
-    const items: Item[] = [];
+    this.glass = materialsOf(shared, true);
+    const items: Item[] = [], balls: Item[] = [];
     for (const [b, body] of run.bodies.entries()) {
       const shape = body.shape === null ? null : run.shapes[body.shape]!;
       const isDrawn = shape !== null && shape.source !== "marker" && shape.vertices.length > 0;
-      (isDrawn ? this.drawn : this.markers).push(b);
-      if (isDrawn) items.push({ owner: b, shape, rgb: rgb(BODY_COLOURS[b % BODY_COLOURS.length]!), mapped: true });
+      const isBall = isDrawn && shape.source === "inertia";
+      (isBall ? this.balls : isDrawn ? this.drawn : this.markers).push(b);
+      if (isDrawn) (isBall ? balls : items).push({ owner: b, shape, rgb: rgb(BODY_COLOURS[b % BODY_COLOURS.length]!), mapped: true });
     }
     this.bodies = new Batch(items, this.materials);
+    this.inertia = new Batch(balls, this.glass);
+    this.inertia.edges.visible = false;
     const glyphs = (made: [Item["shape"], readonly number[]][]): Batch =>
       new Batch(made.map(([shape, colour]) => ({ owner: 0, shape, rgb: colour, mapped: false })), this.plain);
     this.glyphs = {
@@ -59,10 +67,15 @@ export class RunView {
     this.lines = new Segments(this.plain.segment);
     this.traces = new Segments(this.plain.segment);
     this.dots = this.nodeDots();
-    for (const batch of [this.bodies, ...Object.values(this.glyphs)]) this.group.add(batch.group);
+    for (const batch of [this.bodies, this.inertia, ...Object.values(this.glyphs)]) this.group.add(batch.group);
     this.group.add(this.lines.mesh, this.traces.mesh, this.dots);
     this.placeBodies("body", 1);
-    this.bodies.keepStart();
+    for (const batch of [this.bodies, this.inertia]) batch.keepStart();
+  }
+
+  /** Vertices of bodies that are drawn. */
+  get vertices(): number {
+    return this.bodies.vertices + this.inertia.vertices;
   }
 
   private nodeDots(): Points {
@@ -94,12 +107,15 @@ export class RunView {
   }
 
   ghost(rank: number): void {
-    for (const materials of [this.materials, this.plain]) {
+    for (const materials of [this.materials, this.plain, this.glass]) {
       setOpacity(materials, rank === 0 ? 1 : 0.38);
       const tint = materials.surface.uniforms["tint"]!.value as Vector4;
       tint.set(...rgb(GHOST_COLOURS[rank % GHOST_COLOURS.length]!), rank === 0 ? 0 : 0.75);
     }
     this.group.renderOrder = rank;
+    this.glass.surface.uniforms["opacity"]!.value = rank === 0 ? 0.3 : 0.15;
+    this.glass.surface.transparent = true;
+    this.glass.surface.depthWrite = false;
   }
 
   /** Moves everything to the present state of the run; `pixel` is the length of a pixel. */
@@ -107,7 +123,7 @@ export class RunView {
     this.group.visible = this.run.visible;
     if (!this.run.visible) return;
     this.run.exaggeration = settings.exaggeration;
-    this.materials.surface.uniforms["chosen"]!.value = this.chosen;
+    for (const materials of [this.materials, this.glass]) materials.surface.uniforms["chosen"]!.value = this.chosen;
     this.bodies.edges.visible = settings.edges;
     this.placeBodies(settings.colouring, settings.exaggeration);
     this.placeGlyphs(settings, pixel);
@@ -116,13 +132,17 @@ export class RunView {
   }
 
   private placeBodies(what: Colouring, exaggeration: number): void {
+    for (const [batch, bodies] of [[this.bodies, this.drawn], [this.inertia, this.balls]] as const) this.placeBatch(batch, bodies, what, exaggeration);
+  }
+
+  private placeBatch(batch: Batch, bodies: number[], what: Colouring, exaggeration: number): void {
     const { run, origin } = this;
-    for (const [i, b] of this.drawn.entries()) {
+    for (const [i, b] of bodies.entries()) {
       const pose = run.pose(b), body = run.bodies[b]!;
       const isFlexible = body.amplitudes !== null && run.shapes[body.shape!]!.modes !== null;
-      this.bodies.place(i, subtract(pose.position, origin), pose.rotation, 1, isFlexible ? run.motion.amplitudes : null, body.first, exaggeration, what);
+      batch.place(i, subtract(pose.position, origin), pose.rotation, 1, isFlexible ? run.motion.amplitudes : null, body.first, exaggeration, what);
     }
-    this.bodies.flush(what !== "body");
+    batch.flush(what !== "body");
   }
 
   private glyph(batch: Batch, i: number, pose: Pose, size: number): void {
@@ -200,16 +220,22 @@ export class RunView {
     position.needsUpdate = true;
   }
 
-  /** Materials of picking, ids from `first`. */
+  /** What carries ids while a pixel is picked: surfaces of bodies only. */
   picking(first: number): void {
     this.materials.pick.uniforms["firstId"]!.value = first;
-    this.bodies.surface.material = this.materials.pick;
-    for (const object of [this.bodies.edges, this.bodies.points, this.bodies.lines.mesh]) object.userData["shown"] = object.visible, object.visible = false;
-    for (const other of this.group.children) if (other !== this.bodies.group) other.userData["shown"] = other.visible, other.visible = false;
+    const surfaces = [this.bodies.surface, this.inertia.surface] as Object3D[];
+    this.hidden.length = 0;
+    this.group.traverse((object) => {
+      const isSurface = surfaces.includes(object), isGroup = object.children.length > 0;
+      if (!isSurface && !isGroup && object.visible) this.hidden.push(object);
+    });
+    for (const object of this.hidden) object.visible = false;
+    this.bodies.surface.material = this.inertia.surface.material = this.materials.pick;
   }
   picked(): void {
     this.bodies.surface.material = this.materials.surface;
-    for (const object of [this.bodies.edges, this.bodies.points, this.bodies.lines.mesh]) object.visible = object.userData["shown"] as boolean;
-    for (const other of this.group.children) if (other !== this.bodies.group) other.visible = other.userData["shown"] as boolean;
+    this.inertia.surface.material = this.glass.surface;
+    for (const object of this.hidden) object.visible = true;
   }
+  private readonly hidden: Object3D[] = [];
 }

@@ -44,7 +44,10 @@ export class Viewport {
     this.box = unionOf(runs);
     this.origin = [0, 1, 2].map((i) => (this.box[0][i]! + this.box[1][i]!) / 2) as Vec;
     this.software = isSoftware();
-    this.renderer = new WebGLRenderer({ canvas, antialias: !this.software, preserveDrawingBuffer: false, powerPreference: "high-performance" });
+    // Opaque, so that the browser need not blend the picture with the page.
+    const context = canvas.getContext("webgl2", { alpha: false, antialias: !this.software, powerPreference: "high-performance" });
+    if (!context) throw new Error("the browser gives no context");
+    this.renderer = new WebGLRenderer({ canvas, context });
     this.renderer.debug.onShaderError = (gl, program, vertex, fragment) => {
       this.fault = [gl.getProgramInfoLog(program), gl.getShaderInfoLog(vertex), gl.getShaderInfoLog(fragment)].filter(Boolean).join(" ");
     };
@@ -81,7 +84,7 @@ export class Viewport {
     return this.renderer.getContext().getError();
   }
   get vertices(): number {
-    return this.views.reduce((sum, view) => sum + view.bodies.vertices, 0);
+    return this.views.reduce((sum, view) => sum + view.vertices, 0);
   }
   get pixel(): number {
     return this.camera.perPixel(Math.max(1, this.canvas.clientHeight));
