@@ -97,7 +97,7 @@ TEST_F(Page, HoldsTheMotionOfTheResults) {
   // Tracks are 32-bit differences of at most 3 m: 2e-7 m. Places in a body turn by up to 1.5/32767 rad at 0.3 m.
   for (const char* name : {"rod/0", "rod/6", "weight", "weight/hook", "ball", "mark"}) {
     const json& node = named(one["nodes"], name);
-    EXPECT_EQ(node["place"].contains("body"), !std::string(name).starts_with("rod")) << name;
+    EXPECT_EQ(node["place"].contains("point"), !std::string(name).starts_with("rod")) << name;
     for (const int t : {0, 1, 50, 100}) {
       const Vector3d shown = read.place(one, node["place"], t);
       for (int k = 0; k < 3; ++k)
