@@ -25,6 +25,7 @@
 #include "mechanism/run/analyses.hpp"
 #include "mechanism/run/checkpoint.hpp"
 #include "mechanism/simulate.hpp"
+#include "mechanism/view/paraview.hpp"
 #include "mechanism/view/view.hpp"
 
 namespace {
@@ -143,6 +144,7 @@ constexpr const char* about_view =
   mechanism view arm.results.h5 -o arm.html
   mechanism view coarse.results.h5 fine.results.h5 -o both.html
   mechanism view long.results.h5 -o long.html --instants 500 -c energy -c 'nodes/position/arm/*'
+  mechanism view arm.results.h5 --paraview out
 
 Shapes are those of the scene (`shape` of a body), sections of beams, and of superelements the surface in the recovery file
 that lies beside them; else nodes and straight lines. Formats: formats/PAGE.md.)help";
@@ -422,32 +424,25 @@ int command_line(int argc, char** argv) {
     say(fmt::format("picture: {}\n", plot_options.output));
   });
 
+  SeriesArguments view_arguments;
   mechanism::ViewRequest view_request;
-  std::vector<std::string> view_references;
+  std::string paraview;
   CLI::App* view_command = app.add_subcommand("view", first_line(about_view));
-  view_command->add_option("results", view_request.files, "results files, also of interrupted runs")->required();
-  view_command->add_option("-o,--output", view_request.output, "page, .html")->required();
-  view_command->add_option("--title", view_request.title, "title of the page; default: the scene's name");
+  add_series_arguments(*view_command, view_arguments);
+  CLI::Option* page = view_command->add_option("-o,--output", view_request.output, "page, .html");
+  view_command->add_option("--paraview", paraview, "folder for files of ParaView (.pvd, .vtu) instead of a page")
+      ->excludes(page);
+  view_command->add_option("--title", view_request.title, "title of the page; default: names of the scenes");
   view_command->add_option("--instants", view_request.instants, "the most instants of a run, evenly chosen")
       ->check(CLI::Range(2, 1'000'000));
-  view_command->add_option("--vertices", view_request.run.shapes.vertices, "the most vertices of a body")
+  view_command->add_option("--vertices", view_request.shapes.vertices, "the most vertices of a body")
       ->check(CLI::Range(100, 10'000'000));
-  view_command
-      ->add_option("--channel,-c", view_request.run.channels, "curves: channel, group or pattern; default: what fits")
-      ->allow_extra_args(false);
-  view_command->add_option("--recovery", view_request.run.shapes.recovery, "recovery file of a superelement of the run")
-      ->allow_extra_args(false);
-  view_command
-      ->add_option("--reference", view_references, "history from a CSV file: file.csv:x column:y column[:label]")
+  view_command->add_option("--recovery", view_request.shapes.recovery, "recovery file of a superelement of the run")
       ->allow_extra_args(false);
   view_command->callback([&] {
-    std::vector<std::string> files_read = view_request.files;
-    for (const std::string& text : view_references) {
-      view_request.references.push_back(mechanism::parse_reference(text));
-      files_read.push_back(view_request.references.back().file);
-    }
-    require_output(view_request.output, files_read, Replaces::anything);
-    say(mechanism::view(view_request));
+    view_request.shown = complete(view_arguments);
+    if (paraview.empty()) require_output(view_request.output, drawn_files(view_arguments), Replaces::anything);
+    say(paraview.empty() ? mechanism::view(view_request) : mechanism::write_paraview(view_request, paraview));
   });
 
   SeriesArguments compare_arguments;

@@ -274,6 +274,15 @@ std::vector<Block> mode_blocks(const ResultsLayout& layout) {
     shape.units.assign(shape.columns.size(), "1");
     if (!layout.nodes.empty()) blocks.push_back(std::move(shape));
   }
+  const auto coordinates = [&](const char* dataset, const std::vector<std::string>& names) {
+    Block block{dataset, {names.size(), 2}, {}, {}, "", nullptr};
+    for (const std::string& name : names)
+      for (const std::string& part : complex) block.columns.push_back(name + "/" + part);
+    block.units.assign(block.columns.size(), "");
+    if (!names.empty()) blocks.push_back(std::move(block));
+  };
+  coordinates("/modes/y", numbered(layout.superelements, layout.modes_offset));
+  coordinates("/modes/w", numbered(layout.modal_bodies, layout.modal_offset));
   return blocks;
 }
 

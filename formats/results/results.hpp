@@ -85,6 +85,8 @@ struct ModesTable {
   Eigen::VectorXd damping_ratio;
   Eigen::MatrixXcd translation;  ///< 3 nodes x modes
   Eigen::MatrixXcd rotation;
+  Eigen::MatrixXcd y;  ///< coordinates of all superelements x modes, as ResultsRow::y
+  Eigen::MatrixXcd w;  ///< of all modal bodies x modes
 };
 
 /// The first rows of an older file of the same layout, with which a new one begins.

@@ -54,8 +54,11 @@ void read_links(const hdf5::InputFile& file, std::size_t nodes, SimulatedScene& 
   const std::uint64_t count = count_of(file, "/scene/link_name");
   const std::vector<std::string> name = file.read_texts("/scene/link_name", count, "joints, springs and loads"),
                                  kind = file.read_texts("/scene/link_kind", count, "joints, springs and loads");
+  // A file without any motion of nodes does not name them either.
+  const std::size_t known =
+      nodes > 0 || !file.has("/scene/body_of_node") ? nodes : count_of(file, "/scene/body_of_node");
   const std::vector<std::int64_t> node =
-      read_indices(file, "/scene/link_node", {count, 2}, SimulatedMarker::not_stored, nodes);
+      read_indices(file, "/scene/link_node", {count, 2}, SimulatedMarker::not_stored, known);
   std::vector<double> marker(count * 2 * marker_numbers);
   file.read("/scene/link_marker", {count, 2, marker_numbers}, "links x 2 x 7", marker.data());
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -68,7 +71,10 @@ void read_links(const hdf5::InputFile& file, std::size_t nodes, SimulatedScene& 
         throw Error(fmt::format("the marker {} of '{}' is no position and unit quaternion", k == 0 ? "a" : "b",
                                 printable(name[i])),
                     file.path() + ": /scene/link_marker", "compare the file with formats/RESULTS.md");
-      link.ends[k] = {static_cast<int>(node[2 * i + k]), {m[0], m[1], m[2]}, q.normalized()};
+      const bool is_stored = nodes > 0 || node[2 * i + k] < 0;
+      link.ends[k] = {is_stored ? static_cast<int>(node[2 * i + k]) : SimulatedMarker::not_stored,
+                      {m[0], m[1], m[2]},
+                      q.normalized()};
     }
     scene.links.push_back(std::move(link));
   }

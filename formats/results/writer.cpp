@@ -1,8 +1,7 @@
 // From rows of a running analysis to *.results.h5, such that a killed run leaves a readable file.
 //
 // The file appears as <path>.part when its head is complete, and is then open in HDF5's single-writer mode, whose order
-// of writes keeps the file on disk consistent at every moment. Between writes rows wait in memory that was taken at the
-// start.
+// of writes keeps the file on disk consistent at every moment. Between writes rows wait in memory taken at the start.
 #include <hdf5.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -208,8 +207,7 @@ hdf5::Handle open_for_writing(const std::string& path, unsigned mode) {
   return file;
 }
 
-/// /modes: eigenvalues [real, imaginary], frequencies, damping ratios and shapes, modes x nodes x 3 x [real,
-/// imaginary].
+/// /modes: eigenvalues, frequencies, damping ratios and shapes, modes x nodes x 3 x [real, imaginary].
 void write_modes(hdf5::Id file, const ModesTable& table, const std::string& where) {
   const auto modes = static_cast<std::uint64_t>(table.eigenvalue.size());
   const auto nodes = static_cast<std::uint64_t>(table.translation.rows() / 3);
@@ -222,6 +220,8 @@ void write_modes(hdf5::Id file, const ModesTable& table, const std::string& wher
   hdf5::write_dataset(file, "/modes/damping_ratio", {modes}, table.damping_ratio.data(), where);
   complex("translation", {modes, nodes, 3}, table.translation.data());
   complex("rotation", {modes, nodes, 3}, table.rotation.data());
+  for (const auto& [name, rows] : {std::pair("y", &table.y), std::pair("w", &table.w)})
+    if (rows->rows() > 0) complex(name, {modes, static_cast<std::uint64_t>(rows->rows())}, rows->data());
 }
 
 }  // namespace

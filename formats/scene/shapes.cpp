@@ -59,8 +59,9 @@ void read_one(const Context& context, const YamlNode& node, const std::string& f
   shape.where = context.entry;
   read_fields(map, shape);
   if (shape.kind != ShapeKind::cone) shape.end_radius = shape.radius;
-  if (const YamlNode* given = map.find("orientation"))
-    shape.orientation = read_orientation(context, *given, "orientation");
+  if (shape.kind == ShapeKind::box || shape.kind == ShapeKind::mesh)
+    if (const YamlNode* given = map.find("orientation"))
+      shape.orientation = read_orientation(context, *given, "orientation");
   if (shape.kind == ShapeKind::tube)
     if (const YamlNode* points = map.require("points")) shape.points = read_points(context, *points);
   if (shape.kind == ShapeKind::mesh) {

@@ -10,6 +10,7 @@
 #include "mechanism/analyses/kinematics.hpp"
 #include "mechanism/analyses/modes.hpp"
 #include "mechanism/equations/evaluate.hpp"
+#include "mechanism/run/output.hpp"
 #include "mechanism/run/run.hpp"
 #include "mechanism/run/schedule.hpp"
 
@@ -141,6 +142,38 @@ void assemble(Run& run, RowWriter& out) {
   }
 }
 
+namespace {
+
+/// What the modes are of the coordinates of superelements and modal bodies: a shape is a velocity, and rows of results
+/// hold rates.
+void add_body_coordinates(const Run& run, const ModesReport& modes, Evaluation& evaluation, formats::ResultsRow row,
+                          formats::ModesTable& table) {
+  const Model& model = run.built.model;
+  State moving = run.built.state;
+  const auto count = static_cast<Eigen::Index>(modes.modes.size());
+  table.y.resize(row.y_rate.size(), count);
+  table.w.resize(row.w_rate.size(), count);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::VectorXcd& shape = modes.modes[k].shape;
+    const auto rates = [&](const Eigen::VectorXd& motion) {
+      moving.v() = motion;
+      for (std::size_t i = 0; i < model.nodes.size(); ++i)
+        if (const int rotation = model.nodes[i].rotation; rotation >= 0)
+          moving.v().segment<3>(rotation) =
+              motion_of(evaluation, static_cast<int>(i)).R.transpose() * motion.segment<3>(rotation);
+      fill_row(model, moving, evaluation, row);
+    };
+    rates(shape.real());
+    table.y.col(k).real() = row.y_rate;
+    table.w.col(k).real() = row.w_rate;
+    rates(shape.imag());
+    table.y.col(k).imag() = row.y_rate;
+    table.w.col(k).imag() = row.w_rate;
+  }
+}
+
+}  // namespace
+
 void find_modes(Run& run, RowWriter& out) {
   const Model& model = run.built.model;
   State& state = run.built.state;
@@ -161,7 +194,9 @@ void find_modes(Run& run, RowWriter& out) {
   if (const auto unstable = std::ranges::count_if(modes.modes, &Mode::unstable); unstable > 0)
     report.notes.push_back(fmt::format("{} modes grow: the state is unstable", unstable));
   write_row(run, {}, 0.0, out, [](formats::ResultsRow& row) { row.work = row.dissipated = row.balance = none; });
-  out.writer.set_modes(modes_table(model, run.workspace.now, modes));
+  formats::ModesTable table = modes_table(model, run.workspace.now, modes);
+  if (out.row.y.size() + out.row.w.size() > 0) add_body_coordinates(run, modes, run.workspace.now, out.row, table);
+  out.writer.set_modes(std::move(table));
 }
 
 }  // namespace tisserand::mechanism

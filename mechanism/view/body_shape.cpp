@@ -7,6 +7,7 @@
 
 #include "common/text.hpp"
 #include "mechanism/bodies/beam/mesh.hpp"
+#include "mechanism/view/recovered_shape.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -156,6 +157,8 @@ BodyShape shape_of_body(ViewedRun& run, const ViewedBody& body, const ShapeOptio
   BodyShape shape;
   if (const auto* specs = shapes_in_scene(body)) {
     shape = shape_in_scene(body, *specs);
+  } else if (auto recovered = recovered_shape(run, body, options)) {
+    return std::move(*recovered);
   } else if (body.kind == "virtual") {
     shape.source = "marker";
     return shape;

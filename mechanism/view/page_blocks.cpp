@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-
 #include "common/error.hpp"
 
 namespace tisserand::mechanism {

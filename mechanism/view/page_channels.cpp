@@ -6,7 +6,6 @@
 #include <set>
 #include <string_view>
 
-
 #include "common/text.hpp"
 
 namespace tisserand::mechanism {

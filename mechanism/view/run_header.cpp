@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <optional>
 
-
 #include "common/text.hpp"
 #include "mechanism/histories/series.hpp"
 #include "mechanism/view/page_channels.hpp"
+#include "mechanism/view/recovered_shape.hpp"
 #include "mechanism/view/run_modes.hpp"
 #include "mechanism/view/run_report.hpp"
 
@@ -49,6 +49,7 @@ class Places {
     }
     Json place{{"position", blocks_.add_track(track.position)}};
     if (track.has_rotation()) place["rotation"] = blocks_.add_rotations(track.rotation);
+    if (owner >= 0) place["body"] = owner;
     if (owner >= 0) place["rest"] = list_of(place_at_rest(run_, run_.bodies[owner], node));
     return place;
   }
@@ -70,16 +71,29 @@ class Places {
   PageBlocks& blocks_;
 };
 
-Json box_of(const ViewedRun& run) {
-  Vector3d least = Vector3d::Constant(INFINITY), most = -least;
+/// Of nodes and frames over all instants.
+Eigen::AlignedBox3d box_of(const ViewedRun& run) {
+  Eigen::AlignedBox3d box;
   const auto extend = [&](const PageRows& position) {
     if (position.rows() == 0) return;
-    least = least.cwiseMin(position.colwise().minCoeff().transpose());
-    most = most.cwiseMax(position.colwise().maxCoeff().transpose());
+    box.extend(Vector3d(position.colwise().minCoeff().transpose()));
+    box.extend(Vector3d(position.colwise().maxCoeff().transpose()));
   };
   for (const Track& node : run.nodes) extend(node.position);
   for (const ViewedBody& body : run.bodies) extend(body.frame.position);
-  return {list_of(least), list_of(most)};
+  return box;
+}
+
+/// Of the undeformed shape at some of the instants.
+void extend_by(const Surface& surface, const Track& frame, Eigen::AlignedBox3d& box) {
+  constexpr std::size_t most_instants = 50;
+  Eigen::AlignedBox3d local;
+  for (const Vector3d& vertex : surface.vertices) local.extend(vertex);
+  if (local.isEmpty()) return;
+  for (const std::size_t t : even_rows(static_cast<std::size_t>(frame.position.rows()), most_instants))
+    for (int k = 0; k < 8; ++k)
+      box.extend(Vector3d(frame.position.row(t).transpose() +
+                          frame.turn(t) * local.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k))));
 }
 
 std::vector<std::uint32_t> flat(const auto& faces) {
@@ -115,10 +129,12 @@ Json shape_json(const BodyShape& shape, const FewModes& few, PageBlocks& blocks)
 
 /// Bodies and their shapes; bodies of one rigid shape share it.
 void add_bodies(ViewedRun& run, const ShapeOptions& options, ModesOfBodies& modes, PageBlocks& blocks, Json& json) {
+  Eigen::AlignedBox3d box = box_of(run);
   json["bodies"] = json["shapes"] = Json::array();
   for (std::size_t i = 0; i < run.bodies.size(); ++i) {
     const ViewedBody& body = run.bodies[i];
     BodyShape shape = shape_of_body(run, body, options);
+    extend_by(shape.surface, body.frame, box);
     modes.take(run, static_cast<int>(i), shape);
     const FewModes few = few_modes(shape.deformation, relative_error, size_of(shape.surface));
     modes.reduce(static_cast<int>(i), few, run.times.size());
@@ -136,6 +152,7 @@ void add_bodies(ViewedRun& run, const ShapeOptions& options, ModesOfBodies& mode
     json["bodies"].push_back(std::move(one));
     if (shape.surface.size() > 5000) blocks.next();
   }
+  json["box"] = {list_of(box.min()), list_of(box.max())};
   blocks.next();
 }
 
@@ -260,9 +277,9 @@ Json run_header(ViewedRun& run, const RunOptions& options, PageBlocks& blocks) {
             {"up", list_of(gravity.norm() > 0.0 ? Vector3d(-gravity.normalized()) : Vector3d::UnitZ())},
             {"gravity", list_of(gravity)},
             {"times", blocks.add_times(run.times)},
-            {"thinned", nullptr},
-            {"box", box_of(run)}};
+            {"thinned", nullptr}};
   if (run.rows.size() < reader.rows()) json["thinned"] = {{"rows", reader.rows()}, {"kept", run.rows.size()}};
+  require_used_recovery(run, options.shapes);
   ModesOfBodies modes(reader);
   add_bodies(run, options.shapes, modes, blocks, json);
   json["report"] = report_of_run(reader);

@@ -1,7 +1,6 @@
 // Small motions: x = x_0 + Re(shape e^(i phase)).
 #include "mechanism/view/run_modes.hpp"
 
-
 namespace tisserand::mechanism {
 namespace {
 
@@ -37,10 +36,14 @@ ModesOfBodies::ModesOfBodies(const formats::ResultsReader& reader) {
   if (reader.modes() == 0) return;
   const MatrixXd values = reader.read_rows({"modes/frequency", "modes/damping_ratio"}, 0, reader.modes());
   frequency_ = values.col(0);
-  damping_ = values.col(1);
+  damping_ = (values.col(1).array().abs() < 1e-9).select(0.0, values.col(1));  // round-off
   translation_ = shapes_of_nodes(reader, "translation");
   rotation_ = shapes_of_nodes(reader, "rotation");
   bodies_.assign(reader.modes(), Json::array());
+  std::vector<std::string> coordinates;
+  for (const formats::Channel& channel : reader.channels())
+    if (channel.name.starts_with("modes/y/")) coordinates.push_back(channel.name);
+  if (!coordinates.empty()) y_ = reader.read_rows(coordinates, 0, reader.modes());
 }
 
 ModesOfBodies::Small ModesOfBodies::motion_of(int node, Index mode, int part) const {
@@ -67,35 +70,66 @@ ModesOfBodies::Small ModesOfBodies::frame_motion(const ViewedRun& run, int body,
   return {};
 }
 
-void ModesOfBodies::take(const ViewedRun& run, int body, BodyShape& shape) {
+ModesOfBodies::Small ModesOfBodies::relative_motion(const ViewedRun& run, int body, int node, Index mode,
+                                                    int part) const {
   const ViewedBody& viewed = run.bodies[body];
-  const Index modes = frequency_.size(), count = static_cast<Index>(shape.stations.size()),
-              rows = shape.deformation.amplitudes.rows(),
-              width = count > 0 ? shape.deformation.modes.cols() / count : 0;
-  if (count > 0) {
-    shape.deformation.amplitudes.conservativeResize(rows + 2 * modes, Eigen::NoChange);
-    shape.deformation.amplitudes.bottomRows(2 * modes).setZero();
+  const Small frame = frame_motion(run, body, mode, part);
+  Small small = motion_of(node, mode, part);
+  if (!small.rotation.allFinite()) small.rotation = frame.rotation;
+  const Vector3d arm = (run.nodes[node].position.row(0) - viewed.frame.position.row(0)).transpose();
+  const Eigen::Quaterniond back = viewed.frame.turn(0).conjugate();
+  return {back * (small.translation - frame.translation - frame.rotation.cross(arm)),
+          back * (small.rotation - frame.rotation)};
+}
+
+/// Places, and axes of sections, of the stations.
+Eigen::VectorXd ModesOfBodies::stations_motion(const ViewedRun& run, int body, const BodyShape& shape, Index mode,
+                                               int part) const {
+  const Index count = static_cast<Index>(shape.stations.size()), width = shape.deformation.modes.cols() / count;
+  Eigen::VectorXd motion(shape.deformation.modes.cols());
+  for (Index i = 0; i < count; ++i) {
+    const int node = shape.stations[i];
+    const Small small = relative_motion(run, body, node, mode, part);
+    motion.segment<3>(width * i) = small.translation;
+    if (width == 3) continue;
+    const Matrix3d E = (run.bodies[body].frame.turn(0).conjugate() * run.nodes[node].turn(0)).toRotationMatrix();
+    for (Index k = 1; k < 3; ++k)
+      motion.segment<3>(width * i + 3 * k) = small.rotation.cross(E * shape.station_axes[i].col(k));
   }
-  const Matrix3d back = viewed.frame.turn(0).conjugate().toRotationMatrix();
+  return motion;
+}
+
+/// Boundary rows relative to the frame that is taken here, which boundary modes carry along; internal ones as stored.
+Eigen::VectorXd ModesOfBodies::coordinates_motion(const ViewedRun& run, int body, const BodyShape& shape, Index mode,
+                                                  int part) const {
+  const int first = run.layout().modes_offset[run.bodies[body].superelement];
+  Eigen::VectorXd motion = Eigen::VectorXd::Zero(shape.deformation.modes.cols());
+  for (Index k = 0; k < motion.size(); ++k) {
+    const int node = shape.coordinate_node[k], component = shape.coordinate_component[k];
+    if (node < 0) {
+      if (y_.cols() > 0) motion[k] = y_(mode, 2 * (first + k) + part);
+      continue;
+    }
+    const Small small = relative_motion(run, body, node, mode, part);
+    motion[k] = component < 3 ? small.translation[component] : small.rotation[component - 3];
+  }
+  return motion;
+}
+
+void ModesOfBodies::take(const ViewedRun& run, int body, BodyShape& shape) {
+  const Index modes = frequency_.size(), rows = shape.deformation.amplitudes.rows();
+  const bool deforms = shape.deformation.modes.cols() > 0 && modes > 0;
+  if (deforms) shape.deformation.amplitudes.conservativeResize(rows + 2 * modes, Eigen::NoChange);
   for (Index mode = 0; mode < modes; ++mode) {
-    const Small frames[2] = {frame_motion(run, body, mode, 0), frame_motion(run, body, mode, 1)};
-    for (int part = 0; part < 2; ++part)
-      for (Index i = 0; i < count; ++i) {
-        const int node = shape.stations[i];
-        const Small small = motion_of(node, mode, part), &frame = frames[part];
-        if (!small.translation.allFinite()) continue;
-        const Vector3d arm = (run.nodes[node].position.row(0) - viewed.frame.position.row(0)).transpose();
-        auto y = shape.deformation.amplitudes.row(rows + 2 * mode + part).segment(width * i, width);
-        y.head<3>() = back * (small.translation - frame.translation - frame.rotation.cross(arm));
-        const Vector3d turn = back * (small.rotation - frame.rotation);
-        for (Index k = 0; k < (width - 3) / 3; ++k) {
-          const Matrix3d E = (viewed.frame.turn(0).conjugate() * run.nodes[node].turn(0)).toRotationMatrix();
-          y.segment<3>(3 + 3 * k) = turn.cross(E * shape.station_axes[i].col(1 + k));
-        }
-      }
+    for (int part = 0; deforms && part < 2; ++part)
+      shape.deformation.amplitudes.row(rows + 2 * mode + part) =
+          (shape.stations.empty() ? coordinates_motion(run, body, shape, mode, part)
+                                  : stations_motion(run, body, shape, mode, part))
+              .transpose();
+    const Small real = frame_motion(run, body, mode, 0), imaginary = frame_motion(run, body, mode, 1);
     bodies_[mode].push_back({{"body", body},
-                             {"translation", {triple(frames[0].translation), triple(frames[1].translation)}},
-                             {"rotation", {triple(frames[0].rotation), triple(frames[1].rotation)}},
+                             {"translation", {triple(real.translation), triple(imaginary.translation)}},
+                             {"rotation", {triple(real.rotation), triple(imaginary.rotation)}},
                              {"amplitudes", nullptr}});
   }
 }

@@ -32,9 +32,16 @@ class ModesOfBodies {
   /// `part`: 0 real, 1 imaginary.
   Small motion_of(int node, Eigen::Index mode, int part) const;
   Small frame_motion(const ViewedRun& run, int body, Eigen::Index mode, int part) const;
+  /// Motion of a node relative to the frame, in its axes.
+  Small relative_motion(const ViewedRun& run, int body, int node, Eigen::Index mode, int part) const;
+  Eigen::VectorXd stations_motion(const ViewedRun& run, int body, const BodyShape& shape, Eigen::Index mode,
+                                  int part) const;
+  Eigen::VectorXd coordinates_motion(const ViewedRun& run, int body, const BodyShape& shape, Eigen::Index mode,
+                                     int part) const;
 
   Eigen::VectorXd frequency_, damping_;
   std::vector<Eigen::MatrixXd> translation_, rotation_;  ///< per node, modes x 6: x/real, x/imaginary, y/real, ...
+  Eigen::MatrixXd y_;                                    ///< modes x 2 Ny; without columns: not stored
   std::vector<Json> bodies_;                             ///< per mode
 };
 

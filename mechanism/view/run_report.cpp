@@ -1,7 +1,6 @@
 // From the stored report to lists of texts.
 #include "mechanism/view/run_report.hpp"
 
-
 #include <fmt/format.h>
 
 namespace tisserand::mechanism {

@@ -94,15 +94,25 @@ void Surface::add(const Surface& other) {
 }
 
 Surface sphere(const Vector3d& center, double radius) {
-  constexpr int rings = 12;
+  constexpr int rings = 11;
   std::vector<Vector3d> points;
   std::vector<double> radii;
-  for (int i = 0; i <= rings; ++i) {
-    const double angle = 0.5 * turn * i / rings;
+  for (int i = 1; i <= rings; ++i) {
+    const double angle = 0.5 * turn * i / (rings + 1);
     points.push_back(center - Vector3d(0.0, 0.0, radius * std::cos(angle)));
     radii.push_back(radius * std::sin(angle));
   }
-  return tube(points, radii);
+  Surface surface = tube(points, radii);
+  surface.triangles.resize(2 * around * (rings - 1));  // poles in place of flat ends
+  const int south = surface.size(), north = south + 1, last = (rings - 1) * around;
+  surface.vertices.push_back(center - Vector3d(0.0, 0.0, radius));
+  surface.vertices.push_back(center + Vector3d(0.0, 0.0, radius));
+  for (int k = 0; k < around; ++k) {
+    const int next = (k + 1) % around;
+    surface.triangles.push_back({south, next, k});
+    surface.triangles.push_back({north, last + k, last + next});
+  }
+  return surface;
 }
 
 Surface surface_of(const formats::ShapeSpec& shape) {

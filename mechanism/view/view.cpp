@@ -1,7 +1,6 @@
 // results -> bodies in motion -> shapes -> blocks -> page, as a page of calls.
 #include "mechanism/view/view.hpp"
 
-
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "mechanism/view/page.hpp"
@@ -15,14 +14,17 @@ Json header_of(const ViewRequest& request, PageBlocks& blocks) {
               {"title", request.title},
               {"program", std::string("tisserand mechanism ") + TISSERAND_VERSION},
               {"runs", Json::array()}};
+  if (request.shown.files.empty()) throw Error("no results file is given", "", "name one or more *.results.h5");
   std::vector<std::string> names;
-  for (const std::string& file : request.files) {
-    ViewedRun run = read_viewed_run(file, static_cast<std::size_t>(request.instants));
-    header["runs"].push_back(run_header(run, request.run, blocks));
+  for (std::size_t i = 0; i < request.shown.files.size(); ++i) {
+    ViewedRun run = read_viewed_run(request.shown.files[i], static_cast<std::size_t>(request.instants));
+    Json json = run_header(run, {request.shown.channels, request.shapes}, blocks);
+    if (i < request.shown.labels.size()) json["name"] = request.shown.labels[i];
+    header["runs"].push_back(std::move(json));
     if (names.empty() || names.back() != run.reader->scene()) names.push_back(run.reader->scene());
   }
   if (request.title.empty()) header["title"] = join(names, ", ");
-  for (const ReferenceColumn& column : request.references) {
+  for (const ReferenceColumn& column : request.shown.references) {
     const Series series = read_reference(column);
     const auto numbers = [&](const std::vector<double>& values) {
       const Eigen::Map<const Eigen::VectorXd> map(values.data(), static_cast<Eigen::Index>(values.size()));

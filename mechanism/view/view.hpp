@@ -10,12 +10,11 @@
 namespace tisserand::mechanism {
 
 struct ViewRequest {
-  std::vector<std::string> files;           ///< results files
-  std::string output;                       ///< .html
-  std::string title;                        ///< empty: names of the scenes
-  int instants = 2000;                      ///< the most per run
-  RunOptions run;                           ///< of every run
-  std::vector<ReferenceColumn> references;  ///< drawn beside the curves
+  SeriesRequest shown;  ///< results files, labels of the runs, curves (empty: what fits), references
+  std::string output;   ///< .html
+  std::string title;    ///< empty: names of the scenes
+  int instants = 2001;  ///< the most per run: 2000 steps
+  ShapeOptions shapes;
 };
 
 /// The page as text.

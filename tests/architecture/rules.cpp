@@ -271,7 +271,8 @@ SourceTree read_tree(const fs::path& root) {
     if (it->is_directory()) {
       const bool is_hidden = name.starts_with('.') && name != ".ci";
       const bool is_built = it.depth() == 0 && name.starts_with("build");
-      if (is_hidden || is_built || name == "references" || name == "__pycache__") it.disable_recursion_pending();
+      if (is_hidden || is_built || name == "references" || name == "__pycache__" || name == "node_modules")
+        it.disable_recursion_pending();
     } else if (it->is_regular_file() && is_text(it->path())) {
       tree.files.push_back(read_file(root, it->path()));
     }

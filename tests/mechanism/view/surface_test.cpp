@@ -49,7 +49,7 @@ TEST(Surface, SolidsHaveTheirVolume) {
   ShapeSpec cone = solid(ShapeKind::cone);
   cone.end_radius = 0.0;
   EXPECT_NEAR(volume(surface_of(cone)), 2.0 * circle / 3.0, 1e-12);
-  // Of a sphere by 12 rings of 24 corners: inside the sphere and not much smaller.
+  // Of a sphere by 11 rings of 24 corners and two poles: inside the sphere and not much smaller.
   const double ball = volume(surface_of(solid(ShapeKind::sphere))), exact = EIGEN_PI / 6.0;
   EXPECT_LT(ball, exact);
   EXPECT_GT(ball, 0.95 * exact);
@@ -113,11 +113,11 @@ TEST(Surface, ThinningKeepsTheSolidAndNoMoreVertices) {
 }
 
 TEST(FewModes, KeepsWhatTheRunVisitedWithinTheStatedError) {
-  // 40 coordinates, of which the run moves three combinations: 1, 0.1 and 1e-5 large.
+  // 40 coordinates, of which the run moves three combinations: 1, 0.1 and 4e-4 large.
   const Eigen::MatrixXd modes = Eigen::MatrixXd::Random(300, 40);
   const Eigen::MatrixXd directions = Eigen::MatrixXd::Random(40, 3);
   Eigen::MatrixXd motion(200, 3);
-  for (int t = 0; t < 200; ++t) motion.row(t) << std::sin(0.1 * t), 0.1 * std::cos(0.37 * t), 1e-5 * std::sin(0.9 * t);
+  for (int t = 0; t < 200; ++t) motion.row(t) << std::sin(0.1 * t), 0.1 * std::cos(0.37 * t), 4e-4 * std::sin(0.9 * t);
   const Deformation d{modes, motion * directions.transpose()};
   const FewModes few = few_modes(d, 1e-3, 1.0);
   EXPECT_EQ(few.count(), 2);
@@ -136,7 +136,7 @@ TEST(FewModes, KeepsWhatTheRunVisitedWithinTheStatedError) {
   EXPECT_NEAR(few.largest, largest, 1e-12 * largest);
   EXPECT_NEAR(few.error, error, 1e-9 * largest);
   EXPECT_LE(error, 1e-3 * largest);
-  EXPECT_EQ(few_modes(d, 1e-7, 1.0).count(), 3);
+  EXPECT_EQ(few_modes(d, 1e-4, 1.0).count(), 3);
   EXPECT_EQ(few_modes({modes, Eigen::MatrixXd::Zero(200, 40)}, 1e-3, 1.0).count(), 0);
 }
 

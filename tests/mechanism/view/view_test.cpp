@@ -59,9 +59,9 @@ class Page : public ::testing::Test {
     EXPECT_EQ(report.outcome, RunOutcome::completed) << report.reason;
     return results;
   }
-  static PageReader page(const std::vector<std::string>& files, int instants = 2000) {
+  static PageReader page(const std::vector<std::string>& files, int instants = 2001) {
     ViewRequest request;
-    request.files = files;
+    request.shown.files = files;
     request.instants = instants;
     return PageReader(page_of(request));
   }
@@ -97,7 +97,7 @@ TEST_F(Page, HoldsTheMotionOfTheResults) {
   // Tracks are 32-bit differences of at most 3 m: 2e-7 m. Places in a body turn by up to 1.5/32767 rad at 0.3 m.
   for (const char* name : {"rod/0", "rod/6", "weight", "weight/hook", "ball", "mark"}) {
     const json& node = named(one["nodes"], name);
-    EXPECT_EQ(node["place"].contains("body"), !std::string(name).starts_with("rod")) << name;
+    EXPECT_EQ(node["place"].contains("point"), !std::string(name).starts_with("rod")) << name;
     for (const int t : {0, 1, 50, 100}) {
       const Vector3d shown = read.place(one, node["place"], t);
       for (int k = 0; k < 3; ++k)
@@ -145,8 +145,9 @@ TEST_F(Page, ShowsBodiesWithTheirShapes) {
     // Solids of the scene: the middle of the box and of the sphere (whose vertices are symmetric) is the weight.
     const Eigen::Matrix3Xd solid = read.vertices(one, named(one["bodies"], "weight"), t);
     EXPECT_LT((solid.leftCols(8).rowwise().mean() - position("weight", t)).norm(), 1e-4);
-    // A homogeneous ball of 1 kg with 0.004 kg m2 has the radius sqrt(5/2 0.004) = 0.1 m; 13 rings of 24 corners.
-    const Eigen::Matrix3Xd ball = read.vertices(one, named(one["bodies"], "ball"), t).leftCols(13 * 24);
+    // A homogeneous ball of 1 kg with 0.004 kg m2 has the radius sqrt(5/2 0.004) = 0.1 m; 11 rings of 24 corners and
+    // two poles.
+    const Eigen::Matrix3Xd ball = read.vertices(one, named(one["bodies"], "ball"), t).leftCols(11 * 24 + 2);
     for (Index v = 0; v < ball.cols(); ++v) EXPECT_NEAR((ball.col(v) - position("ball", t)).norm(), 0.1, 1e-4);
   }
 }
@@ -160,7 +161,11 @@ TEST_F(Page, PutsJointsSpringsAndForcesWhereTheyAct) {
   EXPECT_EQ(one["bodies"][hinge["bodies"][1].get<int>()]["name"], "rod");
   // z of the marker is the axis of the joint, y of the world.
   const json& q = hinge["place"]["rotation"];
-  EXPECT_LT((Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * Vector3d::UnitZ() - Vector3d::UnitY()).norm(), 1e-12);
+  EXPECT_LT((Eigen::Quaterniond(q[0].get<double>(), q[1].get<double>(), q[2].get<double>(), q[3].get<double>()) *
+                 Vector3d::UnitZ() -
+             Vector3d::UnitY())
+                .norm(),
+            1e-12);
   EXPECT_EQ(one["channels"][hinge["coordinates"][0].get<int>()]["path"], "joints/coordinate/hinge");
   EXPECT_EQ(swing["kind"], "spherical");
   for (const int t : {0, 77}) {
@@ -179,7 +184,7 @@ TEST_F(Page, PutsJointsSpringsAndForcesWhereTheyAct) {
 
 TEST_F(Page, RunsNoScriptOfAStranger) {
   ViewRequest request;
-  request.files = {run("arm", arm)};
+  request.shown.files = {run("arm", arm)};
   const std::string text = page_of(request);
   EXPECT_THAT(text, Not(HasSubstr("<script>alert")));
   const std::string header = test_support::script_of(text, "tisserand-header");
@@ -190,9 +195,9 @@ TEST_F(Page, RunsNoScriptOfAStranger) {
 
 TEST_F(Page, ThinsInstantsAndChannelsAndSaysSo) {
   ViewRequest request;
-  request.files = {run("arm", arm)};
+  request.shown.files = {run("arm", arm)};
   request.instants = 11;
-  request.run.channels = {"energy", "nodes/position/rod/end"};
+  request.shown.channels = {"energy", "nodes/position/rod/end"};
   const PageReader read(page_of(request));
   const json& one = read.run();
   EXPECT_EQ(one["thinned"], json({{"rows", 101}, {"kept", 11}}));
@@ -200,7 +205,7 @@ TEST_F(Page, ThinsInstantsAndChannelsAndSaysSo) {
   for (int t = 0; t < 11; ++t) EXPECT_NEAR(times(t, 0), 0.1 * t, 1e-6);
   EXPECT_EQ(one["channels"].size(), 7u + 3u);
   EXPECT_GT(one["channels_left_out"]["count"], 50);
-  request.run.channels = {"energy/kinetik"};
+  request.shown.channels = {"energy/kinetik"};
   EXPECT_THAT(error_of(request), HasSubstr("has no channel 'energy/kinetik'"));
 }
 
@@ -276,16 +281,16 @@ TEST_F(Page, ShowsNodesOfOlderFiles) {
 
 TEST_F(Page, RefusesWhatItCannotShow) {
   ViewRequest request;
-  request.files = {plain_results(folder_.file("a.h5"), {"energy"}, 0.0, 3, true)};
+  request.shown.files = {plain_results(folder_.file("a.h5"), {"energy"}, 0.0, 3, true)};
   EXPECT_THAT(error_of(request), HasSubstr("holds no positions of nodes"));
-  request.files = {plain_results(folder_.file("b.h5"), {}, 0.0, 0, false)};
+  request.shown.files = {plain_results(folder_.file("b.h5"), {}, 0.0, 0, false)};
   EXPECT_THAT(error_of(request), HasSubstr("holds no instants"));
-  request.files = {plain_results(folder_.file("c.h5"), {}, std::numeric_limits<double>::quiet_NaN(), 3, true)};
+  request.shown.files = {plain_results(folder_.file("c.h5"), {}, std::numeric_limits<double>::quiet_NaN(), 3, true)};
   EXPECT_THAT(error_of(request), HasSubstr("is no number at t = 1"));
-  request.files = {folder_.file("nowhere.h5")};
+  request.shown.files = {folder_.file("nowhere.h5")};
   EXPECT_THAT(error_of(request), HasSubstr("nowhere.h5"));
-  request.files = {plain_results(folder_.file("d.h5"), {}, 0.0, 3, true)};
-  request.run.shapes.recovery = {folder_.file("nowhere.recovery.h5")};
+  request.shown.files = {plain_results(folder_.file("d.h5"), {}, 0.0, 3, true)};
+  request.shapes.recovery = {folder_.file("nowhere.recovery.h5")};
   EXPECT_THAT(error_of(request), HasSubstr("nowhere.recovery.h5"));
 }
 
@@ -301,7 +306,7 @@ bodies: {stone: {type: rigid, mass: 1, inertia: [1, 1, 1], shape: {type: mesh, f
 integrator: {step: 0.01, end: 0.05}
 )";
   ViewRequest request;
-  request.files = {run("stone", scene)};
+  request.shown.files = {run("stone", scene)};
   EXPECT_THAT(error_of(request), ::testing::AllOf(HasSubstr("stone.stl"), HasSubstr("no such file")));
   write("stone.stl", "solid\nfacet\nvertex 0 0 x\n");
   EXPECT_THAT(error_of(request), HasSubstr("stone.stl:3: 'x'"));

@@ -16,31 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-std::string decoded(const std::string& text) {
-  std::string bytes;
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    int value = 0;
-    if (c >= 'A' && c <= 'Z')
-      value = c - 'A';
-    else if (c >= 'a' && c <= 'z')
-      value = c - 'a' + 26;
-    else if (c >= '0' && c <= '9')
-      value = c - '0' + 52;
-    else if (c == '+' || c == '/')
-      value = c == '+' ? 62 : 63;
-    else
-      break;
-    bits = bits << 6 | static_cast<std::uint32_t>(value);
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes += static_cast<char>(bits >> count & 0xff);
-  }
-  return bytes;
-}
-
 std::string inflated(const std::string& compressed) {
   z_stream z{};
   if (inflateInit(&z) != Z_OK) throw std::runtime_error("zlib");
@@ -67,7 +42,9 @@ double number(std::uint32_t word, const std::string& type) {
   return static_cast<double>(value);
 }
 
-Eigen::Vector3d vector_of(const json& list) { return {list[0], list[1], list[2]}; }
+Eigen::Vector3d vector_of(const json& list) {
+  return {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
+}
 
 /// Row t, or the only one.
 Eigen::VectorXd row_of(const Eigen::MatrixXd& rows, Eigen::Index t) {
@@ -80,6 +57,31 @@ Eigen::Quaterniond quaternion_of(const Eigen::VectorXd& q) {
 
 }  // namespace
 
+std::string base64_decoded(const std::string& text) {
+  std::string bytes;
+  std::uint32_t bits = 0;
+  int count = 0;
+  for (const char c : text) {
+    int value = 0;
+    if (c >= 'A' && c <= 'Z')
+      value = c - 'A';
+    else if (c >= 'a' && c <= 'z')
+      value = c - 'a' + 26;
+    else if (c >= '0' && c <= '9')
+      value = c - '0' + 52;
+    else if (c == '+' || c == '/')
+      value = c == '+' ? 62 : 63;
+    else
+      break;
+    bits = bits << 6 | static_cast<std::uint32_t>(value);
+    count += 6;
+    if (count < 8) continue;
+    count -= 8;
+    bytes += static_cast<char>(bits >> count & 0xff);
+  }
+  return bytes;
+}
+
 std::string script_of(const std::string& page, const std::string& id) {
   const std::size_t mark = page.find("id=\"" + id + "\"");
   if (mark == std::string::npos) throw std::runtime_error("the page has no element " + id);
@@ -89,7 +91,7 @@ std::string script_of(const std::string& page, const std::string& id) {
 
 PageReader::PageReader(const std::string& page)
     : header_(json::parse(script_of(page, "tisserand-header"))),
-      stream_(decoded(script_of(page, "tisserand-blocks"))) {}
+      stream_(base64_decoded(script_of(page, "tisserand-blocks"))) {}
 
 Eigen::MatrixXd PageReader::read(const json& array) const {
   const json& extent = header_["blocks"].at(array["block"].get<std::size_t>());

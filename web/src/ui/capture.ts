@@ -1,0 +1,80 @@
+// Pictures and videos of the canvas, with title, time and the scale of colours written on them.
+import { download, fileName, styled } from "./dom";
+import { number } from "./numbers";
+import { mapBytes } from "../view/colours";
+import type { MapName } from "../view/colours";
+
+export interface Caption {
+  title: string;
+  time: string;
+  legend: { title: string; range: [number, number]; map: MapName } | null;
+}
+
+/** Draws picture and caption into `context`. */
+function compose(context: CanvasRenderingContext2D, picture: HTMLCanvasElement, caption: Caption): void {
+  const { width, height } = context.canvas, unit = Math.max(1, height / 700);
+  context.drawImage(picture, 0, 0, width, height);
+  context.fillStyle = styled("--ink");
+  context.textBaseline = "top";
+  context.font = `600 ${15 * unit}px system-ui, sans-serif`;
+  context.fillText(caption.title, 16 * unit, 14 * unit, width - 32 * unit);
+  context.font = `${14 * unit}px system-ui, sans-serif`;
+  context.fillText(caption.time, 16 * unit, 36 * unit);
+  if (!caption.legend) return;
+  const { title, range, map } = caption.legend, bytes = mapBytes(map), x = 16 * unit, low = height - 40 * unit, tall = 160 * unit;
+  for (let i = 0; i < 256; ++i) {
+    context.fillStyle = `rgb(${bytes[4 * i]}, ${bytes[4 * i + 1]}, ${bytes[4 * i + 2]})`;
+    context.fillRect(x, low - (tall * (i + 1)) / 256, 12 * unit, tall / 256 + 1);
+  }
+  context.fillStyle = styled("--ink");
+  context.font = `${12 * unit}px system-ui, sans-serif`;
+  context.fillText(title, x, low - tall - 20 * unit);
+  for (const s of [0, 0.5, 1]) context.fillText(number(range[0] + s * (range[1] - range[0]), 3), x + 18 * unit, low - s * tall - 6 * unit);
+}
+
+/** A PNG of what is drawn; `draw` draws it anew just before. */
+export function savePicture(picture: HTMLCanvasElement, draw: () => void, caption: Caption): Promise<Blob | null> {
+  draw();
+  const canvas = document.createElement("canvas");
+  canvas.width = picture.width;
+  canvas.height = picture.height;
+  compose(canvas.getContext("2d")!, picture, caption);
+  return new Promise((resolve) => canvas.toBlob((blob) => {
+    if (blob) download(fileName(caption.title, "png"), blob);
+    resolve(blob);
+  }, "image/png"));
+}
+
+export class Recorder {
+  private recorder: MediaRecorder | null = null;
+  private readonly canvas = document.createElement("canvas");
+  private context: CanvasRenderingContext2D | null = null;
+
+  get recording(): boolean {
+    return this.recorder !== null;
+  }
+  static get possible(): boolean {
+    return typeof MediaRecorder !== "undefined" && "captureStream" in HTMLCanvasElement.prototype;
+  }
+
+  start(picture: HTMLCanvasElement, title: string): void {
+    this.canvas.width = picture.width;
+    this.canvas.height = picture.height;
+    this.context = this.canvas.getContext("2d");
+    const type = ["video/mp4;codecs=avc1", "video/webm;codecs=vp9", "video/webm"].find((t) => MediaRecorder.isTypeSupported(t)) ?? "";
+    const recorder = new MediaRecorder(this.canvas.captureStream(30), { mimeType: type, videoBitsPerSecond: 8e6 });
+    const parts: Blob[] = [];
+    recorder.ondataavailable = (event) => parts.push(event.data);
+    recorder.onstop = () => download(fileName(title, type.includes("mp4") ? "mp4" : "webm"), new Blob(parts, { type }));
+    recorder.start();
+    this.recorder = recorder;
+  }
+  stop(): void {
+    this.recorder?.stop();
+    this.recorder = null;
+  }
+  /** After each picture. */
+  picture(source: HTMLCanvasElement, caption: Caption): void {
+    if (this.recorder && this.context) compose(this.context, source, caption);
+  }
+}
