@@ -115,7 +115,7 @@ export class App {
       this.viewport?.touch();
       this.report.resize();
     }).observe(main);
-    this.tabs.open(hasModes ? "modes" : this.runs.some((run) => run.entry.channels.length > 0) ? "curves" : "report");
+    this.tabs.open(hasModes ? "modes" : this.runs.some((run) => run.entry.channels.length > 0 && run.times.length > 1) ? "curves" : "report");
     this.theme();
     if (hasModes) this.player.choose({ run: this.runs.findIndex((run) => run.entry.modes && run.entry.modes.length > 0), index: 0 });
     requestAnimationFrame((now) => this.frame(now));

@@ -119,7 +119,7 @@ export class Panel {
         spanGaps: true,
         ...(column.rank > 0 ? { dash: [[6, 3], [2, 3], [8, 3, 2, 3]][(column.rank - 1) % 3]! } : {}),
         ...(column.rank < 0 ? { paths: () => null } : {}),
-        points: column.rank < 0 ? { show: true, size: 5, stroke: column.colour, fill: styled("--paper") } : { show: false },
+        points: column.rank < 0 ? { show: true, size: 5, stroke: column.colour, fill: styled("--paper") } : { show: column.x.length === 1, size: 6, stroke: column.colour, fill: column.colour },
       }))],
       hooks: {
         draw: [(u) => this.placeTime(u)],

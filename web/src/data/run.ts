@@ -28,6 +28,8 @@ export interface Place {
   rotation: Values | null;
   /** Body that turns it where it has a history of its own. */
   body: number | null;
+  /** Nearest vertex of its body, once it was asked for. */
+  vertex?: number;
 }
 
 export interface Pose {
@@ -235,6 +237,18 @@ export class Run {
     }
   }
 
+  /** What the mode adds to the deformation at a place: that of the vertex of its body which is nearest to it. */
+  private modeDeformation(place: Place, rest: Vector3): Vec {
+    const body = this.bodies[place.body!]!, shape = body.shape === null ? null : this.shapes[body.shape]!;
+    if (!shape?.modes || !body.amplitudes) return [0, 0, 0];
+    const v = (place.vertex ??= nearest(shape.vertices, rest)), sum: Vec = [0, 0, 0];
+    for (let k = 0; k < shape.modes.rows; ++k) {
+      const a = this.exaggeration * (this.motion.amplitudes[body.first + k]! - body.amplitudes.at(0, k));
+      for (let c = 0; c < 3; ++c) sum[c]! += a * shape.modes.at(k, 3 * v + c);
+    }
+    return sum;
+  }
+
   pose(body: number, motion = this.motion): Pose {
     const p = motion.poses, i = 7 * body;
     return { position: [p[i]!, p[i + 1]!, p[i + 2]!], rotation: [p[i + 3]!, p[i + 4]!, p[i + 5]!, p[i + 6]!] };
@@ -278,12 +292,22 @@ export class Run {
     const before = this.placeAt({ entry: { body: place.body }, position: null, rotation: null, body: place.body }, t);
     let local = rotate(conjugate(before.rotation), subtract(true_.position, before.position));
     if (rest) local = local.map((value, i) => rest[i]! + this.exaggeration * (value - rest[i]!)) as Vec;
+    if (this.mode && rest) local = add(local, this.modeDeformation(place, rest));
     const now = this.pose(place.body);
     return {
       position: add(now.position, rotate(now.rotation, local)),
       rotation: product(product(now.rotation, conjugate(before.rotation)), true_.rotation),
     };
   }
+}
+
+function nearest(vertices: Float64Array, point: Vector3): number {
+  let best = 0, least = Infinity;
+  for (let i = 0; i < vertices.length; i += 3) {
+    const d = (vertices[i]! - point[0]) ** 2 + (vertices[i + 1]! - point[1]) ** 2 + (vertices[i + 2]! - point[2]) ** 2;
+    if (d < least) least = d, best = i / 3;
+  }
+  return best;
 }
 
 function interpolate(values: Values, row: number, next: number, share: number, out: Float64Array, at: number): void {

@@ -15,15 +15,20 @@ function keyOf(event: KeyboardEvent): string {
 
 function takesText(target: EventTarget | null): boolean {
   return target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement
-    || (target instanceof HTMLInputElement && !["checkbox", "button"].includes(target.type));
+    || (target instanceof HTMLInputElement && !["checkbox", "button", "range"].includes(target.type));
+}
+
+/** Whether a slider that has the focus takes the key for itself. */
+function movesSlider(target: EventTarget | null, key: string): boolean {
+  return target instanceof HTMLInputElement && target.type === "range" && /^(Arrow|Page|Home|End)/.test(key);
 }
 
 export function listenToKeys(commands: Command[]): void {
   const table = new Map(commands.flatMap((command) => command.keys.map((key) => [key, command] as const)));
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
-    if (takesText(event.target) && event.key !== "Escape") return;
-    const pressesControl = event.target instanceof HTMLElement && event.target.matches("button, summary, input, a, [role=tab], [role=separator]");
+    if ((takesText(event.target) && event.key !== "Escape") || movesSlider(event.target, event.key)) return;
+    const pressesControl = event.target instanceof HTMLElement && event.target.matches("button, summary, input:not([type=range]), a, [role=tab], [role=separator]");
     if (pressesControl && [" ", "Enter"].includes(event.key)) return;
     if (event.target instanceof HTMLElement && event.target.matches("[role=tab], [role=separator]") && event.key.startsWith("Arrow")) return;
     if (document.querySelector("dialog[open]")) return;

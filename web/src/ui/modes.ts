@@ -5,6 +5,9 @@ import type { Player } from "./player";
 import type { ModeEntry } from "../data/header";
 import type { Run } from "../data/run";
 
+/** Damping ratios below are rounding of the eigenvalues. */
+const ROUNDING = 1e-8;
+
 export class Modes {
   readonly element = h("div", { class: "pad modes" });
   /** Largest displacement shown, as a share of the size of the picture. */
@@ -29,7 +32,7 @@ export class Modes {
     const rows = run.entry.modes!.map((mode, index) => {
       const choose = button("Show", `Move in mode ${index + 1}`, () => this.player.choose({ run: run.index, index }), { class: "link" });
       const row = h("tr", {}, h("td", { class: "figure" }, String(index + 1)), h("td", { class: "figure" }, number(mode.frequency, 5)),
-        h("td", { class: "figure" }, mode.damping === null ? "-" : number(100 * mode.damping, 3)), h("td", {}, choose));
+        h("td", { class: "figure" }, mode.damping === null ? "-" : number(Math.abs(mode.damping) < ROUNDING ? 0 : 100 * mode.damping, 3)), h("td", {}, choose));
       this.rows.push({ run: run.index, index, row, choose });
       return row;
     });

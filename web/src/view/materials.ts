@@ -54,7 +54,7 @@ export function materialsOf(shared: Uniforms, mapped: boolean): Materials {
     surface,
     edge: material(SURFACE_VERTEX, EDGE_FRAGMENT, uniforms),
     point: material(SURFACE_VERTEX, POINT_FRAGMENT, uniforms),
-    segment: material(SEGMENT_VERTEX, SEGMENT_FRAGMENT, { ...uniforms, width: { value: 2 } }),
+    segment: material(SEGMENT_VERTEX, SEGMENT_FRAGMENT, { ...uniforms, width: { value: 2.6 } }),
     pick: material(SURFACE_VERTEX, PICK_FRAGMENT, { ...uniforms, firstId: { value: 1 } }),
   };
 }

@@ -3,7 +3,7 @@ import { BufferAttribute, BufferGeometry, Group, Points } from "three";
 import type { Object3D, Vector4 } from "three";
 import { add, rotate, scaled, subtract, turnOfZ } from "../data/rotation";
 import type { Vec } from "../data/rotation";
-import type { Pose, Run } from "../data/run";
+import type { Place, Pose, Run } from "../data/run";
 import { Batch } from "./batch";
 import type { Item } from "./batch";
 import { BODY_COLOURS, GHOST_COLOURS, LINE_COLOURS, rgb } from "./colours";
@@ -18,6 +18,21 @@ const AXES: [Vec, string][] = [[[1, 0, 0], "#c23b3b"], [[0, 1, 0], "#3c8d3c"], [
 const JOINT = rgb("#d9a441"), MARKER = rgb("#9aa3ad"), SPRING = rgb("#7b8794");
 export const FORCE = "#d1495b", MOMENT = "#8e5ea2";
 
+interface Link {
+  body: number;
+  places: Place[];
+}
+
+function linksOf(run: Run): Link[] {
+  const links = new Map<number, Place[]>();
+  for (const joint of run.joints)
+    for (const b of joint.bodies) {
+      const body = b === null ? undefined : run.bodies[b], shape = body && body.shape !== null ? run.shapes[body.shape] : undefined;
+      if (b !== null && body?.kind === "rigid" && ["nodes", "inertia"].includes(shape?.source ?? "")) links.set(b, [...(links.get(b) ?? []), joint.place]);
+    }
+  return [...links].map(([body, places]) => ({ body, places }));
+}
+
 export class RunView {
   readonly group = new Group();
   readonly bodies: Batch;
@@ -30,6 +45,7 @@ export class RunView {
   private readonly lines: Segments;
   private readonly traces: Segments;
   private readonly dots: Points;
+  private readonly links: Link[];
   /** Bodies that are drawn, and those that have no size of their own. */
   private readonly drawn: number[] = [];
   private readonly markers: number[] = [];
@@ -69,6 +85,7 @@ export class RunView {
     this.dots = this.nodeDots();
     for (const batch of [this.bodies, this.inertia, ...Object.values(this.glyphs)]) this.group.add(batch.group);
     this.group.add(this.lines.mesh, this.traces.mesh, this.dots);
+    this.links = linksOf(run);
     this.placeBodies("body", 1);
     for (const batch of [this.bodies, this.inertia]) batch.keepStart();
   }
@@ -190,7 +207,16 @@ export class RunView {
         for (const [axis, colour] of AXES)
           this.lines.add(at, add(at, rotate(pose.rotation, scaled(axis, Math.min(0.06 * this.run.size, 42 * pixel)))), rgb(colour));
       }
+    if (settings.joints) for (const link of this.links) this.placeLink(link);
     this.lines.flush();
+  }
+
+  /** A rigid body without a surface is seen by what holds it: its joints, joined to their middle, or one to its frame. */
+  private placeLink({ body, places }: Link): void {
+    const points = places.map((place) => subtract(this.run.drawn(place).position, this.origin)), colour = rgb(BODY_COLOURS[body % BODY_COLOURS.length]!);
+    if (points.length === 1) points.push(subtract(this.run.pose(body).position, this.origin));
+    const middle = scaled(points.reduce((sum, p) => add(sum, p), [0, 0, 0] as Vec), 1 / points.length);
+    for (const point of points) this.lines.add(middle, point, colour);
   }
 
   /** The paths of the traced nodes over all instants, as in the results. */
