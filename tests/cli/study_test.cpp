@@ -196,10 +196,100 @@ TEST_F(Study, TellsWhenNoRunFitsTheBudget) {
 }
 
 TEST_F(Study, SaysThatSlurmIsMissing) {
-  if (std::system("command -v sbatch > /dev/null 2>&1") == 0) GTEST_SKIP() << "Slurm is installed";
-  const Outcome outcome = mechanism({"study", "orders.study.yaml", "--slurm"});
+  const Outcome outcome = call(
+      {"/usr/bin/env", "PATH=" + where.folder, program("mechanism"), "study", "orders.study.yaml", "--slurm"}, where);
   EXPECT_EQ(outcome.code, 1);
   EXPECT_THAT(outcome.error, HasSubstr("Slurm is missing"));
+}
+
+/// A stand-in for sbatch that runs the tasks of the array which `chosen` (a shell pattern) means.
+void write_sbatch(const std::string& folder, const std::string& chosen) {
+  std::filesystem::create_directories(folder + "/bin");
+  write_text(
+      folder + "/bin/sbatch",
+      "#!/bin/sh\n[ \"$1\" = --wait ] || exit 1\necho Submitted batch job 7\nlast=$(sed -n 's/.*array=0-//p' \"$2\")\n"
+      "for task in $(seq 0 \"$last\"); do case $task in " +
+          chosen + ") SLURM_ARRAY_TASK_ID=$task sh \"$2\";; esac; done\n");
+  std::filesystem::permissions(folder + "/bin/sbatch", std::filesystem::perms::owner_all);
+}
+
+TEST_F(Study, AJobArrayGivesTheSameTable) {
+  const std::string path = "PATH=" + where.folder + "/bin:/usr/bin:/bin";
+  ASSERT_EQ(mechanism({"study", "orders.study.yaml", "-o", "here"}).code, 0);
+  write_sbatch(where.folder, "*");
+  const Outcome outcome =
+      call({"/usr/bin/env", path, program("mechanism"), "study", "orders.study.yaml", "-o", "array", "--slurm"}, where);
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_EQ(without_times(read_text(file("array/table.csv"))), without_times(read_text(file("here/table.csv"))));
+  EXPECT_TRUE(std::filesystem::exists(file("array/journal.3.jsonl")));
+}
+
+TEST_F(Study, AJobThatVanishedIsNamed) {
+  const std::string path = "PATH=" + where.folder + "/bin:/usr/bin:/bin";
+  write_sbatch(where.folder, "0 | 1 | 3");
+  const Outcome outcome =
+      call({"/usr/bin/env", path, program("mechanism"), "study", "orders.study.yaml", "--slurm"}, where);
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.error, AllOf(HasSubstr("1 of 4 jobs vanished without a result: tasks 2"),
+                                   HasSubstr("integrator.step = 0.005"), HasSubstr("orders.study/slurm")));
+}
+
+constexpr const char* swinging_part = R"yaml(part: rod
+materials: {steel: {E: 2.1e11, nu: 0.3, density: 7800}}
+sections: {bar: {shape: circle, radius: 0.01}}
+points: {base: [0, 0, 0], tip: [1, 0, 0]}
+beams: {rod: {from: base, to: tip, section: bar, material: steel, elements: 8}}
+boundary: [base, tip]
+modes: 2
+)yaml";
+
+constexpr const char* swinging = R"yaml(scene: swinging rod
+gravity: [0, 0, -9.81]
+bodies: {rod: {type: superelement, file: none.superelement.h5}}
+joints: {hinge: {type: revolute, a: ground, b: rod/base, axis: [0, 1, 0]}}
+integrator: {step: 0.01, end: 0.2}
+output: {interval: 0.02, channels: [nodes/position]}
+)yaml";
+
+constexpr const char* parts_study = R"yaml(study: elements of a part
+series:
+  rod:
+    scene: swinging.scene.yaml
+    axes: {elements: [2, 4], bodies.rod.modes: [0, 2]}
+    parts: {rod: {file: rod.part.yaml, as: bodies.rod.file, set: {beams.rod.elements: $elements}}}
+quantities: {tip: {channel: nodes/position/rod/tip/z}}
+timing: together
+)yaml";
+
+TEST_F(Study, WithoutTheOtherProgramPartsCannotVary) {
+  write_text(file("rod.part.yaml"), swinging_part);
+  write_text(file("swinging.scene.yaml"), swinging);
+  write_text(file("parts.study.yaml"), parts_study);
+  std::filesystem::create_directories(file("alone"));
+  std::filesystem::copy(program("mechanism"), file("alone/mechanism"));
+  const auto alone = [&](const std::string& study) {
+    return call({"/usr/bin/env", "PATH=/usr/bin:/bin", file("alone/mechanism"), "study", study}, where);
+  };
+  const Outcome outcome = alone("parts.study.yaml");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_THAT(outcome.error, HasSubstr("the program reducer is missing"));
+  EXPECT_EQ(alone("orders.study.yaml").code, 0);  // nothing to be reduced
+}
+
+TEST_F(Study, PartsAreReducedOncePerSetting) {
+  if (!std::filesystem::exists(program("reducer"))) GTEST_SKIP() << "built without reducer";
+  write_text(file("rod.part.yaml"), swinging_part);
+  write_text(file("swinging.scene.yaml"), swinging);
+  write_text(file("parts.study.yaml"), parts_study);
+  const Outcome outcome = mechanism({"study", "parts.study.yaml"});
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  int files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(file("parts.study/parts")))
+    files += entry.path().string().ends_with(".superelement.h5") ? 1 : 0;
+  EXPECT_EQ(files, 2);  // modes are cut by the scene
+  write_text(file("parts.study.yaml"), replaced(parts_study, "[2, 4]", "[2, 4, 8]"));
+  // The finest run is the reference, another one now.
+  EXPECT_THAT(mechanism({"study", "parts.study.yaml"}).error, HasSubstr("measured otherwise"));
 }
 
 }  // namespace
