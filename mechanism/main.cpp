@@ -25,6 +25,7 @@
 #include "mechanism/run/analyses.hpp"
 #include "mechanism/run/checkpoint.hpp"
 #include "mechanism/simulate.hpp"
+#include "mechanism/study/study.hpp"
 #include "mechanism/view/paraview.hpp"
 #include "mechanism/view/view.hpp"
 
@@ -68,6 +69,7 @@ Examples:
   mechanism channels arm.results.h5                    what the file holds, with units
   mechanism plot arm.results.h5 -c nodes/position/arm/tip/z -o arm.png
   mechanism view arm.results.h5 -o arm.html            a page with the motion, for any browser
+  mechanism study arm.study.yaml --tolerance 1e-3      what accuracy costs, and the cheapest setting for it
   mechanism export arm.results.h5 -c energy -o arm.csv
 
 A scene in ten lines:
@@ -156,6 +158,17 @@ constexpr const char* about_compare =
   mechanism compare arm.results.h5 -c nodes/position/rod/end/z --reference other.csv:1:3
 
 The columns of a CSV file are named, or counted from 1.)help";
+
+constexpr const char* about_study =
+    R"help(Runs a scene with all combinations of settings and shows what accuracy costs in time.
+
+  mechanism study arm.study.yaml                   table.csv, table.json and index.html in the folder arm.study
+  mechanism study arm.study.yaml --tolerance 1e-3  the cheapest setting with such an error, in one line, and its scene
+  mechanism study arm.study.yaml --slurm           the runs as a job array, collected when all have ended
+
+The study file (formats/STUDY.md) names scenes, axes, quantities and the reference. A run that fails is a result. Interrupted at
+any moment, the same command goes on: what has run is not repeated.
+Exit codes: 0 done, 1 error, 2 wrong usage, 130 interrupted.)help";
 
 /// "dir/pendulum.scene.yaml" -> "pendulum.results.h5" in the working folder.
 std::string default_results(const std::string& scene) {
@@ -327,6 +340,28 @@ std::vector<std::string> drawn_files(const SeriesArguments& arguments) {
   return files;
 }
 
+/// The list of commands shows one line of each; its own help shows all.
+std::string first_line(const char* text) { return std::string(text).substr(0, std::string(text).find('\n')); }
+
+int study(const mechanism::StudyRequest& request) {
+  listen_for_interrupts();
+  say(mechanism::perform_study(request, {[] { return interrupt_requested.load(); }, wall_clock}));
+  return interrupt_requested ? exit_interrupted : 0;
+}
+
+void add_study(CLI::App& app, mechanism::StudyRequest& request, int& code) {
+  CLI::App* command = app.add_subcommand("study", first_line(about_study));
+  command->add_option("study", request.file, "study file (formats/STUDY.md)")->required();
+  command->add_option("-o,--output", request.folder, "folder of what has run and of tables; default: <study>.study");
+  command->add_option("--tolerance", request.tolerance, "the cheapest setting whose errors stay within it")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--of", request.quantity, "with --tolerance: this quantity; default: all");
+  command->add_flag_callback(
+      "--slurm", [&] { request.place = mechanism::StudyPlace::slurm; }, "run the settings as a job array of Slurm");
+  command->add_option("--task", request.task, "only the setting of this number, from 0: a job of the array");
+  command->callback([&] { code = study(request); });
+}
+
 /// Prints what is wrong with the words of the command line.
 int tell_usage(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   std::vector<std::string> commands;
@@ -342,9 +377,6 @@ int tell_usage(const CLI::App& app, const CLI::ParseError& error, int argc, char
                        command == nullptr ? "" : command->get_name() + " "));
   return exit_usage;
 }
-
-/// The list of commands shows one line of each; its own help shows all.
-std::string first_line(const char* text) { return std::string(text).substr(0, std::string(text).find('\n')); }
 
 void describe(CLI::App& app, const std::vector<std::pair<std::string, std::string>>& abouts, int argc, char** argv) {
   for (const auto& [name, about_command] : abouts)
@@ -378,6 +410,9 @@ int command_line(int argc, char** argv) {
   CLI::App* check_command = app.add_subcommand("check", first_line(about_check));
   add_run_arguments(*check_command, check_arguments);
   check_command->callback([&] { code = check(check_arguments); });
+
+  mechanism::StudyRequest study_request;
+  add_study(app, study_request, code);
 
   std::string export_file, export_output;
   std::vector<std::string> export_channels;
@@ -461,6 +496,7 @@ int command_line(int argc, char** argv) {
             {"channels", about_channels},
             {"plot", about_plot},
             {"view", about_view},
+            {"study", about_study},
             {"compare", about_compare}},
            argc, argv);
   try {

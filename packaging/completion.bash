@@ -109,6 +109,7 @@ _tisserand() {
   if [[ $previous == -* ]] && _tisserand_value; then return 0; fi
   case "$program_name $command" in
     'mechanism run' | 'mechanism check') _tisserand_files scene.yaml yaml ;;
+    'mechanism study') _tisserand_files study.yaml yaml ;;
     'mechanism '*) _tisserand_files results.h5 h5 ;;
     'reducer run' | 'reducer mesh' | 'reducer section') _tisserand_files part.yaml yaml ;;
     'reducer show' | 'reducer export') _tisserand_files superelement.h5 h5 ;;

@@ -8,6 +8,7 @@
 #include "common/error.hpp"
 #include "formats/part/fields.hpp"
 #include "formats/scene/fields.hpp"
+#include "formats/study/study.hpp"
 
 namespace tisserand::formats {
 
@@ -18,7 +19,9 @@ std::string FileKind::page_file() const {
 }
 
 std::vector<FileKind> file_kinds() {
-  return {{"part", part_key_sets(), part_types(), false}, {"scene", scene_key_sets(), scene_types(), true}};
+  return {{"part", part_key_sets(), part_types(), false},
+          {"scene", scene_key_sets(), scene_types(), true},
+          {"study", study_key_sets(), study_types(), false}};
 }
 
 std::string field_table(const std::vector<KeySet>& sets, const std::string& table) {

@@ -1,24 +1,17 @@
-// Writes a gnuplot script with the data in it and runs gnuplot on it, without a shell.
+// Writes a gnuplot script with the data in it and runs gnuplot on it.
 #include "mechanism/histories/plot.hpp"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 
+#include "common/child.hpp"
 #include "common/error.hpp"
 #include "common/text.hpp"
-
-extern char** environ;  // NOLINT: POSIX demands this declaration
 
 namespace tisserand::mechanism {
 namespace {
@@ -146,6 +139,12 @@ void append_range(std::string& script, const char* axis, const std::optional<std
 /// One curve of the plot command; `rank` is its place among the runs or the references of its panel.
 std::string curve(const std::vector<Series>& series, std::size_t index, std::size_t rank, const PlotOptions& options) {
   const std::string title = gnuplot_quoted(legend_of(series, series[index]));
+  if (series[index].kind == SeriesKind::front)
+    return fmt::format("$d{} with lines lw 7 lc rgb '#DDDDDD' title {}", index, title);
+  if (series[index].kind == SeriesKind::backdrop)
+    return fmt::format("$d{} with points pt 7 ps 0.4 lc rgb '#BBBBBB' title {}", index, title);
+  if (series[index].kind == SeriesKind::marks)
+    return fmt::format("$d{} with points pt 2 ps 1.3 lw 2 lc rgb '#BB0000' title {}", index, title);
   const char* shape = options.mark == Mark::line_with_points ? "linespoints ps 1.1" : "lines";
   if (series[index].kind == SeriesKind::reference && options.mark == Mark::line)
     return fmt::format("$d{} with lines lw 3.6 lc rgb '{}' title {}", index,
@@ -176,7 +175,8 @@ void append_panel(std::string& script, const std::vector<Series>& series, const 
     script += "plot " + join(curves, ", \\\n     ") + "\n";
     return;
   }
-  for (const SeriesKind kind : {SeriesKind::reference, SeriesKind::run}) {
+  for (const SeriesKind kind :
+       {SeriesKind::front, SeriesKind::backdrop, SeriesKind::reference, SeriesKind::run, SeriesKind::marks}) {
     std::size_t rank = 0;
     for (const std::size_t i : panel.members)
       if (series[i].kind == kind) curves.push_back(curve(series, i, rank++, options));
@@ -248,51 +248,16 @@ void check_finite(const std::vector<Series>& series) {
   }
 }
 
-struct FileCloser {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using TemporaryFile = std::unique_ptr<std::FILE, FileCloser>;
-
-TemporaryFile temporary_file() {
-  TemporaryFile file(std::tmpfile());
-  if (!file) throw Error("no temporary file can be made", "plot", remedy_of_errno(errno));
-  return file;
-}
-
-std::string content(std::FILE* file) {
-  std::string text(4000, '\0');
-  std::rewind(file);
-  text.resize(std::fread(text.data(), 1, text.size(), file));
-  return text;
-}
-
 /// Feeds the script to gnuplot (-d: without the user's settings) and waits. Throws Error with gnuplot's message.
 void run_gnuplot(const std::string& script) {
-  const TemporaryFile input = temporary_file();
-  const TemporaryFile output = temporary_file();
-  if (std::fwrite(script.data(), 1, script.size(), input.get()) != script.size() || std::fflush(input.get()) != 0)
-    throw Error("the data cannot be handed to gnuplot", "plot", remedy_of_errno(errno));
-  std::rewind(input.get());
-
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, fileno(input.get()), STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, fileno(output.get()), STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, fileno(output.get()), STDERR_FILENO);
-  std::string program = "gnuplot", option = "-d";
-  std::array<char*, 3> arguments = {program.data(), option.data(), nullptr};
-  pid_t child = 0;
-  const int failure = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failure == ENOENT)
+  if (!is_program("gnuplot"))
     throw Error("gnuplot is not installed", "plot", "install it with: apt-get install gnuplot-nox");
-  if (failure != 0) throw Error(fmt::format("gnuplot cannot be started: {}", std::strerror(failure)), "plot", "");
-
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) throw Error("gnuplot was lost", "plot", std::strerror(errno));
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw Error("gnuplot failed: " + content(output.get()), "plot", "try other ranges or channels");
+  ChildRequest request;
+  request.words = {"gnuplot", "-d"};
+  request.input = script;
+  const ChildReport report = run_child(request);
+  if (report.ending != ChildEnding::left || report.code != 0)
+    throw Error("gnuplot failed: " + report.text + report.complaint, "plot", "try other ranges or channels");
 }
 
 /// gnuplot does not notice a full disk: a picture that was cut short lacks its end.

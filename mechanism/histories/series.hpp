@@ -8,7 +8,13 @@
 
 namespace tisserand::mechanism {
 
-enum class SeriesKind { run, reference };
+enum class SeriesKind {
+  run,
+  reference,
+  front,     ///< a bound of others: wide and grey beneath them
+  backdrop,  ///< others for comparison: small grey points beneath
+  marks      ///< single events: crosses above
+};
 
 /// One quantity over another, in the units of its file.
 struct Series {

@@ -11,9 +11,15 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Value of a series at `x`, inside its range: Lagrange's cubic through the four nearest instants. Increasing
-/// abscissae; repeated instants (after a switch) count once.
-double interpolate(const Series& series, double x) {
+double mean_square(const std::vector<double>& x, const std::vector<double>& y) {
+  double integral = 0.0;
+  for (std::size_t i = 1; i < x.size(); ++i) integral += 0.5 * (x[i] - x[i - 1]) * (y[i] * y[i] + y[i - 1] * y[i - 1]);
+  return integral / (x.back() - x.front());
+}
+
+}  // namespace
+
+double value_at(const Series& series, double x) {
   const auto above = std::lower_bound(series.x.begin(), series.x.end(), x);
   const auto right = static_cast<std::size_t>(above - series.x.begin());
   if (right < series.x.size() && series.x[right] == x) return series.y[right];
@@ -29,14 +35,6 @@ double interpolate(const Series& series, double x) {
   }
   return value;
 }
-
-double mean_square(const std::vector<double>& x, const std::vector<double>& y) {
-  double integral = 0.0;
-  for (std::size_t i = 1; i < x.size(); ++i) integral += 0.5 * (x[i] - x[i - 1]) * (y[i] * y[i] + y[i - 1] * y[i - 1]);
-  return integral / (x.back() - x.front());
-}
-
-}  // namespace
 
 std::string channels_table(const std::string& file, const std::vector<std::string>& patterns) {
   const formats::ResultsReader reader(file);
@@ -73,7 +71,7 @@ Deviation deviation(const Series& series, const Series& reference, const TimeWin
       if (is_outside_run || is_outside_window) continue;
       time.push_back(t);
       expected.push_back(reference.y[i]);
-      difference.push_back(interpolate(series, t) - reference.y[i]);
+      difference.push_back(value_at(series, t) - reference.y[i]);
     }
   if (time.size() < 2 || !(time.back() > time.front()))
     throw Error("fewer than two instants in common with the reference '" + reference.source + "'", where,

@@ -16,6 +16,10 @@ std::string channels_table(const std::string& file, const std::vector<std::strin
 /// Writes the chosen channels (none chosen: all) as CSV with the header "time [s],name [unit],...".
 void export_table(const std::string& file, const std::vector<std::string>& patterns, const std::string& output);
 
+/// Value of a series at `x`, inside its range: Lagrange's cubic through the four nearest instants. Increasing abscissae;
+/// repeated instants (after a switch) count once.
+double value_at(const Series& series, double x);
+
 /// Differences of one history from a reference, at the reference's instants from `from` to `to`.
 struct Deviation {
   std::string label;

@@ -30,7 +30,7 @@ for program in "${programs[@]}"; do
   done
 done
 
-for schema in part scene; do
+for schema in part scene study; do
   cmp "$source_dir/formats/schema/$schema.schema.json" "$prefix/share/tisserand/schema/$schema.schema.json"
 done
 for page in README.md CHANGELOG.md copyright docs/TUTORIAL.md formats/SCENE.md reducer/decks/nastran/NASTRAN.md \

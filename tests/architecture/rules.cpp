@@ -147,12 +147,14 @@ void check_folders(const SourceFile& file, std::vector<Violation>& violations) {
   }
 }
 
-/// The two stages do not name each other, except in tests that run both programs.
+/// The two stages do not name each other, except in tests that run both programs and in the one file by which a study
+/// starts the other program.
 void check_names(const SourceFile& file, std::vector<Violation>& violations) {
   static const std::regex in_reducer(R"(\bmechanism::|namespace\s+mechanism|tisserand_mechanism)");
   static const std::regex in_mechanism(R"(\breducer\b|tisserand_reducer)");
   const std::string folder = first_folder(file.path);
   if (folder != "reducer" && folder != "mechanism") return;
+  if (file.path == "mechanism/study/parts.cpp") return;
   const std::vector<std::string>& lines = file.is_source() ? file.code : file.lines;
   for (std::size_t i = 0; i < lines.size(); ++i)
     if (std::regex_search(lines[i], folder == "reducer" ? in_reducer : in_mechanism))
@@ -352,7 +354,7 @@ std::vector<Violation> check_stories(const SourceTree& tree) {
   constexpr std::size_t page = 80;
   static const std::set<std::string> stories = {"mechanism/simulate.cpp", "mechanism/step/step.cpp",
                                                 "mechanism/equations/evaluate.cpp", "mechanism/build/build_model.cpp",
-                                                "reducer/reduce.cpp"};
+                                                "mechanism/study/study.cpp", "reducer/reduce.cpp"};
   std::vector<Violation> violations;
   for (const SourceFile& file : tree.files)
     if (stories.contains(file.path) && file.lines.size() > page)

@@ -97,6 +97,13 @@ TEST_F(PlantedTree, CommentsAndForeignWordsAreNoDependency) {
   EXPECT_EQ(to_text(check_dependencies(tree())), "");
 }
 
+TEST_F(PlantedTree, OneFileStartsTheOtherProgram) {
+  plant("mechanism/study/parts.cpp", "const char* program = \"reducer\";\n");
+  EXPECT_EQ(to_text(check_dependencies(tree())), "");
+  plant("mechanism/study/cells.cpp", "const char* program = \"reducer\";\n");
+  EXPECT_THAT(to_text(check_dependencies(tree())), HasSubstr("mechanism/study/cells.cpp:1: the two stages do not name"));
+}
+
 TEST_F(PlantedTree, CircleOfHeadersIsFound) {
   plant("common/p.hpp", "#include \"common/q.hpp\"\n");
   plant("common/q.cpp", "#include \"common/q.hpp\"\n#include \"common/p.hpp\"\n");

@@ -3,10 +3,20 @@
 
 #include "formats/scene/expand/include.hpp"
 #include "formats/scene/expand/instances.hpp"
+#include "formats/yaml/emit.hpp"
 
 namespace tisserand::formats {
 
 namespace {
+
+/// Names of files of included files, relative to the folder of the first one.
+void rebase_all(const YamlDocument& document, YamlNode& node) {
+  const std::string& folder = document.sources.at(static_cast<std::size_t>(node.place.source)).folder;
+  if (node.key == "file" && node.kind == YamlKind::scalar && !node.text.empty() && node.text.front() != '/' &&
+      !folder.empty())
+    node.text = folder + "/" + node.text;
+  for (YamlNode& child : node.children) rebase_all(document, child);
+}
 
 /// Whether a path names something that only exists in the flat tree: "bodies.corner_fl/arm.mass".
 bool names_instance(const Override& change) { return change.path.find_first_of("/[") != std::string::npos; }
@@ -29,6 +39,20 @@ YamlDocument load_scene_tree(const std::string& path, const std::vector<Override
   SceneExpander(document, loader, legal_keys).run();
   apply_overrides(document, chosen(overrides, true), collections);
   return document;
+}
+
+std::string scene_text(const std::string& path, const std::vector<Override>& overrides,
+                       const std::vector<KeySet>& legal_keys) {
+  const std::vector<std::string_view> collections = collection_keys(legal_keys);
+  TreeLoader loader(collections);
+  YamlDocument document = loader.load(path);
+  for (const Override& change : chosen(overrides, true))
+    throw Error(fmt::format("'{}' is made by an instance and has no place in a scene file", change.path), path,
+                "vary a parameter of the instance instead");
+  apply_overrides(document, chosen(overrides, false), collections);
+  std::erase_if(document.root.children, [](const YamlNode& child) { return child.key == "include"; });
+  rebase_all(document, document.root);
+  return block_text(document.root);
 }
 
 }  // namespace tisserand::formats

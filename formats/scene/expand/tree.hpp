@@ -19,4 +19,9 @@ namespace tisserand::formats {
 YamlDocument load_scene_tree(const std::string& path, const std::vector<Override>& overrides,
                              const std::vector<KeySet>& legal_keys);
 
+/// The scene with its overrides as one file to stand in the same folder: what it includes is merged, parameters and
+/// instances stay. Throws Error; overrides of entries of instances have no place in it.
+std::string scene_text(const std::string& path, const std::vector<Override>& overrides,
+                       const std::vector<KeySet>& legal_keys);
+
 }  // namespace tisserand::formats

@@ -14,6 +14,7 @@
 #include "formats/part/part.hpp"
 #include "formats/scene/scene.hpp"
 #include "formats/specification/specification.hpp"
+#include "formats/study/study.hpp"
 #include "formats/yaml/fields.hpp"
 #include "tests/formats/yaml/text_input.hpp"
 
@@ -266,11 +267,15 @@ struct Example {
   std::string text;
 };
 
-/// Blocks of PART.md and SCENE.md that begin with part: or scene:, and the yaml files below examples/.
+/// Blocks of PART.md, SCENE.md and STUDY.md that begin with part:, scene: or study:, and the yaml files below
+/// examples/.
 std::vector<Example> examples(const std::string& kind) {
   const std::string source = TISSERAND_SOURCE_DIR;
   std::vector<Example> list;
-  const std::string page = source + "/formats/" + (kind == "part" ? "PART.md" : "SCENE.md");
+  const std::string page = source + "/formats/" +
+                           (kind == "part"    ? "PART.md"
+                            : kind == "scene" ? "SCENE.md"
+                                              : "STUDY.md");
   const std::string text = content(page), fence = "```yaml\n" + kind + ":";
   for (std::size_t at = text.find(fence); at != std::string::npos; at = text.find(fence, at + 1)) {
     const std::size_t begin = at + 8;
@@ -286,7 +291,7 @@ std::vector<Example> examples(const std::string& kind) {
 }
 
 TEST(Schema, AcceptsEveryExample) {
-  for (const std::string kind : {"part", "scene"}) {
+  for (const std::string kind : {"part", "scene", "study"}) {
     const json schema = schema_of(kind);
     const std::vector<Example> list = examples(kind);
     EXPECT_FALSE(list.empty());
@@ -304,6 +309,8 @@ TEST(Schema, ReadersAcceptEveryExample) {
     const std::string path = page ? folder.file("scene.yaml", example.text) : example.from;
     EXPECT_EQ(error_of(folder, [&] { read_scene(path, {}); }), "") << example.from;
   }
+  for (const Example& example : examples("study"))
+    EXPECT_EQ(error_of(folder, [&] { read_study(folder.file("study.yaml", example.text)); }), "") << example.from;
 }
 
 TEST(Schema, RejectsWhatTheReadersReject) {

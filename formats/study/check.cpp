@@ -1,0 +1,123 @@
+// Names and references of a study.
+#include "formats/study/check.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "common/text.hpp"
+#include "formats/scene/expand/expression.hpp"
+#include "formats/yaml/name_check.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+template <class Item>
+std::vector<std::string> names(const std::vector<Item>& items) {
+  std::vector<std::string> list;
+  for (const Item& item : items) list.push_back(item.name);
+  return list;
+}
+
+bool mentions(const YamlNode& node, const std::string& axis) {
+  for (std::size_t at = node.text.find('$'); at != std::string::npos; at = node.text.find('$', at + 1)) {
+    if (node.text.compare(at, 2, "${") == 0) {
+      const std::string formula = node.text.substr(at + 2, node.text.find('}', at) - at - 2);
+      if (names_of(formula).contains(axis)) return true;
+    }
+    const std::size_t end =
+        node.text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_", at + 1);
+    if (node.text.substr(at + 1, end == std::string::npos ? end : end - at - 1) == axis) return true;
+  }
+  return std::ranges::any_of(node.children, [&](const YamlNode& child) { return mentions(child, axis); });
+}
+
+bool is_used(const StudyAxis& axis, const StudySeries& series) {
+  const auto uses = [&](const StudySetting& setting) { return mentions(setting.value, axis.name); };
+  return axis.sets_path() || std::ranges::any_of(series.set, uses) ||
+         std::ranges::any_of(series.parts, [&](const StudyPart& part) { return std::ranges::any_of(part.set, uses); });
+}
+
+/// Ranges of numbers.
+void check_numbers(const Study& study, Faults& faults) {
+  const auto positive = [&](const std::string& entry, const char* key, double value) {
+    if (value <= 0.0)
+      faults.add(entry, key, fmt::format("{} is {}, but must be positive", key, value), "give a positive number");
+  };
+  positive(study.file, "within", study.within);
+  positive(study.file, "repeats", study.repeats);
+  positive("reference", "agree", study.reference.agree);
+  for (const StudyQuantity& quantity : study.quantities)
+    if (quantity.scale) positive(quantity.where, "scale", *quantity.scale);
+  for (const auto& [key, value] : {std::pair{"run_budget", study.run_budget}, {"whole_budget", study.whole_budget}})
+    if (value < 0.0) faults.add(study.file, key, fmt::format("{} is {} s", key, value), "give seconds, or 0 for none");
+}
+
+void check_axes(const Study& study, const StudySeries& series, Faults& faults) {
+  for (const StudyAxis& axis : series.axes) {
+    if (!axis.sets_path() && !is_name(axis.name))
+      faults.add(axis.where, "", fmt::format("axis '{}' is neither a name nor a path", axis.name),
+                 "use letters, digits and _, or a path such as integrator.step");
+    else if (!is_used(axis, series))
+      faults.add(axis.where, "", fmt::format("axis '{}' sets nothing in series '{}'", axis.name, series.name),
+                 fmt::format("name it in a value of 'set' as ${}, or call it by the path that it sets", axis.name));
+    for (std::size_t i = 0; i < axis.values.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (axis.values[i].kind == YamlKind::scalar && axis.values[i].text == axis.values[k].text)
+          faults.add(axis.where, "", fmt::format("axis '{}' has the value {} twice", axis.name, axis.values[i].text),
+                     "remove one");
+  }
+  if (!study.along.empty())
+    check_reference(fmt::format("along: series '{}'", series.name), "axis", study.along, names(series.axes), study.file,
+                    "along", faults);
+}
+
+void check_series(const Study& study, Faults& faults) {
+  std::vector<std::string> seen;
+  for (const StudySeries& series : study.series) {
+    check_name("series", series.name, series.where, seen, faults);
+    check_axes(study, series, faults);
+    for (const auto& [quantity, channel] : series.channels)
+      check_reference(fmt::format("series '{}': channels", series.name), "quantity", quantity, names(study.quantities),
+                      series.where, "channels", faults);
+  }
+}
+
+void check_reference_of(const Study& study, Faults& faults) {
+  const StudyReference& reference = study.reference;
+  for (const auto& [quantity, column] : reference.columns)
+    check_reference("reference: columns", "quantity", quantity, names(study.quantities), "reference", "columns",
+                    faults);
+  for (const StudyRun& run : reference.runs) {
+    if (!run.series.empty())
+      check_reference("reference", "series", run.series, names(study.series), "reference", "runs", faults);
+    for (const StudySeries& series : study.series)
+      if (series.name == run.series || (run.series.empty() && &series == &study.series.front()))
+        for (const auto& [axis, value] : run.at)
+          check_reference("reference: at", "axis", axis, names(series.axes), "reference", "runs", faults);
+  }
+  if (!reference.file.empty() && reference.source.empty())
+    faults.add("reference", "", "reference: the file has no source", "say with 'source' where its numbers come from");
+}
+
+}  // namespace
+
+void find_faults(const Study& study, Faults& faults) {
+  if (study.series.empty()) faults.add(study.file, "series", "the study has no series", "name a scene in 'series'");
+  if (study.quantities.empty())
+    faults.add(study.file, "quantities", "the study looks at no quantity", "name a channel in 'quantities'");
+  std::vector<std::string> seen;
+  for (const StudyQuantity& quantity : study.quantities) {
+    check_name("quantity", quantity.name, quantity.where, seen, faults);
+    if (quantity.from && quantity.to && *quantity.from > *quantity.to)
+      faults.add(
+          quantity.where, "to",
+          fmt::format("quantity '{}': 'to' {} lies before 'from' {}", quantity.name, *quantity.to, *quantity.from),
+          "exchange them");
+  }
+  check_numbers(study, faults);
+  check_series(study, faults);
+  if (!study.series.empty()) check_reference_of(study, faults);
+}
+
+}  // namespace tisserand::formats

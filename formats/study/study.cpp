@@ -1,0 +1,244 @@
+// study.yaml to the struct Study.
+#include "formats/study/study.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "common/text.hpp"
+#include "formats/study/check.hpp"
+#include "formats/yaml/fields.hpp"
+#include "formats/yaml/reader.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+constexpr Choice<StudyNorm> norms[] = {{"max", StudyNorm::max},
+                                       {"rms", StudyNorm::rms},
+                                       {"final", StudyNorm::final},
+                                       {"peak", StudyNorm::peak},
+                                       {"peak_time", StudyNorm::peak_time}};
+constexpr Choice<StudyTiming> timings[] = {{"alone", StudyTiming::alone}, {"together", StudyTiming::together}};
+
+/// A map with one key list inside another: "series 'beam'" or the study itself.
+struct Owner {
+  const MapReader& map;
+  const std::string& study_file;
+};
+
+/// The file of a key, relative to the folder of the study.
+std::string file_of(const Owner& owner, std::string_view key) {
+  const std::string name = owner.map.text(key);
+  if (name.empty()) return name;
+  return (std::filesystem::path(owner.study_file).parent_path() / name).lexically_normal().string();
+}
+
+/// Entries of a map from paths or names; a key given twice is an error.
+std::vector<const YamlNode*> pairs(const MapReader& map, std::string_view key) {
+  return map.entries(key, std::string(key));
+}
+
+std::vector<StudySetting> read_settings(const MapReader& map) {
+  std::vector<StudySetting> settings;
+  for (const YamlNode* node : pairs(map, "set")) settings.push_back({node->key, *node});
+  return settings;
+}
+
+std::vector<StudyAxis> read_axes(const MapReader& map) {
+  std::vector<StudyAxis> axes;
+  for (const YamlNode* node : pairs(map, "axes")) {
+    const Context entry = entry_context(map.context().reader, "axis", *node);
+    if (node->kind != YamlKind::sequence || node->children.empty())
+      entry.fail(node->place, fmt::format("needs a list of values, not {}", describe(*node)),
+                 "write the values from coarse to fine: [0.01, 0.005, 0.0025]");
+    axes.push_back({node->key, node->children, entry.entry});
+  }
+  return axes;
+}
+
+std::vector<std::string> read_texts(const Context& context, const YamlNode& node, const std::string& what) {
+  std::vector<std::string> texts;
+  if (node.kind != YamlKind::sequence) return {read_text(context, node, what)};
+  for (const YamlNode& child : node.children) texts.push_back(read_text(context, child, what));
+  return texts;
+}
+
+std::vector<StudyPart> read_parts(const Owner& owner) {
+  std::vector<StudyPart> parts;
+  for (const YamlNode* node : pairs(owner.map, "parts")) {
+    const Context entry = entry_context(owner.map.context().reader, "part", *node);
+    const MapReader map(entry, *node, "study_part");
+    StudyPart part;
+    part.name = node->key;
+    part.where = entry.entry;
+    part.file = file_of({map, owner.study_file}, "file");
+    if (const YamlNode* as = map.require("as")) part.as = read_texts(entry, *as, "a path of the scene");
+    part.set = read_settings(map);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+std::map<std::string, YamlNode> read_named(const MapReader& map, std::string_view key) {
+  std::map<std::string, YamlNode> values;
+  for (const YamlNode* node : pairs(map, key)) values.emplace(node->key, *node);
+  return values;
+}
+
+StudySeries read_series(const Owner& owner, const YamlNode& node, const Study& study,
+                        const std::vector<StudyAxis>& shared_axes, const std::vector<StudySetting>& shared) {
+  const Context entry = entry_context(owner.map.context().reader, "series", node);
+  const MapReader map(entry, node, "study_series");
+  StudySeries series;
+  series.name = node.key;
+  series.where = entry.entry;
+  read_fields(map, series);
+  series.scene = file_of({map, study.file}, "scene");
+  series.axes = read_axes(map);
+  for (const StudyAxis& axis : shared_axes)
+    if (std::ranges::find(series.axes, axis.name, &StudyAxis::name) == series.axes.end()) series.axes.push_back(axis);
+  series.set = shared;
+  for (StudySetting& own : read_settings(map)) {
+    std::erase_if(series.set, [&](const StudySetting& other) { return other.path == own.path; });
+    series.set.push_back(std::move(own));
+  }
+  series.parts = read_parts({map, study.file});
+  series.channels = read_named(map, "channels");
+  return series;
+}
+
+void read_quantities(const MapReader& root, Study& study) {
+  for (const YamlNode* node : root.entries("quantities", "quantity")) {
+    const Context entry = entry_context(root.context().reader, "quantity", *node);
+    const MapReader map(entry, *node, "study_quantity");
+    StudyQuantity quantity;
+    quantity.name = node->key;
+    quantity.where = entry.entry;
+    read_fields(map, quantity);
+    if (const YamlNode* channel = map.require("channel")) quantity.channel = *channel;
+    study.quantities.push_back(std::move(quantity));
+  }
+}
+
+void read_reference(const MapReader& root, Study& study) {
+  const YamlNode* node = root.find("reference");
+  if (node == nullptr) return;
+  const Context context{root.context().reader, "reference", "reference"};
+  const MapReader map(context, *node, "study_reference");
+  StudyReference& reference = study.reference;
+  read_fields(map, reference);
+  if (map.has("file")) reference.file = file_of({map, study.file}, "file");
+  if (map.has("file") == map.has("runs")) map.fail("needs either 'file' or 'runs'", "give one of them");
+  for (const auto& [quantity, column] : read_named(map, "columns"))
+    reference.columns[quantity] = read_text(context, column, "a column");
+  const YamlNode* runs = map.find("runs");
+  if (runs == nullptr) return;
+  if (runs->kind != YamlKind::sequence || runs->children.empty() || runs->children.size() > 2)
+    return map.fail("'runs' needs a list of one or two runs", "write [{series: ..}, {series: ..}]");
+  for (const YamlNode& one : runs->children) {
+    const MapReader run_map(context, one, "study_run");
+    StudyRun run;
+    run.where = context.reader.where(one.place);
+    read_fields(run_map, run);
+    run.at = read_named(run_map, "at");
+    run.set = read_settings(run_map);
+    reference.runs.push_back(std::move(run));
+  }
+}
+
+}  // namespace
+
+std::vector<NamedType> study_types() {
+  std::vector<NamedType> types = common_types();
+  types.push_back({"setting_path", "/^[^.=]+([.][^.=]+)*$/", "as of `--set`"});
+  types.push_back({"axis_values", "[any]1.."});
+  return types;
+}
+
+std::vector<KeySet> study_key_sets() {
+  const Field set{"set", "{setting_path: any}",
+                  "path -> value, as of `--set`; `$name` is the value of an axis, `${formula}` a number made of axes",
+                  "none"};
+  const Field axes{"axes", "{text: axis_values}",
+                   "name -> list of values, from coarse to fine; a name with a point, `integrator.step`, is itself the "
+                   "path that is set",
+                   "none"};
+  std::vector<KeySet> sets{
+      {"study",
+       {plain<&Study::name>("study", "text+", "title", "required"),
+        {"series", "{name: study_series}+", "name -> scene with its axes; all combinations of them run", "required"},
+        axes,
+        set,
+        {"quantities", "{name: study_quantity}+", "name -> what is looked at, and in which norm", "required"},
+        {"reference", "study_reference", "against what errors are measured",
+         "the last values of all axes of the first series"},
+        plain<&Study::along>("along", "text", "the axis whose points a line of the pictures connects",
+                             "the last of each series"),
+        choice<&Study::timing, timings>("timing",
+                                        "`alone`: one run at a time, repeated until the median of the times is known; "
+                                        "`together`: once, over the cores: errors as before, times are rough"),
+        plain<&Study::within>("within", "positive", "relative half width to which that median must be known"),
+        plain<&Study::repeats>("repeats", "integer>0", "most runs of one setting"),
+        plain<&Study::run_budget>("run_budget", "number>=0", "limit of a run by the clock [s]; 0: none"),
+        plain<&Study::whole_budget>("whole_budget", "number>=0",
+                                    "limit of one call of the command [s]: what is left runs with the next; 0: none")}},
+      {"study_series",
+       {{"scene", "text", "scene file, relative to this one", "required"},
+        plain<&StudySeries::analysis>("analysis", "text", "one of the scene's `analyses`", "its only one"),
+        axes,
+        set,
+        {"parts", "{name: study_part}", "name -> part that is reduced anew for each of its settings", "none"},
+        {"channels", "{name: text}", "quantity -> its channel in this series, where it is called otherwise", "none"}}},
+      {"study_part",
+       {{"file", "text", "part file, relative to this one", "required"},
+        {"as", "text | [text]1..", "path or paths of the scene that name its superelement file: `bodies.arm.file`",
+         "required"},
+        set}},
+      {"study_quantity",
+       {{"channel", "text", "channel of the results; `$name` and `${formula}` as in `set`", "required"},
+        choice<&StudyQuantity::norm, norms>("norm", "see below"),
+        plain<&StudyQuantity::from>("from", "number", "first instant that counts, or mode", "the first"),
+        plain<&StudyQuantity::to>("to", "number", "last instant that counts, or mode", "the last"),
+        plain<&StudyQuantity::scale>("scale", "positive", "errors are divided by it",
+                                     "the size of the reference in the same norm; 1 for `peak_time`")}},
+      {"study_reference",
+       {{"file", "text", "CSV or results file, relative to this one"},
+        plain<&StudyReference::source>("source", "text", "where the file comes from; stands in the page"),
+        plain<&StudyReference::time>("time", "text", "column of the instants, by name or number", "`t`"),
+        {"columns", "{name: text}", "quantity -> column of CSV, or channel of results",
+         "the name of the quantity; its channel"},
+        {"runs", "[study_run]1..2", "one run of this study, or two that must agree before anything is measured"},
+        plain<&StudyReference::agree>("agree", "positive", "largest error of the second run against the first")}},
+      {"study_run",
+       {plain<&StudyRun::series>("series", "text", "name of a series", "the first"),
+        {"at", "{text: any}", "axis -> value, which need not be one of the axis", "the last value of each"},
+        set}}};
+  const std::vector<KeySet> common = common_key_sets();
+  sets.insert(sets.end(), common.begin(), common.end());
+  return sets;
+}
+
+Study read_study(const std::string& path) {
+  Study study;
+  study.document = load_yaml(path);
+  study.file = path;
+  study.reference.time = "t";
+  YamlReader reader(study.document, study_key_sets());
+  require_kind(reader, "study", "scene", "give it to `mechanism run`");
+  const Context context{reader, "", path};
+  const MapReader root(context, reader.root(), "study");
+  read_fields(root, study);
+  const std::vector<StudyAxis> axes = read_axes(root);
+  const std::vector<StudySetting> set = read_settings(root);
+  for (const YamlNode* node : root.entries("series", "series"))
+    study.series.push_back(read_series({root, study.file}, *node, study, axes, set));
+  read_quantities(root, study);
+  read_reference(root, study);
+  Faults faults;
+  find_faults(study, faults);
+  reader.raise(faults);
+  return study;
+}
+
+}  // namespace tisserand::formats

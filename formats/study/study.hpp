@@ -1,0 +1,113 @@
+// study.yaml: which runs show what accuracy costs, and how their errors are measured (formats/STUDY.md).
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/yaml/field.hpp"
+#include "formats/yaml/override.hpp"
+#include "formats/yaml/tree.hpp"
+
+namespace tisserand::formats {
+
+/// A setting with its value as it stands in the file: $axis and ${formula} are replaced for each run.
+struct StudySetting {
+  std::string path;
+  YamlNode value;
+};
+
+/// What is varied. A name with a point is itself the path that is set.
+struct StudyAxis {
+  std::string name;
+  std::vector<YamlNode> values;  ///< from coarse to fine
+  std::string where;
+
+  bool sets_path() const { return name.find('.') != std::string::npos; }
+};
+
+/// A part that is reduced anew for each of its settings.
+struct StudyPart {
+  std::string name;
+  std::string file;             ///< resolved path of the part file
+  std::vector<std::string> as;  ///< paths of the scene that name its superelement file
+  std::vector<StudySetting> set;
+  std::string where;
+};
+
+/// A scene with all combinations of its axes.
+struct StudySeries {
+  std::string name;
+  std::string scene;              ///< resolved path
+  std::string analysis;           ///< one of the scene's; empty: its only one
+  std::vector<StudyAxis> axes;    ///< own ones, then those of the study
+  std::vector<StudySetting> set;  ///< those of the study, then own ones
+  std::vector<StudyPart> parts;
+  std::map<std::string, YamlNode> channels;  ///< quantity -> channel, where it differs from the study's
+  std::string where;
+};
+
+enum class StudyNorm { max, rms, final, peak, peak_time };
+
+struct StudyQuantity {
+  std::string name;
+  YamlNode channel;
+  StudyNorm norm = StudyNorm::max;
+  std::optional<double> from, to;  ///< instants [time of the scene]; absent: of the whole run
+  std::optional<double> scale;     ///< errors are divided by it; absent: by the size of the reference
+  std::string where;
+};
+
+/// A run against which others are measured: an axis without a value has its last one.
+struct StudyRun {
+  std::string series;
+  std::map<std::string, YamlNode> at;
+  std::vector<StudySetting> set;
+  std::string where;
+};
+
+struct StudyReference {
+  std::string file;                            ///< resolved path of CSV or results; empty: runs
+  std::string source;                          ///< where the file comes from
+  std::string time;                            ///< column of CSV
+  std::map<std::string, std::string> columns;  ///< quantity -> column of CSV, or channel of results
+  std::vector<StudyRun> runs;                  ///< one, or two that must agree; empty without file: the finest
+  double agree = 0.01;                         ///< largest error of one against the other
+};
+
+enum class StudyTiming { alone, together };
+
+struct Study {
+  std::string name;
+  std::string file;  ///< path it was read from
+  std::vector<StudySeries> series;
+  std::vector<StudyQuantity> quantities;
+  StudyReference reference;
+  std::string along;  ///< the axis that connects the points of a line; empty: the last one of each series
+  StudyTiming timing = StudyTiming::alone;
+  double within = 0.05;     ///< relative half width to which the median of the times must be known
+  int repeats = 9;          ///< most runs of one setting
+  double run_budget = 0.0;  ///< [s] by the clock; 0: none
+  double whole_budget = 0.0;
+  YamlDocument document;  ///< for places of messages
+};
+
+/// Values of the axes of one run, by name.
+using StudyPoint = std::map<std::string, YamlNode>;
+
+/// The settings of a series at a point, axes replaced. Throws Error with the place of a name that is no axis.
+std::vector<Override> settings_at(const Study& study, const StudySeries& series, const StudyPoint& point);
+std::vector<Override> settings_at(const Study& study, const std::vector<StudySetting>& set, const StudyPoint& point);
+/// The channel of a quantity in a series at a point.
+std::string channel_at(const Study& study, const StudySeries& series, const StudyQuantity& quantity,
+                       const StudyPoint& point);
+
+/// Reads and checks: names, references, axes that nothing uses. Throws all errors together.
+Study read_study(const std::string& path);
+
+/// The lists of fields of study.yaml and the types that they name.
+std::vector<KeySet> study_key_sets();
+std::vector<NamedType> study_types();
+
+}  // namespace tisserand::formats

@@ -1,0 +1,32 @@
+// Errors of a run: its channels against the histories of the reference, in the norms that the study names.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/study/study.hpp"
+#include "mechanism/histories/series.hpp"
+#include "mechanism/study/cells.hpp"
+
+namespace tisserand::mechanism {
+
+/// The channel of each quantity. Throws Error with the nearest channels of the file.
+std::vector<Series> read_quantities(const std::string& results, const std::vector<std::string>& channels);
+
+/// The same from the file that the study names as reference: columns of CSV, or channels of results.
+std::vector<Series> read_reference_file(const formats::Study& study);
+
+/// What a norm makes of one history: its largest absolute value (max, final, peak), RMS, or the instant of its largest
+/// absolute value.
+double size_of(const Series& series, const formats::StudyQuantity& quantity);
+
+/// Error of a history, over `scale` or the size of the reference:
+///   max        max |y - y_ref|, at the instants of the reference
+///   rms        sqrt(∫(y - y_ref)² dt / ∫dt)
+///   final      |y - y_ref| at the last common instant
+///   peak       ||y|_max - |y_ref|_max|, between stored instants by a parabola
+///   peak_time  |t - t_ref| of these
+/// Throws Error if the histories have too little time in common or the reference is zero.
+double error_of(const Series& series, const Series& reference, const formats::StudyQuantity& quantity);
+
+}  // namespace tisserand::mechanism

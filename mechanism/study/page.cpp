@@ -1,0 +1,271 @@
+// Series for the plotter, and HTML around what it draws.
+#include "mechanism/study/page.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "mechanism/histories/plot.hpp"
+
+namespace tisserand::mechanism {
+
+namespace {
+
+constexpr std::size_t most_lines = 7;  // as many as the plotter has colours
+
+constexpr const char* page_head = R"html(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<style>
+body{font:16px/1.5 system-ui,sans-serif;max-width:70em;margin:2em auto;padding:0 1em;color:#222}
+svg{width:100%;height:auto}table{border-collapse:collapse;font-size:14px}
+td,th{padding:.15em .7em;text-align:right;border-bottom:1px solid #ddd}td:first-child,th:first-child{text-align:left}
+.failed{color:#b00}
+</style>
+)html";
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : printable(text)) switch (c) {
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '&':
+        result += "&amp;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  return result;
+}
+
+Series named(const std::string& label, SeriesKind kind) {
+  Series series;
+  series.kind = kind;
+  series.source = printable_line(label, 80);
+  series.channel = "error";
+  series.x_name = "CPU time";
+  series.has_own_label = true;
+  return series;
+}
+
+void add_point(Series& series, double x, double y) {
+  if (!(x > 0.0) || !(y > 0.0)) return;
+  series.x.push_back(x);
+  series.y.push_back(y);
+}
+
+struct Book {
+  const formats::Study& study;
+  const std::vector<StudyRow>& rows;
+  const std::string& folder;
+  std::string html;
+
+  /// The picture as part of the page, and as a file.
+  void draw(std::vector<Series> series, PlotOptions options, const std::string& name) {
+    std::erase_if(series, [](const Series& one) { return one.x.empty(); });
+    if (series.empty()) return;
+    options.output = fmt::format("{}/{}.svg", folder, name);
+    try {
+      plot(series, options);
+      std::ifstream file(options.output);
+      const std::string svg{std::istreambuf_iterator<char>(file), {}};
+      html += svg.substr(std::min(svg.find("<svg"), svg.size()));
+    } catch (const Error& error) {
+      html += fmt::format("<p class=failed>{}</p>\n", escaped(error.what()));
+    }
+  }
+
+  /// Lines of one diagram over all other runs.
+  void work_precision(int q, const std::vector<const StudyLine*>& lines, const std::string& name) {
+    Series front = named("least time", SeriesKind::front), others = named("other settings", SeriesKind::backdrop),
+           failures = named("failed or over budget", SeriesKind::marks);
+    for (const int i : pareto_front(rows, q)) add_point(front, rows[i].time.median, rows[i].errors[q]);
+    std::set<int> drawn;
+    std::vector<Series> series;
+    double greatest = 0.0;
+    for (const StudyRow& row : rows)
+      if (row.is_measured()) greatest = std::max(greatest, row.errors[q]);
+    for (const StudyLine* line : lines) {
+      series.push_back(named(line->label, SeriesKind::run));
+      for (const int i : line->rows) {
+        drawn.insert(i);
+        if (rows[i].is_measured()) add_point(series.back(), rows[i].time.median, rows[i].errors[q]);
+        if (rows[i].has_run && rows[i].outcome != CellOutcome::completed)
+          add_point(failures, rows[i].time.median, 2.0 * greatest);
+      }
+    }
+    for (int i = 0; i < static_cast<int>(rows.size()); ++i)
+      if (!drawn.contains(i) && rows[i].is_measured()) add_point(others, rows[i].time.median, rows[i].errors[q]);
+    series.insert(series.begin(), {std::move(front), std::move(others)});
+    series.push_back(std::move(failures));
+    PlotOptions options;
+    options.title = study.name;
+    options.x_label = "CPU time [s]";
+    options.y_label = "error of " + study.quantities[q].name;
+    options.x_scale = options.y_scale = AxisScale::logarithmic;
+    options.mark = Mark::line_with_points;
+    draw(std::move(series), options, name);
+  }
+
+  /// All lines in one diagram, or, if they are many, one for each value of the first other axis of each series.
+  void work_precision(int q) {
+    const std::vector<StudyLine> lines = lines_of(study, rows);
+    std::map<std::pair<int, int>, std::vector<const StudyLine*>> groups;
+    for (const StudyLine& line : lines) {
+      const std::vector<int>& index = rows[line.rows.front()].cell->index;
+      const int first = line.axis == 0 ? 1 : 0;
+      const bool splits = lines.size() > most_lines && static_cast<int>(index.size()) > 2;
+      groups[lines.size() > most_lines ? std::pair(line.series, splits ? index[first] : 0) : std::pair(0, 0)].push_back(
+          &line);
+    }
+    int number = 0;
+    for (const auto& [key, members] : groups)
+      for (std::size_t at = 0; at < members.size(); at += most_lines) {
+        const std::string suffix = groups.size() > 1 || members.size() > most_lines ? fmt::format("-{}", ++number) : "";
+        work_precision(q,
+                       {members.begin() + static_cast<std::ptrdiff_t>(at),
+                        members.begin() + static_cast<std::ptrdiff_t>(std::min(members.size(), at + most_lines))},
+                       study.quantities[q].name + suffix);
+      }
+  }
+
+  /// The line along an axis with all other axes at their last value.
+  std::vector<StudyLine> finest_lines(const std::string& axis) const {
+    std::vector<StudyLine> finest;
+    for (int s = 0; s < static_cast<int>(study.series.size()); ++s)
+      for (int a = 0; a < static_cast<int>(study.series[s].axes.size()); ++a) {
+        if (study.series[s].axes[a].name != axis || study.series[s].axes[a].values.size() < 2) continue;
+        for (StudyLine& line : lines_along(study, rows, s, a)) {
+          const std::vector<int>& index = rows[line.rows.front()].cell->index;
+          bool is_finest = true;
+          for (int k = 0; k < static_cast<int>(index.size()); ++k)
+            is_finest =
+                is_finest && (k == a || index[k] + 1 == static_cast<int>(study.series[s].axes[k].values.size()));
+          if (is_finest) finest.push_back(std::move(line));
+        }
+      }
+    if (finest.size() > most_lines) finest.resize(most_lines);
+    return finest;
+  }
+
+  void along_axis(const std::string& axis, const std::vector<StudyLine>& lines) {
+    const bool has_numbers = std::ranges::all_of(lines, [&](const StudyLine& line) {
+      return std::ranges::all_of(line.rows,
+                                 [&](int i) { return number_of(rows[i].cell->values[line.axis]).has_value(); });
+    });
+    const bool is_positive = has_numbers && std::ranges::all_of(lines, [&](const StudyLine& line) {
+                               return std::ranges::all_of(
+                                   line.rows, [&](int i) { return *number_of(rows[i].cell->values[line.axis]) > 0.0; });
+                             });
+    const auto abscissa = [&](const StudyLine& line, std::size_t k) {
+      return has_numbers ? *number_of(rows[line.rows[k]].cell->values[line.axis]) : static_cast<double>(k + 1);
+    };
+    const auto picture = [&](const std::string& y_label, const std::string& name, const auto& value) {
+      std::vector<Series> series;
+      for (const StudyLine& line : lines) {
+        series.push_back(named(line.label, SeriesKind::run));
+        for (std::size_t k = 0; k < line.rows.size(); ++k)
+          if (const double y = value(rows[line.rows[k]]); y > 0.0) {
+            series.back().x.push_back(abscissa(line, k));
+            series.back().y.push_back(y);
+          }
+      }
+      PlotOptions options;
+      options.title = y_label + " along " + axis;
+      options.x_label = has_numbers ? axis : axis + " (number of the value)";
+      options.y_label = y_label;
+      options.x_scale = is_positive ? AxisScale::logarithmic : AxisScale::linear;
+      options.y_scale = AxisScale::logarithmic;
+      options.mark = Mark::line_with_points;
+      draw(std::move(series), options, name);
+    };
+    std::string file = axis;
+    std::ranges::replace_if(
+        file, [](unsigned char c) { return std::isalnum(c) == 0 && c != '_'; }, '-');
+    for (std::size_t q = 0; q < study.quantities.size(); ++q)
+      picture("error of " + study.quantities[q].name, study.quantities[q].name + "-along-" + file,
+              [q](const StudyRow& row) { return row.is_measured() ? row.errors[q] : 0.0; });
+    picture("CPU time [s]", "time-along-" + file,
+            [](const StudyRow& row) { return row.is_measured() ? row.time.median : 0.0; });
+  }
+
+  void table() {
+    html += "<h2>All settings</h2>\n<table><tr><th>setting<th>CPU time [s]<th>between<th>runs<th>steps<th>iterations";
+    for (const formats::StudyQuantity& quantity : study.quantities)
+      html += fmt::format("<th>error of {}<th>order", escaped(quantity.name));
+    html += "</tr>\n";
+    for (const StudyLine& line : lines_of(study, rows)) {
+      std::vector<std::vector<std::optional<double>>> orders;
+      for (std::size_t q = 0; q < study.quantities.size(); ++q)
+        orders.push_back(observed_orders(rows, line, static_cast<int>(q)));
+      for (std::size_t k = 0; k < line.rows.size(); ++k) table_row(rows[line.rows[k]], orders, k);
+    }
+    html += "</table>\n";
+  }
+
+  void table_row(const StudyRow& row, const std::vector<std::vector<std::optional<double>>>& orders, std::size_t k) {
+    html += fmt::format("<tr><td>{}", escaped(row.cell->label));
+    if (row.is_reference) {
+      html += "<td>reference</tr>\n";
+    } else if (!row.has_run) {
+      html += "<td>not run</tr>\n";
+    } else if (!row.is_measured()) {
+      html += fmt::format("<td>{:.3g}<td class=failed colspan=9>{}</tr>\n", row.time.median, escaped(row.message));
+    } else {
+      html += fmt::format("<td>{:.3g}<td>{:.3g}, {:.3g}<td>{}<td>{}<td>{}", row.time.median, row.time.least,
+                          row.time.greatest, row.repeats, row.steps, row.iterations);
+      for (std::size_t q = 0; q < orders.size(); ++q)
+        html +=
+            fmt::format("<td>{:.2e}<td>{}", row.errors[q], orders[q][k] ? fmt::format("{:.2f}", *orders[q][k]) : "");
+      html += "</tr>\n";
+    }
+  }
+};
+
+std::string reference_text(const formats::Study& study, const std::vector<double>& agreement) {
+  const formats::StudyReference& reference = study.reference;
+  if (!reference.file.empty()) return "Errors against a file: " + reference.source + ".";
+  std::string text = "Errors against a run of the study";
+  for (std::size_t q = 0; q < agreement.size(); ++q)
+    text += fmt::format("{} {} to {:.1e}", q == 0 ? ", with which an independent one agrees in" : ",",
+                        study.quantities[q].name, agreement[q]);
+  return text + ".";
+}
+
+}  // namespace
+
+void write_page(const formats::Study& study, const std::vector<StudyRow>& rows, const std::vector<double>& agreement,
+                const std::string& folder) {
+  Book book{study, rows, folder, page_head};
+  book.html += fmt::format(
+      "<title>{0}</title></head><body>\n<h1>{0}</h1>\n<p>{1} Times are CPU seconds of the whole "
+      "process, medians{2}. Wide and grey: the least time for each error.</p>\n",
+      escaped(study.name), escaped(reference_text(study, agreement)),
+      study.timing == formats::StudyTiming::together ? " of runs side by side, so rough" : "");
+  for (int q = 0; q < static_cast<int>(study.quantities.size()); ++q) {
+    book.html += fmt::format("<h2>What accuracy costs: {}</h2>\n", escaped(study.quantities[q].name));
+    book.work_precision(q);
+  }
+  std::set<std::string> done;
+  for (const formats::StudySeries& series : study.series)
+    for (const formats::StudyAxis& axis : series.axes) {
+      const std::vector<StudyLine> lines = book.finest_lines(axis.name);
+      if (lines.empty() || !done.insert(axis.name).second) continue;
+      book.html += fmt::format("<h2>Along {}</h2>\n", escaped(axis.name));
+      book.along_axis(axis.name, lines);
+    }
+  book.table();
+  write_text_file(folder + "/index.html", book.html + "</body></html>\n");
+}
+
+}  // namespace tisserand::mechanism
