@@ -1,6 +1,7 @@
 // The commands of stage 1: read, work, write, tell.
 #include "reducer/commands.hpp"
 
+#include <filesystem>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 #include "common/error.hpp"
 #include "common/output_path.hpp"
 #include "common/text.hpp"
+#include "formats/companion/companion.hpp"
 #include "formats/part/part.hpp"
 #include "formats/sections/report.hpp"
 #include "formats/superelement/superelement.hpp"
@@ -51,16 +53,23 @@ int run(const Arguments& arguments) {
   const formats::Part part = part_of(arguments);
   const std::string output = arguments.output.empty() ? beside(arguments.input, ".superelement.h5") : arguments.output;
   require_output(output, {arguments.input}, Replaces::hdf5_only);
+  const std::string companion = formats::companion_path(output);
+  if (part.second_order != formats::SecondOrder::no)
+    require_output(companion, {arguments.input, output}, Replaces::hdf5_only);
   phases.begin("start solvers");
   const SolverSession session;
   Reduction reduction = reduce(part, [&phases](const std::string& phase) { phases.begin(phase); });
   phases.begin("write");
   formats::write_superelement(output, reduction.superelement);
   write_certificate(output, reduction.superelement, reduction.file, reduction.model);
+  if (reduction.companion) formats::write_companion(companion, *reduction.companion, reduction.superelement);
   phases.end();
   say(certificate_text(reduction.superelement, reduction.file, reduction.model));
   say(fmt::format("{:<19}{}\n{:<19}{}\n{:<19}{}\n", "time", phases.text(), "written", output, "",
                   certificate_path(output)));
+  if (reduction.companion)
+    say(fmt::format("{:<19}{} ({:.3g} MB: second order of {} coordinates)\n", "", companion,
+                    1e-6 * static_cast<double>(std::filesystem::file_size(companion)), reduction.superelement.size()));
   return 0;
 }
 

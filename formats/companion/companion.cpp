@@ -22,7 +22,6 @@ constexpr hdf5::FileKind companion_kind{
     "tisserand-companion", "companion file",
     "give a *.companion.h5 file, as `reducer run` writes it with `second_order: yes` in the part file",
     "reduce the part again with a program of the same major version"};
-constexpr std::uint64_t max_size = 500;  ///< coordinates n of a companion with H: n³ numbers
 constexpr std::uint64_t max_load_cases = 1000;
 const std::vector<std::string> second_order_datasets{"/H", "/C", "/E", "/N", "/T", "/S0", "/S1", "/mass"};
 
@@ -38,10 +37,10 @@ std::uint64_t length_of(const hdf5::InputFile& file, const std::string& dataset,
 /// Number of coordinates: the columns of /S1.
 std::uint64_t coordinates_of(const hdf5::InputFile& file) {
   const hdf5::Shape shape = file.info("/S1").shape;
-  if (shape.size() == 2 && shape[0] == 3 && shape[1] >= 1 && shape[1] <= max_size) return shape[1];
-  throw Error(
-      fmt::format("has shape {}, expected 3 x n with at most {} coordinates n", hdf5::shape_text(shape), max_size),
-      file.path() + ": /S1", "keep fewer nodes or modes, or compare the file with formats/COMPANION.md");
+  if (shape.size() == 2 && shape[0] == 3 && shape[1] >= 1 && shape[1] <= max_companion_size) return shape[1];
+  throw Error(fmt::format("has shape {}, expected 3 x n with at most {} coordinates n", hdf5::shape_text(shape),
+                          max_companion_size),
+              file.path() + ": /S1", "keep fewer nodes or modes, or compare the file with formats/COMPANION.md");
 }
 
 Eigen::VectorXd read_vector(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t n,

@@ -14,6 +14,9 @@
 
 namespace tisserand::formats {
 
+/// Coordinates n of a companion with H, which has n³ numbers.
+inline constexpr int max_companion_size = 500;
+
 /// The pairs jk of E and T in their order: xx, yy, zz, yz, xz, xy.
 inline constexpr std::array<std::pair<int, int>, 6> axis_pairs{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 

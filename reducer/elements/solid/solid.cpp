@@ -7,148 +7,14 @@
 // inside the element, which make bending exact in parallelepipeds. Their gradients are det J0/det J J0⁻ᵀ g with ∫ g dξ
 // = 0 over the reference element (J0 at its centre): orthogonal to constant stress, so the patch test holds on any mesh
 // ([TBW76]; [SR90] section 4 shows that this is the enhanced strain of the Hu-Washizu principle).
-#include <cmath>
-
-#include <Eigen/LU>
+#include <Eigen/Core>
 
 #include "common/error.hpp"
 #include "reducer/elements/element_matrices.hpp"
-#include "reducer/elements/solid/quadrature.hpp"
-#include "reducer/elements/solid/shapes.hpp"
+#include "reducer/elements/solid/gradients.hpp"
 
 namespace tisserand::reducer {
 namespace {
-
-/// Natural gradients g of the incompatible displacements, with the centre where J0 is taken.
-template <SolidShape shape>
-struct IncompatibleModes {
-  static constexpr std::size_t size = 0;
-  static constexpr NaturalPoint centre{0.0, 0.0, 0.0};
-  static constexpr std::array<NaturalPoint, 0> gradients(const NaturalPoint&) { return {}; }
-};
-
-/// 1 − r², 1 − s², 1 − t² (halved, sign turned).
-template <>
-struct IncompatibleModes<SolidShape::hexahedron8> {
-  static constexpr std::size_t size = 3;
-  static constexpr NaturalPoint centre{0.0, 0.0, 0.0};
-  static constexpr std::array<NaturalPoint, 3> gradients(const NaturalPoint& p) {
-    return {{{p[0], 0.0, 0.0}, {0.0, p[1], 0.0}, {0.0, 0.0, p[2]}}};
-  }
-};
-
-/// 1 − t² for bending along t; r², rs, s² less their mean gradients for the linear strains across it.
-template <>
-struct IncompatibleModes<SolidShape::prism6> {
-  static constexpr std::size_t size = 4;
-  static constexpr NaturalPoint centre{1.0 / 3.0, 1.0 / 3.0, 0.0};
-  static constexpr std::array<NaturalPoint, 4> gradients(const NaturalPoint& p) {
-    const double r = p[0] - centre[0], s = p[1] - centre[1];
-    return {{{0.0, 0.0, p[2]}, {r, 0.0, 0.0}, {s, r, 0.0}, {0.0, s, 0.0}}};
-  }
-};
-
-/// Gradients by r, s, t of all functions of a shape at one point: [k][function].
-template <std::size_t Functions>
-using NaturalGradients = std::array<std::array<double, Functions>, 3>;
-
-template <SolidShape shape, std::size_t Points>
-struct ShapeTable {
-  static constexpr std::size_t nodes = SolidBasis<shape>::nodes.size();
-  std::array<double, Points> weight{};
-  std::array<std::array<double, nodes>, Points> value{};
-  std::array<NaturalGradients<nodes>, Points> gradient{};
-};
-
-template <SolidShape shape>
-constexpr auto nodal_gradients(const NaturalPoint& point) {
-  NaturalGradients<SolidBasis<shape>::nodes.size()> gradients{};
-  const auto x = natural_jets(point);
-  const auto N = SolidBasis<shape>::functions(x[0], x[1], x[2]);
-  for (std::size_t a = 0; a < N.size(); ++a)
-    for (std::size_t k = 0; k < 3; ++k) gradients[k][a] = N[a].slope[k];
-  return gradients;
-}
-
-template <SolidShape shape, std::size_t Points>
-constexpr ShapeTable<shape, Points> tabulate(const QuadratureRule<Points>& rule) {
-  ShapeTable<shape, Points> table;
-  table.weight = rule.weight;
-  for (std::size_t q = 0; q < Points; ++q) {
-    const auto x = natural_jets(rule.point[q]);
-    const auto N = SolidBasis<shape>::functions(x[0], x[1], x[2]);
-    for (std::size_t a = 0; a < N.size(); ++a) table.value[q][a] = N[a].value;
-    table.gradient[q] = nodal_gradients<shape>(rule.point[q]);
-  }
-  return table;
-}
-
-template <int Functions>
-using GradientMap = Eigen::Map<const Eigen::Matrix<double, Functions, 3>>;
-template <int Nodes>
-using NodePositions = Eigen::Matrix<double, 3, Nodes>;
-
-/// J(i, k) = ∂x_i/∂ξ_k.
-template <int Nodes>
-Eigen::Matrix3d jacobian(const NodePositions<Nodes>& x, const NaturalGradients<Nodes>& gradient) {
-  return x.lazyProduct(GradientMap<Nodes>(gradient[0].data()));
-}
-
-/// ∂N/∂x (one row per function) times √(weight det J) at every point, one column per point: rows k · functions + a.
-template <SolidShape shape>
-auto weighted_gradients(const NodePositions<static_cast<int>(SolidBasis<shape>::nodes.size())>& x, int id) {
-  using Modes = IncompatibleModes<shape>;
-  static constexpr auto rule = stiffness_rule<shape>();
-  static constexpr auto table = tabulate<shape>(rule);
-  static constexpr auto centre = nodal_gradients<shape>(Modes::centre);
-  constexpr int points = static_cast<int>(rule.point.size());
-  constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
-  constexpr int modes = static_cast<int>(Modes::size), functions = nodes + modes;
-
-  Eigen::Matrix<double, 3 * functions, points> G;
-  const Eigen::Matrix3d J0 = jacobian<nodes>(x, centre);
-  const Eigen::Matrix3d inverse0 = J0.inverse();
-  for (int q = 0; q < points; ++q) {
-    const std::size_t point = static_cast<std::size_t>(q);
-    const Eigen::Matrix3d J = jacobian<nodes>(x, table.gradient[point]);
-    const double det = J.determinant();
-    TISSERAND_ENSURE(det > 0.0, "solid element {}: Jacobian {} at quadrature point {}", id, det, q);
-    const double root = std::sqrt(table.weight[point] * det);
-    Eigen::Map<Eigen::Matrix<double, functions, 3>> column(G.col(q).data());
-    column.template topRows<nodes>() =
-        GradientMap<nodes>(table.gradient[point][0].data()).lazyProduct(root * J.inverse());
-    if constexpr (modes > 0) {
-      const auto g = Modes::gradients(rule.point[point]);
-      const Eigen::Map<const Eigen::Matrix<double, 3, modes>> natural(g[0].data());
-      column.template bottomRows<modes>() = natural.transpose().lazyProduct(root * J0.determinant() / det * inverse0);
-    }
-  }
-  return G;
-}
-
-/// S(3a + i, 3b + j) = Σ_kl c_ikjl H_kl(a, b), every pair of functions.
-template <int Functions>
-Eigen::Matrix<double, 3 * Functions, 3 * Functions> contract(
-    const Eigen::Matrix<double, 6, 6>& C, const Eigen::Matrix<double, 3 * Functions, 3 * Functions>& H) {
-  constexpr int strain[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};  // row of C of the tensor indices
-  Eigen::Matrix<double, 3 * Functions, 3 * Functions> S;
-  Eigen::Matrix<double, Functions, Functions> block;
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) {
-      block.setZero();
-      for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < 3; ++l) {
-          const double c = C(strain[i][k], strain[j][l]);
-          if (c != 0.0) block += c * H.template block<Functions, Functions>(k * Functions, l * Functions);
-        }
-      for (int b = 0; b < Functions; ++b)
-        for (int a = 0; a < Functions; ++a) {
-          S(3 * a + i, 3 * b + j) = block(a, b);
-          S(3 * b + j, 3 * a + i) = block(a, b);
-        }
-    }
-  return S;
-}
 
 /// Eliminates the rows from `kept` on, last first: leaves S_uu − S_ua S_aa⁻¹ S_au of the nodes in the leading rows.
 template <int Size>
@@ -159,11 +25,6 @@ void eliminate_modes(int kept, Eigen::Matrix<double, Size, Size>& S) {
   }
 }
 
-/// H = G Gᵀ; not a template, so that the compiler sees one matrix product instead of six.
-void gram(const Eigen::Ref<const Eigen::MatrixXd>& G, Eigen::Ref<Eigen::MatrixXd> H) {
-  H.noalias() = G * G.transpose();
-}
-
 template <SolidShape shape>
 void stiffness(const NodePositions<static_cast<int>(SolidBasis<shape>::nodes.size())>& x,
                const Eigen::Matrix<double, 6, 6>& C, int id, Eigen::MatrixXd& S) {
@@ -171,7 +32,7 @@ void stiffness(const NodePositions<static_cast<int>(SolidBasis<shape>::nodes.siz
   constexpr int modes = static_cast<int>(IncompatibleModes<shape>::size), functions = nodes + modes;
   const auto G = weighted_gradients<shape>(x, id);
   Eigen::Matrix<double, 3 * functions, 3 * functions> H;
-  gram(G, H);
+  gram(G.slope, H);
   Eigen::Matrix<double, 3 * functions, 3 * functions> all = contract<functions>(C, H);
   if constexpr (modes > 0) eliminate_modes(3 * nodes, all);
   S = all.template topLeftCorner<3 * nodes, 3 * nodes>();
