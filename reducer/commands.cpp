@@ -1,6 +1,7 @@
 // The commands of stage 1: read, work, write, tell.
 #include "reducer/commands.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <string_view>
 
@@ -10,6 +11,7 @@
 #include "common/error.hpp"
 #include "common/output_path.hpp"
 #include "common/text.hpp"
+#include "formats/companion/companion.hpp"
 #include "formats/part/part.hpp"
 #include "formats/recovery/recovery.hpp"
 #include "formats/sections/report.hpp"
@@ -64,6 +66,9 @@ int run(const Arguments& arguments) {
   const std::string output = arguments.output.empty() ? beside(arguments.input, ".superelement.h5") : arguments.output;
   require_output(output, {arguments.input}, Replaces::hdf5_only);
   if (part.recovery) require_output(formats::recovery_path(output), {arguments.input}, Replaces::hdf5_only);
+  const std::string companion = formats::companion_path(output);
+  if (part.second_order != formats::SecondOrder::no)
+    require_output(companion, {arguments.input, output}, Replaces::hdf5_only);
   phases.begin("start solvers");
   const SolverSession session;
   std::unique_ptr<formats::RecoveryWriter> recovery;
@@ -74,11 +79,15 @@ int run(const Arguments& arguments) {
   formats::write_superelement(output, reduction.superelement);
   if (recovery) recovery->finish();
   write_certificate(output, reduction.superelement, reduction.file, reduction.model);
+  if (reduction.companion) formats::write_companion(companion, *reduction.companion, reduction.superelement);
   phases.end();
   say(certificate_text(reduction.superelement, reduction.file, reduction.model));
   say(fmt::format("{:<19}{}\n{:<19}{}\n{:<19}{}\n", "time", phases.text(), "written", output, "",
                   certificate_path(output)));
   if (recovery) say(fmt::format("{:<19}{}\n", "", formats::recovery_path(output)));
+  if (reduction.companion)
+    say(fmt::format("{:<19}{} ({:.3g} MB: second order of {} coordinates)\n", "", companion,
+                    1e-6 * static_cast<double>(std::filesystem::file_size(companion)), reduction.superelement.size()));
   return 0;
 }
 

@@ -9,6 +9,7 @@
 #include "reducer/modes/full_model.hpp"
 #include "reducer/modes/project.hpp"
 #include "reducer/report/describe.hpp"
+#include "reducer/second_order/companion.hpp"
 #include "reducer/sources/build_mesh.hpp"
 
 namespace tisserand::reducer {
@@ -49,6 +50,12 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
     begin("recovery");
     recover({mesh, system, coordinates, boundary, internal, result.superelement});
   }
+  describe_companion(mesh, part, result.superelement, result.model);
+  if (!wants_companion(part, result.superelement)) return result;
+
+  begin("second order");
+  result.companion =
+      make_companion(problem, boundary, internal, result.superelement, default_weights(result.superelement));
   return result;
 }
 

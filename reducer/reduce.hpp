@@ -2,8 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
+#include "formats/companion/companion.hpp"
 #include "formats/part/part.hpp"
 #include "formats/superelement/superelement.hpp"
 #include "reducer/mesh/mesh.hpp"
@@ -16,6 +18,7 @@ struct Reduction {
   formats::Superelement superelement;
   FileCertificate file;
   ModelCertificate model;
+  std::optional<formats::Companion> companion;  ///< of the superelement, if the part asks for it
 };
 
 /// Called when a phase begins, with its name: the caller measures time and shows progress.

@@ -13,6 +13,8 @@ namespace tisserand::formats {
 
 namespace {
 
+constexpr Choice<SecondOrder> second_order_words[] = {{"yes", SecondOrder::yes}, {"no", SecondOrder::no}};
+
 ModeSelection read_modes(const MapReader& map) {
   ModeSelection modes;
   const bool both = map.has("modes") && map.has("cutoff");
@@ -49,43 +51,49 @@ Part read_tree(YamlReader& reader, const std::string& path) {
 }  // namespace
 
 std::vector<Field> part_fields() {
-  return {plain<&Part::name>("part", "text+", "name of the part, goes into the superelement file", "required"),
-          {"units", "'consistent' | units",
-           "`{length, mass, time}` by label, or `consistent` for numbers without named units (such files mix only with "
-           "scenes that are `consistent` too). Length `m mm cm km in ft`, mass `kg g t lb slug` (t = 1000 kg), time `s "
-           "ms`",
-           "SI"},
-          {"mesh", "mesh", "a geometry, mesh or deck of another program", "none"},
-          {"materials", "{name: material | material_orthotropic}", "name -> material", "none"},
-          {"sections", "{name: section}", "name -> section", "none"},
-          {"points", "{name: vector | place}",
-           "name -> position `[x, y, z]`, or a [place](#place) in the mesh file (`{near: ..}`, `{node: ..}`, "
-           "`{centroid: ..}`)",
-           "none"},
-          {"groups", "{name: group}", "name -> group of faces, edges, volumes or nodes", "none"},
-          {"plates", "{name: plate}", "name -> walls that this file draws", "none"},
-          {"discs", "{name: disc}", ditto},
-          {"cylinders", "{name: cylinder}", ditto},
-          {"extrusions", "{name: extrusion}", ditto},
-          {"shells", "{name: shell}", "name -> what groups consist of", "none"},
-          {"solids", "{name: solid}", ditto},
-          {"beams", "{name: beam}", "name -> beam", "none"},
-          {"point_masses", "{name: point_mass}", "name -> point mass", "none"},
-          {"springs", "{name: spring}", "name -> spring", "none"},
-          {"spiders", "{name: spider}", "name -> spider", "none"},
-          {"boundary", "[name]1.. | {name: 'all' | 'translations' | 'rotations' | boundary_entry}+",
-           "places kept as nodes of the superelement: a list of points and spiders (all six directions), or a map from "
-           "names to `all`, `translations`, `rotations`, or to a place with `keep`",
-           "required; with a deck: its ASET, BSET"},
-          plain<&ModeSelection::count>("modes", "number_of",
-                                       "number of internal modes, lowest first; 0 is Guyan reduction"),
-          plain<&ModeSelection::cutoff>(
-              "cutoff", "positive",
-              "instead of `modes`: all internal modes below this frequency [1/time, not rad/time]", "-"),
-          {"recovery", "'yes' | 'no' | true | false",
-           "`yes`: also a [recovery file](RECOVERY.md) beside the superelement, by which displacements and stresses of "
-           "the whole part come back from results",
-           "no"}};
+  return {
+      plain<&Part::name>("part", "text+", "name of the part, goes into the superelement file", "required"),
+      {"units", "'consistent' | units",
+       "`{length, mass, time}` by label, or `consistent` for numbers without named units (such files mix only with "
+       "scenes that are `consistent` too). Length `m mm cm km in ft`, mass `kg g t lb slug` (t = 1000 kg), time `s "
+       "ms`",
+       "SI"},
+      {"mesh", "mesh", "a geometry, mesh or deck of another program", "none"},
+      {"materials", "{name: material | material_orthotropic}", "name -> material", "none"},
+      {"sections", "{name: section}", "name -> section", "none"},
+      {"points", "{name: vector | place}",
+       "name -> position `[x, y, z]`, or a [place](#place) in the mesh file (`{near: ..}`, `{node: ..}`, "
+       "`{centroid: ..}`)",
+       "none"},
+      {"groups", "{name: group}", "name -> group of faces, edges, volumes or nodes", "none"},
+      {"plates", "{name: plate}", "name -> walls that this file draws", "none"},
+      {"discs", "{name: disc}", ditto},
+      {"cylinders", "{name: cylinder}", ditto},
+      {"extrusions", "{name: extrusion}", ditto},
+      {"shells", "{name: shell}", "name -> what groups consist of", "none"},
+      {"solids", "{name: solid}", ditto},
+      {"beams", "{name: beam}", "name -> beam", "none"},
+      {"point_masses", "{name: point_mass}", "name -> point mass", "none"},
+      {"springs", "{name: spring}", "name -> spring", "none"},
+      {"spiders", "{name: spider}", "name -> spider", "none"},
+      {"boundary", "[name]1.. | {name: 'all' | 'translations' | 'rotations' | boundary_entry}+",
+       "places kept as nodes of the superelement: a list of points and spiders (all six directions), or a map from "
+       "names to `all`, `translations`, `rotations`, or to a place with `keep`",
+       "required; with a deck: its ASET, BSET"},
+      plain<&ModeSelection::count>("modes", "number_of",
+                                   "number of internal modes, lowest first; 0 is Guyan reduction"),
+      plain<&ModeSelection::cutoff>(
+          "cutoff", "positive", "instead of `modes`: all internal modes below this frequency [1/time, not rad/time]",
+          "-"),
+      {"recovery", "'yes' | 'no' | true | false",
+       "`yes`: also a [recovery file](RECOVERY.md) beside the superelement, by which displacements and stresses of "
+       "the whole part come back from results",
+       "no"},
+      choice<&Part::second_order, second_order_words>("second_order",
+                                                      "`yes` or `no`: a companion file ([COMPANION.md](COMPANION.md)) "
+                                                      "beside the superelement, from which a mechanism "
+                                                      "takes stiffening, buckling and exact inertia",
+                                                      "`yes` while the file stays below 20 MB")};
 }
 
 Part read_part(const std::string& path, const std::vector<Override>& overrides) {

@@ -133,6 +133,9 @@ struct ModeSelection {
   std::string where;
 };
 
+/// Whether a companion file is written (COMPANION.md): by default while it stays small.
+enum class SecondOrder { unless_large, yes, no };
+
 struct Part {
   std::string name;
   std::string file;  ///< path it was read from
@@ -145,6 +148,7 @@ struct Part {
   std::vector<BoundaryNode> boundary;  ///< empty: that of the deck
   ModeSelection modes;
   bool recovery = false;  ///< a recovery file beside the superelement
+  SecondOrder second_order = SecondOrder::unless_large;
   MeshFile mesh;
   std::vector<OrthotropicMaterial> orthotropic;
   std::vector<ShellPatch> patches;  ///< plates, discs, cylinders, extrusions, in this order

@@ -5,6 +5,7 @@
 
 #include "common/error.hpp"
 #include "common/parallel.hpp"
+#include "reducer/elements/each_element.hpp"
 #include "reducer/elements/element_matrices.hpp"
 
 namespace tisserand::reducer {
@@ -110,13 +111,7 @@ SymmetricPair empty_pair(const Coordinates& coordinates, const NodeGraph& graph)
 }
 
 void compute(const Mesh& mesh, int element, ElementMatrices& out) {
-  auto k = static_cast<std::size_t>(element);
-  if (k < mesh.beams.size()) return element_matrices(mesh, mesh.beams[k], out);
-  k -= mesh.beams.size();
-  if (k < mesh.shells.size()) return element_matrices(mesh, mesh.shells[k], out);
-  k -= mesh.shells.size();
-  if (k < mesh.solids.size()) return element_matrices(mesh, mesh.solids[k], out);
-  element_matrices(mesh, mesh.springs[k - mesh.solids.size()], out);
+  with_element(mesh, element, [&](const auto& kind) { element_matrices(mesh, kind, out); });
 }
 
 /// Adds to the rows of the nodes of `share` what an element contributes to them.

@@ -91,11 +91,14 @@ class Eliminator {
     solve_for(pivot, largest, row);
     substitute(row);
     keep(std::move(row));
+    equation_.push_back(static_cast<int>(&equation - ties_.equations.data()));
   }
 
   Elimination result() const {
     Elimination result;
     result.redundant = redundant_;
+    result.equation = equation_;
+    for (const TieRow& row : rows_) result.dependent.push_back(row.coordinate);
     result.T.row.resize(row_of_.size());
     for (std::size_t x = 0; x < row_of_.size(); ++x) {
       result.T.row[x] = row_of_[x] < 0 ? result.T.independent++ : -1 - row_of_[x];
@@ -218,6 +221,7 @@ class Eliminator {
   std::vector<int> row_of_;  ///< per coordinate: row that gives it, −1: independent
   std::vector<bool> kept_;
   std::vector<TieRow> rows_;
+  std::vector<int> equation_;                        ///< of each row
   std::unordered_map<int, std::vector<int>> users_;  ///< rows that contain an independent coordinate
   int redundant_ = 0;
 };

@@ -20,7 +20,9 @@ struct Transformation {
 /// What elimination did.
 struct Elimination {
   Transformation T;
-  int redundant = 0;  ///< equations that others imply
+  int redundant = 0;           ///< equations that others imply
+  std::vector<int> equation;   ///< the others
+  std::vector<int> dependent;  ///< coordinates x that they made dependent, as many
 };
 
 /// Names coordinates in messages.

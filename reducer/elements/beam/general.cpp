@@ -233,4 +233,25 @@ BeamMatrices general_beam(const BeamElementData& beam) {
   return result;
 }
 
+std::vector<BeamField> beam_fields(const BeamElementData& beam) {
+  const double L = beam.length;
+  const Integration along = integrate(beam);
+  Matrix6x12 T;
+  T << -transfer(L), Matrix6::Identity();
+  const Matrix6x12 forces = inverse(along.flexibility) * T;
+  std::vector<BeamField> fields;
+  for (const Point& point : along.points) {
+    BeamField field;
+    field.weight = point.weight;
+    field.motion = point.motion * forces;
+    field.motion.leftCols<6>() += transfer(point.x);
+    field.force = transfer(L - point.x).transpose() * forces;
+    field.gradient = compliance(beam, section_at(beam, point.x)) * field.force;  // strains; u' = γ + θ × e_x
+    field.gradient.row(1) += field.motion.row(5);
+    field.gradient.row(2) -= field.motion.row(4);
+    fields.push_back(field);
+  }
+  return fields;
+}
+
 }  // namespace tisserand::reducer

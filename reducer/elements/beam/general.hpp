@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "reducer/elements/beam/beam.hpp"
 
@@ -28,5 +29,16 @@ std::optional<std::string> general_beam_fault(const BeamElementData& beam);
 /// ones 16 pieces of four points, relative error below 1e-9 for sizes in a ratio up to 10. A rod has axial and
 /// torsional stiffness, and the mass of linear displacements without bending rotations. general_beam_fault() is empty.
 BeamMatrices general_beam(const BeamElementData& beam);
+
+/// The exact solution at a Gauss point of the beam, for the twelve coordinates of its ends, in element axes.
+struct BeamField {
+  double weight = 0.0;                    ///< of the integral along the beam
+  Eigen::Matrix<double, 6, 12> motion;    ///< [u; θ] of the axis
+  Eigen::Matrix<double, 6, 12> gradient;  ///< its derivative along the axis
+  Eigen::Matrix<double, 6, 12> force;     ///< F = [N Qy Qz Mx My Mz] about the axis, in equilibrium with the ends
+};
+
+/// Where general_beam() integrates; not of rods.
+std::vector<BeamField> beam_fields(const BeamElementData& beam);
 
 }  // namespace tisserand::reducer

@@ -13,9 +13,22 @@
 #include "reducer/elements/beam/ends.hpp"
 #include "reducer/elements/beam/general.hpp"
 #include "reducer/elements/element_stress.hpp"
+#include "reducer/elements/beam/mesh_beam.hpp"
 
 namespace tisserand::reducer {
 namespace {
+
+/// The released end forces in words: "moments about x at both ends", ...
+std::string released_text(std::uint16_t released) {
+  static constexpr const char* names[] = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
+  std::string text;
+  for (int k = 0; k < 12; ++k)
+    if ((released >> k & 1) != 0)
+      text += fmt::format("{}{} at end {}", text.empty() ? "" : ", ", names[k % 6], k / 6 + 1);
+  return text;
+}
+
+}  // namespace
 
 Eigen::Vector3d axis_of(const Mesh& mesh, const BeamElement& beam) {
   return mesh.position.col(beam.second) + beam.second_offset - mesh.position.col(beam.first) - beam.first_offset;
@@ -31,18 +44,6 @@ BeamMatrices at_the_ends(const BeamElementData& data) {
   if (!is_plain(data)) return general_beam(data);
   return {beam_stiffness(data), beam_mass(data)};
 }
-
-/// The released end forces in words: "moments about x at both ends", ...
-std::string released_text(std::uint16_t released) {
-  static constexpr const char* names[] = {"Fx", "Fy", "Fz", "Mx", "My", "Mz"};
-  std::string text;
-  for (int k = 0; k < 12; ++k)
-    if ((released >> k & 1) != 0)
-      text += fmt::format("{}{} at end {}", text.empty() ? "" : ", ", names[k % 6], k / 6 + 1);
-  return text;
-}
-
-}  // namespace
 
 void element_matrices(const Mesh& mesh, const BeamElement& beam, ElementMatrices& out) {
   BeamMatrices matrices = at_the_ends(data_of(mesh, beam));

@@ -1,10 +1,11 @@
-// Gradients of the displacements of a solid element at quadrature points: what its stiffness and its stresses share.
+// Gradients of the functions of solid elements at their quadrature points: for stiffness, mass, stress, second order.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 
+#include <Eigen/Core>
 #include <Eigen/LU>
 
 #include "common/error.hpp"
@@ -88,7 +89,14 @@ Eigen::Matrix3d jacobian(const NodePositions<Nodes>& x, const NaturalGradients<N
   return x.lazyProduct(GradientMap<Nodes>(gradient[0].data()));
 }
 
-/// ∂N/∂x (one row per function) times √(weight det J) at every point, one column per point: rows k · functions + a.
+/// ∂N/∂x (one row per function) times the root √(weight det J) at every point, one column per point: rows
+/// k · functions + a.
+template <int Functions, int Points>
+struct WeightedGradients {
+  Eigen::Matrix<double, 3 * Functions, Points> slope;
+  Eigen::Matrix<double, Points, 1> root;
+};
+
 template <SolidShape shape>
 auto weighted_gradients(const NodePositions<static_cast<int>(SolidBasis<shape>::nodes.size())>& x, int id) {
   using Modes = IncompatibleModes<shape>;
@@ -99,7 +107,7 @@ auto weighted_gradients(const NodePositions<static_cast<int>(SolidBasis<shape>::
   constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
   constexpr int modes = static_cast<int>(Modes::size), functions = nodes + modes;
 
-  Eigen::Matrix<double, 3 * functions, points> G;
+  WeightedGradients<functions, points> G;
   const Eigen::Matrix3d J0 = jacobian<nodes>(x, centre);
   const Eigen::Matrix3d inverse0 = J0.inverse();
   for (int q = 0; q < points; ++q) {
@@ -108,7 +116,8 @@ auto weighted_gradients(const NodePositions<static_cast<int>(SolidBasis<shape>::
     const double det = J.determinant();
     TISSERAND_ENSURE(det > 0.0, "solid element {}: Jacobian {} at quadrature point {}", id, det, q);
     const double root = std::sqrt(table.weight[point] * det);
-    Eigen::Map<Eigen::Matrix<double, functions, 3>> column(G.col(q).data());
+    G.root[q] = root;
+    Eigen::Map<Eigen::Matrix<double, functions, 3>> column(G.slope.col(q).data());
     column.template topRows<nodes>() =
         GradientMap<nodes>(table.gradient[point][0].data()).lazyProduct(root * J.inverse());
     if constexpr (modes > 0) {
@@ -142,6 +151,11 @@ Eigen::Matrix<double, 3 * Functions, 3 * Functions> contract(
         }
     }
   return S;
+}
+
+/// H = G Gᵀ; not a template, so that the compiler sees one matrix product instead of six.
+inline void gram(const Eigen::Ref<const Eigen::MatrixXd>& G, Eigen::Ref<Eigen::MatrixXd> H) {
+  H.noalias() = G * G.transpose();
 }
 
 /// Positions of the nodes from the first one, so that far from the origin nothing cancels.

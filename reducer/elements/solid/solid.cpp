@@ -7,6 +7,8 @@
 // inside the element, which make bending exact in parallelepipeds. Their gradients are det J0/det J J0⁻ᵀ g with ∫ g dξ
 // = 0 over the reference element (J0 at its centre): orthogonal to constant stress, so the patch test holds on any mesh
 // ([TBW76]; [SR90] section 4 shows that this is the enhanced strain of the Hu-Washizu principle).
+#include <Eigen/Core>
+
 #include "common/error.hpp"
 #include "reducer/elements/element_matrices.hpp"
 #include "reducer/elements/solid/gradients.hpp"
@@ -23,11 +25,6 @@ void eliminate_modes(int kept, Eigen::Matrix<double, Size, Size>& S) {
   }
 }
 
-/// H = G Gᵀ; not a template, so that the compiler sees one matrix product instead of six.
-void gram(const Eigen::Ref<const Eigen::MatrixXd>& G, Eigen::Ref<Eigen::MatrixXd> H) {
-  H.noalias() = G * G.transpose();
-}
-
 template <SolidShape shape>
 void stiffness(const NodePositions<static_cast<int>(SolidBasis<shape>::nodes.size())>& x,
                const Eigen::Matrix<double, 6, 6>& C, int id, Eigen::MatrixXd& S) {
@@ -35,7 +32,7 @@ void stiffness(const NodePositions<static_cast<int>(SolidBasis<shape>::nodes.siz
   constexpr int modes = static_cast<int>(IncompatibleModes<shape>::size), functions = nodes + modes;
   const auto G = weighted_gradients<shape>(x, id);
   Eigen::Matrix<double, 3 * functions, 3 * functions> H;
-  gram(G, H);
+  gram(G.slope, H);
   Eigen::Matrix<double, 3 * functions, 3 * functions> all = contract<functions>(C, H);
   if constexpr (modes > 0) eliminate_modes(3 * nodes, all);
   S = all.template topLeftCorner<3 * nodes, 3 * nodes>();

@@ -57,23 +57,20 @@ Eigen::MatrixXd followers(const Eigen::Matrix<double, 6, 6>& C, const Eigen::Mat
 template <SolidShape shape>
 Eigen::MatrixXd stress_at_nodes(const Mesh& mesh, const SolidElement& solid) {
   static constexpr auto rule = stiffness_rule<shape>();
-  static constexpr auto table = tabulate<shape>(rule);
   static const Eigen::MatrixXd to_nodes = extrapolation<shape>();
   constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
   constexpr int modes = static_cast<int>(IncompatibleModes<shape>::size), functions = nodes + modes;
   constexpr int points = static_cast<int>(rule.point.size());
   const Eigen::Matrix<double, 6, 6>& C = mesh.solid_properties[solid.property].material.C;
   const auto x = node_positions<shape>(mesh, solid);
-  const Eigen::MatrixXd G = weighted_gradients<shape>(x, solid.id);
+  const auto G = weighted_gradients<shape>(x, solid.id);
   Eigen::MatrixXd follow;
-  if constexpr (modes > 0) follow = followers<functions>(C, G, 3 * nodes);
+  if constexpr (modes > 0) follow = followers<functions>(C, G.slope, 3 * nodes);
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(6 * nodes, 3 * nodes);
   for (int q = 0; q < points; ++q) {
-    const std::size_t point = static_cast<std::size_t>(q);
-    const double root = std::sqrt(table.weight[point] * jacobian<nodes>(x, table.gradient[point]).determinant());
-    const Eigen::Map<const Eigen::Matrix<double, functions, 3>> gradient(G.col(q).data());
+    const Eigen::Map<const Eigen::Matrix<double, functions, 3>> gradient(G.slope.col(q).data());
     Eigen::MatrixXd B(6, 3 * functions);
-    for (int a = 0; a < functions; ++a) add_strain(gradient.row(a).transpose() / root, 3 * a, B);
+    for (int a = 0; a < functions; ++a) add_strain(gradient.row(a).transpose() / G.root[q], 3 * a, B);
     Eigen::MatrixXd strain = B.leftCols(3 * nodes);
     if constexpr (modes > 0) strain += B.rightCols(3 * modes) * follow;
     const Eigen::MatrixXd stress = C * strain;

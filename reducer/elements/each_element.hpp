@@ -1,0 +1,20 @@
+// One numbering of all elements of a mesh (beams, shells, solids, springs), whatever their kind.
+#pragma once
+
+#include "reducer/mesh/mesh.hpp"
+
+namespace tisserand::reducer {
+
+/// work(element) with the element of that number; what it returns must not depend on its kind.
+template <class Work>
+auto with_element(const Mesh& mesh, int element, const Work& work) {
+  auto k = static_cast<std::size_t>(element);
+  if (k < mesh.beams.size()) return work(mesh.beams[k]);
+  k -= mesh.beams.size();
+  if (k < mesh.shells.size()) return work(mesh.shells[k]);
+  k -= mesh.shells.size();
+  if (k < mesh.solids.size()) return work(mesh.solids[k]);
+  return work(mesh.springs[k - mesh.solids.size()]);
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,90 @@
+// Second-order strain of elements: the one form in which the companion file and tests ask every element for its
+// geometric stiffness.
+//
+// V3(w; d) = Σ σ(w) E2(d, d): stresses σ linear in the displacements w (integration weights in them), times the
+// quadratic part E2 of the strains that they belong to. E2 is a fixed sum of products of few gradients of d, the same
+// for all elements of a kind. K_G[w] = ∂²V3/∂d² = Σ σ_s(w) c (g_aᵀ g_b + g_bᵀ g_a).
+//
+// Every kind is invariant under a superposed rotation θ of the element to first order in θ, whatever its size:
+// V3 of w and w + θ × X together with the linear energy of the second-order displacements (θ × u, ½ θ × ψ) vanishes.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reducer/mesh/mesh.hpp"
+
+namespace tisserand::reducer {
+
+/// E2[stress] += coefficient g[first] g[second].
+struct QuadraticTerm {
+  int stress = 0;
+  int first = 0;
+  int second = 0;
+  double coefficient = 0.0;
+};
+
+/// Stresses and gradients of one point, node or element, and the products that join them.
+struct QuadraticPattern {
+  int stresses = 0;
+  int gradients = 0;
+  std::vector<QuadraticTerm> terms;
+};
+
+/// Stress [force; moment] on a point that turns: force · (−ω × u) + moment · (−ω × ψ); gradients ω, u, ψ.
+///
+/// It is the second order of what is left of displacements when a rotation is taken out: with exp(ω)ᵀ the point
+/// X + u + ... has moved by u − ω × X at first and −ω × (u − ½ ω × X) at second order, a rotation vector ψ has become
+/// ψ − ω and −½ ω × ψ. Terms with the second order of ω itself vanish since forces on an element are in equilibrium, so
+/// only the linear rotation is needed (element-independent corotation).
+const QuadraticPattern& turned_point();
+
+/// Green's strain of a point: stress [xx yy zz xy yz zx], gradients ∂u_i/∂x_k at 3 k + i; E2_kl = ½ Σ_i u_i,k u_i,l.
+const QuadraticPattern& green_strain();
+
+/// Beam at a point of its axis, element axes: stress [n; m], gradients u', ψ, ψ'. Second order of Rᵀ x' − e₁ and of the
+/// material curvature for the rotation vector ψ: E2_n = u' × ψ + ½ (ψ ψ₁ − e₁ |ψ|²), E2_m = ½ ψ' × ψ.
+const QuadraticPattern& beam_point();
+
+/// Mean membrane forces [xx yy xy] of a shell on what its rotations vary over the element at `points` points:
+/// gradients [ψx ψy ψz] of each, weighted with the root of their share of the area;
+/// E2_xx = ½ Σ(ψy² + ψz²), E2_yy = ½ Σ(ψx² + ψz²), E2_xy = −Σ ψx ψy.
+const QuadraticPattern& turning_sheet(int points);
+
+/// A pattern `repeat` times, its stresses and gradients one block after the other.
+struct StrainSection {
+  const QuadraticPattern* pattern = nullptr;
+  int repeat = 0;
+  bool operator==(const StrainSection&) const = default;
+};
+
+/// Stresses and gradients of an element for its coordinates (those of ElementMatrices), section by section.
+struct SecondOrderRows {
+  std::vector<StrainSection> sections;
+  Eigen::MatrixXd stress;
+  Eigen::MatrixXd gradient;
+
+  /// Takes these sections and zeroes the rows.
+  void start(const std::vector<StrainSection>& layout, Eigen::Index coordinates);
+};
+
+void second_order(const Mesh& mesh, const BeamElement& beam, SecondOrderRows& out);
+void second_order(const Mesh& mesh, const ShellElement& shell, SecondOrderRows& out);
+void second_order(const Mesh& mesh, const SolidElement& solid, SecondOrderRows& out);
+void second_order(const Mesh& mesh, const Spring& spring, SecondOrderRows& out);
+
+/// Rows of a corotated element, for the turned points `first`, `first` + 1, ... of `out`: forces S d, displacements of
+/// nodes at X (from any point) without the rotation ω = turn d. S: six rows per node.
+void add_corotated(const Eigen::MatrixXd& S, const Eigen::Matrix3Xd& X,
+                   const Eigen::Matrix<double, 3, Eigen::Dynamic>& turn, SecondOrderRows& out);
+
+/// Two nodes at a distance: turned with the line between them, about it with the mean of their rotations; coincident
+/// ones with the mean rotation.
+Eigen::Matrix<double, 3, Eigen::Dynamic> turn_of_pair(const Eigen::Vector3d& first_to_second);
+
+/// K_G[w], symmetric.
+Eigen::MatrixXd geometric_stiffness(const SecondOrderRows& rows, const Eigen::VectorXd& w);
+
+}  // namespace tisserand::reducer

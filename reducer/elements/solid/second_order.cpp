@@ -1,0 +1,84 @@
+// Second-order strain of solid elements: Green's strain at the points of the stiffness, with the stress that the
+// incompatible displacements leave.
+//
+// V3 = ∫ σ(w) : ½ ∇dᵀ ∇d dV, so K_G,ab = (∫ ∇N_a · σ ∇N_b dV) 1. Incompatible displacements strain (in σ) and do not
+// turn: nodal forces are ∫ Bᵀ σ with the gradients of the nodes alone, so what turns as a rigid body gains no energy.
+#include <Eigen/Cholesky>
+
+#include "reducer/elements/second_order.hpp"
+#include "reducer/elements/solid/gradients.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+/// Strain [xx yy zz xy yz zx] of functions with the gradients `slope` (one row per function): 6 x 3 functions.
+template <int Functions>
+Eigen::Matrix<double, 6, 3 * Functions> strain_rows(const Eigen::Matrix<double, Functions, 3>& slope) {
+  constexpr int pair[3][2] = {{0, 1}, {1, 2}, {2, 0}};
+  Eigen::Matrix<double, 6, 3 * Functions> rows = Eigen::Matrix<double, 6, 3 * Functions>::Zero();
+  for (int a = 0; a < Functions; ++a)
+    for (int k = 0; k < 3; ++k) {
+      rows(k, 3 * a + k) = slope(a, k);
+      rows(3 + k, 3 * a + pair[k][0]) = slope(a, pair[k][1]);
+      rows(3 + k, 3 * a + pair[k][1]) = slope(a, pair[k][0]);
+    }
+  return rows;
+}
+
+/// All functions follow from the nodes: 1, and −S_aa⁻¹ S_au of the incompatible ones.
+template <int Functions, int Nodes>
+Eigen::MatrixXd follow(const Eigen::Matrix<double, 3 * Functions, 3 * Functions>& S) {
+  Eigen::MatrixXd T = Eigen::MatrixXd::Identity(3 * Functions, 3 * Nodes);
+  if constexpr (Functions > Nodes) {
+    constexpr int modes = 3 * (Functions - Nodes);
+    const Eigen::Matrix<double, modes, modes> S_aa = S.template bottomRightCorner<modes, modes>();
+    T.bottomRows<modes>() = -S_aa.ldlt().solve(S.template bottomLeftCorner<modes, 3 * Nodes>());
+  }
+  return T;
+}
+
+template <SolidShape shape>
+void green(const Mesh& mesh, const SolidElement& solid, SecondOrderRows& out) {
+  constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
+  constexpr int functions = nodes + static_cast<int>(IncompatibleModes<shape>::size);
+  const auto x = node_positions<shape>(mesh, solid);
+  const Eigen::Matrix<double, 6, 6>& C = mesh.solid_properties[solid.property].material.C;
+  const auto G = weighted_gradients<shape>(x, solid.id);
+  constexpr int points = static_cast<int>(decltype(G.root)::RowsAtCompileTime);
+  Eigen::Matrix<double, 3 * functions, 3 * functions> S;
+  if constexpr (functions > nodes) {
+    Eigen::Matrix<double, 3 * functions, 3 * functions> H;
+    gram(G.slope, H);
+    S = contract<functions>(C, H);
+  }
+  const Eigen::MatrixXd T = follow<functions, nodes>(S);
+  out.start({{&green_strain(), points}}, 3 * nodes);
+  for (int q = 0; q < points; ++q) {
+    const Eigen::Map<const Eigen::Matrix<double, functions, 3>> slope(G.slope.col(q).data());  // with roots of weights
+    out.stress.middleRows<6>(6 * q).noalias() = C / G.root[q] * strain_rows<functions>(slope) * T;
+    for (int a = 0; a < nodes; ++a)
+      for (int k = 0; k < 3; ++k)
+        for (int i = 0; i < 3; ++i) out.gradient(9 * q + 3 * k + i, 3 * a + i) = slope(a, k);
+  }
+}
+
+}  // namespace
+
+void second_order(const Mesh& mesh, const SolidElement& solid, SecondOrderRows& out) {
+  switch (solid.shape) {
+    case SolidShape::tetrahedron4:
+      return green<SolidShape::tetrahedron4>(mesh, solid, out);
+    case SolidShape::tetrahedron10:
+      return green<SolidShape::tetrahedron10>(mesh, solid, out);
+    case SolidShape::hexahedron8:
+      return green<SolidShape::hexahedron8>(mesh, solid, out);
+    case SolidShape::hexahedron20:
+      return green<SolidShape::hexahedron20>(mesh, solid, out);
+    case SolidShape::prism6:
+      return green<SolidShape::prism6>(mesh, solid, out);
+    case SolidShape::prism15:
+      return green<SolidShape::prism15>(mesh, solid, out);
+  }
+}
+
+}  // namespace tisserand::reducer

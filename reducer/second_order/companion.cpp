@@ -1,0 +1,288 @@
+// From modes to the arrays of the companion file.
+#include "reducer/second_order/companion.hpp"
+
+#include <algorithm>
+
+#include "common/error.hpp"
+#include "common/math/rotation.hpp"
+#include "common/parallel.hpp"
+#include "common/text.hpp"
+#include "formats/superelement/weights.hpp"
+#include "reducer/elements/each_element.hpp"
+#include "reducer/elements/element_matrices.hpp"
+#include "reducer/second_order/inertia.hpp"
+#include "reducer/second_order/quadratic_forms.hpp"
+#include "reducer/second_order/tie_strain.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+constexpr int batch_rows = 1024;  ///< stresses of a batch of elements, about
+constexpr int largest_batch = 64;
+constexpr int loads = 12;  ///< six rigid accelerations, six centrifugal ones
+
+constexpr double large_file = 20e6;  ///< bytes of a companion that is not written unasked
+
+/// Bytes of the arrays before compression, for n coordinates.
+double companion_bytes(Index coordinates) {
+  const auto n = static_cast<double>(coordinates);
+  return 8.0 * (0.5 * n * n * (n + 1.0) + 3.0 * n * n + 9.0 * n * (n + 1.0));
+}
+
+/// Values of all q for the reduced coordinates: those of the boundary are coordinates themselves.
+MatrixXd reduced_displacements(const InternalProblem& problem, const BoundaryModes& boundary,
+                               const InternalModes& internal) {
+  const Partition& p = problem.partition;
+  MatrixXd Phi = MatrixXd::Zero(problem.system.size(), p.n_B() + internal.lambda.size());
+  for (Index b = 0; b < p.n_B(); ++b) Phi(p.boundary[b], b) = 1.0;
+  for (Index i = 0; i < p.n_I(); ++i) {
+    Phi.row(p.internal[i]).head(p.n_B()) = boundary.Psi.row(i);
+    Phi.row(p.internal[i]).tail(internal.lambda.size()) = internal.Phi.row(i);
+  }
+  return Phi;
+}
+
+/// Tᵀ f: forces on x as forces on q.
+MatrixXd gather_forces(const Transformation& T, const MatrixXd& f) {
+  MatrixXd result = MatrixXd::Zero(T.independent, f.cols());
+  for (Index x = 0; x < f.rows(); ++x) {
+    if (T.row[x] >= 0)
+      result.row(T.row[x]) += f.row(x);
+    else
+      for (const Term& term : T.dependent[-1 - T.row[x]]) result.row(term.coordinate) += term.coefficient * f.row(x);
+  }
+  return result;
+}
+
+/// g_a = M D_a and g_jk = −½ ([e_k x] M D_3+j + [e_j x] M D_3+k), on x.
+MatrixXd inertia_loads(const MatrixXd& MD) {
+  MatrixXd g(MD.rows(), loads);
+  g.leftCols<6>() = MD;
+  const MatrixXd turning = MD.rightCols<3>();
+  for (int pair = 0; pair < 6; ++pair) {
+    const auto [j, k] = formats::axis_pairs[pair];
+    g.col(6 + pair) = -0.5 * (crossed(k, turning.col(j)) + crossed(j, turning.col(k)));
+  }
+  return g;
+}
+
+/// Displacements of q under forces on q with the boundary held, less the share of the modes that are kept.
+MatrixXd residual_displacements(const InternalProblem& problem, const InternalModes& internal, const MatrixXd& force) {
+  MatrixXd w = MatrixXd::Zero(force.rows(), force.cols());
+  if (problem.partition.n_I() == 0) return w;
+  const MatrixXd f_I = rows(force, problem.partition.internal);
+  MatrixXd w_I = problem.S_II.solve(f_I);
+  w_I -= internal.Phi * (internal.lambda.cwiseInverse().asDiagonal() * (internal.Phi.transpose() * f_I));
+  for (std::size_t i = 0; i < problem.partition.internal.size(); ++i)
+    w.row(problem.partition.internal[i]) = w_I.row(static_cast<Index>(i));
+  return w;
+}
+
+/// Stresses and gradients of elements of one layout, the next `count` from `first` on.
+class ElementBatches {
+ public:
+  ElementBatches(const Mesh& mesh, const Coordinates& coordinates, const MatrixXd& displacements, Index n, int threads)
+      : mesh_(mesh), coordinates_(coordinates), displacements_(displacements), n_(n), threads_(threads) {}
+
+  /// Calls use(batch) for all elements in their order.
+  template <class Use>
+  void for_each(const Use& use) {
+    for (int first = 0; first < mesh_.elements(); first += block) {
+      const int count = std::min(block, mesh_.elements() - first);
+      on_threads(threads_, [&](int t) {
+        const Share share = share_of(count, t, threads_);
+        for (int e = share.first; e < share.end; ++e)
+          with_element(mesh_, first + e, [&](const auto& kind) { second_order(mesh_, kind, rows_[e]); });
+      });
+      for (int begin = 0; begin < count;) {
+        const int most = std::clamp(batch_rows / static_cast<int>(rows_[begin].stress.rows()), 1, largest_batch);
+        int end = begin + 1;
+        while (end < count && end - begin < most && rows_[end].sections == rows_[begin].sections) ++end;
+        fill(first, begin, end);
+        use(batch_);
+        begin = end;
+      }
+    }
+  }
+
+ private:
+  static constexpr int block = 256;
+
+  void fill(int first, int begin, int end) {
+    batch_.sections = rows_[begin].sections;
+    batch_.count = end - begin;
+    batch_.stress.resize(rows_[begin].stress.rows() * batch_.count, displacements_.cols());
+    batch_.gradient.resize(rows_[begin].gradient.rows() * batch_.count, n_);
+    on_threads(threads_, [&](int t) {
+      const Share share = share_of(batch_.count, t, threads_);
+      MatrixXd d, product;
+      for (int e = share.first; e < share.end; ++e) {
+        const SecondOrderRows& rows = rows_[begin + e];
+        d.resize(rows.stress.cols(), displacements_.cols());
+        gather(element_rows(mesh_, coordinates_, first + begin + e, d.rows()), displacements_, d);
+        product.noalias() = rows.stress * d;
+        put(product, e, batch_.stress);
+        product.noalias() = rows.gradient * d.leftCols(n_);
+        put(product, e, batch_.gradient);
+      }
+    });
+  }
+
+  /// Row r of element e at row r · count + e.
+  void put(const MatrixXd& product, int e, MatrixXd& all) const {
+    for (Index c = 0; c < product.cols(); ++c)
+      for (Index r = 0; r < product.rows(); ++r) all(r * batch_.count + e, c) = product(r, c);
+  }
+
+  const Mesh& mesh_;
+  const Coordinates& coordinates_;
+  const MatrixXd& displacements_;
+  Index n_;
+  int threads_;
+  std::vector<SecondOrderRows> rows_ = std::vector<SecondOrderRows>(block);
+  StrainBatch batch_;
+};
+
+/// g − S w on the coordinates that ties make dependent: forces on x, by the elements at them.
+MatrixXd tie_residual(const Mesh& mesh, const Coordinates& coordinates, const TieForces& forces,
+                      const MatrixXd& displacements, const MatrixXd& g) {
+  MatrixXd residual = MatrixXd::Zero(static_cast<Index>(forces.dependent.size()), displacements.cols());
+  for (std::size_t i = 0; i < forces.dependent.size(); ++i)
+    if (forces.dependent[i] < g.rows())
+      residual.row(static_cast<Index>(i)).tail(g.cols()) += g.row(forces.dependent[i]);
+  ElementMatrices matrices;
+  for (int e = 0; e < mesh.elements(); ++e) {
+    const ElementNodes nodes = element_nodes(mesh, e);
+    bool tied = false;
+    for (int i = 0; i < nodes.count; ++i)
+      for (int x = coordinates.first[nodes.node[i]]; x < coordinates.first[nodes.node[i] + 1]; ++x)
+        tied = tied || forces.row_of[x] >= 0;
+    if (!tied) continue;
+    with_element(mesh, e, [&](const auto& kind) { element_matrices(mesh, kind, matrices); });
+    const ElementRows rows = element_rows(mesh, coordinates, e, matrices.S.rows());
+    MatrixXd d(matrices.S.rows(), displacements.cols());
+    gather(rows, displacements, d);
+    const MatrixXd f = matrices.S * d;
+    for (int i = 0; i < rows.nodes; ++i)
+      for (int c = 0; c < rows.size; ++c)
+        if (const int row = forces.row_of[rows.first[i] + c]; row >= 0) residual.row(row) -= f.row(rows.size * i + c);
+  }
+  return residual;
+}
+
+/// Masses beside their nodes swing on rigid arms: their inertia loads g (the last columns) on ½ θ × (θ × c).
+void add_offset_masses(const Mesh& mesh, const Coordinates& coordinates, const MatrixXd& Phi, const MatrixXd& D,
+                       QuadraticForms& forms) {
+  for (const NodalMass& mass : mesh.masses) {
+    if (mass.offset.isZero(0.0) || !coordinates.rotates(mass.node)) continue;
+    const int x = coordinates.of(mass.node, 0);
+    const MatrixXd MD = nodal_mass_matrix(mass) * D.middleRows<6>(x);
+    const MatrixXd g = inertia_loads(MD);
+    StrainBatch batch{{{&turned_point(), 1}}, 1, {}, {}};
+    batch.stress.setZero(6, Phi.cols() + loads);
+    batch.stress.topRightCorner(3, loads) = g.topRows<3>();
+    batch.gradient.setZero(9, Phi.cols());
+    batch.gradient.topRows<3>() = Phi.middleRows<3>(x + 3);
+    batch.gradient.middleRows<3>(3) = -0.5 * skew<double>(mass.offset) * Phi.middleRows<3>(x + 3);
+    forms.add(batch);
+  }
+}
+
+/// mass, S0, S1 of M̄.
+void set_integrals(const formats::Superelement& element, formats::Companion& c) {
+  const formats::RigidProperties rigid = formats::rigid_properties(element);
+  c.mass = rigid.mass;
+  c.S0 = rigid.mass * (rigid.center_of_mass - c.reference_point);
+  c.S1 = formats::rigid_motions(element, c.reference_point).leftCols<3>().transpose() * element.mass;
+}
+
+}  // namespace
+
+bool wants_companion(const formats::Part& part, const formats::Superelement& element) {
+  const bool fits = element.size() <= formats::max_companion_size;
+  switch (part.second_order) {
+    case formats::SecondOrder::no:
+      return false;
+    case formats::SecondOrder::yes:
+      if (fits) return true;
+      throw Error(fmt::format("second_order: the superelement has {} coordinates, companions have at most {}",
+                              element.size(), formats::max_companion_size),
+                  part.file, "keep fewer nodes or modes, or say second_order: no");
+    case formats::SecondOrder::unless_large:
+      break;
+  }
+  return fits && companion_bytes(element.size()) < large_file;
+}
+
+void describe_companion(const Mesh& mesh, const formats::Part& part, const formats::Superelement& element,
+                        ModelCertificate& model) {
+  if (!wants_companion(part, element)) {
+    if (part.second_order == formats::SecondOrder::unless_large)
+      model.notes.push_back(
+          fmt::format("No companion file (stiffening, exact inertia): it would hold {:.0f} MB; "
+                      "second_order: yes in the part file writes it.",
+                      1e-6 * companion_bytes(element.size())));
+    return;
+  }
+  if (const std::vector<std::string> names = without_second_order(mesh); !names.empty())
+    model.warnings.push_back(
+        fmt::format("The second order of {} is left out of the companion file: what they mean for "
+                    "finite rotations is not known.",
+                    listed(names)));
+}
+
+Eigen::VectorXd default_weights(const formats::Superelement& element) {
+  std::vector<int> members;  // nodes with translations
+  for (Index row = 0; row < element.size(); ++row)
+    if (element.dof_node[row] >= 0 && element.dof_component[row] == 0) members.push_back(element.dof_node[row]);
+  const Eigen::Matrix3Xd points = element.node_position(members, Eigen::all).transpose();
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(element.node_position.rows());
+  weights(members) = formats::frame_weights(points, formats::rigid_properties(element).center_of_mass).alpha;
+  return weights;
+}
+
+formats::Companion make_companion(const InternalProblem& problem, const BoundaryModes& boundary,
+                                  const InternalModes& internal, const formats::Superelement& element,
+                                  const Eigen::VectorXd& weights) {
+  const Mesh& mesh = problem.mesh;
+  const System& system = problem.system;
+  const int threads = core_count(), n = static_cast<int>(element.size());
+  formats::Companion c;
+  c.content_id = formats::content_id(element);
+  c.producer = element.producer;
+  c.units = element.units;
+  c.weights = weights;
+  c.reference_point = element.node_position.transpose() * weights;
+  set_integrals(element, c);
+
+  const MatrixXd Phi = expand(system.T, reduced_displacements(problem, boundary, internal));
+  MatrixXd D = MatrixXd::Zero(Phi.rows(), 6);
+  D.topRows(system.coordinates.count()) = rigid_motions(mesh, system.coordinates, c.reference_point);
+  const FrameInertia inertia = frame_inertia(mesh, system.coordinates, Phi, D, threads);
+  c.C = inertia.C;
+  c.E = inertia.E;
+
+  const MatrixXd g = inertia_loads(inertia.MD);
+  MatrixXd displacements(Phi.rows(), n + loads);
+  displacements << Phi, expand(system.T, residual_displacements(problem, internal, gather_forces(system.T, g)));
+  QuadraticForms forms(n, n + loads, threads);
+  ElementBatches(mesh, system.coordinates, displacements, n, threads).for_each([&](const StrainBatch& batch) {
+    forms.add(batch);
+  });
+  add_offset_masses(mesh, system.coordinates, Phi, D, forms);
+  if (const TieForces ties = find_tie_forces(mesh, system, problem.where); !ties.empty()) {
+    const MatrixXd residual = tie_residual(mesh, system.coordinates, ties, displacements, g);
+    for (const StrainBatch& batch : tie_batches(mesh, system, ties, multipliers(ties, residual), Phi)) forms.add(batch);
+  }
+  for (int j = 0; j < n; ++j) c.H.push_back(forms.matrix(j));
+  for (int a = 0; a < 6; ++a) {
+    c.N[a] = -forms.matrix(n + a);
+    c.T[a] = -forms.matrix(n + 6 + a);
+  }
+  return c;
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,29 @@
+// The companion of a superelement: what the finite elements know beyond S̄ and M̄ (formats/COMPANION.md).
+#pragma once
+
+#include "formats/companion/companion.hpp"
+#include "reducer/modes/boundary_modes.hpp"
+#include "reducer/modes/internal_modes.hpp"
+#include "reducer/report/certificate.hpp"
+
+namespace tisserand::reducer {
+
+/// Whether the part asks for a companion of this superelement: `second_order`, or its arrays stay below 20 MB. Throws
+/// Error if it asks for more coordinates than companion files hold.
+bool wants_companion(const formats::Part& part, const formats::Superelement& element);
+
+/// What the user should know of it: notes on a companion that was left out, warnings of ties without second order.
+void describe_companion(const Mesh& mesh, const formats::Part& part, const formats::Superelement& element,
+                        ModelCertificate& model);
+
+/// H, C, E, N, T, S0, S1 by one pass over the masses of the elements, twelve solutions with the factor of S_II, and one
+/// pass over the stresses of n + 12 displacements. Copies of all displacements (coordinates of the mesh x (n + 12)) and
+/// blocks of elements are held. `element`: the reduced part, rows boundary first; `weights`: one per boundary node.
+formats::Companion make_companion(const InternalProblem& problem, const BoundaryModes& boundary,
+                                  const InternalModes& internal, const formats::Superelement& element,
+                                  const Eigen::VectorXd& weights);
+
+/// The default weights of mechanisms.
+Eigen::VectorXd default_weights(const formats::Superelement& element);
+
+}  // namespace tisserand::reducer

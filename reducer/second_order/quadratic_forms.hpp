@@ -1,0 +1,54 @@
+// Σ σ(w_j) Q(Φ_k, Φ_l) over all points of the part: from stresses and gradients of batches of elements to matrices over
+// the reduced coordinates.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reducer/elements/second_order.hpp"
+
+namespace tisserand::reducer {
+
+/// Elements of one layout. Row s · count + e belongs to stress (gradient) s of element e.
+struct StrainBatch {
+  std::vector<StrainSection> sections;
+  int count = 0;
+  Eigen::MatrixXd stress;    ///< of the displacements w: one column each
+  Eigen::MatrixXd gradient;  ///< of the coordinates' displacements Φ: one column each
+};
+
+/// Rows of stress and of gradients of one element.
+int stress_rows(const std::vector<StrainSection>& sections);
+int gradient_rows(const std::vector<StrainSection>& sections);
+
+/// Accumulates Φᵀ K_G[w_j] Φ for all w_j: per batch one matrix product (stresses of w)ᵀ (E2 of pairs Φ_k, Φ_l), about
+/// 2 · stresses · (number of w) · n²/2 operations. Columns are cut into fixed pieces, so that sums are the same for any
+/// number of threads.
+class QuadraticForms {
+ public:
+  QuadraticForms(int coordinates, int displacements, int threads);
+
+  void add(const StrainBatch& batch);
+
+  /// Φᵀ K_G[w_j] Φ, n x n, symmetric.
+  Eigen::MatrixXd matrix(int displacement) const;
+
+ private:
+  /// Pairs k, l ≥ k of some k: columns from `column` on.
+  struct Piece {
+    int first = 0;
+    int end = 0;
+    Eigen::Index column = 0;
+    Eigen::Index width = 0;
+  };
+  void add(const StrainBatch& batch, const Piece& piece, Eigen::MatrixXd& forms);
+
+  int n_ = 0;
+  int threads_ = 1;
+  std::vector<Piece> pieces_;
+  std::vector<Eigen::MatrixXd> forms_;  ///< per thread: E2 of the pairs of a piece
+  Eigen::MatrixXd sum_;                 ///< displacements x pairs
+};
+
+}  // namespace tisserand::reducer

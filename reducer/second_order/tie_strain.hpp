@@ -1,0 +1,48 @@
+// Second order of ties: rigid arms and averages that turn, worked on by the forces that the ties transmit.
+//
+// Ties are equations c(x) = 0. Of the displacements w under the loads g they transmit forces λ, S w + Cᵀ λ = g with the
+// matrices of the mesh, and V3 gains λ · c₂(d, d) with the second order c₂ of the equations:
+// - a rigid arm r: with the displacement u and rotation ψ of a node that follows θ of its reference,
+//   c₂ = −θ × (u − u_ref − ½ θ × r) and −½ θ × (ψ − θ) in the directions that are tied (axes turn with the reference);
+// - a weighted mean (RBE3): the rotation of the reference is the one that fits the nodes best, also at second order:
+//   with the centroid c of the nodes, arms r_i from it, v_i their displacements from its own, J = Σ w (r² 1 − r rᵀ) and
+//   W = Σ w r rᵀ (both with rotations that are averaged: J + Σ w L² 1),
+//   J ψ₂ = (Y ᵀ − tr Y) ψ + ½ ψ × W ψ + ½ Σ w L² ψ × θ_i, Y = Σ w v rᵀ;  u₂ = ψ₂ × r₀ + ½ ψ × (ψ × r₀).
+// Without them offsets and spiders would not be invariant when the part turns. Equations that a mesh gives by
+// coefficients alone have no second order: what they mean for finite motions is not known.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "reducer/second_order/quadratic_forms.hpp"
+#include "reducer/system/system.hpp"
+#include "reducer/ties/elimination.hpp"
+
+namespace tisserand::reducer {
+
+/// Ties of a mesh with their equations, and the coordinates that these make dependent.
+struct TieForces {
+  TieSystem ties;
+  std::vector<int> equation;   ///< those that are not redundant
+  std::vector<int> dependent;  ///< coordinates x, as many
+  std::vector<int> row_of;     ///< per x: its row in `dependent`, −1: none
+
+  bool empty() const { return equation.empty(); }
+};
+
+TieForces find_tie_forces(const Mesh& mesh, const System& system, const std::string& where);
+
+/// λ of every equation (rows; redundant ones zero) for residuals g − S w at the dependent coordinates (rows of
+/// TieForces::dependent): C_Dᵀ λ = g − S w.
+Eigen::MatrixXd multipliers(const TieForces& forces, const Eigen::MatrixXd& residual);
+
+/// Stresses and gradients of all spiders. `lambda`: multipliers(); `Phi`: displacements of all x for the coordinates.
+std::vector<StrainBatch> tie_batches(const Mesh& mesh, const System& system, const TieForces& forces,
+                                     const Eigen::MatrixXd& lambda, const Eigen::MatrixXd& Phi);
+
+/// Names of ties that have no second order: equations, and spiders that average some directions only.
+std::vector<std::string> without_second_order(const Mesh& mesh);
+
+}  // namespace tisserand::reducer

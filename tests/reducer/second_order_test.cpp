@@ -1,0 +1,340 @@
+// The companion of a part: known answers of two frames, laws of its arrays, ties, and loads of buckling in reduced
+// coordinates.
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <nlohmann/json.hpp>
+
+#include "formats/companion/operations.hpp"
+#include "reducer/elements/beam/beam.hpp"
+#include "reducer/elements/spring.hpp"
+#include "reducer/modes/project.hpp"
+#include "reducer/properties/laminate.hpp"
+#include "reducer/second_order/companion.hpp"
+#include "reducer/second_order/tie_strain.hpp"
+#include "tests/reducer/parts.hpp"
+#include "tests/support/bodies/superelement_known_answers.hpp"
+#include "tests/support/meshes/shell_grids.hpp"
+
+namespace tisserand::testing::second_order_test {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using formats::Companion;
+using formats::Superelement;
+
+struct Body {
+  Superelement element;
+  Companion companion;
+};
+
+/// As reduce() does, at given weights (none: the default ones).
+Body reduce_at(const reducer::Mesh& mesh, int modes, const VectorXd& weights) {
+  start_solvers();
+  formats::Part part;
+  part.name = "body";
+  part.modes.count = modes;
+  const reducer::System system = reducer::build_system(mesh, "test");
+  const reducer::Partition coordinates = reducer::partition(mesh, system);
+  const reducer::Blocks blocks = reducer::split(system.matrices, coordinates);
+  const reducer::Factor S_II = coordinates.n_I() > 0 ? reducer::Factor(blocks.S_II) : reducer::Factor();
+  const reducer::BoundaryModes boundary = reducer::boundary_modes(S_II, blocks, system, coordinates);
+  const reducer::InternalProblem problem{mesh, system, coordinates, blocks, S_II, "test"};
+  const reducer::InternalModes internal = reducer::internal_modes(problem, part.modes);
+  Body body{reducer::project(part, problem, boundary, internal).superelement, {}};
+  body.element.content_id = formats::content_id(body.element);
+  body.companion = reducer::make_companion(problem, boundary, internal, body.element,
+                                           weights.size() > 0 ? weights : reducer::default_weights(body.element));
+  formats::check(body.companion, body.element, "body");
+  return body;
+}
+
+void add_node(reducer::Mesh& mesh, const Vector3d& position) {
+  mesh.position.conservativeResize(3, mesh.position.cols() + 1);
+  mesh.position.rightCols<1>() = position;
+  mesh.node_label.push_back("node " + std::to_string(mesh.nodes()));
+}
+
+void add_beam(reducer::Mesh& mesh, int first, int second, const Vector3d& orientation) {
+  reducer::BeamElement beam;
+  beam.first = first;
+  beam.second = second;
+  beam.R_PE = *reducer::beam_axes(mesh.position.col(second) - mesh.position.col(first), orientation);
+  mesh.beams.push_back(beam);
+}
+
+nlohmann::json known_answers() {
+  std::ifstream file(std::string(TISSERAND_REFERENCES) + "/second_order_known_answers.json");
+  return nlohmann::json::parse(file);
+}
+
+/// The section of all known answers: E = G = 1 and ρ = 1e-4, so that second moments are EI and give the rotary
+/// inertias; the mass per length is corrected from ρ EA = 2 to 1.
+reducer::BeamElementData known_section(const nlohmann::json& section) {
+  reducer::BeamElementData data;
+  data.material = {"m", 1.0, -0.5, 1e-4, ""};
+  data.section.area = section["EA"];
+  data.section.second_moment_y = section["EI2"];
+  data.section.second_moment_z = section["EI3"];
+  data.section.torsion_constant = section["GJ"];
+  data.section.shear_area_y = data.section.shear_area_z = section["GA"];
+  data.added_mass.first = data.added_mass.second = section["rA"].get<double>() - 1e-4 * data.section.area;
+  data.added_mass.inertia = section["rJ"];
+  return data;
+}
+
+/// e₃ = e₁ × (z × e₁), y instead of z along z; the section's y axis is e₂ = e₃ × e₁.
+Vector3d known_orientation(const Vector3d& along) {
+  const Vector3d e1 = along.normalized();
+  const Vector3d helper = std::abs(e1.z()) > 0.9 ? Vector3d::UnitY() : Vector3d::UnitZ();
+  return e1.cross(helper.cross(e1)).cross(e1);
+}
+
+reducer::Mesh known_mesh(const nlohmann::json& entry, const nlohmann::json& section) {
+  reducer::Mesh mesh;
+  mesh.beam_properties = {{known_section(section), "beam"}};
+  const MatrixXd X = test_support::to_matrix(entry["fe"]["X"]);
+  for (Index i = 0; i < X.rows(); ++i) add_node(mesh, X.row(i).transpose());
+  for (int i = 0; i + 1 < mesh.nodes(); ++i)
+    add_beam(mesh, i, i + 1, known_orientation(mesh.position.col(i + 1) - mesh.position.col(i)));
+  for (const int node : entry["boundary"]) mesh.boundary.push_back({"n" + std::to_string(node), node, true, true});
+  return mesh;
+}
+
+/// Matrix i of a sparse array [indices ..., value].
+MatrixXd known_matrix(const nlohmann::json& array, int i, bool symmetric) {
+  const auto& shape = array["shape"];
+  const bool stack = shape.size() == 3;
+  MatrixXd A = MatrixXd::Zero(shape[shape.size() - 2].get<Index>(), shape[shape.size() - 1].get<Index>());
+  for (const auto& entry : array["entries"]) {
+    if (stack && entry[0].get<int>() != i) continue;
+    const auto k = entry[stack ? 1 : 0].get<Index>(), l = entry[stack ? 2 : 1].get<Index>();
+    A(k, l) = entry[stack ? 3 : 2].get<double>();
+    if (symmetric) A(l, k) = A(k, l);
+  }
+  return A;
+}
+
+void expect_known(const MatrixXd& found, const MatrixXd& known, double size, const std::string& what) {
+  Index row = 0, column = 0;
+  EXPECT_LE((found - known).cwiseAbs().maxCoeff(&row, &column), 1e-11 * size)
+      << what << "(" << row << ", " << column << ") is " << found(row, column) << ", known " << known(row, column);
+}
+
+/// All arrays of a known answer; the signs of internal modes are turned to those of the answer.
+void expect_known_answer(const std::string& name) {
+  const nlohmann::json answers = known_answers(), entry = answers[name];
+  Body body = reduce_at(known_mesh(entry, answers["element"]["section"]), entry["modes"].get<int>(),
+                        test_support::to_vector(entry["alpha"]));
+  const MatrixXd M = known_matrix(entry["Mbar"], 0, true), S = known_matrix(entry["Sbar"], 0, true);
+  const Index n = M.rows(), modes = entry["modes"].get<Index>();
+  MatrixXd sign = MatrixXd::Identity(n, n);
+  for (Index k = n - modes; k < n; ++k)
+    if (M.row(k).head(n - modes).dot(body.element.mass.row(k).head(n - modes)) < 0.0) sign(k, k) = -1.0;
+  expect_known(sign * body.element.mass * sign, M, M.cwiseAbs().maxCoeff(), "Mbar");
+  expect_known(sign * body.element.stiffness * sign, S, S.cwiseAbs().maxCoeff(), "Sbar");
+  Companion& c = body.companion;
+  formats::galilean_step(c, body.element.mass, formats::rigid_motions(body.element, c.reference_point));
+  formats::congruence(c, sign);
+  double size = 0.0;
+  for (Index j = 0; j < n; ++j)
+    size = std::max(size, known_matrix(entry["H"], static_cast<int>(j), true).cwiseAbs().maxCoeff());
+  for (Index j = 0; j < n; ++j) expect_known(c.H[j], known_matrix(entry["H"], static_cast<int>(j), true), size, "H");
+  for (int k = 0; k < 3; ++k) expect_known(c.C[k], known_matrix(entry["C"], k, false), 10.0, "C");
+  for (int i = 0; i < 6; ++i) {
+    expect_known(c.E[i], known_matrix(entry["E"], i, true), 10.0, "E");
+    expect_known(c.N[i], known_matrix(entry["N"], i, true), 10.0, "N");
+    expect_known(c.T[i], known_matrix(entry["T"], i, true), 10.0, "T");
+  }
+  expect_known(c.S0, test_support::to_vector(entry["S0"]), 10.0, "S0");
+  EXPECT_NEAR(c.mass, entry["mass"].get<double>(), 1e-11);
+}
+
+// Computed by an independent prototype whose equations agree with Lagrange's by complex step to 2e-14.
+TEST(SecondOrderReduction, BeamHasTheKnownAnswer) { expect_known_answer("beam2"); }
+TEST(SecondOrderReduction, FrameHasTheKnownAnswer) { expect_known_answer("lframe3"); }
+
+/// A bent and curved part with every kind of tie: a rigid spider on an edge of shells (reference "base"), a mean over
+/// the opposite edge (reference "tip"), a beam with an offset to a bracket that is a rigid spider on a node of its
+/// own, a mass beside it, a spring. Masses are lumped, so that they move alike in all directions.
+reducer::Mesh tied_mesh(bool average_rotations) {
+  using namespace reducer;
+  const GridShape grid{4, 3, Facets::quadrilaterals, false};
+  const auto panel = [](double a, double b) { return Vector3d(2.0 * a, std::sin(1.2 * b), 1.0 - std::cos(1.2 * b)); };
+  Mesh mesh = shell_grid(grid, panel, isotropic_shell(2e5, 0.3, 1.0, 0.05, 5.0 / 6.0));
+  for (ShellProperty& property : mesh.shell_properties) property.mass_matrix = formats::MassMatrix::lumped;
+  Spider base, tip;
+  base.name = "base";
+  tip.name = "tip";
+  tip.kind = SpiderKind::averaging;
+  for (int j = 0; j <= grid.nb; ++j) {
+    base.nodes.push_back(grid_node(grid, 0, j));
+    tip.nodes.push_back(grid_node(grid, grid.na, j));
+    tip.weight.push_back(1.0 + 0.3 * j);
+  }
+  tip.node_components = average_rotations ? all_components : translations_only;
+  add_node(mesh, Vector3d(-0.3, 0.4, 0.1));
+  base.reference = mesh.nodes() - 1;
+  add_node(mesh, Vector3d(2.4, 0.1, 0.5));
+  tip.reference = mesh.nodes() - 1;
+  add_node(mesh, Vector3d(2.5, 1.1, 0.9));  // of the beam
+  add_node(mesh, Vector3d(2.7, 1.4, 0.6));  // follows it on a rigid arm
+  BeamElementData data;
+  data.material = {"m", 2e5, 0.3, 1.0, ""};
+  data.section.area = 0.01;
+  data.section.second_moment_y = 2e-5;
+  data.section.second_moment_z = 1e-5;
+  data.section.torsion_constant = 1.5e-5;
+  data.mass_matrix = formats::MassMatrix::lumped;
+  mesh.beam_properties = {{data, "beam"}};
+  BeamElement beam;
+  beam.first = tip.reference;
+  beam.second = tip.reference + 1;
+  beam.first_offset = Vector3d(0.05, 0.1, -0.1);
+  beam.R_PE =
+      *beam_axes(mesh.position.col(beam.second) - mesh.position.col(beam.first) - beam.first_offset, Vector3d::UnitX());
+  mesh.beam_properties[0].data.material.density = 0.0;  // its mass would stand on the offset
+  mesh.beams = {beam};
+  Spider bracket;
+  bracket.name = "bracket";
+  bracket.reference = beam.second;
+  bracket.nodes = {beam.second + 1};
+  mesh.spiders = {base, tip, bracket};
+  NodalMass mass;
+  mass.node = beam.second + 1;
+  mass.mass = 0.2;
+  mass.inertia = 0.01 * Matrix3d::Identity();
+  mass.offset = Vector3d(0.1, 0.2, -0.3);
+  mesh.masses = {mass};
+  Spring spring;
+  spring.first = beam.second + 1;
+  spring.second = grid_node(grid, 2, 3);
+  spring.stiffness = *axial_spring(30.0, mesh.position.col(spring.second) - mesh.position.col(spring.first));
+  mesh.springs = {spring};
+  mesh.boundary = {
+      {"base", base.reference, true, true}, {"tip", tip.reference, true, true}, {"end", beam.second, true, true}};
+  return mesh;
+}
+
+/// θ × u, ½ θ × ψ of the boundary coordinates.
+VectorXd turned(const Superelement& element, const Vector3d& theta, const VectorXd& y) {
+  VectorXd result(y.size());
+  for (Index row = 0; row < y.size(); row += 3)
+    result.segment<3>(row) = (element.dof_component[row] < 3 ? 1.0 : 0.5) * theta.cross(Vector3d(y.segment<3>(row)));
+  return result;
+}
+
+VectorXd some_coordinates(Index n, double phase) {
+  return VectorXd::NullaryExpr(n, [phase](Index i) { return std::sin(phase + 2.7 * static_cast<double>(i * i + 1)); });
+}
+
+MatrixXd stress_stiffness(const Companion& c, const VectorXd& w) {
+  MatrixXd K = MatrixXd::Zero(w.size(), w.size());
+  for (Index j = 0; j < w.size(); ++j) K += w[j] * c.H[j];
+  return K;
+}
+
+// Without internal modes the boundary carries all forces, so that a turn θ changes no energy at first order for the
+// stress of any w: (R θ)ᵀ H[w] y + (S w) · (θ × u, ½ θ × ψ) = 0. And the momentum of the turned part is the turned
+// momentum: S1 (θ × u, ½ θ × ψ) + (R θ)ᵀ N_a y = e_a · (θ × S1 y), which needs the inertia of what ties carry.
+TEST(SecondOrderReduction, TiedPartsTurnWithoutEnergy) {
+  const Vector3d theta(0.3, -0.7, 0.5);
+  for (const bool rotations : {false, true}) {
+    const Body body = reduce_at(tied_mesh(rotations), 0, {});
+    const Companion& c = body.companion;
+    const Index n = body.element.size();
+    const VectorXd w = some_coordinates(n, 0.2), y = some_coordinates(n, 1.4);
+    const MatrixXd R = formats::rigid_motions(body.element, c.reference_point);
+    const VectorXd turn = R.rightCols<3>() * theta, second = turned(body.element, theta, y),
+                   force = body.element.stiffness * w;
+    const double stressed = turn.dot(stress_stiffness(c, w) * y), linear = force.dot(second);
+    EXPECT_NEAR(stressed, -linear, 1e-9 * force.cwiseAbs().dot(second.cwiseAbs())) << rotations;
+    EXPECT_GT(std::abs(linear), 1e-4 * force.cwiseAbs().dot(second.cwiseAbs())) << rotations;
+    const Vector3d momentum = theta.cross(Vector3d(c.S1 * y));
+    for (int a = 0; a < 3; ++a)
+      EXPECT_NEAR(c.S1.row(a).dot(second) + turn.dot(c.N[a] * y), momentum[a], 1e-9 * momentum.norm())
+          << rotations << a;
+  }
+}
+
+// What it would be without the second order of ties: the test above can fail.
+TEST(SecondOrderReduction, EquationsInPlaceOfARigidSpiderAreNotInvariant) {
+  reducer::Mesh mesh = tied_mesh(false);
+  const reducer::Spider bracket = mesh.spiders.back();
+  mesh.spiders.pop_back();
+  const Vector3d r = mesh.position.col(bracket.nodes[0]) - mesh.position.col(bracket.reference);
+  for (int c = 0; c < 6; ++c) {
+    reducer::TieEquation equation;
+    equation.name = "arm";
+    equation.terms = {{bracket.nodes[0], c, 1.0}, {bracket.reference, c, -1.0}};
+    const Vector3d arm = r.cross(Vector3d(Vector3d::Unit(c % 3)));
+    for (int k = 0; k < 3 && c < 3; ++k)
+      if (arm[k] != 0.0) equation.terms.push_back({bracket.reference, 3 + k, -arm[k]});
+    mesh.equations.push_back(equation);
+  }
+  EXPECT_EQ(reducer::without_second_order(mesh).size(), 6u);
+  const Body body = reduce_at(mesh, 0, {}), spider = reduce_at(tied_mesh(false), 0, {});
+  EXPECT_LT((body.element.stiffness - spider.element.stiffness).cwiseAbs().maxCoeff(),
+            1e-9 * spider.element.stiffness.cwiseAbs().maxCoeff());
+  const Index n = body.element.size();
+  const VectorXd w = some_coordinates(n, 0.2);
+  EXPECT_GT((stress_stiffness(body.companion, w) - stress_stiffness(spider.companion, w)).cwiseAbs().maxCoeff(), 0.1);
+}
+
+/// A straight column along x of `elements` Euler-Bernoulli beams with the constants of the known answers "physics".
+reducer::Mesh column_mesh(int elements) {
+  reducer::Mesh mesh;
+  nlohmann::json section = known_answers()["element"]["section"];
+  section["EA"] = 1e6;
+  reducer::BeamElementData data = known_section(section);
+  data.theory = formats::BeamTheory::euler_bernoulli;
+  mesh.beam_properties = {{data, "beam"}};
+  for (int i = 0; i <= elements; ++i) add_node(mesh, Vector3d(10.0 * i / elements, 0.0, 0.0));
+  for (int i = 0; i < elements; ++i) add_beam(mesh, i, i + 1, Vector3d::UnitY());
+  mesh.boundary = {{"base", 0, true, true}, {"tip", elements, true, true}};
+  return mesh;
+}
+
+/// The lowest positive factor of the load f on the free rows: det(S + λ Σ y_j H_j) = 0, S y = f.
+double buckling_factor(const Body& body, const std::vector<int>& free, const VectorXd& load) {
+  const MatrixXd S = body.element.stiffness(free, free);
+  VectorXd y = VectorXd::Zero(body.element.size());
+  const VectorXd y_free = S.ldlt().solve(VectorXd(load(free)));
+  y(free) = y_free;
+  MatrixXd K_G = MatrixXd::Zero(body.element.size(), body.element.size());
+  for (Index j = 0; j < y.size(); ++j) K_G += y[j] * body.companion.H[j];
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(-K_G(free, free), S);
+  return 1.0 / eigen.eigenvalues()[static_cast<Index>(free.size()) - 1];
+}
+
+/// Rows that are not among `held`.
+std::vector<int> free_rows(const Body& body, const std::vector<int>& held) {
+  std::vector<int> free;
+  for (int row = 0; row < body.element.size(); ++row)
+    if (std::find(held.begin(), held.end(), row) == held.end()) free.push_back(row);
+  return free;
+}
+
+// Ratios to Euler's load π² EI/L² with m = 0 and m = 2 (one mode per plane): values of the prototype, five decimals,
+// whose tangent also has the shortening P/EA = 1e-5 of the column under the load, twice.
+TEST(SecondOrderReduction, PinnedColumnBucklesAtEulersLoad) {
+  const double euler = std::numbers::pi * std::numbers::pi;  // EI = 100, L = 10
+  for (const auto& [modes, ratio] : {std::pair{0, 1.21585}, {2, 1.00016}, {4, 1.00016}, {8, 1.00002}}) {
+    const Body body = reduce_at(column_mesh(40), modes, {});
+    VectorXd load = VectorXd::Zero(body.element.size());
+    load[6] = -1.0;
+    EXPECT_NEAR(buckling_factor(body, free_rows(body, {0, 1, 2, 3, 7, 8}), load) / euler, ratio, 2.5e-5) << modes;
+  }
+}
+
+}  // namespace
+}  // namespace tisserand::testing::second_order_test
