@@ -11,7 +11,7 @@ SuperelementOptions options_of(const formats::SuperelementBodySpec& spec, const 
   SuperelementOptions options;
   options.frame = spec.frame;
   options.frame_node = spec.frame_node;
-  options.inertia = spec.inertia;
+  options.inertia = spec.inertia.value_or(formats::InertiaOption::B);
   options.modes = spec.modes;
   options.cutoff = spec.cutoff;
   options.position_weights = spec.position_weights;
