@@ -136,6 +136,9 @@ void write_dataset(Id file, const std::string& dataset, const Shape& shape, cons
                    const std::string& where);
 void write_dataset(Id file, const std::string& dataset, const Shape& shape, const std::int32_t* values,
                    const std::string& where);
+/// Shuffled and deflated as well, with checksums: for large arrays with many zeros.
+void write_compressed_dataset(Id file, const std::string& dataset, const Shape& shape, const double* values,
+                              const std::string& where);
 /// Fixed-length, zero-padded strings (longest value decides), shape [values.size()].
 void write_texts(Id file, const std::string& dataset, const std::vector<std::string>& values, const std::string& where);
 /// One scalar string; replaces an existing one.

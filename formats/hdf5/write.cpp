@@ -16,6 +16,7 @@ constexpr const char* remedy = "choose another place for the file";
 constexpr std::uint64_t compact_bytes = 4096;         // of datasets whose values stand in their header
 constexpr std::uint64_t compact_text_bytes = 60'000;  // of one string; HDF5 allows 64 KiB of a header's message
 constexpr std::uint64_t chunk_bytes = 256u << 10;     // roughly; fits the cache of a dataset
+constexpr unsigned deflate_level = 4;                 // higher ones take longer for hardly less
 
 /// Zero-padded UTF-8 of `size` bytes.
 Handle text_type(std::size_t size) {
@@ -38,9 +39,11 @@ void write_attribute(Id file, const std::string& object, const std::string& name
     throw last_error(fmt::format("cannot write attribute '{}' of {}", name, object), where, remedy);
 }
 
+enum class Packing { none, deflate };
+
 /// How values are stored so that damaged ones cannot be read as others: a few in the dataset's header, whose checksum
 /// HDF5 keeps, others in chunks with Fletcher's. A scalar cannot be in chunks: a longer text bears none.
-void set_checked_storage(Id creation, Id space, Id file_type) {
+void set_checked_storage(Id creation, Id space, Id file_type, Packing packing) {
   const int rank = H5Sget_simple_extent_ndims(space);
   const auto count = static_cast<std::uint64_t>(H5Sget_simple_extent_npoints(space));
   const std::uint64_t bytes = count * H5Tget_size(file_type);
@@ -55,6 +58,10 @@ void set_checked_storage(Id creation, Id space, Id file_type) {
   const hsize_t chunks = std::clamp<hsize_t>(bytes / chunk_bytes, 1, chunk[0]);
   chunk[0] = (chunk[0] + chunks - 1) / chunks;
   H5Pset_chunk(creation, rank, chunk.data());
+  if (packing == Packing::deflate) {
+    H5Pset_shuffle(creation);
+    H5Pset_deflate(creation, deflate_level);
+  }
   H5Pset_fletcher32(creation);
 }
 
@@ -71,10 +78,10 @@ void create_groups(Id file, const std::string& dataset) {
 
 /// Creates and writes; no times are stored, so that equal contents give equal bytes.
 void write_values(Id file, const std::string& dataset, Id space, Id file_type, Id memory_type, const void* values,
-                  const std::string& where) {
+                  const std::string& where, Packing packing = Packing::none) {
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.id(), false);
-  set_checked_storage(creation.id(), space, file_type);
+  set_checked_storage(creation.id(), space, file_type, packing);
   create_groups(file, dataset);
   const Handle handle(H5Dcreate2(file, dataset.c_str(), file_type, space, H5P_DEFAULT, creation.id(), H5P_DEFAULT),
                       H5Dclose);
@@ -121,6 +128,12 @@ void write_integer_attribute(Id file, const std::string& object, const std::stri
 void write_dataset(Id file, const std::string& dataset, const Shape& shape, const double* values,
                    const std::string& where) {
   write_values(file, dataset, simple_space(shape).id(), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values, where);
+}
+
+void write_compressed_dataset(Id file, const std::string& dataset, const Shape& shape, const double* values,
+                              const std::string& where) {
+  write_values(file, dataset, simple_space(shape).id(), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, values, where,
+               Packing::deflate);
 }
 
 void write_dataset(Id file, const std::string& dataset, const Shape& shape, const std::int32_t* values,

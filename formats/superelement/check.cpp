@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "formats/hdf5/head.hpp"
+#include "formats/superelement/names.hpp"
 #include "formats/superelement/scaling.hpp"
 
 namespace tisserand::formats {
@@ -29,13 +30,6 @@ struct Place {
   const std::string& file;
   std::string dataset(const std::string& name) const { return file.empty() ? name : file + ": " + name; }
 };
-
-bool valid_name(const std::string& name) {
-  if (name.empty() || name.size() > 255) return false;
-  const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-  const auto digit = [](char c) { return (c >= '0' && c <= '9') || c == '-'; };
-  return letter(name[0]) && std::all_of(name.begin(), name.end(), [&](char c) { return letter(c) || digit(c); });
-}
 
 void check_sizes(const Superelement& e, const Place& place) {
   const Eigen::Index n = e.size(), nodes = static_cast<Eigen::Index>(e.node_name.size());

@@ -9,7 +9,7 @@
 
 #include "common/error.hpp"
 #include "formats/superelement/canonical.hpp"
-#include "mechanism/bodies/superelement/weights.hpp"
+#include "formats/superelement/weights.hpp"
 
 namespace tisserand::mechanism {
 
@@ -158,7 +158,7 @@ Eigen::VectorXd choose_weights(const std::vector<int>& members, const std::vecto
     return alpha / sum;
   }
   const Eigen::Matrix3Xd points = position(Eigen::all, members);
-  const Weights weights = frame_weights(points, center);
+  const formats::Weights weights = formats::frame_weights(points, center);
   if (weights.flat)
     body.notes.push_back(
         fmt::format("the nodes of '{}' lie nearly in one plane or on one line: the {} weights put the frame there, "

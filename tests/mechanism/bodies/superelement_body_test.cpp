@@ -9,15 +9,17 @@
 #include <Eigen/QR>
 
 #include "common/error.hpp"
-#include "mechanism/bodies/superelement/weights.hpp"
+#include "formats/superelement/weights.hpp"
 #include "tests/support/bodies/reduced_frames.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"
 
 namespace tisserand::mechanism::superelement_body_test {
 namespace {
 
+using formats::frame_weights;
 using formats::FrameKind;
 using formats::InertiaOption;
+using formats::Weights;
 using test_support::BodyState;
 using test_support::relative_difference;
 

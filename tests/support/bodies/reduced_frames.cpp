@@ -12,24 +12,46 @@
 
 namespace tisserand::test_support {
 
+namespace {
+
+bool is_kept(Keep keep, int component) {
+  return keep == Keep::all || keep == (component < 3 ? Keep::translations : Keep::rotations);
+}
+
+}  // namespace
+
+Eigen::MatrixXd craig_bampton_basis(const FullModel& model, const std::vector<Keep>& keep, int modes) {
+  std::vector<int> boundary, internal;
+  for (int node = 0; node < static_cast<int>(keep.size()); ++node)
+    for (int c = 0; c < model.components; ++c)
+      (is_kept(keep[node], c) ? boundary : internal).push_back(model.components * node + c);
+  const auto nb = static_cast<Eigen::Index>(boundary.size());
+  Eigen::MatrixXd Phi = Eigen::MatrixXd::Zero(model.S.rows(), nb + modes);
+  Phi(boundary, Eigen::seqN(0, nb)).setIdentity();
+  if (internal.empty()) return Phi;
+  const Eigen::MatrixXd S_II = model.S(internal, internal), M_II = model.M(internal, internal);
+  const Eigen::MatrixXd S_IB = model.S(internal, boundary);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(S_II, M_II);
+  Phi(internal, Eigen::seqN(0, nb)) = -S_II.ldlt().solve(S_IB);
+  Phi(internal, Eigen::seqN(nb, modes)) = eigen.eigenvectors().leftCols(modes);
+  return Phi;
+}
+
 formats::Superelement craig_bampton(const FullModel& model, const std::vector<Keep>& keep, int modes) {
   formats::Superelement e;
   e.name = "frame";
   e.method = "craig_bampton";
   e.units = Units::si();
-  std::vector<int> boundary, internal, boundary_nodes;
+  std::vector<int> boundary_nodes;
   for (int node = 0; node < static_cast<int>(keep.size()); ++node) {
     const Keep k = keep[node];
     if (k != Keep::nothing) boundary_nodes.push_back(node);
     for (int c = 0; c < model.components; ++c) {
-      const bool kept = k == Keep::all || (k == Keep::translations && c < 3) || (k == Keep::rotations && c >= 3);
-      (kept ? boundary : internal).push_back(model.components * node + c);
-      if (!kept) continue;
+      if (!is_kept(k, c)) continue;
       e.dof_node.push_back(static_cast<int>(boundary_nodes.size()) - 1);
       e.dof_component.push_back(c);
     }
   }
-  const auto nb = static_cast<Eigen::Index>(boundary.size()), ni = static_cast<Eigen::Index>(internal.size());
   e.node_position = model.position(boundary_nodes, Eigen::all);
   for (std::size_t i = 0; i < boundary_nodes.size(); ++i)
     e.node_name.push_back("n" + std::to_string(boundary_nodes[i]));
@@ -37,19 +59,9 @@ formats::Superelement craig_bampton(const FullModel& model, const std::vector<Ke
     e.dof_node.push_back(-1);
     e.dof_component.push_back(k);
   }
-  std::vector<int> order = boundary;
-  order.insert(order.end(), internal.begin(), internal.end());
-  const Eigen::MatrixXd S = model.S(order, order), M = model.M(order, order);
-  const Eigen::MatrixXd S_II = S.bottomRightCorner(ni, ni), M_II = M.bottomRightCorner(ni, ni);
-  Eigen::MatrixXd Phi = Eigen::MatrixXd::Zero(nb + ni, nb + modes);
-  Phi.topLeftCorner(nb, nb).setIdentity();
-  if (ni > 0) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(S_II, M_II);
-    Phi.bottomLeftCorner(ni, nb) = -S_II.ldlt().solve(S.bottomLeftCorner(ni, nb));
-    Phi.bottomRightCorner(ni, modes) = eigen.eigenvectors().leftCols(modes);
-  }
-  e.stiffness = Phi.transpose() * S * Phi;
-  e.mass = Phi.transpose() * M * Phi;
+  const Eigen::MatrixXd Phi = craig_bampton_basis(model, keep, modes);
+  e.stiffness = Phi.transpose() * model.S * Phi;
+  e.mass = Phi.transpose() * model.M * Phi;
   e.stiffness = (0.5 * (e.stiffness + e.stiffness.transpose())).eval();
   e.mass = (0.5 * (e.mass + e.mass.transpose())).eval();
   return e;

@@ -21,6 +21,9 @@ struct FullModel {
 /// Which coordinates of a node stay on the boundary.
 enum class Keep { nothing, translations, rotations, all };
 
+/// Displacements of all coordinates of the model for each coordinate of craig_bampton(): its columns.
+Eigen::MatrixXd craig_bampton_basis(const FullModel& model, const std::vector<Keep>& keep, int modes);
+
 /// Craig-Bampton with `modes` fixed-boundary modes; keep has one entry per node of the model.
 formats::Superelement craig_bampton(const FullModel& model, const std::vector<Keep>& keep, int modes);
 

@@ -1,9 +1,9 @@
-// Weights alpha of the floating frame, used when a superelement body is built.
+// Weights alpha of the floating frame: of superelement bodies, and of the companions that are written for them.
 #pragma once
 
 #include <Eigen/Core>
 
-namespace tisserand::mechanism {
+namespace tisserand::formats {
 
 /// Weights of a set of points, Σ = 1.
 struct Weights {
@@ -19,4 +19,4 @@ struct Weights {
 /// is given up (singular values below 0.05 relative) and `flat` is set.
 Weights frame_weights(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& center);
 
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::formats

@@ -1,9 +1,9 @@
 // Least-norm affine weights by a truncated singular value decomposition.
-#include "mechanism/bodies/superelement/weights.hpp"
+#include "formats/superelement/weights.hpp"
 
 #include <Eigen/SVD>
 
-namespace tisserand::mechanism {
+namespace tisserand::formats {
 
 namespace {
 
@@ -41,4 +41,4 @@ Weights frame_weights(const Eigen::Matrix3Xd& points, const Eigen::Vector3d& cen
   return weights;
 }
 
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::formats

@@ -1,0 +1,244 @@
+// check(): everything that COMPANION.md demands of the contents of a companion, in the order of that page.
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "formats/companion/companion.hpp"
+#include "formats/hdf5/head.hpp"
+#include "formats/superelement/names.hpp"
+#include "formats/superelement/scaling.hpp"
+
+namespace tisserand::formats {
+namespace {
+
+constexpr double symmetry_accepted = 1e-9;  // of scaled entries, as of S̄ and M̄
+constexpr double rigid_accepted = 1e-8;     // stress of rigid motions: round-off of a stress of the size E
+constexpr double gram_accepted = 1e-9;      // of scaled eigenvalues
+constexpr double integral_accepted = 1e-6;  // of mass, S0, S1 against M̄, as of the rigid mass of superelements
+constexpr double weight_accepted = 1e-9;    // of sums of weights
+constexpr double largest_usable = 1e100;    // products of three such values stay finite
+constexpr const char* other_program = "let the program that made the superelement write the companion again";
+
+/// One companion under check, with what its messages and its scales need.
+struct Inspection {
+  const Companion& companion;
+  const Superelement& superelement;
+  const std::string& file;
+  ScaledMatrices scales;
+  Eigen::VectorXd mass_row;   ///< 1/l for rotations, internal coordinates as of M̄
+  Eigen::VectorXd force_row;  ///< the same of S̄
+
+  std::string dataset(const std::string& name) const { return file.empty() ? name : file + ": " + name; }
+  Eigen::Index size() const { return superelement.size(); }
+};
+
+[[noreturn]] void fail_size(const Inspection& at, const std::string& dataset, Eigen::Index rows, Eigen::Index columns,
+                            const std::string& expected) {
+  throw Error(fmt::format("has {} x {} numbers, expected {} (superelement '{}' has {} coordinates)", rows, columns,
+                          expected, printable_line(at.superelement.name, 60), at.size()),
+              at.dataset(dataset), other_program);
+}
+
+void check_owner(const Inspection& at) {
+  const std::string &quoted = at.companion.content_id, &own = at.superelement.content_id;
+  if (quoted != own)
+    throw Error(fmt::format("belongs to the superelement {}..., not to '{}' with {}...", printable_line(quoted, 12),
+                            printable_line(at.superelement.name, 60), own.substr(0, 12)),
+                at.dataset("attribute 'superelement'"),
+                "give the companion that was written with this superelement file, or reduce the part again");
+  const Units &a = at.companion.units, &b = at.superelement.units;
+  if (a.length.factor != b.length.factor || a.mass.factor != b.mass.factor || a.time.factor != b.time.factor)
+    throw Error(
+        fmt::format("units are {:g} m, {:g} kg, {:g} s, but those of the superelement {:g} m, {:g} kg, {:g} s",
+                    a.length.factor, a.mass.factor, a.time.factor, b.length.factor, b.mass.factor, b.time.factor),
+        at.dataset("attribute 'length_unit'"), "write both files in the same units");
+}
+
+void check_square(const Inspection& at, const std::string& dataset, const Eigen::MatrixXd& matrix) {
+  const Eigen::Index n = at.size();
+  if (matrix.rows() != n || matrix.cols() != n)
+    fail_size(at, dataset, matrix.rows(), matrix.cols(), fmt::format("{0} x {0}", n));
+  for (Eigen::Index l = 0; l < n; ++l)
+    for (Eigen::Index k = 0; k < n; ++k)
+      if (!(std::abs(matrix(k, l)) < largest_usable))
+        throw Error(fmt::format("[{}, {}] = {} is not a usable number: {}, column of {}", k, l, matrix(k, l),
+                                row_text(at.superelement, k), row_text(at.superelement, l)),
+                    at.dataset(dataset), "write finite numbers");
+}
+
+void check_symmetric(const Inspection& at, const std::string& dataset, const Eigen::MatrixXd& matrix,
+                     const Eigen::VectorXd& row) {
+  check_square(at, dataset, matrix);
+  const Eigen::MatrixXd scaled = row.asDiagonal() * matrix * row.asDiagonal();
+  Eigen::Index k = 0, l = 0;
+  if ((scaled - scaled.transpose()).cwiseAbs().maxCoeff(&k, &l) <= symmetry_accepted * scaled.cwiseAbs().maxCoeff())
+    return;
+  throw Error(fmt::format("is not symmetric: [{}, {}] = {}, but [{}, {}] = {}; {} and {}", k, l, matrix(k, l), l, k,
+                          matrix(l, k), row_text(at.superelement, k), row_text(at.superelement, l)),
+              at.dataset(dataset), other_program);
+}
+
+/// α of nodes with translations, sum 1, and the point that they give.
+void check_weights(const Inspection& at) {
+  const Companion& c = at.companion;
+  const Superelement& element = at.superelement;
+  if (c.weights.size() != element.node_position.rows())
+    fail_size(at, "/frame/weights", c.weights.size(), 1,
+              fmt::format("{} boundary nodes", element.node_position.rows()));
+  std::vector<bool> translates(element.node_name.size(), false);
+  for (Eigen::Index row = 0; row < element.size(); ++row)
+    if (element.dof_node[row] >= 0 && element.dof_component[row] < 3) translates[element.dof_node[row]] = true;
+  for (Eigen::Index i = 0; i < c.weights.size(); ++i)
+    if (!(std::abs(c.weights[i]) < largest_usable) || (!translates[i] && c.weights[i] != 0.0))
+      throw Error(fmt::format("[{}] = {}: node '{}' {}", i, c.weights[i], element.node_name[i],
+                              translates[i] ? "needs a finite weight" : "has no translations to be weighted"),
+                  at.dataset("/frame/weights"), "write finite weights, and 0 for nodes without translations");
+  if (!(std::abs(c.weights.sum() - 1.0) <= weight_accepted))
+    throw Error(fmt::format("the weights have the sum {}, expected 1", c.weights.sum()), at.dataset("/frame/weights"),
+                "divide them by their sum");
+  const Eigen::Vector3d mean = element.node_position.transpose() * c.weights;
+  const double size = at.scales.length * (1.0 + c.weights.cwiseAbs().sum()) + mean.norm();
+  if (!((mean - c.reference_point).cwiseAbs().maxCoeff() <= weight_accepted * size))
+    throw Error(fmt::format("is ({}, {}, {}), but the weighted mean of the nodes is ({}, {}, {})", c.reference_point[0],
+                            c.reference_point[1], c.reference_point[2], mean[0], mean[1], mean[2]),
+                at.dataset("/frame/reference_point"), "write the weighted mean of the positions of the nodes");
+}
+
+/// mass, S0 and S1 are those of M̄: R_Tᵀ M̄ R.
+void check_integrals(const Inspection& at) {
+  const Companion& c = at.companion;
+  const RigidProperties rigid = rigid_properties(at.superelement);
+  const auto fail = [&](const char* dataset, const std::string& what) {
+    throw Error(what + ", as /mass of the superelement has it", at.dataset(dataset), other_program);
+  };
+  if (!(std::abs(c.mass - rigid.mass) <= integral_accepted * rigid.mass))
+    fail("/mass", fmt::format("is {}, expected {}", c.mass, rigid.mass));
+  const Eigen::Vector3d arm = rigid.center_of_mass - c.reference_point;
+  const double moment = integral_accepted * rigid.mass * (at.scales.length + arm.norm());
+  for (int k = 0; k < 3; ++k)
+    if (!(std::abs(c.S0[k] - rigid.mass * arm[k]) <= moment))
+      fail("/S0", fmt::format("[{}] is {}, expected {}", k, c.S0[k], rigid.mass * arm[k]));
+  if (c.S1.cols() != at.size()) fail_size(at, "/S1", 3, c.S1.cols(), fmt::format("3 x {}", at.size()));
+  const Eigen::MatrixXd R = rigid_motions(at.superelement, c.reference_point);
+  const Eigen::MatrixXd momentum = R.leftCols<3>().transpose() * at.superelement.mass;
+  const double scale = (momentum * at.mass_row.asDiagonal()).cwiseAbs().maxCoeff();
+  for (Eigen::Index l = 0; l < at.size(); ++l)
+    for (int k = 0; k < 3; ++k)
+      if (!(std::abs(c.S1(k, l) - momentum(k, l)) * at.mass_row[l] <= integral_accepted * scale))
+        fail("/S1", fmt::format("[{}, {}] is {}, expected {} ({})", k, l, c.S1(k, l), momentum(k, l),
+                                row_text(at.superelement, l)));
+}
+
+/// H R = Σ_j R_ja H_j = 0: rigid motions have no stress.
+void check_rigid_stress(const Inspection& at) {
+  static constexpr const char* motions[] = {"moving in x",     "moving in y",     "moving in z",
+                                            "turning about x", "turning about y", "turning about z"};
+  const Eigen::MatrixXd R = scaled_rigid_motions(at.superelement, at.force_row, at.scales.length);
+  std::array<Eigen::MatrixXd, 6> sum;
+  sum.fill(Eigen::MatrixXd::Zero(at.size(), at.size()));
+  double largest = 0.0;
+  for (Eigen::Index j = 0; j < at.size(); ++j) {
+    const Eigen::MatrixXd scaled =
+        at.force_row[j] * (at.force_row.asDiagonal() * at.companion.H[j] * at.force_row.asDiagonal());
+    largest = std::max(largest, scaled.cwiseAbs().maxCoeff());
+    for (int a = 0; a < 6; ++a)
+      if (R(j, a) != 0.0) sum[a] += R(j, a) * scaled;
+  }
+  for (int a = 0; a < 6; ++a) {
+    const double residual = sum[a].cwiseAbs().maxCoeff();
+    if (residual <= rigid_accepted * largest) continue;
+    throw Error(fmt::format("a rigid motion has stress: {} gives {:.3e} of the largest entry (at most {:g})",
+                            motions[a], residual / largest, rigid_accepted),
+                at.dataset("/H"), other_program);
+  }
+}
+
+/// [M̄ Ω_k C_k; . Ω_j Ω_k E_jk] is the Gram matrix of the velocities Φ ẏ + Ω × Φ y: positive semidefinite for every Ω.
+/// E holds the part of its pairs that is symmetric in jk, so Ω is one of 13 directions: axes and diagonals of a cube.
+void check_gram(const Inspection& at) {
+  const Companion& c = at.companion;
+  const Eigen::Index n = at.size();
+  const double m = at.scales.mass_scale;
+  const auto scaled = [&](const Eigen::MatrixXd& A) -> Eigen::MatrixXd {
+    return at.mass_row.asDiagonal() * A * at.mass_row.asDiagonal() / m;
+  };
+  Eigen::MatrixXd gram(2 * n, 2 * n);
+  for (int code = 14; code < 27; ++code) {  // one of each pair of opposite directions
+    const Eigen::Vector3d Omega = Eigen::Vector3d(code / 9 - 1, code / 3 % 3 - 1, code % 3 - 1).normalized();
+    Eigen::MatrixXd C = Eigen::MatrixXd::Zero(n, n), E = C;
+    for (int k = 0; k < 3; ++k) C += Omega[k] * c.C[k];
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k) E += Omega[j] * Omega[k] * c.E[axis_pair(j, k)];
+    gram.topLeftCorner(n, n) = scaled(at.superelement.mass);
+    gram.topRightCorner(n, n) = scaled(C);
+    gram.bottomLeftCorner(n, n) = gram.topRightCorner(n, n).transpose();
+    gram.bottomRightCorner(n, n) = scaled(E);
+    gram = (0.5 * (gram + gram.transpose())).eval();
+    Eigen::MatrixXd shifted = gram;
+    shifted.diagonal().array() += gram_accepted * std::max(1.0, gram.diagonal().maxCoeff());
+    if (Eigen::LLT<Eigen::MatrixXd>(shifted).info() == Eigen::Success) continue;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+    Eigen::Index row = 0;
+    eigen.eigenvectors().col(0).cwiseAbs().maxCoeff(&row);
+    throw Error(fmt::format("kinetic energy is not positive: spinning about ({:.3g}, {:.3g}, {:.3g}), the matrix "
+                            "[M C; C' E] has the scaled eigenvalue {:.3e} (largest {:.3e}), mainly {}",
+                            Omega[0], Omega[1], Omega[2], eigen.eigenvalues()[0], eigen.eigenvalues()[2 * n - 1],
+                            row_text(at.superelement, row % n)),
+                at.dataset("/E"), other_program);
+  }
+}
+
+void check_second_order(const Inspection& at) {
+  static constexpr const char* pairs[] = {"xx", "yy", "zz", "yz", "xz", "xy"};
+  const Companion& c = at.companion;
+  const auto n = static_cast<std::size_t>(at.size());
+  if (c.H.size() != n)
+    fail_size(at, "/H", static_cast<Eigen::Index>(c.H.size()), static_cast<Eigen::Index>(c.H.size()),
+              fmt::format("{0} matrices {0} x {0}", n));
+  check_integrals(at);
+  for (std::size_t j = 0; j < n; ++j) check_symmetric(at, fmt::format("/H[{}]", j), c.H[j], at.force_row);
+  for (int k = 0; k < 3; ++k) check_square(at, fmt::format("/C[{}]", k), c.C[k]);
+  for (int jk = 0; jk < 6; ++jk) {
+    check_symmetric(at, fmt::format("/E[{}] ({})", jk, pairs[jk]), c.E[jk], at.mass_row);
+    check_symmetric(at, fmt::format("/N[{}]", jk), c.N[jk], at.mass_row);
+    check_symmetric(at, fmt::format("/T[{}] ({})", jk, pairs[jk]), c.T[jk], at.mass_row);
+  }
+  check_rigid_stress(at);
+  check_gram(at);
+}
+
+void check_load_cases(const Inspection& at) {
+  std::string before;
+  for (const LoadCase& load : at.companion.load_cases) {
+    const std::string group = "/load_cases/" + printable_line(load.name, 60);
+    if (!valid_name(load.name) || !(before < load.name))
+      throw Error("is no name of its own of a load case", at.dataset(group),
+                  "use letters, digits, _ and -, beginning with a letter or _, each name once, ascending");
+    before = load.name;
+    if (load.force.size() > 0 && load.force.size() != at.size())
+      fail_size(at, group + "/force", load.force.size(), 1, fmt::format("{}", at.size()));
+    for (Eigen::Index k = 0; k < load.force.size(); ++k)
+      if (!(std::abs(load.force[k]) < largest_usable))
+        throw Error(fmt::format("[{}] = {} is not a usable number: {}", k, load.force[k], row_text(at.superelement, k)),
+                    at.dataset(group + "/force"), "write finite numbers");
+    if (load.stiffness.size() > 0) check_symmetric(at, group + "/stiffness", load.stiffness, at.force_row);
+  }
+}
+
+}  // namespace
+
+void check(const Companion& companion, const Superelement& superelement, const std::string& where) {
+  Inspection at{companion, superelement, where, scale(superelement), {}, {}};
+  at.mass_row = at.scales.mass_row;
+  at.force_row = at.scales.stiffness_row;
+  hdf5::check_units(companion.units, where);
+  check_owner(at);
+  check_weights(at);
+  if (companion.has_second_order()) check_second_order(at);
+  check_load_cases(at);
+}
+
+}  // namespace tisserand::formats

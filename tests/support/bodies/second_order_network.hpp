@@ -1,0 +1,31 @@
+// A superelement with its companion, computed by the definitions of COMPANION.md from a network of springs.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/companion/companion.hpp"
+#include "tests/support/bodies/reduced_frames.hpp"
+
+namespace tisserand::test_support {
+
+struct SecondOrderBody {
+  formats::Superelement element;
+  formats::Companion companion;
+  Eigen::VectorXd omega_squared;  ///< of its internal coordinates
+};
+
+/// Point masses and springs as of spring_network(): nodes with translations alone, every pair joined by a spring, whose
+/// geometric stiffness under the force F is (F/l)(1 − e eᵀ). `weights`: of the boundary nodes, sum 1. A load case
+/// "push" has the full vector 0.1, 0.2, ... and its second order.
+SecondOrderBody second_order_network(const FullModel& model, const std::vector<Keep>& keep, int modes,
+                                     const Eigen::VectorXd& weights);
+
+/// The network of the tests: four corners kept, of the twelve internal modes the first `modes`.
+SecondOrderBody second_order_network(int modes, const Eigen::Vector4d& weights);
+
+/// spring_network() seen in the mirror diag(axes).
+FullModel mirrored_network(const Eigen::Vector3d& axes);
+
+}  // namespace tisserand::test_support
