@@ -19,6 +19,8 @@ struct SuperelementOptions {
   formats::FrameKind frame = formats::FrameKind::karcher;
   std::string frame_node;  ///< for FrameKind::node
   formats::InertiaOption inertia = formats::InertiaOption::B;
+  formats::StiffeningOption stiffening = formats::StiffeningOption::off;
+  const formats::Companion* companion = nullptr;      ///< of the file; for inertia F and stiffening
   std::optional<int> modes;                           ///< absent: all in the file
   std::optional<double> cutoff;                       ///< frequency ω/2π [1/time of the scene]
   std::vector<formats::NodeWeight> position_weights;  ///< empty: from the centre of mass
@@ -109,8 +111,9 @@ struct SuperelementBody {
 /// One superelement of the mechanism.
 struct SuperelementUse {
   std::string name;
-  int body = 0;            ///< index into the model's bodies
-  std::vector<int> nodes;  ///< indices into the model's nodes, in the order of the body
+  int body = 0;              ///< index into the model's bodies
+  std::vector<int> nodes;    ///< indices into the model's nodes, in the order of the body
+  std::string companion_id;  ///< of the companion whose terms it has; empty: none
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
 };
 

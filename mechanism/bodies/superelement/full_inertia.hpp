@@ -140,6 +140,75 @@ Foreshortened<S> foreshortened(const FullInertia& inertia, InertiaTerms<S>& t) {
   return w;
 }
 
+/// y, ẏ, ÿ and the products that need them alone: E y, C y, C ẏ, N y, T y.
+template <class S>
+Foreshortened<S> set_products(const FullInertia& inertia, const LocalMotion<S>& motion, InertiaTerms<S>& t) {
+  t.y << motion.y_B, motion.y_I;
+  t.yd << motion.deformation_rate_B, motion.rate_I;
+  t.ydd << motion.deformation_acceleration_B, motion.acceleration_I;
+  apply_forms<S>(inertia.E, t.y, t.Ey);
+  t.JJ = symmetric3<S>(rows_times<6, S>(t.Ey, t.y));
+  t.Cy.setZero();
+  t.Cyd.setZero();
+  multiply_add<Eigen::Dynamic>(inertia.C, t.y, t.Cy);
+  multiply_add<Eigen::Dynamic>(inertia.C, t.yd, t.Cyd);
+  const Foreshortened<S> w = foreshortened(inertia, t);
+  t.sigma = w.sigma;
+  t.nu = w.nu;
+  t.TT = w.T;
+  return w;
+}
+
+/// ξ, p and their rates, ½ ξᵀM̄ξ: with n₂ = D_Rᵀ M (ẇ₂ + Ω × w₂), ξ = R (ν + J₀⁻¹ n₂) + ẏ, p = M̄ ξ + Ω_k C_k y.
+template <class S>
+void set_momenta(const FullInertia& inertia, const LocalMotion<S>& motion, const Foreshortened<S>& w,
+                 InertiaTerms<S>& t) {
+  using Six = Eigen::Matrix<S, 6, 1>;
+  const Vec3<S>&Om = motion.Omega0, &Omd = motion.Omega0d, &v = motion.origin_velocity;
+  Six n2, n2d, nu, nud;
+  n2 << w.sigma_d + cross<S>(Om, w.sigma), w.nu_d + 0.5 * cross<S>(Om, w.nu) + w.T * Om;
+  n2d << w.sigma_dd + cross<S>(Omd, w.sigma) + cross<S>(Om, w.sigma_d),
+      w.nu_dd + 0.5 * cross<S>(Omd, w.nu) + 0.5 * cross<S>(Om, w.nu_d) + w.Td * Om + w.T * Omd;
+  nu << v, Om;
+  nud << motion.origin_acceleration - cross<S>(Om, v), Omd;
+  true_motion<S>(inertia, nu + solve_rigid<S>(inertia, n2), t.yd, t.xi, t.p);
+  t.kinetic = 0.5 * (t.xi.transpose() * t.p)(0, 0);
+  add_turned<S>(Om, t.Cy, t.p);
+  true_motion<S>(inertia, nud + solve_rigid<S>(inertia, n2d), t.ydd, t.xid, t.pd);
+  add_turned<S>(Omd, t.Cy, t.pd);
+  add_turned<S>(Om, t.Cyd, t.pd);
+}
+
+/// r = J₀⁻¹Rᵀp, the rigid part of the true velocity, and its rate.
+template <class S>
+struct RigidVelocity {
+  Vec3<S> v, O, vd, Od;
+};
+
+/// t.G_y of inertia and weight.
+template <class S>
+void set_shape_forces(const SuperelementBody& body, const RigidVelocity<S>& r, const Vec3<S>& Om, const Vec3<S>& g,
+                      InertiaTerms<S>& t) {
+  const FullInertia& inertia = *body.second_order.inertia;
+  const Eigen::Index n = t.y.size();
+  for (int k = 0; k < 3; ++k) t.turned.segment(k * n, n) = -Om[k] * t.xi;
+  t.G_y = t.pd;
+  multiply_transposed_add(inertia.C, t.turned, t.G_y);
+  const Eigen::Matrix<S, 6, 1> centrifugal = -pair_factors<S>(Om, Om);
+  for (Eigen::Index k = 0; k < n; ++k)
+    for (int a = 0; a < 6; ++a) t.G_y[k] += centrifugal[a] * t.Ey(a, k);
+  if (inertia.NT) {
+    Eigen::Matrix<S, 12, 1> factor;
+    factor << r.vd - cross<S>(r.v, Om) - g, r.Od - 0.5 * cross<S>(r.O, Om), -pair_factors<S>(r.O, Om);
+    for (Eigen::Index k = 0; k < n; ++k)
+      for (int a = 0; a < 12; ++a) t.G_y[k] += factor[a] * t.NTy(a, k);
+  }
+  for (Eigen::Index k = 0; k < body.boundary_size; ++k)
+    for (int i = 0; i < 3; ++i) t.G_y[k] -= body.Gamma_B(i, k) * g[i];
+  for (Eigen::Index k = 0; k < body.modes; ++k)
+    for (int i = 0; i < 3; ++i) t.G_y[body.boundary_size + k] -= body.Gamma_I(i, k) * g[i];
+}
+
 /// What the inertia and the weight exert on x₀ (axes of the frame) and on the rotation of the frame.
 template <class S>
 struct FrameForces {
@@ -153,75 +222,27 @@ FrameForces<S> inertia_forces(const SuperelementBody& body, const LocalMotion<S>
                               InertiaTerms<S>& t) {
   using Six = Eigen::Matrix<S, 6, 1>;
   const FullInertia& inertia = *body.second_order.inertia;
-  const Eigen::Index n = t.y.size();
-  t.y << motion.y_B, motion.y_I;
-  t.yd << motion.deformation_rate_B, motion.rate_I;
-  t.ydd << motion.deformation_acceleration_B, motion.acceleration_I;
-  const Vec3<S>&Om = motion.Omega0, &Omd = motion.Omega0d, &v = motion.origin_velocity;
-  const Vec3<S> vd = motion.origin_acceleration - cross<S>(Om, v);
-
-  apply_forms<S>(inertia.E, t.y, t.Ey);
-  const Mat3<S> J = symmetric3<S>(rows_times<6, S>(t.Ey, t.y));
-  const Mat3<S> Jd = symmetric3<S>(Six(2.0 * rows_times<6, S>(t.Ey, t.yd)));
-  t.Cy.setZero();
-  t.Cyd.setZero();
-  multiply_add<Eigen::Dynamic>(inertia.C, t.y, t.Cy);
-  multiply_add<Eigen::Dynamic>(inertia.C, t.yd, t.Cyd);
-  const Foreshortened<S> w = foreshortened(inertia, t);
-
-  // n₂ = D_Rᵀ M (ẇ₂ + Ω × w₂), ξ = R (ν + J₀⁻¹ n₂) + ẏ, and their rates in axes of the frame.
-  Six n2, n2d, nu, nud;
-  n2 << w.sigma_d + cross<S>(Om, w.sigma), w.nu_d + 0.5 * cross<S>(Om, w.nu) + w.T * Om;
-  n2d << w.sigma_dd + cross<S>(Omd, w.sigma) + cross<S>(Om, w.sigma_d),
-      w.nu_dd + 0.5 * cross<S>(Omd, w.nu) + 0.5 * cross<S>(Om, w.nu_d) + w.Td * Om + w.T * Omd;
-  nu << v, Om;
-  nud << vd, Omd;
-  true_motion<S>(inertia, nu + solve_rigid<S>(inertia, n2), t.yd, t.xi, t.p);
-  const S kinetic = 0.5 * (t.xi.transpose() * t.p)(0, 0);
-  add_turned<S>(Om, t.Cy, t.p);
-  true_motion<S>(inertia, nud + solve_rigid<S>(inertia, n2d), t.ydd, t.xid, t.pd);
-  add_turned<S>(Omd, t.Cy, t.pd);
-  add_turned<S>(Om, t.Cyd, t.pd);
-
-  const Six momentum = rigid_part<S>(inertia, t.p), momentum_d = rigid_part<S>(inertia, t.pd);
-  const Six r = solve_rigid<S>(inertia, momentum), rd = solve_rigid<S>(inertia, momentum_d);
-  const Vec3<S> r_v = r.template head<3>(), r_O = r.template tail<3>(), r_vd = rd.template head<3>(),
-                r_Od = rd.template tail<3>();
+  const Vec3<S>&Om = motion.Omega0, &Omd = motion.Omega0d;
+  const Foreshortened<S> w = set_products(inertia, motion, t);
+  set_momenta(inertia, motion, w, t);
+  const Six P = rigid_part<S>(inertia, t.p), Pd = rigid_part<S>(inertia, t.pd);
+  const Six velocity = solve_rigid<S>(inertia, P), rate = solve_rigid<S>(inertia, Pd);
+  const RigidVelocity<S> r{velocity.template head<3>(), velocity.template tail<3>(), rate.template head<3>(),
+                           rate.template tail<3>()};
   const Vec3<S> turning = turning_part<S>(t.xi, t.Cy);
-  const Vec3<S> turning_d = turning_part<S>(t.xid, t.Cy) + turning_part<S>(t.xi, t.Cyd);
-  t.kinetic = kinetic + dot3<S>(Om, turning) + 0.5 * dot3<S>(Om, Vec3<S>(J * Om));
-  t.pi_v = momentum.template head<3>();
-  t.pi_O =
-      momentum.template tail<3>() + turning + J * Om + cross<S>(w.sigma, r_v) + 0.5 * cross<S>(w.nu, r_O) + w.T * r_O;
-  const Vec3<S> pi_vd = momentum_d.template head<3>();
-  const Vec3<S> pi_Od = momentum_d.template tail<3>() + turning_d + Jd * Om + J * Omd + cross<S>(w.sigma_d, r_v) +
-                        cross<S>(w.sigma, r_vd) + 0.5 * cross<S>(w.nu_d, r_O) + 0.5 * cross<S>(w.nu, r_Od) +
-                        w.Td * r_O + w.T * r_Od;
-
-  for (int k = 0; k < 3; ++k) t.turned.segment(k * n, n) = -Om[k] * t.xi;
-  t.G_y = t.pd;
-  multiply_transposed_add(inertia.C, t.turned, t.G_y);
-  const Six centrifugal = -pair_factors<S>(Om, Om);
-  for (Eigen::Index k = 0; k < n; ++k)
-    for (int a = 0; a < 6; ++a) t.G_y[k] += centrifugal[a] * t.Ey(a, k);
-  if (inertia.NT) {
-    Eigen::Matrix<S, 12, 1> factor;
-    factor << r_vd - cross<S>(r_v, Om) - g, r_Od - 0.5 * cross<S>(r_O, Om), -pair_factors<S>(r_O, Om);
-    for (Eigen::Index k = 0; k < n; ++k)
-      for (int a = 0; a < 12; ++a) t.G_y[k] += factor[a] * t.NTy(a, k);
-  }
-  for (Eigen::Index k = 0; k < body.boundary_size; ++k)
-    for (int i = 0; i < 3; ++i) t.G_y[k] -= body.Gamma_B(i, k) * g[i];
-  for (Eigen::Index k = 0; k < body.modes; ++k)
-    for (int i = 0; i < 3; ++i) t.G_y[body.boundary_size + k] -= body.Gamma_I(i, k) * g[i];
-  t.sigma = w.sigma;
-  t.nu = w.nu;
-  t.TT = w.T;
-  t.JJ = J;
+  const Mat3<S> JJd = symmetric3<S>(Six(2.0 * rows_times<6, S>(t.Ey, t.yd)));
+  t.kinetic += dot3<S>(Om, turning) + 0.5 * dot3<S>(Om, Vec3<S>(t.JJ * Om));
+  t.pi_v = P.template head<3>();
+  t.pi_O = P.template tail<3>() + turning + t.JJ * Om + cross<S>(w.sigma, r.v) + 0.5 * cross<S>(w.nu, r.O) + w.T * r.O;
+  const Vec3<S> pi_vd = Pd.template head<3>();
+  const Vec3<S> pi_Od = Pd.template tail<3>() + turning_part<S>(t.xid, t.Cy) + turning_part<S>(t.xi, t.Cyd) + JJd * Om +
+                        t.JJ * Omd + cross<S>(w.sigma_d, r.v) + cross<S>(w.sigma, r.vd) + 0.5 * cross<S>(w.nu_d, r.O) +
+                        0.5 * cross<S>(w.nu, r.Od) + w.Td * r.O + w.T * r.Od;
+  set_shape_forces(body, r, Om, g, t);
   const Vec3<S> s =
       body.mass * (body.center_of_mass.template cast<S>() + mean_of<S>(body, motion.y_B, motion.y_I)) + w.sigma;
   return {pi_vd + cross<S>(Om, t.pi_v) - body.mass * g,
-          pi_Od + cross<S>(Om, t.pi_O) + cross<S>(v, t.pi_v) - cross<S>(s, g)};
+          pi_Od + cross<S>(Om, t.pi_O) + cross<S>(motion.origin_velocity, t.pi_v) - cross<S>(s, g)};
 }
 
 }  // namespace tisserand::mechanism

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/math/rotation.hpp"
+#include "formats/companion/operations.hpp"
 #include "mechanism/bodies/superelement/body.hpp"
 
 namespace tisserand::mechanism {
@@ -36,33 +37,60 @@ Eigen::Matrix<double, 6, 6> invert_inertia(const Eigen::Matrix<double, 6, 6>& J0
          unit.asDiagonal();
 }
 
-/// C and E after the Galilean step ([SO] 2.2): C_k += (M̄ R_T/m) d_k, and what keeps [M̄ C; Cᵀ E] a Gram matrix.
-struct Turning {
-  std::array<MatrixXd, 3> C;
-  std::vector<MatrixXd> E;
+/// Rows of the file (columns of the body's coordinates with all modes of `matrices`): y(file) = A y.
+MatrixXd file_congruence(const formats::CanonicalMatrices& matrices, const SuperelementBody& body) {
+  const auto nb = static_cast<Eigen::Index>(body.file.boundary_row.size());
+  const auto internal = static_cast<Eigen::Index>(body.file.internal_row.size());
+  MatrixXd A = MatrixXd::Zero(nb + internal, nb + matrices.modal_part.cols());
+  for (Eigen::Index i = 0; i < nb; ++i) A(body.file.boundary_row[i], i) = 1.0;
+  for (Eigen::Index i = 0; i < internal; ++i) {
+    const int row = body.file.internal_row[i];
+    A.row(row).head(nb) = matrices.static_part.row(i);
+    A.row(row).tail(matrices.modal_part.cols()) = matrices.modal_part.row(i);
+  }
+  return A;
+}
+
+/// M̄ and the rigid motions about `point` (part frame) with all modes.
+struct WholeMotions {
+  MatrixXd M, R;
 };
 
-Turning exact_under_translation(const FullInertia& inertia, double mass, const SecondOrderArrays& arrays) {
-  const MatrixXd RT = inertia.R.leftCols<3>(), S1 = inertia.MR.leftCols<3>().transpose();
-  std::array<MatrixXd, 3> A, d;
-  Turning turning{arrays.C, {arrays.E.begin(), arrays.E.end()}};
-  for (int k = 0; k < 3; ++k) {
-    A[k] = RT.transpose() * arrays.C[k];
-    d[k] = skew<double>(Eigen::Vector3d::Unit(k)) * S1 - A[k];
-    turning.C[k] += inertia.MR.leftCols<3>() * d[k] / mass;
-  }
-  constexpr int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}};
-  for (int a = 0; a < 6; ++a) {
-    const auto [j, k] = pair[a];
-    const MatrixXd step = (A[j].transpose() * d[k] + A[k].transpose() * d[j] + d[j].transpose() * d[k]) / mass;
-    turning.E[a] += 0.5 * (step + step.transpose());
-  }
-  return turning;
+WholeMotions whole_motions(const formats::CanonicalMatrices& matrices, const SuperelementBody& body,
+                           const Eigen::Vector3d& point) {
+  const Eigen::Index nb = body.boundary_size, m = matrices.S_II.size();
+  WholeMotions whole{MatrixXd::Identity(nb + m, nb + m), MatrixXd::Zero(nb + m, 6)};
+  whole.M.topLeftCorner(nb, nb) = matrices.M_BB;
+  whole.M.topRightCorner(nb, m) = matrices.M_BI;
+  whole.M.bottomLeftCorner(m, nb) = matrices.M_BI.transpose();
+  whole.R.topRows(nb) = rigid_columns(body).topRows(nb);
+  for (const int i : body.translation_nodes)
+    whole.R.block<3, 3>(body.node[i].translation_row, 3) +=
+        skew<double>(Eigen::Vector3d(point - body.reference_origin));
+  return whole;
 }
 
 }  // namespace
 
-Stiffening make_stiffening(const SuperelementBody& body, const std::vector<MatrixXd>& H) {
+formats::Companion companion_on_body(formats::Companion companion, const formats::Superelement& element,
+                                     const formats::CanonicalMatrices& matrices, const UnitConversion& units,
+                                     const SuperelementBody& body) {
+  std::vector<bool> translation;
+  for (std::size_t i = 0; i < element.dof_node.size(); ++i)
+    translation.push_back(element.dof_node[i] >= 0 && element.dof_component[i] < 3);
+  formats::convert(companion, units, translation);
+  formats::congruence(companion, file_congruence(matrices, body));
+  const WholeMotions whole = whole_motions(matrices, body, companion.reference_point);
+  const Eigen::Index dropped = matrices.S_II.size() - body.modes;
+  std::vector<int> rows;
+  for (Eigen::Index i = 0; i < dropped; ++i) rows.push_back(body.boundary_size + body.modes + static_cast<int>(i));
+  formats::drop_modes(companion, whole.M, whole.R, rows, matrices.S_II.tail(dropped));
+  formats::move_reference(companion, body.reference_origin);
+  formats::galilean_step_keeping_gram(companion, whole_mass(body), rigid_columns(body));
+  return companion;
+}
+
+Stiffening make_stiffening(const SuperelementBody& body, const formats::Companion& companion) {
   constexpr double no_strain = 1e-9;
   const int nb = body.boundary_size, m = body.modes;
   const VectorXd unit = coordinate_units(body);
@@ -86,12 +114,12 @@ Stiffening make_stiffening(const SuperelementBody& body, const std::vector<Matri
   std::vector<MatrixXd> Gamma(static_cast<std::size_t>(rows), MatrixXd::Zero(nb + m, nb + m));
   for (Eigen::Index a = 0; a < rows; ++a)
     for (int j = 0; j < nb + m; ++j)
-      if (inverse(j, a) != 0.0) Gamma[a] += inverse(j, a) * H[j];
+      if (inverse(j, a) != 0.0) Gamma[a] += inverse(j, a) * companion.H[j];
   out.Gamma = quadratic_forms(Gamma, unit);
   return out;
 }
 
-FullInertia make_full_inertia(const SuperelementBody& body, const SecondOrderArrays& arrays,
+FullInertia make_full_inertia(const SuperelementBody& body, const formats::Companion& companion,
                               Foreshortening foreshortening) {
   FullInertia inertia;
   inertia.M = whole_mass(body);
@@ -100,23 +128,32 @@ FullInertia make_full_inertia(const SuperelementBody& body, const SecondOrderArr
   double length = 0.0;
   for (const SuperelementNode& node : body.node) length = std::max(length, node.X.norm());
   inertia.J0_inverse = invert_inertia(inertia.R.transpose() * inertia.MR, length > 0.0 ? length : 1.0);
-  const Turning turning = exact_under_translation(inertia, body.mass, arrays);
   const Eigen::Index n = inertia.M.rows();
   inertia.C.resize(3 * n, n);
-  for (int k = 0; k < 3; ++k) inertia.C.middleRows(k * n, n) = turning.C[k];
+  for (int k = 0; k < 3; ++k) inertia.C.middleRows(k * n, n) = companion.C[k];
   const VectorXd unit = coordinate_units(body);
-  inertia.E = quadratic_forms(turning.E, unit);
+  inertia.E = quadratic_forms({companion.E.begin(), companion.E.end()}, unit);
   switch (foreshortening) {
     case Foreshortening::off:
       break;
     case Foreshortening::on: {
-      std::vector<MatrixXd> NT(arrays.N.begin(), arrays.N.end());
-      NT.insert(NT.end(), arrays.T.begin(), arrays.T.end());
+      std::vector<MatrixXd> NT(companion.N.begin(), companion.N.end());
+      NT.insert(NT.end(), companion.T.begin(), companion.T.end());
       inertia.NT = quadratic_forms(NT, unit);
       break;
     }
   }
   return inertia;
+}
+
+SecondOrder make_second_order(const SuperelementBody& body, const formats::Companion& companion,
+                              formats::InertiaOption inertia, formats::StiffeningOption stiffening) {
+  SecondOrder terms;
+  if (stiffening != formats::StiffeningOption::off) terms.stiffening = make_stiffening(body, companion);
+  if (inertia == formats::InertiaOption::F)
+    terms.inertia = make_full_inertia(
+        body, companion, stiffening == formats::StiffeningOption::full ? Foreshortening::on : Foreshortening::off);
+  return terms;
 }
 
 }  // namespace tisserand::mechanism

@@ -2,27 +2,19 @@
 // file.
 #pragma once
 
-#include <array>
 #include <optional>
-#include <vector>
 
 #include <Eigen/Core>
 
+#include "common/units.hpp"
+#include "formats/companion/companion.hpp"
+#include "formats/scene/body_spec.hpp"
+#include "formats/superelement/canonical.hpp"
 #include "mechanism/bodies/superelement/quadratic_forms.hpp"
 
 namespace tisserand::mechanism {
 
 struct SuperelementBody;
-
-/// H, C, E, N, T of section 1 of [SO] on the coordinates of a body (boundary, then internal; N of them), integrals
-/// about x₀ of the reference configuration, in units of the scene. Pairs jk in the order xx yy zz yz xz xy.
-struct SecondOrderArrays {
-  std::vector<Eigen::MatrixXd> H;    ///< N matrices: Φᵀ K_G[stress of Φⱼ] Φ
-  std::array<Eigen::MatrixXd, 3> C;  ///< Φᵀ M [e_k x] Φ
-  std::array<Eigen::MatrixXd, 6> E;  ///< sym ([eⱼ x] Φ)ᵀ M [e_k x] Φ
-  std::array<Eigen::MatrixXd, 6> N;  ///< ½ yᵀ N_a y = D_Raᵀ M w₂
-  std::array<Eigen::MatrixXd, 6> T;  ///< ½ yᵀ T_jk y = sym D_R(3+j)ᵀ M [e_k x] w₂
-};
 
 /// Strain energy as a sum of squares, V = ½ Σ e_a², e_a = l_a·y + ½ yᵀ Γ_a y: the rows L of S̄ = LᵀL, with Γ. S̄ y stays
 /// what it is without stiffening; these are the terms beyond it.
@@ -50,15 +42,24 @@ struct SecondOrder {
   bool any() const { return stiffening.has_value() || inertia.has_value(); }
 };
 
+/// A companion on the coordinates of a body that has all but its second-order terms: rows in the order of the body,
+/// units of the scene, canonical form of `matrices` (all of its modes, of which the body keeps the first), the
+/// reference point at x₀; C and E made exact under translation ([SO] 2.2, 2.3).
+formats::Companion companion_on_body(formats::Companion companion, const formats::Superelement& element,
+                                     const formats::CanonicalMatrices& matrices, const UnitConversion& units,
+                                     const SuperelementBody& body);
+
 /// Rows of S̄ = LᵀL: eigenvectors of the scaled S̄_BB above 1e-9 of its largest eigenvalue, and ωᵢ of the internal
-/// coordinates; Γ_a = Σⱼ (L⁺)_ja Hⱼ ([SO] 2.3).
-Stiffening make_stiffening(const SuperelementBody& body, const std::vector<Eigen::MatrixXd>& H);
+/// coordinates; Γ_a = Σⱼ (L⁺)_ja Hⱼ ([SO] 2.3). The companion is that of companion_on_body().
+Stiffening make_stiffening(const SuperelementBody& body, const formats::Companion& companion);
 
 enum class Foreshortening { off, on };
 
-/// C gets the step that makes its resultants exact under translation, C_k += (M̄ R_T/m) d_k, d_k = e_k~ S1 − R_Tᵀ C_k
-/// ([SO] 2.2).
-FullInertia make_full_inertia(const SuperelementBody& body, const SecondOrderArrays& arrays,
+FullInertia make_full_inertia(const SuperelementBody& body, const formats::Companion& companion,
                               Foreshortening foreshortening);
+
+/// The terms that the options ask for.
+SecondOrder make_second_order(const SuperelementBody& body, const formats::Companion& companion,
+                              formats::InertiaOption inertia, formats::StiffeningOption stiffening);
 
 }  // namespace tisserand::mechanism

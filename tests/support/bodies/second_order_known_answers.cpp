@@ -9,7 +9,6 @@
 
 namespace tisserand::test_support {
 
-using mechanism::SecondOrderArrays;
 using mechanism::SuperelementBody;
 
 namespace {
@@ -65,32 +64,18 @@ SecondOrderAnswer second_order_answer(const std::string& name) {
     element.dof_node.push_back(-1);
     element.dof_component.push_back(k);
   }
-  read_sparse(answer.entry["H"], answer.arrays.H);
-  read_sparse(answer.entry["C"], answer.arrays.C);
-  read_sparse(answer.entry["E"], answer.arrays.E);
-  read_sparse(answer.entry["N"], answer.arrays.N);
-  read_sparse(answer.entry["T"], answer.arrays.T);
+  formats::Companion& companion = answer.companion;
+  companion.weights = to_vector(answer.entry["alpha"]);
+  companion.reference_point = element.node_position.transpose() * companion.weights;
+  companion.mass = answer.entry["mass"].get<double>();
+  companion.S0 = to_vector(answer.entry["S0"]);
+  companion.S1 = (element.mass * formats::rigid_motions(element, companion.reference_point).leftCols<3>()).transpose();
+  read_sparse(answer.entry["H"], companion.H);
+  read_sparse(answer.entry["C"], companion.C);
+  read_sparse(answer.entry["E"], companion.E);
+  read_sparse(answer.entry["N"], companion.N);
+  read_sparse(answer.entry["T"], companion.T);
   return answer;
-}
-
-SecondOrderArrays on_body(SecondOrderArrays arrays, const SuperelementBody& body) {
-  const Eigen::Index nb = body.boundary_size, n = nb + body.modes;
-  Eigen::MatrixXd A = Eigen::MatrixXd::Identity(n, n);
-  A.bottomRightCorner(body.modes, body.modes) = body.file.modal_part;
-  for (Eigen::MatrixXd& H : arrays.H) H = (A.transpose() * H * A).eval();
-  const std::vector<Eigen::MatrixXd> H = arrays.H;
-  for (Eigen::Index j = 0; j < n; ++j) {
-    arrays.H[j].setZero();
-    for (Eigen::Index i = 0; i < n; ++i) arrays.H[j] += A(i, j) * H[i];
-  }
-  const auto turn = [&A](auto& matrices) {
-    for (Eigen::MatrixXd& B : matrices) B = (A.transpose() * B * A).eval();
-  };
-  turn(arrays.C);
-  turn(arrays.E);
-  turn(arrays.N);
-  turn(arrays.T);
-  return arrays;
 }
 
 SuperelementBody second_order_body(const SecondOrderAnswer& answer, formats::InertiaOption inertia,
@@ -101,15 +86,9 @@ SuperelementBody second_order_body(const SecondOrderAnswer& answer, formats::Ine
   for (std::size_t i = 0; i < alpha.size(); ++i)
     options.position_weights.push_back({answer.element.node_name[i], alpha[i]});
   options.rotation_weights = options.position_weights;
-  SuperelementBody body = build_superelement_body(answer.element, formats::rigid_properties(answer.element), options);
-  const SecondOrderArrays arrays = on_body(answer.arrays, body);
-  using formats::StiffeningOption;
-  if (stiffening != StiffeningOption::off) body.second_order.stiffening = make_stiffening(body, arrays.H);
-  if (inertia == formats::InertiaOption::F)
-    body.second_order.inertia = make_full_inertia(
-        body, arrays,
-        stiffening == StiffeningOption::full ? mechanism::Foreshortening::on : mechanism::Foreshortening::off);
-  return body;
+  options.stiffening = stiffening;
+  options.companion = &answer.companion;
+  return build_superelement_body(answer.element, formats::rigid_properties(answer.element), options);
 }
 
 BodyState second_order_state(const SecondOrderAnswer& answer, const SuperelementBody& body) {

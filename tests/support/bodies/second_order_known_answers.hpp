@@ -6,17 +6,17 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "formats/companion/companion.hpp"
 #include "formats/superelement/superelement.hpp"
-#include "mechanism/bodies/superelement/second_order.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"
 
 namespace tisserand::test_support {
 
-/// beam2 (two nodes, three modes) or lframe3 (three nodes, two modes); arrays on the rows of `element`.
+/// beam2 (two nodes, three modes) or lframe3 (three nodes, two modes).
 struct SecondOrderAnswer {
   nlohmann::json entry;
   formats::Superelement element;
-  mechanism::SecondOrderArrays arrays;
+  formats::Companion companion;
 };
 
 SecondOrderAnswer second_order_answer(const std::string& name);
@@ -24,9 +24,6 @@ SecondOrderAnswer second_order_answer(const std::string& name);
 /// Its body with the weights of the answer, and the second-order terms that are asked for.
 mechanism::SuperelementBody second_order_body(const SecondOrderAnswer& answer, formats::InertiaOption inertia,
                                               formats::StiffeningOption stiffening);
-
-/// The arrays on the coordinates of the body: only the signs of internal coordinates may differ.
-mechanism::SecondOrderArrays on_body(mechanism::SecondOrderArrays arrays, const mechanism::SuperelementBody& body);
 
 /// The state of the answer, internal coordinates in those of `body`.
 BodyState second_order_state(const SecondOrderAnswer& answer, const mechanism::SuperelementBody& body);
