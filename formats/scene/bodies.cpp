@@ -14,7 +14,10 @@ namespace {
 
 constexpr Choice<bool> uses[] = {{"flexible", false}, {"rigid", true}};
 constexpr Choice<InertiaOption> inertia_options[] = {
-    {"A", InertiaOption::A}, {"B", InertiaOption::B}, {"M", InertiaOption::M}};
+    {"A", InertiaOption::A}, {"B", InertiaOption::B}, {"M", InertiaOption::M}, {"F", InertiaOption::F}};
+constexpr Choice<StiffeningOption> stiffening_options[] = {
+    {"off", StiffeningOption::off}, {"stress", StiffeningOption::stress}, {"full", StiffeningOption::full}};
+constexpr Choice<bool> on_or_off[] = {{"off", false}, {"on", true}};
 
 std::string resolve(const std::string& folder, const std::string& file) {
   return file.empty() ? file : (std::filesystem::path(folder) / file).lexically_normal().string();
@@ -82,7 +85,7 @@ Damping read_damping(const MapReader& map) {
 
 /// Keys of a flexible superelement, which would be ignored where the body is rigid.
 void refuse_flexible_keys(const MapReader& map) {
-  for (const char* key : {"modes", "cutoff", "inertia", "frame", "weights", "damping"})
+  for (const char* key : {"modes", "cutoff", "inertia", "stiffening", "second_order", "frame", "weights", "damping"})
     if (const YamlNode* node = map.find(key))
       map.context().fail(node->key_place, fmt::format("'{}' has no effect with use: rigid", key),
                          "remove it, or give use: flexible");
@@ -91,6 +94,16 @@ void refuse_flexible_keys(const MapReader& map) {
 /// The context of a map inside a body: "body 'beam': damping".
 Context inside(const Context& context, const std::string& what) {
   return {context.reader, fmt::format("{}: {}", context.subject, what), context.entry};
+}
+
+/// `second_order` stands for both of the others.
+void check_second_order(const MapReader& map) {
+  const YamlNode* both = map.find("second_order");
+  if (both == nullptr) return;
+  for (const char* key : {"inertia", "stiffening"})
+    if (map.find(key) != nullptr)
+      map.context().fail(both->key_place, fmt::format("both 'second_order' and '{}' are given", key),
+                         "give second_order, or inertia and stiffening");
 }
 
 /// `modes` or `cutoff`, not both.
@@ -113,6 +126,7 @@ SuperelementBodySpec read_superelement(const Context& context, const YamlNode& n
   body.shapes = read_shapes(map, definitions);
   if (body.rigid) refuse_flexible_keys(map);
   check_mode_choice(map, body);
+  check_second_order(map);
   if (const YamlNode* frame = map.find("frame")) read_frame(context, *frame, body);
   if (const YamlNode* weights = map.find("weights")) {
     const MapReader inner(inside(context, "weights"), *weights, "weights", "weights.");
@@ -293,7 +307,18 @@ KeySet superelement_fields() {
            "angular velocities in the kinetic energy: `A` turned to the axes of the floating frame, `B` material, "
            "in the axes of each node ([Car00] sections 6 and 7; B is the more accurate there), `M` as B with the exact "
            "motion of the centre of mass: for bodies that turn and translate fast (rods of slider-cranks, wheels "
-           "on the road); not with `frame: paper`"),
+           "on the road), `F` all of the mass, by the companion file; M and F not with `frame: paper`",
+           "`B`, or by `second_order`"),
+       choice<&SuperelementBodySpec::stiffening, stiffening_options>(
+           "stiffening",
+           "what the companion file adds to the linear strain: nothing; `stress` the geometric stiffness of the body's "
+           "own stress (inertia M or F); `full` also that of its inertia (inertia F)",
+           "`off`, or by `second_order`"),
+       choice<&SuperelementBodySpec::second_order, on_or_off>(
+           "second_order",
+           "`on`: inertia F and stiffening full; `off`: inertia B and stiffening off, as without a companion file",
+           "`on` where a companion file lies beside the superelement file and neither `inertia` nor `stiffening` is "
+           "given"),
        {"frame", "/^(karcher|paper|node: ?[^ ]+)$/ | frame",
         "floating frame: `karcher` (mean rotation), `paper` (incremental mean, [Car00] (16)), `{node: base}` "
         "(attached to a node; also as text `\"node: base\"`)",

@@ -28,7 +28,10 @@ struct InitialMotion {
 };
 
 enum class FrameKind { karcher, paper, node };
-enum class InertiaOption { A, B, M };  ///< [Car00]; M: B with the exact centre of mass
+/// [Car00]; M: B with the exact centre of mass; F: all of the mass, from a companion file.
+enum class InertiaOption { A, B, M, F };
+/// Terms of a companion file: none; the geometric stiffness of the body's own stress; the same under its own inertia.
+enum class StiffeningOption { off, stress, full };
 
 struct NodeWeight {
   std::string node;
@@ -52,10 +55,12 @@ struct SuperelementBodySpec {
   Eigen::Vector3d mirror =
       Eigen::Vector3d::Ones();  ///< −1 along axes that are mirrored (formats/superelement/mirror.hpp)
   InitialMotion start;
-  bool rigid = false;            ///< use: rigid
-  std::optional<int> modes;      ///< absent: all in the file
-  std::optional<double> cutoff;  ///< [1/time of the scene]
-  InertiaOption inertia = InertiaOption::B;
+  bool rigid = false;                          ///< use: rigid
+  std::optional<int> modes;                    ///< absent: all in the file
+  std::optional<double> cutoff;                ///< [1/time of the scene]
+  std::optional<InertiaOption> inertia;        ///< absent: by `second_order`
+  std::optional<StiffeningOption> stiffening;  ///< absent: by `second_order`
+  std::optional<bool> second_order;            ///< absent: where there is a companion, and neither of the others is
   FrameKind frame = FrameKind::karcher;
   std::string frame_node;                    ///< for FrameKind::node
   std::vector<NodeWeight> position_weights;  ///< empty: from the file's centre of mass

@@ -85,7 +85,10 @@ Field choice(std::string_view key, std::string_view meaning, std::string_view fa
     const YamlNode* node = find_or_require(map, read);
     if (node == nullptr) return;
     auto& value = static_cast<OwnerOf<member>*>(owner)->*member;
-    value = map.choice(read.key, choices, value);
+    if constexpr (requires { value.has_value(); })
+      value = map.choice(read.key, choices, value.value_or(std::begin(choices)->value));
+    else
+      value = map.choice(read.key, choices, value);
   };
   field.standard = [] {
     for (const auto& one : choices)

@@ -228,10 +228,8 @@ void set_velocities_of(const StartProblem& problem, const StartSolution& solutio
       boundary[static_cast<Eigen::Index>(k)] = solution.d[coordinates[k]];
     if (boundary.isZero(0.0)) continue;
     Eigen::VectorXd internal(body.modes);
-    expand(body, scratch, boundary.data(), internal.data(), work_of(model, i, evaluation));
-    for (int k = 0; k < body.modes; ++k)  // expand() is affine: minus its value at zero
-      state.v()[model.sizes.boundary + model.internal_offset[i] + k] +=
-          internal[k] + scratch.tangent.inverse_D[k] * scratch.forces.r_I[k];
+    expand_motion(body, scratch, boundary.data(), internal.data(), work_of(model, i, evaluation));
+    state.v().segment(model.sizes.boundary + model.internal_offset[i], body.modes) += internal;
   }
 }
 

@@ -2,6 +2,7 @@
 #include "mechanism/build/bodies.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -10,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "common/text.hpp"
+#include "formats/companion/operations.hpp"
 #include "formats/yaml/line_check.hpp"
 #include "mechanism/bodies/beam/mesh.hpp"
 #include "mechanism/build/modal_bodies.hpp"
@@ -71,7 +73,7 @@ std::vector<const formats::VirtualBodySpec*> eliminated_bodies(const formats::Sc
 class BodyBuilder {
  public:
   BodyBuilder(const BodyFiles& files, Construction& c)
-      : c_(c), superelements_(files.superelements), modal_bodies_(files.modal_bodies) {}
+      : c_(c), superelements_(files.superelements), companions_(files.companions), modal_bodies_(files.modal_bodies) {}
 
   void add_place(const std::string& name, const Marker& marker) {
     c_.model.places.push_back({name, marker});
@@ -142,10 +144,16 @@ class BodyBuilder {
     }
     SuperelementUse use;
     use.name = spec.name;
-    use.body = find_or_build(spec, file, units, built_superelements_, c_.model.superelement_bodies);
+    const formats::Companion* companion = companion_of(spec, element);
+    use.body = find_or_build(spec, file, companion, units, built_superelements_, c_.model.superelement_bodies);
     use.gravity = spec.gravity.value_or(c_.scene.gravity);
     const SuperelementBody& body = c_.model.superelement_bodies[use.body];
     for (const std::string& note : body.notes) c_.notes.push_back(fmt::format("body '{}': {}", spec.name, note));
+    if (const SecondOrderChoice choice = choose_second_order(spec, companion); choice.any()) {
+      use.companion_id = companion->companion_id;
+      c_.notes.push_back(
+          fmt::format("body '{}': {}, by {}", spec.name, describe(choice), formats::companion_path(spec.file)));
+    }
     for (const SuperelementNode& node : body.node) {
       const std::string name = spec.name + "/" + node.name;
       const Vector3d position = body.reference_origin + node.X;
@@ -157,6 +165,18 @@ class BodyBuilder {
     c_.model.superelement_content_ids.push_back(element.content_id);
     c_.model.superelements.push_back(std::move(use));
     c_.frames.push_back(spec.start.pose.orientation.normalized());
+  }
+
+  /// The companion of the file, mirrored as the body is; null: there is none, or the body does without.
+  const formats::Companion* companion_of(const formats::SuperelementBodySpec& spec,
+                                         const formats::Superelement& image) {
+    const auto found = companions_.find(spec.file);
+    if (found == companions_.end() || !may_use_companion(spec)) return nullptr;
+    if ((spec.mirror.array() > 0.0).all()) return &found->second;
+    const std::array<double, 3> axes{spec.mirror.x(), spec.mirror.y(), spec.mirror.z()};
+    const auto [at, is_new] = mirrored_companions_.try_emplace({spec.file, axes}, found->second);
+    if (is_new) formats::mirror(at->second, spec.mirror, image);
+    return &at->second;
   }
 
   void add_rigid_superelement(const formats::SuperelementBodySpec& spec, const formats::LoadedSuperelement& file,
@@ -243,6 +263,8 @@ class BodyBuilder {
  private:
   Construction& c_;
   MirroredFiles<formats::LoadedSuperelement> superelements_;
+  const std::map<std::string, formats::Companion>& companions_;
+  std::map<std::pair<std::string, std::array<double, 3>>, formats::Companion> mirrored_companions_;
   MirroredFiles<formats::LoadedModalBody> modal_bodies_;
   BuiltSuperelements built_superelements_;
 };

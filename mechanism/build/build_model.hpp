@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "formats/companion/companion.hpp"
 #include "formats/modal_body/modal_body.hpp"
 #include "formats/scene/scene.hpp"
 #include "formats/superelement/superelement.hpp"
@@ -22,10 +23,12 @@ struct BodyFiles {
   BodyFiles() = default;
   BodyFiles(SuperelementFiles files) : superelements(std::move(files)) {}
   SuperelementFiles superelements;
+  std::map<std::string, formats::Companion> companions;  ///< by the path of their superelement, of bodies that use them
   std::map<std::string, formats::LoadedModalBody> modal_bodies;
 };
 
-/// Reads the superelement and modal body files of a scene, each once. Throws Error: all that cannot be read, each once.
+/// Reads the superelement, companion and modal body files of a scene, each once. Throws Error: all that cannot be read,
+/// each once.
 BodyFiles read_body_files(const formats::Scene& scene);
 
 /// What a scene says of the velocity of a body at the start, world axes; what is absent is free.

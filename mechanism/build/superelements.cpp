@@ -3,15 +3,21 @@
 
 #include <tuple>
 
+#include "common/error.hpp"
+
 namespace tisserand::mechanism {
 
 namespace {
 
-SuperelementOptions options_of(const formats::SuperelementBodySpec& spec, const UnitConversion& units) {
+SuperelementOptions options_of(const formats::SuperelementBodySpec& spec, const formats::Companion* companion,
+                               const UnitConversion& units) {
+  const SecondOrderChoice choice = choose_second_order(spec, companion);
   SuperelementOptions options;
   options.frame = spec.frame;
   options.frame_node = spec.frame_node;
-  options.inertia = spec.inertia;
+  options.inertia = choice.inertia;
+  options.stiffening = choice.stiffening;
+  if (choice.any()) options.companion = companion;
   options.modes = spec.modes;
   options.cutoff = spec.cutoff;
   options.position_weights = spec.position_weights;
@@ -25,17 +31,69 @@ SuperelementOptions options_of(const formats::SuperelementBodySpec& spec, const 
 /// All but units and place: those of the file are the same for all uses.
 bool make_the_same(const SuperelementOptions& a, const SuperelementOptions& b) {
   const auto all = [](const SuperelementOptions& o) {
-    return std::tie(o.frame, o.frame_node, o.inertia, o.modes, o.cutoff, o.position_weights, o.rotation_weights,
-                    o.damping);
+    return std::tie(o.frame, o.frame_node, o.inertia, o.stiffening, o.modes, o.cutoff, o.position_weights,
+                    o.rotation_weights, o.damping);
   };
   return all(a) == all(b);
 }
 
+/// Figures: a slider-crank of one body, in per cent of the largest deflection of its rod.
+void refuse_wrong_combinations(const formats::SuperelementBodySpec& spec, const SecondOrderChoice& choice) {
+  using formats::InertiaOption, formats::StiffeningOption;
+  if (choice.stiffening == StiffeningOption::full && choice.inertia != InertiaOption::F)
+    throw Error("stiffening full without inertia F: it is the stress of that inertia", spec.where,
+                "give inertia: F, or stiffening: stress with inertia: M");
+  if (choice.stiffening == StiffeningOption::stress &&
+      (choice.inertia == InertiaOption::A || choice.inertia == InertiaOption::B))
+    throw Error("stiffening with inertia A or B, which errs by 30 % where bodies turn and translate fast", spec.where,
+                "give inertia: F (or M with stiffening: stress), or second_order: on");
+}
+
+[[noreturn]] void throw_without_companion(const formats::SuperelementBodySpec& spec, const SecondOrderChoice& choice,
+                                          const formats::Companion* companion) {
+  const std::string path = formats::companion_path(spec.file);
+  const std::string what = companion == nullptr ? "a companion file, and there is no " + path
+                                                : fmt::format("H, C, E, N and T, and {} has load cases only", path);
+  throw Error(fmt::format("{} needs {}", describe(choice), what), spec.where,
+              "the program that made the superelement can write one: `second_order: yes` in the part file; or give "
+              "second_order: off");
+}
+
 }  // namespace
 
+bool may_use_companion(const formats::SuperelementBodySpec& spec) {
+  using formats::InertiaOption, formats::StiffeningOption;
+  if (spec.rigid) return false;
+  if (spec.second_order) return *spec.second_order;
+  if (spec.inertia == InertiaOption::F || spec.stiffening.value_or(StiffeningOption::off) != StiffeningOption::off)
+    return true;
+  return !spec.inertia && !spec.stiffening;
+}
+
+std::string describe(const SecondOrderChoice& choice) {
+  constexpr const char* stiffening[] = {"off", "stress", "full"};
+  return fmt::format("inertia {}, stiffening {}", "ABMF"[static_cast<int>(choice.inertia)],
+                     stiffening[static_cast<int>(choice.stiffening)]);
+}
+
+SecondOrderChoice choose_second_order(const formats::SuperelementBodySpec& spec, const formats::Companion* companion) {
+  using formats::InertiaOption, formats::StiffeningOption;
+  const bool available = companion != nullptr && companion->has_second_order();
+  const bool on = spec.second_order.value_or(available && !spec.inertia && !spec.stiffening);
+  SecondOrderChoice choice;
+  choice.stiffening = spec.stiffening.value_or(on ? StiffeningOption::full : StiffeningOption::off);
+  choice.inertia = spec.inertia.value_or(on || choice.stiffening == StiffeningOption::full ? InertiaOption::F
+                                         : choice.stiffening == StiffeningOption::stress   ? InertiaOption::M
+                                                                                           : InertiaOption::B);
+  refuse_wrong_combinations(spec, choice);
+  if (choice.any() && !available) throw_without_companion(spec, choice, companion);
+  return choice;
+}
+
 int find_or_build(const formats::SuperelementBodySpec& spec, const formats::LoadedSuperelement& file,
-                  const UnitConversion& units, BuiltSuperelements& built, std::vector<SuperelementBody>& bodies) {
-  SuperelementOptions options = options_of(spec, units);
+                  const formats::Companion* companion, const UnitConversion& units, BuiltSuperelements& built,
+                  std::vector<SuperelementBody>& bodies) {
+  SuperelementOptions options = options_of(spec, companion, units);
   std::vector<BuiltSuperelements::Entry>& entries = built.of_file[&file];
   for (const BuiltSuperelements::Entry& entry : entries)
     if (make_the_same(entry.options, options)) return entry.body;

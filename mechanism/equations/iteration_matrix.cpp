@@ -73,13 +73,9 @@ void IterationMatrix::solve_projection(const Model& model, const Eigen::Ref<cons
   system_.solve(model);
   correction.head(n) = system_.unknowns.head(n);
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    // expand() is affine in d_B: −D⁻¹ (r_I + A_IB d_B); the correction is its linear part.
-    const SuperelementBody& body = body_of(model, i);
-    const SuperelementScratch& scratch = evaluation.superelements[i];
-    double* internal = correction.data() + n + model.internal_offset[i];
     gather(model, i, correction);
-    expand(body, scratch, element_boundary_.data(), internal, work_of(model, i, evaluation));
-    for (int k = 0; k < body.modes; ++k) internal[k] += scratch.tangent.inverse_D[k] * scratch.forces.r_I[k];
+    expand_motion(body_of(model, i), evaluation.superelements[i], element_boundary_.data(),
+                  correction.data() + n + model.internal_offset[i], work_of(model, i, evaluation));
   }
 }
 

@@ -74,7 +74,8 @@ void resume_checkpoint(Run& run, const std::string& file, Joining joining) {
   if (checkpoint.state_version != State::version || checkpoint.state.size() != state.block().size() ||
       checkpoint.schedule.size() != Schedule(run.scene, run.built.model.breakpoints).memory().size() ||
       checkpoint.fingerprint != own)
-    throw Error(fmt::format("is a checkpoint of scene '{}' with other bodies, joints or superelements than '{}' has",
+    throw Error(fmt::format("is a checkpoint of scene '{}' with other bodies, joints or superelements (or companion "
+                            "files) than '{}' has",
                             checkpoint.scene, run.scene.name),
                 file, "go on with the scene that wrote it; values, loads and the end may differ");
   require_before_end(run.scene, checkpoint.time, file);
@@ -119,6 +120,8 @@ std::string fingerprint(const Model& model, const State& state) {
   for (const Coupling& coupling : model.couplings) add(fmt::format("{} {}", coupling.name, coupling.row));
   for (const Coordinate& coordinate : model.coordinates) add(coordinate.name);
   for (const std::string& id : model.superelement_content_ids) add(id);
+  for (const SuperelementUse& use : model.superelements)
+    if (!use.companion_id.empty()) add(use.name + " " + use.companion_id);
   return sha.hex();
 }
 

@@ -1,10 +1,12 @@
 // Dynamics: the steps of a schedule, and statics as a run.
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/run/checkpoint.hpp"
+#include "mechanism/run/frame_angles.hpp"
 #include "mechanism/run/run.hpp"
 #include "mechanism/run/schedule.hpp"
 #include "mechanism/step/step.hpp"
@@ -27,6 +29,7 @@ void integrate(Run& run, RowWriter& out) {
   RunReport& report = run.report;
   Schedule schedule(run.scene, model.breakpoints);
   Checkpoints checkpoints(run.scene, out.results, state.time());
+  FrameAngles angles(model);
   StepReport last;
   double last_size = 0.0;
   if (!run.schedule_memory.empty()) schedule.restore(run.schedule_memory);
@@ -70,8 +73,14 @@ void integrate(Run& run, RowWriter& out) {
     if (event.breakpoint) pass_breakpoint(model, run.scene, state, run.workspace);
     checkpoints.after_step(model, schedule, state, run.workspace, out.writer);
     if (run.control.progress) run.control.progress(state.time());
+    if (std::string end = angles.observe(model, state, run.workspace.now); !end.empty()) {
+      report.outcome = RunOutcome::not_converged;
+      report.reason = std::move(end);
+      break;
+    }
   }
   report.time = state.time();
+  angles.tell(model, report);
   if (report.outcome != RunOutcome::completed) write_last_row(run, last, last_size, out);
 }
 
@@ -91,6 +100,10 @@ void equilibrate(Run& run, RowWriter& out) {
   step.iterations = statics.iterations;
   step.residual = statics.residual;
   step.constraint = statics.constraint;
+  FrameAngles angles(run.built.model);
+  run.report.reason = angles.observe(run.built.model, run.built.state, run.workspace.now);
+  if (!run.report.reason.empty()) run.report.outcome = RunOutcome::not_converged;
+  angles.tell(run.built.model, run.report);
   write_row(run, step, 0.0, out);
 }
 

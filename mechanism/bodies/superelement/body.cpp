@@ -208,9 +208,16 @@ void choose_frame(const SuperelementOptions& options, SuperelementBody& body) {
     return;
   }
   body.frame_node = -1;
-  if (options.frame == formats::FrameKind::paper && options.inertia == formats::InertiaOption::M)
-    throw Error("inertia M with the incremental frame of the paper", options.where,
-                "choose 'frame: karcher' or a node, or inertia A or B");
+  const bool second_order =
+      options.inertia == formats::InertiaOption::F || options.stiffening != formats::StiffeningOption::off;
+  if (options.frame == formats::FrameKind::paper && (options.inertia == formats::InertiaOption::M || second_order))
+    throw Error(fmt::format("{} with the incremental frame of the paper",
+                            options.inertia == formats::InertiaOption::M   ? "inertia M"
+                            : options.inertia == formats::InertiaOption::F ? "inertia F"
+                                                                           : "stiffening"),
+                options.where,
+                second_order ? "choose 'frame: karcher' or a node, or second_order: off"
+                             : "choose 'frame: karcher' or a node, or inertia A or B");
   if (options.frame == formats::FrameKind::paper)
     body.frame = FrameAlgorithm::incremental;
   else
@@ -266,6 +273,12 @@ SuperelementBody build_superelement_body(const formats::Superelement& element, c
   cut_modes(options, matrices, body);
   set_frame(element, rigid, options, body);
   set_gravity_constants(body);
+  if (options.inertia == formats::InertiaOption::F || options.stiffening != formats::StiffeningOption::off) {
+    TISSERAND_ENSURE(options.companion != nullptr, "no companion of '{}'", body.name);
+    body.second_order =
+        make_second_order(body, companion_on_body(*options.companion, element, matrices, options.units, body),
+                          options.inertia, options.stiffening);
+  }
   set_damping(options.damping, options.where, body);
   return body;
 }

@@ -10,6 +10,7 @@
 #include "common/units.hpp"
 #include "formats/scene/scene.hpp"
 #include "formats/superelement/superelement.hpp"
+#include "mechanism/bodies/superelement/second_order.hpp"
 
 namespace tisserand::mechanism {
 
@@ -18,6 +19,8 @@ struct SuperelementOptions {
   formats::FrameKind frame = formats::FrameKind::karcher;
   std::string frame_node;  ///< for FrameKind::node
   formats::InertiaOption inertia = formats::InertiaOption::B;
+  formats::StiffeningOption stiffening = formats::StiffeningOption::off;
+  const formats::Companion* companion = nullptr;      ///< of the file; for inertia F and stiffening
   std::optional<int> modes;                           ///< absent: all in the file
   std::optional<double> cutoff;                       ///< frequency ω/2π [1/time of the scene]
   std::vector<formats::NodeWeight> position_weights;  ///< empty: from the centre of mass
@@ -99,6 +102,8 @@ struct SuperelementBody {
   Eigen::Matrix<double, 3, Eigen::Dynamic> Gamma_B;          ///< Φ_TᵀM̄, boundary columns (3 x nb)
   Eigen::Matrix<double, 3, Eigen::Dynamic> Gamma_I;          ///< Φ_TᵀM̄, internal columns (3 x m)
 
+  SecondOrder second_order;  ///< empty: linear strain, inertia by M̄ alone
+
   FileCoordinates file;
   std::vector<std::string> notes;  ///< what the user should know, whole sentences
 };
@@ -106,10 +111,18 @@ struct SuperelementBody {
 /// One superelement of the mechanism.
 struct SuperelementUse {
   std::string name;
-  int body = 0;            ///< index into the model's bodies
-  std::vector<int> nodes;  ///< indices into the model's nodes, in the order of the body
+  int body = 0;              ///< index into the model's bodies
+  std::vector<int> nodes;    ///< indices into the model's nodes, in the order of the body
+  std::string companion_id;  ///< of the companion whose terms it has; empty: none
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
 };
+
+/// Units in which coordinates are of one size: a length for translations and, times the root of the mass, internal
+/// ones.
+Eigen::VectorXd coordinate_units(const SuperelementBody& body);
+
+/// (nb + m) x 6: translations, and rotations about x₀; internal coordinates rest (canonical form).
+Eigen::MatrixXd rigid_columns(const SuperelementBody& body);
 
 /// Elastic modes of the free reduced body, ascending, and what they exert: f = S̄ φ with φᵀS̄φ = 1, so that
 /// M̄ΦΔΦᵀM̄ = Σ (2 ζ/ω) f fᵀ. Directions without mass are left out.

@@ -170,6 +170,12 @@ void store_coupling(const SuperelementBody& body, SuperelementTangent& tangent, 
 }
 
 void eliminate_internal(const SuperelementBody& body, const SuperelementTangent& tangent, SuperelementWork& work) {
+  if (body.second_order.any()) {
+    work.eliminated = tangent.A_IB;
+    tangent.factor.solve_in_place(work.eliminated);
+    work.A_BB.noalias() -= tangent.A_BI * work.eliminated;
+    return;
+  }
   const bool full = body.damping.is_full();
   if (full) work.eliminated.noalias() = tangent.inverse_II.lazyProduct(tangent.A_IB);
   for (Eigen::Index k = 0; k < body.modes; ++k) {
@@ -184,7 +190,10 @@ void condense(const SuperelementBody& body, const SuperelementScratch& scratch, 
   work.r_B_condensed = scratch.forces.r_B;
   if (body.modes == 0) return;
   const SuperelementTangent& tangent = scratch.tangent;
-  if (body.damping.is_full())
+  if (body.second_order.any()) {
+    work.internal_1 = scratch.forces.r_I;
+    tangent.factor.solve_in_place(work.internal_1);
+  } else if (body.damping.is_full())
     work.internal_1.noalias() = tangent.inverse_II * scratch.forces.r_I;
   else
     work.internal_1 = tangent.inverse_D.cwiseProduct(scratch.forces.r_I);
@@ -220,11 +229,29 @@ void expand(const SuperelementBody& body, const SuperelementScratch& scratch, co
     multiply_add<Eigen::Dynamic, double>(body.M_IB, work.boundary_1, work.internal_1);
   }
   Eigen::Map<Eigen::VectorXd> out(dy_I, body.modes);
-  if (body.damping.is_full())
+  if (body.second_order.any()) {
+    tangent.factor.solve_in_place(work.internal_1);
+    out = work.internal_1;
+  } else if (body.damping.is_full())
     out.noalias() = tangent.inverse_II * work.internal_1;
   else
     out = tangent.inverse_D.cwiseProduct(work.internal_1);
   out = -out;
+}
+
+void expand_motion(const SuperelementBody& body, const SuperelementScratch& scratch, const double* dq_B, double* dy_I,
+                   SuperelementWork& work) {
+  if (body.modes == 0) return;
+  const SuperelementTangent& tangent = scratch.tangent;
+  Eigen::Map<Eigen::VectorXd> out(dy_I, body.modes);
+  if (body.second_order.any()) {
+    work.internal_1.noalias() = tangent.A_IB * Eigen::Map<const Eigen::VectorXd>(dq_B, body.boundary_size);
+    tangent.factor.solve_in_place(work.internal_1);
+    out = -work.internal_1;
+    return;
+  }
+  expand(body, scratch, dq_B, dy_I, work);  // affine: minus its value at zero
+  for (Eigen::Index k = 0; k < body.modes; ++k) out[k] += tangent.inverse_D[k] * scratch.forces.r_I[k];
 }
 
 }  // namespace tisserand::mechanism

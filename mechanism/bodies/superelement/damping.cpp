@@ -13,31 +13,6 @@ namespace tisserand::mechanism {
 
 namespace {
 
-/// Units in which coordinates are of one size: a length for translations and, times the root of the mass, internal
-/// ones.
-Eigen::VectorXd coordinate_units(const SuperelementBody& body) {
-  double square = 0.0;
-  for (const SuperelementNode& node : body.node) square = std::max(square, node.X.squaredNorm());
-  const double length = square > 0.0 ? std::sqrt(square) : 1.0;
-  Eigen::VectorXd unit = Eigen::VectorXd::Constant(body.boundary_size + body.modes, length * std::sqrt(body.mass));
-  for (const SuperelementNode& node : body.node) {
-    if (node.has_translation()) unit.segment<3>(node.translation_row).setConstant(length);
-    if (node.has_rotation()) unit.segment<3>(node.rotation_row).setOnes();
-  }
-  return unit;
-}
-
-/// (nb + m) x 6: translations, and rotations about x₀; internal coordinates rest (canonical form).
-Eigen::MatrixXd rigid_columns(const SuperelementBody& body) {
-  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(body.boundary_size + body.modes, 6);
-  for (const SuperelementNode& node : body.node) {
-    if (node.has_translation())
-      R.middleRows<3>(node.translation_row) << Eigen::Matrix3d::Identity(), -skew<double>(node.X);
-    if (node.has_rotation()) R.block<3, 3>(node.rotation_row, 3).setIdentity();
-  }
-  return R;
-}
-
 struct WholeMatrices {
   Eigen::MatrixXd S, M;
 };
@@ -76,6 +51,28 @@ Eigen::MatrixXd mass_damping(const SuperelementBody& body, double factor) {
 }
 
 }  // namespace
+
+Eigen::VectorXd coordinate_units(const SuperelementBody& body) {
+  double square = 0.0;
+  for (const SuperelementNode& node : body.node) square = std::max(square, node.X.squaredNorm());
+  const double length = square > 0.0 ? std::sqrt(square) : 1.0;
+  Eigen::VectorXd unit = Eigen::VectorXd::Constant(body.boundary_size + body.modes, length * std::sqrt(body.mass));
+  for (const SuperelementNode& node : body.node) {
+    if (node.has_translation()) unit.segment<3>(node.translation_row).setConstant(length);
+    if (node.has_rotation()) unit.segment<3>(node.rotation_row).setOnes();
+  }
+  return unit;
+}
+
+Eigen::MatrixXd rigid_columns(const SuperelementBody& body) {
+  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(body.boundary_size + body.modes, 6);
+  for (const SuperelementNode& node : body.node) {
+    if (node.has_translation())
+      R.middleRows<3>(node.translation_row) << Eigen::Matrix3d::Identity(), -skew<double>(node.X);
+    if (node.has_rotation()) R.block<3, 3>(node.rotation_row, 3).setIdentity();
+  }
+  return R;
+}
 
 FreeModes free_modes(const SuperelementBody& body, const std::string& where) {
   constexpr double massless = 1e-13;  // of the largest 1/ω²: round-off of the products below

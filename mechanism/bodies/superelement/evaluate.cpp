@@ -1,6 +1,8 @@
 // Kinematics, residual and energies of a superelement body in double precision.
 #include "mechanism/bodies/superelement/evaluate.hpp"
 
+#include "mechanism/bodies/superelement/second_order_tangent.hpp"
+
 namespace tisserand::mechanism {
 
 SuperelementScratch make_scratch(const SuperelementBody& body) {
@@ -15,7 +17,8 @@ SuperelementScratch make_scratch(const SuperelementBody& body) {
   tangent.node = scratch.motion.node;
   tangent.U.setZero(3, body.boundary_size);
   if (body.damping.is_full()) tangent.inverse_II.setZero(body.modes, body.modes);
-  if (body.inertia == formats::InertiaOption::M || body.damping.is_full()) {
+  if (body.second_order.any()) tangent.factor.resize(body.modes);
+  if (body.inertia == formats::InertiaOption::M || body.damping.is_full() || body.second_order.any()) {
     tangent.A_BI.setZero(body.boundary_size, body.modes);
     tangent.A_IB.setZero(body.modes, body.boundary_size);
   }
@@ -36,8 +39,9 @@ SuperelementWork make_work(const SuperelementBody& body) {
     work.K.setZero(nb, nb);
     work.factor_II.setZero(m, m);
     work.inverse_II.setZero(m, m);
-    work.eliminated.setZero(m, nb);
   }
+  if (body.damping.is_full() || body.second_order.any()) work.eliminated.setZero(m, nb);
+  if (body.second_order.any()) work.second = make_second_order_work(body);
   return work;
 }
 
@@ -89,15 +93,20 @@ SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratc
                           const Eigen::Vector3d& gravity) {
   const LocalMotion<double>& motion = scratch.motion;
   SuperelementEnergy result;
-  result.kinetic = 0.5 * (quadratic_form(body.M_BB, motion.rate_B) + motion.rate_I.squaredNorm()) +
-                   coupling_form(body.M_BI, motion.rate_B, motion.rate_I);
+  const bool full_inertia = body.second_order.inertia.has_value();
+  result.kinetic = full_inertia ? scratch.forces.inertia.kinetic
+                                : 0.5 * (quadratic_form(body.M_BB, motion.rate_B) + motion.rate_I.squaredNorm()) +
+                                      coupling_form(body.M_BI, motion.rate_B, motion.rate_I);
   if (body.inertia == formats::InertiaOption::M)
     result.kinetic +=
         0.5 * body.mass *
         (motion.center_velocity.squaredNorm() - mean_of<double>(body, motion.rate_B, motion.rate_I).squaredNorm());
   result.strain = 0.5 * (quadratic_form(body.S_BB, motion.y_B) + motion.y_I.cwiseAbs2().dot(body.S_II));
+  if (body.second_order.stiffening) result.strain += strain_energy(scratch.forces.strain);
   if (!gravity.isZero(0.0)) {
-    const Eigen::Vector3d center = motion.x0 + motion.R0 * deformed_center_of_mass<double>(body, motion);
+    Eigen::Vector3d arm = deformed_center_of_mass<double>(body, motion);
+    if (full_inertia) arm += scratch.forces.inertia.sigma / body.mass;
+    const Eigen::Vector3d center = motion.x0 + motion.R0 * arm;
     result.gravity_potential = -body.mass * gravity.dot(center);
   }
   if (body.damping.active) {
@@ -105,6 +114,8 @@ SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratc
     const Eigen::VectorXd& rate = motion.deformation_rate_B;
     result.damping_power =
         damping.stiffness * quadratic_form(body.S_BB, rate) + motion.rate_I.cwiseAbs2().dot(damping.internal);
+    if (body.second_order.stiffening && damping.stiffness > 0.0)
+      result.damping_power += scratch.forces.strain.damping_power;
     if (damping.is_full())
       result.damping_power += quadratic_form(damping.BB, rate) + 2.0 * coupling_form(damping.BI, rate, motion.rate_I) +
                               quadratic_form(damping.II, motion.rate_I);

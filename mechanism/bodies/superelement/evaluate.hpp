@@ -7,10 +7,27 @@
 #include <Eigen/Core>
 
 #include "mechanism/bodies/superelement/body.hpp"
+#include "mechanism/bodies/superelement/internal_factor.hpp"
 #include "mechanism/bodies/superelement/residual.hpp"
 #include "mechanism/frames/motion.hpp"
 
 namespace tisserand::mechanism {
+
+/// Matrices in the coordinates (x₀, Θ₀, y_B, y_I), of which N = nb + m are y; sized where the body has second-order
+/// terms.
+struct SecondOrderWork {
+  Eigen::MatrixXd K;       ///< (6 + N)², lower triangle
+  Eigen::MatrixXd bent;    ///< rows x N: L + h
+  Eigen::MatrixXd X;       ///< N x 6
+  Eigen::MatrixXd D;       ///< 6 x N: J₀⁻¹ [yᵀ N_a]
+  Eigen::MatrixXd K_bb;    ///< (6 + nb)²: boundary part, internal coordinates eliminated
+  Eigen::MatrixXd K_Ib;    ///< m x (6 + nb)
+  Eigen::MatrixXd half;    ///< (6 + nb) x nb: K_bb Z
+  Eigen::MatrixXd turned;  ///< nb x (6 + nb)
+  Eigen::MatrixXd A_IB;    ///< m x nb
+  Eigen::MatrixXd thin_boundary, thin_nodes, thin_internal;  ///< (6 + nb) x 6, nb x 6, m x 6
+  Eigen::Matrix<double, 3, Eigen::Dynamic> dm, dc;           ///< 3 x nb
+};
 
 /// Constants of the elimination of y_I for the latest coefficients, and matrices to work in: one for all uses of a
 /// body, so that they stay in the caches.
@@ -31,6 +48,8 @@ struct SuperelementWork {
   Eigen::MatrixXd work_1, work_2, work_3;                           ///< nb x nb
   Eigen::Matrix<double, Eigen::Dynamic, 3> thin_1, thin_2, thin_3;  ///< nb x 3
   Eigen::VectorXd boundary_1, boundary_2, internal_1;
+
+  SecondOrderWork second;
 };
 
 /// The state at which the latest tangent of one use was formed: what condense() and expand() need.
@@ -45,8 +64,9 @@ struct SuperelementTangent {
 
   bool dense_coupling =
       false;  ///< A_BI and A_IB are stored (exact tangent, inertia M, full damping) instead of W M_BI and M_IB Z
-  Eigen::MatrixXd A_BI;  ///< nb x m
-  Eigen::MatrixXd A_IB;  ///< m x nb
+  Eigen::MatrixXd A_BI;   ///< nb x m
+  Eigen::MatrixXd A_IB;   ///< m x nb
+  InternalFactor factor;  ///< of A_II, where second-order terms make it dense
 };
 
 /// Scratch of one use, sized once.
@@ -99,6 +119,10 @@ void condense(const SuperelementBody& body, const SuperelementScratch& scratch, 
 void expand(const SuperelementBody& body, const SuperelementScratch& scratch, const double* dq_B, double* dy_I,
             SuperelementWork& work);
 
+/// dy_I = −A_II⁻¹ A_IB dq_B: the same without a residual.
+void expand_motion(const SuperelementBody& body, const SuperelementScratch& scratch, const double* dq_B, double* dy_I,
+                   SuperelementWork& work);
+
 /// The whole (nb + m)² tangent, y_I not eliminated; after residual(). Allocates.
 void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch& scratch,
                          const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,
@@ -111,7 +135,7 @@ struct SuperelementEnergy {
   double damping_power = 0.0;      ///< dissipated, ≥ 0
 };
 
-/// After update_kinematics().
+/// After residual().
 SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratch& scratch,
                           const Eigen::Vector3d& gravity);
 

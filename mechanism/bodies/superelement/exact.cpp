@@ -6,6 +6,7 @@
 #include "mechanism/bodies/superelement/center_tangent.hpp"
 #include "mechanism/bodies/superelement/coupling.hpp"
 #include "mechanism/bodies/superelement/evaluate.hpp"
+#include "mechanism/bodies/superelement/second_order_tangent.hpp"
 
 namespace tisserand::mechanism {
 
@@ -151,6 +152,10 @@ void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch
     exact_columns(body, scratch, nodes, gravity, c, A);
     return;
   }
+  if (body.second_order.inertia) {
+    A = whole_full_inertia_tangent(body, c, scratch);
+    return;
+  }
   const DenseForm d = dense_form(body, scratch);
   const Eigen::MatrixXd PT = d.P.transpose(), UT = d.U.transpose();
   const Eigen::MatrixXd C1 = PT * (d.O0 * d.M + d.M * d.O0.transpose()) * d.P;
@@ -160,6 +165,7 @@ void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch
   const Eigen::MatrixXd UpsilonT = d.Upsilon.transpose();
   A = c.mass * PT * d.M * d.P + c.damping * (C1 + C2 + C3 + UpsilonT * d.D * d.Upsilon) +
       c.stiffness * UpsilonT * d.S * d.Upsilon;
+  if (body.second_order.stiffening) A += whole_stiffening_tangent(body, c, scratch);
   if (body.inertia != formats::InertiaOption::M) return;
   SuperelementTangent frozen = scratch.tangent;
   frozen.coefficients = c;
@@ -178,6 +184,12 @@ void exact_tangent(const SuperelementBody& body, const NodeView<NodeMotion>& nod
   frozen.dense_coupling = true;
   frozen.A_BI = A.topRightCorner(nb, m);
   frozen.A_IB = A.bottomLeftCorner(m, nb);
+  if (body.second_order.any()) {
+    if (m > 0) frozen.factor.factor(A.bottomRightCorner(m, m));
+    work.A_BB = A.topLeftCorner(nb, nb);
+    if (m > 0) eliminate_internal(body, frozen, work);
+    return;
+  }
   if (body.damping.is_full()) {
     frozen.inverse_II = A.bottomRightCorner(m, m).inverse();
     work.A_BB = A.topLeftCorner(nb, nb) - frozen.A_BI * frozen.inverse_II * frozen.A_IB;

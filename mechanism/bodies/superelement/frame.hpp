@@ -51,7 +51,11 @@ struct LocalMotion {
   Vector y_B;                                     ///< [u, ψ] per node
   Vector rate_B;                                  ///< P q̇: the rates in the kinetic energy
   Vector acceleration_B;                          ///< P q̈ + V Ω₀
-  Vector deformation_rate_B;                      ///< Υ q̇ = ẏ_B; only with damping or inertia option M
+  Vector deformation_rate_B;                      ///< Υ q̇ = ẏ_B; only with damping or inertia options M and F
+  Vector deformation_acceleration_B;              ///< ÿ_B of the deformation; only with inertia options M and F
+  Vec3<S> origin_velocity = Vec3<S>::Zero();      ///< R₀ᵀẋ₀; only with inertia options M and F
+  Vec3<S> origin_acceleration = Vec3<S>::Zero();  ///< R₀ᵀẍ₀; only with inertia options M and F
+  Vec3<S> Omega0d = Vec3<S>::Zero();              ///< Ω̇₀; only with inertia options M and F
   Vec3<S> center_velocity = Vec3<S>::Zero();      ///< R₀ᵀẋ_cm; only with inertia option M
   Vec3<S> center_acceleration = Vec3<S>::Zero();  ///< R₀ᵀẍ_cm; only with inertia option M
   Vector y_I, rate_I, acceleration_I;
@@ -73,7 +77,8 @@ LocalMotion<S> make_local_motion(const SuperelementBody& body) {
   zero.xd.setZero();
   zero.Omega.setZero();
   motion.node.assign(body.node.size(), zero);
-  motion.y_B = motion.rate_B = motion.acceleration_B = motion.deformation_rate_B = Vector::Zero(body.boundary_size);
+  motion.y_B = motion.rate_B = motion.acceleration_B = motion.deformation_rate_B = motion.deformation_acceleration_B =
+      Vector::Zero(body.boundary_size);
   motion.y_I = motion.rate_I = motion.acceleration_I = Vector::Zero(body.modes);
   return motion;
 }

@@ -63,10 +63,10 @@ Vec3<S> mean_of(const SuperelementBody& body, const Eigen::Matrix<S, Eigen::Dyna
   return sum / body.mass;
 }
 
-/// motion.center_velocity and center_acceleration of x_cm = x₀ + R₀ c, c = X_cm + Φ_TᵀM̄ y/m, in axes of the frame:
-/// ẋ₀ + Ω₀ × c + ċ and ẍ₀ + Ω̇₀ × c + Ω₀ × (Ω₀ × c) + 2 Ω₀ × ċ + c̈. After deformation_rates().
+/// ÿ_B of the deformation, Ω̇₀ and the motion of x₀, after deformation_rates(): ü = R₀ᵀ(ẍ − ẍ₀) − 2 Ω₀ × u̇ −
+/// Ω₀ × (Ω₀ × x̂) − Ω̇₀ × x̂ and the derivative of ψ̇ = T⁻¹(ψ) Ω − T⁻¹(−ψ) Ω₀.
 template <class S, class Node>
-void center_of_mass_motion(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
+void deformation_accelerations(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   const Mat3<S> R0T = motion.R0.transpose();
   const Vec3<S> w = motion.Omega0, wd = frame_acceleration(body, nodes, motion);
   Vec3<S> x0d = Vec3<S>::Zero(), x0dd = Vec3<S>::Zero();
@@ -75,31 +75,46 @@ void center_of_mass_motion(const SuperelementBody& body, const NodeView<Node>& n
     x0d += body.node[i].alpha * motion.node[i].xd;
     x0dd += body.node[i].alpha * (R0T * nodes[i].xdd);
   }
-  Vec3<S> cdd = Vec3<S>::Zero();  // m c̈, first of the boundary
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     const LocalNode<S>& local = motion.node[i];
     if (node.has_translation()) {
       const Vec3<S> rate = motion.deformation_rate_B.template segment<3>(node.translation_row);
-      const Vec3<S> udd = R0T * nodes[i].xdd - x0dd - 2.0 * cross<S>(w, rate) - cross<S>(w, cross<S>(w, local.xh)) -
-                          cross<S>(wd, local.xh);
-      cdd += body.Gamma_B.template middleCols<3>(node.translation_row).template cast<S>() * udd;
+      motion.deformation_acceleration_B.template segment<3>(node.translation_row) =
+          R0T * nodes[i].xdd - x0dd - 2.0 * cross<S>(w, rate) - cross<S>(w, cross<S>(w, local.xh)) -
+          cross<S>(wd, local.xh);
     }
     if (node.has_rotation()) {
       const Vec3<S> rate = motion.deformation_rate_B.template segment<3>(node.rotation_row);
       const Mat3<S> Tinv_rate = inverse_tangent_rate<S>(local.psi, rate);
-      const Vec3<S> psidd = local.Tinv * nodes[i].Omegad - local.Tinv.transpose() * wd + Tinv_rate * nodes[i].Omega -
-                            Tinv_rate.transpose() * w;
-      cdd += body.Gamma_B.template middleCols<3>(node.rotation_row).template cast<S>() * psidd;
+      motion.deformation_acceleration_B.template segment<3>(node.rotation_row) =
+          local.Tinv * nodes[i].Omegad - local.Tinv.transpose() * wd + Tinv_rate * nodes[i].Omega -
+          Tinv_rate.transpose() * w;
     }
   }
+  motion.origin_velocity = x0d;
+  motion.origin_acceleration = x0dd;
+  motion.Omega0d = wd;
+}
+
+/// motion.center_velocity and center_acceleration of x_cm = x₀ + R₀ c, c = X_cm + Φ_TᵀM̄ y/m, in axes of the frame:
+/// ẋ₀ + Ω₀ × c + ċ and ẍ₀ + Ω̇₀ × c + Ω₀ × (Ω₀ × c) + 2 Ω₀ × ċ + c̈. After deformation_accelerations().
+template <class S>
+void center_of_mass_motion(const SuperelementBody& body, LocalMotion<S>& motion) {
+  const Vec3<S> w = motion.Omega0, wd = motion.Omega0d;
+  Vec3<S> cdd = Vec3<S>::Zero();  // m c̈, first of the boundary
+  for (const SuperelementNode& node : body.node)
+    for (const int row : {node.translation_row, node.rotation_row})
+      if (row >= 0)
+        cdd += body.Gamma_B.template middleCols<3>(row).template cast<S>() *
+               motion.deformation_acceleration_B.template segment<3>(row);
   for (Eigen::Index k = 0; k < body.modes; ++k)
     for (int i = 0; i < 3; ++i) cdd[i] += body.Gamma_I(i, k) * motion.acceleration_I[k];
   const Vec3<S> c = body.center_of_mass.template cast<S>() + mean_of<S>(body, motion.y_B, motion.y_I);
   const Vec3<S> cd = mean_of<S>(body, motion.deformation_rate_B, motion.rate_I);
-  motion.center_velocity = x0d + cross<S>(w, c) + cd;
-  motion.center_acceleration =
-      x0dd + cross<S>(wd, c) + cross<S>(w, cross<S>(w, c)) + 2.0 * cross<S>(w, cd) + cdd / body.mass;
+  motion.center_velocity = motion.origin_velocity + cross<S>(w, c) + cd;
+  motion.center_acceleration = motion.origin_acceleration + cross<S>(wd, c) + cross<S>(w, cross<S>(w, c)) +
+                               2.0 * cross<S>(w, cd) + cdd / body.mass;
 }
 
 }  // namespace tisserand::mechanism

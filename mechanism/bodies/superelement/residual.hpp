@@ -1,12 +1,12 @@
 // Forces of a superelement body, for every scalar: from local motion to G_iner + G_int + G_damp − gravity.
 #pragma once
 
-#include <type_traits>
-
 #include <Eigen/Core>
 
-#include "common/math/column_kernels.hpp"
+#include "mechanism/bodies/superelement/full_inertia.hpp"
 #include "mechanism/bodies/superelement/kinematics.hpp"
+#include "mechanism/bodies/superelement/products.hpp"
+#include "mechanism/bodies/superelement/strain.hpp"
 
 namespace tisserand::mechanism {
 
@@ -18,6 +18,9 @@ struct SuperelementForces {
   Vector p_B;  ///< (M̄ ẏ)_B, momenta in axes of the frame (rotation rows: material axes in option B)
   Vector f_B;  ///< (M̄ ÿ)_B
   Vector s_B;  ///< S̄ y + D ẏ − Φ-projected weight, boundary rows
+
+  StrainTerms<S> strain;    ///< sized where the body has stiffening
+  InertiaTerms<S> inertia;  ///< sized where it has full inertia
 };
 
 template <class S>
@@ -26,21 +29,40 @@ SuperelementForces<S> make_forces(const SuperelementBody& body) {
   SuperelementForces<S> forces;
   forces.r_B = forces.p_B = forces.f_B = forces.s_B = Vector::Zero(body.boundary_size);
   forces.r_I = Vector::Zero(body.modes);
+  const SecondOrder& second = body.second_order;
+  if (second.stiffening) forces.strain = make_strain_terms<S>(*second.stiffening);
+  if (second.inertia) forces.inertia = make_inertia_terms<S>(*second.inertia);
   return forces;
 }
 
-/// y += A x with constant A (column major) and vectors of any scalar; Rows is the number of rows, or Eigen::Dynamic.
-template <int Rows, class S>
-void multiply_add(const Eigen::MatrixXd& A, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x,
-                  Eigen::Matrix<S, Eigen::Dynamic, 1>& y) {
-  if constexpr (!std::is_same_v<S, double>) {
-    for (Eigen::Index k = 0; k < A.cols(); ++k)
-      for (Eigen::Index i = 0; i < A.rows(); ++i) y[i] += A(i, k) * x[k];
-  } else if constexpr (Rows == Eigen::Dynamic) {
-    y.noalias() += A * x;
-  } else {
-    column_kernels::multiply_add_fixed<Rows>(A.data(), A.cols(), x.data(), y.data());
-  }
+/// D ẏ, without its matrix in proportion to S̄ where stiffening changes that.
+template <int NB, class S>
+void add_damping_forces(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
+  if (!body.damping.active) return;
+  const double b = body.damping.stiffness;
+  const auto& rate = motion.deformation_rate_B;
+  if (b > 0.0)
+    for (Eigen::Index k = 0; k < body.boundary_size; ++k)
+      for (Eigen::Index i = 0; i < body.boundary_size; ++i) out.s_B[i] += b * body.S_BB(i, k) * rate[k];
+  for (Eigen::Index k = 0; k < body.modes; ++k) out.r_I[k] += body.damping.internal[k] * motion.rate_I[k];
+  if (!body.damping.is_full()) return;
+  multiply_add<NB>(body.damping.BB, rate, out.s_B);
+  if (body.modes == 0) return;
+  multiply_add<NB>(body.damping.BI, motion.rate_I, out.s_B);
+  multiply_add<Eigen::Dynamic>(body.damping.IB, rate, out.r_I);
+  multiply_add<Eigen::Dynamic>(body.damping.II, motion.rate_I, out.r_I);
+}
+
+/// What stiffening adds to S̄ y and, where the damping is b S̄, to b S̄ ẏ: b [(L + h)ᵀ(L + h) − LᵀL] ẏ.
+template <class S>
+void add_stiffening(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
+  if (!body.second_order.stiffening) return;
+  const Stiffening& stiffening = *body.second_order.stiffening;
+  StrainTerms<S>& t = out.strain;
+  strain_terms(stiffening, motion, t);
+  if (body.damping.stiffness > 0.0) add_strain_damping(stiffening, body.damping.stiffness, motion, t);
+  out.s_B += t.force.head(body.boundary_size);
+  out.r_I += t.force.tail(body.modes);
 }
 
 /// (M̄ ẏ)_B, (M̄ ÿ)_B, (M̄ ÿ)_I, and the elastic and damping forces in local coordinates.
@@ -59,19 +81,8 @@ void local_forces(const SuperelementBody& body, const LocalMotion<S>& motion, Su
     for (Eigen::Index k = 0; k < body.modes; ++k) out.r_I[k] += body.S_II[k] * motion.y_I[k];
     multiply_add<Eigen::Dynamic>(body.M_IB, motion.acceleration_B, out.r_I);
   }
-  if (!body.damping.active) return;
-  const double b = body.damping.stiffness;
-  const auto& rate = motion.deformation_rate_B;
-  if (b > 0.0)
-    for (Eigen::Index k = 0; k < body.boundary_size; ++k)
-      for (Eigen::Index i = 0; i < body.boundary_size; ++i) out.s_B[i] += b * body.S_BB(i, k) * rate[k];
-  for (Eigen::Index k = 0; k < body.modes; ++k) out.r_I[k] += body.damping.internal[k] * motion.rate_I[k];
-  if (!body.damping.is_full()) return;
-  multiply_add<NB>(body.damping.BB, rate, out.s_B);
-  if (body.modes == 0) return;
-  multiply_add<NB>(body.damping.BI, motion.rate_I, out.s_B);
-  multiply_add<Eigen::Dynamic>(body.damping.IB, rate, out.r_I);
-  multiply_add<Eigen::Dynamic>(body.damping.II, motion.rate_I, out.r_I);
+  add_damping_forces<NB>(body, motion, out);
+  add_stiffening(body, motion, out);
 }
 
 /// Centre of mass relative to x₀, axes of the frame: X_cm + Φ_TᵀM̄ y / m.
@@ -105,6 +116,55 @@ Vec3<S> apply_gravity(const SuperelementBody& body, const LocalMotion<S>& motion
   return body.mass * cross<S>(deformed_center_of_mass(body, motion), g);
 }
 
+/// A₀ᵀ G_x + Uᵀ G_θ + Υᵀ G_y of the boundary, G_y = out.f_B + out.s_B, into out.r_B: forces on (x₀, Θ₀, y) as forces on
+/// the nodes.
+template <class S>
+void pull_back(const SuperelementBody& body, const LocalMotion<S>& motion, const FrameForces<S>& frame,
+               SuperelementForces<S>& out) {
+  out.r_B = out.f_B + out.s_B;
+  Vec3<S> moment = frame.G_theta, total = -frame.G_x;
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    if (node.has_translation()) {
+      const Vec3<S> f = out.r_B.template segment<3>(node.translation_row);
+      total += f;
+      moment -= cross<S>(motion.node[i].xh, f);
+    }
+    if (node.has_rotation()) moment -= motion.node[i].Tinv * out.r_B.template segment<3>(node.rotation_row);
+  }
+  const bool polar = body.frame == FrameAlgorithm::polar;
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const SuperelementNode& node = body.node[i];
+    const LocalNode<S>& local = motion.node[i];
+    if (node.has_translation()) {
+      const Vec3<S> f = out.r_B.template segment<3>(node.translation_row) - node.alpha * total;
+      out.r_B.template segment<3>(node.translation_row).noalias() = motion.R0 * f;
+      if (polar) out.r_B.template segment<3>(node.translation_row) += local.U_x.transpose() * moment;
+    }
+    if (node.has_rotation()) {
+      const Vec3<S> f = out.r_B.template segment<3>(node.rotation_row);
+      out.r_B.template segment<3>(node.rotation_row) = local.Tinv.transpose() * f + local.U.transpose() * moment;
+    }
+  }
+}
+
+/// Inertia option F: Lagrange's equations of [SO] 4 with the elastic forces of [SO] 3.
+template <int NB, class S>
+void full_inertia_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Eigen::Vector3d& gravity,
+                         SuperelementForces<S>& out) {
+  out.p_B.setZero();
+  out.s_B.setZero();
+  multiply_add<NB>(body.S_BB, motion.y_B, out.s_B);
+  for (Eigen::Index k = 0; k < body.modes; ++k) out.r_I[k] = body.S_II[k] * motion.y_I[k];
+  add_damping_forces<NB>(body, motion, out);
+  add_stiffening(body, motion, out);
+  const Vec3<S> g = motion.R0.transpose() * gravity.template cast<S>();
+  const FrameForces<S> frame = inertia_forces<S>(body, motion, g, out.inertia);
+  out.f_B = out.inertia.G_y.head(body.boundary_size);
+  out.r_I += out.inertia.G_y.tail(body.modes);
+  pull_back(body, motion, frame, out);
+}
+
 /// r = Pᵀ M̄ ÿ + [Pᵀ(O₀ ∓ O_B) − UᵀVᵀ] p + Υᵀ(S̄ y + D ẏ) − gravity; − O_B in option A ([Car00] (45)), + in B ((60)),
 /// with the sign of UᵀVᵀ corrected (the print has +, which contradicts its own derivation and Lagrange's equations).
 /// Option M is B with T = ½ ẏᵀ(M̄ − M̄ Φ_T Φ_TᵀM̄/m) ẏ + ½ m |ẋ_cm|²: the force m J_cmᵀ ẍ_cm of the last term is that of
@@ -112,6 +172,10 @@ Vec3<S> apply_gravity(const SuperelementBody& body, const LocalMotion<S>& motion
 template <int NB, class S>
 void superelement_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Eigen::Vector3d& gravity,
                          SuperelementForces<S>& out) {
+  if (body.second_order.inertia) {
+    full_inertia_forces<NB>(body, motion, gravity, out);
+    return;
+  }
   local_forces<NB>(body, motion, out);
   Vec3<S> moment = Vec3<S>::Zero();  // conjugate to δΘ₀
   Vec3<S> total = Vec3<S>::Zero();   // conjugate to −δx₀, axes of the frame

@@ -5,6 +5,7 @@
 #include "mechanism/bodies/superelement/center_tangent.hpp"
 #include "mechanism/bodies/superelement/coupling.hpp"
 #include "mechanism/bodies/superelement/evaluate.hpp"
+#include "mechanism/bodies/superelement/second_order_tangent.hpp"
 
 namespace tisserand::mechanism {
 
@@ -281,11 +282,16 @@ void condensed_tangent(const SuperelementBody& body, const SuperelementScratch& 
 
 void tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
              SuperelementWork& work) {
+  if (body.second_order.inertia) {
+    full_inertia_tangent(body, coefficients, scratch, work);
+    return;
+  }
   update_constants(body, coefficients, work);
   freeze(body, scratch.motion, work, scratch.tangent);
   const bool full_damping = body.damping.is_full();
   const bool exact_center = body.inertia == InertiaOption::M;
-  const bool eliminate = body.modes > 0 && !full_damping && !exact_center;
+  const bool stiffening = body.second_order.stiffening.has_value();
+  const bool eliminate = body.modes > 0 && !full_damping && !exact_center && !stiffening;
   switch (body.boundary_size) {
     case 12:
       condensed_tangent<12>(body, scratch, eliminate, work);
@@ -297,12 +303,11 @@ void tangent(const SuperelementBody& body, const TangentCoefficients& coefficien
       condensed_tangent<Eigen::Dynamic>(body, scratch, eliminate, work);
       break;
   }
-  if (exact_center) {
-    add_center_of_mass_tangent(body, scratch, work);
-  } else if (full_damping && body.modes > 0) {
-    store_coupling(body, scratch.tangent, work);
-    eliminate_internal(body, scratch.tangent, work);
-  }
+  // They work in the vectors and thin matrices that the tangent above is done with.
+  if (body.modes > 0 && !eliminate) store_coupling(body, scratch.tangent, work);
+  if (exact_center) add_center_of_mass_tangent(body, scratch, work);
+  if (stiffening) add_stiffening_tangent(body, coefficients, scratch, work);
+  if (body.modes > 0 && !eliminate) eliminate_internal(body, scratch.tangent, work);
 }
 
 }  // namespace tisserand::mechanism

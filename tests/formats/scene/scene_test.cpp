@@ -51,7 +51,7 @@ TEST(Scene, ReadsEveryValueAndSetsDefaults) {
   const auto& beam = std::get<SuperelementBodySpec>(scene.bodies[0]);
   EXPECT_EQ(beam.file, folder.path() + "/parts/beam.superelement.h5");
   EXPECT_FALSE(beam.rigid || beam.modes || beam.cutoff);
-  EXPECT_EQ(beam.inertia, InertiaOption::B);
+  EXPECT_FALSE(beam.inertia || beam.stiffening || beam.second_order);
   EXPECT_EQ(beam.frame, FrameKind::paper);
   EXPECT_EQ(beam.start.pose.orientation.coeffs(), Eigen::Quaterniond::Identity().coeffs());
   EXPECT_THAT(beam.where, HasSubstr("scene.yaml:6:3"));

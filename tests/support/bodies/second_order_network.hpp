@@ -5,16 +5,9 @@
 
 #include <Eigen/Core>
 
-#include "formats/companion/companion.hpp"
-#include "tests/support/bodies/reduced_frames.hpp"
+#include "tests/support/bodies/second_order_arrays.hpp"
 
 namespace tisserand::test_support {
-
-struct SecondOrderBody {
-  formats::Superelement element;
-  formats::Companion companion;
-  Eigen::VectorXd omega_squared;  ///< of its internal coordinates
-};
 
 /// Point masses and springs as of spring_network(): nodes with translations alone, every pair joined by a spring, whose
 /// geometric stiffness under the force F is (F/l)(1 − e eᵀ). `weights`: of the boundary nodes, sum 1. A load case

@@ -1,0 +1,159 @@
+// From arrays on the coordinates of a body to the constants of its second-order terms.
+#include "mechanism/bodies/superelement/second_order.hpp"
+
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "common/math/rotation.hpp"
+#include "formats/companion/operations.hpp"
+#include "mechanism/bodies/superelement/body.hpp"
+
+namespace tisserand::mechanism {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MatrixXd whole_mass(const SuperelementBody& body) {
+  const int nb = body.boundary_size, m = body.modes;
+  MatrixXd M = MatrixXd::Identity(nb + m, nb + m);
+  M.topLeftCorner(nb, nb) = body.M_BB;
+  M.topRightCorner(nb, m) = body.M_BI;
+  M.bottomLeftCorner(m, nb) = body.M_IB;
+  return M;
+}
+
+/// J₀⁻¹, zero for the axis of a line of masses without rotary inertia; rotations measured by `length`.
+Eigen::Matrix<double, 6, 6> invert_inertia(const Eigen::Matrix<double, 6, 6>& J0, double length) {
+  constexpr double no_inertia = 1e-12;
+  Eigen::Matrix<double, 6, 1> unit;
+  unit << 1.0, 1.0, 1.0, 1.0 / length, 1.0 / length, 1.0 / length;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(unit.asDiagonal() * J0 * unit.asDiagonal());
+  Eigen::Matrix<double, 6, 1> inverse = solver.eigenvalues();
+  for (int i = 0; i < 6; ++i) inverse[i] = inverse[i] > no_inertia * solver.eigenvalues()[5] ? 1.0 / inverse[i] : 0.0;
+  return unit.asDiagonal() * solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose() *
+         unit.asDiagonal();
+}
+
+/// Rows of the file (columns of the body's coordinates with all modes of `matrices`): y(file) = A y.
+MatrixXd file_congruence(const formats::CanonicalMatrices& matrices, const SuperelementBody& body) {
+  const auto nb = static_cast<Eigen::Index>(body.file.boundary_row.size());
+  const auto internal = static_cast<Eigen::Index>(body.file.internal_row.size());
+  MatrixXd A = MatrixXd::Zero(nb + internal, nb + matrices.modal_part.cols());
+  for (Eigen::Index i = 0; i < nb; ++i) A(body.file.boundary_row[i], i) = 1.0;
+  for (Eigen::Index i = 0; i < internal; ++i) {
+    const int row = body.file.internal_row[i];
+    A.row(row).head(nb) = matrices.static_part.row(i);
+    A.row(row).tail(matrices.modal_part.cols()) = matrices.modal_part.row(i);
+  }
+  return A;
+}
+
+/// M̄ and the rigid motions about `point` (part frame) with all modes.
+struct WholeMotions {
+  MatrixXd M, R;
+};
+
+WholeMotions whole_motions(const formats::CanonicalMatrices& matrices, const SuperelementBody& body,
+                           const Eigen::Vector3d& point) {
+  const Eigen::Index nb = body.boundary_size, m = matrices.S_II.size();
+  WholeMotions whole{MatrixXd::Identity(nb + m, nb + m), MatrixXd::Zero(nb + m, 6)};
+  whole.M.topLeftCorner(nb, nb) = matrices.M_BB;
+  whole.M.topRightCorner(nb, m) = matrices.M_BI;
+  whole.M.bottomLeftCorner(m, nb) = matrices.M_BI.transpose();
+  whole.R.topRows(nb) = rigid_columns(body).topRows(nb);
+  for (const int i : body.translation_nodes)
+    whole.R.block<3, 3>(body.node[i].translation_row, 3) +=
+        skew<double>(Eigen::Vector3d(point - body.reference_origin));
+  return whole;
+}
+
+}  // namespace
+
+formats::Companion companion_on_body(formats::Companion companion, const formats::Superelement& element,
+                                     const formats::CanonicalMatrices& matrices, const UnitConversion& units,
+                                     const SuperelementBody& body) {
+  std::vector<bool> translation;
+  for (std::size_t i = 0; i < element.dof_node.size(); ++i)
+    translation.push_back(element.dof_node[i] >= 0 && element.dof_component[i] < 3);
+  formats::convert(companion, units, translation);
+  formats::congruence(companion, file_congruence(matrices, body));
+  const WholeMotions whole = whole_motions(matrices, body, companion.reference_point);
+  const Eigen::Index dropped = matrices.S_II.size() - body.modes;
+  std::vector<int> rows;
+  for (Eigen::Index i = 0; i < dropped; ++i) rows.push_back(body.boundary_size + body.modes + static_cast<int>(i));
+  formats::drop_modes(companion, whole.M, whole.R, rows, matrices.S_II.tail(dropped));
+  formats::move_reference(companion, body.reference_origin);
+  formats::galilean_step_keeping_gram(companion, whole_mass(body), rigid_columns(body));
+  return companion;
+}
+
+Stiffening make_stiffening(const SuperelementBody& body, const formats::Companion& companion) {
+  constexpr double no_strain = 1e-9;
+  const int nb = body.boundary_size, m = body.modes;
+  const VectorXd unit = coordinate_units(body);
+  const MatrixXd scaled = unit.head(nb).asDiagonal() * body.S_BB * unit.head(nb).asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(scaled);
+  const VectorXd& lambda = solver.eigenvalues();
+  const Eigen::Index strained = (lambda.array() > no_strain * lambda[nb - 1]).count(), rows = strained + m;
+  Stiffening out;
+  out.L = MatrixXd::Zero(rows, nb + m);
+  MatrixXd inverse = MatrixXd::Zero(nb + m, rows);
+  for (Eigen::Index a = 0; a < strained; ++a) {
+    const VectorXd v = solver.eigenvectors().col(nb - strained + a);
+    const double root = std::sqrt(lambda[nb - strained + a]);
+    out.L.row(a).head(nb) = root * v.cwiseQuotient(unit.head(nb));
+    inverse.col(a).head(nb) = v.cwiseProduct(unit.head(nb)) / root;
+  }
+  for (int i = 0; i < m; ++i) {
+    out.L(strained + i, nb + i) = std::sqrt(body.S_II[i]);
+    inverse(nb + i, strained + i) = 1.0 / std::sqrt(body.S_II[i]);
+  }
+  std::vector<MatrixXd> Gamma(static_cast<std::size_t>(rows), MatrixXd::Zero(nb + m, nb + m));
+  for (Eigen::Index a = 0; a < rows; ++a)
+    for (int j = 0; j < nb + m; ++j)
+      if (inverse(j, a) != 0.0) Gamma[a] += inverse(j, a) * companion.H[j];
+  out.Gamma = quadratic_forms(Gamma, unit);
+  return out;
+}
+
+FullInertia make_full_inertia(const SuperelementBody& body, const formats::Companion& companion,
+                              Foreshortening foreshortening) {
+  FullInertia inertia;
+  inertia.M = whole_mass(body);
+  inertia.R = rigid_columns(body);
+  inertia.MR = inertia.M * inertia.R;
+  double length = 0.0;
+  for (const SuperelementNode& node : body.node) length = std::max(length, node.X.norm());
+  inertia.J0_inverse = invert_inertia(inertia.R.transpose() * inertia.MR, length > 0.0 ? length : 1.0);
+  const Eigen::Index n = inertia.M.rows();
+  inertia.C.resize(3 * n, n);
+  for (int k = 0; k < 3; ++k) inertia.C.middleRows(k * n, n) = companion.C[k];
+  const VectorXd unit = coordinate_units(body);
+  inertia.E = quadratic_forms({companion.E.begin(), companion.E.end()}, unit);
+  switch (foreshortening) {
+    case Foreshortening::off:
+      break;
+    case Foreshortening::on: {
+      std::vector<MatrixXd> NT(companion.N.begin(), companion.N.end());
+      NT.insert(NT.end(), companion.T.begin(), companion.T.end());
+      inertia.NT = quadratic_forms(NT, unit);
+      break;
+    }
+  }
+  return inertia;
+}
+
+SecondOrder make_second_order(const SuperelementBody& body, const formats::Companion& companion,
+                              formats::InertiaOption inertia, formats::StiffeningOption stiffening) {
+  SecondOrder terms;
+  if (stiffening != formats::StiffeningOption::off) terms.stiffening = make_stiffening(body, companion);
+  if (inertia == formats::InertiaOption::F)
+    terms.inertia = make_full_inertia(
+        body, companion, stiffening == formats::StiffeningOption::full ? Foreshortening::on : Foreshortening::off);
+  return terms;
+}
+
+}  // namespace tisserand::mechanism

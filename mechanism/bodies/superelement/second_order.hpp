@@ -1,0 +1,65 @@
+// What goes beyond S̄ and M̄ in a superelement body: stiffening and full inertia, made from the arrays of a companion
+// file.
+#pragma once
+
+#include <optional>
+
+#include <Eigen/Core>
+
+#include "common/units.hpp"
+#include "formats/companion/companion.hpp"
+#include "formats/scene/body_spec.hpp"
+#include "formats/superelement/canonical.hpp"
+#include "mechanism/bodies/superelement/quadratic_forms.hpp"
+
+namespace tisserand::mechanism {
+
+struct SuperelementBody;
+
+/// Strain energy as a sum of squares, V = ½ Σ e_a², e_a = l_a·y + ½ yᵀ Γ_a y: the rows L of S̄ = LᵀL, with Γ. S̄ y stays
+/// what it is without stiffening; these are the terms beyond it.
+struct Stiffening {
+  Eigen::MatrixXd L;     ///< rows x N
+  QuadraticForms Gamma;  ///< rows
+};
+
+/// T = ½ ‖Φ ξ + Ω × Φ y‖²_M with ξ = R (ν + J₀⁻¹ n₂) + ẏ, ν = (v₀, Ω).
+struct FullInertia {
+  Eigen::MatrixXd M;                            ///< N x N
+  Eigen::Matrix<double, Eigen::Dynamic, 6> R;   ///< rigid motions in y about x₀
+  Eigen::Matrix<double, Eigen::Dynamic, 6> MR;  ///< M̄ R
+  Eigen::Matrix<double, 6, 6> J0_inverse;       ///< of RᵀM̄R; pseudo-inverse where an axis has no inertia
+  Eigen::MatrixXd C;                            ///< 3N x N: C_x, C_y, C_z, after the Galilean step
+  QuadraticForms E;                             ///< 6
+  std::optional<QuadraticForms> NT;             ///< 12: N, T; absent: no foreshortening in the inertia
+};
+
+/// The terms that are on.
+struct SecondOrder {
+  std::optional<Stiffening> stiffening;
+  std::optional<FullInertia> inertia;
+
+  bool any() const { return stiffening.has_value() || inertia.has_value(); }
+};
+
+/// A companion on the coordinates of a body that has all but its second-order terms: rows in the order of the body,
+/// units of the scene, canonical form of `matrices` (all of its modes, of which the body keeps the first), the
+/// reference point at x₀; C and E made exact under translation ([SO] 2.2, 2.3).
+formats::Companion companion_on_body(formats::Companion companion, const formats::Superelement& element,
+                                     const formats::CanonicalMatrices& matrices, const UnitConversion& units,
+                                     const SuperelementBody& body);
+
+/// Rows of S̄ = LᵀL: eigenvectors of the scaled S̄_BB above 1e-9 of its largest eigenvalue, and ωᵢ of the internal
+/// coordinates; Γ_a = Σⱼ (L⁺)_ja Hⱼ ([SO] 2.3). The companion is that of companion_on_body().
+Stiffening make_stiffening(const SuperelementBody& body, const formats::Companion& companion);
+
+enum class Foreshortening { off, on };
+
+FullInertia make_full_inertia(const SuperelementBody& body, const formats::Companion& companion,
+                              Foreshortening foreshortening);
+
+/// The terms that the options ask for.
+SecondOrder make_second_order(const SuperelementBody& body, const formats::Companion& companion,
+                              formats::InertiaOption inertia, formats::StiffeningOption stiffening);
+
+}  // namespace tisserand::mechanism

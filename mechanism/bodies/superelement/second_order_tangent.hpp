@@ -1,0 +1,32 @@
+// Step tangents of superelement bodies with stiffening or full inertia, in the coordinates (x₀, Θ₀, y) and in those of
+// the nodes.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "mechanism/bodies/superelement/evaluate.hpp"
+
+namespace tisserand::mechanism {
+
+/// Matrices to work in, of bodies with second-order terms.
+SecondOrderWork make_second_order_work(const SuperelementBody& body);
+
+/// Step tangent of inertia option F, internal coordinates eliminated: work.A_BB and the blocks of condense() and
+/// expand(). c_m Zᵀ M_ν Z + c_k (Υᵀ K_y Υ + K_f) + c_c Υᵀ D Υ with Z = [A₀; U; Υ] ([SO] 5): mass and stiffness are
+/// exact, the derivatives by velocities of the inertia and those of inertia and weight by positions are left out.
+void full_inertia_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
+                          SuperelementScratch& scratch, SuperelementWork& work);
+
+/// Adds c_k (Υᵀ (K_y − S̄) Υ + K_f) to work.A_BB, A_BI and A_IB, and factors A_II.
+void add_stiffening_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
+                            SuperelementScratch& scratch, SuperelementWork& work);
+
+/// The whole (nb + m)² step tangent of inertia option F.
+Eigen::MatrixXd whole_full_inertia_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
+                                           const SuperelementScratch& scratch);
+
+/// What add_stiffening_tangent() adds, in (nb + m)² form.
+Eigen::MatrixXd whole_stiffening_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
+                                         const SuperelementScratch& scratch);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,50 @@
+// Limits of angles, and what is said of them.
+#include "mechanism/run/frame_angles.hpp"
+
+#include <fmt/format.h>
+
+#include "mechanism/equations/terms.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+constexpr double noted = 0.3, doubted = 0.5, refused = 0.7;  // rad; [SO] 6
+constexpr const char* remedy = "cut the part into several superelements";
+
+}  // namespace
+
+std::string FrameAngles::observe(const Model& model, const State& state, const Evaluation& evaluation) {
+  std::string end;
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const SuperelementBody& body = body_of(model, i);
+    for (const int j : body.rotation_nodes) {
+      const double angle = evaluation.superelements[i].motion.node[j].psi.norm();
+      if (!(angle > seen_[i].angle)) continue;
+      seen_[i] = {angle, state.time(), j};
+      if (angle > refused && body.second_order.stiffening && end.empty())
+        end = fmt::format(
+            "t = {:.6g}: '{}/{}' has turned by {:.3g} rad against the floating frame of its body, whose stiffening "
+            "holds below {:g}; {}",
+            state.time(), model.superelements[i].name, body.node[j].name, angle, refused, remedy);
+    }
+  }
+  return end;
+}
+
+void FrameAngles::tell(const Model& model, RunReport& report) const {
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    const SuperelementBody& body = body_of(model, i);
+    const bool stiffened = body.second_order.stiffening.has_value();
+    if (seen_[i].angle <= (stiffened ? noted : doubted)) continue;
+    const std::string text =
+        fmt::format("'{}/{}' turned by up to {:.3g} rad (at t = {:.6g}) against the floating frame of its body{}",
+                    model.superelements[i].name, body.node[seen_[i].node].name, seen_[i].angle, seen_[i].time,
+                    stiffened ? "" : ", whose strain is linear in it");
+    if (seen_[i].angle > doubted)
+      report.preflight.doubts.push_back(fmt::format("{}: {}", text, remedy));
+    else
+      report.notes.push_back(text);
+  }
+}
+
+}  // namespace tisserand::mechanism
