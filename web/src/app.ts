@@ -206,7 +206,7 @@ export class App {
       const run = this.runs.find((r) => r.visible)!;
       const largest = Math.max(...this.runs.filter((r) => r.visible).map((r) => this.largest(r)));
       const title = settings.colouring === "stress" ? `${run.shapes.find((s) => s.stress)?.stress?.quantity ?? ""} stress`.trim() : settings.colouring;
-      const note = { displacement: "from the first instant", deformation: "within the body, not exaggerated", stress: "", body: "" }[settings.colouring];
+      const note = { displacement: this.player.mode ? "from the mean position" : "from the first instant", deformation: "within the body, not exaggerated", stress: "", body: "" }[settings.colouring];
       this.legend.show(title, run.unit(settings.colouring === "stress" ? "stress" : "length"), [0, largest], settings.map, note);
     }
     viewport.colour(this.legend.element.hidden ? [0, 1] : this.legend.range);

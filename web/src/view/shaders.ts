@@ -57,7 +57,9 @@ void main() {
   shine *= shine;
   vec3 base = painted(colour, share);
   if (body == chosen) base = mix(base, vec3(1.0, 0.72, 0.2), colouring > 0 ? 0.0 : 0.55);
-  result = vec4(base * (0.30 + 0.52 * key + 0.24 * fill) + 0.07 * shine * shine, opacity);
+  // Coloured quantities are shaded less, so that they keep to the legend.
+  float shade = colouring > 0 ? 0.70 + 0.26 * key + 0.10 * fill : 0.30 + 0.52 * key + 0.24 * fill;
+  result = vec4(base * shade + (colouring > 0 ? 0.0 : 0.07) * shine * shine, opacity);
 }`;
 
 export const EDGE_FRAGMENT = `precision highp float;
