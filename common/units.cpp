@@ -71,6 +71,11 @@ std::string unit_label(const Units& units, int length, int mass, int time) {
   if (si && mass == 1 && time == -2 && length == 1) return "N";
   if (si && mass == 1 && time == -2 && length == 2) return "N m";
   if (si && mass == 1 && time == -3 && length == 2) return "W";
+  if (mass == 1 && time == -2 && length == -1) {
+    const double pascal = units.mass.factor / (units.length.factor * units.time.factor * units.time.factor);
+    if (pascal == 1.0) return "Pa";
+    if (std::abs(pascal / 1e6 - 1.0) < 1e-12) return "MPa";
+  }
   return powers(units, length, mass, time);
 }
 

@@ -116,6 +116,7 @@ std::string report(const Recovery& r, const BodyMotion& motion, const Envelope& 
   const std::string stress = unit_label(motion.scene_units, -1, 1, -2);
   const auto node = [&r](int n) { return printable_line(r.node_label[static_cast<std::size_t>(n)], 60); };
   std::string text = fmt::format("body '{}', {} instants\n", motion.body, motion.instants());
+  text += "displacements count from the floating frame of the body\n";
   text += peak_line("largest displacement", envelope.moved, length, time, node(envelope.moved.at));
   if (envelope.beam.at >= 0)
     text += peak_line("largest stress of beams", envelope.beam, stress, time, element_text(r, envelope.beam.at));

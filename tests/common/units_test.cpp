@@ -60,6 +60,8 @@ TEST(Units, LabelsOfProducts) {
   EXPECT_EQ(unit_label(Units::si(), 2, 1, -2), "N m");
   EXPECT_EQ(unit_label(Units::si(), 1, 0, -1), "m s^-1");
   EXPECT_EQ(unit_label(mm, 1, 1, -2), "t mm s^-2");
+  EXPECT_EQ(unit_label(Units::si(), -1, 1, -2), "Pa");
+  EXPECT_EQ(unit_label(mm, -1, 1, -2), "MPa");
   EXPECT_EQ(unit_label(mm, 0, 0, 0), "");
   EXPECT_EQ(unit_label(Units::consistent(), 1, 1, -2), "");
 }

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "formats/recovery/recovery.hpp"
 #include "formats/superelement/superelement.hpp"
 
 namespace tisserand::testing::program_test {
@@ -63,6 +64,22 @@ TEST_F(Program, RunWritesSuperelementAndCertificateBesideThePart) {
   const Outcome show = call("show " + (folder / "beam.superelement.h5").string());
   EXPECT_EQ(show.code, 0);
   EXPECT_THAT(show.text, AllOf(HasSubstr("free, full"), HasSubstr("first dropped"), HasSubstr("mass 9.927684")));
+}
+
+TEST_F(Program, RecoveryFileIsWrittenWhereThePartAsksForIt) {
+  const std::string file = (folder / "beam.recovery.h5").string();
+  ASSERT_EQ(call("run " + part).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(file));
+  const Outcome run = call("run " + part + " --set recovery=yes");
+  ASSERT_EQ(run.code, 0) << run.text;
+  EXPECT_THAT(run.text, AllOf(HasSubstr("recovery "), HasSubstr("beam.recovery.h5")));
+  const formats::RecoveryReader reader(file);
+  EXPECT_EQ(reader.recovery().content_id,
+            formats::read_superelement((folder / "beam.superelement.h5").string()).superelement.content_id);
+  const Outcome recover = call("recover " + file + " " + (folder / "beam.superelement.h5").string());
+  EXPECT_EQ(recover.code, 1);
+  EXPECT_THAT(recover.text, HasSubstr("expected 'tisserand-results'"));
+  EXPECT_EQ(call("recover " + file).code, 2);
 }
 
 TEST_F(Program, ShowIgnoresACertificateOfOtherContent) {

@@ -208,7 +208,7 @@ TEST_F(Recover, OtherUnitsOfTheSceneAreThoseOfTheOutput) {
   write(run_, file("run.results.h5"));
   RecoverRequest r = request();
   r.points = {"tip", "base"};
-  EXPECT_THAT(reducer::recover(r), HasSubstr(" mm at "));
+  EXPECT_THAT(reducer::recover(r), AllOf(HasSubstr(" mm at "), HasSubstr(" MPa at ")));
   const std::vector<double> line = last_line(file("out/arm_points.csv"));
   EXPECT_NEAR(line[1], 1e3 * y_[6], 1e-6 * 1e3 * y_.head(9).norm());
   const double b = 20.0, h = 30.0;
