@@ -147,12 +147,10 @@ void add_center_of_mass_tangent(const SuperelementBody& body, SuperelementScratc
   // ΔA_BI = (Jᵀ (c_m + 2 c_c Ω₀~) − W Γ_Bᵀ/m) Γ_I and ΔA_IB = Γ_Iᵀ (c_m J + c_c A_v − Γ_B Z/m).
   columns.w = columns.J.lazyProduct(acceleration_of_rates(c, scratch.motion)) - columns.w / body.mass;
   columns.F -= (c.mass * columns.g + columns.z) / body.mass;
-  store_coupling(body, frozen, work);
   for (Eigen::Index k = 0; k < body.modes; ++k) {
     frozen.A_BI.col(k).noalias() += columns.w.lazyProduct(body.Gamma_I.col(k));
     frozen.A_IB.row(k).transpose().noalias() += columns.F.lazyProduct(body.Gamma_I.col(k));
   }
-  eliminate_internal(body, frozen, work);
 }
 
 }  // namespace tisserand::mechanism
