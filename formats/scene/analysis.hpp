@@ -16,7 +16,7 @@ std::string analysis_word(AnalysisKind kind);
 /// Whether it goes through time in the steps of the integrator.
 bool takes_steps(AnalysisKind kind);
 
-enum class Method { generalised_alpha, hht, bdf };
+enum class Method { generalised_alpha, hht, bdf, radau };
 enum class Formulation { index3, stabilised_index2 };
 enum class LinearSolver { automatic, klu, umfpack, dense, qr };
 

@@ -9,8 +9,10 @@ namespace tisserand::formats {
 
 namespace {
 
-constexpr Choice<Method> methods[] = {
-    {"generalised_alpha", Method::generalised_alpha}, {"hht", Method::hht}, {"bdf", Method::bdf}};
+constexpr Choice<Method> methods[] = {{"generalised_alpha", Method::generalised_alpha},
+                                      {"hht", Method::hht},
+                                      {"bdf", Method::bdf},
+                                      {"radau", Method::radau}};
 constexpr Choice<Formulation> formulations[] = {{"index3", Formulation::index3},
                                                 {"stabilised_index2", Formulation::stabilised_index2}};
 constexpr Choice<LinearSolver> linear_solvers[] = {{"auto", LinearSolver::automatic},
@@ -36,6 +38,8 @@ void check_keys(const MapReader& map, Method method) {
   if (map.has("rho") && method == Method::hht)
     map.context().fail(map.find("rho")->key_place, "'rho' has no effect with method: hht",
                        "give alpha, or method: generalised_alpha");
+  for (const char* key : {"rho", "alpha", "formulation"})
+    refuse(map, key, method != Method::radau, "leave it out, or use method: generalised_alpha");
   if (map.has("alpha") && method == Method::generalised_alpha)
     map.context().fail(map.find("alpha")->key_place, "'alpha' has no effect with method: generalised_alpha",
                        "give rho, or method: hht");
@@ -112,7 +116,7 @@ std::vector<KeySet> integrator_key_sets() {
        {"baumgarte", "baumgarte", "`{alpha: 5, beta: 5}` [1/time]: Φ̈ + 2 α Φ̇ + β² Φ = 0", "5, 5"}});
   return {
       {"integrator",
-       {choice<&IntegratorSpec::method, methods>("method", "`generalised_alpha`, `hht`, or `bdf` (below)"),
+       {choice<&IntegratorSpec::method, methods>("method", "`generalised_alpha`, `hht`, `bdf` or `radau` (below)"),
         plain<&IntegratorSpec::rho>("rho", "number>=0<=1",
                                     "spectral radius at infinity of generalised_alpha, 0 to 1; an error with hht"),
         plain<&IntegratorSpec::alpha>("alpha", "number>=0<=0.3333333333333333",

@@ -70,6 +70,9 @@ void check_groups(const Scene& scene, const std::string& where, Faults& faults) 
   const IntegratorSpec& spec = scene.integrator;
   if (takes_steps(scene.analysis)) check_times(spec, integrator);
   check_accuracy(spec, integrator);
+  if (spec.method == Method::radau && spec.linear_solver == LinearSolver::qr)
+    integrator.add("linear_solver", "linear_solver: qr has no complex values, which method: radau needs",
+                   "use auto, klu, umfpack or dense");
   integrator.between("rho", spec.rho, 0.0, 1.0);
   integrator.between("alpha", spec.alpha, 0.0, 1.0 / 3.0);
   integrator.positive("tolerance", spec.tolerance);

@@ -36,7 +36,7 @@ MatrixXd exact_matrix(const Model& model, const State& state, const TangentCoeff
   const SparsePattern& pattern = *model.pattern;
   const int n = model.sizes.velocities(), boundary = model.sizes.boundary;
   MatrixXd A = MatrixXd::Zero(n, n);
-  evaluate_tangent_without_superelements(model, state, c, evaluation, matrix);
+  evaluate_tangent_without_superelements(model, state, {c, TangentKind::exact, {}}, evaluation, matrix);
   for (int j = 0; j < boundary; ++j)
     for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
       const int i = pattern.rows()[at];
@@ -85,7 +85,7 @@ void turn_rows(int row, const Matrix3d& R, Linearisation& l) {
 MatrixXd active_jacobian(const Model& model, const State& state, Evaluation& evaluation) {
   evaluate(model, state, evaluation);
   MatrixValues matrix(model);
-  evaluate_tangent_without_superelements(model, state, {0.0, 0.0, 1.0}, evaluation, matrix);
+  evaluate_tangent_without_superelements(model, state, {{0.0, 0.0, 1.0}, TangentKind::exact, {}}, evaluation, matrix);
   return jacobian(model, state, matrix);
 }
 

@@ -8,6 +8,7 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/equations/iteration_matrix.hpp"
+#include "mechanism/step/accept.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -162,11 +163,7 @@ bool Index1::project_without_reactions() {
 }
 
 void Index1::settle() {
-  auto frames = state_.frames();
-  for (std::size_t i = 0; i < model_.superelements.size(); ++i)
-    frames.col(i) = wxyz(Eigen::Quaterniond(workspace_.now.superelements[i].motion.R0).normalized());
-  unwrap_hinges(model_, workspace_.now, state_);
-  for (int k = 0; k < 3; ++k) state_.force_scale(k) = std::max(state_.force_scale(k), workspace_.now.force_scale[k]);
+  mechanism::settle(model_, workspace_.now, state_);
   state_.load_power() = workspace_.now.load_power;
   state_.damping_power() = workspace_.now.damping_power;
 }

@@ -84,7 +84,7 @@ void apply_transposed_jacobian(const Model& model, const Evaluation& evaluation,
     }
 }
 
-void retract(const Model& model, const State& from, const Eigen::VectorXd& d, State& to) {
+void retract(const Model& model, const State& from, const Eigen::Ref<const Eigen::VectorXd>& d, State& to) {
   auto x = to.x();
   auto Q = to.Q();
   const auto x0 = from.x();

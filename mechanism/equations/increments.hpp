@@ -7,7 +7,7 @@
 namespace tisserand::mechanism {
 
 /// x += d, Q <- Q exp(dΘ/2), w += d, y += d from the positions of `from`; the only update of positions in the program.
-void retract(const Model& model, const State& from, const Eigen::VectorXd& d, State& to);
+void retract(const Model& model, const State& from, const Eigen::Ref<const Eigen::VectorXd>& d, State& to);
 
 /// B T(displacement of the step) d for the Jacobian of the last evaluate(), d in boundary coordinates.
 void apply_jacobian(const Model& model, const Evaluation& evaluation, const Eigen::VectorXd& d,

@@ -65,12 +65,11 @@ void evaluate_tangent(const Model& model, const State& state, const TangentReque
   deactivate_rows(model, state, matrix.values);
 }
 
-void evaluate_tangent_without_superelements(const Model& model, const State& state,
-                                            const TangentCoefficients& coefficients, Evaluation& evaluation,
-                                            MatrixValues& matrix) {
+void evaluate_tangent_without_superelements(const Model& model, const State& state, const TangentRequest& request,
+                                            Evaluation& evaluation, MatrixValues& matrix) {
   require_stage(evaluation, Stage::forces);
-  const ConstraintRows rows;
-  add_node_tangents(model, state, TangentKind::exact, evaluation, clear(model, coefficients, rows, matrix));
+  const TangentTarget target = clear(model, request.coefficients, request.rows, matrix);
+  add_node_tangents(model, state, request.kind, evaluation, target);
   deactivate_rows(model, state, matrix.values);
 }
 

@@ -40,10 +40,10 @@ struct MatrixValues {
 void evaluate_tangent(const Model& model, const State& state, const TangentRequest& request, Evaluation& evaluation,
                       MatrixValues& matrix);
 
-/// The same without the superelements, whose internal coordinates a caller may want to keep; exact.
-void evaluate_tangent_without_superelements(const Model& model, const State& state,
-                                            const TangentCoefficients& coefficients, Evaluation& evaluation,
-                                            MatrixValues& matrix);
+/// The same without the superelements, whose internal coordinates a caller may want to keep. All but the scale is
+/// linear in the coefficients.
+void evaluate_tangent_without_superelements(const Model& model, const State& state, const TangentRequest& request,
+                                            Evaluation& evaluation, MatrixValues& matrix);
 
 /// W = c_m M + c_k K of the bodies alone in place of A, and B; superelements with their boundary coordinates.
 void evaluate_weight(const Model& model, const State& state, const TangentCoefficients& coefficients,

@@ -108,6 +108,7 @@ void integrate_bdf(Run& run, RowWriter& out) {
     if (run.control.progress) run.control.progress(state.time());
   }
   report.time = state.time();
+  report.solver_health = run.workspace.matrix.health();
 }
 
 }  // namespace tisserand::mechanism

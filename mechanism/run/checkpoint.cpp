@@ -149,14 +149,14 @@ void Checkpoints::set_next(double time) {
 }
 
 void Checkpoints::after_step(const Model& model, const Schedule& schedule, const State& state, Workspace& workspace,
-                             formats::ResultsWriter& results) {
+                             Stepper& stepper, formats::ResultsWriter& results) {
   ++steps_;
   const bool due = (spec_.every && steps_ >= *spec_.every) || state.time() >= next_ - round_off_;
   if (!due) return;
   results.flush();
   formats::write_checkpoint(path_, {scene_, producer(), fingerprint(model, state), State::version, state.time(),
                                     results_, results.run(), results.rows(), state.block(), schedule.memory()});
-  workspace.forget();
+  stepper.forget(workspace);
   set_next(state.time());
 }
 

@@ -9,6 +9,7 @@
 #include "mechanism/model/state.hpp"
 #include "mechanism/run/run.hpp"
 #include "mechanism/run/schedule.hpp"
+#include "mechanism/run/stepper.hpp"
 #include "mechanism/step/workspace.hpp"
 
 namespace tisserand::mechanism {
@@ -23,11 +24,11 @@ class Checkpoints {
   /// "arm.results.h5" -> "arm.checkpoint.h5". `time`: where the run begins or goes on.
   Checkpoints(const formats::Scene& scene, const std::string& results, double time);
 
-  /// After an accepted step. Where a checkpoint is written all rows until then are on the disk, and the workspace
-  /// forgets factors and what it has learnt, so that this run and one that goes on from the file execute the same
-  /// arithmetic.
+  /// After an accepted step. Where a checkpoint is written all rows until then are on the disk, and workspace and
+  /// method forget factors and what they have learnt, so that this run and one that goes on from the file execute the
+  /// same arithmetic.
   void after_step(const Model& model, const Schedule& schedule, const State& state, Workspace& workspace,
-                  formats::ResultsWriter& results);
+                  Stepper& stepper, formats::ResultsWriter& results);
 
  private:
   void set_next(double time);

@@ -21,6 +21,19 @@ void write_last_row(Run& run, const StepReport& step, double size, RowWriter& ou
   write_row(run, step, size, out);
 }
 
+/// Rows that the step to the present state has passed without ending there.
+void write_rows_between(Run& run, const StepReport& step, double size, Schedule& schedule, Stepper& stepper,
+                        RowWriter& out) {
+  State& state = run.built.state;
+  std::optional<State> end;
+  while (const std::optional<double> due = schedule.pass_instant(end ? end->time() : state.time())) {
+    if (!end) end.emplace(state);
+    stepper.interpolate(*due, state, run.workspace);
+    write_row(run, step, size, out);
+  }
+  if (end) state.block() = end->block();
+}
+
 }  // namespace
 
 void integrate(Run& run, RowWriter& out) {
@@ -28,6 +41,7 @@ void integrate(Run& run, RowWriter& out) {
   State& state = run.built.state;
   RunReport& report = run.report;
   Schedule schedule(run.scene, model.breakpoints);
+  Stepper stepper(model, run.scene.integrator);
   Checkpoints checkpoints(run.scene, out.results, state.time());
   FrameAngles angles(model);
   StepReport last;
@@ -44,7 +58,7 @@ void integrate(Run& run, RowWriter& out) {
     }
     const double before = state.time();
     const StepEnd target = schedule.next(before);
-    const StepReport step = advance(model, run.scene.integrator, target, state, run.workspace);
+    const StepReport step = stepper.advance(target, state, run.workspace);
     report.iterations += step.iterations;
     report.factorisations += step.factorisations;
     report.row_choices += step.row_choices;
@@ -68,10 +82,14 @@ void integrate(Run& run, RowWriter& out) {
     report.greatest_step = std::max(report.greatest_step, last_size);
     schedule.adapt(step, last_size);
     report.largest_constraint = std::max(report.largest_constraint, step.constraint);
+    write_rows_between(run, step, last_size, schedule, stepper, out);
     const Schedule::Event event = schedule.accept(state.time());
     if (event.output) write_row(run, step, last_size, out);
-    if (event.breakpoint) pass_breakpoint(model, run.scene, state, run.workspace);
-    checkpoints.after_step(model, schedule, state, run.workspace, out.writer);
+    if (event.breakpoint) {
+      pass_breakpoint(model, run.scene, state, run.workspace);
+      stepper.pass_jump();
+    }
+    checkpoints.after_step(model, schedule, state, run.workspace, stepper, out.writer);
     if (run.control.progress) run.control.progress(state.time());
     if (std::string end = angles.observe(model, state, run.workspace.now); !end.empty()) {
       report.outcome = RunOutcome::not_converged;
@@ -81,6 +99,7 @@ void integrate(Run& run, RowWriter& out) {
   }
   report.time = state.time();
   angles.tell(model, report);
+  report.solver_health = stepper.health(run.workspace);
   if (report.outcome != RunOutcome::completed) write_last_row(run, last, last_size, out);
 }
 

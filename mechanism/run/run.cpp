@@ -70,6 +70,23 @@ void require_finite_loads(Run& run) {
   if (!bad.empty()) throw Error(bad, run.scene.file, "correct the formula, for example with t > 0 ? .. : ..");
 }
 
+/// `radau` keeps internal coordinates in its systems and counts on a constant block of them, which bodies with
+/// stiffening or inertia F do not have.
+void require_method_fits(const Run& run) {
+  if (run.scene.analysis != formats::AnalysisKind::dynamics || run.scene.integrator.method != formats::Method::radau)
+    return;
+  std::vector<std::string> names;
+  const auto& uses = run.built.model.superelements;
+  for (std::size_t i = 0; i < uses.size(); ++i)
+    if (body_of(run.built.model, i).second_order.any()) names.push_back(fmt::format("'{}'", uses[i].name));
+  if (names.empty()) return;
+  throw Error(
+      fmt::format(
+          "integrator: method radau takes linear superelements only, and there is stiffening or inertia F in {}",
+          listed(names)),
+      run.scene.file, "write 'second_order: off' at these bodies, or use method: generalised_alpha");
+}
+
 /// Which equations repeat what others demand, and whose reactions are not unique for that reason.
 void note_redundancy(Run& run) {
   const Mobility& mobility = run.report.mobility;
@@ -216,6 +233,7 @@ void begin_from(Run& run, const State& end) {
 }
 
 void start(Run& run) {
+  require_method_fits(run);
   require_finite_loads(run);
   if (run.scene.analysis == formats::AnalysisKind::assembly) {  // makes what the others start from
     run.report.mobility = count_mobility(run.built.model, run.built.state, run.workspace.now);

@@ -17,6 +17,8 @@ Schedule::Schedule(const formats::Scene& scene, const std::vector<double>& break
   while (breakpoint_ < breakpoints_.size() && breakpoints_[breakpoint_] <= integrator_.start + round_off_)
     ++breakpoint_;
   proposal_ = std::min(integrator_.step, greatest_step(integrator_));
+  interpolates_ =
+      controlled() && integrator_.method == formats::Method::radau && scene.analysis == formats::AnalysisKind::dynamics;
 }
 
 bool Schedule::output_at_start() const { return integrator_.start >= output_.from - round_off_; }
@@ -27,7 +29,8 @@ bool Schedule::finished(double time) const { return reached(time, integrator_.en
 
 double Schedule::controlled_end(double time) const {
   double t = integrator_.end;
-  if (output_.interval) t = std::min(t, integrator_.start + static_cast<double>(rows_) * *output_.interval);
+  if (output_.interval && !interpolates_)
+    t = std::min(t, integrator_.start + static_cast<double>(rows_) * *output_.interval);
   if (integrator_.end - t < round_off_) t = integrator_.end;
   if (breakpoint_ < breakpoints_.size()) t = std::min(t, breakpoints_[breakpoint_]);
   // The last two steps before an instant share what is left, so that none is tiny.
@@ -60,7 +63,9 @@ bool Schedule::halve(double time) {
 bool Schedule::retry(double time, const StepReport& report) {
   if (!controlled()) return halve(time);
   const double size = next(time).time - time;
-  proposal_ = shorter_step(size, report.outcome == StepOutcome::inaccurate ? report.error_ratio : 0.0);
+  proposal_ = report.proposed > 0.0
+                  ? report.proposed
+                  : shorter_step(size, report.outcome == StepOutcome::inaccurate ? report.error_ratio : 0.0);
   retried_ = true;
   return proposal_ >= least_step(integrator_);
 }
@@ -72,7 +77,9 @@ std::string Schedule::limit() const {
 
 void Schedule::adapt(const StepReport& report, double size) {
   if (!controlled()) return;
-  const double next = next_step(integrator_, size, report.error_ratio);
+  const double next = report.proposed > 0.0
+                          ? std::clamp(report.proposed, least_step(integrator_), greatest_step(integrator_))
+                          : next_step(integrator_, size, report.error_ratio);
   // A step cut short by an instant tells nothing against the longer one that was to come; but no step is more than
   // twice the one before, whose errors the rebuilt acceleration would multiply.
   const bool cut = size < proposal_ * (1.0 - 1e-9);
@@ -90,6 +97,16 @@ bool Schedule::output_due(double time, bool on_grid) {
   const bool now = reached(time, due) || finished(time);
   while (reached(time, integrator_.start + static_cast<double>(rows_) * *output_.interval)) ++rows_;
   return now && time >= output_.from - round_off_;
+}
+
+std::optional<double> Schedule::pass_instant(double time) {
+  if (!interpolates_ || !output_.interval) return std::nullopt;
+  while (true) {
+    const double due = integrator_.start + static_cast<double>(rows_) * *output_.interval;
+    if (due >= time - round_off_ || finished(due)) return std::nullopt;
+    ++rows_;
+    if (due >= output_.from - round_off_) return due;
+  }
 }
 
 Schedule::Event Schedule::accept(double time) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@
 namespace tisserand::mechanism {
 
 /// Fixed steps end at start + k·step, at breakpoints and at the end; after a failure the step is divided by 2, 4, ...
-/// until the next point of the grid. Steps with error control end at breakpoints, at instants of output and at the end.
+/// until the next point of the grid. Steps with error control end at breakpoints, at the end and, unless the method
+/// interpolates, at instants of output.
 class Schedule {
  public:
   Schedule(const formats::Scene& scene, const std::vector<double>& breakpoints);
@@ -30,6 +32,10 @@ class Schedule {
   std::string limit() const;
   /// With error control: the step of the given size was accepted; its error gives the next one.
   void adapt(const StepReport& report, double size);
+
+  /// The next instant of output that a step to `time` passes without ending there, which then counts as stored. Only
+  /// where rows between steps are interpolated.
+  std::optional<double> pass_instant(double time);
 
   struct Event {
     bool output = false;
@@ -56,6 +62,7 @@ class Schedule {
   formats::OutputSpec output_;
   std::vector<double> breakpoints_;
   double round_off_ = 0.0;
+  bool interpolates_ = false;   ///< rows between the ends of steps
   long grid_ = 1;               ///< the next point of the grid
   std::size_t breakpoint_ = 0;  ///< the next breakpoint
   int halvings_ = 0;

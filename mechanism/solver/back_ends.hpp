@@ -1,6 +1,7 @@
 // The solvers behind LinearSolver, all of one shape: factor, solve, solve with the transpose, forget.
 #pragma once
 
+#include <complex>
 #include <concepts>
 #include <cstddef>
 #include <memory>
@@ -31,10 +32,15 @@ Effort klu_trial(const SparsePattern& pattern);
 /// UMFPACK's estimates are upper bounds.
 Effort umfpack_effort(const SparsePattern& pattern);
 
-/// KLU: sparse LU of blocks of a triangular form, kept pivots while they are good.
+/// Complex numbers lie as pairs [re, im] in arrays of double.
+enum class Numbers { real, complex };
+
+/// KLU: sparse LU of blocks of a triangular form, kept pivots while they are good. Of complex numbers all but
+/// solve_transposed() and reciprocal_growth().
 class Klu {
  public:
   explicit Klu(const SparsePattern& pattern);
+  Klu(const SparsePattern& pattern, Numbers numbers);
   ~Klu();
   FactorReport factor(const SparsePattern& pattern, const double* values);
   void solve(const SparsePattern& pattern, const double* values, double* b);
@@ -117,6 +123,34 @@ class Lapack {
  private:
   int n_ = 0;
   std::vector<double> factors_;
+  std::vector<int> exchange_;
+};
+
+/// UMFPACK for complex values.
+class ComplexUmfpack {
+ public:
+  explicit ComplexUmfpack(const SparsePattern& pattern);
+  ~ComplexUmfpack();
+  FactorReport factor(const SparsePattern& pattern, const double* values);
+  void solve(const SparsePattern& pattern, const double* values, double* b);
+  void forget();
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+/// zgetrf and zgetrs.
+class ComplexLapack {
+ public:
+  explicit ComplexLapack(const SparsePattern& pattern);
+  FactorReport factor(const SparsePattern& pattern, const double* values);
+  void solve(const SparsePattern& pattern, const double* values, double* b);
+  void forget() {}
+
+ private:
+  int n_ = 0;
+  std::vector<std::complex<double>> factors_;
   std::vector<int> exchange_;
 };
 

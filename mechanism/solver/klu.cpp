@@ -9,6 +9,17 @@
 #include "mechanism/solver/back_ends.hpp"
 
 namespace tisserand::mechanism::back_end {
+
+/// KLU's functions for one kind of numbers; complex ones lie as pairs in the same arrays of double.
+struct KluCalls {
+  decltype(&klu_factor) factor;
+  decltype(&klu_refactor) refactor;
+  decltype(&klu_solve) solve;
+  decltype(&klu_rcond) rcond;
+  decltype(&klu_rgrowth) rgrowth;
+  decltype(&klu_free_numeric) free_numeric;
+};
+
 namespace {
 
 /// Kept pivots are given up where they grow more than the reciprocal of this: half of the digits are gone then, and
@@ -32,6 +43,10 @@ klu_common settings() {
   return common;
 }
 
+constexpr KluCalls real_calls{klu_factor, klu_refactor, klu_solve, klu_rcond, klu_rgrowth, klu_free_numeric};
+constexpr KluCalls complex_calls{klu_z_factor, klu_z_refactor, klu_z_solve,
+                                 klu_z_rcond,  klu_z_rgrowth,  klu_z_free_numeric};
+
 /// On every place of the pattern one of ±0.5 to ±1.5, four times that on the diagonal, where masses stand.
 std::vector<double> made_up_values(const SparsePattern& pattern) {
   std::vector<double> values;
@@ -48,6 +63,7 @@ std::vector<double> made_up_values(const SparsePattern& pattern) {
 
 /// A symbolic analysis and the factors that belong to it.
 struct KluFactors {
+  const KluCalls* calls = &real_calls;
   klu_symbolic* symbolic = nullptr;
   klu_numeric* numeric = nullptr;
 
@@ -58,12 +74,12 @@ struct KluFactors {
   }
   /// False: singular, and no factors.
   bool factor(const SparsePattern& pattern, double* values, klu_common& common) {
-    numeric = klu_factor(starts(pattern), rows(pattern), values, symbolic, &common);
+    numeric = calls->factor(starts(pattern), rows(pattern), values, symbolic, &common);
     if (numeric == nullptr || common.status != KLU_OK) forget(common);
     return numeric != nullptr;
   }
   void forget(klu_common& common) {
-    if (numeric) klu_free_numeric(&numeric, &common);
+    if (numeric) calls->free_numeric(&numeric, &common);
     numeric = nullptr;
   }
   void free(klu_common& common) {
@@ -117,6 +133,7 @@ Effort klu_trial(const SparsePattern& pattern) {
 }
 
 struct Klu::Data {
+  const KluCalls* calls = &real_calls;
   klu_common common{};
   KluFactors by_diagonal, by_columns;
   KluFactors* used = nullptr;  ///< which of them has factors
@@ -127,13 +144,17 @@ struct Klu::Data {
     used = nullptr;
   }
   FactorReport report(const SparsePattern& pattern) {
-    klu_rcond(used->symbolic, used->numeric, &common);
+    calls->rcond(used->symbolic, used->numeric, &common);
     return {common.rcond > 0.0 && std::isfinite(common.rcond), common.rcond, -1, 1.0,
             used->entries() / pattern.nonzeros()};
   }
 };
 
-Klu::Klu(const SparsePattern& pattern) : data_(std::make_unique<Data>()) {
+Klu::Klu(const SparsePattern& pattern) : Klu(pattern, Numbers::real) {}
+
+Klu::Klu(const SparsePattern& pattern, Numbers numbers) : data_(std::make_unique<Data>()) {
+  data_->calls = numbers == Numbers::real ? &real_calls : &complex_calls;
+  data_->by_diagonal.calls = data_->by_columns.calls = data_->calls;
   data_->common = settings();
   data_->by_diagonal.analyse(pattern, by_amd, data_->common);
 }
@@ -151,9 +172,10 @@ FactorReport Klu::factor(const SparsePattern& pattern, const double* values) {
   if (data_->used) {
     klu_symbolic* symbolic = data_->used->symbolic;
     klu_numeric* numeric = data_->used->numeric;
-    const bool kept =
-        klu_refactor(starts(pattern), rows(pattern), v, symbolic, numeric, &common) && common.status == KLU_OK &&
-        klu_rgrowth(starts(pattern), rows(pattern), v, symbolic, numeric, &common) && common.rgrowth > least_growth;
+    const bool kept = data_->calls->refactor(starts(pattern), rows(pattern), v, symbolic, numeric, &common) &&
+                      common.status == KLU_OK &&
+                      data_->calls->rgrowth(starts(pattern), rows(pattern), v, symbolic, numeric, &common) &&
+                      common.rgrowth > least_growth;
     if (kept) {
       FactorReport report = data_->report(pattern);
       report.reciprocal_growth = common.rgrowth;
@@ -168,7 +190,7 @@ FactorReport Klu::factor(const SparsePattern& pattern, const double* values) {
 }
 
 void Klu::solve(const SparsePattern& pattern, const double*, double* b) {
-  klu_solve(data_->used->symbolic, data_->used->numeric, pattern.size(), 1, b, &data_->common);
+  data_->calls->solve(data_->used->symbolic, data_->used->numeric, pattern.size(), 1, b, &data_->common);
 }
 
 void Klu::solve_transposed(const SparsePattern& pattern, const double*, double* b) {

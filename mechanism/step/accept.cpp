@@ -10,15 +10,9 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Unit quaternions, frames and unwrapped angles, scales, and the powers integrated by the trapezoidal rule.
+/// What all methods keep, and the powers integrated by the trapezoidal rule.
 void accept(const Model& model, double step, const Evaluation& now, State& state) {
-  auto Q = state.Q();
-  for (Eigen::Index i = 0; i < Q.cols(); ++i) Q.col(i).normalize();
-  auto frames = state.frames();
-  for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    frames.col(i) = wxyz(Eigen::Quaterniond(now.superelements[i].motion.R0).normalized());
-  unwrap_hinges(model, now, state);
-  for (int k = 0; k < 3; ++k) state.force_scale(k) = std::max(state.force_scale(k), now.force_scale[k]);
+  settle(model, now, state);
   state.acceleration_scale() = std::max(state.acceleration_scale(), size_of(model, state.algorithmic()));
   state.work() += 0.5 * step * (state.load_power() + now.load_power);
   state.dissipated() += 0.5 * step * (state.damping_power() + now.damping_power);
@@ -27,6 +21,16 @@ void accept(const Model& model, double step, const Evaluation& now, State& state
 }
 
 }  // namespace
+
+void settle(const Model& model, const Evaluation& now, State& state) {
+  auto Q = state.Q();
+  for (Eigen::Index i = 0; i < Q.cols(); ++i) Q.col(i).normalize();
+  auto frames = state.frames();
+  for (std::size_t i = 0; i < model.superelements.size(); ++i)
+    frames.col(i) = wxyz(Eigen::Quaterniond(now.superelements[i].motion.R0).normalized());
+  unwrap_hinges(model, now, state);
+  for (int k = 0; k < 3; ++k) state.force_scale(k) = std::max(state.force_scale(k), now.force_scale[k]);
+}
 
 bool ready_projection(const Model& model, const StepScheme& scheme, const State& state, Workspace& workspace,
                       StepReport& report) {
@@ -44,7 +48,8 @@ void finish(const Model& model, const formats::IntegratorSpec& options, const St
   if (options.error_control.active) {
     Eigen::VectorXd& error = workspace.matrix.increment;
     estimate_error(options, scheme.step, state, memory.previous, error);
-    const LocalError worst = measure_error(model, options, scheme.step, error);
+    const LocalError worst =
+        measure_error(model, options.error_control, scheme.step / (options.end - options.start), error);
     report.error_ratio = worst.ratio;
     if (!(worst.ratio <= 1.0)) {
       report.outcome = StepOutcome::inaccurate;

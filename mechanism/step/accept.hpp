@@ -7,6 +7,9 @@
 
 namespace tisserand::mechanism {
 
+/// What an accepted state keeps of its evaluation: unit quaternions, frames, unwrapped angles and scales of forces.
+void settle(const Model& model, const Evaluation& now, State& state);
+
 /// Factors of the position projection for this step, if it has one. False, with the outcome: singular.
 bool ready_projection(const Model& model, const StepScheme& scheme, const State& state, Workspace& workspace,
                       StepReport& report);

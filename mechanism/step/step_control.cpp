@@ -28,10 +28,8 @@ void estimate_error(const formats::IntegratorSpec& options, double step, const S
   error = (C * step * step) * (state.algorithmic() - last.vdot() - rebuilt * (last.algorithmic() - last.vdot()));
 }
 
-LocalError measure_error(const Model& model, const formats::IntegratorSpec& options, double step,
-                         const Eigen::VectorXd& error) {
-  const formats::ErrorControl& control = options.error_control;
-  const double share = step / (options.end - options.start);
+LocalError measure_error(const Model& model, const formats::ErrorControl& control, double share,
+                         const Eigen::Ref<const Eigen::VectorXd>& error) {
   LocalError worst;
   // Largest of `size` coordinates from `first` on, one unit of the tolerance being `unit`. The first NaN stays.
   const auto look_at = [&](int first, int size, double unit) {

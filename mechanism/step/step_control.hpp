@@ -20,12 +20,12 @@ struct LocalError {
 void estimate_error(const formats::IntegratorSpec& options, double step, const State& state, const State& last,
                     Eigen::VectorXd& error);
 
-/// An estimated error against what one step may add. A step of h may add h/(end − start) of the tolerance, so that
-/// errors which add up reach about the tolerance at the end, and fall with it: steps ~ tolerance^(1/2), errors ~ step².
-/// Positions count relative to the characteristic length, rotations as they are, internal coordinates of a superelement
-/// of mass m relative to length·sqrt(m).
-LocalError measure_error(const Model& model, const formats::IntegratorSpec& options, double step,
-                         const Eigen::VectorXd& error);
+/// An estimated error against what one step may add, a share of the tolerance. A step of h of generalised alpha may add
+/// h/(end − start), so that errors which add up reach about the tolerance at the end, and fall with it: steps ~
+/// tolerance^(1/2), errors ~ step². Positions count relative to the characteristic length, rotations as they are,
+/// internal coordinates of a superelement of mass m relative to length·sqrt(m).
+LocalError measure_error(const Model& model, const formats::ErrorControl& control, double share,
+                         const Eigen::Ref<const Eigen::VectorXd>& error);
 
 /// Step after one of size `step`: 0.9 ratio^(−1/2) times it, between 0.2 and 2 times; not changed where it would grow
 /// by less than a fifth, so that factors are kept.

@@ -17,6 +17,7 @@ struct StepReport {
   double force_ratio = 0.0;
   double constraint_ratio = 0.0;
   double error_ratio = 0.0;   ///< estimated local error, where the step is controlled
+  double proposed = 0.0;      ///< the next step, or the one instead, where the method has a control of its own
   double residual = 0.0;      ///< largest |r| of force rows, of moment rows / length
   double constraint = 0.0;    ///< largest |Φ| (positions, and angles times length)
   int worst_coordinate = -1;  ///< of the largest residual, when not accepted

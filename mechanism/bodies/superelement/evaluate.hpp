@@ -106,7 +106,12 @@ void residual(const SuperelementBody& body, SuperelementScratch& scratch, const 
 void tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
              SuperelementWork& work);
 
-/// The same with the exact combination c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q by dual numbers; the elimination of y_I takes
+/// The step tangent with the internal coordinates kept: work.A_BB, and A_BI, A_IB of the tangent, whose sizes the caller
+/// has set; all linear in the coefficients. A_II is c_m + c_c D_II + c_k S_II. condense() and expand() are not for it.
+void kept_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
+                  SuperelementWork& work);
+
+/// Like tangent() with the exact combination c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q by dual numbers; the elimination of y_I takes
 /// the diagonal of A_II, which with inertia M is all of it only at rest (Ω₀ couples internal coordinates; the step
 /// tangent of M leaves that out, bodies/superelement/center_tangent.hpp). Allocates.
 void exact_tangent(const SuperelementBody& body, const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,

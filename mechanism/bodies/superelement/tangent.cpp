@@ -30,6 +30,12 @@ auto columns(Matrix& A, int row) {
   return A.template middleCols<3>(row);
 }
 
+/// K for these coefficients.
+void update_full_stiffness(const SuperelementBody& body, const TangentCoefficients& c, SuperelementWork& work) {
+  if (body.damping.is_full())
+    work.K = (c.stiffness + c.damping * body.damping.stiffness) * body.S_BB + c.damping * body.damping.BB;
+}
+
 /// D, Q, N for these coefficients; nothing to do while they stay.
 void update_constants(const SuperelementBody& body, const TangentCoefficients& c, SuperelementWork& work) {
   if (work.constants_valid && work.coefficients == c) return;
@@ -44,9 +50,8 @@ void update_constants(const SuperelementBody& body, const TangentCoefficients& c
       work.Q.col(j) += (work.inverse_D[k] * body.M_BI(j, k)) * body.M_BI.col(k);
   }
   work.N = body.M_BB - c.mass * work.Q;
-  if (!body.damping.is_full()) return;
-  work.K = (c.stiffness + c.damping * body.damping.stiffness) * body.S_BB + c.damping * body.damping.BB;
-  if (body.modes == 0) return;
+  update_full_stiffness(body, c, work);
+  if (!body.damping.is_full() || body.modes == 0) return;
   work.factor_II = c.damping * body.damping.II;
   work.factor_II.diagonal() +=
       c.stiffness * body.S_II + c.damping * body.damping.internal + Eigen::VectorXd::Constant(body.modes, c.mass);
@@ -278,20 +283,9 @@ void condensed_tangent(const SuperelementBody& body, const SuperelementScratch& 
   multiply_P<NB>(body, frozen, G1, A);
 }
 
-}  // namespace
-
-void tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
-             SuperelementWork& work) {
-  if (body.second_order.inertia) {
-    full_inertia_tangent(body, coefficients, scratch, work);
-    return;
-  }
-  update_constants(body, coefficients, work);
-  freeze(body, scratch.motion, work, scratch.tangent);
-  const bool full_damping = body.damping.is_full();
-  const bool exact_center = body.inertia == InertiaOption::M;
-  const bool stiffening = body.second_order.stiffening.has_value();
-  const bool eliminate = body.modes > 0 && !full_damping && !exact_center && !stiffening;
+/// work.A_BB, in which y_I is eliminated where that takes no stored coupling.
+void boundary_tangent(const SuperelementBody& body, const SuperelementScratch& scratch, bool eliminate,
+                      SuperelementWork& work) {
   switch (body.boundary_size) {
     case 12:
       condensed_tangent<12>(body, scratch, eliminate, work);
@@ -303,11 +297,38 @@ void tangent(const SuperelementBody& body, const TangentCoefficients& coefficien
       condensed_tangent<Eigen::Dynamic>(body, scratch, eliminate, work);
       break;
   }
+}
+
+}  // namespace
+
+void tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
+             SuperelementWork& work) {
+  if (body.second_order.inertia) {
+    full_inertia_tangent(body, coefficients, scratch, work);
+    return;
+  }
+  update_constants(body, coefficients, work);
+  freeze(body, scratch.motion, work, scratch.tangent);
+  const bool exact_center = body.inertia == InertiaOption::M;
+  const bool stiffening = body.second_order.stiffening.has_value();
+  const bool eliminate = body.modes > 0 && !body.damping.is_full() && !exact_center && !stiffening;
+  boundary_tangent(body, scratch, eliminate, work);
   // They work in the vectors and thin matrices that the tangent above is done with.
   if (body.modes > 0 && !eliminate) store_coupling(body, scratch.tangent, work);
   if (exact_center) add_center_of_mass_tangent(body, scratch, work);
   if (stiffening) add_stiffening_tangent(body, coefficients, scratch, work);
   if (body.modes > 0 && !eliminate) eliminate_internal(body, scratch.tangent, work);
+}
+
+void kept_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
+                  SuperelementWork& work) {
+  update_full_stiffness(body, coefficients, work);
+  work.coefficients = coefficients;
+  work.constants_valid = false;
+  freeze(body, scratch.motion, work, scratch.tangent);
+  boundary_tangent(body, scratch, false, work);
+  if (body.modes > 0) store_coupling(body, scratch.tangent, work);
+  if (body.inertia == InertiaOption::M) add_center_of_mass_tangent(body, scratch, work);
 }
 
 }  // namespace tisserand::mechanism

@@ -89,14 +89,15 @@ Simulation::Simulation(formats::Scene scene_to_run, const mechanism::BodyFiles& 
     : scene(std::move(scene_to_run)),
       built(mechanism::build_model(scene, files)),
       workspace(built.model),
-      schedule(scene, built.model.breakpoints) {}
+      schedule(scene, built.model.breakpoints),
+      stepper(built.model, scene.integrator) {}
 
 void Simulation::start() { started = mechanism::start(scene, mechanism::StartFrom::poses, built, workspace); }
 
 bool Simulation::step() {
   while (true) {
     const double before = state().time();
-    report = mechanism::advance(built.model, scene.integrator, schedule.next(before), state(), workspace);
+    report = stepper.advance(schedule.next(before), state(), workspace);
     schedule_size = state().time() - before;
     iterations += report.iterations;
     factorisations += report.factorisations;
@@ -108,7 +109,10 @@ bool Simulation::step() {
   ++steps;
   largest_constraint = std::max(largest_constraint, report.constraint);
   schedule.adapt(report, schedule_size);
-  if (schedule.accept(state().time()).breakpoint) mechanism::pass_breakpoint(built.model, scene, state(), workspace);
+  if (schedule.accept(state().time()).breakpoint) {
+    mechanism::pass_breakpoint(built.model, scene, state(), workspace);
+    stepper.pass_jump();
+  }
   return true;
 }
 

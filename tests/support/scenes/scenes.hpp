@@ -13,6 +13,7 @@
 #include "mechanism/build/build_model.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/run/schedule.hpp"
+#include "mechanism/run/stepper.hpp"
 #include "mechanism/step/step.hpp"
 #include "mechanism/step/workspace.hpp"
 
@@ -84,6 +85,7 @@ class Simulation {
   mechanism::BuiltModel built;
   mechanism::Workspace workspace;
   mechanism::Schedule schedule;
+  mechanism::Stepper stepper;
   mechanism::StartReport started;
   mechanism::StepReport report;
   long steps = 0, iterations = 0, factorisations = 0, rejected = 0;

@@ -1,0 +1,86 @@
+// Simplified Newton iteration of the three stages with two factorisations.
+#pragma once
+
+#include <array>
+#include <complex>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "mechanism/equations/evaluation.hpp"
+#include "mechanism/radau/stage_matrix.hpp"
+#include "mechanism/radau/stages.hpp"
+#include "mechanism/step/step.hpp"
+#include "mechanism/step/step_report.hpp"
+
+namespace tisserand::mechanism::radau {
+
+/// What increments are measured in: ratios of measure_error() with this.
+struct Accuracy {
+  formats::ErrorControl units;
+  double newton = 1.0;  ///< increments that are still to come may have this ratio
+  int most_iterations = 7;
+};
+
+/// Parts, factors and vectors of the iteration. The parts belong to one state and stay while the iteration contracts;
+/// factors belong to them and to a step. Left out by the iteration: all that changes between the state of the parts and
+/// a stage, which nodes of flexible bodies see from axes that turn with them, so that a stiff direction stays one; and
+/// what the turn of axes and T(θ) − 1 do to rates. It contracts by about the angle of a step.
+class Newton {
+ public:
+  explicit Newton(const Model& model);
+
+  /// New parts at the state of the last evaluate().
+  void renew(const Model& model, const State& state, Evaluation& evaluation);
+  bool has_parts() const { return parts_.valid; }
+  /// Factors for a step of this size, if they are not there; of the real matrix alone. False: singular, with the
+  /// outcome.
+  [[nodiscard]] bool ready(const Model& model, double step, StepReport& report);
+  [[nodiscard]] bool ready_real(const Model& model, double step, StepReport& report);
+  /// From predicted stages to converged ones; false with an outcome, and `shorter` as the part of the step to try.
+  [[nodiscard]] bool iterate(const Model& model, const State& begin, const StepEnd& end, const Accuracy& accuracy,
+                             Stages& stages, State& state, Evaluation& evaluation, StepReport& report);
+  /// The smallest change, weighted with the real matrix, that takes `violation` from the constraints, at the state of
+  /// the last evaluate(): into `correction`.
+  void project(const Model& model, const Eigen::VectorXd& violation, const Evaluation& evaluation);
+  /// Into `correction`: the error of positions, (5) of radau.hpp, in axes of the state of the parts.
+  void estimate(const Model& model, const Stages& stages, const State& begin);
+  void forget();
+
+  double contraction() const { return contraction_; }
+  double shorter() const { return shorter_; }
+  const SolverHealth& health() const { return real_.solver().health(); }
+
+  Eigen::VectorXd correction;
+
+ private:
+  using Turns = std::vector<Eigen::Matrix3d>;
+
+  template <class Visit>
+  void for_turning_nodes(Visit visit) const {
+    for (std::size_t i = 0; i < turning_.size(); ++i) visit(static_cast<std::size_t>(turning_[i]), turning_rows_[i]);
+  }
+  void evaluate_stage(const Model& model, const State& begin, const StepEnd& end, int stage, Stages& stages,
+                      State& state, Evaluation& evaluation);
+  void solve(const Model& model, const State& state, Stages& stages);
+
+  TangentParts parts_;
+  StageMatrix<double> real_;
+  StageMatrix<std::complex<double>> complex_;
+  double real_step_ = 0.0, complex_step_ = 0.0;  ///< of the factors; 0: none
+  std::vector<int> turning_, turning_rows_;      ///< nodes of flexible bodies, and their translations
+  Turns axes_;                                   ///< of the nodes, to which the factors belong
+  Stages::Columns f_, g_;                        ///< −r and −(B v + Φ_t) of the stages, then the increments
+  Eigen::VectorXd real_upper_, real_rows_, first_, second_;
+  Eigen::VectorXcd complex_upper_, complex_rows_;
+  std::array<Turns, 3> turns_;  ///< of each stage and node: from the axes of the parts to its own
+  double contraction_ = 0.0;
+  double confidence_ = 1.0;  ///< θ/(1 − θ) of the step before
+  double shorter_ = 0.5;
+};
+
+/// State of a stage: positions, rates, multipliers, times.
+void set_stage(const Model& model, const State& begin, const StepEnd& end, int stage, const Stages& stages,
+               State& state);
+
+}  // namespace tisserand::mechanism::radau

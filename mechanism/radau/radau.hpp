@@ -1,0 +1,68 @@
+// Radau IIA of three stages on the equations of motion with velocities on the constraints: order 5.
+//
+// Stages c_1, c_2, c_3 = 1; w_ij: A⁻¹; d_i: displacements from the start of the step, rotations as rotation vectors
+// θ_i.
+//   (1)  r(q_i, v_i, v̇_i, λ_i, t_i) = 0,  B v_i + Φ_t = 0,  q_i = q_0 ∘ exp(d_i)                [HW96] VII.1 (1.20)
+//
+//   (2)  v_i = T(θ_i) Σ_j w_ij d_j/h; T = 1 but for rotations: the rates of d at the stages are the velocities
+//
+//   (3)  v̇_i = Σ_j w_ij (v_j − v_0)/h
+//
+//   (4)  q_1 = q_3 ∘ exp(δ), A δ + Bᵀμ = 0, Φ(q_1) = 0; then B v + Φ_t = 0 likewise: δ is of order h⁶, and μ stands
+//        between the steps instead of in the stages                                            [GGL85], [HW96] VII.2
+//
+//   (5)  error of q: A e + Bᵀμ = ω² M e_q + ω (M e_v + C e_q), B e = B e_q, with ω = γ/h,
+//        e_q = v_0/ω + Σ e_i d_i, e_v = v̇_0/ω + Σ e_i (v_i − v_0)                               [HW96] IV.8 (8.19)
+//
+//   (6)  Newton: unknowns d and λ. With A⁻¹ = T Λ T⁻¹ one real and one complex system
+//        [ω² M + ω C + K  Bᵀ; B + ∂(B v)/∂q/ω  0], ω = γ/h and (α + iβ)/h                        [HW96] IV.8 (8.5)
+//
+// Multipliers are in no error test; they are of order 3, positions and velocities of order 5 where nothing is stiff.
+#pragma once
+
+#include "formats/scene/scene.hpp"
+#include "mechanism/radau/newton.hpp"
+#include "mechanism/radau/step_size.hpp"
+#include "mechanism/step/step.hpp"
+#include "mechanism/step/workspace.hpp"
+
+namespace tisserand::mechanism {
+
+class Radau {
+ public:
+  Radau(const Model& model, const formats::IntegratorSpec& options);
+
+  /// One step from `state` (accepted, consistent) to `end`, as advance() of step/step.hpp; with error control
+  /// `report.proposed` is the next step, or the one to take instead. No heap allocation but where rows are chosen anew.
+  [[nodiscard]] StepReport advance(const StepEnd& end, State& state, Workspace& workspace);
+  /// The state at an instant within the step that was just accepted: of order 4, put onto the constraints.
+  void interpolate(double time, State& state, Workspace& workspace);
+  /// As new: the next step factors and learns from the start.
+  void forget();
+  /// The next step does not follow smoothly on the last one.
+  void pass_jump() { last_.step = 0.0; }
+
+  const SolverHealth& health() const { return newton_.health(); }
+  radau::Tuning& tuning() { return tuning_; }
+
+ private:
+  StepReport take_step(const StepEnd& end, State& state, Workspace& workspace);
+  bool solve_stages(const StepEnd& end, State& state, Workspace& workspace, StepReport& report);
+  bool accurate(const State& begin, StepReport& report);
+  bool ready_to_close(const State& state, Evaluation& now, StepReport& report);
+  bool close(State& state, Evaluation& now, StepReport& report);
+  void accept(State& state, Workspace& workspace, StepReport& report);
+  radau::Accuracy accuracy() const;
+  double farthest_turn() const;
+
+  const Model& model_;
+  const formats::IntegratorSpec& options_;
+  radau::Tuning tuning_;
+  radau::Newton newton_;
+  radau::StepSize size_;
+  radau::Stages stages_, last_;  ///< of this step, and of the one accepted before
+  Eigen::VectorXd displacement_;
+  long parts_age_ = 0;  ///< steps since the tangents were renewed; −1: at the end of this one
+};
+
+}  // namespace tisserand::mechanism

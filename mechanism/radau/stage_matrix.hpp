@@ -1,0 +1,55 @@
+// One of the two matrices of the simplified Newton iteration: real for γ/h, complex for (α + iβ)/h.
+#pragma once
+
+#include <complex>
+#include <type_traits>
+#include <vector>
+
+#include <Eigen/LU>
+
+#include "mechanism/radau/tangent_parts.hpp"
+#include "mechanism/solver/complex_solver.hpp"
+#include "mechanism/solver/linear_solver.hpp"
+
+namespace tisserand::mechanism::radau {
+
+/// [ω² M + ω C + K  Bᵀ; B + ∂(B v)/∂q/ω  0], internal coordinates of superelements condensed (exactly, also where ω is
+/// complex), scaled as the saddle systems are.
+template <class Scalar>
+class StageMatrix {
+ public:
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+  explicit StageMatrix(const Model& model);  ///< symbolic factorisation
+
+  [[nodiscard]] FactorReport factor(const Model& model, const TangentParts& parts, Scalar omega);
+  /// upper (boundary and internal coordinates) <- d, rows <- μ with A d + Bᵀ μ = upper, (B + ∂(B v)/∂q/ω) d = rows.
+  /// Rows that are not `active` have μ = 0.
+  void solve(const Model& model, const Eigen::VectorXd& active, Vector& upper, Vector& rows);
+  void forget() { solver_.forget(); }
+  auto& solver() const { return solver_; }
+
+ private:
+  /// A_BI and A_II⁻¹ A_IB of one superelement, and what solves with A_II.
+  struct Element {
+    Matrix BI, eliminated, condensed;
+    Vector inverse_II;
+    Matrix full_II, IB;  ///< only where the damping has a full matrix
+    Eigen::PartialPivLU<Matrix> lu;
+  };
+  using Solver = std::conditional_t<std::is_same_v<Scalar, double>, LinearSolver, ComplexSolver>;
+
+  void condense(const SuperelementBody& body, const TangentParts::Element& parts, Scalar omega, Element& element);
+
+  std::vector<Scalar> values_;
+  double scale_ = 1.0;
+  std::vector<Element> elements_;
+  Vector unknowns_, internal_, boundary_;
+  Solver solver_;
+};
+
+extern template class StageMatrix<double>;
+extern template class StageMatrix<std::complex<double>>;
+
+}  // namespace tisserand::mechanism::radau
