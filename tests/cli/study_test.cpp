@@ -181,6 +181,12 @@ TEST_F(Study, SaysWhatIsWrongWithRuns) {
   const Outcome other = study(orders, {"-o", "mine"});
   EXPECT_EQ(other.code, 1);
   EXPECT_THAT(other.error, HasSubstr("results of another scene"));
+
+  const std::string journal = read_text(file("mine/journal.jsonl"));
+  write_text(file("mine/journal.jsonl"), replaced(journal, "\"tisserand\":\"", "\"tisserand\":\"9."));
+  EXPECT_THAT(study(orders, {"-o", "mine"}).error, HasSubstr("results of version 9."));
+  write_text(file("mine/journal.jsonl"), "what is this\n");
+  EXPECT_THAT(study(orders, {"-o", "mine"}).error, HasSubstr("is no journal of a study"));
 }
 
 TEST_F(Study, TellsWhenNoRunFitsTheBudget) {

@@ -1,0 +1,72 @@
+// Children: what they say and cost, how they end, and those that cannot begin.
+#include "common/child.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+
+#include "common/error.hpp"
+
+namespace tisserand::child_test {
+namespace {
+
+using ::testing::HasSubstr;
+
+ChildRequest shell(const std::string& script) {
+  ChildRequest request;
+  request.words = {"sh", "-c", script};
+  return request;
+}
+
+TEST(Child, GivesBackWhatItWritesAndItsCode) {
+  ChildRequest request = shell("cat; echo wrong >&2; exit 7");
+  request.input = "some text";
+  const ChildReport report = run_child(request);
+  EXPECT_EQ(report.ending, ChildEnding::left);
+  EXPECT_EQ(report.code, 7);
+  EXPECT_EQ(report.text, "some text");
+  EXPECT_EQ(report.complaint, "wrong\n");
+}
+
+TEST(Child, TellsTheSignalThatEndsIt) {
+  const ChildReport report = run_child(shell("kill -9 $$"));
+  EXPECT_EQ(report.ending, ChildEnding::killed);
+  EXPECT_EQ(report.code, SIGKILL);
+}
+
+TEST(Child, EndsAtItsLimitAndWhenItIsStopped) {
+  const auto begin = std::chrono::steady_clock::now();
+  ChildRequest request = shell("exec sleep 60");
+  request.seconds = 0.2;
+  EXPECT_EQ(run_child(request).ending, ChildEnding::timed_out);
+  request.seconds = 0.0;
+  request.is_stopped = [] { return true; };
+  EXPECT_EQ(run_child(request).ending, ChildEnding::stopped);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
+}
+
+TEST(Child, CostsWhatItComputes) {
+  const double idle = run_child(shell("sleep 0.3")).cpu_seconds;
+  const double busy = run_child(shell("i=0; while [ $i -lt 200000 ]; do i=$((i + 1)); done")).cpu_seconds;
+  EXPECT_LT(idle, 0.1);
+  EXPECT_GT(busy, idle);
+}
+
+TEST(Child, SaysThatAProgramIsMissing) {
+  ChildRequest request;
+  request.words = {"no-such-program"};
+  try {
+    (void)run_child(request);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("no-such-program: cannot be started"));
+  }
+  EXPECT_FALSE(is_program("no-such-program"));
+  EXPECT_TRUE(is_program("sh"));
+  EXPECT_TRUE(is_program(own_program()));
+}
+
+}  // namespace
+}  // namespace tisserand::child_test
