@@ -10,6 +10,7 @@
 #include <Eigen/Eigenvalues>
 #include <nlohmann/json.hpp>
 
+#include "common/error.hpp"
 #include "formats/companion/operations.hpp"
 #include "reducer/elements/beam/beam.hpp"
 #include "reducer/elements/spring.hpp"
@@ -333,6 +334,46 @@ TEST(SecondOrderReduction, PinnedColumnBucklesAtEulersLoad) {
     VectorXd load = VectorXd::Zero(body.element.size());
     load[6] = -1.0;
     EXPECT_NEAR(buckling_factor(body, free_rows(body, {0, 1, 2, 3, 7, 8}), load) / euler, ratio, 2.5e-5) << modes;
+  }
+}
+
+TEST(SecondOrderReduction, PartsSayWhetherTheyWantIt) {
+  formats::Part part = cardona_beam(6, 2);
+  const reducer::Reduction with = reduce(part);
+  ASSERT_TRUE(with.companion.has_value());
+  Superelement element = with.superelement;
+  element.content_id = formats::content_id(element);
+  formats::check(*with.companion, element, "beam");
+  part.second_order = formats::SecondOrder::no;
+  const reducer::Reduction without = reduce(part);
+  EXPECT_FALSE(without.companion.has_value());
+  EXPECT_EQ(without.superelement.mass, with.superelement.mass);
+}
+
+TEST(SecondOrderReduction, LargeOnesAreWrittenOnlyIfAskedFor) {
+  formats::Part part;
+  part.file = "large.part.yaml";
+  Superelement element;
+  element.dof_node.resize(165);  // 8 (165² 166/2 + 3 · 165² + 9 · 165 · 166) bytes = 20.7 MB; 160 coordinates: 19.0 MB
+  EXPECT_FALSE(reducer::wants_companion(part, element));
+  reducer::ModelCertificate model;
+  reducer::describe_companion({}, part, element, model);
+  ASSERT_EQ(model.notes.size(), 1u);
+  EXPECT_THAT(model.notes[0], ::testing::HasSubstr("it would hold 21 MB; second_order: yes"));
+  part.second_order = formats::SecondOrder::yes;
+  EXPECT_TRUE(reducer::wants_companion(part, element));
+  part.second_order = formats::SecondOrder::unless_large;
+  element.dof_node.resize(160);
+  EXPECT_TRUE(reducer::wants_companion(part, element));
+  element.dof_node.resize(501);
+  EXPECT_FALSE(reducer::wants_companion(part, element));
+  part.second_order = formats::SecondOrder::yes;
+  try {
+    static_cast<void>(reducer::wants_companion(part, element));
+    FAIL() << "no error";
+  } catch (const Error& error) {
+    EXPECT_THAT(error.what(),
+                ::testing::HasSubstr("large.part.yaml: second_order: the superelement has 501 coordinates"));
   }
 }
 
