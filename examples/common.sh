@@ -131,7 +131,7 @@ split_scene() {
       length_ = 141.42 / pieces
       print "scene: \"Beam in " pieces " superelements of " modes " modes\"\nunits: consistent\nbodies:"
       for (i = 1; i <= pieces; i++)
-        printf "  piece%d: {type: superelement, file: %s, modes: %d, pose: {position: [%.10g, 0, 0]}}\n", i, file, modes,
+        printf "  piece%d: {type: superelement, file: %s, second_order: off, modes: %d, pose: {position: [%.10g, 0, 0]}}\n", i, file, modes,
           (i - 1) * length_
       print "joints:"
       print "  base: {type: " joint ", a: ground, b: piece1/base" (joint == "revolute" ? ", axis: [0, 0, 1]" : "") "}"
