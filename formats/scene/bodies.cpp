@@ -393,7 +393,7 @@ std::vector<KeySet> body_key_sets() {
        {{"type", "'rigid'", "", "required"},
         plain<&SuperelementBodySpec::file>("from", "text", "", "required"),
         {"mirror", "mirror", ""},
-        shape_field()},
+        {"shape", "shape_of_body | [shape_of_body]", ""}},
        start_fields<SuperelementBodySpec>()},
       {"body_virtual", {{"type", "'virtual'", "", "required"}, nodes, shape_field()}, start_fields({})},
       {"pose", {plain<&Pose::position>("position", "vector", ""), {"orientation", "rotation", ""}}},
