@@ -7,6 +7,8 @@
 #include <limits>
 #include <map>
 
+#include <fmt/format.h>
+
 namespace tisserand::mechanism {
 
 namespace {

@@ -2,6 +2,7 @@
 #include "mechanism/study/page.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <iterator>
 #include <map>

@@ -2,6 +2,8 @@
 #include "mechanism/study/tables.hpp"
 
 #include <algorithm>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "common/text.hpp"
