@@ -283,7 +283,8 @@ TEST(LocalError, IsThatOfOneStep) {
     estimate_error(scene.integrator, 0.1, run.state(), run.workspace.memory.previous, estimate);
     EXPECT_NEAR(estimate[0], error, 1e-3 * error);
     // A tenth of the time may add a tenth of the tolerance.
-    EXPECT_NEAR(measure_error(run.model(), scene.integrator.error_control, 0.1 / scene.integrator.end, estimate).ratio, 10.0 * error, 1e-2 * error);
+    EXPECT_NEAR(measure_error(run.model(), scene.integrator.error_control, 0.1 / scene.integrator.end, estimate).ratio,
+                10.0 * error, 1e-2 * error);
   }
 }
 

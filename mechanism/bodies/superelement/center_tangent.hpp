@@ -17,8 +17,8 @@ namespace tisserand::mechanism {
 Eigen::MatrixXd center_of_mass_tangent(const SuperelementBody& body, const LocalMotion<double>& motion,
                                        const SuperelementTangent& frozen);
 
-/// Makes of the step tangent of B in work.A_BB, A_BI and A_IB (store_coupling()), with the internal coordinates not yet
-/// eliminated, that of M.
+/// Makes of the step tangent of B in work.A_BB and of the stored A_BI and A_IB that of M; internal coordinates are not
+/// eliminated.
 void add_center_of_mass_tangent(const SuperelementBody& body, SuperelementScratch& scratch, SuperelementWork& work);
 
 }  // namespace tisserand::mechanism
