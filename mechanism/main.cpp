@@ -20,6 +20,7 @@
 #include "formats/results/results.hpp"
 #include "formats/scene/scene.hpp"
 #include "formats/yaml/override.hpp"
+#include "mechanism/help.hpp"
 #include "mechanism/histories/plot.hpp"
 #include "mechanism/histories/tables.hpp"
 #include "mechanism/run/analyses.hpp"
@@ -32,6 +33,7 @@
 namespace {
 
 using namespace tisserand;
+using namespace tisserand::mechanism::help;
 
 // Exit codes: 0 done, 1 error, 2 usage, 3 did not converge, 130 interrupted.
 constexpr int exit_error = 1, exit_usage = 2, exit_not_converged = 3, exit_interrupted = 130;
@@ -56,119 +58,6 @@ void listen_for_interrupts() {
 double wall_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-constexpr const char* about =
-    R"help(mechanism: dynamics, statics, kinematics and vibrations of flexible mechanisms from superelement files.
-
-  superelement.h5 + scene.yaml -> model -> steps -> results.h5 -> pictures and tables
-
-Examples:
-  mechanism check arm.scene.yaml                       what is wrong, and the mobility
-  mechanism run arm.scene.yaml -o arm.results.h5       simulates
-  mechanism run arm.scene.yaml --set integrator.step=0.005 --set bodies.arm.modes=2
-  mechanism channels arm.results.h5                    what the file holds, with units
-  mechanism plot arm.results.h5 -c nodes/position/arm/tip/z -o arm.png
-  mechanism view arm.results.h5 -o arm.html            a page with the motion, for any browser
-  mechanism study arm.study.yaml --tolerance 1e-3      what accuracy costs, and the cheapest setting for it
-  mechanism export arm.results.h5 -c energy -o arm.csv
-
-A scene in ten lines:
-  scene: pendulum
-  gravity: [0, 0, -9.81]
-  bodies:
-    arm: {type: superelement, file: arm.superelement.h5, modes: 4}
-  joints:
-    hinge: {type: revolute, a: ground, b: arm/base, axis: [0, 1, 0]}
-  loads:
-    push: {type: force, at: arm/tip, value: [0, "10 * sin(2 * t)", 0]}
-  integrator: {step: 0.01, end: 5}
-  output: {every: 10}
-
-Units are those that the scene names, by default m, kg, s; angles in radians.
-Exit codes: 0 done, 1 error, 2 wrong usage, 3 did not converge, 130 interrupted.)help";
-
-constexpr const char* about_run = R"help(Simulates a scene and writes its results.
-
-  mechanism run arm.scene.yaml
-  mechanism run arm.scene.yaml -o fine.results.h5 --set integrator.step=0.001
-  mechanism run arm.scene.yaml --set 'loads.push.value=[0, 0, "5 * t"]' --set output.channels='[nodes/position, energy]'
-
-A scene with several `analyses` runs them all in order, each into <scene>.<analysis>.results.h5; --analysis runs one of them,
-and before it those that it starts from.
-
-  mechanism run arm.scene.yaml --analysis tones
-  mechanism run arm.scene.yaml --set checkpoint.every=1000
-  mechanism run arm.scene.yaml --restart arm.checkpoint.h5 --append
-  mechanism run arm.scene.yaml --restart arm.checkpoint.h5 -o rest.results.h5
-
-A run that goes on from a checkpoint is bit-equal to one that was never interrupted (same machine and program); from an
-instant of a results file it is accurate to the tolerance. With --append one file holds the rows of both, the joining
-instant once; the results that are gone on from stay as they are until the new ones, whole, take their place. Without it
-they are never overwritten.
-
-While it runs the results grow in <output>.part, readable at any time. Ctrl-C, a step that does not converge and a full disk
-close the file with what was reached and the reason; `channels`, `export` and `plot` accept it. Names of files in the scene
-and in --set count from the folder of the scene; <output> counts from this folder.
-Exit codes: 0 done, 1 error, 2 wrong usage, 3 did not converge, 130 interrupted.)help";
-
-constexpr const char* about_check =
-    R"help(Reads everything, counts coordinates, constraints and mobility, says what is wrong, runs nothing.
-
-  mechanism check arm.scene.yaml
-  mechanism check arm.scene.yaml --set bodies.arm.modes=2
-
-Exit codes: 0 no errors found, 1 errors, 2 wrong usage.)help";
-
-constexpr const char* about_export =
-    R"help(Writes channels of a results file as CSV: time, then one column per channel, with units; of modes one row per mode.
-
-  mechanism export arm.results.h5 -o arm.csv
-  mechanism export arm.results.h5 -c nodes/position -c 'joints/*/hinge/*' -o arm.csv
-  mechanism export arm.results.h5 -c energy -o /dev/stdout | head
-  mechanism export tones.results.h5 -c modes/frequency -c modes/damping_ratio -o tones.csv)help";
-
-constexpr const char* about_channels = R"help(Lists the channels of a results file with their units.
-
-  mechanism channels arm.results.h5
-  mechanism channels arm.results.h5 -c 'nodes/position/arm/*')help";
-
-constexpr const char* about_plot =
-    R"help(Draws channels of results files over one another, one panel per unit (png or svg, by gnuplot); modes as bars.
-
-  mechanism plot arm.results.h5 -c nodes/position/arm/tip/z -o tip.png
-  mechanism plot coarse.results.h5 fine.results.h5 --label coarse --label fine -c energy/total -o energy.svg --range 0 2
-  mechanism plot arm.results.h5 -c nodes/position/arm/tip/z --reference 'measured.csv:t:z:measured' -o tip.png
-  mechanism plot tones.results.h5 -c modes/frequency -c modes/damping_ratio -o tones.png)help";
-
-constexpr const char* about_view =
-    R"help(Makes one page that shows a run: bodies in motion, curves, report. Any browser opens it, without a network.
-
-  mechanism view arm.results.h5 -o arm.html
-  mechanism view coarse.results.h5 fine.results.h5 -o both.html
-  mechanism view long.results.h5 -o long.html --instants 500 -c energy -c 'nodes/position/arm/*'
-  mechanism view arm.results.h5 --paraview out
-
-Shapes are those of the scene (`shape` of a body), sections of beams, and of superelements the surface in the recovery file
-that lies beside them; else nodes and straight lines. Formats: formats/PAGE.md.)help";
-
-constexpr const char* about_compare =
-    R"help(Measures channels against a reference history: largest and root-mean-square deviation.
-
-  mechanism compare arm.results.h5 -c nodes/position/arm/tip/z --reference reference.csv:t:z --from 1 --to 5
-  mechanism compare arm.results.h5 -c nodes/position/rod/end/z --reference other.csv:1:3
-
-The columns of a CSV file are named, or counted from 1.)help";
-
-constexpr const char* about_study =
-    R"help(Runs a scene with all combinations of settings and shows what accuracy costs in time.
-
-  mechanism study arm.study.yaml                   table.csv, table.json and index.html in the folder arm.study
-  mechanism study arm.study.yaml --tolerance 1e-3  the cheapest setting with such an error, in one line, and its scene
-  mechanism study arm.study.yaml --slurm           the runs as a job array, collected when all have ended
-
-The study file (formats/STUDY.md) names scenes, axes, quantities and the reference. A run that fails is a result. Interrupted at
-any moment, the same command goes on: what has run is not repeated.
-Exit codes: 0 done, 1 error, 2 wrong usage, 130 interrupted.)help";
 
 /// "dir/pendulum.scene.yaml" -> "pendulum.results.h5" in the working folder.
 std::string default_results(const std::string& scene) {
