@@ -50,12 +50,8 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
     begin("recovery");
     recover({mesh, system, coordinates, boundary, internal, result.superelement});
   }
-  describe_companion(mesh, part, result.superelement, result.model);
-  if (!wants_companion(part, result.superelement)) return result;
-
   begin("second order");
-  result.companion =
-      make_companion(problem, boundary, internal, result.superelement, default_weights(result.superelement));
+  result.companion = companion_if_asked(part, problem, boundary, internal, result.superelement, result.model);
   return result;
 }
 
@@ -69,9 +65,6 @@ Reduction reduce(const formats::Part& part, const PhaseListener& begin, const Re
 Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin,
                       const RecoveryListener& recover) {
   begin("checks");
-  check_used(mesh, part.file);
-  check_connected(mesh, part.file);
-  check_boundary_holds(mesh, part.file);
   const Doubts doubts = check_mesh(mesh, part);
   try {
     Reduction result = reduce_checked(mesh, part, begin, recover);

@@ -14,7 +14,7 @@ namespace tisserand::formats::hdf5 {
 namespace {
 
 constexpr const char* packed_remedy = "free some space, or choose another place for the file";
-constexpr unsigned deflate_level = 1;           // higher ones take three times the time for a hundredth of the size
+constexpr unsigned packed_deflate_level = 1;    // higher ones take three times the time for a hundredth of the size
 constexpr std::uint64_t unpacked_bytes = 4096;  // of arrays that are stored as they are
 constexpr std::uint64_t packed_chunk_bytes = 1u << 20;
 
@@ -31,7 +31,7 @@ Handle packed_dataset(Id file, const std::string& dataset, const Shape& shape, s
     rows[0] = std::clamp<hsize_t>(chunk, 1, extent[0]);
     H5Pset_chunk(creation.id(), static_cast<int>(rows.size()), rows.data());
     H5Pset_shuffle(creation.id());
-    H5Pset_deflate(creation.id(), deflate_level);
+    H5Pset_deflate(creation.id(), packed_deflate_level);
     H5Pset_fletcher32(creation.id());
   }
   Handle handle(H5Dcreate2(file, dataset.c_str(), type, space.id(), link.id(), creation.id(), H5P_DEFAULT), H5Dclose);

@@ -59,6 +59,9 @@ std::vector<double> compared_frequencies(const System& system, const InternalMod
 }
 
 Doubts check_mesh(const Mesh& mesh, const formats::Part& part) {
+  check_used(mesh, part.file);
+  check_connected(mesh, part.file);
+  check_boundary_holds(mesh, part.file);
   Doubts doubts{mesh.warnings, plausibility_warnings(mesh, part.units)};
   const std::string& where = part.mesh.file.empty() ? part.file : part.mesh.file;
   for (const auto& more : {check_shapes(mesh, where), doubts.numbers})

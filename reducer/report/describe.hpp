@@ -29,7 +29,8 @@ struct Doubts {
   std::vector<std::string> numbers;
 };
 
-/// Throws Error for elements of bad shape.
+/// Throws Error for coordinates that nothing uses, pieces that nothing connects, a boundary that does not hold the part,
+/// elements of bad shape.
 Doubts check_mesh(const Mesh& mesh, const formats::Part& part);
 
 /// Throws Error for a part without mass.

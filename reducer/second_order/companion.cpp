@@ -2,6 +2,7 @@
 #include "reducer/second_order/companion.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "common/error.hpp"
 #include "common/math/rotation.hpp"
@@ -199,9 +200,15 @@ void set_integrals(const formats::Superelement& element, formats::Companion& c) 
   c.S1 = formats::rigid_motions(element, c.reference_point).leftCols<3>().transpose() * element.mass;
 }
 
+/// One node without internal coordinates moves rigidly; then there is nothing but round-off to write.
+bool deforms(const formats::Superelement& element) {
+  return element.node_position.rows() > 1 || std::ranges::any_of(element.dof_node, [](int node) { return node < 0; });
+}
+
 }  // namespace
 
 bool wants_companion(const formats::Part& part, const formats::Superelement& element) {
+  if (!deforms(element)) return false;
   const bool fits = element.size() <= formats::max_companion_size;
   switch (part.second_order) {
     case formats::SecondOrder::no:
@@ -220,7 +227,9 @@ bool wants_companion(const formats::Part& part, const formats::Superelement& ele
 void describe_companion(const Mesh& mesh, const formats::Part& part, const formats::Superelement& element,
                         ModelCertificate& model) {
   if (!wants_companion(part, element)) {
-    if (part.second_order == formats::SecondOrder::unless_large)
+    if (!deforms(element) && part.second_order == formats::SecondOrder::yes)
+      model.notes.push_back("No companion file: with one boundary node and no modes the part cannot deform.");
+    if (deforms(element) && part.second_order == formats::SecondOrder::unless_large)
       model.notes.push_back(
           fmt::format("No companion file (stiffening, exact inertia): it would hold {:.0f} MB; "
                       "second_order: yes in the part file writes it.",
@@ -283,6 +292,14 @@ formats::Companion make_companion(const InternalProblem& problem, const Boundary
     c.T[a] = -forms.matrix(n + 6 + a);
   }
   return c;
+}
+
+std::optional<formats::Companion> companion_if_asked(const formats::Part& part, const InternalProblem& problem,
+                                                     const BoundaryModes& boundary, const InternalModes& internal,
+                                                     const formats::Superelement& element, ModelCertificate& model) {
+  describe_companion(problem.mesh, part, element, model);
+  if (!wants_companion(part, element)) return std::nullopt;
+  return make_companion(problem, boundary, internal, element, default_weights(element));
 }
 
 }  // namespace tisserand::reducer

@@ -1,6 +1,8 @@
 // The companion of a superelement: what the finite elements know beyond S̄ and M̄ (formats/COMPANION.md).
 #pragma once
 
+#include <optional>
+
 #include "formats/companion/companion.hpp"
 #include "reducer/modes/boundary_modes.hpp"
 #include "reducer/modes/internal_modes.hpp"
@@ -8,11 +10,11 @@
 
 namespace tisserand::reducer {
 
-/// Whether the part asks for a companion of this superelement: `second_order`, or its arrays stay below 20 MB. Throws
-/// Error if it asks for more coordinates than companion files hold.
+/// Whether the part asks for a companion of this superelement, which can deform: `second_order`, or its arrays stay
+/// below 20 MB. Throws Error if it asks for more coordinates than companion files hold.
 bool wants_companion(const formats::Part& part, const formats::Superelement& element);
 
-/// What the user should know of it: notes on a companion that was left out, warnings of ties without second order.
+/// What the user should know of it: notes on a companion that is left out, warnings of ties without second order.
 void describe_companion(const Mesh& mesh, const formats::Part& part, const formats::Superelement& element,
                         ModelCertificate& model);
 
@@ -25,5 +27,10 @@ formats::Companion make_companion(const InternalProblem& problem, const Boundary
 
 /// The default weights of mechanisms.
 Eigen::VectorXd default_weights(const formats::Superelement& element);
+
+/// All of it: described, and made with the default weights if it is wanted.
+std::optional<formats::Companion> companion_if_asked(const formats::Part& part, const InternalProblem& problem,
+                                                     const BoundaryModes& boundary, const InternalModes& internal,
+                                                     const formats::Superelement& element, ModelCertificate& model);
 
 }  // namespace tisserand::reducer

@@ -350,11 +350,28 @@ TEST(SecondOrderReduction, PartsSayWhetherTheyWantIt) {
   EXPECT_EQ(without.superelement.mass, with.superelement.mass);
 }
 
+// Six rigid coordinates have no stress: H would be round-off.
+TEST(SecondOrderReduction, PartsThatCannotDeformHaveNone) {
+  formats::Part part;
+  Superelement element;
+  element.node_position.setZero(1, 3);
+  element.dof_node.assign(6, 0);
+  EXPECT_FALSE(reducer::wants_companion(part, element));
+  part.second_order = formats::SecondOrder::yes;
+  EXPECT_FALSE(reducer::wants_companion(part, element));
+  reducer::ModelCertificate model;
+  reducer::describe_companion({}, part, element, model);
+  EXPECT_THAT(model.notes, ::testing::ElementsAre(::testing::HasSubstr("the part cannot deform")));
+  element.dof_node.push_back(-1);
+  EXPECT_TRUE(reducer::wants_companion(part, element));
+}
+
 TEST(SecondOrderReduction, LargeOnesAreWrittenOnlyIfAskedFor) {
   formats::Part part;
   part.file = "large.part.yaml";
   Superelement element;
-  element.dof_node.resize(165);  // 8 (165² 166/2 + 3 · 165² + 9 · 165 · 166) bytes = 20.7 MB; 160 coordinates: 19.0 MB
+  element.dof_node.assign(165,
+                          -1);  // 8 (165² 166/2 + 3 · 165² + 9 · 165 · 166) bytes = 20.7 MB; 160 coordinates: 19.0 MB
   EXPECT_FALSE(reducer::wants_companion(part, element));
   reducer::ModelCertificate model;
   reducer::describe_companion({}, part, element, model);
@@ -363,9 +380,9 @@ TEST(SecondOrderReduction, LargeOnesAreWrittenOnlyIfAskedFor) {
   part.second_order = formats::SecondOrder::yes;
   EXPECT_TRUE(reducer::wants_companion(part, element));
   part.second_order = formats::SecondOrder::unless_large;
-  element.dof_node.resize(160);
+  element.dof_node.assign(160, -1);
   EXPECT_TRUE(reducer::wants_companion(part, element));
-  element.dof_node.resize(501);
+  element.dof_node.assign(501, -1);
   EXPECT_FALSE(reducer::wants_companion(part, element));
   part.second_order = formats::SecondOrder::yes;
   try {
