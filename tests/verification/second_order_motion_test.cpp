@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
 
@@ -14,9 +15,11 @@
 #include "mechanism/build/superelements.hpp"
 #include "mechanism/run/checkpoint.hpp"
 #include "mechanism/run/frame_angles.hpp"
+#include "mechanism/run/run.hpp"
 #include "tests/support/bodies/second_order_beam.hpp"
 #include "tests/support/reference_table.hpp"
 #include "tests/support/scenes/scenes.hpp"
+#include "tests/support/thrown.hpp"
 
 namespace tisserand::mechanism::second_order_motion_test {
 namespace {
@@ -399,6 +402,23 @@ Eigen::VectorXd after_a_second(const BodyFiles& files, const formats::Supereleme
   Eigen::VectorXd out(6);
   out << run.position("beam/n0"), run.position("beam/n16");
   return out;
+}
+
+TEST(SecondOrderChoice, RadauTakesLinearBodiesOnly) {
+  const BodyFiles files = files_of(column(2));
+  for (const bool second_order : {true, false}) {
+    formats::Scene scene = empty_scene(1e-3, 1.0);
+    scene.integrator.method = formats::Method::radau;
+    formats::SuperelementBodySpec body = beam_body();
+    body.second_order = second_order;
+    scene.bodies.push_back(body);
+    const RunControl control;
+    mechanism::Run run(scene, files, control);
+    EXPECT_THAT(test_support::error_of([&] { start(run); }),
+                ::testing::HasSubstr(second_order ? "method radau takes linear superelements only, and there is "
+                                                    "stiffening or inertia F in 'beam'"
+                                                  : "no error"));
+  }
 }
 
 // A body of fewer modes from one file is that of the file with as many.
