@@ -48,7 +48,8 @@ void check_owner(const Inspection& at) {
     throw Error(fmt::format("belongs to the superelement {}..., not to '{}' with {}...", printable_line(quoted, 12),
                             printable_line(at.superelement.name, 60), own.substr(0, 12)),
                 at.dataset("attribute 'superelement'"),
-                "give the companion that was written with this superelement file, or reduce the part again");
+                "give the companion that was written with this superelement file, reduce the part again, remove the "
+                "companion, or write 'second_order: off' at the body");
   const Units &a = at.companion.units, &b = at.superelement.units;
   if (a.length.factor != b.length.factor || a.mass.factor != b.mass.factor || a.time.factor != b.time.factor)
     throw Error(

@@ -214,6 +214,11 @@ bool means_node(const std::string& entry, const std::string& node) {
 }  // namespace
 
 void ResultsRow::resize(const ResultsLayout& layout) {
+  const auto is_reaction = [](const Block& block) {
+    return block.dataset == "/joints/force" || block.dataset == "/joints/moment" || block.dataset == "/motions/force" ||
+           block.dataset == "/couplings/first_force" || block.dataset == "/couplings/second_force";
+  };
+  reactions = std::ranges::any_of(chosen_blocks(layout, layout.scene), is_reaction);
   const auto nodes = static_cast<Eigen::Index>(layout.nodes.size());
   const auto superelements = static_cast<Eigen::Index>(layout.superelements.size());
   const auto joints = static_cast<Eigen::Index>(layout.joints.size());

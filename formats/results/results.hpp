@@ -74,6 +74,7 @@ struct ResultsRow {
   Eigen::Matrix3Xd bushing_force, bushing_moment, friction_force, friction_moment;  ///< as of joints
   double kinetic = 0.0, strain = 0.0, potential = 0.0, work = 0.0, dissipated = 0.0, total = 0.0, balance = 0.0;
   double step = 0.0, iterations = 0.0, residual = 0.0, constraint = 0.0;
+  bool reactions = true;  ///< whether the layout stores those of joints, drives or gears; set by resize()
 
   void resize(const ResultsLayout& layout);
 };

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
 #include <unordered_set>
 
 #include "common/text.hpp"
 #include "formats/scene/check_parts.hpp"
+#include "formats/scene/expand/expression.hpp"
 #include "formats/scene/settings_check.hpp"
 #include "formats/scene/time_function_reader.hpp"
 #include "formats/sections/reader.hpp"
@@ -298,10 +300,26 @@ bool has_dynamics(const Scene& scene) {
   return std::ranges::any_of(scene.analyses, [&](const Analysis& analysis) { return dynamic(analysis.kind); });
 }
 
+/// Inputs step in velocity where they are linear between points: a motion that uses one does so too.
+void check_motion_inputs(const Scene& scene, const MotionSpec& motion, const std::string& subject, Faults& faults) {
+  const auto* expression = std::get_if<TimeExpression>(&motion.value);
+  if (expression == nullptr) return;
+  const std::set<std::string> names = names_of(expression->text);
+  for (const InputSpec& input : scene.inputs)
+    if (input.interpolation == Interpolation::linear && input.table.time.size() > 2 &&
+        names.contains(expression_name(input.name)))
+      faults.add(motion.where, "value",
+                 fmt::format("{}: input '{}' is linear between its points and steps in velocity, which no mass can "
+                             "follow",
+                             subject, input.name),
+                 "give the input interpolation: cubic, or the motion a table");
+}
+
 void check_motion(const SceneIndex& scene, const MotionSpec& motion, bool dynamic, Faults& faults) {
   const std::string subject = fmt::format("motion '{}'", motion.name);
   check_coordinate(motion.coordinate, scene, subject, motion.where, "coordinate", faults);
   check_time_function(motion.value, subject, motion.where, "value", faults);
+  if (dynamic) check_motion_inputs(scene.scene, motion, subject, faults);
   const auto* table = std::get_if<TimeTable>(&motion.value);
   if (dynamic && table != nullptr && table->motion == TableMotion::linear && table->time.size() > 2)
     faults.add(

@@ -198,14 +198,14 @@ std::vector<BodySpec> read_bodies_of_text(const std::string& text, const std::st
 }
 
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {
-  const YamlDocument document = load_scene_tree(path, overrides, scene_key_sets());
+  YamlDocument document = load_scene_tree(path, overrides, scene_key_sets());
   YamlReader reader(document, scene_key_sets());
   require_kind(reader, "scene", "part", "make a superelement of it with `reducer run`");
   Faults faults;
   Scene scene = read_tree(reader, path, faults);
   for (Fault& fault : find_faults(scene).list) faults.list.push_back(std::move(fault));
   reader.raise(faults);
-  scene.text = yaml_text(document.root);
+  scene.tree = std::make_shared<const YamlNode>(std::move(document.root));
   return scene;
 }
 

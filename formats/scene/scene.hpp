@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +19,7 @@
 #include "formats/sections/section.hpp"
 #include "formats/tables/time_table.hpp"
 #include "formats/yaml/override.hpp"
+#include "formats/yaml/tree.hpp"
 
 namespace tisserand::formats {
 
@@ -168,7 +170,7 @@ struct InputSpec {
 struct Scene {
   std::string name;
   std::string file;
-  std::string text;  ///< as YAML after `include`, instances and overrides; empty: made by a program
+  std::shared_ptr<const YamlNode> tree;  ///< after `include`, instances and overrides; null: made by a program
   Units units = Units::si();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   std::vector<BodySpec> bodies;

@@ -1,7 +1,6 @@
 // Events of yaml-cpp to a bounded tree; everything that can be wrong with a text file before its keys are looked at.
 #include "formats/yaml/tree.hpp"
 
-#include <yaml-cpp/emitter.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
 #include <yaml-cpp/parser.h>
@@ -272,42 +271,7 @@ YamlDocument load_yaml(const std::string& path) {
 
 namespace {
 
-/// Maps of maps in lines of their own, what is deepest in one line.
-void emit(const YamlNode& node, YAML::Emitter& out) {
-  const auto is_simple = [](const YamlNode& child) { return child.children.empty(); };
-  switch (node.kind) {
-    case YamlKind::null:
-      out << YAML::Null;
-      return;
-    case YamlKind::scalar:
-      if (node.quoted) out << YAML::DoubleQuoted;
-      out << node.text;
-      return;
-    case YamlKind::sequence:
-      out << YAML::Flow << YAML::BeginSeq;
-      for (const YamlNode& child : node.children) emit(child, out);
-      out << YAML::EndSeq;
-      return;
-    case YamlKind::map:
-      if (std::ranges::all_of(node.children, is_simple)) out << YAML::Flow;
-      out << YAML::BeginMap;
-      for (const YamlNode& child : node.children) {
-        out << YAML::Key << child.key << YAML::Value;
-        emit(child, out);
-      }
-      out << YAML::EndMap;
-      return;
-  }
-}
-
 }  // namespace
-
-std::string yaml_text(const YamlNode& root) {
-  YAML::Emitter out;
-  out.SetOutputCharset(YAML::EmitNonAscii);
-  emit(root, out);
-  return out.c_str();
-}
 
 void mark_source(YamlNode& node, int source) {
   node.place.source = source;

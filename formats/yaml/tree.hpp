@@ -53,9 +53,6 @@ YamlDocument parse_yaml(const std::string& text, const std::string& file);
 /// Reads a file and parses it. Throws Error (missing, a folder, empty, binary, syntax).
 YamlDocument load_yaml(const std::string& path);
 
-/// The tree as a document that parse_yaml() reads to the same tree, without its places.
-std::string yaml_text(const YamlNode& root);
-
 /// Marks the node and all below it as read from source `source`.
 void mark_source(YamlNode& node, int source);
 

@@ -6,6 +6,17 @@
 #include "mechanism/build/joints.hpp"
 
 namespace tisserand::mechanism {
+namespace {
+
+/// Whether turns deflect the bushing, or make forces of it.
+bool takes_rotations(const formats::BushingSpec& spec) {
+  const auto any = [](const Eigen::Matrix<double, 6, 6>& m) {
+    return !m.rightCols<3>().isZero(0.0) || !m.bottomRows<3>().isZero(0.0);
+  };
+  return any(spec.stiffness) || any(spec.damping) || !spec.preload.tail<3>().isZero(0.0);
+}
+
+}  // namespace
 
 void JointBuilder::add(const formats::SpringSpec& spec) {
   Spring spring;
@@ -72,8 +83,11 @@ void JointBuilder::add(const formats::BushingSpec& spec) {
   const std::string subject = fmt::format("bushing '{}'", spec.name);
   require_two_nodes(subject, spec, spec.where, bushing.a, bushing.b);
   place_markers(markers_, spec, bushing.a, bushing.b);
-  check_marker(model_, subject, use_position_and_axes, spec.a, bushing.a);
-  check_marker(model_, subject, use_position_and_axes, spec.b, bushing.b);
+  // Translations act along the axes of A: B needs an orientation only where rotations take part.
+  const bool rotations = takes_rotations(spec);
+  const bool b_has_axes = bushing.b.node < 0 || has_rotation(model_, bushing.b.node);
+  check_marker(model_, subject, {true, true, !rotations && b_has_axes}, spec.a, bushing.a);
+  check_marker(model_, subject, rotations ? use_position_and_axes : use_position, spec.b, bushing.b);
   bushing.stiffness = spec.stiffness;
   bushing.damping = spec.damping;
   bushing.free = spec.free.value_or(bushing.free);

@@ -34,6 +34,24 @@ bool regular(const FactorReport& factors, StepReport& report) {
   return false;
 }
 
+/// Largest increment of the multipliers in units of what it may be. Rows that move no body show in nothing else: of a
+/// plane mechanism that has turned by more than 60 degrees since the parts were made, those across the plane would
+/// grow from step to step. Multipliers have order 3 where positions have 5 ([HW96] VII.4), so that a tolerance of τ for
+/// these is τ^(3/5) of the forces for those.
+LocalError measure_multipliers(const Model& model, const State& begin, const Evaluation& evaluation, double tolerance,
+                               const Stages::Columns& increments) {
+  const auto scale = [&](int kind) { return std::max(begin.force_scale(kind), evaluation.force_scale[kind]); };
+  const double force = std::max(scale(0), scale(1) / model.length);
+  const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
+  const double allowed = std::max(std::pow(tolerance, 0.6) * force, round_off) + 1e-300;
+  LocalError worst;
+  for (int row = 0; row < model.sizes.constraints; ++row) {
+    const double size = increments.row(row).cwiseAbs().maxCoeff() / (model.length_row[row] ? 1.0 : model.length);
+    if (size / allowed > worst.ratio) worst = {size / allowed, row};
+  }
+  return worst;
+}
+
 bool same(double a, double b) { return std::abs(a - b) <= same_step * std::abs(b); }
 
 }  // namespace
@@ -182,6 +200,13 @@ bool Newton::iterate(const Model& model, const State& begin, const StepEnd& end,
       if (one.ratio > size.ratio || std::isnan(one.ratio)) size = one;
     }
     report.worst_coordinate = size.worst_coordinate;
+    report.worst_constraint = -1;
+    const LocalError rows = measure_multipliers(model, begin, evaluation, accuracy.units.tolerance, g_);
+    if (rows.ratio > size.ratio) {
+      size.ratio = rows.ratio;
+      report.worst_coordinate = -1;
+      report.worst_constraint = rows.worst_coordinate;
+    }
     if (!std::isfinite(size.ratio) || !g_.allFinite()) return fails(StepOutcome::diverged);
     if (count > 1) {
       const double ratio = last > 0.0 ? size.ratio / last : 0.0;
@@ -213,7 +238,7 @@ bool Newton::iterate(const Model& model, const State& begin, const StepEnd& end,
     if (confidence * size.ratio <= accuracy.newton) break;
   }
   confidence_ = confidence;
-  report.worst_coordinate = -1;
+  report.worst_coordinate = report.worst_constraint = -1;
   return true;
 }
 

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "mechanism/bdf/bdf.hpp"
+#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/run/frame_angles.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -61,6 +63,13 @@ void store_rows(Run& run, Bdf& bdf, Instants& instants, double before, RowWriter
   if (finished && !at_end) store(run, bdf, step, now - before, out);
 }
 
+/// Why the run must end at the accepted state, or nothing. CVODE's last evaluation is of another state.
+std::string observe(Run& run, FrameAngles& angles) {
+  if (run.built.model.superelements.empty()) return {};
+  evaluate(run.built.model, run.built.state, run.workspace.now);
+  return angles.observe(run.built.model, run.built.state, run.workspace.now);
+}
+
 void note_counts(Run& run, const BdfCounts& counts) {
   RunReport& report = run.report;
   report.steps = counts.steps;
@@ -79,6 +88,7 @@ void integrate_bdf(Run& run, RowWriter& out) {
   Bdf bdf(run.scene, run.built.model, state, run.workspace);
   Instants instants{run.scene, run.built.model.breakpoints, same_instant * (options.end - options.start)};
   instants.pass(options.start);
+  FrameAngles angles(run.built.model);
   StepReport none;
   store(run, bdf, none, 0.0, out);
   while (state.time() < options.end - instants.round_off) {
@@ -101,6 +111,11 @@ void integrate_bdf(Run& run, RowWriter& out) {
     report.largest_constraint = std::max(report.largest_constraint, bdf.violation());
     store_rows(run, bdf, instants, before, out);
     note_counts(run, bdf.counts());
+    if (std::string end = observe(run, angles); !end.empty()) {
+      report.outcome = RunOutcome::not_converged;
+      report.reason = std::move(end);
+      break;
+    }
     if (instants.stop().time < options.end && state.time() >= instants.stop().time - instants.round_off) {
       instants.pass(state.time());
       bdf.restart(state.time() + instants.round_off);
@@ -108,6 +123,7 @@ void integrate_bdf(Run& run, RowWriter& out) {
     if (run.control.progress) run.control.progress(state.time());
   }
   report.time = state.time();
+  angles.tell(run.built.model, report);
   report.solver_health = run.workspace.matrix.health();
 }
 

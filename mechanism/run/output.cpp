@@ -234,7 +234,7 @@ void fill_row(const Model& model, const State& state, Evaluation& evaluation, fo
   row.w_rate = state.v().segment(model.sizes.first_modal(), model.sizes.modal);
   evaluate_coordinates(model, state, evaluation);
   Eigen::VectorXd least;
-  if (is_overconstrained(state)) least = least_norm_multipliers(model, evaluation, state.lambda());
+  if (row.reactions && is_overconstrained(state)) least = least_norm_multipliers(model, evaluation, state.lambda());
   const double* lambda = least.size() > 0 ? least.data() : state.lambda().data();
   fill_joints(model, state, lambda, evaluation, row);
   fill_couplings(model, lambda, row);

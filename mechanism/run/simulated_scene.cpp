@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "formats/yaml/emit.hpp"
 #include "mechanism/build/mirrored_files.hpp"
 
 namespace tisserand::mechanism {
@@ -185,7 +186,7 @@ formats::SimulatedScene simulated_scene(const formats::Scene& scene, const BodyF
   const Model& model = built.model;
   formats::SimulatedScene simulated;
   simulated.analysis = formats::analysis_word(scene.analysis);
-  simulated.text = scene.text;
+  if (scene.tree) simulated.text = formats::block_text(*scene.tree);
   simulated.file = absolute(scene.file);
   simulated.gravity = scene.gravity;
   std::map<std::string, int> index;

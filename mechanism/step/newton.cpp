@@ -27,6 +27,7 @@ bool contracts_slowly(const Iteration& it) {
 
 /// Whether the last increment was as small as round-off lets it become.
 bool round_off(const Iteration& it) {
+  if (size_of(it.model, it.workspace.matrix.correction) >= increment_floor) return false;
   return it.increment < least_increment || (it.increment < increment_floor && contracts_slowly(it));
 }
 
@@ -69,13 +70,15 @@ bool converged(Iteration& it) {
     return false;
   }
   if (norms.worst() <= 1.0) return true;
-  if (round_off(it) && size_of(it.model, it.workspace.matrix.correction) < increment_floor) return true;
+  // Kept factors say nothing of multipliers that move no body: those of a plane mechanism that has turned by more than
+  // 60 degrees since would grow from step to step, while positions stand still.
+  if (it.factors == Factors::fresh && round_off(it)) return true;
   if (it.count >= it.options.max_iterations) it.report.outcome = StepOutcome::too_many_iterations;
   return false;
 }
 
 bool ready_factors(Iteration& it) {
-  if (it.factors == Factors::kept) return !contracts_slowly(it);
+  if (it.factors == Factors::kept) return !contracts_slowly(it) && !round_off(it);
   const double quick_rate = it.workspace.memory.tuning.quick_rate;
   const bool quick = it.count > 0 && it.report.residual <= quick_rate * it.last_residual &&
                      it.report.constraint_ratio <= std::max(1.0, quick_rate * it.last_constraint_ratio);

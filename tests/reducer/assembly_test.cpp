@@ -18,6 +18,7 @@
 #include "reducer/system/system.hpp"
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/spring_nets.hpp"
+#include "tests/support/thrown.hpp"
 
 namespace tisserand::testing::assembly_test {
 namespace {
@@ -25,19 +26,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using reducer::Mesh;
+using test_support::error_of;
 using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-
-template <class Work>
-std::string error_of(Work work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 formats::Part part_of(int modes) {
   formats::Part part;

@@ -12,23 +12,15 @@
 #include "common/error.hpp"
 #include "reducer/mesh/gmsh_file.hpp"
 #include "tests/reducer/parts.hpp"
+#include "tests/support/thrown.hpp"
 
 namespace tisserand::testing::mesher_test {
 namespace {
 
 using Eigen::Vector3d;
+using test_support::error_of;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-template <class Action>
-std::string error_of(Action action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 formats::Part arc(double degrees, int elements) {
   const double a = degrees * EIGEN_PI / 180.0, r = 0.8;

@@ -12,10 +12,12 @@
 #include "formats/hdf5/file.hpp"
 #include "tests/support/bodies/second_order_network.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/thrown.hpp"
 
 namespace tisserand::formats::companion_file_test {
 namespace {
 
+using test_support::error_of;
 using test_support::SecondOrderBody;
 using test_support::TemporaryFolder;
 using ::testing::HasSubstr;
@@ -23,15 +25,6 @@ using ::testing::HasSubstr;
 const SecondOrderBody& network() {
   static const SecondOrderBody body = test_support::second_order_network(2, Eigen::Vector4d(0.1, 0.2, 0.3, 0.4));
   return body;
-}
-
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 /// Changes the file behind the back of the library.

@@ -13,26 +13,18 @@
 #include "common/error.hpp"
 #include "tests/support/bodies/small_recovery.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/thrown.hpp"
 
 namespace tisserand::formats::recovery_file_test {
 namespace {
 
+using test_support::error_of;
 using test_support::small_field;
 using test_support::small_recovery;
 using test_support::TemporaryFolder;
 using test_support::write_small_recovery;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-
-template <class Work>
-std::string error_of(Work work) {
-  try {
-    work();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 /// All that a reader takes from a file.
 void read_all(const std::string& path) {

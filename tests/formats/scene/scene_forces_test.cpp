@@ -10,6 +10,7 @@ namespace tisserand::formats::scene_forces_test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string machine = R"(scene: machine
 gravity: [0, 0, -9.81]
@@ -158,6 +159,17 @@ TEST(SceneForces, TablesOfMotionsChooseTheirCurve) {
     EXPECT_THAT(fault("{file: bump.csv, interpolation: linear}", analysis),
                 HasSubstr("motion 'drive': a table with interpolation: linear steps in velocity"))
         << analysis;
+  const auto follows = [&](const std::string& analysis, const std::string& interpolation) {
+    const Folder folder;
+    folder.file("bump.csv", "time, value\n0, 0\n1, 20\n2, 10\n");
+    const std::string path =
+        folder.file("scene.yaml", turned("2*cam", analysis) + "inputs: {cam: {file: bump.csv, time: 1, value: 2, " +
+                                      "interpolation: " + interpolation + "}}\n");
+    return error_of(folder, [&] { read_scene(path, {}); });
+  };
+  EXPECT_THAT(follows("", "linear"), HasSubstr("motion 'drive': input 'cam' is linear between its points"));
+  EXPECT_THAT(follows("", "cubic"), Not(HasSubstr("input 'cam'")));
+  EXPECT_THAT(follows("analysis: statics", "linear"), Not(HasSubstr("input 'cam'")));
   EXPECT_THAT(fault("{expression: t, interpolation: natural}", ""), HasSubstr("'interpolation' belongs to tables"));
   EXPECT_THAT(fault("{file: bump.csv, interpolation: cubic}", ""), HasSubstr("smooth"));
   EXPECT_THAT(error("stiffness: 30", "stiffness: 30, force: {table: [[0, 0], [1, 1]], interpolation: natural}"),

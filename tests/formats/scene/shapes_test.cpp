@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/scene/scene.hpp"
+#include "formats/yaml/emit.hpp"
 #include "formats/yaml/reader.hpp"
 #include "formats/yaml/tree.hpp"
 #include "tests/formats/yaml/text_input.hpp"
@@ -101,7 +102,7 @@ TEST(SceneText, IsReadToTheSameBodies) {
   const Folder folder;
   const std::string path = folder.file("scene.yaml", mirrored);
   const Scene scene = read_scene(path, {});
-  const std::vector<BodySpec> bodies = read_bodies_of_text(scene.text, path);
+  const std::vector<BodySpec> bodies = read_bodies_of_text(block_text(*scene.tree), path);
   ASSERT_EQ(bodies.size(), 1u);
   const RigidBodySpec &a = std::get<RigidBodySpec>(scene.bodies[0]), &b = std::get<RigidBodySpec>(bodies[0]);
   EXPECT_EQ(b.name, "right/stone");
@@ -112,7 +113,7 @@ TEST(SceneText, IsReadToTheSameBodies) {
 
 TEST(SceneText, KeepsTextsThatLookLikeSomethingElse) {
   const std::string text = "a: \"12\"\nb: [1, two, \"x: y\", \"# no\"]\nc: {d: , e: \"line\\nend\", \"f: g\": 1e-3}\n";
-  const YamlDocument first = parse_yaml(text, "a"), second = parse_yaml(yaml_text(first.root), "b");
+  const YamlDocument first = parse_yaml(text, "a"), second = parse_yaml(block_text(first.root), "b");
   const auto flat = [](const YamlNode& root) {
     std::string all;
     const auto walk = [&](const auto& self, const YamlNode& node) -> void {

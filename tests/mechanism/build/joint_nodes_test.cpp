@@ -92,6 +92,52 @@ TEST(JointNodes, AxesAreThoseOfA) {
               HasSubstr("joint 'plane' holds the rotation of node 'net/n2', which has none"));
 }
 
+formats::BushingSpec bushing_on(const std::string& a, const std::string& b) {
+  formats::BushingSpec spec;
+  spec.name = "mount";
+  spec.a.node = a;
+  spec.b.node = b;
+  spec.stiffness.topLeftCorner<3, 3>() = Eigen::Vector3d(1e4, 2e4, 3e4).asDiagonal();
+  return spec;
+}
+
+// 4.6 is the mass of the network; the mount sinks by force over stiffness.
+TEST(JointNodes, ABushingWithoutRotationsNeedsNoneAtB) {
+  formats::Scene scene = scene_with("net");
+  scene.analysis = formats::AnalysisKind::statics;
+  scene.gravity = {0, 0, -10};
+  scene.joints = {joint("ball", JointKind::spherical, "ground", "net/n0", {0, 0, 0}, {0, 0, 1}),
+                  joint("line", JointKind::point_on_line, "ground", "net/n1", {1.2, 0, 0}, {1, 0, 0})};
+  scene.bushings = {bushing_on("ground", "net/n2")};
+  Simulation run(scene, files_of("network"));
+  run.start();
+  const StaticsReport report = solve_statics(run.model(), scene.statics, run.state(), run.workspace);
+  ASSERT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
+  formats::ResultsRow row;
+  row.resize(results_layout(run.model(), scene));
+  fill_row(run.model(), run.state(), run.workspace.now, row);
+  Vector3d sum = row.bushing_force.col(0);
+  for (int i = 0; i < 2; ++i) sum += run.model().joints[i].a.R * row.joint_force.col(i);
+  EXPECT_LT((sum - Vector3d(0, 0, 4.6 * 10)).norm(), 1e-8);
+  const Bushing& mount = run.model().bushings[0];
+  const Vector3d sunk = (run.workspace.now.bushings[0].deflection - mount.free).head<3>();
+  EXPECT_LT((mount.stiffness.topLeftCorner<3, 3>() * sunk + row.bushing_force.col(0)).norm(), 1e-8);
+  EXPECT_LT(sunk.z(), -1e-4);
+}
+
+TEST(JointNodes, BushingsSayWhichRotationsTheyMiss) {
+  formats::Scene scene = scene_with("net");
+  scene.bodies.push_back(test_support::rigid_body("plate", 1.0, {0, 0, 0}, {1, 1, 1}));
+  scene.bushings = {bushing_on("plate", "net/n2")};
+  EXPECT_EQ(error_of(scene, "network"), "");
+  scene.bushings[0].damping(4, 4) = 1.0;
+  EXPECT_THAT(error_of(scene, "network"),
+              HasSubstr("bushing 'mount' holds the rotation of node 'net/n2', which has none"));
+  scene.bushings = {bushing_on("net/n2", "plate")};
+  EXPECT_THAT(error_of(scene, "network"),
+              AllOf(HasSubstr("bushing 'mount' takes its axes from node 'net/n2'"), HasSubstr("exchange a and b")));
+}
+
 // Node n2 of this body has rotations alone.
 TEST(JointNodes, HeldTurnsNeedNoTranslation) {
   formats::Scene scene = scene_with("frame");

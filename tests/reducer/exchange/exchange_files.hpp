@@ -13,8 +13,11 @@
 #include "reducer/exchange/to_superelement.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/thrown.hpp"
 
 namespace tisserand::reducer::exchange::testing {
+
+using test_support::error_of;
 
 /// A folder with files.
 class Files : public test_support::TemporaryFolder {
@@ -24,16 +27,6 @@ class Files : public test_support::TemporaryFolder {
     return file(name);
   }
 };
-
-/// The text of the Error that `action` throws, or "no error".
-inline std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
-}
 
 inline ImportOptions options_named(const std::string& name) { return {name, Units::si(), {}}; }
 
