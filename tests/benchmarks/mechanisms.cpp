@@ -42,11 +42,7 @@ Case slider_crank(const std::string& from, const std::string& to, double end) {
       test_support::joint("pin", JointKind::revolute, "crank/pin", from, {crank_length, 0.0, 0.0}, z));
   scene.joints.push_back(
       test_support::joint("slide", JointKind::point_on_line, "ground", to, {crank_length + rod_length, 0.0, 0.0}, x));
-  formats::MotionSpec drive;
-  drive.name = "drive";
-  drive.coordinate = {"main", ""};
-  drive.value = formats::TimeExpression{fmt::format("{} * t", rate), {}, ""};
-  scene.motions.push_back(drive);
+  scene.motions.push_back(test_support::drive("main", fmt::format("{} * t", rate)));
   scene.output.every = 10;
   return input;
 }

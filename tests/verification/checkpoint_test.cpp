@@ -72,11 +72,7 @@ formats::Scene whip() {
   beam.material.density = 2000.0;
   scene.bodies.push_back(beam);
   scene.joints.push_back(joint("hinge", JointKind::revolute, "ground", "whip/start", Vector3d::Zero(), y));
-  formats::MotionSpec drive;
-  drive.name = "drive";
-  drive.coordinate.name = "hinge";
-  drive.value = formats::TimeExpression{"3 * t^2", {}, ""};
-  scene.motions.push_back(drive);
+  scene.motions.push_back(test_support::drive("hinge", "3 * t^2"));
   return scene;
 }
 

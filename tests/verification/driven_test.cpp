@@ -17,6 +17,7 @@ namespace {
 using Eigen::Vector3d;
 using formats::AnalysisKind;
 using formats::JointKind;
+using test_support::drive;
 using test_support::empty_scene;
 using test_support::joint;
 using test_support::rigid_body;
@@ -24,14 +25,6 @@ using test_support::Simulation;
 using ::testing::HasSubstr;
 
 const Vector3d z = Vector3d::UnitZ();
-
-formats::MotionSpec drive(const std::string& coordinate, const std::string& formula) {
-  formats::MotionSpec motion;
-  motion.name = "drive_" + coordinate;
-  motion.coordinate.name = coordinate;
-  motion.value = formats::TimeExpression{formula, {}, ""};
-  return motion;
-}
 
 /// Moves a started simulation to `time` in steps of its integrator, with forces.
 void follow(Simulation& run, double time) {

@@ -305,11 +305,7 @@ Turning turning_bar(double gamma, formats::Scene scene, const SuperelementFiles&
   const double rate = gamma * Bar::unit();
   scene.analysis = formats::AnalysisKind::statics;
   scene.joints.push_back(joint("hub", JointKind::revolute, "ground", root, Vector3d::Zero(), z));
-  formats::MotionSpec drive;
-  drive.name = "drive";
-  drive.coordinate.name = "hub";
-  drive.value = formats::TimeExpression{fmt::format("{:.17g} * t", rate), {}, ""};
-  scene.motions.push_back(drive);
+  scene.motions.push_back(test_support::drive("hub", fmt::format("{:.17g} * t", rate)));
   scene.statics.rotation = formats::RotationSpec{Vector3d(0, 0, rate), Vector3d::Zero()};
   Simulation run(scene, files);
   run.start();

@@ -20,6 +20,7 @@ using formats::JointKind;
 using test_support::Andrews;
 using test_support::andrews;
 using test_support::body_at;
+using test_support::drive;
 using test_support::empty_scene;
 using test_support::joint;
 using test_support::rigid_body;
@@ -41,14 +42,6 @@ double rate(Simulation& run, const std::string& name) {
   for (std::size_t i = 0; i < run.model().coordinates.size(); ++i)
     if (run.model().coordinates[i].name == name) return run.workspace.now.coordinates[i].rate;
   return 0.0;
-}
-
-formats::MotionSpec drive(const std::string& coordinate_name, const std::string& formula) {
-  formats::MotionSpec motion;
-  motion.name = "drive";
-  motion.coordinate.name = coordinate_name;
-  motion.value = formats::TimeExpression{formula, {}, ""};
-  return motion;
 }
 
 // ---- N-four-bar (IFToMM benchmark library; exact equation of motion in one angle) ---------------------------------

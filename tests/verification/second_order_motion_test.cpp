@@ -130,11 +130,7 @@ std::array<double, 3> turning(const BodyFiles& files, double gamma) {
   scene.bodies.push_back(beam_body());
   scene.analysis = formats::AnalysisKind::statics;
   scene.joints.push_back(joint("hub", JointKind::revolute, "ground", "beam/n0", Vector3d::Zero(), z));
-  formats::MotionSpec drive;
-  drive.name = "drive";
-  drive.coordinate.name = "hub";
-  drive.value = formats::TimeExpression{fmt::format("{:.17g} * t", gamma), {}, ""};
-  scene.motions.push_back(drive);
+  scene.motions.push_back(test_support::drive("hub", fmt::format("{:.17g} * t", gamma)));
   scene.statics.rotation = formats::RotationSpec{Vector3d(0, 0, gamma), Vector3d::Zero()};
   Simulation run(scene, files);
   run.start();
@@ -194,15 +190,11 @@ TEST(SecondOrderDynamics, SpinUpOfOneBody) {
   scene.integrator.rho = 0.9;
   scene.bodies.push_back(beam_body());
   scene.joints.push_back(joint("root", JointKind::revolute, "ground", "beam/n0", Vector3d::Zero(), z));
-  formats::MotionSpec drive;
-  drive.name = "turn";
-  drive.coordinate.name = "root";
   const auto angle = [](double t) {
     return t < 15 ? 0.4 * (t * t / 2 + 5.69931615616 * (std::cos(0.418879020478639 * t) - 1)) : 6 * t - 45;
   };
-  drive.value = formats::TimeExpression{
-      "t < 15 ? 0.4 * (t^2/2 + 5.69931615616 * (cos(0.418879020478639 * t) - 1)) : 6*t - 45", {15.0}, ""};
-  scene.motions.push_back(drive);
+  scene.motions.push_back(test_support::drive(
+      "root", "t < 15 ? 0.4 * (t^2/2 + 5.69931615616 * (cos(0.418879020478639 * t) - 1)) : 6*t - 45", {15.0}));
   Simulation run(scene, files);
   run.start();
   const std::array<std::array<double, 2>, 7> table{
@@ -253,11 +245,7 @@ double slider_crank_error(bool second_order) {
   slider.hold = {false, true, true, false, false, false};
   scene.joints = {joint("bearing", JointKind::revolute, "ground", "crank", Vector3d::Zero(), z),
                   joint("pin", JointKind::revolute, "crank/pin", "beam/n0", {r, 0, 0}, z), slider};
-  formats::MotionSpec drive;
-  drive.name = "drive";
-  drive.coordinate.name = "bearing";
-  drive.value = formats::TimeExpression{"124.8 * t", {}, ""};
-  scene.motions.push_back(drive);
+  scene.motions.push_back(test_support::drive("bearing", "124.8 * t"));
   Simulation run(scene, files);
   run.start();
   const auto reference = test_support::reference_rows("slider_crank_beam.csv");

@@ -26,19 +26,12 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 using formats::JointKind;
+using test_support::drive;
 using test_support::Simulation;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 const Vector3d z = Vector3d::UnitZ();
-
-formats::MotionSpec drive(const std::string& coordinate, const std::string& formula) {
-  formats::MotionSpec motion;
-  motion.name = "drive";
-  motion.coordinate.name = coordinate;
-  motion.value = formats::TimeExpression{formula, {}, "test.yaml"};
-  return motion;
-}
 
 formats::InitialSpec initial(const std::string& coordinate, std::optional<double> value, std::optional<double> rate) {
   return {{coordinate, "test.yaml"}, value, rate, "test.yaml"};

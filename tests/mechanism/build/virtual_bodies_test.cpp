@@ -131,11 +131,7 @@ formats::Scene slider_crank(const RodSpec& rod, formats::Formulation formulation
                   joint("wrist", JointKind::universal, "last", "slider", wrist, {1, 0, 0}),
                   joint("guide", JointKind::prismatic, "ground", "slider", wrist, {1, 0, 0})};
   scene.joints[6].x_axis = Vector3d::UnitZ();
-  formats::MotionSpec drive;
-  drive.name = "drive";
-  drive.coordinate.name = "main";
-  drive.value = formats::TimeExpression{"-60*t*t", {}, ""};
-  scene.motions.push_back(drive);
+  scene.motions.push_back(test_support::drive("main", "-60*t*t"));
   formats::SpringSpec spring;
   spring.name = "spring";
   spring.a.node = "ground";

@@ -18,11 +18,7 @@ struct Rotor {
     rotor.inertia(0, 2) = rotor.inertia(2, 0) = product;
     scene.bodies.push_back(rotor);
     scene.joints = {joint("bearing", formats::JointKind::revolute, "ground", "rotor", {0, 0, 0}, {0, 0, 1})};
-    formats::MotionSpec drive;
-    drive.name = "drive";
-    drive.coordinate.name = "bearing";
-    drive.value = formats::TimeExpression{"50*t", {}, ""};
-    scene.motions = {drive};
+    scene.motions = {drive("bearing", "50*t")};
     return scene;
   }
 

@@ -49,6 +49,15 @@ formats::JointSpec joint(const std::string& name, formats::JointKind kind, const
   return spec;
 }
 
+formats::MotionSpec drive(const std::string& coordinate, const std::string& formula,
+                          const std::vector<double>& breakpoints) {
+  formats::MotionSpec motion;
+  motion.name = "drive_" + coordinate;
+  motion.coordinate.name = coordinate;
+  motion.value = formats::TimeExpression{formula, breakpoints, ""};
+  return motion;
+}
+
 formats::LoadSpec constant_load(const std::string& name, formats::LoadKind kind, const std::string& node,
                                 const Eigen::Vector3d& value) {
   formats::LoadSpec load;

@@ -3,6 +3,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -28,6 +29,10 @@ formats::RigidBodySpec rigid_body(const std::string& name, double mass, const Ei
                                   const Eigen::Vector3d& principal_inertia);
 
 formats::SuperelementBodySpec superelement_body(const std::string& name, const std::string& file);
+
+/// "drive_<coordinate>": the formula in t along a joint coordinate.
+formats::MotionSpec drive(const std::string& coordinate, const std::string& formula,
+                          const std::vector<double>& breakpoints = {});
 
 /// From a to b; world position and z axis of both markers where the nodes leave them open.
 formats::JointSpec joint(const std::string& name, formats::JointKind kind, const std::string& a, const std::string& b,
