@@ -38,6 +38,7 @@ void store(Run& run, const Bdf& bdf, StepReport& step, double size, RowWriter& o
   if (run.built.state.time() < run.scene.output.from) return;
   step.constraint = bdf.violation();
   write_row(run, step, size, out);
+  run.doubts.at_state(run.built.model, run.built.state, run.workspace.now);
 }
 
 /// Rows of a step from `before` to the present state.
@@ -61,6 +62,27 @@ void store_rows(Run& run, Bdf& bdf, Instants& instants, double before, RowWriter
   if (finished && !at_end) store(run, bdf, step, now - before, out);
 }
 
+/// Looks at the pace of the run every 20 000 steps.
+struct Pace {
+  long steps = 0;
+  double time = 0.0;
+
+  /// Why the run would not end: at the pace of the latest stretch three million steps and more are left.
+  std::string endless(long steps_now, double now, double end) {
+    constexpr long stretch = 20'000;
+    constexpr double most = 3e6;
+    if (steps_now - steps < stretch) return {};
+    const double size = (now - time) / static_cast<double>(steps_now - steps);
+    steps = steps_now;
+    time = now;
+    if (!((end - now) / size > most)) return {};
+    return fmt::format(
+        "t = {:.6g}: steps of {:.2g}, which leaves {:.1e} of them: a vibration too fast for 'bdf', whose "
+        "higher orders do not damp it; use 'method: generalised_alpha'",
+        now, size, (end - now) / size);
+  }
+};
+
 void note_counts(Run& run, const BdfCounts& counts) {
   RunReport& report = run.report;
   report.steps = counts.steps;
@@ -79,6 +101,7 @@ void integrate_bdf(Run& run, RowWriter& out) {
   Bdf bdf(run.scene, run.built.model, state, run.workspace);
   Instants instants{run.scene, run.built.model.breakpoints, same_instant * (options.end - options.start)};
   instants.pass(options.start);
+  Pace pace{0, state.time()};
   StepReport none;
   store(run, bdf, none, 0.0, out);
   while (state.time() < options.end - instants.round_off) {
@@ -101,6 +124,10 @@ void integrate_bdf(Run& run, RowWriter& out) {
     report.largest_constraint = std::max(report.largest_constraint, bdf.violation());
     store_rows(run, bdf, instants, before, out);
     note_counts(run, bdf.counts());
+    if (report.reason = pace.endless(report.steps, state.time(), options.end); !report.reason.empty()) {
+      report.outcome = RunOutcome::not_converged;
+      break;
+    }
     if (instants.stop().time < options.end && state.time() >= instants.stop().time - instants.round_off) {
       instants.pass(state.time());
       bdf.restart(state.time() + instants.round_off);
