@@ -53,6 +53,7 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
   }
   RunReport& report = run.report;
   report.results = request.path;
+  tell_doubts(run);
   if (run.scene.analysis != formats::AnalysisKind::dynamics) report.solver_health = run.workspace.matrix.health();
   report.seconds_model = begin_start - begin_model;
   report.seconds_start = begin_steps - begin_start;

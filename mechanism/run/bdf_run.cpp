@@ -40,6 +40,7 @@ void store(Run& run, const Bdf& bdf, StepReport& step, double size, RowWriter& o
   if (run.built.state.time() < run.scene.output.from) return;
   step.constraint = bdf.violation();
   write_row(run, step, size, out);
+  run.doubts.at_state(run.built.model, run.built.state, run.workspace.now);
 }
 
 /// Rows of a step from `before` to the present state.
@@ -70,6 +71,27 @@ std::string observe(Run& run, FrameAngles& angles) {
   return angles.observe(run.built.model, run.built.state, run.workspace.now);
 }
 
+/// Looks at the pace of the run every 20 000 steps.
+struct Pace {
+  long steps = 0;
+  double time = 0.0;
+
+  /// Why the run would not end: at the pace of the latest stretch a hundred million steps and more, hours, are left.
+  std::string endless(long steps_now, double now, double end) {
+    constexpr long stretch = 20'000;
+    constexpr double most = 1e8;
+    if (steps_now - steps < stretch) return {};
+    const double size = (now - time) / static_cast<double>(steps_now - steps);
+    steps = steps_now;
+    time = now;
+    if (!((end - now) / size > most)) return {};
+    return fmt::format(
+        "t = {:.6g}: steps of {:.2g}, which leaves {:.1e} of them, hours: a vibration too fast for 'bdf', whose "
+        "higher orders do not damp it; use 'method: generalised_alpha'",
+        now, size, (end - now) / size);
+  }
+};
+
 void note_counts(Run& run, const BdfCounts& counts) {
   RunReport& report = run.report;
   report.steps = counts.steps;
@@ -89,6 +111,7 @@ void integrate_bdf(Run& run, RowWriter& out) {
   Instants instants{run.scene, run.built.model.breakpoints, same_instant * (options.end - options.start)};
   instants.pass(options.start);
   FrameAngles angles(run.built.model);
+  Pace pace{0, state.time()};
   StepReport none;
   store(run, bdf, none, 0.0, out);
   while (state.time() < options.end - instants.round_off) {
@@ -111,9 +134,10 @@ void integrate_bdf(Run& run, RowWriter& out) {
     report.largest_constraint = std::max(report.largest_constraint, bdf.violation());
     store_rows(run, bdf, instants, before, out);
     note_counts(run, bdf.counts());
-    if (std::string end = observe(run, angles); !end.empty()) {
+    report.reason = observe(run, angles);
+    if (report.reason.empty()) report.reason = pace.endless(report.steps, state.time(), options.end);
+    if (!report.reason.empty()) {
       report.outcome = RunOutcome::not_converged;
-      report.reason = std::move(end);
       break;
     }
     if (instants.stop().time < options.end && state.time() >= instants.stop().time - instants.round_off) {

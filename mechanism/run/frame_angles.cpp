@@ -41,7 +41,7 @@ void FrameAngles::tell(const Model& model, RunReport& report) const {
                     model.superelements[i].name, body.node[seen_[i].node].name, seen_[i].angle, seen_[i].time,
                     stiffened ? "" : ", whose strain is linear in it");
     if (seen_[i].angle > doubted)
-      report.preflight.doubts.push_back(fmt::format("{}: {}", text, remedy));
+      report.doubts.push_back(fmt::format("{}: {}", text, remedy));
     else
       report.notes.push_back(text);
   }

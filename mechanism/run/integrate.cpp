@@ -1,10 +1,12 @@
 // Dynamics: the steps of a schedule, and statics as a run.
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "mechanism/analyses/statics.hpp"
+#include "mechanism/doubts/failure_cause.hpp"
 #include "mechanism/run/checkpoint.hpp"
 #include "mechanism/run/frame_angles.hpp"
 #include "mechanism/run/run.hpp"
@@ -46,6 +48,7 @@ void integrate(Run& run, RowWriter& out) {
   FrameAngles angles(model);
   StepReport last;
   double last_size = 0.0;
+  double tried_at = std::numeric_limits<double>::quiet_NaN(), first_tried = 0.0;
   if (!run.schedule_memory.empty()) schedule.restore(run.schedule_memory);
   // A run that is appended has the row of this instant, if the run before it was to store one.
   const bool begins_with_row = run.schedule_memory.empty() ? schedule.output_at_start() : !run.beginning;
@@ -58,6 +61,10 @@ void integrate(Run& run, RowWriter& out) {
     }
     const double before = state.time();
     const StepEnd target = schedule.next(before);
+    if (tried_at != before) {
+      tried_at = before;
+      first_tried = target.time - before;
+    }
     const StepReport step = stepper.advance(target, state, run.workspace);
     report.iterations += step.iterations;
     report.factorisations += step.factorisations;
@@ -71,11 +78,14 @@ void integrate(Run& run, RowWriter& out) {
       const std::string load = nonfinite_load(run, target.load_time);
       if (load.empty() && schedule.retry(before, step)) continue;
       report.outcome = RunOutcome::not_converged;
-      report.reason = load.empty() ? fmt::format("{} ({})", why, schedule.limit())
+      report.reason = load.empty() ? fmt::format("{} ({}){}", why, schedule.limit(),
+                                                 failure_cause(model, run.scene.integrator, run.doubts,
+                                                               {step, first_tried}, state, run.workspace))
                                    : load + "; correct the formula or end the run before";
       break;
     }
     ++report.steps;
+    run.doubts.after_step(model, run.workspace.memory.previous, state, run.workspace.now);
     last = step;
     last_size = state.time() - before;
     report.least_step = report.steps == 1 ? last_size : std::min(report.least_step, last_size);
@@ -119,6 +129,7 @@ void equilibrate(Run& run, RowWriter& out) {
   step.iterations = statics.iterations;
   step.residual = statics.residual;
   step.constraint = statics.constraint;
+  run.doubts.at_state(run.built.model, run.built.state, run.workspace.now);
   FrameAngles angles(run.built.model);
   run.report.reason = angles.observe(run.built.model, run.built.state, run.workspace.now);
   if (!run.report.reason.empty()) run.report.outcome = RunOutcome::not_converged;

@@ -88,6 +88,7 @@ std::string report_json(const RunReport& report) {
   json["preflight"] = preflight_json(report.preflight);
   json["initial_correction"] = {{"position", report.projection.position}, {"velocity", report.projection.velocity}};
   json["linear_solver"] = solver_json(report);
+  json["doubts"] = report.doubts;
   json["effects"] = report.effects;
   json["notes"] = report.notes;
   if (!report.table.empty()) json["table"] = {{"title", report.table_title}, {"lines", report.table}};
@@ -140,6 +141,7 @@ std::string report_text(const RunReport& report, const Units& units) {
   for (const std::string& row : report.table) text += fmt::format("    {}\n", row);
   line("seconds", fmt::format("{:.3f} model, {:.3f} start, {:.3f} steps, {:.3f} output", report.seconds_model,
                               report.seconds_start, report.seconds_steps, report.seconds_output));
+  for (const std::string& doubt : report.doubts) line("in doubt", doubt);
   return text;
 }
 

@@ -40,6 +40,7 @@ struct RunReport {
   std::string table_title;  ///< of the lines that only this analysis has: poses, modes
   std::vector<std::string> table;
   std::vector<std::string> notes;
+  std::vector<std::string> doubts;  ///< of the results, measured while it ran
   std::vector<std::string> effects;  ///< what the model contains: pools and terms that are on
   std::string solver;
   SolverHealth solver_health;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
@@ -157,6 +158,7 @@ Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunCo
       control(run_control),
       built(build_model(scene_to_run, files)),
       workspace(built.model),
+      doubts(scene_to_run, built.model),
       at_start(built.state) {
   report.analysis = scene.analysis;
   report.notes = built.notes;
@@ -251,6 +253,14 @@ void start(Run& run) {
   prepare(run);
 }
 
+void tell_doubts(Run& run) {
+  std::vector<std::string>& doubts = run.report.doubts;
+  for (std::string& doubt : run.doubts.tell(run.built.model)) doubts.push_back(std::move(doubt));
+  if (!run.report.not_unique.empty())
+    doubts.push_back(fmt::format("the reactions of {} are not unique: those of least norm are stored",
+                                 listed(run.report.not_unique)));
+}
+
 void write_row(Run& run, const StepReport& step, double size, RowWriter& out) { write_row(run, step, size, out, {}); }
 
 void write_row(Run& run, const StepReport& step, double size, RowWriter& out, const RowEdit& edit) {
@@ -266,6 +276,7 @@ void write_row(Run& run, const StepReport& step, double size, RowWriter& out, co
   if (edit) edit(row);
   out.writer.append(row);
   RunReport& report = run.report;
+  if (report.analysis == formats::AnalysisKind::dynamics) run.doubts.at_row(row);
   ++report.rows;
   report.balance = row.balance;
   report.largest_balance = std::max(report.largest_balance, std::abs(row.balance));

@@ -8,6 +8,7 @@
 
 #include "formats/results/results.hpp"
 #include "mechanism/build/build_model.hpp"
+#include "mechanism/doubts/doubts.hpp"
 #include "mechanism/run/report.hpp"
 #include "mechanism/step/step.hpp"
 #include "mechanism/step/workspace.hpp"
@@ -27,6 +28,7 @@ struct Run {
   RunReport report;
   BuiltModel built;
   Workspace workspace;
+  Doubts doubts;
   StartFrom from = StartFrom::poses;
   State at_start;                                      ///< as the model was built, before anything moved
   std::vector<double> schedule_memory;                 ///< of a run that goes on from a file; empty: it begins
@@ -44,6 +46,9 @@ void begin_from(Run& run, const State& end);
 
 /// Rank, projection and what the analysis needs to begin; notes for the report. Throws Error.
 void start(Run& run);
+
+/// What the run has come to doubt, into the report.
+void tell_doubts(Run& run);
 
 /// Where the rows of a run go.
 struct RowWriter {

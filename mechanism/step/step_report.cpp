@@ -21,10 +21,7 @@ std::string explain(const Model& model, const StepReport& report) {
     case StepOutcome::inaccurate:
       return fmt::format("the local error is {:.2g} times the tolerance, worst at {}", report.error_ratio, place);
     case StepOutcome::singular:
-      return fmt::format(
-          "the iteration matrix is singular{}{}: a direction without mass, stiffness or constraint, or "
-          "redundant constraints",
-          place.empty() ? "" : " at ", place);
+      return fmt::format("the iteration matrix is singular{}{}", place.empty() ? "" : " at ", place);
     case StepOutcome::diverged:
       return fmt::format(
           "the iteration left the range of numbers, first at {}: the step is too long for the motion, or "

@@ -40,9 +40,7 @@ Json report_of_run(const formats::ResultsReader& reader) {
   result["notes"] = texts_of(report, "notes");
   if (report.contains("preflight") && report["preflight"].is_object())
     result["doubts"] = texts_of(report["preflight"], "doubts");
-  for (const Json& joint : texts_of(report, "reactions_not_unique"))
-    result["doubts"].push_back("the reaction of " + joint.get<std::string>() +
-                               " is not unique: that of least norm is stored");
+  for (const Json& doubt : texts_of(report, "doubts")) result["doubts"].push_back(doubt);
   for (const Json& one : texts_of(report, "rejections")) result["lines"].push_back({"step taken again", one});
   add_lines(report, "", result["lines"]);
   for (const char* group : {"energy", "mobility", "linear_solver", "initial_correction"})

@@ -353,7 +353,7 @@ TEST(SecondOrderFrames, EndARunWhereTheyHaveTurnedTooFar) {
       EXPECT_EQ(angles.observe(run.model(), run.state(), run.workspace.now).empty(), !second_order || angle < 0.7);
       angles.tell(run.model(), report);
       EXPECT_EQ(report.notes.size(), second_order && angle > 0.3 && angle < 0.5 ? 1u : 0u);
-      EXPECT_EQ(report.preflight.doubts.size(), angle > 0.5 ? 1u : 0u);
+      EXPECT_EQ(report.doubts.size(), angle > 0.5 ? 1u : 0u);
     }
   }
 }

@@ -1,0 +1,36 @@
+// The doubts of a run, asked one after the other.
+#include "mechanism/doubts/doubts.hpp"
+
+#include <iterator>
+#include <utility>
+
+#include "mechanism/doubts/damping_reach.hpp"
+
+namespace tisserand::mechanism {
+
+Doubts::Doubts(const formats::Scene& scene, const Model& model)
+    : energy_(scene.integrator.start, scene.integrator.end),
+      range_(model, scene.integrator.start),
+      resolution_(scene, model),
+      swing_(scene) {}
+
+void Doubts::after_step(const Model& model, const State& before, const State& state, const Evaluation& evaluation) {
+  range_.observe(model, state, evaluation);
+  resolution_.observe(model, before, state);
+  swing_.observe(before, state);
+}
+
+void Doubts::at_state(const Model& model, const State& state, const Evaluation& evaluation) {
+  range_.observe(model, state, evaluation);
+}
+
+void Doubts::at_row(const formats::ResultsRow& row) { energy_.observe(row); }
+
+std::vector<std::string> Doubts::tell(const Model& model) const {
+  std::vector<std::string> all = energy_.doubts();
+  for (auto&& some : {swing_.doubts(), resolution_.doubts(model), range_.doubts(model), damping_doubts(model)})
+    all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,38 @@
+// What a run doubts of its own results: measured quantities beyond limits that have a source, one line each.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mechanism/doubts/energy_balance.hpp"
+#include "mechanism/doubts/linear_range.hpp"
+#include "mechanism/doubts/multiplier_swing.hpp"
+#include "mechanism/doubts/step_resolution.hpp"
+
+namespace tisserand::mechanism {
+
+class Doubts {
+ public:
+  Doubts(const formats::Scene& scene, const Model& model);
+
+  /// After a step from `before` to the accepted `state`, evaluated there.
+  void after_step(const Model& model, const State& before, const State& state, const Evaluation& evaluation);
+  /// At an evaluated state that no step of generalised alpha ends at: statics, rows of bdf.
+  void at_state(const Model& model, const State& state, const Evaluation& evaluation);
+  void at_row(const formats::ResultsRow& row);
+
+  /// Costs nothing while there is nothing to tell; eigenvalues of bodies that spin.
+  std::vector<std::string> tell(const Model& model) const;
+
+  /// See MultiplierSwing::latest() and StepResolution::latest().
+  std::string latest_swing() const { return swing_.latest(); }
+  double latest_change() const { return resolution_.latest(); }
+
+ private:
+  EnergyBalance energy_;
+  LinearRange range_;
+  StepResolution resolution_;
+  MultiplierSwing swing_;
+};
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,39 @@
+// Whether the energy of a run adds up, from the rows that it stores.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "formats/results/results.hpp"
+
+namespace tisserand::mechanism {
+
+/// Energy balance over the stored rows of dynamics: total − initial − work + dissipated, zero in exact arithmetic.
+class EnergyBalance {
+ public:
+  EnergyBalance(double start, double end) : start_(start), end_(end) {}
+
+  void observe(const formats::ResultsRow& row);
+
+  /// At most one: that the largest balance exceeds a hundredth of the energy that moved, or that it drifts there.
+  std::vector<std::string> doubts() const;
+
+ private:
+  static constexpr int parts = 8;
+  struct Part {
+    double sum = 0.0;
+    int rows = 0;
+    double mean() const { return sum / rows; }
+  };
+  bool drifts() const;
+
+  double start_, end_;
+  std::array<Part, parts> part_{};  ///< balances of equal stretches of the run's time
+  double largest_ = 0.0;            ///< with its sign
+  double at_ = 0.0;
+  double moved_ = 0.0;  ///< largest kinetic + |strain| + |work|
+  double level_ = 0.0;  ///< largest |total|, whose round-off is no balance
+};
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,85 @@
+// Conditions of B and of the iteration matrix, growth of the motion.
+#include "mechanism/doubts/failure_cause.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <Eigen/Eigenvalues>
+
+#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/equations/increments.hpp"
+#include "mechanism/step/generalised_alpha.hpp"
+#include "mechanism/step/tuning.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Condition of B beyond which its rows are nearly dependent: a tenth of the digits of BBᵀ is left.
+constexpr double dependent = 1e6;
+/// Products with B up to which its condition is asked for: a second at most.
+constexpr int most_constraints = 400, longest_row = 4000;
+
+/// Condition of the rows of B that are solved for, lengths and rotations scaled with the characteristic length; 0: not
+/// asked for. After evaluate().
+double constraint_condition(const Model& model, const State& state, const Evaluation& now) {
+  const int rows = model.sizes.constraints, columns = model.sizes.boundary;
+  if (rows == 0 || rows > most_constraints || columns > longest_row) return 0.0;
+  MatrixXd B(rows, columns);
+  VectorXd unit = VectorXd::Zero(model.sizes.velocities()), column(rows);
+  for (int j = 0; j < columns; ++j) {
+    unit[j] = model.equation_scale[j];
+    apply_jacobian(model, now, unit, column);
+    B.col(j) = column;
+    unit[j] = 0.0;
+  }
+  for (int row = 0; row < rows; ++row)
+    if (!model.length_row[row]) B.row(row) *= model.length;
+  std::vector<int> solved;
+  for (int row = 0; row < rows; ++row)
+    if (state.active()[row] != 0.0) solved.push_back(row);
+  const MatrixXd active = B(solved, Eigen::all);
+  const VectorXd squares =
+      Eigen::SelfAdjointEigenSolver<MatrixXd>(active * active.transpose(), Eigen::EigenvaluesOnly).eigenvalues();
+  if (squares.size() == 0) return 0.0;
+  return std::sqrt(squares[squares.size() - 1] / std::max(squares[0], 1e-32 * squares[squares.size() - 1]));
+}
+
+}  // namespace
+
+std::string failure_cause(const Model& model, const formats::IntegratorSpec& options, const Doubts& doubts,
+                          const Failure& failure, State& state, Workspace& workspace) {
+  if (failure.step.outcome == StepOutcome::inaccurate) return {};
+  if (const std::string swing = doubts.latest_swing(); !swing.empty()) return "; " + swing;
+  const double change = doubts.latest_change();
+  evaluate(model, state, workspace.now);
+  const double condition = constraint_condition(model, state, workspace.now);
+  if (condition > dependent)
+    return fmt::format(
+        "; constraint equations are nearly dependent there (condition {:.1e} of their scaled Jacobian): a "
+        "singular position; pass it with another step, or leave one of its joints a direction free",
+        condition);
+  const StepScheme scheme = step_scheme(model, options, state, state.time() + failure.size);
+  const FactorReport factors = workspace.matrix.factor(model, state, scheme.request, workspace.now);
+  if (!factors.regular || factors.reciprocal_condition < singular_condition)
+    return fmt::format(
+        "; the matrix is singular there with the step of {:.3g} as well: a direction without mass, "
+        "stiffness or constraint{}; give it one, or hold it",
+        failure.size,
+        factors.singular_column >= 0 && factors.singular_column < model.sizes.boundary
+            ? fmt::format(", {}", coordinate_name(model, factors.singular_column))
+            : "");
+  return fmt::format(
+      "; the equations are regular there (reciprocal condition {:.1e}{}), {}", factors.reciprocal_condition,
+      condition > 0.0 ? fmt::format(", condition {:.1e} of the constraints", condition) : "",
+      change > 0.3 ? fmt::format("but velocities changed by {:.2g} of themselves in the step before: set a "
+                                 "shorter 'step', or 'error_control'",
+                                 change)
+                   : "so that what fails comes with the step: a load, a stop or friction that sets in; set "
+                     "a shorter 'step', or more 'max_halvings'");
+}
+
+}  // namespace tisserand::mechanism

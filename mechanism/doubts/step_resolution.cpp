@@ -1,0 +1,110 @@
+// Changes of velocity per step against velocities.
+#include "mechanism/doubts/step_resolution.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/equations/tangent.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+constexpr int stretch = 16;
+/// Ten steps per period: the trapezoidal rule then stretches periods by (ωh)²/12 = 3 % (Hughes, The Finite Element
+/// Method, 1987, section 9.3).
+constexpr double coarse = 2.0 * std::numbers::pi / 10.0;
+/// A quarter of a revolution, half of where angles of joints cannot be unwrapped any more.
+constexpr double largest_turn = std::numbers::pi / 2.0;
+/// Binary exponents below the largest energy that count: a tenth of it, about.
+constexpr int depth = 3;
+
+/// Diagonal of the mass matrix. Superelements turn: means of three axes for their translations.
+Eigen::ArrayXd masses(const Model& model, const State& state) {
+  Eigen::ArrayXd mass = Eigen::ArrayXd::Zero(model.sizes.velocities());
+  Evaluation now(model);
+  evaluate(model, state, now);
+  MatrixValues matrix(model);
+  evaluate_tangent(model, state, {{1.0, 0.0, 0.0}, TangentKind::step, {}}, now, matrix);
+  for (int i = 0; i < model.sizes.boundary; ++i)
+    mass[i] = std::max(0.0, matrix.values[model.pattern->slot(i, i)] * matrix.scale);
+  for (std::size_t k = 0; k < model.superelements.size(); ++k) {
+    const SuperelementBody& body = body_of(model, k);
+    for (std::size_t j = 0; j < body.node.size(); ++j) {
+      const Node& node = model.nodes[model.superelements[k].nodes[j]];
+      const SuperelementNode& local = body.node[j];
+      if (local.has_translation())
+        mass.segment<3>(node.translation) = body.M_BB.diagonal().segment<3>(local.translation_row).mean();
+      if (local.has_rotation())
+        mass.segment<3>(node.rotation) = body.M_BB.diagonal().segment<3>(local.rotation_row).array();
+    }
+    mass.segment(model.sizes.boundary + model.internal_offset[k], body.modes).setOnes();
+  }
+  return mass;
+}
+
+}  // namespace
+
+StepResolution::StepResolution(const formats::Scene& scene, const Model& model)
+    : active_(scene.analysis == formats::AnalysisKind::dynamics && !scene.integrator.error_control.active &&
+              (scene.integrator.method == formats::Method::generalised_alpha ||
+               scene.integrator.method == formats::Method::hht) &&
+              model.sizes.velocities() > 0) {}
+
+void StepResolution::observe(const Model& model, const State& before, const State& state) {
+  if (!active_) return;
+  if (mass_.size() == 0) mass_ = masses(model, state);
+  const double change = (mass_ * (state.v() - before.v()).array().square()).sum();
+  const double motion = (mass_ * state.v().array().square()).sum();
+  latest_ = motion > 0.0 ? std::sqrt(change / motion) : 0.0;
+  change_ += change;
+  motion_ += motion;
+  if (++steps_ == stretch) close(model, before, state);
+}
+
+void StepResolution::close(const Model& model, const State& before, const State& state) {
+  const double step = state.time() - before.time();
+  for (int i = 0; i < static_cast<int>(model.nodes.size()); ++i) {
+    if (model.nodes[i].rotation < 0) continue;
+    const double angle = step * state.v().segment<3>(model.nodes[i].rotation).norm();
+    if (angle > fastest_.angle) fastest_ = {angle, state.time(), i};
+  }
+  const double rate = motion_ > 0.0 ? std::sqrt(change_ / motion_) : 0.0;
+  if (rate > coarse && motion_ > std::numeric_limits<double>::min()) {
+    Stretch& worst = coarsest_[std::ilogb(motion_)];
+    if (rate > worst.rate) {
+      Eigen::Index at = 0;
+      (mass_ * (state.v() - before.v()).array().square()).head(model.sizes.boundary).maxCoeff(&at);
+      worst = {rate, state.time(), step, static_cast<int>(at)};
+    }
+  } else if (motion_ > std::numeric_limits<double>::min()) {
+    coarsest_.try_emplace(std::ilogb(motion_));
+  }
+  change_ = motion_ = 0.0;
+  steps_ = 0;
+}
+
+std::vector<std::string> StepResolution::doubts(const Model& model) const {
+  if (fastest_.angle > largest_turn)
+    return {
+        fmt::format("'{}' turns by {:.2g} rad per step around t = {:.6g}, beyond {:.2g}: half a revolution cannot be "
+                    "told from its opposite; take a shorter step",
+                    model.nodes[fastest_.node].name, fastest_.angle, fastest_.time, largest_turn)};
+  if (coarsest_.empty()) return {};
+  const int largest = coarsest_.rbegin()->first;
+  Stretch worst;
+  for (const auto& [energy, one] : coarsest_)
+    if (energy >= largest - depth && one.rate > worst.rate) worst = one;
+  if (worst.coordinate < 0) return {};
+  return {
+      fmt::format("the step of {:.3g} does not resolve what moves: about {:.2g} steps per period around t = {:.6g}, "
+                  "fewer than 10 (most at {}); 'integrator: {{step: {:.1g}}}' does",
+                  worst.step, 2.0 * std::numbers::pi / worst.rate, worst.time, coordinate_name(model, worst.coordinate),
+                  worst.step * coarse / worst.rate / 2.0)};
+}
+
+}  // namespace tisserand::mechanism

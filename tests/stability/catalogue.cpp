@@ -1,0 +1,308 @@
+// Data: the cases.
+#include "tests/stability/catalogue.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace tisserand::stability {
+namespace {
+
+using Kind = Criterion::Kind;
+constexpr double g = 9.81;
+constexpr double pi = std::numbers::pi;
+
+/// θ at `time` of θ̈ = −k cos θ by Runge and Kutta's scheme in 20000 steps: exact to 1e-10.
+double swing(double k, double angle, double rate, double time) {
+  const int steps = 20000;
+  const double h = time / steps;
+  for (int i = 0; i < steps; ++i) {
+    const auto a = [k](double theta) { return -k * std::cos(theta); };
+    const double k1 = rate, l1 = a(angle);
+    const double k2 = rate + h / 2 * l1, l2 = a(angle + h / 2 * k1);
+    const double k3 = rate + h / 2 * l2, l3 = a(angle + h / 2 * k2);
+    const double k4 = rate + h * l3, l4 = a(angle + h * k3);
+    angle += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    rate += h / 6 * (l1 + 2 * l2 + 2 * l3 + l4);
+  }
+  return angle;
+}
+
+Criterion balance(double tolerance) { return {Kind::balance, "", 0.0, tolerance, false}; }
+Criterion at_end(const std::string& channel, double expected, double tolerance) {
+  return {Kind::end, channel, expected, tolerance, false};
+}
+Criterion length_at_end(const std::string& channel, double expected, double tolerance) {
+  return {Kind::end, channel, expected, tolerance, true};
+}
+
+/// The rod of the flexible cases, of the given nodes.
+std::string superelement(const std::string& file, const std::string& rest) {
+  return fmt::format("bodies.rod={{type: superelement, file: {}.superelement.h5, {}}}", file, rest);
+}
+
+const std::string rigid_rod =
+    "bodies.rod={type: rigid, mass: 2.450442270, center_of_mass: [0.5, 0, 0], inertia: [1.2252e-4, 0.204265, "
+    "0.204265], "
+    "nodes: {start: {position: [0, 0, 0]}, end: {position: [1, 0, 0]}}}";
+const std::string beam_rod =
+    "bodies.rod={type: beam, from: [0, 0, 0], to: [1, 0, 0], elements: 8, section: {shape: circle, radius: 0.01}, "
+    "material: {E: 2.1e11, nu: 0.3, density: 7800}}";
+
+std::vector<Formulation> rods(const std::string& rigid_is_impossible) {
+  return {{"B", {}, ""},
+          {"A", {superelement("rod", "inertia: A")}, ""},
+          {"M", {superelement("rod", "inertia: M")}, ""},
+          {"second order", {superelement("rod", "second_order: on")}, ""},
+          {"beams", {beam_rod}, ""},
+          {"rigid", {rigid_rod}, rigid_is_impossible}};
+}
+
+/// Frames, weights and boundary nodes, of inertia B.
+std::vector<Formulation> boundaries() {
+  const std::string one_end = "a body without the node that it is held against";
+  return {{"two nodes", {}, ""},
+          {"frame: paper", {superelement("rod", "frame: paper, second_order: off")}, ""},
+          {"frame at a node", {superelement("rod", "frame: {node: start}, inertia: B")}, ""},
+          {"negative weight",
+           {superelement(
+               "rod", "inertia: B, weights: {positions: {start: 1.5, end: -0.5}, rotations: {start: 1.5, end: -0.5}}")},
+           ""},
+          {"five in a line", {superelement("rod_line", "inertia: B")}, ""},
+          {"two nearly one", {superelement("rod_near", "inertia: B")}, ""},
+          {"mass far outside", {superelement("rod_base", "inertia: B")}, ""},
+          {"one node", {superelement("rod_one", "inertia: B")}, ""}};
+}
+
+std::vector<Case> four_bars() {
+  std::vector<Case> cases;
+  for (const auto& [windows, angle] : {std::pair{2, -12.68425959}, std::pair{10, -12.64416097}})
+    cases.push_back({.name = fmt::format("four-bar, {} windows", windows),
+                     .scene = "four_bar",
+                     .settings = {fmt::format("parameters.windows={}", windows)},
+                     .criteria = {at_end("joints/coordinate/upright[0]/foot", angle, 2e-2), balance(1e-3)},
+                     .source = "angle of the uprights: IFToMM library A02, exact one-coordinate equation",
+                     .quick = windows == 2});
+  const double n = 80;
+  cases.push_back({.name = "four-bar, 80 windows",
+                   .scene = "four_bar",
+                   .settings = {"parameters.windows=80", "integrator.end=1"},
+                   .criteria = {at_end("joints/coordinate/upright[0]/foot",
+                                       swing(g * ((n + 1) / 2 + n) / ((n + 1) / 3 + n), pi / 2, -1, 1) - pi / 2, 2e-2),
+                                balance(1e-3)},
+                   .source = "one-coordinate equation, Runge and Kutta",
+                   .quick = false});
+  return cases;
+}
+
+std::vector<Case> slider_cranks() {
+  std::vector<Case> cases;
+  for (const double longer : {0.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+    const double rod = 1 + longer;
+    const double x =
+        longer == 0.0 ? 2 * std::cos(3.0) : std::cos(3.0) + std::sqrt(rod * rod - std::pow(std::sin(3.0), 2));
+    cases.push_back(
+        {.name = longer == 0.0 ? "slider-crank, l = r" : fmt::format("slider-crank, l = r (1 + {:g})", longer),
+         .scene = "slider_crank",
+         .settings = {fmt::format("parameters.longer={:g}", longer)},
+         .criteria = {length_at_end("nodes/position/slider/x", x, 1e-3)},
+         .source = longer == 0.0 ? "geometry; the branch on which the slider goes on by its inertia"
+                                 : "geometry: the rod cannot turn over",
+         .quick = longer == 0.0 || longer == 1e-2});
+  }
+  return cases;
+}
+
+std::vector<Case> pendulums() {
+  std::vector<Case> cases;
+  cases.push_back({.name = "pendulum",
+                   .scene = "pendulum",
+                   .settings = {},
+                   .criteria = {length_at_end("nodes/position/bob/x", -0.27508746, 2e-3),
+                                length_at_end("nodes/position/bob/y", -0.96141921, 2e-3), balance(1e-3)},
+                   .source = "IFToMM library A01"});
+  for (const double step : {1e-2, 1e-4, 1e-6, 1e-8}) {
+    const double end = 100 * step, angle = swing(-g, 0, 0, end);
+    cases.push_back({.name = fmt::format("pendulum, step {:g}, index 3", step),
+                     .scene = "pendulum",
+                     .settings = {fmt::format("integrator.step={:g}", step), fmt::format("integrator.end={:g}", end),
+                                  "integrator.formulation=index3", "output={channels: [nodes, energy]}"},
+                     .criteria = {length_at_end("nodes/position/bob/x", -std::cos(angle), 2e-3),
+                                  length_at_end("nodes/acceleration/bob/y", -g * (1 - 3 * std::pow(std::sin(angle), 2)),
+                                                step > 1e-3 ? 0.1 : 1e-2)},
+                     .source = "pendulum equation: the acceleration shows what 1/h^2 makes of round-off"});
+  }
+  cases.push_back({.name = "pendulum, 100 000 steps",
+                   .scene = "pendulum",
+                   .settings = {"integrator.end=200", "output.interval=1"},
+                   .criteria = {balance(1e-2)},
+                   .source = "conservation of energy",
+                   .scales = false,
+                   .quick = false});
+  cases.push_back({.name = "massless chain",
+                   .scene = "virtual_chain",
+                   .settings = {},
+                   .criteria = {at_end("joints/coordinate/hinge", swing(0.75 * g, 0, 0, 2), 2e-3), balance(1e-3)},
+                   .source = "physical pendulum, as if the chain were rigid"});
+  const double heavy = swing(g / 1.1, 0, 0, 2);
+  for (const double ratio : {1e-10, 1e-5})
+    cases.push_back({.name = fmt::format("mass ratio {:g}", ratio),
+                     .scene = "mass_ratio",
+                     .settings = {fmt::format("parameters.ratio={:g}", ratio)},
+                     .criteria = {at_end("joints/coordinate/hinge", heavy, 2e-3), balance(1e-3)},
+                     .source = "the heavy pendulum alone"});
+  cases.push_back({.name = "axis without inertia",
+                   .scene = "needle",
+                   .settings = {},
+                   .criteria = {length_at_end("nodes/position/rod/x", 0.5 * std::cos(swing(1.5 * g, 0, 0, 2)), 2e-3),
+                                balance(1e-3)},
+                   .source = "physical pendulum"});
+  cases.push_back({.name = "whip",
+                   .scene = "whip",
+                   .settings = {},
+                   .criteria = {balance(1e-2)},
+                   .source = "conservation of energy",
+                   .quick = false});
+  return cases;
+}
+
+std::vector<Case> springs_and_contacts() {
+  std::vector<Case> cases;
+  cases.push_back({.name = "stiffness ratio 1e12",
+                   .scene = "stiff_spring",
+                   .settings = {},
+                   .criteria = {length_at_end("nodes/position/a/x", 0, 2e-3), balance(1e-2)},
+                   .source = "two masses as one, 1 rad/s; a mode at 1.4e6 rad/s rests"});
+  cases.push_back({.name = "mode at 1.4e6 rad/s that moves",
+                   .scene = "stiff_spring",
+                   .settings = {"parameters.kick=1e-6"},
+                   .criteria = {length_at_end("nodes/position/a/x", 0, 2e-3), balance(1e-2)},
+                   .source = "it holds as much energy as the slow one: a step of 1e-3 cannot keep it"});
+  cases.push_back({.name = "159 turns",
+                   .scene = "rotor",
+                   .settings = {},
+                   .criteria = {at_end("joints/coordinate/axle", 1000, 0.1), balance(1e-3)},
+                   .source = "constant rate"});
+  cases.push_back({.name = "3.1 rad per step",
+                   .scene = "rotor",
+                   .settings = {"parameters.rate=310", "integrator.step=0.01"},
+                   .criteria = {at_end("joints/coordinate/axle", 3100, 0.3), balance(1e-3)},
+                   .source = "constant rate"});
+  cases.push_back({.name = "4 rad per step",
+                   .scene = "rotor",
+                   .settings = {"parameters.rate=400", "integrator.step=0.01"},
+                   .criteria = {at_end("joints/coordinate/axle", 4000, 0.4), balance(1e-3)},
+                   .source = "constant rate"});
+  cases.push_back({.name = "friction that turns over and sticks",
+                   .scene = "friction",
+                   .settings = {},
+                   .criteria = {length_at_end("nodes/position/block/x", 0.1019, 5e-4), balance(1e-2)},
+                   .source = "half swings shrink by 2 mu g/omega^2, the fifth ends within mu g/omega^2"});
+  cases.push_back({.name = "friction, step 0.05",
+                   .scene = "friction",
+                   .settings = {"parameters.step=0.05"},
+                   .criteria = {length_at_end("nodes/position/block/x", 0.1019, 5e-4), balance(1e-2)},
+                   .source = "the same"});
+  cases.push_back({.name = "ball that bounces",
+                   .scene = "bounce",
+                   .settings = {},
+                   .criteria = {length_at_end("nodes/position/ball/z", 0.5, 2e-3), balance(1e-2)},
+                   .source = "the height from which it fell"});
+  cases.push_back({.name = "ball that bounces, step 0.01",
+                   .scene = "bounce",
+                   .settings = {"integrator.step=0.01"},
+                   .criteria = {length_at_end("nodes/position/ball/z", 0.5, 2e-3), balance(1e-2)},
+                   .source = "the same; contact lasts 3 ms"});
+  cases.push_back({.name = "impulse and jump of loads",
+                   .scene = "impulse",
+                   .settings = {},
+                   .criteria = {length_at_end("nodes/velocity/hit/x", 1, 2e-3),
+                                length_at_end("nodes/position/pushed/x", 0.25, 1e-3), balance(1e-2)},
+                   .source = "momentum; constant acceleration"});
+  return cases;
+}
+
+std::vector<Case> rods_in_motion() {
+  constexpr double E = 2.1e11, I = pi / 4 * 1e-8, critical = pi * pi * E * I / 4;
+  std::vector<Case> cases;
+  const double angle = swing(1.5 * g, 0, 0, 2);
+  cases.push_back({.name = "rod pendulum",
+                   .scene = "rod_pendulum",
+                   .settings = {},
+                   .criteria = {at_end("joints/coordinate/hinge", angle, 2e-2), balance(1e-2)},
+                   .source = "rigid rod; it bends by 1e-3",
+                   .formulations = rods(""),
+                   .scales = false});
+  cases.push_back({.name = "rod pendulum, boundaries",
+                   .scene = "rod_pendulum",
+                   .settings = {},
+                   .criteria = {at_end("joints/coordinate/hinge", angle, 2e-2), balance(1e-2)},
+                   .source = "rigid rod; it bends by 1e-3",
+                   .formulations = boundaries(),
+                   .scales = false});
+  cases.push_back({.name = "drive that moves at the start",
+                   .scene = "driven_rod",
+                   .settings = {},
+                   .criteria = {at_end("nodes/position/rod/end/x", std::cos(5.0), 5e-3), balance(1e-2)},
+                   .source = "the rod turns as a rigid one from the start",
+                   .formulations = rods(""),
+                   .scales = false});
+  // A cantilever of length 1 under P along and F across: δ = F (tan k − k)/(k P), k² = P/EI.
+  for (const double share : {0.01, 0.5, 0.9}) {
+    const double P = share * critical, k = std::sqrt(P / (E * I)), deflection = 10 * (std::tan(k) - k) / (k * P);
+    cases.push_back({.name = fmt::format("column, {:g} of its buckling load", share),
+                     .scene = "column",
+                     .settings = {fmt::format("parameters.axial={:.10g}", P)},
+                     .criteria = {at_end("nodes/position/rod/end/y", deflection, 0.03 * deflection)},
+                     .source = "beam column of Euler: F (tan kL - kL)/(k P)",
+                     .formulations = rods("a rigid body does not bend"),
+                     .takes_steps = false,
+                     .scales = false});
+  }
+  const double weight = 7800 * pi * 1e-4 * g;
+  for (const double rate : {2.0, 50.0, 200.0}) {
+    const double sag = weight / (8 * E * I);
+    // Converged sag: 0.9.. of the resting one is left by centrifugal stiffening; Southwell's quotient for the mode of
+    // the resting sag, ω₁² = 12.46 EI/(m L⁴) and 1.193 Ω², differs from beams by less than 3 %.
+    const double omega2 = 12.362 * E * I / (7800 * pi * 1e-4);
+    cases.push_back({.name = fmt::format("spinning rod, {:g} rad/s", rate),
+                     .scene = "spinning_rod",
+                     .settings = {fmt::format("parameters.rate={:g}", rate)},
+                     .criteria = {at_end("nodes/position/rod/end/z", -sag / (1 + 1.193 * rate * rate / omega2),
+                                         0.1 * sag / (1 + 1.193 * rate * rate / omega2))},
+                     .source = "Southwell's quotient 1.193; first frequency 55 rad/s",
+                     .formulations = rods("a rigid body does not bend"),
+                     .takes_steps = false,
+                     .scales = false});
+  }
+  return cases;
+}
+
+}  // namespace
+
+std::vector<Case> catalogue() {
+  std::vector<Case> all;
+  for (auto&& some : {four_bars(), slider_cranks(), pendulums(), springs_and_contacts(), rods_in_motion()})
+    all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+std::vector<Part> parts() {
+  return {{"rod", {}},
+          {"rod_line", {"boundary=[start, near, quarter, middle, end]"}},
+          {"rod_near", {"boundary=[start, near, end]"}},
+          {"rod_base", {"boundary=[start, near]"}},
+          {"rod_one", {"boundary=[start]"}}};
+}
+
+std::vector<std::string> not_yet() {
+  return {"Bricard's mechanism (tested among the rigid benchmarks)",
+          "modal bodies; nodes with translations or rotations alone; coplanar boundary nodes",
+          "deformation beyond small strain (beams: the roll-up among the flexible benchmarks)",
+          "several superelements per blade, soft in torsion, in fast rotation",
+          "momentum over long runs; a million steps",
+          "bodies described in other units, far from the origin, in parts (tests Rewritings and FarScene)"};
+}
+
+}  // namespace tisserand::stability
