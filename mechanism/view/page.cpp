@@ -1,6 +1,7 @@
 // From header and blocks to HTML.
 #include "mechanism/view/page.hpp"
 
+#include "common/base64.hpp"
 #include "common/error.hpp"
 
 // The bundle is a part of the program's read-only data: no compiler has to parse it.

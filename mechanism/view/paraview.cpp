@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 
+#include "common/base64.hpp"
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "mechanism/histories/series.hpp"

@@ -9,9 +9,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/base64.hpp"
 #include "mechanism/simulate.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tests/support/view/page_reader.hpp"
 
 namespace tisserand::mechanism::paraview_test {
 namespace {
@@ -60,7 +60,7 @@ TEST_F(Paraview, PointsAreThoseOfTheResults) {
   const std::size_t at = grid.find("Name=\"points\""), begin = grid.find('>', at) + 1;
   ASSERT_NE(at, std::string::npos);
   // The number of bytes in 64 bits, then 3 stations of 4 corners of 3 numbers of 4 bytes.
-  const std::string bytes = test_support::base64_decoded(grid.substr(begin, grid.find('<', begin) - begin));
+  const std::string bytes = base64_decoded(grid.substr(begin, grid.find('<', begin) - begin));
   ASSERT_EQ(bytes.size(), 8u + 3 * 4 * 3 * 4);
   float points[3][4][3];
   std::memcpy(points, bytes.data() + 8, sizeof points);

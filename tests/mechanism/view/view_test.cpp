@@ -316,15 +316,6 @@ integrator: {step: 0.01, end: 0.05}
   EXPECT_LT((vertices.col(1) - Vector3d(1, 0, 0)).norm(), 1e-4);
 }
 
-TEST(PageBlocks, WriteBase64) {
-  // RFC 4648, section 10.
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("f"), "Zg==");
-  EXPECT_EQ(base64("fo"), "Zm8=");
-  EXPECT_EQ(base64("foo"), "Zm9v");
-  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
-}
-
 TEST(PageBlocks, PackAndUnpack) {
   PageBlocks blocks;
   const PageRows values = PageRows::Random(50, 3);
