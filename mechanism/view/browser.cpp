@@ -14,11 +14,12 @@
 #include "common/child.hpp"
 #include "common/error.hpp"
 #include "common/text.hpp"
-#include "mechanism/view/page_blocks.hpp"
+#include "formats/page/page_blocks.hpp"
 
 namespace tisserand::mechanism {
 namespace {
 
+using formats::Json;
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 

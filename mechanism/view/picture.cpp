@@ -15,6 +15,7 @@
 namespace tisserand::mechanism {
 namespace {
 
+using formats::Json;
 constexpr double radian = EIGEN_PI / 180.0;
 constexpr int smallest_side = 32, largest_side = 8192;
 

@@ -56,6 +56,7 @@ export class App {
 
   constructor(readonly page: Page, root: HTMLElement) {
     this.runs = page.runs;
+    if (this.runs.every((run) => run.entry.kind === "part")) this.settings.nodes = true;
     this.player = new Player(this.runs);
     this.curves = new Curves(this.runs, this.player);
     this.report = new Report(this.runs);

@@ -41,7 +41,7 @@ function throughStates(app: App, request: Still, shown: (caption: string) => voi
       player.seekPhase(phase);
       app.render(true);
       const mode = app.runs[player.mode!.run]!.entry.modes![request.mode]!;
-      shown(`mode ${request.mode + 1}: ${number(mode.frequency, 4)} Hz`);
+      shown(`mode ${mode.name ?? request.mode + 1}${mode.frequency === null ? "" : `: ${number(mode.frequency, 4)} Hz`}`);
     }
 }
 

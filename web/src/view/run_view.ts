@@ -67,7 +67,7 @@ export class RunView {
       const isDrawn = shape !== null && shape.source !== "marker" && shape.vertices.length > 0;
       const isBall = isDrawn && shape.source === "inertia";
       (isBall ? this.balls : isDrawn ? this.drawn : this.markers).push(b);
-      if (isDrawn) (isBall ? balls : items).push({ owner: b, shape, rgb: rgb(BODY_COLOURS[b % BODY_COLOURS.length]!), mapped: true });
+      if (isDrawn) (isBall ? balls : items).push({ owner: b, shape, rgb: rgb(body.colour ?? BODY_COLOURS[b % BODY_COLOURS.length]!), mapped: true });
     }
     this.bodies = new Batch(items, this.materials);
     this.inertia = new Batch(balls, this.glass);

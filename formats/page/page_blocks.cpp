@@ -1,5 +1,5 @@
 // Differences between rows and byte planes, then zlib.
-#include "mechanism/view/page_blocks.hpp"
+#include "formats/page/page_blocks.hpp"
 
 #include <zlib.h>
 
@@ -9,7 +9,7 @@
 
 #include "common/error.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::formats {
 namespace {
 
 constexpr double largest_word = 32767.0;
@@ -166,4 +166,4 @@ Json PageBlocks::table() const {
   return table;
 }
 
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::formats
