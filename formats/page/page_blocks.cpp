@@ -3,6 +3,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -13,6 +14,7 @@ namespace tisserand::formats {
 namespace {
 
 constexpr double largest_word = 32767.0;
+constexpr double round_off = 1e-9;  // numbers that are as near to one another are one
 
 /// Differences to the row before, then the first bytes of all words, the second ones, ...: what changes slowly becomes
 /// long runs of zeros.
@@ -58,7 +60,8 @@ std::vector<Range> ranges_of(const PageRows& values) {
     const double least = values.rows() > 0 ? values.col(c).minCoeff() : 0.0,
                  most = values.rows() > 0 ? values.col(c).maxCoeff() : 0.0;
     const double half = 0.5 * (most - least);
-    ranges.push_back({least + half, half > 0.0 ? half / largest_word : 1.0});
+    const bool spreads = half > round_off * std::max(std::abs(least), std::abs(most));
+    ranges.push_back({least + half, spreads ? half / largest_word : 1.0});
   }
   return ranges;
 }

@@ -73,6 +73,15 @@ TEST(Surface, OutlinesHaveTheAreaOfTheirSections) {
   EXPECT_NEAR(area(outline_of(section, 1.0)), 2.0 * 0.2 * 1.0 + 0.1 * 1.6, 1e-12);
 }
 
+// Places that differ by round-off only: the difference is no range of its own, whose steps would be below the digits.
+TEST(PageBlocks, PositionsOfOnePlaneButForRoundOff) {
+  PageRows places(2, 3);
+  places << 1.65, 0.0, 2.0, std::nextafter(1.65, 2.0), 1.0, 2.0;
+  PageBlocks blocks;
+  EXPECT_EQ(blocks.add_positions(places)["shape"], Json({2, 3}));
+  EXPECT_LT((quantised_positions(places) - places).cwiseAbs().maxCoeff(), 1e-4);
+}
+
 TEST(Surface, LeastTreeJoinsNeighbours) {
   const std::vector<Vector3d> points{{0, 0, 0}, {3, 0, 0}, {1, 0, 0}, {2, 0, 0}};
   std::set<std::array<int, 2>> lines;
