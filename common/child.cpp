@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,6 +20,7 @@
 #include <filesystem>
 #include <memory>
 #include <sstream>
+#include <utility>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
@@ -49,9 +51,45 @@ std::string content(std::FILE* file) {
   return text;
 }
 
+/// A descriptor that is closed in other children, out of the way of those that a child gets.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int number) : number_(::fcntl(number, F_DUPFD_CLOEXEC, 10)) { ::close(number); }
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  void close() {
+    if (number_ >= 0) ::close(number_);
+    number_ = -1;
+  }
+  int number() const { return number_; }
+
+ private:
+  int number_ = -1;
+};
+
+/// Both ends of what `talk` speaks through.
+struct Line {
+  Descriptor own, child;
+};
+
+void open_line(Line& line, const std::string& program) {
+  std::array<int, 2> ends{-1, -1};
+  if (::socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()) != 0)
+    throw Error("no socket can be made", program, remedy_of_errno(errno));
+  line.own = Descriptor(ends[0]);
+  line.child = Descriptor(ends[1]);
+}
+
 /// In the child: only calls that are safe between fork and exec of a program with threads.
-[[noreturn]] void become(char* const* words, const std::array<int, 3>& streams, int complaint, pid_t parent) {
+[[noreturn]] void become(char* const* words, const std::array<int, 3>& streams, int line, int complaint, pid_t parent) {
+  complaint = ::fcntl(complaint, F_DUPFD_CLOEXEC, 10);
   for (int k = 0; k < 3; ++k) ::dup2(streams[k], k);
+  for (int k = 3; line >= 0 && k < 5; ++k) ::dup2(line, k);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() == parent) ::execvp(words[0], words);
   const int number = errno;
@@ -60,7 +98,7 @@ std::string content(std::FILE* file) {
 }
 
 /// Starts the child; throws Error with the reason if it does not become the program.
-pid_t start(const ChildRequest& request, const std::array<int, 3>& streams) {
+pid_t start(const ChildRequest& request, const std::array<int, 3>& streams, int line) {
   std::vector<char*> words;
   for (const std::string& word : request.words) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
@@ -68,7 +106,7 @@ pid_t start(const ChildRequest& request, const std::array<int, 3>& streams) {
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
     throw Error("no process can be started", request.words[0], remedy_of_errno(errno));
   const pid_t parent = ::getpid(), child = ::fork();
-  if (child == 0) become(words.data(), streams, ends[1], parent);
+  if (child == 0) become(words.data(), streams, line, ends[1], parent);
   int number = child < 0 ? errno : 0;
   ::close(ends[1]);
   if (child > 0 && ::read(ends[0], &number, sizeof number) > 0) ::waitpid(child, nullptr, 0);
@@ -107,7 +145,19 @@ ChildReport run_child(const ChildRequest& request) {
       std::fflush(input.get()) != 0)
     throw Error("its input cannot be written", program, remedy_of_errno(errno));
   std::rewind(input.get());
-  const pid_t child = start(request, {fileno(input.get()), fileno(out.get()), fileno(error.get())});
+  Line line;
+  if (request.talk) open_line(line, program);
+  const pid_t child =
+      start(request, {fileno(input.get()), fileno(out.get()), fileno(error.get())}, line.child.number());
+  line.child.close();
+  try {
+    if (request.talk) request.talk(line.own.number());
+  } catch (...) {
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    throw;
+  }
+  line.own.close();
   ChildReport report;
   report.ending = watch(request, child);
   int status = 0;

@@ -12,6 +12,10 @@ struct ChildRequest {
   std::string input;                 ///< its standard input
   double seconds = 0.0;              ///< by the clock; 0: as long as it takes
   std::function<bool()> is_stopped;  ///< asked ten times a second; true ends the child. Empty: never
+  /// Called once, while the child runs, with a socket whose other end are the child's descriptors 3 (it reads) and 4
+  /// (it writes); the socket is closed when it returns, and only then time is counted. What it throws ends the child at
+  /// once. Empty: the child has no such descriptors.
+  std::function<void(int socket)> talk;
 };
 
 enum class ChildEnding { left, killed, timed_out, stopped };

@@ -15,6 +15,7 @@ Examples:
   mechanism channels arm.results.h5                    what the file holds, with units
   mechanism plot arm.results.h5 -c nodes/position/arm/tip/z -o arm.png
   mechanism view arm.results.h5 -o arm.html            a page with the motion, for any browser
+  mechanism picture arm.results.h5 --time 1.2 -o a.png a still of it
   mechanism study arm.study.yaml --tolerance 1e-3      what accuracy costs, and the cheapest setting for it
   mechanism export arm.results.h5 -c energy -o arm.csv
 
@@ -96,6 +97,16 @@ inline constexpr const char* about_view =
 
 Shapes are those of the scene (`shape` of a body), sections of beams, and of superelements the surface in the recovery file
 that lies beside them; else nodes and straight lines. Formats: formats/PAGE.md.)help";
+
+inline constexpr const char* about_picture =
+    R"help(Draws states of a run as a picture (png), by Chromium without a window: Debian's package chromium.
+
+  mechanism picture arm.results.h5 --time 1.2 -o a.png
+  mechanism picture arm.results.h5 --time 0 --time 0.5 --time 1 --size 1200 360 -o states.png
+  mechanism picture arm.results.h5 --view -50,20 --exaggerate 20 --colour deformation --trace arm/tip -o a.png
+  mechanism picture tones.results.h5 --mode 2 --phase 0 --phase 180 --show nodes --hide grid -o tone.png
+
+It shows what the page of `mechanism view` shows. Without --time: the last instant.)help";
 
 inline constexpr const char* about_compare =
     R"help(Measures channels against a reference history: largest and root-mean-square deviation.

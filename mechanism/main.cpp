@@ -17,6 +17,7 @@
 #include "common/error.hpp"
 #include "common/output_path.hpp"
 #include "common/progress.hpp"
+#include "common/text.hpp"
 #include "formats/results/results.hpp"
 #include "formats/scene/scene.hpp"
 #include "formats/yaml/override.hpp"
@@ -28,6 +29,7 @@
 #include "mechanism/simulate.hpp"
 #include "mechanism/study/study.hpp"
 #include "mechanism/view/paraview.hpp"
+#include "mechanism/view/picture.hpp"
 #include "mechanism/view/view.hpp"
 
 namespace {
@@ -65,6 +67,14 @@ std::string default_results(const std::string& scene) {
   for (const char* ending : {".yaml", ".yml", ".scene"})
     if (stem.ends_with(ending)) stem.resize(stem.size() - std::string(ending).size());
   return stem + ".results.h5";
+}
+
+/// "dir/pendulum.results.h5" -> "pendulum.html" in the working folder.
+std::string default_page(const std::vector<std::string>& results, const char* ending) {
+  std::string stem = results.empty() ? "run" : std::filesystem::path(results.front()).filename().string();
+  for (const char* known : {".part", ".h5", ".results"})
+    if (stem.ends_with(known)) stem.resize(stem.size() - std::string(known).size());
+  return stem + ending;
 }
 
 struct RunArguments {
@@ -251,6 +261,56 @@ void add_study(CLI::App& app, mechanism::StudyRequest& request, int& code) {
   command->callback([&] { code = study(request); });
 }
 
+void add_page_options(CLI::App& command, mechanism::ViewRequest& page) {
+  command.add_option("--title", page.title, "title; default: names of the scenes");
+  command.add_option("--instants", page.instants, "the most instants of a run, evenly chosen")
+      ->check(CLI::Range(2, 1'000'000));
+  command.add_option("--vertices", page.shapes.vertices, "the most vertices of a body")
+      ->check(CLI::Range(100, 10'000'000));
+  command.add_option("--recovery", page.shapes.recovery, "recovery file of a superelement of the run")
+      ->allow_extra_args(false);
+}
+
+struct PictureArguments {
+  SeriesArguments runs;
+  mechanism::PictureRequest request;
+};
+
+void add_picture(CLI::App& app, PictureArguments& arguments) {
+  mechanism::PictureRequest& request = arguments.request;
+  CLI::App* command = app.add_subcommand("picture", first_line(about_picture));
+  add_series_arguments(*command, arguments.runs);
+  add_page_options(*command, request.page);
+  command->add_option("-o,--output", request.output, "picture, .png; default: <results>.png in this folder");
+  CLI::Option* time = command->add_option("--time,-t", request.times, "instant; several: states from left to right");
+  time->allow_extra_args(false);
+  command->add_option("--mode", request.mode, "this mode of a `modes` analysis, from 1, in place of instants")
+      ->check(CLI::PositiveNumber)
+      ->excludes(time);
+  command->add_option("--phase", request.phases_deg, "of the mode [deg]; several: states from left to right")
+      ->allow_extra_args(false);
+  command->add_option("--size", request.size, "width and height in pixels, default 1200 700");
+  command->add_option("--view", request.view,
+                      "iso, front, back, left, right, top, bottom, or azimuth,elevation of the camera in degrees");
+  command->add_option("--zoom", request.zoom, "1: what is shown fills the picture")->check(CLI::Range(0.01, 1000.0));
+  command->add_option("--exaggerate", request.exaggeration, "factor on deformations")->check(CLI::NonNegativeNumber);
+  command->add_option("--colour", request.colouring, "body, displacement, deformation or stress")
+      ->check(CLI::IsMember(mechanism::picture_colourings()));
+  command->add_option("--trace", request.traces, "node whose path is drawn")->allow_extra_args(false);
+  for (auto& [option, things] : {std::pair{"--show", &request.shown}, std::pair{"--hide", &request.hidden}})
+    command->add_option(option, *things, join(mechanism::picture_things(), ", "))
+        ->allow_extra_args(false)
+        ->check(CLI::IsMember(mechanism::picture_things()));
+  command->add_flag_callback(
+      "--bare", [&] { request.captions = mechanism::Captions::none; }, "without title and times");
+  command->callback([&] {
+    request.page.shown = complete(arguments.runs);
+    if (request.output.empty()) request.output = default_page(request.page.shown.files, ".png");
+    require_output(request.output, drawn_files(arguments.runs), Replaces::anything);
+    say(mechanism::picture(request));
+  });
+}
+
 /// Prints what is wrong with the words of the command line.
 int tell_usage(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   std::vector<std::string> commands;
@@ -353,21 +413,20 @@ int command_line(int argc, char** argv) {
   std::string paraview;
   CLI::App* view_command = app.add_subcommand("view", first_line(about_view));
   add_series_arguments(*view_command, view_arguments);
-  CLI::Option* page = view_command->add_option("-o,--output", view_request.output, "page, .html");
+  CLI::Option* page = view_command->add_option("-o,--output", view_request.output,
+                                               "page, .html; default: <results>.html in this folder");
   view_command->add_option("--paraview", paraview, "folder for files of ParaView (.pvd, .vtu) instead of a page")
       ->excludes(page);
-  view_command->add_option("--title", view_request.title, "title of the page; default: names of the scenes");
-  view_command->add_option("--instants", view_request.instants, "the most instants of a run, evenly chosen")
-      ->check(CLI::Range(2, 1'000'000));
-  view_command->add_option("--vertices", view_request.shapes.vertices, "the most vertices of a body")
-      ->check(CLI::Range(100, 10'000'000));
-  view_command->add_option("--recovery", view_request.shapes.recovery, "recovery file of a superelement of the run")
-      ->allow_extra_args(false);
+  add_page_options(*view_command, view_request);
   view_command->callback([&] {
     view_request.shown = complete(view_arguments);
+    if (view_request.output.empty()) view_request.output = default_page(view_request.shown.files, ".html");
     if (paraview.empty()) require_output(view_request.output, drawn_files(view_arguments), Replaces::anything);
     say(paraview.empty() ? mechanism::view(view_request) : mechanism::write_paraview(view_request, paraview));
   });
+
+  PictureArguments picture_arguments;
+  add_picture(app, picture_arguments);
 
   SeriesArguments compare_arguments;
   mechanism::TimeWindow window;
@@ -385,6 +444,7 @@ int command_line(int argc, char** argv) {
             {"channels", about_channels},
             {"plot", about_plot},
             {"view", about_view},
+            {"picture", about_picture},
             {"study", about_study},
             {"compare", about_compare}},
            argc, argv);

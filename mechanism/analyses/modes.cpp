@@ -10,6 +10,7 @@
 
 #include "common/error.hpp"
 #include "common/math/rotation.hpp"
+#include "mechanism/model/element_map.hpp"
 #include "mechanism/solver/matrix_rank.hpp"
 
 extern "C" void dgeev_(const char* left, const char* right, const int* n, double* A, const int* lda, double* real,
@@ -228,6 +229,27 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
   return report;
 }
 
+namespace {
+
+/// [δx; δθ] of a node in a mode, world axes: its own coordinates, or through T of the modal body that it follows.
+Eigen::Vector<Complex, 6> motion_of_node(const Model& model, const Evaluation& evaluation, int node,
+                                         const VectorXcd& shape) {
+  std::vector<int> coordinates;
+  append_carrier(model, node, coordinates);
+  VectorXcd own(coordinates.size());
+  for (std::size_t k = 0; k < coordinates.size(); ++k)
+    own[static_cast<Eigen::Index>(k)] = coordinates[k] < 0 ? Complex(0.0) : shape[coordinates[k]];
+  const int modal = modal_node(model, node);
+  if (modal < 0) return own;
+  const Eigen::Matrix3d& frame = motion_of(evaluation, modal_body_of(model, modal).node).R;
+  own.segment<3>(3) = (frame.transpose().cast<Complex>() * own.segment<3>(3)).eval();  // T takes body axes
+  Eigen::Vector<Complex, 6> motion = evaluation.modal_nodes[modal].T.cast<Complex>() * own;
+  motion.tail<3>() = (motion_of(evaluation, node).R.cast<Complex>() * motion.tail<3>()).eval();
+  return motion;
+}
+
+}  // namespace
+
 formats::ModesTable modes_table(const Model& model, const Evaluation& evaluation, const ModesReport& report) {
   const auto modes = static_cast<Eigen::Index>(report.modes.size());
   const auto places = static_cast<Eigen::Index>(model.places.size());
@@ -244,12 +266,10 @@ formats::ModesTable modes_table(const Model& model, const Evaluation& evaluation
     table.damping_ratio[k] = mode.damping_ratio();
     for (Eigen::Index p = 0; p < places; ++p) {
       const Marker& marker = model.places[p].marker;
-      const Node& node = model.nodes[marker.node];
+      const Eigen::Vector<Complex, 6> motion = motion_of_node(model, evaluation, marker.node, mode.shape);
       const Eigen::Vector3d arm = motion_of(evaluation, marker.node).R * marker.p;
-      Eigen::Vector3cd x = Eigen::Vector3cd::Zero(), turn = x;
-      if (node.translation >= 0) x = mode.shape.segment<3>(node.translation);
-      if (node.rotation >= 0) turn = mode.shape.segment<3>(node.rotation);
-      table.translation.col(k).segment<3>(3 * p) = x - skew<double>(arm).cast<Complex>() * turn;
+      const Eigen::Vector3cd turn = motion.tail<3>();
+      table.translation.col(k).segment<3>(3 * p) = motion.head<3>() - skew<double>(arm).cast<Complex>() * turn;
       table.rotation.col(k).segment<3>(3 * p) = turn;
     }
   }

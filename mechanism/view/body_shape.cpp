@@ -16,6 +16,15 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
+using formats::least_tree;
+using formats::Outline;
+using formats::outline_of;
+using formats::sphere;
+using formats::Surface;
+using formats::surface_of;
+using formats::swept_faces;
+using formats::Thinned;
+using formats::thinned;
 
 constexpr std::size_t most_stations = 80;  // of a beam: its deformation has nine coordinates at each
 constexpr std::size_t most_nodes = 300;    // of a body that is shown by its nodes: three coordinates at each
@@ -60,8 +69,11 @@ BodyShape nodes_of_body(const ViewedRun& run, const ViewedBody& body) {
   BodyShape shape;
   shape.source = "nodes";
   shape.points = true;
-  std::vector<int> nodes;
-  for (const std::size_t i : even_rows(body.nodes.size(), most_nodes)) nodes.push_back(body.nodes[i]);
+  std::vector<int> all = body.nodes, nodes;
+  // The frame of a modal body is no point of its material.
+  if (body.kind == "modal" && all.size() > 1)
+    std::erase_if(all, [&](int node) { return run.layout().nodes[node] == body.name; });
+  for (const std::size_t i : even_rows(all.size(), most_nodes)) nodes.push_back(all[i]);
   const Index count = static_cast<Index>(nodes.size());
   shape.deformation.modes.setIdentity(3 * count, 3 * count);
   shape.deformation.amplitudes.resize(run.times.size(), 3 * count);
@@ -73,7 +85,7 @@ BodyShape nodes_of_body(const ViewedRun& run, const ViewedBody& body) {
   }
   shape.stations = nodes;
   shape.surface.lines = least_tree(shape.surface.vertices);
-  shape.all_vertices = static_cast<int>(body.nodes.size());
+  shape.all_vertices = static_cast<int>(all.size());
   return shape;
 }
 

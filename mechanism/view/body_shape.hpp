@@ -6,19 +6,19 @@
 #include <utility>
 #include <vector>
 
-#include "mechanism/view/deformation.hpp"
-#include "mechanism/view/surface.hpp"
+#include "formats/page/deformation.hpp"
+#include "formats/page/surface.hpp"
 #include "mechanism/view/viewed_run.hpp"
 
 namespace tisserand::mechanism {
 
 struct BodyShape {
-  std::string source;         ///< recovery, section, scene, inertia, nodes, marker (formats/PAGE.md)
-  Surface surface;            ///< undeformed; of a marker: empty
-  Deformation deformation;    ///< without columns: none
-  bool points = false;        ///< the vertices are drawn too
-  int all_vertices = 0;       ///< before thinning
-  std::vector<int> stations;  ///< nodes whose motion the amplitudes are, in the order of their columns
+  std::string source;                ///< recovery, section, scene, inertia, nodes, marker (formats/PAGE.md)
+  formats::Surface surface;          ///< undeformed; of a marker: empty
+  formats::Deformation deformation;  ///< without columns: none
+  bool points = false;               ///< the vertices are drawn too
+  int all_vertices = 0;              ///< before thinning
+  std::vector<int> stations;         ///< nodes whose motion the amplitudes are, in the order of their columns
   /// Of shapes from recovery files: node (−1: internal) and component (0 to 2 translations, 3 to 5 rotations) of each
   /// column.
   std::vector<int> coordinate_node, coordinate_component;

@@ -11,6 +11,8 @@
 namespace tisserand::mechanism {
 namespace {
 
+using formats::PageBlocks;
+using formats::PageRows;
 /// One dataset of the file with its channels, in the order of its columns.
 struct Dataset {
   std::string name;

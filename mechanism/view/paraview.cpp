@@ -1,70 +1,62 @@
-// XML files of VTK with inline base64 data (VTK file formats, www.vtk.org: UnstructuredGrid, version 1.0).
+// Surfaces in motion as grids of points and cells, one per instant.
 #include "mechanism/view/paraview.hpp"
 
 #include <array>
 #include <cctype>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <set>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "formats/vtk/vtu.hpp"
 #include "mechanism/histories/series.hpp"
 
 namespace tisserand::mechanism {
 namespace {
 
+using formats::Surface;
 namespace fs = std::filesystem;
 using Eigen::Index;
 using Eigen::Vector3d;
 
 /// What does not change from instant to instant, all bodies in one.
 struct Grid {
-  std::vector<std::int32_t> connectivity, offsets, body;
-  std::vector<std::uint8_t> types;
+  formats::VtuCells cells;
+  formats::VtuArray body{"body", 1, {}};
   Index points = 0;
 
-  void add_cell(const auto& corners, Index first, std::uint8_t type, std::size_t owner) {
-    for (const int corner : corners) connectivity.push_back(static_cast<std::int32_t>(corner + first));
-    offsets.push_back(static_cast<std::int32_t>(connectivity.size()));
-    types.push_back(type);
-    body.push_back(static_cast<std::int32_t>(owner));
+  void add_cell(const auto& corners, std::uint8_t type, std::size_t owner) {
+    for (const int corner : corners) cells.connectivity.push_back(static_cast<std::int32_t>(corner + points));
+    cells.offset.push_back(static_cast<std::int32_t>(cells.connectivity.size()));
+    cells.type.push_back(type);
+    body.values.push_back(static_cast<float>(owner));
   }
 };
 
-constexpr std::uint8_t vtk_vertex = 1, vtk_line = 3, vtk_triangle = 5;
-
 Grid grid_of(const std::vector<BodyShape>& shapes) {
+  constexpr std::uint8_t vtk_vertex = 1, vtk_line = 3, vtk_triangle = 5;
   Grid grid;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const Surface& surface = shapes[i].surface;
-    for (const auto& triangle : surface.triangles) grid.add_cell(triangle, grid.points, vtk_triangle, i);
-    for (const auto& line : surface.lines) grid.add_cell(line, grid.points, vtk_line, i);
-    for (int v = 0; shapes[i].points && v < surface.size(); ++v)
-      grid.add_cell(std::array{v}, grid.points, vtk_vertex, i);
+    for (const auto& triangle : surface.triangles) grid.add_cell(triangle, vtk_triangle, i);
+    for (const auto& line : surface.lines) grid.add_cell(line, vtk_line, i);
+    for (int v = 0; shapes[i].points && v < surface.size(); ++v) grid.add_cell(std::array{v}, vtk_vertex, i);
     grid.points += surface.size();
   }
   return grid;
 }
 
-template <class T>
-std::string data_array(const std::string& name, const char* type, int components, const std::vector<T>& values) {
-  const std::uint64_t bytes = values.size() * sizeof(T);
-  std::string data(sizeof bytes + bytes, '\0');
-  std::memcpy(data.data(), &bytes, sizeof bytes);
-  if (bytes > 0) std::memcpy(data.data() + sizeof bytes, values.data(), bytes);
-  return fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
-                     type, name, components, base64(data));
-}
-
-/// Points and displacements at instant t.
+/// Points and displacements at instant t, world axes.
 struct Moved {
-  std::vector<float> points, displacements;
+  Eigen::Matrix3Xf points;
+  formats::VtuArray displacement{"displacement", 3, {}};
 };
 
-Moved moved_to(const ViewedRun& run, const std::vector<BodyShape>& shapes, Index t) {
+Moved moved_to(const ViewedRun& run, const std::vector<BodyShape>& shapes, Index count, Index t) {
   Moved moved;
+  moved.points.resize(3, count);
+  Index point = 0;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     const BodyShape& shape = shapes[i];
     const Track& frame = run.bodies[i].frame;
@@ -73,28 +65,13 @@ Moved moved_to(const ViewedRun& run, const std::vector<BodyShape>& shapes, Index
     if (shape.deformation.modes.cols() > 0)
       deformation = shape.deformation.modes * shape.deformation.amplitudes.row(t).transpose();
     for (int v = 0; v < shape.surface.size(); ++v) {
-      const Vector3d u = deformation.segment<3>(3 * v);
-      const Vector3d x = frame.position.row(t).transpose() + R * (shape.surface.vertices[v] + u), U = R * u;
-      for (Index k = 0; k < 3; ++k) {
-        moved.points.push_back(static_cast<float>(x[k]));
-        moved.displacements.push_back(static_cast<float>(U[k]));
-      }
+      const Vector3d u = deformation.segment<3>(3 * v), U = R * u;
+      moved.points.col(point++) =
+          (frame.position.row(t).transpose() + R * (shape.surface.vertices[v] + u)).cast<float>();
+      for (const double x : U) moved.displacement.values.push_back(static_cast<float>(x));
     }
   }
   return moved;
-}
-
-std::string grid_text(const Grid& grid, const Moved& moved) {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" "
-      "header_type=\"UInt64\">\n<UnstructuredGrid>\n";
-  text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", grid.points, grid.types.size());
-  text += "<Points>\n" + data_array("points", "Float32", 3, moved.points) + "</Points>\n<Cells>\n";
-  text += data_array("connectivity", "Int32", 1, grid.connectivity) + data_array("offsets", "Int32", 1, grid.offsets) +
-          data_array("types", "UInt8", 1, grid.types) + "</Cells>\n";
-  text += "<PointData>\n" + data_array("displacement", "Float32", 3, moved.displacements) + "</PointData>\n";
-  text += "<CellData>\n" + data_array("body", "Int32", 1, grid.body) + "</CellData>\n";
-  return text + "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
 /// `name` without what XML and file systems would take for something else.
@@ -116,18 +93,16 @@ std::string write_run(const ViewRequest& request, const std::string& file, const
   std::vector<BodyShape> shapes;
   for (const ViewedBody& body : run.bodies) shapes.push_back(shape_of_body(run, body, request.shapes));
   const Grid grid = grid_of(shapes);
-  const fs::path folder = fs::path(in) / name;
-  make_folder(folder);
-  std::string list =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
-      "byte_order=\"LittleEndian\">\n<Collection>\n";
+  make_folder(fs::path(in) / name);
+  std::vector<std::pair<double, std::string>> series;
   for (Index t = 0; t < run.times.size(); ++t) {
-    const std::string grid_name = fmt::format("{}_{}.vtu", name, t);
-    write_text_file((folder / grid_name).string(), grid_text(grid, moved_to(run, shapes, t)));
-    list += fmt::format("<DataSet timestep=\"{:.17g}\" file=\"{}/{}\"/>\n", run.times[t], name, grid_name);
+    series.emplace_back(run.times[t], fmt::format("{0}/{0}_{1}.vtu", name, t));
+    const Moved moved = moved_to(run, shapes, grid.points, t);
+    formats::write_vtu((fs::path(in) / series.back().second).string(), moved.points, grid.cells, {moved.displacement},
+                       {grid.body});
   }
   const std::string collection = (fs::path(in) / (name + ".pvd")).string();
-  write_text_file(collection, list + "</Collection>\n</VTKFile>\n");
+  formats::write_pvd(collection, series);
   return fmt::format("collection: {} ({} instants)\n", collection, run.times.size());
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "common/text.hpp"
+#include "formats/page/header_parts.hpp"
 #include "mechanism/histories/series.hpp"
 #include "mechanism/view/page_channels.hpp"
 #include "mechanism/view/recovered_shape.hpp"
@@ -18,6 +19,12 @@ namespace {
 using Eigen::Index;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using formats::few_modes;
+using formats::FewModes;
+using formats::Json;
+using formats::PageBlocks;
+using formats::PageRows;
+using formats::Surface;
 
 constexpr double relative_error = 1e-3;                 // of the largest displacement of a body
 constexpr std::size_t most_channel_values = 4'000'000;  // of all curves together
@@ -96,37 +103,6 @@ void extend_by(const Surface& surface, const Track& frame, Eigen::AlignedBox3d& 
                           frame.turn(t) * local.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k))));
 }
 
-std::vector<std::uint32_t> flat(const auto& faces) {
-  std::vector<std::uint32_t> indices;
-  for (const auto& face : faces)
-    for (const int corner : face) indices.push_back(static_cast<std::uint32_t>(corner));
-  return indices;
-}
-
-double size_of(const Surface& surface) {
-  Eigen::AlignedBox3d box;
-  for (const Vector3d& vertex : surface.vertices) box.extend(vertex);
-  return surface.vertices.empty() ? 0.0 : box.diagonal().norm();
-}
-
-Json shape_json(const BodyShape& shape, const FewModes& few, PageBlocks& blocks) {
-  Json json{{"vertices", nullptr}, {"triangles", nullptr}, {"lines", nullptr},       {"points", shape.points},
-            {"modes", nullptr},    {"stress", nullptr},    {"source", shape.source}, {"thinned", nullptr}};
-  json["largest"] = few.largest;
-  json["error"] = few.error;
-  const Surface& surface = shape.surface;
-  if (surface.vertices.empty()) return json;
-  PageRows vertices(surface.size(), 3);
-  for (int i = 0; i < surface.size(); ++i) vertices.row(i) = surface.vertices[i].transpose();
-  json["vertices"] = blocks.add_positions(vertices);
-  if (!surface.triangles.empty()) json["triangles"] = blocks.add_indices(flat(surface.triangles), 3);
-  if (!surface.lines.empty()) json["lines"] = blocks.add_indices(flat(surface.lines), 2);
-  if (few.count() > 0) json["modes"] = blocks.add_modes(few.modes, few.step);
-  if (shape.all_vertices > surface.size())
-    json["thinned"] = {{"vertices", shape.all_vertices}, {"kept", surface.size()}};
-  return json;
-}
-
 /// Bodies and their shapes; bodies of one rigid shape share it.
 void add_bodies(ViewedRun& run, const ShapeOptions& options, ModesOfBodies& modes, PageBlocks& blocks, Json& json) {
   Eigen::AlignedBox3d box = box_of(run);
@@ -136,7 +112,7 @@ void add_bodies(ViewedRun& run, const ShapeOptions& options, ModesOfBodies& mode
     BodyShape shape = shape_of_body(run, body, options);
     extend_by(shape.surface, body.frame, box);
     modes.take(run, static_cast<int>(i), shape);
-    const FewModes few = few_modes(shape.deformation, relative_error, size_of(shape.surface));
+    const FewModes few = few_modes(shape.deformation, relative_error, formats::size_of(shape.surface));
     modes.reduce(static_cast<int>(i), few, run.times.size());
     Json one{{"name", body.name},
              {"kind", body.kind},
@@ -148,7 +124,8 @@ void add_bodies(ViewedRun& run, const ShapeOptions& options, ModesOfBodies& mode
     if (few.count() > 0)
       one["amplitudes"] = blocks.add_floats(PageRows(few.amplitudes.topRows(run.times.size()).cast<double>()),
                                             {run.times.size(), few.count()});
-    json["shapes"].push_back(shape_json(shape, few, blocks));
+    json["shapes"].push_back(
+        formats::shape_json({shape.surface, shape.source, shape.points, shape.all_vertices}, few, blocks));
     json["bodies"].push_back(std::move(one));
     if (shape.surface.size() > 5000) blocks.next();
   }
@@ -251,17 +228,6 @@ void add_links(const ViewedRun& run, Places& places, const PageChannels& channel
   blocks.next();
 }
 
-Json units_json(const Units& units) {
-  const std::string moment = unit_label(units, 2, 1, -2), force = unit_label(units, 1, 1, -2);
-  return {{"length", unit_label(units, 1, 0, 0)},
-          {"time", unit_label(units, 0, 0, 1)},
-          {"angle", "rad"},
-          {"force", force},
-          {"moment", moment},
-          {"stress", unit_label(units, -1, 1, -2)},
-          {"energy", energy_label(units)}};
-}
-
 }  // namespace
 
 Json run_header(ViewedRun& run, const RunOptions& options, PageBlocks& blocks) {
@@ -273,7 +239,7 @@ Json run_header(ViewedRun& run, const RunOptions& options, PageBlocks& blocks) {
             {"kind", scene.analysis.empty() ? (reader.modes() > 0 ? "modes" : "dynamics") : scene.analysis},
             {"completed", reader.completed()},
             {"reason", reader.reason()},
-            {"units", units_json(run.layout().units)},
+            {"units", formats::units_json(run.layout().units)},
             {"up", list_of(gravity.norm() > 0.0 ? Vector3d(-gravity.normalized()) : Vector3d::UnitZ())},
             {"gravity", list_of(gravity)},
             {"times", blocks.add_times(run.times)},

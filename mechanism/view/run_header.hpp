@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "formats/page/page_blocks.hpp"
 #include "mechanism/view/body_shape.hpp"
-#include "mechanism/view/page_blocks.hpp"
 #include "mechanism/view/viewed_run.hpp"
 
 namespace tisserand::mechanism {
@@ -16,6 +16,6 @@ struct RunOptions {
 };
 
 /// Throws Error: names of channels, files of shapes.
-Json run_header(ViewedRun& run, const RunOptions& options, PageBlocks& blocks);
+formats::Json run_header(ViewedRun& run, const RunOptions& options, formats::PageBlocks& blocks);
 
 }  // namespace tisserand::mechanism

@@ -8,6 +8,8 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
+using formats::FewModes;
+using formats::Json;
 
 std::vector<MatrixXd> shapes_of_nodes(const formats::ResultsReader& reader, const std::string& quantity) {
   std::vector<std::string> channels;

@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
+#include "formats/page/deformation.hpp"
+#include "formats/page/page_blocks.hpp"
 #include "mechanism/view/body_shape.hpp"
-#include "mechanism/view/deformation.hpp"
-#include "mechanism/view/page_blocks.hpp"
 #include "mechanism/view/viewed_run.hpp"
 
 namespace tisserand::mechanism {
@@ -21,9 +21,9 @@ class ModesOfBodies {
   /// Appends to the amplitudes of the shape two rows per mode, real and imaginary.
   void take(const ViewedRun& run, int body, BodyShape& shape);
   /// Takes the amplitudes of the modes back from behind those of `instants` rows.
-  void reduce(int body, const FewModes& few, Eigen::Index instants);
+  void reduce(int body, const formats::FewModes& few, Eigen::Index instants);
   /// null: the file holds no modes.
-  Json json() const;
+  formats::Json json() const;
 
  private:
   struct Small {
@@ -42,7 +42,7 @@ class ModesOfBodies {
   Eigen::VectorXd frequency_, damping_;
   std::vector<Eigen::MatrixXd> translation_, rotation_;  ///< per node, modes x 6: x/real, x/imaginary, y/real, ...
   Eigen::MatrixXd y_;                                    ///< modes x 2 Ny; without columns: not stored
-  std::vector<Json> bodies_;                             ///< per mode
+  std::vector<formats::Json> bodies_;                    ///< per mode
 };
 
 }  // namespace tisserand::mechanism

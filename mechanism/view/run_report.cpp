@@ -6,6 +6,7 @@
 namespace tisserand::mechanism {
 namespace {
 
+using formats::Json;
 Json texts_of(const Json& report, const char* key) {
   Json texts = Json::array();
   if (report.contains(key) && report[key].is_array())

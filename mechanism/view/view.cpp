@@ -3,11 +3,16 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
-#include "mechanism/view/page.hpp"
+#include "formats/page/page.hpp"
 
 namespace tisserand::mechanism {
 namespace {
 
+using formats::Json;
+using formats::page_text;
+using formats::PageBlocks;
+using formats::PageRows;
+using formats::viewer_bundle;
 Json header_of(const ViewRequest& request, PageBlocks& blocks) {
   Json header{{"format", "tisserand-page"},
               {"version", 1},

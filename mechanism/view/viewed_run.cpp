@@ -11,6 +11,7 @@
 namespace tisserand::mechanism {
 namespace {
 
+using formats::PageRows;
 /// Three or four columns of one item. None of them may be a number everywhere and not-a-number at some instant; items
 /// without numbers have none of the quantity.
 PageRows columns_of(const Eigen::MatrixXd& all, int item, int width, const std::string& name, const ViewedRun& run) {
@@ -32,6 +33,8 @@ void read_nodes(ViewedRun& run) {
   if (position.cols() == 0)
     throw Error("holds no positions of nodes, without which there is nothing to show", run.reader->path(),
                 "add nodes/position and nodes/rotation to output.channels, or leave the key out, and run again");
+  if (rotation.cols() == 0)
+    run.notes.push_back("nodes/rotation is not stored: bodies are shown where their nodes are, but do not turn");
   for (std::size_t i = 0; i < layout.nodes.size(); ++i) {
     const int item = static_cast<int>(i);
     run.nodes.push_back({columns_of(position, item, 3, "nodes/position/" + layout.nodes[i], run),

@@ -8,16 +8,16 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "formats/page/page_blocks.hpp"
 #include "formats/results/results.hpp"
 #include "formats/scene/scene.hpp"
-#include "mechanism/view/page_blocks.hpp"
 
 namespace tisserand::mechanism {
 
 /// Poses over the instants that are shown: T x 3 and T x 4 [w x y z]; without rows: it has none.
 struct Track {
-  PageRows position;
-  PageRows rotation;
+  formats::PageRows position;
+  formats::PageRows rotation;
 
   bool has_position() const { return position.rows() > 0; }
   bool has_rotation() const { return rotation.rows() > 0; }
@@ -59,7 +59,7 @@ ViewedRun read_viewed_run(const std::string& file, std::size_t instants);
 std::vector<std::size_t> even_rows(std::size_t all, std::size_t count);
 
 /// R^T (x - x_0) of a place in the axes of a frame, T x 3.
-PageRows local_positions(const Track& frame, const PageRows& position);
+formats::PageRows local_positions(const Track& frame, const formats::PageRows& position);
 
 /// Place of a stored node in the axes of the frame of its body, undeformed; of older files at the first instant.
 Eigen::Vector3d place_at_rest(const ViewedRun& run, const ViewedBody& body, int node);

@@ -6,8 +6,8 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "formats/vtk/vtu.hpp"
 #include "reducer/recover/history.hpp"
-#include "reducer/recover/vtu.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -15,6 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Index;
 using formats::Recovery;
+using formats::VtuArray;
+using formats::VtuCells;
 
 constexpr double batch_bytes = 256e6;
 
@@ -101,8 +103,8 @@ void write_envelope(const Recovery& r, const BodyMotion& motion, const VtuCells&
   std::vector<VtuArray> points{{"displacement", 1, envelope.displacement},
                                {"displacement_time", 1, envelope.displacement_time}};
   if (r.stress_points() > 0) points.push_back({"solid_von_mises", 1, envelope.solid_von_mises});
-  write_vtu(files.path(files.stem + "_envelope.vtu"), X, cells, points,
-            {{"von_mises", 1, envelope.von_mises}, {"von_mises_time", 1, envelope.von_mises_time}});
+  formats::write_vtu(files.path(files.stem + "_envelope.vtu"), X, cells, points,
+                     {{"von_mises", 1, envelope.von_mises}, {"von_mises_time", 1, envelope.von_mises_time}});
 }
 
 std::string peak_line(const char* what, const Peak& peak, const std::string& unit, const std::string& time_unit,
@@ -136,7 +138,7 @@ std::string recover(const RecoverRequest& request) {
   const BodyMotion motion = body_motion(r, formats::ResultsReader(request.results), request);
   PointHistory history(r, motion, request);
   Files files = make_folder(request, motion.body);
-  const VtuCells cells = vtu_cells(r.elements);
+  const VtuCells cells = formats::vtu_cells(r.elements);
   const SolidPoints points = solid_points(r);
   const auto batch = static_cast<Index>(std::max(batch_bytes / bytes_per_instant(r), 1.0));
   Envelope envelope;
@@ -151,11 +153,11 @@ std::string recover(const RecoverRequest& request) {
       extend(r, values, time, envelope);
       history.add(fields, values, rest, axes, t, time);
       files.series.emplace_back(time, fmt::format("{}_{:05}.vtu", files.stem, first + t));
-      write_vtu(files.path(files.series.back().second), rest.cast<float>(), cells,
-                point_data(r, fields, values, axes, t), cell_data(r, fields, values, t));
+      formats::write_vtu(files.path(files.series.back().second), rest.cast<float>(), cells,
+                         point_data(r, fields, values, axes, t), cell_data(r, fields, values, t));
     }
   }
-  write_pvd(files.path(files.stem + ".pvd"), files.series);
+  formats::write_pvd(files.path(files.stem + ".pvd"), files.series);
   write_envelope(r, motion, cells, envelope, files);
   std::string text = report(r, motion, envelope, files);
   if (history.empty()) return text;

@@ -1,6 +1,7 @@
 // Outputs that cannot or must not be written, results of a wrong kind, words that are no commands.
 #include <unistd.h>
 
+#include "common/child.hpp"
 #include "tests/cli/scenes.hpp"
 
 namespace tisserand::cli::outputs_test {
@@ -291,6 +292,51 @@ TEST_F(Outputs, RestartNeverOverwritesWhatItGoesOnFrom) {
   EXPECT_THAT(joined.out, HasSubstr("begins with the 10 instants of arm.results.h5.part"));
   EXPECT_THAT(mechanism({"channels", "arm.results.h5"}).out, HasSubstr("21 instants from 0 to 0.2"));
   EXPECT_FALSE(std::filesystem::exists(file("arm.results.h5.part")));
+}
+
+TEST_F(Outputs, PagesAndPicturesTakeTheNamesOfTheirResults) {
+  make_results();
+  EXPECT_THAT(mechanism({"view", "arm.results.h5"}).out, HasSubstr("page: arm.html"));
+  EXPECT_TRUE(std::filesystem::exists(file("arm.html")));
+  expect_error(mechanism({"view", "none.h5"}), {"none.h5", "No such file"});
+  expect_error(mechanism({"view", "arm.scene.yaml"}), {"arm.scene.yaml"});
+  expect_error(mechanism({"view"}), {"no results file is given"});
+  EXPECT_FALSE(std::filesystem::exists(file("none.html")));
+}
+
+TEST_F(Outputs, PicturesSayWhatTheyCannotShow) {
+  make_results();
+  const auto fault = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"picture", "arm.results.h5", "-o", "arm.png"};
+    words.insert(words.end(), more.begin(), more.end());
+    return mechanism(words);
+  };
+  expect_error(fault({"--time", "7"}), {"arm.results.h5", "no instant t = 7", "from 0 to"});
+  expect_error(fault({"--time", "nan"}), {"no instant t = nan"});
+  expect_error(fault({"--view", "left,3"}), {"'left,3' is no view", "azimuth,elevation"});
+  expect_error(fault({"--size", "2", "2"}), {"2 x 2 pixels", "--size"});
+  expect_error(fault({"--trace", "rod/ende"}), {"no node 'rod/ende'", "rod/end"});
+  expect_error(fault({"--mode", "3"}), {"holds 0 modes", "analysis: modes"});
+  expect_error(mechanism({"picture", "arm.results.h5", "-o", "arm.jpg"}), {"arm.jpg", ".png"});
+  const Outcome alone =
+      call({"/usr/bin/env", "PATH=/nowhere", program("mechanism"), "picture", "arm.results.h5"}, where);
+  expect_error(alone, {"no Chromium", "apt-get install chromium"});
+  EXPECT_FALSE(std::filesystem::exists(file("arm.png")));
+}
+
+TEST_F(Outputs, PicturesAreTheSameEachTime) {
+  if (!is_program("chromium")) GTEST_SKIP() << "not tested: there is no chromium here (apt-get install chromium)";
+  make_results();
+  for (const char* name : {"a.png", "b.png"}) {
+    const Outcome outcome =
+        mechanism({"picture", "arm.results.h5", "--time", "0.02", "--time", "0.1", "--size", "300", "200", "-o", name});
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+  }
+  const std::string bytes = read_text(file("a.png"));
+  EXPECT_EQ(bytes, read_text(file("b.png")));
+  ASSERT_GT(bytes.size(), 24u);
+  EXPECT_EQ(bytes.substr(0, 4), "\x89PNG");
+  EXPECT_EQ(bytes.substr(16, 8), std::string("\0\0\1\x2c\0\0\0\xc8", 8));  // of the header: 300 x 200 pixels
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <chrono>
 #include <csignal>
 
@@ -28,6 +30,19 @@ TEST(Child, GivesBackWhatItWritesAndItsCode) {
   EXPECT_EQ(report.code, 7);
   EXPECT_EQ(report.text, "some text");
   EXPECT_EQ(report.complaint, "wrong\n");
+}
+
+TEST(Child, TalksThroughItsDescriptors) {
+  ChildRequest request = shell("read line <&3; echo \"$line again\" >&4; cat <&3 >/dev/null; exit 5");
+  std::string answer(100, '\0');
+  request.talk = [&](int socket) {
+    ASSERT_EQ(::write(socket, "once\n", 5), 5);
+    answer.resize(static_cast<std::size_t>(::read(socket, answer.data(), answer.size())));
+  };
+  EXPECT_EQ(run_child(request).code, 5);  // cat ended, since the socket was closed
+  EXPECT_EQ(answer, "once again\n");
+  request.talk = [](int) { throw Error("enough", "", ""); };
+  EXPECT_THROW(run_child(request), Error);
 }
 
 TEST(Child, TellsTheSignalThatEndsIt) {

@@ -1,4 +1,4 @@
-// Nearest keys, wildcards, and files that appear whole or not at all.
+// Nearest keys, wildcards, base64, and files that appear whole or not at all.
 #include "common/text.hpp"
 
 #include <filesystem>
@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/base64.hpp"
 #include "common/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -132,6 +133,17 @@ TEST(Text, PrintableEscapesWhatTerminalsObeyAndWhatIsNoText) {
   EXPECT_EQ(printable("\xc0\xaf"), "\\xc0\\xaf");                    // a longer form of /
   EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");           // half of a surrogate pair
   EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");  // beyond U+10FFFF
+}
+
+TEST(Text, Base64AndBack) {
+  // RFC 4648, section 10.
+  const std::pair<std::string, std::string> vectors[]{{"", ""},        {"f", "Zg=="},        {"fo", "Zm8="},
+                                                      {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"foobar", "Zm9vYmFy"}};
+  for (const auto& [bytes, text] : vectors) {
+    EXPECT_EQ(base64(bytes), text);
+    EXPECT_EQ(base64_decoded(text), bytes);
+  }
+  EXPECT_EQ(base64_decoded("Zm9v\nYmFy"), "foo");
 }
 
 }  // namespace

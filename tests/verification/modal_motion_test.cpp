@@ -1,5 +1,7 @@
 // Motion of modal bodies: conserved quantities, the slider-crank of [GA00] 4.3, agreement with superelements and
 // nonlinear beams where deformations are small.
+#include <fstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -183,6 +185,70 @@ TEST(ModalMotion, ExampleReachesThePeakOfTheLinearBody) {
   EXPECT_NEAR(peak, 0.01035, 5e-5);  // stored every half millisecond: flat within 5e-5 around the peak
   EXPECT_NEAR(at, 0.0057, 3e-4);
   EXPECT_EQ(results.read("modal_bodies/w/rod/0").size(), x0.size());
+}
+
+// Small motions of the rod, turned by 90 degrees about z, on a hinge across it: of a node that of the frame, its turn x
+// the arm, and A X w.
+TEST(ModalMotion, ModesMoveTheNodes) {
+  const test_support::TemporaryFolder folder;
+  const std::string file = std::string(TISSERAND_SOURCE_DIR) + "/examples/modal_slider_crank/rod.modal.h5";
+  const std::string path = folder.file("tones.results.h5");
+  std::ofstream(folder.file("tones.yaml"))
+      << fmt::format(R"(scene: tones
+bodies: {{rod: {{type: modal, file: {}, pose: {{orientation: {{axis: [0, 0, 1], angle_deg: 90}}}}}}}}
+joints: {{hinge: {{type: revolute, a: ground, b: rod/n0, axis: [1, 0, 0]}}}}
+analysis: modes
+modes: {{count: 7}}
+)",
+                     file);
+  ASSERT_EQ(simulate(formats::read_scene(folder.file("tones.yaml"), {}), path, RunControl{}).outcome,
+            RunOutcome::completed);
+  const formats::ResultsReader results(path);
+  const formats::ModalBody body = formats::read_modal_body(file).body;
+  const auto shape = [&](const std::string& name, std::size_t mode) {
+    return Vector3d(results.read("modes/" + name + "/x/real")[mode], results.read("modes/" + name + "/y/real")[mode],
+                    results.read("modes/" + name + "/z/real")[mode]);
+  };
+  const auto place = [&](const std::string& node) {
+    return Vector3d(results.read("nodes/position/" + node + "/x")[0], results.read("nodes/position/" + node + "/y")[0],
+                    results.read("nodes/position/" + node + "/z")[0]);
+  };
+  const Eigen::Matrix3d A = Eigen::AngleAxisd(0.5 * EIGEN_PI, Vector3d::UnitZ()).toRotationMatrix();
+  ASSERT_EQ(results.modes(), 7u);  // six of the rod and six of its frame, less five of the hinge
+  double largest = 0.0;
+  for (std::size_t mode = 0; mode < 7; ++mode)
+    for (const std::size_t k : {std::size_t{0}, std::size_t{3}, std::size_t{8}}) {
+      const std::string node = "rod/" + body.node_name[k];
+      Eigen::VectorXd w(body.omega2.size());
+      for (Eigen::Index j = 0; j < w.size(); ++j) w[j] = results.read(fmt::format("modes/w/rod/{}/real", j))[mode];
+      const Vector3d expected = shape("translation/rod", mode) +
+                                shape("rotation/rod", mode).cross(place(node) - place("rod")) +
+                                A * body.X[k].topRows<3>() * w;
+      EXPECT_LT((shape("translation/" + node, mode) - expected).norm(), 1e-9) << node << " " << mode;
+      largest = std::max(largest, expected.norm());
+    }
+  EXPECT_GT(largest, 1e-3);
+}
+
+// Rotations of modes are in world axes: a body turned by 90 degrees about z, that swings about the y axis of the world.
+TEST(ModalMotion, ModesTurnAboutWorldAxes) {
+  const test_support::TemporaryFolder folder;
+  const std::string path = folder.file("swing.results.h5");
+  std::ofstream(folder.file("swing.yaml")) << R"(scene: swing
+bodies: {bar: {type: rigid, mass: 1, inertia: [1, 1, 1], nodes: {tip: {position: [2, 0, 0]}}, pose: {orientation: {axis: [0, 0, 1], angle_deg: 90}}}}
+joints: {hinge: {type: revolute, a: ground, b: bar, axis: [1, 0, 0]}}
+springs: {coil: {coordinate: hinge, stiffness: 4}}
+analysis: modes
+)";
+  ASSERT_EQ(simulate(formats::read_scene(folder.file("swing.yaml"), {}), path, RunControl{}).outcome,
+            RunOutcome::completed);
+  const formats::ResultsReader results(path);
+  // The tip is at (0, 2, 0): a turn about x moves it along z by twice as much.
+  const double turn = results.read("modes/rotation/bar/x/real")[0];
+  EXPECT_GT(std::abs(turn), 0.1);
+  EXPECT_NEAR(results.read("modes/rotation/bar/y/real")[0], 0.0, 1e-12);
+  EXPECT_NEAR(results.read("modes/translation/bar/tip/z/real")[0], 2.0 * turn, 1e-12);
+  EXPECT_NEAR(results.read("modes/translation/bar/tip/x/real")[0], 0.0, 1e-12);
 }
 
 // ---- agreement with other bodies -----------------------------------------------------------------------------------

@@ -1,6 +1,9 @@
 #!/usr/bin/env bash
-# Tests web/dist/view.html in headless Chromium: browser.sh <source folder>. Ends with 77 where node or Chromium is missing.
+# Runs a test of web/test in headless Chromium: browser.sh <source folder> <test> <argument>... Ends with 77 where node or
+# Chromium is missing.
 set -euo pipefail
 
 command -v node >/dev/null || { printf 'not tested: there is no node here (apt-get install nodejs)\n'; exit 77; }
-exec node "$1/web/test/viewer_test.mjs"
+source="$1" script="$2"
+shift 2
+exec node "$source/web/test/$script.mjs" "$@"

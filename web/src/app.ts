@@ -56,6 +56,7 @@ export class App {
 
   constructor(readonly page: Page, root: HTMLElement) {
     this.runs = page.runs;
+    if (this.runs.every((run) => run.entry.kind === "part")) this.settings.nodes = true;
     this.player = new Player(this.runs);
     this.curves = new Curves(this.runs, this.player);
     this.report = new Report(this.runs);
@@ -200,7 +201,7 @@ export class App {
   recolour(): void {
     const { settings, viewport } = this;
     if (!viewport) return;
-    if (settings.arrows) void Promise.all(viewport.views.map((view) => view.readArrows())).then(() => viewport.touch());
+    if (settings.arrows) void this.readArrows();
     if (settings.colouring === "body") this.legend.hide();
     else {
       const run = this.runs.find((r) => r.visible)!;
@@ -213,6 +214,12 @@ export class App {
     viewport.regrid();
     this.scale.textContent = settings.grid ? `grid ${number(viewport.gridStep)} ${this.runs[0]!.unit("length")}` : "";
     this.moved = true;
+  }
+
+  async readArrows(): Promise<void> {
+    if (!this.viewport) return;
+    await Promise.all(this.viewport.views.map((view) => view.readArrows()));
+    this.viewport.touch();
   }
 
   private largest(run: Run): number {
@@ -265,7 +272,7 @@ export class App {
       this.viewport?.touch();
     }
     if (!this.viewport) return;
-    if (!this.player.playing) this.viewport.quality = this.viewport.software && this.viewport.still > STILL ? 2 : 1;
+    if (!this.player.playing && !this.viewport.fixed) this.viewport.quality = this.viewport.software && this.viewport.still > STILL ? 2 : 1;
     if (this.viewport.draw(always)) {
       this.triad.follow(this.viewport.camera);
       if (this.recorder.recording) this.recorder.picture(this.viewport.canvas, this.caption());
@@ -283,7 +290,7 @@ export class App {
     this.viewport.quality = QUALITIES[Math.min(QUALITIES.length - 1, QUALITIES.indexOf(this.viewport.quality) + 1)]!;
   }
 
-  private caption(): Caption {
+  caption(): Caption {
     const { legend, settings } = this;
     return { title: this.page.header.title, time: this.transport.text, legend: legend.element.hidden ? null : { title: legend.title, range: legend.range, map: settings.map } };
   }

@@ -2,6 +2,8 @@
 import type { App } from "./app";
 import { csvOf } from "./curves/table";
 import type { Vec } from "./data/rotation";
+import { still } from "./ui/still";
+import type { Still } from "./ui/still";
 
 export interface SelfTest {
   ready: boolean;
@@ -63,6 +65,8 @@ export function selfTestOf(app: App, openedAfter: number): SelfTest {
       return found ? { label: found.label, unit: found.unit, x: [...found.x], y: [...found.y] } : null;
     },
     csv: (panel: number) => (app.curves.panels[panel]?.table ? csvOf(app.curves.panels[panel].table) : ""),
+    /** A picture of one or more states, as base64 of a PNG: `mechanism picture`. */
+    still: (request: Still) => still(app, request),
     /** Bytes of the picture that is offered for saving. */
     picture: async () => (await app.savePicture())?.size ?? 0,
     pick: (x: number, y: number) => {

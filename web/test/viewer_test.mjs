@@ -7,6 +7,7 @@ import { dirname, join } from "node:path";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { Browser, CHROMIUM } from "./browser.mjs";
+import { corner, differ, near, quiet } from "./checks.mjs";
 import { decodePng } from "./png.mjs";
 import { sceneBlocks, SWING } from "./scenes.mjs";
 import { pageOf } from "./writer.mjs";
@@ -31,11 +32,7 @@ async function open(scene, { change = () => {}, damage, edit = (html) => html, b
   return page;
 }
 
-const near = (found, expected, tolerance, what) => {
-  for (const [i, value] of expected.entries()) assert.ok(Math.abs(found[i] - value) <= tolerance, `${what}: ${found} instead of ${expected} within ${tolerance}`);
-};
 const state = (page) => page.evaluate("tisserand.state");
-const differ = (a, b) => Math.max(...a.map((x, i) => Math.abs(x - b[i])));
 
 /** Of the scene `beam`: the largest |stress| over the instants and rings of vertices that the page samples; it is that of bending. */
 function largestStress() {
@@ -46,15 +43,6 @@ function largestStress() {
       largest = Math.max(largest, Math.abs(2.1e11 * 0.05 * 0.1 * (a * (1 - s) + b * Math.sin(3 * s))));
     }
   return largest;
-}
-
-async function quiet(page) {
-  assert.deepEqual(page.complaints, []);
-  assert.deepEqual(page.requests.filter((url) => !url.startsWith("file:") && !url.startsWith("blob:") && !url.startsWith("data:")), []);
-  assert.equal(page.requests.filter((url) => url.startsWith("file:")).length, 1, "one file is read: the page");
-  assert.equal(await page.evaluate("tisserand.webglErrors"), 0);
-  assert.equal(await page.evaluate("tisserand.contextLost"), false);
-  await page.close();
 }
 
 test("the viewer", async (suite) => {
@@ -85,7 +73,7 @@ test("the viewer", async (suite) => {
     for (const t of [0, 0.6, 1.3]) {
       await page.evaluate(`tisserand.seek(${t})`);
       await page.until("tisserand.quality === 2");
-      const box = await page.evaluate("(({left, top}) => ({left, top}))(document.querySelector('canvas.picture').getBoundingClientRect())");
+      const box = await corner(page);
       const tip = await page.evaluate("tisserand.nodePixel(0, 'beam/tip')"), root = await page.evaluate("tisserand.nodePixel(0, 'beam/root')");
       const picture = decodePng(await page.screenshot()), ground = picture.at(box.left + 6, box.top + 6);
       for (const s of [0.15, 0.95]) {
@@ -166,7 +154,7 @@ test("the viewer", async (suite) => {
   await suite.test("obeys mouse and buttons, and links curves with the time", async () => {
     const page = await open("beam");
     await page.evaluate("tisserand.seek(0.4)");
-    const box = await page.evaluate("(({left, top}) => ({left, top}))(document.querySelector('canvas.picture').getBoundingClientRect())");
+    const box = await corner(page);
     const tip = await page.evaluate("tisserand.nodePixel(0, 'beam/tip')"), root = await page.evaluate("tisserand.nodePixel(0, 'beam/root')");
     await page.click(box.left + tip.x, box.top + tip.y);
     assert.equal((await state(page)).chosen, "beam/tip");

@@ -9,9 +9,10 @@
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
+#include "formats/page/page.hpp"
 #include "formats/results/results.hpp"
 #include "mechanism/simulate.hpp"
-#include "mechanism/view/page.hpp"
+#include "mechanism/view/viewed_run.hpp"
 #include "tests/support/results_rows.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/view/page_reader.hpp"
@@ -21,6 +22,9 @@ namespace {
 
 using Eigen::Index;
 using Eigen::Vector3d;
+using formats::Json;
+using formats::PageBlocks;
+using formats::PageRows;
 using nlohmann::json;
 using test_support::PageReader;
 using ::testing::HasSubstr;
@@ -190,7 +194,8 @@ TEST_F(Page, RunsNoScriptOfAStranger) {
   const std::string header = test_support::script_of(text, "tisserand-header");
   EXPECT_EQ(header.find_first_of("<>&"), std::string::npos);
   EXPECT_EQ(PageReader(text).run()["name"], "arm <b>&\"</script><script>alert(1)</script>");
-  EXPECT_THAT(header_text(Json{{"name", "a\xe2\x80\xa8\xe2\x80\xa9<!--"}}), HasSubstr("a\\u2028\\u2029\\u003c!--"));
+  EXPECT_THAT(formats::header_text(Json{{"name", "a\xe2\x80\xa8\xe2\x80\xa9<!--"}}),
+              HasSubstr("a\\u2028\\u2029\\u003c!--"));
 }
 
 TEST_F(Page, ThinsInstantsAndChannelsAndSaysSo) {
@@ -316,13 +321,17 @@ integrator: {step: 0.01, end: 0.05}
   EXPECT_LT((vertices.col(1) - Vector3d(1, 0, 0)).norm(), 1e-4);
 }
 
-TEST(PageBlocks, WriteBase64) {
-  // RFC 4648, section 10.
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("f"), "Zg==");
-  EXPECT_EQ(base64("fo"), "Zm8=");
-  EXPECT_EQ(base64("foo"), "Zm9v");
-  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+TEST(EvenRows, HoldFirstAndLastOfTenMillion) {
+  const std::vector<std::size_t> rows = even_rows(10'000'000, 2000);
+  ASSERT_EQ(rows.size(), 2000u);
+  EXPECT_EQ(rows.front(), 0u);
+  EXPECT_EQ(rows.back(), 9'999'999u);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    EXPECT_GE(rows[i] - rows[i - 1], 5002u);  // 9 999 999 / 1999 = 5002.5
+    EXPECT_LE(rows[i] - rows[i - 1], 5003u);
+  }
+  EXPECT_EQ(even_rows(3, 2000), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(even_rows(1, 2000), (std::vector<std::size_t>{0}));
 }
 
 TEST(PageBlocks, PackAndUnpack) {
@@ -337,7 +346,7 @@ TEST(PageBlocks, PackAndUnpack) {
   header["i"] = blocks.add_indices(indices, 3);
   header["still"] = blocks.add_track(PageRows::Constant(50, 3, 2.5));
   blocks.next();
-  const PageReader read(page_text("<!-- tisserand-data -->", header, blocks));
+  const PageReader read(formats::page_text("<!-- tisserand-data -->", header, blocks));
   EXPECT_EQ((read.read(read.header()["f"]) - values.cast<float>().cast<double>()).cwiseAbs().maxCoeff(), 0.0);
   EXPECT_LT((read.read(read.header()["track"]).array() - 1e6 - values.array()).abs().maxCoeff(), 1e-6);
   EXPECT_LT((read.read(read.header()["p"]) - values).cwiseAbs().maxCoeff(), 2.0 / 65534 * 0.51);

@@ -16,13 +16,14 @@
 #include "formats/results/results.hpp"
 #include "formats/sections/profiles.hpp"
 #include "formats/superelement/mirror.hpp"
+#include "formats/vtk/vtu.hpp"
 #include "reducer/recover/places.hpp"
-#include "reducer/recover/vtu.hpp"
 #include "reducer/sources/build_mesh.hpp"
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/recovery/recovered.hpp"
 #include "tests/support/meshes/solid_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/vtk/vtu_reader.hpp"
 
 namespace tisserand::testing::recover_test {
 namespace {
@@ -169,8 +170,13 @@ TEST_F(Recover, CantileverHasTheStressAndDeflectionOfTheBeam) {
   EXPECT_NEAR(line[4], 1.0 - u.y(), 1e-6);
   EXPECT_NEAR(line[5], 2.0 + length + u.x(), 1e-6);
   EXPECT_NEAR(line[6], 3.0 + u.z(), 1e-6);
-  for (const char* name : {"arm.pvd", "arm_00000.vtu", "arm_00001.vtu", "arm_envelope.vtu"})
-    EXPECT_TRUE(std::filesystem::exists(file(std::string("out/") + name))) << name;
+  for (const auto& [time, name] : test_support::read_pvd(file("out/arm.pvd"))) {
+    const test_support::VtuFile grid = test_support::read_vtu(file("out/" + name));
+    EXPECT_EQ(grid.points, data_.tables.nodes()) << time;
+    EXPECT_EQ(grid.cells, data_.tables.elements.count());
+    EXPECT_EQ(grid.arrays.at("von_mises").size(), static_cast<std::size_t>(grid.cells));
+  }
+  EXPECT_EQ(test_support::read_vtu(file("out/arm_envelope.vtu")).points, data_.tables.nodes());
 }
 
 // The image of the loaded beam: displacements D u, the same stress.
@@ -241,10 +247,10 @@ TEST_F(Recover, TimesChooseTheNearestInstants) {
   RecoverRequest r = request();
   r.times = {0.11, 0.38};
   EXPECT_THAT(reducer::recover(r), HasSubstr("2 instants"));
-  std::stringstream index;
-  index << std::ifstream(file("out/arm.pvd")).rdbuf();
-  EXPECT_THAT(index.str(),
-              AllOf(HasSubstr("timestep=\"0.1000000000000"), HasSubstr("timestep=\"0.4"), HasSubstr("arm_00001.vtu")));
+  const auto series = test_support::read_pvd(file("out/arm.pvd"));
+  ASSERT_EQ(series.size(), 2u);
+  EXPECT_NEAR(series[0].first, 0.1, 1e-12);
+  EXPECT_EQ(series[1], std::pair(0.4, std::string("arm_00001.vtu")));
   r.times = {0.9};
   EXPECT_THAT(error_of(r), HasSubstr("time 0.9 is not within its instants 0 to 0.4"));
 }
@@ -285,7 +291,7 @@ TEST(Vtu, CellsHaveTheOrientationOfVtk) {
     elements.shape = {static_cast<formats::ElementShape>(3 + static_cast<int>(shape))};
     elements.first = {0, reducer::node_count(shape)};
     elements.node.assign(mesh.solids[0].nodes.begin(), mesh.solids[0].nodes.begin() + reducer::node_count(shape));
-    const reducer::VtuCells cells = reducer::vtu_cells(elements);
+    const formats::VtuCells cells = formats::vtu_cells(elements);
     const auto at = [&](int k) -> Vector3d {
       return mesh.position.col(cells.connectivity[static_cast<std::size_t>(k)]);
     };

@@ -11,6 +11,8 @@
 
 #include <Eigen/Geometry>
 
+#include "common/base64.hpp"
+
 namespace tisserand::test_support {
 namespace {
 
@@ -56,31 +58,6 @@ Eigen::Quaterniond quaternion_of(const Eigen::VectorXd& q) {
 }
 
 }  // namespace
-
-std::string base64_decoded(const std::string& text) {
-  std::string bytes;
-  std::uint32_t bits = 0;
-  int count = 0;
-  for (const char c : text) {
-    int value = 0;
-    if (c >= 'A' && c <= 'Z')
-      value = c - 'A';
-    else if (c >= 'a' && c <= 'z')
-      value = c - 'a' + 26;
-    else if (c >= '0' && c <= '9')
-      value = c - '0' + 52;
-    else if (c == '+' || c == '/')
-      value = c == '+' ? 62 : 63;
-    else
-      break;
-    bits = bits << 6 | static_cast<std::uint32_t>(value);
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes += static_cast<char>(bits >> count & 0xff);
-  }
-  return bytes;
-}
 
 std::string script_of(const std::string& page, const std::string& id) {
   const std::size_t mark = page.find("id=\"" + id + "\"");

@@ -26,9 +26,6 @@ class PageReader {
   std::string stream_;
 };
 
-/// RFC 4648, to the first character that is none of its letters.
-std::string base64_decoded(const std::string& text);
-
 /// The text between <script ... id="..."> and </script>.
 std::string script_of(const std::string& page, const std::string& id);
 

@@ -30,6 +30,8 @@ export interface BodyEntry {
   rotation: ArrayEntry;
   amplitudes: ArrayEntry | null;
   mass: number | null;
+  /** #rrggbb in place of one of the page's own. */
+  colour?: string;
 }
 
 export interface StressEntry {
@@ -96,7 +98,9 @@ export interface ReferenceEntry {
 }
 
 export interface ModeEntry {
-  frequency: number;
+  /** In place of its number. */
+  name?: string;
+  frequency: number | null;
   damping: number | null;
   bodies: { body: number; translation: number[][]; rotation: number[][]; amplitudes?: number[][] | null }[];
 }

@@ -10,18 +10,19 @@ export interface Caption {
   legend: { title: string; range: [number, number]; map: MapName } | null;
 }
 
-/** Draws picture and caption into `context`. */
-function compose(context: CanvasRenderingContext2D, picture: HTMLCanvasElement, caption: Caption): void {
-  const { width, height } = context.canvas, unit = Math.max(1, height / 700);
-  context.drawImage(picture, 0, 0, width, height);
+/** Draws picture and caption into `context`, in `width` pixels from `left`. */
+export function compose(context: CanvasRenderingContext2D, picture: HTMLCanvasElement, caption: Caption, left = 0, width = context.canvas.width): void {
+  const { height } = context.canvas, unit = Math.max(1, height / 700), x = left + 16 * unit;
+  context.imageSmoothingQuality = "high";
+  context.drawImage(picture, left, 0, width, height);
   context.fillStyle = styled("--ink");
   context.textBaseline = "top";
   context.font = `600 ${15 * unit}px system-ui, sans-serif`;
-  context.fillText(caption.title, 16 * unit, 14 * unit, width - 32 * unit);
+  context.fillText(caption.title, x, 14 * unit, context.canvas.width - 32 * unit);
   context.font = `${14 * unit}px system-ui, sans-serif`;
-  context.fillText(caption.time, 16 * unit, 36 * unit);
+  context.fillText(caption.time, x, (caption.title ? 36 : 14) * unit, width - 32 * unit);
   if (!caption.legend) return;
-  const { title, range, map } = caption.legend, bytes = mapBytes(map), x = 16 * unit, low = height - 40 * unit, tall = 160 * unit;
+  const { title, range, map } = caption.legend, bytes = mapBytes(map), low = height - 40 * unit, tall = Math.min(160 * unit, 0.5 * height);
   for (let i = 0; i < 256; ++i) {
     context.fillStyle = `rgb(${bytes[4 * i]}, ${bytes[4 * i + 1]}, ${bytes[4 * i + 2]})`;
     context.fillRect(x, low - (tall * (i + 1)) / 256, 12 * unit, tall / 256 + 1);

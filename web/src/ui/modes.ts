@@ -31,7 +31,7 @@ export class Modes {
   private table(run: Run): HTMLElement {
     const rows = run.entry.modes!.map((mode, index) => {
       const choose = button("Show", `Move in mode ${index + 1}`, () => this.player.choose({ run: run.index, index }), { class: "link" });
-      const row = h("tr", {}, h("td", { class: "figure" }, String(index + 1)), h("td", { class: "figure" }, number(mode.frequency, 5)),
+      const row = h("tr", {}, h("td", { class: "figure" }, mode.name ?? String(index + 1)), h("td", { class: "figure" }, number(mode.frequency, 5)),
         h("td", { class: "figure" }, mode.damping === null ? "-" : number(Math.abs(mode.damping) < ROUNDING ? 0 : 100 * mode.damping, 3)), h("td", {}, choose));
       this.rows.push({ run: run.index, index, row, choose });
       return row;

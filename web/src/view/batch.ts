@@ -146,6 +146,14 @@ export class Batch {
     this.start = this.position.slice();
   }
 
+  /** Widens the box from `low` to `high` by what is drawn. */
+  extend(low: Vec, high: Vec): void {
+    for (let i = 0; i < this.position.length; ++i) {
+      low[i % 3] = Math.min(low[i % 3]!, this.position[i]!);
+      high[i % 3] = Math.max(high[i % 3]!, this.position[i]!);
+    }
+  }
+
   flush(coloured: boolean): void {
     for (const name of coloured ? ["position", "normal", "value"] : ["position", "normal"]) this.surface.geometry.getAttribute(name).needsUpdate = true;
     this.lines.flush();

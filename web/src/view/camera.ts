@@ -42,20 +42,21 @@ export class OrbitCamera {
     return this.parallel ? this.orthographic : this.perspective;
   }
 
-  /** Shows the whole box, seen from the present direction. */
-  fit(): void {
+  /** Shows a box about `centre`, that of the motion by default, seen from the present direction. */
+  fit(centre: Vec = [0, 0, 0], half: Vec = this.half): void {
     const { right, above, back } = this.directions(), tangent = Math.tan(OPENING / 2);
     const along = (p: Vec, axis: Vec): number => p[0] * axis[0] + p[1] * axis[1] + p[2] * axis[2];
-    this.target = [0, 0, 0];
-    this.distance = 0.1 * this.size;
+    this.target = centre;
+    this.distance = Math.max(0.1 * length(half), 1e-3 * this.size);
     for (let i = 0; i < 8; ++i) {
-      const corner = this.half.map((x, c) => (i & (1 << c) ? x : -x)) as Vec, toward = this.parallel ? 0 : along(corner, back);
+      const corner = half.map((x, c) => (i & (1 << c) ? x : -x)) as Vec, toward = this.parallel ? 0 : along(corner, back);
       const reach = Math.max(Math.abs(along(corner, right)) / this.aspect, Math.abs(along(corner, above)));
       this.distance = Math.max(this.distance, toward + (MARGIN * reach) / tangent);
     }
   }
-  standard(view: Standard): void {
-    [this.azimuth, this.elevation] = STANDARD[view];
+  /** A standard view, or azimuth and elevation [rad] of where the camera stands. */
+  standard(view: Standard | [number, number]): void {
+    [this.azimuth, this.elevation] = typeof view === "string" ? STANDARD[view] : view;
     this.fit();
   }
   orbit(azimuth: number, elevation: number): void {

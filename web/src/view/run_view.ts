@@ -67,7 +67,7 @@ export class RunView {
       const isDrawn = shape !== null && shape.source !== "marker" && shape.vertices.length > 0;
       const isBall = isDrawn && shape.source === "inertia";
       (isBall ? this.balls : isDrawn ? this.drawn : this.markers).push(b);
-      if (isDrawn) (isBall ? balls : items).push({ owner: b, shape, rgb: rgb(BODY_COLOURS[b % BODY_COLOURS.length]!), mapped: true });
+      if (isDrawn) (isBall ? balls : items).push({ owner: b, shape, rgb: rgb(body.colour ?? BODY_COLOURS[b % BODY_COLOURS.length]!), mapped: true });
     }
     this.bodies = new Batch(items, this.materials);
     this.inertia = new Batch(balls, this.glass);
@@ -146,6 +146,19 @@ export class RunView {
     this.placeGlyphs(settings, pixel);
     this.placeLines(settings, pixel);
     this.placeDots(settings);
+  }
+
+  /** Widens a box by the bodies as they are drawn, joints, springs, bodies without a size, and the paths of traced nodes. */
+  extend(low: Vec, high: Vec): void {
+    for (const batch of [this.bodies, this.inertia]) batch.extend(low, high);
+    const points = [...this.markers.map((b) => this.run.pose(b)), ...this.run.joints.map((joint) => this.run.drawn(joint.place)),
+      ...this.run.springs.flatMap((spring) => spring.ends.map((end) => this.run.drawn(end)))];
+    for (const n of this.traced) for (const t of this.run.times) points.push(this.run.placeAt(this.run.nodes[n]!.place, t));
+    for (const { position } of points)
+      for (const [i, x] of subtract(position, this.origin).entries()) {
+        low[i] = Math.min(low[i]!, x);
+        high[i] = Math.max(high[i]!, x);
+      }
   }
 
   private placeBodies(what: Colouring, exaggeration: number): void {

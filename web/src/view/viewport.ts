@@ -31,6 +31,8 @@ export class Viewport {
   /** First fault of the shaders or the driver, for the reader. */
   fault = "";
   readonly software: boolean;
+  /** Size of the picture in pixels of the screen, where it is not that of its element. */
+  fixed: { width: number; height: number } | null = null;
   private readonly renderer: WebGLRenderer;
   private readonly scene = new Scene();
   private readonly shared: Uniforms = sharedUniforms();
@@ -87,7 +89,14 @@ export class Viewport {
     return this.views.reduce((sum, view) => sum + view.vertices, 0);
   }
   get pixel(): number {
-    return this.camera.perPixel(Math.max(1, this.canvas.clientHeight));
+    return this.camera.perPixel(Math.max(1, this.extent.height));
+  }
+  get extent(): { width: number; height: number } {
+    return this.fixed ?? { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+  }
+  /** Widens a box by all that is drawn of bodies now, relative to the origin of the picture. */
+  extend(low: Vec, high: Vec): void {
+    for (const view of this.views) if (view.run.visible) view.extend(low, high);
   }
 
   /** The first run shown is solid, the others are ghosts. */
@@ -130,7 +139,7 @@ export class Viewport {
 
   /** Draws if something changed, or in any case. */
   draw(always = false): boolean {
-    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const { width, height } = this.extent;
     const size = this.renderer.getSize(new Vector2()), ratio = Math.min(window.devicePixelRatio || 1, 2) * this.ratio;
     const resized = size.x !== width || size.y !== height || this.renderer.getPixelRatio() !== ratio;
     if (width === 0 || height === 0 || this.contextLost || !(this.dirty || always || resized)) return false;
@@ -153,7 +162,7 @@ export class Viewport {
   /** Pixel of the canvas where a point of the world is drawn, and whether it is in the picture. */
   project(point: Vec): { x: number; y: number; inside: boolean } {
     const p = new Vector3(...subtract(point, this.origin)).project(this.camera.active);
-    const { clientWidth: width, clientHeight: height } = this.canvas;
+    const { width, height } = this.extent;
     return { x: ((p.x + 1) / 2) * width, y: ((1 - p.y) / 2) * height, inside: Math.abs(p.x) <= 1 && Math.abs(p.y) <= 1 && Math.abs(p.z) <= 1 };
   }
 

@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
-#include "mechanism/view/page_blocks.hpp"
+#include "formats/page/page_blocks.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::formats {
 
 /// Displacements of the vertices at instant t: modes y(t), in body axes; all lengths of the scene.
 struct Deformation {
@@ -30,4 +30,4 @@ struct FewModes {
 /// Cost: products of 3 V x m and m x T.
 FewModes few_modes(const Deformation& deformation, double relative, double size);
 
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::formats

@@ -9,9 +9,9 @@
 
 #include <Eigen/Geometry>
 
-#include "mechanism/view/surface.hpp"
+#include "formats/page/surface.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::formats {
 namespace {
 
 using Eigen::Vector3d;
@@ -90,4 +90,4 @@ Thinned thinned(const Surface& surface, int most) {
           faces_between(surface.lines, clusters)};
 }
 
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::formats

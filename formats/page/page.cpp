@@ -1,6 +1,7 @@
 // From header and blocks to HTML.
-#include "mechanism/view/page.hpp"
+#include "formats/page/page.hpp"
 
+#include "common/base64.hpp"
 #include "common/error.hpp"
 
 // The bundle is a part of the program's read-only data: no compiler has to parse it.
@@ -17,7 +18,7 @@ extern const char tisserand_viewer_begin[] __attribute__((visibility("hidden")))
 extern const char tisserand_viewer_end[] __attribute__((visibility("hidden")));
 }
 
-namespace tisserand::mechanism {
+namespace tisserand::formats {
 
 std::string_view viewer_bundle() {
   return {tisserand_viewer_begin, static_cast<std::size_t>(tisserand_viewer_end - tisserand_viewer_begin)};
@@ -56,4 +57,4 @@ std::string page_text(std::string_view bundle, Json header, const PageBlocks& bl
   return text;
 }
 
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::formats

@@ -1,18 +1,20 @@
 // Differences between rows and byte planes, then zlib.
-#include "mechanism/view/page_blocks.hpp"
+#include "formats/page/page_blocks.hpp"
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 
 #include "common/error.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::formats {
 namespace {
 
 constexpr double largest_word = 32767.0;
+constexpr double round_off = 1e-9;  // numbers that are as near to one another are one
 
 /// Differences to the row before, then the first bytes of all words, the second ones, ...: what changes slowly becomes
 /// long runs of zeros.
@@ -58,7 +60,8 @@ std::vector<Range> ranges_of(const PageRows& values) {
     const double least = values.rows() > 0 ? values.col(c).minCoeff() : 0.0,
                  most = values.rows() > 0 ? values.col(c).maxCoeff() : 0.0;
     const double half = 0.5 * (most - least);
-    ranges.push_back({least + half, half > 0.0 ? half / largest_word : 1.0});
+    const bool spreads = half > round_off * std::max(std::abs(least), std::abs(most));
+    ranges.push_back({least + half, spreads ? half / largest_word : 1.0});
   }
   return ranges;
 }
@@ -166,17 +169,4 @@ Json PageBlocks::table() const {
   return table;
 }
 
-std::string base64(const std::string& bytes) {
-  constexpr char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t three = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += i + k <= bytes.size() ? letters[three >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::formats

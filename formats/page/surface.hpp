@@ -9,7 +9,7 @@
 #include "formats/scene/shape.hpp"
 #include "formats/sections/section.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::formats {
 
 struct Surface {
   std::vector<Eigen::Vector3d> vertices;
@@ -22,7 +22,7 @@ struct Surface {
 };
 
 /// The solid in the part frame. Of a file: its triangles, read now. Throws Error (formats/surface).
-Surface surface_of(const formats::ShapeSpec& shape);
+Surface surface_of(const ShapeSpec& shape);
 
 Surface sphere(const Eigen::Vector3d& center, double radius);
 
@@ -32,7 +32,7 @@ using Outline = std::vector<Eigen::Vector2d>;
 /// The outer contour of a section by its shape and sizes about the axis of the beam; of others an ellipse or rectangle
 /// with the same area and, as far as that goes, the same ratio of second moments. A section by stiffness, whose area is
 /// unknown, gets `fallback` as its radius.
-Outline outline_of(const formats::Section& section, double fallback);
+Outline outline_of(const Section& section, double fallback);
 
 /// Stations of one outline each, `corners` vertices per station in order: side faces between neighbours, and both ends
 /// closed. Vertices are left to the caller.
@@ -53,4 +53,4 @@ struct Thinned {
 /// `most`. Faces that lose a corner vanish, doubles too.
 Thinned thinned(const Surface& surface, int most);
 
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::formats

@@ -9,7 +9,7 @@
 
 #include "formats/recovery/recovery.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::formats {
 
 /// Values of one name: one row of `components` per point or cell.
 struct VtuArray {
@@ -23,7 +23,7 @@ struct VtuCells {
   std::vector<std::int32_t> connectivity, offset;
   std::vector<std::uint8_t> type;
 };
-VtuCells vtu_cells(const formats::RecoveryElements& elements);
+VtuCells vtu_cells(const RecoveryElements& elements);
 
 /// Unstructured grid, binary data appended as they are, little-endian. Whole or not at all.
 void write_vtu(const std::string& path, const Eigen::Matrix3Xf& points, const VtuCells& cells,
@@ -32,4 +32,4 @@ void write_vtu(const std::string& path, const Eigen::Matrix3Xf& points, const Vt
 /// Index of a series: {time, name of a file beside it}.
 void write_pvd(const std::string& path, const std::vector<std::pair<double, std::string>>& files);
 
-}  // namespace tisserand::reducer
+}  // namespace tisserand::formats

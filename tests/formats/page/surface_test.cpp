@@ -1,5 +1,5 @@
 // Solids, thinning and few modes: what pages draw of a body.
-#include "mechanism/view/surface.hpp"
+#include "formats/page/surface.hpp"
 
 #include <cmath>
 #include <set>
@@ -7,15 +7,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "mechanism/view/deformation.hpp"
-#include "mechanism/view/viewed_run.hpp"
+#include "formats/page/deformation.hpp"
 
-namespace tisserand::mechanism::surface_test {
+namespace tisserand::formats::surface_test {
 namespace {
 
 using Eigen::Vector3d;
-using formats::ShapeKind;
-using formats::ShapeSpec;
 
 /// Sum of the tetrahedra from the origin to each triangle: positive where triangles turn counter-clockwise seen from
 /// outside (Gauss).
@@ -74,6 +71,15 @@ TEST(Surface, OutlinesHaveTheAreaOfTheirSections) {
   section.shape = "I";
   section.sizes = {2.0, 1.0, 0.1, 0.2, 1.0, 0.2};
   EXPECT_NEAR(area(outline_of(section, 1.0)), 2.0 * 0.2 * 1.0 + 0.1 * 1.6, 1e-12);
+}
+
+// Places that differ by round-off only: the difference is no range of its own, whose steps would be below the digits.
+TEST(PageBlocks, PositionsOfOnePlaneButForRoundOff) {
+  PageRows places(2, 3);
+  places << 1.65, 0.0, 2.0, std::nextafter(1.65, 2.0), 1.0, 2.0;
+  PageBlocks blocks;
+  EXPECT_EQ(blocks.add_positions(places)["shape"], Json({2, 3}));
+  EXPECT_LT((quantised_positions(places) - places).cwiseAbs().maxCoeff(), 1e-4);
 }
 
 TEST(Surface, LeastTreeJoinsNeighbours) {
@@ -140,18 +146,5 @@ TEST(FewModes, KeepsWhatTheRunVisitedWithinTheStatedError) {
   EXPECT_EQ(few_modes({modes, Eigen::MatrixXd::Zero(200, 40)}, 1e-3, 1.0).count(), 0);
 }
 
-TEST(EvenRows, HoldFirstAndLastOfTenMillion) {
-  const std::vector<std::size_t> rows = even_rows(10'000'000, 2000);
-  ASSERT_EQ(rows.size(), 2000u);
-  EXPECT_EQ(rows.front(), 0u);
-  EXPECT_EQ(rows.back(), 9'999'999u);
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    EXPECT_GE(rows[i] - rows[i - 1], 5002u);  // 9 999 999 / 1999 = 5002.5
-    EXPECT_LE(rows[i] - rows[i - 1], 5003u);
-  }
-  EXPECT_EQ(even_rows(3, 2000), (std::vector<std::size_t>{0, 1, 2}));
-  EXPECT_EQ(even_rows(1, 2000), (std::vector<std::size_t>{0}));
-}
-
 }  // namespace
-}  // namespace tisserand::mechanism::surface_test
+}  // namespace tisserand::formats::surface_test

@@ -1,5 +1,5 @@
 // Solids as triangles.
-#include "mechanism/view/surface.hpp"
+#include "formats/page/surface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "formats/sections/profiles.hpp"
 #include "formats/surface/surface_file.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::formats {
 namespace {
 
 using Eigen::Vector2d;
@@ -70,8 +70,8 @@ Surface tube(const std::vector<Vector3d>& points, const std::vector<double>& rad
   return surface;
 }
 
-Surface of_file(const formats::ShapeSpec& shape) {
-  formats::TriangleSurface file = formats::read_surface_file(shape.file);
+Surface of_file(const ShapeSpec& shape) {
+  TriangleSurface file = read_surface_file(shape.file);
   Surface surface{std::move(file.vertices), std::move(file.triangles), {}};
   for (Vector3d& vertex : surface.vertices) vertex = vertex.cwiseProduct(shape.scale);
   if (shape.scale.prod() < 0.0)
@@ -79,7 +79,7 @@ Surface of_file(const formats::ShapeSpec& shape) {
   return surface;
 }
 
-Surface placed(Surface surface, const formats::ShapeSpec& shape) {
+Surface placed(Surface surface, const ShapeSpec& shape) {
   for (Vector3d& vertex : surface.vertices) vertex = shape.position + shape.orientation * vertex;
   return surface;
 }
@@ -115,33 +115,33 @@ Surface sphere(const Vector3d& center, double radius) {
   return surface;
 }
 
-Surface surface_of(const formats::ShapeSpec& shape) {
+Surface surface_of(const ShapeSpec& shape) {
   switch (shape.kind) {
-    case formats::ShapeKind::box:
+    case ShapeKind::box:
       return placed(box(shape.size), shape);
-    case formats::ShapeKind::sphere:
+    case ShapeKind::sphere:
       return sphere(shape.position, shape.radius);
-    case formats::ShapeKind::cylinder:
-    case formats::ShapeKind::cone:
+    case ShapeKind::cylinder:
+    case ShapeKind::cone:
       return tube({shape.from, shape.to}, {shape.radius, shape.end_radius});
-    case formats::ShapeKind::tube:
+    case ShapeKind::tube:
       return tube(shape.points, std::vector<double>(shape.points.size(), shape.radius));
-    case formats::ShapeKind::mesh:
+    case ShapeKind::mesh:
       return placed(of_file(shape), shape);
   }
   return {};
 }
 
-Outline outline_of(const formats::Section& s, double fallback) {
+Outline outline_of(const Section& s, double fallback) {
   Outline outline;
   const auto& sizes = s.sizes;
   if (s.shape == "circle" || s.shape == "hollow_circle") {
     outline = ellipse(sizes[0], sizes[0]);
   } else if (s.shape == "rectangle" || s.shape == "hollow_rectangle") {
     outline = rectangle(sizes[0], sizes[1]);
-  } else if (formats::find_profile(s.shape) != nullptr) {
-    const formats::SectionPolygon polygon = formats::profile_polygon(s.shape, sizes);
-    const Vector2d centroid = formats::area_moments(polygon).centroid;
+  } else if (find_profile(s.shape) != nullptr) {
+    const SectionPolygon polygon = profile_polygon(s.shape, sizes);
+    const Vector2d centroid = area_moments(polygon).centroid;
     for (const Vector2d& corner : polygon.outer) outline.emplace_back(corner - centroid);
   } else if (s.second_moment_y > 0.0 && s.second_moment_z > 0.0 && s.area > 0.0) {
     // A rectangle w x h has the radii of gyration w/sqrt(12) and h/sqrt(12); by stiffness they are those of EI and EA.
@@ -193,4 +193,4 @@ std::vector<std::array<int, 2>> least_tree(const std::vector<Vector3d>& points) 
   return lines;
 }
 
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::formats

@@ -1,5 +1,5 @@
 // VTU by the description of the VTK file formats ("Serial XML, UnstructuredGrid").
-#include "reducer/recover/vtu.hpp"
+#include "formats/vtk/vtu.hpp"
 
 #include <array>
 #include <bit>
@@ -10,7 +10,7 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 
-namespace tisserand::reducer {
+namespace tisserand::formats {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "written as little-endian");
@@ -22,8 +22,8 @@ struct VtkCell {
 
 /// VTK_LINE, VTK_TRIANGLE, VTK_QUAD, VTK_TETRA, VTK_QUADRATIC_TETRA, ..., VTK_QUADRATIC_WEDGE. The base of a wedge
 /// looks outwards, unlike gmsh's prism.
-const VtkCell& vtk_cell(formats::ElementShape shape) {
-  static const std::array<VtkCell, formats::element_shapes> cells{
+const VtkCell& vtk_cell(ElementShape shape) {
+  static const std::array<VtkCell, element_shapes> cells{
       {{3, {}},
        {5, {}},
        {9, {}},
@@ -70,13 +70,13 @@ std::string arrays(const std::vector<VtuArray>& list, std::size_t count, Appende
 
 }  // namespace
 
-VtuCells vtu_cells(const formats::RecoveryElements& elements) {
+VtuCells vtu_cells(const RecoveryElements& elements) {
   VtuCells cells;
   for (int e = 0; e < elements.count(); ++e) {
     const auto element = static_cast<std::size_t>(e);
     const VtkCell& cell = vtk_cell(elements.shape[element]);
     const int* nodes = elements.node.data() + elements.first[element];
-    const int count = formats::node_count(elements.shape[element]);
+    const int count = node_count(elements.shape[element]);
     for (int k = 0; k < count; ++k)
       cells.connectivity.push_back(nodes[cell.order.empty() ? k : cell.order[static_cast<std::size_t>(k)]]);
     cells.offset.push_back(static_cast<std::int32_t>(cells.connectivity.size()));
@@ -113,4 +113,4 @@ void write_pvd(const std::string& path, const std::vector<std::pair<double, std:
   write_text_file(path, text + "</Collection>\n</VTKFile>\n");
 }
 
-}  // namespace tisserand::reducer
+}  // namespace tisserand::formats

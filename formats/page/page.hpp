@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-#include "mechanism/view/page_blocks.hpp"
+#include "formats/page/page_blocks.hpp"
 
-namespace tisserand::mechanism {
+namespace tisserand::formats {
 
 /// The viewer as it was built from web/ (dist/view.html); data take the place of one line of it.
 std::string_view viewer_bundle();
@@ -17,4 +17,4 @@ std::string header_text(const Json& header);
 /// `bundle` with its line `<!-- tisserand-data -->` replaced. A bundle without that line is a fault of the program.
 std::string page_text(std::string_view bundle, Json header, const PageBlocks& blocks);
 
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::formats

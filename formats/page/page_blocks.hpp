@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
-namespace tisserand::mechanism {
+namespace tisserand::formats {
 
 using Json = nlohmann::ordered_json;
 
@@ -53,7 +53,4 @@ class PageBlocks {
 /// What add_positions() stores and the page reads.
 PageRows quantised_positions(const PageRows& values);
 
-/// RFC 4648.
-std::string base64(const std::string& bytes);
-
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::formats

@@ -1,12 +1,12 @@
 // Singular vectors by the two Gram matrices, which are as small as the number of coordinates.
-#include "mechanism/view/deformation.hpp"
+#include "formats/page/deformation.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
 
-namespace tisserand::mechanism {
+namespace tisserand::formats {
 namespace {
 
 using Eigen::Index;
@@ -116,4 +116,4 @@ FewModes few_modes(const Deformation& deformation, double relative, double size)
   return few;
 }
 
-}  // namespace tisserand::mechanism
+}  // namespace tisserand::formats

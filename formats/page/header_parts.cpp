@@ -1,0 +1,55 @@
+// Surfaces and units as objects of the header.
+#include "formats/page/header_parts.hpp"
+
+#include <Eigen/Geometry>
+
+namespace tisserand::formats {
+namespace {
+
+using Eigen::Vector3d;
+
+std::vector<std::uint32_t> flat(const auto& faces) {
+  std::vector<std::uint32_t> indices;
+  for (const auto& face : faces)
+    for (const int corner : face) indices.push_back(static_cast<std::uint32_t>(corner));
+  return indices;
+}
+
+}  // namespace
+
+double size_of(const Surface& surface) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& vertex : surface.vertices) box.extend(vertex);
+  return surface.vertices.empty() ? 0.0 : box.diagonal().norm();
+}
+
+Json shape_json(const PageShape& shape, const FewModes& few, PageBlocks& blocks) {
+  Json json{{"vertices", nullptr}, {"triangles", nullptr}, {"lines", nullptr},       {"points", shape.points},
+            {"modes", nullptr},    {"stress", nullptr},    {"source", shape.source}, {"thinned", nullptr}};
+  json["largest"] = few.largest;
+  json["error"] = few.error;
+  const Surface& surface = shape.surface;
+  if (surface.vertices.empty()) return json;
+  PageRows vertices(surface.size(), 3);
+  for (int i = 0; i < surface.size(); ++i) vertices.row(i) = surface.vertices[i].transpose();
+  json["vertices"] = blocks.add_positions(vertices);
+  if (!surface.triangles.empty()) json["triangles"] = blocks.add_indices(flat(surface.triangles), 3);
+  if (!surface.lines.empty()) json["lines"] = blocks.add_indices(flat(surface.lines), 2);
+  if (few.count() > 0) json["modes"] = blocks.add_modes(few.modes, few.step);
+  if (shape.all_vertices > surface.size())
+    json["thinned"] = {{"vertices", shape.all_vertices}, {"kept", surface.size()}};
+  return json;
+}
+
+Json units_json(const Units& units) {
+  const std::string moment = unit_label(units, 2, 1, -2), force = unit_label(units, 1, 1, -2);
+  return {{"length", unit_label(units, 1, 0, 0)},
+          {"time", unit_label(units, 0, 0, 1)},
+          {"angle", "rad"},
+          {"force", force},
+          {"moment", moment},
+          {"stress", unit_label(units, -1, 1, -2)},
+          {"energy", energy_label(units)}};
+}
+
+}  // namespace tisserand::formats

@@ -1,0 +1,28 @@
+// Objects of the header that pages of runs and of parts have in common (formats/PAGE.md).
+#pragma once
+
+#include <string>
+
+#include "common/units.hpp"
+#include "formats/page/deformation.hpp"
+#include "formats/page/page_blocks.hpp"
+#include "formats/page/surface.hpp"
+
+namespace tisserand::formats {
+
+struct PageShape {
+  const Surface& surface;  ///< without vertices: a marker
+  std::string source;
+  bool points = false;   ///< the vertices are drawn too
+  int all_vertices = 0;  ///< before thinning
+};
+
+Json shape_json(const PageShape& shape, const FewModes& few, PageBlocks& blocks);
+
+/// Diagonal of the box about it.
+double size_of(const Surface& surface);
+
+/// Labels of length, time, angle, force, moment, stress, energy.
+Json units_json(const Units& units);
+
+}  // namespace tisserand::formats

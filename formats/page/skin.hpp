@@ -1,0 +1,31 @@
+// What one sees of a mesh in a recovery file, and how the coordinates of its superelement move it.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/page/surface.hpp"
+#include "formats/recovery/recovery.hpp"
+
+namespace tisserand::formats {
+
+/// Where a vertex is on the mesh: at a node, or carried by it at a distance.
+struct SkinCarrier {
+  int node = 0;
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();  ///< part axes, units of the file
+};
+
+struct Skin {
+  Surface surface;  ///< part frame of the file, its units
+  std::vector<SkinCarrier> carriers;
+  std::vector<int> triangle_element, line_element;  ///< of Recovery::elements
+};
+
+/// Triangles of shells and solids, each beam as its sections at both ends.
+Skin skin_of(const Recovery& recovery);
+
+/// Displacement of vertices per unit of each coordinate, 3 V x n: u + θ x arm, part axes and units of the file.
+Eigen::MatrixXd shapes_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers);
+
+}  // namespace tisserand::formats

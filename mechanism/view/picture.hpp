@@ -1,0 +1,39 @@
+// `mechanism picture`: states of runs as one PNG, drawn by the page of `mechanism view` in a browser without window.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "mechanism/view/view.hpp"
+
+namespace tisserand::mechanism {
+
+enum class Captions { written, none };
+
+struct PictureRequest {
+  ViewRequest page;                    ///< runs and shapes; its own output is not written
+  std::string output;                  ///< .png
+  std::vector<double> times;           ///< states from left to right, in units of the runs; empty: the last instant
+  int mode = 0;                        ///< from 1: this mode in place of times; 0: none
+  std::vector<double> phases_deg;      ///< of the mode, states from left to right; empty: 0
+  std::array<int, 2> size{1200, 700};  ///< pixels, width and height
+  std::string view = "iso";            ///< a name of picture_views(), or "azimuth,elevation" of the camera in degrees
+  double zoom = 1.0;                   ///< 1: what is shown fills the picture
+  double exaggeration = 1.0;           ///< of deformations
+  std::string colouring = "body";      ///< one of picture_colourings()
+  std::vector<std::string> traces;     ///< nodes whose paths are drawn
+  std::vector<std::string> shown, hidden;  ///< of picture_things()
+  Captions captions = Captions::written;
+};
+
+const std::vector<std::string>& picture_views();
+const std::vector<std::string>& picture_colourings();
+/// What can be shown or hidden: edges, grid, axes, ...
+const std::vector<std::string>& picture_things();
+
+/// Writes it: whole or not at all. Same page, same browser: same bytes. Returns one line about it. Throws Error: no
+/// such time, mode or node, no browser (asked_of_page()).
+std::string picture(const PictureRequest& request);
+
+}  // namespace tisserand::mechanism

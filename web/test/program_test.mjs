@@ -1,0 +1,148 @@
+// Pages that `mechanism view` wrote, in a real browser: what they show against the results file, as `mechanism export` tells it.
+// Arguments: folder of the programs, source folder. Ends with 77 where node, Chromium or `reducer` is missing.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { test } from "node:test";
+import { Browser, CHROMIUM } from "./browser.mjs";
+import { corner, differ, near, quiet } from "./checks.mjs";
+import { decodePng } from "./png.mjs";
+
+const [bin, source] = process.argv.slice(2);
+if (!CHROMIUM || !existsSync(join(bin, "reducer"))) {
+  process.stdout.write(CHROMIUM ? "not tested: there is no reducer here\n" : "not tested: there is no chromium here (apt-get install chromium)\n");
+  process.exit(77);
+}
+
+const folder = mkdtempSync(join(tmpdir(), "tisserand-pages-")), file = (name) => join(folder, name);
+let browser;
+
+const call = (program, ...words) => execFileSync(join(bin, program), words, { cwd: folder, stdio: ["ignore", "ignore", "pipe"], env: { ...process.env, OPENBLAS_NUM_THREADS: "1" } });
+
+/** The shell and beam of an example, or another part, with its recovery file. */
+const reduce = (part, name) => call("reducer", "run", join(source, "examples", part), "--set", "recovery=yes", "-o", `${name}.superelement.h5`);
+
+/** Runs a scene and opens its page. */
+async function open(scene, name, ...settings) {
+  call("mechanism", "run", scene, "-o", `${name}.results.h5`, ...settings);
+  call("mechanism", "view", `${name}.results.h5`);
+  const page = await browser.page();
+  await page.open(file(`${name}.html`));
+  assert.equal(await page.evaluate("tisserand.failure"), null);
+  return page;
+}
+
+/** Columns of a results file by channel, without units. */
+function columns(name, ...channels) {
+  call("mechanism", "export", `${name}.results.h5`, ...channels.flatMap((channel) => ["-c", channel]), "-o", `${name}.csv`);
+  const [heads, ...rows] = readFileSync(file(`${name}.csv`), "utf8").trim().split(/\r?\n/).map((line) => line.split(","));
+  return Object.fromEntries(heads.map((head, i) => [head.replace(/ \[.*\]$/, ""), rows.map((row) => Number(row[i]))]));
+}
+
+const nodesOf = (table, quantity) => [...new Set(Object.keys(table).filter((key) => key.startsWith(quantity)).map((key) => key.slice(quantity.length + 1).replace(/\/[xyz](\/.*)?$/, "")))];
+
+/** All nodes at rows and between them, where positions are linear: within 1e-4 of the size of the motion. */
+async function motionIsThatOfTheResults(page, name) {
+  const table = columns(name, "nodes/position"), time = table.time, nodes = nodesOf(table, "nodes/position");
+  const at = (node, row) => [..."xyz"].map((axis) => table[`nodes/position/${node}/${axis}`][row]);
+  const all = nodes.flatMap((node) => time.map((_, row) => at(node, row))).flat(), size = Math.max(...all) - Math.min(...all);
+  assert.ok(nodes.length >= 2 && size > 0);
+  for (const share of [0, 0.3, 0.57, 1]) {
+    const place = share * (time.length - 1), row = Math.min(Math.floor(place), Math.max(0, time.length - 2)), s = time.length > 1 ? place - row : 0;
+    const t = time.length > 1 ? time[row] + s * (time[row + 1] - time[row]) : time[0];
+    const shown = await page.evaluate(`${JSON.stringify(nodes)}.map((node) => tisserand.nodePosition(0, node, ${t}))`);
+    for (const [i, node] of nodes.entries()) {
+      const before = at(node, row), after = at(node, Math.min(row + 1, time.length - 1));
+      near(shown[i], before.map((x, c) => x + s * (after[c] - x)), 1e-4 * size, `${node} at t = ${t}`);
+    }
+  }
+}
+
+/** The body covers the points between two of its nodes in the picture, and a click there finds it. */
+async function bodyIsDrawnThere(page, body, a, b) {
+  await page.until("tisserand.quality === 2");
+  const box = await corner(page), [from, to] = await page.evaluate(`[${JSON.stringify(a)}, ${JSON.stringify(b)}].map((node) => tisserand.nodePixel(0, node))`);
+  const picture = decodePng(await page.screenshot()), ground = picture.at(box.left + 6, box.top + 6);
+  for (const s of [0.3, 0.5, 0.8]) {
+    const x = from.x + s * (to.x - from.x), y = from.y + s * (to.y - from.y);
+    assert.ok(differ(picture.at(box.left + x, box.top + y), ground) > 40, `${body} at ${s} between ${a} and ${b}`);
+    assert.equal((await page.evaluate(`tisserand.pick(${x}, ${y})`))?.body, body);
+  }
+}
+
+test("pages of the program", async (suite) => {
+  browser = await Browser.start();
+  suite.after(async () => {
+    await browser.stop();
+    rmSync(folder, { recursive: true, force: true });
+  });
+
+  await suite.test("a beam on a hinge with its mesh", async () => {
+    reduce("hinged_beam/beam.part.yaml", "beam");
+    const page = await open(join(source, "examples/hinged_beam/floating_a.scene.yaml"), "hinged", "--set", `bodies.beam.file=${file("beam.superelement.h5")}`, "--set", "integrator.end=8");
+    await motionIsThatOfTheResults(page, "hinged");
+    for (const t of [0, 8]) {
+      await page.evaluate(`tisserand.seek(${t})`);
+      await bodyIsDrawnThere(page, "beam", "beam/base", "beam/tip");
+    }
+    // The mesh follows its coordinates: the end of the surface stays at the node, which the results hold on their own.
+    assert.ok((await page.evaluate("tisserand.vertices")) > 100);
+    await quiet(page);
+  });
+
+  await suite.test("an arm of rigid links", async () => {
+    writeFileSync(file("arm.yaml"), `scene: arm
+gravity: [0, 0, -9.81]
+bodies:
+  column: {type: rigid, mass: 20, inertia: [1, 1, 0.5], nodes: {top: {position: [0, 0, 0.8]}}, shape: {type: cylinder, from: [0, 0, 0], to: [0, 0, 0.8], radius: 0.12}}
+  upper: {type: rigid, mass: 8, inertia: [0.2, 0.4, 0.4], pose: {position: [0.3, 0, 0.8]}, nodes: {elbow: {position: [0.3, 0, 0]}}, shape: {type: box, size: [0.6, 0.1, 0.12]}}
+  lower: {type: rigid, mass: 4, inertia: [0.1, 0.2, 0.2], pose: {position: [0.85, 0, 0.8]}, nodes: {hand: {position: [0.25, 0, 0]}}, shape: {type: tube, points: [[-0.25, 0, 0], [0.25, 0, 0]], radius: 0.04}}
+joints:
+  turn: {type: revolute, a: ground, b: column, axis: [0, 0, 1]}
+  shoulder: {type: revolute, a: column/top, b: upper, axis: [0, 1, 0], position: [0, 0, 0.8]}
+  elbow: {type: revolute, a: upper/elbow, b: lower, axis: [0, 1, 0], position: [0.6, 0, 0.8]}
+motions:
+  turn: {coordinate: turn, value: "0.8 * t^2"}
+  shoulder: {coordinate: shoulder, value: "-0.6 * sin(2 * t)"}
+  elbow: {coordinate: elbow, value: "1.2 * sin(3 * t)"}
+integrator: {step: 0.01, end: 1.5}
+`);
+    const page = await open("arm.yaml", "arm");
+    await motionIsThatOfTheResults(page, "arm");
+    for (const t of [0, 0.5, 1.5]) {
+      await page.evaluate(`tisserand.seek(${t})`);
+      await bodyIsDrawnThere(page, "lower", "lower", "lower/hand");
+      await bodyIsDrawnThere(page, "upper", "upper", "upper/elbow");
+    }
+    await quiet(page);
+  });
+
+  await suite.test("modes of a plate with its mesh", async () => {
+    reduce("stiffened_plate/plate.part.yaml", "plate");
+    const page = await open(join(source, "examples/stiffened_plate/plate.scene.yaml"), "plate", "--set", `bodies.plate.file=${file("plate.superelement.h5")}`);
+    await page.until("tisserand.state.mode !== null && tisserand.state.phase > 0.1");
+    await page.key(" ");
+    const table = columns("plate", "modes/translation"), nodes = nodesOf(table, "modes/translation");
+    for (const mode of [0, 4]) {
+      await page.evaluate(`document.querySelectorAll('.modes tbody button')[${mode}].click()`);
+      await page.until(`tisserand.state.mode.index === ${mode} && tisserand.state.phase > 0.2`);
+      await page.key(" ");
+      const phase = (await state(page)).phase, list = JSON.stringify(nodes);
+      const moved = await page.evaluate(`${list}.map((node) => tisserand.nodeDrawn(0, node).map((x, c) => x - tisserand.nodePosition(0, node, 0)[c]))`);
+      const shape = nodes.map((node) => [..."xyz"].map((axis) => {
+        const [re, im] = ["real", "imaginary"].map((part) => table[`modes/translation/${node}/${axis}/${part}`][mode]);
+        return re * Math.cos(phase) - im * Math.sin(phase);
+      }));
+      // One factor for all nodes: that of least squares; the rest is the error of the stored shapes, 1e-3.
+      const dot = (a, b) => a.flat().reduce((sum, x, i) => sum + x * b.flat()[i], 0), factor = dot(moved, shape) / dot(shape, shape);
+      const largest = Math.max(...moved.flat().map(Math.abs));
+      assert.ok(largest > 0 && factor > 0);
+      for (const [i, node] of nodes.entries()) near(moved[i], shape[i].map((x) => factor * x), 2e-3 * largest, `${node} in mode ${mode + 1}`);
+    }
+    await quiet(page);
+  });
+});
+
+const state = (page) => page.evaluate("tisserand.state");
