@@ -89,6 +89,11 @@ if(TISSERAND_REDUCER)
   add_library(dep::slepc ALIAS dep_slepc)
   target_link_libraries(dep_slepc INTERFACE PkgConfig::SLEPC MPI::MPI_C)
   target_compile_definitions(dep_slepc INTERFACE OMPI_SKIP_MPICXX=1)
+  # The CHOLMOD that PETSc loads anyway, on the same BLAS; it and MUMPS run with OpenMP.
+  find_library(CHOLMOD_SHARED libcholmod.so REQUIRED)
+  add_library(dep_cholmod INTERFACE)
+  add_library(dep::cholmod ALIAS dep_cholmod)
+  target_link_libraries(dep_cholmod INTERFACE ${CHOLMOD_SHARED} gomp)
   dep_simple(gmsh gmsh.h "" gmsh)
   # What the process that runs gmsh may not do.
   dep_simple(seccomp seccomp.h "" seccomp)

@@ -82,8 +82,8 @@ int run(const Arguments& arguments) {
   if (reduction.companion) formats::write_companion(companion, *reduction.companion, reduction.superelement);
   phases.end();
   say(certificate_text(reduction.superelement, reduction.file, reduction.model));
-  say(fmt::format("{:<19}{}\n{:<19}{}\n{:<19}{}\n", "time", phases.text(), "written", output, "",
-                  certificate_path(output)));
+  say(fmt::format("{:<19}{}\n{:<19}{}\n{:<19}{}\n{:<19}{}\n", "time", phases.text(), "processor time",
+                  phases.processor_text(), "written", output, "", certificate_path(output)));
   if (recovery) say(fmt::format("{:<19}{}\n", "", formats::recovery_path(output)));
   if (reduction.companion)
     say(fmt::format("{:<19}{} ({:.3g} MB: second order of {} coordinates)\n", "", companion,

@@ -9,6 +9,7 @@
 #include "reducer/modes/full_model.hpp"
 #include "reducer/modes/project.hpp"
 #include "reducer/report/describe.hpp"
+#include "reducer/report/memory.hpp"
 #include "reducer/second_order/companion.hpp"
 #include "reducer/sources/build_mesh.hpp"
 
@@ -23,8 +24,7 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   const Partition coordinates = partition(mesh, system);
   const Blocks blocks = split(system.matrices, coordinates);
 
-  begin("factorisation");
-  const Factor S_II = coordinates.n_I() > 0 ? Factor(blocks.S_II) : Factor();
+  const Factor S_II = factor_inside(blocks, coordinates, part, begin);
   check_no_mechanism(S_II, mesh, system, coordinates, part.file);
 
   begin("boundary modes");
@@ -32,7 +32,7 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
 
   begin("internal modes");
   const InternalProblem problem{mesh, system, coordinates, blocks, S_II, part.file};
-  const InternalModes internal = internal_modes(problem, part.modes);
+  const InternalModes internal = internal_modes(problem, boundary, part.modes);
 
   begin("projection");
   Projection projection = project(part, problem, boundary, internal);
@@ -41,7 +41,7 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   Reduction result;
   result.superelement = std::move(projection.superelement);
   result.file = certify(result.superelement, formats::check(result.superelement, part.name));
-  result.model = describe(part, boundary, internal, projection.defects);
+  result.model = describe(part, boundary, internal, projection.defects, result.superelement);
   describe_mesh(mesh, system, result.model);
   result.model.rigid = rigid;
   result.model.free_frequency = compared_frequencies(system, internal);

@@ -13,6 +13,7 @@ namespace tisserand::reducer {
 namespace {
 
 constexpr int keep = 0;  ///< setenv: what the user has set stays
+constexpr int replace = 1;
 constexpr const char* core_type = "OPENBLAS_CORETYPE";
 constexpr const char* restarted = "TISSERAND_REDUCER_RESTARTED";
 
@@ -51,7 +52,7 @@ std::string program_folder() {
 }
 
 void prepare_environment() {
-  setenv("OPENBLAS_NUM_THREADS", "1", keep);
+  setenv("OPENBLAS_NUM_THREADS", "1", replace);  // with more the sums, and so the bits of files, are others
   if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) {
     setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
     setenv("OMPI_MCA_pml", "ob1", keep);

@@ -117,6 +117,12 @@ void check_modes(const Part& part, Faults& faults) {
                "modes: 0 gives Guyan reduction");
   if (modes.cutoff && !(*modes.cutoff > 0.0 && std::isfinite(*modes.cutoff)))
     faults.add(modes.where, "cutoff", fmt::format("cutoff {:g} must be positive", *modes.cutoff), "");
+  if (!modes.accuracy) return;
+  if (!(modes.accuracy->error > 0.0 && modes.accuracy->error < 1.0))
+    faults.add(modes.where, "error", fmt::format("error {:g} must be between 0 and 1", modes.accuracy->error),
+               "0.001 is a thousandth of each frequency");
+  if (!(modes.accuracy->up_to > 0.0 && std::isfinite(modes.accuracy->up_to)))
+    faults.add(modes.where, "up_to", fmt::format("up_to {:g} must be positive", modes.accuracy->up_to), "");
 }
 
 void check_boundary(const Part& part, const PartNames& names, Faults& faults) {

@@ -7,7 +7,7 @@
 namespace tisserand::formats {
 
 std::vector<KeySet> part_key_sets() {
-  std::vector<KeySet> sets{{"part", part_fields()}};
+  std::vector<KeySet> sets{{"part", part_fields()}, {"accuracy", accuracy_fields()}};
   for (const auto& lists : {common_key_sets(), section_key_sets(), place_key_sets(), patch_key_sets(), shell_key_sets(),
                             attachment_key_sets()})
     sets.insert(sets.end(), lists.begin(), lists.end());

@@ -1,6 +1,8 @@
 // part.yaml to the struct Part.
 #include "formats/part/part.hpp"
 
+#include <fmt/format.h>
+
 #include "formats/part/check.hpp"
 #include "formats/part/fields.hpp"
 #include "formats/part/reader.hpp"
@@ -15,13 +17,28 @@ namespace {
 
 constexpr Choice<SecondOrder> second_order_words[] = {{"yes", SecondOrder::yes}, {"no", SecondOrder::no}};
 
+constexpr Choice<Verification> verification_words[] = {{"inertia", Verification::inertia},
+                                                       {"none", Verification::none}};
+
 ModeSelection read_modes(const MapReader& map) {
   ModeSelection modes;
-  const bool both = map.has("modes") && map.has("cutoff");
-  if (both)
-    map.context().fail(map.find("cutoff")->key_place, "both 'modes' and 'cutoff' are given", "give one of them");
+  const char* given = nullptr;
+  for (const char* key : {"modes", "cutoff", "accuracy"}) {
+    if (!map.has(key)) continue;
+    if (given != nullptr)
+      map.context().fail(map.find(key)->key_place, fmt::format("both '{}' and '{}' are given", given, key),
+                         "give one of them");
+    given = key;
+  }
   modes.where = map.context().entry;
   read_fields(map, modes);
+  if (const YamlNode* node = map.find("accuracy")) {
+    YamlReader& reader = map.context().reader;
+    const Context context{reader, "accuracy", reader.where(node->key_place)};
+    reader.note_place(context.entry, node->key_place);
+    read_fields(MapReader(context, *node, "accuracy"), modes.accuracy.emplace());
+    modes.where = context.entry;
+  }
   return modes;
 }
 
@@ -85,6 +102,11 @@ std::vector<Field> part_fields() {
       plain<&ModeSelection::cutoff>(
           "cutoff", "positive", "instead of `modes`: all internal modes below this frequency [1/time, not rad/time]",
           "-"),
+      {"accuracy", "accuracy", "instead: as many internal modes as an accuracy takes, see [accuracy](#accuracy)", "-"},
+      choice<&ModeSelection::verify, verification_words>(
+          "verify",
+          "`inertia`: one more factorisation counts the internal modes below the cut, and none can be missing; `none`",
+          "`inertia` where that takes less than a tenth of the time"),
       {"recovery", "'yes' | 'no' | true | false",
        "`yes`: also a [recovery file](RECOVERY.md) beside the superelement, by which displacements and stresses of "
        "the whole part come back from results",
@@ -94,6 +116,12 @@ std::vector<Field> part_fields() {
                                                       "beside the superelement, from which a mechanism "
                                                       "takes stiffening, buckling and exact inertia",
                                                       "`yes` while the file stays below 20 MB")};
+}
+
+std::vector<Field> accuracy_fields() {
+  return {plain<&Accuracy::error>("error", "positive",
+                                  "largest relative error of a frequency that leaving out modes may cause", "required"),
+          plain<&Accuracy::up_to>("up_to", "positive", "up to this frequency [1/time, not rad/time]", "required")};
 }
 
 Part read_part(const std::string& path, const std::vector<Override>& overrides) {

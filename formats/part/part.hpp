@@ -126,11 +126,22 @@ struct BoundaryNode {
   std::string where;
 };
 
-/// Internal modes: `count` lowest ones (0: Guyan), or all below `cutoff` [1/time].
+/// The relative error that a frequency of a mechanism with the part may have, up to the frequency `up_to` [1/time].
+struct Accuracy {
+  double error = 0.0;
+  double up_to = 0.0;
+};
+
+/// Whether internal modes are counted by the inertia of one more factorisation.
+enum class Verification { if_cheap, inertia, none };
+
+/// Internal modes: `count` lowest ones (0: Guyan), all below `cutoff` [1/time], or as many as `accuracy` takes.
 struct ModeSelection {
   int count = 0;
   std::optional<double> cutoff;
   std::string where;
+  std::optional<Accuracy> accuracy = std::nullopt;
+  Verification verify = Verification::if_cheap;
 };
 
 /// Whether a companion file is written (COMPANION.md): by default while it stays small.

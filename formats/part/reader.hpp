@@ -42,6 +42,7 @@ void read_boundary(const MapReader& map, Part& part);
 
 // Lists of fields, each beside the functions that read them.
 std::vector<Field> part_fields();
+std::vector<Field> accuracy_fields();
 std::vector<KeySet> place_key_sets();
 std::vector<KeySet> patch_key_sets();
 std::vector<KeySet> shell_key_sets();

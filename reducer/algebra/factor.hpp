@@ -1,9 +1,13 @@
-// Factorisation L D Lᵀ of a sparse symmetric matrix (MUMPS through PETSc): solve blocks, count signs, find null
-// vectors.
+// Factorisation of a sparse symmetric matrix: L Lᵀ where it is clearly positive definite, else L D Lᵀ (MUMPS through
+// PETSc), which counts signs and finds null vectors.
 #pragma once
+
+#include <functional>
+#include <memory>
 
 #include <Eigen/Core>
 
+#include "reducer/algebra/cholesky.hpp"
 #include "reducer/algebra/petsc.hpp"
 
 namespace tisserand::reducer {
@@ -12,14 +16,22 @@ namespace tisserand::reducer {
 class Factor {
  public:
   Factor() = default;  ///< of a matrix without rows
-  /// Factors A; pivots below 1e-14 of the largest (after scaling) count as null and do not fail.
-  explicit Factor(const Matrix& A) : Factor(A, 1e-14) {}
-  Factor(const Matrix& A, double null_pivot);
+  /// Factors A, expected to be positive definite. If a pivot is below 1e-12 of the diagonal entry that it comes from,
+  /// MUMPS judges: pivots below 1e-14 of the largest (after scaling) count as null and do not fail.
+  explicit Factor(const Matrix& A) : Factor(A, nullptr) {}
+  /// `accept` hears what the factorisation will cost, and may throw.
+  Factor(const Matrix& A, const std::function<void(const FactorCost&)>& accept);
+
+  /// L D Lᵀ of any A; pivots below `null_pivot` of the largest count as null.
+  static Factor indefinite(const Matrix& A, double null_pivot);
+  static Factor indefinite(const Matrix& A) { return indefinite(A, 1e-14); }
 
   int negative() const { return negative_; }
   int null() const { return null_; }
+  /// Entries and operations of L; of MUMPS by its own estimate.
+  const FactorCost& cost() const { return cost_; }
 
-  /// A⁻¹ B, 32 columns at a time. Only if null() is 0.
+  /// A⁻¹ B. Only if null() is 0.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
   /// A⁻¹ b for raw arrays of n values; returns a PETSc error code, for callbacks.
   int solve_raw(const double* b, double* x) const;
@@ -27,7 +39,12 @@ class Factor {
   Eigen::MatrixXd null_vectors() const;
 
  private:
-  Matrix factor_;
+  void factor_indefinite(const Matrix& A, double null_pivot);
+  Eigen::MatrixXd solve_indefinite(const Eigen::MatrixXd& B) const;
+
+  std::unique_ptr<Cholesky> definite_;
+  Matrix indefinite_;
+  FactorCost cost_;
   int size_ = 0;
   int negative_ = 0;
   int null_ = 0;

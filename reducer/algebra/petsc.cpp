@@ -1,6 +1,9 @@
 // Start, end and errors of PETSc and SLEPc; products of their matrices with dense blocks.
 #include "reducer/algebra/petsc.hpp"
 
+#include <dlfcn.h>
+#include <omp.h>
+
 #include <array>
 #include <cstdlib>
 
@@ -25,9 +28,18 @@ PetscErrorCode collect(MPI_Comm, int line, const char* function, const char* fil
   return code;
 }
 
+/// OpenBLAS sums in another order with another number of threads; CHOLMOD asks OpenMP for four on any machine, which
+/// wait for one another by spinning.
+void use_one_thread() {
+  using SetThreads = void (*)(int);
+  if (void* const set = dlsym(RTLD_DEFAULT, "openblas_set_num_threads")) reinterpret_cast<SetThreads>(set)(1);
+  omp_set_max_active_levels(0);
+}
+
 }  // namespace
 
 SolverSession::SolverSession() {
+  use_one_thread();
   unsetenv("PETSC_OPTIONS");
   std::array<std::string, 5> words{"reducer", "-skip_petscrc", "-no_signal_handler", "-options_left", "no"};
   std::array<char*, 6> arguments{};
@@ -56,28 +68,28 @@ Matrix::~Matrix() {
   if (mat_ != nullptr) MatDestroy(&mat_);
 }
 
+int Matrix::size() const {
+  PetscInt n = 0;
+  petsc_check(MatGetSize(mat_, &n, nullptr));
+  return n;
+}
+
+SymmetricRows symmetric_rows(const Matrix& A) {
+  SymmetricRows rows;
+  PetscBool done = PETSC_FALSE;
+  PetscScalar* value = nullptr;
+  petsc_check(MatGetRowIJ(A.get(), 0, PETSC_FALSE, PETSC_FALSE, &rows.size, &rows.begin, &rows.column, &done));
+  petsc_check(MatSeqSBAIJGetArray(A.get(), &value));
+  rows.value = value;
+  return rows;
+}
+
 Eigen::MatrixXd multiply(const Matrix& A, const Eigen::MatrixXd& X) {
-  Eigen::MatrixXd Y(X.rows(), X.cols());
-  if (X.size() == 0) return Y;
-  Vec x = nullptr, y = nullptr;
-  const PetscInt n = static_cast<PetscInt>(X.rows());
-  petsc_check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, nullptr, &x));
-  petsc_check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, nullptr, &y));
-  for (Eigen::Index k = 0; k < X.cols(); ++k) {
-    petsc_check(VecPlaceArray(x, X.col(k).data()));
-    petsc_check(VecPlaceArray(y, Y.col(k).data()));
-    petsc_check(MatMult(A.get(), x, y));
-    petsc_check(VecResetArray(x));
-    petsc_check(VecResetArray(y));
-  }
-  VecDestroy(&x);
-  VecDestroy(&y);
-  return Y;
+  return X.size() == 0 ? Eigen::MatrixXd(X.rows(), X.cols()) : multiply(symmetric_rows(A), X);
 }
 
 Eigen::VectorXd diagonal(const Matrix& A) {
-  PetscInt n = 0;
-  petsc_check(MatGetSize(A.get(), &n, nullptr));
+  const int n = A.size();
   Eigen::VectorXd d(n);
   Vec x = nullptr;
   petsc_check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, n, d.data(), &x));
@@ -87,8 +99,7 @@ Eigen::VectorXd diagonal(const Matrix& A) {
 }
 
 Eigen::MatrixXd dense(const Matrix& A) {
-  PetscInt n = 0;
-  petsc_check(MatGetSize(A.get(), &n, nullptr));
+  const int n = A.size();
   return multiply(A, Eigen::MatrixXd::Identity(n, n));
 }
 

@@ -8,12 +8,14 @@
 
 #include <Eigen/Core>
 
+#include "reducer/algebra/symmetric_rows.hpp"
+
 struct _p_Mat;
 
 namespace tisserand::reducer {
 
 /// Starts MPI, PETSc and SLEPc (no option files, no signal handlers) and ends them. One per process, in commands that
-/// solve only: it costs some 50 ms.
+/// solve only: it costs some 50 ms. BLAS and OpenMP get one thread, so that sums do not depend on the machine.
 class SolverSession {
  public:
   SolverSession();
@@ -42,6 +44,7 @@ class Matrix {
   ~Matrix();
 
   _p_Mat* get() const { return mat_; }
+  int size() const;                 ///< rows
   _p_Mat** out() { return &mat_; }  ///< for PETSc functions that create
   void keep_alive(std::shared_ptr<const void> arrays) { arrays_ = std::move(arrays); }
 
@@ -49,6 +52,9 @@ class Matrix {
   _p_Mat* mat_ = nullptr;
   std::shared_ptr<const void> arrays_;
 };
+
+/// A view of A while it lives.
+SymmetricRows symmetric_rows(const Matrix& A);
 
 /// A X for symmetric A (n x n) and dense X (n x k).
 Eigen::MatrixXd multiply(const Matrix& A, const Eigen::MatrixXd& X);

@@ -24,18 +24,8 @@ Matrix symmetric_matrix(const std::shared_ptr<SymmetricPair>& pair, std::vector<
 
 }  // namespace
 
-Eigen::MatrixXd multiply(const SymmetricPair& pair, const std::vector<double>& values, const Eigen::MatrixXd& X) {
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const RowMajor in = X;
-  RowMajor out = RowMajor::Zero(X.rows(), X.cols());
-  for (int i = 0; i < pair.size(); ++i)
-    for (int k = pair.begin[i]; k < pair.begin[static_cast<std::size_t>(i) + 1]; ++k) {
-      const int j = pair.column[k];
-      const double value = values[k];
-      out.row(i) += value * in.row(j);
-      if (j != i) out.row(j) += value * in.row(i);
-    }
-  return out;
+SymmetricRows symmetric_rows(const SymmetricPair& pair, const std::vector<double>& values) {
+  return {pair.size(), pair.begin.data(), pair.column.data(), values.data()};
 }
 
 SystemMatrices to_petsc(SymmetricPair pair) {

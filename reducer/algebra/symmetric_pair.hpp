@@ -19,8 +19,8 @@ struct SymmetricPair {
   int size() const { return static_cast<int>(begin.size()) - 1; }
 };
 
-/// A X for the symmetric matrix with the pattern of `pair` and the values S or M of it.
-Eigen::MatrixXd multiply(const SymmetricPair& pair, const std::vector<double>& values, const Eigen::MatrixXd& X);
+/// The matrix with the pattern of `pair` and the values S or M of it.
+SymmetricRows symmetric_rows(const SymmetricPair& pair, const std::vector<double>& values);
 
 /// S and M as PETSc's symmetric matrices.
 struct SystemMatrices {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
@@ -53,40 +54,19 @@ void check_all(const Mesh& mesh, const std::vector<Element>& elements, ShapeRepo
   }
 }
 
-double longest_edge(const Mesh& mesh, const ShellElement& shell) {
-  double longest = 0.0;
-  for (int i = 0; i < shell.corners(); ++i) {
-    const int a = shell.nodes[i];
-    const int b = shell.nodes[(i + 1) % shell.corners()];
-    longest = std::max(longest, (mesh.position.col(a) - mesh.position.col(b)).norm());
-  }
-  return longest;
-}
-
-/// Shells thicker than their longest edge, by property.
+/// Walls thicker than a fifth of their own extent, by property: no shells, or numbers in other units. A thickness
+/// beyond the edges of a fine mesh alone harms nothing.
 void warn_thick_shells(const Mesh& mesh, std::vector<std::string>& warnings) {
-  struct Thick {
-    int count = 0;
-    int of = 0;
-    double edge = 0.0;
-  };
-  std::vector<Thick> thick(mesh.shell_properties.size());
-  for (const ShellElement& shell : mesh.shells) {
-    const auto p = static_cast<std::size_t>(shell.property);
-    const double edge = longest_edge(mesh, shell);
-    ++thick[p].of;
-    if (mesh.shell_properties[p].section.thickness <= edge) continue;
-    thick[p].edge = thick[p].count == 0 ? edge : std::min(thick[p].edge, edge);
-    ++thick[p].count;
+  std::vector<Eigen::AlignedBox3d> box(mesh.shell_properties.size());
+  for (const ShellElement& shell : mesh.shells)
+    for (int i = 0; i < shell.corners(); ++i) box[shell.property].extend(mesh.position.col(shell.nodes[i]));
+  for (std::size_t p = 0; p < box.size(); ++p) {
+    const double thickness = mesh.shell_properties[p].section.thickness;
+    if (box[p].isEmpty() || thickness <= 0.2 * box[p].diagonal().norm()) continue;
+    warnings.push_back(
+        fmt::format("the shells of '{}' are {:.4g} thick and extend over {:.4g}: check the thickness, or use solids",
+                    mesh.shell_properties[p].name, thickness, box[p].diagonal().norm()));
   }
-  for (std::size_t p = 0; p < thick.size(); ++p)
-    if (thick[p].count > 0)
-      warnings.push_back(
-          fmt::format("{} of {} shells of '{}' are thicker ({:.4g}) than their longest edge (down to {:.4g}): check "
-                      "the thickness, or "
-                      "use larger elements or solids",
-                      thick[p].count, thick[p].of, mesh.shell_properties[p].name,
-                      mesh.shell_properties[p].section.thickness, thick[p].edge));
 }
 
 /// √(stiffness/density) in units of the part; both per length, per area or per volume.

@@ -2,6 +2,9 @@
 #include "reducer/gmsh/read.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -108,6 +111,41 @@ void unfold(const std::string& file, std::vector<std::string>& warnings) {
                   file, cells.before));
 }
 
+/// Length, area or volume of an entity; of a .geo file, whose kernel may not tell, about a quarter of its box.
+double extent_of(MeshFileKind kind, int dimension, int tag) {
+  double extent = 0.0;
+  if (kind != MeshFileKind::geo) {
+    gmsh::model::occ::getMass(dimension, tag, extent);
+    return extent;
+  }
+  std::array<double, 6> b{};
+  gmsh::model::getBoundingBox(dimension, tag, b[0], b[1], b[2], b[3], b[4], b[5]);
+  std::array<double, 3> side{b[3] - b[0], b[4] - b[1], b[5] - b[2]};
+  std::ranges::sort(side, std::ranges::greater());
+  return dimension == 1 ? side[0] : dimension == 2 ? 0.25 * side[0] * side[1] : 0.25 * side[0] * side[1] * side[2];
+}
+
+/// Refuses a size that would take days: by the number of regular triangles, squares or tetrahedra of that edge.
+void check_size(const GeometryRequest& request, int dimension, const gmsh::vectorpair& entities) {
+  if (!(request.size > 0.0)) return;
+  const double size = request.size / request.scale;
+  double tolerance = 0.0;
+  gmsh::option::getNumber("Geometry.Tolerance", tolerance);
+  if (size < tolerance)
+    throw Error(fmt::format("mesh: size {:g} is below the tolerance of the geometry, {:g}", request.size,
+                            tolerance * request.scale),
+                request.file, "give a size of the order of the geometry's details, in units of the part");
+  const double cell = dimension == 1   ? size
+                      : dimension == 2 ? (request.quadrilaterals ? 1.0 : std::sqrt(3.0) / 4.0) * size * size
+                                       : std::sqrt(2.0) / 12.0 * size * size * size;
+  double count = 0.0;
+  for (const auto& [d, tag] : entities) count += extent_of(request.kind, d, tag) / cell;
+  if (count > most_elements)
+    throw Error(fmt::format("mesh: size {:g} would make about {:.2g} elements, more than {:g}", request.size, count,
+                            most_elements),
+                request.file, "use a larger size, and `sizes` where details need smaller ones");
+}
+
 /// Meshes the geometry, unless the file has done so itself.
 void generate(const GeometryRequest& request, std::vector<std::string>& warnings) {
   const std::string& file = request.file;
@@ -117,6 +155,7 @@ void generate(const GeometryRequest& request, std::vector<std::string>& warnings
   if (entities.empty() || dimension < 1) throw Error("the geometry has no edges, faces or volumes", file, remedy);
   const bool meshed = std::ranges::all_of(entities, [](const auto& e) { return has_cells(e.first, e.second); });
   if (!meshed) {
+    check_size(request, dimension, entities);
     set_local_sizes(request);
     gmsh::model::mesh::generate(dimension);
   }

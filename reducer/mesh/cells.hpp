@@ -13,6 +13,9 @@
 
 namespace tisserand::reducer {
 
+/// A mesh of more is refused before it is made: its reduction would take more memory than machines have.
+inline constexpr double most_elements = 1e7;
+
 /// Node order as gmsh's elements 1, 8, 2, 9, 3, 16, 4, 11, 5, 17, 6, 18 (its documentation, "Node ordering").
 enum class CellShape : std::uint8_t {
   line2,

@@ -9,9 +9,12 @@
 
 namespace tisserand::reducer {
 
-/// Ψ (n_I x n_B) = −S_II⁻¹ S_IB.
+/// Ψ (n_I x n_B) = −S_II⁻¹ S_IB, and what the boundary sees of the inside that follows it (n_B x n_B each).
 struct BoundaryModes {
   Eigen::MatrixXd Psi;
+  Eigen::MatrixXd S;            ///< S_BB + S_BI Ψ + Ψᵀ (S_IB + S_II Ψ)
+  Eigen::MatrixXd M;            ///< M_BB + M_BI Ψ + Ψᵀ X, X = M_IB + M_II Ψ
+  Eigen::MatrixXd flexibility;  ///< Xᵀ S_II⁻¹ X
   /// max |R_I − Ψ R_B| (rotations scaled) before the rigid motions were made exact: the round-off of the solution.
   double rigid_defect = 0.0;
 };
@@ -23,5 +26,8 @@ void check_no_mechanism(const Factor& S_II, const Mesh& mesh, const System& syst
 /// Solves in blocks, then adds (R_I − Ψ R_B) R_B⁺ so that rigid motions of the boundary move the inside rigidly to the
 /// last digit; R = System::R.
 BoundaryModes boundary_modes(const Factor& S_II, const Blocks& blocks, const System& system, const Partition& p);
+
+/// Xᵀ Φ (n_B x m).
+Eigen::MatrixXd mass_coupling(const Blocks& blocks, const BoundaryModes& boundary, const Eigen::MatrixXd& Phi);
 
 }  // namespace tisserand::reducer

@@ -14,7 +14,7 @@ namespace {
 
 Eigen::Matrix<double, 6, 6> rigid_mass_about(const System& system, const Eigen::Vector3d& point) {
   const Eigen::MatrixXd R = rigid_motions_about(system, point);
-  return R.transpose() * multiply(system.matrices, system.matrices.M, R);
+  return R.transpose() * multiply(symmetric_rows(system.matrices, system.matrices.M), R);
 }
 
 }  // namespace
@@ -46,7 +46,7 @@ std::vector<double> full_free_frequencies(const System& system, double scale, in
   const Factor factor(combine(matrices.stiffness, -shift, matrices.mass));
   try {
     const Spectrum spectrum = lowest_pairs({matrices.stiffness, matrices.mass, factor, shift}, wanted, available,
-                                           choose_solver(system.size(), wanted));
+                                           choose_solver(system.size(), wanted), Count::if_cheap);
     std::vector<double> result;
     for (int k = 6; k < wanted; ++k)
       result.push_back(std::sqrt(std::max(0.0, spectrum.pairs.value[k])) / (2.0 * EIGEN_PI));

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 
 #include "common/error.hpp"
+#include "reducer/modes/truncation.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -47,13 +49,14 @@ Gauge make_gauge(const InternalProblem& problem) {
   const Partition& p = problem.partition;
   Gauge gauge;
   Eigen::MatrixXd R = rigid_motions_about(system, system.middle);
-  const Eigen::MatrixXd rigid_mass = R.transpose() * multiply(system.matrices, system.matrices.M, R);
+  const Eigen::MatrixXd rigid_mass = R.transpose() * multiply(symmetric_rows(system.matrices, system.matrices.M), R);
   gauge.mass = rigid_mass(0, 0);
   const Eigen::Matrix3d first = rigid_mass.topRightCorner<3, 3>() / gauge.mass;  // −skew(center − middle)
   const Eigen::Vector3d center = system.middle + Eigen::Vector3d(first(1, 2), first(2, 0), first(0, 1));
   R = rigid_motions_about(system, center);
   R.rightCols<3>() /= system.length;
-  gauge.rigid = rows(multiply(system.matrices, system.matrices.M, R), p.internal) * component_weight.asDiagonal();
+  gauge.rigid =
+      rows(multiply(symmetric_rows(system.matrices, system.matrices.M), R), p.internal) * component_weight.asDiagonal();
   set_place_weights(problem, center, gauge);
   return gauge;
 }
@@ -100,30 +103,58 @@ double decisive_number(const InternalProblem& problem, const Gauge& gauge, const
   return moved[largest];
 }
 
-/// Number of modes to compute, from the selection.
+double eigenvalue_of(double frequency) { return std::pow(2.0 * EIGEN_PI * frequency, 2); }
+
+/// Number of modes to begin with, from the selection.
 int wanted_modes(const InternalProblem& problem, const formats::ModeSelection& selection, int available) {
-  if (!selection.cutoff) {
-    if (selection.count <= available) return selection.count;
-    throw Error(fmt::format("{} internal modes asked for, but only {} exist", selection.count, available),
-                selection.where.empty() ? problem.where : selection.where,
-                fmt::format("ask for at most {} modes, or use more elements{}", available,
-                            available < problem.partition.n_I() ? " or masses with rotary inertia" : ""));
+  if (selection.cutoff || selection.accuracy) {
+    if (problem.partition.n_I() == 0) return 0;
+    const double limit = eigenvalue_of(selection.cutoff ? *selection.cutoff : selection.accuracy->up_to);
+    return std::min(available, count_below(problem.blocks.S_II, problem.blocks.M_II, limit));
   }
-  if (problem.partition.n_I() == 0) return 0;
-  const double omega = 2.0 * EIGEN_PI * *selection.cutoff;
-  return std::min(available, count_below(problem.blocks.S_II, problem.blocks.M_II, omega * omega));
+  if (selection.count <= available) return selection.count;
+  throw Error(fmt::format("{} internal modes asked for, but only {} exist", selection.count, available),
+              selection.where.empty() ? problem.where : selection.where,
+              fmt::format("ask for at most {} modes, or use more elements{}", available,
+                          available < problem.partition.n_I() ? " or masses with rotary inertia" : ""));
+}
+
+std::string solver_text(EigenSolver solver) {
+  switch (solver) {
+    case EigenSolver::dense:
+      return "LAPACK dsygvx";
+    case EigenSolver::block_lanczos:
+      return "block Lanczos, shift-invert";
+    case EigenSolver::krylov_schur:
+      return "SLEPc Krylov-Schur, shift-invert";
+  }
+  return "";
+}
+
+Count count_of(formats::Verification verify) {
+  switch (verify) {
+    case formats::Verification::if_cheap:
+      return Count::if_cheap;
+    case formats::Verification::inertia:
+      return Count::always;
+    case formats::Verification::none:
+      return Count::never;
+  }
+  return Count::always;
 }
 
 }  // namespace
 
 int finite_mode_count(const Matrix& M) {
   constexpr Eigen::Index factored = 20000;
-  constexpr double null_pivot = 1e-10;
+  constexpr double null_pivot = 1e-10, clearly_definite = 1e-8;
   const Eigen::VectorXd mass = diagonal(M);
   const auto with_mass = static_cast<int>((mass.array() > 0.0).count());
   if (with_mass == 0 || mass.size() > factored) return with_mass;
   const Eigen::VectorXd scale = (mass.array() > 0.0).select(mass.cwiseMax(1e-300).cwiseSqrt().cwiseInverse(), 1.0);
-  return static_cast<int>(mass.size()) - Factor(scaled(M, scale), null_pivot).null();
+  const Matrix unit = scaled(M, scale);
+  if (Cholesky(symmetric_rows(unit)).factor() > clearly_definite) return M.size();
+  return M.size() - Factor::indefinite(unit, null_pivot).null();
 }
 
 void fix_basis(const InternalProblem& problem, Eigen::VectorXd& lambda, Eigen::MatrixXd& Phi) {
@@ -141,24 +172,111 @@ void fix_basis(const InternalProblem& problem, Eigen::VectorXd& lambda, Eigen::M
   }
 }
 
-InternalModes internal_modes(const InternalProblem& problem, const formats::ModeSelection& selection) {
+namespace {
+
+/// The lowest pairs and their coupling to the boundary, before their basis is fixed.
+struct Candidates {
+  Spectrum spectrum;
+  Eigen::MatrixXd coupling;  ///< n_B x pairs
+};
+
+/// G of truncation_errors() when the first `kept` pairs are kept.
+Eigen::MatrixXd dropped_flexibility(const BoundaryModes& boundary, const Eigen::MatrixXd& coupling,
+                                    const Eigen::VectorXd& lambda) {
+  return boundary.flexibility - coupling * lambda.cwiseInverse().asDiagonal() * coupling.transpose();
+}
+
+/// Bound of the error up to the frequency of `accuracy` when the first `kept` candidates are kept.
+double error_with(const BoundaryModes& boundary, const Candidates& c, int kept, const formats::Accuracy& accuracy) {
+  const Eigen::Index n_B = boundary.S.rows(), m = kept;
+  const Eigen::VectorXd& value = c.spectrum.pairs.value;
+  const Eigen::MatrixXd L = c.coupling.leftCols(m);
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n_B + m, n_B + m), M = S;
+  S.topLeftCorner(n_B, n_B) = boundary.S;
+  S.diagonal().tail(m) = value.head(m);
+  M << boundary.M, L, L.transpose(), Eigen::MatrixXd::Identity(m, m);
+  const double dropped = m < value.size() ? value[m] : std::numeric_limits<double>::infinity();
+  return largest_truncation_error(S, M, dropped_flexibility(boundary, L, value.head(m)), dropped,
+                                  eigenvalue_of(accuracy.up_to));
+}
+
+/// The least number of candidates from `least` on that meets the accuracy, whole clusters; −1 if none does.
+int enough_for(const BoundaryModes& boundary, const Candidates& c, int least, const formats::Accuracy& accuracy) {
+  const auto meets = [&](int kept) { return error_with(boundary, c, kept, accuracy) <= accuracy.error; };
+  int fails = least - 1, good = c.spectrum.kept;
+  if (!meets(good)) return -1;
+  while (good - fails > 1) {
+    const int middle = fails + (good - fails) / 2;
+    (meets(middle) ? good : fails) = middle;
+  }
+  return cluster_end(c.spectrum.pairs.value, good, 0.0);
+}
+
+/// Computes ever more pairs until they meet the accuracy.
+Candidates candidates_for(const InternalProblem& problem, const BoundaryModes& boundary, const Pencil& pencil,
+                          const formats::ModeSelection& selection, int least, int available) {
+  constexpr int most = 1000;
+  const auto n_I = static_cast<Eigen::Index>(problem.partition.n_I());
+  for (int sought = std::max(1, least + 4);; sought = 2 * sought) {
+    sought = std::min(sought, available);
+    Candidates c;
+    c.spectrum = lowest_pairs(pencil, sought, available, choose_solver(n_I, sought), count_of(selection.verify));
+    c.coupling = mass_coupling(problem.blocks, boundary, c.spectrum.pairs.vector);
+    const int enough = enough_for(boundary, c, least, *selection.accuracy);
+    if (enough >= 0) {
+      c.spectrum.kept = enough;
+      return c;
+    }
+    if (2 * sought > most || c.spectrum.kept == available)
+      throw Error(fmt::format("the accuracy of {:g} up to {:g} is not met: {} internal modes leave {:.2g}",
+                              selection.accuracy->error, selection.accuracy->up_to, c.spectrum.kept,
+                              error_with(boundary, c, c.spectrum.kept, *selection.accuracy)),
+                  selection.where, "ask for a larger error or a lower frequency");
+  }
+}
+
+/// A cut-off asks how many: that count also verifies the search, unless it found too few.
+Spectrum spectrum_for(const Pencil& pencil, const formats::ModeSelection& selection, Eigen::Index n_I, int sought,
+                      int available) {
+  const EigenSolver solver = choose_solver(n_I, sought);
+  if (!selection.cutoff) return lowest_pairs(pencil, sought, available, solver, count_of(selection.verify));
+  Spectrum spectrum = lowest_pairs(pencil, sought, available, solver, Count::never);
+  if (spectrum.pairs.value[sought - 1] >= eigenvalue_of(*selection.cutoff))
+    return lowest_pairs(pencil, sought, available, solver, Count::always);
+  spectrum.counted = spectrum.kept;
+  return spectrum;
+}
+
+}  // namespace
+
+InternalModes internal_modes(const InternalProblem& problem, const BoundaryModes& boundary,
+                             const formats::ModeSelection& selection) {
   InternalModes modes;
   const Eigen::Index n_I = problem.partition.n_I();
   modes.available = n_I > 0 ? finite_mode_count(problem.blocks.M_II) : 0;
   modes.requested = wanted_modes(problem, selection, modes.available);
   modes.Phi.resize(n_I, 0);
+  modes.coupling.resize(boundary.Psi.cols(), 0);
+  modes.truncation = boundary.flexibility;
   if (modes.available == 0) return modes;
   const Pencil pencil{problem.blocks.S_II, problem.blocks.M_II, problem.S_II, 0.0};
-  const int sought = std::max(1, modes.requested);
-  const Spectrum spectrum = lowest_pairs(pencil, sought, modes.available, choose_solver(n_I, sought));
+  Spectrum spectrum;
+  if (selection.accuracy) {
+    spectrum = candidates_for(problem, boundary, pencil, selection, modes.requested, modes.available).spectrum;
+    modes.requested = spectrum.kept;
+  } else {
+    spectrum = spectrum_for(pencil, selection, n_I, std::max(1, modes.requested), modes.available);
+  }
   const int kept = modes.requested == 0 ? 0 : spectrum.kept;
-  modes.solver = spectrum.solver == EigenSolver::dense ? "LAPACK dsygvx" : "SLEPc Krylov-Schur, shift-invert";
+  modes.solver = solver_text(spectrum.solver);
   modes.residual = spectrum.residual;
-  modes.counted = modes.requested == 0 ? 0 : spectrum.counted;
+  if (spectrum.counted) modes.counted = std::min(*spectrum.counted, kept);
   if (kept < spectrum.pairs.value.size()) modes.first_dropped = spectrum.pairs.value[kept];
   modes.lambda = spectrum.pairs.value.head(kept);
   modes.Phi = spectrum.pairs.vector.leftCols(kept);
   fix_basis(problem, modes.lambda, modes.Phi);
+  modes.coupling = mass_coupling(problem.blocks, boundary, modes.Phi);
+  modes.truncation = dropped_flexibility(boundary, modes.coupling, modes.lambda);
   return modes;
 }
 

@@ -11,14 +11,16 @@
 namespace tisserand::reducer {
 
 struct InternalModes {
-  Eigen::VectorXd lambda;  ///< m; ω², ascending; equal within a cluster
-  Eigen::MatrixXd Phi;     ///< n_I x m, Φᵀ M_II Φ = 1
+  Eigen::VectorXd lambda;      ///< m; ω², ascending; equal within a cluster
+  Eigen::MatrixXd Phi;         ///< n_I x m, Φᵀ M_II Φ = 1
+  Eigen::MatrixXd coupling;    ///< n_B x m: (M_BI + Ψᵀ M_II) Φ
+  Eigen::MatrixXd truncation;  ///< n_B x n_B: G of truncation_errors()
   int requested = 0;
   int available = 0;                    ///< finite eigenvalues of (S_II, M_II)
   std::optional<double> first_dropped;  ///< ω² of the lowest mode left out
   std::string solver;
-  double residual = 0.0;  ///< Spectrum::residual
-  int counted = 0;        ///< Spectrum::counted
+  double residual = 0.0;       ///< Spectrum::residual
+  std::optional<int> counted;  ///< Spectrum::counted
 };
 
 /// What the internal modes are computed from.
@@ -37,8 +39,11 @@ struct InternalProblem {
 /// coordinates with mass.
 int finite_mode_count(const Matrix& M);
 
-/// By number or by cut-off frequency. Throws Error if more modes are asked for than exist.
-InternalModes internal_modes(const InternalProblem& problem, const formats::ModeSelection& selection);
+/// By number, by cut-off frequency, or as many as the accuracy takes: all below its frequency, and more until the bound
+/// of the errors of the free part's frequencies up to it meets the error. Throws Error if more modes are asked for than
+/// exist, or if 1000 modes do not meet the accuracy.
+InternalModes internal_modes(const InternalProblem& problem, const BoundaryModes& boundary,
+                             const formats::ModeSelection& selection);
 
 /// Fixes order and signs: inside a cluster the basis diagonalises the participation of the six rigid
 /// motions with fixed unequal weights, and if that is not unique, a fixed function of place; signs by the same

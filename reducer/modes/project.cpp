@@ -13,8 +13,6 @@ double relative_maximum(const Eigen::MatrixXd& part, const Eigen::MatrixXd& whol
   return part.size() == 0 || whole.size() == 0 ? 0.0 : part.cwiseAbs().maxCoeff() / whole.cwiseAbs().maxCoeff();
 }
 
-Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& A) { return 0.5 * (A + A.transpose()); }
-
 /// Names, positions and rows of the superelement.
 formats::Superelement describe(const formats::Part& part, const InternalProblem& problem, Eigen::Index modes) {
   formats::Superelement element;
@@ -74,22 +72,16 @@ Projection project(const formats::Part& part, const InternalProblem& problem, co
   Eigen::MatrixXd& M = result.superelement.mass;
   S.setZero(n_B + m, n_B + m);
   M.setZero(n_B + m, n_B + m);
-
-  S.topLeftCorner(n_B, n_B) = b.S_BB;
-  M.topLeftCorner(n_B, n_B) = b.M_BB;
-  if (problem.partition.n_I() > 0) {
-    const Eigen::MatrixXd force = b.S_IB + multiply(b.S_II, Psi);  // round-off of the solution, 0 in theory
-    S.topLeftCorner(n_B, n_B) += b.S_IB.transpose() * Psi + Psi.transpose() * force;
-    const Eigen::MatrixXd momentum = b.M_IB + multiply(b.M_II, Psi);
-    M.topLeftCorner(n_B, n_B) += b.M_IB.transpose() * Psi + Psi.transpose() * momentum;
-    M.topRightCorner(n_B, m) = momentum.transpose() * Phi;
-    M.bottomLeftCorner(m, n_B) = M.topRightCorner(n_B, m).transpose();
-    result.defects.stiffness_coupling = relative_maximum(force.transpose() * Phi, internal.lambda);
+  S.topLeftCorner(n_B, n_B) = boundary.S;
+  M.topLeftCorner(n_B, n_B) = boundary.M;
+  if (m > 0) {
+    M.topRightCorner(n_B, m) = internal.coupling;
+    M.bottomLeftCorner(m, n_B) = internal.coupling.transpose();
+    const Eigen::MatrixXd force = b.S_IB.transpose() * Phi + Psi.transpose() * multiply(b.S_II, Phi);
+    result.defects.stiffness_coupling = relative_maximum(force, internal.lambda);
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(m, m);
     result.defects.orthonormality = relative_maximum(Phi.transpose() * multiply(b.M_II, Phi) - identity, identity);
   }
-  S.topLeftCorner(n_B, n_B) = symmetric_part(S.topLeftCorner(n_B, n_B));
-  M.topLeftCorner(n_B, n_B) = symmetric_part(M.topLeftCorner(n_B, n_B));
   S.diagonal().tail(m) = internal.lambda;
   M.diagonal().tail(m).setOnes();
   result.defects.rigid_residual = rigid_residual(result.superelement, characteristic_length(problem.mesh), internal);

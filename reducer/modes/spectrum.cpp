@@ -1,18 +1,22 @@
-// Eigenpairs by LAPACK (small) or SLEPc's Krylov-Schur with shift-invert, counted by Sylvester's law of inertia.
+// Eigenpairs by LAPACK (small) or block Lanczos iteration, SLEPc's Krylov-Schur where that does not end; counted by
+// Sylvester's law of inertia.
 #include "reducer/modes/spectrum.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <slepceps.h>
+#include <Eigen/Cholesky>
 
 // Does not compile before the others, so it has a block of its own.
 #include <petscblaslapack.h>
 
 #include "common/error.hpp"
+#include "reducer/modes/block_lanczos.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -88,18 +92,6 @@ class KrylovSchur {
   EPS eps_ = nullptr;
 };
 
-/// Ascending, vectors with xᵀ M x = 1.
-void sort_and_normalise(const Matrix& M, EigenPairs& pairs) {
-  std::vector<int> order(static_cast<std::size_t>(pairs.value.size()));
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pairs.value[a] < pairs.value[b]; });
-  pairs.value = Eigen::VectorXd(pairs.value(order));
-  pairs.vector = Eigen::MatrixXd(pairs.vector(Eigen::all, order));
-  const Eigen::MatrixXd MX = multiply(M, pairs.vector);
-  for (Eigen::Index k = 0; k < pairs.value.size(); ++k)
-    pairs.vector.col(k) /= std::sqrt(pairs.vector.col(k).dot(MX.col(k)));
-}
-
 void append(const EigenPairs& more, EigenPairs& pairs) {
   const Eigen::Index old = pairs.value.size(), added = more.value.size();
   pairs.value.conservativeResize(old + added);
@@ -120,42 +112,55 @@ void discard_unresolved(double shift, EigenPairs& pairs) {
   pairs.vector = Eigen::MatrixXd(pairs.vector(Eigen::all, good));
 }
 
-/// One step of inverse iteration, y = (S − shift M)⁻¹ M x, with λ − shift = yᵀMx/yᵀMy: removes from x what nearly
-/// massless coordinates hide from the solver, whose inner product is that of M. Not for the pairs far above the first,
-/// where the step would amplify the round-off along the first. Then sorts and normalises.
-void purify(const Pencil& pencil, EigenPairs& pairs) {
+void sort_pairs(EigenPairs& pairs) {
+  std::vector<int> order(static_cast<std::size_t>(pairs.value.size()));
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pairs.value[a] < pairs.value[b]; });
+  if (std::is_sorted(order.begin(), order.end())) return;
+  pairs.value = Eigen::VectorXd(pairs.value(order));
+  pairs.vector = Eigen::MatrixXd(pairs.vector(Eigen::all, order));
+}
+
+/// X := X R⁻¹ with Xᵀ M X = Rᵀ R, and MX likewise: what a column has of earlier ones goes.
+void orthonormalise(EigenPairs& pairs, Eigen::MatrixXd& MX) {
+  const Eigen::MatrixXd G = pairs.vector.transpose() * MX;
+  const Eigen::LLT<Eigen::MatrixXd> factor(0.5 * (G + G.transpose()));
+  if (factor.info() != Eigen::Success) return;
+  factor.matrixU().solveInPlace<Eigen::OnTheRight>(pairs.vector);
+  factor.matrixU().solveInPlace<Eigen::OnTheRight>(MX);
+}
+
+/// One step of inverse iteration, y = (λ − shift) (S − shift M)⁻¹ M x: removes from x what nearly massless coordinates
+/// hide from the solver, whose inner product is that of M. As S y − λ M y = (λ − shift) M (x − y), it tells the
+/// residual of y without the cancellation of S y. λ becomes Rayleigh's quotient. Pairs far above the first keep x,
+/// since the step amplifies the round-off along the first. Then sorted, Xᵀ M X = 1; returns the residuals, relative to
+/// (λ − shift) ‖M y‖, of far ones also to λ/λ₁.
+Eigen::VectorXd purify(const Pencil& pencil, EigenPairs& pairs) {
   constexpr double far = 1e4;
+  sort_pairs(pairs);
   discard_unresolved(pencil.shift, pairs);
-  sort_and_normalise(pencil.M, pairs);
-  Eigen::Index near = 0;
-  while (near < pairs.value.size() && pairs.value[near] - pencil.shift < far * (pairs.value[0] - pencil.shift)) ++near;
-  if (near == 0) return;
-  const Eigen::MatrixXd MX = multiply(pencil.M, pairs.vector.leftCols(near));
-  pairs.vector.leftCols(near) = pencil.factor.solve(MX);
-  const Eigen::MatrixXd MY = multiply(pencil.M, pairs.vector.leftCols(near));
-  for (Eigen::Index k = 0; k < near; ++k)
-    pairs.value[k] = pencil.shift + pairs.vector.col(k).dot(MX.col(k)) / pairs.vector.col(k).dot(MY.col(k));
-  sort_and_normalise(pencil.M, pairs);
+  Eigen::MatrixXd MX = multiply(pencil.M, pairs.vector);
+  const Eigen::VectorXd lambda = pairs.value.array() - pencil.shift;
+  const Eigen::MatrixXd Y = pencil.factor.solve(MX * lambda.asDiagonal());
+  Eigen::MatrixXd MY = multiply(pencil.M, Y);
+  Eigen::VectorXd residual = (MX - MY).colwise().norm().cwiseQuotient(MY.colwise().norm());
+  for (Eigen::Index k = 0; k < lambda.size(); ++k) {
+    if (lambda[k] < far * lambda[0]) {
+      pairs.value[k] = pencil.shift + lambda[k] * Y.col(k).dot(MX.col(k)) / Y.col(k).dot(MY.col(k));
+      pairs.vector.col(k) = Y.col(k);
+    } else {
+      residual[k] /= 1.0 + lambda[k] / lambda[0];
+      MY.col(k) = MX.col(k);
+    }
+  }
+  orthonormalise(pairs, MY);
+  sort_pairs(pairs);
+  return residual;
 }
 
 [[noreturn]] void fail_missing(int found, int exist) {
   throw Error(fmt::format("{} internal modes found where {} exist", found, exist), "eigenvalue solver",
               "ask for fewer modes, or use fewer elements per line");
-}
-
-/// See Spectrum::residual.
-double largest_residual(const Pencil& pencil, const EigenPairs& pairs, int count) {
-  const Eigen::VectorXd weight = diagonal(pencil.S).cwiseMax(0.0).cwiseSqrt();
-  const Eigen::VectorXd lambda = pairs.value.head(count).array() - pencil.shift;
-  const Eigen::MatrixXd X = pairs.vector.leftCols(count);
-  const Eigen::MatrixXd Y = pencil.factor.solve(multiply(pencil.M, X)) * lambda.asDiagonal();
-  double largest = 0.0;
-  for (int k = 0; k < count; ++k) {
-    const double norm = weight.cwiseProduct(X.col(k)).norm();
-    const double defect = weight.cwiseProduct(X.col(k) - Y.col(k)).norm();
-    largest = std::max(largest, defect / ((1.0 + lambda[k] / lambda[0]) * norm));
-  }
-  return largest;
 }
 
 /// Between the last kept and the first dropped eigenvalue; nothing dropped: above the last.
@@ -177,30 +182,60 @@ Spectrum dense_spectrum(const Pencil& pencil, int count, int available) {
     if (s.kept < s.pairs.value.size() || s.pairs.value.size() < wanted || wanted == available) break;
   }
   s.counted = s.kept;
+  s.residual = purify(pencil, s.pairs).head(s.kept).maxCoeff();
   return s;
 }
 
-Spectrum krylov_spectrum(const Pencil& pencil, int count, int available) {
+/// Whether one more factorisation costs less than a tenth of the solutions: their operations, of which the processor
+/// does a third as many a second, with the columns that block Lanczos iteration needs for `count` pairs.
+bool counting_is_cheap(const Factor& factor, int count) {
+  const double columns = 3.0 * count + 60.0;
+  return factor.cost().operations < 0.1 * 3.0 * columns * 4.0 * factor.cost().entries;
+}
+
+/// Members of the largest cluster.
+int largest_cluster(const Eigen::VectorXd& value, double shift) {
+  int largest = 0;
+  for (int first = 0; first < value.size();) {
+    const int end = cluster_end(value, first + 1, shift);
+    largest = std::max(largest, end - first);
+    first = end;
+  }
+  return largest;
+}
+
+EigenPairs first_search(const Pencil& pencil, int wanted, Spectrum& s) {
+  if (s.solver == EigenSolver::block_lanczos) {
+    if (std::optional<EigenPairs> pairs = block_lanczos(pencil, wanted)) return std::move(*pairs);
+    s.solver = EigenSolver::krylov_schur;
+  }
+  return KrylovSchur(pencil).solve(wanted, pencil.S.size());
+}
+
+Spectrum iterated_spectrum(const Pencil& pencil, int count, int available, EigenSolver solver, Count verify) {
   constexpr int attempts = 6;
   Spectrum s;
-  s.solver = EigenSolver::krylov_schur;
-  int wanted = std::min(available, count + 6);
-  const Eigen::Index size = diagonal(pencil.S).size();
-  s.pairs = KrylovSchur(pencil).solve(wanted, size);
-  purify(pencil, s.pairs);
+  s.solver = solver;
+  s.pairs = first_search(pencil, std::min(available, count + 2), s);
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    if (s.pairs.value.size() >= count) {
+    const Eigen::VectorXd residual = purify(pencil, s.pairs);
+    const auto found = static_cast<int>(s.pairs.value.size());
+    if (found >= count) {
       s.kept = cluster_end(s.pairs.value, count, pencil.shift);
-      const double above = value_in_gap(s.pairs, s.kept, pencil.shift);
-      s.counted = s.kept == available ? available : count_below(pencil.S, pencil.M, above);
+      s.residual = residual.head(s.kept).maxCoeff();
+      if (s.kept == available) s.counted = available;
+      const bool needed = verify == Count::always ||
+                          (verify == Count::if_cheap && counting_is_cheap(pencil.factor, count)) ||
+                          largest_cluster(s.pairs.value.head(s.kept), pencil.shift) >= lanczos_block;
+      if (s.kept < found && !needed) return s;
+      if (s.kept < available) s.counted = count_below(pencil.S, pencil.M, value_in_gap(s.pairs, s.kept, pencil.shift));
       if (s.counted == s.kept) return s;
     }
     KrylovSchur again(pencil);  // repeated eigenvalues hide from one Krylov sequence: look for what is orthogonal
     again.deflate(s.pairs.vector);
-    append(again.solve(std::max(4, s.counted - s.kept), size), s.pairs);
-    purify(pencil, s.pairs);
+    append(again.solve(std::max(4, s.counted.value_or(0) - s.kept), pencil.S.size()), s.pairs);
   }
-  fail_missing(static_cast<int>(s.pairs.value.size()), std::max(count, s.counted));
+  fail_missing(static_cast<int>(s.pairs.value.size()), std::max(count, s.counted.value_or(0)));
 }
 
 }  // namespace
@@ -212,17 +247,18 @@ int cluster_end(const Eigen::VectorXd& value, int count, double shift) {
   return end;
 }
 
-int count_below(const Matrix& S, const Matrix& M, double value) { return Factor(combine(S, -value, M)).negative(); }
+int count_below(const Matrix& S, const Matrix& M, double value) {
+  return Factor::indefinite(combine(S, -value, M)).negative();
+}
 
 EigenSolver choose_solver(Eigen::Index size, int count) {
   const bool small = size <= 200 || (size <= 4000 && 5 * (count + 8) > size);
-  return small ? EigenSolver::dense : EigenSolver::krylov_schur;
+  return small ? EigenSolver::dense : EigenSolver::block_lanczos;
 }
 
-Spectrum lowest_pairs(const Pencil& pencil, int count, int available, EigenSolver solver) {
+Spectrum lowest_pairs(const Pencil& pencil, int count, int available, EigenSolver solver, Count verify) {
   Spectrum s = solver == EigenSolver::dense ? dense_spectrum(pencil, count, available)
-                                            : krylov_spectrum(pencil, count, available);
-  s.residual = largest_residual(pencil, s.pairs, s.kept);
+                                            : iterated_spectrum(pencil, count, available, solver, verify);
   if (!(s.residual < 1e-8))
     throw Error(fmt::format("internal modes have a relative residual of {:.1e}, above 1e-8", s.residual),
                 "eigenvalue solver", "the part is badly conditioned: avoid very short beside very long elements");

@@ -1,7 +1,7 @@
 // Lowest eigenpairs of S x = λ M x, S positive definite after a shift, M positive semidefinite; none missed.
 #pragma once
 
-#include <string>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -24,15 +24,18 @@ struct Pencil {
   double shift = 0.0;
 };
 
-enum class EigenSolver { dense, krylov_schur };
+enum class EigenSolver { dense, block_lanczos, krylov_schur };
+
+/// Whether eigenvalues are counted by one more factorisation.
+enum class Count { always, if_cheap, never };
 
 /// Lowest pairs with what was checked about them.
 struct Spectrum {
   EigenPairs pairs;  ///< at least `kept`, with the pairs behind the cut that were found
   int kept = 0;      ///< the requested number, raised to the end of the cluster that it would cut
   EigenSolver solver = EigenSolver::dense;
-  double residual = 0.0;  ///< largest ‖x − (λ−shift)(S−shift M)⁻¹M x‖/((1 + (λ−shift)/(λ₁−shift)) ‖x‖), diag(S) norm
-  int counted = 0;  ///< eigenvalues below the cut by Sylvester's law of inertia; equals `kept`
+  double residual = 0.0;       ///< largest ‖S x − λ M x‖/((λ − shift) ‖M x‖) of those kept
+  std::optional<int> counted;  ///< eigenvalues below the cut by Sylvester's law of inertia; equals `kept`
 };
 
 /// Eigenvalues closer than 1e-6 relative form one cluster.
@@ -47,9 +50,10 @@ int count_below(const Matrix& S, const Matrix& M, double value);
 /// Which solver serves a problem of this size.
 EigenSolver choose_solver(Eigen::Index size, int count);
 
-/// The `count` lowest pairs (count ≤ available, the number of finite eigenvalues); clusters are completed. Throws Error
-/// if pairs are still missing after repeated searches, or residuals are above 1e-8.
-Spectrum lowest_pairs(const Pencil& pencil, int count, int available, EigenSolver solver);
+/// The `count` lowest pairs (count ≤ available, the number of finite eigenvalues); clusters are completed. They are
+/// counted always where a cluster is as large as the block of the iteration, which then proves nothing. Throws Error if
+/// pairs are still missing after repeated searches, or residuals are above 1e-8.
+Spectrum lowest_pairs(const Pencil& pencil, int count, int available, EigenSolver solver, Count verify);
 
 /// All-dense version for small matrices: the lowest `count` pairs of S x = λ M x, S − shift M positive definite.
 EigenPairs dense_lowest(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, double shift, int count);

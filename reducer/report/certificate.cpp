@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "reducer/modes/spectrum.hpp"
+#include "reducer/modes/truncation.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -53,21 +54,24 @@ std::vector<double> fixed_frequencies(const formats::Superelement& element) {
   return result;
 }
 
-/// The elastic ones among the lowest: shift by the size of the first elastic eigenvalue, found with a coarse shift.
+/// The elastic ones among the lowest.
 std::vector<double> free_frequencies(const formats::Superelement& element, int massless) {
   const int count = std::min(static_cast<int>(element.size()) - massless, 6 + most_frequencies);
   if (count <= 6) return {};
-  double coarse = 0.0;
-  for (Eigen::Index i = 0; i < element.size(); ++i)
-    if (element.mass(i, i) > 0.0) coarse = std::max(coarse, element.stiffness(i, i) / element.mass(i, i));
-  if (!(coarse > 0.0)) return {};
-  const double first = dense_lowest(element.stiffness, element.mass, -coarse, 7).value[6];
-  const Eigen::VectorXd lambda = dense_lowest(element.stiffness, element.mass, -0.5 * first, count).value;
+  const Eigen::VectorXd lambda = free_eigenvalues(element.stiffness, element.mass, count);
   std::vector<double> result;
   constexpr double resolved = 1e13;  // eigenvalues farther above the first are round-off
-  for (int k = 6; k < count && lambda[k] > 0.0 && lambda[k] < resolved * first; ++k)
+  for (Eigen::Index k = 6; k < lambda.size() && lambda[k] > 0.0 && lambda[k] < resolved * lambda[6]; ++k)
     result.push_back(frequency(lambda[k]));
   return result;
+}
+
+/// Whether the rigid part lacks mass or inertia in some direction.
+bool rigid_motion_without_mass(const formats::Superelement& element, const formats::SuperelementReport& report) {
+  Eigen::MatrixXd R = formats::rigid_motions(element, report.rigid.center_of_mass);
+  R.rightCols<3>() /= report.characteristic_length;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> M(R.transpose() * element.mass * R, Eigen::EigenvaluesOnly);
+  return M.eigenvalues()[0] < massless_limit * M.eigenvalues()[5];
 }
 
 }  // namespace
@@ -105,8 +109,9 @@ FileCertificate certify(const formats::Superelement& element, const formats::Sup
   }
   try {
     c.free_frequency = free_frequencies(element, massless);
-  } catch (const Error&) {
-    c.free_frequency_note = "some rigid motion moves no mass";
+  } catch (const Error& error) {
+    c.free_frequency_note =
+        rigid_motion_without_mass(element, report) ? "some rigid motion moves no mass" : error.message();
   }
   return c;
 }

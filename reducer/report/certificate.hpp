@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "formats/part/part.hpp"
 #include "formats/superelement/superelement.hpp"
 
 namespace tisserand::reducer {
@@ -39,17 +40,21 @@ struct ModelCertificate {
   formats::RigidProperties rigid;     ///< of the mesh, from its full mass matrix
   int modes_requested = 0, modes_kept = 0, modes_available = 0;
   std::optional<double> cutoff;
+  std::optional<formats::Accuracy> accuracy;
   std::optional<double> first_dropped_frequency;
   std::string eigenvalue_solver;
   double mode_residual = 0.0;
-  int modes_counted = 0;
+  std::optional<int> modes_counted;    ///< below the cut, by inertia
   double boundary_rigid_defect = 0.0;  ///< before rigid motions were made exact
   double rigid_residual_before_projection = 0.0;
   double stiffness_coupling = 0.0;
   double orthonormality = 0.0;
   std::vector<double> free_frequency;  ///< elastic frequencies of the full model; empty for large parts
-  std::vector<std::string> notes;      ///< whole sentences, for example about a completed cluster
-  std::vector<std::string> warnings;   ///< of the way in and of the checks of the mesh
+  /// Of the free frequencies of the reduced part below the first dropped mode: relative error that the dropped modes
+  /// cause, and between which the frequency of the full part lies.
+  std::vector<double> truncation_estimate, truncation_lower, truncation_upper;
+  std::vector<std::string> notes;     ///< whole sentences, for example about a completed cluster
+  std::vector<std::string> warnings;  ///< of the way in and of the checks of the mesh
 };
 
 /// What is only known while importing matrices of another program: how far they were from what is written.

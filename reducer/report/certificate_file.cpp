@@ -63,10 +63,14 @@ json model_json(const ModelCertificate& c) {
           {"modes_kept", c.modes_kept},
           {"modes_available", c.modes_available},
           {"cutoff", optional_json(c.cutoff)},
+          {"accuracy", c.accuracy ? json{{"error", c.accuracy->error}, {"up_to", c.accuracy->up_to}} : json(nullptr)},
+          {"truncation_estimate", c.truncation_estimate},
+          {"truncation_lower", c.truncation_lower},
+          {"truncation_upper", c.truncation_upper},
           {"first_dropped_frequency", optional_json(c.first_dropped_frequency)},
           {"eigenvalue_solver", c.eigenvalue_solver},
           {"mode_residual", c.mode_residual},
-          {"modes_counted", c.modes_counted},
+          {"modes_counted", c.modes_counted ? json(*c.modes_counted) : json(nullptr)},
           {"boundary_rigid_defect", c.boundary_rigid_defect},
           {"rigid_residual_before_projection", c.rigid_residual_before_projection},
           {"stiffness_coupling", c.stiffness_coupling},
@@ -117,10 +121,15 @@ ModelCertificate model_from(const json& j) {
   c.modes_kept = j.at("modes_kept");
   c.modes_available = j.at("modes_available");
   c.cutoff = optional_from(j.at("cutoff"));
+  if (const json& accuracy = j.at("accuracy"); !accuracy.is_null())
+    c.accuracy = formats::Accuracy{accuracy.at("error"), accuracy.at("up_to")};
+  c.truncation_estimate = j.at("truncation_estimate").get<std::vector<double>>();
+  c.truncation_lower = j.at("truncation_lower").get<std::vector<double>>();
+  c.truncation_upper = j.at("truncation_upper").get<std::vector<double>>();
   c.first_dropped_frequency = optional_from(j.at("first_dropped_frequency"));
   c.eigenvalue_solver = j.at("eigenvalue_solver");
   c.mode_residual = j.at("mode_residual");
-  c.modes_counted = j.at("modes_counted");
+  if (const json& counted = j.at("modes_counted"); !counted.is_null()) c.modes_counted = counted.get<int>();
   c.boundary_rigid_defect = j.at("boundary_rigid_defect");
   c.rigid_residual_before_projection = j.at("rigid_residual_before_projection");
   c.stiffness_coupling = j.at("stiffness_coupling");
@@ -157,22 +166,28 @@ std::string rigid_text(const char* source, const formats::RigidProperties& rigid
   return text;
 }
 
-std::string frequency_table(const FileCertificate& file, const std::vector<double>& full, const Units& units) {
+/// `model`: of the full part where that is small, and what dropped modes may cause.
+std::string frequency_table(const FileCertificate& file, const std::optional<ModelCertificate>& model,
+                            const Units& units) {
   const std::size_t count = std::max(file.fixed_frequency.size(), file.free_frequency.size());
   if (count == 0) return "";
+  const std::vector<double> none;
+  const std::vector<double>& full = model ? model->free_frequency : none;
+  const std::vector<double>& estimate = model ? model->truncation_estimate : none;
   const std::string unit = units.named() ? (units.time.factor == 1.0 ? "Hz" : "1/" + units.time.label) : "1/time";
-  std::string text =
-      fmt::format("frequencies [{}]\n  {:>4} {:>16} {:>16} {:>16} {:>10}\n", unit, "mode", "boundary fixed",
-                  "free, reduced", full.empty() ? "" : "free, full", full.empty() ? "" : "error");
+  std::string text = fmt::format("frequencies [{}]\n  {:>4} {:>16} {:>16} {:>16} {:>10} {:>10}\n", unit, "mode",
+                                 "boundary fixed", "free, reduced", full.empty() ? "" : "free, full",
+                                 full.empty() ? "" : "error", estimate.empty() ? "" : "estimate");
   const auto cell = [](const std::vector<double>& v, std::size_t k) {
     return k < v.size() ? fmt::format("{:.8g}", v[k]) : std::string("-");
   };
   constexpr std::size_t most_rows = 20;
   for (std::size_t k = 0; k < std::min(count, most_rows); ++k) {
     const bool both = k < full.size() && k < file.free_frequency.size();
-    text += fmt::format("  {:>4} {:>16} {:>16} {:>16} {:>10}\n", k + 1, cell(file.fixed_frequency, k),
+    text += fmt::format("  {:>4} {:>16} {:>16} {:>16} {:>10} {:>10}\n", k + 1, cell(file.fixed_frequency, k),
                         cell(file.free_frequency, k), full.empty() ? "" : cell(full, k),
-                        both ? fmt::format("{:.1e}", file.free_frequency[k] / full[k] - 1.0) : "");
+                        both ? fmt::format("{:.1e}", file.free_frequency[k] / full[k] - 1.0) : "",
+                        k < estimate.size() ? fmt::format("{:.1e}", estimate[k]) : "");
   }
   if (count > most_rows) text += fmt::format("  {:>4} {} more in the certificate file\n", "...", count - most_rows);
   return text;
@@ -201,8 +216,9 @@ std::string model_text(const ModelCertificate& c) {
   std::string text = fmt::format("{:<19}{} nodes, {} elements, {} coordinates ({})\n", "full model", c.nodes,
                                  c.elements, c.coordinates, c.part);
   text += contents_text(c);
-  text += fmt::format("{:<19}{} kept ({} asked for, {} exist), {} counted below the cut", "internal modes",
-                      c.modes_kept, c.modes_requested, c.modes_available, c.modes_counted);
+  text += fmt::format("{:<19}{} kept ({} asked for, {} exist), {}", "internal modes", c.modes_kept, c.modes_requested,
+                      c.modes_available,
+                      c.modes_counted ? fmt::format("{} counted below the cut", *c.modes_counted) : "not counted");
   if (c.first_dropped_frequency) text += fmt::format(", first dropped at {:.8g}", *c.first_dropped_frequency);
   text += "\n";
   if (!c.eigenvalue_solver.empty())
@@ -262,7 +278,7 @@ std::string certificate_text(const formats::Superelement& element, const FileCer
   text += fmt::format("{:<19}S {:.2e}, M {:.2e} (rotations scaled by {:.6g})\n", "condition", file.stiffness_condition,
                       file.mass_condition, file.characteristic_length);
   text += fmt::format("{:<19}{}\n", "without mass", file.massless.empty() ? "none" : listed(file.massless, "; "));
-  text += frequency_table(file, model ? model->free_frequency : std::vector<double>{}, element.units);
+  text += frequency_table(file, model, element.units);
   if (!file.free_frequency_note.empty())
     text += fmt::format("{:<19}no free frequencies: {}\n", "note", file.free_frequency_note);
   for (const std::string& warning : file.warnings) text += fmt::format("{:<19}{}\n", "warning", warning);

@@ -6,12 +6,33 @@
 #include "common/error.hpp"
 #include "reducer/elements/checks.hpp"
 #include "reducer/modes/full_model.hpp"
+#include "reducer/modes/truncation.hpp"
 
 namespace tisserand::reducer {
 namespace {
 
 constexpr int small_part = 6000;
 constexpr int most_compared = 12;
+constexpr int most_estimated = 20;
+
+std::vector<double> frequencies(const Eigen::VectorXd& lambda) {
+  std::vector<double> result;
+  for (const double value : lambda) result.push_back(frequency(value));
+  return result;
+}
+
+void describe_truncation(const formats::Superelement& element, const InternalModes& internal, ModelCertificate& c) {
+  if (!internal.first_dropped) return;
+  try {
+    const TruncationErrors errors = truncation_errors(element.stiffness, element.mass, internal.truncation,
+                                                      *internal.first_dropped, most_estimated);
+    c.truncation_estimate.assign(errors.estimate.begin(), errors.estimate.end());
+    c.truncation_lower = frequencies(errors.lower);
+    c.truncation_upper = frequencies(errors.upper);
+  } catch (const Error&) {
+    return;  // some motion has neither stiffness nor mass: there are no free frequencies (FileCertificate)
+  }
+}
 
 }  // namespace
 
@@ -31,13 +52,14 @@ void describe_mesh(const Mesh& mesh, const System& system, ModelCertificate& c) 
 }
 
 ModelCertificate describe(const formats::Part& part, const BoundaryModes& boundary, const InternalModes& internal,
-                          const ProjectionDefects& defects) {
+                          const ProjectionDefects& defects, const formats::Superelement& element) {
   ModelCertificate c;
   c.part = part.file;
   c.modes_requested = internal.requested;
   c.modes_kept = static_cast<int>(internal.lambda.size());
   c.modes_available = internal.available;
   c.cutoff = part.modes.cutoff;
+  c.accuracy = part.modes.accuracy;
   if (internal.first_dropped) c.first_dropped_frequency = frequency(*internal.first_dropped);
   c.eigenvalue_solver = internal.solver;
   c.mode_residual = internal.residual;
@@ -49,6 +71,7 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
   if (c.modes_kept > c.modes_requested)
     c.notes.push_back(fmt::format("The cut after {} modes would have split a group of equal frequencies; {} are kept.",
                                   c.modes_requested, c.modes_kept));
+  describe_truncation(element, internal, c);
   return c;
 }
 

@@ -12,9 +12,10 @@
 
 namespace tisserand::reducer {
 
-/// Modes asked for and kept, defects before they were removed.
+/// Modes asked for and kept, defects before they were removed, what the dropped modes can change of the free
+/// frequencies of `element`.
 ModelCertificate describe(const formats::Part& part, const BoundaryModes& boundary, const InternalModes& internal,
-                          const ProjectionDefects& defects);
+                          const ProjectionDefects& defects, const formats::Superelement& element);
 
 /// Counts of nodes, elements and ties.
 void describe_mesh(const Mesh& mesh, const System& system, ModelCertificate& c);
@@ -29,8 +30,8 @@ struct Doubts {
   std::vector<std::string> numbers;
 };
 
-/// Throws Error for coordinates that nothing uses, pieces that nothing connects, a boundary that does not hold the part,
-/// elements of bad shape.
+/// Throws Error for coordinates that nothing uses, pieces that nothing connects, a boundary that does not hold the
+/// part, elements of bad shape.
 Doubts check_mesh(const Mesh& mesh, const formats::Part& part);
 
 /// Throws Error for a part without mass.

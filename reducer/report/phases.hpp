@@ -20,8 +20,10 @@ class Phases {
 
   void begin(const std::string& name);
   void end();
-  /// "mesh 0.010 s, assembly 0.021 s, ..., total 0.310 s".
+  /// "mesh 0.010 s, assembly 0.021 s, ..., total 0.310 s" by the clock.
   std::string text() const;
+  /// The same of the processor, all threads together.
+  std::string processor_text() const;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -29,6 +31,8 @@ class Phases {
     std::string name;
     Clock::time_point start;
     double seconds = 0.0;
+    double processor_start = 0.0;
+    double processor_seconds = 0.0;
   };
   void watch();
 

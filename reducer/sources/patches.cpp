@@ -269,9 +269,10 @@ PatchMesh mesh_patches(const formats::Part& part) {
       shortest = std::min(shortest, shortest_edge(grid));
       cells += static_cast<double>(grid.n) * grid.m;
     }
-    if (cells > 2e7)
-      throw Error(fmt::format("'{}': more than {:.3g} elements", patch.name, cells), patch.where,
-                  "use larger elements");
+    if (cells > most_elements)
+      throw Error(
+          fmt::format("'{}': {:.3g} elements with those before it, more than {:g}", patch.name, cells, most_elements),
+          patch.where, "use larger elements");
   }
   PatchMesh mesh;
   mesh.nodes = MergedNodes(std::isfinite(shortest) ? 1e-6 * shortest : 1.0);

@@ -66,6 +66,36 @@ TEST_F(Program, RunWritesSuperelementAndCertificateBesideThePart) {
   EXPECT_THAT(show.text, AllOf(HasSubstr("free, full"), HasSubstr("first dropped"), HasSubstr("mass 9.927684")));
 }
 
+TEST_F(Program, ThreadsOfTheBlasLeaveEveryBitAsItIs) {
+  const auto content = [&](const std::string& threads) {
+    setenv("OPENBLAS_NUM_THREADS", threads.c_str(), 1);
+    const Outcome run = call("run " + part);
+    unsetenv("OPENBLAS_NUM_THREADS");
+    EXPECT_EQ(run.code, 0) << run.text;
+    return formats::read_superelement((folder / "beam.superelement.h5").string()).superelement.content_id;
+  };
+  std::filesystem::copy_file(TISSERAND_SOURCE_DIR "/tests/benchmarks/plate.part.yaml", part,
+                             std::filesystem::copy_options::overwrite_existing);
+  const std::string coarse = "plates: {sheet: {corners: [a, b, c, d], elements: [24, 20]}}";
+  std::ifstream in(part);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  text.replace(text.find("plates:"), text.find('\n', text.find("plates:")) - text.find("plates:"), coarse);
+  std::ofstream(part) << text;
+  EXPECT_EQ(content("1"), content("2"));
+}
+
+TEST_F(Program, InternalModesAreCountedOnRequest) {
+  const auto counted = [&](const std::string& options) {
+    const Outcome run = call("run " + part + options);
+    EXPECT_EQ(run.code, 0) << run.text;
+    const Outcome show = call("show " + (folder / "beam.superelement.h5").string());
+    EXPECT_EQ(show.text.find("not counted") == std::string::npos, run.text.find("not counted") == std::string::npos);
+    return show.text.find("8 counted below the cut") != std::string::npos;
+  };
+  EXPECT_TRUE(counted(" --set verify=inertia"));
+  EXPECT_FALSE(counted(" --set verify=none"));
+}
+
 TEST_F(Program, RecoveryFileIsWrittenWhereThePartAsksForIt) {
   const std::string file = (folder / "beam.recovery.h5").string();
   ASSERT_EQ(call("run " + part).code, 0);

@@ -46,7 +46,7 @@ MatrixXd dense_T(const System& system) {
 }
 
 MatrixXd dense_matrix(const reducer::SymmetricPair& pair, const std::vector<double>& values) {
-  return reducer::multiply(pair, values, MatrixXd::Identity(pair.size(), pair.size()));
+  return reducer::multiply(reducer::symmetric_rows(pair, values), MatrixXd::Identity(pair.size(), pair.size()));
 }
 
 /// G of all ties, written down once more from their definitions, for coordinates 6 n + c.

@@ -96,10 +96,6 @@ void check(const Mesh& mesh, const ShellElement& shell, const Edges& edges, Shap
   if (edges.longest > largest_aspect * edges.shortest)
     findings.warnings.push_back(fmt::format("aspect ratio {:.3g}: edges from {:.3g} to {:.3g}",
                                             edges.longest / edges.shortest, edges.shortest, edges.longest));
-  const double thickness = mesh.shell_properties[shell.property].section.thickness;
-  if (thickness > edges.longest)
-    findings.warnings.push_back(
-        fmt::format("thickness {:.3g} exceeds the longest edge {:.3g}", thickness, edges.longest));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "reducer/elements/checks.hpp"
 #include "reducer/elements/element_matrices.hpp"
 #include "tests/reducer/elements/shell_cases.hpp"
 
@@ -72,12 +73,14 @@ TEST(ShellShape, WarpIsWarnedAboveFivePercentAndAnErrorAboveThirty) {
   EXPECT_THAT(findings_of(one_shell(X, steel(0.01))).errors, ElementsAre(HasSubstr("warped: corners 0.35")));
 }
 
-TEST(ShellShape, AspectAndThicknessAreWarned) {
+TEST(ShellShape, AspectAndThicknessOfTheWallAreWarned) {
   Eigen::Matrix3Xd X = square();
   X.row(0) *= 30.0;
   EXPECT_THAT(findings_of(one_shell(X, steel(0.01))).warnings, ElementsAre(HasSubstr("aspect ratio 30")));
-  EXPECT_THAT(findings_of(one_shell(square(), steel(1.5))).warnings,
-              ElementsAre(HasSubstr("thickness 1.5 exceeds the longest edge 1")));
+  // Told once for all shells of a property, by the extent of the wall: √2 here.
+  EXPECT_THAT(plausibility_warnings(one_shell(square(), steel(0.3)), Units::si()),
+              ElementsAre(HasSubstr("are 0.3 thick and extend over 1.414")));
+  EXPECT_THAT(plausibility_warnings(one_shell(square(), steel(0.28)), Units::si()), IsEmpty());
 }
 
 TEST(ShellShape, MaterialDirectionMustNotBeTheNormal) {

@@ -1,0 +1,52 @@
+// A row of a few right-hand sides kept side by side: what products and substitutions with sparse matrices work on.
+#pragma once
+
+#include <cstddef>
+
+#include <Eigen/Core>
+
+namespace tisserand::reducer {
+
+/// Eight numbers, one line of the cache, as vectors of four (GCC and Clang split or join them as the processor needs).
+struct Line {
+  static constexpr int width = 8;
+  static constexpr int packet = 4;
+  typedef double Packet __attribute__((vector_size(packet * sizeof(double)), aligned(sizeof(double)), may_alias));
+  Packet part[width / packet];
+
+  static Line load(const double* from) {
+    Line line;
+    for (int p = 0; p < width / packet; ++p) line.part[p] = *reinterpret_cast<const Packet*>(from + packet * p);
+    return line;
+  }
+  void store(double* to) const {
+    for (int p = 0; p < width / packet; ++p) *reinterpret_cast<Packet*>(to + packet * p) = part[p];
+  }
+  void add(double factor, const Line& other) {
+    for (int p = 0; p < width / packet; ++p) part[p] += factor * other.part[p];
+  }
+  void divide(double by) {
+    for (int p = 0; p < width / packet; ++p) part[p] /= by;
+  }
+  static std::ptrdiff_t at(Eigen::Index row) { return static_cast<std::ptrdiff_t>(width) * row; }
+};
+
+/// Columns `first` to first + 7 of B, row `row(i)` of it in line i; columns beyond the last are zero.
+template <class Row>
+void to_lines(const Eigen::MatrixXd& B, Eigen::Index first, const Row& row, double* lines) {
+  for (Eigen::Index c = 0; c < Line::width; ++c) {
+    const double* const b = first + c < B.cols() ? B.col(first + c).data() : nullptr;
+    for (Eigen::Index i = 0; i < B.rows(); ++i) lines[Line::at(i) + c] = b == nullptr ? 0.0 : b[row(i)];
+  }
+}
+
+/// The way back.
+template <class Row>
+void from_lines(const double* lines, Eigen::Index first, const Row& row, Eigen::MatrixXd& X) {
+  for (Eigen::Index c = 0; c < Line::width && first + c < X.cols(); ++c) {
+    double* const x = X.col(first + c).data();
+    for (Eigen::Index i = 0; i < X.rows(); ++i) x[row(i)] = lines[Line::at(i) + c];
+  }
+}
+
+}  // namespace tisserand::reducer

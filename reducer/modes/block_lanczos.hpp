@@ -1,0 +1,20 @@
+// Lowest eigenpairs of large pencils: eight right-hand sides at a time, so that the factor is read once for all of
+// them.
+#pragma once
+
+#include <optional>
+
+#include "reducer/modes/spectrum.hpp"
+
+namespace tisserand::reducer {
+
+inline constexpr int lanczos_block = 8;  ///< at most that many eigenvectors of one eigenvalue are found for certain
+
+/// The `wanted` lowest pairs and those that converged with them, ascending, Xᵀ M X = 1, by block Lanczos iteration with
+/// (S − shift M)⁻¹ M, which is symmetric in the inner product of M: three-term recurrence, one pass of
+/// orthogonalisation against all earlier vectors, thick restart [WS00]. Converged: ‖OP x − μ x‖_M ≤ 1e-8 μ, μ = 1/(λ −
+/// shift). Starts from the same random numbers always. Empty if the basis cannot grow (an invariant subspace, hardly
+/// any mass) or does not converge. Memory: about 2 `wanted` + 80 vectors.
+std::optional<EigenPairs> block_lanczos(const Pencil& pencil, int wanted);
+
+}  // namespace tisserand::reducer

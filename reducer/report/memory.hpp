@@ -1,0 +1,28 @@
+// Memory of a reduction, told and compared with what there is before the large part of it is taken.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "formats/part/part.hpp"
+#include "reducer/algebra/factor.hpp"
+#include "reducer/system/partition.hpp"
+
+namespace tisserand::reducer {
+
+/// Bytes that factorisation and modes take beyond the matrices: the factor, one permuted copy of S_II while it is made,
+/// then boundary modes, the basis of the iteration for `modes` modes and blocks of solutions.
+double memory_need(const FactorCost& cost, double stored_entries, const Partition& p, int modes);
+
+/// Bytes that a program may still take: of the machine, of its control group, of its limits.
+double available_memory();
+
+/// Throws Error if `need` exceeds `available` bytes.
+void require_memory(double need, double available, const Partition& p, const std::string& where);
+
+/// Factors S_II after its memory has been found to suffice; begins the phase "factorisation (1.2 GB)", which tells the
+/// need. Of a part without inside: an empty factor.
+Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Part& part,
+                     const std::function<void(const std::string&)>& begin);
+
+}  // namespace tisserand::reducer
