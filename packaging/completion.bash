@@ -84,6 +84,7 @@ _tisserand_value() {
     *' '--restart) _tisserand_files 'checkpoint.h5 results.h5' h5 ;;
     *' '--reference) _tisserand_files csv && compopt -o nospace 2>/dev/null ;;
     'mechanism plot -o' | 'mechanism plot --output') _tisserand_files 'png svg' ;;
+    'mechanism picture -o' | 'mechanism picture --output') _tisserand_files png ;;
     *' '-o | *' '--output | *' '--mass | *' '--rows | *' '--positions) _tisserand_files ;;
     # a list of words: "TEXT REQUIRED   dmig, matrixmarket, fmx, mbdyn"
     'reducer '*) [[ $about != *', '* || $previous != --@(to|from) ]] ||
@@ -113,8 +114,8 @@ _tisserand() {
     'mechanism '*) _tisserand_files results.h5 h5 ;;
     'reducer run' | 'reducer mesh' | 'reducer section') _tisserand_files part.yaml yaml ;;
     'reducer show' | 'reducer export') _tisserand_files superelement.h5 h5 ;;
-    'reducer groups')
-      _tisserand_files 'part.yaml step stp STEP STP iges igs brep geo msh bdf nas dat inp' yaml ;;
+    'reducer groups' | 'reducer view')
+      _tisserand_files 'part.yaml recovery.h5 step stp STEP STP iges igs brep geo msh bdf nas dat inp' yaml ;;
     'reducer import') _tisserand_files 'pch mtx sti fmx' ;;
     *) _tisserand_files ;;
   esac

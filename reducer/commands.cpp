@@ -18,14 +18,17 @@
 #include "formats/superelement/superelement.hpp"
 #include "formats/yaml/override.hpp"
 #include "reducer/algebra/petsc.hpp"
+#include "reducer/elements/checks.hpp"
 #include "reducer/mesh/gmsh_file.hpp"
 #include "reducer/recover/recover.hpp"
+#include "reducer/recovery/fields.hpp"
 #include "reducer/reduce.hpp"
 #include "reducer/report/certificate.hpp"
 #include "reducer/report/phases.hpp"
 #include "reducer/sources/build_mesh.hpp"
 #include "reducer/sources/survey.hpp"
 #include "reducer/startup.hpp"
+#include "reducer/view/part_page.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -44,7 +47,7 @@ formats::Part part_of(const Arguments& arguments) {
 
 /// The input's path without .part.yaml or .yaml, plus `ending`.
 std::string beside(const std::string& input, const std::string& ending) {
-  for (const std::string known : {".part.yaml", ".part.yml", ".yaml", ".yml"})
+  for (const std::string known : {".part.yaml", ".part.yml", ".yaml", ".yml", ".recovery.h5"})
     if (input.size() > known.size() && input.ends_with(known))
       return input.substr(0, input.size() - known.size()) + ending;
   return input + ending;
@@ -138,6 +141,38 @@ int mesh(const Arguments& arguments) {
   return 0;
 }
 
+/// What is seen of a part file or of a recovery file, as a page.
+std::string page(const Arguments& arguments) {
+  ViewedPart part;
+  part.title = std::filesystem::path(arguments.input).filename().string();
+  part.file = arguments.input;
+  if (arguments.input.ends_with(".h5")) {
+    const formats::RecoveryReader recovery(arguments.input);
+    part.tables = recovery.recovery();
+    part.units = part.tables.units;
+    part.recovery = &recovery;
+    part.frequency = frequencies_beside(recovery);
+    return part_page(part);
+  }
+  const formats::Part read = part_or_file(arguments);
+  const Mesh mesh = build_mesh(read);
+  part.tables = mesh_tables(mesh);
+  part.units = read.units;
+  part.faulty = faulty_elements(mesh);
+  part.spiders = mesh.spiders;
+  part.notes = mesh.warnings;
+  return part_page(part);
+}
+
+int view(const Arguments& arguments) {
+  const std::string output = arguments.output.empty() ? beside(arguments.input, ".html") : arguments.output;
+  require_output(output, {arguments.input}, Replaces::anything);
+  const std::string text = page(arguments);
+  write_text_file(output, text);
+  say(fmt::format("page: {} ({:.2f} MB)\n", output, 1e-6 * static_cast<double>(text.size())));
+  return 0;
+}
+
 int groups(const Arguments& arguments) {
   say(survey(part_or_file(arguments)));
   return 0;
@@ -162,6 +197,8 @@ int perform(const Arguments& arguments, char** argv) {
       return show(arguments);
     case Command::mesh:
       return mesh(arguments);
+    case Command::view:
+      return view(arguments);
     case Command::groups:
       return groups(arguments);
     case Command::section:

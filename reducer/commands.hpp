@@ -10,7 +10,7 @@
 
 namespace tisserand::reducer {
 
-enum class Command { run, show, mesh, groups, section, recover, import_matrices, export_matrices };
+enum class Command { run, show, mesh, view, groups, section, recover, import_matrices, export_matrices };
 
 struct Arguments {
   Command command = Command::run;

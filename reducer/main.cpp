@@ -26,6 +26,7 @@ Examples:
   reducer run beam.part.yaml --set modes=4       any value of the part can be set from here
   reducer show beam.superelement.h5              the certificate: mass, frequencies, checks
   reducer mesh beam.part.yaml                    writes beam.msh, to look at with gmsh
+  reducer view bracket.part.yaml                 bracket.html: the mesh, in any browser; of a recovery file also its modes
   reducer groups bracket.step                    faces, edges, volumes and groups with numbers, sizes and boxes
   reducer section beam.part.yaml                 constants of its sections
   reducer recover beam.recovery.h5 run.results.h5   displacement and stress of the part in a run, for ParaView
@@ -67,6 +68,15 @@ constexpr const char* about_mesh = R"help(Meshes a part and writes a gmsh file t
   reducer mesh beam.part.yaml -o beam.msh && gmsh beam.msh
 
 Whatever the source (drawn, CAD, mesh, deck). Physical groups: properties, springs, spiders, boundary nodes, masses.)help";
+
+constexpr const char* about_view =
+    R"help(Makes one page that shows a part in three dimensions. Any browser opens it, without a network.
+
+  reducer view bracket.part.yaml                  groups, spiders, boundary nodes; elements with faulty shapes in red
+  reducer view bracket.step                       also a mesh, geometry or deck alone
+  reducer view bracket.recovery.h5 -o modes.html  the mesh, moving in each boundary and internal mode
+
+Parts whose elements are refused by `reducer run` are shown all the same.)help";
 
 constexpr const char* about_groups = R"help(Lists faces, edges, volumes, groups and sets with numbers, sizes and boxes.
 
@@ -174,7 +184,8 @@ void add_permission(CLI::App* command, tisserand::formats::MeshFile::Permission&
 
 /// Prints what is wrong with the words of the command line.
 int tell_usage(const CLI::ParseError& error, const std::string& asked) {
-  const std::vector<std::string> commands{"run", "show", "mesh", "groups", "section", "recover", "import", "export"};
+  const std::vector<std::string> commands{"run",     "show",    "mesh",   "view",  "groups",
+                                          "section", "recover", "import", "export"};
   const bool known = std::find(commands.begin(), commands.end(), asked) != commands.end();
   const bool is_word = !asked.empty() && asked[0] != '-';
   tisserand::complain("reducer", fmt::format("{}\n`reducer {}--help` explains.",
@@ -206,6 +217,11 @@ int main(int argc, char** argv) {
   mesh_command->add_option("part", arguments.input, "part.yaml")->required();
   mesh_command->add_option("-o,--output", arguments.output, "gmsh file (default: beside the part)");
   mesh_command->add_option("--set", arguments.set, "path=value: override a value of the part")->allow_extra_args(false);
+  CLI::App* const view_command = add_command(app, "view", about_view, asked);
+  view_command->add_option("file", arguments.input, "part.yaml, a mesh, geometry or deck, or name.recovery.h5")
+      ->required();
+  view_command->add_option("-o,--output", arguments.output, "page, .html (default: beside the file)");
+  view_command->add_option("--set", arguments.set, "path=value: override a value of the part")->allow_extra_args(false);
   CLI::App* const groups_command = add_command(app, "groups", about_groups, asked);
   groups_command->add_option("file", arguments.input, "part.yaml, or a mesh, geometry or deck")->required();
   groups_command->add_option("--set", arguments.set, "path=value: override a value of the part")
@@ -214,7 +230,7 @@ int main(int argc, char** argv) {
   section_command->add_option("part", arguments.input, "part.yaml")->required();
   section_command->add_option("--set", arguments.set, "path=value: override a value of the part")
       ->allow_extra_args(false);
-  for (CLI::App* const command : {run_command, mesh_command, groups_command})
+  for (CLI::App* const command : {run_command, mesh_command, view_command, groups_command})
     add_permission(command, arguments.permission);
   CLI::App* const recover_command = add_recover(app, asked, arguments.recover_request);
   CLI::App* const import_command = add_import(app, asked, arguments.import_request);
@@ -228,6 +244,7 @@ int main(int argc, char** argv) {
                       : show_command->parsed() ? Command::show
                       : mesh_command->parsed() ? Command::mesh
                                                : Command::groups;
+  if (view_command->parsed()) arguments.command = Command::view;
   if (section_command->parsed()) arguments.command = Command::section;
   if (recover_command->parsed()) arguments.command = Command::recover;
   if (import_command->parsed()) arguments.command = Command::import_matrices;

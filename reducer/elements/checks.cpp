@@ -54,6 +54,16 @@ void check_all(const Mesh& mesh, const std::vector<Element>& elements, ShapeRepo
   }
 }
 
+/// Appends the places of elements with errors, counted from `first`.
+template <class Element>
+void find_faulty(const Mesh& mesh, const std::vector<Element>& elements, int first, std::vector<int>& faulty) {
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    ShapeFindings findings;
+    check_shape(mesh, elements[i], findings);
+    if (!findings.errors.empty()) faulty.push_back(first + static_cast<int>(i));
+  }
+}
+
 /// Walls thicker than a fifth of their own extent, by property: no shells, or numbers in other units. A thickness
 /// beyond the edges of a fine mesh alone harms nothing.
 void warn_thick_shells(const Mesh& mesh, std::vector<std::string>& warnings) {
@@ -102,6 +112,15 @@ void warn_wave_speeds(const Mesh& mesh, const Units& units, std::vector<std::str
 }
 
 }  // namespace
+
+std::vector<int> faulty_elements(const Mesh& mesh) {
+  const int beams = static_cast<int>(mesh.beams.size()), shells = static_cast<int>(mesh.shells.size());
+  std::vector<int> faulty;
+  find_faulty(mesh, mesh.beams, 0, faulty);
+  find_faulty(mesh, mesh.shells, beams, faulty);
+  find_faulty(mesh, mesh.solids, beams + shells, faulty);
+  return faulty;
+}
 
 std::vector<std::string> check_shapes(const Mesh& mesh, const std::string& where) {
   ShapeReport report;

@@ -13,6 +13,9 @@ namespace tisserand::reducer {
 /// Asks every element for faults of its shape. Throws one Error with the first ten and their number; returns warnings.
 std::vector<std::string> check_shapes(const Mesh& mesh, const std::string& where);
 
+/// Elements whose shape check_shapes() refuses: beams, then shells, then solids are counted.
+std::vector<int> faulty_elements(const Mesh& mesh);
+
 /// Warnings about thick shells, wave speeds √(E/ρ) outside 100 to 20 000 m/s and parts larger than 200 m or smaller
 /// than 10 µm: what millimetre meshes with metre materials look like. Units without names are not judged.
 std::vector<std::string> plausibility_warnings(const Mesh& mesh, const Units& units);

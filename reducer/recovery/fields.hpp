@@ -19,6 +19,10 @@ struct RecoverySource {
   const formats::Superelement& superelement;
 };
 
+/// What a mesh that nothing was solved for gives of it: nodes, elements, groups, sections of beams, surface, boundary
+/// nodes.
+formats::Recovery mesh_tables(const Mesh& mesh);
+
 /// Mesh, names, sections, surface; everything but the fields.
 formats::Recovery recovery_tables(const RecoverySource& source);
 

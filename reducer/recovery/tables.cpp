@@ -42,7 +42,6 @@ void add_head(const RecoverySource& source, Recovery& r) {
     r.mirror_content_id[static_cast<std::size_t>(image)] =
         formats::mirrored({element, {}}, formats::mirror_axes(image)).superelement.content_id;
   r.boundary_name = element.node_name;
-  for (const MeshBoundary& boundary : source.mesh.boundary) r.boundary_node.push_back(boundary.node);
   r.dof_node = element.dof_node;
   r.dof_component = element.dof_component;
 }
@@ -87,11 +86,16 @@ Eigen::Matrix3d axes_of(const Mesh& mesh, const ShellElement& shell) {
   return shell.corners() == 3 ? shell_geometry<3>(mesh, shell).R_PE : shell_geometry<4>(mesh, shell).R_PE;
 }
 
-void add_shells(const Mesh& mesh, int first_group, ElementTable& table, Recovery& r) {
+void add_shells(const Mesh& mesh, int first_group, ElementTable& table) {
   for (const ShellElement& shell : mesh.shells) {
     const bool triangle = shell.corners() == 3;
     table.add(triangle ? ElementShape::triangle : ElementShape::quadrilateral, shell.nodes.data(),
               first_group + shell.property, shell.id);
+  }
+}
+
+void add_shell_data(const Mesh& mesh, Recovery& r) {
+  for (const ShellElement& shell : mesh.shells) {
     r.shell_axes.push_back(axes_of(mesh, shell));
     r.shell_thickness.push_back(mesh.shell_properties[shell.property].section.thickness);
     r.shell_offset.push_back(shell.offset);
@@ -114,13 +118,14 @@ void add_solids(const Mesh& mesh, int first_group, ElementTable& table, Recovery
 
 }  // namespace
 
-Recovery recovery_tables(const RecoverySource& source) {
-  const Mesh& mesh = source.mesh;
+Recovery mesh_tables(const Mesh& mesh) {
   Recovery r;
-  add_head(source, r);
+  for (const MeshBoundary& boundary : mesh.boundary) {
+    r.boundary_name.push_back(boundary.name);
+    r.boundary_node.push_back(boundary.node);
+  }
   r.position = mesh.position;
   r.node_label = mesh.node_label;
-  for (int n = 0; n < mesh.nodes(); ++n) r.rotates.push_back(source.system.coordinates.rotates(n) ? 1 : 0);
   for (const BeamProperty& property : mesh.beam_properties) r.group_name.push_back(property.name);
   for (const ShellProperty& property : mesh.shell_properties) r.group_name.push_back(property.name);
   for (const SolidProperty& property : mesh.solid_properties) r.group_name.push_back(property.name);
@@ -128,13 +133,21 @@ Recovery recovery_tables(const RecoverySource& source) {
   const int solid_groups = shell_groups + static_cast<int>(mesh.shell_properties.size());
   ElementTable table(r.elements);
   add_beams(mesh, table, r);
-  add_shells(mesh, shell_groups, table, r);
+  add_shells(mesh, shell_groups, table);
   add_solids(mesh, solid_groups, table, r);
   const Surface seen = surface(mesh);
   r.triangle.resize(3, static_cast<Eigen::Index>(seen.triangle.size()));
   for (std::size_t k = 0; k < seen.triangle.size(); ++k)
     r.triangle.col(static_cast<Eigen::Index>(k)) = seen.triangle[k];
   r.triangle_element = seen.element;
+  return r;
+}
+
+Recovery recovery_tables(const RecoverySource& source) {
+  Recovery r = mesh_tables(source.mesh);
+  add_head(source, r);
+  for (int n = 0; n < source.mesh.nodes(); ++n) r.rotates.push_back(source.system.coordinates.rotates(n) ? 1 : 0);
+  add_shell_data(source.mesh, r);
   return r;
 }
 

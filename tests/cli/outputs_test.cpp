@@ -321,7 +321,15 @@ TEST_F(Outputs, PicturesSayWhatTheyCannotShow) {
   const Outcome alone =
       call({"/usr/bin/env", "PATH=/nowhere", program("mechanism"), "picture", "arm.results.h5"}, where);
   expect_error(alone, {"no Chromium", "apt-get install chromium"});
+  write_text(file("chromium"), "#!/bin/sh\necho no display >&2\nexit 1\n");
+  std::filesystem::permissions(file("chromium"), std::filesystem::perms::owner_all);
+  expect_error(
+      call({"/usr/bin/env", "PATH=" + folder.path().string(), program("mechanism"), "picture", "arm.results.h5"},
+           where),
+      {"did not answer", "no display"});
   EXPECT_FALSE(std::filesystem::exists(file("arm.png")));
+  for (const auto& left : std::filesystem::directory_iterator(folder.path()))
+    EXPECT_NE(left.path().extension(), ".html");
 }
 
 TEST_F(Outputs, PicturesAreTheSameEachTime) {

@@ -17,12 +17,16 @@
 #include "formats/sections/profiles.hpp"
 #include "formats/superelement/mirror.hpp"
 #include "formats/vtk/vtu.hpp"
+#include "reducer/elements/checks.hpp"
 #include "reducer/recover/places.hpp"
+#include "reducer/recovery/fields.hpp"
 #include "reducer/sources/build_mesh.hpp"
+#include "reducer/view/part_page.hpp"
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/recovery/recovered.hpp"
 #include "tests/support/meshes/solid_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/view/page_reader.hpp"
 #include "tests/support/vtk/vtu_reader.hpp"
 
 namespace tisserand::testing::recover_test {
@@ -280,6 +284,69 @@ TEST_F(Recover, BadInputIsTold) {
   run_.y = {y_};
   write(run_, file("run.results.h5"));
   EXPECT_THAT(error_of(request()), HasSubstr("unnamed"));
+}
+
+// The page of the recovery file: the group as a body with the sections of the beams, each coordinate as a mode whose
+// largest displacement is 1.
+TEST_F(Recover, PageShowsTheMeshAndItsModes) {
+  formats::write_superelement(file("arm.superelement.h5"), data_.superelement);
+  const formats::RecoveryReader reader(file("arm.recovery.h5"));
+  reducer::ViewedPart part;
+  part.tables = reader.recovery();
+  part.units = part.tables.units;
+  part.recovery = &reader;
+  part.frequency = reducer::frequencies_beside(reader);
+  const test_support::PageReader page(reducer::part_page(part));
+  const nlohmann::json &run = page.run(), &shape = run["shapes"][0];
+  ASSERT_EQ(run["bodies"].size(), 1u);
+  EXPECT_EQ(run["bodies"][0]["kind"], "beams");
+  const MatrixXd vertices = page.read(shape["vertices"]);
+  ASSERT_EQ(vertices.rows(), 6 * 2 * 4);  // four corners at both ends of six beams
+  // The mean of the rows of `values` whose vertices are at x: four corners of a section.
+  const auto mean_at = [&](double x, const MatrixXd& values) {
+    Vector3d sum = Vector3d::Zero();
+    int count = 0;
+    for (Index v = 0; v < vertices.rows(); ++v)
+      if (std::abs(vertices(v, 0) - x) < 1e-3) sum += values.row(v).transpose(), ++count;
+    EXPECT_EQ(count, 4);
+    return Vector3d(sum / count);
+  };
+  EXPECT_LT(mean_at(0.0, vertices).norm(), 1e-3);
+  EXPECT_LT((mean_at(length, vertices) - Vector3d(length, 0, 0)).norm(), 1e-3);
+  ASSERT_EQ(run["modes"].size(), 14u);
+  EXPECT_TRUE(run["modes"][7]["frequency"].is_null());
+  EXPECT_EQ(run["modes"][12]["name"], "internal 1");
+  EXPECT_NEAR(run["modes"][12]["frequency"], std::sqrt(data_.superelement.stiffness(12, 12)) / (2.0 * EIGEN_PI), 1e-9);
+  const nlohmann::json& tip_y = run["modes"][7];
+  EXPECT_EQ(tip_y["name"], "tip y");
+  const MatrixXd modes = page.read(shape["modes"]);
+  MatrixXd u = MatrixXd::Zero(vertices.rows(), 3);
+  for (Index j = 0; j * u.rows() < modes.rows(); ++j)
+    u += tip_y["bodies"][0]["amplitudes"][0][static_cast<std::size_t>(j)].get<double>() *
+         modes.middleRows(j * u.rows(), u.rows());
+  EXPECT_NEAR(u.rowwise().norm().maxCoeff(), 1.0, 2e-3);
+  EXPECT_LT(mean_at(0.0, u).norm(), 2e-3);
+  EXPECT_LT((mean_at(length, u) - Vector3d(0, 1, 0)).norm(), 2e-2);  // largest: at a corner
+  EXPECT_EQ(run["nodes"][1]["name"], "tip");
+  EXPECT_LT((page.place(run, run["nodes"][1]["place"], 0) - Vector3d(length, 0, 0)).norm(), 1e-6);
+}
+
+// A tetrahedron that is turned inside out is refused by the reduction, and red on the page.
+TEST(PartPage, ShowsFaultyElementsInRed) {
+  Eigen::Matrix3Xd nodes = reducer::natural_nodes(reducer::SolidShape::tetrahedron4);
+  nodes.col(0).swap(nodes.col(1));
+  const reducer::Mesh mesh = reducer::one_solid(reducer::SolidShape::tetrahedron4, nodes, {});
+  reducer::ViewedPart part;
+  part.units = Units::si();
+  part.tables = reducer::mesh_tables(mesh);
+  part.faulty = reducer::faulty_elements(mesh);
+  EXPECT_EQ(part.faulty, std::vector<int>{0});
+  const test_support::PageReader page(reducer::part_page(part));
+  ASSERT_EQ(page.run()["bodies"].size(), 1u);
+  EXPECT_EQ(page.run()["bodies"][0]["name"], "1 faulty elements");
+  EXPECT_EQ(page.run()["bodies"][0]["colour"], "#d62728");
+  EXPECT_EQ(page.read(page.run()["shapes"][0]["triangles"]).rows(), 4);
+  EXPECT_TRUE(page.run()["modes"].is_null());
 }
 
 // Volume of one cell by VTK's order of nodes: the tetrahedra that fan from the first corner over the outer faces as VTK
