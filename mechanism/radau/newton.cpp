@@ -36,20 +36,18 @@ bool regular(const FactorReport& factors, StepReport& report) {
 
 /// Largest increment of the multipliers in units of what it may be. Rows that move no body show in nothing else: of a
 /// plane mechanism that has turned by more than 60 degrees since the parts were made, those across the plane would
-/// grow from step to step. Multipliers have order 3 where positions have 5 ([HW96] VII.4), so that a tolerance of τ for
-/// these is τ^(3/5) of the forces for those.
-LocalError measure_multipliers(const Model& model, const State& begin, const Evaluation& evaluation, double tolerance,
-                               const Stages::Columns& increments) {
+/// grow from step to step. `share`: of the forces; near singular positions, of the multipliers themselves.
+double measure_multipliers(const Model& model, const State& begin, const Evaluation& evaluation, double share,
+                           const Stages::Columns& lambda, const Stages::Columns& increments) {
   const auto scale = [&](int kind) { return std::max(begin.force_scale(kind), evaluation.force_scale[kind]); };
-  const double force = std::max(scale(0), scale(1) / model.length);
-  const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
-  const double allowed = std::max(std::pow(tolerance, 0.6) * force, round_off) + 1e-300;
-  LocalError worst;
+  double force = std::max(scale(0), scale(1) / model.length), worst = 0.0;
   for (int row = 0; row < model.sizes.constraints; ++row) {
-    const double size = increments.row(row).cwiseAbs().maxCoeff() / (model.length_row[row] ? 1.0 : model.length);
-    if (size / allowed > worst.ratio) worst = {size / allowed, row};
+    const double unit = model.length_row[row] ? 1.0 : model.length;
+    force = std::max(force, lambda.row(row).cwiseAbs().maxCoeff() / unit);
+    worst = std::max(worst, increments.row(row).cwiseAbs().maxCoeff() / unit);
   }
-  return worst;
+  const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
+  return worst / (std::max(share * force, round_off) + 1e-300);
 }
 
 bool same(double a, double b) { return std::abs(a - b) <= same_step * std::abs(b); }
@@ -182,7 +180,8 @@ void Newton::solve(const Model& model, const State& state, Stages& stages) {
 bool Newton::iterate(const Model& model, const State& begin, const StepEnd& end, const Accuracy& accuracy,
                      Stages& stages, State& state, Evaluation& evaluation, StepReport& report) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  double last = 0.0, last_ratio = 0.0;
+  double last = 0.0, last_ratio = 0.0, last_rows = 0.0;
+  bool placed = false;                                                // positions have converged
   double confidence = std::pow(std::max(confidence_, epsilon), 0.8);  // IV.8 (8.11)
   contraction_ = 0.0;
   shorter_ = 0.5;
@@ -200,15 +199,8 @@ bool Newton::iterate(const Model& model, const State& begin, const StepEnd& end,
       if (one.ratio > size.ratio || std::isnan(one.ratio)) size = one;
     }
     report.worst_coordinate = size.worst_coordinate;
-    report.worst_constraint = -1;
-    const LocalError rows = measure_multipliers(model, begin, evaluation, accuracy.units.tolerance, g_);
-    if (rows.ratio > size.ratio) {
-      size.ratio = rows.ratio;
-      report.worst_coordinate = -1;
-      report.worst_constraint = rows.worst_coordinate;
-    }
     if (!std::isfinite(size.ratio) || !g_.allFinite()) return fails(StepOutcome::diverged);
-    if (count > 1) {
+    if (count > 1 && !placed) {
       const double ratio = last > 0.0 ? size.ratio / last : 0.0;
       contraction_ = count == 2 ? ratio : std::sqrt(ratio * last_ratio);
       last_ratio = ratio;
@@ -235,10 +227,16 @@ bool Newton::iterate(const Model& model, const State& begin, const StepEnd& end,
       if (node.rotation >= 0 && stages.d.middleRows<3>(node.rotation).cwiseAbs().maxCoeff() > farthest_turn)
         return fails(StepOutcome::too_many_iterations);
     update_rates(model, stages);
-    if (confidence * size.ratio <= accuracy.newton) break;
+    placed = placed || confidence * size.ratio <= accuracy.newton;
+    const double rows = measure_multipliers(model, begin, evaluation, accuracy.multipliers, stages.lambda, g_);
+    if (placed && rows <= 1.0) break;
+    const bool stalled = last_rows > 0.0 && rows > 0.9 * last_rows;
+    if (placed && stalled && accuracy.fresh_parts) break;  // as good as round-off lets them become
+    if (placed && (stalled || count >= accuracy.most_iterations)) return fails(StepOutcome::too_many_iterations);
+    last_rows = rows;
   }
   confidence_ = confidence;
-  report.worst_coordinate = report.worst_constraint = -1;
+  report.worst_coordinate = -1;
   return true;
 }
 

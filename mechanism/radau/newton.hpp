@@ -20,6 +20,8 @@ struct Accuracy {
   formats::ErrorControl units;
   double newton = 1.0;  ///< increments that are still to come may have this ratio
   int most_iterations = 7;
+  double multipliers = 1.0;  ///< their increments may be this of the forces
+  bool fresh_parts = false;  ///< made at the start of this step
 };
 
 /// Parts, factors and vectors of the iteration. The parts belong to one state and stay while the iteration contracts;

@@ -41,6 +41,10 @@ void Radau::forget() {
 
 radau::Accuracy Radau::accuracy() const {
   radau::Accuracy accuracy;
+  accuracy.fresh_parts = parts_age_ == 0;
+  // Multipliers have order 3 where positions have 5 ([HW96] VII.4).
+  accuracy.multipliers =
+      std::pow(options_.error_control.active ? options_.error_control.tolerance : options_.tolerance, 3.0 / 5.0);
   if (options_.error_control.active) {
     accuracy.units = radau::estimate_tolerance(options_.error_control);
     accuracy.newton = std::min(tuning_.newton_share, std::sqrt(accuracy.units.tolerance));

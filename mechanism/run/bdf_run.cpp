@@ -71,27 +71,6 @@ std::string observe(Run& run, FrameAngles& angles) {
   return angles.observe(run.built.model, run.built.state, run.workspace.now);
 }
 
-/// Looks at the pace of the run every 20 000 steps.
-struct Pace {
-  long steps = 0;
-  double time = 0.0;
-
-  /// Why the run would not end: at the pace of the latest stretch a hundred million steps and more, hours, are left.
-  std::string endless(long steps_now, double now, double end) {
-    constexpr long stretch = 20'000;
-    constexpr double most = 1e8;
-    if (steps_now - steps < stretch) return {};
-    const double size = (now - time) / static_cast<double>(steps_now - steps);
-    steps = steps_now;
-    time = now;
-    if (!((end - now) / size > most)) return {};
-    return fmt::format(
-        "t = {:.6g}: steps of {:.2g}, which leaves {:.1e} of them, hours: a vibration too fast for 'bdf', whose "
-        "higher orders do not damp it; use 'method: generalised_alpha'",
-        now, size, (end - now) / size);
-  }
-};
-
 void note_counts(Run& run, const BdfCounts& counts) {
   RunReport& report = run.report;
   report.steps = counts.steps;
@@ -111,7 +90,6 @@ void integrate_bdf(Run& run, RowWriter& out) {
   Instants instants{run.scene, run.built.model.breakpoints, same_instant * (options.end - options.start)};
   instants.pass(options.start);
   FrameAngles angles(run.built.model);
-  Pace pace{0, state.time()};
   StepReport none;
   store(run, bdf, none, 0.0, out);
   while (state.time() < options.end - instants.round_off) {
@@ -135,7 +113,6 @@ void integrate_bdf(Run& run, RowWriter& out) {
     store_rows(run, bdf, instants, before, out);
     note_counts(run, bdf.counts());
     report.reason = observe(run, angles);
-    if (report.reason.empty()) report.reason = pace.endless(report.steps, state.time(), options.end);
     if (!report.reason.empty()) {
       report.outcome = RunOutcome::not_converged;
       break;

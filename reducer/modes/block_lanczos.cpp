@@ -18,7 +18,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double converged_residual = 1e-8;
+/// A hundredth of the residual that modes may have: one step of inverse iteration follows, which need not lower it.
+constexpr double converged_residual = 1e-10;
 
 using ColumnRange = Eigen::Ref<const MatrixXd>;
 

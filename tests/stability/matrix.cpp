@@ -124,11 +124,10 @@ std::string without(std::string text, const std::string& part) {
 }
 
 void reduce(const Part& part, const Place& place) {
-  ChildRequest request{{place.reducer, "run", place.scenes + "/rod.part.yaml", "-o",
-                        fmt::format("{}/{}.superelement.h5", place.work, part.file)},
-                       "",
-                       120.0,
-                       {}};
+  ChildRequest request;
+  request.words = {place.reducer, "run", place.scenes + "/rod.part.yaml", "-o",
+                   fmt::format("{}/{}.superelement.h5", place.work, part.file)};
+  request.seconds = 120.0;
   for (const std::string& setting : part.settings) {
     request.words.push_back("--set");
     request.words.push_back(setting);
@@ -192,11 +191,9 @@ void prepare(const Place& place) {
 Outcome run(const Cell& cell, const Place& place) {
   if (!cell.impossible.empty()) return {State::impossible, 0.0, cell.impossible, 0.0};
   const std::string results = place.work + "/cell.results.h5";
-  ChildRequest request{
-      {place.mechanism, "run", fmt::format("{}/{}.scene.yaml", place.work, cell.of->scene), "-o", results},
-      "",
-      300.0,
-      {}};
+  ChildRequest request;
+  request.words = {place.mechanism, "run", fmt::format("{}/{}.scene.yaml", place.work, cell.of->scene), "-o", results};
+  request.seconds = 300.0;
   for (const std::string& setting : cell.settings) {
     request.words.push_back("--set");
     request.words.push_back(setting);

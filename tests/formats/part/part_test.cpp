@@ -132,7 +132,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"modes: 4", "colour: red",
                 "part.yaml:11:1: unknown key 'colour'; known are part, units, mesh, materials, sections, points, "
                 "groups, plates, discs, cylinders, extrusions, shells, solids, beams, point_masses, "
-                "springs, spiders, boundary, modes, cutoff, recovery, second_order"},
+                "springs, spiders, boundary, modes, cutoff, accuracy, verify, recovery, second_order"},
         BadText{"elements: 40", "elements: 40, ^elements: 41",
                 "^: beam 'rod': key 'elements' is given twice (first in line 8); remove one"},
         BadText{"up: [0, 10, 0]", "^tip: [0, 10, 0]",
