@@ -55,6 +55,8 @@ void prepare_environment() {
   setenv("OPENBLAS_NUM_THREADS", "1", replace);  // with more the sums, and so the bits of files, are others
   if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) {
     setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
+    // Programs that start and end together race for one folder of sessions.
+    setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
     setenv("OMPI_MCA_pml", "ob1", keep);
     setenv("OMPI_MCA_btl", "self", keep);
     setenv("OMPI_MCA_opal_signal", "", keep);

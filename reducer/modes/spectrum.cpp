@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -271,7 +272,8 @@ EigenPairs dense_lowest(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, doub
   const PetscBLASInt n = static_cast<PetscBLASInt>(S.rows());
   const PetscBLASInt type = 1, first = n - count + 1, last = n;
   PetscBLASInt found = 0, info = 0, lwork = -1;
-  const double unused = 0.0, tolerance = 0.0;
+  // Twice the least normal number: with 0 the inverse iteration of dsyevx fails now and then (its documentation).
+  const double unused = 0.0, tolerance = 2.0 * std::numeric_limits<double>::min();
   Eigen::VectorXd mu(n);
   Eigen::MatrixXd X(n, count);
   std::vector<PetscBLASInt> iwork(static_cast<std::size_t>(5 * n)), fail(static_cast<std::size_t>(n));
