@@ -42,8 +42,6 @@ int differences(const std::vector<Judged>& judged, const std::string& path) {
 
 /// Of quick cases the formulations and integrators; pairs, solvers and scalings are for the page.
 bool is_quick(const Cell& cell) {
-  if (cell.of->scene == "stiff_spring" && cell.id().ends_with("bdf"))
-    return false;  // follows the fast mode for minutes
   return cell.impossible.empty() && (cell.factor == "formulation" || cell.factor == "integrator");
 }
 
