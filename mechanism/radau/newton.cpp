@@ -20,6 +20,9 @@ using Eigen::Vector3d;
 
 /// A stage that turns a node by more has left the range in which rotation vectors are good unknowns.
 constexpr double farthest_turn = 3.0;
+/// Fresh parts contract the multipliers of a body that turns by θ with 2 sin(θ/2): those that stall below half a radian
+/// are as good as round-off lets them become, beyond it the step turns too far.
+constexpr double safe_turn = 0.5;
 
 /// R_WN of a node at the state, relative to the axes of the parts.
 Matrix3d turn_since(const State& state, std::size_t node, const Matrix3d& orientation) {
@@ -223,15 +226,17 @@ bool Newton::iterate(const Model& model, const State& begin, const StepEnd& end,
     stages.d += f_;
     stages.lambda += g_;
     if (stages.d.cwiseAbs().maxCoeff() > 1e100) return fails(StepOutcome::diverged);
+    double turn = 0.0;
     for (const Node& node : model.nodes)
-      if (node.rotation >= 0 && stages.d.middleRows<3>(node.rotation).cwiseAbs().maxCoeff() > farthest_turn)
-        return fails(StepOutcome::too_many_iterations);
+      if (node.rotation >= 0) turn = std::max(turn, stages.d.middleRows<3>(node.rotation).cwiseAbs().maxCoeff());
+    if (turn > farthest_turn) return fails(StepOutcome::too_many_iterations);
     update_rates(model, stages);
     placed = placed || confidence * size.ratio <= accuracy.newton;
     const double rows = measure_multipliers(model, begin, evaluation, accuracy.multipliers, stages.lambda, g_);
     if (placed && rows <= 1.0) break;
     const bool stalled = last_rows > 0.0 && rows > 0.9 * last_rows;
-    if (placed && stalled && accuracy.fresh_parts) break;  // as good as round-off lets them become
+    // far.
+    if (placed && stalled && accuracy.fresh_parts && turn < safe_turn) break;
     if (placed && (stalled || count >= accuracy.most_iterations)) return fails(StepOutcome::too_many_iterations);
     last_rows = rows;
   }
