@@ -235,7 +235,7 @@ bool Newton::iterate(const Model& model, const State& begin, const StepEnd& end,
     const double rows = measure_multipliers(model, begin, evaluation, accuracy.multipliers, stages.lambda, g_);
     if (placed && rows <= 1.0) break;
     const bool stalled = last_rows > 0.0 && rows > 0.9 * last_rows;
-    // far.
+    // Multipliers that no iteration settles are taken as they stand only where nothing turns far.
     if (placed && stalled && accuracy.fresh_parts && turn < safe_turn) break;
     if (placed && (stalled || count >= accuracy.most_iterations)) return fails(StepOutcome::too_many_iterations);
     last_rows = rows;
