@@ -27,6 +27,7 @@
 #include "mechanism/run/analyses.hpp"
 #include "mechanism/run/checkpoint.hpp"
 #include "mechanism/simulate.hpp"
+#include "mechanism/study/accuracy.hpp"
 #include "mechanism/study/study.hpp"
 #include "mechanism/view/paraview.hpp"
 #include "mechanism/view/picture.hpp"
@@ -126,7 +127,8 @@ mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunReq
   control.interrupted = [] { return interrupt_requested.load(std::memory_order_relaxed); };
   control.clock = wall_clock;
   control.progress = [&progress, start](double t) { progress.update(t - start, ""); };
-  mechanism::RunEnd end = mechanism::simulate(request, control);
+  mechanism::RunEnd end = request.scene.integrator.accuracy ? mechanism::simulate_to_accuracy(request, control)
+                                                            : mechanism::simulate(request, control);
   progress.finish();
   if (told) end.report.preflight = {};
   told = told || !mechanism::preflight_doubts(end.report.preflight, request.scene.units).empty();

@@ -17,6 +17,7 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
   const double begin_model = control.clock ? control.clock() : 0.0;
   Run run(request.scene, request.files, control);
   const double begin_start = run.seconds();
+  run.listener = request.listener;
   if (request.begin) begin_from(run, *request.begin);
   if (request.restart.empty())
     start(run);
@@ -30,6 +31,7 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
   row.resize(layout);
   formats::ResultsWriter writer(request.path, layout, run.beginning.value_or(formats::ResultsBeginning{}));
   RowWriter out{row, writer, request.path};
+  if (run.listener != nullptr) run.listener->begin(layout);
   switch (run.scene.analysis) {
     case formats::AnalysisKind::dynamics:
       if (run.scene.integrator.method == formats::Method::bdf)
@@ -58,6 +60,7 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
   report.seconds_model = begin_start - begin_model;
   report.seconds_start = begin_steps - begin_start;
   report.seconds_steps = run.seconds() - begin_steps - report.seconds_output;
+  if (run.listener != nullptr) run.listener->end(report);
   writer.finish(report.outcome == RunOutcome::completed, report.reason, report_json(report));
   return {std::move(report), std::move(run.built.state)};
 }

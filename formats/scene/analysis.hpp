@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 
+#include "formats/scene/error_norm.hpp"
+
 namespace tisserand::formats {
 
 enum class AnalysisKind { dynamics, statics, assembly, kinematics, inverse_dynamics, modes };
@@ -40,6 +42,14 @@ struct BdfSpec {
   double alpha = 5.0, beta = 5.0;  ///< [1/time] Φ̈ + 2 α Φ̇ + β² Φ = 0
 };
 
+/// What a channel has to reach: tolerance and modes are chosen for it (mechanism/study/accuracy.hpp).
+struct AccuracySpec {
+  double error = 0.0;  ///< over the size of the channel, or `scale`
+  std::string of;      ///< channel of the results
+  ErrorNorm norm = ErrorNorm::max;
+  std::optional<double> scale;
+};
+
 struct IntegratorSpec {
   Method method = Method::generalised_alpha;
   double rho = 0.9;     ///< spectral radius at infinity (generalised alpha)
@@ -55,6 +65,7 @@ struct IntegratorSpec {
   LinearSolver linear_solver = LinearSolver::automatic;
   ErrorControl error_control;
   BdfSpec bdf;
+  std::optional<AccuracySpec> accuracy;
 };
 
 /// Steady turn of the whole scene about an axis through a point, world frame.

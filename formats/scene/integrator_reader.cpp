@@ -58,6 +58,21 @@ ErrorControl read_error_control(const MapReader& map) {
   return control;
 }
 
+/// With it the error controls the steps, from where mechanism/study/accuracy.cpp goes on.
+std::optional<AccuracySpec> read_accuracy(const MapReader& map, AnalysisKind analysis) {
+  const YamlNode* node = map.find("accuracy");
+  if (node == nullptr) return std::nullopt;
+  if (analysis != AnalysisKind::dynamics)
+    map.context().fail(node->place, "'accuracy' belongs to dynamics", "leave it out of this analysis");
+  for (const char* key : {"step", "error_control", "relative_tolerance", "absolute_tolerance"})
+    if (const YamlNode* other = map.find(key))
+      map.context().fail(other->key_place, fmt::format("'{}' is chosen by 'accuracy'", key), "leave one of them out");
+  const Context inside{map.context().reader, "integrator accuracy", map.context().entry};
+  AccuracySpec spec;
+  read_fields(MapReader(inside, *node, "accuracy", "integrator.accuracy."), spec);
+  return spec;
+}
+
 BdfSpec read_bdf(const MapReader& map) {
   BdfSpec spec;
   read_fields(map, spec);
@@ -80,7 +95,7 @@ double read_step(const MapReader& map, const IntegratorSpec& spec, AnalysisKind 
   if (word && !controlled)
     map.context().fail(node->place, "step: auto needs something that controls the error",
                        "add error_control: {tolerance: 1e-3}, or give the step in units of time");
-  if (word || (node == nullptr && spec.method == Method::bdf)) {
+  if (word || (node == nullptr && (spec.method == Method::bdf || spec.accuracy))) {
     const double whole = spec.end - spec.start, part = automatic_part * whole;
     return spec.error_control.max_step > 0.0 ? std::min(part, spec.error_control.max_step) : part;
   }
@@ -99,6 +114,8 @@ IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
     spec.error_control = read_error_control(MapReader(inside, *control, "error_control", "integrator.error_control."));
   }
   spec.bdf = read_bdf(map);
+  spec.accuracy = read_accuracy(map, analysis);
+  spec.error_control.active = spec.error_control.active || (spec.accuracy && spec.method != Method::bdf);
   spec.step = read_step(map, spec, analysis);
   return spec;
 }
@@ -141,7 +158,8 @@ std::vector<KeySet> integrator_key_sets() {
             "`klu` (sparse LU for little fill), `umfpack` (sparse LU for much), `dense` (LU of our own or LAPACK's), "
             "`qr` (sparse QR, slow and always stable), or `auto`: the least counted work of the first three; the "
             "report says which"),
-        {"error_control", "error_control", "lets the local error choose the steps (below)", "steps as given"}},
+        {"error_control", "error_control", "lets the local error choose the steps (below)", "steps as given"},
+        {"accuracy", "accuracy", "in place of `step` and `error_control`: what a result has to reach (below)", "none"}},
        of_bdf},
       {"error_control",
        {plain<&ErrorControl::tolerance>("tolerance", "positive",
@@ -152,6 +170,13 @@ std::vector<KeySet> integrator_key_sets() {
         plain<&ErrorControl::min_step>("min_step", "not_negative", "[time] the run ends where the error asks for less",
                                        "1e-12 of the whole time"),
         plain<&ErrorControl::max_step>("max_step", "not_negative", "[time]", "a tenth of the whole time")}},
+      {"accuracy",
+       {plain<&AccuracySpec::error>("error", "positive", "largest error, over the size of the channel in the same norm",
+                                    "required"),
+        plain<&AccuracySpec::of>("of", "text", "channel of the results, `nodes/position/arm/tip/x`", "required"),
+        choice<&AccuracySpec::norm, error_norms>("norm", "as in [STUDY.md](STUDY.md)"),
+        plain<&AccuracySpec::scale>("scale", "positive", "the error is divided by it",
+                                    "the size of the channel; 1 for `peak_time`")}},
       {"baumgarte",
        {plain<&BdfSpec::alpha>("alpha", "not_negative", ""), plain<&BdfSpec::beta>("beta", "not_negative", "")}}};
 }

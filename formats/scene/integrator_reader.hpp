@@ -8,6 +8,12 @@
 
 namespace tisserand::formats {
 
+inline constexpr Choice<ErrorNorm> error_norms[] = {{"max", ErrorNorm::max},
+                                                    {"rms", ErrorNorm::rms},
+                                                    {"final", ErrorNorm::final},
+                                                    {"peak", ErrorNorm::peak},
+                                                    {"peak_time", ErrorNorm::peak_time}};
+
 /// Times may be missing where the analysis needs none.
 IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis);
 std::vector<KeySet> integrator_key_sets();

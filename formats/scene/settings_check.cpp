@@ -59,6 +59,13 @@ void check_accuracy(const IntegratorSpec& spec, const Group& group) {
   if (control.max_step > 0.0 && control.max_step < control.min_step)
     group.add("error_control.max_step",
               fmt::format("max_step {:g} is smaller than min_step {:g}", control.max_step, control.min_step), "");
+  if (spec.accuracy) {
+    group.positive("accuracy.error", spec.accuracy->error);
+    if (spec.accuracy->error > 0.5)
+      group.add("accuracy.error", fmt::format("an error of {:g} leaves nothing of the result", spec.accuracy->error),
+                "give a part of one, such as 1e-3");
+    if (spec.accuracy->of.empty()) group.add("accuracy.of", "of is empty", "name a channel of the results");
+  }
   group.positive("relative_tolerance", spec.bdf.relative_tolerance);
   group.positive("absolute_tolerance", spec.bdf.absolute_tolerance);
 }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "common/text.hpp"
+#include "formats/scene/integrator_reader.hpp"
 #include "formats/study/check.hpp"
 #include "formats/yaml/fields.hpp"
 #include "formats/yaml/reader.hpp"
@@ -14,11 +15,6 @@ namespace tisserand::formats {
 
 namespace {
 
-constexpr Choice<StudyNorm> norms[] = {{"max", StudyNorm::max},
-                                       {"rms", StudyNorm::rms},
-                                       {"final", StudyNorm::final},
-                                       {"peak", StudyNorm::peak},
-                                       {"peak_time", StudyNorm::peak_time}};
 constexpr Choice<StudyTiming> timings[] = {{"alone", StudyTiming::alone}, {"together", StudyTiming::together}};
 
 /// A map with one key list inside another: "series 'beam'" or the study itself.
@@ -197,7 +193,7 @@ std::vector<KeySet> study_key_sets() {
         set}},
       {"study_quantity",
        {{"channel", "text", "channel of the results; `$name` and `${formula}` as in `set`", "required"},
-        choice<&StudyQuantity::norm, norms>("norm", "see below"),
+        choice<&StudyQuantity::norm, error_norms>("norm", "see below"),
         plain<&StudyQuantity::from>("from", "number", "first instant that counts, or mode", "the first"),
         plain<&StudyQuantity::to>("to", "number", "last instant that counts, or mode", "the last"),
         plain<&StudyQuantity::scale>("scale", "positive", "errors are divided by it",

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "formats/scene/error_norm.hpp"
 #include "formats/yaml/field.hpp"
 #include "formats/yaml/override.hpp"
 #include "formats/yaml/tree.hpp"
@@ -48,12 +49,10 @@ struct StudySeries {
   std::string where;
 };
 
-enum class StudyNorm { max, rms, final, peak, peak_time };
-
 struct StudyQuantity {
   std::string name;
   YamlNode channel;
-  StudyNorm norm = StudyNorm::max;
+  ErrorNorm norm = ErrorNorm::max;
   std::optional<double> from, to;  ///< instants [time of the scene]; absent: of the whole run
   std::optional<double> scale;     ///< errors are divided by it; absent: by the size of the reference
   std::string where;

@@ -70,6 +70,8 @@ void Index1::factor_mass() {
 }
 
 bool Index1::try_accelerate() {
+  if (!Eigen::Map<const Eigen::VectorXd>(state_.block().data() + layout_.first, layout_.size()).allFinite())
+    return false;
   const bool rubs = !model_.frictions.empty();
   state_.vdot().setZero();
   if (!rubs) state_.lambda().setZero();

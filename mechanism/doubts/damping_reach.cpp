@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "mechanism/doubts/linear_range.hpp"
+#include "mechanism/doubts/held_body.hpp"
 
 namespace tisserand::mechanism {
 namespace {

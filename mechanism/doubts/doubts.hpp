@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mechanism/doubts/energy_balance.hpp"
+#include "mechanism/doubts/inertia_choice.hpp"
 #include "mechanism/doubts/linear_range.hpp"
 #include "mechanism/doubts/multiplier_swing.hpp"
 #include "mechanism/doubts/step_resolution.hpp"
@@ -31,6 +32,7 @@ class Doubts {
  private:
   EnergyBalance energy_;
   LinearRange range_;
+  InertiaChoice inertia_;
   StepResolution resolution_;
   MultiplierSwing swing_;
 };

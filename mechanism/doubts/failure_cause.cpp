@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 
+#include "mechanism/analyses/assembly.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/step/generalised_alpha.hpp"
@@ -22,6 +23,8 @@ using Eigen::VectorXd;
 constexpr double dependent = 1e6;
 /// Products with B up to which its condition is asked for: a second at most.
 constexpr int most_constraints = 400, longest_row = 4000;
+/// Gaps of an assembly: far above round-off, far below those of a millisecond beyond a dead point.
+constexpr double closed = 1e-9;
 
 /// Condition of the rows of B that are solved for, lengths and rotations scaled with the characteristic length; 0: not
 /// asked for. After evaluate().
@@ -48,6 +51,21 @@ double constraint_condition(const Model& model, const State& state, const Evalua
   return std::sqrt(squares[squares.size() - 1] / std::max(squares[0], 1e-32 * squares[squares.size() - 1]));
 }
 
+/// Where drives move joints: what stays open at the end of the step, however whole bodies are moved.
+std::string unreachable(const Model& model, double size, State state, Evaluation& now) {
+  if (model.motions.empty() || model.sizes.constraints > most_constraints || model.sizes.boundary > longest_row)
+    return {};
+  state.time() += size;
+  const AssemblyReport report = assemble(
+      model, closed, [] { return false; }, state, now);
+  if (report.closed || report.open.empty()) return {};
+  const JointGap& gap = report.open.front();
+  return fmt::format(
+      "; the joints cannot be closed at t = {:.6g}, where '{}' stays open by {:.2g}: the drive leaves what the "
+      "mechanism can reach; shorten its motion, or change the lengths",
+      state.time(), gap.name, std::max(gap.length, gap.angle));
+}
+
 }  // namespace
 
 std::string failure_cause(const Model& model, const formats::IntegratorSpec& options, const Doubts& doubts,
@@ -55,6 +73,7 @@ std::string failure_cause(const Model& model, const formats::IntegratorSpec& opt
   if (failure.step.outcome == StepOutcome::inaccurate) return {};
   if (const std::string swing = doubts.latest_swing(); !swing.empty()) return "; " + swing;
   const double change = doubts.latest_change();
+  if (const std::string open = unreachable(model, failure.size, state, workspace.now); !open.empty()) return open;
   evaluate(model, state, workspace.now);
   const double condition = constraint_condition(model, state, workspace.now);
   if (condition > dependent)

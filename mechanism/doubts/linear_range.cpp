@@ -13,6 +13,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "mechanism/doubts/held_body.hpp"
 #include "mechanism/equations/terms.hpp"
 
 namespace tisserand::mechanism {
@@ -31,9 +32,6 @@ constexpr double most_axial = 0.1;
 /// A spin Ω raises the square of a cantilever's first frequency by 1.193 Ω² (Southwell, Gough, ARC R&M 766, 1921): 10 %
 /// of its stiffness at 0.29.
 constexpr double most_spin = 0.29;
-/// Coordinates up to which frequencies are looked for: a few milliseconds.
-constexpr int most_coordinates = 80;
-
 constexpr const char* remedy = "cut it into several, or use second_order with its companion file";
 
 /// Nodes on a straight line, by its ends, which have rotations.
@@ -78,29 +76,6 @@ double transverse_stiffness(const SuperelementBody& body, const Axis& axis) {
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(across * S * across, Eigen::EigenvaluesOnly).eigenvalues()[1];
 }
 
-/// How many superelements make up the beam that each belongs to: those that fixed joints or common nodes weld together.
-std::vector<int> welded_pieces(const Model& model) {
-  std::vector<int> owner(model.nodes.size(), -1), beam(model.superelements.size());
-  const auto weld = [&](int a, int b) {
-    if (a < 0 || b < 0) return;
-    const int from = beam[a], to = beam[b];
-    std::ranges::replace(beam, from, to);
-  };
-  for (int i = 0; i < static_cast<int>(beam.size()); ++i) {
-    beam[i] = i;
-    for (const int node : model.superelements[i].nodes) {
-      weld(owner[node], i);
-      owner[node] = i;
-    }
-  }
-  for (const Joint& joint : model.joints)
-    if (joint.kind == JointKind::fixed && joint.a.node >= 0 && joint.b.node >= 0)
-      weld(owner[joint.a.node], owner[joint.b.node]);
-  std::vector<int> pieces;
-  for (const int one : beam) pieces.push_back(static_cast<int>(std::ranges::count(beam, one)));
-  return pieces;
-}
-
 /// What an axial force of r times the buckling load of a piece (tension positive) leaves out of the stiffness of a beam
 /// of n of them. All of it for one; the turning chords of n pieces carry it but for the part (π/n)²/12 that bends
 /// within the pieces, and tension stiffens the beam by n² r beside its own.
@@ -118,78 +93,6 @@ std::vector<std::string> worst_of(std::vector<std::pair<double, std::string>> ex
 }
 
 }  // namespace
-
-std::vector<std::vector<bool>> held_coordinates(const Model& model) {
-  std::vector<int> users(model.nodes.size(), 0);
-  const auto attach = [&users](const Marker& marker) {
-    if (marker.node >= 0) users[marker.node] = 2;
-  };
-  for (const Joint& joint : model.joints) {
-    attach(joint.a);
-    attach(joint.b);
-  }
-  for (const SuperelementUse& use : model.superelements)
-    for (const int node : use.nodes) ++users[node];
-  std::vector<std::vector<bool>> held;
-  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    const SuperelementBody& body = body_of(model, i);
-    std::vector<bool> one(body.boundary_size + body.modes, false);
-    const auto& nodes = model.superelements[i].nodes;
-    const auto attached = std::ranges::count_if(nodes, [&](int node) { return users[node] > 1; });
-    for (std::size_t j = 0; j < nodes.size(); ++j) {
-      if (users[nodes[j]] < 2) continue;
-      const SuperelementNode& node = body.node[j];
-      for (int k = 0; k < 3; ++k) {
-        if (node.has_translation()) one[node.translation_row + k] = true;
-        if (node.has_rotation() && attached == 1) one[node.rotation_row + k] = true;
-      }
-    }
-    held.push_back(std::move(one));
-  }
-  return held;
-}
-
-HeldMode first_mode(const SuperelementBody& body, const std::vector<bool>& held, double from) {
-  const int nb = body.boundary_size;
-  std::vector<int> free;
-  for (int k = 0; k < nb + body.modes; ++k)
-    if (!held[k]) free.push_back(k);
-  const int n = static_cast<int>(free.size());
-  if (n == 0 || n > most_coordinates) return {};
-  const Eigen::VectorXd unit = coordinate_units(body);
-  MatrixXd S(n, n), M(n, n);
-  for (int b = 0; b < n; ++b)
-    for (int a = 0; a < n; ++a) {
-      const int i = free[a], j = free[b];
-      const double scale = unit[i] * unit[j];
-      const bool inner = i >= nb && j >= nb, outer = i < nb && j < nb;
-      S(a, b) = scale * (outer ? body.S_BB(i, j) : i == j ? body.S_II[i - nb] : 0.0);
-      M(a, b) = scale * (outer    ? body.M_BB(i, j)
-                         : inner  ? (i == j ? 1.0 : 0.0)
-                         : i < nb ? body.M_BI(i, j - nb)
-                                  : body.M_IB(i - nb, j));
-    }
-  // M x = μ (S + from² M) x, ω² = 1/μ − from²: rigid motions that are left have ω = 0.
-  const double shift = from * from;
-  const Eigen::LLT<MatrixXd> factor(S + shift * M);
-  if (factor.info() != Eigen::Success) return {};
-  factor.matrixL().solveInPlace(M);
-  M = factor.matrixL().solve(M.transpose()).eval();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(M);
-  for (Eigen::Index k = n - 1; k >= 0; --k) {
-    const double mu = eigen.eigenvalues()[k];
-    if (!(mu > 0.0)) return {};
-    const double square = 1.0 / mu - shift;
-    if (!(square > 1e-6 * shift)) continue;
-    const Eigen::VectorXd z = eigen.eigenvectors().col(k) / std::sqrt(mu);
-    const Eigen::VectorXd shape = factor.matrixU().solve(z);
-    HeldMode mode{std::sqrt(square), Eigen::VectorXd::Zero(body.modes)};
-    for (int a = 0; a < n; ++a)
-      if (free[a] >= nb) mode.internal[free[a] - nb] = unit[free[a]] * shape[a];
-    return mode;
-  }
-  return {};
-}
 
 LinearRange::Limits LinearRange::limits_of(const SuperelementBody& body) {
   Limits limits;
@@ -242,7 +145,7 @@ std::vector<std::string> LinearRange::doubts(const Model& model) const {
   std::vector<std::pair<double, std::string>> bent, pressed, spun;
   std::map<std::pair<int, std::vector<bool>>, double> frequencies;
   const std::vector<std::vector<bool>> held = held_coordinates(model);
-  const std::vector<int> pieces = welded_pieces(model);
+  const std::vector<int> beams = welded_beams(model);
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     const Limits& limits = limits_[model.superelements[i].body];
     if (!limits.linear) continue;
@@ -253,7 +156,8 @@ std::vector<std::string> LinearRange::doubts(const Model& model) const {
                                            "linear strain: {}",
                                            name, ratio, deflection.time, most_deflection, remedy));
     if (const double ratio = std::abs(axial.value) / limits.buckling;
-        limits.axial.size() > 0 && missing_share(axial.value / limits.buckling, pieces[i]) > most_axial)
+        limits.axial.size() > 0 && missing_share(axial.value / limits.buckling,
+                                                 static_cast<int>(std::ranges::count(beams, beams[i]))) > most_axial)
       pressed.emplace_back(
           ratio,
           fmt::format("'{}' bears {} of {:.2g} of its buckling load between pins (at t = {:.6g}), which {} it, but "

@@ -47,18 +47,4 @@ class LinearRange {
   double time_;
 };
 
-/// Which coordinates of each superelement (boundary, then internal) others hold: all of the only node that is attached
-/// to something, or the translations of several.
-std::vector<std::vector<bool>> held_coordinates(const Model& model);
-
-/// A vibration φ with φᵀMφ = 1.
-struct HeldMode {
-  double omega = 0.0;        ///< [rad/time]; 0: there is none
-  Eigen::VectorXd internal;  ///< internal coordinates of φ
-};
-
-/// Lowest vibration above `from`/1000 of the reduced body whose marked coordinates are held. None where the body is not
-/// positive definite or has more than 80 coordinates.
-HeldMode first_mode(const SuperelementBody& body, const std::vector<bool>& held, double from);
-
 }  // namespace tisserand::mechanism

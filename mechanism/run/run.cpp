@@ -275,6 +275,7 @@ void write_row(Run& run, const StepReport& step, double size, RowWriter& out, co
     row.work = row.dissipated = row.balance = std::numeric_limits<double>::quiet_NaN();
   if (edit) edit(row);
   out.writer.append(row);
+  if (run.listener != nullptr) run.listener->row(row);
   RunReport& report = run.report;
   if (report.analysis == formats::AnalysisKind::dynamics) run.doubts.at_row(row);
   ++report.rows;

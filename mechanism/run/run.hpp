@@ -22,9 +22,20 @@ struct RunControl {
   std::function<double()> clock;              ///< seconds, for the report
 };
 
+/// Hears of the rows of a run, and may add to its report.
+class RunListener {
+ public:
+  virtual ~RunListener() = default;
+  virtual void begin(const formats::ResultsLayout& layout) = 0;
+  virtual void row(const formats::ResultsRow& row) = 0;
+  /// Before the report is stored.
+  virtual void end(RunReport& report) = 0;
+};
+
 struct Run {
   const formats::Scene& scene;
   const RunControl& control;
+  RunListener* listener = nullptr;
   RunReport report;
   BuiltModel built;
   Workspace workspace;

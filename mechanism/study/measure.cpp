@@ -12,7 +12,7 @@ namespace tisserand::mechanism {
 
 namespace {
 
-using formats::StudyNorm;
+using formats::ErrorNorm;
 
 struct Peak {
   double value = 0.0;
@@ -91,13 +91,13 @@ std::vector<Series> read_reference_file(const formats::Study& study) {
 double size_of(const Series& series, const formats::StudyQuantity& quantity) {
   const Series part = clipped(series, quantity);
   switch (quantity.norm) {
-    case StudyNorm::rms:
+    case ErrorNorm::rms:
       return deviation(part, part, {}).reference_rms;
-    case StudyNorm::peak_time:
+    case ErrorNorm::peak_time:
       return peak_of(part).time;
-    case StudyNorm::max:
-    case StudyNorm::final:
-    case StudyNorm::peak:
+    case ErrorNorm::max:
+    case ErrorNorm::final:
+    case ErrorNorm::peak:
       return peak_of(part).value;
   }
   return 0.0;
@@ -106,24 +106,24 @@ double size_of(const Series& series, const formats::StudyQuantity& quantity) {
 double error_of(const Series& series, const Series& reference, const formats::StudyQuantity& quantity) {
   const Series measured = clipped(series, quantity), expected = clipped(reference, quantity);
   const double scale = quantity.scale                          ? *quantity.scale
-                       : quantity.norm == StudyNorm::peak_time ? 1.0
+                       : quantity.norm == ErrorNorm::peak_time ? 1.0
                                                                : size_of(reference, quantity);
   if (!(scale > 0.0))
     throw Error(fmt::format("quantity '{}': the reference is zero, so that nothing relates to it", quantity.name),
                 reference.source, "give the quantity a 'scale'");
   const TimeWindow window{quantity.from, quantity.to};
   switch (quantity.norm) {
-    case StudyNorm::max:
+    case ErrorNorm::max:
       return deviation(series, reference, window).largest / scale;
-    case StudyNorm::rms:
+    case ErrorNorm::rms:
       return deviation(series, reference, window).rms / scale;
-    case StudyNorm::final: {
+    case ErrorNorm::final: {
       const double end = std::min(measured.x.back(), expected.x.back());
       return std::abs(value_at(series, end) - value_at(reference, end)) / scale;
     }
-    case StudyNorm::peak:
+    case ErrorNorm::peak:
       return std::abs(peak_of(measured).value - peak_of(expected).value) / scale;
-    case StudyNorm::peak_time:
+    case ErrorNorm::peak_time:
       return std::abs(peak_of(measured).time - peak_of(expected).time) / scale;
   }
   return 0.0;

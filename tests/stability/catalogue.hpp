@@ -40,7 +40,8 @@ struct Case {
 
 /// A part that `reducer` reduces for the scenes.
 struct Part {
-  std::string file;  ///< <file>.superelement.h5
+  std::string file;    ///< <file>.superelement.h5
+  std::string source;  ///< of scenes/, without .part.yaml
   std::vector<std::string> settings;
 };
 

@@ -129,7 +129,7 @@ std::string without(std::string text, const std::string& part) {
 
 void reduce(const Part& part, const Place& place) {
   ChildRequest request;
-  request.words = {place.reducer, "run", place.scenes + "/rod.part.yaml", "-o",
+  request.words = {place.reducer, "run", fmt::format("{}/{}.part.yaml", place.scenes, part.source), "-o",
                    fmt::format("{}/{}.superelement.h5", place.work, part.file)};
   request.seconds = 120.0;
   for (const std::string& setting : part.settings) {

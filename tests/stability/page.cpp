@@ -27,31 +27,39 @@ std::string entry(const Outcome& outcome) {
   return outcome.state == State::fail ? fmt::format("**FAIL** {:.1g}", outcome.worst) : word(outcome.state);
 }
 
-std::string table(const std::string& factor, const std::vector<Case>& cases, const std::vector<const Judged*>& cells) {
-  std::vector<std::string> levels;
-  std::map<std::pair<const Case*, std::string>, std::string> entries;
+/// Row and column of a cell: levels of two factors have the first in the row, "A, rho 0" of a pendulum in "pendulum,
+/// A".
+std::pair<std::string, std::string> place_of(const Cell& cell) {
+  const std::size_t comma = cell.level.find(", ");
+  if (!cell.factor.starts_with("formulation x") || comma == std::string::npos) return {cell.of->name, cell.level};
+  return {cell.of->name + ", " + cell.level.substr(0, comma), cell.level.substr(comma + 2)};
+}
+
+void add_new(std::vector<std::string>& list, const std::string& name) {
+  if (std::ranges::count(list, name) == 0) list.push_back(name);
+}
+
+std::string table(const std::string& factor, const std::vector<const Judged*>& cells) {
+  std::vector<std::string> rows, columns;
+  std::map<std::pair<std::string, std::string>, std::string> entries;
   for (const Judged* one : cells) {
-    if (std::ranges::count(levels, one->cell.level) == 0) levels.push_back(one->cell.level);
-    entries[{one->cell.of, one->cell.level}] = entry(one->outcome);
+    const auto [row, column] = place_of(one->cell);
+    add_new(columns, column);
+    if (one->outcome.state != State::impossible) add_new(rows, row);
+    entries[{row, column}] = entry(one->outcome);
   }
   std::string text = fmt::format("## {}{}\n\n| case | {} |\n| --- |", static_cast<char>(std::toupper(factor[0])),
-                                 factor.substr(1), join(levels, " | "));
-  for (std::size_t i = 0; i < levels.size(); ++i) text += " --- |";
+                                 factor.substr(1), join(columns, " | "));
+  for (std::size_t i = 0; i < columns.size(); ++i) text += " --- |";
   text += '\n';
-  for (const Case& one : cases) {
-    std::string row;
-    bool any = false;
-    for (const std::string& level : levels) {
-      const auto found = entries.find({&one, level});
-      row += fmt::format(" {} |", found == entries.end() ? "" : found->second);
-      any = any || (found != entries.end() && found->second != "-");
-    }
-    if (any) text += fmt::format("| {} |{}\n", one.name, row);
+  for (const std::string& row : rows) {
+    text += fmt::format("| {} |", row);
+    for (const std::string& column : columns) text += fmt::format(" {} |", entries[{row, column}]);
+    text += '\n';
   }
   return text + '\n';
 }
 
-/// The same boundary cases are levels of one case: levels by case, where columns would be too many.
 std::string counts(const std::vector<Judged>& judged) {
   std::map<State, int> count;
   double seconds = 0.0;
@@ -98,7 +106,7 @@ std::string page_of(const std::vector<Case>& cases, const std::vector<Judged>& j
     std::vector<const Judged*> cells;
     for (const Judged& one : judged)
       if (one.cell.factor == factor) cells.push_back(&one);
-    page += table(factor, cases, cells);
+    page += table(factor, cells);
   }
   page += "## What was told\n\n| cells | words of the run |\n| --- | --- |\n" + said(judged, State::told) + '\n';
   if (const std::string failed = said(judged, State::fail); !failed.empty())

@@ -193,14 +193,13 @@ TEST(ModalMotion, ModesMoveTheNodes) {
   const test_support::TemporaryFolder folder;
   const std::string file = std::string(TISSERAND_SOURCE_DIR) + "/examples/modal_slider_crank/rod.modal.h5";
   const std::string path = folder.file("tones.results.h5");
-  std::ofstream(folder.file("tones.yaml"))
-      << fmt::format(R"(scene: tones
+  std::ofstream(folder.file("tones.yaml")) << fmt::format(R"(scene: tones
 bodies: {{rod: {{type: modal, file: {}, pose: {{orientation: {{axis: [0, 0, 1], angle_deg: 90}}}}}}}}
 joints: {{hinge: {{type: revolute, a: ground, b: rod/n0, axis: [1, 0, 0]}}}}
 analysis: modes
 modes: {{count: 7}}
 )",
-                     file);
+                                                          file);
   ASSERT_EQ(simulate(formats::read_scene(folder.file("tones.yaml"), {}), path, RunControl{}).outcome,
             RunOutcome::completed);
   const formats::ResultsReader results(path);

@@ -40,6 +40,23 @@ TEST(ErrorControl, IsReadWithItsLimits) {
   EXPECT_DOUBLE_EQ(read("step: auto, end: 2, error_control: {max_step: 1e-5}").step, 1e-5);
 }
 
+TEST(Integrator, AccuracyTakesThePlaceOfStepAndErrorControl) {
+  const IntegratorSpec spec = read("end: 2, accuracy: {error: 1e-3, of: nodes/position/arm/x, norm: rms, scale: 2}");
+  ASSERT_TRUE(spec.accuracy);
+  EXPECT_EQ(spec.accuracy->error, 1e-3);
+  EXPECT_EQ(spec.accuracy->of, "nodes/position/arm/x");
+  EXPECT_EQ(spec.accuracy->norm, ErrorNorm::rms);
+  EXPECT_EQ(spec.accuracy->scale, 2.0);
+  EXPECT_TRUE(spec.error_control.active);
+  EXPECT_GT(spec.step, 0.0);
+  EXPECT_FALSE(read("method: bdf, end: 2, accuracy: {error: 1e-3, of: energy/total}").error_control.active);
+  EXPECT_THAT(error("end: 2, step: 0.1, accuracy: {error: 1e-3, of: a}"), HasSubstr("'step' is chosen by 'accuracy'"));
+  EXPECT_THAT(error("end: 2, error_control: {tolerance: 1e-3}, accuracy: {error: 1e-3, of: a}"),
+              HasSubstr("'error_control' is chosen by 'accuracy'"));
+  EXPECT_THAT(error("end: 2, accuracy: {error: 1e-3}"), HasSubstr("'of'"));
+  EXPECT_THAT(error("end: 2, accuracy: {error: 2, of: a}"), HasSubstr("leaves nothing of the result"));
+}
+
 TEST(BdfSettings, AreRead) {
   const IntegratorSpec spec = read(
       "method: bdf, end: 2, relative_tolerance: 1e-7, absolute_tolerance: 1e-9, stabilisation: baumgarte, baumgarte: "

@@ -120,18 +120,18 @@ Series sine(double amplitude, double delay) {
 TEST(Measure, NormsOfShiftedAndScaledSines) {
   formats::StudyQuantity quantity;
   const Series reference = sine(1.0, 0.0);
-  const auto error = [&](formats::StudyNorm norm, const Series& series) {
+  const auto error = [&](formats::ErrorNorm norm, const Series& series) {
     quantity.norm = norm;
     return error_of(series, reference, quantity);
   };
-  EXPECT_NEAR(error(formats::StudyNorm::max, sine(1.1, 0.0)), 0.1, 1e-5);  // the greatest stored value is 1 - 3e-7
-  EXPECT_NEAR(error(formats::StudyNorm::rms, sine(1.1, 0.0)), 0.1, 1e-12);
-  EXPECT_NEAR(error(formats::StudyNorm::final, sine(1.1, 0.0)), 0.1 * std::abs(std::sin(4.0)), 1e-6);
-  EXPECT_NEAR(error(formats::StudyNorm::peak, sine(1.1, 0.0)), 0.1, 1e-8);
-  EXPECT_NEAR(error(formats::StudyNorm::peak, sine(1.0, 0.3)), 0.0, 1e-8);
-  EXPECT_NEAR(error(formats::StudyNorm::peak_time, sine(1.0, 0.3)), 0.3, 1e-5);
+  EXPECT_NEAR(error(formats::ErrorNorm::max, sine(1.1, 0.0)), 0.1, 1e-5);  // the greatest stored value is 1 - 3e-7
+  EXPECT_NEAR(error(formats::ErrorNorm::rms, sine(1.1, 0.0)), 0.1, 1e-12);
+  EXPECT_NEAR(error(formats::ErrorNorm::final, sine(1.1, 0.0)), 0.1 * std::abs(std::sin(4.0)), 1e-6);
+  EXPECT_NEAR(error(formats::ErrorNorm::peak, sine(1.1, 0.0)), 0.1, 1e-8);
+  EXPECT_NEAR(error(formats::ErrorNorm::peak, sine(1.0, 0.3)), 0.0, 1e-8);
+  EXPECT_NEAR(error(formats::ErrorNorm::peak_time, sine(1.0, 0.3)), 0.3, 1e-5);
   quantity.scale = 2.0;
-  EXPECT_NEAR(error(formats::StudyNorm::max, sine(1.1, 0.0)), 0.05, 1e-5);
+  EXPECT_NEAR(error(formats::ErrorNorm::max, sine(1.1, 0.0)), 0.05, 1e-5);
 }
 
 }  // namespace

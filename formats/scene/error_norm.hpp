@@ -1,0 +1,8 @@
+// What counts of the difference of two histories.
+#pragma once
+
+namespace tisserand::formats {
+
+enum class ErrorNorm { max, rms, final, peak, peak_time };
+
+}  // namespace tisserand::formats

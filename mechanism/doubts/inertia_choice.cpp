@@ -1,0 +1,144 @@
+// Forces of the other inertia options at the motion of a run.
+#include "mechanism/doubts/inertia_choice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "mechanism/equations/terms.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using formats::InertiaOption;
+
+/// Half of a tenth, as for other terms that are left out (EN 1993-1-1, 5.2.1 (3)): forces that set in suddenly deflect
+/// twice as far as at rest (Timoshenko, Vibration Problems in Engineering, 1928, dynamic load factor).
+constexpr double most_difference = 0.05;
+/// Instants at which a run is looked at, and steps between them: a hundredth of its time at most.
+constexpr double most_instants = 200.0;
+constexpr int fewest_steps = 10;
+
+const char* letter(InertiaOption option) {
+  return option == InertiaOption::A ? "A" : option == InertiaOption::B ? "B" : "M";
+}
+
+/// None for M, whose centre of mass moves as it should.
+std::vector<InertiaOption> others_of(const SuperelementBody& body) {
+  if (body.second_order.any() || body.inertia == InertiaOption::M) return {};
+  std::vector<InertiaOption> others{body.inertia == InertiaOption::A ? InertiaOption::B : InertiaOption::A};
+  if (body.frame != FrameAlgorithm::incremental) others.push_back(InertiaOption::M);
+  return others;
+}
+
+/// The boundary part of `forces` in axes of the frame, then the internal part.
+void add_local(const SuperelementBody& body, const SuperelementScratch& scratch, double sign, Eigen::VectorXd& load) {
+  const auto& r = scratch.forces.r_B;
+  for (const SuperelementNode& node : body.node) {
+    if (node.has_translation())
+      load.segment<3>(node.translation_row) +=
+          sign * (scratch.motion.R0.transpose() * r.segment<3>(node.translation_row));
+    if (node.has_rotation()) load.segment<3>(node.rotation_row) += sign * r.segment<3>(node.rotation_row);
+  }
+  load.tail(body.modes) += sign * scratch.forces.r_I;
+}
+
+}  // namespace
+
+InertiaChoice::InertiaChoice(const formats::Scene& scene, const Model& model)
+    : uses_(model.superelements.size()),
+      seen_(model.superelements.size()),
+      pause_((scene.integrator.end - scene.integrator.start) / most_instants),
+      next_(scene.integrator.start) {
+  for (const SuperelementBody& body : model.superelement_bodies) {
+    std::vector<Other>& others = others_.emplace_back();
+    for (const InertiaOption option : others_of(body)) {
+      others.push_back({body, make_scratch(body)});
+      others.back().body.inertia = option;
+    }
+  }
+  if (std::ranges::all_of(others_, &std::vector<Other>::empty)) return;
+  const std::vector<std::vector<bool>> held = held_coordinates(model);
+  const std::vector<int> beams = welded_beams(model);
+  for (std::size_t i = 0; i < uses_.size(); ++i) {
+    uses_[i].beam = beams[i];
+    if (!others_[model.superelements[i].body].empty()) uses_[i].part = free_part(body_of(model, i), held[i]);
+  }
+}
+
+bool InertiaChoice::factored(Use& use, double spin) const {
+  if (!(spin > 0.0)) return false;
+  if (const double shift = spin * spin; shift > 4.0 * use.shift) {
+    use.factor.compute(use.part.S + shift * use.part.M);
+    use.shift = use.factor.info() == Eigen::Success ? shift : 0.0;
+  }
+  return use.shift > 0.0;
+}
+
+void InertiaChoice::compare(const Model& model, const State& state, const Evaluation& evaluation, int index) {
+  const SuperelementBody& body = body_of(model, index);
+  const SuperelementScratch& own = evaluation.superelements[index];
+  Use& use = uses_[index];
+  Seen& seen = seen_[use.beam];
+  seen.now += 0.5 * (own.motion.y_B.dot(body.S_BB * own.motion.y_B) + own.motion.y_I.cwiseAbs2().dot(body.S_II));
+  if (!factored(use, own.motion.Omega0.norm())) return;
+  const int internal = model.internal_offset[index], first = model.sizes.boundary + internal;
+  const Eigen::Vector3d gravity = evaluation.load_factor * model.superelements[index].gravity;
+  for (Other& other : others_[model.superelements[index].body]) {
+    update_kinematics(other.body, nodes_of(model, index, evaluation), state.y().data() + internal,
+                      state.v().data() + first, state.vdot().data() + first, own.motion.R0, other.scratch);
+    residual(other.body, other.scratch, gravity);
+    load_.setZero(body.boundary_size + body.modes);
+    add_local(other.body, other.scratch, 1.0, load_);
+    add_local(body, own, -1.0, load_);
+    deflection_ = load_(use.part.free).cwiseProduct(use.part.unit);
+    use.factor.solveInPlace(deflection_);
+    seen.change[static_cast<int>(other.body.inertia)] += 0.5 * deflection_.dot(use.part.S * deflection_);
+  }
+}
+
+void InertiaChoice::observe(const Model& model, const State& state, const Evaluation& evaluation) {
+  if (++steps_ < fewest_steps || state.time() < next_) return;
+  steps_ = 0;
+  next_ = state.time() + pause_;
+  for (std::size_t i = 0; i < uses_.size(); ++i)
+    if (!uses_[i].part.free.empty()) compare(model, state, evaluation, static_cast<int>(i));
+  for (Seen& seen : seen_) {
+    seen.strain = std::max(seen.strain, std::exchange(seen.now, 0.0));
+    for (const InertiaOption option : {InertiaOption::A, InertiaOption::B, InertiaOption::M}) {
+      const double change = std::exchange(seen.change[static_cast<int>(option)], 0.0);
+      if (!(change > seen.difference)) continue;
+      seen.difference = change;
+      seen.time = state.time();
+      seen.option = option;
+    }
+  }
+}
+
+std::vector<std::string> InertiaChoice::doubts(const Model& model) const {
+  double worst = 0.0;
+  std::string text;
+  int count = 0;
+  for (std::size_t i = 0; i < uses_.size(); ++i) {
+    if (uses_[i].beam != static_cast<int>(i)) continue;
+    const Seen& seen = seen_[i];
+    const double ratio = std::sqrt(seen.difference / seen.strain);
+    if (!(seen.strain > 0.0 && ratio > most_difference)) continue;
+    ++count;
+    if (ratio <= worst) continue;
+    worst = ratio;
+    text = fmt::format(
+        "the deflection of '{}' hangs on its inertia option: {} in place of {} would change it by {:.2g} of "
+        "its largest (at t = {:.6g}), beyond {:g}: cut it into several, or use second_order with its "
+        "companion file",
+        model.superelements[i].name, letter(seen.option), letter(body_of(model, i).inertia), ratio, seen.time,
+        most_difference);
+  }
+  if (count == 0) return {};
+  return {count == 1 ? text : fmt::format("{} (and {} more)", text, count - 1)};
+}
+
+}  // namespace tisserand::mechanism

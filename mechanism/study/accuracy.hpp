@@ -1,0 +1,20 @@
+// A run whose tolerance and modes follow from the error that is asked for (`accuracy` of the integrator).
+#pragma once
+
+#include "mechanism/simulate.hpp"
+
+namespace tisserand::mechanism {
+
+/// Runs the analysis with falling tolerances until the error of the chosen channel, estimated from what the last of
+/// them changed, is at most the one asked for; the results are those of the last run. Where the channel does not feel
+/// the upper half of the modes of all superelements that name none, the runs go on without them, and half of what is
+/// left. Notes of the report tell tolerance, estimate and modes with what the runs cost; a doubt, where the error
+/// cannot be reached or files hold too few modes.
+///
+/// E_n = max(d_n (τ_n/τ_{n-1})^p, d_{n-1} (τ_n/τ_{n-2})^p) from the differences d of runs with tolerances τ. The order
+/// p is 0.7, of radau 0.5, or 0.9 of what was seen where that is less. The first tolerance is ten times the
+/// error asked for, the second an eighth of it, each further one aims at 0.4 of the error. Throws Error: the channel is
+/// not stored, or stays zero.
+RunEnd simulate_to_accuracy(const RunRequest& request, const RunControl& control);
+
+}  // namespace tisserand::mechanism

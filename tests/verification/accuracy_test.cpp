@@ -1,0 +1,108 @@
+// Runs that reach an error which was asked for: held against runs far finer, and against modes that are not there.
+#include "mechanism/study/accuracy.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "mechanism/histories/tables.hpp"
+#include "mechanism/study/measure.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
+#include "tests/support/scenes/andrews.hpp"
+#include "tests/support/scenes/scenes.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/thrown.hpp"
+
+namespace tisserand::mechanism::accuracy_test {
+namespace {
+
+using Eigen::Vector3d;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+formats::Scene with(formats::Scene scene, double error, const std::string& of) {
+  scene.integrator.step = 1e-4 * scene.integrator.end;
+  scene.integrator.error_control.active = true;
+  scene.integrator.accuracy = {error, of, formats::ErrorNorm::max, std::nullopt};
+  return scene;
+}
+
+struct Reached {
+  RunReport report;
+  double error = 0.0;  ///< of the channel against a run with a hundredth of the error as tolerance, over its size
+};
+
+Reached reach(const formats::Scene& scene, const BodyFiles& files) {
+  const test_support::TemporaryFolder folder;
+  const std::string path = folder.file("a.results.h5"), fine = folder.file("b.results.h5");
+  const RunRequest request{scene, files, std::nullopt, path, "", std::nullopt};
+  Reached reached{simulate_to_accuracy(request, {}).report, 0.0};
+  formats::Scene finer = scene;
+  finer.integrator.accuracy.reset();
+  finer.integrator.error_control.tolerance = 0.01 * scene.integrator.accuracy->error;
+  finer.output.interval = (scene.integrator.end - scene.integrator.start) / 500;
+  simulate({finer, files, std::nullopt, fine, "", std::nullopt}, {});
+  formats::StudyQuantity quantity;
+  const std::vector<std::string> channel{scene.integrator.accuracy->of};
+  reached.error = error_of(read_quantities(path, channel).front(), read_quantities(fine, channel).front(), quantity);
+  return reached;
+}
+
+// The pendulum loses digits where it turns slowly; Andrews' mechanism multiplies errors along its way.
+TEST(Accuracy, IsReachedAndTold) {
+  for (const double error : {1e-2, 1e-3}) {
+    const Reached pendulum = reach(with(test_support::pendulum_scene(0.01, 2.0), error, "joints/coordinate/hinge"), {});
+    EXPECT_LE(pendulum.error, error);
+    EXPECT_GT(pendulum.error, 1e-3 * error);  // no work is wasted on what nobody asked for
+    EXPECT_THAT(pendulum.report.doubts, IsEmpty());
+    EXPECT_THAT(::testing::PrintToString(pendulum.report.notes),
+                HasSubstr("accuracy: the error of 'joints/coordinate/hinge' is estimated at"));
+    const formats::Scene andrews = test_support::andrews(1e-4);
+    const std::string of = fmt::format("nodes/position/{}/x", std::get<formats::RigidBodySpec>(andrews.bodies[4]).name);
+    EXPECT_LE(reach(with(andrews, error, of), {}).error, error);
+  }
+}
+
+/// A cantilever that a sudden weight at its tip sets swinging; `modes` of its internal vibrations are in the file.
+formats::Scene cantilever(int modes, BodyFiles& files) {
+  test_support::add_file("beam", test_support::craig_bampton_beam({}, modes), files.superelements);
+  formats::Scene scene = test_support::empty_scene(1e-3, 0.03);
+  scene.bodies.push_back(test_support::superelement_body("beam", "beam"));
+  scene.joints.push_back(test_support::joint("base", formats::JointKind::fixed, "ground", "beam/base", Vector3d::Zero(),
+                                             Vector3d::UnitZ()));
+  scene.loads.push_back(
+      test_support::constant_load("weight", formats::LoadKind::force, "beam/tip", Vector3d(0, 0, -100)));
+  return scene;
+}
+
+TEST(Accuracy, LeavesOutModesThatNothingFeels) {
+  BodyFiles files;
+  const Reached swing = reach(with(cantilever(18, files), 0.05, "nodes/position/beam/tip/z"), files);
+  EXPECT_LE(swing.error, 0.05);  // the reference has all modes
+  EXPECT_THAT(::testing::PrintToString(swing.report.notes), HasSubstr("upper half of the modes changes it by"));
+  EXPECT_THAT(swing.report.doubts, IsEmpty());
+}
+
+// Two modes in each plane, of which half leaves one: the higher ones move as fast as the lower ones.
+TEST(Accuracy, DoubtsWhatAFileDoesNotHold) {
+  BodyFiles files;
+  const Reached swing = reach(with(cantilever(4, files), 1e-4, "nodes/velocity/beam/tip/z"), files);
+  EXPECT_THAT(::testing::PrintToString(swing.report.doubts), HasSubstr("may miss modes"));
+}
+
+TEST(Accuracy, RefusesWhatItCannotMeasure) {
+  const test_support::TemporaryFolder folder;
+  const auto thrown = [&](const std::string& of) {
+    const formats::Scene scene = with(test_support::pendulum_scene(0.01, 1.0), 1e-3, of);
+    return test_support::error_of([&] {
+      simulate_to_accuracy({scene, {}, std::nullopt, folder.file("a.results.h5"), "", std::nullopt}, {});
+    });
+  };
+  EXPECT_THAT(thrown("joints/coordinate/hing"), HasSubstr("joints/coordinate/hinge"));
+  EXPECT_THAT(thrown("nodes/position/pendulum/z"), HasSubstr("scale"));  // it stays zero
+}
+
+}  // namespace
+}  // namespace tisserand::mechanism::accuracy_test
