@@ -17,8 +17,8 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 /// A disc of radius R₀ about the origin of `wheel`, with the axle as y of the marker, on a road at rest.
 ///
 /// Load: F_z = max(0, k δ + c δ̇ ramp) with the penetration δ; the ramp leads the damper in over the first hundredth of
-/// the radius, so that nothing jumps when a wheel lands. The rolling radius is R = R₀ − δ/3 ([Ril12] chapter 3). Slips are
-/// velocities of the contact over V = max(|V_x|, |Ω R|), below v₀ over (V² + v₀²)/(2 v₀): a standing tyre creeps
+/// the radius, so that nothing jumps when a wheel lands. The rolling radius is R = R₀ − δ/3 ([Ril12] chapter 3). Slips
+/// are velocities of the contact over V = max(|V_x|, |Ω R|), below v₀ over (V² + v₀²)/(2 v₀): a standing tyre creeps
 /// rather than sticks.
 ///
 /// Moments about the contact centre: M_x = F_z (R₀ − radius) sin γ makes the load that of the energy ½ k δ²; about the
