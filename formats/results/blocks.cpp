@@ -164,6 +164,28 @@ void add_forces(const ResultsLayout& layout, std::vector<Block>& blocks) {
                            [](Row r) { return r.friction_moment.data(); }));
 }
 
+void add_tyres(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  using Row = const ResultsRow&;
+  const Units& u = layout.units;
+  const std::string length = unit_label(u, 1, 0, 0), force = unit_label(u, 1, 1, -2), moment = unit_label(u, 2, 1, -2);
+  const auto add = [&](const std::string& name, const std::string& unit, const double* (*values)(Row)) {
+    blocks.push_back(scalars("/tyres/" + name, layout.tyres, unit, values));
+  };
+  const auto add_vectors = [&](const std::string& name, const std::string& unit, const double* (*values)(Row)) {
+    blocks.push_back(vectors("/tyres/" + name, layout.tyres, xyz, unit, values));
+  };
+  add_vectors("force", force, [](Row r) { return r.tyre_force.data(); });
+  add_vectors("moment", moment, [](Row r) { return r.tyre_moment.data(); });
+  add_vectors("contact", length, [](Row r) { return r.tyre_contact.data(); });
+  add_vectors("normal", "1", [](Row r) { return r.tyre_normal.data(); });
+  add("slip", "1", [](Row r) { return r.tyre_slip.data(); });
+  add("slip_angle", "rad", [](Row r) { return r.tyre_slip_angle.data(); });
+  add("camber", "rad", [](Row r) { return r.tyre_camber.data(); });
+  add("penetration", length, [](Row r) { return r.tyre_penetration.data(); });
+  add("rolling_radius", length, [](Row r) { return r.tyre_rolling_radius.data(); });
+  add("adhesion", "1", [](Row r) { return r.tyre_adhesion.data(); });
+}
+
 void add_scalars(const ResultsLayout& layout, std::vector<Block>& blocks) {
   using Row = const ResultsRow&;
   const Units& u = layout.units;
@@ -249,6 +271,11 @@ void ResultsRow::resize(const ResultsLayout& layout) {
     block->setZero(3, static_cast<Eigen::Index>(layout.bushings.size()));
   for (Eigen::Matrix3Xd* block : {&friction_force, &friction_moment})
     block->setZero(3, static_cast<Eigen::Index>(layout.frictions.size()));
+  const auto tyres = static_cast<Eigen::Index>(layout.tyres.size());
+  for (Eigen::Matrix3Xd* block : {&tyre_force, &tyre_moment, &tyre_contact, &tyre_normal}) block->setZero(3, tyres);
+  for (Eigen::VectorXd* block :
+       {&tyre_slip, &tyre_slip_angle, &tyre_camber, &tyre_penetration, &tyre_rolling_radius, &tyre_adhesion})
+    block->setZero(tyres);
 }
 
 std::vector<Block> all_blocks(const ResultsLayout& layout) {
@@ -260,6 +287,7 @@ std::vector<Block> all_blocks(const ResultsLayout& layout) {
   add_joints(layout, blocks);
   add_couplings(layout, blocks);
   add_forces(layout, blocks);
+  add_tyres(layout, blocks);
   add_scalars(layout, blocks);
   std::erase_if(blocks, [](const Block& block) { return block.width() == 0; });
   return blocks;
@@ -324,7 +352,8 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
   // Groups and datasets that this mechanism has no member of may be chosen without effect ("joints" without joints).
   std::vector<std::string> known{"time"};
   ResultsLayout full;
-  full.nodes = full.superelements = full.modal_bodies = full.joints = full.bushings = full.frictions = {"a"};
+  full.nodes = full.superelements = full.modal_bodies = full.joints = full.bushings = full.frictions =
+      full.tyres = {"a"};
   full.coordinates = full.motions = full.springs = full.stops = {{"a", false}};
   full.couplings = {{"a", false, false}};
   full.modes_offset = full.boundary_offset = full.modal_offset = {0, 1};

@@ -47,7 +47,8 @@ struct ResultsLayout {
   std::vector<Coordinate> stops;    ///< those of the springs that have stops
   std::vector<std::string> bushings;
   std::vector<std::string> frictions;  ///< joints with friction
-  std::vector<std::string> channels;   ///< selection, as in OutputSpec; empty: all
+  std::vector<std::string> tyres;
+  std::vector<std::string> channels;  ///< selection, as in OutputSpec; empty: all
   std::vector<std::string> superelement_content_ids;
   SimulatedScene simulated;
 };
@@ -72,6 +73,9 @@ struct ResultsRow {
   Eigen::VectorXd motion_force;              ///< of layout.motions: force or moment of the drive along its coordinate
   Eigen::VectorXd spring_force, stop_force;  ///< along the coordinate, on b; the stop's is part of the spring's
   Eigen::Matrix3Xd bushing_force, bushing_moment, friction_force, friction_moment;  ///< as of joints
+  Eigen::Matrix3Xd tyre_force, tyre_moment;    ///< on the wheel, about the contact centre, in tyre axes (ISO 8855)
+  Eigen::Matrix3Xd tyre_contact, tyre_normal;  ///< contact centre, normal of the road
+  Eigen::VectorXd tyre_slip, tyre_slip_angle, tyre_camber, tyre_penetration, tyre_rolling_radius, tyre_adhesion;
   double kinetic = 0.0, strain = 0.0, potential = 0.0, work = 0.0, dissipated = 0.0, total = 0.0, balance = 0.0;
   double step = 0.0, iterations = 0.0, residual = 0.0, constraint = 0.0;
   bool reactions = true;  ///< whether the layout stores those of joints, drives or gears; set by resize()
@@ -158,7 +162,7 @@ class ResultsReader {
   std::string report_json() const;
   std::string scene() const;
   const ResultsLayout& layout() const;  ///< what is stored; `simulated` is empty before version 1.5
-  std::string run() const;  ///< ResultsWriter::run(); empty before version 1.4
+  std::string run() const;              ///< ResultsWriter::run(); empty before version 1.4
   std::size_t rows() const;
   std::size_t modes() const;  ///< 0: the file holds none
   std::vector<double> time() const;

@@ -23,6 +23,7 @@
 #include "formats/hdf5/file.hpp"
 #include "formats/results/blocks.hpp"
 #include "formats/results/held_file.hpp"
+#include "formats/results/layout_file.hpp"
 #include "formats/results/simulated_scene_file.hpp"
 
 namespace tisserand::formats {
@@ -92,40 +93,14 @@ hdf5::Handle access_properties() {
   return access;
 }
 
-void write_couplings(hdf5::Id file, const std::vector<ResultsLayout::Coupling>& couplings, const std::string& where) {
-  std::vector<std::string> names, first, second;
-  for (const ResultsLayout::Coupling& coupling : couplings) {
-    names.push_back(coupling.name);
-    first.push_back(coupling.first_length ? "length" : "angle");
-    second.push_back(coupling.second_length ? "length" : "angle");
-  }
-  hdf5::write_texts(file, "/couplings/name", names, where);
-  hdf5::write_texts(file, "/couplings/first_kind", first, where);
-  hdf5::write_texts(file, "/couplings/second_kind", second, where);
-}
-
-void write_node_names(hdf5::Id file, const ResultsLayout& layout, const std::string& where) {
-  hdf5::write_texts(file, "/nodes/name", layout.nodes, where);
-  if (layout.node_aliases.empty()) return;
-  std::vector<std::string> names;
-  std::vector<std::int32_t> nodes;
-  for (const ResultsLayout::Alias& alias : layout.node_aliases) {
-    names.push_back(alias.name);
-    nodes.push_back(alias.node);
-  }
-  hdf5::write_texts(file, "/nodes/alias", names, where);
-  hdf5::write_dataset(file, "/nodes/alias_of", {nodes.size()}, nodes.data(), where);
-}
-
-/// A file with everything that does not change during the run. The names of a group are stored if any of its datasets
-/// is.
+/// A file with everything that does not change during the run.
 void create_head(const std::string& path, const ResultsLayout& layout, const std::vector<Block>& blocks,
                  const std::string& run, const std::string& where) {
   const hdf5::Handle access = access_properties();  // lives on: closing it would forget why H5Fcreate failed
   hdf5::Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
   if (!file.valid()) throw hdf5::last_error("cannot create the file", where, "choose another place or name");
   hdf5::write_text_attribute(file.id(), "/", "format", "tisserand-results", where);
-  hdf5::write_text_attribute(file.id(), "/", "version", "1.5", where);
+  hdf5::write_text_attribute(file.id(), "/", "version", "1.6", where);
   hdf5::write_text_attribute(file.id(), "/", "run", run, where);
   hdf5::write_text_attribute(file.id(), "/", "scene", layout.scene, where);
   hdf5::write_text_attribute(file.id(), "/", "producer", layout.producer, where);
@@ -135,46 +110,7 @@ void create_head(const std::string& path, const ResultsLayout& layout, const std
   hdf5::write_integer_attribute(file.id(), "/", "completed", 0, where);
   hdf5::write_text_attribute(file.id(), "/", "reason", "", where);
   for (const Block& block : blocks) create_growing(file.id(), block, where);
-  const auto stores = [&](const std::string& group) {
-    return std::any_of(blocks.begin(), blocks.end(), [&](const Block& b) { return b.dataset.starts_with(group); });
-  };
-  if (stores("/nodes/")) write_node_names(file.id(), layout, where);
-  const auto coordinates = [&](const std::string& before, const std::vector<ResultsLayout::Coordinate>& list) {
-    std::vector<std::string> names, kinds;
-    for (const ResultsLayout::Coordinate& c : list) {
-      names.push_back(c.name);
-      kinds.push_back(c.length ? "length" : "angle");
-    }
-    hdf5::write_texts(file.id(), before + "name", names, where);
-    hdf5::write_texts(file.id(), before + "kind", kinds, where);
-  };
-  if (stores("/joints/")) {
-    hdf5::write_texts(file.id(), "/joints/name", layout.joints, where);
-    coordinates("/joints/coordinate_", layout.coordinates);
-  }
-  if (stores("/couplings/")) write_couplings(file.id(), layout.couplings, where);
-  if (stores("/motions/")) coordinates("/motions/", layout.motions);
-  if (stores("/forces/spring")) coordinates("/forces/spring_", layout.springs);
-  if (stores("/forces/stop")) coordinates("/forces/stop_", layout.stops);
-  if (stores("/forces/bushing")) hdf5::write_texts(file.id(), "/forces/bushing_name", layout.bushings, where);
-  if (stores("/forces/friction")) hdf5::write_texts(file.id(), "/forces/friction_name", layout.frictions, where);
-  if (stores("/superelements/")) {
-    const auto offsets = [&](const char* name, const std::vector<int>& offset) {
-      hdf5::write_dataset(file.id(), std::string("/superelements/") + name, {offset.size()}, offset.data(), where);
-    };
-    hdf5::write_texts(file.id(), "/superelements/name", layout.superelements, where);
-    if (!layout.superelement_content_ids.empty())
-      hdf5::write_texts(file.id(), "/superelements/content_id", layout.superelement_content_ids, where);
-    offsets("offset", layout.modes_offset);
-    offsets("boundary_offset", layout.boundary_offset);
-    if (!layout.boundary_nodes.empty())
-      hdf5::write_texts(file.id(), "/superelements/boundary_name", layout.boundary_nodes, where);
-  }
-  if (stores("/modal_bodies/")) {
-    hdf5::write_texts(file.id(), "/modal_bodies/name", layout.modal_bodies, where);
-    hdf5::write_dataset(file.id(), "/modal_bodies/offset", {layout.modal_offset.size()}, layout.modal_offset.data(),
-                        where);
-  }
+  write_names(file.id(), layout, blocks, where);
   write_simulated(file.id(), layout.simulated, where);
   if (file.reset() < 0) throw hdf5::last_error("cannot write the file", where, "choose another place or name");
 }

@@ -23,15 +23,6 @@ std::string resolve(const std::string& folder, const std::string& file) {
   return file.empty() ? file : (std::filesystem::path(folder) / file).lexically_normal().string();
 }
 
-Pose read_pose(const Context& context, const YamlNode& node, const std::string& prefix) {
-  const MapReader map(context, node, "pose", prefix);
-  Pose pose;
-  read_fields(map, pose);
-  if (const YamlNode* orientation = map.find("orientation"))
-    pose.orientation = read_orientation(context, *orientation, "orientation");
-  return pose;
-}
-
 InitialMotion read_start(const MapReader& map) {
   InitialMotion start;
   if (const YamlNode* pose = map.find("pose")) start.pose = read_pose(map.context(), *pose, "pose.");
@@ -404,6 +395,15 @@ std::vector<KeySet> body_key_sets() {
         plain<&Damping::ratio>("ratio", "not_negative", ""), plain<&Damping::ratios>("ratios", "[not_negative]", ""),
         plain<&Damping::ratio_internal>("ratio_internal", "not_negative", ""),
         plain<&Damping::ratios_internal>("ratios_internal", "[not_negative]", "")}}};
+}
+
+Pose read_pose(const Context& context, const YamlNode& node, const std::string& prefix) {
+  const MapReader map(context, node, "pose", prefix);
+  Pose pose;
+  read_fields(map, pose);
+  if (const YamlNode* orientation = map.find("orientation"))
+    pose.orientation = read_orientation(context, *orientation, "orientation");
+  return pose;
 }
 
 std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& definitions) {

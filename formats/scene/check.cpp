@@ -349,7 +349,7 @@ Faults find_faults(const Scene& scene) {
   if (!scene.gravity.allFinite()) faults.add(scene.file, "gravity", "gravity must be finite", "");
   if (scene.bodies.empty()) faults.add(scene.file, "bodies", "the scene has no bodies", "");
   const SceneIndex index(scene);
-  std::unordered_set<std::string> bodies, joints, motions, springs, bushings, loads;
+  std::unordered_set<std::string> bodies, joints, motions, springs, bushings, roads, tyres, loads;
   for (const BodySpec& body : scene.bodies) {
     std::visit(
         [&](const auto& spec) {
@@ -386,6 +386,14 @@ Faults find_faults(const Scene& scene) {
   for (const BushingSpec& bushing : scene.bushings) {
     check_path_name("bushing", bushing.name, bushing.where, bushings, faults);
     check_bushing(index, bushing, faults);
+  }
+  for (const RoadSpec& road : scene.roads) {
+    check_path_name("road", road.name, road.where, roads, faults);
+    check_road(road, faults);
+  }
+  for (const TyreSpec& tyre : scene.tyres) {
+    check_path_name("tyre", tyre.name, tyre.where, tyres, faults);
+    check_tyre(index, tyre, faults);
   }
   for (const LoadSpec& load : scene.loads) {
     check_path_name("load", load.name, load.where, loads, faults);

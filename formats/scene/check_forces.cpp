@@ -1,5 +1,6 @@
 // Findings of springs, bushings and loads.
 #include <cmath>
+#include <tuple>
 
 #include <Eigen/Eigenvalues>
 
@@ -55,6 +56,29 @@ void check_stops(const SpringSpec& spring, const std::string& subject, Faults& f
         fmt::format("{}: lower stop {:g} is not below the upper one {:g}", subject, *spring.lower, *spring.upper), "");
 }
 
+/// A body of that name, which has no such velocity of its own.
+void check_initial_body(const SceneIndex& scene, const InitialSpec& initial, const std::string& subject,
+                        Faults& faults) {
+  const auto body = scene.bodies.find(initial.coordinate.name);
+  if (body == scene.bodies.end()) {
+    faults.add(initial.where, "", fmt::format("{}: there is no body of this name", subject),
+               "velocities belong to bodies; coordinates have value and rate");
+    return;
+  }
+  const InitialMotion& start =
+      std::visit([](const auto& spec) -> const InitialMotion& { return spec.start; }, *body->second);
+  if (initial.value || initial.rate)
+    faults.add(initial.where, "", fmt::format("{}: a body has neither value nor rate", subject), "remove them");
+  for (const auto& [own, given, key] :
+       {std::tuple{&start.velocity, &initial.velocity, "velocity"},
+        std::tuple{&start.angular_velocity, &initial.angular_velocity, "angular_velocity"}}) {
+    if (*given && !(*given)->allFinite())
+      faults.add(initial.where, key, fmt::format("{}: {} must be finite", subject, key), "");
+    if (*own && *given)
+      faults.add(initial.where, key, fmt::format("{}: the body has a {} of its own", subject, key), "remove one");
+  }
+}
+
 }  // namespace
 
 void check_friction(const JointSpec& joint, const std::string& subject, Faults& faults) {
@@ -88,6 +112,10 @@ void check_friction(const JointSpec& joint, const std::string& subject, Faults& 
 
 void check_initial(const SceneIndex& scene, const InitialSpec& initial, Faults& faults) {
   const std::string subject = fmt::format("initial '{}'", initial.coordinate.name);
+  if (initial.of_body()) {
+    check_initial_body(scene, initial, subject, faults);
+    return;
+  }
   check_coordinate(initial.coordinate, scene, subject, initial.where, "", faults);
   if (!initial.value && !initial.rate)
     faults.add(initial.where, "", fmt::format("{}: neither value nor rate is given", subject), "give one or both");

@@ -31,6 +31,8 @@ void check_friction(const JointSpec& joint, const std::string& subject, Faults& 
 void check_initial(const SceneIndex& scene, const InitialSpec& initial, Faults& faults);
 void check_spring(const SceneIndex& scene, const SpringSpec& spring, Faults& faults);
 void check_bushing(const SceneIndex& scene, const BushingSpec& bushing, Faults& faults);
+void check_road(const RoadSpec& road, Faults& faults);
+void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, Faults& faults);
 void check_load(const SceneIndex& scene, const LoadSpec& load, Faults& faults);
 
 }  // namespace tisserand::formats

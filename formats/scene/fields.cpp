@@ -19,7 +19,7 @@ std::vector<Field> assembly_fields() {
                             {"assemblies", "{name: text | assembly}", "as those of a scene"},
                             {"instances", "{name: instance}", ditto}};
   for (const std::string_view key : collection_keys({{"scene", scene_fields()}}))
-    if (key != "analyses" && std::ranges::find(fields, key, &Field::key) == fields.end())
+    if (key != "analyses" && key != "roads" && std::ranges::find(fields, key, &Field::key) == fields.end())
       fields.push_back({key, "{name: any}", ditto});
   return fields;
 }
@@ -42,8 +42,8 @@ KeySet instance_fields() {
 std::vector<KeySet> scene_key_sets() {
   std::vector<KeySet> sets{{"scene", scene_fields()}, {"assembly", assembly_fields()}, instance_fields()};
   for (const auto& lists : {common_key_sets(), section_key_sets(), body_key_sets(), shape_of_body_key_sets(),
-                            joint_key_sets(), force_key_sets(), channel_key_sets(), time_function_key_sets(),
-                            analysis_key_sets(), integrator_key_sets(), settings_key_sets()})
+                            joint_key_sets(), force_key_sets(), tyre_key_sets(), channel_key_sets(),
+                            time_function_key_sets(), analysis_key_sets(), integrator_key_sets(), settings_key_sets()})
     sets.insert(sets.end(), lists.begin(), lists.end());
   return sets;
 }

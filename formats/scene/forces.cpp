@@ -200,7 +200,14 @@ std::vector<KeySet> force_key_sets() {
          "required"}}},
       {"initial",
        {plain<&InitialSpec::value>("value", "number", "where the coordinate stands [length or rad]", "as written"),
-        plain<&InitialSpec::rate>("rate", "number", "how fast it moves [length/time or rad/time]", "free")}},
+        plain<&InitialSpec::rate>("rate", "number", "how fast it moves [length/time or rad/time]", "free"),
+        plain<&InitialSpec::velocity>(
+            "velocity", "vector",
+            "of a body, named instead of a coordinate: of the origin of its part frame, world "
+            "axes [length/time]",
+            "free"),
+        plain<&InitialSpec::angular_velocity>("angular_velocity", "vector", "of a body, world axes [rad/time]",
+                                              "free")}},
       {"spring",
        {{"coordinate", "text", "joint coordinate", "one of both"},
         {"a", "place", "markers"},

@@ -29,6 +29,8 @@ struct SceneDefinitions {
 MarkerSpec read_marker(const MapReader& map, const std::string& key);
 /// a, b, position, axis, x_axis.
 void read_marker_pair(const MapReader& map, MarkerPairSpec& pair);
+/// {position: .., orientation: ..}; `prefix` of its keys in findings.
+Pose read_pose(const Context& context, const YamlNode& node, const std::string& prefix);
 CoordinateRef read_coordinate(const MapReader& map, const YamlNode& node, const std::string& key);
 
 /// `shape` of a body.
@@ -42,6 +44,8 @@ std::vector<MotionSpec> read_motions(const MapReader& map, const SceneDefinition
 std::vector<InitialSpec> read_initial(const MapReader& map);
 std::vector<SpringSpec> read_springs(const MapReader& map, const SceneDefinitions& definitions);
 std::vector<BushingSpec> read_bushings(const MapReader& map);
+std::vector<RoadSpec> read_roads(const MapReader& map, const SceneDefinitions& definitions);
+std::vector<TyreSpec> read_tyres(const MapReader& map);
 std::vector<LoadSpec> read_loads(const MapReader& map, const SceneDefinitions& definitions);
 /// `analysis` and its groups, or `analyses`.
 void read_analyses(const MapReader& map, Scene& scene);
@@ -57,6 +61,7 @@ NamedType shape_of_body_type();
 Field shape_field();
 std::vector<KeySet> joint_key_sets();
 std::vector<KeySet> force_key_sets();
+std::vector<KeySet> tyre_key_sets();
 std::vector<KeySet> channel_key_sets();
 std::vector<KeySet> analysis_key_sets();
 std::vector<KeySet> settings_key_sets();

@@ -82,6 +82,8 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
   scene.initial = read_initial(map);
   scene.springs = read_springs(map, definitions);
   scene.bushings = read_bushings(map);
+  scene.roads = read_roads(map, definitions);
+  scene.tyres = read_tyres(map);
   scene.loads = read_loads(map, definitions);
   read_analyses(map, scene);
   return scene;
@@ -160,10 +162,13 @@ std::vector<Field> scene_fields() {
       {"inputs", "{name: input}", "name -> history from a file, for expressions", "none"},
       {"channels", "{name: channel}", "name -> quantity of the mechanism, for expressions", "none"},
       {"motions", "{name: motion}", "name -> joint coordinate that follows a function of time", "none"},
-      {"initial", "{name: initial}", "joint coordinate -> its value and rate at the start", "none"},
+      {"initial", "{name: initial}", "joint coordinate -> its value and rate at the start; body -> its velocities",
+       "none"},
       {"springs", "{name: spring}",
        "name -> spring, damper and stops along a joint coordinate, between two points or about an axis", "none"},
       {"bushings", "{name: bushing}", "name -> stiffness and damping between two markers in all directions", "none"},
+      {"roads", "{name: road}", "name -> ground that tyres roll on", "none"},
+      {"tyres", "{name: tyre}", "name -> tyre of a wheel on a road", "none"},
       {"loads", "{name: load}", "name -> load", "none"},
       choice<&Scene::virtual_bodies, virtual_body_ways>("virtual_bodies",
                                                         "`eliminate` or `keep`, see [below](#type-virtual)"),

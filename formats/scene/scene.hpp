@@ -102,9 +102,13 @@ struct MotionSpec {
   std::string where;
 };
 
-/// A coordinate at the start, which is kept: where it stands, how fast it moves, or both.
+/// A coordinate at the start, which is kept: where it stands, how fast it moves, or both; or the velocities of a body,
+/// also where the analysis goes on from one at rest.
 struct InitialSpec {
-  CoordinateRef coordinate;
+  CoordinateRef coordinate;                 ///< or the name of the body
+  std::optional<Eigen::Vector3d> velocity;  ///< of the origin of the part frame, world axes
+  std::optional<Eigen::Vector3d> angular_velocity;
+  bool of_body() const { return velocity || angular_velocity; }
   std::optional<double> value;  ///< the bodies move rigidly until it has this value
   std::optional<double> rate;
   std::string where;
@@ -167,6 +171,49 @@ struct InputSpec {
   std::string where;
 };
 
+/// A piece of a road over the distance x along it: heights of one track, 0 outside. A curve ends the road at its ends.
+enum class RoadPieceShape { cosine, trapezoid, curve };
+struct RoadPieceSpec {
+  RoadPieceShape shape = RoadPieceShape::cosine;
+  double start = 0.0;   ///< x at which it begins
+  double length = 0.0;  ///< from foot to foot
+  double height = 0.0;
+  double ramp = 0.0;  ///< of trapezoids: length of each ramp
+  CurveSpec curve;    ///< z(x)
+};
+
+/// Ground that tyres roll on, at rest: z = h(x, y) in the axes of its pose, x along it and z out of it.
+enum class RoadKind { plane, profile };
+struct RoadSpec {
+  std::string name;
+  RoadKind kind = RoadKind::plane;
+  Pose pose;
+  std::vector<RoadPieceSpec> left, right;  ///< heights add up; y > 0 is left
+  std::optional<double> transition;        ///< width of the strip about y = 0 between two tracks; absent: one track
+  std::string where;
+};
+
+/// A tyre on a wheel, with the law of comprehensive slip (mechanism/tyres/comprehensive_slip.hpp).
+enum class TyreKind { comprehensive_slip };
+struct TyreSpec {
+  std::string name;
+  TyreKind kind = TyreKind::comprehensive_slip;
+  MarkerSpec wheel;                     ///< its centre
+  std::optional<Eigen::Vector3d> axis;  ///< axle at the start, world axes; absent: y axis of the marker
+  std::string road;
+  double radius = 0.0;                     ///< unloaded
+  double stiffness = 0.0;                  ///< vertical [force/length]
+  double damping = 0.0;                    ///< vertical
+  double slip_stiffness = 0.0;             ///< C_s [force per slip of 1]
+  double cornering_stiffness = 0.0;        ///< C_α [force/rad]
+  double camber_stiffness = 0.0;           ///< C_γ [force/rad]
+  double friction = 0.0;                   ///< μ without slip
+  std::optional<double> sliding_friction;  ///< μ at a slip of 1 and beyond; absent: the same
+  double rolling_resistance = 0.0;         ///< moment over load and rolling radius
+  double low_speed = 0.0;                  ///< below it slip counts from it [length/time]
+  std::string where;
+};
+
 struct Scene {
   std::string name;
   std::string file;
@@ -182,6 +229,8 @@ struct Scene {
   std::vector<InitialSpec> initial;
   std::vector<SpringSpec> springs;
   std::vector<BushingSpec> bushings;
+  std::vector<RoadSpec> roads;
+  std::vector<TyreSpec> tyres;
   std::vector<LoadSpec> loads;
   VirtualBodies virtual_bodies = VirtualBodies::eliminate;
   AnalysisKind analysis = AnalysisKind::dynamics;

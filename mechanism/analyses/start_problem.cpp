@@ -61,8 +61,8 @@ std::vector<PartStart> part_starts(const BuiltModel& built, StartFrom from, cons
   for_each_body(model, [&](const auto& body) {
     if (is_flexible(body)) starts[parts.of_node[attached_nodes(model, body).front()]].deforms = true;
   });
-  if (from == StartFrom::rest) return starts;
   for (const BodyStart& body : built.starts) {
+    if (from == StartFrom::rest && !body.kept) continue;
     if (body.follows || (!body.velocity && !body.angular_velocity)) continue;
     const int node = body.origin.node;
     PartStart& start = starts[parts.of_node[node]];

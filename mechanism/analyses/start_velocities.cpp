@@ -254,20 +254,25 @@ StartVelocities told(const StartProblem& problem, const Deformations* deformatio
   return told;
 }
 
-}  // namespace
-
-void set_written_velocities(const BuiltModel& built, State& state) {
+void set_given_velocities(const BuiltModel& built, StartFrom from, State& state) {
   const Parts parts = find_parts(built.model);
-  const std::vector<PartStart> starts = part_starts(built, StartFrom::poses, parts, state);
+  const std::vector<PartStart> starts = part_starts(built, from, parts, state);
   Eigen::VectorXd w(6 * static_cast<Eigen::Index>(starts.size()));
   for (std::size_t i = 0; i < starts.size(); ++i) w.segment<6>(6 * static_cast<Eigen::Index>(i)) = starts[i].w;
   state.v().setZero();
   state.v().head(built.model.sizes.boundary) = rigid_motions(built.model, parts, starts, state) * w;
 }
 
+}  // namespace
+
+void set_written_velocities(const BuiltModel& built, State& state) {
+  set_given_velocities(built, StartFrom::poses, state);
+}
+
 StartVelocities derive_velocities(const BuiltModel& built, StartFrom from, double tolerance, const std::string& where,
                                   State& state, Evaluation& evaluation) {
   if (from == StartFrom::motion) return {};
+  if (std::ranges::any_of(built.starts, &BodyStart::kept)) set_given_velocities(built, from, state);
   const State rest = resting(built.model, state, evaluation);
   StartProblem problem = start_problem(built, from, rest, evaluation);
   const double scale = std::max(largest_entry(problem.w), largest_entry(problem.c));

@@ -13,7 +13,7 @@ namespace tisserand::mechanism {
 /// Where positions and velocities of a start come from.
 enum class StartFrom {
   poses,  ///< the bodies of the scene: written velocities are given
-  rest,   ///< another analysis that ended at rest: all velocities are free
+  rest,   ///< another analysis that ended at rest: velocities are free but for those of `initial`
   motion  ///< another analysis: all velocities are given
 };
 

@@ -34,6 +34,18 @@ double largest_internal_residual(const Workspace& workspace) {
   return largest;
 }
 
+/// While it lives tangents hold tyres where they stand.
+class Standing {
+ public:
+  explicit Standing(Evaluation& evaluation) : evaluation_(evaluation) { evaluation_.standing = true; }
+  ~Standing() { evaluation_.standing = false; }
+  Standing(const Standing&) = delete;
+  Standing& operator=(const Standing&) = delete;
+
+ private:
+  Evaluation& evaluation_;
+};
+
 /// Factors the stiffness at the state that was evaluated; names the motion that nothing holds, or nothing.
 std::string free_direction(const Model& model, const State& state, Workspace& workspace) {
   const FactorReport factors =
@@ -103,6 +115,7 @@ std::string free_motion(const Model& model, const formats::StaticsSpec& options,
     const std::string turn = free_turn_name(model, *options.rotation, state, workspace.now);
     return turn.empty() && small ? free_motion_name(model, *options.rotation, state, workspace.now) : turn;
   }
+  const Standing standing(workspace.now);
   state.v().setZero();
   state.vdot().setZero();
   evaluate(model, state, workspace.now);
@@ -144,10 +157,14 @@ StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& opti
                             State& state, Workspace& workspace) {
   if (options.rotation) return solve_steady_rotation(model, options, interrupted, state, workspace.now);
   StaticsReport report;
+  const Standing standing(workspace.now);
   state.v().setZero();
   state.vdot().setZero();
   ramp_loads(model, options, state, workspace.now, report,
              [&] { return equilibrate(model, options, interrupted, state, workspace, report); });
+  const bool failed = report.outcome == StepOutcome::diverged || report.outcome == StepOutcome::too_many_iterations;
+  if (failed && !model.tyres.empty())
+    report.explanation += "; tyres hold nothing along the road in statics: on a slope a drive or a spring must";
   return report;
 }
 

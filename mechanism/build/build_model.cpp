@@ -5,6 +5,7 @@
 #include "mechanism/build/initial_state.hpp"
 #include "mechanism/build/joints.hpp"
 #include "mechanism/build/loads.hpp"
+#include "mechanism/build/tyres.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -17,6 +18,16 @@ void finish(Construction& c) {
   c.model.breakpoints.assign(c.breakpoints.begin(), c.breakpoints.end());
   if (c.scene.integrator.step > 0.0) c.model.motion_spacing = 0.25 * c.scene.integrator.step;
   finish_model(c.model, c.scene.integrator.linear_solver);
+}
+
+/// What `initial` says of a body.
+void give_velocity(const formats::InitialSpec& entry, Construction& c) {
+  for (BodyStart& start : c.starts) {
+    if (start.name != entry.coordinate.name) continue;
+    start.velocity = entry.velocity ? entry.velocity : start.velocity;
+    start.angular_velocity = entry.angular_velocity ? entry.angular_velocity : start.angular_velocity;
+    start.kept = true;
+  }
 }
 
 }  // namespace
@@ -38,9 +49,16 @@ BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files) {
   c.throw_errors();
   for (const formats::MotionSpec& motion : scene.motions) c.collect([&] { joints.add(motion); });
   std::vector<CoordinateStart> initial;
-  for (const formats::InitialSpec& entry : scene.initial) c.collect([&] { initial.push_back(joints.initial(entry)); });
+  for (const formats::InitialSpec& entry : scene.initial)
+    c.collect([&] {
+      if (entry.of_body())
+        give_velocity(entry, c);
+      else
+        initial.push_back(joints.initial(entry));
+    });
   for (const formats::SpringSpec& spring : scene.springs) c.collect([&] { joints.add(spring); });
   for (const formats::BushingSpec& bushing : scene.bushings) c.collect([&] { joints.add(bushing); });
+  add_tyres(c);
   for (const formats::LoadSpec& load : scene.loads) c.collect([&] { add_load(load, c); });
   c.throw_errors();
 

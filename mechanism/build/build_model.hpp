@@ -38,6 +38,7 @@ struct BodyStart {
   bool follows = false;                     ///< an eliminated virtual body: moves as its carrier does
   std::optional<Eigen::Vector3d> velocity;  ///< of the origin
   std::optional<Eigen::Vector3d> angular_velocity;
+  bool kept = false;  ///< given by `initial`: also where the run goes on from an analysis at rest
 };
 
 /// A coordinate whose value or rate the scene gives at the start.

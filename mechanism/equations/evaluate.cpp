@@ -57,6 +57,7 @@ void evaluate_in_step(const Model& model, const State& state, Evaluation& evalua
   add_couplings(model, state, evaluation);
   add_springs(model, state, evaluation);
   add_bushings(model, evaluation);
+  add_tyres(model, evaluation);
   add_loads(model, state, evaluation);
   evaluation.stage = Stage::forces;
 }

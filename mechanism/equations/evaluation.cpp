@@ -43,6 +43,7 @@ Evaluation::Evaluation(const Model& model)
       constraint_rate(active),
       frictions(model.frictions.size()),
       bushings(model.bushings.size()),
+      tyres(model.tyres.size()),
       load_values(model.loads.size(), Eigen::Vector3d::Zero()),
       residual(Eigen::VectorXd::Zero(model.sizes.boundary)),
       bias(active),

@@ -40,6 +40,7 @@ struct Evaluation {
   Stage stage = Stage::nothing;
   long tangents = 0;         ///< how often the blocks of superelements were made anew: factors go with one of them
   double load_factor = 1.0;  ///< of loads and gravity (load steps of statics): set by the caller
+  bool standing = false;     ///< statics: tangents hold tyres where they stand; set by the caller
   /// θ of every node and displacement of every other coordinate since the state from which a step is taken: rows of Φ
   /// are derivatives by it (ConstraintRows). Zero unless evaluate_in_step() was given one.
   Eigen::VectorXd displacement;
@@ -62,6 +63,7 @@ struct Evaluation {
   std::vector<SuperelementScratch> superelements;
   std::vector<FrictionTerms> frictions;
   std::vector<BushingTerms> bushings;
+  std::vector<TyreTerms> tyres;
   std::vector<Eigen::Vector3d> load_values;
   Eigen::VectorXd residual;             ///< r, boundary coordinates (uncondensed)
   std::array<double, 3> force_scale{};  ///< largest force, moment and internal force of any single term

@@ -109,4 +109,31 @@ void add_bushing_tangents(const Model& model, Evaluation& evaluation, const Tang
   }
 }
 
+void add_tyres(const Model& model, Evaluation& evaluation) {
+  for (std::size_t i = 0; i < model.tyres.size(); ++i) {
+    const Tyre& tyre = model.tyres[i];
+    TyreTerms& terms = evaluation.tyres[i];
+    evaluate(tyre, model.roads[tyre.road], motion_of(evaluation, tyre.wheel.node), terms);
+    add_force(model, model.tyres.maps[i], terms.residual, evaluation);
+    note_scale(terms.residual, evaluation);
+    evaluation.spring_energy += terms.energy;
+    evaluation.damping_power += terms.dissipated;
+  }
+}
+
+void add_tyre_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target) {
+  const TangentCoefficients& coefficients = target.coefficients;
+  Matrix6d A;
+  for (std::size_t i = 0; i < model.tyres.size(); ++i) {
+    const Tyre& tyre = model.tyres[i];
+    const Road& road = model.roads[tyre.road];
+    const NodeMotion& node = motion_of(evaluation, tyre.wheel.node);
+    const TyreTerms& terms = evaluation.tyres[i];
+    A = terms.penetration > 0.0 ? tangent(tyre, road, node, coefficients) : Matrix6d::Zero();
+    if (evaluation.standing) A += coefficients.stiffness * standing_stiffness(tyre, road, node, terms);
+    add_matrix(model, model.tyres.maps[i], A, target.factor, evaluation, target.values,
+               [&] { return Vector6d(coefficients.stiffness * terms.residual); });
+  }
+}
+
 }  // namespace tisserand::mechanism

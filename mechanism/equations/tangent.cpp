@@ -50,6 +50,7 @@ void add_node_tangents(const Model& model, const State& state, TangentKind kind,
   add_friction_tangents(model, state, evaluation, target);
   add_coordinate_tangents(model, state, evaluation, target);
   add_bushing_tangents(model, evaluation, target);
+  add_tyre_tangents(model, evaluation, target);
   add_channel_tangents(model, state, evaluation, target);
 }
 

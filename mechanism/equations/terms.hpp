@@ -114,15 +114,18 @@ void add_frictions(const Model& model, const State& state, Evaluation& evaluatio
 void add_loads(const Model& model, const State& state, Evaluation& evaluation);
 /// Forces, energy and powers of bushings.
 void add_bushings(const Model& model, Evaluation& evaluation);
+/// Forces of tyres, the energy of their vertical springs, and what else they take as dissipated power.
+void add_tyres(const Model& model, Evaluation& evaluation);
 
 /// Rows, columns and geometric stiffness of joints, of couplings and motions; tangents of springs, friction (also ∂r/∂λ
-/// beside Bᵀ), bushings, and of loads and spring forces by the channels.
+/// beside Bᵀ), bushings, tyres, and of loads and spring forces by the channels.
 void add_joint_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
 void add_coordinate_tangents(const Model& model, const State& state, Evaluation& evaluation,
                              const TangentTarget& target);
 void add_load_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target);
 void add_friction_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
 void add_bushing_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target);
+void add_tyre_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target);
 void add_channel_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
 
 }  // namespace tisserand::mechanism

@@ -40,6 +40,9 @@ void evaluate_ties(const Model& model, const State& state, const double* lambda,
   }
   for (std::size_t i = 0; i < model.bushings.size(); ++i)
     add_pair(model.bushings[i].a, model.bushings[i].b, -evaluation.bushings[i].force.transpose(), evaluation);
+  for (std::size_t i = 0; i < model.tyres.size(); ++i)
+    if (const int follower = model.tyres[i].wheel.follower; follower >= 0)
+      wrenches[follower] -= evaluation.tyres[i].residual;
   for (std::size_t i = 0; i < model.loads.size(); ++i)
     if (const Load& load = model.loads[i]; load.at.follower >= 0)
       wrenches[load.at.follower] += load_force(load, motion_of(evaluation, load.at.node), evaluation.load_values[i]);

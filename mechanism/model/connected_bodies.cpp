@@ -74,6 +74,7 @@ std::vector<std::vector<std::string>> connected_groups(const Model& model, const
   };
   for (const Joint& joint : model.joints) sets.unite(part_of(joint.a), part_of(joint.b));
   for (const Bushing& bushing : model.bushings) sets.unite(part_of(bushing.a), part_of(bushing.b));
+  for (const Tyre& tyre : model.tyres) sets.unite(ground, part_of(tyre.wheel));
   for (const Coordinate& c : model.coordinates)
     if (c.active) sets.unite(part_of(c.a), part_of(c.b));
   for (const Coupling& coupling : model.couplings)

@@ -49,6 +49,7 @@ void number_elements(Model& model) {
   };
   for (const Joint& joint : model.joints) add(model.joints.maps, joint.a.node, joint.b.node);
   for (const Bushing& bushing : model.bushings) add(model.bushings.maps, bushing.a.node, bushing.b.node);
+  for (const Tyre& tyre : model.tyres) add(model.tyres.maps, tyre.wheel.node);
   for (const Load& load : model.loads) add(model.loads.maps, load.at.node);
   for (const Coordinate& c : model.coordinates) add(model.coordinates.maps, c.a.node, c.b.node);
   for (const ChannelUse& use : model.channel_uses) {
@@ -144,7 +145,7 @@ void for_each_map(Model& model, Visit visit) {
   for_each_body_pool(model, [&]<class T>(Pool<T>& pool) {
     for (ElementMap& map : pool.maps) visit(map, std::is_same_v<T, RigidBody> ? rigid : all);
   });
-  for (auto* maps : {&model.bushings.maps, &model.loads.maps, &model.channel_uses.maps})
+  for (auto* maps : {&model.bushings.maps, &model.tyres.maps, &model.loads.maps, &model.channel_uses.maps})
     for (ElementMap& map : *maps) visit(map, all);
   for (std::size_t i = 0; i < model.joints.size(); ++i)
     visit(model.joints.maps[i], fills_all(model, i) ? all : stiffness_entries(model.joints[i]));

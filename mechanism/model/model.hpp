@@ -24,6 +24,7 @@
 #include "mechanism/model/state.hpp"
 #include "mechanism/solver/linear_solver.hpp"
 #include "mechanism/solver/solver_choice.hpp"
+#include "mechanism/tyres/tyre.hpp"
 
 namespace tisserand::mechanism {
 
@@ -102,6 +103,8 @@ struct Model {
   double motion_spacing = 1e-4;                    ///< of the differences that give their rates
   std::vector<Spring> springs;
   Pool<Bushing> bushings;
+  std::vector<Road> roads;
+  Pool<Tyre> tyres;
   Pool<Load> loads;
   std::vector<double> breakpoints;  ///< ascending, of all loads
   /// Where positions of nodes and ground count from, in the world: zero but for scenes that stand far away, whose

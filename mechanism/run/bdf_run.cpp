@@ -9,6 +9,7 @@
 #include "mechanism/bdf/bdf.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/run/frame_angles.hpp"
+#include "mechanism/run/off_road.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -66,9 +67,11 @@ void store_rows(Run& run, Bdf& bdf, Instants& instants, double before, RowWriter
 
 /// Why the run must end at the accepted state, or nothing. CVODE's last evaluation is of another state.
 std::string observe(Run& run, FrameAngles& angles) {
-  if (run.built.model.superelements.empty()) return {};
-  evaluate(run.built.model, run.built.state, run.workspace.now);
-  return angles.observe(run.built.model, run.built.state, run.workspace.now);
+  const Model& model = run.built.model;
+  if (model.superelements.empty() && model.tyres.empty()) return {};
+  evaluate(model, run.built.state, run.workspace.now);
+  const std::string end = angles.observe(model, run.built.state, run.workspace.now);
+  return end.empty() ? off_road(model, run.built.state, run.workspace.now) : end;
 }
 
 void note_counts(Run& run, const BdfCounts& counts) {

@@ -9,6 +9,7 @@
 #include "mechanism/doubts/failure_cause.hpp"
 #include "mechanism/run/checkpoint.hpp"
 #include "mechanism/run/frame_angles.hpp"
+#include "mechanism/run/off_road.hpp"
 #include "mechanism/run/run.hpp"
 #include "mechanism/run/schedule.hpp"
 #include "mechanism/step/step.hpp"
@@ -101,7 +102,9 @@ void integrate(Run& run, RowWriter& out) {
     }
     checkpoints.after_step(model, schedule, state, run.workspace, stepper, out.writer);
     if (run.control.progress) run.control.progress(state.time());
-    if (std::string end = angles.observe(model, state, run.workspace.now); !end.empty()) {
+    std::string end = angles.observe(model, state, run.workspace.now);
+    if (end.empty()) end = off_road(model, state, run.workspace.now);
+    if (!end.empty()) {
       report.outcome = RunOutcome::not_converged;
       report.reason = std::move(end);
       break;

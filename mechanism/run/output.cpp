@@ -157,6 +157,22 @@ void fill_frictions(const Model& model, const Evaluation& evaluation, formats::R
   }
 }
 
+void fill_tyres(const Model& model, const Evaluation& evaluation, formats::ResultsRow& row) {
+  for (std::size_t i = 0; i < model.tyres.size(); ++i) {
+    const TyreTerms& tyre = evaluation.tyres[i];
+    row.tyre_force.col(i) = tyre.force;
+    row.tyre_moment.col(i) = tyre.moment;
+    row.tyre_contact.col(i) = tyre.normal.isZero(0.0) ? tyre.contact : Eigen::Vector3d(tyre.contact + model.origin);
+    row.tyre_normal.col(i) = tyre.normal;
+    row.tyre_slip[i] = tyre.slip;
+    row.tyre_slip_angle[i] = tyre.slip_angle;
+    row.tyre_camber[i] = tyre.camber;
+    row.tyre_penetration[i] = tyre.penetration;
+    row.tyre_rolling_radius[i] = tyre.rolling_radius;
+    row.tyre_adhesion[i] = tyre.adhesion;
+  }
+}
+
 void add_force_names(const Model& model, formats::ResultsLayout& layout) {
   for (const Spring& spring : model.springs) {
     const Relation& relation = model.coordinates[spring.coordinate].relation;
@@ -164,6 +180,7 @@ void add_force_names(const Model& model, formats::ResultsLayout& layout) {
     if (has_stops(spring)) layout.stops.push_back(layout.springs.back());
   }
   for (const Bushing& bushing : model.bushings) layout.bushings.push_back(bushing.name);
+  for (const Tyre& tyre : model.tyres) layout.tyres.push_back(tyre.name);
   for (const Friction& friction : model.frictions) layout.frictions.push_back(model.joints[friction.joint].name);
 }
 
@@ -241,6 +258,7 @@ void fill_row(const Model& model, const State& state, Evaluation& evaluation, fo
   fill_springs(model, state, evaluation, row);
   fill_bushings(model, evaluation, row);
   fill_frictions(model, evaluation, row);
+  fill_tyres(model, evaluation, row);
   const Energy energy = evaluate_energy(model, evaluation);
   row.kinetic = energy.kinetic;
   row.strain = energy.strain;

@@ -48,6 +48,7 @@ std::vector<std::string> effects(const Model& model) {
   add(model.couplings.size(), "couplings");
   add(model.springs.size(), "springs");
   add(model.bushings.size(), "bushings");
+  add(model.tyres.size(), "tyres");
   add(model.loads.size(), "loads");
   if (has_gravity(model)) list.push_back("gravity");
   bool damped = false;

@@ -25,6 +25,7 @@ formats::ResultsLayout example_layout() {
   layout.stops = {{"door", false}};
   layout.bushings = {"mount", "pad"};
   layout.frictions = {"slide"};
+  layout.tyres = {"front", "rear"};
   layout.superelement_content_ids = {std::string(64, 'a'), std::string(64, 'b')};
   return layout;
 }
@@ -63,6 +64,10 @@ void fill_row(int t, formats::ResultsRow& row) {
   fill(row.bushing_moment);
   fill(row.friction_force);
   fill(row.friction_moment);
+  for (Eigen::Matrix3Xd* block : {&row.tyre_force, &row.tyre_moment, &row.tyre_contact, &row.tyre_normal}) fill(*block);
+  for (Eigen::VectorXd* block : {&row.tyre_slip, &row.tyre_slip_angle, &row.tyre_camber, &row.tyre_penetration,
+                                 &row.tyre_rolling_radius, &row.tyre_adhesion})
+    fill(*block);
   for (double* value : {&row.kinetic, &row.strain, &row.potential, &row.work, &row.dissipated, &row.total, &row.balance,
                         &row.step, &row.iterations, &row.residual, &row.constraint})
     *value = row_value(t, k++);

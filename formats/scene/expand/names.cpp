@@ -21,7 +21,7 @@ struct Reference {
   Kind kind;
 };
 
-constexpr std::array<Reference, 12> references{{{"joints", "a", Kind::body},
+constexpr std::array<Reference, 13> references{{{"joints", "a", Kind::body},
                                                 {"joints", "b", Kind::body},
                                                 {"joints", "between", Kind::joint},
                                                 {"motions", "coordinate", Kind::joint},
@@ -30,12 +30,13 @@ constexpr std::array<Reference, 12> references{{{"joints", "a", Kind::body},
                                                 {"springs", "coordinate", Kind::joint},
                                                 {"bushings", "a", Kind::body},
                                                 {"bushings", "b", Kind::body},
+                                                {"tyres", "wheel", Kind::body},
                                                 {"channels", "a", Kind::body},
                                                 {"channels", "b", Kind::body},
                                                 {"loads", "at", Kind::body}}};
 
-constexpr std::array<std::string_view, 9> instantiated{"bodies",  "joints",  "inputs",   "channels", "motions",
-                                                       "initial", "springs", "bushings", "loads"};
+constexpr std::array<std::string_view, 10> instantiated{"bodies",  "joints",  "inputs",   "channels", "motions",
+                                                        "initial", "springs", "bushings", "tyres",    "loads"};
 
 /// "link[3]/bar/tip" -> "link[3]", and without the index "link".
 std::string first_word(const std::string& path) { return path.substr(0, path.find('/')); }
@@ -142,6 +143,7 @@ void read_names(YamlReader& reader, Assembly& assembly) {
   collect_names(reader, assembly, "motions", "motion", others);
   collect_names(reader, assembly, "springs", "spring", others);
   collect_names(reader, assembly, "bushings", "bushing", others);
+  collect_names(reader, assembly, "tyres", "tyre", others);
   collect_names(reader, assembly, "loads", "load", others);
   if (const YamlNode* instances = find_child(assembly.node, "instances"))
     for (const YamlNode& instance : instances->children)

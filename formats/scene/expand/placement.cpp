@@ -127,6 +127,11 @@ void Placement::place(const std::string& collection, YamlNode& entry) {
     if (frame_.mirrored()) mirror_field(entry);
   } else if (collection == "channels") {
     channel(entry);
+  } else if (collection == "initial") {
+    transform(entry, "velocity", frame_.G, Vector3d::Zero());
+    transform(entry, "angular_velocity", frame_.G * frame_.S.diagonal().prod(), Vector3d::Zero());
+  } else if (collection == "tyres") {
+    tyre(entry);
   } else if (collection == "loads") {
     load(entry);
   }
@@ -283,6 +288,13 @@ void Placement::channel(YamlNode& channel) {
   if (find_child(channel, "origin") == nullptr)
     set(channel, "origin", list_node(Vector3d(Vector3d::Zero()), channel.place));
   transform(channel, "origin", frame_.G, frame_.p);
+}
+
+/// The axle is an axial vector, so that mirrored wheels roll forward with the same sign.
+void Placement::tyre(YamlNode& tyre) {
+  if (!frame_.turned()) return;
+  marker(tyre, "wheel", frame_.S);
+  transform(tyre, "axis", frame_.G * frame_.S.diagonal().prod(), Vector3d::Zero());
 }
 
 void Placement::load(YamlNode& load) {

@@ -31,7 +31,8 @@ class Placement {
  public:
   Placement(YamlReader& reader, const AssemblyFrame& frame) : reader_(reader), frame_(frame) {}
 
-  /// An entry of `bodies`, `joints`, `channels`, `springs`, `bushings` or `loads`; others do not depend on the frame.
+  /// An entry of `bodies`, `joints`, `channels`, `springs`, `bushings`, `initial`, `tyres` or `loads`; others do not
+  /// depend on the frame.
   void place(const std::string& collection, YamlNode& entry);
 
   /// Joint coordinates that change their sign when the assembly is mirrored: "slide/z".
@@ -46,6 +47,7 @@ class Placement {
   void pair(YamlNode& entry, const std::string& type);
   void mirror_field(YamlNode& bushing);
   void channel(YamlNode& channel);
+  void tyre(YamlNode& tyre);
   void load(YamlNode& load);
   void marker(YamlNode& entry, const char* key, const Eigen::Matrix3d& flip);
   void transform(YamlNode& map, const char* key, const Eigen::Matrix3d& by, const Eigen::Vector3d& shift);

@@ -54,9 +54,9 @@ TEST(Results, EveryChannelComesBackBitEqual) {
   std::map<std::string, std::string> unit;
   for (const Channel& channel : reader.channels()) unit[channel.name] = channel.unit;
   // 1 time, 3 nodes x (5 x 3 + 4), 2 frames x 7, 5 coordinates y with rates, 2 of a modal body with rates, 3 boundary
-  // nodes x 6, 2 joints x 8, 2 couplings x 2, 2 drives, 2 springs, 1 stop, 2 bushings x 6, friction x 6, 7 energies, 4
-  // of solver.
-  EXPECT_EQ(unit.size(), 1u + 57 + 14 + 10 + 4 + 18 + 16 + 4 + 2 + 21 + 7 + 4);
+  // nodes x 6, 2 joints x 8, 2 couplings x 2, 2 drives, 2 springs, 1 stop, 2 bushings x 6, friction x 6, 2 tyres x 18,
+  // 7 energies, 4 of solver.
+  EXPECT_EQ(unit.size(), 1u + 57 + 14 + 10 + 4 + 18 + 16 + 4 + 2 + 21 + 36 + 7 + 4);
   ResultsRow row;
   row.resize(layout);
   const std::map<std::string, std::function<double()>> expected{
@@ -87,6 +87,16 @@ TEST(Results, EveryChannelComesBackBitEqual) {
       {"forces/bushing_moment/mount/z", [&] { return row.bushing_moment(2, 0); }},
       {"forces/friction_force/slide/x", [&] { return row.friction_force(0, 0); }},
       {"forces/friction_moment/slide/z", [&] { return row.friction_moment(2, 0); }},
+      {"tyres/force/front/z", [&] { return row.tyre_force(2, 0); }},
+      {"tyres/moment/rear/y", [&] { return row.tyre_moment(1, 1); }},
+      {"tyres/contact/rear/x", [&] { return row.tyre_contact(0, 1); }},
+      {"tyres/normal/front/y", [&] { return row.tyre_normal(1, 0); }},
+      {"tyres/slip/rear", [&] { return row.tyre_slip[1]; }},
+      {"tyres/slip_angle/front", [&] { return row.tyre_slip_angle[0]; }},
+      {"tyres/camber/rear", [&] { return row.tyre_camber[1]; }},
+      {"tyres/penetration/front", [&] { return row.tyre_penetration[0]; }},
+      {"tyres/rolling_radius/rear", [&] { return row.tyre_rolling_radius[1]; }},
+      {"tyres/adhesion/front", [&] { return row.tyre_adhesion[0]; }},
       {"energy/kinetic", [&] { return row.kinetic; }},
       {"energy/balance", [&] { return row.balance; }},
       {"solver/step", [&] { return row.step; }},
@@ -113,6 +123,9 @@ TEST(Results, EveryChannelComesBackBitEqual) {
   EXPECT_EQ(unit["forces/stop/door"], "N m");
   EXPECT_EQ(unit["forces/bushing_force/pad/x"], "N");
   EXPECT_EQ(unit["forces/friction_moment/slide/x"], "N m");
+  EXPECT_EQ(unit["tyres/moment/front/x"], "N m");
+  EXPECT_EQ(unit["tyres/slip_angle/rear"], "rad");
+  EXPECT_EQ(unit["tyres/penetration/rear"], "m");
   EXPECT_EQ(unit["energy/strain"], "J");
 }
 

@@ -75,6 +75,15 @@ TEST(SceneStart, WhatIsWrittenIsToldFromWhatIsNot) {
   EXPECT_EQ(scene.initial[0].value, -0.5);
   EXPECT_THAT(error("end: 1}", "end: 1}\ninitial: {hinge: {}}"),
               HasSubstr("initial 'hinge': neither value nor rate is given; give one or both"));
+  const Scene moving = read(replaced(machine, "end: 1}", "end: 1}\ninitial: {b: {velocity: [1, 2, 3]}}"));
+  EXPECT_EQ(moving.initial[0].velocity.value(), Eigen::Vector3d(1, 2, 3));
+  EXPECT_THAT(error("end: 1}", "end: 1}\ninitial: {hinge: {velocity: [1, 2, 3]}}"),
+              HasSubstr("initial 'hinge': there is no body of this name"));
+  EXPECT_THAT(error("end: 1}", "end: 1}\ninitial: {a: {angular_velocity: [1, 2, 3], rate: 1}}"),
+              HasSubstr("initial 'a': a body has neither value nor rate"));
+  EXPECT_THAT(error("bodies:\n  a: {type: rigid,",
+                    "initial: {a: {velocity: [1, 2, 3]}}\nbodies:\n  a: {type: rigid, velocity: [0, 0, 0],"),
+              HasSubstr("initial 'a': the body has a velocity of its own; remove one"));
   EXPECT_THAT(error("end: 1}", "end: 1}\ninitial: {hing: {rate: 1}}"),
               HasSubstr("initial 'hing': there is no joint 'hing'; did you mean 'hinge'?"));
 }

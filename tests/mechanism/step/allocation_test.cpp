@@ -65,6 +65,17 @@ formats::Scene everything() {
   scene.bushings[0].a.node = "ground";
   scene.bushings[0].b.node = "block";
   scene.bushings[0].stiffness.diagonal().setConstant(10.0);
+  formats::RoadSpec& road = scene.roads.emplace_back();
+  road.name = "road";
+  road.pose.position = {0, 0, -0.34};
+  formats::TyreSpec& tyre = scene.tyres.emplace_back();
+  tyre.wheel.node = "block";
+  tyre.wheel.position = Vector3d(0, 0, 0);
+  tyre.axis = Vector3d(0, 1, 1);
+  tyre.road = "road";
+  tyre.radius = 0.5;
+  tyre.stiffness = tyre.slip_stiffness = tyre.cornering_stiffness = 10.0;
+  tyre.friction = tyre.low_speed = 1.0;
   formats::SpringSpec& along = scene.springs.emplace_back();
   along.coordinate = formats::CoordinateRef{"hinge", ""};
   along.stiffness = formats::CurveSpec{formats::Interpolation::cubic, {-1.0, 1.0}, {-3.0, 3.0}};

@@ -1,0 +1,16 @@
+// What a results file says of the columns of its datasets.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/hdf5/file.hpp"
+#include "formats/results/blocks.hpp"
+
+namespace tisserand::formats {
+
+/// Names and offsets of each group of which any dataset is stored. Throws Error.
+void write_names(hdf5::Id file, const ResultsLayout& layout, const std::vector<Block>& blocks,
+                 const std::string& where);
+
+}  // namespace tisserand::formats

@@ -1,0 +1,274 @@
+// `roads` and `tyres` of scene.yaml, and their findings.
+#include <cmath>
+
+#include "formats/scene/check_parts.hpp"
+#include "formats/scene/reader.hpp"
+#include "formats/scene/road_spectrum.hpp"
+#include "formats/scene/time_function_reader.hpp"
+#include "formats/yaml/fields.hpp"
+#include "formats/yaml/geometry.hpp"
+#include "formats/yaml/name_check.hpp"
+
+namespace tisserand::formats {
+
+namespace {
+
+constexpr Choice<RoadKind> road_kinds[] = {{"plane", RoadKind::plane}, {"profile", RoadKind::profile}};
+constexpr Choice<RoadPieceShape> piece_shapes[] = {
+    {"cosine", RoadPieceShape::cosine}, {"trapezoid", RoadPieceShape::trapezoid}, {"curve", RoadPieceShape::curve}};
+constexpr Choice<RoadClass> road_classes[] = {{"A", RoadClass::A}, {"B", RoadClass::B}, {"C", RoadClass::C},
+                                              {"D", RoadClass::D}, {"E", RoadClass::E}, {"F", RoadClass::F},
+                                              {"G", RoadClass::G}, {"H", RoadClass::H}};
+constexpr Choice<TyreKind> tyre_kinds[] = {{"comprehensive_slip", TyreKind::comprehensive_slip}};
+
+/// The keys of a shape; others have no effect on it.
+void require_keys(const MapReader& map, RoadPieceShape shape) {
+  const bool curve = shape == RoadPieceShape::curve;
+  for (const char* key : {"start", "length", "height", "ramp", "curve", "iso_8608"}) {
+    const std::string_view name = key;
+    const bool of_curve = name == "curve" || name == "iso_8608";
+    const bool used = of_curve ? curve : name == "ramp" ? shape == RoadPieceShape::trapezoid : !curve;
+    if (used && !of_curve)
+      map.require(key);
+    else if (const YamlNode* node = map.find(key); node != nullptr && !used)
+      map.context().fail(node->key_place, fmt::format("'{}' has no effect with this shape", key), "remove it");
+  }
+  if (curve && map.has("curve") == map.has("iso_8608"))
+    map.fail("shape curve needs either 'curve' or 'iso_8608'", "write curve: {table: [[0, 0], [10, 0.2]]}");
+}
+
+CurveSpec read_iso_road(const Context& context, const YamlNode& node, const std::string& key,
+                        const SceneDefinitions& definitions) {
+  const MapReader map(context, node, "iso_8608", key + ".iso_8608.");
+  IsoRoadSpec spec;
+  read_fields(map, spec);
+  const double metre = definitions.units.length.factor;
+  if (!(metre > 0.0)) map.fail("its spectrum is in metres, and the units of the scene are unnamed", "name the units");
+  if (!(spec.length > 0.0 && spec.length * metre <= longest_iso_road))
+    map.fail(fmt::format("length {:g} must be positive and at most {:g} m", spec.length, longest_iso_road), "");
+  if (!std::isfinite(spec.start)) map.fail("start must be finite", "");
+  const bool fine =
+      metre > 0.0 && spec.length > 0.0 && spec.length * metre <= longest_iso_road && std::isfinite(spec.start);
+  return fine ? iso_road(spec, metre) : CurveSpec{};
+}
+
+RoadPieceSpec read_piece(const Context& context, const YamlNode& node, const std::string& key,
+                         const SceneDefinitions& definitions) {
+  const MapReader map(context, node, "road_piece", key + ".");
+  RoadPieceSpec piece;
+  read_fields(map, piece);
+  if (!map.has("shape")) return piece;
+  require_keys(map, piece.shape);
+  if (piece.shape != RoadPieceShape::curve) return piece;
+  if (const YamlNode* curve = map.find("curve"))
+    piece.curve = read_curve(context, *curve, "curve", definitions.folder);
+  else if (const YamlNode* road = map.find("iso_8608"))
+    piece.curve = read_iso_road(context, *road, key, definitions);
+  return piece;
+}
+
+/// One piece, or a list of them.
+std::vector<RoadPieceSpec> read_track(const MapReader& map, const char* key, const SceneDefinitions& definitions) {
+  std::vector<RoadPieceSpec> pieces;
+  const YamlNode* node = map.find(key);
+  if (node == nullptr) return pieces;
+  const Context context{map.context().reader, fmt::format("{}: {}", map.context().subject, key), map.context().entry};
+  if (node->kind != YamlKind::sequence)
+    pieces.push_back(read_piece(context, *node, key, definitions));
+  else
+    for (const YamlNode& child : node->children) pieces.push_back(read_piece(context, child, key, definitions));
+  return pieces;
+}
+
+void read_tracks(const MapReader& map, const SceneDefinitions& definitions, RoadSpec& road) {
+  const bool one = map.has("height"), two = map.has("left") || map.has("right");
+  if (road.kind == RoadKind::plane) {
+    for (const char* key : {"height", "left", "right", "transition"})
+      if (const YamlNode* node = map.find(key))
+        map.context().fail(node->key_place, fmt::format("'{}' has no effect on a plane", key),
+                           "remove it, or write type: profile");
+    return;
+  }
+  if (one == two)
+    map.fail("a profile needs either 'height', or 'left' and 'right'",
+             "write height: {shape: cosine, start: 10, length: 1, height: 0.1}");
+  if (two) map.require("transition");
+  if (const YamlNode* node = map.find("transition"); node != nullptr && one && !two)
+    map.context().fail(node->key_place, "'transition' has no effect with one height for both tracks", "remove it");
+  if (one) road.left = road.right = read_track(map, "height", definitions);
+  if (!two) return;
+  road.left = read_track(map, "left", definitions);
+  road.right = read_track(map, "right", definitions);
+}
+
+/// Adds a finding unless the number is finite and of the sign that is asked for.
+enum class Sign { positive, not_negative };
+struct NumberCheck {
+  const std::string& subject;
+  const std::string& where;
+  Faults& faults;
+  void operator()(double value, const std::string& key, Sign sign) const {
+    if (std::isfinite(value) && (sign == Sign::positive ? value > 0.0 : value >= 0.0)) return;
+    faults.add(where, key,
+               fmt::format("{}: {} {:g} must {}", subject, key, value,
+                           sign == Sign::positive ? "be positive" : "not be negative"),
+               "");
+  }
+};
+
+void check_piece(const RoadPieceSpec& piece, const std::string& subject, const std::string& where, Faults& faults) {
+  if (piece.shape == RoadPieceShape::curve) {
+    check_curve(piece.curve, subject, where, "curve", faults);
+    return;
+  }
+  const NumberCheck check{subject, where, faults};
+  check(piece.length, "length", Sign::positive);
+  for (const auto& [value, key] : {std::pair{piece.start, "start"}, std::pair{piece.height, "height"}})
+    if (!std::isfinite(value)) faults.add(where, key, fmt::format("{}: {} must be finite", subject, key), "");
+  if (piece.shape != RoadPieceShape::trapezoid) return;
+  check(piece.ramp, "ramp", Sign::positive);
+  if (2.0 * piece.ramp > piece.length)
+    faults.add(where, "ramp",
+               fmt::format("{}: two ramps of {:g} do not fit into the length {:g}", subject, piece.ramp, piece.length),
+               "shorten the ramps, or lengthen the trapezoid");
+}
+
+}  // namespace
+
+std::vector<RoadSpec> read_roads(const MapReader& map, const SceneDefinitions& definitions) {
+  std::vector<RoadSpec> roads;
+  for (const YamlNode* node : map.entries("roads", "road")) {
+    const Context context = entry_context(map.context().reader, "road", *node);
+    const MapReader inner(context, *node, "road");
+    RoadSpec road;
+    road.name = node->key;
+    road.where = context.entry;
+    read_fields(inner, road);
+    if (const YamlNode* pose = inner.find("pose")) road.pose = read_pose(context, *pose, "pose.");
+    read_tracks(inner, definitions, road);
+    roads.push_back(std::move(road));
+  }
+  return roads;
+}
+
+std::vector<TyreSpec> read_tyres(const MapReader& map) {
+  std::vector<TyreSpec> tyres;
+  for (const YamlNode* node : map.entries("tyres", "tyre")) {
+    const Context context = entry_context(map.context().reader, "tyre", *node);
+    const MapReader inner(context, *node, "tyre");
+    TyreSpec tyre;
+    tyre.name = node->key;
+    tyre.where = context.entry;
+    read_fields(inner, tyre);
+    tyre.wheel = read_marker(inner, "wheel");
+    tyres.push_back(std::move(tyre));
+  }
+  return tyres;
+}
+
+void check_road(const RoadSpec& road, Faults& faults) {
+  const std::string subject = fmt::format("road '{}'", road.name);
+  if (!road.pose.position.allFinite())
+    faults.add(road.where, "pose.position", fmt::format("{}: position must be finite", subject), "");
+  if (road.transition) NumberCheck{subject, road.where, faults}(*road.transition, "transition", Sign::positive);
+  for (const auto* track : {&road.left, &road.right})
+    for (const RoadPieceSpec& piece : *track) {
+      if (road.transition || track == &road.left) check_piece(piece, subject, road.where, faults);
+    }
+}
+
+void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, Faults& faults) {
+  const std::string subject = fmt::format("tyre '{}'", tyre.name);
+  check_marker(scene, tyre.wheel, subject, tyre.where, "wheel", faults);
+  if (tyre.wheel.node == "ground")
+    faults.add(tyre.where, "wheel", fmt::format("{}: is on the ground", subject), "name the body of the wheel");
+  std::vector<std::string> roads;
+  for (const RoadSpec& road : scene.scene.roads) roads.push_back(road.name);
+  check_reference(subject, "road", tyre.road, roads, tyre.where, "road", faults);
+  if (tyre.axis && !(tyre.axis->allFinite() && tyre.axis->stableNorm() > 0.0))
+    faults.add(tyre.where, "axis", fmt::format("{}: axis has zero length or is not finite", subject),
+               "give the direction of the axle, to the left of the wheel: [0, 1, 0]");
+  if (tyre.axis && tyre.wheel.orientation)
+    faults.add(tyre.where, "axis", fmt::format("{}: axis has no effect, since the marker has an orientation", subject),
+               "remove it, or the orientation: the axle is y of the marker");
+  const NumberCheck check{subject, tyre.where, faults};
+  for (const auto& [value, key] :
+       {std::pair{tyre.radius, "radius"}, std::pair{tyre.stiffness, "stiffness"},
+        std::pair{tyre.slip_stiffness, "slip_stiffness"}, std::pair{tyre.cornering_stiffness, "cornering_stiffness"},
+        std::pair{tyre.friction, "friction"}, std::pair{tyre.low_speed, "low_speed"}})
+    check(value, key, Sign::positive);
+  for (const auto& [value, key] :
+       {std::pair{tyre.damping, "damping"}, std::pair{tyre.camber_stiffness, "camber_stiffness"},
+        std::pair{tyre.rolling_resistance, "rolling_resistance"}})
+    check(value, key, Sign::not_negative);
+  if (!tyre.sliding_friction) return;
+  check(*tyre.sliding_friction, "sliding_friction", Sign::positive);
+  if (*tyre.sliding_friction > tyre.friction)
+    faults.add(
+        tyre.where, "sliding_friction",
+        fmt::format("{}: sliding_friction {:g} is above friction {:g}", subject, *tyre.sliding_friction, tyre.friction),
+        "");
+}
+
+std::vector<KeySet> tyre_key_sets() {
+  return {
+      {"road",
+       {choice<&RoadSpec::kind, road_kinds>("type", "`plane`, or `profile`: heights over the distance along it",
+                                            "required"),
+        {"pose", "pose",
+         "`{position: [x, y, z], orientation: ..}` of its axes in the world: x along it, y to its left, z out of it",
+         "those of the world"},
+        {"height", "road_piece | [road_piece]", "of a profile, both tracks: a piece or a list of them, which add up",
+         "required without tracks"},
+        {"left", "road_piece | [road_piece]", "instead: of the tracks y > 0 and y < 0; without one of them it is flat",
+         "none"},
+        {"right", "road_piece | [road_piece]", ditto},
+        plain<&RoadSpec::transition>("transition", "positive",
+                                     "width of the strip about y = 0 in which one track goes over into the other "
+                                     "[length]",
+                                     "required with tracks")}},
+      {"road_piece",
+       {choice<&RoadPieceSpec::shape, piece_shapes>(
+            "shape",
+            "`cosine`: height (1 − cos(2π(x − start)/length))/2; `trapezoid`: with straight ramps; `curve`: z(x) by "
+            "points",
+            "required"),
+        plain<&RoadPieceSpec::start>("start", "number", "x at which it begins [length]", "required by the first two"),
+        plain<&RoadPieceSpec::length>("length", "positive", "from foot to foot [length]", "required by the first two"),
+        plain<&RoadPieceSpec::height>("height", "number", "[length]", "required by the first two"),
+        plain<&RoadPieceSpec::ramp>("ramp", "positive", "`trapezoid`: length of each ramp [length]", "required there"),
+        {"curve", "curve",
+         "`curve`: `{table: [[x, z], ..], interpolation: linear}` or `{file: road.csv}` as of springs; the road ends "
+         "with it, and a run in which a tyre gets there ends",
+         "one of both there"},
+        {"iso_8608", "iso_8608", "`curve`: instead, a stochastic road: `{class: C, seed: 1, start: 0, length: 200}`",
+         "one of both there"}}},
+      {"iso_8608",
+       {choice<&IsoRoadSpec::road_class, road_classes>("class", "", "required"),
+        plain<&IsoRoadSpec::seed>("seed", "integer", "", "required"), plain<&IsoRoadSpec::start>("start", "number", ""),
+        plain<&IsoRoadSpec::length>("length", "positive", "", "required")}},
+      {"tyre",
+       {choice<&TyreSpec::kind, tyre_kinds>("type", "`comprehensive_slip`: see below", "required"),
+        {"wheel", "place", "centre of the wheel: a node or marker of the body that spins", "required"},
+        plain<&TyreSpec::axis>("axis", "vector",
+                               "axle at the start, world axes, to the left of the wheel: it rolls along axis x up",
+                               "y axis of the marker"),
+        plain<&TyreSpec::road>("road", "text", "name from `roads`", "required"),
+        plain<&TyreSpec::radius>("radius", "positive", "unloaded [length]", "required"),
+        plain<&TyreSpec::stiffness>("stiffness", "positive", "vertical [force/length]", "required"),
+        plain<&TyreSpec::damping>("damping", "not_negative", "vertical [force time/length]"),
+        plain<&TyreSpec::slip_stiffness>("slip_stiffness", "positive", "C_s, along the wheel, per slip of 1 [force]",
+                                         "required"),
+        plain<&TyreSpec::cornering_stiffness>("cornering_stiffness", "positive", "C_α [force/rad]", "required"),
+        plain<&TyreSpec::camber_stiffness>("camber_stiffness", "not_negative", "C_γ [force/rad]"),
+        plain<&TyreSpec::friction>("friction", "positive", "μ₀, coefficient of friction without slip", "required"),
+        plain<&TyreSpec::sliding_friction>("sliding_friction", "positive", "μ₁ ≤ μ₀, at a slip of 1 and beyond",
+                                           "`friction`"),
+        plain<&TyreSpec::rolling_resistance>("rolling_resistance", "not_negative",
+                                             "C_r, moment against the roll over load and rolling radius"),
+        plain<&TyreSpec::low_speed>("low_speed", "positive",
+                                    "v₀ below which slip counts from it [length/time]; 0.1 m/s is usual",
+                                    "required")}}};
+}
+
+}  // namespace tisserand::formats

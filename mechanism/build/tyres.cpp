@@ -1,0 +1,105 @@
+// Names, axles, and where wheels stand at the start.
+#include "mechanism/build/tyres.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/error.hpp"
+#include "common/units.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Largest angle between axle and joint, rad.
+constexpr double parallel_axle = 1e-6;
+/// Penetration at the start that no standing tyre has, and height above the road that is told, over the radius.
+constexpr double deepest = 0.5, highest = 1.0;
+
+/// y along the axle, in the axes of the node.
+Matrix3d frame_with_y(const Vector3d& axle) {
+  const Vector3d y = axle.normalized();
+  Eigen::Index smallest = 0;
+  y.cwiseAbs().minCoeff(&smallest);
+  const Vector3d x = y.cross(Vector3d(Vector3d::Unit(smallest))).normalized();
+  Matrix3d R;
+  R << x, y, x.cross(y);
+  return R;
+}
+
+/// Where revolute joints carry the node, one of them is the axle.
+void check_axle(const formats::TyreSpec& spec, const Tyre& tyre, const Construction& c) {
+  const Vector3d axle = tyre.wheel.R.col(1);
+  const Joint* nearest = nullptr;
+  double least = EIGEN_PI;
+  for (const Joint& joint : c.model.joints) {
+    if (joint.kind != formats::JointKind::revolute && joint.kind != formats::JointKind::cylindrical) continue;
+    for (const Marker* marker : {&joint.a, &joint.b}) {
+      if (marker->node != tyre.wheel.node || marker->follower != tyre.wheel.follower) continue;
+      const Vector3d axis = marker->R.col(2);
+      const double angle = std::atan2(axle.cross(axis).norm(), std::abs(axle.dot(axis)));
+      if (angle < least) nearest = &joint;
+      least = std::min(least, angle);
+    }
+  }
+  if (nearest == nullptr || least <= parallel_axle) return;
+  throw Error(fmt::format("tyre '{}': its axle is {:.3g} degrees away from the axis of joint '{}'", spec.name,
+                          least * 180.0 / EIGEN_PI, nearest->name),
+              spec.where, "give axis along that of the joint on which the wheel turns");
+}
+
+void check_tyre_start(const formats::TyreSpec& spec, const Tyre& tyre, Construction& c) {
+  TyreTerms terms;
+  const Road& road = c.model.roads[tyre.road];
+  evaluate(tyre, road, c.markers.motion(tyre.wheel.node), terms);
+  const std::string unit = after_number(unit_label(c.model.units, 1, 0, 0));
+  if (terms.normal.isZero(0.0))
+    throw Error(fmt::format("tyre '{}': its axle stands across the road '{}': the wheel lies on its side", spec.name,
+                            road.name),
+                spec.where, "give axis along the axle, or turn the road");
+  if (terms.along_road < road.begin || terms.along_road > road.end)
+    throw Error(fmt::format("tyre '{}' starts at x = {:.6g}{} of the road '{}', which is there from {:.6g} to {:.6g}",
+                            spec.name, terms.along_road, unit, road.name, road.begin, road.end),
+                spec.where, "lengthen the curve of the road, or move the wheel");
+  if (terms.penetration > deepest * tyre.radius)
+    throw Error(
+        fmt::format("tyre '{}' starts {:.4g}{} deep in the road '{}'", spec.name, terms.penetration, unit, road.name),
+        spec.where, "raise the body, or lower the road by its pose");
+  if (terms.penetration < -highest * tyre.radius)
+    c.notes.push_back(
+        fmt::format("tyre '{}' starts {:.4g}{} above the road '{}'", spec.name, -terms.penetration, unit, road.name));
+}
+
+void add_tyre(const formats::TyreSpec& spec, Construction& c) {
+  Tyre tyre;
+  tyre.name = spec.name;
+  tyre.wheel = c.markers.find(spec.wheel);
+  check_marker(c.model, fmt::format("tyre '{}'", spec.name), use_position_and_axes, spec.wheel, tyre.wheel);
+  if (tyre.wheel.node < 0)
+    throw Error(fmt::format("tyre '{}' is on the ground", spec.name), spec.where, "name the body of the wheel");
+  if (spec.axis) tyre.wheel.R = frame_with_y(c.markers.motion(tyre.wheel.node).R.transpose() * *spec.axis);
+  const auto road = std::ranges::find(c.model.roads, spec.road, &Road::name);
+  TISSERAND_ENSURE(road != c.model.roads.end(), "no road '{}'", spec.road);
+  tyre.road = static_cast<int>(road - c.model.roads.begin());
+  tyre.radius = spec.radius;
+  tyre.stiffness = spec.stiffness;
+  tyre.damping = spec.damping;
+  tyre.law = {spec.slip_stiffness, spec.cornering_stiffness, spec.camber_stiffness, spec.friction,
+              spec.sliding_friction.value_or(spec.friction)};
+  tyre.rolling_resistance = spec.rolling_resistance;
+  tyre.low_speed = spec.low_speed;
+  check_axle(spec, tyre, c);
+  check_tyre_start(spec, tyre, c);
+  c.model.tyres.push_back(std::move(tyre));
+}
+
+}  // namespace
+
+void add_tyres(Construction& c) {
+  for (const formats::RoadSpec& road : c.scene.roads) c.model.roads.emplace_back(road, c.model.origin);
+  for (const formats::TyreSpec& tyre : c.scene.tyres) c.collect([&] { add_tyre(tyre, c); });
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,89 @@
+// Force of a tyre in its contact patch by comprehensive slip: longitudinal slip, slip angle and camber together.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/math/dual.hpp"
+
+namespace tisserand::mechanism {
+
+/// Constants of [GN90]; forces per unit of slip, angles as slip.
+struct ComprehensiveSlip {
+  double slip_stiffness = 0.0;       ///< C_s
+  double cornering_stiffness = 0.0;  ///< C_α
+  double camber_stiffness = 0.0;     ///< C_γ
+  double friction = 0.0;             ///< μ₀ without slip
+  double sliding_friction = 0.0;     ///< μ₁ at slip 1 and beyond
+};
+
+/// What a patch feels. Slips are velocities over the larger of speed and rolling speed: along x against the rolling
+/// (positive: braking while rolling forward), across it along y. `rolling`: −1 to 1, direction in which the tread runs
+/// through the patch, 0 at standstill.
+template <class T>
+struct PatchSlip {
+  T along, across;
+  T camber_sine;
+  T load;
+  T length;  ///< of the patch
+  T radius;  ///< rolling radius
+  T rolling;
+};
+
+template <class T>
+struct PatchForce {
+  T x = T(0.0), y = T(0.0), moment = T(0.0);  ///< F_x, F_y, M_z in tyre axes
+  double adhesion = 0.0;                      ///< l_n: share of the patch that does not slide
+};
+
+/// With the combined slip S = √(S_s² + S_αγ²), S_αγ = S_α + l sin γ/(2 R), μ = μ₀ − (μ₀ − μ₁) min(S, 1) and
+/// S_n = √((C_s S_s)² + (C_α S_αγ)²)/(3 μ F_z), l_n = 1 − S_n: where S_n < 1
+///   F_x = −C_s S_s l_n² − μ_x F_z q,  F_y = −C_α S_α l_n² − μ_y F_z q − C_γ sin γ l_n²,  q = 1 − 3 l_n² + 2 l_n³
+///   M_z = l l_n² (C_α S_α (2 l_n/3 − ½) + 3/2 μ_y F_z S_n²), in the direction of rolling,
+/// else all slides: μ F_z against the slip, M_z = 0. (μ_x, μ_y) = μ (S_s, S_αγ)/S. With S_α alone it is the brush model
+/// F_y = μ F_z (3 s − 3 s² + s³), M_z = C_α S_α l (1 − s)³/6, s = C_α S_α/(3 μ F_z).
+///
+/// Differs from [GN90]: slips have signs instead of cases; camber acts only while the tyre rolls and by the share of
+/// the patch that adheres, so that no force jumps where sliding begins; the whole is never more than μ F_z; without the
+/// small term of M_z from longitudinal and lateral slip together.
+template <class T>
+PatchForce<T> patch_force(const ComprehensiveSlip& law, const PatchSlip<T>& slip) {
+  using std::sqrt;
+  PatchForce<T> force;
+  if (!(real_part(slip.load) > 0.0)) return force;
+  const T turning = slip.rolling * slip.rolling * slip.camber_sine;
+  const T across = slip.across + slip.length * turning / (2.0 * slip.radius);
+  const T adhering_x = law.slip_stiffness * slip.along, adhering_y = law.cornering_stiffness * across;
+  const T square = slip.along * slip.along + across * across;
+  T l_n(1.0), mu(law.friction), slide_x(0.0), slide_y(0.0), S_n(0.0);
+  if (real_part(square) > 0.0) {
+    const T S = sqrt(square);
+    mu = law.friction - (law.friction - law.sliding_friction) * (real_part(S) < 1.0 ? S : T(1.0));
+    const T limit = 3.0 * mu * slip.load;
+    const T demand = sqrt(adhering_x * adhering_x + adhering_y * adhering_y);
+    slide_x = mu * slip.load * slip.along / S;
+    slide_y = mu * slip.load * across / S;
+    if (!(real_part(demand) < real_part(limit))) {
+      force.x = -slide_x;
+      force.y = -slide_y;
+      return force;
+    }
+    S_n = demand / limit;
+    l_n = 1.0 - S_n;
+  }
+  force.adhesion = real_part(l_n);
+  const T held = l_n * l_n, slid = S_n * S_n * (3.0 - 2.0 * S_n);  // 1 − 3 l_n² + 2 l_n³
+  const T side = law.cornering_stiffness * slip.across;
+  force.x = -adhering_x * held - slide_x * slid;
+  force.y = -(side + law.camber_stiffness * turning) * held - slide_y * slid;
+  force.moment = slip.rolling * slip.length * held * (side * (2.0 * l_n / 3.0 - 0.5) + 1.5 * slide_y * S_n * S_n);
+  const T size = force.x * force.x + force.y * force.y, most = mu * slip.load;
+  if (real_part(size) > real_part(most) * real_part(most)) {
+    const T factor = most / sqrt(size);
+    force.x = force.x * factor;
+    force.y = force.y * factor;
+  }
+  return force;
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,81 @@
+// Heights of pieces, tracks and roads.
+#include "mechanism/tyres/road.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tisserand::mechanism {
+namespace {
+
+std::vector<RoadPiece> pieces_of(const std::vector<formats::RoadPieceSpec>& specs) {
+  std::vector<RoadPiece> pieces;
+  for (const formats::RoadPieceSpec& spec : specs) {
+    RoadPiece piece{spec.shape, spec.start, spec.length, spec.height, spec.ramp, 0.0};
+    if (spec.shape == formats::RoadPieceShape::curve) {
+      piece.start = spec.curve.x.front();
+      piece.length = spec.curve.x.back() - piece.start;
+      piece.curve = Curve(formats::LawSpec(spec.curve));
+    }
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+RoadHeight track_height(const std::vector<RoadPiece>& track, double x) {
+  RoadHeight sum;
+  for (const RoadPiece& piece : track) {
+    const RoadHeight h = piece.at(x);
+    sum.value += h.value;
+    sum.by_x += h.by_x;
+  }
+  return sum;
+}
+
+}  // namespace
+
+RoadHeight RoadPiece::at(double x) const {
+  const double s = x - start;
+  if (shape == formats::RoadPieceShape::curve) {
+    const Curve::Value z = curve(std::clamp(x, start, start + length));
+    return {z.value, s < 0.0 || s > length ? 0.0 : z.slope, 0.0};
+  }
+  if (s <= 0.0 || s >= length) return {};
+  if (shape == formats::RoadPieceShape::cosine) {
+    const double k = 2.0 * EIGEN_PI / length;
+    return {0.5 * height * (1.0 - std::cos(k * s)), 0.5 * height * k * std::sin(k * s), 0.0};
+  }
+  const double slope = height / ramp;
+  if (s < ramp) return {slope * s, slope, 0.0};
+  if (s > length - ramp) return {slope * (length - s), -slope, 0.0};
+  return {height, 0.0, 0.0};
+}
+
+Road::Road(const formats::RoadSpec& spec, const Eigen::Vector3d& origin)
+    : name(spec.name),
+      p(spec.pose.position - origin),
+      R(spec.pose.orientation.normalized().toRotationMatrix()),
+      left(pieces_of(spec.left)),
+      right(pieces_of(spec.transition ? spec.right : std::vector<formats::RoadPieceSpec>{})),
+      transition(spec.transition.value_or(0.0)),
+      begin(-std::numeric_limits<double>::infinity()),
+      end(-begin) {
+  for (const auto* track : {&left, &right})
+    for (const RoadPiece& piece : *track) {
+      if (piece.shape != formats::RoadPieceShape::curve) continue;
+      begin = std::max(begin, piece.start);
+      end = std::min(end, piece.start + piece.length);
+    }
+}
+
+RoadHeight Road::at(double x, double y) const {
+  if (transition == 0.0) return track_height(left, x);
+  const double t = 0.5 + y / transition;
+  if (t <= 0.0) return track_height(right, x);
+  if (t >= 1.0) return track_height(left, x);
+  const RoadHeight l = track_height(left, x), r = track_height(right, x);
+  const double share = t * t * (3.0 - 2.0 * t), slope = 6.0 * t * (1.0 - t) / transition;
+  return {r.value + share * (l.value - r.value), r.by_x + share * (l.by_x - r.by_x), slope * (l.value - r.value)};
+}
+
+}  // namespace tisserand::mechanism

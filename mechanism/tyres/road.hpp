@@ -1,0 +1,51 @@
+// Road: height of the ground under tyres, with its gradient, in axes of its own that are at rest.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/math/dual.hpp"
+#include "formats/scene/scene.hpp"
+#include "mechanism/forces/curve.hpp"
+
+namespace tisserand::mechanism {
+
+/// z = h(x, y) and ∂h/∂x, ∂h/∂y.
+struct RoadHeight {
+  double value = 0.0;
+  double by_x = 0.0;
+  double by_y = 0.0;
+};
+
+/// A part of one track: height over x, 0 outside (curves: as at their ends).
+struct RoadPiece {
+  formats::RoadPieceShape shape = formats::RoadPieceShape::cosine;
+  double start = 0.0, length = 0.0, height = 0.0, ramp = 0.0;
+  Curve curve = 0.0;
+
+  /// The height and its slope at x.
+  RoadHeight at(double x) const;
+};
+
+struct Road {
+  std::string name;
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();      ///< origin, from that of the model
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< R_WR
+  std::vector<RoadPiece> left, right;               ///< right: empty where one track is all of the road
+  double transition = 0.0;  ///< width of the strip about y = 0 where the tracks are blended; 0: one track
+  double begin, end;        ///< x between which the road is there
+
+  /// `origin`: of the model.
+  Road(const formats::RoadSpec& spec, const Eigen::Vector3d& origin);
+  RoadHeight at(double x, double y) const;
+};
+
+inline double road_height(const Road& road, double x, double y) { return road.at(x, y).value; }
+inline Dual road_height(const Road& road, const Dual& x, const Dual& y) {
+  const RoadHeight h = road.at(x.value, y.value);
+  return {h.value, h.by_x * x.derivative + h.by_y * y.derivative};
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,402 @@
+// Wheels and cars on roads in motion and at rest, against mechanics on paper.
+#include <cmath>
+#include <memory>
+
+#include <gtest/gtest.h>
+
+#include "common/error.hpp"
+#include "mechanism/analyses/statics.hpp"
+#include "mechanism/bdf/bdf.hpp"
+#include "mechanism/run/off_road.hpp"
+#include "tests/support/scenes/model_tangent.hpp"
+
+namespace tisserand::mechanism::tyre_motion_test {
+namespace {
+
+using Eigen::Vector3d;
+using formats::JointKind;
+using formats::Method;
+using formats::RoadPieceShape;
+using test_support::Simulation;
+
+constexpr double g = 9.81, mass = 50.0, inertia = 1.5, stiffness = 190e3, radius = 0.31;
+
+formats::TyreSpec tyre_on(const std::string& node, const Vector3d& position) {
+  formats::TyreSpec tyre;
+  tyre.name = "tyre" + std::to_string(static_cast<int>(std::lround(1e3 * (position.x() + 10.0 * position.y()))));
+  tyre.wheel.node = node;
+  tyre.wheel.position = position;
+  tyre.road = "road";
+  tyre.radius = radius;
+  tyre.stiffness = stiffness;
+  tyre.damping = 500.0;
+  tyre.slip_stiffness = 80e3;
+  tyre.cornering_stiffness = 60e3;
+  tyre.camber_stiffness = 3e3;
+  tyre.friction = 0.8;
+  tyre.low_speed = 0.1;
+  return tyre;
+}
+
+formats::RoadSpec slope(double angle) {
+  formats::RoadSpec road;
+  road.name = "road";
+  road.pose.orientation = Eigen::AngleAxisd(angle, Vector3d::UnitY());
+  return road;
+}
+
+/// A wheel in the plane y = 0 on a road that falls by `angle` towards x, pressed in as at rest; moving along it.
+formats::Scene wheel_on_slope(double angle, double speed, bool locked) {
+  formats::Scene scene = test_support::empty_scene(2e-3, 10.0);
+  scene.gravity = {0, 0, -g};
+  const Eigen::Quaterniond down(Eigen::AngleAxisd(angle, Vector3d::UnitY()));
+  formats::RigidBodySpec wheel = test_support::rigid_body("wheel", mass, {0, 0, 0}, {0.9, inertia, 0.9});
+  wheel.start.pose.position = down * Vector3d(0, 0, radius - mass * g * std::cos(angle) / stiffness);
+  wheel.start.velocity = down * Vector3d(speed, 0, 0);
+  wheel.start.angular_velocity = Vector3d::Zero();
+  scene.bodies.push_back(wheel);
+  formats::JointSpec guide =
+      test_support::joint("guide", locked ? JointKind::generic : JointKind::planar, "ground", "wheel",
+                          wheel.start.pose.position, locked ? Vector3d::UnitZ() : Vector3d::UnitY());
+  if (locked) {
+    guide.x_axis = Vector3d::UnitX();
+    guide.hold = {false, true, false, true, true, true};
+  }
+  scene.joints.push_back(guide);
+  scene.roads.push_back(slope(angle));
+  scene.tyres.push_back(tyre_on("wheel", Vector3d::Zero()));
+  return scene;
+}
+
+/// Slip at which the patch makes the force F under the load N: F = μ N (1 − l_n³), C_s S = 3 μ N (1 − l_n).
+double slip_of(double F, double N) {
+  const double mu = 0.8, l_n = std::cbrt(1.0 - F / (mu * N));
+  return 3.0 * mu * N * (1.0 - l_n) / 80e3;
+}
+
+/// m a = m g sin θ − F, I a (1 − S)/R = F R: a disc that rolls down with the slip of its own friction.
+double rolling_acceleration(double angle) {
+  const double N = mass * g * std::cos(angle), R = radius - N / stiffness / 3.0;
+  double S = 0.0, a = 0.0;
+  for (int i = 0; i < 50; ++i) {
+    a = g * std::sin(angle) / (1.0 + inertia * (1.0 - S) / (mass * R * R));
+    S = slip_of(mass * (g * std::sin(angle) - a), N);
+  }
+  return a;
+}
+
+class Methods : public ::testing::TestWithParam<Method> {};
+
+// Above v₀ (passed after 0.05 s) slip and acceleration are constant. The methods err by their tolerances: 1e-6 of the
+// velocity for bdf; for the others the acceleration is that of a linear system with a constant force.
+TEST_P(Methods, RollDownASlopeAsADiscDoes) {
+  const double angle = 0.2;
+  formats::Scene scene = wheel_on_slope(angle, 1.0, false);
+  std::get<formats::RigidBodySpec>(scene.bodies[0]).start.angular_velocity = Vector3d(0, 1.0 / radius, 0);
+  scene.integrator.method = GetParam();
+  scene.integrator.alpha = 0.05;
+  if (GetParam() == Method::bdf && !bdf_available()) GTEST_SKIP() << "this build has no CVODE";
+  Simulation run(scene, {});
+  run.start();
+  std::unique_ptr<Bdf> bdf;
+  if (GetParam() == Method::bdf) bdf = std::make_unique<Bdf>(run.scene, run.model(), run.state(), run.workspace);
+  double reached = 0.0;
+  const auto velocity_at = [&](double time) {
+    if (!bdf) {
+      run.run(time);
+      return run.velocity("wheel").norm();
+    }
+    while (reached < time) {
+      EXPECT_EQ(bdf->step({10.0, 10.0}), "");
+      reached = run.state().time();
+    }
+    bdf->go_to(time);
+    return run.velocity("wheel").norm();
+  };
+  const double v1 = velocity_at(1.0), v2 = velocity_at(2.0);
+  EXPECT_NEAR(v2 - v1, rolling_acceleration(angle), 2e-5);
+}
+
+std::string method_name(const ::testing::TestParamInfo<Method>& given) {
+  switch (given.param) {
+    case Method::generalised_alpha:
+      return "GeneralisedAlpha";
+    case Method::hht:
+      return "Hht";
+    case Method::radau:
+      return "Radau";
+    case Method::bdf:
+      break;
+  }
+  return "Bdf";
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Methods,
+                         ::testing::Values(Method::generalised_alpha, Method::hht, Method::radau, Method::bdf),
+                         method_name);
+
+// A locked wheel slides downhill with a = g (μ cos θ − sin θ) against its motion until it stands after v²/(2 a). The
+// last of it, below 3 μ N/C_s v₀/2 = 0.7 mm/s, creeps; then it stands on the slope and creeps at the speed whose slip
+// carries it.
+TEST(LockedWheel, BrakesToRestOnASlope) {
+  const double angle = 0.1, v = 12.0, a = g * (0.8 * std::cos(angle) - std::sin(angle));
+  Simulation run(wheel_on_slope(angle, v, true), {});
+  run.start();
+  const Vector3d from = run.position("wheel");
+  run.run(0.5 * v / a);
+  const double t = run.state().time();
+  EXPECT_NEAR((run.position("wheel") - from).norm(), v * t - 0.5 * a * t * t, 1e-6);
+  run.run(v / a + 0.1);
+  const double stopped = (run.position("wheel") - from).norm();
+  EXPECT_NEAR(stopped, v * v / (2.0 * a), 1e-4);
+  run.run(v / a + 1.1);
+  const double S = slip_of(mass * g * std::sin(angle), mass * g * std::cos(angle));
+  const double creep = 0.1 * (1.0 - std::sqrt(1.0 - S * S)) / S;  // V = S (V² + v₀²)/(2 v₀)
+  EXPECT_NEAR(run.velocity("wheel").norm(), creep, 1e-4 * creep);
+  EXPECT_NEAR((run.position("wheel") - from).norm() - stopped, creep, 1e-3 * creep);
+}
+
+// A wheel that touches down without turning spins up; what it gave to the road is gone, the rest is there: the balance
+// closes (second order in the step), and V = Ω R with m (V₀ − V) R = I Ω but for the few per cent by which R moves.
+TEST(FallingWheel, SpinsUpAndItsEnergyIsAccountedFor) {
+  formats::Scene scene = wheel_on_slope(0.0, 10.0, false);
+  scene.integrator.step = 2e-4;
+  std::get<formats::RigidBodySpec>(scene.bodies[0]).start.pose.position.z() += 0.1;
+  Simulation run(scene, {});
+  run.start();
+  const double before = run.energy().total();
+  double highest = 0.0, lowest_force = 1.0;
+  run.run(2.0, [&] {
+    highest = std::max(highest, -run.workspace.now.tyres[0].penetration);
+    lowest_force = std::min(lowest_force, run.workspace.now.tyres[0].force.z());
+  });
+  const double dissipated = run.state().dissipated(), after = run.energy().total();
+  EXPECT_GT(highest, 0.05);
+  EXPECT_GE(lowest_force, 0.0);
+  EXPECT_GT(dissipated, 500.0);
+  EXPECT_NEAR(after + dissipated, before, 2e-3 * dissipated);
+  const double expected = 10.0 / (1.0 + inertia / (mass * radius * radius));
+  EXPECT_NEAR(run.velocity("wheel").x(), expected, 0.02 * expected);
+}
+
+/// The car of the second paper as one body: 980 kg, wheels that do not turn; `height` above its place at rest.
+formats::Scene block_car(double height) {
+  formats::Scene scene = test_support::empty_scene(1e-3, 10.0);
+  scene.gravity = {0, 0, -g};
+  formats::RigidBodySpec car = test_support::rigid_body("car", 980.0, {-1.308, 0, 0.45}, {300, 1100, 1200});
+  car.start.pose.position.z() = height;
+  scene.bodies.push_back(car);
+  scene.roads.push_back(slope(0.0));
+  for (const double side : {1.0, -1.0}) {
+    scene.tyres.push_back(tyre_on("car", {0, side * 0.715, 0.3}));
+    scene.tyres.push_back(tyre_on("car", {-2.18, side * 0.73, 0.3}));
+  }
+  return scene;
+}
+
+// Lever law: 980 kg · 0.872/2.18 = 392 kg on the front axle: 1922.8 N and 2884.1 N per wheel. The body pitches by
+// (15.2 - 10.1) mm/2.18 m = 2.3e-3, which moves the centre of mass against the wheels by 1e-3 m: 1e-3 of the loads; at
+// the pitched places the law is exact.
+TEST(StandingCar, CarriesItsWeightByTheLeverLaw) {
+  for (const double height : {0.0, 0.02}) {  // from the air too
+    Simulation run(block_car(height), {});
+    run.start();
+    const StaticsReport report = solve_statics(run.model(), run.scene.statics, run.state(), run.workspace);
+    ASSERT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
+    const std::vector<TyreTerms>& tyres = run.workspace.now.tyres;
+    const Vector3d center = run.position("car");  // the node of a rigid body is its centre of mass
+    const double front = tyres[0].contact.x(), rear = tyres[1].contact.x();
+    const double share = (center.x() - rear) / (front - rear);
+    EXPECT_NEAR(tyres[0].force.z(), 0.5 * 980.0 * g * share, 1e-4);
+    EXPECT_NEAR(tyres[1].force.z(), 0.5 * 980.0 * g * (1.0 - share), 1e-4);
+    EXPECT_NEAR(tyres[0].force.z(), 1922.8, 3.0);
+    EXPECT_NEAR(tyres[1].force.z(), 2884.1, 3.0);
+    EXPECT_NEAR(tyres[0].force.z(), tyres[2].force.z(), 1e-6);
+    for (const TyreTerms& tyre : tyres) EXPECT_NEAR(tyre.force.head<2>().norm(), 0.0, 1e-9);
+    // It goes on standing: no drift over 5 s, none of which a vehicle engineer could see.
+    const Vector3d at = run.position("car");
+    run.run(5.0);
+    EXPECT_LT((run.position("car") - at).norm(), 1e-6);
+  }
+}
+
+// A bump under both sides lifts and pitches the car, and gives no roll, no yaw and no side step but round-off.
+TEST(RollingCar, StaysStraightOverABumpUnderBothSides) {
+  formats::Scene scene = block_car(0.0);
+  formats::RoadSpec& road = scene.roads[0];
+  road.kind = formats::RoadKind::profile;
+  road.left = road.right = {{RoadPieceShape::cosine, 1.0, 1.0, 0.05, 0.0, {}}};
+  for (formats::TyreSpec& tyre : scene.tyres) tyre.friction = 1e-6;  // wheels that do not turn slide
+  std::get<formats::RigidBodySpec>(scene.bodies[0]).start.velocity = Vector3d(16.667, 0, 0);
+  Simulation run(scene, {});
+  run.start();
+  double lift = 0.0, pitch = 0.0, roll = 0.0, side = 0.0;
+  run.run(0.5, [&] {
+    const Eigen::Matrix3d R = run.rotation("car").toRotationMatrix();
+    lift = std::max(lift, run.position("car").z());
+    pitch = std::max(pitch, std::abs(R(2, 0)));
+    roll = std::max({roll, std::abs(R(2, 1)), std::abs(R(1, 0))});
+    side = std::max(side, std::abs(run.position("car").y()));
+  });
+  EXPECT_GT(lift, 0.01);
+  EXPECT_GT(pitch, 0.005);
+  EXPECT_LT(roll, 1e-12);
+  EXPECT_LT(side, 1e-12);
+}
+
+// The whole iteration matrix with tyres, by differences of the residual, in motion.
+TEST(RollingCar, TangentIsTheDerivativeOfTheResidual) {
+  formats::Scene scene = block_car(-0.02);
+  Simulation run(scene, {});
+  run.start();
+  test_support::randomise(run, 3, 0.005, 1.0);
+  const int n = run.model().sizes.boundary;
+  const Eigen::MatrixXd with_mass = test_support::iteration_matrix(run, {1, 0, 0});
+  const Eigen::MatrixXd K = (test_support::iteration_matrix(run, {1, 0, 1}) - with_mass).topLeftCorner(n, n);
+  const Eigen::MatrixXd C = test_support::damping_matrix(run);
+  const Eigen::MatrixXd by_position = test_support::residual_difference(run, test_support::Argument::position, 1e-7);
+  const Eigen::MatrixXd by_velocity = test_support::residual_difference(run, test_support::Argument::velocity, 1e-6);
+  EXPECT_LT((K - by_position).cwiseAbs().maxCoeff(), 1e-4 * K.cwiseAbs().maxCoeff());
+  EXPECT_LT((C - by_velocity).cwiseAbs().maxCoeff(), 1e-4 * C.cwiseAbs().maxCoeff());
+}
+
+TEST(TyreBuild, RefusesWhatCannotRoll) {
+  const auto error = [](auto change) {
+    formats::Scene scene = block_car(0.0);
+    change(scene);
+    try {
+      build_model(scene, {});
+    } catch (const Error& fault) {
+      return std::string(fault.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(error([](formats::Scene& s) { s.roads[0].pose.position.z() = 0.25; }).find("deep in the road 'road'"),
+            std::string::npos);
+  EXPECT_NE(error([](formats::Scene& s) { s.tyres[0].axis = Vector3d(0, 0, 1); }).find("the wheel lies on its side"),
+            std::string::npos);
+  EXPECT_NE(error([](formats::Scene& s) {
+              s.roads[0].left = {
+                  {RoadPieceShape::curve, 0, 0, 0, 0, {formats::Interpolation::linear, {-1.0, 5.0}, {0.0, 0.0}}}};
+            }).find("of the road 'road', which is there from -1 to 5"),
+            std::string::npos);
+  EXPECT_NE(error([](formats::Scene& s) {
+              s.joints.push_back(
+                  test_support::joint("hinge", JointKind::revolute, "ground", "car", {0, 0, 0.3}, {0.1, 1, 0}));
+            }).find("5.71 degrees away from the axis of joint 'hinge'"),
+            std::string::npos);
+  formats::Scene high = block_car(2.0);
+  EXPECT_EQ(build_model(high, {}).notes.size(), 4u);
+}
+
+// A road that a curve gives ends: the run says which tyre has left it and where.
+TEST(RollingCar, LeavesAnEndingRoad) {
+  formats::Scene scene = block_car(0.0);
+  formats::RoadSpec& road = scene.roads[0];
+  road.kind = formats::RoadKind::profile;
+  road.left = {{RoadPieceShape::curve, 0, 0, 0, 0, {formats::Interpolation::linear, {-5.0, 0.5}, {0.0, 0.0}}}};
+  for (formats::TyreSpec& tyre : scene.tyres) tyre.friction = 1e-6;
+  std::get<formats::RigidBodySpec>(scene.bodies[0]).start.velocity = Vector3d(10.0, 0, 0);
+  Simulation run(scene, {});
+  run.start();
+  run.run(0.049);
+  EXPECT_EQ(off_road(run.model(), run.state(), run.workspace.now), "");
+  run.run(0.053);
+  EXPECT_NE(off_road(run.model(), run.state(), run.workspace.now)
+                .find("tyre 'tyre7150' has left the road 'road', which ends at x = 0.5 m; lengthen its curve"),
+            std::string::npos);
+}
+
+// ---- examples/vehicle -------------------------------------------------------------------------------------------
+
+/// The car of the example, in equilibrium, then at speed by its `initial`.
+struct Car {
+  Simulation run;
+  explicit Car(const std::vector<std::string>& settings = {}, bool moves = true) : run(scene(settings, moves), {}) {
+    run.start();
+    const StaticsReport report = solve_statics(run.model(), run.scene.statics, run.state(), run.workspace);
+    EXPECT_EQ(report.outcome, StepOutcome::accepted) << report.explanation;
+    loads = tyres();
+    run.started = mechanism::start(run.scene, StartFrom::rest, run.built, run.workspace);
+  }
+  static formats::Scene scene(const std::vector<std::string>& settings, bool moves) {
+    std::vector<formats::Override> overrides;
+    for (const std::string& setting : settings) overrides.push_back(formats::parse_override(setting));
+    formats::Scene scene = formats::read_scene(TISSERAND_SOURCE_DIR "/examples/vehicle/car.scene.yaml", overrides);
+    scene = formats::scene_of(scene, scene.analyses.back());
+    if (!moves) scene.initial.clear();
+    return scene;
+  }
+  std::vector<TyreTerms> tyres() {
+    evaluate(run.model(), run.state(), run.workspace.now);
+    return run.workspace.now.tyres;
+  }
+  std::vector<TyreTerms> loads;  ///< at rest: front left, front right, rear left, rear right
+};
+
+// 196 and 294 kg per wheel: 1922.8 N and 2884.1 N (lever law with the positions of the drawing; the car settles by
+// millimetres, 1e-3 of the wheelbase). 102 coordinates, 88 + 2 equations of which 2 repeat others: mobility 14.
+TEST(VehicleExample, StandsWithTheLoadsOfItsMasses) {
+  Car car({}, false);
+  EXPECT_EQ(car.run.model().sizes.constraints, 90);
+  EXPECT_EQ(static_cast<int>(car.run.workspace.now.active.sum()), 88);
+  double sum = 0.0;
+  for (const TyreTerms& tyre : car.loads) sum += tyre.force.z();
+  EXPECT_NEAR(sum, 980.0 * g, 1e-5);
+  EXPECT_NEAR(car.loads[0].force.z(), 1922.8, 5.0);
+  EXPECT_NEAR(car.loads[2].force.z(), 2884.1, 5.0);
+  EXPECT_NEAR(car.loads[0].force.z(), car.loads[1].force.z(), 1e-6);
+  EXPECT_NEAR(car.loads[2].force.z(), car.loads[3].force.z(), 1e-6);
+  const Vector3d at = car.run.position("chassis");
+  car.run.run(2.0);
+  EXPECT_LT((car.run.position("chassis") - at).norm(), 1e-7);
+}
+
+TEST(VehicleExample, StartsAtSpeedWithRollingWheels) {
+  Car car;
+  EXPECT_LT((car.run.velocity("chassis") - Vector3d(16.6667, 0, 0)).norm(), 1e-9);
+  const std::vector<TyreTerms> tyres = car.tyres();
+  for (const TyreTerms& tyre : tyres) EXPECT_NEAR(tyre.slip, 0.0, 3e-4);  // rolling radii to four digits
+  // The arms settle by millimetres from where they are drawn, which toes the wheels a little, both sides alike.
+  for (const int axle : {0, 2}) {
+    EXPECT_LT(std::abs(tyres[axle].slip_angle), 2e-3);
+    EXPECT_NEAR(tyres[axle].slip_angle, -tyres[axle + 1].slip_angle, 1e-8);
+  }
+  // It goes on: slips settle, and it stays straight.
+  car.run.run(0.15);
+  EXPECT_NEAR(car.run.velocity("chassis").x(), 16.6667, 0.01);
+  EXPECT_LT(std::abs(car.run.position("chassis").y()), 1e-9);
+}
+
+// The bump under both sides: heave and pitch alone, and the wheels of both sides move alike to round-off (Newton's
+// tolerance, 1e-8 of the forces, over 700 steps).
+TEST(VehicleExample, GoesStraightOverABumpUnderBothSides) {
+  Car car({"roads.road={type: profile, height: {shape: cosine, start: 3, length: 1, height: $bump}}"});
+  double lift = 0.0, roll = 0.0, side = 0.0;
+  car.run.run(0.7, [&] {
+    const Eigen::Matrix3d R = car.run.rotation("chassis").toRotationMatrix();
+    lift = std::max(lift, car.run.position("front_left/wheel").z());
+    roll = std::max({roll, std::abs(R(2, 1)), std::abs(R(1, 0))});
+    side = std::max(side, std::abs(car.run.position("chassis").y()));
+  });
+  EXPECT_GT(lift, 0.35);
+  EXPECT_LT(roll, 1e-8);
+  EXPECT_LT(side, 1e-8);
+}
+
+// Mirrored: the bump on the right turns the car as that on the left does, the other way round.
+TEST(VehicleExample, IsItsOwnMirrorImage) {
+  Car left,
+      right(
+          {"roads.road={type: profile, right: {shape: cosine, start: 3, length: 1, height: $bump}, transition: 0.4}"});
+  left.run.run(0.5);
+  right.run.run(0.5);
+  const Eigen::Matrix3d S = Vector3d(1, -1, 1).asDiagonal();
+  const Eigen::Matrix3d R_left = left.run.rotation("chassis").toRotationMatrix();
+  EXPECT_GT(std::abs(R_left(2, 1)), 1e-3);
+  EXPECT_LT((S * R_left * S - right.run.rotation("chassis").toRotationMatrix()).norm(), 1e-7);
+  EXPECT_LT((S * left.run.position("rear_left/wheel") - right.run.position("rear_right/wheel")).norm(), 1e-7);
+}
+
+}  // namespace
+}  // namespace tisserand::mechanism::tyre_motion_test
