@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 using formats::Superelement;
 
 /// A shift of the size of the first elastic eigenvalues of the frame.
-constexpr double shift = -1e4;
+constexpr double frame_shift = -1e4;
 
 /// Unit loads on boundary nodes B and C, node A held: full against reduced.
 double flexibility_difference(const FullModel& full, const reducer::Partition& p, const Superelement& e) {
@@ -53,12 +53,12 @@ double effective_mass_difference(const FullModel& full, const reducer::Partition
 RitzLaws ritz_laws() {
   const FullModel full = full_model(space_frame(0));
   const int all = static_cast<int>(reducer::partition(full.mesh, full.system).n_I());
-  const VectorXd exact = eigenvalues(full.S, full.M, shift);
+  const VectorXd exact = eigenvalues(full.S, full.M, frame_shift);
   VectorXd last = VectorXd::Constant(18, std::numeric_limits<double>::infinity());
   RitzLaws laws{-1.0, -1.0, 0.0, 0.0};
   for (const int modes : {0, 1, 4, 10, 20, 40, all}) {
     const reducer::Reduction r = reduce(space_frame(modes));
-    const VectorXd lambda = eigenvalues(r.superelement.stiffness, r.superelement.mass, shift);
+    const VectorXd lambda = eigenvalues(r.superelement.stiffness, r.superelement.mass, frame_shift);
     const double dropped = std::pow(2.0 * EIGEN_PI * r.model.first_dropped_frequency.value_or(1e30), 2);
     for (int k = 6; k < 18; ++k) {
       laws.below_full = std::max(laws.below_full, exact[k] / lambda[k] - 1.0);

@@ -10,41 +10,18 @@ namespace tisserand::mechanism {
 /// held, or of an exact tangent.
 class InternalFactor {
  public:
-  void resize(Eigen::Index modes) {
-    cholesky_ = Eigen::LLT<Eigen::MatrixXd>(modes);
-    lu_ = Eigen::PartialPivLU<Eigen::MatrixXd>(modes);
-  }
+  void resize(Eigen::Index modes);
 
   /// A: its lower triangle counts.
-  void factor_symmetric(const Eigen::Ref<const Eigen::MatrixXd>& A) {
-    cholesky_.compute(A);
-    definite_ = cholesky_.info() == Eigen::Success;
-    if (!definite_) lu_.compute(A.selfadjointView<Eigen::Lower>());
-  }
-
-  void factor(const Eigen::Ref<const Eigen::MatrixXd>& A) {
-    lu_.compute(A);
-    definite_ = false;
-  }
+  void factor_symmetric(const Eigen::Ref<const Eigen::MatrixXd>& A);
+  void factor(const Eigen::Ref<const Eigen::MatrixXd>& A);
 
   /// x ← A⁻¹ x.
-  template <class Matrix>
-  void solve_in_place(Matrix& x) const {
-    if (definite_)
-      cholesky_.solveInPlace(x);
-    else
-      x = lu_.solve(x).eval();
-  }
+  void solve_in_place(Eigen::VectorXd& x) const;
+  void solve_in_place(Eigen::MatrixXd& X) const;
 
   /// Lower triangle of S −= Bᵀ A⁻¹ B of the symmetric A; B (modes x columns) is lost.
-  void subtract_schur(Eigen::MatrixXd& B, Eigen::MatrixXd& S) const {
-    if (definite_) {
-      cholesky_.matrixL().solveInPlace(B);
-      S.selfadjointView<Eigen::Lower>().rankUpdate(B.transpose(), -1.0);
-    } else {
-      S -= B.transpose() * lu_.solve(B).eval();
-    }
-  }
+  void subtract_schur(Eigen::MatrixXd& B, Eigen::MatrixXd& S) const;
 
  private:
   Eigen::LLT<Eigen::MatrixXd> cholesky_;

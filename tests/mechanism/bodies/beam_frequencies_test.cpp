@@ -69,10 +69,10 @@ double timoshenko(double q, double EI, double GA, double rhoA, double rhoI) {
 double discrete_timoshenko(double q, double h, double EI, double GA, double rhoA, double rhoI) {
   const double c = std::cos(q * h / 2), s = std::sin(q * h / 2), d = 2.0 * s / h;
   const double S = 1.0 / (1.0 / GA + h * h / (12.0 * EI)), mixed = rhoA * h * s * c / 6.0;
-  Eigen::Matrix2d K, M;
+  Eigen::MatrixXd K(2, 2), M(2, 2);
   K << S * d * d, -S * d * c, -S * d * c, S * c * c + EI * d * d;
   M << rhoA * (2.0 + std::cos(q * h)) / 3.0, mixed, mixed, rhoI + rhoA * h * h * s * s / 30.0;
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d>(K, M).eigenvalues()[0];
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(K, M).eigenvalues()[0];
 }
 
 struct Plane {

@@ -41,12 +41,13 @@ class SecondOrderAnswers : public ::testing::TestWithParam<std::string> {
 
   /// From canonical internal coordinates to those of the file: forces.
   VectorXd in_file(VectorXd r) const {
-    r.tail(body_.modes) = (body_.file.modal_part.transpose().inverse() * r.tail(body_.modes)).eval();
+    r.tail(body_.modes) =
+        MatrixXd(body_.file.modal_part.transpose()).partialPivLu().solve(VectorXd(r.tail(body_.modes)));
     return r;
   }
 
   VectorXd on_body(VectorXd v) const {
-    v.tail(body_.modes) = (body_.file.modal_part.inverse() * v.tail(body_.modes)).eval();
+    v.tail(body_.modes) = body_.file.modal_part.partialPivLu().solve(VectorXd(v.tail(body_.modes)));
     return v;
   }
 
