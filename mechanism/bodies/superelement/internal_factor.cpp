@@ -3,18 +3,23 @@
 
 namespace tisserand::mechanism {
 
+using Eigen::MatrixXd;
+
+// A factor of something: an empty one is not all initialised, and copies read all of it.
+InternalFactor::InternalFactor() : cholesky_(MatrixXd(0, 0)) {}
+
 void InternalFactor::resize(Eigen::Index modes) {
-  cholesky_ = Eigen::LLT<Eigen::MatrixXd>(modes);
-  lu_ = Eigen::PartialPivLU<Eigen::MatrixXd>(modes);
+  cholesky_.compute(MatrixXd::Identity(modes, modes));
+  lu_ = Eigen::PartialPivLU<MatrixXd>(modes);
 }
 
-void InternalFactor::factor_symmetric(const Eigen::Ref<const Eigen::MatrixXd>& A) {
+void InternalFactor::factor_symmetric(const Eigen::Ref<const MatrixXd>& A) {
   cholesky_.compute(A);
   definite_ = cholesky_.info() == Eigen::Success;
   if (!definite_) lu_.compute(A.selfadjointView<Eigen::Lower>());
 }
 
-void InternalFactor::factor(const Eigen::Ref<const Eigen::MatrixXd>& A) {
+void InternalFactor::factor(const Eigen::Ref<const MatrixXd>& A) {
   lu_.compute(A);
   definite_ = false;
 }
@@ -26,14 +31,14 @@ void InternalFactor::solve_in_place(Eigen::VectorXd& x) const {
     x = lu_.solve(x).eval();
 }
 
-void InternalFactor::solve_in_place(Eigen::MatrixXd& X) const {
+void InternalFactor::solve_in_place(MatrixXd& X) const {
   if (definite_)
     cholesky_.solveInPlace(X);
   else
     X = lu_.solve(X).eval();
 }
 
-void InternalFactor::subtract_schur(Eigen::MatrixXd& B, Eigen::MatrixXd& S) const {
+void InternalFactor::subtract_schur(MatrixXd& B, MatrixXd& S) const {
   if (definite_) {
     cholesky_.matrixL().solveInPlace(B);
     S.selfadjointView<Eigen::Lower>().rankUpdate(B.transpose(), -1.0);

@@ -10,6 +10,7 @@ namespace tisserand::mechanism {
 /// held, or of an exact tangent.
 class InternalFactor {
  public:
+  InternalFactor();
   void resize(Eigen::Index modes);
 
   /// A: its lower triangle counts.

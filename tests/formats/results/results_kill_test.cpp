@@ -27,20 +27,29 @@ using test_support::example_layout;
 using test_support::fill_row;
 using test_support::TemporaryFolder;
 
+void write_run(const std::string& path, const ResultsLayout& layout, int rows) {
+  ResultsRow row;
+  row.resize(layout);
+  ResultsWriter writer(path, layout);
+  for (int t = 0; t < rows; ++t) {
+    fill_row(t, row);
+    writer.append(row);
+  }
+  writer.finish(true, "", R"({"done": true})");
+}
+
 /// Writes one run after the other at full speed, so that most moments are in the middle of a write or of an end of a
 /// run.
 [[noreturn]] void write_forever(const std::string& path, const ResultsLayout& layout) {
-  ResultsRow row;
-  row.resize(layout);
-  for (int run = 0;; ++run) {
-    ResultsWriter writer(path, layout);
-    const int rows = 3000 + 5000 * (run % 5);
-    for (int t = 0; t < rows; ++t) {
-      fill_row(t, row);
-      writer.append(row);
-    }
-    writer.finish(true, "", R"({"done": true})");
-  }
+  for (int run = 0;; ++run) write_run(path, layout, 3000 + 5000 * (run % 5));
+}
+
+/// How long the first of these runs takes here [microseconds].
+int duration_of_a_run(const ResultsLayout& layout) {
+  const TemporaryFolder folder;
+  const auto begin = std::chrono::steady_clock::now();
+  write_run(folder.file("run.results.h5"), layout, 3000);
+  return static_cast<int>(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin).count());
 }
 
 /// Every row that the file shows is the row that was written.
@@ -72,9 +81,9 @@ TEST(ResultsKill, FilesOfKilledRunsOpenAndHoldTrueRows) {
   const char* wish = std::getenv("TISSERAND_KILLS");
   const int kills = wish == nullptr ? 20 : std::atoi(wish);
   std::mt19937 random(20240607);
-  std::uniform_int_distribution<int> microseconds(0, 120000);
   int partial = 0, whole = 0, with_rows = 0;
   const ResultsLayout layout = example_layout();
+  std::uniform_int_distribution<int> microseconds(0, 5 * duration_of_a_run(layout));
   for (int k = 0; k < kills; ++k) {
     const TemporaryFolder folder;
     const std::string path = folder.file("run.results.h5");
