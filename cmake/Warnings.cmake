@@ -24,6 +24,15 @@ if(TISSERAND_SANITIZE)
 endif()
 target_include_directories(tisserand_options INTERFACE ${PROJECT_SOURCE_DIR})
 
+# Of a program that initialises PETSc: see keep_modules.cpp. Nothing without sanitizers.
+function(tisserand_keep_modules target)
+  if(TISSERAND_SANITIZE)
+    target_sources(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/keep_modules.cpp)
+    set_source_files_properties(${PROJECT_SOURCE_DIR}/cmake/keep_modules.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    target_link_options(${target} PRIVATE -Wl,--export-dynamic-symbol=dlclose)
+  endif()
+endfunction()
+
 # tisserand_precompile(target header...): Eigen with its instances and what nearly every file includes, parsed once; saves
 # seconds per file. tisserand_precompile_as(target other) takes those of another target. Not with a compiler cache such as
 # ccache: it cannot look behind precompiled headers.

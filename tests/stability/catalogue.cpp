@@ -141,8 +141,8 @@ std::vector<Case> pendulums() {
                                                 step > 1e-3 ? 0.1 : 1e-2)},
                      .source = "pendulum equation: the acceleration shows what 1/h^2 makes of round-off"});
   }
-  for (const int thousands : {100, 1000})
-    cases.push_back({.name = fmt::format("pendulum, {} 000 steps", thousands),
+  for (const auto& [steps, thousands] : {std::pair{"100 000", 100}, {"1 000 000", 1000}})
+    cases.push_back({.name = fmt::format("pendulum, {} steps", steps),
                      .scene = "pendulum",
                      .settings = {fmt::format("integrator.end={}", 2 * thousands), "output.interval=1"},
                      .criteria = {balance(1e-2)},
