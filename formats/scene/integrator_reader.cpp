@@ -61,9 +61,7 @@ ErrorControl read_error_control(const MapReader& map) {
 /// With it the error controls the steps, from where mechanism/study/accuracy.cpp goes on.
 std::optional<AccuracySpec> read_accuracy(const MapReader& map, AnalysisKind analysis) {
   const YamlNode* node = map.find("accuracy");
-  if (node == nullptr) return std::nullopt;
-  if (analysis != AnalysisKind::dynamics)
-    map.context().fail(node->place, "'accuracy' belongs to dynamics", "leave it out of this analysis");
+  if (node == nullptr || analysis != AnalysisKind::dynamics) return std::nullopt;  // others share the group
   for (const char* key : {"step", "error_control", "relative_tolerance", "absolute_tolerance"})
     if (const YamlNode* other = map.find(key))
       map.context().fail(other->key_place, fmt::format("'{}' is chosen by 'accuracy'", key), "leave one of them out");

@@ -24,6 +24,7 @@ void Doubts::after_step(const Model& model, const State& before, const State& st
 
 void Doubts::at_state(const Model& model, const State& state, const Evaluation& evaluation) {
   range_.observe(model, state, evaluation);
+  inertia_.observe(model, state, evaluation);
 }
 
 void Doubts::at_row(const formats::ResultsRow& row) { energy_.observe(row); }

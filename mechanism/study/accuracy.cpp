@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -30,6 +31,9 @@ constexpr double least_part = 1e-3, most_part = 0.5;  ///< of the tolerance befo
 /// Order of the error in the tolerance, E ~ τ^p, that is relied on at most and at least, and the part of a measured
 /// one: p is one where the whole time shares the tolerance; steps of radau are measured by an estimate of lower order.
 constexpr double usual_order = 0.7, radau_order = 0.5, least_order = 0.3, trusted_part = 0.9;
+/// Errors fall with the steps to twice the power with which they fall with the tolerance, or faster; runs whose steps
+/// are not this much more say nothing.
+constexpr double steps_order = 2.0, fewest_more = 1.3;
 constexpr double least_tolerance = 1e-12, most_tolerance = 0.05;
 constexpr int most_runs = 8;
 constexpr double instants = 500.0;  ///< stored ones, where the scene names none
@@ -129,6 +133,7 @@ class Search {
   double half_changes_ = 0.0;      ///< what the upper half of all modes adds
   double left_out_ = 0.0;          ///< what modes that are left out would change
   double order_;
+  long steps_ = 0;                    ///< of the run before
   double change_ = 0.0, fall_ = 1.0;  ///< by the run before: of the history, and of the tolerance
   double estimate_ = 0.0;             ///< of what the tolerance leaves
   double room_ = 0.0;                 ///< for it
@@ -208,10 +213,14 @@ void Search::judge(RunReport& report, double before, double tolerance, bool last
   const double change = error_of(previous_, recorder_.history, quantity_);
   if (change_ > 0.0 && change > 0.0)
     order_ = std::min(order_, std::max(least_order, trusted_part * std::log(change_ / change) / std::log(fall_)));
-  const double fall = before / tolerance;
+  const double fall = before / tolerance, more = static_cast<double>(report.steps) / std::max(1L, steps_);
   estimate_ = std::max(change * std::pow(fall, -order_), change_ * std::pow(fall * fall_, -order_));
+  estimate_ = std::max(estimate_, change * std::pow(more, -steps_order * order_));
+  // Instants of output or the longest step, not the tolerance, chose the steps: the same ones differ by nothing.
+  if (more < fewest_more) estimate_ = std::numeric_limits<double>::infinity();
   change_ = change;
   fall_ = fall;
+  steps_ = report.steps;
   room_ = accuracy_.error - std::min(missing, 0.5 * accuracy_.error);
   report.notes.push_back(
       fmt::format("accuracy: the error of '{}' is estimated at {:.2g} ({:g} asked for), with tolerance "
@@ -235,6 +244,7 @@ RunEnd Search::run() {
   RunEnd end = take(tolerance, modes_, request_.path);
   if (end.report.outcome != RunOutcome::completed) return end;
   previous_ = recorder_.history;
+  steps_ = end.report.steps;
   double next = tolerance / second_part;
   if (const Modes half = halved(); !half.empty())
     if (take(next, half, passing_.path).report.outcome == RunOutcome::completed) half_ = recorder_.history;

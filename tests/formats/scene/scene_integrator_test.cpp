@@ -54,6 +54,10 @@ TEST(Integrator, AccuracyTakesThePlaceOfStepAndErrorControl) {
   EXPECT_THAT(error("end: 2, error_control: {tolerance: 1e-3}, accuracy: {error: 1e-3, of: a}"),
               HasSubstr("'error_control' is chosen by 'accuracy'"));
   EXPECT_THAT(error("end: 2, accuracy: {error: 1e-3}"), HasSubstr("'of'"));
+  const Folder folder;  // statics before it shares the group
+  const std::string both = scene_with("end: 2, accuracy: {error: 1e-3, of: a}") +
+                           "analyses: {stand: {type: statics}, go: {type: dynamics, from: stand}}\n";
+  EXPECT_NO_THROW(read_scene(folder.file("both.yaml", both), {}));
   EXPECT_THAT(error("end: 2, accuracy: {error: 2, of: a}"), HasSubstr("leaves nothing of the result"));
 }
 
