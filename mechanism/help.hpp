@@ -93,6 +93,7 @@ inline constexpr const char* about_view =
   mechanism view arm.results.h5 -o arm.html
   mechanism view coarse.results.h5 fine.results.h5 -o both.html
   mechanism view long.results.h5 -o long.html --instants 500 -c energy -c 'nodes/position/arm/*'
+  mechanism view crank.results.h5 --stress        von Mises stress of bodies with recovery files, to colour them by
   mechanism view arm.results.h5 --paraview out
 
 Shapes are those of the scene (`shape` of a body), sections of beams, and of superelements the surface in the recovery file

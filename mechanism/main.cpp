@@ -269,6 +269,7 @@ void add_page_options(CLI::App& command, mechanism::ViewRequest& page) {
       ->check(CLI::Range(2, 1'000'000));
   command.add_option("--vertices", page.shapes.vertices, "the most vertices of a body")
       ->check(CLI::Range(100, 10'000'000));
+  command.add_flag("--stress", page.shapes.stress, "stress of bodies with recovery files, to colour them by");
   command.add_option("--recovery", page.shapes.recovery, "recovery file of a superelement of the run")
       ->allow_extra_args(false);
 }

@@ -155,7 +155,8 @@ std::string page(const Arguments& arguments) {
     return part_page(part);
   }
   const formats::Part read = part_or_file(arguments);
-  const Mesh mesh = build_mesh(read);
+  constexpr std::size_t most_faces = 1000;
+  const Mesh mesh = build_mesh(read, most_faces, part.faces);
   part.tables = mesh_tables(mesh);
   part.units = read.units;
   part.faulty = faulty_elements(mesh);

@@ -72,7 +72,7 @@ Whatever the source (drawn, CAD, mesh, deck). Physical groups: properties, sprin
 constexpr const char* about_view =
     R"help(Makes one page that shows a part in three dimensions. Any browser opens it, without a network.
 
-  reducer view bracket.part.yaml                  groups, spiders, boundary nodes; elements with faulty shapes in red
+  reducer view bracket.part.yaml                  groups, spiders, boundary nodes, numbers of faces; faulty elements in red
   reducer view bracket.step                       also a mesh, geometry or deck alone
   reducer view bracket.recovery.h5 -o modes.html  the mesh, moving in each boundary and internal mode
 

@@ -98,6 +98,10 @@ void store(const Deformation& d, const Singular& s, Index k, double tolerance, F
 
 }  // namespace
 
+double largest_displacement(const Deformation& deformation) {
+  return largest_displacement(deformation.modes, deformation.amplitudes);
+}
+
 FewModes few_modes(const Deformation& deformation, double relative, double size) {
   FewModes few;
   few.amplitudes.resize(deformation.amplitudes.rows(), 0);

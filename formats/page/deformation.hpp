@@ -24,6 +24,9 @@ struct FewModes {
   int count() const { return static_cast<int>(step.size()); }
 };
 
+/// Of any vertex at any instant.
+double largest_displacement(const Deformation& deformation);
+
 /// The fewest singular vectors of modes amplitudesᵀ (3 V x T) whose error is below `relative` of the largest
 /// displacement, and with them the coarsest steps that leave it there. Error and largest displacement are measured over
 /// all vertices and instants. None where the largest displacement is below 1e-9 of `size`.

@@ -15,6 +15,26 @@ std::vector<std::uint32_t> flat(const auto& faces) {
   return indices;
 }
 
+/// Modes of displacement, and of stress where the vertices have three rows each.
+void add_deformation(const PageShape& shape, const FewModes& few, PageBlocks& blocks, Json& json) {
+  const Eigen::Index vertices = shape.surface.size(), rows = few.modes.rows() / few.count();
+  if (rows == vertices) {
+    json["modes"] = blocks.add_modes(few.modes, few.step);
+    return;
+  }
+  PageRows moved(vertices * few.count(), 3), stressed(2 * vertices * few.count(), 3);
+  for (Eigen::Index k = 0; k < few.count(); ++k) {
+    moved.middleRows(k * vertices, vertices) = few.modes.middleRows(k * rows, vertices);
+    stressed.middleRows(2 * k * vertices, 2 * vertices) =
+        few.modes.middleRows(k * rows + vertices, 2 * vertices) / shape.stress_scale;
+  }
+  json["modes"] = blocks.add_modes(moved, few.step);
+  std::vector<double> step = few.step;
+  for (double& one : step) one /= shape.stress_scale;
+  const Json modes = blocks.add_modes(Eigen::Map<const PageRows>(stressed.data(), stressed.rows() / 2, 6), step);
+  json["stress"] = {{"quantity", "von Mises"}, {"modes", modes}};
+}
+
 }  // namespace
 
 double size_of(const Surface& surface) {
@@ -35,7 +55,7 @@ Json shape_json(const PageShape& shape, const FewModes& few, PageBlocks& blocks)
   json["vertices"] = blocks.add_positions(vertices);
   if (!surface.triangles.empty()) json["triangles"] = blocks.add_indices(flat(surface.triangles), 3);
   if (!surface.lines.empty()) json["lines"] = blocks.add_indices(flat(surface.lines), 2);
-  if (few.count() > 0) json["modes"] = blocks.add_modes(few.modes, few.step);
+  if (few.count() > 0) add_deformation(shape, few, blocks, json);
   if (shape.all_vertices > surface.size())
     json["thinned"] = {{"vertices", shape.all_vertices}, {"kept", surface.size()}};
   return json;

@@ -15,6 +15,10 @@ struct PageShape {
   std::string source;
   bool points = false;   ///< the vertices are drawn too
   int all_vertices = 0;  ///< before thinning
+  /// Length of the scene by which a unit of stress counts in the modes, whose rows of stress follow those of
+  /// displacement
+  /// ([xx yy zz], [xy yz zx] per vertex); 0: there are none.
+  double stress_scale = 0.0;
 };
 
 Json shape_json(const PageShape& shape, const FewModes& few, PageBlocks& blocks);

@@ -144,8 +144,8 @@ Json PageBlocks::add_modes(const PageRows& values, const std::vector<double>& st
   std::vector<std::uint16_t> words;
   words.reserve(static_cast<std::size_t>(values.size()));
   for (Eigen::Index r = 0; r < values.rows(); ++r)
-    for (Eigen::Index c = 0; c < 3; ++c) words.push_back(word16(values(r, c) / step[r / vertices]));
-  Json array = add(words, "i16", {modes, vertices, 3}, 3);
+    for (Eigen::Index c = 0; c < values.cols(); ++c) words.push_back(word16(values(r, c) / step[r / vertices]));
+  Json array = add(words, "i16", {modes, vertices, values.cols()}, static_cast<int>(values.cols()));
   array["scaled"] = "first";
   array["scale"] = step;
   return array;

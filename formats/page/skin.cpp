@@ -1,8 +1,11 @@
 // Faces, and beams as their sections at both ends.
 #include "formats/page/skin.hpp"
 
+#include <algorithm>
 #include <array>
 #include <map>
+
+#include <Eigen/LU>
 
 namespace tisserand::formats {
 namespace {
@@ -10,6 +13,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
 
 /// Triangles of shells and solids.
 void add_faces(const Recovery& recovery, Skin& skin) {
@@ -21,7 +25,7 @@ void add_faces(const Recovery& recovery, Skin& skin) {
       if (vertex[node] < 0) {
         vertex[node] = skin.surface.size();
         skin.surface.vertices.push_back(recovery.position.col(node));
-        skin.carriers.push_back({node, Vector3d::Zero()});
+        skin.carriers.push_back({node});
       }
       triangle[k] = vertex[node];
     }
@@ -50,15 +54,15 @@ void add_beams(const Recovery& recovery, Skin& skin) {
     }
     for (int end = 0; end < 2; ++end) {
       const Vector3d offset = recovery.beam_offset.col(2 * e + end);
-      const auto add = [&](const Vector3d& arm) {
+      const auto add = [&](const Eigen::Vector2d& corner) {
+        const Vector3d arm = offset + recovery.beam_axes[e] * Vector3d(0.0, corner.x(), corner.y());
         skin.surface.vertices.push_back(recovery.position.col(nodes[end]) + arm);
-        skin.carriers.push_back({nodes[end], arm});
+        skin.carriers.push_back({nodes[end], arm, e, end, corner});
       };
       if (first->size() < 3)
-        add(offset);
+        add(Eigen::Vector2d::Zero());
       else
-        for (const Eigen::Vector2d& corner : *outlines[end])
-          add(offset + recovery.beam_axes[e] * Vector3d(0.0, corner.x(), corner.y()));
+        for (const Eigen::Vector2d& corner : *outlines[end]) add(corner);
     }
   }
 }
@@ -101,6 +105,90 @@ MatrixXd shapes_at(const RecoveryReader& reader, const std::vector<SkinCarrier>&
     }
   }
   return shapes;
+}
+
+namespace {
+
+/// xx yy zz xy yz zx of s a aᵀ.
+Vector6 uniaxial(const Vector3d& a) {
+  Vector6 tensor;
+  tensor << a.cwiseAbs2(), a.x() * a.y(), a.y() * a.z(), a.z() * a.x();
+  return tensor;
+}
+
+/// Columns for xx, yy, xy of a sheet with axes a, b.
+Eigen::Matrix<double, 6, 3> plane(const Vector3d& a, const Vector3d& b) {
+  Eigen::Matrix<double, 6, 3> tensors;
+  tensors << uniaxial(a), uniaxial(b), (uniaxial(a + b) - uniaxial(a) - uniaxial(b));
+  return tensors;
+}
+
+/// Normal stress at a corner of a section per unit of [N Vy Vz Mx My Mz]; zero without an area.
+Eigen::Matrix<double, 1, 6> normal_stress(const RecoverySection& section, const Eigen::Vector2d& corner) {
+  Eigen::Matrix<double, 1, 6> row = Eigen::Matrix<double, 1, 6>::Zero();
+  if (!(section.area > 0.0)) return row;
+  Eigen::Matrix2d I;
+  I << section.second_moment_z, section.second_moment_yz, section.second_moment_yz, section.second_moment_y;
+  const Eigen::Vector2d centroid(section.centroid_y, section.centroid_z), at = I.inverse() * (corner - centroid);
+  row << 1.0 / section.area - at.dot(centroid), 0.0, 0.0, 0.0, at.y(), -at.x();
+  return row;
+}
+
+/// Items of a field, in whole chunks: visit(first, rows).
+template <class Visit>
+void each_chunk(const RecoveryReader& reader, RecoveryField field, Visit visit) {
+  const Recovery& recovery = reader.recovery();
+  const int chunk = chunk_items(recovery, field), all = items(recovery, field);
+  for (int first = 0; first < all; first += chunk)
+    visit(first, MatrixXd(reader.read(field, first, std::min(chunk, all - first)).cast<double>()));
+}
+
+}  // namespace
+
+MatrixXd stresses_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers) {
+  const Recovery& recovery = reader.recovery();
+  MatrixXd stress = MatrixXd::Zero(6 * carriers.size(), recovery.coordinates());
+  std::vector<int> vertex(recovery.nodes(), -1), count(carriers.size(), 0);
+  std::multimap<int, Index> of_beam;
+  for (std::size_t v = 0; v < carriers.size(); ++v)
+    if (carriers[v].beam >= 0)
+      of_beam.emplace(carriers[v].beam, static_cast<Index>(v));
+    else
+      vertex[carriers[v].node] = static_cast<int>(v);
+  each_chunk(reader, RecoveryField::solid_stress, [&](int first, const MatrixXd& rows) {
+    for (Index p = 0; p < rows.rows() / 6; ++p)
+      if (const int v = vertex[recovery.stress_node[first + p]]; v >= 0) {
+        stress.middleRows<6>(6 * v) += rows.middleRows<6>(6 * p);
+        ++count[v];
+      }
+  });
+  each_chunk(reader, RecoveryField::shell_stress, [&](int first, const MatrixXd& rows) {
+    for (Index s = 0; s < rows.rows() / 6; ++s) {
+      const int e = recovery.beams() + first + static_cast<int>(s);
+      const Eigen::Matrix3d& axes = recovery.shell_axes[first + s];
+      const MatrixXd own =
+          plane(axes.col(0), axes.col(1)) * (rows.middleRows<3>(6 * s) + rows.middleRows<3>(6 * s + 3));
+      for (int k = recovery.elements.first[e]; k < recovery.elements.first[e + 1]; ++k)
+        if (const int v = vertex[recovery.elements.node[k]]; v >= 0) {
+          stress.middleRows<6>(6 * v) += own;
+          ++count[v];
+        }
+    }
+  });
+  for (std::size_t v = 0; v < carriers.size(); ++v)
+    if (count[v] > 1) stress.middleRows<6>(6 * v) /= count[v];
+  each_chunk(reader, RecoveryField::beam_force, [&](int first, const MatrixXd& rows) {
+    const auto begin = of_beam.lower_bound(first),
+               end = of_beam.lower_bound(first + static_cast<int>(rows.rows()) / 12);
+    for (auto one = begin; one != end; ++one) {
+      const SkinCarrier& carrier = carriers[one->second];
+      const RecoverySection& section = recovery.sections[recovery.beam_section[2 * carrier.beam + carrier.end]];
+      stress.middleRows<6>(6 * one->second) =
+          uniaxial(recovery.beam_axes[carrier.beam].col(0)) *
+          (normal_stress(section, carrier.corner) * rows.middleRows<6>(12 * (carrier.beam - first) + 6 * carrier.end));
+    }
+  });
+  return stress;
 }
 
 }  // namespace tisserand::formats

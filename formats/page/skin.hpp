@@ -14,6 +14,9 @@ namespace tisserand::formats {
 struct SkinCarrier {
   int node = 0;
   Eigen::Vector3d arm = Eigen::Vector3d::Zero();  ///< part axes, units of the file
+  int beam = -1;                                  ///< of whose section it is a corner, and at which end; -1: none
+  int end = 0;
+  Eigen::Vector2d corner = Eigen::Vector2d::Zero();  ///< y, z about the axis of the beam
 };
 
 struct Skin {
@@ -27,5 +30,10 @@ Skin skin_of(const Recovery& recovery);
 
 /// Displacement of vertices per unit of each coordinate, 3 V x n: u + θ x arm, part axes and units of the file.
 Eigen::MatrixXd shapes_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers);
+
+/// Stress [xx yy zz xy yz zx] of vertices per unit of each coordinate, 6 V x n, part axes and units of the file: of
+/// solids at the node, of shells on the face of the normal, means of what meets there; of beams the normal stress at
+/// the corner, 0 where the section is given by its stiffness (RECOVERY.md).
+Eigen::MatrixXd stresses_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers);
 
 }  // namespace tisserand::formats

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "formats/page/skin.hpp"
 #include "formats/sections/profiles.hpp"
 #include "formats/surface/surface_file.hpp"
 
@@ -70,9 +71,22 @@ Surface tube(const std::vector<Vector3d>& points, const std::vector<double>& rad
   return surface;
 }
 
+/// Of a part, in lengths of the scene.
+Surface of_recovery(const ShapeSpec& shape) {
+  const RecoveryReader reader(shape.file);
+  Surface surface = skin_of(reader.recovery()).surface;
+  const double length = convert_units(reader.recovery().units, shape.units, shape.file).length;
+  for (Vector3d& vertex : surface.vertices) vertex *= length;
+  return surface;
+}
+
+Surface of_triangles(const std::string& path) {
+  TriangleSurface file = read_surface_file(path);
+  return {std::move(file.vertices), std::move(file.triangles), {}};
+}
+
 Surface of_file(const ShapeSpec& shape) {
-  TriangleSurface file = read_surface_file(shape.file);
-  Surface surface{std::move(file.vertices), std::move(file.triangles), {}};
+  Surface surface = shape.file.ends_with(".recovery.h5") ? of_recovery(shape) : of_triangles(shape.file);
   for (Vector3d& vertex : surface.vertices) vertex = vertex.cwiseProduct(shape.scale);
   if (shape.scale.prod() < 0.0)
     for (std::array<int, 3>& triangle : surface.triangles) std::swap(triangle[1], triangle[2]);

@@ -164,6 +164,15 @@ void add_forces(const ResultsLayout& layout, std::vector<Block>& blocks) {
                            [](Row r) { return r.friction_moment.data(); }));
 }
 
+void add_loads(const ResultsLayout& layout, std::vector<Block>& blocks) {
+  std::vector<std::string> names;
+  for (const ResultsLayout::Coordinate& load : layout.loads) names.push_back(load.name);
+  Block load = vectors("/forces/load", names, xyz, "", [](const ResultsRow& r) { return r.load.data(); });
+  for (std::size_t column = 0; column < load.width(); ++column)
+    load.units[column] = unit_label(layout.units, layout.loads[column / 3].length ? 1 : 2, 1, -2);
+  blocks.push_back(load);
+}
+
 void add_tyres(const ResultsLayout& layout, std::vector<Block>& blocks) {
   using Row = const ResultsRow&;
   const Units& u = layout.units;
@@ -276,6 +285,7 @@ void ResultsRow::resize(const ResultsLayout& layout) {
   for (Eigen::VectorXd* block :
        {&tyre_slip, &tyre_slip_angle, &tyre_camber, &tyre_penetration, &tyre_rolling_radius, &tyre_adhesion})
     block->setZero(tyres);
+  load.setZero(3, static_cast<Eigen::Index>(layout.loads.size()));
 }
 
 std::vector<Block> all_blocks(const ResultsLayout& layout) {
@@ -288,6 +298,7 @@ std::vector<Block> all_blocks(const ResultsLayout& layout) {
   add_couplings(layout, blocks);
   add_forces(layout, blocks);
   add_tyres(layout, blocks);
+  add_loads(layout, blocks);
   add_scalars(layout, blocks);
   std::erase_if(blocks, [](const Block& block) { return block.width() == 0; });
   return blocks;
@@ -354,7 +365,7 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
   ResultsLayout full;
   full.nodes = full.superelements = full.modal_bodies = full.joints = full.bushings = full.frictions =
       full.tyres = {"a"};
-  full.coordinates = full.motions = full.springs = full.stops = {{"a", false}};
+  full.coordinates = full.motions = full.springs = full.stops = full.loads = {{"a", false}};
   full.couplings = {{"a", false, false}};
   full.modes_offset = full.boundary_offset = full.modal_offset = {0, 1};
   for (const Block& block : all_blocks(full)) {

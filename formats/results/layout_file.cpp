@@ -60,6 +60,7 @@ void write_names(hdf5::Id file, const ResultsLayout& layout, const std::vector<B
   if (stores("/motions/")) coordinates("/motions/", layout.motions);
   if (stores("/forces/spring")) coordinates("/forces/spring_", layout.springs);
   if (stores("/forces/stop")) coordinates("/forces/stop_", layout.stops);
+  if (stores("/forces/load")) coordinates("/forces/load_", layout.loads);
   const auto list = [&](const std::string& before, const std::vector<std::string>& names) {
     if (stores(before)) hdf5::write_texts(file, before + "name", names, where);
   };

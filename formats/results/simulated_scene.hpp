@@ -33,11 +33,12 @@ struct SimulatedMarker {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
-/// A joint, spring, bushing or load, by its word: "joint/revolute", "spring/line", "bushing", "load/force/body".
+/// A joint, spring, bushing, load or tyre, by its word: "joint/revolute", "spring/line", "bushing", "load/force/body",
+/// "tyre".
 struct SimulatedLink {
   std::string name;
   std::string kind;
-  std::array<SimulatedMarker, 2> ends;  ///< a and b; of a load the first
+  std::array<SimulatedMarker, 2> ends;  ///< a and b; of a load and a tyre (axle: y) the first
 };
 
 struct SimulatedScene {

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "formats/scene/check.hpp"
+#include "formats/scene/check_parts.hpp"
 #include "formats/scene/expand/tree.hpp"
 #include "formats/scene/fields.hpp"
 #include "formats/scene/integrator_reader.hpp"
@@ -191,15 +192,18 @@ std::vector<Field> scene_fields() {
                                        "joints: of the characteristic length, of the largest velocity")};
 }
 
-std::vector<BodySpec> read_bodies_of_text(const std::string& text, const std::string& file) {
+DrawnScene read_drawn_scene(const std::string& text, const std::string& file) {
   const YamlDocument document = parse_yaml(text, file);
   YamlReader reader(document, scene_key_sets());
   const MapReader map(Context{reader, "", file}, reader.root(), "scene");
   const Units units = read_units(map);
-  std::vector<BodySpec> bodies = read_bodies(
-      map, {std::filesystem::path(file).parent_path().string(), units, read_materials(map), read_sections(map, units)});
-  reader.raise({});
-  return bodies;
+  const SceneDefinitions definitions{std::filesystem::path(file).parent_path().string(), units, read_materials(map),
+                                     read_sections(map, units)};
+  DrawnScene drawn{read_bodies(map, definitions), read_roads(map, definitions), read_tyres(map)};
+  Faults faults;
+  for (const RoadSpec& road : drawn.roads) check_road(road, faults);
+  reader.raise(faults);
+  return drawn;
 }
 
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides) {

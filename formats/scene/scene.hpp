@@ -248,8 +248,14 @@ struct Scene {
 /// together, each with file:line:column or the text of the override.
 Scene read_scene(const std::string& path, const std::vector<Override>& overrides);
 
-/// The bodies of Scene::text; files in it count from the folder of `file`. Throws Error.
-std::vector<BodySpec> read_bodies_of_text(const std::string& text, const std::string& file);
+/// What pictures show of a scene.
+struct DrawnScene {
+  std::vector<BodySpec> bodies;
+  std::vector<RoadSpec> roads;
+  std::vector<TyreSpec> tyres;
+};
+/// Of Scene::text; files in it count from the folder of `file`. Throws Error.
+DrawnScene read_drawn_scene(const std::string& text, const std::string& file);
 
 /// The scene with the kind and the settings of one of its analyses.
 Scene scene_of(const Scene& scene, const Analysis& analysis);

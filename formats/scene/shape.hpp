@@ -7,6 +7,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "common/units.hpp"
+
 namespace tisserand::formats {
 
 enum class ShapeKind { box, cylinder, sphere, cone, tube, mesh };
@@ -22,7 +24,8 @@ struct ShapeSpec {
   double end_radius = 0.0;  ///< of a cone at `to`
   Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();  ///< axis of a cylinder or cone
   std::vector<Eigen::Vector3d> points;                                           ///< of the axis of a tube
-  std::string file;                                                              ///< resolved path, .stl or .obj
+  std::string file;                                 ///< resolved path, .stl, .obj or .recovery.h5
+  Units units;                                      ///< of the scene
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();  ///< of a file, along its axes; negative: mirrored
   std::string where;                                ///< of the body
 };

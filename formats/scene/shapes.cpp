@@ -40,7 +40,8 @@ Eigen::Vector3d read_scale(const Context& context, const YamlNode& node) {
   return Eigen::Vector3d::Constant(read_number(context, node, "scale"));
 }
 
-void read_one(const Context& context, const YamlNode& node, const std::string& folder, std::vector<ShapeSpec>& shapes) {
+void read_one(const Context& context, const YamlNode& node, const SceneDefinitions& definitions,
+              std::vector<ShapeSpec>& shapes) {
   const YamlNode* type = node.kind == YamlKind::map ? find_child(node, "type") : nullptr;
   if (type == nullptr) {
     context.fail(
@@ -65,7 +66,9 @@ void read_one(const Context& context, const YamlNode& node, const std::string& f
   if (shape.kind == ShapeKind::tube)
     if (const YamlNode* points = map.require("points")) shape.points = read_points(context, *points);
   if (shape.kind == ShapeKind::mesh) {
-    if (!shape.file.empty()) shape.file = (std::filesystem::path(folder) / shape.file).lexically_normal().string();
+    shape.units = definitions.units;
+    if (!shape.file.empty())
+      shape.file = (std::filesystem::path(definitions.folder) / shape.file).lexically_normal().string();
     if (const YamlNode* scale = map.find("scale")) shape.scale = read_scale(context, *scale);
   }
   shapes.push_back(std::move(shape));
@@ -85,9 +88,9 @@ std::vector<ShapeSpec> read_shapes(const MapReader& body, const SceneDefinitions
   if (node == nullptr) return shapes;
   const Context context{body.context().reader, body.context().subject + ": shape", body.context().entry};
   if (node->kind != YamlKind::sequence) {
-    read_one(context, *node, definitions.folder, shapes);
+    read_one(context, *node, definitions, shapes);
   } else {
-    for (const YamlNode& child : node->children) read_one(context, child, definitions.folder, shapes);
+    for (const YamlNode& child : node->children) read_one(context, child, definitions, shapes);
   }
   return shapes;
 }
@@ -126,8 +129,9 @@ void check_shape(const ShapeSpec& shape, const std::string& subject, Faults& fau
       for (std::size_t i = 1; i < shape.points.size(); ++i) apart("points", shape.points[i - 1], shape.points[i]);
       return;
     case ShapeKind::mesh:
-      if (!ends_in(shape.file, ".stl") && !ends_in(shape.file, ".obj"))
-        fault("file", fmt::format("'{}' is no .stl or .obj file", shape.file), "export the surface as STL or OBJ");
+      if (!ends_in(shape.file, ".stl") && !ends_in(shape.file, ".obj") && !shape.file.ends_with(".recovery.h5"))
+        fault("file", fmt::format("'{}' is no .stl, .obj or .recovery.h5 file", shape.file),
+              "export the surface as STL or OBJ, or let `reducer` write the recovery file of a part (recovery: yes)");
       for (const double factor : shape.scale)
         if (!(factor != 0.0) || !std::isfinite(factor))
           fault("scale", fmt::format("scale {:g} must not be 0", factor), "1 leaves the sizes of the file");
@@ -173,9 +177,10 @@ std::vector<KeySet> shape_of_body_key_sets() {
         radius}},
       {"shape_mesh",
        {{"type", "'mesh'",
-         "`file` of triangles, STL or OBJ, relative to the scene file; `scale` (default 1, or one per axis; negative "
-         "ones "
-         "mirror), `position` of its origin, `orientation`: `{type: mesh, file: wheel.stl, scale: 0.001}`",
+         "`file` of triangles, STL or OBJ, or the surface of a part from its recovery file (`bracket.recovery.h5`, in "
+         "its own "
+         "units), relative to the scene file; `scale` (default 1, or one per axis; negative ones mirror), `position` "
+         "of its origin, `orientation`: `{type: mesh, file: wheel.stl, scale: 0.001}`",
          "required"},
         plain<&ShapeSpec::file>("file", "text+", "", "required"),
         {"scale", "number | [number]3", ""},

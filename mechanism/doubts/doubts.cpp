@@ -12,12 +12,16 @@ Doubts::Doubts(const formats::Scene& scene, const Model& model)
     : energy_(scene.integrator.start, scene.integrator.end),
       range_(model, scene.integrator.start),
       inertia_(scene, model),
+      torsion_(scene, model),
+      spin_(model),
       resolution_(scene, model),
       swing_(scene) {}
 
 void Doubts::after_step(const Model& model, const State& before, const State& state, const Evaluation& evaluation) {
   range_.observe(model, state, evaluation);
   inertia_.observe(model, state, evaluation);
+  torsion_.observe(model, state, evaluation);
+  spin_.observe(model, state, evaluation);
   resolution_.observe(model, before, state);
   swing_.observe(before, state);
 }
@@ -25,6 +29,8 @@ void Doubts::after_step(const Model& model, const State& before, const State& st
 void Doubts::at_state(const Model& model, const State& state, const Evaluation& evaluation) {
   range_.observe(model, state, evaluation);
   inertia_.observe(model, state, evaluation);
+  torsion_.observe(model, state, evaluation);
+  spin_.observe(model, state, evaluation);
 }
 
 void Doubts::at_row(const formats::ResultsRow& row) { energy_.observe(row); }
@@ -32,7 +38,7 @@ void Doubts::at_row(const formats::ResultsRow& row) { energy_.observe(row); }
 std::vector<std::string> Doubts::tell(const Model& model) const {
   std::vector<std::string> all = energy_.doubts();
   for (auto&& some : {swing_.doubts(), resolution_.doubts(model), range_.doubts(model), inertia_.doubts(model),
-                      damping_doubts(model)})
+                      torsion_.doubts(model), spin_.doubts(model), damping_doubts(model)})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }

@@ -4,11 +4,13 @@
 #include <string>
 #include <vector>
 
+#include "mechanism/doubts/axial_spin.hpp"
 #include "mechanism/doubts/energy_balance.hpp"
 #include "mechanism/doubts/inertia_choice.hpp"
 #include "mechanism/doubts/linear_range.hpp"
 #include "mechanism/doubts/multiplier_swing.hpp"
 #include "mechanism/doubts/step_resolution.hpp"
+#include "mechanism/doubts/torsion.hpp"
 
 namespace tisserand::mechanism {
 
@@ -25,14 +27,17 @@ class Doubts {
   /// Costs nothing while there is nothing to tell; eigenvalues of bodies that spin.
   std::vector<std::string> tell(const Model& model) const;
 
-  /// See MultiplierSwing::latest() and StepResolution::latest().
+  /// See MultiplierSwing::latest(), StepResolution::latest() and Torsion::doubts().
   std::string latest_swing() const { return swing_.latest(); }
   double latest_change() const { return resolution_.latest(); }
+  std::vector<std::string> soft_torsion(const Model& model) const { return torsion_.doubts(model); }
 
  private:
   EnergyBalance energy_;
   LinearRange range_;
   InertiaChoice inertia_;
+  Torsion torsion_;
+  AxialSpin spin_;
   StepResolution resolution_;
   MultiplierSwing swing_;
 };

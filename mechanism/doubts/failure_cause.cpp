@@ -11,7 +11,6 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/step/generalised_alpha.hpp"
-#include "mechanism/step/tuning.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -19,10 +18,13 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Condition of B beyond which its rows are nearly dependent: a tenth of the digits of BBᵀ is left.
-constexpr double dependent = 1e6;
+/// Condition of B beyond which its rows are nearly dependent: of the digits of BBᵀ a third is left. Mechanisms away
+/// from singular positions have 1 to 1e3, at a step before one 6e5 (tests/stability, four-bar).
+constexpr double dependent = 1e5;
 /// Products with B up to which its condition is asked for: a second at most.
 constexpr int most_constraints = 400, longest_row = 4000;
+/// Reciprocal condition of the iteration matrix below which two digits of a solution are left.
+constexpr double nearly_singular = 1e-14;
 /// Gaps of an assembly: far above round-off, far below those of a millisecond beyond a dead point.
 constexpr double closed = 1e-9;
 
@@ -51,6 +53,17 @@ double constraint_condition(const Model& model, const State& state, const Evalua
   return std::sqrt(squares[squares.size() - 1] / std::max(squares[0], 1e-32 * squares[squares.size() - 1]));
 }
 
+/// The iteration matrix of a step of the given size from the evaluated state.
+FactorReport factored(const Model& model, const formats::IntegratorSpec& options, double size, const State& state,
+                      Workspace& workspace) {
+  const StepScheme scheme = step_scheme(model, options, state, state.time() + size);
+  return workspace.matrix.factor(model, state, scheme.request, workspace.now);
+}
+
+bool is_singular(const FactorReport& factors) {
+  return !factors.regular || factors.reciprocal_condition < nearly_singular;
+}
+
 /// Where drives move joints: what stays open at the end of the step, however whole bodies are moved.
 std::string unreachable(const Model& model, double size, State state, Evaluation& now) {
   if (model.motions.empty() || model.sizes.constraints > most_constraints || model.sizes.boundary > longest_row)
@@ -72,6 +85,7 @@ std::string failure_cause(const Model& model, const formats::IntegratorSpec& opt
                           const Failure& failure, State& state, Workspace& workspace) {
   if (failure.step.outcome == StepOutcome::inaccurate) return {};
   if (const std::string swing = doubts.latest_swing(); !swing.empty()) return "; " + swing;
+  if (const std::vector<std::string> soft = doubts.soft_torsion(model); !soft.empty()) return "; " + soft.front();
   const double change = doubts.latest_change();
   if (const std::string open = unreachable(model, failure.size, state, workspace.now); !open.empty()) return open;
   evaluate(model, state, workspace.now);
@@ -81,9 +95,15 @@ std::string failure_cause(const Model& model, const formats::IntegratorSpec& opt
         "; constraint equations are nearly dependent there (condition {:.1e} of their scaled Jacobian): a "
         "singular position; pass it with another step, or leave one of its joints a direction free",
         condition);
-  const StepScheme scheme = step_scheme(model, options, state, state.time() + failure.size);
-  const FactorReport factors = workspace.matrix.factor(model, state, scheme.request, workspace.now);
-  if (!factors.regular || factors.reciprocal_condition < singular_condition)
+  const FactorReport factors = factored(model, options, failure.size, state, workspace);
+  if (is_singular(factors)) {
+    if (!is_singular(factored(model, options, failure.size / 4.0, state, workspace)))
+      return fmt::format(
+          "; the matrix is singular with the step of {:.3g} and regular with a quarter of it: a stiffness below zero "
+          "(of a "
+          "spring, a load that follows, a part that buckles) balances the mass there; set a shorter 'step', or more "
+          "'max_halvings'",
+          failure.size);
     return fmt::format(
         "; the matrix is singular there with the step of {:.3g} as well: a direction without mass, "
         "stiffness or constraint{}; give it one, or hold it",
@@ -91,6 +111,7 @@ std::string failure_cause(const Model& model, const formats::IntegratorSpec& opt
         factors.singular_column >= 0 && factors.singular_column < model.sizes.boundary
             ? fmt::format(", {}", coordinate_name(model, factors.singular_column))
             : "");
+  }
   return fmt::format(
       "; the equations are regular there (reciprocal condition {:.1e}{}), {}", factors.reciprocal_condition,
       condition > 0.0 ? fmt::format(", condition {:.1e} of the constraints", condition) : "",

@@ -89,6 +89,11 @@ FreePart free_part(const SuperelementBody& body, const std::vector<bool>& held) 
   return part;
 }
 
+const char* letter(formats::InertiaOption option) {
+  static constexpr const char* letters[] = {"A", "B", "M", "F"};
+  return letters[static_cast<int>(option)];
+}
+
 HeldMode first_mode(const SuperelementBody& body, const std::vector<bool>& held, double from) {
   FreePart part = free_part(body, held);
   Eigen::MatrixXd& M = part.M;

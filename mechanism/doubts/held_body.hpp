@@ -25,6 +25,9 @@ struct FreePart {
 /// None (n = 0) where there would be more than 80 coordinates: all done with it takes milliseconds.
 FreePart free_part(const SuperelementBody& body, const std::vector<bool>& held);
 
+/// "A", "B", "M", "F".
+const char* letter(formats::InertiaOption option);
+
 /// A vibration φ with φᵀMφ = 1.
 struct HeldMode {
   double omega = 0.0;        ///< [rad/time]; 0: there is none

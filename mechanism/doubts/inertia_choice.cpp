@@ -22,10 +22,6 @@ constexpr double most_difference = 0.05;
 constexpr double most_instants = 200.0;
 constexpr int fewest_steps = 10;
 
-const char* letter(InertiaOption option) {
-  return option == InertiaOption::A ? "A" : option == InertiaOption::B ? "B" : "M";
-}
-
 /// None for M, whose centre of mass moves as it should.
 std::vector<InertiaOption> others_of(const SuperelementBody& body) {
   if (body.second_order.any() || body.inertia == InertiaOption::M) return {};

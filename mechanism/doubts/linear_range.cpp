@@ -1,4 +1,4 @@
-// Limits of linear superelements, and what is said of them.
+// Limits of linear superelements and modal bodies, and what is said of them.
 #include "mechanism/doubts/linear_range.hpp"
 
 #include <algorithm>
@@ -6,7 +6,6 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,6 +13,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "mechanism/doubts/held_body.hpp"
+#include "mechanism/doubts/straight_beam.hpp"
 #include "mechanism/equations/terms.hpp"
 
 namespace tisserand::mechanism {
@@ -32,27 +32,8 @@ constexpr double most_axial = 0.1;
 /// A spin Ω raises the square of a cantilever's first frequency by 1.193 Ω² (Southwell, Gough, ARC R&M 766, 1921): 10 %
 /// of its stiffness at 0.29.
 constexpr double most_spin = 0.29;
-constexpr const char* remedy = "cut it into several, or use second_order with its companion file";
-
-/// Nodes on a straight line, by its ends, which have rotations.
-struct Axis {
-  int first = 0, last = 0;
-  Vector3d direction;
-};
-
-std::optional<Axis> axis_of(const SuperelementBody& body, double span) {
-  Axis axis;
-  for (const int a : body.translation_nodes)
-    for (const int b : body.translation_nodes)
-      if ((body.node[b].X - body.node[a].X).norm() == span && a < b) axis.first = a, axis.last = b;
-  if (!body.node[axis.first].has_rotation() || !body.node[axis.last].has_rotation()) return std::nullopt;
-  axis.direction = (body.node[axis.last].X - body.node[axis.first].X) / span;
-  for (const int j : body.translation_nodes) {
-    const Vector3d arm = body.node[j].X - body.node[axis.first].X;
-    if (arm.cross(axis.direction).norm() > 1e-3 * span) return std::nullopt;
-  }
-  return axis;
-}
+constexpr const char* superelement_remedy = "cut it into several, or use second_order with its companion file";
+constexpr const char* modal_remedy = "cut it into several, or take superelements with second_order, or beams";
 
 /// 12 EI/L³ about the weaker axis: the force that moves the last node across the line while the first is held, the last
 /// does not turn, and the nodes between them are free.
@@ -85,11 +66,12 @@ double missing_share(double r, int pieces) {
 }
 
 /// The largest excess in words, with the number of others.
-std::vector<std::string> worst_of(std::vector<std::pair<double, std::string>> excesses) {
+template <class Excesses>
+std::vector<std::string> worst_of(const Excesses& excesses) {
   if (excesses.empty()) return {};
-  const auto worst = std::ranges::max_element(excesses, {}, &std::pair<double, std::string>::first);
-  return {excesses.size() == 1 ? worst->second
-                               : fmt::format("{} (and {} more superelements)", worst->second, excesses.size() - 1)};
+  const auto worst = std::ranges::max_element(excesses, [](const auto& a, const auto& b) { return a.ratio < b.ratio; });
+  return {excesses.size() == 1 ? worst->text
+                               : fmt::format("{} (and {} more bodies)", worst->text, excesses.size() - 1)};
 }
 
 }  // namespace
@@ -102,7 +84,7 @@ LinearRange::Limits LinearRange::limits_of(const SuperelementBody& body) {
     for (const int b : body.translation_nodes)
       limits.span = std::max(limits.span, (body.node[b].X - body.node[a].X).norm());
   if (limits.span == 0.0) return limits;
-  const std::optional<Axis> axis = axis_of(body, limits.span);
+  const std::optional<Axis> axis = axis_of(body);
   if (!axis) return limits;
   limits.buckling = pi * pi / 12.0 * limits.span * transverse_stiffness(body, *axis);
   if (!(limits.buckling > 0.0)) return limits;
@@ -116,16 +98,35 @@ LinearRange::Limits LinearRange::limits_of(const SuperelementBody& body) {
   return limits;
 }
 
-LinearRange::LinearRange(const Model& model, double start) : seen_(model.superelements.size()), time_(start) {
+LinearRange::LinearRange(const Model& model, double start)
+    : seen_(model.superelements.size()), modal_seen_(model.modal_bodies.size()), time_(start) {
   for (const SuperelementBody& body : model.superelement_bodies) limits_.push_back(limits_of(body));
+  for (int i = 0; i < static_cast<int>(model.modal_bodies.size()); ++i) modal_.emplace_back(model, i);
+}
+
+void LinearRange::raise(Extreme& extreme, double value) const {
+  if (std::abs(value) > std::abs(extreme.value)) extreme = {value, time_};
+}
+
+void LinearRange::raise_axial(Seen& seen, double force, double lag, double passed) const {
+  const double follows = passed > 0.0 ? passed / (passed + lag) : 1.0;
+  seen.force += follows * (force - seen.force);
+  raise(seen.axial, seen.force);
+}
+
+void LinearRange::observe_modal(const Model& model, const State& state, const Evaluation& evaluation, double passed) {
+  for (std::size_t i = 0; i < modal_.size(); ++i) {
+    raise(modal_seen_[i].deflection, modal_[i].deflection(model, evaluation));
+    raise(modal_seen_[i].spin, evaluation.modal_bodies[i].om.norm());
+    if (modal_[i].buckling() > 0.0)
+      raise_axial(modal_seen_[i], modal_[i].axial_force(model, state, evaluation), modal_[i].lag(), passed);
+  }
 }
 
 void LinearRange::observe(const Model& model, const State& state, const Evaluation& evaluation) {
   const double passed = state.time() - time_;
   time_ = state.time();
-  const auto raise = [&](Extreme& extreme, double value) {
-    if (std::abs(value) > std::abs(extreme.value)) extreme = {value, time_};
-  };
+  observe_modal(model, state, evaluation, passed);
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     const Limits& limits = limits_[model.superelements[i].body];
     if (!limits.linear) continue;
@@ -134,49 +135,55 @@ void LinearRange::observe(const Model& model, const State& state, const Evaluati
     for (const int j : body.translation_nodes)
       raise(seen_[i].deflection, motion.y_B.segment<3>(body.node[j].translation_row).norm());
     raise(seen_[i].spin, motion.Omega0.norm());
-    if (limits.axial.size() == 0) continue;
-    const double follows = passed > 0.0 ? passed / (passed + limits.lag) : 1.0;
-    seen_[i].force += follows * (limits.axial.dot(motion.y_B) - seen_[i].force);
-    raise(seen_[i].axial, seen_[i].force);
+    if (limits.axial.size() > 0) raise_axial(seen_[i], limits.axial.dot(motion.y_B), limits.lag, passed);
   }
 }
 
 std::vector<std::string> LinearRange::doubts(const Model& model) const {
-  std::vector<std::pair<double, std::string>> bent, pressed, spun;
+  std::vector<Excess> bent, pressed, spun;
+  const auto judge = [&](const Judged& body, const Seen& seen, auto first_frequency) {
+    const auto& [force, deflection, axial, spin] = seen;
+    if (const double ratio = deflection.value / body.span; body.span > 0.0 && ratio > most_deflection)
+      bent.push_back({ratio, fmt::format("'{}' deflects by {:.2g} of its length (at t = {:.6g}), beyond {:g}, with a "
+                                         "linear strain: {}",
+                                         body.name, ratio, deflection.time, most_deflection, body.remedy)});
+    if (const double ratio = std::abs(axial.value) / body.buckling;
+        body.buckling > 0.0 && missing_share(axial.value / body.buckling, body.pieces) > most_axial)
+      pressed.push_back(
+          {ratio,
+           fmt::format("'{}' bears {} of {:.2g} of its buckling load between pins (at t = {:.6g}), which {} it, but "
+                       "not its linear strain (beyond {:g} of the stiffness): {}",
+                       body.name, axial.value < 0.0 ? "compression" : "tension", ratio, axial.time,
+                       axial.value < 0.0 ? "softens" : "stiffens", most_axial, body.remedy)});
+    if (spin.value == 0.0) return;
+    const double frequency = first_frequency(spin.value);
+    const double ratio = frequency > 0.0 ? spin.value / frequency : 0.0;
+    if (ratio > most_spin)
+      spun.push_back({ratio, fmt::format("'{}' spins at {:.2g} of its first frequency ({:.3g} of {:.3g} rad per time, "
+                                         "at t = {:.6g}), beyond {:g}, with a linear strain: {}",
+                                         body.name, ratio, spin.value, frequency, spin.time, most_spin, body.remedy)});
+  };
   std::map<std::pair<int, std::vector<bool>>, double> frequencies;
   const std::vector<std::vector<bool>> held = held_coordinates(model);
   const std::vector<int> beams = welded_beams(model);
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     const Limits& limits = limits_[model.superelements[i].body];
     if (!limits.linear) continue;
-    const std::string& name = model.superelements[i].name;
-    const auto [deflection, axial, spin] = std::tie(seen_[i].deflection, seen_[i].axial, seen_[i].spin);
-    if (const double ratio = deflection.value / limits.span; limits.span > 0.0 && ratio > most_deflection)
-      bent.emplace_back(ratio, fmt::format("'{}' deflects by {:.2g} of its length (at t = {:.6g}), beyond {:g}, with a "
-                                           "linear strain: {}",
-                                           name, ratio, deflection.time, most_deflection, remedy));
-    if (const double ratio = std::abs(axial.value) / limits.buckling;
-        limits.axial.size() > 0 && missing_share(axial.value / limits.buckling,
-                                                 static_cast<int>(std::ranges::count(beams, beams[i]))) > most_axial)
-      pressed.emplace_back(
-          ratio,
-          fmt::format("'{}' bears {} of {:.2g} of its buckling load between pins (at t = {:.6g}), which {} it, but "
-                      "not its linear strain (beyond {:g} of the stiffness): {}",
-                      name, axial.value < 0.0 ? "compression" : "tension", ratio, axial.time,
-                      axial.value < 0.0 ? "softens" : "stiffens", most_axial, remedy));
-    if (spin.value == 0.0) continue;
-    const auto [known, fresh] = frequencies.try_emplace({model.superelements[i].body, held[i]}, 0.0);
-    if (fresh) known->second = first_mode(body_of(model, i), held[i], spin.value).omega;
-    const double ratio = known->second > 0.0 ? spin.value / known->second : 0.0;
-    if (ratio > most_spin)
-      spun.emplace_back(ratio,
-                        fmt::format("'{}' spins at {:.2g} of its first frequency ({:.3g} of {:.3g} rad per time, "
-                                    "at t = {:.6g}), beyond {:g}, with a linear strain: {}",
-                                    name, ratio, spin.value, known->second, spin.time, most_spin, remedy));
+    const int pieces = static_cast<int>(std::ranges::count(beams, beams[i]));
+    judge({model.superelements[i].name, limits.span, limits.axial.size() > 0 ? limits.buckling : 0.0, pieces,
+           superelement_remedy},
+          seen_[i], [&](double spin) {
+            const auto [known, fresh] = frequencies.try_emplace({model.superelements[i].body, held[i]}, 0.0);
+            if (fresh) known->second = first_mode(body_of(model, i), held[i], spin).omega;
+            return known->second;
+          });
   }
+  for (std::size_t i = 0; i < modal_.size(); ++i)
+    judge({model.modal_bodies[i].name, modal_[i].span(), modal_[i].buckling(), 1, modal_remedy}, modal_seen_[i],
+          [&](double spin) { return modal_[i].first_frequency(model, spin); });
   std::vector<std::string> doubts;
-  for (auto* kind : {&bent, &pressed, &spun})
-    for (std::string& text : worst_of(std::move(*kind))) doubts.push_back(std::move(text));
+  for (const auto* kind : {&bent, &pressed, &spun})
+    for (std::string& text : worst_of(*kind)) doubts.push_back(std::move(text));
   return doubts;
 }
 

@@ -1,4 +1,4 @@
-// Whether superelements stay where their linear strain serves: deflection, axial force, spin.
+// Whether superelements and modal bodies stay where their linear strain serves: deflection, axial force, spin.
 #pragma once
 
 #include <string>
@@ -6,12 +6,12 @@
 
 #include <Eigen/Core>
 
-#include "mechanism/equations/evaluation.hpp"
+#include "mechanism/doubts/modal_range.hpp"
 
 namespace tisserand::mechanism {
 
-/// Largest values over the accepted states of a run, of superelements without stiffening. The turn of their nodes is
-/// FrameAngles' (mechanism/run).
+/// Largest values over the accepted states of a run, of superelements without stiffening and of modal bodies. The turn
+/// of their nodes is FrameAngles' (mechanism/run).
 class LinearRange {
  public:
   LinearRange(const Model& model, double start);
@@ -19,7 +19,7 @@ class LinearRange {
   /// After an evaluation of an accepted state.
   void observe(const Model& model, const State& state, const Evaluation& evaluation);
 
-  /// One per superelement and quantity, the largest excess of each quantity first and the others counted.
+  /// One per quantity: its largest excess, and the number of others.
   std::vector<std::string> doubts(const Model& model) const;
 
  private:
@@ -40,10 +40,26 @@ class LinearRange {
     double force = 0.0;  ///< axial, its mean over `lag`; tension is positive
     Extreme deflection, axial, spin;
   };
+  /// A body as its limits are judged.
+  struct Judged {
+    std::string name;
+    double span = 0.0, buckling = 0.0;  ///< 0: not known
+    int pieces = 1;                     ///< welded in a row
+    std::string remedy;
+  };
+  struct Excess {
+    double ratio = 0.0;
+    std::string text;
+  };
   static Limits limits_of(const SuperelementBody& body);
+  void observe_modal(const Model& model, const State& state, const Evaluation& evaluation, double passed);
+  void raise(Extreme& extreme, double value) const;
+  void raise_axial(Seen& seen, double force, double lag, double passed) const;
 
-  std::vector<Limits> limits_;  ///< per body
-  std::vector<Seen> seen_;      ///< per use
+  std::vector<Limits> limits_;     ///< per body
+  std::vector<Seen> seen_;         ///< per use
+  std::vector<ModalRange> modal_;  ///< per modal body
+  std::vector<Seen> modal_seen_;
   double time_;
 };
 

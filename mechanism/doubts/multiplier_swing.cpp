@@ -20,7 +20,10 @@ MultiplierSwing::MultiplierSwing(const formats::Scene& scene)
               (scene.integrator.method == formats::Method::generalised_alpha ||
                scene.integrator.method == formats::Method::hht)),
       settings_(scene.integrator.method == formats::Method::hht ? fmt::format("alpha = {:g}", scene.integrator.alpha)
-                                                                : fmt::format("rho = {:g}", scene.integrator.rho)) {}
+                                                                : fmt::format("rho = {:g}", scene.integrator.rho)),
+      remedy_(scene.integrator.method == formats::Method::generalised_alpha && scene.integrator.rho > 0.9
+                  ? "set 'rho: 0.9' or 'formulation: stabilised_index2'"
+                  : "set a shorter 'step' or 'formulation: stabilised_index2'") {}
 
 void MultiplierSwing::observe(const State& before, const State& state) {
   if (!active_ || state.lambda().size() == 0) return;
@@ -39,8 +42,8 @@ std::string MultiplierSwing::text(const Swing& swing) const {
   if (!(swing.size > visible)) return {};
   return fmt::format(
       "the multipliers swing from step to step by {:.2g} of their size (around t = {:.6g}): index 3 with {} "
-      "does not damp them; set 'rho: 0.9' or 'formulation: stabilised_index2'",
-      swing.size, swing.time, settings_);
+      "does not damp them; {}",
+      swing.size, swing.time, settings_, remedy_);
 }
 
 std::string MultiplierSwing::latest() const { return text(latest_); }

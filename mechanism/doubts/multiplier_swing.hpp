@@ -35,7 +35,7 @@ class MultiplierSwing {
   std::string text(const Swing& swing) const;
 
   bool active_;
-  std::string settings_;  ///< of the integrator, in words
+  std::string settings_, remedy_;  ///< of the integrator, in words
   Eigen::VectorXd change_;
   double turned_ = 0.0, changed_ = 0.0, size_ = 0.0;
   int steps_ = 0;

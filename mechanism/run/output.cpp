@@ -173,6 +173,10 @@ void fill_tyres(const Model& model, const Evaluation& evaluation, formats::Resul
   }
 }
 
+void fill_loads(const Model& model, const Evaluation& evaluation, formats::ResultsRow& row) {
+  for (std::size_t i = 0; i < model.loads.size(); ++i) row.load.col(i) = evaluation.load_values[i];
+}
+
 void add_force_names(const Model& model, formats::ResultsLayout& layout) {
   for (const Spring& spring : model.springs) {
     const Relation& relation = model.coordinates[spring.coordinate].relation;
@@ -181,6 +185,7 @@ void add_force_names(const Model& model, formats::ResultsLayout& layout) {
   }
   for (const Bushing& bushing : model.bushings) layout.bushings.push_back(bushing.name);
   for (const Tyre& tyre : model.tyres) layout.tyres.push_back(tyre.name);
+  for (const Load& load : model.loads) layout.loads.push_back({load.name, load.kind == formats::LoadKind::force});
   for (const Friction& friction : model.frictions) layout.frictions.push_back(model.joints[friction.joint].name);
 }
 
@@ -259,6 +264,7 @@ void fill_row(const Model& model, const State& state, Evaluation& evaluation, fo
   fill_bushings(model, evaluation, row);
   fill_frictions(model, evaluation, row);
   fill_tyres(model, evaluation, row);
+  fill_loads(model, evaluation, row);
   const Energy energy = evaluate_energy(model, evaluation);
   row.kinetic = energy.kinetic;
   row.strain = energy.strain;

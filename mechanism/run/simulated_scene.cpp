@@ -177,6 +177,8 @@ void add_forces(const formats::Scene& scene, const Model& model, const StoredNod
                                  spec.axes == formats::LoadAxes::body ? "body" : "world"),
                      {nodes.at(model.loads[i].at, spec.at.node), {}}});
   }
+  for (std::size_t i = 0; i < model.tyres.size(); ++i)
+    links.push_back({model.tyres[i].name, "tyre", {nodes.at(model.tyres[i].wheel, scene.tyres[i].wheel.node), {}}});
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct BodyShape {
   std::string source;                ///< recovery, section, scene, inertia, nodes, marker (formats/PAGE.md)
   formats::Surface surface;          ///< undeformed; of a marker: empty
   formats::Deformation deformation;  ///< without columns: none
+  Eigen::MatrixXd stress;            ///< 6 V x m: [xx yy zz xy yz zx] per amplitude; empty: not known or not asked for
   bool points = false;               ///< the vertices are drawn too
   int all_vertices = 0;              ///< before thinning
   std::vector<int> stations;         ///< nodes whose motion the amplitudes are, in the order of their columns
@@ -27,6 +28,7 @@ struct BodyShape {
 
 struct ShapeOptions {
   int vertices = 50'000;              ///< the most of one body
+  bool stress = false;                ///< of bodies with recovery files
   std::vector<std::string> recovery;  ///< recovery files beside those that lie beside the superelements
 };
 

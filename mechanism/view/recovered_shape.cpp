@@ -74,6 +74,19 @@ void convert_columns(const Recovery& recovery, double length, const Vector3d& ax
     shapes.middleRows(v, 3) = (axes.asDiagonal() * shapes.middleRows(v, 3)).eval();
 }
 
+/// The same of stresses, [xx yy zz xy yz zx] per vertex.
+void convert_stresses(const Recovery& recovery, const UnitConversion& to_scene, const Vector3d& axes,
+                      MatrixXd& stresses) {
+  stresses *= to_scene.force() / (to_scene.length * to_scene.length);
+  for (Index k = 0; k < stresses.cols(); ++k) {
+    if (recovery.dof_node[k] < 0) continue;
+    const int component = recovery.dof_component[k];
+    stresses.col(k) *= axes[component % 3] * (component < 3 ? 1.0 / to_scene.length : axes.prod());
+  }
+  const double sign[] = {1.0, 1.0, 1.0, axes.x() * axes.y(), axes.y() * axes.z(), axes.z() * axes.x()};
+  for (Index row = 0; row < stresses.rows(); ++row) stresses.row(row) *= sign[row % 6];
+}
+
 }  // namespace
 
 std::optional<BodyShape> recovered_shape(ViewedRun& run, const ViewedBody& body, const ShapeOptions& options) {
@@ -82,7 +95,8 @@ std::optional<BodyShape> recovered_shape(ViewedRun& run, const ViewedBody& body,
   if (!found) return {};
   const Recovery& recovery = found->reader->recovery();
   const Units& units = run.layout().units;
-  const double length = convert_units(recovery.units, units, found->reader->path()).length;
+  const UnitConversion to_scene = convert_units(recovery.units, units, found->reader->path());
+  const double length = to_scene.length;
   const formats::Skin skin = formats::skin_of(recovery);
   BodyShape shape;
   shape.source = "recovery";
@@ -109,6 +123,10 @@ std::optional<BodyShape> recovered_shape(ViewedRun& run, const ViewedBody& body,
   }
   shape.deformation.modes = formats::shapes_at(*found->reader, carriers);
   convert_columns(recovery, length, found->axes, shape.deformation.modes);
+  if (options.stress) {
+    shape.stress = formats::stresses_at(*found->reader, carriers);
+    convert_stresses(recovery, to_scene, found->axes, shape.stress);
+  }
   shape.deformation.amplitudes = y.middleCols(first, count);
   const std::vector<std::string>& nodes = run.layout().nodes;
   for (int k = 0; k < count; ++k) {

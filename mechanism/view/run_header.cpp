@@ -12,6 +12,7 @@
 #include "mechanism/view/recovered_shape.hpp"
 #include "mechanism/view/run_modes.hpp"
 #include "mechanism/view/run_report.hpp"
+#include "mechanism/view/scenery.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -103,6 +104,21 @@ void extend_by(const Surface& surface, const Track& frame, Eigen::AlignedBox3d& 
                           frame.turn(t) * local.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k))));
 }
 
+/// Puts the stress under the displacement of the modes, in a scale in which the largest of both count the same; 0:
+/// there is none.
+double stack_stress(BodyShape& shape) {
+  formats::Deformation& d = shape.deformation;
+  if (shape.stress.size() == 0 || d.modes.cols() == 0) return 0.0;
+  const double moved = formats::largest_displacement(d),
+               stressed = formats::largest_displacement({shape.stress, d.amplitudes});
+  if (!(moved > 0.0 && stressed > 0.0)) return 0.0;
+  const double scale = moved / stressed;
+  Eigen::MatrixXd both(d.modes.rows() + shape.stress.rows(), d.modes.cols());
+  both << d.modes, scale * shape.stress;
+  d.modes = std::move(both);
+  return scale;
+}
+
 /// Bodies and their shapes; bodies of one rigid shape share it.
 void add_bodies(ViewedRun& run, const ShapeOptions& options, ModesOfBodies& modes, PageBlocks& blocks, Json& json) {
   Eigen::AlignedBox3d box = box_of(run);
@@ -112,6 +128,7 @@ void add_bodies(ViewedRun& run, const ShapeOptions& options, ModesOfBodies& mode
     BodyShape shape = shape_of_body(run, body, options);
     extend_by(shape.surface, body.frame, box);
     modes.take(run, static_cast<int>(i), shape);
+    const double stress_scale = stack_stress(shape);
     const FewModes few = few_modes(shape.deformation, relative_error, formats::size_of(shape.surface));
     modes.reduce(static_cast<int>(i), few, run.times.size());
     Json one{{"name", body.name},
@@ -124,10 +141,22 @@ void add_bodies(ViewedRun& run, const ShapeOptions& options, ModesOfBodies& mode
     if (few.count() > 0)
       one["amplitudes"] = blocks.add_floats(PageRows(few.amplitudes.topRows(run.times.size()).cast<double>()),
                                             {run.times.size(), few.count()});
-    json["shapes"].push_back(
-        formats::shape_json({shape.surface, shape.source, shape.points, shape.all_vertices}, few, blocks));
+    json["shapes"].push_back(formats::shape_json(
+        {shape.surface, shape.source, shape.points, shape.all_vertices, stress_scale}, few, blocks));
     json["bodies"].push_back(std::move(one));
     if (shape.surface.size() > 5000) blocks.next();
+  }
+  for (const Scenery& one : scenery_of(run)) {
+    extend_by(one.surface, one.frame, box);
+    json["bodies"].push_back({{"name", one.name},
+                              {"kind", one.kind},
+                              {"colour", one.colour},
+                              {"shape", json["shapes"].size()},
+                              {"position", blocks.add_track(one.frame.position)},
+                              {"rotation", blocks.add_rotations(one.frame.rotation)},
+                              {"amplitudes", nullptr},
+                              {"mass", nullptr}});
+    json["shapes"].push_back(formats::shape_json({one.surface, "scene", false, one.surface.size()}, {}, blocks));
   }
   json["box"] = {list_of(box.min()), list_of(box.max())};
   blocks.next();
@@ -201,16 +230,38 @@ void add_spring(const formats::SimulatedLink& link, Places& places, const PageCh
                              {"channels", held(channels, paths)}});
 }
 
+void add_load(const formats::SimulatedLink& link, Places& places, const PageChannels& channels, Json& json) {
+  const bool is_force = link.kind.starts_with("load/force"), follows = link.kind.ends_with("/body");
+  add_arrow(link.name, is_force ? "force" : "moment", places.at(link.ends[0]),
+            components("forces/load/" + link.name, "/"), follows ? "place" : "world", channels, json);
+}
+
+/// What the road exerts, at the contact centre.
+void add_tyre(const ViewedRun& run, const formats::SimulatedLink& link, const PageChannels& channels,
+              PageBlocks& blocks, Json& json) {
+  const Track contact = contact_of(run, link);
+  if (!contact.has_position()) return;
+  const Json place{{"position", blocks.add_track(contact.position)},
+                   {"rotation", blocks.add_rotations(contact.rotation)}};
+  add_arrow(link.name, "force", place, components("tyres/force/" + link.name, "/"), "place", channels, json);
+  add_arrow(link.name, "moment", place, components("tyres/moment/" + link.name, "/"), "place", channels, json);
+}
+
 void add_links(const ViewedRun& run, Places& places, const PageChannels& channels, PageBlocks& blocks, Json& json) {
   json["joints"] = json["springs"] = json["arrows"] = Json::array();
   std::vector<std::string> unseen;
   for (const formats::SimulatedLink& link : run.layout().simulated.links) {
     const bool is_load = link.kind.starts_with("load/");
-    if (!places.has(link.ends[0]) || (!is_load && !places.has(link.ends[1]))) {
+    const bool is_tyre = link.kind == "tyre";
+    if (!places.has(link.ends[0]) || (!is_load && !is_tyre && !places.has(link.ends[1]))) {
       unseen.push_back(link.name);
     } else if (link.kind.starts_with("joint/")) {
       add_joint(link, places, channels, json);
-    } else if (!is_load) {
+    } else if (is_load) {
+      add_load(link, places, channels, json);
+    } else if (is_tyre) {
+      add_tyre(run, link, channels, blocks, json);
+    } else {
       add_spring(link, places, channels, json);
     }
   }

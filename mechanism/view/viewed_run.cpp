@@ -60,13 +60,13 @@ void take_bodies(ViewedRun& run) {
   const formats::SimulatedScene& scene = run.layout().simulated;
   if (!scene.text.empty()) {
     try {
-      run.specs = formats::read_bodies_of_text(scene.text, scene.file);
+      run.drawn = formats::read_drawn_scene(scene.text, scene.file);
     } catch (const Error& error) {
       run.notes.push_back(fmt::format("the text of the scene cannot be read by this program: {}", error.what()));
     }
   }
   std::map<std::string, const formats::BodySpec*> specs;
-  for (const formats::BodySpec& spec : run.specs)
+  for (const formats::BodySpec& spec : run.drawn.bodies)
     specs[std::visit([](const auto& one) { return one.name; }, spec)] = &spec;
   for (const formats::SimulatedBody& body : scene.bodies) {
     run.bodies.emplace_back();

@@ -46,7 +46,7 @@ struct ViewedRun {
   std::vector<Track> nodes;  ///< of the layout
   std::vector<ViewedBody> bodies;
   std::vector<int> body_of_node;
-  std::vector<formats::BodySpec> specs;
+  formats::DrawnScene drawn;       ///< of the text of the scene
   std::vector<std::string> notes;  ///< what could not be shown, and why: whole sentences
 
   const formats::ResultsLayout& layout() const { return reader->layout(); }

@@ -1,6 +1,9 @@
 // The steps from a part to its mesh, in their order.
 #include "reducer/sources/build_mesh.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -65,10 +68,42 @@ void finish(MeshBuilder& builder) {
   for_nodes(mesh, [&row](int& node) { node = row[node]; });
 }
 
-Mesh build_mesh(const formats::Part& part) {
+namespace {
+
+FacePlace place_of(const CellMesh& cells, const Entity& face) {
+  const auto first = cells.cells[2].begin() + static_cast<std::ptrdiff_t>(face.first),
+             last = first + static_cast<std::ptrdiff_t>(face.count);
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  double count = 0.0;
+  for (auto cell = first; cell != last; ++cell)
+    for (int k = 0; k < form_of(cell->shape).corners; ++k, count += 1.0) mean += cells.position[cell->nodes[k]];
+  mean /= std::max(count, 1.0);
+  FacePlace place{name_of(face), mean};
+  double nearest = std::numeric_limits<double>::infinity();
+  for (auto cell = first; cell != last; ++cell)
+    for (int k = 0; k < form_of(cell->shape).corners; ++k) {
+      const Eigen::Vector3d& x = cells.position[cell->nodes[k]];
+      if (const double away = (x - mean).norm(); away < nearest) nearest = away, place.position = x;
+    }
+  return place;
+}
+
+std::vector<FacePlace> face_places(const CellMesh& cells, std::size_t most) {
+  std::vector<const Entity*> faces;
+  for (const Entity& entity : cells.entities)
+    if (entity.dimension == 2 && entity.count > 0) faces.push_back(&entity);
+  std::ranges::stable_sort(faces, std::greater{}, &Entity::count);
+  if (faces.size() > most) faces.resize(most);
+  std::vector<FacePlace> places;
+  for (const Entity* face : faces) places.push_back(place_of(cells, *face));
+  return places;
+}
+
+/// All but the last step.
+void build(MeshBuilder& builder) {
+  const formats::Part& part = builder.part;
   if (part.beams.empty() && part.patches.empty() && part.mesh.file.empty())
     throw Error("the part has no elements", part.file, "give beams, plates, ..., or a mesh file");
-  MeshBuilder builder(part);
   add_patches(builder);
   add_points(builder);
   add_mesh_file(builder);
@@ -80,6 +115,21 @@ Mesh build_mesh(const formats::Part& part) {
     throw Error("the mesh has no elements with a property", part.file,
                 "say what the groups of the mesh file are: under shells, solids or beams");
   tell_unjoined_beams(builder);
+}
+
+}  // namespace
+
+Mesh build_mesh(const formats::Part& part) {
+  MeshBuilder builder(part);
+  build(builder);
+  finish(builder);
+  return std::move(builder.mesh);
+}
+
+Mesh build_mesh(const formats::Part& part, std::size_t most, std::vector<FacePlace>& faces) {
+  MeshBuilder builder(part);
+  build(builder);
+  faces = face_places(builder.cells, most);
   finish(builder);
   return std::move(builder.mesh);
 }

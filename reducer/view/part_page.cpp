@@ -205,16 +205,19 @@ void add_modes(const ViewedPart& part, Json& json) {
   }
 }
 
-/// Boundary nodes, on the first body.
-void add_nodes(const Recovery& r, PageBlocks& blocks, Json& json) {
-  for (std::size_t i = 0; i < r.boundary_name.size() && !json["bodies"].empty(); ++i) {
-    const Vector3d place = r.position.col(r.boundary_node[i]);
+/// Boundary nodes and faces, on the first body.
+void add_nodes(const ViewedPart& part, PageBlocks& blocks, Json& json) {
+  if (json["bodies"].empty()) return;
+  const auto add = [&](const std::string& name, const Vector3d& place) {
     json["nodes"].push_back(
-        {{"name", r.boundary_name[i]},
+        {{"name", name},
          {"body", 0},
          {"place",
           {{"body", 0}, {"position", blocks.add_track(PageRows(place.transpose()))}, {"rest", list_of(place)}}}});
-  }
+  };
+  const Recovery& r = part.tables;
+  for (std::size_t i = 0; i < r.boundary_name.size(); ++i) add(r.boundary_name[i], r.position.col(r.boundary_node[i]));
+  for (const FacePlace& face : part.faces) add(face.name, face.position);
   blocks.next();
 }
 
@@ -242,7 +245,7 @@ std::string part_page(const ViewedPart& part) {
   const std::vector<Piece> pieces = pieces_of(part);
   const Eigen::VectorXd largest = largest_displacements(pieces, r.coordinates());
   for (const Piece& piece : pieces) add_piece(piece, largest, blocks, json);
-  add_nodes(r, blocks, json);
+  add_nodes(part, blocks, json);
   json["report"] = {{"notes", part.notes},
                     {"lines", Json::array({Json::array({"nodes", std::to_string(r.nodes())}),
                                            Json::array({"elements", std::to_string(r.elements.count())}),

@@ -7,6 +7,7 @@
 
 #include "formats/recovery/recovery.hpp"
 #include "reducer/mesh/mesh.hpp"
+#include "reducer/sources/build_mesh.hpp"
 
 namespace tisserand::reducer {
 
@@ -17,6 +18,7 @@ struct ViewedPart {
   formats::Recovery tables;  ///< mesh_tables(), or those of a recovery file
   std::vector<int> faulty;   ///< elements that are shown in red
   std::vector<Spider> spiders;
+  std::vector<FacePlace> faces;  ///< of the geometry: named beside the boundary nodes
   std::vector<std::string> notes;
   const formats::RecoveryReader* recovery = nullptr;  ///< its modes move; null: none
   std::vector<double> frequency;                      ///< per coordinate, 1/time; 0: of a boundary coordinate

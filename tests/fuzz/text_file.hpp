@@ -14,7 +14,7 @@ inline std::string text_file(const std::uint8_t* data, std::size_t size) {
   static const std::string path = "/dev/shm/tisserand-fuzz-" + std::to_string(::getpid()) + ".yaml";
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (file == nullptr) return path;
-  std::fwrite(data, 1, size, file);
+  if (size > 0) std::fwrite(data, 1, size, file);
   std::fclose(file);
   return path;
 }

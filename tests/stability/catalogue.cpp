@@ -3,8 +3,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include "tests/support/bodies/lumped_bodies.hpp"
 
 namespace tisserand::stability {
 namespace {
@@ -29,12 +33,12 @@ double swing(double k, double angle, double rate, double time) {
   return angle;
 }
 
-Criterion balance(double tolerance) { return {Kind::balance, "", 0.0, tolerance, false}; }
+Criterion balance(double tolerance) { return {Kind::balance, {}, 0.0, tolerance, false}; }
 Criterion at_end(const std::string& channel, double expected, double tolerance) {
-  return {Kind::end, channel, expected, tolerance, false};
+  return {Kind::end, {{1.0, channel}}, expected, tolerance, false};
 }
 Criterion length_at_end(const std::string& channel, double expected, double tolerance) {
-  return {Kind::end, channel, expected, tolerance, true};
+  return {Kind::end, {{1.0, channel}}, expected, tolerance, true};
 }
 
 /// The rod of the flexible cases, of the given nodes.
@@ -56,6 +60,7 @@ std::vector<Formulation> rods(const std::string& rigid_is_impossible) {
           {"M", {superelement("rod", "inertia: M")}, ""},
           {"second order", {superelement("rod", "second_order: on")}, ""},
           {"beams", {beam_rod}, ""},
+          {"modal", {"bodies.rod={type: modal, file: rod.modal.h5}"}, ""},
           {"rigid", {rigid_rod}, rigid_is_impossible}};
 }
 
@@ -142,13 +147,15 @@ std::vector<Case> pendulums() {
                      .source = "pendulum equation: the acceleration shows what 1/h^2 makes of round-off"});
   }
   for (const auto& [steps, thousands] : {std::pair{"100 000", 100}, {"1 000 000", 1000}})
-    cases.push_back({.name = fmt::format("pendulum, {} steps", steps),
-                     .scene = "pendulum",
-                     .settings = {fmt::format("integrator.end={}", 2 * thousands), "output.interval=1"},
-                     .criteria = {balance(1e-2)},
-                     .source = "conservation of energy",
-                     .scales = false,
-                     .quick = false});
+    cases.push_back(
+        {.name = fmt::format("pendulum, {} steps", steps),
+         .scene = "pendulum",
+         .settings = {fmt::format("integrator.end={}", 2 * thousands), "output.interval=1"},
+         .criteria = {balance(1e-2),
+                      {Kind::length, {{1.0, "nodes/position/bob/x"}, {1.0, "nodes/position/bob/y"}}, 1.0, 1e-8}},
+         .source = "conservation of energy; the length of the rod",
+         .scales = false,
+         .quick = false});
   cases.push_back({.name = "massless chain",
                    .scene = "virtual_chain",
                    .settings = {},
@@ -173,6 +180,39 @@ std::vector<Case> pendulums() {
                    .criteria = {balance(1e-2)},
                    .source = "conservation of energy",
                    .quick = false});
+  return cases;
+}
+
+std::vector<Case> free_flights() {
+  std::vector<Case> cases;
+  const auto add = [&](const char* name, double end, bool quick) {
+    cases.push_back(
+        {.name = fmt::format("top in free flight, {}", name),
+         .scene = "top",
+         .settings = {fmt::format("integrator.end={:g}", end), fmt::format("output.interval={:g}", end / 100)},
+         .criteria = {length_at_end("nodes/position/top/x", 0.01 * end, 1e-8 * end),
+                      length_at_end("nodes/position/top/tip/z", std::sqrt(0.75), 1e-3), balance(1e-3)},
+         .source = "momentum, and the angle between the axis and the moment of momentum",
+         .quick = quick});
+    std::vector<Criterion> momentum;
+    for (const auto& [direction, value, place] : {std::tuple{'x', 6.0, 5.0}, {'y', 19.5, 3.0}, {'z', -5.0, 0.0}})
+      for (const auto& [channel, expected] :
+           {std::pair{"nodes/velocity", value}, std::pair{"nodes/position", place + value * end}}) {
+        Criterion& sum = momentum.emplace_back(Kind::end, std::vector<Criterion::Term>{}, expected, 1e-6 * end, true);
+        for (const auto& [mass, body] : {std::pair{1.0, "one"}, {2.0, "two"}, {3.0, "three"}})
+          sum.terms.push_back({mass, fmt::format("{}/{}/{}", channel, body, direction)});
+      }
+    momentum.push_back(balance(1e-2));
+    cases.push_back(
+        {.name = fmt::format("chain in free flight, {}", name),
+         .scene = "flying_chain",
+         .settings = {fmt::format("integrator.end={:g}", end), fmt::format("output.interval={:g}", end / 100)},
+         .criteria = momentum,
+         .source = "momentum and the way of the mass centre",
+         .quick = quick});
+  };
+  add("1000 steps", 2, true);
+  add("100 000 steps", 200, false);
   return cases;
 }
 
@@ -250,6 +290,22 @@ std::vector<Case> rods_in_motion() {
                    .source = "rigid rod; it bends by 1e-3",
                    .formulations = boundaries(),
                    .scales = false});
+  const std::string gate = "bodies.gate={type: superelement, file: gate";
+  cases.push_back(
+      {.name = "gate, coplanar nodes",
+       .scene = "gate",
+       .settings = {},
+       // Sides of mass m/4 about one of them: J = 5/12 m a^2, mass centre at a/2.
+       .criteria = {at_end("energy/potential", 4 * 7800 * pi * 1e-4 * g / 2 * std::sin(swing(1.2 * g, 0, 0, 2)),
+                           4 * 7800 * pi * 1e-4 * g / 2 * 2e-2),
+                    balance(1e-2)},
+       .source = "physical pendulum about one of its sides; it bends by 1e-3",
+       .formulations = {{"B", {}, ""},
+                        {"A", {gate + ".superelement.h5, inertia: A}"}, ""},
+                        {"M", {gate + ".superelement.h5, inertia: M}"}, ""},
+                        {"translations alone", {gate + "_points.superelement.h5, inertia: B}"}, ""},
+                        {"rotations apart", {gate + "_apart.superelement.h5, inertia: B}"}, ""}},
+       .scales = false});
   cases.push_back({.name = "drive that moves at the start",
                    .scene = "driven_rod",
                    .settings = {},
@@ -329,8 +385,8 @@ std::vector<Case> beyond_the_linear_range() {
 
 std::vector<Case> catalogue() {
   std::vector<Case> all;
-  for (auto&& some :
-       {four_bars(), slider_cranks(), pendulums(), springs_and_contacts(), rods_in_motion(), beyond_the_linear_range()})
+  for (auto&& some : {four_bars(), slider_cranks(), pendulums(), free_flights(), springs_and_contacts(),
+                      rods_in_motion(), beyond_the_linear_range()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }
@@ -341,13 +397,24 @@ std::vector<Part> parts() {
           {"rod_near", "rod", {"boundary=[start, near, end]"}},
           {"rod_base", "rod", {"boundary=[start, near]"}},
           {"rod_one", "rod", {"boundary=[start]"}},
+          {"gate", "gate", {}},
+          {"gate_points", "gate", {"boundary={a: translations, b: translations, c: translations, d: translations}"}},
+          {"gate_apart", "gate", {"boundary={a: translations, b: translations, c: rotations, d: translations}"}},
           {"soft_half", "soft_half", {}}};
 }
 
-std::vector<std::string> not_yet() {
-  return {"modal bodies; nodes with translations or rotations alone; coplanar boundary nodes",
-          "momentum over long runs",
-          "bodies described in other units, far from the origin, in parts (tests Rewritings and FarScene)"};
+void write_modal_rod(const std::string& path) {
+  test_support::Rod rod;
+  rod.area = pi * 1e-4;
+  rod.I = pi / 4 * 1e-8;
+  rod.E = 2.1e11;
+  rod.G = rod.E / 2.6;
+  rod.density = 7800;
+  rod.elements = 16;
+  test_support::LumpedModel model = test_support::lumped_rod(rod);
+  model.name.front() = "start";
+  model.name.back() = "end";
+  formats::write_modal_body(path, test_support::modal_body(model, {{0, 0, 0, 0, 0, 0}, {0, 1, 2, 3, 4, 5}}, 8));
 }
 
 }  // namespace tisserand::stability

@@ -9,11 +9,16 @@ namespace tisserand::stability {
 /// What the run of a case is held against.
 struct Criterion {
   enum class Kind {
-    end,     ///< |value of the channel at the end − expected| ≤ tolerance
+    end,     ///< |Σ factor × channel at the end − expected| ≤ tolerance
+    length,  ///< the same of √(Σ (factor × channel)²)
     balance  ///< largest |energy balance| ≤ tolerance × largest (kinetic + |strain| + |work|)
   };
+  struct Term {
+    double factor = 1.0;
+    std::string channel;
+  };
   Kind kind = Kind::end;
-  std::string channel;
+  std::vector<Term> terms;
   double expected = 0.0;
   double tolerance = 0.0;
   bool is_length = false;  ///< expected and tolerance scale with the unit of length
@@ -47,8 +52,7 @@ struct Part {
 
 std::vector<Case> catalogue();
 std::vector<Part> parts();
-
-/// What is asked for and has no case yet.
-std::vector<std::string> not_yet();
+/// Writes the rod as a modal body, clamped at its start, beside the superelements.
+void write_modal_rod(const std::string& path);
 
 }  // namespace tisserand::stability

@@ -109,6 +109,16 @@ std::string doubts_of(const Json& report) {
   return join(texts, "; ");
 }
 
+double value_of(const Criterion& criterion, const formats::ResultsReader& reader) {
+  double sum = 0.0, squares = 0.0;
+  for (const Criterion::Term& term : criterion.terms) {
+    const double value = term.factor * reader.read(term.channel).back();
+    sum += value;
+    squares += value * value;
+  }
+  return criterion.kind == Criterion::Kind::length ? std::sqrt(squares) : sum;
+}
+
 /// Largest error over its tolerance; not-a-number stays.
 double worst_error(const Cell& cell, const formats::ResultsReader& reader, const Json& report) {
   double worst = 0.0;
@@ -119,7 +129,7 @@ double worst_error(const Cell& cell, const formats::ResultsReader& reader, const
       continue;
     }
     const double scale = criterion.is_length ? length_of(cell) : 1.0;
-    raise(std::abs(reader.read(criterion.channel).back() / scale - criterion.expected) / criterion.tolerance);
+    raise(std::abs(value_of(criterion, reader) / scale - criterion.expected) / criterion.tolerance);
   }
   return worst;
 }
@@ -192,6 +202,7 @@ void prepare(const Place& place) {
   for (const fs::directory_entry& file : fs::directory_iterator(place.scenes))
     fs::copy_file(file.path(), fs::path(place.work) / file.path().filename(), fs::copy_options::overwrite_existing);
   for (const Part& part : parts()) reduce(part, place);
+  write_modal_rod(place.work + "/rod.modal.h5");
 }
 
 Outcome run(const Cell& cell, const Place& place) {
@@ -213,7 +224,7 @@ Outcome run(const Cell& cell, const Place& place) {
     return outcome;
   }
   if (child.code != 0) {
-    outcome.said = printable_line(without(child.complaint, place.work + "/"), 400);
+    outcome.said = printable_line(without(child.complaint, place.work + "/"), 1000);
     const bool has_reason = (child.code == 1 || child.code == 3) && !child.complaint.empty() &&
                             child.complaint.find("internal error") == std::string::npos;
     outcome.state = has_reason ? State::told : State::fail;

@@ -10,6 +10,7 @@
 #include "mechanism/doubts/linear_range.hpp"
 #include "mechanism/simulate.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
+#include "tests/support/bodies/lumped_bodies.hpp"
 #include "tests/support/scenes/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -24,6 +25,7 @@ using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 RunReport run(const formats::Scene& scene, const BodyFiles& files = {}) {
   const test_support::TemporaryFolder folder;
@@ -67,6 +69,31 @@ TEST(StepDoubt, SpeaksWhereAPeriodHasFewSteps) {
   EXPECT_THAT(::testing::PrintToString(with_step(0.3)), HasSubstr("does not resolve what moves"));
 }
 
+// A pendulum that is thrown round at 10 rad/s: 0.1 and 2 rad per step.
+TEST(TurnDoubt, SpeaksBeyondAQuarterOfARevolutionPerStep) {
+  const auto with_step = [](double step) {
+    formats::Scene scene = test_support::empty_scene(step, 100 * step);
+    formats::RigidBodySpec rotor = test_support::rigid_body("rotor", 1, {0, 0, 0}, {1, 1, 1});
+    rotor.start.angular_velocity = Vector3d(0, 0, 10);
+    scene.bodies = {rotor};
+    scene.joints = {
+        test_support::joint("axle", JointKind::revolute, "ground", "rotor", Vector3d::Zero(), Vector3d::UnitZ())};
+    return run(scene).doubts;
+  };
+  EXPECT_THAT(with_step(0.01), IsEmpty());
+  EXPECT_THAT(::testing::PrintToString(with_step(0.2)), HasSubstr("'rotor' turns by 2 rad per step"));
+}
+
+// Two hinges on one axis hold what one holds.
+TEST(ReactionDoubt, SpeaksOfTwoHingesOnOneAxis) {
+  formats::Scene scene = test_support::pendulum_scene(0.01, 0.1);
+  EXPECT_THAT(run(scene).doubts, IsEmpty());
+  formats::JointSpec again = scene.joints.front();
+  again.name = "again";
+  scene.joints.push_back(again);
+  EXPECT_THAT(::testing::PrintToString(run(scene).doubts), HasSubstr("again are not unique"));
+}
+
 TEST(MultiplierDoubt, SpeaksOfIndex3WithoutDamping) {
   formats::Scene scene = test_support::pendulum_scene(0.002, 5.0);
   scene.integrator.formulation = formats::Formulation::index3;
@@ -83,7 +110,7 @@ struct HeldBeam {
   BeamData beam;
   BodyFiles files;
   formats::Scene scene = test_support::empty_scene(1e-3, 0.05);
-  explicit HeldBeam(JointKind kind) {
+  explicit HeldBeam(JointKind kind, const BeamData& data = {}) : beam(data) {
     test_support::add_file("beam", test_support::craig_bampton_beam(beam, 4), files.superelements);
     scene.bodies.push_back(test_support::superelement_body("beam", "beam"));
     scene.joints.push_back(
@@ -139,6 +166,108 @@ TEST(DeflectionDoubt, SpeaksFromAFifthOfTheLength) {
   }
 }
 
+/// Two halves of a beam of 2 m on a hinge at its root that turn at `rate`, with `softer` times less torsional
+/// stiffness.
+RunReport run_of_blade(double rate, double softer, formats::InertiaOption inertia, double end) {
+  BeamData half;
+  half.length = 1.0, half.Iy = half.Iz = 2e-8, half.J = 4e-8 / softer;
+  BodyFiles files;
+  test_support::add_file("half", test_support::craig_bampton_beam(half, 6), files.superelements);
+  formats::Scene scene = test_support::empty_scene(1e-3, end);
+  for (const auto& [name, at] : {std::pair{"inner", 0.0}, {"outer", 1.0}}) {
+    formats::SuperelementBodySpec body = test_support::superelement_body(name, "half");
+    body.inertia = inertia;
+    body.start.pose.position = {at, 0, 0};
+    body.start.velocity = Vector3d(0, rate * at, 0);
+    body.start.angular_velocity = Vector3d(0, 0, rate);
+    scene.bodies.push_back(body);
+  }
+  const Vector3d z = Vector3d::UnitZ();
+  scene.joints = {test_support::joint("root", JointKind::revolute, "ground", "inner/base", {0, 0, 0}, z),
+                  test_support::joint("weld", JointKind::fixed, "inner/tip", "outer/base", {1, 0, 0}, z)};
+  return run(scene, files);
+}
+
+TEST(TorsionDoubt, SpeaksOfWeldedPiecesThatAreSoftForTheirSpin) {
+  using enum formats::InertiaOption;
+  const auto told = [](double softer, formats::InertiaOption inertia) {
+    return ::testing::PrintToString(run_of_blade(10, softer, inertia, 0.05).doubts);
+  };
+  for (const formats::InertiaOption option : {B, M}) {
+    EXPECT_THAT(told(1, option), Not(HasSubstr("soft in torsion")));
+    EXPECT_THAT(told(1e3, option), HasSubstr("is soft in torsion for its spin"));
+  }
+  EXPECT_THAT(told(1e3, A), Not(HasSubstr("soft in torsion")));
+}
+
+/// The beam on a ball joint that turns about z, and is hit across, so that it moves in space.
+std::vector<std::string> doubts_of_ball_joint(JointKind kind, formats::InertiaOption inertia) {
+  BeamData round;
+  round.Iy = round.Iz = 1.5e-8;
+  HeldBeam held(kind, round);
+  held.scene.integrator.end = 2.0;
+  auto& body = std::get<formats::SuperelementBodySpec>(held.scene.bodies.front());
+  body.inertia = inertia;
+  body.start.angular_velocity = Vector3d(0, 0, 1);
+  held.scene.loads.push_back(
+      test_support::constant_load("lift", formats::LoadKind::force, "beam/tip", Vector3d(0, 0, 20)));
+  return run(held.scene, held.files).doubts;
+}
+
+TEST(AxialSpinDoubt, SpeaksOfABentBeamThatCanTurnAboutItsAxis) {
+  using enum formats::InertiaOption;
+  EXPECT_THAT(::testing::PrintToString(doubts_of_ball_joint(JointKind::spherical, A)),
+              HasSubstr("'beam' spins about its own axis"));
+  EXPECT_THAT(::testing::PrintToString(doubts_of_ball_joint(JointKind::revolute, A)),
+              Not(HasSubstr("spins about its own axis")));
+}
+
+/// A rod of steel, 1 m long and 2 cm across, as a modal body that is clamped at its start.
+struct ModalRod {
+  static constexpr double E = 2.1e11, I = pi / 4 * 1e-8, mass = 7800 * pi * 1e-4;
+  BodyFiles files;
+  formats::Scene scene = test_support::empty_scene(1e-3, 0.1);
+  explicit ModalRod(JointKind kind) {
+    test_support::Rod rod{0.0, 1.0, pi * 1e-4, E, E / 2.6, I, 7800, 16};
+    files.modal_bodies["rod"].body =
+        test_support::modal_body(test_support::lumped_rod(rod), {{0, 0, 0, 0, 0, 0}, {0, 1, 2, 3, 4, 5}}, 6);
+    formats::ModalBodySpec body;
+    body.name = "rod";
+    body.file = "rod";
+    scene.bodies.push_back(body);
+    scene.joints.push_back(test_support::joint("base", kind, "ground", "rod/n0", Vector3d::Zero(), Vector3d::UnitZ()));
+  }
+  void statics(const Vector3d& force) {
+    scene.analysis = formats::AnalysisKind::statics;
+    scene.loads.push_back(test_support::constant_load("tip", formats::LoadKind::force, "rod/n16", force));
+  }
+};
+
+TEST(ModalRangeDoubt, SpeaksOfAxialForceDeflectionAndSpin) {
+  for (const double share : {-0.2, -0.05, 0.05, 0.2}) {
+    ModalRod rod(JointKind::fixed);
+    rod.statics({share * pi * pi * ModalRod::E * ModalRod::I, 0, 0});
+    const std::string told = ::testing::PrintToString(run(rod.scene, rod.files).doubts);
+    EXPECT_EQ(told.find(share > 0 ? "tension of 0.2 of its buckling" : "compression of 0.2 of its buckling") !=
+                  std::string::npos,
+              std::abs(share) > 0.1)
+        << told;
+  }
+  for (const double share : {0.02, 0.3}) {
+    ModalRod rod(JointKind::fixed);
+    rod.statics({0, 0, share * 3.0 * ModalRod::E * ModalRod::I});
+    const std::string told = ::testing::PrintToString(run(rod.scene, rod.files).doubts);
+    EXPECT_EQ(told.find("deflects by") != std::string::npos, share > 0.2) << told;
+  }
+  for (const double share : {0.2, 0.5}) {
+    ModalRod rod(JointKind::revolute);
+    std::get<formats::ModalBodySpec>(rod.scene.bodies.front()).start.angular_velocity =
+        Vector3d(0, 0, share * 3.5160 * std::sqrt(ModalRod::E * ModalRod::I / ModalRod::mass));
+    const std::string told = ::testing::PrintToString(run(rod.scene, rod.files).doubts);
+    EXPECT_EQ(told.find("'rod' spins at 0.5") != std::string::npos, share > 0.29) << told;
+  }
+}
+
 /// The slider-crank of [GA00] 4.3 with its rod as one superelement, driven at a constant rate.
 std::vector<std::string> doubts_of_slider_crank(double rate, formats::InertiaOption inertia) {
   constexpr double r = 0.1524, l = 0.3048;
@@ -185,10 +314,10 @@ TEST(DampingDoubt, SpeaksWhereTheLowestModeHasNone) {
 }
 
 /// A crank of 1 m that drives a slider through a rod of `rod`: shorter than the crank it locks at asin(rod).
-RunReport run_of_crank(double rod, formats::IntegratorSpec integrator) {
+RunReport run_of_crank(double rod, formats::IntegratorSpec integrator, double end = 1.0) {
   const Vector3d z = Vector3d::UnitZ();
-  formats::Scene scene = test_support::empty_scene(integrator.step, 1.0);
-  integrator.end = 1.0;
+  formats::Scene scene = test_support::empty_scene(integrator.step, end);
+  integrator.end = end;
   scene.integrator = integrator;
   formats::RigidBodySpec crank = test_support::rigid_body("crank", 1, {0, 0, 0}, {0.1, 0.1, 0.1});
   crank.nodes.push_back({"pin", {{1, 0, 0}, Eigen::Quaterniond::Identity()}});
@@ -213,6 +342,126 @@ TEST(FailureCause, IsADriveThatLeavesWhatTheMechanismCanReach) {
   EXPECT_THAT(locked.reason, HasSubstr("the drive leaves what the mechanism can reach"));
   EXPECT_THAT(locked.reason, HasSubstr("t = 0.5235"));  // asin(1/2)
   EXPECT_EQ(run_of_crank(1.1, integrator).outcome, RunOutcome::completed);
+}
+
+// Two four-bars side by side, which lie flat at t = 0.7144: fixed steps of radau cannot pass, generalised alpha does.
+TEST(FailureCause, IsASingularPosition) {
+  const auto with_method = [](const std::string& method) {
+    return run(formats::read_scene(TISSERAND_SOURCE_DIR "/tests/stability/scenes/four_bar.scene.yaml",
+                                   {{"integrator.method", method}, {"integrator.end", "1"}}));
+  };
+  const RunReport report = with_method("radau");
+  EXPECT_THAT(report.reason, HasSubstr("t = 0.714"));
+  EXPECT_THAT(report.reason, HasSubstr("constraint equations are nearly dependent there"));
+  EXPECT_EQ(with_method("generalised_alpha").outcome, RunOutcome::completed);
+}
+
+/// A block of 1 kg that slides along z at 1 m/s, with a spring on its slide.
+RunReport run_of_slide(const formats::SpringSpec& spring, const formats::IntegratorSpec& integrator) {
+  formats::Scene scene = test_support::empty_scene(integrator.step, 1.0);
+  scene.integrator = integrator;
+  scene.integrator.end = 1.0;
+  formats::RigidBodySpec block = test_support::rigid_body("block", 1, {0, 0, 0}, {1, 1, 1});
+  block.start.velocity = Vector3d(0, 0, 1);
+  scene.bodies = {block};
+  scene.joints = {
+      test_support::joint("slide", JointKind::prismatic, "ground", "block", Vector3d::Zero(), Vector3d::UnitZ())};
+  scene.springs = {spring};
+  scene.springs.back().name = "spring";
+  scene.springs.back().coordinate = formats::CoordinateRef{"slide", ""};
+  return run(scene);
+}
+
+/// One attempt per step, and few iterations.
+formats::IntegratorSpec impatient(double step) {
+  formats::IntegratorSpec integrator;
+  integrator.step = step;
+  integrator.max_halvings = 0;
+  integrator.max_iterations = 3;
+  return integrator;
+}
+
+// m (1 - α_m)/((1 - α_f) β h²) + k = 0 with rho = 1: k = -4 m/h².
+TEST(FailureCause, IsAStiffnessThatBalancesTheMass) {
+  formats::IntegratorSpec integrator = impatient(0.01);
+  integrator.rho = 1.0;
+  formats::SpringSpec spring;
+  spring.stiffness = -4.0 / (0.01 * 0.01);
+  EXPECT_THAT(run_of_slide(spring, integrator).reason,
+              HasSubstr("regular with a quarter of it: a stiffness below zero"));
+  spring.stiffness = -1.0;
+  EXPECT_EQ(run_of_slide(spring, integrator).outcome, RunOutcome::completed);
+}
+
+// A block without mass on a spring that gives way at 0.5 N, under a force of 1 N/s.
+TEST(FailureCause, IsADirectionWithoutMass) {
+  const auto with_last = [](double last) {
+    formats::Scene scene = test_support::empty_scene(0.01, 1.0);
+    scene.integrator = impatient(0.01);
+    scene.integrator.end = 1.0;
+    formats::RigidBodySpec needle = test_support::rigid_body("needle", 1, {0, 0, 0}, {1, 1, 0});
+    scene.bodies = {needle};
+    scene.joints = {
+        test_support::joint("axle", JointKind::revolute, "ground", "needle", Vector3d::Zero(), Vector3d::UnitZ())};
+    formats::SpringSpec spring;
+    spring.name = "spring";
+    spring.coordinate = formats::CoordinateRef{"axle", ""};
+    spring.stiffness =
+        formats::CurveSpec{formats::Interpolation::linear, {-1.0, 0.0, 0.5, 1.5}, {-1.0, 0.0, 0.5, last}};
+    spring.force = formats::TimeExpression{"t", {}, ""};
+    scene.springs = {spring};
+    return run(scene);
+  };
+  EXPECT_THAT(with_last(0.5).reason, HasSubstr("a direction without mass, stiffness or constraint, needle"));
+  EXPECT_EQ(with_last(1.5).outcome, RunOutcome::completed);
+}
+
+// A moment that jumps from nothing to 1e9 N m in one step.
+TEST(FailureCause, IsALoadThatSetsIn) {
+  const auto with_moment = [](const std::string& moment) {
+    formats::Scene scene = test_support::pendulum_scene(0.002, 1.0);
+    scene.integrator = impatient(0.002);
+    scene.integrator.end = 1.0;
+    formats::LoadSpec load =
+        test_support::constant_load("jump", formats::LoadKind::moment, "pendulum", Vector3d::Zero());
+    load.components[2] = formats::TimeExpression{moment, {}, ""};
+    scene.loads = {load};
+    return run(scene);
+  };
+  EXPECT_THAT(with_moment("t < 0.1 ? 0 : 1e9").reason,
+              HasSubstr("what fails comes with the step: a load, a stop or friction that sets in"));
+  EXPECT_EQ(with_moment("t < 0.1 ? 0 : 1").outcome, RunOutcome::completed);
+}
+
+// A pendulum of 2.3 s with 15 steps per period, at its fastest.
+TEST(FailureCause, IsAStepInWhichTheMotionChanges) {
+  formats::Scene scene = test_support::pendulum_scene(0.15, 20.0);
+  scene.integrator = impatient(0.15);
+  scene.integrator.max_iterations = 4;
+  scene.integrator.end = 20.0;
+  EXPECT_THAT(run(scene).reason, HasSubstr("velocities changed by"));
+  scene.integrator.step = 0.01;
+  EXPECT_EQ(run(scene).outcome, RunOutcome::completed);
+}
+
+TEST(FailureCause, IsMultipliersThatSwing) {
+  formats::Scene scene = test_support::pendulum_scene(2e-3, 100.0);
+  scene.integrator = impatient(2e-3);
+  scene.integrator.end = 100.0;
+  scene.integrator.formulation = formats::Formulation::index3;
+  scene.integrator.rho = 1.0;
+  EXPECT_THAT(run(scene).reason, HasSubstr("the multipliers swing from step to step"));
+  scene.integrator.rho = 0.9;
+  scene.integrator.end = 1.0;
+  EXPECT_EQ(run(scene).outcome, RunOutcome::completed);
+}
+
+// Spun from rest the pieces turn over before the spin is reached.
+TEST(FailureCause, IsTorsionTooSoftForTheSpin) {
+  using enum formats::InertiaOption;
+  const RunReport soft = run_of_blade(40, 1e5, B, 2.0);
+  EXPECT_EQ(soft.outcome, RunOutcome::not_converged);
+  EXPECT_THAT(soft.reason, HasSubstr("is soft in torsion for its spin"));
 }
 
 TEST(Doubts, AreTheLastLinesOfTheReport) {

@@ -10,6 +10,7 @@ import { helpDialog } from "./ui/dialogs";
 import { button, h, styled } from "./ui/dom";
 import { bodyPlace, Inspector } from "./ui/inspector";
 import { splitter, Tabs } from "./ui/layout";
+import { Labels } from "./ui/labels";
 import { Legend, Triad } from "./ui/legend";
 import { modelList } from "./ui/model_list";
 import { Modes } from "./ui/modes";
@@ -39,6 +40,7 @@ export class App {
   readonly toolbar: Toolbar;
   readonly tabs: Tabs;
   readonly legend = new Legend();
+  private readonly labels = new Labels();
   readonly inspector: Inspector;
   readonly help: HTMLDialogElement;
   readonly stage: HTMLElement;
@@ -57,6 +59,7 @@ export class App {
   constructor(readonly page: Page, root: HTMLElement) {
     this.runs = page.runs;
     if (this.runs.every((run) => run.entry.kind === "part")) this.settings.nodes = true;
+    if (this.runs.some((run) => run.entry.kind === "part")) this.settings.nodes = this.settings.names = true;
     this.player = new Player(this.runs);
     this.curves = new Curves(this.runs, this.player);
     this.report = new Report(this.runs);
@@ -99,7 +102,7 @@ export class App {
       arrows: this.runs.some((run) => run.arrows.length > 0),
     });
     this.stage = h("div", { class: "stage" }, this.toolbar.element,
-      h("div", { class: "canvas-box" }, canvas, this.legend.element, h("div", { class: "corner" }, this.triad.element, this.scale), this.inspector.element, this.message));
+      h("div", { class: "canvas-box" }, canvas, this.labels.element, this.legend.element, h("div", { class: "corner" }, this.triad.element, this.scale), this.inspector.element, this.message));
     const main = h("main", { class: "main" });
     main.append(this.stage, splitter(0.6, (share) => main.style.setProperty("--share", `${100 * share}%`)), this.tabs.element);
     const commands = commandsOf(this);
@@ -275,6 +278,7 @@ export class App {
     if (!this.player.playing && !this.viewport.fixed) this.viewport.quality = this.viewport.software && this.viewport.still > STILL ? 2 : 1;
     if (this.viewport.draw(always)) {
       this.triad.follow(this.viewport.camera);
+      this.labels.follow(this.viewport);
       if (this.recorder.recording) this.recorder.picture(this.viewport.canvas, this.caption());
       if (this.viewport.fault) this.tell(`The picture cannot be drawn: ${this.viewport.fault}`);
     }

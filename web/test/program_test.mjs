@@ -19,7 +19,7 @@ if (!CHROMIUM || !existsSync(join(bin, "reducer"))) {
 const folder = mkdtempSync(join(tmpdir(), "tisserand-pages-")), file = (name) => join(folder, name);
 let browser;
 
-const call = (program, ...words) => execFileSync(join(bin, program), words, { cwd: folder, stdio: ["ignore", "ignore", "pipe"], env: { ...process.env, OPENBLAS_NUM_THREADS: "1" } });
+const call = (program, ...words) => execFileSync(join(bin, program), words, { cwd: folder, stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, OPENBLAS_NUM_THREADS: "1" } });
 
 /** The shell and beam of an example, or another part, with its recovery file. */
 const reduce = (part, name) => call("reducer", "run", join(source, "examples", part), "--set", "recovery=yes", "-o", `${name}.superelement.h5`);
@@ -116,6 +116,59 @@ integrator: {step: 0.01, end: 1.5}
       await bodyIsDrawnThere(page, "lower", "lower", "lower/hand");
       await bodyIsDrawnThere(page, "upper", "upper", "upper/elbow");
     }
+    await quiet(page);
+  });
+
+  await suite.test("a car with its tyres on their road", async () => {
+    call("mechanism", "run", join(source, "examples/vehicle/car.scene.yaml"), "--set", "integrator.end=0.4");
+    const name = "car.drive";
+    call("mechanism", "view", `${name}.results.h5`);
+    const page = await browser.page();
+    await page.open(file(`${name}.html`));
+    assert.equal(await page.evaluate("tisserand.failure"), null);
+    await motionIsThatOfTheResults(page, name);
+    await page.evaluate("tisserand.seek(0.4)");
+    await page.until("tisserand.quality === 2");
+    const seen = new Set();
+    const { width, height } = await page.evaluate("(({ clientWidth, clientHeight }) => ({ width: clientWidth, height: clientHeight }))(document.querySelector('canvas.picture'))");
+    for (let i = 1; i < 24; ++i)
+      for (let k = 1; k < 16; ++k) {
+        const picked = await page.evaluate(`tisserand.pick(${(i * width) / 24}, ${(k * height) / 16})`);
+        if (picked) seen.add(picked.body);
+      }
+    assert.ok([...seen].some((body) => /road|ground|track/.test(body)), [...seen].join());
+    await page.key("m");
+    await page.until("[...document.querySelectorAll('.labels span')].some((label) => !label.hidden && label.textContent.includes('chassis'))");
+    await quiet(page);
+  });
+
+  await suite.test("a chassis with its mesh, coloured by stress", async () => {
+    reduce("chassis/chassis.part.yaml", "chassis");
+    const corners = ["front_lower_l", "front_lower_r", "rear_arm_l", "rear_arm_r"];
+    writeFileSync(file("drop.yaml"), `scene: chassis on four bushings
+units: {length: m, mass: kg, time: s}
+gravity: [0, 0, -9.81]
+bodies:
+  chassis: {type: superelement, file: chassis.superelement.h5, second_order: off, damping: {ratio: 0.05}}
+bushings:
+${corners.map((corner) => `  at_${corner}: {a: ground, b: chassis/${corner}, stiffness: [1e5, 1e5, 1e5, 0, 0, 0], damping: [1e3, 1e3, 1e3, 0, 0, 0]}`).join("\n")}
+integrator: {step: 0.002, end: 0.3}
+`);
+    call("mechanism", "run", "drop.yaml", "-o", "drop.results.h5");
+    call("mechanism", "view", "drop.results.h5", "--stress");
+    const page = await browser.page();
+    await page.open(file("drop.html"));
+    assert.equal(await page.evaluate("tisserand.failure"), null);
+    await motionIsThatOfTheResults(page, "drop");
+    await page.evaluate("tisserand.seek(0.3)");
+    for (let i = 0; i < 4 && (await state(page)).settings.colouring !== "stress"; ++i) await page.key("c");
+    const { legend, settings } = await state(page);
+    assert.equal(settings.colouring, "stress");
+    assert.equal(legend.title, "von Mises stress [Pa]");
+    // What `reducer recover` finds at the nodes of the same run, the worst of both faces: the page shows one face at 60 instants.
+    const found = call("reducer", "recover", "chassis.recovery.h5", "drop.results.h5", "-o", "recovered").toString();
+    const worst = Math.max(...[...found.matchAll(/largest (?:stress of beams|von Mises of shells) +([0-9.e+-]+)/g)].map((match) => Number(match[1])));
+    assert.ok(legend.range[1] > 0.5 * worst && legend.range[1] < 1.05 * worst, `${legend.range[1]} on the page, ${worst} recovered: ${found}`);
     await quiet(page);
   });
 

@@ -102,7 +102,7 @@ TEST(SceneText, IsReadToTheSameBodies) {
   const Folder folder;
   const std::string path = folder.file("scene.yaml", mirrored);
   const Scene scene = read_scene(path, {});
-  const std::vector<BodySpec> bodies = read_bodies_of_text(block_text(*scene.tree), path);
+  const std::vector<BodySpec> bodies = read_drawn_scene(block_text(*scene.tree), path).bodies;
   ASSERT_EQ(bodies.size(), 1u);
   const RigidBodySpec &a = std::get<RigidBodySpec>(scene.bodies[0]), &b = std::get<RigidBodySpec>(bodies[0]);
   EXPECT_EQ(b.name, "right/stone");

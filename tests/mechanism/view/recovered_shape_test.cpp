@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
+#include "formats/page/skin.hpp"
 #include "formats/recovery/recovery.hpp"
 #include "mechanism/simulate.hpp"
 #include "mechanism/view/view.hpp"
@@ -138,6 +139,78 @@ TEST_F(RecoveredShape, FollowsThemMirrored) {
 
 TEST_F(RecoveredShape, FollowsThemWithFewerModes) {
   expect_nodes(run("modes: 0,", metres, 1.0), 1.0, Vector3d::Ones());
+}
+
+// Node 2 is on the plate alone, node 4 on the solid, vertices 4 to 11 are corners of the beam's section.
+TEST(RecoveredStress, IsThatOfTheFields) {
+  const test_support::TemporaryFolder folder;
+  const std::string path = folder.file("small.recovery.h5");
+  test_support::write_small_recovery(path);
+  const formats::RecoveryReader reader(path);
+  const formats::Recovery& tables = reader.recovery();
+  using formats::RecoveryField;
+  const MatrixXd beam = test_support::small_field(tables, RecoveryField::beam_force),
+                 shell = test_support::small_field(tables, RecoveryField::shell_stress),
+                 solid = test_support::small_field(tables, RecoveryField::solid_stress);
+  const std::vector<formats::SkinCarrier> skin = formats::skin_of(tables).carriers;
+  ASSERT_EQ(skin.size(), 12u);
+  std::vector<formats::SkinCarrier> carriers{{2}, {4}};
+  carriers.insert(carriers.end(), skin.begin() + 4, skin.end());
+  const MatrixXd stress = formats::stresses_at(reader, carriers);
+  MatrixXd sheet = MatrixXd::Zero(6, tables.coordinates());
+  sheet.row(0) = shell.row(0) + shell.row(3);
+  sheet.row(1) = shell.row(1) + shell.row(4);
+  sheet.row(3) = shell.row(2) + shell.row(5);  // axes of the shell are those of the part
+  EXPECT_LT((stress.topRows(6) - sheet).norm(), 1e-6);
+  EXPECT_LT((stress.middleRows(6, 6) - solid.middleRows(18, 6)).norm(), 1e-6);
+  // Section without Iyz, centroid on the axis: N/A + z My/Iy - y Mz/Iz along x.
+  for (int end = 0; end < 2; ++end)
+    for (int k = 0; k < 4; ++k) {
+      const Eigen::Vector2d corner = tables.sections[0].outline[k];
+      const MatrixXd row = beam.row(6 * end) / 4e-4 + corner.y() * beam.row(6 * end + 4) / 1.5e-8 -
+                           corner.x() * beam.row(6 * end + 5) / 2e-8;
+      const Index first = 12 + 6 * (4 * end + k);
+      EXPECT_LT((stress.row(first) - row).norm(), 1e-6 * row.norm());
+      EXPECT_LT(stress.middleRows(first + 1, 5).norm(), 1e-6 * row.norm());
+    }
+}
+
+// The stress of the page is linear in its amplitudes as displacement is: 1e-3 of the largest.
+TEST_F(RecoveredShape, HoldsStressWhereItIsAskedFor) {
+  const std::string path = folder_.file("beam.recovery.h5");
+  test_support::write_small_recovery(path);
+  const std::string file = run("", millimetres, 1e-3);
+  ViewRequest request;
+  request.shown.files = {file};
+  EXPECT_TRUE(PageReader(page_of(request)).run()["shapes"][0]["stress"].is_null());
+  request.shapes.stress = true;
+  const PageReader read(page_of(request));
+  const nlohmann::json &shape = read.run()["shapes"][0], &body = read.run()["bodies"][0];
+  EXPECT_EQ(shape["stress"]["quantity"], "von Mises");
+  const formats::RecoveryReader reader(path);
+  const MatrixXd per_unit = formats::stresses_at(reader, formats::skin_of(reader.recovery()).carriers);
+  const formats::ResultsReader results(file);
+  const MatrixXd modes = read.read(shape["stress"]["modes"]), amplitudes = read.read(body["amplitudes"]);
+  const Index count = amplitudes.cols(), vertices = 12;
+  ASSERT_EQ(modes.size(), count * vertices * 6);
+  double largest = 0.0, error = 0.0;
+  for (Index t = 0; t < amplitudes.rows(); ++t) {
+    Eigen::VectorXd y(reader.recovery().coordinates());
+    for (Index k = 0; k < y.size(); ++k) {
+      // Translations in mm, everything else as in the file; stress of the file in Pa, of the scene in kg/(mm s2) = kPa.
+      const bool is_length = reader.recovery().dof_node[k] >= 0 && reader.recovery().dof_component[k] < 3;
+      y[k] = results.read(fmt::format("superelements/y/beam/{}", k))[t] * (is_length ? 1e-3 : 1.0);
+    }
+    const Eigen::VectorXd expected = 1e-3 * per_unit * y;
+    Eigen::VectorXd shown = Eigen::VectorXd::Zero(expected.size());
+    for (Index j = 0; j < count; ++j)
+      for (Index v = 0; v < vertices; ++v)
+        for (Index c = 0; c < 6; ++c) shown[6 * v + c] += amplitudes(t, j) * modes(j * vertices + v, c);
+    largest = std::max(largest, expected.cwiseAbs().maxCoeff());
+    error = std::max(error, (shown - expected).cwiseAbs().maxCoeff());
+  }
+  EXPECT_GT(largest, 0.0);
+  EXPECT_LT(error, 1.1e-3 * largest);
 }
 
 TEST_F(RecoveredShape, IsRigidWhereTheBodyIs) {

@@ -186,6 +186,62 @@ TEST_F(Page, PutsJointsSpringsAndForcesWhereTheyAct) {
   EXPECT_EQ(one["channels"][arrow["channels"][2].get<int>()]["path"], "joints/force/swing/z");
 }
 
+const std::string rolling = R"(scene: rolling wheel
+gravity: [0, 0, -9.81]
+roads:
+  bump: {type: profile, height: [{shape: cosine, start: 1, length: 2, height: 0.05}]}
+bodies:
+  wheel: {type: rigid, mass: 20, inertia: [0.6, 1, 0.6], pose: {position: [0, 0, 0.299]}, velocity: [6, 0, 0], angular_velocity: [0, 20, 0]}
+tyres:
+  front: {type: comprehensive_slip, wheel: wheel, road: bump, radius: 0.3, stiffness: 2e5, damping: 500, slip_stiffness: 3e4,
+          cornering_stiffness: 3e4, camber_stiffness: 3e3, friction: 1, low_speed: 0.1}
+loads:
+  push: {type: force, at: wheel, value: [10, 0, "20 * t"]}
+  twist: {type: moment, axes: body, at: wheel, value: [0, 0.1, 0]}
+integrator: {step: 0.001, end: 0.5}
+output: {interval: 0.05}
+)";
+
+TEST_F(Page, ShowsLoadsTyresAndTheirRoad) {
+  const std::string file = run("rolling", rolling);
+  const PageReader read = page({file});
+  const formats::ResultsReader results(file);
+  const json& one = read.run();
+  const auto position = [&](int t) {
+    const auto at = [&](const char* axis) { return results.read(std::string("nodes/position/wheel/") + axis)[t]; };
+    return Vector3d(at("x"), at("y"), at("z"));
+  };
+  for (const int t : {0, 4, 10}) {
+    const Eigen::Matrix3Xd ring = read.vertices(one, named(one["bodies"], "front"), t);
+    double radius = 0.0;
+    for (Index v = 0; v < ring.cols(); ++v) radius = std::max(radius, (ring.col(v) - position(t)).norm());
+    EXPECT_NEAR(radius, 0.3 * std::hypot(1.0, 0.3), 1e-4);
+    EXPECT_LT((ring.rowwise().mean() - position(t)).norm(), 1e-4);
+  }
+  // The road is drawn as far as the wheel goes and a little more, with its bump of 0.05 m at x = 2 m.
+  const Eigen::Matrix3Xd road = read.vertices(one, named(one["bodies"], "bump"), 0);
+  EXPECT_EQ(named(one["bodies"], "bump")["kind"], "road");
+  EXPECT_LT(road.row(0).minCoeff(), -1.0);
+  EXPECT_GT(road.row(0).maxCoeff(), position(10).x() + 1.0);
+  Index top = 0;
+  EXPECT_NEAR(road.row(2).maxCoeff(&top), 0.05, 1e-4);
+  EXPECT_NEAR(road(0, top), 2.0, 0.05);
+  // The road pushes where it is touched; loads act on the wheel.
+  EXPECT_LT((read.place(one, named(one["arrows"], "front")["place"], 10) -
+             Vector3d(results.read("tyres/contact/front/x")[10], results.read("tyres/contact/front/y")[10],
+                      results.read("tyres/contact/front/z")[10]))
+                .norm(),
+            1e-4);
+  const json &push = named(one["arrows"], "push"), &twist = named(one["arrows"], "twist");
+  EXPECT_EQ(push["kind"], "force");
+  EXPECT_EQ(push["axes"], "world");
+  EXPECT_EQ(twist["kind"], "moment");
+  EXPECT_EQ(twist["axes"], "place");
+  EXPECT_EQ(one["channels"][push["channels"][2].get<int>()]["path"], "forces/load/push/z");
+  EXPECT_NEAR(results.read("forces/load/push/z")[10], 10.0, 1e-12);
+  EXPECT_NEAR(results.read("forces/load/twist/y")[10], 0.1, 1e-12);
+}
+
 TEST_F(Page, RunsNoScriptOfAStranger) {
   ViewRequest request;
   request.shown.files = {run("arm", arm)};

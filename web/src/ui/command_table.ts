@@ -53,7 +53,7 @@ export function commandsOf(app: App): Command[] {
     { keys: ["y"], name: "More deformation", group: "Show", run: deform(1.25) },
     { keys: ["x"], name: "Less deformation", group: "Show", run: deform(0.8) },
     toggle("e", "edges", "Edges"), toggle("g", "grid", "Grid"), toggle("a", "worldAxes", "World axes"), toggle("b", "bodyAxes", "Body axes"),
-    toggle("n", "nodes", "Nodes"), toggle("j", "joints", "Joints"), toggle("s", "springs", "Springs"), toggle("v", "arrows", "Forces and moments"),
+    toggle("n", "nodes", "Nodes"), toggle("m", "names", "Names of nodes"), toggle("j", "joints", "Joints"), toggle("s", "springs", "Springs"), toggle("v", "arrows", "Forces and moments"),
     { keys: ["/"], name: "Search channels", group: "Page", run: () => {
       app.tabs.open("curves");
       app.curves.tree.focus();

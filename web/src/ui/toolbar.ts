@@ -14,7 +14,7 @@ export interface ToolbarActions {
 
 const SWITCHES: [Switch, string, string][] = [
   ["edges", "Edges of surfaces", "E"], ["grid", "Ground grid", "G"], ["worldAxes", "World axes", "A"], ["bodyAxes", "Body axes", "B"],
-  ["nodes", "Nodes", "N"], ["joints", "Joints", "J"], ["springs", "Springs", "S"], ["arrows", "Forces and moments", "V"],
+  ["nodes", "Nodes", "N"], ["names", "Names of nodes", "M"], ["joints", "Joints", "J"], ["springs", "Springs", "S"], ["arrows", "Forces and moments", "V"],
 ];
 
 export class Toolbar {

@@ -15,6 +15,7 @@ export interface Settings {
   worldAxes: boolean;
   bodyAxes: boolean;
   nodes: boolean;
+  names: boolean;
   joints: boolean;
   springs: boolean;
   arrows: boolean;
@@ -32,6 +33,7 @@ export const INITIAL: Settings = {
   worldAxes: false,
   bodyAxes: false,
   nodes: false,
+  names: false,
   joints: true,
   springs: true,
   arrows: true,

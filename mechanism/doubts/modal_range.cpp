@@ -1,0 +1,150 @@
+// Range of a modal body from its modes, and the axial force from what acts on its nodes.
+#include "mechanism/doubts/modal_range.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+
+#include "common/math/rotation.hpp"
+#include "mechanism/equations/terms.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+/// Largest distance from the line through the ends, over the length, of what counts as one.
+constexpr double straight = 1e-3;
+
+}  // namespace
+
+ModalRange::ModalRange(const Model& model, int body) : body_(body), attached_(model.nodes.size(), false) {
+  for (int k = 0; k < static_cast<int>(model.modal_nodes.size()); ++k)
+    if (model.modal_nodes[k].body == body) nodes_.push_back(k);
+  Vector3d end = Vector3d::Zero();
+  for (const int a : nodes_)
+    for (const int b : nodes_)
+      if (const double span = (model.modal_nodes[b].x - model.modal_nodes[a].x).norm(); a < b && span > span_) {
+        span_ = span;
+        start_ = model.modal_nodes[a].x;
+        end = model.modal_nodes[b].x;
+      }
+  for (const Joint& joint : model.joints)
+    for (const int node : {joint.a.node, joint.b.node})
+      if (node >= 0) attached_[node] = true;
+  if (span_ == 0.0 || model.modal_bodies[body].modes == 0) return;
+  axis_ = (end - start_) / span_;
+  lag_ = std::numbers::pi / std::sqrt(model.modal_bodies[body].stiffness.minCoeff());
+  const auto beside = [&](int k) { return (model.modal_nodes[k].x - start_).cross(axis_).norm() > straight * span_; };
+  if (std::ranges::none_of(nodes_, beside)) set_buckling(model);
+}
+
+void ModalRange::set_buckling(const Model& model) {
+  const auto place = [&](int k) { return (model.modal_nodes[k].x - start_).dot(axis_); };
+  std::ranges::sort(nodes_, {}, place);
+  const Matrix3d across = Matrix3d::Identity() - axis_ * axis_.transpose();
+  const Eigen::Matrix3Xd chord = (model.modal_nodes[nodes_.back()].Xd - model.modal_nodes[nodes_.front()].Xd) / span_;
+  const VectorXd root = model.modal_bodies[body_].stiffness.cwiseSqrt();
+  MatrixXd G = MatrixXd::Zero(root.size(), root.size());
+  for (std::size_t k = 1; k < nodes_.size(); ++k) {
+    const double length = place(nodes_[k]) - place(nodes_[k - 1]);
+    if (!(length > 0.0)) continue;
+    const Eigen::Matrix3Xd slope =
+        across * ((model.modal_nodes[nodes_[k]].Xd - model.modal_nodes[nodes_[k - 1]].Xd) / length - chord);
+    G += length * slope.transpose() * slope;
+  }
+  G = root.cwiseInverse().asDiagonal() * G * root.cwiseInverse().asDiagonal();
+  const double softest = Eigen::SelfAdjointEigenSolver<MatrixXd>(G, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+  if (softest > 0.0) buckling_ = 1.0 / softest;
+}
+
+double ModalRange::deflection(const Model& model, const Evaluation& evaluation) const {
+  double largest = 0.0;
+  for (const int k : nodes_) {
+    const Vector3d moved = model.modal_nodes[k].Xd.lazyProduct(evaluation.modal_bodies[body_].w);
+    largest = std::max(largest, moved.norm());
+  }
+  return largest;
+}
+
+double ModalRange::distance(const Model& model, int node) const {
+  const int modal = node < 0 ? -1 : model.nodes[node].modal;
+  if (modal < 0 || model.modal_nodes[modal].body != body_) return 0.0;
+  return (model.modal_nodes[modal].x - start_).dot(axis_);
+}
+
+double ModalRange::axial_force(const Model& model, const State& state, const Evaluation& evaluation) const {
+  const ModalBody& body = model.modal_bodies[body_];
+  const ModalScratch& now = evaluation.modal_bodies[body_];
+  const Vector3d e = now.A * axis_;
+  double sum = 0.0;  // Σ s e·f of the forces on nodes
+  const auto take = [&](const auto& pair, const auto& residual) {
+    sum -= distance(model, pair.a.node) * e.dot(residual.template head<3>());
+    sum -= distance(model, pair.b.node) * e.dot(residual.template segment<3>(6));
+  };
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Joint& joint = model.joints[i];
+    const Eigen::Matrix<double, 12, 1> force =
+        evaluation.joints[i].B.topRows(joint.size()).transpose() * state.lambda().segment(joint.row, joint.size());
+    take(joint, force);
+  }
+  for (const Coupling& coupling : model.couplings)
+    for (const CouplingTerm& term : coupling.terms)
+      take(model.coordinates[term.coordinate],
+           Eigen::Matrix<double, 12, 1>(state.lambda()[coupling.row] * term.factor *
+                                        evaluation.coordinates[term.coordinate].G.transpose()));
+  for (const Spring& spring : model.springs) {
+    const CoordinateTerms& c = evaluation.coordinates[spring.coordinate];
+    take(model.coordinates[spring.coordinate],
+         Eigen::Matrix<double, 12, 1>(-spring_force(spring, c.value, c.rate, 0.0).Q * c.G.transpose()));
+  }
+  for (std::size_t i = 0; i < model.bushings.size(); ++i) take(model.bushings[i], evaluation.bushings[i].force);
+  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+    const Load& load = model.loads[i];
+    if (const double s = distance(model, load.at.node); s != 0.0)
+      sum += s * e.dot(load_force(load, motion_of(evaluation, load.at.node), evaluation.load_values[i]).head<3>());
+  }
+  // Σ m s e·(a − g) of the undeformed body, a = r̈ + (ω̇~ + ω~ω~) x.
+  const Vector3d turned = skew<double>(now.omd) * body.P0 * axis_ + now.om.cross(now.om.cross(body.P0 * axis_));
+  const double inertia = axis_.dot((body.c0 - body.mass * start_)) * axis_.dot(now.ga) + axis_.dot(turned) -
+                         axis_.dot(start_) * axis_.dot(now.omd.cross(body.c0) + now.om.cross(now.om.cross(body.c0)));
+  return (sum - inertia) / span_;
+}
+
+double ModalRange::first_frequency(const Model& model, double from) const {
+  const ModalBody& body = model.modal_bodies[body_];
+  const int n = 6 + body.modes;
+  std::vector<int> held;
+  for (const int k : nodes_)
+    if (attached_[model.modal_nodes[k].node]) held.push_back(k);
+  const NodeMotion rest;
+  const VectorXd zero = VectorXd::Zero(body.modes);
+  ModalScratch scratch = make_scratch(body);
+  update_kinematics(body, rest, {zero.data(), zero.data(), zero.data()}, Vector3d::Zero(), scratch);
+  tangent(body, {1.0, 0.0, 0.0}, scratch);
+  const int rows = held.size() == 1 ? 6 : 3;
+  MatrixXd G = MatrixXd::Zero(std::max<Eigen::Index>(1, rows * static_cast<Eigen::Index>(held.size())), n);
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    ModalNodeTerms terms = make_terms(model.modal_nodes[held[i]]);
+    NodeMotion motion;
+    update_node(model.modal_nodes[held[i]], scratch, rest, motion, terms);
+    G.middleRows(rows * static_cast<Eigen::Index>(i), rows) = terms.T.topRows(rows);
+  }
+  const MatrixXd free = G.fullPivLu().kernel();
+  VectorXd S = VectorXd::Zero(n);
+  S.tail(body.modes) = body.stiffness;
+  const MatrixXd M = free.transpose() * scratch.tangent * free, K = free.transpose() * S.asDiagonal() * free;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(K, M, Eigen::EigenvaluesOnly);
+  if (eigen.info() != Eigen::Success) return 0.0;
+  for (const double square : eigen.eigenvalues())
+    if (square > 1e-6 * from * from) return std::sqrt(square);
+  return 0.0;
+}
+
+}  // namespace tisserand::mechanism

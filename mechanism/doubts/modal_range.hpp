@@ -1,0 +1,44 @@
+// What a modal body knows of its linear range: its length, buckling load, axial force, deflection, first frequency.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "mechanism/equations/evaluation.hpp"
+
+namespace tisserand::mechanism {
+
+/// Constants of one modal body, and what it measures at an evaluated state. A body whose nodes stand on a line is a
+/// beam: Euler's load N between pins follows from its modes, largest 1/N = max φᵀGφ/φᵀKφ with the work G of a unit
+/// force on the slopes of its nodes against the line through the ends.
+class ModalRange {
+ public:
+  ModalRange(const Model& model, int body);
+
+  double span() const { return span_; }          ///< between the nodes farthest from one another
+  double buckling() const { return buckling_; }  ///< 0: no beam
+  double lag() const { return lag_; }            ///< half the period of the lowest mode
+
+  /// Largest |x − x(w = 0)| of a node, axes of the frame.
+  double deflection(const Model& model, const Evaluation& evaluation) const;
+  /// Its mean over the length, tension positive: forces of joints, couplings, springs (but for what they apply as
+  /// functions of time) and loads, and the inertia and weight between them.
+  double axial_force(const Model& model, const State& state, const Evaluation& evaluation) const;
+  /// Lowest frequency above `from`/1000 with the nodes that something is attached to held: all of the only one, the
+  /// translations of several. 0: there is none. [rad/time]
+  double first_frequency(const Model& model, double from) const;
+
+ private:
+  /// s of a node of this body, its distance along the line; 0 for others.
+  double distance(const Model& model, int node) const;
+  void set_buckling(const Model& model);
+
+  int body_;
+  std::vector<int> nodes_;  ///< of Model::modal_nodes, along the line if it is a beam
+  std::vector<bool> attached_;
+  Eigen::Vector3d axis_ = Eigen::Vector3d::Zero(), start_ = Eigen::Vector3d::Zero();
+  double span_ = 0.0, buckling_ = 0.0, lag_ = 0.0;
+};
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,140 @@
+// Rings and strips of ground.
+#include "mechanism/view/scenery.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mechanism/tyres/road.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using formats::PageRows;
+using formats::SimulatedLink;
+using formats::Surface;
+
+/// Of the radius: half of the width of a ring, its inner radius, the margin of the road, and its spacing.
+constexpr double half_width = 0.3, rim = 0.6, margin = 4.0, spacing = 0.15;
+constexpr int most_along = 4000, most_tracks = 40;
+constexpr int spokes = 40;
+
+Track wheel_of(const ViewedRun& run, const SimulatedLink& tyre) {
+  const formats::SimulatedMarker& wheel = tyre.ends[0];
+  if (wheel.node < 0 || !run.nodes[wheel.node].has_position() || !run.nodes[wheel.node].has_rotation()) return {};
+  return carried(run.nodes[wheel.node], wheel.position, wheel.orientation);
+}
+
+/// A ring about y: outer face, inner face and both sides.
+Surface ring(double radius) {
+  Surface surface;
+  const double r[] = {radius, radius, rim * radius, rim * radius},
+               y[] = {-half_width * radius, half_width * radius, half_width * radius, -half_width * radius};
+  for (int i = 0; i < spokes; ++i)
+    for (int k = 0; k < 4; ++k) {
+      const double angle = 2.0 * std::numbers::pi * i / spokes;
+      surface.vertices.emplace_back(r[k] * std::cos(angle), y[k], r[k] * std::sin(angle));
+    }
+  for (int i = 0; i < spokes; ++i)
+    for (int k = 0; k < 4; ++k) {
+      const int a = 4 * i + k, b = 4 * i + (k + 1) % 4, c = 4 * ((i + 1) % spokes) + k,
+                d = 4 * ((i + 1) % spokes) + (k + 1) % 4;
+      surface.triangles.push_back({a, b, d});
+      surface.triangles.push_back({a, d, c});
+    }
+  return surface;
+}
+
+/// Evenly from first to last, at most so far apart, or so many.
+std::vector<double> stations(double first, double last, double apart, int most) {
+  const int count = std::clamp(static_cast<int>(std::ceil((last - first) / apart)), 1, most);
+  std::vector<double> places;
+  for (int i = 0; i <= count; ++i) places.push_back(first + (last - first) * i / count);
+  return places;
+}
+
+/// The part of the road in a box of its axes.
+Surface strip(const Road& road, const Eigen::AlignedBox2d& box, double radius) {
+  const std::vector<double> along = stations(std::max(box.min().x(), road.begin), std::min(box.max().x(), road.end),
+                                             spacing * radius, most_along),
+                            across = road.transition > 0.0
+                                         ? stations(box.min().y(), box.max().y(), spacing * radius, most_tracks)
+                                         : std::vector<double>{box.min().y(), box.max().y()};
+  Surface surface;
+  const int width = static_cast<int>(across.size());
+  for (std::size_t i = 0; i < along.size(); ++i)
+    for (int k = 0; k < width; ++k) {
+      surface.vertices.emplace_back(along[i], across[k], road.at(along[i], across[k]).value);
+      if (i == 0 || k == 0) continue;
+      const int d = surface.size() - 1, c = d - 1, b = d - width, a = b - 1;
+      surface.triangles.push_back({a, b, d});
+      surface.triangles.push_back({a, d, c});
+    }
+  return surface;
+}
+
+Track at_rest(const Vector3d& position, const Matrix3d& rotation) {
+  Track track{PageRows(1, 3), PageRows(1, 4)};
+  const Quaterniond q(rotation);
+  track.position.row(0) = position.transpose();
+  track.rotation.row(0) << q.w(), q.x(), q.y(), q.z();
+  return track;
+}
+
+}  // namespace
+
+Track contact_of(const ViewedRun& run, const SimulatedLink& tyre) {
+  const auto& names = run.layout().tyres;
+  const auto found = std::ranges::find(names, tyre.name);
+  Track track = wheel_of(run, tyre);
+  const Eigen::MatrixXd contact = run.reader->read_dataset("tyres/contact", run.rows),
+                        normal = run.reader->read_dataset("tyres/normal", run.rows);
+  if (found == names.end() || !track.has_position() || contact.cols() == 0 || normal.cols() == 0) return {};
+  const Index first = 3 * (found - names.begin());
+  for (Index t = 0; t < track.position.rows(); ++t) {
+    const Vector3d n = normal.row(t).segment<3>(first).transpose(), axle = track.turn(t) * Vector3d::UnitY();
+    Vector3d x = axle.cross(n);
+    if (!(x.norm() > 0.0) || !contact.row(t).segment<3>(first).allFinite()) continue;
+    x.normalize();
+    Matrix3d axes;
+    axes << x, n.cross(x), n;
+    const Quaterniond q(axes);
+    track.position.row(t) = contact.row(t).segment<3>(first);
+    track.rotation.row(t) << q.w(), q.x(), q.y(), q.z();
+  }
+  return track;
+}
+
+std::vector<Scenery> scenery_of(const ViewedRun& run) {
+  std::vector<Scenery> scenery;
+  std::vector<Eigen::AlignedBox2d> passed(run.drawn.roads.size());
+  std::vector<double> radius(run.drawn.roads.size(), 0.0);
+  for (const SimulatedLink& link : run.layout().simulated.links) {
+    const auto spec = std::ranges::find(run.drawn.tyres, link.name, &formats::TyreSpec::name);
+    const Track wheel = wheel_of(run, link);
+    if (link.kind != "tyre" || spec == run.drawn.tyres.end() || !wheel.has_position()) continue;
+    if (!(std::isfinite(spec->radius) && spec->radius > 0.0)) continue;
+    scenery.push_back({link.name, "tyre", "#3a3f47", wheel, ring(spec->radius)});
+    const auto road = std::ranges::find(run.drawn.roads, spec->road, &formats::RoadSpec::name);
+    if (road == run.drawn.roads.end()) continue;
+    const auto i = static_cast<std::size_t>(road - run.drawn.roads.begin());
+    const Quaterniond back = road->pose.orientation.normalized().conjugate();
+    radius[i] = std::max(radius[i], spec->radius);
+    for (Index t = 0; t < wheel.position.rows(); ++t)
+      passed[i].extend(Eigen::Vector2d((back * (wheel.position.row(t).transpose() - road->pose.position)).head<2>()));
+  }
+  for (std::size_t i = 0; i < passed.size(); ++i) {
+    if (passed[i].isEmpty()) continue;
+    const Eigen::Vector2d beyond = Eigen::Vector2d::Constant(margin * radius[i]);
+    const Road road(run.drawn.roads[i], Vector3d::Zero());
+    scenery.push_back({road.name, "road", "#8b9099", at_rest(road.p, road.R),
+                       strip(road, {passed[i].min() - beyond, passed[i].max() + beyond}, radius[i])});
+  }
+  return scenery;
+}
+
+}  // namespace tisserand::mechanism
