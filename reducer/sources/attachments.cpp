@@ -94,7 +94,7 @@ void add_masses(MeshBuilder& builder) {
 void add_boundary(MeshBuilder& builder) {
   const formats::Part& part = builder.part;
   if (!part.boundary.empty()) builder.mesh.boundary.clear();
-  if (part.boundary.empty() && builder.mesh.boundary.empty())
+  if (builder.needs_boundary && part.boundary.empty() && builder.mesh.boundary.empty())
     throw Error("the part has no boundary node", part.file,
                 part.mesh.file.empty() ? "name at least one point under `boundary`"
                                        : "name places under `boundary`: tip: {near: [x, y, z]}, or {node: 4711}");

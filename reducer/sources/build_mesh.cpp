@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <functional>
-#include <limits>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "reducer/mesh/mesh_file.hpp"
 #include "reducer/sources/mesh_builder.hpp"
 
 namespace tisserand::reducer {
@@ -71,21 +72,18 @@ void finish(MeshBuilder& builder) {
 namespace {
 
 FacePlace place_of(const CellMesh& cells, const Entity& face) {
-  const auto first = cells.cells[2].begin() + static_cast<std::ptrdiff_t>(face.first),
-             last = first + static_cast<std::ptrdiff_t>(face.count);
+  const std::span<const Cell> own(cells.cells[2].data() + face.first, face.count);
+  const auto middle = [&](const Cell& cell) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    const int corners = form_of(cell.shape).corners;
+    for (int k = 0; k < corners; ++k) sum += cells.position[cell.nodes[k]];
+    return Eigen::Vector3d(sum / corners);
+  };
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  double count = 0.0;
-  for (auto cell = first; cell != last; ++cell)
-    for (int k = 0; k < form_of(cell->shape).corners; ++k, count += 1.0) mean += cells.position[cell->nodes[k]];
-  mean /= std::max(count, 1.0);
-  FacePlace place{name_of(face), mean};
-  double nearest = std::numeric_limits<double>::infinity();
-  for (auto cell = first; cell != last; ++cell)
-    for (int k = 0; k < form_of(cell->shape).corners; ++k) {
-      const Eigen::Vector3d& x = cells.position[cell->nodes[k]];
-      if (const double away = (x - mean).norm(); away < nearest) nearest = away, place.position = x;
-    }
-  return place;
+  for (const Cell& cell : own) mean += middle(cell) / static_cast<double>(face.count);
+  const Cell& nearest =
+      *std::ranges::min_element(own, {}, [&](const Cell& cell) { return (middle(cell) - mean).norm(); });
+  return {name_of(face), middle(nearest)};
 }
 
 std::vector<FacePlace> face_places(const CellMesh& cells, std::size_t most) {
@@ -97,6 +95,26 @@ std::vector<FacePlace> face_places(const CellMesh& cells, std::size_t most) {
   std::vector<FacePlace> places;
   for (const Entity* face : faces) places.push_back(place_of(cells, *face));
   return places;
+}
+
+/// A geometry or mesh file of which nothing is said: its faces as shells of any kind, to be looked at.
+formats::Part with_skin(formats::Part part) {
+  if (part.mesh.file.empty() || !part.shells.empty() || !part.solids.empty() || !part.beams.empty() ||
+      !part.patches.empty())
+    return part;
+  const MeshFileKind kind = mesh_file_kind(part.mesh.file, part.mesh.where);
+  if (kind == MeshFileKind::nastran || kind == MeshFileKind::abaqus) return part;
+  formats::Material material = formats::unit_material(part.file);
+  material.name = "any";
+  part.materials.push_back(material);
+  formats::ShellGroup faces;
+  faces.name = "faces";
+  faces.on = {"all"};
+  faces.layout.thickness = 1.0;
+  faces.layout.material = material.name;
+  faces.where = part.file;
+  part.shells.push_back(faces);
+  return part;
 }
 
 /// All but the last step.
@@ -127,7 +145,9 @@ Mesh build_mesh(const formats::Part& part) {
 }
 
 Mesh build_mesh(const formats::Part& part, std::size_t most, std::vector<FacePlace>& faces) {
-  MeshBuilder builder(part);
+  const formats::Part seen = with_skin(part);
+  MeshBuilder builder(seen);
+  builder.needs_boundary = false;
   build(builder);
   faces = face_places(builder.cells, most);
   finish(builder);

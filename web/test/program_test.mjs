@@ -172,6 +172,25 @@ integrator: {step: 0.002, end: 0.3}
     await quiet(page);
   });
 
+  await suite.test("a geometry with the numbers of its faces", async () => {
+    call("reducer", "view", join(source, "meshes/bracket.step"), "-o", "bracket.html");
+    const page = await browser.page();
+    await page.open(file("bracket.html"));
+    assert.equal(await page.evaluate("tisserand.failure"), null);
+    const shown = () => page.evaluate("[...document.querySelectorAll('.labels span')].filter((label) => !label.hidden).map((label) => label.textContent).sort()");
+    await page.until("document.querySelectorAll('.labels span').length > 0");
+    // A block with a hole has seven faces; of the outer ones three are seen from any side, and the opposite three from there.
+    const seen = [];
+    for (const key of ["1", "2", "3", "4", "5", "6", "7"]) {
+      await page.key(key);
+      await page.evaluate("new Promise((done) => setTimeout(() => requestAnimationFrame(done), 300))");
+      seen.push(await shown());
+      assert.ok(seen.at(-1).length < 7, seen.at(-1).join());
+    }
+    assert.deepEqual([...new Set(seen.flat())].sort(), [1, 2, 3, 4, 5, 6, 7].map((face) => `face ${face}`));
+    await quiet(page);
+  });
+
   await suite.test("modes of a plate with its mesh", async () => {
     reduce("stiffened_plate/plate.part.yaml", "plate");
     const page = await open(join(source, "examples/stiffened_plate/plate.scene.yaml"), "plate", "--set", `bodies.plate.file=${file("plate.superelement.h5")}`);

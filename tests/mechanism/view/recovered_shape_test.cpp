@@ -213,6 +213,25 @@ TEST_F(RecoveredShape, HoldsStressWhereItIsAskedFor) {
   EXPECT_LT(error, 1.1e-3 * largest);
 }
 
+// A rigid body that looks like the part of 2 m, in a scene in mm, half as large and at its place.
+TEST_F(RecoveredShape, IsTheSurfaceOfARigidBody) {
+  std::ofstream(folder_.file("block.yaml")) << R"(scene: block
+units: {length: mm, mass: kg, time: s}
+bodies:
+  block: {type: rigid, mass: 1, inertia: [1, 1, 1], pose: {position: [10, 0, 0]},
+          shape: {type: mesh, file: beam.recovery.h5, scale: 0.5, position: [0, 0, 5]}}
+integrator: {step: 0.1, end: 0.1}
+)";
+  const std::string results = folder_.file("block.results.h5");
+  simulate(formats::read_scene(folder_.file("block.yaml"), {}), results, {});
+  ViewRequest request;
+  request.shown.files = {results};
+  const PageReader read(page_of(request));
+  const Eigen::Matrix3Xd vertices = read.vertices(read.run(), read.run()["bodies"][0], 0);
+  ASSERT_EQ(vertices.cols(), 12);
+  EXPECT_LT((vertices.col(2) - Vector3d(10 + 1000, 500, 5)).norm(), 0.05);  // node 2 is at (2, 1, 0) m
+}
+
 TEST_F(RecoveredShape, IsRigidWhereTheBodyIs) {
   ViewRequest request;
   request.shown.files = {run("use: rigid,", metres, 1.0)};
