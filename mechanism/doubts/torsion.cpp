@@ -22,8 +22,8 @@ using formats::InertiaOption;
 
 /// A tenth of a stiffness, as for axial forces (EN 1993-1-1, 5.2.1 (3)).
 constexpr double most_moment = 0.1;
-/// Spins that are measured anew: moments grow with their square.
-constexpr double growth = 1.1;
+/// Of spins that are measured anew; between them the moments grow with the square of the spin.
+constexpr double growth = 1.5;
 /// Instants of a run at most.
 constexpr double most_measured = 200.0;
 /// Of the central differences [rad].
@@ -105,10 +105,12 @@ void Torsion::observe(const Model& model, const State& state, const Evaluation& 
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     if (judged_[model.superelements[i].body].options.empty()) continue;
     const double spin = evaluation.superelements[i].motion.Omega0.norm();
-    if (!(spin > growth * seen_[i].spin)) continue;
-    measure(model, state, evaluation, i);
+    if (!(spin > seen_[i].spin)) continue;
     seen_[i].spin = spin;
     seen_[i].time = state.time();
+    if (!(spin > growth * seen_[i].measured)) continue;
+    measure(model, state, evaluation, i);
+    seen_[i].measured = spin;
   }
 }
 
@@ -129,12 +131,13 @@ double Torsion::ratio(const Model& model, int beam) const {
   MatrixXd stiffness = MatrixXd::Zero(n, n), moment = stiffness;
   pieces([&](std::size_t i, const SuperelementBody& body) {
     const Axis& axis = *judged_[model.superelements[i].body].axis;
+    const double grown = std::pow(seen_[i].spin / seen_[i].measured, 2);
     for (std::size_t a = 0; a < body.rotation_nodes.size(); ++a)
       for (std::size_t b = 0; b < body.rotation_nodes.size(); ++b) {
         const int p = row_of(i, body.rotation_nodes[a]), q = row_of(i, body.rotation_nodes[b]);
         if (p < 0 || q < 0) continue;
         stiffness(p, q) += along(body.S_BB, body.node[body.rotation_nodes[a]], body.node[body.rotation_nodes[b]], axis);
-        moment(p, q) += 0.5 * (seen_[i].moment(a, b) + seen_[i].moment(b, a));
+        moment(p, q) += 0.5 * grown * (seen_[i].moment(a, b) + seen_[i].moment(b, a));
       }
   });
   // Free to turn as a whole: its axial spin is another doubt.

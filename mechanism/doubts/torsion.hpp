@@ -14,7 +14,7 @@ namespace tisserand::mechanism {
 /// With B and M the momentum p of a node's turning holds that of the bending shapes, up to m L v/12 in a piece that
 /// moves with v, and the moments Ω x p turn with the node: a twist θ feels ~ m L v Ω θ/12 of its own axis, positive at
 /// one end of a piece and negative at the other. No beam feels it, A does not. Measured is ∂(r − r_A)/∂θ of the nodes
-/// at the motion of the fastest spin; seen, the largest eigenvalue of these moments of all pieces welded in a row
+/// while spins grow, scaled to the fastest; seen, the largest eigenvalue of these moments of all pieces welded in a row
 /// against their torsional stiffness. Above one they turn over.
 class Torsion {
  public:
@@ -37,8 +37,9 @@ class Torsion {
     std::vector<Option> options;  ///< its own, then A
   };
   struct Seen {
-    double spin = 0.0, time = 0.0;
-    Eigen::MatrixXd moment;  ///< ∂(r − r_A)/∂θ, in the order of the body's rotation nodes
+    double spin = 0.0, time = 0.0;  ///< the fastest
+    double measured = 0.0;          ///< spin at which the moments are
+    Eigen::MatrixXd moment;         ///< ∂(r − r_A)/∂θ, in the order of the body's rotation nodes
   };
   void measure(const Model& model, const State& state, const Evaluation& evaluation, std::size_t use);
   double ratio(const Model& model, int beam) const;
