@@ -55,6 +55,8 @@ constexpr int most_runs = 8;
 constexpr double instants = 500.0;  ///< stored ones, where the scene names none
 /// Of the error, that modes which are left out may make.
 constexpr double modes_part = 0.1;
+/// Of the error, that modes which the files do not hold may make before there is a doubt.
+constexpr double most_missing = 0.5;
 /// What twice the modes leave of their error: frequencies rise at least in proportion to their number, what a mode
 /// follows quasi-statically errs with the inverse square of its own.
 constexpr double modes_fall = 0.25;
@@ -152,12 +154,16 @@ class Search {
  private:
   void use(formats::Method method);
   /// At the first tolerance; another method, where the chosen one cannot. Nothing is stored, unless it fails.
-  RunEnd begin();
+  RunEnd begin(const Modes& modes);
   double first_tolerance() const;
-  RunEnd take(double tolerance, const Modes& modes, const std::string& path);
+  RunEnd take(double tolerance, const Modes& modes, const std::string& path, Recorder& recorder);
   formats::Scene scene_with(double tolerance, const Modes& modes) const;
   Modes halved() const;
   void leave_out_modes(double tolerance);
+  /// Of what the tolerance leaves, from the run before; returns what modes that are missing may change.
+  double estimate(double fall, long steps);
+  /// The run before with all of its modes, where it had half of them and differs by too much.
+  void separate(double tolerance);
   void judge(RunReport& report, double before, double tolerance, bool last);
   double next_after(double tolerance) const;
   /// Of a run with tolerance `next` after one with `tolerance` that has taken `taken` [s].
@@ -177,7 +183,8 @@ class Search {
   long most_steps_ = 0;            ///< of the present run; 0: any number
   std::vector<std::string> cost_;  ///< of each run: tolerance and seconds
   Series previous_;                ///< of the run before
-  Series half_;                    ///< at the second tolerance, with half of the modes
+  Series half_;                    ///< at the first tolerance, with half of the modes
+  bool mixed_ = false;             ///< the run before has half of the modes, and its tolerance
   Modes modes_;                    ///< that are left; empty: all
   double half_changes_ = 0.0;      ///< what the upper half of all modes adds
   double left_out_ = 0.0;          ///< what modes that are left out would change
@@ -207,10 +214,10 @@ formats::Scene Search::scene_with(double tolerance, const Modes& modes) const {
   return scene;
 }
 
-RunEnd Search::take(double tolerance, const Modes& modes, const std::string& path) {
+RunEnd Search::take(double tolerance, const Modes& modes, const std::string& path, Recorder& recorder) {
   const formats::Scene scene = scene_with(tolerance, modes);
   RunRequest request{scene, request_.files, request_.begin, path, "", std::nullopt};
-  request.listener = &recorder_;
+  request.listener = &recorder;
   RunControl control = control_;
   long steps = 0;
   if (most_steps_ > 0) {
@@ -251,7 +258,7 @@ void Search::leave_out_modes(double tolerance) {
   left_out_ = half_changes_;
   modes_ = halved();
   for (Modes half = halved(); !half.empty(); half = halved()) {
-    if (take(tolerance, half, "").report.outcome != RunOutcome::completed) return;
+    if (take(tolerance, half, "", recorder_).report.outcome != RunOutcome::completed) return;
     const double change = error_of(recorder_.history, previous_, quantity_);
     if (change > modes_part * accuracy_.error) return;
     left_out_ = change;
@@ -261,28 +268,55 @@ void Search::leave_out_modes(double tolerance) {
 
 std::string Search::told_of_modes() const {
   if (half_.x.empty()) return {};
+  if (mixed_)
+    return "; half of the modes and the tolerance before together change it by " + fmt::format("{:.2g}", change_);
   if (modes_.empty()) return fmt::format("; the upper half of the modes changes it by {:.2g}", half_changes_);
   std::vector<std::string> counts;
   for (const auto& [name, count] : modes_) counts.push_back(fmt::format("{} of '{}'", count, name));
   return fmt::format("; modes: {}, the others change it by {:.1g}", listed(counts), left_out_);
 }
 
-void Search::judge(RunReport& report, double before, double tolerance, bool last) {
-  if (modes_.empty() && !half_.x.empty() && half_changes_ == 0.0)
-    half_changes_ = error_of(half_, recorder_.history, quantity_);
-  const double missing = modes_.empty() ? modes_fall * half_changes_ : left_out_;
+double Search::estimate(double fall, long steps) {
   const double change = error_of(previous_, recorder_.history, quantity_);
+  const double missing = mixed_ ? modes_fall * change : modes_.empty() ? modes_fall * half_changes_ : left_out_;
   if (change_ > 0.0 && change > 0.0)
     order_ = std::min(order_, std::max(least_order, trusted_part * std::log(change_ / change) / std::log(fall_)));
-  const double fall = before / tolerance, more = static_cast<double>(report.steps) / std::max(1L, steps_);
+  const double more = static_cast<double>(steps) / static_cast<double>(std::max(1L, steps_));
   estimate_ = std::max(change * std::pow(fall, -order_), change_ * std::pow(fall * fall_, -order_));
   estimate_ = std::max(estimate_, change * std::pow(more, -rates_.steps_order * order_));
   // Instants of output or the longest step, not the tolerance, chose the steps: the same ones differ by nothing.
   if (more < rates_.fewest_more) estimate_ = std::numeric_limits<double>::infinity();
   change_ = change;
+  // What files do not hold is no matter of the tolerance; a doubt will say so.
+  room_ = missing > most_missing * accuracy_.error ? accuracy_.error : accuracy_.error - missing;
+  return missing;
+}
+
+void Search::separate(double tolerance) {
+  mixed_ = false;
+  change_ = 0.0;
+  const double began = began_;
+  Recorder whole(accuracy_.of, request_.scene.file);
+  const RunEnd end = take(tolerance, {}, "", whole);
+  began_ = began + now() - began_;
+  if (end.report.outcome != RunOutcome::completed) {
+    half_ = {};
+    return;
+  }
+  half_changes_ = error_of(half_, whole.history, quantity_);
+  previous_ = std::move(whole.history);
+  steps_ = end.report.steps;
+}
+
+void Search::judge(RunReport& report, double before, double tolerance, bool last) {
+  const double fall = before / tolerance;
+  double missing = estimate(fall, report.steps);
+  if (mixed_ && (estimate_ > room_ || missing > most_missing * accuracy_.error)) {
+    separate(before);
+    missing = estimate(fall, report.steps);
+  }
   fall_ = fall;
   steps_ = report.steps;
-  room_ = accuracy_.error - std::min(missing, 0.5 * accuracy_.error);
   const double next = next_after(tolerance), needed = foretold(now() - began_, tolerance, next);
   too_long_ = estimate_ > room_ && needed > std::max(longest_run, longest_of_first * first_took_);
   report.notes.push_back(
@@ -291,7 +325,7 @@ void Search::judge(RunReport& report, double before, double tolerance, bool last
                   accuracy_.of, told_of_error(estimate_ + missing), accuracy_.error, tolerance, told_of_method(),
                   told_of_modes(), join(cost_, ", ")));
   if (!last && !too_long_ && estimate_ > room_) return;
-  if (modes_.empty() && missing > 0.5 * accuracy_.error)
+  if (modes_.empty() && missing > most_missing * accuracy_.error)
     report.doubts.push_back(
         fmt::format("'{}' may miss modes that the superelement files do not hold: the upper half of "
                     "those that they hold changes it by {:.2g}; raise 'modes' in the part",
@@ -338,13 +372,13 @@ double Search::first_tolerance() const {
   return std::clamp(rates_.first * accuracy_.error, rates_.second_part * least_tolerance, most_tolerance);
 }
 
-RunEnd Search::begin() {
+RunEnd Search::begin(const Modes& modes) {
   const bool replaceable =
       request_.scene.integrator.method == formats::Method::automatic && method_ == formats::Method::radau;
   most_steps_ = replaceable ? most_first_steps : 0;
   std::optional<RunEnd> end;
   try {
-    end = take(first_tolerance(), modes_, "");
+    end = take(first_tolerance(), modes, "", recorder_);
   } catch (const Error&) {
     if (!replaceable) throw;
   }
@@ -353,27 +387,28 @@ RunEnd Search::begin() {
                             (end->report.outcome == RunOutcome::interrupted && end->report.steps <= most_first_steps));
   if (replaceable && !fits) {
     use(formats::Method::generalised_alpha);
-    end = take(first_tolerance(), modes_, "");
+    end = take(first_tolerance(), modes, "", recorder_);
   }
   first_took_ = now() - began_;
-  if (end->report.outcome != RunOutcome::completed) end = take(first_tolerance(), modes_, request_.path);
+  if (end->report.outcome != RunOutcome::completed) end = take(first_tolerance(), {}, request_.path, recorder_);
   return std::move(*end);
 }
 
 RunEnd Search::run() {
-  RunEnd end = begin();
+  const Modes half = halved();
+  RunEnd end = begin(half);
   if (end.report.outcome != RunOutcome::completed) return end;
   double tolerance = first_tolerance();
   previous_ = recorder_.history;
+  mixed_ = !half.empty();
+  if (mixed_) half_ = previous_;
   steps_ = end.report.steps;
   double next = tolerance / rates_.second_part;
-  if (const Modes half = halved(); !half.empty())
-    if (take(next, half, "").report.outcome == RunOutcome::completed) half_ = recorder_.history;
   for (int run = 2;; ++run) {
     const double before = std::exchange(tolerance, next);
     const bool last = run == most_runs || tolerance <= least_tolerance;
     recorder_.judge = [&](RunReport& report) { judge(report, before, tolerance, last); };
-    end = take(tolerance, modes_, request_.path);
+    end = take(tolerance, modes_, request_.path, recorder_);
     recorder_.judge = nullptr;
     if (end.report.outcome != RunOutcome::completed || last || too_long_ || estimate_ <= room_) return end;
     previous_ = recorder_.history;

@@ -6,10 +6,11 @@
 namespace tisserand::mechanism {
 
 /// Runs the analysis with falling tolerances until the error of the chosen channel, estimated from what the last of
-/// them changed, is at most the one asked for; the results are those of the last run. Where the channel does not feel
-/// the upper half of the modes of all superelements that name none, the runs go on without them, and half of what is
-/// left. Notes of the report tell tolerance, estimate and modes with what the runs cost; a doubt, where the error
-/// cannot be reached, or not by a run of ten minutes or of 20 times the first one, or files hold too few modes.
+/// them changed, is at most the one asked for; the results are those of the last run. The first run has half of the
+/// modes of all superelements that name none; where it differs by too much there is one with all of them. Where the
+/// channel does not feel the upper half the runs go on without them, and half of what is left. Notes of the report tell
+/// tolerance, estimate and modes with what the runs cost; a doubt, where the error cannot be reached, or not by a run of
+/// ten minutes or of 20 times the first one, or files hold too few modes.
 ///
 /// E_n = max(d_n (τ_n/τ_{n-1})^p, d_{n-1} (τ_n/τ_{n-2})^p, d_n (N_{n-1}/N_n)^{s p}) from the differences d of runs with
 /// tolerances τ and N steps. The order p is 0.7, of radau 0.5, or 0.9 of what was seen where that is less; s is 2, of

@@ -2,6 +2,8 @@
 #include "mechanism/study/accuracy.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -88,6 +90,17 @@ TEST(Accuracy, LeavesOutModesThatNothingFeels) {
   EXPECT_THAT(swing.report.doubts, IsEmpty());
 }
 
+// The first run with half of the modes differs by little from the second with all: no third one tells both apart.
+TEST(Accuracy, AsksForModesAndToleranceAtOnce) {
+  BodyFiles files;
+  formats::Scene scene = with(cantilever(18, files), 0.1, "nodes/position/beam/tip/z");
+  scene.integrator.method = formats::Method::automatic;
+  const Reached swing = reach(scene, files);
+  EXPECT_LE(swing.error, 0.1);
+  EXPECT_THAT(::testing::PrintToString(swing.report.notes),
+              HasSubstr("half of the modes and the tolerance before together change it by"));
+}
+
 // Steps that end on instants of output are the same with every coarse tolerance, and differ by nothing.
 TEST(Accuracy, IsNotTakenFromRunsOfTheSameSteps) {
   formats::Scene scene = with(test_support::pendulum_scene(0.01, 1.0), 1e-2, "joints/coordinate/hinge");
@@ -136,7 +149,8 @@ TEST(Accuracy, BeginsNoRunThatWouldTakeTooLong) {
                     HasSubstr("the next run would take some"), HasSubstr("or take method: radau"),
                     HasSubstr("error_control: {tolerance: ")));
   const std::vector<std::string> channel{scene.integrator.accuracy->of};
-  EXPECT_EQ(read_quantities(path, channel).front().x.size(), 21u);  // the best result so far
+  EXPECT_EQ(read_quantities(path, channel).front().x.size(), 21u);                      // the best result so far
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);  // nothing of the runs before
 }
 
 // The end of a beam is stored under one name and found by both.
