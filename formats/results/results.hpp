@@ -111,7 +111,8 @@ void require_unheld_results(const std::string& path);
 /// ignore.
 class ResultsWriter {
  public:
-  /// Throws Error: cannot be written, held by a running program.
+  /// Throws Error: cannot be written, held by a running program. Without a path rows are counted and nothing is
+  /// written.
   ResultsWriter(const std::string& path, const ResultsLayout& layout);
   /// Begins with a copy of older rows (of no file: none), which their checksums vouch for. The older file stays as it
   /// is until finish() puts the whole one in its place, if it has the same name; a killed one (.part) takes its final

@@ -369,6 +369,7 @@ ResultsWriter::ResultsWriter(const std::string& path, const ResultsLayout& layou
   impl_->path = path;
   impl_->part = path + ".part";
   impl_->layout = layout;
+  if (path.empty()) return;
   ResultsBeginning old = beginning;
   if (old.file == impl_->part) {
     HeldFile::require_unheld(impl_->part, path);
@@ -390,6 +391,10 @@ ResultsWriter::~ResultsWriter() {
 
 void ResultsWriter::append(const ResultsRow& row) {
   TISSERAND_ENSURE(!impl_->finished, "append() after finish() of {}", impl_->path);
+  if (impl_->path.empty()) {
+    ++impl_->written;
+    return;
+  }
   if (impl_->broken) throw Error("an earlier write has failed", impl_->part, "choose another place for the results");
   if (impl_->waiting == impl_->capacity) impl_->flush();
   for (Impl::Column& column : impl_->columns) {
@@ -402,6 +407,7 @@ void ResultsWriter::append(const ResultsRow& row) {
 }
 
 void ResultsWriter::flush() {
+  if (impl_->path.empty()) return;
   if (impl_->broken) throw Error("an earlier write has failed", impl_->part, "choose another place for the results");
   impl_->flush();
   impl_->held.synchronise();
@@ -415,6 +421,7 @@ void ResultsWriter::set_modes(ModesTable modes) { impl_->modes = std::move(modes
 void ResultsWriter::finish(bool completed, const std::string& reason, const std::string& report_json) {
   TISSERAND_ENSURE(!impl_->finished, "finish() twice of {}", impl_->path);
   impl_->finished = true;
+  if (impl_->path.empty()) return;
   std::string problem = impl_->shortage;
   try {
     if (!impl_->broken) impl_->flush();

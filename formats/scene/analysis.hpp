@@ -18,7 +18,8 @@ std::string analysis_word(AnalysisKind kind);
 /// Whether it goes through time in the steps of the integrator.
 bool takes_steps(AnalysisKind kind);
 
-enum class Method { generalised_alpha, hht, bdf, radau };
+/// `automatic`: with `accuracy` only, which chooses (mechanism/study/accuracy.hpp).
+enum class Method { generalised_alpha, hht, bdf, radau, automatic };
 enum class Formulation { index3, stabilised_index2 };
 enum class LinearSolver { automatic, klu, umfpack, dense, qr };
 

@@ -12,7 +12,8 @@ namespace {
 constexpr Choice<Method> methods[] = {{"generalised_alpha", Method::generalised_alpha},
                                       {"hht", Method::hht},
                                       {"bdf", Method::bdf},
-                                      {"radau", Method::radau}};
+                                      {"radau", Method::radau},
+                                      {"auto", Method::automatic}};
 constexpr Choice<Formulation> formulations[] = {{"index3", Formulation::index3},
                                                 {"stabilised_index2", Formulation::stabilised_index2}};
 constexpr Choice<LinearSolver> linear_solvers[] = {{"auto", LinearSolver::automatic},
@@ -71,6 +72,16 @@ std::optional<AccuracySpec> read_accuracy(const MapReader& map, AnalysisKind ana
   return spec;
 }
 
+/// Open with `accuracy`, where neither the method nor numbers of generalised_alpha are named.
+Method read_method(const MapReader& map, const IntegratorSpec& spec, AnalysisKind analysis) {
+  if (spec.method == Method::automatic && !spec.accuracy && analysis == AnalysisKind::dynamics)
+    map.context().fail(map.find("method")->place, "method: auto needs an accuracy to choose by",
+                       "add accuracy: {error: .., of: <channel>}, or name the method");
+  for (const char* key : {"method", "rho", "formulation"})
+    if (map.has(key)) return spec.method;
+  return spec.accuracy && spec.linear_solver != LinearSolver::qr ? Method::automatic : spec.method;
+}
+
 BdfSpec read_bdf(const MapReader& map) {
   BdfSpec spec;
   read_fields(map, spec);
@@ -113,6 +124,7 @@ IntegratorSpec read_integrator(const MapReader& map, AnalysisKind analysis) {
   }
   spec.bdf = read_bdf(map);
   spec.accuracy = read_accuracy(map, analysis);
+  spec.method = read_method(map, spec, analysis);
   spec.error_control.active = spec.error_control.active || (spec.accuracy && spec.method != Method::bdf);
   spec.step = read_step(map, spec, analysis);
   return spec;
@@ -131,7 +143,8 @@ std::vector<KeySet> integrator_key_sets() {
        {"baumgarte", "baumgarte", "`{alpha: 5, beta: 5}` [1/time]: Φ̈ + 2 α Φ̇ + β² Φ = 0", "5, 5"}});
   return {
       {"integrator",
-       {choice<&IntegratorSpec::method, methods>("method", "`generalised_alpha`, `hht`, `bdf` or `radau` (below)"),
+       {choice<&IntegratorSpec::method, methods>("method", "`generalised_alpha`, `hht`, `bdf` or `radau` (below); `auto`, with `accuracy`",
+                                      "`generalised_alpha`; with `accuracy` `auto`, unless `rho` or `formulation` is given"),
         plain<&IntegratorSpec::rho>("rho", "number>=0<=1",
                                     "spectral radius at infinity of generalised_alpha, 0 to 1; an error with hht"),
         plain<&IntegratorSpec::alpha>("alpha", "number>=0<=0.3333333333333333",

@@ -13,6 +13,7 @@ AlphaParameters alpha_parameters(const formats::IntegratorSpec& spec) {
   switch (spec.method) {
     case formats::Method::bdf:  // their start is that of generalised alpha
     case formats::Method::radau:
+    case formats::Method::automatic:
     case formats::Method::generalised_alpha:
       p.alpha_m = (2.0 * spec.rho - 1.0) / (spec.rho + 1.0);
       p.alpha_f = spec.rho / (spec.rho + 1.0);

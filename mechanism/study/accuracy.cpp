@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
@@ -24,21 +23,40 @@ namespace {
 
 using formats::AccuracySpec;
 
-constexpr double first_tolerance = 10.0;              ///< over the error asked for
-constexpr double second_part = 8.0;                   ///< of the first tolerance
-constexpr double aim = 0.4;                           ///< part of the error that a further tolerance aims at
-constexpr double least_part = 1e-3, most_part = 0.5;  ///< of the tolerance before
-/// Order of the error in the tolerance, E ~ τ^p, that is relied on at most and at least, and the part of a measured
-/// one: p is one where the whole time shares the tolerance; steps of radau are measured by an estimate of lower order.
-constexpr double usual_order = 0.7, radau_order = 0.5, least_order = 0.3, trusted_part = 0.9;
-/// Errors fall with the steps to twice the power with which they fall with the tolerance, or faster; runs whose steps
-/// are not this much more say nothing.
-constexpr double steps_order = 2.0, fewest_more = 1.3;
+/// How errors and work of a method follow its tolerance.
+struct Rates {
+  double first;        ///< tolerance of the first run over the error asked for
+  double second_part;  ///< of the first tolerance
+  double order;        ///< of the error in the tolerance, E ~ τ^p, that is relied on at most
+  double steps_order;  ///< of the error in the steps
+  double fewest_more;  ///< steps of a run over those of the one before, below which their difference says nothing
+  double work;         ///< steps ~ τ^-work
+};
+/// Errors of generalised alpha that share out the tolerance over the time have p = 1. Its steps end on instants of
+/// output: runs whose steps those chose differ by nothing.
+constexpr Rates shared{10.0, 8.0, 0.7, 2.0, 1.3, 0.5};
+/// A tenth of radau's tolerance costs 1.5 times the steps. Its errors fall less evenly, since an estimate of lower
+/// order measures the steps; on smooth motion errors of 10 to 100 times the tolerance add up.
+constexpr Rates of_radau{0.03, 10.0, 0.5, 5.0, 1.05, 0.2};
+
+/// Of radau, over the error asked for, where a rate is asked for of what may vibrate. Error control sees vibrations by
+/// their displacements: smaller ones are damped and missing in every run alike, where they may be most of a velocity. A
+/// vibration 10⁵ times faster than the motion has 10⁻⁵ of the displacement.
+constexpr double first_of_rates = 1e-6, second_of_rates = 30.0;
+/// Steps of the first run of a method that was not asked for, beyond which another is taken.
+constexpr long most_first_steps = 50000;
+constexpr double aim = 0.4;                              ///< part of the error that a further tolerance aims at
+constexpr double least_part = 1e-3, most_part = 0.5;     ///< of the tolerance before
+constexpr double least_order = 0.3, trusted_part = 0.9;  ///< of measured orders
+/// No further run is begun that is foretold to take longer than this [s] and than so many of the first run.
+constexpr double longest_run = 600.0, longest_of_first = 20.0;
 constexpr double least_tolerance = 1e-12, most_tolerance = 0.05;
 constexpr int most_runs = 8;
 constexpr double instants = 500.0;  ///< stored ones, where the scene names none
 /// Of the error, that modes which are left out may make.
 constexpr double modes_part = 0.1;
+/// Of the error, that modes which the files do not hold may make before there is a doubt.
+constexpr double most_missing = 0.5;
 /// What twice the modes leave of their error: frequencies rise at least in proportion to their number, what a mode
 /// follows quasi-statically errs with the inverse square of its own.
 constexpr double modes_fall = 0.25;
@@ -69,15 +87,26 @@ class Recorder : public RunListener {
   std::size_t column_ = 0;
 };
 
+/// "nodes/position/rod/end/x" -> "nodes/position/rod/8/x": a node that has two names is stored once.
+std::string without_alias(std::string channel, const formats::ResultsLayout& layout) {
+  for (const auto& [name, node] : layout.node_aliases) {
+    const std::size_t at = channel.find("/" + name + "/");
+    if (at == std::string::npos || !channel.starts_with("nodes/")) continue;
+    return channel.replace(at + 1, name.size(), layout.nodes[static_cast<std::size_t>(node)]);
+  }
+  return channel;
+}
+
 void Recorder::begin(const formats::ResultsLayout& layout) {
   history = {};
   history.source = where_;
   history.channel = channel_;
+  const std::string channel = without_alias(channel_, layout);
   std::vector<std::string> names;
   for (const formats::Block& block : formats::all_blocks(layout))
     for (std::size_t i = 0; i < block.width(); ++i) {
       names.push_back(block.dataset.substr(1) + (block.columns[i].empty() ? "" : "/" + block.columns[i]));
-      if (names.back() != channel_) continue;
+      if (names.back() != channel) continue;
       values_ = block.values;
       column_ = i;
       return;
@@ -86,15 +115,25 @@ void Recorder::begin(const formats::ResultsLayout& layout) {
               fmt::format("the nearest are {}", listed(nearest_names(channel_, names))));
 }
 
-/// A results file that nobody keeps.
-struct Passing {
-  std::string path;
-  explicit Passing(std::string place) : path(std::move(place)) {}
-  ~Passing() {
-    std::error_code ignored;
-    std::filesystem::remove(path, ignored);
-  }
-};
+/// Whether something in the scene may vibrate much faster than it moves.
+bool may_vibrate(const formats::Scene& scene) {
+  const auto bends = [](const formats::BodySpec& body) {
+    return !std::holds_alternative<formats::RigidBodySpec>(body);
+  };
+  return !scene.springs.empty() || !scene.bushings.empty() || std::ranges::any_of(scene.bodies, bends);
+}
+
+bool is_place(const std::string& channel) {
+  return channel.starts_with("nodes/position/") || channel.starts_with("nodes/rotation/") ||
+         channel.starts_with("joints/coordinate/");
+}
+
+/// The method where the scene leaves it open: radau, but for friction, whose changes it does not end steps at.
+formats::Method chosen_method(const formats::Scene& scene) {
+  const bool rubs = std::ranges::any_of(scene.joints, [](const auto& joint) { return joint.friction.has_value(); });
+  return rubs || scene.integrator.linear_solver == formats::LinearSolver::qr ? formats::Method::generalised_alpha
+                                                                             : formats::Method::radau;
+}
 
 class Search {
  public:
@@ -102,51 +141,72 @@ class Search {
       : request_(request),
         control_(control),
         accuracy_(*request.scene.integrator.accuracy),
-        recorder_(accuracy_.of, request.scene.file),
-        passing_(request.path + ".modes") {
+        recorder_(accuracy_.of, request.scene.file) {
     quantity_.name = "accuracy";
     quantity_.norm = accuracy_.norm;
     quantity_.scale = accuracy_.scale;
-    order_ = request.scene.integrator.method == formats::Method::radau ? radau_order : usual_order;
+    const formats::Method method = request.scene.integrator.method;
+    use(method == formats::Method::automatic ? chosen_method(request.scene) : method);
   }
 
   RunEnd run();
 
  private:
-  RunEnd take(double tolerance, const Modes& modes, const std::string& path);
+  void use(formats::Method method);
+  /// At the first tolerance; another method, where the chosen one cannot. Nothing is stored, unless it fails.
+  RunEnd begin(const Modes& modes);
+  double first_tolerance() const;
+  RunEnd take(double tolerance, const Modes& modes, const std::string& path, Recorder& recorder);
   formats::Scene scene_with(double tolerance, const Modes& modes) const;
   Modes halved() const;
   void leave_out_modes(double tolerance);
+  /// Of what the tolerance leaves, from the run before; returns what modes that are missing may change.
+  double estimate(double fall, long steps);
+  /// The run before with all of its modes, where it had half of them and differs by too much.
+  void separate(double tolerance);
   void judge(RunReport& report, double before, double tolerance, bool last);
+  double next_after(double tolerance) const;
+  /// Of a run with tolerance `next` after one with `tolerance` that has taken `taken` [s].
+  double foretold(double taken, double tolerance, double next) const;
   std::string told_of_modes() const;
+  std::string told_of_method() const;
+  static std::string told_of_error(double error);
+  double now() const { return control_.clock ? control_.clock() : 0.0; }
 
   const RunRequest& request_;
   const RunControl& control_;
   const AccuracySpec& accuracy_;
   formats::StudyQuantity quantity_;
   Recorder recorder_;
-  Passing passing_;
+  formats::Method method_ = formats::Method::generalised_alpha;
+  Rates rates_ = shared;
+  long most_steps_ = 0;            ///< of the present run; 0: any number
   std::vector<std::string> cost_;  ///< of each run: tolerance and seconds
   Series previous_;                ///< of the run before
-  Series half_;                    ///< at the second tolerance, with half of the modes
+  Series half_;                    ///< at the first tolerance, with half of the modes
+  bool mixed_ = false;             ///< the run before has half of the modes, and its tolerance
   Modes modes_;                    ///< that are left; empty: all
   double half_changes_ = 0.0;      ///< what the upper half of all modes adds
   double left_out_ = 0.0;          ///< what modes that are left out would change
-  double order_;
-  long steps_ = 0;                    ///< of the run before
-  double change_ = 0.0, fall_ = 1.0;  ///< by the run before: of the history, and of the tolerance
-  double estimate_ = 0.0;             ///< of what the tolerance leaves
-  double room_ = 0.0;                 ///< for it
+  double order_ = 0.0;
+  double began_ = 0.0, first_took_ = 0.0;  ///< the present run, and the first one [s]
+  bool too_long_ = false;                  ///< the next run would be
+  long steps_ = 0;                         ///< of the run before
+  double change_ = 0.0, fall_ = 1.0;       ///< by the run before: of the history, and of the tolerance
+  double estimate_ = 0.0;                  ///< of what the tolerance leaves
+  double room_ = 0.0;                      ///< for it
 };
 
 formats::Scene Search::scene_with(double tolerance, const Modes& modes) const {
   formats::Scene scene = request_.scene;
   formats::IntegratorSpec& integrator = scene.integrator;
   integrator.accuracy.reset();
+  integrator.method = method_;
   integrator.error_control.tolerance = integrator.bdf.relative_tolerance = tolerance;
   integrator.bdf.absolute_tolerance = 1e-2 * tolerance;
   if (!scene.output.interval) scene.output.interval = (integrator.end - integrator.start) / instants;
   scene.output.every = 1;
+  scene.checkpoint = {};
   if (!scene.output.channels.empty()) scene.output.channels.push_back(accuracy_.of);
   for (formats::BodySpec& body : scene.bodies)
     if (auto* spec = std::get_if<formats::SuperelementBodySpec>(&body); spec != nullptr)
@@ -154,14 +214,22 @@ formats::Scene Search::scene_with(double tolerance, const Modes& modes) const {
   return scene;
 }
 
-RunEnd Search::take(double tolerance, const Modes& modes, const std::string& path) {
+RunEnd Search::take(double tolerance, const Modes& modes, const std::string& path, Recorder& recorder) {
   const formats::Scene scene = scene_with(tolerance, modes);
   RunRequest request{scene, request_.files, request_.begin, path, "", std::nullopt};
-  request.listener = &recorder_;
-  const auto now = [this] { return control_.clock ? control_.clock() : 0.0; };
-  const double start = now();
-  RunEnd end = simulate(request, control_);
-  cost_.push_back(fmt::format("{:.2g} ({:.2g} s{})", tolerance, now() - start, modes.empty() ? "" : ", fewer modes"));
+  request.listener = &recorder;
+  RunControl control = control_;
+  long steps = 0;
+  if (most_steps_ > 0) {
+    control.interrupted = [&] { return steps > most_steps_ || (control_.interrupted && control_.interrupted()); };
+    control.progress = [&](double time) {
+      ++steps;
+      if (control_.progress) control_.progress(time);
+    };
+  }
+  began_ = now();
+  RunEnd end = simulate(request, control);
+  cost_.push_back(fmt::format("{:.2g} ({:.2g} s{})", tolerance, now() - began_, modes.empty() ? "" : ", fewer modes"));
   return end;
 }
 
@@ -190,7 +258,7 @@ void Search::leave_out_modes(double tolerance) {
   left_out_ = half_changes_;
   modes_ = halved();
   for (Modes half = halved(); !half.empty(); half = halved()) {
-    if (take(tolerance, half, passing_.path).report.outcome != RunOutcome::completed) return;
+    if (take(tolerance, half, "", recorder_).report.outcome != RunOutcome::completed) return;
     const double change = error_of(recorder_.history, previous_, quantity_);
     if (change > modes_part * accuracy_.error) return;
     left_out_ = change;
@@ -200,65 +268,152 @@ void Search::leave_out_modes(double tolerance) {
 
 std::string Search::told_of_modes() const {
   if (half_.x.empty()) return {};
+  if (mixed_)
+    return "; half of the modes and the tolerance before together change it by " + fmt::format("{:.2g}", change_);
   if (modes_.empty()) return fmt::format("; the upper half of the modes changes it by {:.2g}", half_changes_);
   std::vector<std::string> counts;
   for (const auto& [name, count] : modes_) counts.push_back(fmt::format("{} of '{}'", count, name));
   return fmt::format("; modes: {}, the others change it by {:.1g}", listed(counts), left_out_);
 }
 
-void Search::judge(RunReport& report, double before, double tolerance, bool last) {
-  if (modes_.empty() && !half_.x.empty() && half_changes_ == 0.0)
-    half_changes_ = error_of(half_, recorder_.history, quantity_);
-  const double missing = modes_.empty() ? modes_fall * half_changes_ : left_out_;
+double Search::estimate(double fall, long steps) {
   const double change = error_of(previous_, recorder_.history, quantity_);
+  const double missing = mixed_ ? modes_fall * change : modes_.empty() ? modes_fall * half_changes_ : left_out_;
   if (change_ > 0.0 && change > 0.0)
     order_ = std::min(order_, std::max(least_order, trusted_part * std::log(change_ / change) / std::log(fall_)));
-  const double fall = before / tolerance, more = static_cast<double>(report.steps) / std::max(1L, steps_);
+  const double more = static_cast<double>(steps) / static_cast<double>(std::max(1L, steps_));
   estimate_ = std::max(change * std::pow(fall, -order_), change_ * std::pow(fall * fall_, -order_));
-  estimate_ = std::max(estimate_, change * std::pow(more, -steps_order * order_));
+  estimate_ = std::max(estimate_, change * std::pow(more, -rates_.steps_order * order_));
   // Instants of output or the longest step, not the tolerance, chose the steps: the same ones differ by nothing.
-  if (more < fewest_more) estimate_ = std::numeric_limits<double>::infinity();
+  if (more < rates_.fewest_more) estimate_ = std::numeric_limits<double>::infinity();
   change_ = change;
+  // What files do not hold is no matter of the tolerance; a doubt will say so.
+  room_ = missing > most_missing * accuracy_.error ? accuracy_.error : accuracy_.error - missing;
+  return missing;
+}
+
+void Search::separate(double tolerance) {
+  mixed_ = false;
+  change_ = 0.0;
+  const double began = began_;
+  Recorder whole(accuracy_.of, request_.scene.file);
+  const RunEnd end = take(tolerance, {}, "", whole);
+  began_ = began + now() - began_;
+  if (end.report.outcome != RunOutcome::completed) {
+    half_ = {};
+    return;
+  }
+  half_changes_ = error_of(half_, whole.history, quantity_);
+  previous_ = std::move(whole.history);
+  steps_ = end.report.steps;
+}
+
+void Search::judge(RunReport& report, double before, double tolerance, bool last) {
+  const double fall = before / tolerance;
+  double missing = estimate(fall, report.steps);
+  if (mixed_ && (estimate_ > room_ || missing > most_missing * accuracy_.error)) {
+    separate(before);
+    missing = estimate(fall, report.steps);
+  }
   fall_ = fall;
   steps_ = report.steps;
-  room_ = accuracy_.error - std::min(missing, 0.5 * accuracy_.error);
+  const double next = next_after(tolerance), needed = foretold(now() - began_, tolerance, next);
+  too_long_ = estimate_ > room_ && needed > std::max(longest_run, longest_of_first * first_took_);
   report.notes.push_back(
-      fmt::format("accuracy: the error of '{}' is estimated at {:.2g} ({:g} asked for), with tolerance "
-                  "{:.3g}{}; runs before, by tolerance: {}",
-                  accuracy_.of, estimate_ + missing, accuracy_.error, tolerance, told_of_modes(), join(cost_, ", ")));
-  if (!last && estimate_ > room_) return;
-  if (modes_.empty() && missing > 0.5 * accuracy_.error)
+      fmt::format("accuracy: the error of '{}' is {} ({:g} asked for), with tolerance {:.3g}{}{}; "
+                  "runs before, by tolerance: {}",
+                  accuracy_.of, told_of_error(estimate_ + missing), accuracy_.error, tolerance, told_of_method(),
+                  told_of_modes(), join(cost_, ", ")));
+  if (!last && !too_long_ && estimate_ > room_) return;
+  if (modes_.empty() && missing > most_missing * accuracy_.error)
     report.doubts.push_back(
         fmt::format("'{}' may miss modes that the superelement files do not hold: the upper half of "
                     "those that they hold changes it by {:.2g}; raise 'modes' in the part",
                     accuracy_.of, half_changes_));
-  if (estimate_ > room_)
-    report.doubts.push_back(
-        fmt::format("an error of {:g} of '{}' was not reached: {:.2g} is estimated; ask for less, or "
-                    "take method: radau",
-                    accuracy_.error, accuracy_.of, estimate_));
+  if (estimate_ <= room_) return;
+  const char* const other = method_ == formats::Method::radau ? "" : ", or take method: radau";
+  const std::string cost =
+      !too_long_ ? "" : fmt::format(", and the next run would take some {:.0f} min", needed / 60.0);
+  const std::string longer =
+      !too_long_ ? "" : fmt::format(", or give error_control: {{tolerance: {:.2g}}} in place of accuracy", next);
+  report.doubts.push_back(fmt::format("an error of {:g} of '{}' was not reached: it is {}{}; ask for less{}{}",
+                                      accuracy_.error, accuracy_.of, told_of_error(estimate_), cost, other, longer));
+}
+
+std::string Search::told_of_error(double error) {
+  return std::isfinite(error) ? fmt::format("estimated at {:.2g}", error)
+                              : "not estimated, since runs with other tolerances took the same steps";
+}
+
+std::string Search::told_of_method() const {
+  if (method_ == request_.scene.integrator.method) return {};
+  return method_ == formats::Method::radau ? " of radau" : " of generalised_alpha";
+}
+
+double Search::next_after(double tolerance) const {
+  const double aimed = std::isfinite(estimate_) ? tolerance * std::pow(aim * room_ / estimate_, 1.0 / order_)
+                                                : tolerance / rates_.second_part;
+  return std::max(least_tolerance, std::clamp(aimed, least_part * tolerance, most_part * tolerance));
+}
+
+double Search::foretold(double taken, double tolerance, double next) const {
+  return taken * std::pow(tolerance / next, rates_.work);
+}
+
+void Search::use(formats::Method method) {
+  method_ = method;
+  rates_ = method == formats::Method::radau ? of_radau : shared;
+  if (method == formats::Method::radau && !is_place(accuracy_.of) && may_vibrate(request_.scene))
+    rates_.first = first_of_rates, rates_.second_part = second_of_rates;
+  order_ = rates_.order;
+}
+
+double Search::first_tolerance() const {
+  return std::clamp(rates_.first * accuracy_.error, rates_.second_part * least_tolerance, most_tolerance);
+}
+
+RunEnd Search::begin(const Modes& modes) {
+  const bool replaceable =
+      request_.scene.integrator.method == formats::Method::automatic && method_ == formats::Method::radau;
+  most_steps_ = replaceable ? most_first_steps : 0;
+  std::optional<RunEnd> end;
+  try {
+    end = take(first_tolerance(), modes, "", recorder_);
+  } catch (const Error&) {
+    if (!replaceable) throw;
+  }
+  most_steps_ = 0;
+  const bool fits = end && (end->report.outcome == RunOutcome::completed ||
+                            (end->report.outcome == RunOutcome::interrupted && end->report.steps <= most_first_steps));
+  if (replaceable && !fits) {
+    use(formats::Method::generalised_alpha);
+    end = take(first_tolerance(), modes, "", recorder_);
+  }
+  first_took_ = now() - began_;
+  if (end->report.outcome != RunOutcome::completed) end = take(first_tolerance(), {}, request_.path, recorder_);
+  return std::move(*end);
 }
 
 RunEnd Search::run() {
-  double tolerance = std::min(first_tolerance * accuracy_.error, most_tolerance);
-  RunEnd end = take(tolerance, modes_, request_.path);
+  const Modes half = halved();
+  RunEnd end = begin(half);
   if (end.report.outcome != RunOutcome::completed) return end;
+  double tolerance = first_tolerance();
   previous_ = recorder_.history;
+  mixed_ = !half.empty();
+  if (mixed_) half_ = previous_;
   steps_ = end.report.steps;
-  double next = tolerance / second_part;
-  if (const Modes half = halved(); !half.empty())
-    if (take(next, half, passing_.path).report.outcome == RunOutcome::completed) half_ = recorder_.history;
+  double next = tolerance / rates_.second_part;
   for (int run = 2;; ++run) {
     const double before = std::exchange(tolerance, next);
     const bool last = run == most_runs || tolerance <= least_tolerance;
     recorder_.judge = [&](RunReport& report) { judge(report, before, tolerance, last); };
-    end = take(tolerance, modes_, request_.path);
+    end = take(tolerance, modes_, request_.path, recorder_);
     recorder_.judge = nullptr;
-    if (end.report.outcome != RunOutcome::completed || last || estimate_ <= room_) return end;
+    if (end.report.outcome != RunOutcome::completed || last || too_long_ || estimate_ <= room_) return end;
     previous_ = recorder_.history;
     if (run == 2) leave_out_modes(tolerance);
-    const double aimed = tolerance * std::pow(aim * room_ / estimate_, 1.0 / order_);
-    next = std::max(least_tolerance, std::clamp(aimed, least_part * tolerance, most_part * tolerance));
+    next = next_after(tolerance);
   }
 }
 

@@ -2,6 +2,8 @@
 #include "mechanism/study/accuracy.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -19,6 +21,7 @@ namespace tisserand::mechanism::accuracy_test {
 namespace {
 
 using Eigen::Vector3d;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -31,7 +34,7 @@ formats::Scene with(formats::Scene scene, double error, const std::string& of) {
 
 struct Reached {
   RunReport report;
-  double error = 0.0;  ///< of the channel against a run with a hundredth of the error as tolerance, over its size
+  double error = 0.0;  ///< of the channel against radau with a millionth of the error as tolerance, over its size
 };
 
 Reached reach(const formats::Scene& scene, const BodyFiles& files) {
@@ -41,7 +44,9 @@ Reached reach(const formats::Scene& scene, const BodyFiles& files) {
   Reached reached{simulate_to_accuracy(request, {}).report, 0.0};
   formats::Scene finer = scene;
   finer.integrator.accuracy.reset();
-  finer.integrator.error_control.tolerance = 0.01 * scene.integrator.accuracy->error;
+  finer.integrator.method = formats::Method::radau;
+  finer.integrator.linear_solver = formats::LinearSolver::automatic;
+  finer.integrator.error_control.tolerance = 1e-6 * scene.integrator.accuracy->error;
   finer.output.interval = (scene.integrator.end - scene.integrator.start) / 500;
   simulate({finer, files, std::nullopt, fine, "", std::nullopt}, {});
   formats::StudyQuantity quantity;
@@ -85,6 +90,17 @@ TEST(Accuracy, LeavesOutModesThatNothingFeels) {
   EXPECT_THAT(swing.report.doubts, IsEmpty());
 }
 
+// The first run with half of the modes differs by little from the second with all: no third one tells both apart.
+TEST(Accuracy, AsksForModesAndToleranceAtOnce) {
+  BodyFiles files;
+  formats::Scene scene = with(cantilever(18, files), 0.1, "nodes/position/beam/tip/z");
+  scene.integrator.method = formats::Method::automatic;
+  const Reached swing = reach(scene, files);
+  EXPECT_LE(swing.error, 0.1);
+  EXPECT_THAT(::testing::PrintToString(swing.report.notes),
+              HasSubstr("half of the modes and the tolerance before together change it by"));
+}
+
 // Steps that end on instants of output are the same with every coarse tolerance, and differ by nothing.
 TEST(Accuracy, IsNotTakenFromRunsOfTheSameSteps) {
   formats::Scene scene = with(test_support::pendulum_scene(0.01, 1.0), 1e-2, "joints/coordinate/hinge");
@@ -99,6 +115,58 @@ TEST(Accuracy, DoubtsWhatAFileDoesNotHold) {
   BodyFiles files;
   const Reached swing = reach(with(cantilever(4, files), 1e-4, "nodes/velocity/beam/tip/z"), files);
   EXPECT_THAT(::testing::PrintToString(swing.report.doubts), HasSubstr("may miss modes"));
+}
+
+// Nothing in the pendulum vibrates: `radau` takes some hundred steps where generalised alpha takes ten thousands.
+TEST(Accuracy, ChoosesTheMethodThatIsNotNamed) {
+  formats::Scene scene = with(test_support::pendulum_scene(0.01, 4.0), 1e-5, "joints/coordinate/hinge");
+  scene.integrator.method = formats::Method::automatic;
+  const Reached swing = reach(scene, {});
+  EXPECT_LE(swing.error, 1e-5);
+  EXPECT_LT(swing.report.steps, 1000);
+  EXPECT_THAT(::testing::PrintToString(swing.report.notes), HasSubstr("of radau"));
+  scene.integrator.linear_solver = formats::LinearSolver::qr;  // has no complex values
+  scene.integrator.accuracy->error = 1e-3;
+  const Reached other = reach(scene, {});
+  EXPECT_LE(other.error, 1e-3);
+  EXPECT_THAT(::testing::PrintToString(other.report.notes), HasSubstr("of generalised_alpha"));
+}
+
+// Undamped vibrations that a sudden load kicks, by a clock on which runs take the cube of their steps.
+TEST(Accuracy, BeginsNoRunThatWouldTakeTooLong) {
+  const test_support::TemporaryFolder folder;
+  BodyFiles files;
+  formats::Scene scene = with(cantilever(4, files), 1e-4, "nodes/velocity/beam/tip/z");
+  scene.output.interval = scene.integrator.end / 20.0;
+  double steps = 0.0;
+  const RunControl control{{}, [&](double) { ++steps; }, [&] { return std::pow(steps, 3); }};
+  const std::string path = folder.file("a.results.h5");
+  const RunReport report = simulate_to_accuracy({scene, files, std::nullopt, path, "", std::nullopt}, control).report;
+  EXPECT_EQ(report.outcome, RunOutcome::completed);
+  EXPECT_GT(3 * report.steps, steps);  // the first, and two with half and all of the modes
+  EXPECT_THAT(::testing::PrintToString(report.doubts),
+              AllOf(HasSubstr("an error of 0.0001 of 'nodes/velocity/beam/tip/z' was not reached"),
+                    HasSubstr("the next run would take some"), HasSubstr("or take method: radau"),
+                    HasSubstr("error_control: {tolerance: ")));
+  const std::vector<std::string> channel{scene.integrator.accuracy->of};
+  EXPECT_EQ(read_quantities(path, channel).front().x.size(), 21u);                      // the best result so far
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);  // nothing of the runs before
+}
+
+// The end of a beam is stored under one name and found by both.
+TEST(Accuracy, FindsANodeByItsOtherName) {
+  formats::Scene scene = test_support::empty_scene(1e-3, 0.05);
+  formats::BeamBodySpec beam;
+  beam.name = "beam";
+  beam.to = {1.0, 0.0, 0.0};
+  beam.elements = 2;
+  beam.section = {"square", 1e-4, 1e-9, 1e-9, 2e-9, 2e-9, 8e-5, 8e-5, ""};
+  beam.material = {"steel", 2e11, 0.3, 7800.0, ""};
+  scene.bodies.push_back(beam);
+  scene.gravity = {0.0, 0.0, -9.81};
+  scene.joints.push_back(test_support::joint("hinge", formats::JointKind::revolute, "ground", "beam/start",
+                                             Vector3d::Zero(), Vector3d::UnitY()));
+  EXPECT_LE(reach(with(scene, 1e-2, "nodes/position/beam/end/z"), {}).error, 1e-2);
 }
 
 TEST(Accuracy, RefusesWhatItCannotMeasure) {

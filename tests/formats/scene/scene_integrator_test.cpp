@@ -50,6 +50,15 @@ TEST(Integrator, AccuracyTakesThePlaceOfStepAndErrorControl) {
   EXPECT_TRUE(spec.error_control.active);
   EXPECT_GT(spec.step, 0.0);
   EXPECT_FALSE(read("method: bdf, end: 2, accuracy: {error: 1e-3, of: energy/total}").error_control.active);
+  EXPECT_EQ(spec.method, Method::automatic);
+  const auto method_of = [](const std::string& keys) {
+    return read(keys + ", end: 2, accuracy: {error: 1e-3, of: a}").method;
+  };
+  EXPECT_EQ(method_of("method: auto"), Method::automatic);
+  EXPECT_EQ(method_of("method: generalised_alpha"), Method::generalised_alpha);
+  EXPECT_EQ(method_of("rho: 0.8"), Method::generalised_alpha);
+  EXPECT_EQ(method_of("formulation: index3"), Method::generalised_alpha);
+  EXPECT_THAT(error("end: 2, step: 0.1, method: auto"), HasSubstr("method: auto needs an accuracy to choose by"));
   EXPECT_THAT(error("end: 2, step: 0.1, accuracy: {error: 1e-3, of: a}"), HasSubstr("'step' is chosen by 'accuracy'"));
   EXPECT_THAT(error("end: 2, error_control: {tolerance: 1e-3}, accuracy: {error: 1e-3, of: a}"),
               HasSubstr("'error_control' is chosen by 'accuracy'"));

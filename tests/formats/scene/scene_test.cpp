@@ -422,7 +422,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "earlier time"},
         BadText{"end: 20", "end: 20, max_iterations: ^0", "^: integrator: max_iterations 0 must be 1 or more"},
         BadText{"end: 20", "end: 20, method: ^newmark",
-                "^: integrator: unknown method 'newmark'; known are generalised_alpha, hht, bdf, radau"},
+                "^: integrator: unknown method 'newmark'; known are generalised_alpha, hht, bdf, radau, auto"},
         BadText{"end: 20}", "end: 20}\nstatics: {load_steps: ^0}", "^: statics: load_steps 0 must be 1 or more"},
         BadText{"end: 20}", "end: 20}\noutput: {every: ^0}", "^: output: every 0 must be 1 or more"},
         BadText{"end: 20}", "end: 20}\noutput: {interval: ^-1}", "^: output: interval -1 must be positive"},

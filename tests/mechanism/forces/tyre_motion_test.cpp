@@ -126,9 +126,11 @@ std::string method_name(const ::testing::TestParamInfo<Method>& given) {
     case Method::radau:
       return "Radau";
     case Method::bdf:
+      return "Bdf";
+    case Method::automatic:
       break;
   }
-  return "Bdf";
+  return "Auto";
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, Methods,

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
+#include "mechanism/solver/complex_solver.hpp"
 #include "mechanism/solver/solver_choice.hpp"
 #include "tests/support/allocation_counter.hpp"
 
@@ -45,6 +47,22 @@ std::vector<double> values(const SparsePattern& pattern, const Eigen::MatrixXd& 
   return result;
 }
 
+std::string word(const ::testing::TestParamInfo<SolverKind>& given) {
+  switch (given.param) {
+    case SolverKind::klu:
+      return "Klu";
+    case SolverKind::umfpack:
+      return "Umfpack";
+    case SolverKind::dense:
+      return "Dense";
+    case SolverKind::lapack:
+      return "Lapack";
+    case SolverKind::qr:
+      break;
+  }
+  return "Qr";
+}
+
 class EverySolver : public ::testing::TestWithParam<SolverKind> {
  protected:
   SparsePattern pattern_of(int n) const { return {n, positions(n), solver_storage(GetParam())}; }
@@ -52,21 +70,7 @@ class EverySolver : public ::testing::TestWithParam<SolverKind> {
 INSTANTIATE_TEST_SUITE_P(Solvers, EverySolver,
                          ::testing::Values(SolverKind::klu, SolverKind::umfpack, SolverKind::dense, SolverKind::lapack,
                                            SolverKind::qr),
-                         [](const ::testing::TestParamInfo<SolverKind>& given) {
-                           switch (given.param) {
-                             case SolverKind::klu:
-                               return "Klu";
-                             case SolverKind::umfpack:
-                               return "Umfpack";
-                             case SolverKind::dense:
-                               return "Dense";
-                             case SolverKind::lapack:
-                               return "Lapack";
-                             case SolverKind::qr:
-                               break;
-                           }
-                           return "Qr";
-                         });
+                         word);
 
 TEST_P(EverySolver, SolveAndSolveAgainWithNewValues) {
   for (const int n : {1, 5, 40, 90}) {
@@ -177,6 +181,167 @@ TEST_P(EverySolver, ConditionIsThatOfTheInverse) {
     EXPECT_GE(solver.health().reciprocal_condition, exact * (1.0 - 1e-6)) << n;  // ε over the condition
     EXPECT_LE(solver.health().reciprocal_condition, 3.0 * exact) << n;
   }
+}
+
+using Complexes = std::vector<std::complex<double>>;
+
+/// As stage matrices of Radau IIA have them: real and imaginary parts of one size, zeros on the diagonal in the rows of
+/// constraints.
+Eigen::MatrixXcd complex_matrix(int n, unsigned seed, int saddle) {
+  Eigen::MatrixXcd A(n, n);
+  A.real() = matrix(n, seed, saddle);
+  A.imag() = matrix(n, seed + 100, saddle);
+  return A;
+}
+
+Complexes values(const SparsePattern& pattern, const Eigen::MatrixXcd& A) {
+  Complexes result(static_cast<std::size_t>(pattern.values()), 0.0);
+  for (const Position& p : positions(pattern.size())) result[pattern.slot(p.row, p.column)] = A(p.row, p.column);
+  return result;
+}
+
+/// The back ends for complex values that `method: radau` uses.
+class EveryComplexSolver : public ::testing::TestWithParam<SolverKind> {
+ protected:
+  SparsePattern pattern_of(int n) const { return {n, positions(n), solver_storage(GetParam())}; }
+  static Eigen::VectorXcd right_hand_side(int n) {
+    Eigen::VectorXcd b(n);
+    b.real().setLinSpaced(n, -1.0, 2.0);
+    b.imag().setLinSpaced(n, 3.0, -0.5);
+    return b;
+  }
+  static void solve(ComplexSolver& solver, Eigen::VectorXcd& b) {
+    solver.solve({b.data(), static_cast<std::size_t>(b.size())});
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Solvers, EveryComplexSolver,
+                         ::testing::Values(SolverKind::klu, SolverKind::umfpack, SolverKind::dense, SolverKind::lapack),
+                         word);
+
+// Against a dense LU with complete pivoting.
+TEST_P(EveryComplexSolver, SolvesAndSolvesAgainWithNewValues) {
+  for (const int n : {1, 5, 40, 90}) {
+    const SparsePattern pattern = pattern_of(n);
+    ComplexSolver solver(pattern, GetParam());
+    for (unsigned seed = 0; seed < 4; ++seed) {
+      const Eigen::MatrixXcd A = complex_matrix(n, seed, n > 1 ? n / 5 : 0);
+      const Complexes v = values(pattern, A);
+      const FactorReport report = solver.numeric(v);
+      ASSERT_TRUE(report.regular) << n;
+      EXPECT_GT(report.reciprocal_condition, 1e-6);
+      for (int side = 0; side < 2; ++side) {
+        Eigen::VectorXcd b = right_hand_side(n) * std::complex<double>(1.0, side);
+        const Eigen::VectorXcd exact = A.fullPivLu().solve(b);
+        solve(solver, b);
+        EXPECT_LT((b - exact).cwiseAbs().maxCoeff(), 1e-11) << "size " << n << ", seed " << seed;
+      }
+    }
+  }
+}
+
+// Nothing is refined here, so that kept pivots of 1e-9 would show at once.
+TEST_P(EveryComplexSolver, RefactorisationChoosesNewPivotsWhereTheOldOnesArePoor) {
+  const int n = 30;
+  const SparsePattern pattern = pattern_of(n);
+  ComplexSolver solver(pattern, GetParam());
+  Eigen::MatrixXcd A = complex_matrix(n, 1, 0);
+  A.diagonal().setConstant({30.0, 40.0});
+  ASSERT_TRUE(solver.numeric(values(pattern, A)).regular);
+  A.diagonal().setConstant({0.0, 1e-9});
+  const Complexes v = values(pattern, A);
+  ASSERT_TRUE(solver.numeric(v).regular);
+  const Eigen::VectorXcd x = right_hand_side(n);
+  Eigen::VectorXcd b = A * x;
+  solve(solver, b);
+  EXPECT_LT((b - x).cwiseAbs().maxCoeff(), 1e-7);
+}
+
+TEST_P(EveryComplexSolver, SingularMatrixIsReportedAndTheNextRegularOneIsSolved) {
+  const int n = 20;
+  const SparsePattern pattern = pattern_of(n);
+  ComplexSolver solver(pattern, GetParam());
+  const Eigen::MatrixXcd A = complex_matrix(n, 2, 0);
+  ASSERT_TRUE(solver.numeric(values(pattern, A)).regular);
+  Eigen::MatrixXcd singular = A;
+  singular.col(7).setZero();
+  const FactorReport report = solver.numeric(values(pattern, singular));
+  EXPECT_FALSE(report.regular);
+  // The real system, which comes first, has the same singular column; UMFPACK is asked there only.
+  EXPECT_EQ(report.singular_column, GetParam() == SolverKind::umfpack ? -1 : 7);
+  const Complexes v = values(pattern, A);
+  ASSERT_TRUE(solver.numeric(v).regular);
+  Eigen::VectorXcd b = A * Eigen::VectorXcd::Ones(n);
+  solve(solver, b);
+  EXPECT_LT((b.array() - 1.0).abs().maxCoeff(), 1e-12);
+}
+
+// Forces beside displacements: rows and columns of very different units, which powers of two change without round-off.
+TEST_P(EveryComplexSolver, UnitsOfRowsAndUnknownsDoNotSpoilTheAnswer) {
+  const int n = 40;
+  const SparsePattern pattern = pattern_of(n);
+  const Eigen::MatrixXcd A = complex_matrix(n, 4, 8);
+  Eigen::VectorXd rows(n), columns(n);
+  for (int i = 0; i < n; ++i) {
+    rows[i] = std::ldexp(1.0, (i * 7) % 41 - 20);
+    columns[i] = std::ldexp(1.0, (i * 11) % 41 - 20);
+  }
+  const Eigen::MatrixXcd scaled = rows.asDiagonal() * A * columns.asDiagonal();
+  ComplexSolver solver(pattern, GetParam());
+  const Complexes v = values(pattern, scaled);
+  ASSERT_TRUE(solver.numeric(v).regular);
+  Eigen::VectorXcd b = rows.asDiagonal() * right_hand_side(n);
+  solve(solver, b);
+  const Eigen::VectorXcd x = columns.asDiagonal() * b, exact = A.fullPivLu().solve(right_hand_side(n));
+  EXPECT_LT((x - exact).cwiseAbs().maxCoeff(), 1e-9 * exact.cwiseAbs().maxCoeff());
+}
+
+TEST_P(EveryComplexSolver, ValuesThatAreNotNumbersAreReported) {
+  const SparsePattern pattern = pattern_of(5);
+  ComplexSolver solver(pattern, GetParam());
+  Complexes v = values(pattern, complex_matrix(5, 3, 0));
+  v[2] = {1.0, std::numeric_limits<double>::quiet_NaN()};
+  EXPECT_FALSE(solver.numeric(v).regular);
+  v[2] = {std::numeric_limits<double>::infinity(), 0.0};
+  EXPECT_FALSE(solver.numeric(v).regular);
+}
+
+TEST_P(EveryComplexSolver, AfterForgetTheAnswerIsThatOfAFreshSolverBitForBit) {
+  const int n = 60;
+  const SparsePattern pattern = pattern_of(n);
+  ComplexSolver used(pattern, GetParam()), fresh(pattern, GetParam());
+  ASSERT_TRUE(used.numeric(values(pattern, complex_matrix(n, 5, 10))).regular);
+  used.forget();
+  const Complexes v = values(pattern, complex_matrix(n, 6, 10));
+  ASSERT_TRUE(used.numeric(v).regular);
+  ASSERT_TRUE(fresh.numeric(v).regular);
+  Eigen::VectorXcd a = right_hand_side(n), b = a;
+  solve(used, a);
+  solve(fresh, b);
+  EXPECT_EQ(a, b);
+}
+
+TEST_P(EveryComplexSolver, NoAllocationAfterTheFirstFactorisation) {
+  if (GetParam() == SolverKind::umfpack) GTEST_SKIP() << "the library allocates in every factorisation";
+  for (const int n : {30, 150}) {
+    const SparsePattern pattern = pattern_of(n);
+    ComplexSolver solver(pattern, GetParam());
+    const Complexes first = values(pattern, complex_matrix(n, 1, 0)), second = values(pattern, complex_matrix(n, 2, 0));
+    ASSERT_TRUE(solver.numeric(first).regular);
+    Eigen::VectorXcd b = right_hand_side(n);
+    solve(solver, b);
+    const std::size_t before = test_support::allocation_count();
+    const bool regular = solver.numeric(second).regular;
+    solve(solver, b);
+    EXPECT_EQ(test_support::allocation_count() - before, 0u) << n;
+    EXPECT_TRUE(regular);
+  }
+}
+
+TEST(ComplexSolver, EmptySystem) {
+  const SparsePattern pattern(0, {}, Storage::dense);
+  ComplexSolver solver(pattern, SolverKind::klu);
+  EXPECT_TRUE(solver.numeric({}).regular);
+  solver.solve({});
 }
 
 // The matrix of Wilkinson: partial pivoting doubles the last column in every step, up to 2^(n−1).
