@@ -8,7 +8,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include "common/math/rotation.hpp"
 #include "mechanism/equations/terms.hpp"
 
 namespace tisserand::mechanism {
@@ -42,7 +41,9 @@ ModalRange::ModalRange(const Model& model, int body) : body_(body), attached_(mo
   axis_ = (end - start_) / span_;
   lag_ = std::numbers::pi / std::sqrt(model.modal_bodies[body].stiffness.minCoeff());
   const auto beside = [&](int k) { return (model.modal_nodes[k].x - start_).cross(axis_).norm() > straight * span_; };
-  if (std::ranges::none_of(nodes_, beside)) set_buckling(model);
+  if (std::ranges::any_of(nodes_, beside)) return;
+  set_buckling(model);
+  find_forces(model);
 }
 
 void ModalRange::set_buckling(const Model& model) {
@@ -73,47 +74,74 @@ double ModalRange::deflection(const Model& model, const Evaluation& evaluation) 
   return largest;
 }
 
-double ModalRange::distance(const Model& model, int node) const {
+bool ModalRange::carries(const Model& model, int node) const {
   const int modal = node < 0 ? -1 : model.nodes[node].modal;
-  if (modal < 0 || model.modal_nodes[modal].body != body_) return 0.0;
-  return (model.modal_nodes[modal].x - start_).dot(axis_);
+  return modal >= 0 && model.modal_nodes[modal].body == body_;
+}
+
+template <class Items>
+std::vector<int> ModalRange::on_body(const Model& model, const Items& items) const {
+  std::vector<int> found;
+  for (int i = 0; i < static_cast<int>(items.size()); ++i)
+    if (carries(model, items[i].a.node) || carries(model, items[i].b.node)) found.push_back(i);
+  return found;
+}
+
+void ModalRange::find_forces(const Model& model) {
+  joints_ = on_body(model, model.joints);
+  bushings_ = on_body(model, model.bushings);
+  const std::vector<int> coordinates = on_body(model, model.coordinates);
+  const auto is_on = [&](int coordinate) { return std::ranges::binary_search(coordinates, coordinate); };
+  for (int i = 0; i < static_cast<int>(model.couplings.size()); ++i)
+    for (const CouplingTerm& term : model.couplings[i].terms)
+      if (is_on(term.coordinate)) terms_.push_back({i, term});
+  for (int i = 0; i < static_cast<int>(model.springs.size()); ++i)
+    if (is_on(model.springs[i].coordinate)) springs_.push_back(i);
+  for (int i = 0; i < static_cast<int>(model.loads.size()); ++i)
+    if (carries(model, model.loads[i].at.node)) loads_.push_back(i);
+}
+
+double ModalRange::distance(const Model& model, int node) const {
+  return carries(model, node) ? (model.modal_nodes[model.nodes[node].modal].x - start_).dot(axis_) : 0.0;
 }
 
 double ModalRange::axial_force(const Model& model, const State& state, const Evaluation& evaluation) const {
+  using Vector12 = Eigen::Matrix<double, 12, 1>;
   const ModalBody& body = model.modal_bodies[body_];
   const ModalScratch& now = evaluation.modal_bodies[body_];
   const Vector3d e = now.A * axis_;
   double sum = 0.0;  // Σ s e·f of the forces on nodes
-  const auto take = [&](const auto& pair, const auto& residual) {
-    sum -= distance(model, pair.a.node) * e.dot(residual.template head<3>());
-    sum -= distance(model, pair.b.node) * e.dot(residual.template segment<3>(6));
+  const auto take = [&](const auto& pair, const Vector12& residual) {
+    sum -= distance(model, pair.a.node) * e.dot(residual.head<3>());
+    sum -= distance(model, pair.b.node) * e.dot(residual.segment<3>(6));
   };
-  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+  for (const int i : joints_) {
     const Joint& joint = model.joints[i];
-    const Eigen::Matrix<double, 12, 1> force =
-        evaluation.joints[i].B.topRows(joint.size()).transpose() * state.lambda().segment(joint.row, joint.size());
+    Vector12 force = Vector12::Zero();
+    for (int k = 0; k < joint.size(); ++k)
+      force += state.lambda()[joint.row + k] * evaluation.joints[i].B.row(k).transpose();
     take(joint, force);
   }
-  for (const Coupling& coupling : model.couplings)
-    for (const CouplingTerm& term : coupling.terms)
-      take(model.coordinates[term.coordinate],
-           Eigen::Matrix<double, 12, 1>(state.lambda()[coupling.row] * term.factor *
-                                        evaluation.coordinates[term.coordinate].G.transpose()));
-  for (const Spring& spring : model.springs) {
-    const CoordinateTerms& c = evaluation.coordinates[spring.coordinate];
-    take(model.coordinates[spring.coordinate],
-         Eigen::Matrix<double, 12, 1>(-spring_force(spring, c.value, c.rate, 0.0).Q * c.G.transpose()));
+  for (const auto& [coupling, term] : terms_)
+    take(model.coordinates[term.coordinate], state.lambda()[model.couplings[coupling].row] * term.factor *
+                                                 evaluation.coordinates[term.coordinate].G.transpose());
+  for (const int i : springs_) {
+    const CoordinateTerms& c = evaluation.coordinates[model.springs[i].coordinate];
+    take(model.coordinates[model.springs[i].coordinate],
+         -spring_force(model.springs[i], c.value, c.rate, 0.0).Q * c.G.transpose());
   }
-  for (std::size_t i = 0; i < model.bushings.size(); ++i) take(model.bushings[i], evaluation.bushings[i].force);
-  for (std::size_t i = 0; i < model.loads.size(); ++i) {
+  for (const int i : bushings_) take(model.bushings[i], evaluation.bushings[i].force);
+  for (const int i : loads_) {
     const Load& load = model.loads[i];
-    if (const double s = distance(model, load.at.node); s != 0.0)
-      sum += s * e.dot(load_force(load, motion_of(evaluation, load.at.node), evaluation.load_values[i]).head<3>());
+    sum += distance(model, load.at.node) *
+           e.dot(load_force(load, motion_of(evaluation, load.at.node), evaluation.load_values[i]).head<3>());
   }
   // Σ m s e·(a − g) of the undeformed body, a = r̈ + (ω̇~ + ω~ω~) x.
-  const Vector3d turned = skew<double>(now.omd) * body.P0 * axis_ + now.om.cross(now.om.cross(body.P0 * axis_));
-  const double inertia = axis_.dot((body.c0 - body.mass * start_)) * axis_.dot(now.ga) + axis_.dot(turned) -
-                         axis_.dot(start_) * axis_.dot(now.omd.cross(body.c0) + now.om.cross(now.om.cross(body.c0)));
+  const auto turned = [&now](const Vector3d& x) -> Vector3d {
+    return now.omd.cross(x) + now.om.cross(now.om.cross(x));
+  };
+  const double inertia = axis_.dot(body.c0 - body.mass * start_) * axis_.dot(now.ga) +
+                         axis_.dot(turned(body.P0 * axis_)) - axis_.dot(start_) * axis_.dot(turned(body.c0));
   return (sum - inertia) / span_;
 }
 

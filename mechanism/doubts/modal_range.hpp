@@ -33,8 +33,20 @@ class ModalRange {
   /// s of a node of this body, its distance along the line; 0 for others.
   double distance(const Model& model, int node) const;
   void set_buckling(const Model& model);
+  void find_forces(const Model& model);
+
+  /// Of all items with markers a and b those that are on this body.
+  template <class Items>
+  std::vector<int> on_body(const Model& model, const Items& items) const;
+  bool carries(const Model& model, int node) const;
 
   int body_;
+  struct Term {
+    int coupling = 0;
+    CouplingTerm term;
+  };
+  std::vector<int> joints_, springs_, bushings_, loads_;  ///< that act on it
+  std::vector<Term> terms_;
   std::vector<int> nodes_;  ///< of Model::modal_nodes, along the line if it is a beam
   std::vector<bool> attached_;
   Eigen::Vector3d axis_ = Eigen::Vector3d::Zero(), start_ = Eigen::Vector3d::Zero();
