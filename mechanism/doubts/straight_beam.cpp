@@ -77,7 +77,29 @@ double along(const Eigen::MatrixXd& matrix, const SuperelementNode& a, const Sup
   return axis.direction.dot(matrix.block<3, 3>(a.rotation_row, b.rotation_row) * axis.direction);
 }
 
+namespace {
+
+/// Nodes of rigid bodies on which one joint alone works: they go along, and hold nothing.
+std::vector<bool> loose_bodies(const Model& model) {
+  std::vector<int> uses(model.nodes.size(), 0);
+  const auto count = [&](const auto& items, auto counts) {
+    for (const auto& item : items)
+      for (const int node : {item.a.node, item.b.node})
+        if (node >= 0 && counts(item)) ++uses[node];
+  };
+  const auto always = [](const auto&) { return true; };
+  count(model.joints, always);
+  count(model.bushings, always);
+  count(model.coordinates, [](const Coordinate& coordinate) { return coordinate.active; });
+  std::vector<bool> loose(model.nodes.size(), false);
+  for (const RigidBody& body : model.rigid_bodies) loose[body.node] = uses[body.node] < 2;
+  return loose;
+}
+
+}  // namespace
+
 Twist twist_of(const Model& model, const Evaluation& evaluation) {
+  const std::vector<bool> loose = loose_bodies(model);
   Twist twist{std::vector<int>(model.nodes.size()), std::vector<bool>(model.nodes.size(), false)};
   std::iota(twist.place.begin(), twist.place.end(), 0);
   const std::vector<Vector3d> axes = node_axes(model, evaluation, twist);
@@ -86,7 +108,7 @@ Twist twist_of(const Model& model, const Evaluation& evaluation) {
     if (welds(joint, axes, evaluation)) {
       const int from = twist.place[joint.a.node], to = twist.place[joint.b.node];
       std::ranges::replace(twist.place, from, to);
-    } else {
+    } else if (!(joint.a.node >= 0 && loose[joint.a.node]) && !(joint.b.node >= 0 && loose[joint.b.node])) {
       for (int k = 0; k < joint.size(); ++k) note_row(joint, evaluation.joints[i].B.row(k), axes, model.length, twist);
     }
   }

@@ -1,6 +1,8 @@
 // results -> bodies in motion -> shapes -> blocks -> page, as a page of calls.
 #include "mechanism/view/view.hpp"
 
+#include <algorithm>
+
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "formats/page/page.hpp"
@@ -44,7 +46,7 @@ Json header_of(const ViewRequest& request, PageBlocks& blocks) {
 }
 
 /// What the page does not show as the file has it.
-std::string told(const Json& header) {
+std::string told(const Json& header, bool asked_for_stress) {
   std::string text;
   for (const Json& run : header["runs"]) {
     const std::string name = printable_line(run["file"].get<std::string>(), 200);
@@ -57,6 +59,12 @@ std::string told(const Json& header) {
       text +=
           fmt::format("{}: {} channels are left out: {}\n", name, run["channels_left_out"]["count"].get<std::size_t>(),
                       run["channels_left_out"]["why"].get<std::string>());
+    if (asked_for_stress &&
+        std::ranges::all_of(run["shapes"], [](const Json& shape) { return shape["stress"].is_null(); }))
+      text += fmt::format(
+          "{}: no stress, since no body that deforms has its recovery file beside it: write that with "
+          "`recovery: yes` in the part, or name it with --recovery\n",
+          name);
     for (const Json& shape : run["shapes"])
       if (!shape["thinned"].is_null())
         text += fmt::format("{}: a surface is thinned from {} to {} vertices\n", name,
@@ -77,7 +85,8 @@ std::string view(const ViewRequest& request) {
   const Json header = header_of(request, blocks);
   const std::string page = page_text(viewer_bundle(), header, blocks);
   write_text_file(request.output, page);
-  return fmt::format("{}page: {} ({:.2f} MB)\n", told(header), request.output, 1e-6 * static_cast<double>(page.size()));
+  return fmt::format("{}page: {} ({:.2f} MB)\n", told(header, request.shapes.stress), request.output,
+                     1e-6 * static_cast<double>(page.size()));
 }
 
 }  // namespace tisserand::mechanism

@@ -201,7 +201,7 @@ TEST(TorsionDoubt, SpeaksOfWeldedPiecesThatAreSoftForTheirSpin) {
 }
 
 /// The beam on a ball joint that turns about z, and is hit across, so that it moves in space.
-std::vector<std::string> doubts_of_ball_joint(JointKind kind, formats::InertiaOption inertia) {
+std::vector<std::string> doubts_of_ball_joint(JointKind kind, formats::InertiaOption inertia, bool has_bob = false) {
   BeamData round;
   round.Iy = round.Iz = 1.5e-8;
   HeldBeam held(kind, round);
@@ -209,6 +209,13 @@ std::vector<std::string> doubts_of_ball_joint(JointKind kind, formats::InertiaOp
   auto& body = std::get<formats::SuperelementBodySpec>(held.scene.bodies.front());
   body.inertia = inertia;
   body.start.angular_velocity = Vector3d(0, 0, 1);
+  if (has_bob) {
+    formats::RigidBodySpec bob = test_support::rigid_body("bob", 1e-2, {0, 0, 0}, {1e-7, 1e-7, 1e-7});
+    bob.start.pose.position = {round.length, 0, 0};
+    held.scene.bodies.push_back(bob);
+    held.scene.joints.push_back(
+        test_support::joint("end", JointKind::fixed, "beam/tip", "bob", {round.length, 0, 0}, Vector3d::UnitZ()));
+  }
   held.scene.loads.push_back(
       test_support::constant_load("lift", formats::LoadKind::force, "beam/tip", Vector3d(0, 0, 20)));
   return run(held.scene, held.files).doubts;
@@ -217,6 +224,9 @@ std::vector<std::string> doubts_of_ball_joint(JointKind kind, formats::InertiaOp
 TEST(AxialSpinDoubt, SpeaksOfABentBeamThatCanTurnAboutItsAxis) {
   using enum formats::InertiaOption;
   EXPECT_THAT(::testing::PrintToString(doubts_of_ball_joint(JointKind::spherical, A)),
+              HasSubstr("'beam' spins about its own axis"));
+  // What hangs on the beam alone does not hold it.
+  EXPECT_THAT(::testing::PrintToString(doubts_of_ball_joint(JointKind::spherical, A, true)),
               HasSubstr("'beam' spins about its own axis"));
   EXPECT_THAT(::testing::PrintToString(doubts_of_ball_joint(JointKind::revolute, A)),
               Not(HasSubstr("spins about its own axis")));
