@@ -140,7 +140,9 @@ std::string picture(const PictureRequest& request) {
   if (!request.output.ends_with(".png"))
     throw Error("pictures are PNG files", request.output, "end its name with .png");
   const Json still = still_of(request, formats::ResultsReader(request.page.shown.files[0]));
-  const PageFile page(request.output, page_of(request.page));
+  ViewRequest shown = request.page;
+  shown.shapes.stress = shown.shapes.stress || request.colouring == "stress";
+  const PageFile page(request.output, page_of(shown));
   const std::string png = base64_decoded(asked_of_page(page.path(), "tisserand.still(" + still.dump() + ")"));
   TISSERAND_ENSURE(png.starts_with("\x89PNG"), "the page gave {} bytes that are no PNG", png.size());
   write_text_file(request.output, png);

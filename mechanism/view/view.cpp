@@ -10,6 +10,15 @@
 namespace tisserand::mechanism {
 namespace {
 
+void require_stress(const Json& header, const std::string& where) {
+  const auto has_stress = [](const Json& shape) { return !shape["stress"].is_null(); };
+  for (const Json& run : header["runs"])
+    if (std::ranges::any_of(run["shapes"], has_stress)) return;
+  throw Error(
+      "stress is asked for, but no body that deforms has its recovery file", where,
+      "write it with `recovery: yes` in the part, beside the superelement or the results, or name it with --recovery");
+}
+
 using formats::Json;
 using formats::page_text;
 using formats::PageBlocks;
@@ -42,11 +51,12 @@ Json header_of(const ViewRequest& request, PageBlocks& blocks) {
           {{"name", series.source}, {"channel", ""}, {"x", numbers(series.x)}, {"y", numbers(series.y)}});
   }
   blocks.next();
+  if (request.shapes.stress) require_stress(header, request.shown.files.front());
   return header;
 }
 
 /// What the page does not show as the file has it.
-std::string told(const Json& header, bool asked_for_stress) {
+std::string told(const Json& header) {
   std::string text;
   for (const Json& run : header["runs"]) {
     const std::string name = printable_line(run["file"].get<std::string>(), 200);
@@ -59,12 +69,6 @@ std::string told(const Json& header, bool asked_for_stress) {
       text +=
           fmt::format("{}: {} channels are left out: {}\n", name, run["channels_left_out"]["count"].get<std::size_t>(),
                       run["channels_left_out"]["why"].get<std::string>());
-    if (asked_for_stress &&
-        std::ranges::all_of(run["shapes"], [](const Json& shape) { return shape["stress"].is_null(); }))
-      text += fmt::format(
-          "{}: no stress, since no body that deforms has its recovery file beside it: write that with "
-          "`recovery: yes` in the part, or name it with --recovery\n",
-          name);
     for (const Json& shape : run["shapes"])
       if (!shape["thinned"].is_null())
         text += fmt::format("{}: a surface is thinned from {} to {} vertices\n", name,
@@ -85,8 +89,7 @@ std::string view(const ViewRequest& request) {
   const Json header = header_of(request, blocks);
   const std::string page = page_text(viewer_bundle(), header, blocks);
   write_text_file(request.output, page);
-  return fmt::format("{}page: {} ({:.2f} MB)\n", told(header, request.shapes.stress), request.output,
-                     1e-6 * static_cast<double>(page.size()));
+  return fmt::format("{}page: {} ({:.2f} MB)\n", told(header), request.output, 1e-6 * static_cast<double>(page.size()));
 }
 
 }  // namespace tisserand::mechanism

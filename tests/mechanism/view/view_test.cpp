@@ -353,6 +353,10 @@ TEST_F(Page, RefusesWhatItCannotShow) {
   request.shown.files = {plain_results(folder_.file("d.h5"), {}, 0.0, 3, true)};
   request.shapes.recovery = {folder_.file("nowhere.recovery.h5")};
   EXPECT_THAT(error_of(request), HasSubstr("nowhere.recovery.h5"));
+  ViewRequest stress;
+  stress.shown.files = {run("stressless", arm)};
+  stress.shapes.stress = true;
+  EXPECT_THAT(error_of(stress), HasSubstr("no body that deforms has its recovery file"));
 }
 
 TEST_F(Page, SaysWhyARunStopped) {
