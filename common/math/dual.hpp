@@ -57,6 +57,16 @@ inline Dual sqrt(const Dual& a) {
 }
 inline Dual sin(const Dual& a) { return {std::sin(a.value), std::cos(a.value) * a.derivative}; }
 inline Dual cos(const Dual& a) { return {std::cos(a.value), -std::sin(a.value) * a.derivative}; }
+inline Dual atan(const Dual& a) { return {std::atan(a.value), a.derivative / (1.0 + a.value * a.value)}; }
+inline Dual exp(const Dual& a) {
+  const double e = std::exp(a.value);
+  return {e, e * a.derivative};
+}
+/// For a > 0.
+inline Dual pow(const Dual& a, double exponent) {
+  const double power = std::pow(a.value, exponent);
+  return {power, exponent * power / a.value * a.derivative};
+}
 inline Dual atan2(const Dual& y, const Dual& x) {
   const double n = x.value * x.value + y.value * y.value;
   return {std::atan2(y.value, x.value), (x.value * y.derivative - y.value * x.derivative) / n};

@@ -193,6 +193,11 @@ void add_tyres(const ResultsLayout& layout, std::vector<Block>& blocks) {
   add("penetration", length, [](Row r) { return r.tyre_penetration.data(); });
   add("rolling_radius", length, [](Row r) { return r.tyre_rolling_radius.data(); });
   add("adhesion", "1", [](Row r) { return r.tyre_adhesion.data(); });
+  const auto add_treads = [&](const char* name, const std::string& unit, const double* (*values)(Row)) {
+    blocks.push_back(vectors(std::string("/tyres/") + name, layout.tyres, {"x", "y"}, unit, values));
+  };
+  add_treads("deflection", length, [](Row r) { return r.tyre_deflection.data(); });
+  add_treads("deflection_rate", unit_label(u, 1, 0, -1), [](Row r) { return r.tyre_deflection_rate.data(); });
 }
 
 void add_scalars(const ResultsLayout& layout, std::vector<Block>& blocks) {
@@ -285,6 +290,7 @@ void ResultsRow::resize(const ResultsLayout& layout) {
   for (Eigen::VectorXd* block :
        {&tyre_slip, &tyre_slip_angle, &tyre_camber, &tyre_penetration, &tyre_rolling_radius, &tyre_adhesion})
     block->setZero(tyres);
+  for (Eigen::Matrix2Xd* block : {&tyre_deflection, &tyre_deflection_rate}) block->setZero(2, tyres);
   load.setZero(3, static_cast<Eigen::Index>(layout.loads.size()));
 }
 

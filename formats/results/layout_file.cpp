@@ -22,6 +22,8 @@ void write_couplings(hdf5::Id file, const std::vector<ResultsLayout::Coupling>& 
   hdf5::write_texts(file, "/couplings/second_kind", second, where);
 }
 
+}  // namespace
+
 void write_node_names(hdf5::Id file, const ResultsLayout& layout, const std::string& where) {
   hdf5::write_texts(file, "/nodes/name", layout.nodes, where);
   if (layout.node_aliases.empty()) return;
@@ -34,8 +36,6 @@ void write_node_names(hdf5::Id file, const ResultsLayout& layout, const std::str
   hdf5::write_texts(file, "/nodes/alias", names, where);
   hdf5::write_dataset(file, "/nodes/alias_of", {nodes.size()}, nodes.data(), where);
 }
-
-}  // namespace
 
 void write_names(hdf5::Id file, const ResultsLayout& layout, const std::vector<Block>& blocks,
                  const std::string& where) {

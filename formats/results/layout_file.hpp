@@ -13,4 +13,7 @@ namespace tisserand::formats {
 void write_names(hdf5::Id file, const ResultsLayout& layout, const std::vector<Block>& blocks,
                  const std::string& where);
 
+/// Names of nodes and their other names, which files of modes also need where they store no motion. Throws Error.
+void write_node_names(hdf5::Id file, const ResultsLayout& layout, const std::string& where);
+
 }  // namespace tisserand::formats

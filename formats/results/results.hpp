@@ -77,7 +77,9 @@ struct ResultsRow {
   Eigen::Matrix3Xd tyre_force, tyre_moment;    ///< on the wheel, about the contact centre, in tyre axes (ISO 8855)
   Eigen::Matrix3Xd tyre_contact, tyre_normal;  ///< contact centre, normal of the road
   Eigen::VectorXd tyre_slip, tyre_slip_angle, tyre_camber, tyre_penetration, tyre_rolling_radius, tyre_adhesion;
-  Eigen::Matrix3Xd load;  ///< force or moment of each load, in its axes: those of the world or of its node
+  Eigen::Matrix2Xd tyre_deflection,
+      tyre_deflection_rate;  ///< of the tread, along and across the wheel; 0 without relaxation
+  Eigen::Matrix3Xd load;     ///< force or moment of each load, in its axes: those of the world or of its node
   double kinetic = 0.0, strain = 0.0, potential = 0.0, work = 0.0, dissipated = 0.0, total = 0.0, balance = 0.0;
   double step = 0.0, iterations = 0.0, residual = 0.0, constraint = 0.0;
   bool reactions = true;  ///< whether the layout stores those of joints, drives or gears; set by resize()

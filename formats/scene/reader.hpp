@@ -45,7 +45,7 @@ std::vector<InitialSpec> read_initial(const MapReader& map);
 std::vector<SpringSpec> read_springs(const MapReader& map, const SceneDefinitions& definitions);
 std::vector<BushingSpec> read_bushings(const MapReader& map);
 std::vector<RoadSpec> read_roads(const MapReader& map, const SceneDefinitions& definitions);
-std::vector<TyreSpec> read_tyres(const MapReader& map);
+std::vector<TyreSpec> read_tyres(const MapReader& map, const SceneDefinitions& definitions);
 std::vector<LoadSpec> read_loads(const MapReader& map, const SceneDefinitions& definitions);
 /// `analysis` and its groups, or `analyses`.
 void read_analyses(const MapReader& map, Scene& scene);

@@ -84,7 +84,7 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
   scene.springs = read_springs(map, definitions);
   scene.bushings = read_bushings(map);
   scene.roads = read_roads(map, definitions);
-  scene.tyres = read_tyres(map);
+  scene.tyres = read_tyres(map, definitions);
   scene.loads = read_loads(map, definitions);
   read_analyses(map, scene);
   return scene;
@@ -199,7 +199,7 @@ DrawnScene read_drawn_scene(const std::string& text, const std::string& file) {
   const Units units = read_units(map);
   const SceneDefinitions definitions{std::filesystem::path(file).parent_path().string(), units, read_materials(map),
                                      read_sections(map, units)};
-  DrawnScene drawn{read_bodies(map, definitions), read_roads(map, definitions), read_tyres(map)};
+  DrawnScene drawn{read_bodies(map, definitions), read_roads(map, definitions), read_tyres(map, definitions)};
   Faults faults;
   for (const RoadSpec& road : drawn.roads) check_road(road, faults);
   reader.raise(faults);

@@ -18,6 +18,7 @@
 #include "formats/scene/body_spec.hpp"
 #include "formats/sections/section.hpp"
 #include "formats/tables/time_table.hpp"
+#include "formats/tyres/tyre_property_file.hpp"
 #include "formats/yaml/override.hpp"
 #include "formats/yaml/tree.hpp"
 
@@ -193,24 +194,30 @@ struct RoadSpec {
   std::string where;
 };
 
-/// A tyre on a wheel, with the law of comprehensive slip (mechanism/tyres/comprehensive_slip.hpp).
-enum class TyreKind { comprehensive_slip };
+/// A tyre on a wheel, with the law of comprehensive slip (mechanism/tyres/comprehensive_slip.hpp), or the Magic Formula
+/// of a file (mechanism/tyres/magic_formula.hpp), which has radius, stiffness, damping and slip laws of its own.
+enum class TyreKind { comprehensive_slip, magic_formula };
 struct TyreSpec {
   std::string name;
   TyreKind kind = TyreKind::comprehensive_slip;
   MarkerSpec wheel;                     ///< its centre
   std::optional<Eigen::Vector3d> axis;  ///< axle at the start, world axes; absent: y axis of the marker
   std::string road;
-  double radius = 0.0;                     ///< unloaded
-  double stiffness = 0.0;                  ///< vertical [force/length]
-  double damping = 0.0;                    ///< vertical
-  double slip_stiffness = 0.0;             ///< C_s [force per slip of 1]
-  double cornering_stiffness = 0.0;        ///< C_α [force/rad]
-  double camber_stiffness = 0.0;           ///< C_γ [force/rad]
-  double friction = 0.0;                   ///< μ without slip
-  std::optional<double> sliding_friction;  ///< μ at a slip of 1 and beyond; absent: the same
-  double rolling_resistance = 0.0;         ///< moment over load and rolling radius
-  double low_speed = 0.0;                  ///< below it slip counts from it [length/time]
+  double radius = 0.0;                      ///< unloaded; Magic Formula: that of the file
+  double stiffness = 0.0;                   ///< vertical [force/length]
+  double damping = 0.0;                     ///< vertical
+  double slip_stiffness = 0.0;              ///< C_s [force per slip of 1]
+  double cornering_stiffness = 0.0;         ///< C_α [force/rad]
+  double camber_stiffness = 0.0;            ///< C_γ [force/rad]
+  double friction = 0.0;                    ///< μ without slip
+  std::optional<double> sliding_friction;   ///< μ at a slip of 1 and beyond; absent: the same
+  double rolling_resistance = 0.0;          ///< moment over load and rolling radius
+  double low_speed = 0.0;                   ///< below it slip counts from it [length/time]
+  std::optional<double> relaxation_length;  ///< comprehensive slip: both directions; absent: none
+  bool relaxation = false;                  ///< Magic Formula: by the lengths of the file
+  bool mirrored = false;                    ///< Magic Formula: on the other side of the vehicle than in the file
+  std::optional<double> pressure;           ///< Magic Formula: inflation pressure; absent: that of the file
+  std::shared_ptr<const TyreProperties> properties;  ///< of the file; null: comprehensive slip
   std::string where;
 };
 

@@ -1,5 +1,7 @@
 // `roads` and `tyres` of scene.yaml, and their findings.
 #include <cmath>
+#include <filesystem>
+#include <map>
 
 #include "formats/scene/check_parts.hpp"
 #include "formats/scene/reader.hpp"
@@ -19,7 +21,61 @@ constexpr Choice<RoadPieceShape> piece_shapes[] = {
 constexpr Choice<RoadClass> road_classes[] = {{"A", RoadClass::A}, {"B", RoadClass::B}, {"C", RoadClass::C},
                                               {"D", RoadClass::D}, {"E", RoadClass::E}, {"F", RoadClass::F},
                                               {"G", RoadClass::G}, {"H", RoadClass::H}};
-constexpr Choice<TyreKind> tyre_kinds[] = {{"comprehensive_slip", TyreKind::comprehensive_slip}};
+constexpr Choice<TyreKind> tyre_kinds[] = {{"comprehensive_slip", TyreKind::comprehensive_slip},
+                                           {"magic_formula", TyreKind::magic_formula}};
+constexpr Choice<bool> yes_or_no[] = {{"yes", true}, {"no", false}, {"true", true}, {"false", false}};
+
+/// Keys of one kind of tyre alone; the first of each list are required there.
+constexpr std::string_view slip_keys[] = {
+    "radius",  "stiffness",        "slip_stiffness",   "cornering_stiffness", "friction",         "low_speed",
+    "damping", "camber_stiffness", "sliding_friction", "rolling_resistance",  "relaxation_length"};
+constexpr std::size_t required_slip_keys = 6;
+constexpr std::string_view file_keys[] = {"file", "relaxation", "mirrored", "pressure", "scale"};
+constexpr std::size_t required_file_keys = 1;
+/// Parts of the speed of a file below which MF-Tyre changes its formulas, and of that at which the tyre was measured.
+constexpr double low_of_vxlow = 0.1, low_of_longvl = 0.005;
+
+template <std::size_t N>
+void refuse_keys(const MapReader& map, const std::string_view (&keys)[N], const char* kind) {
+  for (const std::string_view key : keys)
+    if (const YamlNode* node = map.find(key))
+      map.context().fail(node->key_place, fmt::format("'{}' has no effect on a tyre of type {}", key, kind),
+                         "remove it");
+}
+
+std::map<std::string, double> read_scale(const MapReader& map) {
+  std::map<std::string, double> scale;
+  const YamlNode* node = map.find("scale");
+  if (node == nullptr) return scale;
+  if (node->kind != YamlKind::map) {
+    map.context().fail(node->place, "scale must be a map of scaling factors", "write scale: {LMUX: 0.8, LMUY: 0.8}");
+    return scale;
+  }
+  for (const YamlNode& child : node->children)
+    scale[child.key] = read_number(map.context(), child, "scale." + child.key);
+  return scale;
+}
+
+/// Opens the file of the tyre and takes what the scene leaves open from it.
+void read_properties(const MapReader& map, const SceneDefinitions& definitions, TyreSpec& tyre) {
+  const YamlNode* file = map.find("file");
+  if (file == nullptr || file->kind != YamlKind::scalar) return;
+  const std::filesystem::path path(file->text);
+  const std::map<std::string, double> scale = read_scale(map);
+  try {
+    TyreProperties properties = read_tyre_property_file(
+        path.is_absolute() ? path.string() : (std::filesystem::path(definitions.folder) / path).string(),
+        definitions.units, scale);
+    const MagicFormula& p = properties.coefficients;
+    if (!map.has("relaxation")) tyre.relaxation = p.transient;
+    tyre.radius = p.UNLOADED_RADIUS;
+    tyre.stiffness = p.VERTICAL_STIFFNESS;
+    if (!map.has("low_speed")) tyre.low_speed = p.VXLOW > 0.0 ? low_of_vxlow * p.VXLOW : low_of_longvl * p.LONGVL;
+    tyre.properties = std::make_shared<const TyreProperties>(std::move(properties));
+  } catch (const Error& error) {
+    map.context().fail(file->place, error.what(), "");
+  }
+}
 
 /// The keys of a shape; others have no effect on it.
 void require_keys(const MapReader& map, RoadPieceShape shape) {
@@ -133,6 +189,21 @@ void check_piece(const RoadPieceSpec& piece, const std::string& subject, const s
                "shorten the ramps, or lengthen the trapezoid");
 }
 
+/// What the scene asks of the file of a tyre.
+void check_properties(const TyreSpec& tyre, const std::string& subject, Faults& faults) {
+  const MagicFormula& p = tyre.properties->coefficients;
+  if (tyre.relaxation && (p.LONGITUDINAL_STIFFNESS <= 0.0 || p.LATERAL_STIFFNESS <= 0.0) &&
+      (p.PTX1 == 0.0 || p.PTY1 == 0.0))
+    faults.add(tyre.where, "relaxation",
+               fmt::format("{}: its file has no relaxation lengths (LONGITUDINAL_STIFFNESS and LATERAL_STIFFNESS, or "
+                           "PTX1 and PTY1)",
+                           subject),
+               "write relaxation: no");
+  if (tyre.pressure && p.NOMPRES <= 0.0)
+    faults.add(tyre.where, "pressure", fmt::format("{}: its file knows no inflation pressure (NOMPRES)", subject),
+               "remove it");
+}
+
 }  // namespace
 
 std::vector<RoadSpec> read_roads(const MapReader& map, const SceneDefinitions& definitions) {
@@ -151,7 +222,7 @@ std::vector<RoadSpec> read_roads(const MapReader& map, const SceneDefinitions& d
   return roads;
 }
 
-std::vector<TyreSpec> read_tyres(const MapReader& map) {
+std::vector<TyreSpec> read_tyres(const MapReader& map, const SceneDefinitions& definitions) {
   std::vector<TyreSpec> tyres;
   for (const YamlNode* node : map.entries("tyres", "tyre")) {
     const Context context = entry_context(map.context().reader, "tyre", *node);
@@ -161,6 +232,20 @@ std::vector<TyreSpec> read_tyres(const MapReader& map) {
     tyre.where = context.entry;
     read_fields(inner, tyre);
     tyre.wheel = read_marker(inner, "wheel");
+    if (tyre.kind == TyreKind::magic_formula) {
+      for (std::size_t i = 0; i < required_file_keys; ++i) inner.require(file_keys[i]);
+      for (const std::string_view key : slip_keys)
+        if (const YamlNode* of_slip = inner.find(key); of_slip != nullptr && key != "low_speed")
+          context.fail(of_slip->key_place, fmt::format("'{}' has no effect: the file of the tyre has its own", key),
+                       key == "friction" ? "remove it; scale: {LMUX: .., LMUY: ..} changes the friction of the file"
+                                         : "remove it");
+      tyre.relaxation = inner.choice("relaxation", yes_or_no, false);
+      tyre.mirrored = inner.choice("mirrored", yes_or_no, false);
+      read_properties(inner, definitions, tyre);
+    } else if (inner.has("type")) {
+      for (std::size_t i = 0; i < required_slip_keys; ++i) inner.require(slip_keys[i]);
+      refuse_keys(inner, file_keys, "comprehensive_slip");
+    }
     tyres.push_back(std::move(tyre));
   }
   return tyres;
@@ -192,6 +277,19 @@ void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, Faults& faults) {
     faults.add(tyre.where, "axis", fmt::format("{}: axis has no effect, since the marker has an orientation", subject),
                "remove it, or the orientation: the axle is y of the marker");
   const NumberCheck check{subject, tyre.where, faults};
+  if (tyre.pressure) check(*tyre.pressure, "pressure", Sign::positive);
+  if (tyre.kind == TyreKind::magic_formula) {
+    if (tyre.properties == nullptr) return;  // told already
+    if (tyre.low_speed == 0.0)
+      faults.add(tyre.where, "low_speed",
+                 fmt::format("{}: its file has neither VXLOW nor LONGVL to take low_speed from", subject),
+                 "give low_speed: 0.1 m/s is usual");
+    else
+      check(tyre.low_speed, "low_speed", Sign::positive);
+    check_properties(tyre, subject, faults);
+    return;
+  }
+  if (tyre.relaxation_length) check(*tyre.relaxation_length, "relaxation_length", Sign::positive);
   for (const auto& [value, key] :
        {std::pair{tyre.radius, "radius"}, std::pair{tyre.stiffness, "stiffness"},
         std::pair{tyre.slip_stiffness, "slip_stiffness"}, std::pair{tyre.cornering_stiffness, "cornering_stiffness"},
@@ -248,27 +346,46 @@ std::vector<KeySet> tyre_key_sets() {
         plain<&IsoRoadSpec::seed>("seed", "integer", "", "required"), plain<&IsoRoadSpec::start>("start", "number", ""),
         plain<&IsoRoadSpec::length>("length", "positive", "", "required")}},
       {"tyre",
-       {choice<&TyreSpec::kind, tyre_kinds>("type", "`comprehensive_slip`: see below", "required"),
+       {choice<&TyreSpec::kind, tyre_kinds>("type", "`comprehensive_slip`, or `magic_formula` by a file: see below",
+                                            "required"),
         {"wheel", "place", "centre of the wheel: a node or marker of the body that spins", "required"},
         plain<&TyreSpec::axis>("axis", "vector",
                                "axle at the start, world axes, to the left of the wheel: it rolls along axis x up",
                                "y axis of the marker"),
         plain<&TyreSpec::road>("road", "text", "name from `roads`", "required"),
-        plain<&TyreSpec::radius>("radius", "positive", "unloaded [length]", "required"),
-        plain<&TyreSpec::stiffness>("stiffness", "positive", "vertical [force/length]", "required"),
+        plain<&TyreSpec::radius>("radius", "positive", "unloaded [length]", "required by comprehensive_slip"),
+        plain<&TyreSpec::stiffness>("stiffness", "positive", "vertical [force/length]",
+                                    "required by comprehensive_slip"),
         plain<&TyreSpec::damping>("damping", "not_negative", "vertical [force time/length]"),
         plain<&TyreSpec::slip_stiffness>("slip_stiffness", "positive", "C_s, along the wheel, per slip of 1 [force]",
-                                         "required"),
-        plain<&TyreSpec::cornering_stiffness>("cornering_stiffness", "positive", "C_α [force/rad]", "required"),
+                                         "required by comprehensive_slip"),
+        plain<&TyreSpec::cornering_stiffness>("cornering_stiffness", "positive", "C_α [force/rad]",
+                                              "required by comprehensive_slip"),
         plain<&TyreSpec::camber_stiffness>("camber_stiffness", "not_negative", "C_γ [force/rad]"),
-        plain<&TyreSpec::friction>("friction", "positive", "μ₀, coefficient of friction without slip", "required"),
+        plain<&TyreSpec::friction>("friction", "positive", "μ₀, coefficient of friction without slip",
+                                   "required by comprehensive_slip"),
         plain<&TyreSpec::sliding_friction>("sliding_friction", "positive", "μ₁ ≤ μ₀, at a slip of 1 and beyond",
                                            "`friction`"),
         plain<&TyreSpec::rolling_resistance>("rolling_resistance", "not_negative",
                                              "C_r, moment against the roll over load and rolling radius"),
+        plain<&TyreSpec::relaxation_length>("relaxation_length", "positive",
+                                            "σ of both directions: slips follow those of the wheel over it [length]",
+                                            "none"),
+        {"file", "text", "`magic_formula`: tyre property file (.tir), from the folder of the scene", "required there"},
+        words<yes_or_no>("relaxation", "`magic_formula`: slips follow over the relaxation lengths of the file",
+                         "as its USE_MODE says"),
+        words<yes_or_no>("mirrored",
+                         "`magic_formula`: the tyre is on the other side of the vehicle than in the file; a mirrored "
+                         "assembly turns it round",
+                         "`no`"),
+        plain<&TyreSpec::pressure>("pressure", "positive", "`magic_formula`: inflation pressure [force/length²]",
+                                   "that of the file"),
+        {"scale", "{name: number}",
+         "`magic_formula`: scaling factors that replace those of the file: `{LMUX: 0.8, LMUY: 0.8}`",
+         "those of the file"},
         plain<&TyreSpec::low_speed>("low_speed", "positive",
                                     "v₀ below which slip counts from it [length/time]; 0.1 m/s is usual",
-                                    "required")}}};
+                                    "required by comprehensive_slip; VXLOW/10 or LONGVL/200 of the file")}}};
 }
 
 }  // namespace tisserand::formats

@@ -134,6 +134,19 @@ double move_to_values(const formats::Scene& scene, BuiltModel& built, Workspace&
   return (state.x() - before.x()).colwise().norm().maxCoeff();
 }
 
+/// Deflections of treads move from the start on as the wheels ask, not from rest.
+void settle_treads(const Model& model, State& state, Workspace& workspace) {
+  if (std::ranges::none_of(model.tyres, &Tyre::relaxes)) return;
+  evaluate(model, state, workspace.now);
+  for (std::size_t i = 0; i < model.tyres.size(); ++i) {
+    const Tyre& tyre = model.tyres[i];
+    if (!tyre.relaxes()) continue;
+    const NodeMotion& wheel = motion_of(workspace.now, tyre.wheel.node);
+    state.v().segment<2>(model.sizes.first_modal() + tyre.lag) =
+        settled_rates(tyre, model.roads[tyre.road], wheel, workspace.now.treads[i].w);
+  }
+}
+
 /// Where drives determine everything, contradictions of drives are dead points, which the analysis tells of.
 double contradiction_limit(const formats::Scene& scene) {
   const bool driven =
@@ -281,6 +294,7 @@ StartReport start(const formats::Scene& scene, StartFrom from, BuiltModel& built
       project_initial_velocities(model, scene.initial_tolerance, step, where, state, workspace);
   if (from == StartFrom::poses) require_followers(built, scene.initial_tolerance, where, state, workspace.now);
   if (!dynamics) return report;
+  settle_treads(model, state, workspace);
   report.massless = solve_accelerations(model, step, where, state, workspace);
   const AlphaParameters alpha = alpha_parameters(scene.integrator);
   start_algorithmic_acceleration(model, alpha.alpha_m - alpha.alpha_f, step, where, state, workspace);

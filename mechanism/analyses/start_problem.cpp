@@ -177,6 +177,8 @@ std::vector<int> parts_of_coordinates(const StartProblem& problem) {
     mark(model.nodes[i].rotation, 3, i);
   }
   for (const ModalBody& body : model.modal_bodies) mark(model.sizes.first_modal() + body.offset, body.modes, body.node);
+  for (const Tyre& tyre : model.tyres)
+    if (tyre.relaxes()) mark(model.sizes.first_modal() + tyre.lag, 2, tyre.wheel.node);
   return part;
 }
 

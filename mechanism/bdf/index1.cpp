@@ -186,6 +186,12 @@ void Index1::tolerances(double* absolute) const {
     std::fill_n(absolute + layout_.positions + at, body.modes, unit);
     std::fill_n(absolute + layout_.size() + at, body.modes, unit);
   }
+  for (const Tyre& tyre : model_.tyres) {
+    const int at = tyre.lag - internal - model_.sizes.modal;
+    if (!tyre.relaxes()) continue;
+    std::fill_n(absolute + layout_.positions + at, 2, tolerance * model_.length);
+    std::fill_n(absolute + layout_.size() + at, 2, tolerance * model_.length);
+  }
   for (std::size_t i = 0; i < model_.superelements.size(); ++i) {
     const double unit = tolerance * model_.length * std::sqrt(body_of(model_, i).mass);
     const int at = model_.internal_offset[i] - internal, count = body_of(model_, i).modes;

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/error.hpp"
+#include "common/text.hpp"
 #include "common/units.hpp"
 
 namespace tisserand::mechanism {
@@ -53,7 +55,7 @@ void check_axle(const formats::TyreSpec& spec, const Tyre& tyre, const Construct
 void check_tyre_start(const formats::TyreSpec& spec, const Tyre& tyre, Construction& c) {
   TyreTerms terms;
   const Road& road = c.model.roads[tyre.road];
-  evaluate(tyre, road, c.markers.motion(tyre.wheel.node), terms);
+  evaluate(tyre, road, c.markers.motion(tyre.wheel.node), Tread{}, terms);
   const std::string unit = after_number(unit_label(c.model.units, 1, 0, 0));
   if (terms.normal.isZero(0.0))
     throw Error(fmt::format("tyre '{}': its axle stands across the road '{}': the wheel lies on its side", spec.name,
@@ -72,6 +74,46 @@ void check_tyre_start(const formats::TyreSpec& spec, const Tyre& tyre, Construct
         fmt::format("tyre '{}' starts {:.4g}{} above the road '{}'", spec.name, -terms.penetration, unit, road.name));
 }
 
+/// The law and the vertical spring of a file: F_z = (Q_FZ1 δ/R₀ + Q_FZ2 (δ/R₀)²)(1 + PFZ1 dp_i) F_z0 where it has
+/// Q_FZ2, and then Q_FZ1 from the stiffness at the nominal load unless it is given ([Pac12] (4.E68)).
+void take_properties(const formats::TyreSpec& spec, Tyre& tyre, Construction& c) {
+  MagicFormulaLaw law{spec.properties->coefficients, 0.0, spec.mirrored};
+  const formats::MagicFormula& p = law.p;
+  if (p.NOMPRES > 0.0) {
+    const double pressure = spec.pressure.value_or(p.INFLPRES > 0.0 ? p.INFLPRES : p.NOMPRES);
+    law.pressure = pressure / p.NOMPRES - 1.0;
+  }
+  tyre.damping = p.VERTICAL_DAMPING;
+  const double by_pressure = 1.0 + p.PFZ1 * law.pressure;
+  double linear = p.QFZ1;
+  const double whole = p.VERTICAL_STIFFNESS * p.UNLOADED_RADIUS / p.FNOMIN;
+  if (linear == 0.0) linear = std::sqrt(std::max(whole * whole - 4.0 * p.QFZ2, 0.0));
+  if (!(linear > 0.0 && by_pressure > 0.0 && p.QFZ2 >= 0.0))
+    throw Error(
+        fmt::format("tyre '{}': its vertical spring softens or pulls (Q_FZ1 {:.4g}, Q_FZ2 {:.4g}, factor of the "
+                    "pressure {:.4g})",
+                    spec.name, linear, p.QFZ2, by_pressure),
+        spec.where, "correct Q_FZ1, Q_FZ2, PFZ1 of the file, or the pressure");
+  const bool has_curve = p.QFZ1 != 0.0 || p.QFZ2 != 0.0;
+  const double slope = has_curve ? linear * p.FNOMIN / p.UNLOADED_RADIUS : p.VERTICAL_STIFFNESS;
+  tyre.stiffness = by_pressure * slope;
+  tyre.progressive = by_pressure * p.QFZ2 * p.FNOMIN / (p.UNLOADED_RADIUS * p.UNLOADED_RADIUS);
+  if (!spec.properties->unused.empty()) {
+    const std::string note =
+        fmt::format("{}: keys without effect here: {}", spec.properties->version, join(spec.properties->unused, ", "));
+    if (std::ranges::find(c.notes, note) == c.notes.end()) c.notes.push_back(note);  // tyres of one file
+  }
+  tyre.law = std::move(law);
+}
+
+/// Coordinates for the deflections of the tread.
+void give_treads(const formats::TyreSpec& spec, Tyre& tyre, Construction& c) {
+  if (c.model.nodes[tyre.wheel.node].modal >= 0)
+    throw Error(fmt::format("tyre '{}' relaxes and is on a node of a modal body", spec.name), spec.where,
+                "put it on a rigid wheel, or leave relaxation out");
+  tyre.lag = std::exchange(c.model.sizes.modal, c.model.sizes.modal + 2);
+}
+
 void add_tyre(const formats::TyreSpec& spec, Construction& c) {
   Tyre tyre;
   tyre.name = spec.name;
@@ -86,8 +128,13 @@ void add_tyre(const formats::TyreSpec& spec, Construction& c) {
   tyre.radius = spec.radius;
   tyre.stiffness = spec.stiffness;
   tyre.damping = spec.damping;
-  tyre.law = {spec.slip_stiffness, spec.cornering_stiffness, spec.camber_stiffness, spec.friction,
-              spec.sliding_friction.value_or(spec.friction)};
+  if (spec.properties != nullptr)
+    take_properties(spec, tyre, c);
+  else
+    tyre.law = ComprehensiveSlip{spec.slip_stiffness, spec.cornering_stiffness, spec.camber_stiffness, spec.friction,
+                                 spec.sliding_friction.value_or(spec.friction)};
+  tyre.relaxation = spec.relaxation_length.value_or(0.0);
+  if (spec.relaxation || spec.relaxation_length) give_treads(spec, tyre, c);
   tyre.rolling_resistance = spec.rolling_resistance;
   tyre.low_speed = spec.low_speed;
   check_axle(spec, tyre, c);

@@ -14,6 +14,7 @@ Doubts::Doubts(const formats::Scene& scene, const Model& model)
       inertia_(scene, model),
       torsion_(scene, model),
       spin_(model),
+      tyres_(model),
       resolution_(scene, model),
       swing_(scene) {}
 
@@ -22,6 +23,7 @@ void Doubts::after_step(const Model& model, const State& before, const State& st
   inertia_.observe(model, state, evaluation);
   torsion_.observe(model, state, evaluation);
   spin_.observe(model, state, evaluation);
+  tyres_.observe(model, state, evaluation);
   resolution_.observe(model, before, state);
   swing_.observe(before, state);
 }
@@ -31,6 +33,7 @@ void Doubts::at_state(const Model& model, const State& state, const Evaluation& 
   inertia_.observe(model, state, evaluation);
   torsion_.observe(model, state, evaluation);
   spin_.observe(model, state, evaluation);
+  tyres_.observe(model, state, evaluation);
 }
 
 void Doubts::at_row(const formats::ResultsRow& row) { energy_.observe(row); }
@@ -38,7 +41,8 @@ void Doubts::at_row(const formats::ResultsRow& row) { energy_.observe(row); }
 std::vector<std::string> Doubts::tell(const Model& model) const {
   std::vector<std::string> all = energy_.doubts();
   for (auto&& some : {swing_.doubts(), resolution_.doubts(model), range_.doubts(model), inertia_.doubts(model),
-                      torsion_.doubts(model), spin_.doubts(model), damping_doubts(model)})
+                      torsion_.doubts(model), spin_.doubts(model), tyres_.doubts(model),
+                      damping_doubts(model)})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }

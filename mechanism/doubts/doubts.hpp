@@ -11,6 +11,7 @@
 #include "mechanism/doubts/multiplier_swing.hpp"
 #include "mechanism/doubts/step_resolution.hpp"
 #include "mechanism/doubts/torsion.hpp"
+#include "mechanism/doubts/tyre_range.hpp"
 
 namespace tisserand::mechanism {
 
@@ -38,6 +39,7 @@ class Doubts {
   InertiaChoice inertia_;
   Torsion torsion_;
   AxialSpin spin_;
+  TyreRange tyres_;
   StepResolution resolution_;
   MultiplierSwing swing_;
 };

@@ -44,6 +44,8 @@ Eigen::ArrayXd masses(const Model& model, const State& state) {
     }
     mass.segment(model.sizes.boundary + model.internal_offset[k], body.modes).setOnes();
   }
+  for (const Tyre& tyre : model.tyres)  // treads follow their wheels
+    if (tyre.relaxes()) mass.segment<2>(model.sizes.first_modal() + tyre.lag).setZero();
   return mass;
 }
 

@@ -34,6 +34,7 @@ std::vector<std::optional<TimeFunction>> compile_spring_forces(const Model& mode
 Evaluation::Evaluation(const Model& model)
     : displacement(Eigen::VectorXd::Zero(model.sizes.velocities())),
       motion(model.nodes.size() + 1),
+      treads(model.tyres.size()),
       joints(model.joints.size()),
       coordinates(model.coordinates.size()),
       motion_values(model.motions.size()),

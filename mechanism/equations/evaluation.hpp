@@ -47,6 +47,7 @@ struct Evaluation {
 
   // Stage motion.
   std::vector<NodeMotion> motion;  ///< of every node; one more at the end: ground
+  std::vector<Tread> treads;  ///< of every tyre
   std::vector<ModalScratch> modal_bodies;
   std::vector<ModalNodeTerms> modal_nodes;  ///< active ones; all of them after update_modal_nodes()
 

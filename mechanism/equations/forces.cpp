@@ -21,6 +21,12 @@ void add_upper(const ConstraintMap& map, int size, const Rows& rows, std::vector
       if (const int slot = map.upper[k + size * j]; slot >= 0) values[slot] += rows(k, j);
 }
 
+Vector8d tyre_residual(const TyreTerms& terms) {
+  Vector8d residual;
+  residual << terms.residual, terms.lag;
+  return residual;
+}
+
 }  // namespace
 
 void add_frictions(const Model& model, const State& state, Evaluation& evaluation) {
@@ -113,8 +119,8 @@ void add_tyres(const Model& model, Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.tyres.size(); ++i) {
     const Tyre& tyre = model.tyres[i];
     TyreTerms& terms = evaluation.tyres[i];
-    evaluate(tyre, model.roads[tyre.road], motion_of(evaluation, tyre.wheel.node), terms);
-    add_force(model, model.tyres.maps[i], terms.residual, evaluation);
+    evaluate(tyre, model.roads[tyre.road], motion_of(evaluation, tyre.wheel.node), evaluation.treads[i], terms);
+    add_force(model, model.tyres.maps[i], tyre_residual(terms), evaluation);
     note_scale(terms.residual, evaluation);
     evaluation.spring_energy += terms.energy;
     evaluation.damping_power += terms.dissipated;
@@ -123,16 +129,20 @@ void add_tyres(const Model& model, Evaluation& evaluation) {
 
 void add_tyre_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target) {
   const TangentCoefficients& coefficients = target.coefficients;
-  Matrix6d A;
+  Matrix8d A;
   for (std::size_t i = 0; i < model.tyres.size(); ++i) {
     const Tyre& tyre = model.tyres[i];
     const Road& road = model.roads[tyre.road];
     const NodeMotion& node = motion_of(evaluation, tyre.wheel.node);
     const TyreTerms& terms = evaluation.tyres[i];
-    A = terms.penetration > 0.0 ? tangent(tyre, road, node, coefficients) : Matrix6d::Zero();
+    A.setZero();
+    if (terms.penetration > 0.0 || tyre.relaxes()) A = tangent(tyre, road, node, evaluation.treads[i], coefficients);
     if (evaluation.standing) A += coefficients.stiffness * standing_stiffness(tyre, road, node, terms);
-    add_matrix(model, model.tyres.maps[i], A, target.factor, evaluation, target.values,
-               [&] { return Vector6d(coefficients.stiffness * terms.residual); });
+    if (tyre.relaxes())  // its wheel follows no modal body
+      scatter_matrix(model.tyres.maps[i], A, target.factor, target.values);
+    else
+      add_matrix(model, model.tyres.maps[i], Matrix6d(A.topLeftCorner<6, 6>()), target.factor, evaluation,
+                 target.values, [&] { return Vector6d(coefficients.stiffness * terms.residual); });
   }
 }
 

@@ -105,6 +105,8 @@ Mobility count_mobility(const Model& model, const State& state, Evaluation& eval
   const Parts parts = find_parts(model);
   Mobility mobility;
   mobility.coordinates = model.sizes.velocities();
+  for (const Tyre& tyre : model.tyres)
+    if (tyre.relaxes()) mobility.coordinates -= 2;  // deflections of treads follow their wheels
   mobility.constraints = model.sizes.constraints;
   mobility.parts = parts.count();
   ColumnRank rank = rank_of(scaled_jacobian(model, evaluation));

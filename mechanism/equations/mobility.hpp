@@ -11,7 +11,7 @@
 namespace tisserand::mechanism {
 
 struct Mobility {
-  int coordinates = 0;  ///< boundary and internal
+  int coordinates = 0;  ///< boundary and internal, without those of treads
   int constraints = 0;
   int rank = 0;                ///< of the constraint Jacobian
   int degrees_of_freedom = 0;  ///< coordinates − rank

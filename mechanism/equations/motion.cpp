@@ -34,6 +34,11 @@ void update_motion(const Model& model, const State& state, Evaluation& evaluatio
       motion.Omegad = vdot.segment<3>(node.rotation);
     }
   }
+  for (std::size_t i = 0; i < model.tyres.size(); ++i)
+    if (const Tyre& tyre = model.tyres[i]; tyre.relaxes()) {
+      const int at = model.sizes.first_modal() + tyre.lag;
+      evaluation.treads[i] = {state.w().segment<2>(tyre.lag), v.segment<2>(at), vdot.segment<2>(at)};
+    }
 }
 
 /// Frames, modes and the nodes that something acts on.

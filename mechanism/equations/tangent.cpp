@@ -85,6 +85,12 @@ void evaluate_weight(const Model& model, const State& state, const TangentCoeffi
     scatter_matrix(model.superelements.maps[i], work.A_BB, bodies.factor, matrix.values);
   }
   add_body_tangents(model, TangentKind::step, evaluation, bodies);
+  for (std::size_t i = 0; i < model.tyres.size(); ++i) {
+    if (!model.tyres[i].relaxes()) continue;
+    Matrix8d mass = Matrix8d::Zero();
+    mass.diagonal().tail<2>().setConstant(coefficients.mass * lag_mass(model.tyres[i]));
+    scatter_matrix(model.tyres.maps[i], mass, bodies.factor, matrix.values);
+  }
   const TangentTarget rows_alone{coefficients, rows, 0.0, matrix.values};
   add_joint_tangents(model, state, evaluation, rows_alone);
   add_coordinate_tangents(model, state, evaluation, rows_alone);

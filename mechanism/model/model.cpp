@@ -49,7 +49,11 @@ void number_elements(Model& model) {
   };
   for (const Joint& joint : model.joints) add(model.joints.maps, joint.a.node, joint.b.node);
   for (const Bushing& bushing : model.bushings) add(model.bushings.maps, bushing.a.node, bushing.b.node);
-  for (const Tyre& tyre : model.tyres) add(model.tyres.maps, tyre.wheel.node);
+  for (const Tyre& tyre : model.tyres) {
+    add(model.tyres.maps, tyre.wheel.node);
+    for (int k = 0; tyre.relaxes() && k < 2; ++k)
+      model.tyres.maps.back().coordinates.push_back(model.sizes.first_modal() + tyre.lag + k);
+  }
   for (const Load& load : model.loads) add(model.loads.maps, load.at.node);
   for (const Coordinate& c : model.coordinates) add(model.coordinates.maps, c.a.node, c.b.node);
   for (const ChannelUse& use : model.channel_uses) {
@@ -223,6 +227,9 @@ std::string coordinate_name(const Model& model, int coordinate) {
   for (const ModalBody& body : model.modal_bodies)
     if (modal >= body.offset && modal < body.offset + body.modes)
       return fmt::format("{}, mode {}", body.name, modal - body.offset + 1);
+  for (const Tyre& tyre : model.tyres)
+    if (tyre.relaxes() && modal >= tyre.lag && modal < tyre.lag + 2)
+      return fmt::format("{}, deflection of the tread {} it", tyre.name, modal == tyre.lag ? "along" : "across");
   const int internal = coordinate - model.sizes.boundary;
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
     if (internal >= model.internal_offset[i] && internal < model.internal_offset[i + 1])

@@ -170,6 +170,8 @@ void fill_tyres(const Model& model, const Evaluation& evaluation, formats::Resul
     row.tyre_penetration[i] = tyre.penetration;
     row.tyre_rolling_radius[i] = tyre.rolling_radius;
     row.tyre_adhesion[i] = tyre.adhesion;
+    row.tyre_deflection.col(i) = evaluation.treads[i].w;
+    row.tyre_deflection_rate.col(i) = evaluation.treads[i].wd;
   }
 }
 
@@ -252,8 +254,9 @@ void fill_row(const Model& model, const State& state, Evaluation& evaluation, fo
   row.time = state.time();
   fill_places(model, evaluation, row);
   fill_superelements(model, evaluation, row);
-  row.w = state.w();
-  row.w_rate = state.v().segment(model.sizes.first_modal(), model.sizes.modal);
+  const Eigen::Index modes = row.w.size();  // the deflections of treads are behind them
+  row.w = state.w().head(modes);
+  row.w_rate = state.v().segment(model.sizes.first_modal(), modes);
   evaluate_coordinates(model, state, evaluation);
   Eigen::VectorXd least;
   if (row.reactions && is_overconstrained(state)) least = least_norm_multipliers(model, evaluation, state.lambda());

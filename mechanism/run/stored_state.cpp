@@ -116,6 +116,15 @@ void read_modal_bodies(const Model& model, const StoredRow& stored, State& state
   }
 }
 
+void read_treads(const Model& model, const StoredRow& stored, State& state) {
+  for (const Tyre& tyre : model.tyres) {
+    if (!tyre.relaxes()) continue;
+    const std::vector<std::string> columns{tyre.name + "/x", tyre.name + "/y"};
+    state.w().segment<2>(tyre.lag) = stored.read("tyres/deflection/", columns);
+    state.v().segment<2>(model.sizes.first_modal() + tyre.lag) = stored.read("tyres/deflection_rate/", columns);
+  }
+}
+
 }  // namespace
 
 StoredSums read_stored_state(const Model& model, const std::string& file, const std::optional<double>& at, State& state,
@@ -125,6 +134,7 @@ StoredSums read_stored_state(const Model& model, const std::string& file, const 
   read_nodes(model, stored, state);
   read_superelements(model, stored, state);
   read_modal_bodies(model, stored, state);
+  read_treads(model, stored, state);
   for (const Coordinate& coordinate : model.coordinates)
     if (coordinate.turn >= 0) state.hinges()[coordinate.turn] = stored.read("joints/coordinate/", {coordinate.name})[0];
   state.time() = state.load_time() = stored.reader.read_rows({"time"}, stored.row, 1)(0, 0);

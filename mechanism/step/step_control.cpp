@@ -46,6 +46,8 @@ LocalError measure_error(const Model& model, const formats::ErrorControl& contro
   }
   for (const ModalBody& body : model.modal_bodies)
     look_at(model.sizes.first_modal() + body.offset, body.modes, length * std::sqrt(body.mass));
+  for (const Tyre& tyre : model.tyres)
+    if (tyre.relaxes()) look_at(model.sizes.first_modal() + tyre.lag, 2, length);
   for (std::size_t i = 0; i < model.superelements.size(); ++i)
     look_at(model.sizes.boundary + model.internal_offset[i], body_of(model, i).modes,
             length * std::sqrt(body_of(model, i).mass));

@@ -5,36 +5,16 @@
 #include <cmath>
 
 #include "common/math/dual.hpp"
+#include "mechanism/tyres/patch.hpp"
+#include "mechanism/tyres/slip_law.hpp"
 
 namespace tisserand::mechanism {
 
-/// Constants of [GN90]; forces per unit of slip, angles as slip.
-struct ComprehensiveSlip {
-  double slip_stiffness = 0.0;       ///< C_s
-  double cornering_stiffness = 0.0;  ///< C_α
-  double camber_stiffness = 0.0;     ///< C_γ
-  double friction = 0.0;             ///< μ₀ without slip
-  double sliding_friction = 0.0;     ///< μ₁ at slip 1 and beyond
-};
-
-/// What a patch feels. Slips are velocities over the larger of speed and rolling speed: along x against the rolling
-/// (positive: braking while rolling forward), across it along y. `rolling`: −1 to 1, direction in which the tread runs
-/// through the patch, 0 at standstill.
+/// Speed over which slips count: the larger of those of wheel and tread.
 template <class T>
-struct PatchSlip {
-  T along, across;
-  T camber_sine;
-  T load;
-  T length;  ///< of the patch
-  T radius;  ///< rolling radius
-  T rolling;
-};
-
-template <class T>
-struct PatchForce {
-  T x = T(0.0), y = T(0.0), moment = T(0.0);  ///< F_x, F_y, M_z in tyre axes
-  double adhesion = 0.0;                      ///< l_n: share of the patch that does not slide
-};
+T slip_speed(const ComprehensiveSlip& /*law*/, const T& ahead, const T& turned) {
+  return real_part(ahead) > real_part(turned) ? ahead : turned;
+}
 
 /// With the combined slip S = √(S_s² + S_αγ²), S_αγ = S_α + l sin γ/(2 R), μ = μ₀ − (μ₀ − μ₁) min(S, 1) and
 /// S_n = √((C_s S_s)² + (C_α S_αγ)²)/(3 μ F_z), l_n = 1 − S_n: where S_n < 1
@@ -55,10 +35,11 @@ PatchForce<T> patch_force(const ComprehensiveSlip& law, const PatchSlip<T>& slip
   const T across = slip.across + slip.length * turning / (2.0 * slip.radius);
   const T adhering_x = law.slip_stiffness * slip.along, adhering_y = law.cornering_stiffness * across;
   const T square = slip.along * slip.along + across * across;
-  T l_n(1.0), mu(law.friction), slide_x(0.0), slide_y(0.0), S_n(0.0);
+  const double stick = law.friction * slip.friction, slide = law.sliding_friction * slip.friction;
+  T l_n(1.0), mu(stick), slide_x(0.0), slide_y(0.0), S_n(0.0);
   if (real_part(square) > 0.0) {
     const T S = sqrt(square);
-    mu = law.friction - (law.friction - law.sliding_friction) * (real_part(S) < 1.0 ? S : T(1.0));
+    mu = stick - (stick - slide) * (real_part(S) < 1.0 ? S : T(1.0));
     const T limit = 3.0 * mu * slip.load;
     const T demand = sqrt(adhering_x * adhering_x + adhering_y * adhering_y);
     slide_x = mu * slip.load * slip.along / S;

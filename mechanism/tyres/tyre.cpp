@@ -5,6 +5,9 @@
 #include <cmath>
 
 #include "common/math/rotation.hpp"
+#include "mechanism/tyres/comprehensive_slip.hpp"
+#include "mechanism/tyres/contact.hpp"
+#include "mechanism/tyres/magic_formula.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -16,6 +19,12 @@ using Eigen::Vector3d;
 constexpr double landing = 0.01;
 /// Share of the vertical stiffness that holds standing tyres along the road in the matrix of statics.
 constexpr double standing_share = 1e-3;
+/// Least relaxation length over the radius: a tyre without load forgets its deflection within a fraction of a turn.
+constexpr double least_relaxation = 0.05;
+/// τ v₀/R₀ of Tyre.
+constexpr double lag_share = 1e-6;
+/// Share of slip velocity that damps deflections at standstill, and the speed over v₀ at which it has gone.
+constexpr double rocking_share = 0.01, rocking_speed = 10.0;
 
 template <class T>
 T magnitude(const T& a) {
@@ -36,15 +45,10 @@ T smooth_sign(const T& t) {
   return t * (1.5 - 0.5 * t * t);
 }
 
-/// What the tyre does, world axes; the wrench is about the centre of the disc.
+/// Tread deflections with their rates at one instant.
 template <class T>
-struct TyreAction {
-  using Vector3 = Eigen::Matrix<T, 3, 1>;
-  DiscContact<T> contact;
-  Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
-  Vector3 force_tyre = Vector3::Zero(), moment_tyre = Vector3::Zero();  ///< tyre axes, about the contact centre
-  T slip = T(0.0), slip_angle_tangent = T(0.0), rolling_radius = T(0.0);
-  double adhesion = 0.0;
+struct TreadMotion {
+  T u = T(0.0), v = T(0.0), ud = T(0.0), vd = T(0.0), udd = T(0.0), vdd = T(0.0);
 };
 
 template <class T>
@@ -53,7 +57,8 @@ T load_of(const Tyre& tyre, const DiscContact<T>& c, const DiscMotion<T>& disc) 
   const T rate = -c.n.dot(disc.velocity) - T(tyre.radius) * c.sine * disc.omega.dot(c.x);
   const T ramp = smooth_share<T>(c.penetration / (landing * tyre.radius));
   const T lying = smooth_share<T>((c.cosine - lost_cosine) / (full_cosine - lost_cosine));
-  const T load = lying * (tyre.stiffness * c.penetration + tyre.damping * ramp * rate);
+  const T load =
+      lying * ((tyre.stiffness + tyre.progressive * c.penetration) * c.penetration + tyre.damping * ramp * rate);
   return real_part(load) > 0.0 ? load : T(0.0);
 }
 
@@ -63,37 +68,134 @@ T regularised(const T& speed, double low) {
   return real_part(speed) < low ? T((speed * speed + low * low) / (2.0 * low)) : speed;
 }
 
+/// Effective rolling radius: R₀ − δ/3, or that of the file, R₀ − (F_z0/k)(D atan(B k δ/F_z0) + F k δ/F_z0).
 template <class T>
-TyreAction<T> act(const Tyre& tyre, const Road& road, const DiscMotion<T>& disc) {
+T rolling_radius(const Tyre& tyre, const T& penetration) {
+  using std::atan;
+  const auto* law = std::get_if<MagicFormulaLaw>(&tyre.law);
+  if (law == nullptr || (law->p.DREFF == 0.0 && law->p.FREFF == 0.0)) return tyre.radius - penetration / 3.0;
+  const double nominal = law->p.FNOMIN / law->p.VERTICAL_STIFFNESS;
+  const T rho = penetration / nominal;
+  return tyre.radius - nominal * (law->p.DREFF * atan(law->p.BREFF * rho) + law->p.FREFF * rho);
+}
+
+/// How the contact slips, before any law: velocities along and across, and the speed to which they are related.
+template <class T>
+struct ContactSlip {
+  T along, across;         ///< V_x − Ω R, V_y
+  T ahead, turned, speed;  ///< |V_x|, |Ω R|, V of the law
+  T rolling_radius, rolling;
+};
+
+template <class T>
+ContactSlip<T> slip_of(const Tyre& tyre, const DiscContact<T>& c, const DiscMotion<T>& disc) {
+  using Vector3 = Eigen::Matrix<T, 3, 1>;
+  const T spin = disc.omega.dot(disc.axle);
+  const Vector3 velocity = disc.velocity + Vector3(disc.omega - spin * disc.axle).cross(Vector3(c.radius * c.down));
+  ContactSlip<T> s;
+  s.rolling_radius = rolling_radius(tyre, c.penetration);
+  const T Vx = velocity.dot(c.x), roll = spin * s.rolling_radius;
+  s.along = Vx - roll;
+  s.across = velocity.dot(c.y);
+  s.ahead = magnitude(Vx);
+  s.turned = magnitude(roll);
+  s.speed = std::visit([&](const auto& law) { return slip_speed(law, s.ahead, s.turned); }, tyre.law);
+  s.rolling = smooth_sign<T>(roll / tyre.low_speed);
+  return s;
+}
+
+/// σ_x and σ_y, not below their least.
+template <class T>
+RelaxationLengths<T> relaxation_of(const Tyre& tyre, const PatchSlip<T>& slip) {
+  RelaxationLengths<T> sigma{T(tyre.relaxation), T(tyre.relaxation)};
+  if (const auto* law = std::get_if<MagicFormulaLaw>(&tyre.law)) sigma = relaxation_lengths(*law, slip);
+  const double least = least_relaxation * tyre.radius;
+  return {magic_formula::at_least(sigma.along, least), magic_formula::at_least(sigma.across, least)};
+}
+
+/// −u̇ and −v̇ of the first-order equations at the deflections.
+template <class T>
+struct LagRate {
+  T along, across;
+};
+
+/// Slips from the deflections, and their rates.
+template <class T>
+LagRate<T> relax(const Tyre& tyre, const ContactSlip<T>& s, const TreadMotion<T>& tread, PatchSlip<T>& slip) {
+  const RelaxationLengths<T> sigma = relaxation_of(tyre, slip);
+  const T sideways = magnitude(s.across);
+  const T V = real_part(s.speed) < real_part(sideways) ? sideways : s.speed;
+  const T left = T(1.0) - V / (rocking_speed * tyre.low_speed);
+  const T share = real_part(left) > 0.0 ? T((rocking_share / tyre.low_speed) * left * left) : T(0.0);
+  slip.along = tread.u / sigma.along + share * s.along;
+  slip.across = tread.v / sigma.across + share * s.across;
+  return {V / sigma.along * tread.u - s.along, V / sigma.across * tread.v - s.across};
+}
+
+/// In the air deflections die away as if the tyre rolled at v₀ at least.
+template <class T>
+LagRate<T> forget(const Tyre& tyre, const T& spin, const TreadMotion<T>& tread) {
+  const T V = magnitude(spin) * tyre.radius + tyre.low_speed;
+  const T rate = V / (least_relaxation * tyre.radius);
+  return {rate * tread.u, rate * tread.v};
+}
+
+/// What the tyre does, world axes; the wrench is about the centre of the disc.
+template <class T>
+struct TyreAction {
+  using Vector3 = Eigen::Matrix<T, 3, 1>;
+  DiscContact<T> contact;
+  Vector3 force = Vector3::Zero(), moment = Vector3::Zero();
+  Vector3 force_tyre = Vector3::Zero(), moment_tyre = Vector3::Zero();  ///< tyre axes, about the contact centre
+  T slip = T(0.0), slip_angle_tangent = T(0.0), rolling_radius = T(0.0);
+  LagRate<T> lag{T(0.0), T(0.0)};
+  double adhesion = 0.0;
+};
+
+template <class T>
+TyreAction<T> act(const Tyre& tyre, const Road& road, const DiscMotion<T>& disc, const TreadMotion<T>& tread) {
   using Vector3 = Eigen::Matrix<T, 3, 1>;
   using std::sqrt;
   TyreAction<T> a;
   a.contact = find_contact(road, tyre.radius, disc);
   const DiscContact<T>& c = a.contact;
-  if (!c.exists || !(real_part(c.penetration) > 0.0)) return a;
-  const T spin = disc.omega.dot(disc.axle);
-  const Vector3 arm = c.radius * c.down;
-  const Vector3 velocity = disc.velocity + Vector3(disc.omega - spin * disc.axle).cross(arm);
-  const T R = tyre.radius - c.penetration / 3.0;
-  const T Vx = velocity.dot(c.x), Vy = velocity.dot(c.y), roll = spin * R;
-  const T ahead = magnitude(Vx), turned = magnitude(roll);
-  const T V = regularised<T>(real_part(ahead) > real_part(turned) ? ahead : turned, tyre.low_speed);
-  const T direction = smooth_sign<T>(roll / tyre.low_speed);
-  const T load = load_of(tyre, c, disc);
-  const PatchSlip<T> slip{(Vx - roll) / V, Vy / V, c.sine, load, sqrt(T(8.0 * tyre.radius * c.penetration)), R,
-                          direction};
-  const PatchForce<T> patch = patch_force(tyre.law, slip);
-  const T about_axle = -(R - c.radius) * patch.x - tyre.rolling_resistance * load * R * direction;
+  if (!c.exists || !(real_part(c.penetration) > 0.0)) {
+    if (tyre.relaxes()) a.lag = forget<T>(tyre, disc.omega.dot(disc.axle), tread);
+    return a;
+  }
+  const ContactSlip<T> s = slip_of(tyre, c, disc);
+  const T V = regularised<T>(s.speed, tyre.low_speed);
+  const T load = load_of(tyre, c, disc), R = s.rolling_radius;
+  PatchSlip<T> slip{s.along / V, s.across / V, c.sine, load, sqrt(T(8.0 * tyre.radius * c.penetration)),
+                    R,           s.rolling,    s.ahead};
+  a.slip_angle_tangent = s.across / regularised<T>(s.ahead, tyre.low_speed);
+  if (tyre.relaxes()) {
+    a.lag = relax(tyre, s, tread, slip);
+    a.slip_angle_tangent = slip.across * V / regularised<T>(s.ahead, tyre.low_speed);
+  }
+  const PatchForce<T> patch = std::visit([&](const auto& law) { return patch_force(law, slip); }, tyre.law);
+  const T about_axle = -(R - c.radius) * patch.x - tyre.rolling_resistance * load * R * s.rolling + patch.resistance;
+  const auto* law = std::get_if<MagicFormulaLaw>(&tyre.law);
+  const bool measured = law != nullptr && law->has_overturning();
+  const T overturning = measured ? patch.overturning : T(load * (tyre.radius - c.radius) * c.sine);
   a.force_tyre = Vector3(patch.x, patch.y, load);
-  a.moment_tyre =
-      Vector3(load * (tyre.radius - c.radius) * c.sine, about_axle * c.cosine, patch.moment + about_axle * c.sine);
+  a.moment_tyre = Vector3(overturning, about_axle * c.cosine, patch.moment + about_axle * c.sine);
   a.force = patch.x * c.x + patch.y * c.y + load * c.n;
-  a.moment = a.moment_tyre.x() * c.x + patch.moment * c.n + about_axle * disc.axle + arm.cross(a.force);
+  const Vector3 arm = c.radius * c.down;
+  a.moment = overturning * c.x + patch.moment * c.n + about_axle * disc.axle + arm.cross(a.force);
   a.slip = -slip.along;
-  a.slip_angle_tangent = Vy / regularised<T>(ahead, tyre.low_speed);
   a.rolling_radius = R;
   a.adhesion = patch.adhesion;
   return a;
+}
+
+TreadMotion<double> tread_motion(const Tread& t) { return {t.w[0], t.w[1], t.wd[0], t.wd[1], t.wdd[0], t.wdd[1]}; }
+
+/// m (ẅ + (ẇ + rate)/τ) of both equations.
+template <class T>
+Eigen::Matrix<T, 2, 1> lag_residual(const Tyre& tyre, const TreadMotion<T>& tread, const LagRate<T>& rate) {
+  const double m = lag_mass(tyre), tau = lag_share * tyre.radius / tyre.low_speed;
+  return {m * tread.udd + m / tau * (tread.ud + rate.along), m * tread.vdd + m / tau * (tread.vd + rate.across)};
 }
 
 DiscMotion<double> disc_motion(const Tyre& tyre, const NodeMotion& node) {
@@ -117,11 +219,18 @@ DiscMotion<Dual> disc_motion(const Tyre& tyre, const NodeMotion& node, const Vec
 
 }  // namespace
 
-void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, TyreTerms& terms) {
+double lag_mass(const Tyre& tyre) {
+  const double lever = tyre.radius / tyre.low_speed;
+  return lag_share * tyre.stiffness * lever * lever;
+}
+
+void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, const Tread& tread, TyreTerms& terms) {
   const DiscMotion<double> disc = disc_motion(tyre, node);
-  const TyreAction<double> a = act(tyre, road, disc);
+  const TreadMotion<double> deflection = tread_motion(tread);
+  const TyreAction<double> a = act(tyre, road, disc, deflection);
   const DiscContact<double>& c = a.contact;
   terms = TyreTerms();
+  if (tyre.relaxes()) terms.lag = lag_residual(tyre, deflection, a.lag);
   if (!c.exists) return;
   terms.contact = c.point;
   terms.normal = c.n;
@@ -142,33 +251,48 @@ void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, TyreTe
   velocity << node.xd, node.Omega;
   const DiscMotion<Dual> moving = disc_motion(tyre, node, velocity, Vector6d::Zero());
   const double rate = find_contact(road, tyre.radius, moving).penetration.derivative;
-  terms.energy = 0.5 * tyre.stiffness * c.penetration * c.penetration;
-  terms.dissipated = -a.force.dot(disc.velocity) - a.moment.dot(disc.omega) - tyre.stiffness * c.penetration * rate;
+  const double spring = (tyre.stiffness + tyre.progressive * c.penetration) * c.penetration;
+  terms.energy = (tyre.stiffness / 2.0 + tyre.progressive * c.penetration / 3.0) * c.penetration * c.penetration;
+  terms.dissipated = -a.force.dot(disc.velocity) - a.moment.dot(disc.omega) - spring * rate;
 }
 
-Matrix6d tangent(const Tyre& tyre, const Road& road, const NodeMotion& node, const TangentCoefficients& coefficients) {
-  Matrix6d A;
-  for (int j = 0; j < 6; ++j) {
-    const Vector6d unit = Vector6d::Unit(j);
-    const TyreAction<Dual> a =
-        act(tyre, road, disc_motion(tyre, node, coefficients.stiffness * unit, coefficients.damping * unit));
-    Vector3d F, M, dF, dM;
-    for (int i = 0; i < 3; ++i) {
-      F[i] = a.force[i].value;
-      M[i] = a.moment[i].value;
-      dF[i] = a.force[i].derivative;
-      dM[i] = a.moment[i].derivative;
-    }
-    const Vector3d arm = node.R * tyre.wheel.p;
-    const Vector3d turn = coefficients.stiffness * (node.R * unit.tail<3>());
+Eigen::Vector2d settled_rates(const Tyre& tyre, const Road& road, const NodeMotion& node, const Eigen::Vector2d& w) {
+  const TyreAction<double> a = act(tyre, road, disc_motion(tyre, node), TreadMotion<double>{w[0], w[1]});
+  return {-a.lag.along, -a.lag.across};
+}
+
+Matrix8d tangent(const Tyre& tyre, const Road& road, const NodeMotion& node, const Tread& tread,
+                 const TangentCoefficients& coefficients) {
+  Matrix8d A = Matrix8d::Zero();
+  const Vector3d arm = node.R * tyre.wheel.p;
+  const auto derivative = [](const Eigen::Matrix<Dual, 3, 1>& vector) {
+    return Vector3d(vector[0].derivative, vector[1].derivative, vector[2].derivative);
+  };
+  const auto value = [](const Eigen::Matrix<Dual, 3, 1>& vector) {
+    return Vector3d(vector[0].value, vector[1].value, vector[2].value);
+  };
+  for (int j = 0; j < (tyre.relaxes() ? 8 : 6); ++j) {
+    const Vector8d unit = Vector8d::Unit(j);
+    const Vector6d wheel = unit.head<6>();
+    const auto moved = [&](int k, double at, double coefficient) { return Dual(at, coefficient * unit[6 + k]); };
+    const auto [c_m, c_c, c_k] = coefficients;
+    const TreadMotion<Dual> deflection{moved(0, tread.w[0], c_k),   moved(1, tread.w[1], c_k),
+                                       moved(0, tread.wd[0], c_c),  moved(1, tread.wd[1], c_c),
+                                       moved(0, tread.wdd[0], c_m), moved(1, tread.wdd[1], c_m)};
+    const TyreAction<Dual> a = act(tyre, road, disc_motion(tyre, node, c_k * wheel, c_c * wheel), deflection);
+    const Vector3d F = value(a.force), M = value(a.moment), dF = derivative(a.force), dM = derivative(a.moment);
+    const Vector3d turn = c_k * (node.R * wheel.tail<3>());
     const Vector3d about_node = M + arm.cross(F);
     const Vector3d change = dM + turn.cross(arm).cross(F) + arm.cross(dF) - turn.cross(about_node);
-    A.col(j) << -dF, -node.R.transpose() * change;
+    A.col(j).head<6>() << -dF, -node.R.transpose() * change;
+    if (!tyre.relaxes()) continue;
+    const Eigen::Matrix<Dual, 2, 1> lag = lag_residual(tyre, deflection, a.lag);
+    A.col(j).tail<2>() << lag[0].derivative, lag[1].derivative;
   }
   return A;
 }
 
-Matrix6d standing_stiffness(const Tyre& tyre, const Road& road, const NodeMotion& node, const TyreTerms& terms) {
+Matrix8d standing_stiffness(const Tyre& tyre, const Road& road, const NodeMotion& node, const TyreTerms& terms) {
   const bool touches = terms.penetration > 0.0;
   const Vector3d n = touches ? terms.normal : Vector3d(road.R.col(2));
   Eigen::Matrix<double, 3, 6> J;
@@ -176,9 +300,11 @@ Matrix6d standing_stiffness(const Tyre& tyre, const Road& road, const NodeMotion
   const Matrix3d normal = n * n.transpose();
   const double share = standing_share * tyre.stiffness;
   const Matrix3d holds = share * (Matrix3d::Identity() - normal) + (touches ? 0.0 : tyre.stiffness) * normal;
-  Matrix6d K = J.transpose() * holds * J;
+  Matrix8d K = Matrix8d::Zero();
+  K.topLeftCorner<6, 6>() = J.transpose() * holds * J;
   const Vector3d axle = tyre.wheel.R.col(1);
-  K.bottomRightCorner<3, 3>() += share * tyre.radius * tyre.radius * axle * axle.transpose();
+  K.block<3, 3>(3, 3) += share * tyre.radius * tyre.radius * axle * axle.transpose();
+  if (tyre.relaxes()) K.bottomRightCorner<2, 2>().diagonal().setConstant(tyre.stiffness);
   return K;
 }
 

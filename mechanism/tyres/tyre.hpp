@@ -2,43 +2,65 @@
 #pragma once
 
 #include <string>
+#include <variant>
 
 #include <Eigen/Core>
 
 #include "mechanism/frames/marker.hpp"
-#include "mechanism/tyres/comprehensive_slip.hpp"
-#include "mechanism/tyres/contact.hpp"
+#include "mechanism/tyres/road.hpp"
+#include "mechanism/tyres/slip_law.hpp"
 
 namespace tisserand::mechanism {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
+using Vector8d = Eigen::Matrix<double, 8, 1>;
+using Matrix8d = Eigen::Matrix<double, 8, 8>;
+
 /// A disc of radius R₀ about the origin of `wheel`, with the axle as y of the marker, on a road at rest.
 ///
-/// Load: F_z = max(0, k δ + c δ̇ ramp) with the penetration δ; the ramp leads the damper in over the first hundredth of
-/// the radius, so that nothing jumps when a wheel lands. The rolling radius is R = R₀ − δ/3 ([Ril12] chapter 3). Slips
-/// are velocities of the contact over V = max(|V_x|, |Ω R|), below v₀ over (V² + v₀²)/(2 v₀): a standing tyre creeps
-/// rather than sticks.
+/// Load: F_z = max(0, k δ + k₂ δ² + c δ̇ ramp) with the penetration δ; the ramp leads the damper in over the first
+/// hundredth of the radius, so that nothing jumps when a wheel lands. The rolling radius is R = R₀ − δ/3 ([Ril12]
+/// chapter 3), or that of the file. Slips without relaxation are velocities of the contact over V, the speed that the
+/// law chooses, below v₀ over (V² + v₀²)/(2 v₀): a standing tyre creeps rather than sticks.
 ///
-/// Moments about the contact centre: M_x = F_z (R₀ − radius) sin γ makes the load that of the energy ½ k δ²; about the
-/// axle −(R − radius) F_x makes the slip velocity V_x − Ω R the one at which F_x takes power (a tyre drives nothing by
-/// itself), and −C_r F_z R resists rolling.
+/// With relaxation the slips are tread deflections over relaxation lengths, u/σ_x and v/σ_y, with u̇ = V_sx − V u/σ_x
+/// and v̇ = V_y − V v/σ_y ([Pac12] section 7.2), V not below |V_y|: at rest the deflections are those of springs, and
+/// what slides at standstill is Dahl's friction. They are coordinates of the model with a small mass, τ ü + u̇ = ..,
+/// whose time τ = 1e-6 R₀/v₀ integrators damp away: an error of τ V/σ of what relaxes, none of what is steady. Below 10
+/// v₀ a share of the slip velocity, 0.01 V_s/v₀ at rest, damps what rocks on the deflections.
+///
+/// Moments about the contact centre: M_x = F_z (R₀ − radius) sin γ makes the load that of the energy of the
+/// penetration, unless the law has one of its own; about the axle −(R − radius) F_x makes the slip velocity V_x − Ω R
+/// the one at which F_x takes power (a tyre drives nothing by itself), and −C_r F_z R, or that of the law, resists
+/// rolling.
 struct Tyre {
   std::string name;
   Marker wheel;
   int road = 0;  ///< row of Model::roads
   double radius = 0.0;
-  double stiffness = 0.0;
+  double stiffness = 0.0;    ///< k
+  double progressive = 0.0;  ///< k₂
   double damping = 0.0;
-  ComprehensiveSlip law;
+  std::variant<ComprehensiveSlip, MagicFormulaLaw> law;
   double rolling_resistance = 0.0;
   double low_speed = 0.0;
+  double relaxation = 0.0;  ///< σ of comprehensive slip, both directions
+  int lag = -1;             ///< modal coordinate of u, before that of v; −1: no relaxation
+
+  bool relaxes() const { return lag >= 0; }
+};
+
+/// Deflections [u; v] of the tread of a tyre that relaxes, their rates and the rates of those; zero otherwise.
+struct Tread {
+  Eigen::Vector2d w = Eigen::Vector2d::Zero(), wd = Eigen::Vector2d::Zero(), wdd = Eigen::Vector2d::Zero();
 };
 
 /// At one instant. Force and moment on the wheel; ISO-W axes x, y, n of DiscContact. Zero without contact.
 struct TyreTerms {
   Vector6d residual = Vector6d::Zero();               ///< minus [force, world; moment about the node, its axes]
+  Eigen::Vector2d lag = Eigen::Vector2d::Zero();      ///< of the equations of u and v
   Eigen::Vector3d force = Eigen::Vector3d::Zero();    ///< tyre axes
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();   ///< about the contact centre, tyre axes
   Eigen::Vector3d contact = Eigen::Vector3d::Zero();  ///< contact centre, counted as positions of nodes
@@ -48,18 +70,25 @@ struct TyreTerms {
   double camber = 0.0;       ///< inclination, right-handed about x
   double penetration = 0.0;  ///< negative: height of the disc above the road
   double rolling_radius = 0.0;
-  double adhesion = 0.0;    ///< share of the patch that does not slide; 0 in the air
+  double adhesion = 0.0;    ///< share of the patch that does not slide, or of the friction that is left; 0 in the air
   double along_road = 0.0;  ///< x of the contact centre in the axes of the road
-  double energy = 0.0;      ///< ½ k δ²
+  double energy = 0.0;      ///< ½ k δ² + ⅓ k₂ δ³
   double dissipated = 0.0;  ///< power taken from the wheel beyond the energy
 };
-void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, TyreTerms& terms);
+void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, const Tread& tread, TyreTerms& terms);
 
-/// c_c ∂residual/∂v + c_k ∂residual/∂q, exact but for what only terms at their limits know.
-Matrix6d tangent(const Tyre& tyre, const Road& road, const NodeMotion& node, const TangentCoefficients& coefficients);
+/// c_m ∂residual/∂v̇ + c_c ∂residual/∂v + c_k ∂residual/∂q of wheel, u and v, exact but for what only terms at their
+/// limits know. Without relaxation the last two rows and columns are zero.
+Matrix8d tangent(const Tyre& tyre, const Road& road, const NodeMotion& node, const Tread& tread,
+                 const TangentCoefficients& coefficients);
+
+/// Rates with which u and v belong to the motion of the wheel: those of the equations without the mass.
+Eigen::Vector2d settled_rates(const Tyre& tyre, const Road& road, const NodeMotion& node, const Eigen::Vector2d& w);
+/// Mass of the equations of u and v.
+double lag_mass(const Tyre& tyre);
 
 /// Stiffness with which statics holds what a standing tyre leaves free (matrix alone, no force): motion along the road,
-/// roll, and in the air also the way down.
-Matrix6d standing_stiffness(const Tyre& tyre, const Road& road, const NodeMotion& node, const TyreTerms& terms);
+/// roll, deflections of the tread, and in the air also the way down.
+Matrix8d standing_stiffness(const Tyre& tyre, const Road& road, const NodeMotion& node, const TyreTerms& terms);
 
 }  // namespace tisserand::mechanism

@@ -18,13 +18,15 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-YamlNode number_node(double value, const YamlPlace& place) {
+YamlNode word_node(const std::string& word, const YamlPlace& place) {
   YamlNode node;
   node.kind = YamlKind::scalar;
-  node.text = number_text(value);
+  node.text = word;
   node.place = place;
   return node;
 }
+
+YamlNode number_node(double value, const YamlPlace& place) { return word_node(number_text(value), place); }
 
 template <class Vector>
 YamlNode list_node(const Vector& values, const YamlPlace& place) {
@@ -295,6 +297,10 @@ void Placement::tyre(YamlNode& tyre) {
   if (!frame_.turned()) return;
   marker(tyre, "wheel", frame_.S);
   transform(tyre, "axis", frame_.G * frame_.S.diagonal().prod(), Vector3d::Zero());
+  if (!frame_.mirrored() || word(tyre, "type") != "magic_formula") return;
+  const YamlNode* mirrored = find_child(tyre, "mirrored");
+  const bool already = mirrored != nullptr && (mirrored->text == "yes" || mirrored->text == "true");
+  set(tyre, "mirrored", word_node(already ? "no" : "yes", tyre.place));
 }
 
 void Placement::load(YamlNode& load) {

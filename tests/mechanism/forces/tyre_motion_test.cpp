@@ -7,6 +7,7 @@
 #include "common/error.hpp"
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/bdf/bdf.hpp"
+#include "mechanism/doubts/tyre_range.hpp"
 #include "mechanism/run/off_road.hpp"
 #include "tests/support/scenes/model_tangent.hpp"
 
@@ -158,6 +159,60 @@ TEST(LockedWheel, BrakesToRestOnASlope) {
   EXPECT_NEAR((run.position("wheel") - from).norm() - stopped, creep, 1e-3 * creep);
 }
 
+// A wheel that is led along x at V and from t = 0 on also across at V_y: the deflection of the tread is
+// σ V_y/V (1 − exp(−V t/σ)) (the tail by τ changes it by τ V/σ = 2e-4 of that), with every method.
+TEST_P(Methods, SideForceRelaxesOverItsLength) {
+  constexpr double V = 10.0, Vy = 0.1, sigma = 0.4;
+  formats::Scene scene = wheel_on_slope(0.0, 0.0, true);
+  scene.joints[0].hold = {false, false, true, true, true, true};
+  auto& wheel = std::get<formats::RigidBodySpec>(scene.bodies[0]);
+  wheel.start.velocity = Vector3d(V, Vy, 0);
+  wheel.mass = 1e9;  // keeps its velocity
+  wheel.start.pose.position = Vector3d(0, 0, radius - 0.003);
+  scene.joints[0].position = wheel.start.pose.position;
+  scene.gravity.setZero();
+  scene.tyres[0].friction = 10.0;
+  scene.tyres[0].relaxation_length = sigma;
+  scene.integrator.method = GetParam();
+  scene.integrator.alpha = 0.05;
+  scene.integrator.step = 5e-4;
+  if (GetParam() == Method::bdf && !bdf_available()) GTEST_SKIP() << "this build has no CVODE";
+  Simulation run(scene, {});
+  run.start();
+  std::unique_ptr<Bdf> bdf;
+  if (GetParam() == Method::bdf) bdf = std::make_unique<Bdf>(run.scene, run.model(), run.state(), run.workspace);
+  double reached = 0.0;
+  for (const double time : {0.01, 0.04, 0.1, 0.3}) {
+    while (bdf && reached < time) {
+      EXPECT_EQ(bdf->step({10.0, 10.0}), "");
+      reached = run.state().time();
+    }
+    if (bdf)
+      bdf->go_to(time);
+    else
+      run.run(time);
+    const double expected = sigma * Vy / V * (1.0 - std::exp(-V * time / sigma));
+    EXPECT_NEAR(run.state().w()[1], expected, 3e-4 * sigma * Vy / V) << time;
+  }
+}
+
+// With relaxation a standing tyre holds a slope by the deflection of its tread, where one without creeps: locked on a
+// slope of 0.1 rad it comes to rest with u = σ S, the slip S of the force it bears, and stays.
+TEST(LockedWheel, StandsOnASlopeWithRelaxation) {
+  const double angle = 0.1;
+  formats::Scene scene = wheel_on_slope(angle, 1.0, true);
+  scene.tyres[0].relaxation_length = 0.3;
+  Simulation run(scene, {});
+  run.start();
+  run.run(3.0);
+  const Vector3d at = run.position("wheel");
+  run.run(8.0);
+  EXPECT_LT((run.position("wheel") - at).norm(), 1e-9);
+  EXPECT_LT(run.velocity("wheel").norm(), 1e-9);
+  const double S = slip_of(mass * g * std::sin(angle), mass * g * std::cos(angle));
+  EXPECT_NEAR(std::abs(run.state().w()[0]), 0.3 * S, 1e-6 * S);
+}
+
 // A wheel that touches down without turning spins up; what it gave to the road is gone, the rest is there: the balance
 // closes (second order in the step), and V = Ω R with m (V₀ − V) R = I Ω but for the few per cent by which R moves.
 TEST(FallingWheel, SpinsUpAndItsEnergyIsAccountedFor) {
@@ -289,6 +344,44 @@ TEST(TyreBuild, RefusesWhatCannotRoll) {
             std::string::npos);
   formats::Scene high = block_car(2.0);
   EXPECT_EQ(build_model(high, {}).notes.size(), 4u);
+}
+
+/// The wheel with the tyre of the book's file.
+formats::Scene wheel_by_file(double speed) {
+  formats::Scene scene = wheel_on_slope(0.0, speed, false);
+  formats::TyreSpec& tyre = scene.tyres[0];
+  tyre.kind = formats::TyreKind::magic_formula;
+  tyre.properties = std::make_shared<const formats::TyreProperties>(formats::read_tyre_property_file(
+      std::string(TISSERAND_REFERENCES) + "/magic_formula/book_205_60R15.tir", Units::si()));
+  tyre.radius = tyre.properties->coefficients.UNLOADED_RADIUS;
+  return scene;
+}
+
+// A wheel that rolls stays in the range of its file, and nothing is said; one that spins leaves it.
+TEST(TyreRange, IsToldWhereItIsLeft) {
+  for (const bool spins : {false, true}) {
+    formats::Scene scene = wheel_by_file(10.0);
+    std::get<formats::RigidBodySpec>(scene.bodies[0]).start.angular_velocity = Vector3d(0, spins ? 100.0 : 32.0, 0);
+    Simulation run(scene, {});
+    run.start();
+    TyreRange range(run.model());
+    run.run(0.2, [&] { range.observe(run.model(), run.state(), run.workspace.now); });
+    const std::vector<std::string> doubts = range.doubts(run.model());
+    ASSERT_EQ(doubts.size(), spins ? 1u : 0u);
+    if (spins) EXPECT_NE(doubts[0].find("longitudinal slip"), std::string::npos) << doubts[0];
+  }
+}
+
+// The nominal load at the depth where the stiffness of the file has it, and a note of what is not used.
+TEST(TyreBuild, TakesTheFile) {
+  const BuiltModel built = build_model(wheel_by_file(10.0), {});
+  const Tyre& tyre = built.model.tyres[0];
+  const auto& p = std::get<MagicFormulaLaw>(tyre.law).p;
+  const double depth = p.FNOMIN / p.VERTICAL_STIFFNESS;
+  EXPECT_NEAR((tyre.stiffness + tyre.progressive * depth) * depth, p.FNOMIN, 0.05 * p.FNOMIN);
+  ASSERT_EQ(built.notes.size(), 1u);
+  EXPECT_NE(built.notes[0].find("book_205_60R15.tir (MF-Tyre 6.1): keys without effect here: ASPECT_RATIO"),
+            std::string::npos);
 }
 
 // A road that a curve gives ends: the run says which tyre has left it and where.

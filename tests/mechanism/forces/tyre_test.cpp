@@ -1,13 +1,17 @@
-// Tyres at one instant: exact values of comprehensive slip, contact of the disc, tangents by differences, power, and
-// limits without jumps.
+// Tyres at one instant, of every law: contact of the disc, tangents by differences, power, relaxation, and limits
+// without jumps.
 #include "mechanism/tyres/tyre.hpp"
 
 #include <cmath>
 #include <random>
+#include <variant>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "common/math/rotation.hpp"
+#include "formats/tyres/tyre_property_file.hpp"
+#include "mechanism/tyres/contact.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"
 
 namespace tisserand::mechanism::tyre_test {
@@ -17,83 +21,6 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using formats::RoadPieceShape;
 using test_support::random_vector;
-
-// ---- comprehensive slip -----------------------------------------------------------------------------------------
-
-/// Fz = 3000 N, C_α = 60000 N/rad, patch of 0.2 m.
-PatchSlip<double> slipping(double along, double across, double camber = 0.0) {
-  return {along, across, std::sin(camber), 3000.0, 0.2, 0.3, 1.0};
-}
-
-// Pure side slip: F_y = μ F_z (3 s − 3 s² + s³), M_z = C_α S_α l (1 − s)³/6 with s = C_α S_α/(3 μ F_z): the brush
-// model; for S_α = 0.05 that is 2111.111 N and M_z/l = 148.1481 N.
-TEST(ComprehensiveSlip, PureSideSlipIsTheBrushModel) {
-  const ComprehensiveSlip law{80e3, 60e3, 3e3, 1.0, 1.0};
-  const PatchForce<double> example = patch_force(law, slipping(0.0, 0.05));
-  EXPECT_NEAR(example.y, -2111.111, 5e-4);
-  EXPECT_NEAR(example.moment / 0.2, 148.1481, 5e-5);
-  for (double S = -0.149; S < 0.15; S += 0.01) {
-    const double s = 60e3 * std::abs(S) / 9000.0, sign = S < 0.0 ? -1.0 : 1.0;
-    const PatchForce<double> force = patch_force(law, slipping(0.0, S));
-    EXPECT_NEAR(force.y, -sign * 3000.0 * (3 * s - 3 * s * s + s * s * s), 1e-9);
-    EXPECT_NEAR(force.moment, 60e3 * S * 0.2 * std::pow(1 - s, 3) / 6.0, 1e-9);
-    EXPECT_EQ(force.x, 0.0);
-    EXPECT_NEAR(force.adhesion, 1.0 - s, 1e-14);
-  }
-}
-
-// Where all slides, friction is μ F_z against the slip, with μ linear in the slip up to 1 and constant beyond.
-TEST(ComprehensiveSlip, SlidingIsCoulombFrictionAgainstTheSlip) {
-  const ComprehensiveSlip law{80e3, 60e3, 3e3, 1.0, 0.75};
-  for (const double S : {0.3, 0.8, 1.0, 2.0, 50.0})
-    for (const double angle : {0.0, 0.4, 1.5, 3.0, -2.0}) {
-      const PatchForce<double> force = patch_force(law, slipping(S * std::cos(angle), S * std::sin(angle)));
-      const double mu = 1.0 - 0.25 * std::min(S, 1.0);
-      EXPECT_NEAR(force.x, -mu * 3000.0 * std::cos(angle), 1e-9);
-      EXPECT_NEAR(force.y, -mu * 3000.0 * std::sin(angle), 1e-9);
-      EXPECT_EQ(force.moment, 0.0);
-      EXPECT_EQ(force.adhesion, 0.0);
-    }
-}
-
-TEST(ComprehensiveSlip, StaysInTheFrictionCircleAndOpposesTheSlip) {
-  std::mt19937 random(1);
-  std::uniform_real_distribution<double> slip(-0.3, 0.3), camber(-0.4, 0.4), stiffness(2e4, 2e5);
-  for (int i = 0; i < 2000; ++i) {
-    const ComprehensiveSlip law{stiffness(random), stiffness(random), 3e3, 1.0, 0.75};
-    const bool upright = i % 2 == 0;
-    const PatchSlip<double> s = slipping(slip(random), slip(random), upright ? 0.0 : camber(random));
-    const PatchForce<double> force = patch_force(law, s);
-    EXPECT_LE(std::hypot(force.x, force.y), 3000.0 * (1 + 1e-12));
-    EXPECT_LE(force.x * s.along, 0.0);
-    EXPECT_TRUE(!upright || force.y * s.across <= 0.0);
-  }
-}
-
-// Forces have slopes of at most a few times C_s or C_α (their slope at zero slip; 3 from q, camber and friction), so
-// that a step of 2e-6 of slip through zero, the beginning of sliding or a slip of one changes them by less than 2 N.
-TEST(ComprehensiveSlip, HasNoJumpAnywhere) {
-  const ComprehensiveSlip law{80e3, 60e3, 3e3, 1.0, 0.75};
-  for (const double other : {0.0, 0.02, -0.1, 0.9})
-    for (const double camber : {0.0, 0.1, -0.2})
-      for (const bool lateral : {false, true}) {
-        PatchForce<double> last;
-        double before = -9.0;
-        for (double S = -1.2; S < 1.2; S += std::abs(S) < 0.3 || std::abs(std::abs(S) - 1.0) < 1e-3 ? 2e-6 : 1e-3) {
-          const PatchForce<double> now =
-              patch_force(law, lateral ? slipping(other, S, camber) : slipping(S, other, camber));
-          ASSERT_TRUE(std::isfinite(now.x) && std::isfinite(now.y) && std::isfinite(now.moment));
-          if (S - before < 3e-6) {
-            ASSERT_LT(std::abs(now.x - last.x) + std::abs(now.y - last.y) + std::abs(now.moment - last.moment), 2.0)
-                << S;
-          }
-          last = now;
-          before = S;
-        }
-      }
-}
-
-// ---- a wheel on a road ------------------------------------------------------------------------------------------
 
 formats::RoadSpec plane() { return {}; }
 
@@ -114,20 +41,45 @@ Tyre car_tyre() {
   tyre.radius = 0.3101;
   tyre.stiffness = 190e3;
   tyre.damping = 500.0;
-  tyre.law = {80e3, 60e3, 3e3, 1.0, 0.75};
+  tyre.law = ComprehensiveSlip{80e3, 60e3, 3e3, 1.0, 0.75};
   tyre.rolling_resistance = 0.015;
   tyre.low_speed = 0.1;
   return tyre;
 }
 
+/// A tyre by the file, of the size of the one above.
+Tyre file_tyre(const std::string& file) {
+  Tyre tyre = car_tyre();
+  MagicFormulaLaw law;
+  law.p = formats::read_tyre_property_file(std::string(TISSERAND_REFERENCES) + "/magic_formula/" + file + ".tir",
+                                           Units::si())
+              .coefficients;
+  tyre.law = law;
+  tyre.progressive = 100e3;
+  tyre.rolling_resistance = 0.0;
+  return tyre;
+}
+
+/// Both laws, both versions of the Magic Formula, with and without relaxation.
+std::vector<Tyre> all_tyres() {
+  std::vector<Tyre> tyres{car_tyre(), file_tyre("book_205_60R15"), file_tyre("synthetic_pac2002_all")};
+  for (int i = 0; i < 3; ++i) {
+    tyres.push_back(tyres[i]);
+    tyres.back().relaxation = 0.4;
+    tyres.back().lag = 0;
+  }
+  return tyres;
+}
+
 struct Wheel {
   Tyre tyre = car_tyre();
+  Tread tread;
   Road road{plane(), Vector3d::Zero()};
   NodeMotion node;
 
   TyreTerms terms() const {
     TyreTerms terms;
-    evaluate(tyre, road, node, terms);
+    evaluate(tyre, road, node, tread, terms);
     return terms;
   }
   /// Force on the wheel and its moment about the origin of the world, world axes.
@@ -150,6 +102,18 @@ struct Wheel {
     w.node.Omega += d.tail<3>();
     return w;
   }
+  Wheel deflected(const Eigen::Vector2d& dw, const Eigen::Vector2d& dwd) const {
+    Wheel w = *this;
+    w.tread.w += dw;
+    w.tread.wd += dwd;
+    return w;
+  }
+  Vector8d residual() const {
+    const TyreTerms at = terms();
+    Vector8d r;
+    r << at.residual, at.lag;
+    return r;
+  }
 };
 
 /// Upright on the plane z = 0, 10 mm deep, forward at V, turning at Omega.
@@ -162,9 +126,10 @@ Wheel rolling(double V, double Omega, double depth = 0.01) {
 }
 
 /// In touch with the road, up to 0.3 rad inclined, with offsets and any motion; `speed` of its size.
-Wheel random_wheel(unsigned seed, bool on_plane, double speed) {
+Wheel random_wheel(unsigned seed, bool on_plane, double speed, const Tyre& tyre = car_tyre()) {
   std::mt19937 random(seed);
   Wheel wheel;
+  wheel.tyre = tyre;
   wheel.road = Road(on_plane ? plane() : bumpy(), Vector3d::Zero());
   wheel.tyre.wheel.p = random_vector(random, 0.3);
   wheel.tyre.wheel.R = exp_so3<double>(random_vector(random, 1.0));
@@ -175,6 +140,10 @@ Wheel random_wheel(unsigned seed, bool on_plane, double speed) {
   wheel.node.x = wheel.road.p + wheel.road.R * center - wheel.node.R * wheel.tyre.wheel.p;
   wheel.node.xd = random_vector(random, speed);
   wheel.node.Omega = random_vector(random, speed);
+  if (tyre.relaxes()) {
+    wheel.tread.w = 0.02 * random_vector(random, 1.0).head<2>();
+    wheel.tread.wd = random_vector(random, speed).head<2>();
+  }
   return wheel;
 }
 
@@ -238,31 +207,49 @@ TEST(Road, CurvesEndTheRoad) {
 // 1e-7 err by less than 1e-3 of the largest derivative, 1e6 to 1e7.
 TEST(Tyre, TangentIsTheDerivativeOfTheForce) {
   constexpr double h = 1e-7;
+  const std::vector<Tyre> tyres = all_tyres();
   int touching = 0;
-  for (unsigned seed = 0; seed < 60; ++seed) {
-    const Wheel wheel = random_wheel(seed, seed % 3 == 0, seed % 2 == 0 ? 5.0 : 0.05);
+  for (unsigned seed = 0; seed < 120; ++seed) {
+    const Wheel wheel = random_wheel(seed, seed % 3 == 0, seed % 2 == 0 ? 5.0 : 0.05, tyres[seed % tyres.size()]);
     if (wheel.terms().penetration <= 0.0) continue;
     ++touching;
-    const Matrix6d K = tangent(wheel.tyre, wheel.road, wheel.node, {0, 0, 1});
-    const Matrix6d C = tangent(wheel.tyre, wheel.road, wheel.node, {0, 1, 0});
-    const Matrix6d both = tangent(wheel.tyre, wheel.road, wheel.node, {0, 0.3, 2.0});
-    EXPECT_LT((both - 0.3 * C - 2.0 * K).cwiseAbs().maxCoeff(), 1e-9 * (K.norm() + C.norm()));
+    const auto matrix = [&](const TangentCoefficients& c) {
+      return tangent(wheel.tyre, wheel.road, wheel.node, wheel.tread, c);
+    };
+    const Matrix8d K = matrix({0, 0, 1}), C = matrix({0, 1, 0}), M = matrix({1, 0, 0});
+    EXPECT_LT((matrix({0.7, 0.3, 2.0}) - 0.3 * C - 2.0 * K - 0.7 * M).cwiseAbs().maxCoeff(),
+              1e-9 * (K.norm() + C.norm() + M.norm()));
+    const double mass = wheel.tyre.relaxes() ? lag_mass(wheel.tyre) : 0.0;
+    EXPECT_LT((M.bottomRightCorner<2, 2>() - mass * Eigen::Matrix2d::Identity()).norm(), 1e-12 * (1.0 + mass));
+    // Rows of the wheel and those of the tread are of different size.
+    const auto check = [&](const Vector8d& column, const Vector8d& difference, const Matrix8d& all, int j) {
+      EXPECT_LT((column - difference).head<6>().cwiseAbs().maxCoeff(), 1e-4 * all.topRows<6>().cwiseAbs().maxCoeff())
+          << seed << " " << j;
+      EXPECT_LE((column - difference).tail<2>().cwiseAbs().maxCoeff(), 1e-4 * all.bottomRows<2>().cwiseAbs().maxCoeff())
+          << seed << " " << j;
+    };
     for (int j = 0; j < 6; ++j) {
       const Vector6d d = h * Vector6d::Unit(j);
-      const Vector6d by_q = (wheel.moved(d).terms().residual - wheel.moved(-d).terms().residual) / (2 * h);
-      const Vector6d by_v = (wheel.faster(d).terms().residual - wheel.faster(-d).terms().residual) / (2 * h);
-      EXPECT_LT((K.col(j) - by_q).cwiseAbs().maxCoeff(), 1e-4 * K.cwiseAbs().maxCoeff()) << seed << " " << j;
-      EXPECT_LT((C.col(j) - by_v).cwiseAbs().maxCoeff(), 1e-4 * C.cwiseAbs().maxCoeff()) << seed << " " << j;
+      check(K.col(j), (wheel.moved(d).residual() - wheel.moved(-d).residual()) / (2 * h), K, j);
+      check(C.col(j), (wheel.faster(d).residual() - wheel.faster(-d).residual()) / (2 * h), C, j);
+    }
+    const Eigen::Vector2d none = Eigen::Vector2d::Zero();
+    for (int j = 0; wheel.tyre.relaxes() && j < 2; ++j) {
+      const Eigen::Vector2d d = h * Eigen::Vector2d::Unit(j);
+      check(K.col(6 + j), (wheel.deflected(d, none).residual() - wheel.deflected(-d, none).residual()) / (2 * h), K,
+            6 + j);
+      check(C.col(6 + j), (wheel.deflected(none, d).residual() - wheel.deflected(none, -d).residual()) / (2 * h), C,
+            6 + j);
     }
   }
-  EXPECT_GT(touching, 40);
+  EXPECT_GT(touching, 80);
 }
 
 // What the tyre takes from the wheel is the growth of its energy and what it dissipates, on any road.
 TEST(Tyre, PowerIsAccountedFor) {
   constexpr double h = 1e-6;
   for (unsigned seed = 0; seed < 40; ++seed) {
-    const Wheel wheel = random_wheel(seed, seed % 2 == 0, 2.0);
+    const Wheel wheel = random_wheel(seed, seed % 2 == 0, 2.0, all_tyres()[seed % 6]);
     const TyreTerms at = wheel.terms();
     Vector6d v;
     v << wheel.node.xd, wheel.node.Omega;
@@ -289,7 +276,7 @@ TEST(Tyre, OnlyTakesEnergyOnPlanes) {
 // The same tyre on the same wheel, carried by a node elsewhere on it: one wrench.
 TEST(Tyre, WrenchDoesNotDependOnThePointOfReduction) {
   for (unsigned seed = 0; seed < 10; ++seed) {
-    const Wheel wheel = random_wheel(seed, false, 3.0);
+    const Wheel wheel = random_wheel(seed, false, 3.0, all_tyres()[seed % 6]);
     Wheel other = wheel;
     const Vector3d shift(0.3, -0.2, 0.5);
     other.tyre.wheel.p += shift;
@@ -315,8 +302,10 @@ TEST(Tyre, WrenchDoesNotDependOnThePointOfReduction) {
 TEST(Tyre, LeftAndRightAreMirrorImages) {
   const Matrix3d S = Vector3d(1, -1, 1).asDiagonal();
   for (unsigned seed = 0; seed < 10; ++seed) {
-    const Wheel left = random_wheel(seed, true, 3.0);
+    const Wheel left = random_wheel(seed, true, 3.0, all_tyres()[seed % 6]);
     Wheel right = left;
+    if (auto* law = std::get_if<MagicFormulaLaw>(&right.tyre.law)) law->mirrored = true;
+    right.tread.w.y() = -left.tread.w.y();
     right.tyre.wheel.p = S * left.tyre.wheel.p;
     right.tyre.wheel.R = S * left.tyre.wheel.R * S;
     right.node.x = S * left.node.x;
@@ -416,7 +405,58 @@ TEST(Tyre, PassesStandstillWithoutJump) {
   EXPECT_EQ(at.force.y(), 0.0);
   EXPECT_EQ(at.moment.norm(), 0.0);
   EXPECT_NEAR(at.force.z(), 1900.0, 1e-9);
-  EXPECT_TRUE(tangent(car_tyre(), Road(plane(), Vector3d::Zero()), rolling(0.0, 0.0).node, {0, 1, 1}).allFinite());
+  EXPECT_TRUE(
+      tangent(car_tyre(), Road(plane(), Vector3d::Zero()), rolling(0.0, 0.0).node, Tread{}, {0, 1, 1}).allFinite());
+}
+
+// The same with the tread's deflections in equilibrium or at rest, for all tyres: all is finite and without jumps, and
+// a standing tyre holds by its deflection: C_s u/σ_x along.
+TEST(Tyre, RelaxesThroughStandstillLiftAndLock) {
+  const std::vector<Tyre> tyres = all_tyres();
+  for (const Tyre& tyre : tyres)
+    for (const double spin : {0.0, 1.0, -3.0}) {
+      Vector8d last = Vector8d::Zero();
+      bool first = true;
+      constexpr double dV = 1e-5;
+      for (double V = -0.3; V < 0.3; V += dV) {
+        Wheel wheel = rolling(V, spin * V / 0.307, 0.01 + 0.05 * V);
+        wheel.tyre = tyre;
+        wheel.node.x.z() += tyre.radius - 0.3101;
+        if (tyre.relaxes()) wheel.tread.w = {1e-3, -2e-3};
+        const Vector8d r = wheel.residual();
+        ASSERT_TRUE(r.allFinite());
+        ASSERT_TRUE(first || (r - last).head<6>().norm() < 1e7 * dV) << V;
+        last = r;
+        first = false;
+      }
+    }
+  Wheel standing = rolling(0.0, 0.0);
+  standing.tyre = tyres[3];
+  standing.tread.w = {1e-3, 0.0};
+  const double S = 1e-3 / 0.4, l_n = 1.0 - 80e3 * S / (3.0 * (1.0 - 0.25 * S) * 1900.0);
+  const double slid = (1.0 - 0.25 * S) * 1900.0 * (1.0 - 3.0 * l_n * l_n + 2.0 * l_n * l_n * l_n);
+  EXPECT_NEAR(standing.terms().force.x(), -(80e3 * S * l_n * l_n + slid), 1e-9);
+  EXPECT_EQ(settled_rates(standing.tyre, standing.road, standing.node, standing.tread.w).norm(), 0.0);
+}
+
+// Steady: deflections that do not change give the slips of a tyre without relaxation, above the speeds at which either
+// is regularised.
+TEST(Tyre, SettlesAtTheSlipsOfTheWheel) {
+  const std::vector<Tyre> tyres = all_tyres();
+  for (int i = 0; i < 3; ++i) {
+    Wheel wheel = rolling(10.0, 10.4 / 0.306);
+    wheel.node.xd.y() = 0.3;
+    wheel.tyre = tyres[i];
+    const TyreTerms steady = wheel.terms();
+    wheel.tyre = tyres[i + 3];
+    for (int k = 0; k < 2000; ++k)  // ẇ = 0 by small steps of the first-order law
+      wheel.tread.w += 2e-3 * settled_rates(wheel.tyre, wheel.road, wheel.node, wheel.tread.w);
+    const TyreTerms relaxed = wheel.terms();
+    EXPECT_LT((relaxed.force - steady.force).norm(), 1e-9 * steady.force.norm()) << i;
+    EXPECT_LT((relaxed.moment - steady.moment).norm(), 1e-9 * steady.force.norm()) << i;
+    EXPECT_NEAR(relaxed.slip, steady.slip, 1e-12);
+    EXPECT_NEAR(relaxed.slip_angle, steady.slip_angle, 1e-12);
+  }
 }
 
 // A wheel that falls on its side loses the road without a jump: no force beyond a camber of 78.5 degrees.

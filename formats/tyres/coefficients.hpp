@@ -1,0 +1,27 @@
+// The coefficients that tyre property files give, by name.
+#pragma once
+
+#include <span>
+
+#include "formats/tyres/magic_formula.hpp"
+
+namespace tisserand::formats {
+
+enum class Dimension { number, length, force, stiffness, damping, speed, pressure };
+enum class Versions { both, only_5_2, only_6_1 };
+
+struct Coefficient {
+  const char* name;
+  double MagicFormula::*value;
+  Versions versions = Versions::both;
+  Dimension dimension = Dimension::number;
+};
+
+/// Whether files of this version have the coefficient.
+inline bool holds(Versions versions, MagicFormulaVersion version) {
+  return versions == Versions::both || (versions == Versions::only_6_1) == (version == MagicFormulaVersion::mf_6_1);
+}
+
+std::span<const Coefficient> tyre_coefficients();
+
+}  // namespace tisserand::formats

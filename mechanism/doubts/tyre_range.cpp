@@ -1,0 +1,66 @@
+// Values against the ends of ranges.
+#include "mechanism/doubts/tyre_range.hpp"
+
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+
+namespace tisserand::mechanism {
+namespace {
+
+/// Numbers of a file are rounded; a range is left only by more than that.
+constexpr double rounding = 1.01;
+
+struct Name {
+  const char* quantity;
+  const char* unit;
+};
+constexpr std::array<Name, TyreRange::quantities> names{
+    {{"load", ""}, {"longitudinal slip", ""}, {"slip angle", " rad"}, {"camber", " rad"}}};
+
+}  // namespace
+
+void TyreRange::observe(const Model& model, const State& state, const Evaluation& evaluation) {
+  for (std::size_t i = 0; i < model.tyres.size(); ++i) {
+    const auto* law = std::get_if<MagicFormulaLaw>(&model.tyres[i].law);
+    const TyreTerms& now = evaluation.tyres[i];
+    if (law == nullptr || !(now.force.z() > 0.0)) continue;
+    const formats::MagicFormula& p = law->p;
+    const double side = law->mirrored ? -1.0 : 1.0;
+    const std::array<std::array<double, 3>, quantities> values{{{now.force.z(), 0.0, p.FZMAX},
+                                                                {now.slip, p.KPUMIN, p.KPUMAX},
+                                                                {side * now.slip_angle, p.ALPMIN, p.ALPMAX},
+                                                                {side * now.camber, p.CAMMIN, p.CAMMAX}}};
+    for (int k = 0; k < quantities; ++k) {
+      const auto [value, low, high] = values[k];
+      const double limit = value < 0.0 ? low : high;
+      if (limit == 0.0 || !(value / limit > worst_[i][k].ratio)) continue;
+      worst_[i][k] = {value / limit, value, limit, state.time()};
+    }
+  }
+}
+
+std::vector<std::string> TyreRange::doubts(const Model& model) const {
+  Excess worst;
+  std::size_t tyre = 0;
+  int quantity = 0, count = 0;
+  for (std::size_t i = 0; i < worst_.size(); ++i)
+    for (int k = 0; k < quantities; ++k) {
+      count += worst_[i][k].ratio > rounding ? 1 : 0;
+      if (worst_[i][k].ratio <= worst.ratio) continue;
+      worst = worst_[i][k];
+      tyre = i;
+      quantity = k;
+    }
+  if (!(worst.ratio > rounding)) return {};
+  const std::string others = count > 1 ? fmt::format(", and {} more beyond theirs", count - 1) : std::string();
+  return {fmt::format(
+      "tyre '{}' was outside of what its file was fitted for: {} {:.3g}{} at t = {:.6g}, range to {:.3g}{}{}; "
+      "its forces there are those of the end of the range",
+      model.tyres[tyre].name, names[quantity].quantity, worst.value, names[quantity].unit, worst.time, worst.limit,
+      names[quantity].unit, others)};
+}
+
+}  // namespace tisserand::mechanism
