@@ -127,7 +127,6 @@ void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, TyreTe
   terms.normal = c.n;
   terms.camber = std::atan2(c.sine, c.cosine);
   terms.penetration = c.penetration;
-  terms.along_road = road.R.col(0).dot(c.point - road.p);
   if (c.penetration <= 0.0) return;
   terms.force = a.force_tyre;
   terms.moment = a.moment_tyre;

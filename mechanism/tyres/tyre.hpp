@@ -49,7 +49,6 @@ struct TyreTerms {
   double penetration = 0.0;  ///< negative: height of the disc above the road
   double rolling_radius = 0.0;
   double adhesion = 0.0;    ///< share of the patch that does not slide; 0 in the air
-  double along_road = 0.0;  ///< x of the contact centre in the axes of the road
   double energy = 0.0;      ///< ½ k δ²
   double dissipated = 0.0;  ///< power taken from the wheel beyond the energy
 };
