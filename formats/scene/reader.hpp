@@ -44,6 +44,9 @@ std::vector<MotionSpec> read_motions(const MapReader& map, const SceneDefinition
 std::vector<InitialSpec> read_initial(const MapReader& map);
 std::vector<SpringSpec> read_springs(const MapReader& map, const SceneDefinitions& definitions);
 std::vector<BushingSpec> read_bushings(const MapReader& map);
+/// `file`, or the axes and `z`, of a road of that kind, grid or crg, in the lengths of the scene; null after an error.
+std::shared_ptr<const RoadHeights> read_road_heights(const MapReader& map, const SceneDefinitions& definitions,
+                                                     RoadKind kind);
 std::vector<RoadSpec> read_roads(const MapReader& map, const SceneDefinitions& definitions);
 std::vector<TyreSpec> read_tyres(const MapReader& map, const SceneDefinitions& definitions);
 std::vector<LoadSpec> read_loads(const MapReader& map, const SceneDefinitions& definitions);

@@ -14,15 +14,17 @@
 
 #include "common/units.hpp"
 #include "formats/joints/joint_kinds.hpp"
+#include "formats/roads/road_heights.hpp"
 #include "formats/scene/analysis.hpp"
 #include "formats/scene/body_spec.hpp"
 #include "formats/sections/section.hpp"
 #include "formats/tables/time_table.hpp"
-#include "formats/tyres/tyre_property_file.hpp"
 #include "formats/yaml/override.hpp"
 #include "formats/yaml/tree.hpp"
 
 namespace tisserand::formats {
+
+struct TyreProperties;
 
 /// A place on a body: "ground", "<body>" (rigid), "<body>/<node>"; position and orientation in the node's axes.
 struct MarkerSpec {
@@ -184,13 +186,17 @@ struct RoadPieceSpec {
 };
 
 /// Ground that tyres roll on, at rest: z = h(x, y) in the axes of its pose, x along it and z out of it.
-enum class RoadKind { plane, profile };
+/// grid, crg: over two coordinates, by a table or a file.
+enum class RoadKind { plane, profile, grid, crg };
 struct RoadSpec {
   std::string name;
   RoadKind kind = RoadKind::plane;
   Pose pose;
-  std::vector<RoadPieceSpec> left, right;  ///< heights add up; y > 0 is left
-  std::optional<double> transition;        ///< width of the strip about y = 0 between two tracks; absent: one track
+  std::vector<RoadPieceSpec> left, right;      ///< heights add up; y > 0 is left
+  std::optional<double> transition;            ///< width of the strip about y = 0 between two tracks; absent: one track
+  std::shared_ptr<const RoadHeights> heights;  ///< of grid and crg
+  double friction = 1.0;                       ///< factor of the friction of tyres
+  std::optional<double> friction_right;        ///< where y < 0 (v < 0); absent: the same
   std::string where;
 };
 

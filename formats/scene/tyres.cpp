@@ -1,4 +1,5 @@
 // `roads` and `tyres` of scene.yaml, and their findings.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -7,6 +8,7 @@
 #include "formats/scene/reader.hpp"
 #include "formats/scene/road_spectrum.hpp"
 #include "formats/scene/time_function_reader.hpp"
+#include "formats/tyres/tyre_property_file.hpp"
 #include "formats/yaml/fields.hpp"
 #include "formats/yaml/geometry.hpp"
 #include "formats/yaml/name_check.hpp"
@@ -15,7 +17,8 @@ namespace tisserand::formats {
 
 namespace {
 
-constexpr Choice<RoadKind> road_kinds[] = {{"plane", RoadKind::plane}, {"profile", RoadKind::profile}};
+constexpr Choice<RoadKind> road_kinds[] = {
+    {"plane", RoadKind::plane}, {"profile", RoadKind::profile}, {"grid", RoadKind::grid}, {"crg", RoadKind::crg}};
 constexpr Choice<RoadPieceShape> piece_shapes[] = {
     {"cosine", RoadPieceShape::cosine}, {"trapezoid", RoadPieceShape::trapezoid}, {"curve", RoadPieceShape::curve}};
 constexpr Choice<RoadClass> road_classes[] = {{"A", RoadClass::A}, {"B", RoadClass::B}, {"C", RoadClass::C},
@@ -136,15 +139,28 @@ std::vector<RoadPieceSpec> read_track(const MapReader& map, const char* key, con
   return pieces;
 }
 
+std::string_view word_of(RoadKind kind) { return std::ranges::find(road_kinds, kind, &Choice<RoadKind>::value)->word; }
+
+/// Keys of other kinds of road.
+void refuse_road_keys(const MapReader& map, RoadKind kind) {
+  struct Use {
+    const char* key;
+    std::initializer_list<RoadKind> kinds;
+  };
+  for (const Use& use :
+       {Use{"height", {RoadKind::profile}}, Use{"left", {RoadKind::profile}}, Use{"right", {RoadKind::profile}},
+        Use{"transition", {RoadKind::profile}}, Use{"file", {RoadKind::grid, RoadKind::crg}},
+        Use{"x", {RoadKind::grid}}, Use{"y", {RoadKind::grid}}, Use{"z", {RoadKind::grid}},
+        Use{"x_start", {RoadKind::grid}}, Use{"y_start", {RoadKind::grid}}, Use{"spacing", {RoadKind::grid}}}) {
+    const YamlNode* node = map.find(use.key);
+    if (node == nullptr || std::ranges::find(use.kinds, kind) != use.kinds.end()) continue;
+    map.context().fail(node->key_place, fmt::format("'{}' has no effect on a {}", use.key, word_of(kind)),
+                       fmt::format("remove it, or write type: {}", word_of(*use.kinds.begin())));
+  }
+}
+
 void read_tracks(const MapReader& map, const SceneDefinitions& definitions, RoadSpec& road) {
   const bool one = map.has("height"), two = map.has("left") || map.has("right");
-  if (road.kind == RoadKind::plane) {
-    for (const char* key : {"height", "left", "right", "transition"})
-      if (const YamlNode* node = map.find(key))
-        map.context().fail(node->key_place, fmt::format("'{}' has no effect on a plane", key),
-                           "remove it, or write type: profile");
-    return;
-  }
   if (one == two)
     map.fail("a profile needs either 'height', or 'left' and 'right'",
              "write height: {shape: cosine, start: 10, length: 1, height: 0.1}");
@@ -216,7 +232,10 @@ std::vector<RoadSpec> read_roads(const MapReader& map, const SceneDefinitions& d
     road.where = context.entry;
     read_fields(inner, road);
     if (const YamlNode* pose = inner.find("pose")) road.pose = read_pose(context, *pose, "pose.");
-    read_tracks(inner, definitions, road);
+    refuse_road_keys(inner, road.kind);
+    if (road.kind == RoadKind::profile) read_tracks(inner, definitions, road);
+    if (road.kind == RoadKind::grid || road.kind == RoadKind::crg)
+      road.heights = read_road_heights(inner, definitions, road.kind);
     roads.push_back(std::move(road));
   }
   return roads;
@@ -255,6 +274,13 @@ void check_road(const RoadSpec& road, Faults& faults) {
   const std::string subject = fmt::format("road '{}'", road.name);
   if (!road.pose.position.allFinite())
     faults.add(road.where, "pose.position", fmt::format("{}: position must be finite", subject), "");
+  if (road.kind == RoadKind::grid || road.kind == RoadKind::crg) {
+    const std::string fault = road.heights ? fault_of(*road.heights) : "has no heights";
+    if (!fault.empty()) faults.add(road.where, "file", fmt::format("{}: {}", subject, fault), "correct its grid");
+  }
+  NumberCheck{subject, road.where, faults}(road.friction, "friction", Sign::positive);
+  if (road.friction_right)
+    NumberCheck{subject, road.where, faults}(*road.friction_right, "friction_right", Sign::positive);
   if (road.transition) NumberCheck{subject, road.where, faults}(*road.transition, "transition", Sign::positive);
   for (const auto* track : {&road.left, &road.right})
     for (const RoadPieceSpec& piece : *track) {
@@ -311,7 +337,9 @@ void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, Faults& faults) {
 std::vector<KeySet> tyre_key_sets() {
   return {
       {"road",
-       {choice<&RoadSpec::kind, road_kinds>("type", "`plane`, or `profile`: heights over the distance along it",
+       {choice<&RoadSpec::kind, road_kinds>("type",
+                                            "`plane`; `profile`: heights over the distance along it; `grid`: over a "
+                                            "rectangular grid; `crg`: an OpenCRG file",
                                             "required"),
         {"pose", "pose",
          "`{position: [x, y, z], orientation: ..}` of its axes in the world: x along it, y to its left, z out of it",
@@ -321,10 +349,26 @@ std::vector<KeySet> tyre_key_sets() {
         {"left", "road_piece | [road_piece]", "instead: of the tracks y > 0 and y < 0; without one of them it is flat",
          "none"},
         {"right", "road_piece | [road_piece]", ditto},
+        plain<&RoadSpec::friction>("friction", "positive", "factor of the coefficients of friction of tyres on it"),
+        plain<&RoadSpec::friction_right>("friction_right", "positive",
+                                         "the same right of its middle (y < 0, of `crg` v < 0); one goes over into the "
+                                         "other within the radius of a tyre",
+                                         "`friction`"),
         plain<&RoadSpec::transition>("transition", "positive",
                                      "width of the strip about y = 0 in which one track goes over into the other "
                                      "[length]",
-                                     "required with tracks")}},
+                                     "required with tracks"),
+        {"file", "text", "of a grid, a table; of a crg, the file; relative to the scene file",
+         "required but for a grid with `z`"},
+        {"x", "[number]2..", "of a grid, instead of a file: its axes, ascending [length]", "required with `z`"},
+        {"y", "[number]2..", ditto},
+        {"z", "[[number]2..]2..", "heights, a list for each x with one for each y [length]", "required without `file`"},
+        {"x_start", "number",
+         "of a grid whose file holds heights alone: place of the first, and the distance of all "
+         "along x and y [length]",
+         "by the file"},
+        {"y_start", "number", ditto},
+        {"spacing", "positive", ditto}}},
       {"road_piece",
        {choice<&RoadPieceSpec::shape, piece_shapes>(
             "shape",

@@ -1,15 +1,11 @@
 // Lines of a csv file to times and values.
 #include "formats/tables/csv_table.hpp"
 
-#include <cerrno>
-#include <charconv>
-#include <cmath>
-#include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <vector>
 
 #include "common/error.hpp"
+#include "formats/tables/text_cells.hpp"
 
 namespace tisserand::formats {
 
@@ -31,26 +27,10 @@ std::vector<Cell> split(const std::string& line) {
   return cells;
 }
 
-bool parse(const std::string& text, double& value) {
-  const char* end = text.data() + text.size();
-  const auto [stop, status] = std::from_chars(text.data() + (text[0] == '+' ? 1 : 0), end, value);
-  return stop == end && status == std::errc{} && std::isfinite(value);
-}
-
-std::ifstream open_csv(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
-    throw Error("is not a regular file", path, "give a csv file with the columns time and value");
-  std::ifstream stream(path);
-  if (!stream)
-    throw Error(fmt::format("cannot open the table: {}", std::strerror(errno)), path, "check path and permission");
-  return stream;
-}
-
 }  // namespace
 
 TimeTable read_csv_table(const std::string& path) {
-  std::ifstream stream = open_csv(path);
+  std::ifstream stream = open_table(path, "give a csv file with the columns time and value");
   TimeTable table;
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
@@ -58,7 +38,7 @@ TimeTable read_csv_table(const std::string& path) {
     if (cells.empty() || cells[0].text[0] == '#') continue;
     std::vector<double> values(cells.size());
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      if (parse(cells[i].text, values[i])) continue;
+      if (read_finite(cells[i].text, values[i])) continue;
       if (table.time.empty() && i == 0) {
         values.clear();
         break;

@@ -1,64 +1,22 @@
 // Columns and datasets to times and values.
 #include "formats/tables/input_table.hpp"
 
-#include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <string_view>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "formats/hdf5/file.hpp"
+#include "formats/tables/text_cells.hpp"
 
 namespace tisserand::formats {
 
 namespace {
 
 constexpr std::size_t most_points = 10'000'000;
-constexpr std::string_view blanks = " \t\r";
-
-std::ifstream open_table(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
-    throw Error("is not a regular file", path, "give a csv or HDF5 file");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream)
-    throw Error(fmt::format("cannot open the table: {}", std::strerror(errno)), path, "check path and permission");
-  return stream;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-/// Cells between separators; blanks separate together, all others one by one.
-std::vector<std::string_view> split(std::string_view line, char separator) {
-  std::vector<std::string_view> cells;
-  line = trimmed(line);
-  for (;;) {
-    const std::size_t end = separator == ' ' ? line.find_first_of(blanks) : line.find(separator);
-    cells.push_back(trimmed(line.substr(0, end)));
-    if (end == std::string_view::npos) return cells;
-    line.remove_prefix(separator == ' ' ? std::min(line.find_first_not_of(blanks, end), line.size()) : end + 1);
-  }
-}
-
-char separator_of(std::string_view line) {
-  for (const char separator : {',', ';', '\t'})
-    if (line.find(separator) != std::string_view::npos) return separator;
-  return ' ';
-}
-
-bool parse(std::string_view text, double& value) {
-  if (text.starts_with('+')) text.remove_prefix(1);
-  const auto [stop, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return !text.empty() && stop == text.data() + text.size() && status == std::errc{} && std::isfinite(value);
-}
+constexpr const char* csv_or_hdf5 = "give a csv or HDF5 file";
 
 /// Index of a column by its number or name.
 std::size_t find_column(const std::vector<std::string_view>& header, const std::string& wanted,
@@ -82,14 +40,14 @@ double read_cell(const std::vector<std::string_view>& cells, std::size_t column,
   double value = 0.0;
   if (column >= cells.size())
     throw Error(fmt::format("has {} cells, column {} is missing", cells.size(), column + 1), where, "");
-  if (!parse(cells[column], value))
+  if (!read_finite(cells[column], value))
     throw Error(fmt::format("'{}' in column {} is not a finite number", cells[column].substr(0, 40), column + 1), where,
                 "");
   return value;
 }
 
 TimeTable read_text_table(const InputPlace& place) {
-  std::ifstream stream = open_table(place.file);
+  std::ifstream stream = open_table(place.file, csv_or_hdf5);
   TimeTable table;
   std::string line;
   bool started = false;
@@ -99,13 +57,13 @@ TimeTable read_text_table(const InputPlace& place) {
     if (trimmed(line).empty() || trimmed(line).front() == '#') continue;
     const std::string where = fmt::format("{}:{}", place.file, number);
     if (!started) separator = separator_of(line);
-    const std::vector<std::string_view> cells = split(line, separator);
+    const std::vector<std::string_view> cells = split_cells(line, separator);
     if (!started) {
       started = true;
       time = find_column(cells, place.time, where);
       value = find_column(cells, place.value, where);
       double first = 0.0;
-      if (!parse(cells[time], first) && !parse(cells[value], first)) continue;  // a line of names
+      if (!read_finite(cells[time], first) && !read_finite(cells[value], first)) continue;  // a line of names
     }
     table.time.push_back(read_cell(cells, time, where));
     table.value.push_back(read_cell(cells, value, where));
@@ -141,7 +99,7 @@ TimeTable read_hdf5_table(const InputPlace& place) {
 }
 
 bool is_hdf5(const std::string& path) {
-  std::ifstream stream = open_table(path);
+  std::ifstream stream = open_table(path, csv_or_hdf5);
   char bytes[8] = {};
   stream.read(bytes, sizeof bytes);
   return stream.gcount() == 8 && std::memcmp(bytes, "\x89HDF\r\n\x1a\n", 8) == 0;

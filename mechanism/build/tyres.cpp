@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "common/units.hpp"
+#include "formats/tyres/tyre_property_file.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -61,10 +63,15 @@ void check_tyre_start(const formats::TyreSpec& spec, const Tyre& tyre, Construct
     throw Error(fmt::format("tyre '{}': its axle stands across the road '{}': the wheel lies on its side", spec.name,
                             road.name),
                 spec.where, "give axis along the axle, or turn the road");
-  if (terms.along_road < road.begin || terms.along_road > road.end)
-    throw Error(fmt::format("tyre '{}' starts at x = {:.6g}{} of the road '{}', which is there from {:.6g} to {:.6g}",
-                            spec.name, terms.along_road, unit, road.name, road.begin, road.end),
-                spec.where, "lengthen the curve of the road, or move the wheel");
+  const Vector3d contact = road.R.transpose() * (terms.contact - road.p);
+  if (const std::optional<RoadLack> lack = road.lack(contact.x(), contact.y()))
+    throw Error(
+        lack->hole ? fmt::format("tyre '{}' starts in a hole of the road '{}'", spec.name, road.name)
+                   : fmt::format("tyre '{}' starts at {} = {:.6g}{} of the road '{}', which is there from "
+                                 "{:.6g} to {:.6g}",
+                                 spec.name, lack->axis, lack->at, unit, road.name, lack->begin, lack->end),
+        spec.where,
+        road.surface ? "move the wheel, or the road by its pose" : "lengthen the curve of the road, or move the wheel");
   if (terms.penetration > deepest * tyre.radius)
     throw Error(
         fmt::format("tyre '{}' starts {:.4g}{} deep in the road '{}'", spec.name, terms.penetration, unit, road.name),
@@ -114,6 +121,20 @@ void give_treads(const formats::TyreSpec& spec, Tyre& tyre, Construction& c) {
   tyre.lag = std::exchange(c.model.sizes.modal, c.model.sizes.modal + 2);
 }
 
+/// The cuts across the line of the road that was built last do not cross on it.
+void check_bends(const formats::RoadSpec& spec, const Construction& c) {
+  const Road& road = c.model.roads.back();
+  if (!road.surface || !road.surface->line) return;
+  const HeightGrid& grid = road.surface->grid;
+  const double bend = road.surface->line->sharp_bend(grid.t_begin(), grid.t_end());
+  if (std::isnan(bend)) return;
+  throw Error(
+      fmt::format("road '{}': its reference line bends so sharply at u = {:.6g}{} that the cuts across it cross "
+                  "within its width",
+                  spec.name, bend, after_number(unit_label(c.model.units, 1, 0, 0))),
+      spec.where, "smooth the headings in the file, or leave the long sections out that are that far inside");
+}
+
 void add_tyre(const formats::TyreSpec& spec, Construction& c) {
   Tyre tyre;
   tyre.name = spec.name;
@@ -145,7 +166,10 @@ void add_tyre(const formats::TyreSpec& spec, Construction& c) {
 }  // namespace
 
 void add_tyres(Construction& c) {
-  for (const formats::RoadSpec& road : c.scene.roads) c.model.roads.emplace_back(road, c.model.origin);
+  for (const formats::RoadSpec& road : c.scene.roads) {
+    c.model.roads.emplace_back(road, c.model.origin);
+    c.collect([&] { check_bends(road, c); });
+  }
   for (const formats::TyreSpec& tyre : c.scene.tyres) c.collect([&] { add_tyre(tyre, c); });
 }
 

@@ -135,6 +135,7 @@ void equilibrate(Run& run, RowWriter& out) {
   run.doubts.at_state(run.built.model, run.built.state, run.workspace.now);
   FrameAngles angles(run.built.model);
   run.report.reason = angles.observe(run.built.model, run.built.state, run.workspace.now);
+  if (run.report.reason.empty()) run.report.reason = off_road(run.built.model, run.built.state, run.workspace.now);
   if (!run.report.reason.empty()) run.report.outcome = RunOutcome::not_converged;
   angles.tell(run.built.model, run.report);
   write_row(run, step, 0.0, out);

@@ -10,6 +10,7 @@
 #include "mechanism/analyses/kinematics.hpp"
 #include "mechanism/analyses/modes.hpp"
 #include "mechanism/equations/evaluate.hpp"
+#include "mechanism/run/off_road.hpp"
 #include "mechanism/run/output.hpp"
 #include "mechanism/run/run.hpp"
 #include "mechanism/run/schedule.hpp"
@@ -105,6 +106,11 @@ void move_along(Run& run, RowWriter& out) {
     count_work(state.time() - before, state, run.workspace);
     if (schedule.accept(state.time()).output) write_motion_row(run, step, state.time() - before, out);
     if (run.control.progress) run.control.progress(state.time());
+    if (run.scene.analysis != formats::AnalysisKind::inverse_dynamics) continue;  // without forces
+    report.reason = off_road(model, state, run.workspace.now);
+    if (report.reason.empty()) continue;
+    report.outcome = RunOutcome::not_converged;
+    break;
   }
   report.time = state.time();
 }

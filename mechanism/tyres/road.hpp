@@ -1,6 +1,8 @@
 // Road: height of the ground under tyres, with its gradient, in axes of its own that are at rest.
 #pragma once
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,8 @@
 #include "common/math/dual.hpp"
 #include "formats/scene/scene.hpp"
 #include "mechanism/forces/curve.hpp"
+#include "mechanism/tyres/height_grid.hpp"
+#include "mechanism/tyres/reference_line.hpp"
 
 namespace tisserand::mechanism {
 
@@ -29,17 +33,37 @@ struct RoadPiece {
   RoadHeight at(double x) const;
 };
 
+/// Heights over a grid, along a line or along x.
+struct RoadSurface {
+  HeightGrid grid;
+  std::optional<ReferenceLine> line;
+};
+
+/// Why there is no road at a place: beyond one of its ends, or in a hole.
+struct RoadLack {
+  bool hole = false;
+  char axis = 'x';                          ///< x, y; along and beside a line u, v
+  double at = 0.0, begin = 0.0, end = 0.0;  ///< on that axis
+  Eigen::Vector2d place;                    ///< x, y or u, v
+};
+
 struct Road {
   std::string name;
   Eigen::Vector3d p = Eigen::Vector3d::Zero();      ///< origin, from that of the model
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  ///< R_WR
   std::vector<RoadPiece> left, right;               ///< right: empty where one track is all of the road
   double transition = 0.0;  ///< width of the strip about y = 0 where the tracks are blended; 0: one track
-  double begin, end;        ///< x between which the road is there
+  double begin, end;        ///< x (along a line u) between which the road is there
+  std::shared_ptr<const RoadSurface> surface;   ///< instead of the tracks; null: none
+  double friction = 1.0, friction_right = 1.0;  ///< factors of the friction of tyres where y > 0 (v > 0), and y < 0
 
   /// `origin`: of the model.
   Road(const formats::RoadSpec& spec, const Eigen::Vector3d& origin);
   RoadHeight at(double x, double y) const;
+  /// Whether the road is missing there.
+  std::optional<RoadLack> lack(double x, double y) const;
+  /// Factor of the friction; `strip`: width about y = 0 in which one side goes over into the other.
+  double friction_at(double x, double y, double strip) const;
 };
 
 inline double road_height(const Road& road, double x, double y) { return road.at(x, y).value; }

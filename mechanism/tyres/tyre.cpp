@@ -140,6 +140,15 @@ LagRate<T> forget(const Tyre& tyre, const T& spin, const TreadMotion<T>& tread) 
   return {rate * tread.u, rate * tread.v};
 }
 
+/// Factor of the friction of the road under the contact centre; its change along the way is left out of tangents.
+template <class T>
+double road_friction(const Tyre& tyre, const Road& road, const DiscContact<T>& c) {
+  if (road.friction == road.friction_right) return road.friction;
+  const Vector3d point(real_part(c.point.x()), real_part(c.point.y()), real_part(c.point.z()));
+  const Vector3d at = road.R.transpose() * (point - road.p);
+  return road.friction_at(at.x(), at.y(), tyre.radius);
+}
+
 /// What the tyre does, world axes; the wrench is about the centre of the disc.
 template <class T>
 struct TyreAction {
@@ -168,6 +177,7 @@ TyreAction<T> act(const Tyre& tyre, const Road& road, const DiscMotion<T>& disc,
   const T load = load_of(tyre, c, disc), R = s.rolling_radius;
   PatchSlip<T> slip{s.along / V, s.across / V, c.sine, load, sqrt(T(8.0 * tyre.radius * c.penetration)),
                     R,           s.rolling,    s.ahead};
+  slip.friction = road_friction(tyre, road, c);
   a.slip_angle_tangent = s.across / regularised<T>(s.ahead, tyre.low_speed);
   if (tyre.relaxes()) {
     a.lag = relax(tyre, s, tread, slip);
@@ -236,7 +246,6 @@ void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, const 
   terms.normal = c.n;
   terms.camber = std::atan2(c.sine, c.cosine);
   terms.penetration = c.penetration;
-  terms.along_road = road.R.col(0).dot(c.point - road.p);
   if (c.penetration <= 0.0) return;
   terms.force = a.force_tyre;
   terms.moment = a.moment_tyre;

@@ -71,7 +71,6 @@ struct TyreTerms {
   double penetration = 0.0;  ///< negative: height of the disc above the road
   double rolling_radius = 0.0;
   double adhesion = 0.0;    ///< share of the patch that does not slide, or of the friction that is left; 0 in the air
-  double along_road = 0.0;  ///< x of the contact centre in the axes of the road
   double energy = 0.0;      ///< ½ k δ² + ⅓ k₂ δ³
   double dissipated = 0.0;  ///< power taken from the wheel beyond the energy
 };

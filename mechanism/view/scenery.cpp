@@ -57,20 +57,49 @@ std::vector<double> stations(double first, double last, double apart, int most) 
   return places;
 }
 
-/// The part of the road in a box of its axes.
+/// Stations along and across the part of a road that is drawn.
+struct StripStations {
+  std::vector<double> along, across;
+};
+
+/// Of the part in a box of the road's axes; of a road along a line all of it.
+StripStations stations_of(const Road& road, const Eigen::AlignedBox2d& box, double radius) {
+  const double apart = spacing * radius;
+  if (!road.surface)
+    return {stations(std::max(box.min().x(), road.begin), std::min(box.max().x(), road.end), apart, most_along),
+            road.transition > 0.0 ? stations(box.min().y(), box.max().y(), apart, most_tracks)
+                                  : std::vector<double>{box.min().y(), box.max().y()}};
+  const HeightGrid& grid = road.surface->grid;
+  Eigen::AlignedBox2d there(Eigen::Vector2d(grid.s_begin(), grid.t_begin()),
+                            Eigen::Vector2d(grid.s_end(), grid.t_end()));
+  if (!road.surface->line) there = there.intersection(box);
+  if (there.isEmpty()) return {};
+  return {stations(there.min().x(), there.max().x(), apart, most_along),
+          stations(there.min().y(), there.max().y(), apart, most_tracks)};
+}
+
+/// A point of the strip, and whether the road is there.
+std::pair<Vector3d, bool> strip_point(const Road& road, double s, double t) {
+  Eigen::Vector2d at(s, t);
+  if (road.surface && road.surface->line) at = road.surface->line->point(s, t);
+  const bool hole = road.surface && road.surface->grid.is_hole(s, t);
+  return {{at.x(), at.y(), road.surface ? road.surface->grid.at(s, t).value : road.at(s, t).value}, !hole};
+}
+
+/// The drawn part of the road, without its holes.
 Surface strip(const Road& road, const Eigen::AlignedBox2d& box, double radius) {
-  const std::vector<double> along = stations(std::max(box.min().x(), road.begin), std::min(box.max().x(), road.end),
-                                             spacing * radius, most_along),
-                            across = road.transition > 0.0
-                                         ? stations(box.min().y(), box.max().y(), spacing * radius, most_tracks)
-                                         : std::vector<double>{box.min().y(), box.max().y()};
+  const StripStations at = stations_of(road, box, radius);
   Surface surface;
-  const int width = static_cast<int>(across.size());
-  for (std::size_t i = 0; i < along.size(); ++i)
+  std::vector<bool> there;
+  const int width = static_cast<int>(at.across.size());
+  for (std::size_t i = 0; i < at.along.size(); ++i)
     for (int k = 0; k < width; ++k) {
-      surface.vertices.emplace_back(along[i], across[k], road.at(along[i], across[k]).value);
+      const auto [point, is_there] = strip_point(road, at.along[i], at.across[k]);
+      surface.vertices.push_back(point);
+      there.push_back(is_there);
       if (i == 0 || k == 0) continue;
       const int d = surface.size() - 1, c = d - 1, b = d - width, a = b - 1;
+      if (!(there[a] && there[b] && there[c] && there[d])) continue;
       surface.triangles.push_back({a, b, d});
       surface.triangles.push_back({a, d, c});
     }
@@ -131,8 +160,9 @@ std::vector<Scenery> scenery_of(const ViewedRun& run) {
     if (passed[i].isEmpty()) continue;
     const Eigen::Vector2d beyond = Eigen::Vector2d::Constant(margin * radius[i]);
     const Road road(run.drawn.roads[i], Vector3d::Zero());
-    scenery.push_back({road.name, "road", "#8b9099", at_rest(road.p, road.R),
-                       strip(road, {passed[i].min() - beyond, passed[i].max() + beyond}, radius[i])});
+    Surface drawn = strip(road, {passed[i].min() - beyond, passed[i].max() + beyond}, radius[i]);
+    if (drawn.triangles.empty()) continue;
+    scenery.push_back({road.name, "road", "#8b9099", at_rest(road.p, road.R), std::move(drawn)});
   }
   return scenery;
 }

@@ -10,7 +10,7 @@ function(tisserand_replay target library)
   set_tests_properties(Fuzz.${target} PROPERTIES LABELS fuzz TIMEOUT 120)
 endfunction()
 
-foreach(target part scene table tyre)
+foreach(target part scene table tyre road)
   tisserand_replay(${target} tisserand_formats)
 endforeach()
 add_library(tisserand_containers OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/formats/hdf5/mutated_container.cpp)

@@ -117,6 +117,85 @@ INSTANTIATE_TEST_SUITE_P(
         BadTyre{"CurveFile", "file: road.csv", "file: none.csv", "none.csv"}),
     [](const ::testing::TestParamInfo<BadTyre>& given) { return given.param.name; });
 
+// ---- heights over grids -----------------------------------------------------------------------------------------
+
+const std::string field = R"(scene: field
+bodies:
+  hub: {type: rigid, mass: 1, inertia: [1, 1, 1]}
+roads:
+  hill: {type: grid, file: hill.csv}
+  level: {type: grid, file: heights.csv, x_start: -1, y_start: 2, spacing: 0.5}
+  step: {type: grid, x: [0, 1, 3], y: [-1, 1], z: [[0, 0], [0.1, 0.2], [0.1, 0.3]]}
+  lane: {type: crg, file: lane.crg}
+integrator: {step: 0.01, end: 1}
+)";
+
+const std::string lane =
+    "$ROAD_CRG\nREFERENCE_LINE_INCREMENT = 2.0\n$\n$KD_DEFINITION\n#:LRFI\nD:long section at v = -1,m\n"
+    "D:long section at v = 1,m\n$\n$$$$\n 0.0000000 0.1000000\n 0.2000000 0.3000000\n";
+
+/// The scene, or the error that it gives.
+Scene read_field(const Folder& folder, const std::string& text) {
+  folder.file("hill.csv", "x, -1, 1\n0, 0, 1\n2, 3, 4\n");
+  folder.file("heights.csv", "1 2 3\n4 5 6\n");
+  folder.file("lane.crg", lane);
+  return read_scene(folder.file("scene.yaml", text), {});
+}
+
+std::string field_error(const std::string& from, const std::string& to) {
+  const Folder folder;
+  return error_of(folder, [&] { read_field(folder, replaced(field, from, to)); });
+}
+
+TEST(SceneRoads, OfGridsAreRead) {
+  const Folder folder;
+  const Scene scene = read_field(folder, field);
+  ASSERT_EQ(scene.roads.size(), 4u);
+  EXPECT_EQ(scene.roads[0].kind, RoadKind::grid);
+  EXPECT_EQ(scene.roads[0].heights->along, (std::vector<double>{0, 2}));
+  EXPECT_EQ(scene.roads[0].heights->height(1, 0), 3.0);
+  EXPECT_EQ(scene.roads[1].heights->across, (std::vector<double>{2, 2.5, 3}));
+  EXPECT_EQ(scene.roads[2].heights->along, (std::vector<double>{0, 1, 3}));
+  EXPECT_EQ(scene.roads[2].heights->height(1, 1), 0.2);
+  EXPECT_EQ(scene.roads[3].kind, RoadKind::crg);
+  EXPECT_EQ(scene.roads[3].heights->line.cols(), 2);
+  EXPECT_EQ(scene.roads[3].heights->height(1, 0), 0.2);
+}
+
+// OpenCRG files are in metres, whatever the scene counts in.
+TEST(SceneRoads, OfCrgFilesTakeTheUnitsOfTheScene) {
+  const Folder folder;
+  const Scene scene = read_field(folder, field + "units: {length: mm, mass: t, time: s}\n");
+  EXPECT_NEAR(scene.roads[3].heights->height(1, 0), 200.0, 1e-12);
+  EXPECT_NEAR(scene.roads[3].heights->along[1], 2000.0, 1e-9);
+  EXPECT_NEAR(scene.roads[3].heights->line(0, 1), 2000.0, 1e-9);
+  EXPECT_EQ(scene.roads[0].heights->height(1, 0), 3.0);
+  EXPECT_THAT(field_error("integrator:", "units: consistent\nintegrator:"),
+              HasSubstr("OpenCRG files are in metres, and the units of the scene are unnamed"));
+}
+
+TEST(SceneRoads, OfGridsAreRefusedWithReasons) {
+  EXPECT_THAT(field_error("file: hill.csv", "file: none.csv"), HasSubstr("none.csv"));
+  EXPECT_THAT(field_error("{type: grid, file: hill.csv}", "{type: grid, file: lane.crg}"), HasSubstr("lane.crg:1"));
+  EXPECT_THAT(field_error("{type: crg, file: lane.crg}", "{type: crg, file: hill.csv}"), HasSubstr("hill.csv:1"));
+  EXPECT_THAT(field_error(", spacing: 0.5", ""), HasSubstr("missing key 'spacing'"));
+  EXPECT_THAT(field_error("spacing: 0.5", "spacing: 0"), HasSubstr("spacing 0 must be positive"));
+  EXPECT_THAT(field_error("x: [0, 1, 3]", "x: [0, 1, 1]"), HasSubstr("x must ascend, but 1 follows 1"));
+  EXPECT_THAT(field_error("y: [-1, 1]", "y: [-1]"), HasSubstr("y has 1 values"));
+  EXPECT_THAT(field_error("x: [0, 1, 3], ", ""), HasSubstr("missing key 'x'"));
+  EXPECT_THAT(field_error("[0, 0], ", ""), HasSubstr("z must be a list of 3 lists, one for each x"));
+  EXPECT_THAT(field_error("[0.1, 0.2]", "[0.1]"), HasSubstr("z[1] has 1 heights instead of 2, one for each y"));
+  EXPECT_THAT(field_error("[0.1, 0.2]", "[0.1, .nan]"), HasSubstr("must be finite"));
+  EXPECT_THAT(field_error("x: [0, 1, 3]", "x: [0, 1, 3], file: hill.csv"),
+              HasSubstr("'x' has no effect beside 'file'"));
+  EXPECT_THAT(field_error("x: [0, 1, 3]", "x: [0, 1, 3], spacing: 1"), HasSubstr("'spacing' has no effect beside 'z'"));
+  EXPECT_THAT(field_error("file: lane.crg", "file: lane.crg, spacing: 1"),
+              HasSubstr("'spacing' has no effect on a crg"));
+  EXPECT_THAT(field_error("file: lane.crg", "transition: 1"), HasSubstr("'transition' has no effect on a crg"));
+  EXPECT_THAT(field_error("{type: crg, file: lane.crg}", "{type: crg}"), HasSubstr("missing key 'file'"));
+  EXPECT_THAT(field_error("x: [0, 1, 3]", "x: [0, 1, 1.0000000001]"), HasSubstr("do not ascend, or hardly"));
+}
+
 // ISO 8608: E[(z(x + d) − z(x))²] = 2 ∫ G (1 − cos 2πnd) dn with G = 16e-6 (n/0.1)⁻² m³. Of 300 waves over 500 m, 2 in
 // 100 bands at least take part in each lag: 10 % for short ones, 25 % where few long waves decide.
 TEST(IsoRoad, HasTheSpectrumOfItsClass) {

@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
+#include "formats/tyres/tyre_property_file.hpp"
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/bdf/bdf.hpp"
 #include "mechanism/doubts/tyre_range.hpp"
 #include "mechanism/run/off_road.hpp"
 #include "tests/support/scenes/model_tangent.hpp"
+#include "tests/support/scenes/wheels.hpp"
 
 namespace tisserand::mechanism::tyre_motion_test {
 namespace {
@@ -18,56 +20,14 @@ using Eigen::Vector3d;
 using formats::JointKind;
 using formats::Method;
 using formats::RoadPieceShape;
+using test_support::block_car;
 using test_support::Simulation;
+using test_support::slope;
+using test_support::wheel_on_slope;
 
-constexpr double g = 9.81, mass = 50.0, inertia = 1.5, stiffness = 190e3, radius = 0.31;
-
-formats::TyreSpec tyre_on(const std::string& node, const Vector3d& position) {
-  formats::TyreSpec tyre;
-  tyre.name = "tyre" + std::to_string(static_cast<int>(std::lround(1e3 * (position.x() + 10.0 * position.y()))));
-  tyre.wheel.node = node;
-  tyre.wheel.position = position;
-  tyre.road = "road";
-  tyre.radius = radius;
-  tyre.stiffness = stiffness;
-  tyre.damping = 500.0;
-  tyre.slip_stiffness = 80e3;
-  tyre.cornering_stiffness = 60e3;
-  tyre.camber_stiffness = 3e3;
-  tyre.friction = 0.8;
-  tyre.low_speed = 0.1;
-  return tyre;
-}
-
-formats::RoadSpec slope(double angle) {
-  formats::RoadSpec road;
-  road.name = "road";
-  road.pose.orientation = Eigen::AngleAxisd(angle, Vector3d::UnitY());
-  return road;
-}
-
-/// A wheel in the plane y = 0 on a road that falls by `angle` towards x, pressed in as at rest; moving along it.
-formats::Scene wheel_on_slope(double angle, double speed, bool locked) {
-  formats::Scene scene = test_support::empty_scene(2e-3, 10.0);
-  scene.gravity = {0, 0, -g};
-  const Eigen::Quaterniond down(Eigen::AngleAxisd(angle, Vector3d::UnitY()));
-  formats::RigidBodySpec wheel = test_support::rigid_body("wheel", mass, {0, 0, 0}, {0.9, inertia, 0.9});
-  wheel.start.pose.position = down * Vector3d(0, 0, radius - mass * g * std::cos(angle) / stiffness);
-  wheel.start.velocity = down * Vector3d(speed, 0, 0);
-  wheel.start.angular_velocity = Vector3d::Zero();
-  scene.bodies.push_back(wheel);
-  formats::JointSpec guide =
-      test_support::joint("guide", locked ? JointKind::generic : JointKind::planar, "ground", "wheel",
-                          wheel.start.pose.position, locked ? Vector3d::UnitZ() : Vector3d::UnitY());
-  if (locked) {
-    guide.x_axis = Vector3d::UnitX();
-    guide.hold = {false, true, false, true, true, true};
-  }
-  scene.joints.push_back(guide);
-  scene.roads.push_back(slope(angle));
-  scene.tyres.push_back(tyre_on("wheel", Vector3d::Zero()));
-  return scene;
-}
+constexpr double g = test_support::Wheel::gravity, mass = test_support::Wheel::mass,
+                 inertia = test_support::Wheel::inertia, stiffness = test_support::Wheel::stiffness,
+                 radius = test_support::Wheel::radius;
 
 /// Slip at which the patch makes the force F under the load N: F = μ N (1 − l_n³), C_s S = 3 μ N (1 − l_n).
 double slip_of(double F, double N) {
@@ -196,6 +156,20 @@ TEST_P(Methods, SideForceRelaxesOverItsLength) {
   }
 }
 
+// A road of two frictions: a locked wheel on its left decelerates by μ g, on its right by a quarter of that, above the
+// seam by the mean.
+TEST(LockedWheel, FeelsTheFrictionOfItsSide) {
+  for (const auto& [side, factor] : {std::pair{1.0, 1.0}, std::pair{-1.0, 0.25}, std::pair{0.0, 0.625}}) {
+    formats::Scene scene = wheel_on_slope(0.0, 10.0, true);
+    scene.roads[0].pose.position.y() = -side;
+    scene.roads[0].friction_right = 0.25;
+    Simulation run(scene, {});
+    run.start();
+    run.run(0.5);
+    EXPECT_NEAR(10.0 - run.velocity("wheel").x(), 0.5 * 0.8 * factor * g, 1e-6) << side;
+  }
+}
+
 // With relaxation a standing tyre holds a slope by the deflection of its tread, where one without creeps: locked on a
 // slope of 0.1 rad it comes to rest with u = σ S, the slip S of the force it bears, and stays.
 TEST(LockedWheel, StandsOnASlopeWithRelaxation) {
@@ -234,21 +208,6 @@ TEST(FallingWheel, SpinsUpAndItsEnergyIsAccountedFor) {
   EXPECT_NEAR(after + dissipated, before, 2e-3 * dissipated);
   const double expected = 10.0 / (1.0 + inertia / (mass * radius * radius));
   EXPECT_NEAR(run.velocity("wheel").x(), expected, 0.02 * expected);
-}
-
-/// The car of the second paper as one body: 980 kg, wheels that do not turn; `height` above its place at rest.
-formats::Scene block_car(double height) {
-  formats::Scene scene = test_support::empty_scene(1e-3, 10.0);
-  scene.gravity = {0, 0, -g};
-  formats::RigidBodySpec car = test_support::rigid_body("car", 980.0, {-1.308, 0, 0.45}, {300, 1100, 1200});
-  car.start.pose.position.z() = height;
-  scene.bodies.push_back(car);
-  scene.roads.push_back(slope(0.0));
-  for (const double side : {1.0, -1.0}) {
-    scene.tyres.push_back(tyre_on("car", {0, side * 0.715, 0.3}));
-    scene.tyres.push_back(tyre_on("car", {-2.18, side * 0.73, 0.3}));
-  }
-  return scene;
 }
 
 // Lever law: 980 kg · 0.872/2.18 = 392 kg on the front axle: 1922.8 N and 2884.1 N per wheel. The body pitches by

@@ -1,0 +1,40 @@
+// The head of an OpenCRG file: its parameters and what the columns of its data are.
+#pragma once
+
+#include <istream>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tisserand::formats {
+
+struct CrgColumn {
+  enum class Kind { heading, slope, banking, section };
+  Kind kind = Kind::section;
+  double position = 0.0;  ///< of a section: v, or its number
+  bool numbered = false;
+  int line = 0;  ///< of the file
+};
+
+struct CrgHeader {
+  struct Parameter {
+    double value = 0.0;
+    int line = 0;
+  };
+  std::map<std::string, Parameter> parameters;  ///< of $ROAD_CRG, in small letters
+  std::vector<CrgColumn> columns;
+  int width = 10;          ///< characters of a number
+  int line = 0;            ///< the last line of the head
+  int moved_at = 0;        ///< line of the first modifier that moves the start of the line to the origin; 0: none
+  double u_start = 0.0;    ///< REFERENCE_LINE_START_U, or that of the U: line
+  double increment = 0.0;  ///< positive
+
+  /// The parameter, or `fallback`.
+  double value(const std::string& name, double fallback) const;
+  bool has(const std::string& name) const { return parameters.contains(name); }
+};
+
+/// Up to and with the line $$$$. Throws Error with path:line.
+CrgHeader read_crg_header(std::istream& stream, const std::string& path);
+
+}  // namespace tisserand::formats

@@ -1,0 +1,47 @@
+// Height over a grid of two coordinates: a surface without kinks through its points.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "formats/roads/road_heights.hpp"
+
+namespace tisserand::mechanism {
+
+/// z and its slopes along the two coordinates.
+struct GridHeight {
+  double value = 0.0, by_s = 0.0, by_t = 0.0;
+};
+
+/// Bicubic Hermite interpolation: z, ∂z/∂s, ∂z/∂t and ∂²z/∂s∂t at the points of the grid, so that z and its gradient
+/// are continuous; exact at the points. Slopes are those of the polynomials through five neighbours (fewer if there are
+/// not five, one-sided at borders and holes): polynomials of degree three in each coordinate are exact.
+///
+/// Beyond its borders the surface goes on straight. A cell with a missing height at one of its corners is a hole; there
+/// it has finite values that mean nothing.
+class HeightGrid {
+ public:
+  explicit HeightGrid(const formats::RoadHeights& heights);
+
+  GridHeight at(double s, double t) const;
+  bool is_hole(double s, double t) const;
+
+  double s_begin() const { return along_.front(); }
+  double s_end() const { return along_.back(); }
+  double t_begin() const { return across_.front(); }
+  double t_end() const { return across_.back(); }
+
+ private:
+  struct Node {
+    double z = 0.0, by_s = 0.0, by_t = 0.0, by_st = 0.0;
+  };
+  int width() const { return static_cast<int>(across_.size()); }
+  /// Holes get the height of the next point beside them, else of the next row, and no slopes.
+  void fill_holes();
+
+  std::vector<double> along_, across_;
+  std::vector<Node> nodes_;            ///< rows of across_
+  std::vector<std::uint8_t> missing_;  ///< per node; empty: none
+};
+
+}  // namespace tisserand::mechanism
