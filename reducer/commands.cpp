@@ -12,6 +12,7 @@
 #include "common/output_path.hpp"
 #include "common/text.hpp"
 #include "formats/companion/companion.hpp"
+#include "formats/modal_body/modal_body.hpp"
 #include "formats/part/part.hpp"
 #include "formats/recovery/recovery.hpp"
 #include "formats/sections/report.hpp"
@@ -45,9 +46,10 @@ formats::Part part_of(const Arguments& arguments) {
   return part;
 }
 
-/// The input's path without .part.yaml or .yaml, plus `ending`.
+/// The path of an input or output without the ending of its kind, plus `ending`.
 std::string beside(const std::string& input, const std::string& ending) {
-  for (const std::string known : {".part.yaml", ".part.yml", ".yaml", ".yml", ".recovery.h5"})
+  for (const std::string known :
+       {".part.yaml", ".part.yml", ".yaml", ".yml", ".recovery.h5", ".superelement.h5", ".h5"})
     if (input.size() > known.size() && input.ends_with(known))
       return input.substr(0, input.size() - known.size()) + ending;
   return input + ending;
@@ -72,6 +74,8 @@ int run(const Arguments& arguments) {
   const std::string companion = formats::companion_path(output);
   if (part.second_order != formats::SecondOrder::no)
     require_output(companion, {arguments.input, output}, Replaces::hdf5_only);
+  const std::string modal_body = beside(output, ".modal.h5");
+  if (part.modal_body) require_output(modal_body, {arguments.input, output}, Replaces::hdf5_only);
   phases.begin("start solvers");
   const SolverSession session;
   std::unique_ptr<formats::RecoveryWriter> recovery;
@@ -83,6 +87,7 @@ int run(const Arguments& arguments) {
   if (recovery) recovery->finish();
   write_certificate(output, reduction.superelement, reduction.file, reduction.model);
   if (reduction.companion) formats::write_companion(companion, *reduction.companion, reduction.superelement);
+  if (reduction.modal_body) formats::write_modal_body(modal_body, *reduction.modal_body);
   phases.end();
   say(certificate_text(reduction.superelement, reduction.file, reduction.model));
   say(fmt::format("{:<19}{}\n{:<19}{}\n{:<19}{}\n{:<19}{}\n", "time", phases.text(), "processor time",
@@ -91,6 +96,7 @@ int run(const Arguments& arguments) {
   if (reduction.companion)
     say(fmt::format("{:<19}{} ({:.3g} MB: second order of {} coordinates)\n", "", companion,
                     1e-6 * static_cast<double>(std::filesystem::file_size(companion)), reduction.superelement.size()));
+  if (reduction.modal_body) say(fmt::format("{:<19}{}\n", "", modal_body));
   return 0;
 }
 

@@ -55,6 +55,7 @@ constexpr const char* about_run = R"help(Reduces a part to a superelement file w
   reducer run beam.part.yaml
   reducer run beam.part.yaml -o out/arm.superelement.h5 --set modes=4 --set points.tip='[2, 0, 0]'
   reducer run beam.part.yaml --set cutoff=500       internal modes up to 500 1/time
+  reducer run rod.part.yaml --set 'modal_body={reference: base, modes: 6}'    also rod.modal.h5, for `type: modal`
 
 Writes name.superelement.h5 and name.certificate.json, whole or not at all.
 Exit codes: 0 done, 1 error, 2 wrong usage.)help";

@@ -6,6 +6,7 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "reducer/elements/checks.hpp"
+#include "reducer/modal_body/modal_body.hpp"
 #include "reducer/modes/full_model.hpp"
 #include "reducer/modes/project.hpp"
 #include "reducer/report/describe.hpp"
@@ -23,7 +24,6 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   const formats::RigidProperties rigid = require_mass(system, part.file);
   const Partition coordinates = partition(mesh, system);
   const Blocks blocks = split(system.matrices, coordinates);
-
   const Factor S_II = factor_inside(blocks, coordinates, part, begin);
   check_no_mechanism(S_II, mesh, system, coordinates, part.file);
 
@@ -33,7 +33,6 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   begin("internal modes");
   const InternalProblem problem{mesh, system, coordinates, blocks, S_II, part.file};
   const InternalModes internal = internal_modes(problem, boundary, part.modes);
-
   begin("projection");
   Projection projection = project(part, problem, boundary, internal);
 
@@ -52,6 +51,7 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   }
   begin("second order");
   result.companion = companion_if_asked(part, problem, boundary, internal, result.superelement, result.model);
+  result.modal_body = modal_body_if_asked(mesh, part, begin, result.file, result.model);
   return result;
 }
 

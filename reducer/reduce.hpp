@@ -6,6 +6,7 @@
 #include <string>
 
 #include "formats/companion/companion.hpp"
+#include "formats/modal_body/modal_body.hpp"
 #include "formats/part/part.hpp"
 #include "formats/superelement/superelement.hpp"
 #include "reducer/mesh/mesh.hpp"
@@ -18,7 +19,8 @@ struct Reduction {
   formats::Superelement superelement;
   FileCertificate file;
   ModelCertificate model;
-  std::optional<formats::Companion> companion;  ///< of the superelement, if the part asks for it
+  std::optional<formats::Companion> companion;   ///< of the superelement, if the part asks for it
+  std::optional<formats::ModalBody> modal_body;  ///< the same part as a floating-frame body, if it asks for it
 };
 
 /// Called when a phase begins, with its name: the caller measures time and shows progress.

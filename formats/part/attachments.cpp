@@ -42,17 +42,21 @@ void read_line(const MapReader& map, BeamLine& beam, const Part& part) {
   read_division(map, beam);
 }
 
-unsigned read_components(const MapReader& map, std::string_view key) {
-  const YamlNode* node = map.find(key);
-  if (node == nullptr) return 0;
+/// One of x, y, z, rx, ry, rz, or a list of them.
+unsigned component_bits(const Context& context, const YamlNode& node, const std::string& what) {
   unsigned bits = 0;
   const std::vector<std::string> words{"x", "y", "z", "rx", "ry", "rz"};
   const auto add = [&](const YamlNode& item) {
-    if (const auto index = read_word(map.context(), item, "release", words)) bits |= 1U << *index;
+    if (const auto index = read_word(context, item, what, words)) bits |= 1U << *index;
   };
-  if (node->kind != YamlKind::sequence) add(*node);
-  for (const YamlNode& item : node->children) add(item);
+  if (node.kind != YamlKind::sequence) add(node);
+  for (const YamlNode& item : node.children) add(item);
   return bits;
+}
+
+unsigned read_components(const MapReader& map, std::string_view key) {
+  const YamlNode* node = map.find(key);
+  return node == nullptr ? 0 : component_bits(map.context(), *node, "release");
 }
 
 void read_ends(const MapReader& map, BeamLine& beam) {
@@ -184,7 +188,39 @@ BoundaryNode read_boundary_entry(const Context& context, const YamlNode& entry, 
   return boundary;
 }
 
+/// `mean_axis`, a place, or `{left: [x, y, z, rx], right: [y, z]}`.
+std::vector<ModalBodyRequest::Held> read_reference(const MapReader& map) {
+  const YamlNode* node = map.require("reference");
+  if (node == nullptr) return {};
+  std::vector<ModalBodyRequest::Held> held;
+  if (node->kind == YamlKind::scalar) {
+    const std::string word = read_text(map.context(), *node, "reference");
+    if (word != "mean_axis") held.push_back({word});
+    return held;
+  }
+  for (const YamlNode* entry : map.entries("reference", "held place")) {
+    const bool all = entry->kind == YamlKind::scalar && entry->text == "all";
+    held.push_back({entry->key, all ? 0b111111U : component_bits(map.context(), *entry, "component")});
+  }
+  if (held.empty()) map.context().fail(node->place, "reference holds nothing", "name a place, or mean_axis");
+  return held;
+}
+
 }  // namespace
+
+void read_modal_body(const MapReader& map, Part& part) {
+  const YamlNode* node = map.find("modal_body");
+  if (node == nullptr) return;
+  YamlReader& reader = map.context().reader;
+  const Context context{reader, "modal_body", reader.where(node->key_place)};
+  reader.note_place(context.entry, node->key_place);
+  const MapReader own(context, *node, "modal_body");
+  ModalBodyRequest& body = part.modal_body.emplace();
+  body.where = context.entry;
+  read_fields(own, body);
+  body.held = read_reference(own);
+  body.all_nodes = own.choice("nodes", {Choice<bool>{"boundary", false}, {"all", true}}, false);
+}
 
 std::vector<KeySet> attachment_key_sets() {
   return {
@@ -256,7 +292,18 @@ std::vector<KeySet> attachment_key_sets() {
         {"near", "position", ""},
         {"tolerance", "not_negative", ""},
         {"centroid", "text+", ""},
-        {"keep", "'all' | 'translations' | 'rotations'", ""}}}};
+        {"keep", "'all' | 'translations' | 'rotations'", ""}}},
+      {"modal_body",
+       {{"reference", "'mean_axis' | name | {name: 'all' | components}+",
+         "what ties the body frame to the body: a boundary node, point or spider that is held; "
+         "`{left: [x, y, z, rx], right: [y, z]}`, six components that no rigid motion leaves unmoved; or `mean_axis`",
+         "required"},
+        plain<&ModalBodyRequest::modes>("modes", "count", "number of modes, lowest first", "required"),
+        plain<&ModalBodyRequest::damping>("damping", "not_negative", "ratio of critical damping of every mode"),
+        {"nodes", "'boundary' | 'all'",
+         "nodes in the file: `boundary` nodes and those that are held, or `all` of the mesh (the others named `n1`, "
+         "`n2`, ... by their order)",
+         "`boundary`"}}}};
 }
 
 void read_beams(const MapReader& map, Part& part) {

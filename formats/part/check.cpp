@@ -2,6 +2,7 @@
 #include "formats/part/check.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 
@@ -125,6 +126,26 @@ void check_modes(const Part& part, Faults& faults) {
     faults.add(modes.where, "up_to", fmt::format("up_to {:g} must be positive", modes.accuracy->up_to), "");
 }
 
+void check_modal_body(const Part& part, PartNames names, Faults& faults) {
+  if (!part.modal_body) return;
+  const ModalBodyRequest& body = *part.modal_body;
+  if (body.modes < 1)
+    faults.add(body.where, "modes", fmt::format("modal_body: modes {} must be 1 or more", body.modes),
+               "the superelement beside it, or a rigid body of the scene, has none");
+  if (!(body.damping >= 0.0 && std::isfinite(body.damping)))
+    faults.add(body.where, "damping", fmt::format("modal_body: damping {:g} must not be negative", body.damping), "");
+  int held = 0;
+  for (const BoundaryNode& node : part.boundary) names.places.push_back(node.name);
+  for (const ModalBodyRequest::Held& place : body.held) {
+    held += std::popcount(place.components);
+    if (!part.boundary.empty() || part.mesh.file.empty())
+      check_reference("modal_body", "place", place.place, names.places, body.where, "reference", faults);
+  }
+  if (!body.held.empty() && held != 6)
+    faults.add(body.where, "reference", fmt::format("modal_body: {} components are held", held),
+               "hold six: fewer leave the frame loose, more stiffen the body");
+}
+
 void check_boundary(const Part& part, const PartNames& names, Faults& faults) {
   if (part.boundary.empty() && part.mesh.file.empty())
     faults.add(part.file, "boundary", "the part has no boundary node",
@@ -158,6 +179,7 @@ Faults find_faults(const Part& part) {
   check_attachments(part, names, faults);
   check_boundary(part, names, faults);
   check_modes(part, faults);
+  check_modal_body(part, names, faults);
   return faults;
 }
 

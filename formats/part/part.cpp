@@ -60,6 +60,7 @@ Part read_tree(YamlReader& reader, const std::string& path) {
   read_attachments(map, part);
   read_boundary(map, part);
   part.modes = read_modes(map);
+  read_modal_body(map, part);
   part.recovery =
       map.choice("recovery", {Choice<bool>{"yes", true}, {"no", false}, {"true", true}, {"false", false}}, false);
   return part;
@@ -115,7 +116,9 @@ std::vector<Field> part_fields() {
                                                       "`yes` or `no`: a companion file ([COMPANION.md](COMPANION.md)) "
                                                       "beside the superelement, from which a mechanism "
                                                       "takes stiffening, buckling and exact inertia",
-                                                      "`yes` while the file stays below 20 MB")};
+                                                      "`yes` while the file stays below 20 MB"),
+      {"modal_body", "modal_body",
+       "also a [modal body file](MODAL_BODY.md) beside the superelement, see [modal_body](#modal_body)", "none"}};
 }
 
 std::vector<Field> accuracy_fields() {

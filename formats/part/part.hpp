@@ -147,6 +147,19 @@ struct ModeSelection {
 /// Whether a companion file is written (COMPANION.md): by default while it stays small.
 enum class SecondOrder { unless_large, yes, no };
 
+/// A floating-frame body beside the superelement (MODAL_BODY.md): lumped masses, lowest modes, what ties its frame.
+struct ModalBodyRequest {
+  struct Held {
+    std::string place;               ///< a boundary node, point or spider
+    unsigned components = 0b111111;  ///< bit 0-2 translations x, y, z; bit 3-5 rotations
+  };
+  std::vector<Held> held;  ///< six components in all; empty: the mean axis
+  int modes = 0;
+  bool all_nodes = false;  ///< else the boundary nodes and those that are held
+  double damping = 0.0;    ///< ratio of critical damping of every mode
+  std::string where;
+};
+
 struct Part {
   std::string name;
   std::string file;  ///< path it was read from
@@ -160,6 +173,7 @@ struct Part {
   ModeSelection modes;
   bool recovery = false;  ///< a recovery file beside the superelement
   SecondOrder second_order = SecondOrder::unless_large;
+  std::optional<ModalBodyRequest> modal_body = std::nullopt;
   MeshFile mesh;
   std::vector<OrthotropicMaterial> orthotropic;
   std::vector<ShellPatch> patches;  ///< plates, discs, cylinders, extrusions, in this order

@@ -39,6 +39,7 @@ void read_shells_and_solids(const MapReader& map, Part& part);
 void read_beams(const MapReader& map, Part& part);
 void read_attachments(const MapReader& map, Part& part);
 void read_boundary(const MapReader& map, Part& part);
+void read_modal_body(const MapReader& map, Part& part);
 
 // Lists of fields, each beside the functions that read them.
 std::vector<Field> part_fields();

@@ -24,8 +24,11 @@ constexpr double drive_round_off = 1e-13;
 /// leaves little; far above round-off, so that the factors hold.
 constexpr double rigid_share = 1e-6;
 constexpr double row_share = 1e-8;
-/// Weight of massless directions, of the largest: keeps them where nothing moves them.
+/// Weights that keep massless directions where nothing moves them: of bodies with mass, of their own largest; of
+/// virtual bodies, of the largest of all, so much that the rows between several of them do not drown those of the
+/// masses.
 constexpr double massless_share = 1e-12;
+constexpr double virtual_share = 1e-6;
 constexpr int most_passes = 40;
 
 /// Velocity coordinates of parts that may deform, and the mass matrix of their boundary coordinates.
@@ -117,7 +120,7 @@ StartSystem start_system(const StartProblem& problem, const std::vector<int>& fr
   for (int k = 0; k < system.nd; ++k) entries.emplace_back(k, k, massless_share);
   for (int k = 0; k < system.nw; ++k) {
     const double own = mass.segment<6>(6 * static_cast<Eigen::Index>(free[k] / 6)).maxCoeff() / largest;
-    entries.emplace_back(system.nd + k, system.nd + k, massless_share * (own > 0.0 ? own : 1.0));
+    entries.emplace_back(system.nd + k, system.nd + k, own > 0.0 ? massless_share * own : virtual_share);
   }
   for (int k = system.nd + system.nw; k < system.size(); ++k) entries.emplace_back(k, k, -row_share);
   system.K.resize(system.size(), system.size());

@@ -2,7 +2,10 @@
 #include "mechanism/equations/mobility.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
+#include <fmt/format.h>
 #include <Eigen/QR>
 #include <Eigen/SparseCore>
 
@@ -58,20 +61,28 @@ Eigen::SparseMatrix<double> scaled_jacobian(const Model& model, const Evaluation
   return compressed(model.sizes.boundary, model.sizes.constraints, entries);
 }
 
-/// The same for rigid motions [velocity of the first node; angular velocity, world] of the parts: a node at x moves
-/// with ẋ = v − (x − x_0)~ ω, Ω = Rᵀ ω.
+using Row6 = Eigen::Matrix<double, 1, 6>;
+
+/// A row in the motion [ẋ Ω] of a node, for the rigid motion [velocity of the first node; angular velocity, world] of
+/// its part, rotations divided by the characteristic length: a node at x moves with ẋ = v − (x − x_0)~ ω, Ω = Rᵀ ω.
+Row6 rigid_row(const Model& model, const Parts& parts, const Evaluation& evaluation, int carrier, const Row6& values) {
+  const NodeMotion& node = motion_of(evaluation, carrier);
+  const Eigen::Vector3d arm = node.x - motion_of(evaluation, parts.first_node[parts.of_node[carrier]]).x;
+  Row6 rigid;
+  rigid.head<3>() = values.head<3>();
+  rigid.tail<3>() = (values.tail<3>() * node.R.transpose() - values.head<3>() * skew<double>(arm)) / model.length;
+  return rigid;
+}
+
+/// scaled_jacobian() for rigid motions of the parts.
 Eigen::SparseMatrix<double> rigid_jacobian(const Model& model, const Parts& parts, const Evaluation& evaluation) {
   Triplets entries;
-  const auto add = [&](int row, const Marker& marker, const Eigen::Matrix<double, 1, 6>& values) {
+  const auto add = [&](int row, const Marker& marker, const Row6& values) {
     if (marker.node < 0) return;
-    const int part = parts.of_node[marker.node];
-    const NodeMotion& node = motion_of(evaluation, marker.node);
-    const Eigen::Vector3d arm = node.x - motion_of(evaluation, parts.first_node[part]).x;
-    Eigen::Matrix<double, 1, 6> rigid;
-    rigid.head<3>() = values.head<3>();
-    rigid.tail<3>() = (values.tail<3>() * node.R.transpose() - values.head<3>() * skew<double>(arm)) / model.length;
+    const Row6 rigid = rigid_row(model, parts, evaluation, marker.node, values);
     for (int j = 0; j < 6; ++j)
-      if (rigid[j] != 0.0) entries.emplace_back(6 * part + j, row, rigid[j] * row_scale(model, row));
+      if (rigid[j] != 0.0)
+        entries.emplace_back(6 * parts.of_node[marker.node] + j, row, rigid[j] * row_scale(model, row));
   };
   for_each_row(model, evaluation, [&](int row, const ElementMap&, const auto& pair, const Row12& values) {
     add(row, pair.a, values.head<6>());
@@ -98,7 +109,150 @@ ColumnRank rank_of(const Eigen::SparseMatrix<double>& A) {
   return rank;
 }
 
+/// Motions of rigid parts, one per column, of which names are taken one by one: each takes a motion along, and the
+/// others no longer change what it names.
+struct OpenMotions {
+  Eigen::MatrixXd Z;
+  double least = 1e-9;  ///< of the largest entry of Z: what counts as a motion
+
+  /// Whether some motion changes the row; then it is taken.
+  bool take(const Eigen::RowVectorXd& row) {
+    if (Z.cols() == 0) return false;
+    const Eigen::RowVectorXd change = row * Z;
+    Eigen::Index at = 0;
+    if (!(change.cwiseAbs().maxCoeff(&at) > least * row.norm() * Z.cwiseAbs().maxCoeff())) return false;
+    const Eigen::VectorXd taken = Z.col(at);
+    for (Eigen::Index j = 0; j < Z.cols(); ++j)
+      if (j != at) Z.col(j) -= taken * (change[j] / change[at]);
+    Z.col(at) = Z.rightCols<1>();
+    Z.conservativeResize(Eigen::NoChange, Z.cols() - 1);
+    return true;
+  }
+};
+
+/// Of a joint coordinate, or of a turn in a joint, in the motions of the parts.
+Eigen::RowVectorXd part_row(const Model& model, const Parts& parts, const Evaluation& evaluation, const Marker& a,
+                            const Marker& b, const Row12& values) {
+  Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(6 * parts.count());
+  for (const auto& [marker, half] : {std::pair{&a, Row6(values.head<6>())}, std::pair{&b, Row6(values.tail<6>())}})
+    if (marker->node >= 0)
+      row.segment<6>(6 * parts.of_node[marker->node]) += rigid_row(model, parts, evaluation, marker->node, half);
+  return row;
+}
+
+/// Motions that joints and held drives let the rigid parts do.
+Eigen::MatrixXd open_motions(const Model& model, const Parts& parts, const Evaluation& evaluation, bool drives_hold) {
+  Eigen::MatrixXd B = Eigen::MatrixXd(rigid_jacobian(model, parts, evaluation));
+  for (const Coupling& coupling : model.couplings)
+    if (coupling.motion >= 0 && !drives_hold) B.col(coupling.row).setZero();
+  if (B.cols() == 0) return Eigen::MatrixXd::Identity(B.rows(), B.rows());
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+  qr.setThreshold(rank_tolerance);
+  qr.compute(B);
+  const Eigen::MatrixXd Q = qr.householderQ();
+  return Q.rightCols(B.rows() - qr.rank());
+}
+
+void name_turns(const Model& model, const Parts& parts, const Evaluation& evaluation, OpenMotions& open,
+                std::vector<std::string>& names) {
+  for (const auto& joint : model.joints)
+    for (int axis = 0; axis < 3; ++axis) {
+      Row12 turn = Row12::Zero();  // world angular velocity of B less that of A, as Ω of the nodes
+      if (joint.a.node >= 0) turn.segment<3>(3) = -motion_of(evaluation, joint.a.node).R.row(axis);
+      if (joint.b.node >= 0) turn.segment<3>(9) = motion_of(evaluation, joint.b.node).R.row(axis);
+      if (open.take(part_row(model, parts, evaluation, joint.a, joint.b, turn)))
+        names.push_back(fmt::format("a turn in '{}'", joint.name));
+    }
+}
+
+/// What is left moves no joint: groups of bodies as a whole, named by their heaviest.
+void name_bodies(const Parts& parts, OpenMotions& open, std::vector<std::string>& names) {
+  std::vector<int> order(static_cast<std::size_t>(parts.count()));
+  for (int p = 0; p < parts.count(); ++p) order[p] = p;
+  std::ranges::stable_sort(order, std::greater{}, [&](int p) { return parts.mass[p]; });
+  for (const int part : order) {
+    int ways = 0;
+    for (int j = 0; j < 6; ++j)
+      if (open.take(Eigen::RowVectorXd::Unit(6 * parts.count(), 6 * part + j))) ++ways;
+    if (ways > 0) names.push_back(fmt::format("'{}' in {} way{}", parts.name[part], ways, ways == 1 ? "" : "s"));
+  }
+}
+
+/// Joints between parts that do not move against each other, and the parts (the ground behind them).
+struct LockedJoint {
+  int joint = 0;
+  int a = 0;
+  int b = 0;
+};
+
+std::vector<LockedJoint> locked_joints(const Model& model, const Parts& parts, const Evaluation& evaluation) {
+  const Eigen::MatrixXd Z = open_motions(model, parts, evaluation, false);
+  const int ground = parts.count();
+  // Of a part at `point`, rotations times the characteristic length.
+  const auto motion = [&](int part, const Eigen::Vector3d& point) {
+    Eigen::MatrixXd at = Eigen::MatrixXd::Zero(6, Z.cols());
+    if (part == ground) return at;
+    at = Z.middleRows<6>(6 * part);
+    const Eigen::Vector3d arm = point - motion_of(evaluation, parts.first_node[part]).x;
+    at.topRows<3>() -= skew<double>(arm) * at.bottomRows<3>() / model.length;
+    return at;
+  };
+  std::vector<LockedJoint> locked;
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const Marker &a = model.joints[i].a, &b = model.joints[i].b;
+    const LockedJoint joint{static_cast<int>(i), a.node < 0 ? ground : parts.of_node[a.node],
+                            b.node < 0 ? ground : parts.of_node[b.node]};
+    const Eigen::Vector3d point = motion_of(evaluation, a.node < 0 ? b.node : a.node).x;
+    const Eigen::MatrixXd relative = motion(joint.b, point) - motion(joint.a, point);
+    if (joint.a != joint.b && (Z.cols() == 0 || relative.cwiseAbs().maxCoeff() < 1e-9))
+      locked.push_back(joint);
+  }
+  return locked;
+}
+
+/// Those in loops: alone, a joint may just be in a singular position, as at the dead centre of a slider-crank. Loops of
+/// fewer than two rigid bodies with mass are held by flexible ones, which give way.
+void name_locked(const Model& model, const Parts& parts, const Evaluation& evaluation,
+                 std::vector<std::string>& names) {
+  std::vector<LockedJoint> locked = locked_joints(model, parts, evaluation);
+  for (std::size_t before = locked.size() + 1; locked.size() < before;) {
+    before = locked.size();
+    std::vector<int> ends(static_cast<std::size_t>(parts.count()) + 1, 0);
+    for (const LockedJoint& joint : locked) ++ends[joint.a], ++ends[joint.b];
+    std::erase_if(locked, [&](const LockedJoint& joint) { return ends[joint.a] < 2 || ends[joint.b] < 2; });
+  }
+  int rigid = 0;
+  for (const RigidBody& body : model.rigid_bodies)
+    if (std::ranges::any_of(locked, [&](const LockedJoint& joint) {
+          return parts.of_node[body.node] == joint.a || parts.of_node[body.node] == joint.b;
+        }))
+      ++rigid;
+  if (rigid < 2) return;
+  for (const LockedJoint& joint : locked)
+    if (model.joints[joint.joint].size() < 6) names.push_back(fmt::format("'{}'", model.joints[joint.joint].name));
+}
+
 }  // namespace
+
+void find_freedoms(const Model& model, const State& state, Evaluation& evaluation, Mobility& mobility) {
+  constexpr int most_parts = 50;
+  const Parts parts = find_parts(model);
+  mobility.free.clear();
+  mobility.locked.clear();
+  if (parts.count() > most_parts) return;
+  evaluate(model, state, evaluation);
+  evaluate_coordinates(model, state, evaluation);
+  OpenMotions open{open_motions(model, parts, evaluation, true)};
+  for (std::size_t i = 0; i < model.coordinates.size(); ++i) {
+    const Coordinate& coordinate = model.coordinates[i];
+    const Eigen::RowVectorXd row =
+        part_row(model, parts, evaluation, coordinate.a, coordinate.b, evaluation.coordinates[i].G);
+    if (open.take(row)) mobility.free.push_back(fmt::format("'{}'", coordinate.name));
+  }
+  name_turns(model, parts, evaluation, open, mobility.free);
+  name_bodies(parts, open, mobility.free);
+  name_locked(model, parts, evaluation, mobility.locked);
+}
 
 Mobility count_mobility(const Model& model, const State& state, Evaluation& evaluation) {
   evaluate(model, state, evaluation);

@@ -1,6 +1,7 @@
 // Counts of a model at a state: coordinates, constraints, the rank of their Jacobian, degrees of freedom.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "mechanism/equations/evaluation.hpp"
@@ -19,10 +20,18 @@ struct Mobility {
   int rigid_mobility =
       0;  ///< degrees of freedom if every body were rigid: 6 parts − rank; Gruebler's is 6 parts − constraints
   std::vector<int> redundant;  ///< constraint rows that depend on the others
+  // By find_freedoms(), every body counted as a rigid one:
+  std::vector<std::string>
+      free;  ///< independent motions, drives held: joint coordinates, turns in joints, whole bodies
+  std::vector<std::string> locked;  ///< joints of loops that hold one another, though nothing drives them
 };
 
 /// Rank of B by a rank-revealing QR (rotations scaled with the characteristic length; up to 400 rows dense, above
 /// sparse), and that of B on the motions of rigid parts.
 Mobility count_mobility(const Model& model, const State& state, Evaluation& evaluation);
+
+/// Names what can move and what is locked at the state, by the null space of B on the motions of rigid parts; of up to
+/// 50 parts, else both lists stay empty.
+void find_freedoms(const Model& model, const State& state, Evaluation& evaluation, Mobility& mobility);
 
 }  // namespace tisserand::mechanism

@@ -110,6 +110,16 @@ void note_redundancy(Run& run) {
   }
 }
 
+/// A suspension whose axes are not parallel stands still without any other sign.
+void note_locked(Run& run) {
+  const std::vector<std::string>& locked = run.report.mobility.locked;
+  if (locked.empty()) return;
+  run.report.notes.push_back(fmt::format(
+      "{} lock one another, every body counted as a rigid one: nothing moves in them. If they should move, look "
+      "at their axes and places; hinges of one loop may have to be parallel",
+      listed(locked)));
+}
+
 std::string quoted(std::vector<std::string> names) {
   for (std::string& name : names) name = fmt::format("'{}'", name);
   return listed(names);
@@ -247,7 +257,9 @@ void start(Run& run) {
   run.report.preflight = report.preflight;
   run.report.projection = report.projection;
   note_start(report, run);
+  find_freedoms(run.built.model, run.built.state, run.workspace.now, run.report.mobility);
   note_redundancy(run);
+  note_locked(run);
   if (report.massless)
     run.report.notes.push_back(
         "the mass matrix is singular: accelerations of its massless directions come from statics");

@@ -124,6 +124,13 @@ struct MeshBoundary {
   bool rotations = true;
 };
 
+/// A node that ties the frame of a modal body: the components are held.
+struct FrameNode {
+  std::string name;
+  int node = 0;
+  Components components = all_components;
+};
+
 struct Mesh {
   Eigen::Matrix3Xd position;            ///< 3 x nodes, part frame
   std::vector<std::string> node_label;  ///< for messages: "tip", "spar[3]" or "node 4711"
@@ -138,6 +145,7 @@ struct Mesh {
   std::vector<Spider> spiders;
   std::vector<TieEquation> equations;
   std::vector<MeshBoundary> boundary;
+  std::vector<FrameNode> held;         ///< of formats::ModalBodyRequest
   std::vector<std::string> warnings;  ///< of the way in: to be told and kept in the certificate
 
   int nodes() const { return static_cast<int>(position.cols()); }

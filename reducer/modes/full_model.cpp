@@ -31,25 +31,31 @@ formats::RigidProperties full_rigid_properties(const System& system) {
   return rigid;
 }
 
-std::vector<double> full_free_frequencies(const System& system, double scale, int count) {
+std::optional<EigenPairs> full_free_modes(const System& system, double scale, int count) {
   const Eigen::Matrix<double, 6, 6> rigid = rigid_mass_about(system, system.middle);
   Eigen::Matrix<double, 6, 1> unit = rigid.diagonal().cwiseMax(0.0).cwiseSqrt().cwiseInverse();
-  if (!unit.allFinite()) return {};
+  if (!unit.allFinite()) return std::nullopt;
   const Eigen::MatrixXd scaled = unit.asDiagonal() * rigid * unit.asDiagonal();
-  if (Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues()[0] < 1e-12) return {};
+  if (Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues()[0] < 1e-12) return std::nullopt;
 
   const SystemMatrices matrices = to_petsc(system.matrices);
   const int available = finite_mode_count(matrices.mass);
   const int wanted = std::min(available, 6 + count);
-  if (wanted <= 6) return {};
+  if (wanted <= 6) return EigenPairs{};
   const double shift = -0.1 * scale;
   const Factor factor(combine(matrices.stiffness, -shift, matrices.mass));
+  const Spectrum spectrum = lowest_pairs({matrices.stiffness, matrices.mass, factor, shift}, wanted, available,
+                                         choose_solver(system.size(), wanted), Count::if_cheap);
+  const int kept = spectrum.kept - 6;
+  return EigenPairs{spectrum.pairs.value.segment(6, kept), spectrum.pairs.vector.middleCols(6, kept)};
+}
+
+std::vector<double> full_free_frequencies(const System& system, double scale, int count) {
   try {
-    const Spectrum spectrum = lowest_pairs({matrices.stiffness, matrices.mass, factor, shift}, wanted, available,
-                                           choose_solver(system.size(), wanted), Count::if_cheap);
+    const std::optional<EigenPairs> pairs = full_free_modes(system, scale, count);
     std::vector<double> result;
-    for (int k = 6; k < wanted; ++k)
-      result.push_back(std::sqrt(std::max(0.0, spectrum.pairs.value[k])) / (2.0 * EIGEN_PI));
+    for (Eigen::Index k = 0; pairs && k < std::min<Eigen::Index>(count, pairs->value.size()); ++k)
+      result.push_back(std::sqrt(std::max(0.0, pairs->value[k])) / (2.0 * EIGEN_PI));
     return result;
   } catch (const Error&) {
     return {};  // a comparison only: nearly massless parts have no frequencies that can be resolved beside the first

@@ -26,6 +26,13 @@ struct FileCertificate {
   std::vector<std::string> warnings;
 };
 
+/// What is told of the modal body beside the superelement.
+struct ModalBodyCertificate {
+  std::string reference;           ///< "center held", "mean axis"
+  std::vector<double> frequency;   ///< of its modes
+  formats::RigidProperties rigid;  ///< of the lumped masses
+};
+
 /// What is only known while reducing.
 struct ModelCertificate {
   std::string content_id;
@@ -53,6 +60,7 @@ struct ModelCertificate {
   /// Of the free frequencies of the reduced part below the first dropped mode: relative error that the dropped modes
   /// cause, and between which the frequency of the full part lies.
   std::vector<double> truncation_estimate, truncation_lower, truncation_upper;
+  std::optional<ModalBodyCertificate> modal_body;
   std::vector<std::string> notes;     ///< whole sentences, for example about a completed cluster
   std::vector<std::string> warnings;  ///< of the way in and of the checks of the mesh
 };

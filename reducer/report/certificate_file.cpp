@@ -53,6 +53,17 @@ json file_json(const FileCertificate& c) {
           {"warnings", c.warnings}};
 }
 
+json modal_body_json(const std::optional<ModalBodyCertificate>& c) {
+  if (!c) return nullptr;
+  return {{"reference", c->reference}, {"frequency", c->frequency}, {"rigid", rigid_json(c->rigid)}};
+}
+
+std::optional<ModalBodyCertificate> modal_body_from(const json& j) {
+  if (j.is_null()) return std::nullopt;
+  return ModalBodyCertificate{j.at("reference"), j.at("frequency").get<std::vector<double>>(),
+                              rigid_from(j.at("rigid"))};
+}
+
 json model_json(const ModelCertificate& c) {
   return {{"part", c.part},
           {"nodes", c.nodes},
@@ -86,6 +97,7 @@ json model_json(const ModelCertificate& c) {
           {"eliminated", c.eliminated},
           {"redundant", c.redundant},
           {"inactive", c.inactive},
+          {"modal_body", modal_body_json(c.modal_body)},
           {"warnings", c.warnings}};
 }
 
@@ -145,6 +157,7 @@ ModelCertificate model_from(const json& j) {
   c.eliminated = j.at("eliminated");
   c.redundant = j.at("redundant");
   c.inactive = j.at("inactive").get<std::vector<std::string>>();
+  c.modal_body = modal_body_from(j.value("modal_body", json()));
   c.warnings = j.at("warnings").get<std::vector<std::string>>();
   return c;
 }
@@ -191,6 +204,14 @@ std::string frequency_table(const FileCertificate& file, const std::optional<Mod
   }
   if (count > most_rows) text += fmt::format("  {:>4} {} more in the certificate file\n", "...", count - most_rows);
   return text;
+}
+
+std::string modal_body_text(const ModalBodyCertificate& c, double length, const Units& units) {
+  std::vector<std::string> frequencies;
+  for (const double value : c.frequency) frequencies.push_back(fmt::format("{:.6g}", value));
+  return fmt::format("{:<19}{} modes, {}: {} [1/time]\n", "modal body", c.frequency.size(), c.reference,
+                     listed(frequencies)) +
+         rigid_text("lumped masses", c.rigid, length, units);
 }
 
 /// Kinds of elements, ties, and coordinates without stiffness and mass; nothing for parts of beams alone.
@@ -281,6 +302,8 @@ std::string certificate_text(const formats::Superelement& element, const FileCer
   text += frequency_table(file, model, element.units);
   if (!file.free_frequency_note.empty())
     text += fmt::format("{:<19}no free frequencies: {}\n", "note", file.free_frequency_note);
+  if (model && model->modal_body)
+    text += modal_body_text(*model->modal_body, file.characteristic_length, element.units);
   for (const std::string& warning : file.warnings) text += fmt::format("{:<19}{}\n", "warning", warning);
   return text;
 }

@@ -112,6 +112,19 @@ void add_boundary(MeshBuilder& builder) {
   }
 }
 
+/// Boundary nodes by their names, else points and spiders.
+void add_held_nodes(MeshBuilder& builder) {
+  if (!builder.part.modal_body) return;
+  const formats::ModalBodyRequest& body = *builder.part.modal_body;
+  for (const formats::ModalBodyRequest::Held& held : body.held) {
+    const auto known = std::ranges::find(builder.mesh.boundary, held.place, &MeshBoundary::name);
+    const int node = known != builder.mesh.boundary.end()
+                         ? known->node
+                         : find_place(builder, formats::Place(held.place), {"modal_body", body.where});
+    builder.mesh.held.push_back({held.place, node, static_cast<Components>(held.components)});
+  }
+}
+
 }  // namespace
 
 void add_spider_nodes(MeshBuilder& builder) {
@@ -122,6 +135,7 @@ void add_attachments(MeshBuilder& builder) {
   add_springs(builder);
   add_masses(builder);
   add_boundary(builder);
+  add_held_nodes(builder);
 }
 
 }  // namespace tisserand::reducer

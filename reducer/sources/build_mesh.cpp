@@ -33,6 +33,7 @@ void for_nodes(Mesh& mesh, Visit visit) {
   for (TieEquation& e : mesh.equations)
     for (TieTerm& term : e.terms) visit(term.node);
   for (MeshBoundary& e : mesh.boundary) visit(e.node);
+  for (FrameNode& e : mesh.held) visit(e.node);
 }
 
 /// A deck may hold nodes by mistake, a geometry always holds points.

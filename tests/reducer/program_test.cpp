@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "formats/modal_body/modal_body.hpp"
 #include "formats/recovery/recovery.hpp"
 #include "formats/superelement/superelement.hpp"
 
@@ -64,6 +65,17 @@ TEST_F(Program, RunWritesSuperelementAndCertificateBesideThePart) {
   const Outcome show = call("show " + (folder / "beam.superelement.h5").string());
   EXPECT_EQ(show.code, 0);
   EXPECT_THAT(show.text, AllOf(HasSubstr("free, full"), HasSubstr("first dropped"), HasSubstr("mass 9.927684")));
+}
+
+TEST_F(Program, RunWritesTheModalBodyThatThePartAsksFor) {
+  const Outcome run = call("run " + part + " --set 'modal_body={reference: tip, modes: 4}'");
+  ASSERT_EQ(run.code, 0) << run.text;
+  EXPECT_THAT(run.text, AllOf(HasSubstr("modal body         4 modes, tip held: "), HasSubstr("beam.modal.h5")));
+  const formats::LoadedModalBody loaded = formats::read_modal_body((folder / "beam.modal.h5").string());
+  EXPECT_EQ(loaded.body.modes(), 4);
+  EXPECT_EQ(loaded.body.node_name, (std::vector<std::string>{"base", "tip"}));
+  const Outcome show = call("show " + (folder / "beam.superelement.h5").string());
+  EXPECT_THAT(show.text, HasSubstr("modal body         4 modes, tip held: "));
 }
 
 TEST_F(Program, ThreadsOfTheBlasLeaveEveryBitAsItIs) {

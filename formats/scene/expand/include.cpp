@@ -72,13 +72,14 @@ void TreeLoader::fail(const std::string& what, const std::string& where, const s
   throw Error(text, where, remedy);
 }
 
-YamlDocument TreeLoader::load(const std::string& path) {
+YamlDocument TreeLoader::load(const std::string& path, const std::vector<Override>& changes) {
   folder_ = fs::path(path).parent_path().string();
   YamlDocument document = load_yaml(path);
+  apply_overrides(document, changes, collections_);
   values_ = count_nodes(document.root);
   chain_.push_back({canonical(path), ""});
   seen_.insert(chain_.back().path);
-  include_all(document, document.root, 0);
+  include_all(document, document.root);
   chain_.pop_back();
   return document;
 }
@@ -118,11 +119,11 @@ YamlNode TreeLoader::load_file(YamlDocument& document, const std::string& name, 
   if (file.root.kind != YamlKind::map)
     fail(fmt::format("holds {} instead of a map of keys and values", describe(file.root)),
          document.where(file.root.place), "write `bodies:` and the like");
-  include_all(document, file.root, source);
+  include_all(document, file.root);
   return std::move(file.root);
 }
 
-void TreeLoader::include_all(YamlDocument& document, YamlNode& root, int source) {
+void TreeLoader::include_all(YamlDocument& document, YamlNode& root) {
   if (root.kind != YamlKind::map) return;
   const auto found = std::ranges::find(root.children, "include", &YamlNode::key);
   if (found == root.children.end()) return;
@@ -130,7 +131,6 @@ void TreeLoader::include_all(YamlDocument& document, YamlNode& root, int source)
   root.children.erase(found);
   if (std::ranges::find(root.children, "include", &YamlNode::key) != root.children.end())
     fail("key 'include' is given twice", document.where(list.key_place), "write a list of files");
-  TISSERAND_ENSURE(list.place.source == source, "source {}", list.place.source);
   if (list.kind != YamlKind::sequence) {
     include(document, root, list);
     return;

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "formats/yaml/override.hpp"
 #include "formats/yaml/tree.hpp"
 
 namespace tisserand::formats {
@@ -17,8 +18,8 @@ class TreeLoader {
   /// Entries of several files come together in maps with the keys `collections`.
   explicit TreeLoader(std::vector<std::string_view> collections) : collections_(std::move(collections)) {}
 
-  /// The first file, with all that it includes.
-  YamlDocument load(const std::string& path);
+  /// The first file, with all that it includes; `changes`: of its `include`.
+  YamlDocument load(const std::string& path, const std::vector<Override>& changes);
 
   /// Another file of the same document, named in a value at `from`; with all that it includes.
   YamlNode load_into(YamlDocument& document, const YamlNode& from);
@@ -29,7 +30,7 @@ class TreeLoader {
     std::string where;  ///< of the word that named it; empty for the first file
   };
   YamlNode load_file(YamlDocument& document, const std::string& name, const std::string& folder);
-  void include_all(YamlDocument& document, YamlNode& root, int source);
+  void include_all(YamlDocument& document, YamlNode& root);
   void include(YamlDocument& document, YamlNode& root, const YamlNode& item);
   [[noreturn]] void fail(const std::string& what, const std::string& where, const std::string& remedy) const;
 

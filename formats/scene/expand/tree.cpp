@@ -18,13 +18,19 @@ void rebase_all(const YamlDocument& document, YamlNode& node) {
   for (YamlNode& child : node.children) rebase_all(document, child);
 }
 
-/// Whether a path names something that only exists in the flat tree: "bodies.corner_fl/arm.mass".
-bool names_instance(const Override& change) { return change.path.find_first_of("/[") != std::string::npos; }
+/// What an override changes: the files that are read, their tree, or what only exists in the flat tree
+/// ("bodies.corner_fl/arm.mass").
+enum class Stage { files, tree, flat };
 
-std::vector<Override> chosen(const std::vector<Override>& overrides, bool of_instances) {
+Stage stage_of(const Override& change) {
+  if (change.path == "include" || change.path.starts_with("include.")) return Stage::files;
+  return change.path.find_first_of("/[") != std::string::npos ? Stage::flat : Stage::tree;
+}
+
+std::vector<Override> chosen(const std::vector<Override>& overrides, Stage stage) {
   std::vector<Override> list;
   for (const Override& change : overrides)
-    if (names_instance(change) == of_instances) list.push_back(change);
+    if (stage_of(change) == stage) list.push_back(change);
   return list;
 }
 
@@ -34,10 +40,10 @@ YamlDocument load_scene_tree(const std::string& path, const std::vector<Override
                              const std::vector<KeySet>& legal_keys) {
   const std::vector<std::string_view> collections = collection_keys(legal_keys);
   TreeLoader loader(collections);
-  YamlDocument document = loader.load(path);
-  apply_overrides(document, chosen(overrides, false), collections);
+  YamlDocument document = loader.load(path, chosen(overrides, Stage::files));
+  apply_overrides(document, chosen(overrides, Stage::tree), collections);
   SceneExpander(document, loader, legal_keys).run();
-  apply_overrides(document, chosen(overrides, true), collections);
+  apply_overrides(document, chosen(overrides, Stage::flat), collections);
   return document;
 }
 
@@ -45,11 +51,11 @@ std::string scene_text(const std::string& path, const std::vector<Override>& ove
                        const std::vector<KeySet>& legal_keys) {
   const std::vector<std::string_view> collections = collection_keys(legal_keys);
   TreeLoader loader(collections);
-  YamlDocument document = loader.load(path);
-  for (const Override& change : chosen(overrides, true))
+  YamlDocument document = loader.load(path, chosen(overrides, Stage::files));
+  for (const Override& change : chosen(overrides, Stage::flat))
     throw Error(fmt::format("'{}' is made by an instance and has no place in a scene file", change.path), path,
                 "vary a parameter of the instance instead");
-  apply_overrides(document, chosen(overrides, false), collections);
+  apply_overrides(document, chosen(overrides, Stage::tree), collections);
   std::erase_if(document.root.children, [](const YamlNode& child) { return child.key == "include"; });
   rebase_all(document, document.root);
   return block_text(document.root);

@@ -118,6 +118,28 @@ TEST(Part, OtherNotations) {
             Eigen::Vector3d(70, 5, 0));
 }
 
+TEST(Part, ReadsTheModalBody) {
+  const auto body = [](const std::string& keys) {
+    return *read(beam_part + "modal_body: {" + keys + "}\n").modal_body;
+  };
+  EXPECT_FALSE(read(beam_part).modal_body.has_value());
+  const ModalBodyRequest held = body("reference: tip, modes: 10");
+  ASSERT_EQ(held.held.size(), 1u);
+  EXPECT_EQ(held.held[0].place, "tip");
+  EXPECT_EQ(held.held[0].components, 0b111111U);
+  EXPECT_EQ(held.modes, 10);
+  EXPECT_FALSE(held.all_nodes);
+  EXPECT_EQ(held.damping, 0.0);
+  EXPECT_TRUE(body("reference: mean_axis, modes: 1").held.empty());
+  const ModalBodyRequest ends =
+      body("reference: {base: [x, y, z, rx], tip: [y, z]}, modes: 6, nodes: all, damping: 0.02");
+  ASSERT_EQ(ends.held.size(), 2u);
+  EXPECT_EQ(ends.held[0].components, 0b001111U);
+  EXPECT_EQ(ends.held[1].components, 0b000110U);
+  EXPECT_TRUE(ends.all_nodes);
+  EXPECT_EQ(ends.damping, 0.02);
+}
+
 class BadPart : public ::testing::TestWithParam<BadText> {};
 
 TEST_P(BadPart, SaysWhatAndWhere) {
@@ -132,7 +154,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"modes: 4", "colour: red",
                 "part.yaml:11:1: unknown key 'colour'; known are part, units, mesh, materials, sections, points, "
                 "groups, plates, discs, cylinders, extrusions, shells, solids, beams, point_masses, "
-                "springs, spiders, boundary, modes, cutoff, accuracy, verify, recovery, second_order"},
+                "springs, spiders, boundary, modes, cutoff, accuracy, verify, recovery, second_order, modal_body"},
         BadText{"elements: 40", "elements: 40, ^elements: 41",
                 "^: beam 'rod': key 'elements' is given twice (first in line 8); remove one"},
         BadText{"up: [0, 10, 0]", "^tip: [0, 10, 0]",
@@ -267,6 +289,23 @@ INSTANTIATE_TEST_SUITE_P(
                 "^: point '2nd': not a valid name; use letters, digits, _ and -, and begin with a letter or _"},
         BadText{"up: [", "^a/b: [",
                 "^: point 'a/b': not a valid name; use letters, digits, _ and -, and begin with a letter or _"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    ModalBodies, BadPart,
+    ::testing::Values(
+        BadText{"modes: 4", "^modal_body: {modes: 3}", "^: modal_body: missing key 'reference'"},
+        BadText{
+            "modes: 4", "modal_body: {reference: tip, modes: ^0}",
+            "^: modal_body: modes 0 must be 1 or more; the superelement beside it, or a rigid body of the scene, has "
+            "none"},
+        BadText{"modes: 4", "modal_body: {reference: tip, modes: 3, damping: ^-1}",
+                "^: modal_body: damping -1 must not be negative"},
+        BadText{"modes: 4", "modal_body: {reference: ^tipp, modes: 3}",
+                "^: modal_body: there is no place 'tipp'; did you mean 'tip'?"},
+        BadText{"modes: 4", "modal_body: {reference: ^{base: [x, y, z], tip: [y, z]}, modes: 3}",
+                "^: modal_body: 5 components are held; hold six: fewer leave the frame loose, more stiffen the body"},
+        BadText{"modes: 4", "modal_body: {reference: {base: [x, ^ry2]}, modes: 3}",
+                "^: modal_body: unknown component 'ry2'; did you mean 'ry'?"}));
 
 TEST(Part, TellsAllErrorsAtOnceInTheOrderOfTheLines) {
   std::string text = replaced(beam_part, "length: mm", "lenght: mm");

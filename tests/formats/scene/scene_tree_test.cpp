@@ -134,6 +134,16 @@ TEST(SceneInclude, JoinsEntriesAndFillsInSettings) {
             files.folder.path() + "/parts/arm.superelement.h5");
 }
 
+TEST(SceneInclude, CanBeExchanged) {
+  const Files files({{"scene.yaml", "scene: a\ninclude: light.yaml\n" + tail},
+                     {"light.yaml", "bodies: {b: {type: rigid, mass: 1, inertia: [1, 1, 1]}}\n"},
+                     {"heavy.yaml", "bodies: {b: {type: rigid, mass: 9, inertia: [1, 1, 1]}}\n"}});
+  EXPECT_EQ(rigid(files.read(), "b").mass, 1.0);
+  EXPECT_EQ(rigid(files.read({"include=heavy.yaml"}), "b").mass, 9.0);
+  EXPECT_EQ(rigid(files.read({"include=[heavy.yaml]", "bodies.b.mass=7"}), "b").mass, 7.0);
+  EXPECT_THAT(files.error({"include=none.yaml"}), HasSubstr("none.yaml: cannot open the file"));
+}
+
 TEST(SceneInclude, ErrorsNameTheFile) {
   const std::string body = "bodies: {block: {type: rigid, mass: 1, inertia: [1, 1, 1]}}\n";
   EXPECT_EQ(Files({{"scene.yaml", "scene: a\ninclude: b.yaml\n" + tail}, {"b.yaml", "include:\n  - c.yaml\n"}}).error(),

@@ -58,6 +58,44 @@ TEST(RigidMobility, CountsFlexibleBodiesAsRigid) {
   EXPECT_EQ(mobility.rigid_mobility, 1);
 }
 
+Mobility named(const formats::Scene& scene) {
+  Simulation run(scene, {});
+  Mobility mobility = count_mobility(run.model(), run.state(), run.workspace.now);
+  find_freedoms(run.model(), run.state(), run.workspace.now, mobility);
+  return mobility;
+}
+
+// Two links on balls between ground hinges: a four-bar whose hinges are parallel moves; with one across it locks. At
+// its dead centre a slider has no rate either, but no loop stands still.
+TEST(Freedoms, AreNamedAndLockedLoopsToo) {
+  formats::Scene bars = test_support::empty_scene(1e-3, 1.0);
+  bars.bodies = {block("crank", 1.0, {0, 0.5, 0}), block("rod", 1.0, {0.5, 1, 0}), block("rocker", 1.0, {1, 0.5, 0})};
+  bars.joints = {joint("main", JointKind::revolute, "ground", "crank", {0, 0, 0}, {0, 0, 1}),
+                 joint("pin", JointKind::revolute, "crank", "rod", {0, 1, 0}, {0, 0, 1}),
+                 joint("ball", JointKind::spherical, "rod", "rocker", {1, 1, 0}, {0, 0, 1}),
+                 joint("swing", JointKind::revolute, "ground", "rocker", {1, 0, 0}, {0, 0, 1})};
+  EXPECT_EQ(named(bars).free, (std::vector<std::string>{"'main'"}));
+  EXPECT_TRUE(named(bars).locked.empty());
+  bars.joints[3] = joint("swing", JointKind::revolute, "ground", "rocker", {1, 0, 0}, {1, 0, 1});
+  EXPECT_EQ(named(bars).locked, (std::vector<std::string>{"'main'", "'pin'", "'ball'", "'swing'"}));
+  EXPECT_TRUE(named(bars).free.empty());
+
+  formats::Scene slider = test_support::empty_scene(1e-3, 1.0);
+  slider.bodies = {block("crank", 1.0, {0.5, 0, 0}), block("rod", 1.0, {2, 0, 0}), block("slider", 1.0, {3, 0, 0})};
+  slider.joints = {joint("main", JointKind::revolute, "ground", "crank", {0, 0, 0}, {0, 0, 1}),
+                   joint("pin", JointKind::revolute, "crank", "rod", {1, 0, 0}, {0, 0, 1}),
+                   joint("ball", JointKind::spherical, "rod", "slider", {3, 0, 0}, {0, 0, 1}),
+                   joint("slide", JointKind::prismatic, "ground", "slider", {3, 0, 0}, {1, 0, 0})};
+  EXPECT_EQ(named(slider).free, (std::vector<std::string>{"'main'"}));
+  EXPECT_TRUE(named(slider).locked.empty());
+
+  formats::Scene free = test_support::empty_scene(1e-3, 1.0);
+  free.bodies = {block("light", 1.0, {0, 0, 0}), block("heavy", 2.0, {1, 0, 0})};
+  free.joints = {joint("ball", JointKind::spherical, "light", "heavy", {0.5, 0, 0}, {0, 0, 1})};
+  EXPECT_EQ(named(free).free, (std::vector<std::string>{"a turn in 'ball'", "a turn in 'ball'", "a turn in 'ball'",
+                                                        "'heavy' in 6 ways"}));
+}
+
 /// Motions that the pre-flight names, with `extra` done to a scene in which `hub` and a block of 1 kg are.
 template <class Extra>
 std::vector<std::string> undetermined(Extra extra) {

@@ -16,7 +16,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 /// Half the cross product of the diagonals (edges of a triangle): area times normal.
-Vector3d area_vector(const reducer::Mesh& mesh, const reducer::ShellElement& shell) {
+Vector3d directed_area(const reducer::Mesh& mesh, const reducer::ShellElement& shell) {
   const auto at = [&](int k) -> Vector3d { return mesh.position.col(shell.nodes[k]); };
   if (shell.corners() == 3) return 0.5 * (at(1) - at(0)).cross(at(2) - at(0));
   return 0.5 * (at(2) - at(0)).cross(at(3) - at(1));
@@ -30,7 +30,7 @@ Vector3d center(const reducer::Mesh& mesh, const reducer::ShellElement& shell) {
 
 double area(const reducer::Mesh& mesh) {
   return std::accumulate(mesh.shells.begin(), mesh.shells.end(), 0.0,
-                         [&](double sum, const auto& shell) { return sum + area_vector(mesh, shell).norm(); });
+                         [&](double sum, const auto& shell) { return sum + directed_area(mesh, shell).norm(); });
 }
 
 const std::string wall = ", thickness: 0.01, material: steel}";
@@ -46,7 +46,7 @@ TEST(Plates, AreDividedEquallyAndTurnAboutTheirNormal) {
   ASSERT_EQ(mesh.shells.size(), 24u);
   EXPECT_EQ(mesh.nodes(), 35);
   for (const reducer::ShellElement& shell : mesh.shells)
-    EXPECT_LT((area_vector(mesh, shell) - 0.25 * Vector3d::UnitZ()).norm(), 1e-15);
+    EXPECT_LT((directed_area(mesh, shell) - 0.25 * Vector3d::UnitZ()).norm(), 1e-15);
   EXPECT_EQ(mesh.node_label[mesh.boundary[0].node], "o");
 }
 
@@ -105,7 +105,7 @@ TEST(Discs, HaveTheAreaOfTheirPolygonAndJoinCylinders) {
     // Regular polygon of 16 corners: n/2 sin(2 pi/n) per radius².
     const double r = std::stod(inner), polygon = 8.0 * std::sin(EIGEN_PI / 8.0);
     EXPECT_NEAR(area(mesh), polygon * (1.0 - r * r), 1e-13);
-    for (const reducer::ShellElement& shell : mesh.shells) EXPECT_GT(area_vector(mesh, shell).z(), 0.0);
+    for (const reducer::ShellElement& shell : mesh.shells) EXPECT_GT(directed_area(mesh, shell).z(), 0.0);
     EXPECT_EQ(mesh.spiders[0].nodes.size(), 16u);
     EXPECT_LT((mesh.position.col(mesh.spiders[0].reference) - Vector3d(0, 0, 2)).norm(), 1e-14);
   }
@@ -126,7 +126,7 @@ TEST(Cylinders, HaveTheirNormalOutwards) {
   EXPECT_EQ(mesh.nodes(), 9 * 6);
   for (const reducer::ShellElement& shell : mesh.shells) {
     const Vector3d out = center(mesh, shell) - Vector3d(1, 0, 0);
-    EXPECT_GT(area_vector(mesh, shell).dot(Vector3d(out.x(), out.y(), 0.0)), 0.0);
+    EXPECT_GT(directed_area(mesh, shell).dot(Vector3d(out.x(), out.y(), 0.0)), 0.0);
   }
   for (int n = 0; n < mesh.nodes(); ++n) {
     const Vector3d x = mesh.position.col(n);
@@ -141,7 +141,7 @@ TEST(Extrusions, FollowLinesAndArcs) {
   EXPECT_NEAR(area(line), 8.0, 1e-13);
   EXPECT_EQ(line.nodes(), 5 * 7);
   // profile × path: x × y = z for the first wall.
-  EXPECT_GT(area_vector(line, line.shells[0]).z(), 0.0);
+  EXPECT_GT(directed_area(line, line.shells[0]).z(), 0.0);
   const reducer::Mesh arc =
       mesh_of("extrusions: {e: {" + profile + "arc: {through: [0, 0, 0], angle_deg: 90}, elements: [2, 6]" + wall +
               "}\nspiders: {s: {kind: rigid, on: e/end}}\nboundary: [s]\n");

@@ -1,0 +1,280 @@
+// Lumped masses, their modes under reference conditions, and the sums over the nodes.
+#include "reducer/modal_body/modal_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <Eigen/Cholesky>
+#include <Eigen/SVD>
+
+#include "common/error.hpp"
+#include "common/math/rotation.hpp"
+#include "common/parallel.hpp"
+#include "common/text.hpp"
+#include "reducer/elements/element_matrices.hpp"
+#include "reducer/modes/full_model.hpp"
+#include "reducer/modes/internal_modes.hpp"
+#include "reducer/system/assembly.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Every element with a lumped mass matrix; the held nodes in place of the boundary.
+Mesh lumped_mesh(Mesh mesh) {
+  for (BeamProperty& property : mesh.beam_properties) property.data.mass_matrix = formats::MassMatrix::lumped;
+  for (ShellProperty& property : mesh.shell_properties) property.mass_matrix = formats::MassMatrix::lumped;
+  for (SolidProperty& property : mesh.solid_properties) property.mass_matrix = formats::MassMatrix::lumped;
+  mesh.boundary.clear();
+  for (const FrameNode& held : mesh.held)
+    mesh.boundary.push_back(
+        {held.name, held.node, (held.components & translations_only) != 0, (held.components & rotations_only) != 0});
+  return mesh;
+}
+
+/// Sum of the lumped element matrices and nodal masses, node by node. Throws Error if they couple nodes.
+std::vector<Matrix6> nodal_blocks(const Mesh& mesh, const Coordinates& coordinates, const std::string& where) {
+  const SymmetricPair pair = assemble(mesh, coordinates, core_count());
+  std::vector<Matrix6> blocks(static_cast<std::size_t>(mesh.nodes()), Matrix6::Zero());
+  for (int i = 0; i < pair.size(); ++i)
+    for (int k = pair.begin[i]; k < pair.begin[i + 1]; ++k) {
+      const int j = pair.column[k], a = coordinates.node[i], b = coordinates.node[j];
+      if (a == b)
+        blocks[a](coordinates.component[i], coordinates.component[j]) =
+            blocks[a](coordinates.component[j], coordinates.component[i]) = pair.M[k];
+      else if (std::abs(pair.M[k]) > 1e-12 * std::sqrt(pair.M[pair.begin[i]] * pair.M[pair.begin[j]]))
+        throw Error(fmt::format("modal_body: lumped masses couple {} and {}", mesh.node_label[a], mesh.node_label[b]),
+                    where, "a beam there has releases: put a joint or a spring in their place");
+    }
+  return blocks;
+}
+
+/// The mass of a node as a rigid body whose centre of mass lies `offset` beside it. Throws Error if it is none.
+NodalMass rigid_mass(const Matrix6& block, int node, const Mesh& mesh, double length, const std::string& where) {
+  NodalMass mass;
+  mass.node = node;
+  mass.mass = block(0, 0);
+  mass.inertia = block.bottomRightCorner<3, 3>();
+  if (!(mass.mass > 0.0)) return mass;
+  mass.offset = Eigen::Vector3d(block(1, 5), block(2, 3), block(0, 4)) / mass.mass;
+  const Matrix6 moved = nodal_mass_matrix({node, mass.mass, Eigen::Matrix3d::Zero(), mass.offset, ""});
+  if ((block - moved).leftCols<3>().cwiseAbs().maxCoeff() > 1e-9 * mass.mass * std::max(1.0, length))
+    throw Error(fmt::format("modal_body: the lumped mass at {} is not that of a rigid body", mesh.node_label[node]),
+                where,
+                "the sections of its beams have a mass beside the axis without its inertia: change their offsets");
+  mass.inertia -= moved.bottomRightCorner<3, 3>();
+  if (mass.inertia.cwiseAbs().maxCoeff() < 1e-12 * block.bottomRightCorner<3, 3>().cwiseAbs().maxCoeff())
+    mass.inertia.setZero();
+  return mass;
+}
+
+/// Modes in the system's coordinates q.
+struct LumpedModes {
+  Eigen::VectorXd lambda;
+  Eigen::MatrixXd q;
+};
+
+Partition held_partition(const Mesh& mesh, const System& system) {
+  Partition p;
+  std::vector<bool> held(static_cast<std::size_t>(system.size()), false);
+  for (std::size_t k = 0; k < mesh.held.size(); ++k)
+    for (int component = 0; component < 6; ++component) {
+      if ((mesh.held[k].components >> component & 1) == 0) continue;
+      p.boundary.push_back(system.T.row[system.coordinates.of(mesh.held[k].node, component)]);
+      p.boundary_node.push_back(static_cast<int>(k));
+      p.boundary_component.push_back(component);
+      held[p.boundary.back()] = true;
+    }
+  for (int i = 0; i < system.size(); ++i)
+    if (!held[i]) p.internal.push_back(i);
+  return p;
+}
+
+[[noreturn]] void fail_for_modes(int asked, int available, const std::string& where) {
+  throw Error(fmt::format("modal_body: {} modes asked for, but only {} exist", asked, available), where,
+              "ask for fewer, or use more elements or masses with rotary inertia");
+}
+
+LumpedModes held_modes(const Mesh& mesh, const System& system, const formats::ModalBodyRequest& body) {
+  const Partition p = held_partition(mesh, system);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> held(rows(system.R, p.boundary));
+  if (const auto& value = held.singularValues(); !(value[5] > 1e-8 * value[0]))
+    throw Error("modal_body: the six held components leave a rigid motion of the part free", body.where,
+                "hold one node, or 3 + 2 + 1 translations at three nodes, or for a rod four components and two");
+  const Blocks blocks = split(system.matrices, p);
+  const Factor S_II(blocks.S_II);
+  check_no_mechanism(S_II, mesh, system, p, body.where);
+  const int available = finite_mode_count(blocks.M_II);
+  if (body.modes > available) fail_for_modes(body.modes, available, body.where);
+  const Spectrum spectrum = lowest_pairs({blocks.S_II, blocks.M_II, S_II, 0.0}, body.modes, available,
+                                         choose_solver(p.n_I(), body.modes), Count::if_cheap);
+  LumpedModes modes{spectrum.pairs.value.head(spectrum.kept), {}};
+  Eigen::MatrixXd Phi = spectrum.pairs.vector.leftCols(spectrum.kept);
+  fix_basis({mesh, system, p, blocks, S_II, body.where}, modes.lambda, Phi);
+  modes.q.setZero(system.size(), spectrum.kept);
+  modes.q(p.internal, Eigen::all) = Phi;
+  return modes;
+}
+
+/// What round-off left of rigid motions is taken out; then Xᵀ M X = 1 again.
+void make_orthogonal_to_rigid_motions(const System& system, Eigen::MatrixXd& q) {
+  const SymmetricRows M = symmetric_rows(system.matrices, system.matrices.M);
+  const Eigen::MatrixXd MR = multiply(M, system.R);
+  const Eigen::MatrixXd rigid = system.R.transpose() * MR;
+  q -= system.R * rigid.ldlt().solve(MR.transpose() * q);
+  const Eigen::MatrixXd gram = q.transpose() * multiply(M, q);
+  q = gram.llt().matrixU().solve<Eigen::OnTheRight>(q).eval();
+}
+
+LumpedModes free_modes(const Mesh& mesh, const System& system, const formats::ModalBodyRequest& body, double lowest) {
+  if (!(lowest > 0.0))
+    throw Error("modal_body: the part has no free frequencies, and so no mean axis", body.where,
+                "hold six components: reference: tip");
+  const std::optional<EigenPairs> pairs = full_free_modes(system, lowest, body.modes);
+  if (!pairs)
+    throw Error("modal_body: some rigid motion of the lumped masses moves no mass, which leaves the mean axis open",
+                body.where, "hold six components, or give the part inertia about every axis");
+  if (pairs->value.size() < body.modes) fail_for_modes(body.modes, static_cast<int>(pairs->value.size()), body.where);
+  LumpedModes modes{pairs->value, pairs->vector};
+  const Partition p = held_partition(mesh, system);
+  const Factor none;
+  fix_basis({mesh, system, p, Blocks{}, none, body.where}, modes.lambda, modes.q);
+  make_orthogonal_to_rigid_motions(system, modes.q);
+  return modes;
+}
+
+/// A row of the file: a node of the mesh, or the centre of mass of what lies beside one.
+struct LumpedNode {
+  std::string name;
+  NodalMass mass;
+  Eigen::Vector3d arm = Eigen::Vector3d::Zero();  ///< from the node of the mesh
+  bool kept = false;
+};
+
+/// Boundary and held nodes by their names, the others numbered. A mass beside its node follows as a row of its own.
+std::vector<LumpedNode> lumped_nodes(const Mesh& mesh, const Mesh& lumped, const System& system,
+                                     const formats::ModalBodyRequest& body) {
+  std::vector<std::string> name(static_cast<std::size_t>(mesh.nodes()));
+  for (const FrameNode& held : mesh.held) name[held.node] = held.name;
+  for (const MeshBoundary& boundary : mesh.boundary) name[boundary.node] = boundary.name;
+  const std::vector<Matrix6> blocks = nodal_blocks(lumped, system.coordinates, body.where);
+  std::vector<LumpedNode> nodes;
+  for (int n = 0; n < mesh.nodes(); ++n) {
+    const bool kept = body.all_nodes || !name[n].empty();
+    if (name[n].empty()) name[n] = fmt::format("n{}", n + 1);
+    const NodalMass mass = rigid_mass(blocks[n], n, mesh, system.length, body.where);
+    NodalMass without_mass;
+    without_mass.node = n;
+    const bool beside = mass.offset.norm() > 1e-12 * system.length;
+    nodes.push_back({name[n], beside ? without_mass : mass, Eigen::Vector3d::Zero(), kept});
+    if (beside) nodes.push_back({name[n] + "_mass", mass, mass.offset, body.all_nodes});
+  }
+  return nodes;
+}
+
+/// Nodes of the file; positions still those of the part.
+void fill(const Mesh& mesh, const System& system, const LumpedModes& modes, const std::vector<LumpedNode>& nodes,
+          formats::ModalBody& body) {
+  const Eigen::MatrixXd x = expand(system.T, modes.q);
+  const auto n = static_cast<Eigen::Index>(nodes.size());
+  body.node_name.clear();
+  body.node_inertia.clear();
+  body.X.clear();
+  body.node_position.resize(n, 3);
+  body.node_mass.resize(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const LumpedNode& node = nodes[k];
+    const int at = node.mass.node;
+    body.node_name.push_back(node.name);
+    body.node_position.row(k) = (mesh.position.col(at) + node.arm - body.frame_position).transpose();
+    body.node_mass[k] = node.mass.mass;
+    body.node_inertia.push_back(node.mass.inertia);
+    Eigen::Matrix<double, 6, Eigen::Dynamic> X(6, modes.q.cols());
+    X.setZero();
+    const int components = system.coordinates.rotates(at) ? 6 : 3;
+    X.topRows(components) = x.middleRows(system.coordinates.first[at], components);
+    X.topRows<3>() -= skew<double>(node.arm) * X.bottomRows<3>();
+    body.X.push_back(std::move(X));
+  }
+}
+
+Eigen::Vector3d center_of_mass(const Mesh& mesh, const std::vector<LumpedNode>& nodes) {
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  double mass = 0.0;
+  for (const LumpedNode& node : nodes) {
+    moment += node.mass.mass * (mesh.position.col(node.mass.node) + node.arm);
+    mass += node.mass.mass;
+  }
+  return moment / mass;
+}
+
+void set_reference(const Mesh& mesh, formats::ModalBody& body) {
+  if (mesh.held.empty()) body.reference = formats::ModalReference::mean_axis;
+  for (const FrameNode& held : mesh.held)
+    for (int component = 0; component < 6; ++component) {
+      if ((held.components >> component & 1) == 0) continue;
+      const auto row = std::ranges::find_if(body.node_name, [&](const std::string& name) {
+        return name == held.name || std::ranges::any_of(mesh.boundary, [&](const MeshBoundary& boundary) {
+                 return boundary.node == held.node && boundary.name == name;
+               });
+      });
+      body.reference_node.push_back(static_cast<int>(row - body.node_name.begin()));
+      body.reference_component.push_back(component);
+    }
+}
+
+/// What the certificate tells.
+ModalBodyCertificate describe(const formats::ModalBody& body) {
+  ModalBodyCertificate c;
+  for (const double value : body.omega2) c.frequency.push_back(frequency(value));
+  const formats::ModalIntegrals& sums = body.integrals;
+  c.rigid = {sums.mass, body.frame_position, sums.P0.trace() * Eigen::Matrix3d::Identity() - sums.P0 + sums.J_mu};
+  std::vector<std::string> held;
+  for (const int row : body.reference_node)
+    if (held.empty() || held.back() != body.node_name[row]) held.push_back(body.node_name[row]);
+  c.reference = held.empty() ? "mean axis" : join(held, ", ") + " held";
+  return c;
+}
+
+}  // namespace
+
+formats::ModalBody lumped_modal_body(const Mesh& mesh, const formats::Part& part, double lowest) {
+  const formats::ModalBodyRequest& request = *part.modal_body;
+  const Mesh lumped = lumped_mesh(mesh);
+  const System system = build_system(lumped, part.file);
+  const LumpedModes modes =
+      mesh.held.empty() ? free_modes(lumped, system, request, lowest) : held_modes(lumped, system, request);
+  std::vector<LumpedNode> nodes = lumped_nodes(mesh, lumped, system, request);
+  formats::ModalBody body;
+  body.name = part.name;
+  body.producer = "Tisserand reducer " TISSERAND_VERSION;
+  body.units = part.units;
+  body.all_nodes = request.all_nodes;
+  body.frame_position = center_of_mass(mesh, nodes);
+  body.omega2 = modes.lambda;
+  body.zeta.setConstant(modes.lambda.size(), request.damping);
+  fill(mesh, system, modes, nodes, body);
+  body.integrals = formats::integrals_of(body);
+  if (!request.all_nodes) {
+    std::erase_if(nodes, [](const LumpedNode& node) { return !node.kept; });
+    fill(mesh, system, modes, nodes, body);
+  }
+  set_reference(mesh, body);
+  return body;
+}
+
+std::optional<formats::ModalBody> modal_body_if_asked(const Mesh& mesh, const formats::Part& part,
+                                                      const std::function<void(const std::string&)>& begin,
+                                                      const FileCertificate& file, ModelCertificate& model) {
+  if (!part.modal_body) return std::nullopt;
+  begin("modal body");
+  const double lowest = file.free_frequency.empty() ? 0.0 : std::pow(2.0 * EIGEN_PI * file.free_frequency[0], 2);
+  formats::ModalBody body = lumped_modal_body(mesh, part, lowest);
+  model.modal_body = describe(body);
+  return body;
+}
+
+}  // namespace tisserand::reducer

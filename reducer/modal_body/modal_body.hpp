@@ -1,0 +1,31 @@
+// The floating-frame body of a part (formats/MODAL_BODY.md): lumped masses and modes under reference conditions.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "formats/modal_body/modal_body.hpp"
+#include "formats/part/part.hpp"
+#include "reducer/mesh/mesh.hpp"
+#include "reducer/report/certificate.hpp"
+
+namespace tisserand::reducer {
+
+/// What `part.modal_body` asks for, from the elements of `mesh` with lumped mass matrices. The mass of a node that lies
+/// beside it (point masses with an offset, beams and shells beside their nodes) becomes a node of its own that follows
+/// rigidly: XᵀM X stays that of the coupled masses exactly. Ties restrict the modes, masses stay at the nodes of the
+/// mesh.
+///
+/// Held components: modes of the rest, basis and signs as of internal modes. Mean axis: elastic modes of the free part,
+/// exactly orthogonal to its rigid motions; `lowest` is an eigenvalue ω² of the size of its first. A group of equal
+/// frequencies is completed. Throws Error for conditions that leave the frame loose, more modes than there are, masses
+/// that couple nodes (released beams), a mean axis without inertia or without `lowest` (0).
+formats::ModalBody lumped_modal_body(const Mesh& mesh, const formats::Part& part, double lowest);
+
+/// What `part.modal_body` asks for, if it does, in a phase of its own; `file` and `model`: of the superelement.
+std::optional<formats::ModalBody> modal_body_if_asked(const Mesh& mesh, const formats::Part& part,
+                                                      const std::function<void(const std::string&)>& begin,
+                                                      const FileCertificate& file, ModelCertificate& model);
+
+}  // namespace tisserand::reducer
