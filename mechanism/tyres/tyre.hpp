@@ -57,6 +57,11 @@ void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, TyreTe
 /// c_c ∂residual/∂v + c_k ∂residual/∂q, exact but for what only terms at their limits know.
 Matrix6d tangent(const Tyre& tyre, const Road& road, const NodeMotion& node, const TangentCoefficients& coefficients);
 
+/// A quantity of TyreTerms, and c_c ∂/∂v + c_k ∂/∂q of it, exact as the tangent.
+double tyre_quantity(const Tyre& tyre, const Road& road, const NodeMotion& node, formats::TyreQuantity quantity);
+Vector6d tyre_quantity_gradient(const Tyre& tyre, const Road& road, const NodeMotion& node,
+                                formats::TyreQuantity quantity, const TangentCoefficients& coefficients);
+
 /// Stiffness with which statics holds what a standing tyre leaves free (matrix alone, no force): motion along the road,
 /// roll, and in the air also the way down.
 Matrix6d standing_stiffness(const Tyre& tyre, const Road& road, const NodeMotion& node, const TyreTerms& terms);
