@@ -15,11 +15,20 @@ namespace tisserand::formats {
 
 namespace {
 
-constexpr Choice<ChannelKind> channel_kinds[] = {{"coordinate", ChannelKind::coordinate},
-                                                 {"rate", ChannelKind::rate},
-                                                 {"position", ChannelKind::position},
-                                                 {"velocity", ChannelKind::velocity},
-                                                 {"distance", ChannelKind::distance}};
+constexpr Choice<ChannelKind> channel_kinds[] = {
+    {"coordinate", ChannelKind::coordinate}, {"rate", ChannelKind::rate},         {"position", ChannelKind::position},
+    {"velocity", ChannelKind::velocity},     {"distance", ChannelKind::distance}, {"tyre", ChannelKind::tyre}};
+constexpr Choice<TyreQuantity> tyre_quantities[] = {{"load", TyreQuantity::load},
+                                                    {"force_x", TyreQuantity::force_x},
+                                                    {"force_y", TyreQuantity::force_y},
+                                                    {"moment_x", TyreQuantity::moment_x},
+                                                    {"moment_y", TyreQuantity::moment_y},
+                                                    {"moment_z", TyreQuantity::moment_z},
+                                                    {"slip", TyreQuantity::slip},
+                                                    {"slip_angle", TyreQuantity::slip_angle},
+                                                    {"camber", TyreQuantity::camber},
+                                                    {"penetration", TyreQuantity::penetration},
+                                                    {"rolling_radius", TyreQuantity::rolling_radius}};
 
 bool is_point(ChannelKind kind) { return kind == ChannelKind::position || kind == ChannelKind::velocity; }
 
@@ -48,7 +57,12 @@ ChannelSpec read_channel(const Context& context, const YamlNode& node) {
   if (channel.kind == ChannelKind::distance) {
     channel.a = read_marker(map, "a");
     channel.b = read_marker(map, "b");
-    refuse(map, "of", "coordinate, rate, position and velocity");
+    refuse(map, "of", "coordinate, rate, position, velocity and tyre");
+  } else if (channel.kind == ChannelKind::tyre) {
+    if (map.require("tyre") != nullptr) channel.tyre = map.text("tyre");
+    if (map.require("of") != nullptr) channel.quantity = map.choice("of", tyre_quantities, channel.quantity);
+    refuse(map, "a", "distance");
+    refuse(map, "b", "distance");
   } else {
     if (is_point(channel.kind))
       channel.a = read_marker(map, "of");
@@ -63,6 +77,7 @@ ChannelSpec read_channel(const Context& context, const YamlNode& node) {
     refuse(map, "axis", "position and velocity");
   }
   if (channel.kind != ChannelKind::position) refuse(map, "origin", "position");
+  if (channel.kind != ChannelKind::tyre) refuse(map, "tyre", "tyre");
   return channel;
 }
 
@@ -132,9 +147,14 @@ std::vector<KeySet> channel_key_sets() {
       {"channel",
        {choice<&ChannelSpec::kind, channel_kinds>("type",
                                                   "`coordinate` or `rate` of a joint coordinate; `position` or "
-                                                  "`velocity` of a marker; `distance` of two markers",
+                                                  "`velocity` of a marker; `distance` of two markers; `tyre`: a "
+                                                  "quantity of a tyre",
                                                   "required"),
-        {"of", "place", "joint coordinate, or marker", "required but for `distance`"},
+        {"of", "place",
+         "joint coordinate, or marker; of a tyre: `load`, `force_x`, `force_y`, `moment_x`, `moment_y`, `moment_z`, "
+         "`slip`, `slip_angle`, `camber`, `penetration`, `rolling_radius`",
+         "required but for `distance`"},
+        {"tyre", "text", "name from `tyres`", "required for `tyre`"},
         {"axis", "'x' | 'y' | 'z' | vector",
          "`x`, `y` or `z` of the world, or a direction `[x, y, z]`, for `position` and `velocity`", "required there"},
         plain<&ChannelSpec::origin>("origin", "vector", "point from which a `position` counts, world frame"),
@@ -154,6 +174,8 @@ void check_channels(const SceneIndex& index, Faults& faults) {
     else
       check_time_function(input.table, subject, input.where, "file", faults);
   }
+  std::vector<std::string> tyres;
+  for (const TyreSpec& tyre : scene.tyres) tyres.push_back(tyre.name);
   for (const ChannelSpec& channel : scene.channels) {
     const std::string subject = fmt::format("channel '{}'", channel.name);
     check_expression_name("channel", channel.name, channel.where, names, faults);
@@ -169,6 +191,9 @@ void check_channels(const SceneIndex& index, Faults& faults) {
       case ChannelKind::distance:
         check_marker(index, channel.a, subject, channel.where, "a", faults);
         check_marker(index, channel.b, subject, channel.where, "b", faults);
+        break;
+      case ChannelKind::tyre:
+        check_reference(subject, "tyre", channel.tyre, tyres, channel.where, "tyre", faults);
         break;
     }
   }

@@ -154,7 +154,21 @@ struct BushingSpec : MarkerPairSpec {
 };
 
 /// A quantity of the mechanism that expressions may use by its name.
-enum class ChannelKind { coordinate, rate, position, velocity, distance };
+enum class ChannelKind { coordinate, rate, position, velocity, distance, tyre };
+/// Of a tyre, in its axes (ISO-W); moments about the contact centre.
+enum class TyreQuantity {
+  load,
+  force_x,
+  force_y,
+  moment_x,
+  moment_y,
+  moment_z,
+  slip,
+  slip_angle,
+  camber,
+  penetration,
+  rolling_radius
+};
 struct ChannelSpec {
   std::string name;
   ChannelKind kind = ChannelKind::coordinate;
@@ -163,6 +177,8 @@ struct ChannelSpec {
   MarkerSpec b;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();   ///< of position and velocity: unit vector, world axes
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< from which positions count, world frame
+  std::string tyre;                                  ///< its name
+  TyreQuantity quantity = TyreQuantity::load;
   std::string where;
 };
 

@@ -44,6 +44,8 @@ BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files) {
   c.arms.insert(c.arms.end(), joints.rigid_arms().begin(), joints.rigid_arms().end());
   if (const std::string arms = rigid_arms_text(c.arms, c.model.units); !arms.empty()) c.notes.push_back(arms);
   for (const formats::GearSpec& gear : scene.gears) c.collect([&] { joints.add(gear); });
+  add_tyres(c);
+  c.throw_errors();
   for (const formats::InputSpec& input : scene.inputs) joints.add(input);
   for (const formats::ChannelSpec& channel : scene.channels) c.collect([&] { joints.add(channel); });
   c.throw_errors();
@@ -58,7 +60,6 @@ BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files) {
     });
   for (const formats::SpringSpec& spring : scene.springs) c.collect([&] { joints.add(spring); });
   for (const formats::BushingSpec& bushing : scene.bushings) c.collect([&] { joints.add(bushing); });
-  add_tyres(c);
   for (const formats::LoadSpec& load : scene.loads) c.collect([&] { add_load(load, c); });
   c.throw_errors();
 

@@ -1,4 +1,6 @@
 // Springs, bushings, inputs and channels between the markers of a scene.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "common/error.hpp"
@@ -137,6 +139,14 @@ void JointBuilder::add(const formats::ChannelSpec& spec) {
       channel.a = markers_.find(spec.a);
       check_marker(model_, subject, use_position, spec.a, channel.a);
       break;
+    case formats::ChannelKind::tyre: {
+      const auto tyre = std::ranges::find(model_.tyres, spec.tyre, &Tyre::name);
+      TISSERAND_ENSURE(tyre != model_.tyres.end(), "no tyre '{}'", spec.tyre);
+      channel.tyre = static_cast<int>(tyre - model_.tyres.begin());
+      channel.quantity = spec.quantity;
+      channel.a = tyre->wheel;
+      break;
+    }
   }
   if (channel.coordinate >= 0) {
     Coordinate& coordinate = model_.coordinates[channel.coordinate];

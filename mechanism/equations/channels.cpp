@@ -13,6 +13,14 @@ TimeFunction& function_of(const ChannelUse& use, Evaluation& evaluation) {
 /// c_c ∂(channel)/∂v + c_k ∂(channel)/∂q.
 Row12 channel_row(const Model& model, const Channel& channel, const TangentCoefficients& coefficients,
                   const Evaluation& evaluation) {
+  if (channel.tyre >= 0) {
+    const Tyre& tyre = model.tyres[channel.tyre];
+    Row12 row = Row12::Zero();
+    row.head<6>() = tyre_quantity_gradient(tyre, model.roads[tyre.road], motion_of(evaluation, tyre.wheel.node),
+                                           evaluation.treads[channel.tyre], channel.quantity, coefficients)
+                        .transpose();
+    return row;
+  }
   const Relation* relation = channel.coordinate < 0 ? nullptr : &model.coordinates[channel.coordinate].relation;
   const ChannelGradient gradient = channel_gradient(channel, relation, markers_of(channel, evaluation));
   return coefficients.stiffness * gradient.by_position + coefficients.damping * gradient.by_velocity;
@@ -30,7 +38,13 @@ void update_channels(const Model& model, Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.channels.size(); ++i) {
     const Channel& channel = model.channels[i];
     const CoordinateTerms* terms = channel.coordinate < 0 ? nullptr : &evaluation.coordinates[channel.coordinate];
-    evaluation.channels[i] = channel_value(channel, markers_of(channel, evaluation), terms);
+    if (channel.tyre >= 0) {
+      const Tyre& tyre = model.tyres[channel.tyre];
+      evaluation.channels[i] = tyre_quantity(tyre, model.roads[tyre.road], motion_of(evaluation, tyre.wheel.node),
+                                             evaluation.treads[channel.tyre], channel.quantity);
+    } else {
+      evaluation.channels[i] = channel_value(channel, markers_of(channel, evaluation), terms);
+    }
   }
   for (const ChannelUse& use : model.channel_uses) function_of(use, evaluation).set_channels(evaluation.channels);
 }

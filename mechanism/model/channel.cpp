@@ -19,6 +19,8 @@ double channel_value(const Channel& channel, const MarkerPair& pair, const Coord
       return channel.axis.dot(marker_position(pair.a, pair.node_a) - channel.origin);
     case ChannelKind::velocity:
       return channel.axis.dot(marker_velocity(pair.a, pair.node_a));
+    case ChannelKind::tyre:
+      break;
   }
   return 0.0;
 }
@@ -51,6 +53,8 @@ ChannelGradient channel_gradient(const Channel& channel, const Relation* relatio
       gradient.by_position.segment<3>(3) = pair.node_a.Omega.cross(pair.a.p).cross(e).transpose();
       break;
     }
+    case ChannelKind::tyre:
+      break;
   }
   return gradient;
 }

@@ -8,8 +8,8 @@
 
 namespace tisserand::mechanism {
 
-/// A joint coordinate, its rate, or the component of the position or velocity of a marker along an axis of the world.
-/// The markers are those of the coordinate, or `a` alone (b: ground).
+/// A joint coordinate, its rate, the component of the position or velocity of a marker along an axis of the world, or a
+/// quantity of a tyre. The markers are those of the coordinate, or `a` alone (b: ground), that of the wheel.
 struct Channel {
   std::string name;
   formats::ChannelKind kind = formats::ChannelKind::coordinate;
@@ -18,6 +18,8 @@ struct Channel {
   int coordinate = -1;                               ///< row of Model::coordinates
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();   ///< of position or velocity: e, world axes
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of position: the value is e·(x − origin)
+  int tyre = -1;                                     ///< row of Model::tyres
+  formats::TyreQuantity quantity = formats::TyreQuantity::load;
 };
 
 /// Where a channel enters a force: the value of a component of a load, or the force of a spring.
@@ -30,7 +32,7 @@ struct ChannelUse {
   int channel = 0;    ///< row of Model::channels
 };
 
-/// Value at one instant; `terms`: of its coordinate, if it has one.
+/// Value at one instant; `terms`: of its coordinate, if it has one. Those of tyres: tyre_quantity().
 double channel_value(const Channel& channel, const MarkerPair& pair, const CoordinateTerms* terms);
 
 /// Derivatives by positions (at fixed ẋ, Ω) and by velocities, columns [x_A Θ_A x_B Θ_B].

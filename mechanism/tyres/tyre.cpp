@@ -227,11 +227,59 @@ DiscMotion<Dual> disc_motion(const Tyre& tyre, const NodeMotion& node, const Vec
           dual(m.velocity, dv.head<3>() + d_omega.cross(p) + m.omega.cross(turn.cross(p))), dual(m.omega, d_omega)};
 }
 
+template <class T>
+T quantity_of(const TyreAction<T>& a, formats::TyreQuantity quantity) {
+  using formats::TyreQuantity;
+  const bool seen = a.contact.exists;
+  switch (quantity) {
+    case TyreQuantity::load:
+      return a.force_tyre.z();
+    case TyreQuantity::force_x:
+      return a.force_tyre.x();
+    case TyreQuantity::force_y:
+      return a.force_tyre.y();
+    case TyreQuantity::moment_x:
+      return a.moment_tyre.x();
+    case TyreQuantity::moment_y:
+      return a.moment_tyre.y();
+    case TyreQuantity::moment_z:
+      return a.moment_tyre.z();
+    case TyreQuantity::slip:
+      return a.slip;
+    case TyreQuantity::slip_angle:
+      return atan2_scalar(a.slip_angle_tangent, T(1.0));
+    case TyreQuantity::camber:
+      return seen ? atan2_scalar(a.contact.sine, a.contact.cosine) : T(0.0);
+    case TyreQuantity::penetration:
+      return seen ? a.contact.penetration : T(0.0);
+    case TyreQuantity::rolling_radius:
+      return a.rolling_radius;
+  }
+  return T(0.0);
+}
+
 }  // namespace
 
 double lag_mass(const Tyre& tyre) {
   const double lever = tyre.radius / tyre.low_speed;
   return lag_share * tyre.stiffness * lever * lever;
+}
+
+double tyre_quantity(const Tyre& tyre, const Road& road, const NodeMotion& node, const Tread& tread,
+                     formats::TyreQuantity quantity) {
+  return quantity_of(act(tyre, road, disc_motion(tyre, node), tread_motion(tread)), quantity);
+}
+
+Vector6d tyre_quantity_gradient(const Tyre& tyre, const Road& road, const NodeMotion& node, const Tread& tread,
+                                formats::TyreQuantity quantity, const TangentCoefficients& coefficients) {
+  Vector6d gradient;
+  const TreadMotion<Dual> held{tread.w[0], tread.w[1], tread.wd[0], tread.wd[1], tread.wdd[0], tread.wdd[1]};
+  for (int j = 0; j < 6; ++j) {
+    const Vector6d unit = Vector6d::Unit(j);
+    const DiscMotion<Dual> disc = disc_motion(tyre, node, coefficients.stiffness * unit, coefficients.damping * unit);
+    gradient[j] = quantity_of(act(tyre, road, disc, held), quantity).derivative;
+  }
+  return gradient;
 }
 
 void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, const Tread& tread, TyreTerms& terms) {

@@ -86,6 +86,13 @@ Eigen::Vector2d settled_rates(const Tyre& tyre, const Road& road, const NodeMoti
 /// Mass of the equations of u and v.
 double lag_mass(const Tyre& tyre);
 
+/// A quantity of TyreTerms, and c_c ∂/∂v + c_k ∂/∂q of it by the motion of the wheel, exact as the tangent: derivatives
+/// by the deflections of a tread are left out, which costs iterations where an expression uses the slip of such a tyre.
+double tyre_quantity(const Tyre& tyre, const Road& road, const NodeMotion& node, const Tread& tread,
+                     formats::TyreQuantity quantity);
+Vector6d tyre_quantity_gradient(const Tyre& tyre, const Road& road, const NodeMotion& node, const Tread& tread,
+                                formats::TyreQuantity quantity, const TangentCoefficients& coefficients);
+
 /// Stiffness with which statics holds what a standing tyre leaves free (matrix alone, no force): motion along the road,
 /// roll, deflections of the tread, and in the air also the way down.
 Matrix8d standing_stiffness(const Tyre& tyre, const Road& road, const NodeMotion& node, const TyreTerms& terms);

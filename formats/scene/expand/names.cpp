@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string_view>
 
 #include "formats/scene/expand/expression.hpp"
@@ -13,7 +14,7 @@ namespace tisserand::formats {
 
 namespace {
 
-enum class Kind { body, joint, function };
+enum class Kind { body, joint, function, tyre };
 
 struct Reference {
   std::string_view collection;
@@ -21,7 +22,7 @@ struct Reference {
   Kind kind;
 };
 
-constexpr std::array<Reference, 13> references{{{"joints", "a", Kind::body},
+constexpr std::array<Reference, 14> references{{{"joints", "a", Kind::body},
                                                 {"joints", "b", Kind::body},
                                                 {"joints", "between", Kind::joint},
                                                 {"motions", "coordinate", Kind::joint},
@@ -33,6 +34,7 @@ constexpr std::array<Reference, 13> references{{{"joints", "a", Kind::body},
                                                 {"tyres", "wheel", Kind::body},
                                                 {"channels", "a", Kind::body},
                                                 {"channels", "b", Kind::body},
+                                                {"channels", "tyre", Kind::tyre},
                                                 {"loads", "at", Kind::body}}};
 
 constexpr std::array<std::string_view, 10> instantiated{"bodies",  "joints",  "inputs",   "channels", "motions",
@@ -48,6 +50,8 @@ const std::set<std::string>& names_of_kind(Kind kind, const Assembly& assembly) 
       return assembly.bodies;
     case Kind::joint:
       return assembly.joints;
+    case Kind::tyre:
+      return assembly.tyres;
     case Kind::function:
       break;
   }
@@ -87,9 +91,10 @@ void for_each_name(YamlNode& node, Visit visit) {
   }
 }
 
-/// What the reference of a channel names depends on its type.
-Kind kind_of_channel(const YamlNode& channel) {
+/// What `of` of a channel names depends on its type; nothing in the case of tyres.
+std::optional<Kind> kind_of_channel(const YamlNode& channel) {
   const YamlNode* type = find_child(channel, "type");
+  if (type != nullptr && type->text == "tyre") return std::nullopt;
   return type != nullptr && (type->text == "position" || type->text == "velocity") ? Kind::body : Kind::joint;
 }
 
@@ -143,7 +148,7 @@ void read_names(YamlReader& reader, Assembly& assembly) {
   collect_names(reader, assembly, "motions", "motion", others);
   collect_names(reader, assembly, "springs", "spring", others);
   collect_names(reader, assembly, "bushings", "bushing", others);
-  collect_names(reader, assembly, "tyres", "tyre", others);
+  collect_names(reader, assembly, "tyres", "tyre", assembly.tyres);
   collect_names(reader, assembly, "loads", "load", others);
   if (const YamlNode* instances = find_child(assembly.node, "instances"))
     for (const YamlNode& instance : instances->children)
@@ -169,7 +174,8 @@ void resolve_references(const std::string& collection, const Level& level, YamlN
     if (reference.collection == collection) resolve(reference.key, reference.kind);
   if (collection == "initial" && level.frame.mirrored())  // the key is the reference
     mirrored.push_back({level.prefix + entry.key, entry.key, entry.key, entry.key_place, entry.key_place});
-  if (collection == "channels") resolve("of", kind_of_channel(entry));
+  if (collection == "channels")
+    if (const std::optional<Kind> kind = kind_of_channel(entry)) resolve("of", *kind);
   resolve_expressions(collection, level, entry);
 }
 

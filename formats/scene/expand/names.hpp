@@ -18,7 +18,7 @@ struct Assembly {
   std::string name;
   YamlNode node;
   const Assembly* outer = nullptr;  ///< its definition stands in this one
-  std::set<std::string> bodies, joints, instances;
+  std::set<std::string> bodies, joints, tyres, instances;
   std::set<std::string> functions;  ///< inputs and channels, which expressions name
   std::set<std::string> used_parameters;
   bool made = false;  ///< there is an instance of it

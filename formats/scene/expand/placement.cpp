@@ -277,7 +277,7 @@ void Placement::marker(YamlNode& entry, const char* key, const Matrix3d& flip) {
 
 /// Axes and origins of positions are those of the assembly.
 void Placement::channel(YamlNode& channel) {
-  if (!frame_.moved()) return;
+  if (!frame_.moved() || word(channel, "type") == "tyre") return;
   for (const char* key : {"of", "a", "b"}) marker(channel, key, frame_.S);
   YamlNode* axis = find_child(channel, "axis");
   if (axis == nullptr) return;

@@ -117,6 +117,40 @@ INSTANTIATE_TEST_SUITE_P(
         BadTyre{"CurveFile", "file: road.csv", "file: none.csv", "none.csv"}),
     [](const ::testing::TestParamInfo<BadTyre>& given) { return given.param.name; });
 
+// Channels of tyres, beside them and in assemblies.
+TEST(SceneTyres, AreSourcesOfChannels) {
+  const std::string channels = "channels:\n  brake: {type: tyre, tyre: front, of: slip_angle}\nintegrator:";
+  const Scene scene = read(replaced(car, "integrator:", channels));
+  ASSERT_EQ(scene.channels.size(), 1u);
+  EXPECT_EQ(scene.channels[0].kind, ChannelKind::tyre);
+  EXPECT_EQ(scene.channels[0].tyre, "front");
+  EXPECT_EQ(scene.channels[0].quantity, TyreQuantity::slip_angle);
+  const auto bad = [&channels](const std::string& from, const std::string& to) {
+    return error("integrator:", replaced(channels, from, to));
+  };
+  EXPECT_THAT(bad("tyre: front", "tyre: frnt"), HasSubstr("there is no tyre 'frnt'; did you mean 'front'?"));
+  EXPECT_THAT(bad("slip_angle", "slip_angel"), HasSubstr("did you mean 'slip_angle'?"));
+  EXPECT_THAT(bad("tyre: front, ", ""), HasSubstr("missing key 'tyre'"));
+  EXPECT_THAT(bad(", of: slip_angle", ""), HasSubstr("missing key 'of'"));
+  EXPECT_THAT(bad("slip_angle", "slip, axis: x"),
+              HasSubstr("'axis' belongs to channels of type position and velocity"));
+  EXPECT_THAT(bad("type: tyre, tyre: front, of: slip_angle", "type: position, tyre: front, of: hub, axis: x"),
+              HasSubstr("'tyre' belongs to channels of type tyre"));
+  const std::string corner = R"(scene: car
+roads: {flat: {type: plane}}
+assemblies:
+  corner:
+    bodies: {wheel: {type: rigid, mass: 1, inertia: [1, 1, 1]}}
+    tyres: {load: {type: comprehensive_slip, wheel: wheel, road: flat, radius: 0.3, stiffness: 190e3, slip_stiffness: 80e3, cornering_stiffness: 60e3, friction: 1, low_speed: 0.1}}
+    channels: {load: {type: tyre, tyre: load, of: load}}
+instances: {right: {use: corner, mirror: xz, pose: {position: [0, 1, 0]}}}
+integrator: {step: 0.01, end: 1}
+)";
+  const Scene mirrored = read(corner);
+  EXPECT_EQ(mirrored.channels.at(0).tyre, "right/load");
+  EXPECT_EQ(mirrored.channels[0].quantity, TyreQuantity::load);
+}
+
 // ---- heights over grids -----------------------------------------------------------------------------------------
 
 const std::string field = R"(scene: field

@@ -8,6 +8,7 @@
 
 #include "common/error.hpp"
 #include "tests/support/scenes/model_tangent.hpp"
+#include "tests/support/scenes/wheels.hpp"
 
 namespace tisserand::mechanism::channel_test {
 namespace {
@@ -146,6 +147,65 @@ TEST(Channels, LoadsOfPositionsMakeAnOrbit) {
   const double coarse = error(200), fine = error(400);
   EXPECT_LT(fine, 1e-3);
   EXPECT_NEAR(coarse / fine, 4.0, 0.3);
+}
+
+constexpr formats::TyreQuantity tyre_quantities[] = {
+    formats::TyreQuantity::load,        formats::TyreQuantity::force_x,       formats::TyreQuantity::force_y,
+    formats::TyreQuantity::moment_x,    formats::TyreQuantity::moment_y,      formats::TyreQuantity::moment_z,
+    formats::TyreQuantity::slip,        formats::TyreQuantity::slip_angle,    formats::TyreQuantity::camber,
+    formats::TyreQuantity::penetration, formats::TyreQuantity::rolling_radius};
+
+/// A car of one body that is pushed along x by `factor` times a quantity of its first tyre.
+formats::Scene pushed_by_tyre(formats::TyreQuantity quantity, double factor) {
+  formats::Scene scene = test_support::block_car(-0.02);
+  formats::ChannelSpec channel;
+  channel.name = "q";
+  channel.kind = ChannelKind::tyre;
+  channel.tyre = scene.tyres[0].name;
+  channel.quantity = quantity;
+  scene.channels = {channel};
+  scene.loads = {test_support::constant_load("push", formats::LoadKind::force, "car", Vector3d::Zero())};
+  scene.loads[0].components[0] = expression(fmt::format("{}*q", factor));
+  return scene;
+}
+
+// Each quantity enters by its exact derivatives: the factor makes it more than the forces of the tyres, whose second
+// derivatives limit differences to 1e-4 as in the tests of tyres.
+TEST(Channels, OfTyresEnterTheIterationMatrix) {
+  for (const formats::TyreQuantity quantity : tyre_quantities) {
+    const double factor = quantity <= formats::TyreQuantity::moment_z ? 1e2 : 1e7;
+    test_support::Simulation run(pushed_by_tyre(quantity, factor), {});
+    run.start();
+    test_support::randomise(run, 3, 0.005, 1.0);
+    const int n = run.model().sizes.boundary;
+    const Eigen::MatrixXd with_mass = test_support::iteration_matrix(run, {1, 0, 0});
+    const Eigen::MatrixXd K = (test_support::iteration_matrix(run, {1, 0, 1}) - with_mass).topLeftCorner(n, n);
+    const Eigen::MatrixXd C = test_support::damping_matrix(run);
+    using test_support::Argument;
+    EXPECT_LT((K - residual_difference(run, Argument::position, 1e-7)).cwiseAbs().maxCoeff(),
+              1e-4 * K.cwiseAbs().maxCoeff())
+        << static_cast<int>(quantity);
+    EXPECT_LT((C - residual_difference(run, Argument::velocity, 1e-6)).cwiseAbs().maxCoeff(),
+              1e-4 * C.cwiseAbs().maxCoeff())
+        << static_cast<int>(quantity);
+    EXPECT_GT(K.row(0).cwiseAbs().maxCoeff(), 3e5) << static_cast<int>(quantity);  // of the tyres alone: 2e5
+  }
+}
+
+TEST(Channels, OfTyresAreWhatResultsShow) {
+  for (const formats::TyreQuantity quantity : tyre_quantities) {
+    test_support::Simulation run(pushed_by_tyre(quantity, 0.0), {});
+    run.start();
+    test_support::randomise(run, 5, 0.005, 1.0);
+    evaluate(run.model(), run.state(), run.workspace.now);
+    const TyreTerms& tyre = run.workspace.now.tyres[0];
+    ASSERT_GT(tyre.penetration, 0.0);
+    const double shown[] = {tyre.force.z(),  tyre.force.x(),   tyre.force.y(),     tyre.moment.x(),
+                            tyre.moment.y(), tyre.moment.z(),  tyre.slip,          tyre.slip_angle,
+                            tyre.camber,     tyre.penetration, tyre.rolling_radius};
+    EXPECT_NEAR(run.workspace.now.channels[0], shown[static_cast<int>(quantity)],
+                1e-12 * (1.0 + std::abs(shown[static_cast<int>(quantity)])));
+  }
 }
 
 formats::InputSpec input(const std::string& name, formats::Interpolation interpolation) {
