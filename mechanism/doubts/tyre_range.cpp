@@ -17,6 +17,19 @@ struct Name {
   const char* quantity;
   const char* unit;
 };
+/// Speed over v₀ above which slips of the wheel count.
+constexpr double rolling_speed = 10.0;
+
+/// Longitudinal slip and slip angle of the wheel itself: those of the law are limited by its ranges, and lag.
+std::array<double, 2> wheel_slips(const Tyre& tyre, const TyreTerms& now, const Evaluation& evaluation) {
+  const NodeMotion& node = motion_of(evaluation, tyre.wheel.node);
+  const Eigen::Vector3d axle = marker_rotation(tyre.wheel, node).col(1), velocity = marker_velocity(tyre.wheel, node);
+  const Eigen::Vector3d x = axle.cross(now.normal).normalized();
+  const double ahead = velocity.dot(x), turned = (node.R * node.Omega).dot(axle) * now.rolling_radius;
+  if (std::abs(ahead) < rolling_speed * tyre.low_speed) return {0.0, 0.0};
+  return {(turned - ahead) / std::abs(ahead), std::atan(velocity.dot(now.normal.cross(x)) / std::abs(ahead))};
+}
+
 constexpr std::array<Name, TyreRange::quantities> names{
     {{"load", ""}, {"longitudinal slip", ""}, {"slip angle", " rad"}, {"camber", " rad"}}};
 
@@ -29,9 +42,10 @@ void TyreRange::observe(const Model& model, const State& state, const Evaluation
     if (law == nullptr || !(now.force.z() > 0.0)) continue;
     const formats::MagicFormula& p = law->p;
     const double side = law->mirrored ? -1.0 : 1.0;
+    const auto [slip, angle] = wheel_slips(model.tyres[i], now, evaluation);
     const std::array<std::array<double, 3>, quantities> values{{{now.force.z(), 0.0, p.FZMAX},
-                                                                {now.slip, p.KPUMIN, p.KPUMAX},
-                                                                {side * now.slip_angle, p.ALPMIN, p.ALPMAX},
+                                                                {slip, p.KPUMIN, p.KPUMAX},
+                                                                {side * angle, p.ALPMIN, p.ALPMAX},
                                                                 {side * now.camber, p.CAMMIN, p.CAMMAX}}};
     for (int k = 0; k < quantities; ++k) {
       const auto [value, low, high] = values[k];

@@ -68,6 +68,7 @@ void fill_row(int t, formats::ResultsRow& row) {
   for (Eigen::VectorXd* block : {&row.tyre_slip, &row.tyre_slip_angle, &row.tyre_camber, &row.tyre_penetration,
                                  &row.tyre_rolling_radius, &row.tyre_adhesion})
     fill(*block);
+  for (Eigen::Matrix2Xd* block : {&row.tyre_deflection, &row.tyre_deflection_rate}) fill(*block);
   for (double* value : {&row.kinetic, &row.strain, &row.potential, &row.work, &row.dissipated, &row.total, &row.balance,
                         &row.step, &row.iterations, &row.residual, &row.constraint})
     *value = row_value(t, k++);

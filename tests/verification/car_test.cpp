@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/scene/scene.hpp"
+#include "mechanism/analyses/kinematics.hpp"
 #include "mechanism/analyses/modes.hpp"
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/equations/mobility.hpp"
@@ -278,6 +279,93 @@ TEST_F(FlexibleCar, ModalBodyComesToTheSuperelementAsItsModesGrow) {
   EXPECT_LT(few, 0.3);
   EXPECT_LT(many, 0.12);
   EXPECT_LT(many, 0.5 * few);
+}
+
+// ---- examples/manoeuvres ----------------------------------------------------------------------------------------
+
+formats::Scene manoeuvre(const std::string& name) {
+  const formats::Scene scene =
+      formats::read_scene(TISSERAND_SOURCE_DIR "/examples/manoeuvres/" + name + ".scene.yaml", {});
+  return scene.analyses.empty() ? scene : formats::scene_of(scene, scene.analyses.back());
+}
+
+class Manoeuvres : public ::testing::TestWithParam<const char*> {};
+
+// 980 kg stand on four tyres by a file, left and right alike (but for the 8e-7 m that the rack of `steady_circle` is
+// off its middle, and the friction of `split_braking`), and start at speed with rolling wheels: slips are those of the
+// rolling radius that the scene writes with three digits.
+TEST_P(Manoeuvres, StartFromTheStandingCar) {
+  Car car(manoeuvre(GetParam()));
+  double sum = 0.0;
+  for (const TyreTerms& tyre : car.loads) sum += tyre.force.z();
+  EXPECT_NEAR(sum, 980.0 * g, 1e-5);
+  EXPECT_NEAR(car.loads[0].force.z(), car.loads[1].force.z(), 0.01);
+  EXPECT_NEAR(car.loads[2].force.z(), car.loads[3].force.z(), 0.01);
+  car.run.run(0.1);
+  for (const TyreTerms& tyre : car.tyres()) {
+    EXPECT_LT(std::abs(tyre.slip), 5e-3);
+    EXPECT_LT(std::abs(tyre.slip_angle), 2e-3);  // toe that the travel of the wheel makes
+  }
+  EXPECT_LT(std::abs(car.run.position("chassis").y()), 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Manoeuvres,
+                         ::testing::Values("step_steer", "steady_circle", "lane_change", "split_braking"));
+
+// Steady cornering is that of the linear bicycle, r = V δ/(L + K V²), within its understeer gradient: K = m_f/C_f −
+// m_r/C_r = −5.6e-4 rad s²/m by the cornering stiffness of the file at the static loads, −2.2e-4 with the aligning
+// moments; at 4 m/s² load transfer and camber take some per cent.
+TEST(ManoeuvresExample, StepSteerTurnsAsTheBicycle) {
+  formats::Scene scene = manoeuvre("step_steer");
+  scene.integrator.step = 0.005;
+  Car car(scene);
+  car.run.run(3.5);
+  const auto heading = [&](const char* node) {
+    const Eigen::Matrix3d R = car.turn(node);
+    return std::atan2(R(1, 0), R(0, 0));
+  };
+  const double steer = 0.5 * (heading("front_left/knuckle") + heading("front_right/knuckle")) - heading("chassis");
+  const double V = car.run.velocity("chassis").norm();
+  const double rate = (car.turn("chassis") * car.run.Omega("chassis")).z();
+  EXPECT_GT(rate, 0.15);
+  EXPECT_NEAR(rate, V * steer / (2.18 - 3.9e-4 * V * V), 0.08 * rate);
+}
+
+// The strut of the rear corner in the plane y, z: the arm turns about A, the axis of the strut passes the top T, and
+// the hub slides on it with B at the end of the arm: the angle of the axis is that of TB less asin(e/|TB|) with the
+// constant distance e of B from it.
+TEST(ManoeuvresExample, RearSuspensionMovesAsItsPlaneMechanism) {
+  using Eigen::Vector2d;
+  const Vector2d T(0.54, 0.72), A(0.25, 0.175), B0(0.64, 0.16), W0(0.73, 0.3), S(0.625, 0.33);
+  const auto cross = [](const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); };
+  const auto angle = [](const Vector2d& a) { return std::atan2(a.y(), a.x()); };
+  const double e = cross((S - T).normalized(), B0 - T);
+  const auto axis_angle = [&](const Vector2d& B) { return angle(B - T) - std::asin(e / (B - T).norm()); };
+  const auto wheel_at = [&](double arm, double& turn) {
+    const Vector2d B = A + Eigen::Rotation2Dd(arm) * (B0 - A);
+    turn = axis_angle(B) - axis_angle(B0);
+    return Vector2d(B + Eigen::Rotation2Dd(turn) * (W0 - B0));
+  };
+  Simulation rig(manoeuvre("suspension"), {});
+  rig.start();
+  double highest = 0.0;
+  for (int i = 1; i <= 30; ++i) {
+    const StepReport step =
+        move_along(rig.model(), rig.scene.integrator, {0.0125 * i, 0.0125 * i}, rig.state(), rig.workspace);
+    ASSERT_EQ(step.outcome, StepOutcome::accepted);
+    const Vector3d wheel = rig.position("rear/wheel");
+    double low = -0.3, high = 0.3, turn = 0.0;  // of the arm, at whose ends the wheel is 0.1 m lower and higher
+    for (int k = 0; k < 60; ++k) {
+      const double middle = 0.5 * (low + high);
+      (wheel_at(middle, turn).y() < wheel.z() ? low : high) = middle;
+    }
+    const Vector2d expected = wheel_at(low, turn);
+    EXPECT_NEAR(wheel.y(), expected.x(), 1e-10);
+    const Eigen::Matrix3d R = rig.rotation("rear/hub").toRotationMatrix();
+    EXPECT_NEAR(std::atan2(R(2, 1), R(1, 1)), turn, 1e-10);
+    highest = std::max(highest, wheel.z() - 0.3);
+  }
+  EXPECT_GT(highest, 0.079);
 }
 
 }  // namespace

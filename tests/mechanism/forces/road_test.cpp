@@ -307,7 +307,7 @@ TEST(Tyre, TangentIsTheDerivativeOfTheForceOnGrids) {
   tyre.radius = 0.31;
   tyre.stiffness = 190e3;
   tyre.damping = 500.0;
-  tyre.law = {80e3, 60e3, 3e3, 1.0, 0.75};
+  tyre.law = ComprehensiveSlip{80e3, 60e3, 3e3, 1.0, 0.75};
   tyre.rolling_resistance = 0.015;
   tyre.low_speed = 0.1;
   constexpr double h = 1e-7;
@@ -318,7 +318,7 @@ TEST(Tyre, TangentIsTheDerivativeOfTheForceOnGrids) {
     node.x << at, road.at(at.x(), at.y()).value + tyre.radius - 0.04;
     node.xd = {5.0, 1.0, -0.3};
     node.Omega = {0.2, 14.0, -0.4};
-    const Matrix6d K = tangent(tyre, road, node, {0, 0, 1});
+    const Matrix6d K = tangent(tyre, road, node, Tread{}, {0, 0, 1}).topLeftCorner<6, 6>();
     for (int j = 0; j < 6; ++j) {
       Vector6d residual[2];
       for (const int side : {0, 1}) {
@@ -327,7 +327,7 @@ TEST(Tyre, TangentIsTheDerivativeOfTheForceOnGrids) {
         moved.x += d.head<3>();
         moved.R = node.R * exp_so3<double>(Vector3d(d.tail<3>()));
         TyreTerms terms;
-        evaluate(tyre, road, moved, terms);
+        evaluate(tyre, road, moved, Tread{}, terms);
         ASSERT_GT(terms.penetration, 0.0);
         residual[side] = terms.residual;
       }
