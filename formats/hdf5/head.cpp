@@ -43,8 +43,9 @@ void check_unit(const Units& units, const Unit& unit, const std::string& name, U
     return;  // labels of other units are free
   }
   if (std::abs(known.factor - unit.factor) > 1e-9 * known.factor)
-    throw Error(fmt::format("is {}, but its label '{}' means {}", unit.factor, printable_line(unit.label, 60), known.factor),
-                place, "correct the number or the label");
+    throw Error(
+        fmt::format("is {}, but its label '{}' means {}", unit.factor, printable_line(unit.label, 60), known.factor),
+        place, "correct the number or the label");
 }
 
 }  // namespace

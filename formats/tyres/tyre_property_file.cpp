@@ -255,12 +255,18 @@ void read_coefficients(const PropertyLines& file, const Conversion& to, TyreProp
   for (const std::string& table : file.tables) tyre.unused.push_back(fmt::format("[{}]", printable_line(table, 40)));
 }
 
+/// Keys in capitals.
+std::map<std::string, double> scaling(const std::map<std::string, double>& scale) {
+  std::map<std::string, double> all;
+  for (const auto& [key, value] : scale) all[capitals(key)] = value;
+  return all;
+}
+
 void apply_scale(const PropertyLines& file, const std::map<std::string, double>& scale, MagicFormula& p) {
   const std::span<const Coefficient> known_coefficients = tyre_coefficients();
   for (const auto& [key, value] : scale) {
-    const auto known = std::ranges::find_if(known_coefficients, [&, name = capitals(key)](const Coefficient& c) {
-      return c.name[0] == 'L' && name == c.name;
-    });
+    const auto known = std::ranges::find_if(
+        known_coefficients, [&key = key](const Coefficient& c) { return c.name[0] == 'L' && key == c.name; });
     if (known == known_coefficients.end() || known->dimension != Dimension::number ||
         !holds(known->versions, p.version))
       throw Error(fmt::format("'{}' is no scaling factor of this tyre", printable_line(key, 40)), file.path,
@@ -289,10 +295,10 @@ void require_coefficients(const PropertyLines& file, const MagicFormula& p) {
 }
 
 /// What the formulas divide by, and ranges about zero.
-void check_values(const PropertyLines& file, const MagicFormula& p) {
+void check_values(const PropertyLines& file, const std::map<std::string, double>& scale, const MagicFormula& p) {
+  const auto where = [&](const char* key) { return scale.contains(key) ? file.path + ": scale" : file.at(key); };
   const auto positive = [&](double value, const char* key) {
-    if (!(value > 0.0))
-      throw Error(fmt::format("{} = {:g} must be positive", key, value), file.at(key), "correct the coefficient");
+    if (!(value > 0.0)) throw Error(fmt::format("{} = {:g} must be positive", key, value), where(key), "correct it");
   };
   for (const auto& [value, key] : {std::pair{p.UNLOADED_RADIUS, "UNLOADED_RADIUS"}, std::pair{p.FNOMIN, "FNOMIN"},
                                    std::pair{p.VERTICAL_STIFFNESS, "VERTICAL_STIFFNESS"}, std::pair{p.LFZO, "LFZO"},
@@ -337,8 +343,9 @@ TyreProperties read_tyre_property_file(const std::string& path, const Units& uni
   read_use_mode(file, tyre.coefficients);
   read_coefficients(file, conversion_of(file, units), tyre);
   require_coefficients(file, tyre.coefficients);
-  apply_scale(file, scale, tyre.coefficients);
-  check_values(file, tyre.coefficients);
+  const std::map<std::string, double> scaled = scaling(scale);
+  apply_scale(file, scaled, tyre.coefficients);
+  check_values(file, scaled, tyre.coefficients);
   return tyre;
 }
 

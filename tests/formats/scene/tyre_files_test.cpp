@@ -152,7 +152,7 @@ TEST(SceneTyreFiles, AreRefusedWithTheirPlace) {
   EXPECT_THAT(scene_error("file: a.tir", "file: a.tir, friction: 1"),
               HasSubstr("'friction' has no effect: the file of the tyre has its own"));
   EXPECT_THAT(scene_error("file: a.tir", "file: a.tir, pressure: 2e5"), HasSubstr("knows no inflation pressure"));
-  EXPECT_THAT(scene_error("file: a.tir", "file: a.tir, scale: {LMUX: -1}"), HasSubstr("LMUX = -1 must be positive"));
+  EXPECT_THAT(scene_error("file: a.tir", "file: a.tir, scale: {LMUX: -1}"), HasSubstr("a.tir: scale: LMUX = -1 must be positive"));
   EXPECT_THAT(scene_error("file: a.tir", "file: a.tir, scale: 3"), HasSubstr("scale must be a map"));
   EXPECT_THAT(scene_error("type: magic_formula", "type: comprehensive_slip, radius: 1"),
               HasSubstr("'file' has no effect on a tyre of type comprehensive_slip"));
