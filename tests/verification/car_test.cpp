@@ -104,6 +104,25 @@ TEST(VehicleExample, HasTheFrequenciesOfHeavePitchAndHop) {
   for (const double expected : {1.435, 1.582, front, rear}) EXPECT_NEAR(nearest(expected), expected, 0.05 * expected);
 }
 
+// Dropped by 20 mm the car only loses energy, to dampers and tyres, at every step; what it loses is booked as
+// dissipated (trapezoidal rule at steps of 1 ms: within 1 %).
+TEST(VehicleExample, LosesEnergyAtEveryStepWhenItIsDropped) {
+  formats::Scene scene = car_scene(example, {"roads.road.pose={position: [0, 0, -0.02]}"});
+  scene.initial.clear();
+  Simulation run(scene, {});
+  run.start();
+  const double before = run.energy().total();
+  double last = before, most = 0.0;
+  run.run(0.6, [&] {
+    const double now = run.energy().total();
+    most = std::max(most, now - last);
+    last = now;
+  });
+  EXPECT_LT(most, 1e-6 * (before - last));
+  EXPECT_GT(before - last, 50.0);
+  EXPECT_NEAR(run.state().dissipated(), before - last, 0.01 * (before - last));
+}
+
 TEST(VehicleExample, StartsAtSpeedWithRollingWheels) {
   Car car;
   EXPECT_LT((car.run.velocity("chassis") - Vector3d(16.6667, 0, 0)).norm(), 1e-9);
