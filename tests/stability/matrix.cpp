@@ -224,7 +224,9 @@ Outcome run(const Cell& cell, const Place& place) {
     return outcome;
   }
   if (child.code != 0) {
-    outcome.said = printable_line(without(child.complaint, place.work + "/"), 1000);
+    const std::size_t words = child.complaint.find("mechanism: ");  // behind the lines of progress
+    const std::string complaint = child.complaint.substr(words == std::string::npos ? 0 : words);
+    outcome.said = printable_line(without(complaint, place.work + "/"), 1000);
     const bool has_reason = (child.code == 1 || child.code == 3) && !child.complaint.empty() &&
                             child.complaint.find("internal error") == std::string::npos;
     outcome.state = has_reason ? State::told : State::fail;
