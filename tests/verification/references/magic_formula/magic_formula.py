@@ -31,7 +31,7 @@ READINGS of mf61 (where published sources differ; README.md lists them):
   'mftyre'  as MF-Tyre 6.1 itself (2010 paper and what MFeval found against TNO's solver):
             alpha*=alpha, gamma*=gamma, A_mu=1, signed camber in Dt, R0/Fz0 (unscaled) in t and Fz0 in s,
             arctan form of the equivalent slip angles
-Other values of the dict READINGS reproduce published third-party numbers only (compare_published.py).
+Other values of the dict READINGS reproduce published third-party numbers only.
 """
 import math
 import re
@@ -51,7 +51,7 @@ READINGS = {
     # MFeval, useMode 221 (alpha* and gamma* on, no limit checks)
     'mfeval221': dict(alpha_star='tan', gamma_star='sin', a_mu=1.0, dt_abs=False, scaled_fz0=False,
                       eq_slip='atan', geo_camber='raw', dr_cos='of_star', fy_prime='gamma0', svx_v=False),
-    # the MF 6.1.2 C++ unit test in compare_published.py: alpha itself, F'y with camber (= Fy - SVyk)
+    # the MF 6.1.2 C++ unit test of a public program: alpha itself, F'y with camber (= Fy - SVyk)
     'mf612test': dict(alpha_star='raw', gamma_star='sin', a_mu=10.0, dt_abs=True, scaled_fz0=True,
                       eq_slip='sqrt', geo_camber='star', dr_cos='prime', fy_prime='minus_svyk', svx_v=False),
     # 2nd edition (2006): 4.E74 is F'y = Fy - SVyk. Its camber terms of mu_y and Kya differ: gamma = 0 only
