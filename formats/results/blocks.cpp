@@ -193,6 +193,7 @@ void add_tyres(const ResultsLayout& layout, std::vector<Block>& blocks) {
   add("penetration", length, [](Row r) { return r.tyre_penetration.data(); });
   add("rolling_radius", length, [](Row r) { return r.tyre_rolling_radius.data(); });
   add("adhesion", "1", [](Row r) { return r.tyre_adhesion.data(); });
+  if (!layout.treads) return;
   const auto add_treads = [&](const char* name, const std::string& unit, const double* (*values)(Row)) {
     blocks.push_back(vectors(std::string("/tyres/") + name, layout.tyres, {"x", "y"}, unit, values));
   };
@@ -371,6 +372,7 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
   ResultsLayout full;
   full.nodes = full.superelements = full.modal_bodies = full.joints = full.bushings = full.frictions =
       full.tyres = {"a"};
+  full.treads = true;
   full.coordinates = full.motions = full.springs = full.stops = full.loads = {{"a", false}};
   full.couplings = {{"a", false, false}};
   full.modes_offset = full.boundary_offset = full.modal_offset = {0, 1};

@@ -48,6 +48,7 @@ struct ResultsLayout {
   std::vector<std::string> bushings;
   std::vector<std::string> frictions;  ///< joints with friction
   std::vector<std::string> tyres;
+  bool treads = false;                ///< some tyres relax: deflections of their treads
   std::vector<Coordinate> loads;      ///< forces (length) and moments (angle)
   std::vector<std::string> channels;  ///< selection, as in OutputSpec; empty: all
   std::vector<std::string> superelement_content_ids;

@@ -63,11 +63,10 @@ std::map<std::string, double> read_scale(const MapReader& map) {
 void read_properties(const MapReader& map, const SceneDefinitions& definitions, TyreSpec& tyre) {
   const YamlNode* file = map.find("file");
   if (file == nullptr || file->kind != YamlKind::scalar) return;
-  const std::filesystem::path path(file->text);
   const std::map<std::string, double> scale = read_scale(map);
   try {
     TyreProperties properties = read_tyre_property_file(
-        path.is_absolute() ? path.string() : (std::filesystem::path(definitions.folder) / path).string(),
+        (std::filesystem::path(definitions.folder) / file->text).string(),  // absolute if the text is
         definitions.units, scale);
     const MagicFormula& p = properties.coefficients;
     if (!map.has("relaxation")) tyre.relaxation = p.transient;

@@ -17,6 +17,8 @@ constexpr Coefficient coefficients[] = {
     {"LATERAL_STIFFNESS", &MagicFormula::LATERAL_STIFFNESS, Versions::only_6_1, Dimension::stiffness},
     {"NOMPRES", &MagicFormula::NOMPRES, Versions::only_6_1, Dimension::pressure},
     {"INFLPRES", &MagicFormula::INFLPRES, Versions::only_6_1, Dimension::pressure},
+    {"PRESMIN", &MagicFormula::PRESMIN, Versions::only_6_1, Dimension::pressure},
+    {"PRESMAX", &MagicFormula::PRESMAX, Versions::only_6_1, Dimension::pressure},
     {"LFZO", &MagicFormula::LFZO},
     {"LCX", &MagicFormula::LCX},
     {"LMUX", &MagicFormula::LMUX},

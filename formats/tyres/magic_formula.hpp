@@ -17,13 +17,17 @@ struct MagicFormula {
   MagicFormulaForces forces = MagicFormulaForces::combined;
   bool transient = false;  ///< the file asks for relaxation lengths (tens of USE_MODE)
 
+  bool along() const { return forces != MagicFormulaForces::none && forces != MagicFormulaForces::lateral; }
+  bool across() const { return forces != MagicFormulaForces::none && forces != MagicFormulaForces::longitudinal; }
+
   // Dimensions, vertical, conditions.
   double UNLOADED_RADIUS = 0, FNOMIN = 0, VERTICAL_STIFFNESS = 0, VERTICAL_DAMPING = 0;
   double BREFF = 0, DREFF = 0, FREFF = 0, QFZ1 = 0, QFZ2 = 0, PFZ1 = 0;
   double LONGITUDINAL_STIFFNESS = 0, LATERAL_STIFFNESS = 0;
   double LONGVL = 0, VXLOW = 0, NOMPRES = 0, INFLPRES = 0;
   // Ranges in which the coefficients were fitted: forces are those of their ends beyond.
-  double FZMIN = 0, FZMAX = 0, KPUMIN = 0, KPUMAX = 0, ALPMIN = 0, ALPMAX = 0, CAMMIN = 0, CAMMAX = 0;
+  double FZMIN = 0, FZMAX = 0, KPUMIN = 0, KPUMAX = 0, ALPMIN = 0, ALPMAX = 0, CAMMIN = 0, CAMMAX = 0, PRESMIN = 0,
+         PRESMAX = 0;
   // Scaling factors.
   double LFZO = 1, LCX = 1, LMUX = 1, LEX = 1, LKX = 1, LHX = 1, LVX = 1, LGAX = 1, LCY = 1, LMUY = 1, LEY = 1, LKY = 1,
          LHY = 1, LVY = 1, LGAY = 1, LKYC = 1, LTR = 1, LRES = 1, LGAZ = 1, LKZC = 1, LXAL = 1, LYKA = 1, LVYKA = 1,

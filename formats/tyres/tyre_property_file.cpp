@@ -3,15 +3,15 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <sstream>
+#include <set>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "formats/tables/text_cells.hpp"
 #include "formats/tyres/coefficients.hpp"
 
 namespace tisserand::formats {
@@ -50,19 +50,14 @@ struct PropertyLines {
   }
 };
 
-std::string trimmed(const std::string& text) {
-  constexpr const char* blanks = " \t\r";
-  const std::size_t first = text.find_first_not_of(blanks);
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
-std::string capitals(std::string text) {
+std::string capitals(std::string_view given) {
+  std::string text(given);
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return text;
 }
 
 /// Without comment, which begins with $ or ! outside of quotes.
-std::string without_comment(const std::string& line) {
+std::string_view without_comment(std::string_view line) {
   bool quoted = false;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] == '\'') quoted = !quoted;
@@ -73,13 +68,10 @@ std::string without_comment(const std::string& line) {
 
 std::optional<double> number_of(const std::string& text) {
   double value = 0.0;
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  const auto [stop, status] = std::from_chars(begin, text.data() + text.size(), value);
-  if (stop != text.data() + text.size() || status != std::errc{} || !std::isfinite(value)) return std::nullopt;
-  return value;
+  return read_finite(text, value) ? std::optional(value) : std::nullopt;
 }
 
-void read_line(const std::string& text, int number, std::string& section, PropertyLines& file) {
+void read_line(std::string_view text, int number, std::string& section, PropertyLines& file) {
   const std::string where = fmt::format("{}:{}", file.path, number);
   if (text.front() == '[') {
     if (text.back() != ']')
@@ -88,20 +80,20 @@ void read_line(const std::string& text, int number, std::string& section, Proper
     section = capitals(trimmed(text.substr(1, text.size() - 2)));
     return;
   }
-  if (text.front() == '{') {  // heading of a table
+  if (text.front() == '{' || text.front() == '(') {  // heading of a table, or of a block of text as Adams writes them
     file.tables.push_back(section);
     return;
   }
+  if (!file.tables.empty() && file.tables.back() == section) return;  // its rows
   const std::size_t equals = text.find('=');
-  if (equals == std::string::npos) {
-    if (!file.tables.empty() && file.tables.back() == section) return;  // its rows
+  if (equals == std::string_view::npos) {
     throw Error(fmt::format("'{}' is no `KEY = value`", printable_line(text, 60)), where,
                 "give a tyre property file (.tir)");
   }
   const std::string key = (section == "UNITS" ? "UNITS." : "") + capitals(trimmed(text.substr(0, equals)));
-  std::string value = trimmed(text.substr(equals + 1));
+  std::string_view value = trimmed(text.substr(equals + 1));
   if (value.size() >= 2 && value.front() == '\'' && value.back() == '\'') value = value.substr(1, value.size() - 2);
-  if (!file.entries.emplace(key, Entry{trimmed(value), number}).second)
+  if (!file.entries.emplace(key, Entry{std::string(trimmed(value)), number}).second)
     throw Error(fmt::format("{} stands here and in line {}", printable_line(key, 40), file.entries.at(key).line), where,
                 "remove one of them");
 }
@@ -113,12 +105,12 @@ PropertyLines read_lines(const std::string& path) {
   if (std::filesystem::file_size(path, ignored) > largest_file)
     throw Error(fmt::format("has more than {} bytes, as no tyre property file has", largest_file), path,
                 "give a .tir file of the Magic Formula");
-  std::ifstream stream(path);
-  if (!stream) throw Error("cannot be opened", path, "check its permissions");
+  std::ifstream stream = open_table(path, "give a .tir file of the Magic Formula");
   PropertyLines file{path, {}, {}};
   std::string line, section;
   for (int number = 1; std::getline(stream, line); ++number)
-    if (const std::string text = trimmed(without_comment(line)); !text.empty()) read_line(text, number, section, file);
+    if (const std::string_view text = trimmed(without_comment(line)); !text.empty())
+      read_line(text, number, section, file);
   return file;
 }
 
@@ -221,7 +213,7 @@ std::string find_version(const PropertyLines& file, MagicFormula& p) {
               "files of MF-Tyre 5.2 (PAC2002; FITTYP 6, 21, 52), 6.1 and 6.2 (61, 62) are read");
 }
 
-void read_use_mode(const PropertyLines& file, MagicFormula& p) {
+void read_use_mode(const PropertyLines& file, TyreProperties& tyre) {
   const Entry* entry = file.find("USE_MODE");
   if (entry == nullptr) return;
   const std::optional<double> mode = number_of(entry->text);
@@ -232,8 +224,10 @@ void read_use_mode(const PropertyLines& file, MagicFormula& p) {
   constexpr std::array forces{MagicFormulaForces::none,     MagicFormulaForces::longitudinal,
                               MagicFormulaForces::lateral,  MagicFormulaForces::uncombined,
                               MagicFormulaForces::combined, MagicFormulaForces::combined};
-  p.forces = forces[static_cast<std::size_t>(digits % 10)];
-  p.transient = digits / 10 % 10 > 0;
+  tyre.coefficients.forces = forces[static_cast<std::size_t>(digits % 10)];
+  tyre.coefficients.transient = digits / 10 % 10 > 0;
+  if (digits % 10 == 5) tyre.unused.emplace_back("USE_MODE (turn slip)");
+  if (digits / 10 % 10 > 1) tyre.unused.emplace_back("USE_MODE (dynamics of the belt)");
 }
 
 void read_coefficients(const PropertyLines& file, const Conversion& to, TyreProperties& tyre) {
@@ -242,7 +236,8 @@ void read_coefficients(const PropertyLines& file, const Conversion& to, TyreProp
   for (const auto& [key, entry] : file.entries) {
     if (key.starts_with("UNITS.") || std::ranges::find(descriptions, key) != std::end(descriptions)) continue;
     const std::optional<double> value = number_of(entry.text);
-    const auto known = std::ranges::find_if(known_coefficients, [&](const Coefficient& c) { return key == c.name; });
+    const auto known =
+        std::ranges::find_if(known_coefficients, [&key = key](const Coefficient& c) { return key == c.name; });
     const bool used = known != known_coefficients.end() && holds(known->versions, p.version);
     if (used && !value)
       throw Error(fmt::format("{} = '{}' is not a finite number", key, printable_line(entry.text, 40)), file.at(key),
@@ -252,7 +247,8 @@ void read_coefficients(const PropertyLines& file, const Conversion& to, TyreProp
     else if (!value || *value != 0.0)
       tyre.unused.push_back(printable_line(key, 40));
   }
-  for (const std::string& table : file.tables) tyre.unused.push_back(fmt::format("[{}]", printable_line(table, 40)));
+  for (const std::string& table : std::set(file.tables.begin(), file.tables.end()))
+    tyre.unused.push_back(fmt::format("[{}]", printable_line(table, 40)));
 }
 
 /// Keys in capitals.
@@ -281,10 +277,8 @@ void require_coefficients(const PropertyLines& file, const MagicFormula& p) {
   const auto need = [&](std::initializer_list<const char*> keys) {
     needed.insert(needed.end(), keys.begin(), keys.end());
   };
-  const bool along = p.forces != MagicFormulaForces::none && p.forces != MagicFormulaForces::lateral;
-  const bool across = p.forces != MagicFormulaForces::none && p.forces != MagicFormulaForces::longitudinal;
-  if (along) need({"PCX1", "PDX1", "PKX1"});
-  if (across) need({"PCY1", "PDY1", "PKY1", "PKY2", "QBZ1", "QCZ1", "QDZ1"});
+  if (p.along()) need({"PCX1", "PDX1", "PKX1"});
+  if (p.across()) need({"PCY1", "PDY1", "PKY1", "PKY2", "QBZ1", "QCZ1", "QDZ1"});
   if (p.forces == MagicFormulaForces::combined) need({"RBX1", "RCX1", "RBY1", "RCY1"});
   std::vector<std::string> missing;
   for (const std::string& key : needed)
@@ -313,6 +307,10 @@ void check_values(const PropertyLines& file, const std::map<std::string, double>
     if (across && value == 0.0)
       throw Error(fmt::format("{} is zero: the tyre has no cornering stiffness", key), file.at(key),
                   "correct the coefficient");
+  if (const double slope = p.PKY1 * std::sin(p.PKY4 * std::atan(1.0 / p.PKY2)); across && !(slope < 0.0))
+    throw Error(fmt::format("the cornering stiffness PKY1 sin(PKY4 atan(1/PKY2)) = {:.4g} is not negative", slope),
+                file.at("PKY1"),
+                "give a file in the axes ISO-W, in which a positive slip angle gives a negative force");
   if (p.VERTICAL_DAMPING < 0.0)
     throw Error(fmt::format("VERTICAL_DAMPING = {:g} is negative", p.VERTICAL_DAMPING), file.at("VERTICAL_DAMPING"),
                 "");
@@ -340,7 +338,7 @@ TyreProperties read_tyre_property_file(const std::string& path, const Units& uni
   TyreProperties tyre;
   tyre.version = fmt::format("{} ({})", printable_line(std::filesystem::path(path).filename().string(), 60),
                              find_version(file, tyre.coefficients));
-  read_use_mode(file, tyre.coefficients);
+  read_use_mode(file, tyre);
   read_coefficients(file, conversion_of(file, units), tyre);
   require_coefficients(file, tyre.coefficients);
   const std::map<std::string, double> scaled = scaling(scale);

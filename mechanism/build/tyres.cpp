@@ -89,6 +89,10 @@ void take_properties(const formats::TyreSpec& spec, Tyre& tyre, Construction& c)
   if (p.NOMPRES > 0.0) {
     const double pressure = spec.pressure.value_or(p.INFLPRES > 0.0 ? p.INFLPRES : p.NOMPRES);
     law.pressure = pressure / p.NOMPRES - 1.0;
+    if ((p.PRESMIN > 0.0 && pressure < p.PRESMIN) || (p.PRESMAX > 0.0 && pressure > p.PRESMAX))
+      c.notes.push_back(
+          fmt::format("tyre '{}': its pressure {:g} is outside of what its file was fitted for, {:g} to {:g}",
+                      spec.name, pressure, p.PRESMIN, p.PRESMAX));
   }
   tyre.damping = p.VERTICAL_DAMPING;
   const double by_pressure = 1.0 + p.PFZ1 * law.pressure;
@@ -118,6 +122,10 @@ void give_treads(const formats::TyreSpec& spec, Tyre& tyre, Construction& c) {
   if (c.model.nodes[tyre.wheel.node].modal >= 0)
     throw Error(fmt::format("tyre '{}' relaxes and is on a node of a modal body", spec.name), spec.where,
                 "put it on a rigid wheel, or leave relaxation out");
+  if (const double least = least_relaxation * tyre.radius; spec.relaxation_length && tyre.relaxation < least)
+    throw Error(fmt::format("tyre '{}': relaxation_length {:g} is less than a twentieth of its radius, {:.4g}",
+                            spec.name, tyre.relaxation, least),
+                spec.where, "leave it out: so short a tread follows at once");
   tyre.lag = std::exchange(c.model.sizes.modal, c.model.sizes.modal + 2);
 }
 

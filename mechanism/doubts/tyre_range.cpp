@@ -13,10 +13,6 @@ namespace {
 /// Numbers of a file are rounded; a range is left only by more than that.
 constexpr double rounding = 1.01;
 
-struct Name {
-  const char* quantity;
-  const char* unit;
-};
 /// Speed over v₀ above which slips of the wheel count.
 constexpr double rolling_speed = 10.0;
 
@@ -30,6 +26,10 @@ std::array<double, 2> wheel_slips(const Tyre& tyre, const TyreTerms& now, const 
   return {(turned - ahead) / std::abs(ahead), std::atan(velocity.dot(now.normal.cross(x)) / std::abs(ahead))};
 }
 
+struct Name {
+  const char* quantity;
+  const char* unit;
+};
 constexpr std::array<Name, TyreRange::quantities> names{
     {{"load", ""}, {"longitudinal slip", ""}, {"slip angle", " rad"}, {"camber", " rad"}}};
 
@@ -72,7 +72,7 @@ std::vector<std::string> TyreRange::doubts(const Model& model) const {
   const std::string others = count > 1 ? fmt::format(", and {} more beyond theirs", count - 1) : std::string();
   return {fmt::format(
       "tyre '{}' was outside of what its file was fitted for: {} {:.3g}{} at t = {:.6g}, range to {:.3g}{}{}; "
-      "its forces there are those of the end of the range",
+      "its forces there are led on from the end of the range",
       model.tyres[tyre].name, names[quantity].quantity, worst.value, names[quantity].unit, worst.time, worst.limit,
       names[quantity].unit, others)};
 }

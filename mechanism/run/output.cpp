@@ -186,7 +186,10 @@ void add_force_names(const Model& model, formats::ResultsLayout& layout) {
     if (has_stops(spring)) layout.stops.push_back(layout.springs.back());
   }
   for (const Bushing& bushing : model.bushings) layout.bushings.push_back(bushing.name);
-  for (const Tyre& tyre : model.tyres) layout.tyres.push_back(tyre.name);
+  for (const Tyre& tyre : model.tyres) {
+    layout.tyres.push_back(tyre.name);
+    layout.treads = layout.treads || tyre.relaxes();
+  }
   for (const Load& load : model.loads) layout.loads.push_back({load.name, load.kind == formats::LoadKind::force});
   for (const Friction& friction : model.frictions) layout.frictions.push_back(model.joints[friction.joint].name);
 }

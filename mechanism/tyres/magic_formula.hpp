@@ -114,25 +114,24 @@ PatchForce<T> patch_force(const MagicFormulaLaw& law, const PatchSlip<T>& slip) 
   const T load = within(slip.load, p.FZMIN, p.FZMAX);
   const T outside = slip.load / load;
   const MagicInput<T> in = input_of(law, slip, load);
-  const bool along = p.forces != MagicFormulaForces::none && p.forces != MagicFormulaForces::lateral;
-  const bool across = p.forces != MagicFormulaForces::none && p.forces != MagicFormulaForces::longitudinal;
   const bool both = p.forces == MagicFormulaForces::combined;
-  const Lateral<T> y = pure_lateral(law, in);
-  if (along) force.x = pure_longitudinal(p, in);
+  if (p.along()) force.x = pure_longitudinal(p, in);
   if (both) force.x = force.x * longitudinal_weight(law, in);
-  LateralWeight<T> weight{T(1.0), T(0.0)};
-  if (both) weight = lateral_weight(law, in, y.mu);
-  if (across) {
+  double used_across = 0.0;
+  if (p.across()) {
+    const Lateral<T> y = pure_lateral(law, in);
+    LateralWeight<T> weight{T(1.0), T(0.0)};
+    if (both) weight = lateral_weight(law, in, y.mu);
     force.y = weight.G * y.force + weight.S_V;
     force.overturning = overturning(law, in, force.y);
     MagicInput<T> slipping = in;
     if (!both) slipping.kappa = T(0.0);
     force.moment = aligning<T>(law, slipping, y, both ? force.x : T(0.0), force.y, weight);
+    used_across = real_part(force.y) / (real_part(load) * real_part(y.mu));
   }
-  if (along) force.resistance = -in.rolling * rolling_resistance(law, in, slip.speed, force.x);
-  const double used = std::hypot(real_part(force.x) / (real_part(load) * std::max(p.PDX1 * in.mu_x, least_friction)),
-                                 real_part(force.y) / (real_part(load) * real_part(y.mu)));
-  force.adhesion = std::max(0.0, 1.0 - used);
+  if (p.along()) force.resistance = -in.rolling * rolling_resistance(law, in, slip.speed, force.x);
+  const double used_along = real_part(force.x) / (real_part(load) * std::max(p.PDX1 * in.mu_x, least_friction));
+  force.adhesion = std::max(0.0, 1.0 - std::hypot(used_along, used_across));
   const double side = law.mirrored ? -1.0 : 1.0;
   force.x = outside * force.x;
   force.y = side * outside * force.y;
@@ -165,7 +164,7 @@ RelaxationLengths<T> relaxation_lengths(const MagicFormulaLaw& law, const PatchS
     sigma.along = absolute<T>(slip_stiffness(p, in) / carcass(p.LONGITUDINAL_STIFFNESS, p.PCFX1, p.PCFX2, p.PCFX3));
   else if (p.PTX1 != 0.0)
     sigma.along = in.Fz * (p.PTX1 + p.PTX2 * in.dfz) * exp(-p.PTX3 * in.dfz) * (p.UNLOADED_RADIUS / p.FNOMIN * p.LSGKP);
-  if (p.LATERAL_STIFFNESS > 0.0)
+  if (p.across() && p.LATERAL_STIFFNESS > 0.0)
     sigma.across = absolute<T>(pure_lateral(law, in).K / carcass(p.LATERAL_STIFFNESS, p.PCFY1, p.PCFY2, p.PCFY3));
   else if (p.PTY1 != 0.0)
     sigma.across = p.PTY1 * sin(2.0 * atan(in.Fz / (p.PTY2 * in.Fz0))) * (1.0 - p.PKY3 * absolute(in.gamma)) *

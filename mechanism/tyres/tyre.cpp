@@ -19,8 +19,6 @@ using Eigen::Vector3d;
 constexpr double landing = 0.01;
 /// Share of the vertical stiffness that holds standing tyres along the road in the matrix of statics.
 constexpr double standing_share = 1e-3;
-/// Least relaxation length over the radius: a tyre without load forgets its deflection within a fraction of a turn.
-constexpr double least_relaxation = 0.05;
 /// τ v₀/R₀ of Tyre.
 constexpr double lag_share = 1e-6;
 /// Share of slip velocity that damps deflections at standstill, and the speed over v₀ at which it has gone.

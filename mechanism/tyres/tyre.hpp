@@ -18,6 +18,9 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector8d = Eigen::Matrix<double, 8, 1>;
 using Matrix8d = Eigen::Matrix<double, 8, 8>;
 
+/// Least relaxation length over the radius: a tyre without load forgets its deflection within a fraction of a turn.
+inline constexpr double least_relaxation = 0.05;
+
 /// A disc of radius R₀ about the origin of `wheel`, with the axle as y of the marker, on a road at rest.
 ///
 /// Load: F_z = max(0, k δ + k₂ δ² + c δ̇ ramp) with the penetration δ; the ramp leads the damper in over the first

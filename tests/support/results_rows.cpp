@@ -26,6 +26,7 @@ formats::ResultsLayout example_layout() {
   layout.bushings = {"mount", "pad"};
   layout.frictions = {"slide"};
   layout.tyres = {"front", "rear"};
+  layout.treads = true;
   layout.superelement_content_ids = {std::string(64, 'a'), std::string(64, 'b')};
   return layout;
 }

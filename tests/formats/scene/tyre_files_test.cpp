@@ -59,6 +59,20 @@ TEST(TyreFile, NamesWhatItDoesNotUse) {
   EXPECT_THAT(new_version.unused, ElementsAre("MC_NOTE", "WIDTH", "[SHAPE]"));
 }
 
+// Adams writes blocks of free text under headings in round brackets.
+TEST(TyreFile, SkipsBlocksOfText) {
+  const std::string heading = "[MDI_HEADER]\n(COMMENTS)\n{comment_string}\n'Tyre = measured, run 12'\n";
+  EXPECT_THAT(read(heading + small_tyre()).unused, ElementsAre("[MDI_HEADER]", "[SHAPE]"));
+  EXPECT_EQ(read(heading + small_tyre()).coefficients.PKY1, -15.0);
+}
+
+TEST(TyreFile, NamesModesThatItDoesNotSimulate) {
+  const auto unused = [](const char* mode) { return read(replaced(small_tyre(), "USE_MODE = 14", mode)).unused; };
+  EXPECT_THAT(unused("USE_MODE = 15"), ElementsAre("USE_MODE (turn slip)", "[SHAPE]"));
+  EXPECT_THAT(unused("USE_MODE = 24"), ElementsAre("USE_MODE (dynamics of the belt)", "[SHAPE]"));
+  EXPECT_THAT(unused("USE_MODE = 4"), ElementsAre("[SHAPE]"));
+}
+
 TEST(TyreFile, ScalesByTheScene) {
   EXPECT_EQ(read(small_tyre(), Units::si(), {{"LMUX", 0.5}, {"lky", 0.9}}).coefficients.LMUX, 0.5);
   EXPECT_EQ(read(small_tyre(), Units::si(), {{"LMUX", 0.5}, {"lky", 0.9}}).coefficients.LKY, 0.9);
@@ -99,6 +113,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadFile{"Mode", "USE_MODE = 14", "USE_MODE = 19", "USE_MODE = 19 is no mode"},
         BadFile{"Radius", "UNLOADED_RADIUS = 320", "UNLOADED_RADIUS = 0", "UNLOADED_RADIUS = 0 must be positive"},
         BadFile{"Cornering", "PKY1 = -15", "PKY1 = 0", "PKY1 is zero: the tyre has no cornering stiffness"},
+        BadFile{"AxesOfSae", "PKY1 = -15", "PKY1 = 15", "cornering stiffness PKY1 sin(PKY4 atan(1/PKY2))"},
         BadFile{"Range", "PTX1 = 2", "KPUMIN = 0.1\nKPUMAX = 1", "the range from 0.1 to 1 does not enclose zero"},
         BadFile{"Loads", "PTX1 = 2", "FZMIN = 5000\nFZMAX = 100", "the range of loads from 5000 to 100 is none"}),
     [](const ::testing::TestParamInfo<BadFile>& given) { return given.param.name; });
@@ -152,7 +167,8 @@ TEST(SceneTyreFiles, AreRefusedWithTheirPlace) {
   EXPECT_THAT(scene_error("file: a.tir", "file: a.tir, friction: 1"),
               HasSubstr("'friction' has no effect: the file of the tyre has its own"));
   EXPECT_THAT(scene_error("file: a.tir", "file: a.tir, pressure: 2e5"), HasSubstr("knows no inflation pressure"));
-  EXPECT_THAT(scene_error("file: a.tir", "file: a.tir, scale: {LMUX: -1}"), HasSubstr("a.tir: scale: LMUX = -1 must be positive"));
+  EXPECT_THAT(scene_error("file: a.tir", "file: a.tir, scale: {LMUX: -1}"),
+              HasSubstr("a.tir: scale: LMUX = -1 must be positive"));
   EXPECT_THAT(scene_error("file: a.tir", "file: a.tir, scale: 3"), HasSubstr("scale must be a map"));
   EXPECT_THAT(scene_error("type: magic_formula", "type: comprehensive_slip, radius: 1"),
               HasSubstr("'file' has no effect on a tyre of type comprehensive_slip"));

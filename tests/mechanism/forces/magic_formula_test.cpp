@@ -78,21 +78,30 @@ class Files : public ::testing::TestWithParam<const char*> {
 };
 
 // Slopes of the forces: K_xκ, K_yα and D C B are below 60 times the load; trail and arm below 1 m, rolling resistance
-// alike. Shifts and ranges may bend, not jump.
+// alike. Shifts and ranges may bend, not jump: windows of 2e-6 about zero, the shifts' zeros and the ends of the ranges
+// would show a jump of 1e-4 of the load.
 TEST_P(Files, HasNoJumpAnywhere) {
   const double load = law_.p.FNOMIN;
-  const auto look_at = [&](auto at, double from, double to) {
-    constexpr int steps = 3000;
+  const auto look_between = [&](auto at, double from, double to, int steps) {
     const double width = (to - from) / steps;
     std::array<double, 5> last{};
     for (int i = 0; i <= steps; ++i) {
       const auto force = outputs(at(from + i * width));
       for (std::size_t k = 0; k < 5; ++k) {
         ASSERT_TRUE(std::isfinite(force[k]));
-        ASSERT_TRUE(i == 0 || std::abs(force[k] - last[k]) < 200.0 * load * width) << k << " at " << from + i * width;
+        ASSERT_TRUE(i == 0 || std::abs(force[k] - last[k]) < 60.0 * load * width) << k << " at " << from + i * width;
       }
       last = force;
     }
+  };
+  const formats::MagicFormula& p = law_.p;
+  const std::array places{0.0,      -p.PHX1,  -p.PHY1,  -p.QHZ1,        p.KPUMIN,       p.KPUMAX,
+                          p.ALPMIN, p.ALPMAX, p.CAMMIN, p.FZMIN / load, p.FZMAX / load, p.CAMMAX};
+  const auto look_at = [&](auto at, double from, double to) {
+    look_between(at, from, to, 3000);
+    look_between(at, std::max(from, -0.1), 0.1, 2000);
+    for (const double place : places)
+      if (place > from) look_between(at, place - 1e-6, place + 1e-6, 20);
   };
   for (const double other : {0.0, 0.05, -0.3})
     for (const double camber : {0.0, 0.08, -0.3}) {
@@ -144,15 +153,49 @@ TEST_P(Files, MirrorsForTheOtherSide) {
             patch_force(law_, slipping(law_.p.FNOMIN, 0.0, 0.04, 0.02)).y);
 }
 
-// A wet road halves both coefficients of friction, and with them the largest forces along and across; where all slides
-// the curve falls, which it does sooner on the wet road: up to 16 % more.
+// A wet road halves both coefficients of friction, D of (4.E12) and (4.E22), and with them the peaks over all slips: D
+// sin(..) and the vertical shift halve, and stiffness, hence the place of the peak, is as before. Sampled: a peak is
+// missed by less than 1e-4.
 TEST_P(Files, FrictionOfTheRoadLimitsTheForce) {
-  for (const auto& [kappa, alpha] : {std::pair{-0.5, 0.0}, std::pair{0.0, 0.4}}) {
-    PatchSlip<double> dry = slipping(law_.p.FNOMIN, kappa, alpha, 0.0), wet = dry;
-    wet.friction = 0.5;
-    const PatchForce<double> a = patch_force(law_, dry), b = patch_force(law_, wet);
-    EXPECT_NEAR(std::hypot(b.x, b.y) / std::hypot(a.x, a.y), 0.5, 0.08);
-  }
+  const auto peaks = [&](double friction) {
+    std::array<double, 2> most{};
+    for (int i = 0; i <= 4000; ++i) {
+      const double s = 1.4 * i / 4000;
+      PatchSlip<double> along = slipping(law_.p.FNOMIN, -s, 0.0, 0.0), across = slipping(law_.p.FNOMIN, 0.0, s, 0.0);
+      along.friction = across.friction = friction;
+      most[0] = std::max(most[0], -patch_force(law_, along).x);
+      most[1] = std::max(most[1], -patch_force(law_, across).y);
+    }
+    return most;
+  };
+  const auto dry = peaks(1.0), wet = peaks(0.5);
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(wet[k] / dry[k], 0.5, 1e-4) << k;
+}
+
+// A file for one direction gives the other no force, and no number that is none, also in derivatives.
+TEST(MagicFormula, OneDirectionAlone) {
+  MagicFormulaLaw law;
+  formats::MagicFormula& p = law.p;
+  p.forces = formats::MagicFormulaForces::longitudinal;
+  p.UNLOADED_RADIUS = 0.3;
+  p.FNOMIN = 4000;
+  p.VERTICAL_STIFFNESS = 2e5;
+  p.PCX1 = 1.6;
+  p.PDX1 = 1.0;
+  p.PKX1 = 20;
+  p.LONGITUDINAL_STIFFNESS = p.LATERAL_STIFFNESS = 2e5;
+  PatchSlip<Dual> slip{Dual(-0.03, 1.0), Dual(0.05, 1.0), Dual(0.01, 1.0), Dual(3000.0, 1.0),
+                       Dual(0.1),        Dual(0.3),       Dual(1.0)};
+  slip.speed = Dual(10.0);
+  const PatchForce<Dual> force = patch_force(law, slip);
+  EXPECT_GT(force.x.value, 0.0);
+  EXPECT_TRUE(std::isfinite(force.x.derivative));
+  EXPECT_EQ(force.y.value, 0.0);
+  EXPECT_EQ(force.moment.value, 0.0);
+  EXPECT_TRUE(std::isfinite(force.adhesion));
+  const RelaxationLengths<Dual> sigma = relaxation_lengths(law, slip);
+  EXPECT_EQ(sigma.across.value, 0.0);
+  EXPECT_EQ(sigma.across.derivative, 0.0);
 }
 
 // Dual numbers through every formula, against central differences.

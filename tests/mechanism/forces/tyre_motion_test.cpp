@@ -301,6 +301,9 @@ TEST(TyreBuild, RefusesWhatCannotRoll) {
                   test_support::joint("hinge", JointKind::revolute, "ground", "car", {0, 0, 0.3}, {0.1, 1, 0}));
             }).find("5.71 degrees away from the axis of joint 'hinge'"),
             std::string::npos);
+  EXPECT_NE(
+      error([](formats::Scene& s) { s.tyres[0].relaxation_length = 0.01; }).find("less than a twentieth of its radius"),
+      std::string::npos);
   formats::Scene high = block_car(2.0);
   EXPECT_EQ(build_model(high, {}).notes.size(), 4u);
 }
@@ -342,6 +345,11 @@ TEST(TyreBuild, TakesTheFile) {
   ASSERT_EQ(built.notes.size(), 1u);
   EXPECT_NE(built.notes[0].find("book_205_60R15.tir (MF-Tyre 6.1): keys without effect here: ASPECT_RATIO"),
             std::string::npos);
+  formats::Scene flat = wheel_by_file(10.0);
+  flat.tyres[0].pressure = 0.5e5;  // PRESMIN = 1e5
+  const std::vector<std::string> notes = build_model(flat, {}).notes;
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_NE(notes[0].find("pressure 50000 is outside of what its file was fitted for, 100000 to "), std::string::npos);
 }
 
 // A road that a curve gives ends: the run says which tyre has left it and where.
