@@ -118,7 +118,16 @@ void check_modes(const Part& part, Faults& faults) {
                "modes: 0 gives Guyan reduction");
   if (modes.cutoff && !(*modes.cutoff > 0.0 && std::isfinite(*modes.cutoff)))
     faults.add(modes.where, "cutoff", fmt::format("cutoff {:g} must be positive", *modes.cutoff), "");
+  if (modes.moments && *modes.moments < 0)
+    faults.add(modes.where, "moments", fmt::format("moments {} must not be negative", *modes.moments), "");
+  if (modes.method != ReductionMethod::craig_bampton && (modes.accuracy || modes.moments))
+    faults.add(modes.where, modes.accuracy ? "accuracy" : "moments",
+               fmt::format("'{}' needs modes with the boundary held", modes.accuracy ? "accuracy" : "moments"),
+               "remove it, or write method: craig_bampton");
   if (!modes.accuracy) return;
+  if (modes.moments.value_or(0) > 0)
+    faults.add(modes.where, "moments", "'accuracy' chooses how many moment vectors there are",
+               "remove `moments`, or write moments: 0 for internal modes alone");
   if (!(modes.accuracy->error > 0.0 && modes.accuracy->error < 1.0))
     faults.add(modes.where, "error", fmt::format("error {:g} must be between 0 and 1", modes.accuracy->error),
                "0.001 is a thousandth of each frequency");

@@ -17,6 +17,10 @@ namespace {
 
 constexpr Choice<SecondOrder> second_order_words[] = {{"yes", SecondOrder::yes}, {"no", SecondOrder::no}};
 
+constexpr Choice<ReductionMethod> method_words[] = {{"craig_bampton", ReductionMethod::craig_bampton},
+                                                    {"rubin", ReductionMethod::rubin},
+                                                    {"macneal", ReductionMethod::macneal}};
+
 constexpr Choice<Verification> verification_words[] = {{"inertia", Verification::inertia},
                                                        {"none", Verification::none}};
 
@@ -104,6 +108,15 @@ std::vector<Field> part_fields() {
           "cutoff", "positive", "instead of `modes`: all internal modes below this frequency [1/time, not rad/time]",
           "-"),
       {"accuracy", "accuracy", "instead: as many internal modes as an accuracy takes, see [accuracy](#accuracy)", "-"},
+      plain<&ModeSelection::moments>(
+          "moments", "number_of",
+          "moment vectors beside the internal modes: how the inside answers to accelerations "
+          "of the boundary; they improve low frequencies far more than as many modes",
+          "0; with `accuracy`: as many as it takes"),
+      choice<&ModeSelection::method, method_words>("method",
+                                                   "`craig_bampton`: modes with the boundary held; `rubin` "
+                                                   "(Craig-Chang), `macneal`: modes of the free part with "
+                                                   "residual flexibility, see [method](#method)"),
       choice<&ModeSelection::verify, verification_words>(
           "verify",
           "`inertia`: one more factorisation counts the internal modes below the cut, and none can be missing; `none`",

@@ -135,13 +135,19 @@ struct Accuracy {
 /// Whether internal modes are counted by the inertia of one more factorisation.
 enum class Verification { if_cheap, inertia, none };
 
-/// Internal modes: `count` lowest ones (0: Guyan), all below `cutoff` [1/time], or as many as `accuracy` takes.
+/// Which vectors the inside moves by beside the static modes of the boundary.
+enum class ReductionMethod { craig_bampton, rubin, macneal };
+
+/// Internal modes: `count` lowest ones (0: Guyan), all below `cutoff` [1/time], or as many as `accuracy` takes. Of
+/// Rubin's and MacNeal's method: modes of the free part.
 struct ModeSelection {
   int count = 0;
   std::optional<double> cutoff;
   std::string where;
   std::optional<Accuracy> accuracy = std::nullopt;
   Verification verify = Verification::if_cheap;
+  ReductionMethod method = ReductionMethod::craig_bampton;
+  std::optional<int> moments = std::nullopt;  ///< moment vectors; absent: as `accuracy` takes, else none
 };
 
 /// Whether a companion file is written (COMPANION.md): by default while it stays small.

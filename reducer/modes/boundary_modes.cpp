@@ -14,8 +14,6 @@ namespace {
 
 constexpr Eigen::Index columns_at_once = 32;  ///< of products with n_I rows: they are not kept
 
-Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& A) { return 0.5 * (A + A.transpose()); }
-
 /// S, M and flexibility from Ψ.
 void condense_inside(const Factor& S_II, const Blocks& b, BoundaryModes& modes) {
   const Eigen::MatrixXd& Psi = modes.Psi;

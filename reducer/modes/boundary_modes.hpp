@@ -27,6 +27,9 @@ void check_no_mechanism(const Factor& S_II, const Mesh& mesh, const System& syst
 /// last digit; R = System::R.
 BoundaryModes boundary_modes(const Factor& S_II, const Blocks& blocks, const System& system, const Partition& p);
 
+/// Without the round-off that makes products A of symmetric factors unsymmetric.
+inline Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& A) { return 0.5 * (A + A.transpose()); }
+
 /// Xᵀ Φ (n_B x m).
 Eigen::MatrixXd mass_coupling(const Blocks& blocks, const BoundaryModes& boundary, const Eigen::MatrixXd& Phi);
 

@@ -10,7 +10,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/error.hpp"
-#include "reducer/modes/truncation.hpp"
+#include "reducer/modes/ritz_vectors.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -178,38 +178,84 @@ namespace {
 struct Candidates {
   Spectrum spectrum;
   Eigen::MatrixXd coupling;  ///< n_B x pairs
+  int kept = 0;              ///< modes of them
+  int moments = 0;           ///< vectors beside those
 };
 
-/// G of truncation_errors() when the first `kept` pairs are kept.
+/// G of LeftOut when these pairs are kept.
 Eigen::MatrixXd dropped_flexibility(const BoundaryModes& boundary, const Eigen::MatrixXd& coupling,
                                     const Eigen::VectorXd& lambda) {
   return boundary.flexibility - coupling * lambda.cwiseInverse().asDiagonal() * coupling.transpose();
 }
 
-/// Bound of the error up to the frequency of `accuracy` when the first `kept` candidates are kept.
-double error_with(const BoundaryModes& boundary, const Candidates& c, int kept, const formats::Accuracy& accuracy) {
-  const Eigen::Index n_B = boundary.S.rows(), m = kept;
-  const Eigen::VectorXd& value = c.spectrum.pairs.value;
-  const Eigen::MatrixXd L = c.coupling.leftCols(m);
-  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n_B + m, n_B + m), M = S;
+/// Bound of the error up to the frequency of `accuracy` with these modes and the Ritz vectors of `out`.
+double error_with(const BoundaryModes& boundary, const Eigen::VectorXd& lambda, const Eigen::MatrixXd& coupling,
+                  const LeftOut& out, const formats::Accuracy& accuracy) {
+  const Eigen::Index n_B = boundary.S.rows(), m = lambda.size(), p = out.theta.size();
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n_B + m + p, n_B + m + p), M = S;
   S.topLeftCorner(n_B, n_B) = boundary.S;
-  S.diagonal().tail(m) = value.head(m);
-  M << boundary.M, L, L.transpose(), Eigen::MatrixXd::Identity(m, m);
-  const double dropped = m < value.size() ? value[m] : std::numeric_limits<double>::infinity();
-  return largest_truncation_error(S, M, dropped_flexibility(boundary, L, value.head(m)), dropped,
-                                  eigenvalue_of(accuracy.up_to));
+  S.diagonal().tail(m + p) << lambda, out.theta;
+  M.setIdentity();
+  M.topLeftCorner(n_B, n_B) = boundary.M;
+  M.topRightCorner(n_B, m + p) << coupling, out.coupling;
+  M.bottomLeftCorner(m + p, n_B) = M.topRightCorner(n_B, m + p).transpose();
+  return largest_truncation_error(S, M, out, eigenvalue_of(accuracy.up_to));
 }
 
-/// The least number of candidates from `least` on that meets the accuracy, whole clusters; −1 if none does.
-int enough_for(const BoundaryModes& boundary, const Candidates& c, int least, const formats::Accuracy& accuracy) {
-  const auto meets = [&](int kept) { return error_with(boundary, c, kept, accuracy) <= accuracy.error; };
-  int fails = least - 1, good = c.spectrum.kept;
+/// The same of the first `kept` candidates and no other vectors.
+double error_with(const BoundaryModes& boundary, const Candidates& c, int kept, const formats::Accuracy& accuracy) {
+  const Eigen::VectorXd& value = c.spectrum.pairs.value;
+  const Eigen::MatrixXd L = c.coupling.leftCols(kept);
+  LeftOut out;
+  out.first_dropped = kept < value.size() ? value[kept] : std::numeric_limits<double>::infinity();
+  out.G = dropped_flexibility(boundary, L, value.head(kept));
+  out.coupling.resize(L.rows(), 0);
+  return error_with(boundary, value.head(kept), L, out, accuracy);
+}
+
+/// The least number in [least, most] that meets the accuracy; −1 if `most` does not.
+template <class Meets>
+int fewest(int least, int most, const Meets& meets) {
+  int fails = least - 1, good = most;
   if (!meets(good)) return -1;
   while (good - fails > 1) {
     const int middle = fails + (good - fails) / 2;
     (meets(middle) ? good : fails) = middle;
   }
-  return cluster_end(c.spectrum.pairs.value, good, 0.0);
+  return good;
+}
+
+/// As few moment vectors beside the first `kept` candidates as meet the accuracy; −1 if all of them do not.
+int moments_for(const InternalProblem& problem, const BoundaryModes& boundary, const Candidates& c, int kept,
+                const formats::Accuracy& accuracy) {
+  const Eigen::VectorXd &all = c.spectrum.pairs.value, value = all.head(kept);
+  const Eigen::MatrixXd L = c.coupling.leftCols(kept);
+  const Eigen::MatrixXd G = dropped_flexibility(boundary, L, value);
+  const MomentSpace moments =
+      moment_space(problem, boundary, c.spectrum.pairs.vector.leftCols(kept), G, eigenvalue_of(accuracy.up_to));
+  const double dropped = kept < all.size() ? all[kept] : std::numeric_limits<double>::infinity();
+  const RitzSpace& space = moments.space;
+  const int count = fewest(0, static_cast<int>(space.size()), [&](int p) {
+    return error_with(boundary, value, L, space.left_out(space.values(p), G, dropped), accuracy) <= accuracy.error;
+  });
+  return count < 0 ? count : static_cast<int>(moments.whole(count));
+}
+
+/// Whichever needs fewer coordinates of the pairs that are there: more modes, or the `least` and moment vectors.
+bool meets_accuracy(const InternalProblem& problem, const BoundaryModes& boundary,
+                    const formats::ModeSelection& selection, int least, Candidates& c) {
+  const formats::Accuracy& accuracy = *selection.accuracy;
+  const auto whole = [&](int kept) { return kept == 0 ? 0 : cluster_end(c.spectrum.pairs.value, kept, 0.0); };
+  const int enough = fewest(least, c.spectrum.kept,
+                            [&](int kept) { return error_with(boundary, c, kept, accuracy) <= accuracy.error; });
+  const int lowest = whole(least);
+  const bool by_modes = selection.moments && *selection.moments == 0;
+  const int moments = by_modes || enough == least ? -1 : moments_for(problem, boundary, c, lowest, accuracy);
+  if (enough < 0 && moments < 0) return false;
+  const bool modes_are_fewer = moments < 0 || (enough >= 0 && whole(enough) <= lowest + moments);
+  c.kept = modes_are_fewer ? whole(enough) : lowest;
+  c.moments = modes_are_fewer ? 0 : moments;
+  return true;
 }
 
 /// Computes ever more pairs until they meet the accuracy.
@@ -217,22 +263,33 @@ Candidates candidates_for(const InternalProblem& problem, const BoundaryModes& b
                           const formats::ModeSelection& selection, int least, int available) {
   constexpr int most = 1000;
   const auto n_I = static_cast<Eigen::Index>(problem.partition.n_I());
-  for (int sought = std::max(1, least + 4);; sought = 2 * sought) {
+  for (int sought = least + 4;; sought = 2 * sought) {
     sought = std::min(sought, available);
     Candidates c;
     c.spectrum = lowest_pairs(pencil, sought, available, choose_solver(n_I, sought), count_of(selection.verify));
     c.coupling = mass_coupling(problem.blocks, boundary, c.spectrum.pairs.vector);
-    const int enough = enough_for(boundary, c, least, *selection.accuracy);
-    if (enough >= 0) {
-      c.spectrum.kept = enough;
-      return c;
-    }
+    if (meets_accuracy(problem, boundary, selection, least, c)) return c;
     if (2 * sought > most || c.spectrum.kept == available)
       throw Error(fmt::format("the accuracy of {:g} up to {:g} is not met: {} internal modes leave {:.2g}",
                               selection.accuracy->error, selection.accuracy->up_to, c.spectrum.kept,
                               error_with(boundary, c, c.spectrum.kept, *selection.accuracy)),
                   selection.where, "ask for a larger error or a lower frequency");
+    least = std::max(least, sought / 2);  // moment vectors beside more modes, too
   }
+}
+
+/// The leading `count` moment vectors behind the modes, fewer if there are no more.
+void add_moment_vectors(const InternalProblem& problem, const BoundaryModes& boundary, int count, double lambda,
+                        InternalModes& modes) {
+  const MomentSpace moments = moment_space(problem, boundary, modes.Phi, modes.left_out.G, lambda);
+  const Eigen::Index m = modes.lambda.size(), p = moments.whole(std::min<Eigen::Index>(count, moments.order.size()));
+  const RitzSpace::Values values = moments.space.values(p);
+  modes.moments = static_cast<int>(p);
+  modes.left_out = moments.space.left_out(values, modes.left_out.G, *modes.first_dropped);
+  modes.lambda.conservativeResize(m + p);
+  modes.lambda.tail(p) = values.theta;
+  modes.Phi.conservativeResize(Eigen::NoChange, m + p);
+  modes.Phi.rightCols(p) = moments.space.vectors(values);
 }
 
 /// A cut-off asks how many: that count also verifies the search, unless it found too few.
@@ -251,32 +308,43 @@ Spectrum spectrum_for(const Pencil& pencil, const formats::ModeSelection& select
 
 InternalModes internal_modes(const InternalProblem& problem, const BoundaryModes& boundary,
                              const formats::ModeSelection& selection) {
+  if (selection.method != formats::ReductionMethod::craig_bampton)
+    return free_boundary_vectors(problem, boundary, selection);
   InternalModes modes;
   const Eigen::Index n_I = problem.partition.n_I();
   modes.available = n_I > 0 ? finite_mode_count(problem.blocks.M_II) : 0;
   modes.requested = wanted_modes(problem, selection, modes.available);
   modes.Phi.resize(n_I, 0);
   modes.coupling.resize(boundary.Psi.cols(), 0);
-  modes.truncation = boundary.flexibility;
+  modes.left_out.G = boundary.flexibility;
   if (modes.available == 0) return modes;
   const Pencil pencil{problem.blocks.S_II, problem.blocks.M_II, problem.S_II, 0.0};
   Spectrum spectrum;
+  int kept = 0, moments = selection.moments.value_or(0);
   if (selection.accuracy) {
-    spectrum = candidates_for(problem, boundary, pencil, selection, modes.requested, modes.available).spectrum;
-    modes.requested = spectrum.kept;
+    Candidates c = candidates_for(problem, boundary, pencil, selection, modes.requested, modes.available);
+    spectrum = std::move(c.spectrum);
+    modes.requested = kept = c.kept;
+    moments = c.moments;
   } else {
     spectrum = spectrum_for(pencil, selection, n_I, std::max(1, modes.requested), modes.available);
+    kept = modes.requested == 0 ? 0 : spectrum.kept;
   }
-  const int kept = modes.requested == 0 ? 0 : spectrum.kept;
   modes.solver = solver_text(spectrum.solver);
   modes.residual = spectrum.residual;
   if (spectrum.counted) modes.counted = std::min(*spectrum.counted, kept);
   if (kept < spectrum.pairs.value.size()) modes.first_dropped = spectrum.pairs.value[kept];
   modes.lambda = spectrum.pairs.value.head(kept);
   modes.Phi = spectrum.pairs.vector.leftCols(kept);
+  modes.coupling = mass_coupling(problem.blocks, boundary, modes.Phi);
+  modes.left_out.G = dropped_flexibility(boundary, modes.coupling, modes.lambda);
+  modes.left_out.first_dropped = modes.first_dropped.value_or(std::numeric_limits<double>::infinity());
+  if (moments > 0 && modes.first_dropped) {
+    const double lambda = selection.accuracy ? eigenvalue_of(selection.accuracy->up_to) : *modes.first_dropped;
+    add_moment_vectors(problem, boundary, moments, lambda, modes);
+  }
   fix_basis(problem, modes.lambda, modes.Phi);
   modes.coupling = mass_coupling(problem.blocks, boundary, modes.Phi);
-  modes.truncation = dropped_flexibility(boundary, modes.coupling, modes.lambda);
   return modes;
 }
 

@@ -7,14 +7,20 @@
 #include "formats/part/part.hpp"
 #include "reducer/modes/boundary_modes.hpp"
 #include "reducer/modes/spectrum.hpp"
+#include "reducer/modes/truncation.hpp"
 
 namespace tisserand::reducer {
 
+/// Fixed-boundary modes, lowest first, and behind them moment vectors; or, of methods with modes of the free part, what
+/// those leave inside (ritz_vectors.hpp).
 struct InternalModes {
-  Eigen::VectorXd lambda;      ///< m; ω², ascending; equal within a cluster
-  Eigen::MatrixXd Phi;         ///< n_I x m, Φᵀ M_II Φ = 1
-  Eigen::MatrixXd coupling;    ///< n_B x m: (M_BI + Ψᵀ M_II) Φ
-  Eigen::MatrixXd truncation;  ///< n_B x n_B: G of truncation_errors()
+  Eigen::VectorXd lambda;         ///< m; ω², ascending; equal within a cluster
+  Eigen::MatrixXd Phi;            ///< n_I x m, Φᵀ M_II Φ = 1 (not of MacNeal's method), Φᵀ S_II Φ = Λ
+  Eigen::MatrixXd coupling;       ///< n_B x m: (M_BI + Ψᵀ M_II) Φ
+  LeftOut left_out;               ///< of truncation_errors()
+  int moments = 0;                ///< moment vectors: the last ones
+  int free_modes = 0;             ///< elastic modes of the free part that are held
+  Eigen::MatrixXd boundary_mass;  ///< n_B x n_B, of MacNeal's method, in place of BoundaryModes::M
   int requested = 0;
   int available = 0;                    ///< finite eigenvalues of (S_II, M_II)
   std::optional<double> first_dropped;  ///< ω² of the lowest mode left out
@@ -40,8 +46,8 @@ struct InternalProblem {
 int finite_mode_count(const Matrix& M);
 
 /// By number, by cut-off frequency, or as many as the accuracy takes: all below its frequency, and more until the bound
-/// of the errors of the free part's frequencies up to it meets the error. Throws Error if more modes are asked for than
-/// exist, or if 1000 modes do not meet the accuracy.
+/// of the errors of the free part's frequencies up to it meets the error: moment vectors first, unless `moments` is 0,
+/// then modes. Throws Error if more modes are asked for than exist, or if 1000 modes do not meet the accuracy.
 InternalModes internal_modes(const InternalProblem& problem, const BoundaryModes& boundary,
                              const formats::ModeSelection& selection);
 

@@ -13,11 +13,20 @@ double relative_maximum(const Eigen::MatrixXd& part, const Eigen::MatrixXd& whol
   return part.size() == 0 || whole.size() == 0 ? 0.0 : part.cwiseAbs().maxCoeff() / whole.cwiseAbs().maxCoeff();
 }
 
+/// For people.
+std::string method_text(formats::ReductionMethod method, const InternalModes& internal) {
+  if (method == formats::ReductionMethod::rubin) return "rubin";
+  if (method == formats::ReductionMethod::macneal) return "macneal";
+  if (internal.moments > 0) return "craig_bampton_moments";
+  return internal.lambda.size() > 0 ? "craig_bampton" : "guyan";
+}
+
 /// Names, positions and rows of the superelement.
-formats::Superelement describe(const formats::Part& part, const InternalProblem& problem, Eigen::Index modes) {
+formats::Superelement describe(const formats::Part& part, const InternalProblem& problem, Eigen::Index modes,
+                               const std::string& method) {
   formats::Superelement element;
   element.name = part.name;
-  element.method = modes > 0 ? "craig_bampton" : "guyan";
+  element.method = method;
   element.producer = "Tisserand reducer " TISSERAND_VERSION;
   element.units = part.units;
   element.node_position.resize(static_cast<Eigen::Index>(problem.mesh.boundary.size()), 3);
@@ -67,20 +76,21 @@ Projection project(const formats::Part& part, const InternalProblem& problem, co
   const Blocks& b = problem.blocks;
   const Eigen::MatrixXd &Psi = boundary.Psi, &Phi = internal.Phi;
   const Eigen::Index n_B = problem.partition.n_B(), m = internal.lambda.size();
-  Projection result{describe(part, problem, m), {}};
+  Projection result{describe(part, problem, m, method_text(part.modes.method, internal)), {}};
   Eigen::MatrixXd& S = result.superelement.stiffness;
   Eigen::MatrixXd& M = result.superelement.mass;
   S.setZero(n_B + m, n_B + m);
   M.setZero(n_B + m, n_B + m);
   S.topLeftCorner(n_B, n_B) = boundary.S;
-  M.topLeftCorner(n_B, n_B) = boundary.M;
+  M.topLeftCorner(n_B, n_B) = internal.boundary_mass.size() > 0 ? internal.boundary_mass : boundary.M;
   if (m > 0) {
     M.topRightCorner(n_B, m) = internal.coupling;
     M.bottomLeftCorner(m, n_B) = internal.coupling.transpose();
     const Eigen::MatrixXd force = b.S_IB.transpose() * Phi + Psi.transpose() * multiply(b.S_II, Phi);
     result.defects.stiffness_coupling = relative_maximum(force, internal.lambda);
     const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(m, m);
-    result.defects.orthonormality = relative_maximum(Phi.transpose() * multiply(b.M_II, Phi) - identity, identity);
+    if (internal.boundary_mass.size() == 0)
+      result.defects.orthonormality = relative_maximum(Phi.transpose() * multiply(b.M_II, Phi) - identity, identity);
   }
   S.diagonal().tail(m) = internal.lambda;
   M.diagonal().tail(m).setOnes();

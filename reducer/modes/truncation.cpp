@@ -33,33 +33,85 @@ double shift_of(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M) {
   return -0.5 * dense_lowest(S, M, -coarse, rigid + 1).value[rigid];
 }
 
-/// Reduced matrices with internal coordinates at `lambda` that carry the dropped mass C √λ.
-struct Augmented {
-  Eigen::MatrixXd S, M;
+/// All modes of the reduced part that have mass, and what the boundary sees of its directions without.
+struct ReducedModes {
+  EigenPairs pairs;
+  Eigen::MatrixXd massless;  ///< n_B x n_B: their static flexibility
 };
 
-Augmented augment(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const Eigen::MatrixXd& G, double lambda) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(G);
-  const Eigen::VectorXd& value = solver.eigenvalues();
-  const Eigen::Index rank = (value.array() > 1e-14 * value.maxCoeff()).count(), n = S.rows();
-  Augmented a{Eigen::MatrixXd::Zero(n + rank, n + rank), Eigen::MatrixXd::Zero(n + rank, n + rank)};
-  a.S.topLeftCorner(n, n) = S;
-  a.M.topLeftCorner(n, n) = M;
-  a.S.diagonal().tail(rank).setConstant(lambda);
-  a.M.diagonal().tail(rank).setOnes();
-  const Eigen::MatrixXd C = solver.eigenvectors().rightCols(rank) * value.tail(rank).cwiseSqrt().asDiagonal();
-  a.M.block(0, n, G.rows(), rank) = std::sqrt(lambda) * C;
-  a.M.block(n, 0, rank, G.rows()) = std::sqrt(lambda) * C.transpose();
-  return a;
+ReducedModes reduced_modes(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, double shift, Eigen::Index n_B) {
+  constexpr double least_mass = 1e-13;  // of the largest 1/(λ − shift)
+  ReducedModes modes{dense_lowest(S, M, shift, static_cast<int>(S.rows())), {}};
+  EigenPairs& pairs = modes.pairs;
+  Eigen::Index count = 0;
+  while (count < pairs.value.size() && pairs.value[count] > shift &&
+         pairs.value[0] - shift > least_mass * (pairs.value[count] - shift))
+    ++count;
+  pairs.value.conservativeResize(count);
+  pairs.vector.conservativeResize(Eigen::NoChange, count);
+  const Eigen::MatrixXd u = pairs.vector.topRows(n_B);
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(S.rows(), n_B);
+  modes.massless = (S - shift * M).llt().solve(identity).topRows(n_B);
+  modes.massless -= u * (pairs.value.array() - shift).inverse().matrix().asDiagonal() * u.transpose();
+  return modes;
 }
 
-Eigen::MatrixXd with_mass(const Eigen::MatrixXd& M, double factor, const Eigen::MatrixXd& G) {
-  Eigen::MatrixXd sum = M;
-  sum.topLeftCorner(G.rows(), G.rows()) += factor * G;
-  return sum;
+/// Number of eigenvalues below `s` of the reduced part with modes (μ, u on the boundary) when `taken` = C Cᵀ (n_B x
+/// n_B) is taken off its dynamic stiffness: those of diag(μ − s) − uᵀ C Cᵀ u that are negative are as many as those of
+/// diag(μ − s) and of 1 − Cᵀ u (μ − s)⁻¹ uᵀ C together (Haynsworth).
+Eigen::Index count_with(const ReducedModes& modes, const Eigen::MatrixXd& taken, double s) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(taken);
+  const Eigen::MatrixXd C = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
+  const auto& value = modes.pairs.value;
+  const Eigen::MatrixXd Cu = C.transpose() * modes.pairs.vector.topRows(taken.rows());
+  const Eigen::MatrixXd F =
+      Cu * (value.array() - s).inverse().matrix().asDiagonal() * Cu.transpose() + C.transpose() * modes.massless * C;
+  const Eigen::MatrixXd rest = Eigen::MatrixXd::Identity(F.rows(), F.cols()) - F;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> signs(rest, Eigen::EigenvaluesOnly);
+  return (value.array() < s).count() + (signs.eigenvalues().array() < 0.0).count();
+}
+
+/// Round-off of eigenvalues: no enclosure is narrower.
+constexpr double resolution = 1e-11;
+constexpr int most_trials = 40;
+
+/// What the full part's eigenvalue `k` is not below: fewer than k + 1 eigenvalues lie below it when the upper side of
+/// the bound is taken off. First order in the bound and a little more, then ever more.
+double lower_end(const ReducedModes& modes, const LeftOut& out, Eigen::Index k, double bound) {
+  const double lambda = modes.pairs.value[k];
+  double margin = 2.02 * bound + resolution;
+  for (int trial = 0; trial < most_trials && margin < 1.0; ++trial, margin *= 1.5) {
+    const double s = lambda * (1.0 - margin);
+    if (count_with(modes, s * s / (1.0 - s / out.first_dropped) * out.residual(s), s) <= k) return s;
+  }
+  return 0.0;
+}
+
+/// What it is not above: as many as k + 1 lie below it when the lower side is taken off.
+double upper_end(const ReducedModes& modes, const LeftOut& out, Eigen::Index k, double estimate) {
+  const double lambda = modes.pairs.value[k];
+  for (double margin = 1.98 * estimate; margin > resolution && margin > 0.1 * estimate; margin *= 0.8) {
+    const double s = lambda * (1.0 - margin);
+    if (s > 0.0 && count_with(modes, s * s * out.residual(s), s) > k) return s;
+  }
+  return lambda * (1.0 + resolution);
+}
+
+double estimate_of(const EigenPairs& pairs, const LeftOut& out, Eigen::Index k) {
+  const Eigen::VectorXd u = pairs.vector.col(k).head(out.G.rows());
+  return std::max(0.0, 0.5 * pairs.value[k] * u.dot(out.residual(pairs.value[k]) * u));
 }
 
 }  // namespace
+
+Eigen::MatrixXd LeftOut::residual(double lambda) const {
+  if (theta.size() == 0) return G;
+  const Eigen::MatrixXd c = (theta.array() - lambda).inverse().matrix().asDiagonal() * coupling.transpose();
+  const Eigen::MatrixXd first = coupling * c, mixed = second * c;
+  Eigen::MatrixXd R = G - first - first.transpose() + c.transpose() * theta.asDiagonal() * c;
+  R += lambda * (mixed + mixed.transpose() - 2.0 * c.transpose() * c) + lambda * lambda * c.transpose() * third * c;
+  return R;
+}
 
 Eigen::VectorXd free_eigenvalues(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count) {
   const double shift = shift_of(S, M);
@@ -67,42 +119,36 @@ Eigen::VectorXd free_eigenvalues(const Eigen::MatrixXd& S, const Eigen::MatrixXd
   return dense_lowest(S, M, shift, std::min(count, static_cast<int>(S.rows()))).value;
 }
 
-TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const Eigen::MatrixXd& G,
-                                   double first_dropped, int most) {
-  constexpr Eigen::Index small = 200;
+TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, int most) {
   TruncationErrors errors;
   const double shift = shift_of(S, M);
   if (shift == 0.0) return errors;
-  const EigenPairs pairs = dense_lowest(S, M, shift, std::min(rigid + most, static_cast<int>(S.rows())));
+  const ReducedModes modes = reduced_modes(S, M, shift, out.G.rows());
+  const EigenPairs& pairs = modes.pairs;
   Eigen::Index count = 0;
-  while (rigid + count < pairs.value.size() && pairs.value[rigid + count] < first_dropped) ++count;
+  while (count < most && rigid + count < pairs.value.size() && pairs.value[rigid + count] < out.first_dropped) ++count;
   errors.lambda = pairs.value.segment(rigid, count);
-  const Eigen::MatrixXd u = pairs.vector.block(0, rigid, G.rows(), count);
-  errors.estimate = 0.5 * errors.lambda.cwiseProduct((u.transpose() * G * u).diagonal()).cwiseMax(0.0);
-  errors.bound = errors.estimate.array() / (1.0 - errors.lambda.array() / first_dropped);
+  errors.estimate.resize(count);
+  for (Eigen::Index k = 0; k < count; ++k) errors.estimate[k] = estimate_of(pairs, out, rigid + k);
+  errors.bound = errors.estimate.array() / (1.0 - errors.lambda.array() / out.first_dropped);
   errors.upper = errors.lambda;
   errors.lower = errors.lambda;
-  if (count == 0 || !std::isfinite(first_dropped) || !(G.diagonal().maxCoeff() > 0.0)) return errors;
-  const Augmented a = augment(S, M, G, first_dropped);
-  errors.lower = dense_lowest(a.S, a.M, shift, static_cast<int>(rigid + count)).value.tail(count);
-  if (S.rows() > small) return errors;
-  for (Eigen::Index k = 0; k < count; ++k)
-    errors.upper[k] =
-        dense_lowest(S, with_mass(M, errors.lower[k], G), shift, static_cast<int>(rigid + k + 1)).value[rigid + k];
+  if (!std::isfinite(out.first_dropped) || !(out.G.diagonal().maxCoeff() > 0.0)) return errors;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    errors.lower[k] = lower_end(modes, out, rigid + k, errors.bound[k]);
+    errors.upper[k] = upper_end(modes, out, rigid + k, errors.estimate[k]);
+  }
   return errors;
 }
 
-double largest_truncation_error(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const Eigen::MatrixXd& G,
-                                double first_dropped, double lambda) {
-  if (!(lambda < first_dropped)) return std::numeric_limits<double>::infinity();
+double largest_truncation_error(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, double lambda) {
+  if (!(lambda < out.first_dropped)) return std::numeric_limits<double>::infinity();
   const double shift = shift_of(S, M);
   if (shift == 0.0) return 0.0;
   const EigenPairs pairs = dense_lowest(S, M, shift, static_cast<int>(S.rows()));
   double largest = 0.0;
-  for (Eigen::Index k = rigid; k < pairs.value.size() && pairs.value[k] <= lambda; ++k) {
-    const Eigen::VectorXd u = pairs.vector.col(k).head(G.rows());
-    largest = std::max(largest, 0.5 * pairs.value[k] * u.dot(G * u) / (1.0 - pairs.value[k] / first_dropped));
-  }
+  for (Eigen::Index k = rigid; k < pairs.value.size() && pairs.value[k] <= lambda; ++k)
+    largest = std::max(largest, estimate_of(pairs, out, k) / (1.0 - pairs.value[k] / out.first_dropped));
   return largest;
 }
 

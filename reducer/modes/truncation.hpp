@@ -5,30 +5,44 @@
 
 namespace tisserand::reducer {
 
+/// What the boundary sees of the inside beyond the modes that are kept. U = S_II⁻¹ X, X = M_IB + M_II Ψ, all
+/// M_II-orthogonal to those modes; beside them the reduced part may have Ritz vectors W (moment vectors, free modes)
+/// with Wᵀ M_II W = 1, Wᵀ S_II W = Θ.
+struct LeftOut {
+  double first_dropped = 0.0;  ///< λ_d: the lowest fixed-boundary ω² that is not kept
+  Eigen::MatrixXd G;           ///< n_B x n_B: Xᵀ U = Xᵀ S_II⁻¹ X − Σ_kept m_k m_kᵀ/λ_k, m_k = Xᵀ φ_k
+  Eigen::VectorXd theta;       ///< p: diagonal of Θ; none without Ritz vectors
+  Eigen::MatrixXd coupling;    ///< n_B x p: Xᵀ W
+  Eigen::MatrixXd second;      ///< n_B x p: Uᵀ M_II W
+  Eigen::MatrixXd third;       ///< p x p: Wᵀ M_II S_II⁻¹ M_II W
+
+  /// R(λ) of truncation_errors(); G without Ritz vectors.
+  Eigen::MatrixXd residual(double lambda) const;
+};
+
 /// Elastic modes of the free reduced part below the first dropped fixed-boundary eigenvalue λ_d, ascending.
 struct TruncationErrors {
   Eigen::VectorXd lambda;    ///< ω² of the reduced part
-  Eigen::VectorXd estimate;  ///< relative error of the frequency, ½ λ uᵀ G u for unit modal mass
+  Eigen::VectorXd estimate;  ///< relative error of the frequency, ½ λ uᵀ R(λ) u for unit modal mass
   Eigen::VectorXd bound;     ///< the same with the upper side of the bound: estimate/(1 − λ/λ_d)
   Eigen::VectorXd lower;     ///< the full part's ω² is not below this
   Eigen::VectorXd upper;     ///< nor above this
 };
 
-/// Δ(λ), the condensed dynamic stiffness of the reduced part less that of the full one, is Σ_dropped λ² m_k m_kᵀ/(λ_k −
-/// λ) with m_k = (M_BI + Ψᵀ M_II) φ_k, so λ² G ≤ Δ(λ) ≤ λ² G/(1 − λ/λ_d) for 0 ≤ λ < λ_d as symmetric matrices, where
-/// G = Xᵀ S_II⁻¹ X − Σ_kept m_k m_kᵀ/λ_k, X = M_IB + M_II Ψ.
+/// Δ(λ), the condensed dynamic stiffness of the reduced part less that of the full one, is λ² rᵀ (S_II − λ M_II)⁻¹ r
+/// with the residual r(λ) = X − (S_II − λ M_II) W c, c = (Θ − λ)⁻¹ Wᵀ X, of the equation that the inside solves; on
+/// what is orthogonal to the kept modes S_II⁻¹ ≤ (S_II − λ M_II)⁻¹ ≤ S_II⁻¹/(1 − λ/λ_d). So for 0 ≤ λ < λ_d, as
+/// symmetric matrices,
 ///
-/// `S`, `M`: canonical, boundary first, as many rows of it as G has. Lower: eigenvalues of the reduced part with the
-/// upper side of the bound taken off, exactly by internal coordinates at λ_d with the masses C √λ_d on the boundary, G
-/// = C Cᵀ. Upper: eigenvalue i of (S, M + σ G), σ the lower bound of eigenvalue i, since Δ(λ)/λ ≥ λ G ≥ σ G (beyond 200
-/// coordinates σ = 0). At most `most` modes.
-TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const Eigen::MatrixXd& G,
-                                   double first_dropped, int most);
+///     λ² R(λ) ≤ Δ(λ) ≤ λ² R(λ)/(1 − λ/λ_d),    R(λ) = rᵀ S_II⁻¹ r.
+///
+/// `S`, `M`: canonical, boundary first, as many rows of it as G has. The enclosure counts eigenvalues below trial
+/// values (law of inertia) with both sides of the bound taken off. At most `most` modes.
+TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, int most);
 
 /// Largest relative error of the free frequencies with ω² up to `lambda` by the upper side of the bound; infinite if
 /// `lambda` is not below λ_d.
-double largest_truncation_error(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const Eigen::MatrixXd& G,
-                                double first_dropped, double lambda);
+double largest_truncation_error(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, double lambda);
 
 /// Eigenvalues of the free part, the six of its rigid motions first, from a shift of the size of the first elastic one;
 /// at most `count`. Throws Error if S − shift M is not positive definite.

@@ -73,6 +73,8 @@ json model_json(const ModelCertificate& c) {
           {"modes_requested", c.modes_requested},
           {"modes_kept", c.modes_kept},
           {"modes_available", c.modes_available},
+          {"moment_vectors", c.moment_vectors},
+          {"free_modes", c.free_modes},
           {"cutoff", optional_json(c.cutoff)},
           {"accuracy", c.accuracy ? json{{"error", c.accuracy->error}, {"up_to", c.accuracy->up_to}} : json(nullptr)},
           {"truncation_estimate", c.truncation_estimate},
@@ -132,6 +134,8 @@ ModelCertificate model_from(const json& j) {
   c.modes_requested = j.at("modes_requested");
   c.modes_kept = j.at("modes_kept");
   c.modes_available = j.at("modes_available");
+  c.moment_vectors = j.value("moment_vectors", 0);
+  c.free_modes = j.value("free_modes", 0);
   c.cutoff = optional_from(j.at("cutoff"));
   if (const json& accuracy = j.at("accuracy"); !accuracy.is_null())
     c.accuracy = formats::Accuracy{accuracy.at("error"), accuracy.at("up_to")};
@@ -188,6 +192,8 @@ std::string frequency_table(const FileCertificate& file, const std::optional<Mod
   const std::vector<double>& full = model ? model->free_frequency : none;
   const std::vector<double>& estimate = model ? model->truncation_estimate : none;
   const std::string unit = units.named() ? (units.time.factor == 1.0 ? "Hz" : "1/" + units.time.label) : "1/time";
+  // Behind the modes with the boundary held stand values that are no modes of the part.
+  const std::size_t modes = !model ? count : model->free_modes > 0 ? 0 : static_cast<std::size_t>(model->modes_kept);
   std::string text = fmt::format("frequencies [{}]\n  {:>4} {:>16} {:>16} {:>16} {:>10} {:>10}\n", unit, "mode",
                                  "boundary fixed", "free, reduced", full.empty() ? "" : "free, full",
                                  full.empty() ? "" : "error", estimate.empty() ? "" : "estimate");
@@ -197,11 +203,15 @@ std::string frequency_table(const FileCertificate& file, const std::optional<Mod
   constexpr std::size_t most_rows = 20;
   for (std::size_t k = 0; k < std::min(count, most_rows); ++k) {
     const bool both = k < full.size() && k < file.free_frequency.size();
-    text += fmt::format("  {:>4} {:>16} {:>16} {:>16} {:>10} {:>10}\n", k + 1, cell(file.fixed_frequency, k),
+    text += fmt::format("  {:>4} {:>16} {:>16} {:>16} {:>10} {:>10}\n", k + 1,
+                        cell(file.fixed_frequency, k) + (k < modes || k >= file.fixed_frequency.size() ? "" : "*"),
                         cell(file.free_frequency, k), full.empty() ? "" : cell(full, k),
                         both ? fmt::format("{:.1e}", file.free_frequency[k] / full[k] - 1.0) : "",
                         k < estimate.size() ? fmt::format("{:.1e}", estimate[k]) : "");
   }
+  if (file.fixed_frequency.size() > modes)
+    text += fmt::format("  {:>4} of a {}: no mode of the part\n", "*",
+                        model && model->free_modes > 0 ? "vector that free modes leave inside" : "moment vector");
   if (count > most_rows) text += fmt::format("  {:>4} {} more in the certificate file\n", "...", count - most_rows);
   return text;
 }
@@ -233,15 +243,26 @@ std::string contents_text(const ModelCertificate& c) {
   return text;
 }
 
+/// Which vectors the inside moves by.
+std::string modes_text(const ModelCertificate& c) {
+  const std::string first =
+      c.first_dropped_frequency ? fmt::format(" at {:.8g}", *c.first_dropped_frequency) : std::string();
+  if (c.free_modes > 0)
+    return fmt::format("{:<19}{} of the free part, {} internal vectors; first with the boundary held{}\n", "modes",
+                       c.free_modes, c.modes_kept, first);
+  std::string text = fmt::format(
+      "{:<19}{} kept ({} asked for, {} exist), {}", "internal modes", c.modes_kept, c.modes_requested,
+      c.modes_available, c.modes_counted ? fmt::format("{} counted below the cut", *c.modes_counted) : "not counted");
+  if (!first.empty()) text += ", first dropped" + first;
+  if (c.moment_vectors > 0) text += fmt::format("\n{:<19}{}", "moment vectors", c.moment_vectors);
+  return text + "\n";
+}
+
 std::string model_text(const ModelCertificate& c) {
   std::string text = fmt::format("{:<19}{} nodes, {} elements, {} coordinates ({})\n", "full model", c.nodes,
                                  c.elements, c.coordinates, c.part);
   text += contents_text(c);
-  text += fmt::format("{:<19}{} kept ({} asked for, {} exist), {}", "internal modes", c.modes_kept, c.modes_requested,
-                      c.modes_available,
-                      c.modes_counted ? fmt::format("{} counted below the cut", *c.modes_counted) : "not counted");
-  if (c.first_dropped_frequency) text += fmt::format(", first dropped at {:.8g}", *c.first_dropped_frequency);
-  text += "\n";
+  text += modes_text(c);
   if (!c.eigenvalue_solver.empty())
     text += fmt::format("{:<19}{}, largest residual {:.1e}\n", "eigenvalues by", c.eigenvalue_solver, c.mode_residual);
   text += fmt::format("{:<19}rigid motion {:.1e} of boundary modes, {:.1e} of S; S_BI {:.1e}; M_II - 1 {:.1e}\n",

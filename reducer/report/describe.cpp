@@ -22,10 +22,10 @@ std::vector<double> frequencies(const Eigen::VectorXd& lambda) {
 }
 
 void describe_truncation(const formats::Superelement& element, const InternalModes& internal, ModelCertificate& c) {
-  if (!internal.first_dropped) return;
+  if (!internal.first_dropped || internal.boundary_mass.size() > 0) return;  // no bound of MacNeal's method
   try {
-    const TruncationErrors errors = truncation_errors(element.stiffness, element.mass, internal.truncation,
-                                                      *internal.first_dropped, most_estimated);
+    const TruncationErrors errors =
+        truncation_errors(element.stiffness, element.mass, internal.left_out, most_estimated);
     c.truncation_estimate.assign(errors.estimate.begin(), errors.estimate.end());
     c.truncation_lower = frequencies(errors.lower);
     c.truncation_upper = frequencies(errors.upper);
@@ -56,7 +56,9 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
   ModelCertificate c;
   c.part = part.file;
   c.modes_requested = internal.requested;
-  c.modes_kept = static_cast<int>(internal.lambda.size());
+  c.modes_kept = static_cast<int>(internal.lambda.size()) - internal.moments;
+  c.moment_vectors = internal.moments;
+  c.free_modes = internal.free_modes;
   c.modes_available = internal.available;
   c.cutoff = part.modes.cutoff;
   c.accuracy = part.modes.accuracy;
@@ -68,7 +70,7 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
   c.rigid_residual_before_projection = defects.rigid_residual;
   c.stiffness_coupling = defects.stiffness_coupling;
   c.orthonormality = defects.orthonormality;
-  if (c.modes_kept > c.modes_requested)
+  if (part.modes.method == formats::ReductionMethod::craig_bampton && c.modes_kept > c.modes_requested)
     c.notes.push_back(fmt::format("The cut after {} modes would have split a group of equal frequencies; {} are kept.",
                                   c.modes_requested, c.modes_kept));
   describe_truncation(element, internal, c);

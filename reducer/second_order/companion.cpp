@@ -298,7 +298,7 @@ std::optional<formats::Companion> companion_if_asked(const formats::Part& part, 
                                                      const BoundaryModes& boundary, const InternalModes& internal,
                                                      const formats::Superelement& element, ModelCertificate& model) {
   describe_companion(problem.mesh, part, element, model);
-  if (!wants_companion(part, element)) return std::nullopt;
+  if (!wants_companion(part, element) || internal.boundary_mass.size() > 0) return std::nullopt;
   return make_companion(problem, boundary, internal, element, default_weights(element));
 }
 
