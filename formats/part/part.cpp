@@ -1,6 +1,8 @@
 // part.yaml to the struct Part.
 #include "formats/part/part.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "formats/part/check.hpp"
@@ -24,10 +26,27 @@ constexpr Choice<ReductionMethod> method_words[] = {{"craig_bampton", ReductionM
 constexpr Choice<Verification> verification_words[] = {{"inertia", Verification::inertia},
                                                        {"none", Verification::none}};
 
+/// One of these says how many modes there are.
+constexpr const char* how_many[] = {"modes", "cutoff", "accuracy"};
+
+/// An override of one replaces what the file says by another.
+void replace_mode_choice(const std::vector<Override>& overrides, YamlDocument& document) {
+  const auto is = [](const Override& one, std::string_view key) {
+    return one.path == key || (one.path.starts_with(key) && one.path[key.size()] == '.');
+  };
+  const auto overridden = [&](std::string_view key) {
+    return std::ranges::any_of(overrides, [&](const Override& one) { return is(one, key); });
+  };
+  if (std::ranges::none_of(how_many, overridden)) return;
+  std::erase_if(document.root.children, [&](const YamlNode& node) {
+    return std::ranges::find(how_many, node.key) != std::end(how_many) && !overridden(node.key);
+  });
+}
+
 ModeSelection read_modes(const MapReader& map) {
   ModeSelection modes;
   const char* given = nullptr;
-  for (const char* key : {"modes", "cutoff", "accuracy"}) {
+  for (const char* key : how_many) {
     if (!map.has(key)) continue;
     if (given != nullptr)
       map.context().fail(map.find(key)->key_place, fmt::format("both '{}' and '{}' are given", given, key),
@@ -144,6 +163,7 @@ Part read_part(const std::string& path, const std::vector<Override>& overrides) 
   YamlDocument document = load_yaml(path);
   const std::vector<KeySet> legal_keys = part_key_sets();
   apply_overrides(document, overrides, collection_keys(legal_keys));
+  replace_mode_choice(overrides, document);
   YamlReader reader(document, legal_keys);
   require_kind(reader, "part", "scene", "give it to `mechanism run`");
   Part part = read_tree(reader, path);

@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/personality.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -91,6 +92,25 @@ std::vector<std::string> child_environment() {
   return result;
 }
 
+/// While it lives, programs that this process starts have their memory at the same addresses in every run: gmsh orders
+/// some of its sets by address, and the mesh of a solid, hence the content of the superelement, would differ from run
+/// to run.
+class SameAddresses {
+ public:
+  SameAddresses() : before_(::personality(query)) {
+    if (before_ >= 0) ::personality(static_cast<unsigned long>(before_) | ADDR_NO_RANDOMIZE);
+  }
+  ~SameAddresses() {
+    if (before_ >= 0) ::personality(static_cast<unsigned long>(before_));
+  }
+  SameAddresses(const SameAddresses&) = delete;
+  SameAddresses& operator=(const SameAddresses&) = delete;
+
+ private:
+  static constexpr unsigned long query = 0xffffffff;
+  int before_;
+};
+
 /// posix_spawn's settings: no signal blocked or ignored, descriptors 0 to 4 and no others.
 class SpawnSettings {
  public:
@@ -125,6 +145,7 @@ class SpawnSettings {
     std::string name = program;
     const std::array<char*, 2> arguments{name.data(), nullptr};
     pid_t child = -1;
+    const SameAddresses same;
     const int number =
         ::posix_spawn(&child, program.c_str(), &files_, &attributes_, arguments.data(), environment.data());
     if (number != 0) cannot_start(number, program);

@@ -124,6 +124,7 @@ RitzSpace::RitzSpace(const InternalProblem& problem, const BoundaryModes& bounda
 }
 
 RitzSpace::Values RitzSpace::values(Index p) const {
+  if (p == 0) return {VectorXd(), MatrixXd(0, 0)};
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(mass_.topLeftCorner(p, p));
   const VectorXd mass = solver.eigenvalues().reverse();
   return {mass.cwiseInverse(),

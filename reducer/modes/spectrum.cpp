@@ -266,33 +266,73 @@ Spectrum lowest_pairs(const Pencil& pencil, int count, int available, EigenSolve
   return s;
 }
 
-EigenPairs dense_lowest(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, double shift, int count) {
-  // M x = μ (S − shift M) x, μ = 1/(λ − shift): the lowest λ are the largest μ, found to full relative accuracy.
-  Eigen::MatrixXd A = M, B = S - shift * M;
-  const PetscBLASInt n = static_cast<PetscBLASInt>(S.rows());
-  const PetscBLASInt type = 1, first = n - count + 1, last = n;
-  PetscBLASInt found = 0, info = 0, lwork = -1;
+namespace {
+
+/// Eigenvalues μ ascending and vectors, Xᵀ B X = 1, of A x = μ B x; `info` as LAPACK gives it: above n, B is not
+/// positive definite.
+struct DensePairs {
+  Eigen::VectorXd mu;
+  Eigen::MatrixXd X;
+  PetscBLASInt info = 0;
+};
+
+/// The `count` largest ones, by bisection and inverse iteration.
+DensePairs largest_pairs(Eigen::MatrixXd A, Eigen::MatrixXd B, int count) {
+  const auto n = static_cast<PetscBLASInt>(A.rows());
+  const PetscBLASInt first = n - count + 1, last = n;
+  PetscBLASInt found = 0, lwork = -1;
   // Twice the least normal number: with 0 the inverse iteration of dsyevx fails now and then (its documentation).
   const double unused = 0.0, tolerance = 2.0 * std::numeric_limits<double>::min();
-  Eigen::VectorXd mu(n);
-  Eigen::MatrixXd X(n, count);
+  DensePairs pairs{Eigen::VectorXd(n), Eigen::MatrixXd(n, count)};
   std::vector<PetscBLASInt> iwork(static_cast<std::size_t>(5 * n)), fail(static_cast<std::size_t>(n));
   std::vector<double> work(1);
   for (int pass = 0; pass < 2; ++pass) {
-    PetscBLASInt itype = type;
-    LAPACKsygvx_(&itype, "V", "I", "L", &n, A.data(), &n, B.data(), &n, &unused, &unused, &first, &last, &tolerance,
-                 &found, mu.data(), X.data(), &n, work.data(), &lwork, iwork.data(), fail.data(), &info);
+    PetscBLASInt type = 1;
+    LAPACKsygvx_(&type, "V", "I", "L", &n, A.data(), &n, B.data(), &n, &unused, &unused, &first, &last, &tolerance,
+                 &found, pairs.mu.data(), pairs.X.data(), &n, work.data(), &lwork, iwork.data(), fail.data(),
+                 &pairs.info);
     lwork = static_cast<PetscBLASInt>(work[0]);
     work.resize(static_cast<std::size_t>(lwork));
   }
-  if (info != 0 || found != count)
-    throw Error(fmt::format("LAPACK dsygvx found {} of {} eigenpairs (info {})", found, count, info),
+  pairs.mu.conservativeResize(count);
+  if (pairs.info == 0 && found != count) pairs.info = 1;
+  return pairs;
+}
+
+/// The same by the QR algorithm, which finds all of them always.
+DensePairs largest_pairs_by_qr(Eigen::MatrixXd A, Eigen::MatrixXd B, int count) {
+  const auto n = static_cast<PetscBLASInt>(A.rows());
+  const PetscBLASInt type = 1;
+  PetscBLASInt lwork = -1;
+  Eigen::VectorXd mu(n);
+  DensePairs pairs;
+  std::vector<double> work(1);
+  for (int pass = 0; pass < 2; ++pass) {
+    LAPACKsygv_(&type, "V", "L", &n, A.data(), &n, B.data(), &n, mu.data(), work.data(), &lwork, &pairs.info);
+    lwork = static_cast<PetscBLASInt>(work[0]);
+    work.resize(static_cast<std::size_t>(lwork));
+  }
+  pairs.mu = mu.tail(count);
+  pairs.X = A.rightCols(count);
+  return pairs;
+}
+
+}  // namespace
+
+EigenPairs dense_lowest(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, double shift, int count) {
+  // M x = μ (S − shift M) x, μ = 1/(λ − shift): the lowest λ are the largest μ, found to full relative accuracy.
+  // Inverse iteration fails now and then on groups of equal ones, such as the six rigid motions.
+  const Eigen::MatrixXd B = S - shift * M;
+  DensePairs found = largest_pairs(M, B, count);
+  if (found.info > 0 && found.info <= S.rows()) found = largest_pairs_by_qr(M, B, count);
+  if (found.info != 0)
+    throw Error(fmt::format("LAPACK found no eigenpairs of {} coordinates (info {})", S.rows(), found.info),
                 "eigenvalue solver", "the stiffness is not positive definite: check sections and boundary");
-  EigenPairs pairs{Eigen::VectorXd(count), Eigen::MatrixXd(n, count)};
+  EigenPairs pairs{Eigen::VectorXd(count), Eigen::MatrixXd(S.rows(), count)};
   for (int k = 0; k < count; ++k) {
-    const double m = mu[count - 1 - k];
+    const double m = found.mu[count - 1 - k];
     pairs.value[k] = shift + 1.0 / m;
-    pairs.vector.col(k) = X.col(count - 1 - k) / std::sqrt(m);
+    pairs.vector.col(k) = found.X.col(count - 1 - k) / std::sqrt(m);
   }
   return pairs;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -73,28 +74,56 @@ Eigen::Index count_with(const ReducedModes& modes, const Eigen::MatrixXd& taken,
 
 /// Round-off of eigenvalues: no enclosure is narrower.
 constexpr double resolution = 1e-11;
-constexpr int most_trials = 40;
-
-/// What the full part's eigenvalue `k` is not below: fewer than k + 1 eigenvalues lie below it when the upper side of
-/// the bound is taken off. First order in the bound and a little more, then ever more.
-double lower_end(const ReducedModes& modes, const LeftOut& out, Eigen::Index k, double bound) {
-  const double lambda = modes.pairs.value[k];
-  double margin = 2.02 * bound + resolution;
-  for (int trial = 0; trial < most_trials && margin < 1.0; ++trial, margin *= 1.5) {
-    const double s = lambda * (1.0 - margin);
-    if (count_with(modes, s * s / (1.0 - s / out.first_dropped) * out.residual(s), s) <= k) return s;
-  }
-  return 0.0;
+/// Shares above which what is of first order in them may not be enough: neighbours mix.
+constexpr double first_order = 1e-6;
+/// Part of what the upper side adds to the lower one that estimates take: measured, true errors are nearer to the
+/// lower.
+constexpr double likely = 0.25;
+/// The upper side of the bound.
+Eigen::MatrixXd upper_side(const LeftOut& out, double lambda) {
+  return lambda * lambda / (1.0 - lambda / out.first_dropped) * out.residual(lambda);
 }
 
-/// What it is not above: as many as k + 1 lie below it when the lower side is taken off.
-double upper_end(const ReducedModes& modes, const LeftOut& out, Eigen::Index k, double estimate) {
+/// Share of λ by which the full part's eigenvalue `k` is below that of the reduced part at most: λ (1 − share) has no
+/// more than k eigenvalues below it when the upper side of the bound is taken off. From `first` on, twice as much until
+/// it does.
+double largest_share(const ReducedModes& modes, const LeftOut& out, Eigen::Index k, double first) {
   const double lambda = modes.pairs.value[k];
-  for (double margin = 1.98 * estimate; margin > resolution && margin > 0.1 * estimate; margin *= 0.8) {
-    const double s = lambda * (1.0 - margin);
-    if (s > 0.0 && count_with(modes, s * s * out.residual(s), s) > k) return s;
+  const auto holds = [&](double share) {
+    const double s = lambda * (1.0 - share);
+    return s < out.first_dropped && count_with(modes, upper_side(out, s), s) <= k;
+  };
+  double good = first, fails = 0.0;
+  while (good < 1.0 && !holds(good)) fails = std::exchange(good, 2.0 * good);
+  if (good >= 1.0) return 1.0;
+  while (fails > 0.0 && good > 1.1 * fails) {
+    const double middle = std::sqrt(good * fails);
+    (holds(middle) ? good : fails) = middle;
   }
-  return lambda * (1.0 + resolution);
+  return good;
+}
+
+/// First order in the bound and a little more.
+double first_share(double bound) { return 2.02 * bound + resolution; }
+
+/// Share of λ by which eigenvalue `k` is below that of the reduced part when λ² R(λ) and the part `middle` (0: none, 1:
+/// all) of what the upper side adds to it is taken off; between 0 and `largest`, to 1/256 of that.
+double share_with(const ReducedModes& modes, const LeftOut& out, Eigen::Index k, double middle, double largest) {
+  const double lambda = modes.pairs.value[k];
+  constexpr int steps = 8;
+  double good = 0.0, fails = largest;
+  for (int step = 0; step < steps; ++step) {
+    const double share = 0.5 * (good + fails), s = lambda * (1.0 - share);
+    const double ratio = s / out.first_dropped, factor = 1.0 + middle * ratio / (1.0 - ratio);
+    (count_with(modes, s * s * factor * out.residual(s), s) > k ? good : fails) = share;
+  }
+  return good;
+}
+
+/// By which it is below at least, to first order in the estimate.
+double least_share(const ReducedModes& modes, const LeftOut& out, Eigen::Index k, double estimate) {
+  const double share = 1.98 * estimate, s = modes.pairs.value[k] * (1.0 - share);
+  return share > resolution && count_with(modes, s * s * out.residual(s), s) > k ? share : -resolution;
 }
 
 double estimate_of(const EigenPairs& pairs, const LeftOut& out, Eigen::Index k) {
@@ -135,20 +164,32 @@ TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::Matrix
   errors.lower = errors.lambda;
   if (!std::isfinite(out.first_dropped) || !(out.G.diagonal().maxCoeff() > 0.0)) return errors;
   for (Eigen::Index k = 0; k < count; ++k) {
-    errors.lower[k] = lower_end(modes, out, rigid + k, errors.bound[k]);
-    errors.upper[k] = upper_end(modes, out, rigid + k, errors.estimate[k]);
+    const double most_below = largest_share(modes, out, rigid + k, first_share(errors.bound[k]));
+    const bool small = most_below < first_order;
+    const double least_below = small ? least_share(modes, out, rigid + k, errors.estimate[k])
+                                     : share_with(modes, out, rigid + k, 0.0, most_below);
+    errors.lower[k] = errors.lambda[k] * (1.0 - most_below);
+    errors.upper[k] = errors.lambda[k] * (1.0 - least_below);
+    if (!small) errors.estimate[k] = 1.0 / std::sqrt(1.0 - share_with(modes, out, rigid + k, likely, most_below)) - 1.0;
   }
   return errors;
 }
 
 double largest_truncation_error(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, double lambda) {
-  if (!(lambda < out.first_dropped)) return std::numeric_limits<double>::infinity();
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  if (!(lambda < out.first_dropped)) return infinite;
+  if (!std::isfinite(out.first_dropped)) return 0.0;  // nothing is left out
   const double shift = shift_of(S, M);
   if (shift == 0.0) return 0.0;
-  const EigenPairs pairs = dense_lowest(S, M, shift, static_cast<int>(S.rows()));
+  const ReducedModes modes = reduced_modes(S, M, shift, out.G.rows());
+  const Eigen::Index count = count_with(modes, upper_side(out, lambda), lambda);
+  if (count > modes.pairs.value.size()) return infinite;
   double largest = 0.0;
-  for (Eigen::Index k = rigid; k < pairs.value.size() && pairs.value[k] <= lambda; ++k)
-    largest = std::max(largest, estimate_of(pairs, out, k) / (1.0 - pairs.value[k] / out.first_dropped));
+  for (Eigen::Index k = rigid; k < count; ++k) {
+    const double ratio = std::min(modes.pairs.value[k] / out.first_dropped, 0.9);
+    const double share = largest_share(modes, out, k, first_share(estimate_of(modes.pairs, out, k) / (1.0 - ratio)));
+    largest = std::max(largest, share < 1.0 ? 1.0 / std::sqrt(1.0 - share) - 1.0 : infinite);
+  }
   return largest;
 }
 

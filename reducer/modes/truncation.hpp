@@ -22,11 +22,13 @@ struct LeftOut {
 
 /// Elastic modes of the free reduced part below the first dropped fixed-boundary eigenvalue λ_d, ascending.
 struct TruncationErrors {
-  Eigen::VectorXd lambda;    ///< ω² of the reduced part
-  Eigen::VectorXd estimate;  ///< relative error of the frequency, ½ λ uᵀ R(λ) u for unit modal mass
-  Eigen::VectorXd bound;     ///< the same with the upper side of the bound: estimate/(1 − λ/λ_d)
-  Eigen::VectorXd lower;     ///< the full part's ω² is not below this
-  Eigen::VectorXd upper;     ///< nor above this
+  Eigen::VectorXd lambda;  ///< ω² of the reduced part
+  Eigen::VectorXd estimate;  ///< relative error of the frequency: ½ λ uᵀ R(λ) u for unit modal mass; where that may be
+                             ///< above 1e-6 what taking the lower side and a quarter of the way to the upper one off
+                             ///< does to the eigenvalue
+  Eigen::VectorXd bound;  ///< the first with the upper side of the bound: estimate/(1 − λ/λ_d)
+  Eigen::VectorXd lower;  ///< the full part's ω² is not below this
+  Eigen::VectorXd upper;  ///< nor above this
 };
 
 /// Δ(λ), the condensed dynamic stiffness of the reduced part less that of the full one, is λ² rᵀ (S_II − λ M_II)⁻¹ r
@@ -40,8 +42,8 @@ struct TruncationErrors {
 /// values (law of inertia) with both sides of the bound taken off. At most `most` modes.
 TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, int most);
 
-/// Largest relative error of the free frequencies with ω² up to `lambda` by the upper side of the bound; infinite if
-/// `lambda` is not below λ_d.
+/// Largest relative error of those frequencies whose ω² of the full part may be up to `lambda`, by the upper side of
+/// the bound; infinite if `lambda` is not below λ_d.
 double largest_truncation_error(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, double lambda);
 
 /// Eigenvalues of the free part, the six of its rigid motions first, from a shift of the size of the first elastic one;

@@ -73,6 +73,11 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
   if (part.modes.method == formats::ReductionMethod::craig_bampton && c.modes_kept > c.modes_requested)
     c.notes.push_back(fmt::format("The cut after {} modes would have split a group of equal frequencies; {} are kept.",
                                   c.modes_requested, c.modes_kept));
+  if (internal.boundary_mass.size() > 0)
+    c.notes.push_back(
+        "MacNeal's mass is that of rigid motions and kept modes: the directions below move without mass, and what they "
+        "do in "
+        "dynamics rests on round-off; method: rubin gives them their mass.");
   describe_truncation(element, internal, c);
   return c;
 }

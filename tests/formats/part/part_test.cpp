@@ -154,7 +154,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"modes: 4", "colour: red",
                 "part.yaml:11:1: unknown key 'colour'; known are part, units, mesh, materials, sections, points, "
                 "groups, plates, discs, cylinders, extrusions, shells, solids, beams, point_masses, "
-                "springs, spiders, boundary, modes, cutoff, accuracy, verify, recovery, second_order, modal_body"},
+                "springs, spiders, boundary, modes, cutoff, accuracy, moments, method, verify, recovery, second_order, "
+                "modal_body"},
         BadText{"elements: 40", "elements: 40, ^elements: 41",
                 "^: beam 'rod': key 'elements' is given twice (first in line 8); remove one"},
         BadText{"up: [0, 10, 0]", "^tip: [0, 10, 0]",
@@ -285,6 +286,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "^: point mass 'engine': inertia is not symmetric"},
         BadText{"modes: 4", "modes: ^-1", "^: modes -1 must not be negative; modes: 0 gives Guyan reduction"},
         BadText{"modes: 4", "cutoff: ^0", "^: cutoff 0 must be positive"},
+        BadText{"modes: 4", "modes: 4\nmethod: rubin\nmoments: ^3",
+                "^: 'moments' needs modes with the boundary held; remove it, or write method: craig_bampton"},
+        BadText{"modes: 4", "accuracy: {error: 1e-3, up_to: 50}\nmoments: ^3",
+                "^: 'accuracy' chooses how many moment vectors there are; remove `moments`, or write moments: 0 for "
+                "internal modes alone"},
         BadText{"up: [", "^2nd: [",
                 "^: point '2nd': not a valid name; use letters, digits, _ and -, and begin with a letter or _"},
         BadText{"up: [", "^a/b: [",
