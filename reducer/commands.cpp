@@ -79,9 +79,11 @@ int run(const Arguments& arguments) {
   phases.begin("start solvers");
   const SolverSession session;
   std::unique_ptr<formats::RecoveryWriter> recovery;
-  Reduction reduction = reduce(
-      part, [&phases](const std::string& phase) { phases.begin(phase); },
-      [&](const RecoverySource& source) { recovery = write_recovery(source, formats::recovery_path(output)); });
+  Reduction reduction =
+      reduce(part,
+             PhaseListener([&phases](const std::string& phase) { phases.begin(phase); },
+                           [&phases](double done) { phases.share(done); }),
+             [&](const RecoverySource& source) { recovery = write_recovery(source, formats::recovery_path(output)); });
   phases.begin("write");
   formats::write_superelement(output, reduction.superelement);
   if (recovery) recovery->finish();

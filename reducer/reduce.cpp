@@ -28,10 +28,10 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   check_no_mechanism(S_II, mesh, system, coordinates, part.file);
 
   begin("boundary modes");
-  const BoundaryModes boundary = boundary_modes(S_II, blocks, system, coordinates);
+  const BoundaryModes boundary = boundary_modes(S_II, blocks, system, coordinates, begin.share);
 
   begin("internal modes");
-  const InternalProblem problem{mesh, system, coordinates, blocks, S_II, part.file};
+  const InternalProblem problem{mesh, system, coordinates, blocks, S_II, part.file, begin.share};
   const InternalModes internal = internal_modes(problem, boundary, part.modes);
   begin("projection");
   Projection projection = project(part, problem, boundary, internal);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "formats/companion/companion.hpp"
 #include "formats/modal_body/modal_body.hpp"
@@ -23,8 +24,17 @@ struct Reduction {
   std::optional<formats::ModalBody> modal_body;  ///< the same part as a floating-frame body, if it asks for it
 };
 
-/// Called when a phase begins, with its name: the caller measures time and shows progress.
-using PhaseListener = std::function<void(const std::string& phase)>;
+/// Hears when a phase begins, by its name, and how much of it is done: the caller measures time and shows progress.
+struct PhaseListener {
+  template <class Begin>
+  PhaseListener(Begin heard) : begin(std::move(heard)) {}
+  template <class Begin, class Share>
+  PhaseListener(Begin heard, Share done) : begin(std::move(heard)), share(std::move(done)) {}
+  void operator()(const std::string& phase) const { begin(phase); }
+
+  std::function<void(const std::string& phase)> begin;
+  std::function<void(double)> share = [](double /*done*/) {};  ///< 0 to 1, about
+};
 
 /// Called with what a recovery file is made from, where the part asks for one (phase "recovery").
 using RecoveryListener = std::function<void(const RecoverySource& source)>;

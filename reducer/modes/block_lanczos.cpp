@@ -82,6 +82,7 @@ class BlockLanczos {
       const MatrixXd residual = R_ * Z.bottomRows(lanczos_block);
       int converged = 0;
       while (converged < size_ && residual.col(converged).norm() <= converged_residual * mu[converged]) ++converged;
+      tell(converged);
       if (converged >= wanted_) return pairs(mu.head(converged), Z.leftCols(converged));
       if (size_ + lanczos_block > most_) restart(mu, Z, residual);
     }
@@ -89,6 +90,13 @@ class BlockLanczos {
   }
 
  private:
+  /// Pairs converge late: at first the columns count, of three times as many as pairs and 60 that it usually takes.
+  void tell(int converged) {
+    ++blocks_;
+    const double columns = lanczos_block * blocks_ / (3.0 * wanted_ + 60.0);
+    pencil_.share(std::max(static_cast<double>(converged) / wanted_, std::min(columns, 0.95)));
+  }
+
   /// The first block: one application of the operator to random vectors, so that it has nothing without mass.
   bool start() {
     std::mt19937_64 random(20260101);
@@ -169,6 +177,7 @@ class BlockLanczos {
   MatrixXd R_;      ///< lanczos_block x lanczos_block
   MatrixXd arrow_;  ///< after a restart: coupling of the kept vectors to the first block that follows them
   int size_ = 0;    ///< columns of V before its last block
+  int blocks_ = 0;  ///< how many were solved for
 };
 
 }  // namespace

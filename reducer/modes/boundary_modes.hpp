@@ -1,6 +1,8 @@
 // Boundary (static constraint) modes: how the inside follows the boundary, [Car00] eq. (4).
 #pragma once
 
+#include <functional>
+
 #include <Eigen/Core>
 
 #include "reducer/algebra/factor.hpp"
@@ -24,8 +26,9 @@ void check_no_mechanism(const Factor& S_II, const Mesh& mesh, const System& syst
                         const std::string& where);
 
 /// Solves in blocks, then adds (R_I − Ψ R_B) R_B⁺ so that rigid motions of the boundary move the inside rigidly to the
-/// last digit; R = System::R.
-BoundaryModes boundary_modes(const Factor& S_II, const Blocks& blocks, const System& system, const Partition& p);
+/// last digit; R = System::R. `share` hears how much is done.
+BoundaryModes boundary_modes(const Factor& S_II, const Blocks& blocks, const System& system, const Partition& p,
+                             const std::function<void(double)>& share);
 
 /// Without the round-off that makes products A of symmetric factors unsymmetric.
 inline Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& A) { return 0.5 * (A + A.transpose()); }

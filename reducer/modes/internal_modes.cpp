@@ -318,7 +318,7 @@ InternalModes internal_modes(const InternalProblem& problem, const BoundaryModes
   modes.coupling.resize(boundary.Psi.cols(), 0);
   modes.left_out.G = boundary.flexibility;
   if (modes.available == 0) return modes;
-  const Pencil pencil{problem.blocks.S_II, problem.blocks.M_II, problem.S_II, 0.0};
+  const Pencil pencil{problem.blocks.S_II, problem.blocks.M_II, problem.S_II, 0.0, problem.share};
   Spectrum spectrum;
   int kept = 0, moments = selection.moments.value_or(0);
   if (selection.accuracy) {

@@ -1,6 +1,7 @@
 // Internal (fixed-boundary) modes, [Car00] eq. (5), with a basis that does not depend on solver or node numbers.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -37,6 +38,7 @@ struct InternalProblem {
   const Blocks& blocks;
   const Factor& S_II;
   std::string where;
+  std::function<void(double)> share = [](double /*done*/) {};  ///< hears how much of a phase is done
 };
 
 /// Rank of M: the number of finite eigenvalues, since S is regular. Lumped masses without rotary inertia leave

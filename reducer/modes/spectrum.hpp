@@ -1,6 +1,7 @@
 // Lowest eigenpairs of S x = λ M x, S positive definite after a shift, M positive semidefinite; none missed.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include <Eigen/Core>
@@ -22,6 +23,7 @@ struct Pencil {
   const Matrix& M;
   const Factor& factor;
   double shift = 0.0;
+  std::function<void(double)> share = [](double /*done*/) {};  ///< hears how much of a search is done, about
 };
 
 enum class EigenSolver { dense, block_lanczos, krylov_schur };

@@ -11,8 +11,9 @@
 namespace tisserand::reducer {
 
 /// Bytes that factorisation and modes take beyond the matrices: the factor, one permuted copy of S_II while it is made,
-/// then boundary modes, the basis of the iteration for `modes` modes and blocks of solutions.
-double memory_need(const FactorCost& cost, double stored_entries, const Partition& p, int modes);
+/// then boundary modes, the basis of the iteration for `modes` modes, blocks of solutions, and `ritz_vectors` four
+/// times.
+double memory_need(const FactorCost& cost, double stored_entries, const Partition& p, int modes, int ritz_vectors);
 
 /// Bytes that a program may still take: of the machine, of its control group, of its limits.
 double available_memory();
@@ -20,8 +21,8 @@ double available_memory();
 /// Throws Error if `need` exceeds `available` bytes.
 void require_memory(double need, double available, const Partition& p, const std::string& where);
 
-/// Factors S_II after its memory has been found to suffice; begins the phase "factorisation (1.2 GB)", which tells the
-/// need. Of a part without inside: an empty factor.
+/// Factors S_II after its memory has been found to suffice; begins the phase "factorisation (1.2 GB, about 12 s)",
+/// which tells the need, and the time where it is seconds. Of a part without inside: an empty factor.
 Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Part& part,
                      const std::function<void(const std::string&)>& begin);
 

@@ -31,6 +31,13 @@ std::string listed_times(const std::vector<Phase>& phases, double Phase::*second
   return text + fmt::format("total {:.3f} s", total);
 }
 
+/// ", 40 %, about 12 s to go", nothing where too little is known.
+std::string rest_text(double share, double gone) {
+  constexpr double known = 0.03;
+  if (!(share > known && share < 1.0)) return "";
+  return fmt::format(", {:.0f} %, about {:.0f} s to go", 100.0 * share, gone * (1.0 - share) / share);
+}
+
 }  // namespace
 
 Phases::Phases() : watcher_([this] { watch(); }) {}
@@ -47,9 +54,14 @@ Phases::~Phases() {
 void Phases::begin(const std::string& name) {
   end();
   const std::lock_guard lock(mutex_);
-  phases_.push_back({name, Clock::now(), 0.0, processor_seconds(), 0.0});
+  phases_.push_back({name, Clock::now(), 0.0, 0.0, processor_seconds(), 0.0});
   running_ = true;
   changed_.notify_all();
+}
+
+void Phases::share(double done) {
+  const std::lock_guard lock(mutex_);
+  if (running_) phases_.back().share = done;
 }
 
 void Phases::end() {
@@ -84,7 +96,8 @@ void Phases::watch() {
     const auto is_over = [&] { return finished_ || !running_ || phases_.size() != phase; };
     for (int wait_ms = 1000; !changed_.wait_until(lock, start + std::chrono::milliseconds(wait_ms), is_over);
          wait_ms *= 2)
-      fmt::print(stderr, "{} ... {} s\n", phases_.back().name, wait_ms / 1000);
+      fmt::print(stderr, "{} ... {} s{}\n", phases_.back().name, wait_ms / 1000,
+                 rest_text(phases_.back().share, seconds_since(start)));
   }
 }
 

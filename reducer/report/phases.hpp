@@ -19,6 +19,8 @@ class Phases {
   Phases& operator=(const Phases&) = delete;
 
   void begin(const std::string& name);
+  /// How much of the phase is done, 0 to 1: the line then says how long it will still take.
+  void share(double done);
   void end();
   /// "mesh 0.010 s, assembly 0.021 s, ..., total 0.310 s" by the clock.
   std::string text() const;
@@ -31,6 +33,7 @@ class Phases {
     std::string name;
     Clock::time_point start;
     double seconds = 0.0;
+    double share = 0.0;
     double processor_start = 0.0;
     double processor_seconds = 0.0;
   };

@@ -90,8 +90,9 @@ class ElementBatches {
 
   /// Calls use(batch) for all elements in their order.
   template <class Use>
-  void for_each(const Use& use) {
+  void for_each(const Use& use, const std::function<void(double)>& done) {
     for (int first = 0; first < mesh_.elements(); first += block) {
+      done(static_cast<double>(first) / mesh_.elements());
       const int count = std::min(block, mesh_.elements() - first);
       on_threads(threads_, [&](int t) {
         const Share share = share_of(count, t, threads_);
@@ -278,9 +279,8 @@ formats::Companion make_companion(const InternalProblem& problem, const Boundary
   MatrixXd displacements(Phi.rows(), n + loads);
   displacements << Phi, expand(system.T, residual_displacements(problem, internal, gather_forces(system.T, g)));
   QuadraticForms forms(n, n + loads, threads);
-  ElementBatches(mesh, system.coordinates, displacements, n, threads).for_each([&](const StrainBatch& batch) {
-    forms.add(batch);
-  });
+  ElementBatches(mesh, system.coordinates, displacements, n, threads)
+      .for_each([&](const StrainBatch& batch) { forms.add(batch); }, problem.share);
   add_offset_masses(mesh, system.coordinates, Phi, D, forms);
   if (const TieForces ties = find_tie_forces(mesh, system, problem.where); !ties.empty()) {
     const MatrixXd residual = tie_residual(mesh, system.coordinates, ties, displacements, g);

@@ -29,7 +29,7 @@ struct Inside {
         coordinates(reducer::partition(full.mesh, full.system)),
         blocks(reducer::split(full.system.matrices, coordinates)),
         S_II(blocks.S_II),
-        boundary(reducer::boundary_modes(S_II, blocks, full.system, coordinates)),
+        boundary(reducer::boundary_modes(S_II, blocks, full.system, coordinates, [](double) {})),
         problem{full.mesh, full.system, coordinates, blocks, S_II, "part"} {}
 
   reducer::InternalModes modes(int count, int moments) const {

@@ -48,7 +48,7 @@ Body reduce_at(const reducer::Mesh& mesh, int modes, const VectorXd& weights) {
   const reducer::Partition coordinates = reducer::partition(mesh, system);
   const reducer::Blocks blocks = reducer::split(system.matrices, coordinates);
   const reducer::Factor S_II = coordinates.n_I() > 0 ? reducer::Factor(blocks.S_II) : reducer::Factor();
-  const reducer::BoundaryModes boundary = reducer::boundary_modes(S_II, blocks, system, coordinates);
+  const reducer::BoundaryModes boundary = reducer::boundary_modes(S_II, blocks, system, coordinates, [](double) {});
   const reducer::InternalProblem problem{mesh, system, coordinates, blocks, S_II, "test"};
   const reducer::InternalModes internal = reducer::internal_modes(problem, boundary, part.modes);
   Body body{reducer::project(part, problem, boundary, internal).superelement, {}};
