@@ -106,6 +106,75 @@ TEST(Solve, FilesHoldPointsAndFields) {
   EXPECT_THROW(reducer::solution_table(s, part, {0, {"elbow"}}), Error);
 }
 
+// Two bricks of 20 nodes of a deck, its node sets held and loaded, against CalculiX 2.20 (ccx) on the same deck:
+// *BOUNDARY FIX, 1, 3; *DLOAD P2 on the elements' tops; GRAV; *FREQUENCY. It prints seven digits.
+TEST(Solve, IsCalculixsSolutionOfADeck) {
+  const test_support::TemporaryFolder folder;
+  std::ofstream(folder.file("block.inp")) << R"(*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, 1, 0
+4, 0, 1, 0
+5, 0, 0, 1
+6, 1, 0, 1
+7, 1, 1, 1
+8, 0, 1, 1
+9, 0.5, 0, 0
+10, 1, 0.5, 0
+11, 0.5, 1, 0
+12, 0, 0.5, 0
+13, 0.5, 0, 1
+14, 1, 0.5, 1
+15, 0.5, 1, 1
+16, 0, 0.5, 1
+17, 0, 0, 0.5
+18, 1, 0, 0.5
+19, 1, 1, 0.5
+20, 0, 1, 0.5
+21, 2, 0, 0
+22, 2, 1, 0
+23, 2, 0, 1
+24, 2, 1, 1
+25, 1.5, 0, 0
+26, 2, 0.5, 0
+27, 1.5, 1, 0
+28, 1.5, 0, 1
+29, 2, 0.5, 1
+30, 1.5, 1, 1
+31, 2, 0, 0.5
+32, 2, 1, 0.5
+*ELEMENT, TYPE=C3D20, ELSET=EALL
+1, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15,
+16, 17, 18, 19, 20
+2, 2, 21, 22, 3, 6, 23, 24, 7, 25, 26, 27, 10, 28, 29, 30,
+14, 18, 31, 32, 19
+*NSET, NSET=FIX
+1, 4, 5, 8, 12, 16, 17, 20
+*NSET, NSET=TOP
+5, 6, 7, 8, 13, 14, 15, 16, 23, 24, 28, 29, 30
+*MATERIAL, NAME=STEEL
+*ELASTIC
+2.1e11, 0.3
+*DENSITY
+7800
+*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL
+)";
+  std::ofstream(folder.file("block.part.yaml")) << R"(part: block
+mesh: {file: block.inp}
+supports: {FIX: translations}
+load_cases: {press: {pressures: {TOP: 1e5}}, weight: {gravity: [0, 0, -9.81]}}
+)";
+  const Solution s = solved(formats::read_part(folder.file("block.part.yaml"), {}), 3);
+  const Eigen::Vector3d press(-3.487622e-06, -6.940545e-09, -1.266833e-05);
+  const Eigen::Vector3d weight(-2.670790e-06, -1.276497e-09, -9.592928e-06);
+  EXPECT_LT((motion_of(s, "node 21", 0).head<3>() - press).norm(), 1e-11);
+  EXPECT_LT((motion_of(s, "node 21", 1).head<3>() - weight).norm(), 1e-11);
+  EXPECT_NEAR(s.statics.energy[0], 0.5823515, 1e-7);
+  EXPECT_NEAR(s.statics.energy[1], 0.3261465, 1e-7);
+  EXPECT_NEAR(reducer::frequency(s.modes->lambda[0]), 191.3769, 1e-4);
+  EXPECT_NEAR(reducer::frequency(s.modes->lambda[2]), 402.3434, 1e-4);
+}
+
 /// A plate with a spider on its edge; groups of faces and edges.
 std::string plate(const std::string& more) {
   return R"(part: plate
