@@ -112,7 +112,7 @@ _tisserand() {
     'mechanism run' | 'mechanism check') _tisserand_files scene.yaml yaml ;;
     'mechanism study') _tisserand_files study.yaml yaml ;;
     'mechanism '*) _tisserand_files results.h5 h5 ;;
-    'reducer run' | 'reducer mesh' | 'reducer section') _tisserand_files part.yaml yaml ;;
+    'reducer run' | 'reducer solve' | 'reducer mesh' | 'reducer section') _tisserand_files part.yaml yaml ;;
     'reducer show' | 'reducer export') _tisserand_files superelement.h5 h5 ;;
     'reducer groups' | 'reducer view')
       _tisserand_files 'part.yaml recovery.h5 step stp STEP STP iges igs brep geo msh bdf nas dat inp' yaml ;;

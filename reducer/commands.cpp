@@ -26,6 +26,8 @@
 #include "reducer/reduce.hpp"
 #include "reducer/report/certificate.hpp"
 #include "reducer/report/phases.hpp"
+#include "reducer/solve/files.hpp"
+#include "reducer/solve/report.hpp"
 #include "reducer/sources/build_mesh.hpp"
 #include "reducer/sources/survey.hpp"
 #include "reducer/startup.hpp"
@@ -46,6 +48,13 @@ formats::Part part_of(const Arguments& arguments) {
   return part;
 }
 
+/// What an output may not replace: the part file and its mesh file.
+std::vector<std::string> inputs_of(const formats::Part& part, const Arguments& arguments) {
+  std::vector<std::string> inputs{arguments.input};
+  if (!part.mesh.file.empty()) inputs.push_back(part.mesh.file);
+  return inputs;
+}
+
 /// The path of an input or output without the ending of its kind, plus `ending`.
 std::string beside(const std::string& input, const std::string& ending) {
   for (const std::string known :
@@ -62,6 +71,11 @@ std::unique_ptr<formats::RecoveryWriter> write_recovery(const RecoverySource& so
   recovery_fields(source, tables,
                   [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) { writer->append(field, rows); });
   return writer;
+}
+
+/// "time", "processor time".
+std::string times_text(const Phases& phases) {
+  return fmt::format("{:<19}{}\n{:<19}{}\n", "time", phases.text(), "processor time", phases.processor_text());
 }
 
 int run(const Arguments& arguments) {
@@ -92,13 +106,32 @@ int run(const Arguments& arguments) {
   if (reduction.modal_body) formats::write_modal_body(modal_body, *reduction.modal_body);
   phases.end();
   say(certificate_text(reduction.superelement, reduction.file, reduction.model));
-  say(fmt::format("{:<19}{}\n{:<19}{}\n{:<19}{}\n{:<19}{}\n", "time", phases.text(), "processor time",
-                  phases.processor_text(), "written", output, "", certificate_path(output)));
+  say(times_text(phases));
+  say(fmt::format("{:<19}{}\n{:<19}{}\n", "written", output, "", certificate_path(output)));
   if (recovery) say(fmt::format("{:<19}{}\n", "", formats::recovery_path(output)));
   if (reduction.companion)
     say(fmt::format("{:<19}{} ({:.3g} MB: second order of {} coordinates)\n", "", companion,
                     1e-6 * static_cast<double>(std::filesystem::file_size(companion)), reduction.superelement.size()));
   if (reduction.modal_body) say(fmt::format("{:<19}{}\n", "", modal_body));
+  return 0;
+}
+
+int solve(const Arguments& arguments) {
+  Phases phases;
+  phases.begin("read");
+  const formats::Part part = part_of(arguments);
+  const std::string stem = arguments.output.empty() ? beside(arguments.input, ".solution") : arguments.output;
+  const std::vector<std::string> files = solution_files(stem, part, arguments.solve_request);
+  for (const std::string& file : files) require_output(file, inputs_of(part, arguments), Replaces::anything);
+  phases.begin("start solvers");
+  const SolverSession session;
+  const Solution solution =
+      solve(part, arguments.solve_request, [&phases](const std::string& phase) { phases.begin(phase); });
+  phases.begin("write");
+  write_solution(solution, part, arguments.solve_request, stem);
+  phases.end();
+  say(solution_text(solution, part) + "\n" + times_text(phases));
+  for (const std::string& file : files) say(fmt::format("{:<19}{}\n", &file == &files.front() ? "written" : "", file));
   return 0;
 }
 
@@ -139,9 +172,7 @@ formats::Part part_or_file(const Arguments& arguments) {
 int mesh(const Arguments& arguments) {
   const formats::Part part = part_of(arguments);
   const std::string output = arguments.output.empty() ? beside(arguments.input, ".msh") : arguments.output;
-  std::vector<std::string> inputs{arguments.input};
-  if (!part.mesh.file.empty()) inputs.push_back(part.mesh.file);
-  require_output(output, inputs, Replaces::anything);
+  require_output(output, inputs_of(part, arguments), Replaces::anything);
   const Mesh result = build_mesh(part);
   write_gmsh_file(result, output);
   for (const std::string& warning : result.warnings) say(fmt::format("warning: {}\n", warning));
@@ -202,6 +233,8 @@ int perform(const Arguments& arguments, char** argv) {
   switch (arguments.command) {
     case Command::run:
       return run(arguments);
+    case Command::solve:
+      return solve(arguments);
     case Command::show:
       return show(arguments);
     case Command::mesh:

@@ -7,10 +7,11 @@
 #include "formats/part/part.hpp"
 #include "reducer/exchange/request.hpp"
 #include "reducer/recover/request.hpp"
+#include "reducer/solve/request.hpp"
 
 namespace tisserand::reducer {
 
-enum class Command { run, show, mesh, view, groups, section, recover, import_matrices, export_matrices };
+enum class Command { run, solve, show, mesh, view, groups, section, recover, import_matrices, export_matrices };
 
 struct Arguments {
   Command command = Command::run;
@@ -18,6 +19,7 @@ struct Arguments {
   std::string output;            ///< empty: beside the input
   std::vector<std::string> set;  ///< path=value
   formats::MeshFile::Permission permission;
+  SolveRequest solve_request;
   RecoverRequest recover_request;
   exchange::ImportRequest import_request;
   exchange::ExportRequest export_request;

@@ -1,5 +1,5 @@
-// The command line of stage 1: reducer run, show, mesh, groups, import, export. Linked twice: into the quick front and
-// into the solver behind it.
+// The command line of stage 1: reducer run, solve, show, mesh, groups, import, export. Linked twice: into the quick
+// front and into the solver behind it.
 #include <algorithm>
 #include <cstdio>
 #include <exception>
@@ -24,6 +24,7 @@ Examples:
   reducer run beam.part.yaml                     writes beam.superelement.h5 beside the part, prints its certificate
   reducer run beam.part.yaml -o out/arm.superelement.h5
   reducer run beam.part.yaml --set modes=4       any value of the part can be set from here
+  reducer solve beam.part.yaml --modes 10        statics and modes of the part itself, with its load_cases and supports
   reducer show beam.superelement.h5              the certificate: mass, frequencies, checks
   reducer mesh beam.part.yaml                    writes beam.msh, to look at with gmsh
   reducer view bracket.part.yaml                 bracket.html: the mesh, in any browser; of a recovery file also its modes
@@ -58,6 +59,21 @@ constexpr const char* about_run = R"help(Reduces a part to a superelement file w
   reducer run rod.part.yaml --set 'modal_body={reference: base, modes: 6}'    also rod.modal.h5, for `type: modal`
 
 Writes name.superelement.h5 and name.certificate.json, whole or not at all.
+Exit codes: 0 done, 1 error, 2 wrong usage.)help";
+
+constexpr const char* about_solve =
+    R"help(Linear statics and modes of the unreduced part, with the supports and load cases of its file.
+
+  reducer solve beam.part.yaml                      every load case
+  reducer solve beam.part.yaml --modes 10           also the ten lowest modes of the supported part
+  reducer solve beam.part.yaml -o out/beam --set load_cases.tip.forces.tip.2=-100 --point 0.5,0,0
+
+  supports: {wall: all, mid_plane: {on: cut, symmetry: x}}
+  load_cases: {tip: {forces: {tip: [0, 0, -10]}}, weight: {gravity: [0, 0, -9.81]}, wind: {pressures: {skin: 200}}}
+
+Tells the largest displacements and stresses, reactions, equilibrium, frequencies and effective masses. Writes
+name.solution.csv (displacements of named points), name.solution.CASE.vtu for each load case and
+name.solution-modes.vtu, for ParaView. formats/PART.md has all loads and supports.
 Exit codes: 0 done, 1 error, 2 wrong usage.)help";
 
 constexpr const char* about_show = R"help(Prints the certificate of a superelement file: mass, frequencies, checks.
@@ -170,6 +186,21 @@ CLI::App* add_recover(CLI::App& app, const std::string& asked, tisserand::reduce
   return command;
 }
 
+CLI::App* add_solve(CLI::App& app, const std::string& asked, tisserand::reducer::Arguments& arguments) {
+  CLI::App* const command = add_command(app, "solve", about_solve, asked);
+  command->add_option("part", arguments.input, "part.yaml")->required();
+  command->add_option("--modes", arguments.solve_request.modes, "number of modes, lowest first (default: none)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("-o,--output", arguments.output,
+                      "first part of the names of the files (default: name.solution beside the part)");
+  command->add_option("--set", arguments.set, "path=value: override a value of the part")->allow_extra_args(false);
+  command
+      ->add_option("--point", arguments.solve_request.points,
+                   "one more node in the table: label, or x,y,z of the part frame")
+      ->allow_extra_args(false);
+  return command;
+}
+
 /// Options of commands that read mesh files.
 void add_permission(CLI::App* command, tisserand::formats::MeshFile::Permission& permission) {
   command->add_flag("--trust-geometry", permission.trusted, "the geometry may read files of other folders");
@@ -185,8 +216,8 @@ void add_permission(CLI::App* command, tisserand::formats::MeshFile::Permission&
 
 /// Prints what is wrong with the words of the command line.
 int tell_usage(const CLI::ParseError& error, const std::string& asked) {
-  const std::vector<std::string> commands{"run",     "show",    "mesh",   "view",  "groups",
-                                          "section", "recover", "import", "export"};
+  const std::vector<std::string> commands{"run",    "solve",   "show",    "mesh",   "view",
+                                          "groups", "section", "recover", "import", "export"};
   const bool known = std::find(commands.begin(), commands.end(), asked) != commands.end();
   const bool is_word = !asked.empty() && asked[0] != '-';
   tisserand::complain("reducer", fmt::format("{}\n`reducer {}--help` explains.",
@@ -212,6 +243,7 @@ int main(int argc, char** argv) {
   run_command->add_option("-o,--output", arguments.output, "superelement file (default: beside the part)");
   run_command->add_option("--set", arguments.set, "path=value: override a value of the part, e.g. modes=4")
       ->allow_extra_args(false);
+  CLI::App* const solve_command = add_solve(app, asked, arguments);
   CLI::App* const show_command = add_command(app, "show", about_show, asked);
   show_command->add_option("file", arguments.input, "name.superelement.h5")->required();
   CLI::App* const mesh_command = add_command(app, "mesh", about_mesh, asked);
@@ -231,7 +263,7 @@ int main(int argc, char** argv) {
   section_command->add_option("part", arguments.input, "part.yaml")->required();
   section_command->add_option("--set", arguments.set, "path=value: override a value of the part")
       ->allow_extra_args(false);
-  for (CLI::App* const command : {run_command, mesh_command, view_command, groups_command})
+  for (CLI::App* const command : {run_command, solve_command, mesh_command, view_command, groups_command})
     add_permission(command, arguments.permission);
   CLI::App* const recover_command = add_recover(app, asked, arguments.recover_request);
   CLI::App* const import_command = add_import(app, asked, arguments.import_request);
@@ -245,6 +277,7 @@ int main(int argc, char** argv) {
                       : show_command->parsed() ? Command::show
                       : mesh_command->parsed() ? Command::mesh
                                                : Command::groups;
+  if (solve_command->parsed()) arguments.command = Command::solve;
   if (view_command->parsed()) arguments.command = Command::view;
   if (section_command->parsed()) arguments.command = Command::section;
   if (recover_command->parsed()) arguments.command = Command::recover;

@@ -42,21 +42,9 @@ void read_line(const MapReader& map, BeamLine& beam, const Part& part) {
   read_division(map, beam);
 }
 
-/// One of x, y, z, rx, ry, rz, or a list of them.
-unsigned component_bits(const Context& context, const YamlNode& node, const std::string& what) {
-  unsigned bits = 0;
-  const std::vector<std::string> words{"x", "y", "z", "rx", "ry", "rz"};
-  const auto add = [&](const YamlNode& item) {
-    if (const auto index = read_word(context, item, what, words)) bits |= 1U << *index;
-  };
-  if (node.kind != YamlKind::sequence) add(node);
-  for (const YamlNode& item : node.children) add(item);
-  return bits;
-}
-
 unsigned read_components(const MapReader& map, std::string_view key) {
   const YamlNode* node = map.find(key);
-  return node == nullptr ? 0 : component_bits(map.context(), *node, "release");
+  return node == nullptr ? 0 : read_component_bits(map.context(), *node, "release");
 }
 
 void read_ends(const MapReader& map, BeamLine& beam) {
@@ -200,13 +188,24 @@ std::vector<ModalBodyRequest::Held> read_reference(const MapReader& map) {
   }
   for (const YamlNode* entry : map.entries("reference", "held place")) {
     const bool all = entry->kind == YamlKind::scalar && entry->text == "all";
-    held.push_back({entry->key, all ? 0b111111U : component_bits(map.context(), *entry, "component")});
+    held.push_back({entry->key, all ? 0b111111U : read_component_bits(map.context(), *entry, "component")});
   }
   if (held.empty()) map.context().fail(node->place, "reference holds nothing", "name a place, or mean_axis");
   return held;
 }
 
 }  // namespace
+
+unsigned read_component_bits(const Context& context, const YamlNode& node, const std::string& what) {
+  unsigned bits = 0;
+  const std::vector<std::string> words{"x", "y", "z", "rx", "ry", "rz"};
+  const auto add = [&](const YamlNode& item) {
+    if (const auto index = read_word(context, item, what, words)) bits |= 1U << *index;
+  };
+  if (node.kind != YamlKind::sequence) add(node);
+  for (const YamlNode& item : node.children) add(item);
+  return bits;
+}
 
 void read_modal_body(const MapReader& map, Part& part) {
   const YamlNode* node = map.find("modal_body");
@@ -322,7 +321,8 @@ void read_attachments(const MapReader& map, Part& part) {
 }
 
 void read_boundary(const MapReader& map, Part& part) {
-  const YamlNode* node = part.mesh.file.empty() ? map.require("boundary") : map.find("boundary");
+  const bool required = part.mesh.file.empty() && !map.has("supports") && !map.has("load_cases");
+  const YamlNode* node = required ? map.require("boundary") : map.find("boundary");
   if (node == nullptr) return;
   YamlReader& reader = map.context().reader;
   if (node->kind == YamlKind::map) {

@@ -156,7 +156,8 @@ void check_modal_body(const Part& part, PartNames names, Faults& faults) {
 }
 
 void check_boundary(const Part& part, const PartNames& names, Faults& faults) {
-  if (part.boundary.empty() && part.mesh.file.empty())
+  const bool solved = !part.supports.empty() || !part.load_cases.empty();
+  if (part.boundary.empty() && part.mesh.file.empty() && !solved)
     faults.add(part.file, "boundary", "the part has no boundary node",
                "list the points at which it is joined or loaded, boundary: [base, tip]");
   std::vector<std::string> seen;
@@ -189,6 +190,7 @@ Faults find_faults(const Part& part) {
   check_boundary(part, names, faults);
   check_modes(part, faults);
   check_modal_body(part, names, faults);
+  check_loads(part, names, faults);
   return faults;
 }
 

@@ -24,10 +24,12 @@ Faults find_faults(const Part& part);
 /// Edges of a patch that are groups: "deck/edge1", "tube/start", ...
 std::vector<std::string> edge_groups(const ShellPatch& patch);
 
-/// Pieces of find_faults: patches, layouts, shells, solids; mesh file and groups; springs and spiders.
+/// Pieces of find_faults: patches, layouts, shells, solids; mesh file and groups; springs and spiders; supports and
+/// load cases.
 void check_shells(const Part& part, const PartNames& names, Faults& faults);
 void check_mesh_and_groups(const Part& part, const PartNames& names, Faults& faults);
 void check_attachments(const Part& part, const PartNames& names, Faults& faults);
+void check_loads(const Part& part, PartNames names, Faults& faults);
 void check_place(const Part& part, const PartNames& names, const Place& place, const std::string& subject,
                  const std::string& where, const std::string& key, Faults& faults);
 /// Names of groups: known ones, or any if a mesh file may bring them.

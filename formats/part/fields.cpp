@@ -9,7 +9,7 @@ namespace tisserand::formats {
 std::vector<KeySet> part_key_sets() {
   std::vector<KeySet> sets{{"part", part_fields()}, {"accuracy", accuracy_fields()}};
   for (const auto& lists : {common_key_sets(), section_key_sets(), place_key_sets(), patch_key_sets(), shell_key_sets(),
-                            attachment_key_sets()})
+                            attachment_key_sets(), load_key_sets()})
     sets.insert(sets.end(), lists.begin(), lists.end());
   return sets;
 }
@@ -20,7 +20,8 @@ std::vector<NamedType> part_types() {
                                {"text_list", "text+ | [text+]", "names of groups, one or a list"},
                                {"numbers", "integer | [integer]"},
                                {"component", "'x' | 'y' | 'z' | 'rx' | 'ry' | 'rz'"},
-                               {"components", "component | [component]"}};
+                               {"components", "component | [component]"},
+                               {"held", "'all' | 'translations' | 'rotations' | components"}};
   for (const auto& more : {common_types(), section_types()}) types.insert(types.end(), more.begin(), more.end());
   return types;
 }

@@ -84,6 +84,7 @@ Part read_tree(YamlReader& reader, const std::string& path) {
   read_boundary(map, part);
   part.modes = read_modes(map);
   read_modal_body(map, part);
+  read_loads(map, part);
   part.recovery =
       map.choice("recovery", {Choice<bool>{"yes", true}, {"no", false}, {"true", true}, {"false", false}}, false);
   return part;
@@ -120,7 +121,7 @@ std::vector<Field> part_fields() {
       {"boundary", "[name]1.. | {name: 'all' | 'translations' | 'rotations' | boundary_entry}+",
        "places kept as nodes of the superelement: a list of points and spiders (all six directions), or a map from "
        "names to `all`, `translations`, `rotations`, or to a place with `keep`",
-       "required; with a deck: its ASET, BSET"},
+       "required by `reducer run`; with a deck: its ASET, BSET"},
       plain<&ModeSelection::count>("modes", "number_of",
                                    "number of internal modes, lowest first; 0 is Guyan reduction"),
       plain<&ModeSelection::cutoff>(
@@ -150,7 +151,10 @@ std::vector<Field> part_fields() {
                                                       "takes stiffening, buckling and exact inertia",
                                                       "`yes` while the file stays below 20 MB"),
       {"modal_body", "modal_body",
-       "also a [modal body file](MODAL_BODY.md) beside the superelement, see [modal_body](#modal_body)", "none"}};
+       "also a [modal body file](MODAL_BODY.md) beside the superelement, see [modal_body](#modal_body)", "none"},
+      {"supports", "{text: held | support}",
+       "`reducer solve`: place or group -> directions that are held, see [supports](#supports)", "none"},
+      {"load_cases", "{name: load_case}", "`reducer solve`: name -> loads, see [load_cases](#load_cases)", "none"}};
 }
 
 std::vector<Field> accuracy_fields() {

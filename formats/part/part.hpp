@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include "common/units.hpp"
+#include "formats/part/loads.hpp"
 #include "formats/part/place.hpp"
 #include "formats/part/shells.hpp"
 #include "formats/sections/section.hpp"
@@ -175,7 +176,7 @@ struct Part {
   std::vector<NamedPoint> points;
   std::vector<BeamLine> beams;
   std::vector<PointMass> point_masses;
-  std::vector<BoundaryNode> boundary;  ///< empty: that of the deck
+  std::vector<BoundaryNode> boundary;  ///< empty: that of the deck, or a part to be solved alone
   ModeSelection modes;
   bool recovery = false;  ///< a recovery file beside the superelement
   SecondOrder second_order = SecondOrder::unless_large;
@@ -188,6 +189,8 @@ struct Part {
   std::vector<SolidGroup> solids;
   std::vector<SpringLine> springs;
   std::vector<SpiderLine> spiders;
+  std::vector<Support> supports;         ///< of `reducer solve`
+  std::vector<PartLoadCase> load_cases;  ///< the same
 };
 
 /// Reads part.yaml with the overrides applied, then checks. Throws all errors together, each with file:line:column.

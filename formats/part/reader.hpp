@@ -27,6 +27,8 @@ Place read_place_keys(const MapReader& map, const Part& part);
 
 /// A name or a list of names.
 std::vector<std::string> read_name_list(const Context& context, const YamlNode& node, const std::string& what);
+/// One of x, y, z, rx, ry, rz, or a list of them; bit 0-2 translations, bit 3-5 rotations.
+unsigned read_component_bits(const Context& context, const YamlNode& node, const std::string& what);
 /// An angle in degrees, as radians; `fallback` in radians.
 double read_angle(const MapReader& map, double fallback);
 
@@ -40,6 +42,8 @@ void read_beams(const MapReader& map, Part& part);
 void read_attachments(const MapReader& map, Part& part);
 void read_boundary(const MapReader& map, Part& part);
 void read_modal_body(const MapReader& map, Part& part);
+/// After points, spiders and boundary: names of places come before those of groups.
+void read_loads(const MapReader& map, Part& part);
 
 // Lists of fields, each beside the functions that read them.
 std::vector<Field> part_fields();
@@ -48,5 +52,6 @@ std::vector<KeySet> place_key_sets();
 std::vector<KeySet> patch_key_sets();
 std::vector<KeySet> shell_key_sets();
 std::vector<KeySet> attachment_key_sets();
+std::vector<KeySet> load_key_sets();
 
 }  // namespace tisserand::formats

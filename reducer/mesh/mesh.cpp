@@ -133,31 +133,38 @@ void check_connected(const Mesh& mesh, const std::string& where) {
                   mesh.node_label[gap.inside], mesh.node_label[gap.outside], gap.distance));
 }
 
-void check_boundary_holds(const Mesh& mesh, const std::string& where) {
+std::vector<std::string> free_motions(const Mesh& mesh, const std::vector<HeldComponents>& held) {
   const double length = characteristic_length(mesh);
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   int translational = 0;
-  for (const MeshBoundary& b : mesh.boundary)
-    if (b.translations) center += mesh.position.col(b.node), ++translational;
+  for (const HeldComponents& h : held)
+    if ((h.components & translations_only) != 0) center += mesh.position.col(h.node), ++translational;
   center =
       translational > 0 ? Eigen::Vector3d(center / translational) : Eigen::Vector3d(mesh.position.rowwise().mean());
 
-  Eigen::MatrixXd seen = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(mesh.boundary.size()), 6);
-  for (std::size_t b = 0; b < mesh.boundary.size(); ++b) {
-    const Eigen::Vector3d x = (mesh.position.col(mesh.boundary[b].node) - center) / length;
-    const Eigen::Index row = 6 * static_cast<Eigen::Index>(b);
-    if (mesh.boundary[b].translations) {
-      seen.block<3, 3>(row, 0).setIdentity();
-      seen.block<3, 3>(row, 3) = -skew<double>(x);
-    }
-    if (mesh.boundary[b].rotations) seen.block<3, 3>(row + 3, 3).setIdentity();
+  Eigen::MatrixXd seen = Eigen::MatrixXd::Zero(6 * std::max<Eigen::Index>(held.size(), 1), 6);
+  for (std::size_t h = 0; h < held.size(); ++h) {
+    auto rows = seen.middleRows<6>(6 * static_cast<Eigen::Index>(h));
+    rows.setIdentity();
+    rows.topRightCorner<3, 3>() = -skew<double>((mesh.position.col(held[h].node) - center) / length);
+    for (int c = 0; c < 6; ++c)
+      if ((held[h].components >> c & 1) == 0) rows.row(c).setZero();
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(seen, Eigen::ComputeFullV);
   const Eigen::Index rank = (svd.singularValues().array() > 1e-9 * svd.singularValues()(0)).count();
-  if (rank == 6) return;
   const Eigen::MatrixXd free = echelon(svd.matrixV().rightCols(6 - rank));
   std::vector<std::string> words;
   for (Eigen::Index k = 0; k < free.cols(); ++k) words.push_back(motion_text(free.col(k), center, length));
+  return words;
+}
+
+void check_boundary_holds(const Mesh& mesh, const std::string& where) {
+  std::vector<HeldComponents> held;
+  for (const MeshBoundary& b : mesh.boundary)
+    held.push_back({b.node, static_cast<Components>((b.translations ? translations_only : 0) |
+                                                    (b.rotations ? rotations_only : 0))});
+  const std::vector<std::string> words = free_motions(mesh, held);
+  if (words.empty()) return;
   throw Error(
       fmt::format("the boundary {} does not hold the part; still free: {}", boundary_text(mesh), join(words, "; ")),
       where, "retain more coordinates: a boundary node with translations and rotations, or more boundary nodes");

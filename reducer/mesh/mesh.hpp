@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "formats/part/part.hpp"
+#include "reducer/mesh/loads.hpp"
 #include "reducer/properties/beam_data.hpp"
 #include "reducer/properties/shell_section.hpp"
 #include "reducer/properties/solid_material.hpp"
@@ -145,7 +146,9 @@ struct Mesh {
   std::vector<Spider> spiders;
   std::vector<TieEquation> equations;
   std::vector<MeshBoundary> boundary;
-  std::vector<FrameNode> held;         ///< of formats::ModalBodyRequest
+  std::vector<FrameNode> held;        ///< of formats::ModalBodyRequest
+  std::vector<MeshSupport> supports;  ///< of `reducer solve`
+  std::vector<MeshLoadCase> load_cases;
   std::vector<std::string> warnings;  ///< of the way in: to be told and kept in the certificate
 
   int nodes() const { return static_cast<int>(position.cols()); }
@@ -157,6 +160,15 @@ double characteristic_length(const Mesh& mesh);
 
 /// Throws Error naming the pieces, and the nearest pair of nodes between them, unless elements and ties form one piece.
 void check_connected(const Mesh& mesh, const std::string& where);
+
+/// A node with the components that something holds.
+struct HeldComponents {
+  int node = 0;
+  Components components = all_components;
+};
+
+/// The rigid motions that nodes held so leave free, in words: "turning about the axis (0, 0, 1) through (0, 0, 0)".
+std::vector<std::string> free_motions(const Mesh& mesh, const std::vector<HeldComponents>& held);
 
 /// Throws Error naming the free motions if the retained boundary coordinates leave a rigid motion of the part free.
 void check_boundary_holds(const Mesh& mesh, const std::string& where);

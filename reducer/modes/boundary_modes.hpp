@@ -21,6 +21,9 @@ struct BoundaryModes {
   double rigid_defect = 0.0;
 };
 
+/// Where the null vectors of a singular factor of free coordinates (Partition::internal) move most, in words.
+std::string motions_without_stiffness(const Factor& factor, const Mesh& mesh, const System& system, const Partition& p);
+
 /// Throws Error that names nodes and directions if S_II is singular: a mechanism inside the part.
 void check_no_mechanism(const Factor& S_II, const Mesh& mesh, const System& system, const Partition& p,
                         const std::string& where);

@@ -28,7 +28,6 @@ struct BodyMotion {
 
   Eigen::Index instants() const { return y.cols(); }
   double stress_factor() const { return to_scene.force() / (to_scene.length * to_scene.length); }
-  double moment_factor() const { return to_scene.force() * to_scene.length; }
 };
 
 /// Throws Error: no such body, a body that has no coordinates of a superelement (rigid, modal), another superelement,

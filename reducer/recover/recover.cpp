@@ -8,6 +8,7 @@
 #include "common/text.hpp"
 #include "formats/vtk/vtu.hpp"
 #include "reducer/recover/history.hpp"
+#include "reducer/recover/vtu_data.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -27,52 +28,6 @@ Eigen::Matrix3Xd rest_positions(const Recovery& r, const BodyMotion& motion, Rec
   X.colwise() -= motion.origin;
   const Eigen::Matrix3Xd turned = frame_axes(motion, frame, instant) * X;
   return turned.colwise() + motion.position.col(instant);
-}
-
-/// Rows [from, from + width) of every `stride` rows, one set per element of a kind, on all cells: zero for others.
-VtuArray on_cells(const std::string& name, const Eigen::MatrixXf& all, Index instant, int stride, int from, int width,
-                  int first_cell, int cells) {
-  VtuArray array{name, width, std::vector<float>(static_cast<std::size_t>(cells) * static_cast<std::size_t>(width))};
-  for (Index item = 0; item < all.rows() / stride; ++item)
-    for (Index k = 0; k < width; ++k)
-      array.values[static_cast<std::size_t>((first_cell + item) * width + k)] = all(item * stride + from + k, instant);
-  return array;
-}
-
-std::vector<VtuArray> cell_data(const Recovery& r, const RecoveredFields& fields, const InstantValues& values,
-                                Index instant) {
-  const int cells = r.elements.count();
-  VtuArray group{"group", 1, {r.elements.group.begin(), r.elements.group.end()}};
-  std::vector<VtuArray> data{{"von_mises", 1, values.von_mises}, group};
-  const auto add = [&](const char* name, const Eigen::MatrixXf& all, int stride, int from, int width, int first_cell) {
-    data.push_back(on_cells(name, all, instant, stride, from, width, first_cell, cells));
-  };
-  if (r.shells() > 0) {
-    add("von_mises_top", fields.shell_von_mises, 2, 0, 1, r.beams());
-    add("von_mises_bottom", fields.shell_von_mises, 2, 1, 1, r.beams());
-    add("shell_membrane", fields.shell_stress, 6, 0, 3, r.beams());
-    add("shell_bending", fields.shell_stress, 6, 3, 3, r.beams());
-  }
-  if (r.beams() > 0) {
-    add("beam_stress", fields.beam_stress, 1, 0, 1, 0);
-    add("beam_force_1", fields.beam_force, 12, 0, 3, 0);
-    add("beam_moment_1", fields.beam_force, 12, 3, 3, 0);
-    add("beam_force_2", fields.beam_force, 12, 6, 3, 0);
-    add("beam_moment_2", fields.beam_force, 12, 9, 3, 0);
-  }
-  return data;
-}
-
-std::vector<VtuArray> point_data(const Recovery& r, const RecoveredFields& fields, const InstantValues& values,
-                                 const Eigen::Matrix3d& axes, Index instant) {
-  const Eigen::Map<const Eigen::Matrix3Xf> local(fields.displacement.col(instant).data(), 3, r.nodes());
-  const Eigen::Matrix3Xf u = axes.cast<float>() * local;
-  std::vector<VtuArray> data{{"displacement", 3, {u.data(), u.data() + u.size()}}};
-  if (r.stress_points() > 0) {
-    data.push_back({"solid_von_mises", 1, values.solid_von_mises});
-    data.push_back({"solid_stress", 6, values.solid_stress});
-  }
-  return data;
 }
 
 /// All files of one request, named after the body.
@@ -154,7 +109,7 @@ std::string recover(const RecoverRequest& request) {
       history.add(fields, values, rest, axes, t, time);
       files.series.emplace_back(time, fmt::format("{}_{:05}.vtu", files.stem, first + t));
       formats::write_vtu(files.path(files.series.back().second), rest.cast<float>(), cells,
-                         point_data(r, fields, values, axes, t), cell_data(r, fields, values, t));
+                         vtu_point_data(r, fields, values, axes, t), vtu_cell_data(r, fields, values, t));
     }
   }
   formats::write_pvd(files.path(files.stem + ".pvd"), files.series);

@@ -68,7 +68,8 @@ void add_solids(RecoveredFields& out) {
 }
 
 /// Forces of the recovery file in its units -> stresses there, then forces to those of the scene.
-void add_beams(const formats::Recovery& recovery, const BodyMotion& motion, RecoveredFields& out) {
+void add_beams(const formats::Recovery& recovery, const UnitConversion& to, RecoveredFields& out) {
+  const double stress_factor = to.force() / (to.length * to.length);
   const Index beams = recovery.beams(), instants = out.beam_force.cols();
   out.beam_stress.resize(beams, instants);
   for (Index t = 0; t < instants; ++t)
@@ -79,9 +80,9 @@ void add_beams(const formats::Recovery& recovery, const BodyMotion& motion, Reco
         const Vector6 force = out.beam_force.col(t).segment<6>(12 * b + 6 * end).cast<double>();
         largest = std::max(largest, normal_stress(recovery.sections[static_cast<std::size_t>(section)], force));
       }
-      out.beam_stress(b, t) = static_cast<float>(largest * motion.stress_factor());
+      out.beam_stress(b, t) = static_cast<float>(largest * stress_factor);
     }
-  const auto force = static_cast<float>(motion.to_scene.force()), moment = static_cast<float>(motion.moment_factor());
+  const auto force = static_cast<float>(to.force()), moment = static_cast<float>(to.force() * to.length);
   for (Index i = 0; i < out.beam_force.rows(); ++i) out.beam_force.row(i) *= i % 6 < 3 ? force : moment;
 }
 
@@ -106,6 +107,12 @@ double normal_stress(const formats::RecoverySection& section, const Vector6& for
   return largest;
 }
 
+void derive_stresses(const formats::Recovery& recovery, const UnitConversion& to, RecoveredFields& fields) {
+  add_beams(recovery, to, fields);
+  add_shells(fields);
+  add_solids(fields);
+}
+
 RecoveredFields recover_fields(const formats::RecoveryReader& file, const BodyMotion& motion, Index first,
                                Index count) {
   const MatrixXd y = motion.y.middleCols(first, count);
@@ -114,9 +121,7 @@ RecoveredFields recover_fields(const formats::RecoveryReader& file, const BodyMo
   out.beam_force = product(file, RecoveryField::beam_force, y, 1.0);
   out.shell_stress = product(file, RecoveryField::shell_stress, y, motion.stress_factor());
   out.solid_stress = product(file, RecoveryField::solid_stress, y, motion.stress_factor());
-  add_beams(file.recovery(), motion, out);
-  add_shells(out);
-  add_solids(out);
+  derive_stresses(file.recovery(), motion.to_scene, out);
   mirror_vectors(motion.mirror, out.displacement);
   mirror_tensors(motion.mirror, out.solid_stress);
   return out;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include "common/units.hpp"
 #include "formats/recovery/recovery.hpp"
 #include "reducer/recover/motion.hpp"
 
@@ -19,6 +20,10 @@ struct RecoveredFields {
   Eigen::MatrixXf solid_stress;     ///< 6 stress points x T: [xx yy zz xy yz zx]
   Eigen::MatrixXf solid_von_mises;  ///< stress points x T
 };
+
+/// What engineers read from displacements, forces and stresses that are there: the largest normal stresses of beams,
+/// von Mises stresses. Forces of beams become those of the units that `to` leads to, stresses have them already.
+void derive_stresses(const formats::Recovery& recovery, const UnitConversion& to, RecoveredFields& fields);
 
 /// Instants [first, first + count) of the motion; fields are read block by block.
 RecoveredFields recover_fields(const formats::RecoveryReader& file, const BodyMotion& motion, Eigen::Index first,

@@ -16,15 +16,16 @@ using formats::RecoveryField;
 constexpr Index block_doubles = 1 << 20;  // of the motions of a block's nodes
 
 /// Calls work(first, count) over all items of a field, whole chunks at a time; `rows`: of motions, per item.
-void for_blocks(const formats::Recovery& tables, RecoveryField field, Index rows, const auto& work) {
+void for_blocks(const MotionSource& shapes, const formats::Recovery& tables, RecoveryField field, Index rows,
+                const auto& work) {
   const int total = formats::items(tables, field), chunk = formats::chunk_items(tables, field);
-  const Index per_chunk = std::max<Index>(rows * chunk * tables.coordinates(), 1);
+  const Index per_chunk = std::max<Index>(rows * chunk * shapes.columns, 1);
   const int block = chunk * static_cast<int>(std::max<Index>(block_doubles / per_chunk, 1));
   for (int first = 0; first < total; first += block) work(first, std::min(block, total - first));
 }
 
-void displacements(const FullShapes& shapes, const formats::Recovery& tables, const FieldSink& sink) {
-  for_blocks(tables, RecoveryField::translation, 6, [&](int first, int count) {
+void displacements(const MotionSource& shapes, const formats::Recovery& tables, const FieldSink& sink) {
+  for_blocks(shapes, tables, RecoveryField::translation, 6, [&](int first, int count) {
     std::vector<int> nodes(static_cast<std::size_t>(count));
     std::iota(nodes.begin(), nodes.end(), first);
     const MatrixXd all = shapes.motions(nodes);
@@ -39,10 +40,10 @@ void displacements(const FullShapes& shapes, const formats::Recovery& tables, co
 }
 
 /// Of elements whose matrix `stress_of` takes six coordinates per node; `nodes_of` appends their nodes.
-void element_field(const FullShapes& shapes, const formats::Recovery& tables, RecoveryField field, const auto& nodes_of,
-                   const auto& stress_of, const FieldSink& sink) {
+void element_field(const MotionSource& shapes, const formats::Recovery& tables, RecoveryField field,
+                   const auto& nodes_of, const auto& stress_of, const FieldSink& sink) {
   const int width = formats::width(field);
-  for_blocks(tables, field, 24, [&](int first, int count) {
+  for_blocks(shapes, tables, field, 24, [&](int first, int count) {
     std::vector<int> nodes, begin{0};
     for (int e = first; e < first + count; ++e) {
       nodes_of(e, nodes);
@@ -57,7 +58,7 @@ void element_field(const FullShapes& shapes, const formats::Recovery& tables, Re
   });
 }
 
-void beam_forces(const Mesh& mesh, const FullShapes& shapes, const formats::Recovery& tables, const FieldSink& sink) {
+void beam_forces(const Mesh& mesh, const MotionSource& shapes, const formats::Recovery& tables, const FieldSink& sink) {
   const auto nodes_of = [&mesh](int e, std::vector<int>& nodes) {
     nodes.insert(nodes.end(), {mesh.beams[e].first, mesh.beams[e].second});
   };
@@ -65,7 +66,7 @@ void beam_forces(const Mesh& mesh, const FullShapes& shapes, const formats::Reco
   element_field(shapes, tables, RecoveryField::beam_force, nodes_of, stress_of, sink);
 }
 
-void shell_stresses(const Mesh& mesh, const FullShapes& shapes, const formats::Recovery& tables,
+void shell_stresses(const Mesh& mesh, const MotionSource& shapes, const formats::Recovery& tables,
                     const FieldSink& sink) {
   const auto nodes_of = [&mesh](int e, std::vector<int>& nodes) {
     const ShellElement& shell = mesh.shells[e];
@@ -110,7 +111,7 @@ PointTable point_table(const Mesh& mesh, const formats::Recovery& tables) {
 }
 
 /// Mean over the solids around each point of [first, first + count).
-MatrixXd point_stresses(const Mesh& mesh, const FullShapes& shapes, const PointTable& table, int first, int count) {
+MatrixXd point_stresses(const Mesh& mesh, const MotionSource& shapes, const PointTable& table, int first, int count) {
   std::vector<int> solids(table.solid.begin() + table.around[first], table.solid.begin() + table.around[first + count]);
   std::sort(solids.begin(), solids.end());
   solids.erase(std::unique(solids.begin(), solids.end()), solids.end());
@@ -142,23 +143,30 @@ MatrixXd point_stresses(const Mesh& mesh, const FullShapes& shapes, const PointT
   return rows;
 }
 
-void solid_stresses(const Mesh& mesh, const FullShapes& shapes, const formats::Recovery& tables,
+void solid_stresses(const Mesh& mesh, const MotionSource& shapes, const formats::Recovery& tables,
                     const FieldSink& sink) {
   if (mesh.solids.empty()) return;
   const PointTable table = point_table(mesh, tables);
-  for_blocks(tables, RecoveryField::solid_stress, 6, [&](int first, int count) {
+  for_blocks(shapes, tables, RecoveryField::solid_stress, 6, [&](int first, int count) {
     sink(RecoveryField::solid_stress, point_stresses(mesh, shapes, table, first, count));
   });
 }
 
 }  // namespace
 
+void motion_fields(const Mesh& mesh, const MotionSource& source, const formats::Recovery& tables,
+                   const FieldSink& sink) {
+  displacements(source, tables, sink);
+  beam_forces(mesh, source, tables, sink);
+  shell_stresses(mesh, source, tables, sink);
+  solid_stresses(mesh, source, tables, sink);
+}
+
 void recovery_fields(const RecoverySource& source, const formats::Recovery& tables, const FieldSink& sink) {
   const FullShapes shapes(source.system, source.partition, source.boundary, source.internal);
-  displacements(shapes, tables, sink);
-  beam_forces(source.mesh, shapes, tables, sink);
-  shell_stresses(source.mesh, shapes, tables, sink);
-  solid_stresses(source.mesh, shapes, tables, sink);
+  motion_fields(source.mesh,
+                {[&](const std::vector<int>& nodes) { return shapes.motions(nodes); }, shapes.coordinates()}, tables,
+                sink);
 }
 
 }  // namespace tisserand::reducer

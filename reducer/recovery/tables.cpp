@@ -143,11 +143,16 @@ Recovery mesh_tables(const Mesh& mesh) {
   return r;
 }
 
+Recovery solved_tables(const Mesh& mesh, const Coordinates& coordinates) {
+  Recovery r = mesh_tables(mesh);
+  for (int n = 0; n < mesh.nodes(); ++n) r.rotates.push_back(coordinates.rotates(n) ? 1 : 0);
+  add_shell_data(mesh, r);
+  return r;
+}
+
 Recovery recovery_tables(const RecoverySource& source) {
-  Recovery r = mesh_tables(source.mesh);
+  Recovery r = solved_tables(source.mesh, source.system.coordinates);
   add_head(source, r);
-  for (int n = 0; n < source.mesh.nodes(); ++n) r.rotates.push_back(source.system.coordinates.rotates(n) ? 1 : 0);
-  add_shell_data(source.mesh, r);
   return r;
 }
 

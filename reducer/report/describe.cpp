@@ -88,14 +88,19 @@ std::vector<double> compared_frequencies(const System& system, const InternalMod
   return full_free_frequencies(system, scale, most_compared);
 }
 
-Doubts check_mesh(const Mesh& mesh, const formats::Part& part) {
+Doubts check_elements(const Mesh& mesh, const formats::Part& part) {
   check_used(mesh, part.file);
   check_connected(mesh, part.file);
-  check_boundary_holds(mesh, part.file);
   Doubts doubts{mesh.warnings, plausibility_warnings(mesh, part.units)};
   const std::string& where = part.mesh.file.empty() ? part.file : part.mesh.file;
   for (const auto& more : {check_shapes(mesh, where), doubts.numbers})
     doubts.all.insert(doubts.all.end(), more.begin(), more.end());
+  return doubts;
+}
+
+Doubts check_mesh(const Mesh& mesh, const formats::Part& part) {
+  Doubts doubts = check_elements(mesh, part);
+  check_boundary_holds(mesh, part.file);
   return doubts;
 }
 

@@ -30,8 +30,10 @@ struct Doubts {
   std::vector<std::string> numbers;
 };
 
-/// Throws Error for coordinates that nothing uses, pieces that nothing connects, a boundary that does not hold the
-/// part, elements of bad shape.
+/// Throws Error for nodes that nothing uses, pieces that nothing connects, elements of bad shape.
+Doubts check_elements(const Mesh& mesh, const formats::Part& part);
+
+/// The same, and for a boundary that does not hold the part.
 Doubts check_mesh(const Mesh& mesh, const formats::Part& part);
 
 /// Throws Error for a part without mass.

@@ -34,6 +34,15 @@ void for_nodes(Mesh& mesh, Visit visit) {
     for (TieTerm& term : e.terms) visit(term.node);
   for (MeshBoundary& e : mesh.boundary) visit(e.node);
   for (FrameNode& e : mesh.held) visit(e.node);
+  for (MeshSupport& e : mesh.supports)
+    for (int& node : e.nodes) visit(node);
+  for (MeshLoadCase& e : mesh.load_cases) {
+    for (NodeLoad& load : e.forces) visit(load.node);
+    for (FacePressure& load : e.faces)
+      for (int k = 0; k < load.count; ++k) visit(load.nodes[k]);
+    for (EdgeLineLoad& load : e.edges)
+      for (int k = 0; k < load.count; ++k) visit(load.nodes[k]);
+  }
 }
 
 /// A deck may hold nodes by mistake, a geometry always holds points.
@@ -133,6 +142,7 @@ void build(MeshBuilder& builder) {
   if (builder.mesh.elements() == 0)
     throw Error("the mesh has no elements with a property", part.file,
                 "say what the groups of the mesh file are: under shells, solids or beams");
+  add_loads(builder);
   tell_unjoined_beams(builder);
 }
 
@@ -140,6 +150,14 @@ void build(MeshBuilder& builder) {
 
 Mesh build_mesh(const formats::Part& part) {
   MeshBuilder builder(part);
+  build(builder);
+  finish(builder);
+  return std::move(builder.mesh);
+}
+
+Mesh build_mesh_to_solve(const formats::Part& part) {
+  MeshBuilder builder(part);
+  builder.needs_boundary = false;
   build(builder);
   finish(builder);
   return std::move(builder.mesh);

@@ -151,6 +151,11 @@ std::set<std::string> named_groups(const formats::Part& part) {
   for (const formats::NamedPoint& point : part.points)
     if (point.place) names.insert(point.place->name);
   for (const formats::BoundaryNode& node : part.boundary) names.insert(node.at.name);
+  for (const formats::Support& support : part.supports) add(support.on);
+  for (const formats::PartLoadCase& load : part.load_cases) {
+    for (const formats::PressureLoad& pressure : load.pressures) names.insert(pressure.on);
+    for (const formats::LineLoad& line : load.line_loads) names.insert(line.on);
+  }
   return names;
 }
 

@@ -26,7 +26,7 @@ struct MeshBuilder {
   int first_file_node = 0;  ///< nodes of the mesh file: [first, last)
   int last_file_node = 0;
   bool file_is_deck = false;
-  bool needs_boundary = true;  ///< or the part is only looked at
+  bool needs_boundary = true;                         ///< or the part is only looked at
   std::unordered_map<long, int> node_of_id;           ///< of the mesh file
   std::map<std::string, std::vector<int>> node_sets;  ///< of a deck, names in lower case
   std::map<std::string, ElementSet> element_sets;
@@ -48,6 +48,7 @@ void add_group_elements(MeshBuilder& builder);   ///< sources/group_elements.cpp
 void add_spider_nodes(MeshBuilder& builder);     ///< sources/attachments.cpp
 void add_beams(MeshBuilder& builder);            ///< sources/own_geometry.cpp
 void add_attachments(MeshBuilder& builder);      ///< springs, masses, spiders, boundary
+void add_loads(MeshBuilder& builder);            ///< sources/loads.cpp: supports and load cases
 void tell_unjoined_beams(MeshBuilder& builder);  ///< sources/unjoined.cpp: warnings
 void finish(MeshBuilder& builder);               ///< positions; nodes that nothing uses leave
 

@@ -205,6 +205,7 @@ std::vector<std::string> group_names(const MeshBuilder& builder) {
 
 Selection select(const MeshBuilder& builder, const std::string& name, int dimension, const User& user) {
   Selection selection = by_name(builder, name, dimension, user, 0);
+  if (is_empty(selection) && dimension > 0) selection = by_name(builder, name, -1, user, 0);  // of another kind
   make_unique(selection.entities);
   make_unique(selection.nodes);
   make_unique(selection.elements.beams);

@@ -14,24 +14,6 @@ std::vector<int> places(const Partition& p) {
   return place;
 }
 
-SymmetricPair internal_block(const SymmetricPair& matrices, const Partition& p, const std::vector<int>& place) {
-  SymmetricPair II;
-  II.begin.reserve(p.internal.size() + 1);
-  II.column.reserve(matrices.column.size());
-  II.S.reserve(matrices.column.size());
-  II.M.reserve(matrices.column.size());
-  for (const int i : p.internal) {
-    for (int k = matrices.begin[i]; k < matrices.begin[i + 1]; ++k) {
-      if (place[matrices.column[k]] < 0) continue;
-      II.column.push_back(place[matrices.column[k]]);
-      II.S.push_back(matrices.S[k]);
-      II.M.push_back(matrices.M[k]);
-    }
-    II.begin.push_back(static_cast<int>(II.column.size()));
-  }
-  return II;
-}
-
 }  // namespace
 
 Partition partition(const Mesh& mesh, const System& system) {
@@ -48,6 +30,25 @@ Partition partition(const Mesh& mesh, const System& system) {
   for (int i = 0; i < system.size(); ++i)
     if (!retained[i]) p.internal.push_back(i);
   return p;
+}
+
+SymmetricPair internal_matrices(const SymmetricPair& matrices, const Partition& p) {
+  const std::vector<int> place = places(p);
+  SymmetricPair II;
+  II.begin.reserve(p.internal.size() + 1);
+  II.column.reserve(matrices.column.size());
+  II.S.reserve(matrices.column.size());
+  II.M.reserve(matrices.column.size());
+  for (const int i : p.internal) {
+    for (int k = matrices.begin[i]; k < matrices.begin[i + 1]; ++k) {
+      if (place[matrices.column[k]] < 0) continue;
+      II.column.push_back(place[matrices.column[k]]);
+      II.S.push_back(matrices.S[k]);
+      II.M.push_back(matrices.M[k]);
+    }
+    II.begin.push_back(static_cast<int>(II.column.size()));
+  }
+  return II;
 }
 
 Blocks split(const SymmetricPair& matrices, const Partition& p) {
@@ -72,7 +73,7 @@ Blocks split(const SymmetricPair& matrices, const Partition& p) {
   blocks.S_IB.setFromTriplets(S_IB.begin(), S_IB.end());
   blocks.M_IB.setFromTriplets(M_IB.begin(), M_IB.end());
   if (p.n_I() > 0) {
-    SystemMatrices II = to_petsc(internal_block(matrices, p, place));
+    SystemMatrices II = to_petsc(internal_matrices(matrices, p));
     blocks.S_II = std::move(II.stiffness);
     blocks.M_II = std::move(II.mass);
   }

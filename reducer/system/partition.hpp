@@ -32,6 +32,9 @@ struct Blocks {
   Eigen::MatrixXd S_BB, M_BB;
 };
 
+/// S_II and M_II.
+SymmetricPair internal_matrices(const SymmetricPair& matrices, const Partition& p);
+
 Blocks split(const SymmetricPair& matrices, const Partition& p);
 
 /// Rows of a matrix over all coordinates.

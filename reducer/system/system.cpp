@@ -30,20 +30,21 @@ void check_finite(const SymmetricPair& pair, const Mesh& mesh, const Coordinates
             where, "check units and values of materials, sections and masses there");
 }
 
-}  // namespace
+/// Coordinates of the mesh that ties leave independent, and those that stay although they have no stiffness and mass.
+struct Kept {
+  std::vector<int> independent, present;
+};
 
-System build_system(const Mesh& mesh, const std::string& where) {
+System assembled(const Mesh& mesh, const Kept& kept, const std::string& where) {
   System system;
   const int threads = core_count();
   system.coordinates = number_coordinates(mesh);
-  check_retained(mesh, system.coordinates, where);
   system.middle = mesh.position.rowwise().mean();
   system.length = characteristic_length(mesh);
-  const std::vector<int> boundary = boundary_coordinates(mesh, system.coordinates);
 
   const TieSystem ties = collect_ties(mesh, system.coordinates, where);
   const auto name = [&](int x) { return coordinate_text(mesh, system.coordinates, ties, x); };
-  Elimination elimination = eliminate(ties, boundary, name, where);
+  Elimination elimination = eliminate(ties, kept.independent, name, where);
   for (int x = ties.mesh_coordinates; x < ties.coordinates; ++x) system.name.push_back(name(x));
   system.eliminated = static_cast<int>(elimination.T.dependent.size());
   system.redundant = elimination.redundant;
@@ -55,8 +56,21 @@ System build_system(const Mesh& mesh, const std::string& where) {
   check_finite(full, mesh, system.coordinates, where);
   system.mesh_mass = mass_diagonal(full);
   system.matrices = condense(std::move(full), system.T, threads);
-  remove_inactive(mesh, boundary, where, threads, system);
+  remove_inactive(mesh, kept.present, where, threads, system);
   return system;
+}
+
+}  // namespace
+
+System build_system(const Mesh& mesh, const std::string& where) {
+  const Coordinates coordinates = number_coordinates(mesh);
+  check_retained(mesh, coordinates, where);
+  const std::vector<int> boundary = boundary_coordinates(mesh, coordinates);
+  return assembled(mesh, {boundary, boundary}, where);
+}
+
+System build_system(const Mesh& mesh, const std::vector<int>& held, const std::string& where) {
+  return assembled(mesh, {held, {}}, where);
 }
 
 std::string coordinate_name(const Mesh& mesh, const System& system, int x) {

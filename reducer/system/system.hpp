@@ -34,6 +34,9 @@ struct System {
 /// Numbers coordinates, assembles, eliminates ties exactly, removes what has neither stiffness nor mass.
 System build_system(const Mesh& mesh, const std::string& where);
 
+/// The same without a boundary: ties leave the `held` coordinates of the mesh independent.
+System build_system(const Mesh& mesh, const std::vector<int>& held, const std::string& where);
+
 /// "tip (rotation x)" for x or for the x that is q.
 std::string coordinate_name(const Mesh& mesh, const System& system, int x);
 

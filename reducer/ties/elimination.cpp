@@ -247,4 +247,16 @@ Eigen::MatrixXd expand(const Transformation& T, const Eigen::MatrixXd& q) {
   return x;
 }
 
+Eigen::MatrixXd gather(const Transformation& T, const Eigen::MatrixXd& f) {
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(T.independent, f.cols());
+  for (Eigen::Index x = 0; x < f.rows(); ++x) {
+    const int row = T.row[x];
+    if (row >= 0)
+      forces.row(row) += f.row(x);
+    else
+      for (const Term& term : T.dependent[-1 - row]) forces.row(term.coordinate) += term.coefficient * f.row(x);
+  }
+  return forces;
+}
+
 }  // namespace tisserand::reducer

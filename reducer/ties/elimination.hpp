@@ -38,4 +38,7 @@ Elimination eliminate(const TieSystem& ties, const std::vector<int>& boundary, c
 /// T q: values of x (one column per column of q).
 Eigen::MatrixXd expand(const Transformation& T, const Eigen::MatrixXd& q);
 
+/// Tᵀ f: forces on q that do the work of forces on x (rows beyond those of f are 0).
+Eigen::MatrixXd gather(const Transformation& T, const Eigen::MatrixXd& f);
+
 }  // namespace tisserand::reducer

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -48,6 +49,29 @@ class Program : public ::testing::Test {
     return {WEXITSTATUS(status), text.str()};
   }
 };
+
+// w = PL³/3EI + PL/GA_s of [Car00]'s beam with P = 1e-3 at its tip.
+TEST_F(Program, SolveWritesTableAndFieldsBesideThePart) {
+  const Outcome run =
+      call("solve " + part +
+           " --modes 2 --set 'supports={base: all}' --set 'load_cases={tip: {forces: " + "{tip: [0, 0, -1e-3]}}}'");
+  ASSERT_EQ(run.code, 0) << run.text;
+  EXPECT_THAT(run.text, AllOf(HasSubstr("load case 'tip'"), HasSubstr("base: force (0, 0, 0.001)"),
+                              HasSubstr("modes, supported"), HasSubstr("beam.solution.tip.vtu")));
+  const double w = 1e-3 * std::pow(141.42, 3) / (3.0 * 2.1e6 * 6.75) + 1e-3 * 141.42 * 2.6 / (2.1e6 * 7.5);
+  std::ifstream file(folder / "beam.solution.csv");
+  std::string line;
+  while (std::getline(file, line) && !line.starts_with("tip,\"tip\",")) continue;
+  std::stringstream words(line.substr(10));
+  std::vector<double> values;
+  for (std::string word; std::getline(words, word, ',');) values.push_back(std::stod(word));
+  ASSERT_EQ(values.size(), 6u) << line;
+  EXPECT_NEAR(values[2], -w, 1e-9 * w);
+  EXPECT_TRUE(std::filesystem::exists(folder / "beam.solution.tip.vtu"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "beam.solution-modes.vtu"));
+  EXPECT_EQ(call("solve " + part + " --modes -1").code, 2);
+  EXPECT_THAT(call("solve " + part).text, HasSubstr("nothing to solve"));
+}
 
 TEST_F(Program, RunWritesSuperelementAndCertificateBesideThePart) {
   const Outcome run = call("run " + part);

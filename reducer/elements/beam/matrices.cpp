@@ -12,8 +12,8 @@
 #include "common/math/rotation.hpp"
 #include "reducer/elements/beam/ends.hpp"
 #include "reducer/elements/beam/general.hpp"
-#include "reducer/elements/element_stress.hpp"
 #include "reducer/elements/beam/mesh_beam.hpp"
+#include "reducer/elements/element_stress.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -40,6 +40,14 @@ BeamElementData data_of(const Mesh& mesh, const BeamElement& beam) {
   return data;
 }
 
+Matrix12 ends_from_nodes(const BeamElement& beam) {
+  Matrix12 to_ends = Matrix12::Identity();
+  to_ends.block<3, 3>(0, 3) = -skew<double>(beam.first_offset);
+  to_ends.block<3, 3>(6, 9) = -skew<double>(beam.second_offset);
+  for (int k = 0; k < 12; k += 3) to_ends.middleRows<3>(k) = (beam.R_PE.transpose() * to_ends.middleRows<3>(k)).eval();
+  return to_ends;
+}
+
 BeamMatrices at_the_ends(const BeamElementData& data) {
   if (!is_plain(data)) return general_beam(data);
   return {beam_stiffness(data), beam_mass(data)};
@@ -61,11 +69,7 @@ void element_matrices(const Mesh& mesh, const BeamElement& beam, ElementMatrices
 Matrix12 beam_section_forces(const Mesh& mesh, const BeamElement& beam) {
   BeamMatrices matrices = at_the_ends(data_of(mesh, beam));
   if (beam.released != 0) release_ends(beam.released, matrices);
-  Matrix12 to_ends = Matrix12::Identity();  // motions of the ends from those of the nodes, part axes
-  to_ends.block<3, 3>(0, 3) = -skew<double>(beam.first_offset);
-  to_ends.block<3, 3>(6, 9) = -skew<double>(beam.second_offset);
-  for (int k = 0; k < 12; k += 3) to_ends.middleRows<3>(k) = (beam.R_PE.transpose() * to_ends.middleRows<3>(k)).eval();
-  Matrix12 forces = matrices.stiffness * to_ends;  // on the ends of the element
+  Matrix12 forces = matrices.stiffness * ends_from_nodes(beam);  // on the ends of the element
   forces.topRows<6>() *= -1.0;
   return forces;
 }

@@ -14,6 +14,9 @@ Eigen::Vector3d axis_of(const Mesh& mesh, const BeamElement& beam);
 /// Its property with the length of this element.
 BeamElementData data_of(const Mesh& mesh, const BeamElement& beam);
 
+/// Motions of the ends of the axis, element axes, from those of the nodes, part axes.
+Matrix12 ends_from_nodes(const BeamElement& beam);
+
 /// About its ends, in element axes, nothing released.
 BeamMatrices at_the_ends(const BeamElementData& data);
 

@@ -155,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "part.yaml:11:1: unknown key 'colour'; known are part, units, mesh, materials, sections, points, "
                 "groups, plates, discs, cylinders, extrusions, shells, solids, beams, point_masses, "
                 "springs, spiders, boundary, modes, cutoff, accuracy, moments, method, verify, recovery, second_order, "
-                "modal_body"},
+                "modal_body, supports, load_cases"},
         BadText{"elements: 40", "elements: 40, ^elements: 41",
                 "^: beam 'rod': key 'elements' is given twice (first in line 8); remove one"},
         BadText{"up: [0, 10, 0]", "^tip: [0, 10, 0]",
@@ -288,7 +288,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"modes: 4", "cutoff: ^0", "^: cutoff 0 must be positive"},
         BadText{"modes: 4", "modes: 4\nmethod: rubin\nmoments: ^3",
                 "^: 'moments' needs modes with the boundary held; remove it, or write method: craig_bampton"},
-        BadText{"modes: 4", "accuracy: {error: 1e-3, up_to: 50}\nmoments: ^3",
+        BadText{"modes: 4", "^accuracy: {error: 1e-3, up_to: 50}\nmoments: 3",
                 "^: 'accuracy' chooses how many moment vectors there are; remove `moments`, or write moments: 0 for "
                 "internal modes alone"},
         BadText{"up: [", "^2nd: [",
@@ -311,7 +311,75 @@ INSTANTIATE_TEST_SUITE_P(
         BadText{"modes: 4", "modal_body: {reference: ^{base: [x, y, z], tip: [y, z]}, modes: 3}",
                 "^: modal_body: 5 components are held; hold six: fewer leave the frame loose, more stiffen the body"},
         BadText{"modes: 4", "modal_body: {reference: {base: [x, ^ry2]}, modes: 3}",
-                "^: modal_body: unknown component 'ry2'; did you mean 'ry'?"}));
+                "^: modal_body: unknown component 'ry2'; did you mean 'ry'?"},
+        BadText{"modes: 4", "supports: {base: [x, ^q]}", "^: support 'base': unknown direction 'q'; did you mean 'x'?"},
+        BadText{"modes: 4", "supports: {^bse: all}", "^: support 'bse': there is no group 'bse'; did you mean 'base'?"},
+        BadText{"modes: 4", "supports: {^left: {at: base}}",
+                "^: support 'left': neither 'directions' nor 'symmetry' is given; give one of them"},
+        BadText{"modes: 4", "supports: {left: {at: ^bse, directions: all}}",
+                "^: support 'left': there is no point 'bse'; did you mean 'base'?"},
+        BadText{"modes: 4", "supports: {left: {at: base, ^on: [], directions: all}}",
+                "^: support 'left': both 'on' and a place are given; give one of them"},
+        BadText{"modes: 4", "supports: {left: {at: base, symmetry: ^w}}",
+                "^: support 'left': unknown symmetry 'w'; did you mean 'x'?"},
+        BadText{"modes: 4", "supports: {left: {at: ^{centroid: rim}, directions: all}}",
+                "^: support 'left': a centroid has no node of the part; put a spider there and name it: spiders: {pad: "
+                "{kind: averaging, on: ...}}"},
+        BadText{"modes: 4", "load_cases: {^w: {}}",
+                "^: load case 'w' has no loads; give forces, pressures, line_loads or gravity"},
+        BadText{"modes: 4", "load_cases: {w: {^gravitiy: [0, 0, 1]}}",
+                "^: load case 'w': unknown key 'gravitiy'; did you mean 'gravity'?"},
+        BadText{"modes: 4", "load_cases: {w: {forces: {^tipp: [0, 0, 1]}}}",
+                "^: load case 'w': force 'tipp': there is no point 'tipp'; did you mean 'tip'?"},
+        BadText{"modes: 4", "load_cases: {w: {forces: {^tip: {at: base}}}}",
+                "^: force 'tip': neither 'force' nor 'moment' is given; give one of them"},
+        BadText{"modes: 4", "load_cases: {w: {pressures: {rod: ^high}}}",
+                "^: pressure 'rod': pressure must be a number, not 'high'"},
+        BadText{"modes: 4", "load_cases: {w: {line_loads: {^rud: [0, 0, 1]}}}",
+                "^: load case 'w': line load: there is no group 'rud'; did you mean 'rod'?"}));
+
+TEST(Part, ReadsSupportsAndLoadCases) {
+  const Part part = read(replaced(beam_part, "modes: 4", R"(modes: 4
+spiders: {hub: {kind: rigid, on: rim}}
+groups: {rim: {of: nodes, box: [[0, 0, 0], [1, 1, 1]]}}
+supports:
+  base: all
+  hub: [x, rz]
+  rim: y
+  wall: {on: [rim], symmetry: y}
+  foot: {at: tip, directions: translations}
+load_cases:
+  one: {forces: {tip: [1, 2, 3], more: {at: hub, moment: [4, 5, 6]}}, gravity: [0, 0, -9.81]}
+  two: {pressures: {rim: -7}, line_loads: {rod: [8, 9, 10]}}
+)"));
+  ASSERT_EQ(part.supports.size(), 5u);
+  EXPECT_EQ(part.supports[0].at.name, "base");
+  EXPECT_EQ(part.supports[0].components, 0b111111u);
+  EXPECT_TRUE(part.supports[0].where_present);
+  EXPECT_EQ(part.supports[1].components, 0b100001u);
+  EXPECT_FALSE(part.supports[1].where_present);
+  EXPECT_EQ(part.supports[2].on, std::vector<std::string>{"rim"});
+  EXPECT_EQ(part.supports[2].components, 0b000010u);
+  EXPECT_EQ(part.supports[3].components, 0b101010u);  // y, rx, rz
+  EXPECT_EQ(part.supports[3].symmetry, 1);
+  EXPECT_EQ(part.supports[4].at.name, "tip");
+  EXPECT_EQ(part.supports[4].components, 0b000111u);
+  ASSERT_EQ(part.load_cases.size(), 2u);
+  const PartLoadCase &one = part.load_cases[0], &two = part.load_cases[1];
+  EXPECT_EQ(one.forces[0].force, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(one.forces[1].at.name, "hub");
+  EXPECT_EQ(one.forces[1].moment, Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(one.gravity, Eigen::Vector3d(0, 0, -9.81));
+  EXPECT_EQ(two.pressures[0].pressure, -7.0);
+  EXPECT_EQ(two.line_loads[0].force, Eigen::Vector3d(8, 9, 10));
+}
+
+// `reducer solve` needs no boundary; without supports and loads a part is there to be reduced.
+TEST(Part, BoundaryIsRequiredWhereNothingIsSolved) {
+  const std::string open = replaced(beam_part, "boundary: [base, tip]\n", "");
+  EXPECT_THAT(error(open), HasSubstr("missing key 'boundary'"));
+  EXPECT_TRUE(read(open + "supports: {base: all}\n").boundary.empty());
+}
 
 TEST(Part, TellsAllErrorsAtOnceInTheOrderOfTheLines) {
   std::string text = replaced(beam_part, "length: mm", "lenght: mm");

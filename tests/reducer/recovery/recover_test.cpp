@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -20,6 +21,7 @@
 #include "reducer/elements/checks.hpp"
 #include "reducer/recover/places.hpp"
 #include "reducer/recovery/fields.hpp"
+#include "reducer/solve/files.hpp"
 #include "reducer/sources/build_mesh.hpp"
 #include "reducer/view/part_page.hpp"
 #include "tests/reducer/parts.hpp"
@@ -284,6 +286,69 @@ TEST_F(Recover, BadInputIsTold) {
   run_.y = {y_};
   write(run_, file("run.results.h5"));
   EXPECT_THAT(error_of(request()), HasSubstr("unnamed"));
+}
+
+/// Arrays of two VTU files agree to `tolerance` of the largest value of each kind.
+void expect_same(const test_support::VtuFile& actual, const test_support::VtuFile& expected,
+                 const std::vector<std::string>& names, double tolerance) {
+  for (const std::string& name : names) {
+    const std::vector<double>&a = actual.arrays.at(name), &b = expected.arrays.at(name);
+    ASSERT_EQ(a.size(), b.size()) << name;
+    double largest = 0.0, difference = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      largest = std::max(largest, std::abs(b[k]));
+      difference = std::max(difference, std::abs(a[k] - b[k]));
+    }
+    EXPECT_GT(largest, 0.0) << name;
+    EXPECT_LT(difference, tolerance * largest) << name;
+    ::testing::Test::RecordProperty(name, fmt::format("{:.1e}", difference / largest));
+  }
+}
+
+// A plate with a beam along it, clamped by its node of a spider and loaded at another: the stresses that come back from
+// the superelement's statics are those of the full finite element solution, without any internal mode.
+TEST(RecoverAndSolve, GiveTheSameStresses) {
+  const test_support::TemporaryFolder folder;
+  const std::string path = folder.file("plate.part.yaml");
+  std::ofstream(path) << R"(part: arm
+materials: {steel: {E: 2.1e11, nu: 0.3, density: 7850}}
+sections: {bar: {shape: rectangle, width: 0.01, height: 0.03}}
+points: {a: [0, 0.1, 0], b: [0.6, 0.1, 0]}
+plates: {deck: {corners: [[0, 0, 0], [0.6, 0, 0], [0.6, 0.2, 0], [0, 0.2, 0]], elements: [12, 4], thickness: 0.004, material: steel}}
+beams: {rib: {from: a, to: b, section: bar, material: steel, elements: 12, offset: [0, 0, -0.017]}}
+groups: {end: {of: nodes, box: [[0.54, -1, -1], [1, 1, 1]]}}
+spiders: {wall: {kind: rigid, on: deck/edge4, at: [-0.1, 0.1, 0]}, grip: {kind: averaging, on: end, at: [0.7, 0.1, 0]}}
+boundary: [wall, grip]
+modes: 0
+supports: {wall: all}
+load_cases: {pull: {forces: {grip: {force: [900, 60, -80], moment: [5, 3, -2]}}}}
+)";
+  start_solvers();
+  const formats::Part part = formats::read_part(path, {});
+  const reducer::SolveRequest none;
+  const reducer::Solution full = reducer::solve(part, none, [](const std::string&) {});
+  reducer::write_solution(full, part, none, folder.file("arm"));
+
+  const Recovered data = recovered(reducer::build_mesh(part), 0);
+  write(data, folder.file("arm.recovery.h5"));
+  VectorXd f(6), y = VectorXd::Zero(12);
+  f << 900, 60, -80, 5, 3, -2;
+  y.tail<6>() = data.superelement.stiffness.bottomRightCorner(6, 6).ldlt().solve(f);
+  StoredRun run;
+  run.ids = {data.tables.content_id};
+  run.y = {y};
+  write(run, folder.file("run.results.h5"));
+  RecoverRequest r;
+  r.recovery = folder.file("arm.recovery.h5");
+  r.results = folder.file("run.results.h5");
+  r.output = folder.file("out");
+  r.frame = reducer::RecoverFrame::part;
+  reducer::recover(r);
+  expect_same(test_support::read_vtu(folder.file("out/arm_00000.vtu")),
+              test_support::read_vtu(folder.file("arm.pull.vtu")),
+              {"displacement", "von_mises", "von_mises_top", "von_mises_bottom", "shell_membrane", "shell_bending",
+               "beam_stress", "beam_force_1", "beam_moment_1", "beam_force_2", "beam_moment_2"},
+              5e-7);  // fields and files hold 32-bit numbers, with 6e-8 each
 }
 
 // The page of the recovery file: the group as a body with the sections of the beams, each coordinate as a mode whose

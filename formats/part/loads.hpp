@@ -1,0 +1,56 @@
+// Loads and supports of part.yaml: what `reducer solve` works on.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/part/place.hpp"
+
+namespace tisserand::formats {
+
+/// A place or the nodes of groups, held in some directions of the part frame.
+struct Support {
+  std::string name;
+  Place at;                     ///< where `on` is empty: a point, spider or boundary node by its name, or a node
+  std::vector<std::string> on;  ///< groups
+  unsigned components = 0;      ///< bit 0-2 translations x, y, z; bit 3-5 rotations
+  bool where_present = false;   ///< rotations are held at nodes that have them (`all`, `symmetry`); else they must
+  std::optional<int> symmetry;  ///< 0, 1, 2: the nodes lie in a plane with this normal
+  std::string where;
+};
+
+struct PlaceLoad {
+  std::string name;
+  Place at;
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+  std::string where;
+};
+
+/// Force per area against the normal of shells, against the outward normal of solids.
+struct PressureLoad {
+  std::string on;  ///< group of faces
+  double pressure = 0.0;
+  std::string where;
+};
+
+/// Force per length in part axes.
+struct LineLoad {
+  std::string on;  ///< a beam of the part, or a group of edges
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();
+  std::string where;
+};
+
+struct PartLoadCase {
+  std::string name;
+  std::vector<PlaceLoad> forces;
+  std::vector<PressureLoad> pressures;
+  std::vector<LineLoad> line_loads;
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< acceleration: the force is mass times it
+  std::string where;
+};
+
+}  // namespace tisserand::formats

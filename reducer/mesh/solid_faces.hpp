@@ -1,0 +1,19 @@
+// Faces of solid elements as cells.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "reducer/mesh/cells.hpp"
+#include "reducer/mesh/mesh.hpp"
+
+namespace tisserand::reducer {
+
+/// A solid as the cell that it was made from.
+Cell as_cell(const SolidElement& solid);
+
+/// Faces of the mesh whose corners are all `wanted` and that belong to one solid only: corners counter-clockwise seen
+/// from outside, then the middles of their edges.
+std::vector<Cell> outer_faces(const Mesh& mesh, const std::function<bool(int node)>& wanted);
+
+}  // namespace tisserand::reducer

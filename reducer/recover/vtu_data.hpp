@@ -1,0 +1,19 @@
+// Recovered fields of one instant as arrays of a VTU file.
+#pragma once
+
+#include <vector>
+
+#include "formats/vtk/vtu.hpp"
+#include "reducer/recover/envelope.hpp"
+
+namespace tisserand::reducer {
+
+std::vector<formats::VtuArray> vtu_cell_data(const formats::Recovery& recovery, const RecoveredFields& fields,
+                                             const InstantValues& values, Eigen::Index instant);
+
+/// `axes`: in which displacements are told.
+std::vector<formats::VtuArray> vtu_point_data(const formats::Recovery& recovery, const RecoveredFields& fields,
+                                              const InstantValues& values, const Eigen::Matrix3d& axes,
+                                              Eigen::Index instant);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,13 @@
+// Forces and stresses of the solved load cases.
+#pragma once
+
+#include "reducer/recover/stresses.hpp"
+#include "reducer/recovery/fields.hpp"
+
+namespace tisserand::reducer {
+
+/// Of node motions (6 nodes) x cases of Mesh::load_cases. Section forces of beams are those at the ends of the axis,
+/// with what distributed loads and gravity on the element add there.
+RecoveredFields case_fields(const Mesh& mesh, const formats::Recovery& tables, const Eigen::MatrixXd& motions);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,23 @@
+// Files of a solution: values of named points, and the mesh with displacements and stresses for ParaView.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reducer/solve/solve.hpp"
+
+namespace tisserand::reducer {
+
+/// stem.csv, stem.CASE.vtu for each load case, stem-modes.vtu if modes are asked for.
+std::vector<std::string> solution_files(const std::string& stem, const formats::Part& part,
+                                        const SolveRequest& request);
+
+/// Lines `case,point,ux,uy,uz,rx,ry,rz` for every load case and mode (mode_1, ...), part axes: boundary nodes, points
+/// and spiders that are nodes, and the points asked for. Throws Error for points that are none.
+std::string solution_table(const Solution& solution, const formats::Part& part, const SolveRequest& request);
+
+/// Writes the files of solution_files(). Shapes of modes are scaled to a largest displacement of 1.
+void write_solution(const Solution& solution, const formats::Part& part, const SolveRequest& request,
+                    const std::string& stem);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,185 @@
+// Lines of the report.
+#include "reducer/solve/report.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "common/text.hpp"
+#include "reducer/recover/envelope.hpp"
+#include "reducer/report/certificate.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+using Eigen::Index;
+using Eigen::Vector3d;
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+
+constexpr const char* line_form = "  {:<19}{}\n";
+
+/// Units as they stand behind numbers.
+struct Labels {
+  explicit Labels(const Units& units)
+      : length(after_number(unit_label(units, 1, 0, 0))),
+        force(after_number(unit_label(units, 1, 1, -2))),
+        moment(after_number(unit_label(units, 2, 1, -2))),
+        stress(after_number(unit_label(units, -1, 1, -2))),
+        energy(after_number(energy_label(units))) {}
+  std::string length, force, moment, stress, energy;
+};
+
+/// Components that are round-off beside `size` are 0.
+std::string vector_text(const Vector3d& v, double size) {
+  const Vector3d w = v.unaryExpr([size](double x) { return std::abs(x) <= 1e-12 * size ? 0.0 : x; });
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", w.x(), w.y(), w.z());
+}
+
+Vector3d middle_of(const Solution& s, const MeshSupport& support) {
+  Vector3d sum = Vector3d::Zero();
+  for (const int node : support.nodes) sum += s.mesh.position.col(node);
+  return sum / static_cast<double>(support.nodes.size());
+}
+
+std::string node_text(const Solution& s, Index node) {
+  const Vector3d x = s.mesh.position.col(node);
+  return fmt::format("{} {}", printable_line(s.mesh.node_label[static_cast<std::size_t>(node)], 60),
+                     vector_text(x, s.system.length));
+}
+
+std::string components_text(Components components) {
+  constexpr std::array<const char*, 6> words{"x", "y", "z", "rx", "ry", "rz"};
+  std::vector<std::string> held;
+  for (int c = 0; c < 6; ++c)
+    if ((components >> c & 1) != 0) held.emplace_back(words[static_cast<std::size_t>(c)]);
+  return join(held, " ");
+}
+
+std::string head_text(const Solution& s, const formats::Part& part) {
+  std::string text = fmt::format("part '{}'  {} nodes, {} elements, {} coordinates, mass {:.9g}{} ({})\n", part.name,
+                                 s.mesh.nodes(), s.mesh.elements(), s.system.size(), s.rigid.mass,
+                                 after_number(unit_label(part.units, 0, 1, 0)), part.file);
+  for (const MeshSupport& support : s.mesh.supports)
+    text += fmt::format(line_form, "support",
+                        fmt::format("{}: {} node{}, {}", support.name, support.nodes.size(),
+                                    support.nodes.size() == 1 ? "" : "s", components_text(support.components)));
+  text += s.is_free ? fmt::format(line_form, "support", "none: the part is free")
+                    : fmt::format(line_form, "held", fmt::format("{} coordinates", s.partition.n_B()));
+  for (const std::string& warning : s.warnings) text += fmt::format(line_form, "warning", warning);
+  return text;
+}
+
+std::string peaks_text(const Solution& s, Index c, const Labels& labels) {
+  const Eigen::MatrixXd motion = node_motions(s.system, s.statics.q.col(c));
+  Index moved = 0, turned = 0;
+  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> nodes(motion.data(), 6, s.mesh.nodes());
+  const double most = nodes.topRows<3>().colwise().norm().maxCoeff(&moved);
+  const double turn = nodes.bottomRows<3>().colwise().norm().maxCoeff(&turned);
+  std::string text = fmt::format(line_form, "displacement",
+                                 fmt::format("largest {:.6g}{}, {}, at {}", most, labels.length,
+                                             vector_text(nodes.col(moved).head<3>(), most), node_text(s, moved)));
+  if (turn > 0.0)
+    text += fmt::format(line_form, "rotation",
+                        fmt::format("largest {:.6g} rad, {}, at {}", turn,
+                                    vector_text(nodes.col(turned).tail<3>(), turn), node_text(s, turned)));
+  const formats::Recovery& r = s.tables;
+  Envelope envelope;
+  extend(r, instant_values(r, solid_points(r), s.fields, c), 0.0, envelope);
+  const auto element = [&](const char* what, const Peak& peak) {
+    if (peak.at < 0) return;
+    const auto e = static_cast<std::size_t>(peak.at);
+    Vector3d middle = Vector3d::Zero();
+    for (int k = r.elements.first[e]; k < r.elements.first[e + 1]; ++k)
+      middle += r.position.col(r.elements.node[static_cast<std::size_t>(k)]);
+    middle /= r.elements.first[e + 1] - r.elements.first[e];
+    text += fmt::format(line_form, what,
+                        fmt::format("largest {:.6g}{} at {} {}", peak.value, labels.stress, element_text(r, peak.at),
+                                    vector_text(middle, s.system.length)));
+  };
+  element("normal, beams", envelope.beam);
+  element("von Mises, shells", envelope.shell);
+  if (envelope.solid.at >= 0)
+    text += fmt::format(
+        line_form, "von Mises, solids",
+        fmt::format("largest {:.6g}{} at {}", envelope.solid.value, labels.stress, node_text(s, envelope.solid.at)));
+  return text;
+}
+
+std::string case_text(const Solution& s, Index c, const Labels& labels) {
+  const Vector6 applied = s.loads.applied.col(c);
+  const double size = s.loads.size[c], moments = size * (s.system.length + s.system.middle.norm());
+  const auto wrench = [&](const Vector6& w) {
+    return fmt::format("force {}{}, moment {}{}", vector_text(w.head<3>(), size), labels.force,
+                       vector_text(w.tail<3>(), moments), labels.moment);
+  };
+  std::string text = fmt::format("\nload case '{}'\n", s.mesh.load_cases[static_cast<std::size_t>(c)].name);
+  text += fmt::format(line_form, "applied", wrench(applied) + " about the origin");
+  text += peaks_text(s, c, labels);
+  text += fmt::format(line_form, "strain energy", fmt::format("{:.9g}{}", s.statics.energy[c], labels.energy));
+  for (int k = 0; k < static_cast<int>(s.mesh.supports.size()); ++k) {
+    const MeshSupport& support = s.mesh.supports[k];
+    const Vector3d point = middle_of(s, support);
+    text += fmt::format(line_form, "reaction",
+                        fmt::format("{}: {} about {}", support.name, wrench(reaction_of(s, k, c, point)),
+                                    vector_text(point, s.system.length)));
+  }
+  text += fmt::format(line_form, "equilibrium",
+                      fmt::format("load and reactions cancel to {:.1e} of the load", imbalance(s, c)));
+  return text + fmt::format(line_form, "residual", fmt::format("{:.1e}, after refinement", s.statics.residual[c]));
+}
+
+std::string modes_text(const Solution& s, const Units& units) {
+  const SupportedModes& modes = *s.modes;
+  std::string text =
+      fmt::format("\nmodes, {}\n",
+                  !s.is_free ? "supported" : fmt::format("free: {} rigid motions at frequency 0, then", modes.rigid));
+  const std::string unit = units.named() ? (units.time.factor == 1.0 ? "Hz" : "1/" + units.time.label) : "1/time";
+  text += fmt::format("  {:>4} {:>16}{}\n", "mode", "frequency [" + unit + "]",
+                      s.is_free ? "" : "   effective mass and inertia [% of the part's] x, y, z, rx, ry, rz");
+  Vector6 whole;
+  whole << s.rigid.mass, s.rigid.mass, s.rigid.mass, s.rigid.inertia.diagonal();
+  Vector6 sum = Vector6::Zero();
+  const auto percent = [&whole](const Vector6& part) {
+    std::string cells;
+    for (int k = 0; k < 6; ++k) cells += fmt::format(" {:>7.2f}", whole[k] > 0.0 ? 100.0 * part[k] / whole[k] : 0.0);
+    return cells;
+  };
+  for (Index k = 0; k < modes.lambda.size(); ++k) {
+    sum += modes.effective.col(k);
+    text += fmt::format("  {:>4} {:>16.8g}{}\n", k + 1, frequency(modes.lambda[k]),
+                        s.is_free ? "" : "  " + percent(modes.effective.col(k)));
+  }
+  if (!s.is_free) text += fmt::format("  {:>4} {:>16}  {}\n", "all", "", percent(sum));
+  return text;
+}
+
+}  // namespace
+
+Vector6 reaction_of(const Solution& s, int support, Index load_case, const Vector3d& point) {
+  Vector6 sum = Vector6::Zero();
+  const Eigen::MatrixXd R = rigid_motions_about(s.system, point);
+  for (Index b = 0; b < s.partition.n_B(); ++b)
+    if (support < 0 || s.partition.boundary_node[static_cast<std::size_t>(b)] == support)
+      sum += s.statics.reaction(b, load_case) * R.row(s.partition.boundary[static_cast<std::size_t>(b)]).transpose();
+  return sum;
+}
+
+double imbalance(const Solution& s, Index load_case) {
+  const double size = s.loads.size[load_case];
+  if (!(size > 0.0)) return 0.0;
+  const Vector3d origin = Vector3d::Zero();
+  const Vector6 rest = s.loads.applied.col(load_case) + reaction_of(s, -1, load_case, origin);
+  return std::max(rest.head<3>().norm(), rest.tail<3>().norm() / (s.system.length + s.system.middle.norm())) / size;
+}
+
+std::string solution_text(const Solution& s, const formats::Part& part) {
+  const Labels labels(part.units);
+  std::string text = head_text(s, part);
+  for (Index c = 0; c < s.statics.q.cols(); ++c) text += case_text(s, c, labels);
+  if (s.modes) text += modes_text(s, part.units);
+  return text;
+}
+
+}  // namespace tisserand::reducer

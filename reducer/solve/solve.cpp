@@ -1,0 +1,63 @@
+// The story of solving: part -> mesh -> S, M -> supports and loads -> displacements, modes -> stresses.
+#include "reducer/solve/solve.hpp"
+
+#include <utility>
+
+#include "common/error.hpp"
+#include "reducer/modes/full_model.hpp"
+#include "reducer/report/describe.hpp"
+#include "reducer/solve/case_fields.hpp"
+#include "reducer/sources/build_mesh.hpp"
+
+namespace tisserand::reducer {
+
+Eigen::MatrixXd node_motions(const System& system, const Eigen::MatrixXd& q) {
+  const Eigen::MatrixXd x = expand(system.T, q);
+  const Coordinates& numbers = system.coordinates;
+  Eigen::MatrixXd motion = Eigen::MatrixXd::Zero(6 * (static_cast<Eigen::Index>(numbers.first.size()) - 1), q.cols());
+  for (int i = 0; i < numbers.count(); ++i) motion.row(6 * numbers.node[i] + numbers.component[i]) = x.row(i);
+  return motion;
+}
+
+Solution solve(const formats::Part& part, const SolveRequest& request,
+               const std::function<void(const std::string&)>& begin) {
+  if (part.load_cases.empty() && request.modes == 0)
+    throw Error("there is nothing to solve: the part has no load cases", part.file,
+                "give it load_cases, or ask for modes: --modes 10");
+  begin("mesh");
+  return solve_mesh(build_mesh_to_solve(part), part, request, begin);
+}
+
+Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& request,
+                    const std::function<void(const std::string&)>& begin) {
+  begin("checks");
+  Solution s;
+  s.mesh = std::move(mesh);
+  s.warnings = check_elements(s.mesh, part).all;
+  const std::vector<HeldCoordinate> held = held_coordinates(s.mesh, number_coordinates(s.mesh));
+  begin("assembly");
+  std::vector<int> held_x;
+  for (const HeldCoordinate& h : held) held_x.push_back(h.x);
+  s.system = build_system(s.mesh, held_x, part.file);
+  s.rigid = full_rigid_properties(s.system);
+  if (request.modes > 0) require_mass(s.system, part.file);
+  s.loads = load_vectors(s.mesh, s.system);
+
+  const Supported supported = support(s.mesh, s.system, held, request.modes, part.file, begin);
+  s.partition = supported.partition;
+  s.is_free = supported.is_free;
+  begin("statics");
+  s.statics = statics(s.mesh, s.system, supported, s.loads, part.file);
+  if (request.modes > 0) {
+    begin("modes");
+    s.modes = supported_modes(s.mesh, s.system, supported, request.modes, part.file);
+  }
+  begin("stresses");
+  s.tables = solved_tables(s.mesh, s.system.coordinates);
+  s.tables.name = part.name;
+  s.tables.units = part.units;
+  s.fields = case_fields(s.mesh, s.tables, node_motions(s.system, s.statics.q));
+  return s;
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,44 @@
+// `reducer solve`: statics and modes of the unreduced part on its supports.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/part/part.hpp"
+#include "reducer/recover/stresses.hpp"
+#include "reducer/solve/request.hpp"
+#include "reducer/solve/statics.hpp"
+#include "reducer/solve/supported_modes.hpp"
+
+namespace tisserand::reducer {
+
+/// Columns of displacements and fields: the load cases of the mesh in order.
+struct Solution {
+  Mesh mesh;
+  System system;
+  std::vector<std::string> warnings;
+  formats::RigidProperties rigid;
+  Partition partition;  ///< Supported::partition
+  bool is_free = false;
+  LoadVectors loads;
+  Statics statics;
+  std::optional<SupportedModes> modes;
+  formats::Recovery tables;  ///< mesh and sections, without a superelement
+  RecoveredFields fields;    ///< of the load cases
+};
+
+/// Needs a SolverSession; `begin` hears the phases. Throws Error for whatever is wrong with the part, and if it has
+/// neither load cases nor modes are asked for.
+Solution solve(const formats::Part& part, const SolveRequest& request,
+               const std::function<void(const std::string&)>& begin);
+
+/// The same from a mesh on, with its supports and load cases; `part` gives name, units and the file for messages.
+Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& request,
+                    const std::function<void(const std::string&)>& begin);
+
+/// [translation; rotation] of every node for states q of the system: (6 nodes) x columns, part axes.
+Eigen::MatrixXd node_motions(const System& system, const Eigen::MatrixXd& q);
+
+}  // namespace tisserand::reducer

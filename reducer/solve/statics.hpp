@@ -1,0 +1,23 @@
+// Linear statics of the supported part: all load cases by one factor.
+#pragma once
+
+#include <string>
+
+#include "reducer/loads/load_vectors.hpp"
+#include "reducer/solve/supported.hpp"
+
+namespace tisserand::reducer {
+
+struct Statics {
+  Eigen::MatrixXd q;         ///< displacements: coordinates x cases
+  Eigen::MatrixXd reaction;  ///< S q − f on the held coordinates, in the order of Partition::boundary, x cases
+  Eigen::VectorXd residual;  ///< max |S q − f|_i / (|S| |q| + |f|)_i over the free coordinates, after refinement
+  Eigen::VectorXd energy;    ///< ½ qᵀ S q
+};
+
+/// S q = f with refinement. Without supports every load must be in equilibrium by itself, to 1e-8 of its size, and the
+/// displacement has no mean motion: Rᵀ M q = 0 (Rᵀ q = 0 without mass). Throws Error that tells by how much it is not.
+Statics statics(const Mesh& mesh, const System& system, const Supported& s, const LoadVectors& loads,
+                const std::string& where);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,26 @@
+// The part on its supports: which coordinates are held and the factor of the stiffness of the others.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "reducer/algebra/factor.hpp"
+#include "reducer/loads/supports.hpp"
+#include "reducer/system/partition.hpp"
+
+namespace tisserand::reducer {
+
+struct Supported {
+  Partition partition;  ///< boundary: held coordinates q, Partition::boundary_node: their supports; internal: free ones
+  Matrix S, M;          ///< of the free coordinates
+  Factor factor;        ///< of S
+  bool is_free = false;  ///< no supports: six coordinates are held that leave no rigid motion, and carry nothing
+};
+
+/// Throws Error if supports leave a rigid motion (named), if something inside moves without stiffness, or if the
+/// memory does not suffice for the factor and `modes` modes.
+Supported support(const Mesh& mesh, const System& system, const std::vector<HeldCoordinate>& held, int modes,
+                  const std::string& where, const std::function<void(const std::string&)>& begin);
+
+}  // namespace tisserand::reducer

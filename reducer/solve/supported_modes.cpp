@@ -1,0 +1,65 @@
+// Eigenpairs, their basis, their effective masses.
+#include "reducer/solve/supported_modes.hpp"
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "reducer/modes/full_model.hpp"
+#include "reducer/modes/internal_modes.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+[[noreturn]] void fail_count(int asked, int available, const std::string& where) {
+  throw Error(fmt::format("{} modes asked for, but only {} exist", asked, available), where,
+              "ask for fewer, or use more elements");
+}
+
+Spectrum lowest(const Supported& s, int count, int available) {
+  return lowest_pairs({s.S, s.M, s.factor, 0.0}, count, available, choose_solver(s.partition.n_I(), count),
+                      Count::if_cheap);
+}
+
+/// Elastic ones of the free part; a first eigenvalue on six held coordinates lies below them and gives their scale.
+void free_modes(const System& system, const Supported& s, int count, int available, const std::string& where,
+                SupportedModes& modes) {
+  const std::optional<EigenPairs> pairs = full_free_modes(system, lowest(s, 1, available).pairs.value[0], count);
+  if (!pairs)
+    throw Error("some rigid motion of the part moves no mass, so it has no free modes", where,
+                "give supports, or inertia about every axis");
+  if (pairs->value.size() < count) fail_count(count, static_cast<int>(pairs->value.size()), where);
+  modes.rigid = 6;
+  modes.lambda = pairs->value;
+  modes.q = pairs->vector;
+}
+
+void held_modes(const System& system, const Supported& s, int count, int available, SupportedModes& modes) {
+  const Spectrum spectrum = lowest(s, count, available);
+  modes.lambda = spectrum.pairs.value.head(spectrum.kept);
+  modes.q.setZero(system.size(), spectrum.kept);
+  modes.q(s.partition.internal, Eigen::all) = spectrum.pairs.vector.leftCols(spectrum.kept);
+  modes.counted = spectrum.counted;
+}
+
+}  // namespace
+
+SupportedModes supported_modes(const Mesh& mesh, const System& system, const Supported& s, int count,
+                               const std::string& where) {
+  const int available = finite_mode_count(s.M);
+  if (count > available) fail_count(count, available, where);
+  SupportedModes modes;
+  if (s.is_free)
+    free_modes(system, s, count, available, where, modes);
+  else
+    held_modes(system, s, count, available, modes);
+  Partition all;
+  for (int q = 0; q < system.size(); ++q) all.internal.push_back(q);
+  const Blocks none;
+  fix_basis({mesh, system, all, none, s.factor, where}, modes.lambda, modes.q);
+  const Eigen::MatrixXd R = rigid_motions_about(system, full_rigid_properties(system).center_of_mass);
+  const Eigen::MatrixXd MR = multiply(symmetric_rows(system.matrices, system.matrices.M), R);
+  modes.effective = (MR.transpose() * modes.q).array().square().matrix();
+  return modes;
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,26 @@
+// Modes of the unreduced part on its supports, or of the free part.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "reducer/modes/spectrum.hpp"
+#include "reducer/solve/supported.hpp"
+
+namespace tisserand::reducer {
+
+struct SupportedModes {
+  int rigid = 0;           ///< of the free part: six rigid motions, which `lambda` and `q` leave out
+  Eigen::VectorXd lambda;  ///< ω², ascending
+  Eigen::MatrixXd q;       ///< coordinates x modes, qᵀ M q = 1
+  /// 6 x modes: (R_kᵀ M q)², mass and moments of inertia about the centre of mass that a motion of the supports along
+  /// axis k sets into each mode; all modes together less than those of the part by what the supports carry themselves.
+  Eigen::MatrixXd effective;
+  std::optional<int> counted;
+};
+
+/// The `count` lowest; a group of equal frequencies is completed. Throws Error if fewer exist.
+SupportedModes supported_modes(const Mesh& mesh, const System& system, const Supported& s, int count,
+                               const std::string& where);
+
+}  // namespace tisserand::reducer
