@@ -16,6 +16,7 @@
 #include "reducer/solve/report.hpp"
 #include "tests/reducer/solve/solving.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/thrown.hpp"
 #include "tests/support/vtk/vtu_reader.hpp"
 
 namespace tisserand::testing::solve_test {
@@ -173,6 +174,47 @@ load_cases: {press: {pressures: {TOP: 1e5}}, weight: {gravity: [0, 0, -9.81]}}
   EXPECT_NEAR(s.statics.energy[1], 0.3261465, 1e-7);
   EXPECT_NEAR(reducer::frequency(s.modes->lambda[0]), 191.3769, 1e-4);
   EXPECT_NEAR(reducer::frequency(s.modes->lambda[2]), 402.3434, 1e-4);
+}
+
+/// A shell of 2 x 1 and a beam along its first edge as sets of a deck.
+std::string deck_error(const test_support::TemporaryFolder& folder, const std::string& load, Solution& solution) {
+  std::ofstream(folder.file("sets.inp")) << R"(*NODE
+1, 0, 0, 0
+2, 2, 0, 0
+3, 2, 1, 0
+4, 0, 1, 0
+*ELEMENT, TYPE=S4, ELSET=SKIN
+1, 1, 2, 3, 4
+*ELEMENT, TYPE=B31, ELSET=RIB
+2, 1, 2
+*NSET, NSET=LEFT
+1, 4
+*MATERIAL, NAME=STEEL
+*ELASTIC
+2.1e11, 0.3
+*DENSITY
+7800
+*SHELL SECTION, ELSET=SKIN, MATERIAL=STEEL
+0.01
+*BEAM SECTION, ELSET=RIB, MATERIAL=STEEL, SECTION=RECT
+0.01, 0.02
+0, 0, 1
+)";
+  std::ofstream(folder.file("sets.part.yaml"))
+      << "part: sets\nmesh: {file: sets.inp}\nsupports: {LEFT: all}\nload_cases: {w: {" << load << "}}\n";
+  return test_support::error_of([&] { solution = solved(formats::read_part(folder.file("sets.part.yaml"), {}), 0); });
+}
+
+TEST(Solve, SetsOfDecksCarryLoads) {
+  const test_support::TemporaryFolder folder;
+  Solution s;
+  EXPECT_EQ(deck_error(folder, "pressures: {SKIN: 5}, line_loads: {RIB: [0, 3, 0]}", s), "no error");
+  EXPECT_LT((s.loads.applied.col(0).head<3>() - Eigen::Vector3d(0, 3.0 * 2.0, -5.0 * 2.0)).norm(), 1e-12);
+  EXPECT_LT(reducer::imbalance(s, 0), 1e-9);
+  EXPECT_THAT(deck_error(folder, "pressures: {RIB: 5}", s), HasSubstr("'RIB' is a set of lines, but faces are needed"));
+  EXPECT_THAT(deck_error(folder, "line_loads: {SKIN: [0, 0, 1]}", s), HasSubstr("'SKIN' holds no edges and no beams"));
+  EXPECT_THAT(deck_error(folder, "pressures: {LEFT: 5}", s), HasSubstr("no face of an element lies between the nodes"));
+  EXPECT_THAT(deck_error(folder, "forces: {LEFT: [0, 0, 1]}", s), HasSubstr("'LEFT'"));
 }
 
 /// A plate with a spider on its edge; groups of faces and edges.
