@@ -45,6 +45,10 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   result.model.rigid = rigid;
   result.model.free_frequency = compared_frequencies(system, internal);
 
+  begin("error of the mesh");
+  constexpr int lowest = 5;
+  describe_mesh_errors(part, mesh_errors(problem, boundary, internal, result.superelement, lowest), result.model);
+
   if (part.recovery && recover) {
     begin("recovery");
     recover({mesh, system, coordinates, boundary, internal, result.superelement});
@@ -68,8 +72,9 @@ Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseLi
   const Doubts doubts = check_mesh(mesh, part);
   try {
     Reduction result = reduce_checked(mesh, part, begin, recover);
-    result.model.warnings = doubts.all;
-    if (const auto doubt = mass_doubt(result.model.rigid.mass, part.units)) result.model.warnings.push_back(*doubt);
+    auto& told = result.model.warnings;
+    told.insert(told.begin(), doubts.all.begin(), doubts.all.end());
+    if (const auto doubt = mass_doubt(result.model.rigid.mass, part.units)) told.push_back(*doubt);
     return result;
   } catch (const Error& error) {
     if (doubts.numbers.empty()) throw;

@@ -8,7 +8,6 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/error.hpp"
-#include "reducer/modes/spectrum.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -61,10 +60,14 @@ Eigen::MatrixXd with_mass(const Eigen::MatrixXd& M, double factor, const Eigen::
 
 }  // namespace
 
-Eigen::VectorXd free_eigenvalues(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count) {
+EigenPairs free_modes(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count) {
   const double shift = shift_of(S, M);
-  if (shift == 0.0) return Eigen::VectorXd();
-  return dense_lowest(S, M, shift, std::min(count, static_cast<int>(S.rows()))).value;
+  if (shift == 0.0) return {};
+  return dense_lowest(S, M, shift, std::min(count, static_cast<int>(S.rows())));
+}
+
+Eigen::VectorXd free_eigenvalues(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count) {
+  return free_modes(S, M, count).value;
 }
 
 TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const Eigen::MatrixXd& G,

@@ -33,6 +33,15 @@ struct ModalBodyCertificate {
   formats::RigidProperties rigid;  ///< of the lumped masses
 };
 
+/// What the mesh does to the lowest frequencies: mesh_error/mesh_error.hpp.
+struct MeshCertificate {
+  bool boundary_held = false;              ///< of the part with its boundary held; else free
+  std::vector<double> frequency;           ///< of the reduced part
+  std::vector<double> error;               ///< estimate of (f_h − f)/f: positive where the frequency is too high
+  std::vector<double> beam, shell, solid;  ///< their parts of (λ_h − λ)/λ_h
+  std::vector<std::string> place;          ///< property whose elements cause most of it
+};
+
 /// What is only known while reducing.
 struct ModelCertificate {
   std::string content_id;
@@ -60,6 +69,7 @@ struct ModelCertificate {
   /// Of the free frequencies of the reduced part below the first dropped mode: relative error that the dropped modes
   /// cause, and between which the frequency of the full part lies.
   std::vector<double> truncation_estimate, truncation_lower, truncation_upper;
+  MeshCertificate mesh_error;
   std::optional<ModalBodyCertificate> modal_body;
   std::vector<std::string> notes;     ///< whole sentences, for example about a completed cluster
   std::vector<std::string> warnings;  ///< of the way in and of the checks of the mesh

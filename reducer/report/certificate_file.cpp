@@ -64,6 +64,27 @@ std::optional<ModalBodyCertificate> modal_body_from(const json& j) {
                               rigid_from(j.at("rigid"))};
 }
 
+json mesh_json(const MeshCertificate& c) {
+  return {{"boundary_held", c.boundary_held},
+          {"frequency", c.frequency},
+          {"error", c.error},
+          {"beams", c.beam},
+          {"shells", c.shell},
+          {"solids", c.solid},
+          {"place", c.place}};
+}
+
+MeshCertificate mesh_from(const json& j) {
+  const auto numbers = [&j](const char* key) { return j.at(key).get<std::vector<double>>(); };
+  return {j.at("boundary_held"),
+          numbers("frequency"),
+          numbers("error"),
+          numbers("beams"),
+          numbers("shells"),
+          numbers("solids"),
+          j.at("place").get<std::vector<std::string>>()};
+}
+
 json model_json(const ModelCertificate& c) {
   return {{"part", c.part},
           {"nodes", c.nodes},
@@ -97,6 +118,7 @@ json model_json(const ModelCertificate& c) {
           {"eliminated", c.eliminated},
           {"redundant", c.redundant},
           {"inactive", c.inactive},
+          {"mesh_error", mesh_json(c.mesh_error)},
           {"modal_body", modal_body_json(c.modal_body)},
           {"warnings", c.warnings}};
 }
@@ -157,6 +179,7 @@ ModelCertificate model_from(const json& j) {
   c.eliminated = j.at("eliminated");
   c.redundant = j.at("redundant");
   c.inactive = j.at("inactive").get<std::vector<std::string>>();
+  if (const auto mesh = j.find("mesh_error"); mesh != j.end()) c.mesh_error = mesh_from(*mesh);
   c.modal_body = modal_body_from(j.value("modal_body", json()));
   c.warnings = j.at("warnings").get<std::vector<std::string>>();
   return c;
@@ -233,6 +256,15 @@ std::string contents_text(const ModelCertificate& c) {
   return text;
 }
 
+/// Of the lowest frequencies, in per cent.
+std::string mesh_text(const MeshCertificate& c) {
+  if (c.error.empty()) return "";
+  std::vector<std::string> words;
+  for (const double error : c.error) words.push_back(fmt::format("{:+.2g} %", 100.0 * error));
+  return fmt::format("{:<19}{} of the lowest {} frequencies (estimate; +: too high)\n", "error of the mesh",
+                     listed(words), c.boundary_held ? "fixed" : "free");
+}
+
 std::string model_text(const ModelCertificate& c) {
   std::string text = fmt::format("{:<19}{} nodes, {} elements, {} coordinates ({})\n", "full model", c.nodes,
                                  c.elements, c.coordinates, c.part);
@@ -247,6 +279,7 @@ std::string model_text(const ModelCertificate& c) {
   text += fmt::format("{:<19}rigid motion {:.1e} of boundary modes, {:.1e} of S; S_BI {:.1e}; M_II - 1 {:.1e}\n",
                       "round-off removed", c.boundary_rigid_defect, c.rigid_residual_before_projection,
                       c.stiffness_coupling, c.orthonormality);
+  text += mesh_text(c.mesh_error);
   for (const std::string& note : c.notes) text += fmt::format("{:<19}{}\n", "note", note);
   for (const std::string& warning : c.warnings) text += fmt::format("{:<19}{}\n", "warning", warning);
   return text;

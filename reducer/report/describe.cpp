@@ -1,6 +1,8 @@
 // Figures from every stage of a reduction.
 #include "reducer/report/describe.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "common/error.hpp"
@@ -34,7 +36,44 @@ void describe_truncation(const formats::Superelement& element, const InternalMod
   }
 }
 
+/// What makes the mesh of a kind of element finer, in the words of part.yaml.
+std::string remedy_for(Eigen::Index kind) {
+  if (kind == 0) return "more `elements` per beam";
+  if (kind == 1) return "a smaller `size`";
+  return "a smaller `size`, or `order: 2`";
+}
+
+/// One warning, of the worst mode among those that matter.
+void warn_of_mesh(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c) {
+  constexpr double usual_limit = 0.05;
+  const auto& accuracy = part.modes.accuracy;
+  const double limit = accuracy ? accuracy->error : usual_limit;
+  Eigen::Index worst = -1;
+  for (Eigen::Index k = 0; k < errors.relative.size(); ++k) {
+    if (accuracy && frequency(errors.lambda[k]) > accuracy->up_to) break;
+    if (worst < 0 || std::abs(errors.relative[k]) > std::abs(errors.relative[worst])) worst = k;
+  }
+  if (worst < 0 || std::abs(errors.relative[worst]) <= limit) return;
+  Eigen::Index kind = 0;
+  errors.by_kind.col(worst).cwiseAbs().maxCoeff(&kind);
+  c.warnings.push_back(fmt::format(
+      "the mesh is too coarse: it makes the {} frequency {:.4g} some {:.2g} % too {}, {:.2g} % are {}, most of it in "
+      "'{}': give it {}",
+      errors.boundary_held ? "fixed" : "free", frequency(errors.lambda[worst]),
+      100.0 * std::abs(errors.relative[worst]), errors.relative[worst] > 0.0 ? "high" : "low", 100.0 * limit,
+      accuracy ? "asked for" : "usual", errors.place[static_cast<std::size_t>(worst)], remedy_for(kind)));
+}
+
 }  // namespace
+
+void describe_mesh_errors(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c) {
+  const auto list = [](const auto& values) { return std::vector<double>(values.begin(), values.end()); };
+  const Eigen::RowVectorXd beam = errors.by_kind.row(0), shell = errors.by_kind.row(1), solid = errors.by_kind.row(2);
+  c.mesh_error = {
+      errors.boundary_held, frequencies(errors.lambda), list(errors.relative), list(beam), list(shell), list(solid),
+      errors.place};
+  warn_of_mesh(part, errors, c);
+}
 
 void describe_mesh(const Mesh& mesh, const System& system, ModelCertificate& c) {
   c.nodes = mesh.nodes();

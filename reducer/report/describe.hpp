@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "formats/part/part.hpp"
+#include "reducer/mesh_error/mesh_error.hpp"
 #include "reducer/modes/boundary_modes.hpp"
 #include "reducer/modes/internal_modes.hpp"
 #include "reducer/modes/project.hpp"
@@ -19,6 +20,9 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
 
 /// Counts of nodes, elements and ties.
 void describe_mesh(const Mesh& mesh, const System& system, ModelCertificate& c);
+
+/// The errors of the mesh; a warning where one exceeds the accuracy asked for, or 5 % if none is.
+void describe_mesh_errors(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c);
 
 /// Lowest free frequencies of the full model, for parts that are small enough to compute them beside the reduction: up
 /// to 6000 coordinates, where the dense eigenvalue problem takes no longer than the rest. Else empty.

@@ -1,0 +1,31 @@
+// The error of the mesh, which no number of modes cures: of the lowest frequencies, from stresses that jump between
+// elements.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/superelement/superelement.hpp"
+#include "reducer/modes/boundary_modes.hpp"
+#include "reducer/modes/internal_modes.hpp"
+
+namespace tisserand::reducer {
+
+/// Of the lowest elastic modes of the free reduced part, or of the part with its boundary held if it has none.
+struct MeshErrors {
+  bool boundary_held = false;
+  Eigen::VectorXd lambda;    ///< ω²
+  Eigen::VectorXd relative;  ///< estimate of (f_h − f)/f: positive where the frequency is too high
+  /// Share of beams, shells, solids in λ_h − λ, relative to λ_h: 3 x modes.
+  Eigen::Matrix3Xd by_kind;
+  std::vector<std::string> place;  ///< per mode: the property whose elements cause most of it
+};
+
+/// At most `most` modes. With smooth stresses σ* the continuous part has λ ≈ HR(σ*, u)/M(u) (energy_error() of the
+/// elements), whose error is the product of those of σ* and u; so λ_h − λ ≈ Σ energy_error for uᵀ M u = 1, and
+/// (f_h − f)/f = √(λ_h/λ) − 1. Springs, masses, spiders and equations have no error of the mesh; neither facets in
+/// place of a curved surface nor edges of spiders are seen.
+MeshErrors mesh_errors(const InternalProblem& problem, const BoundaryModes& boundary, const InternalModes& internal,
+                       const formats::Superelement& element, int most);
+
+}  // namespace tisserand::reducer
