@@ -62,7 +62,10 @@ Exit codes: 0 done, 1 error, 2 wrong usage.)help";
 
 constexpr const char* about_show = R"help(Prints the certificate of a superelement file: mass, frequencies, checks.
 
-  reducer show beam.superelement.h5)help";
+  reducer show beam.superelement.h5
+  reducer show beam.superelement.h5 -o beam.certificate.html     as a page with pictures (by gnuplot)
+
+Also errors of the mesh and of dropped modes, effective masses, and for small parts the modal assurance.)help";
 
 constexpr const char* about_mesh = R"help(Meshes a part and writes a gmsh file to look at.
 
@@ -214,6 +217,7 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false);
   CLI::App* const show_command = add_command(app, "show", about_show, asked);
   show_command->add_option("file", arguments.input, "name.superelement.h5")->required();
+  show_command->add_option("-o,--output", arguments.output, "the certificate as a page with pictures, .html");
   CLI::App* const mesh_command = add_command(app, "mesh", about_mesh, asked);
   mesh_command->add_option("part", arguments.input, "part.yaml")->required();
   mesh_command->add_option("-o,--output", arguments.output, "gmsh file (default: beside the part)");

@@ -43,11 +43,11 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   result.model = describe(part, boundary, internal, projection.defects, result.superelement);
   describe_mesh(mesh, system, result.model);
   result.model.rigid = rigid;
-  result.model.free_frequency = compared_frequencies(system, internal);
+  const FreeMotions lowest = free_motions(problem, boundary, internal, result.superelement, most_compared);
+  describe_comparison(system, internal, lowest, result.model);
 
   begin("error of the mesh");
-  constexpr int lowest = 5;
-  describe_mesh_errors(part, mesh_errors(problem, boundary, internal, result.superelement, lowest), result.model);
+  describe_mesh_errors(part, mesh_errors(mesh, system, lowest, most_estimated_on_mesh), result.model);
 
   if (part.recovery && recover) {
     begin("recovery");

@@ -5,11 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "common/error.hpp"
 #include "common/parallel.hpp"
 #include "reducer/elements/mesh_error.hpp"
 #include "reducer/mesh_error/smooth_stress.hpp"
-#include "reducer/modes/truncation.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -17,46 +15,14 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double least_share = 1e-2;  ///< of λ_h that is left of λ: beyond, the estimate says no more than "useless"
-
-/// Modes in the system's coordinates q.
-struct Modes {
-  bool boundary_held = false;
-  VectorXd lambda;
-  MatrixXd q;
-};
-
-Modes held_modes(const InternalProblem& problem, const InternalModes& internal, int most) {
-  const Eigen::Index count = std::min<Eigen::Index>(most, internal.lambda.size());
-  Modes modes{true, internal.lambda.head(count), MatrixXd::Zero(problem.system.size(), count)};
-  modes.q(problem.partition.internal, Eigen::all) = internal.Phi.leftCols(count);
-  return modes;
-}
-
-Modes free_modes_of(const InternalProblem& problem, const BoundaryModes& boundary, const InternalModes& internal,
-                    const formats::Superelement& element, int most) {
-  EigenPairs pairs;
-  try {
-    pairs = free_modes(element.stiffness, element.mass, 6 + most);
-  } catch (const Error&) {
-    return held_modes(problem, internal, most);  // a rigid motion without mass, something loose: FileCertificate says
-  }
-  const Eigen::Index count = pairs.value.size() - 6, n_B = problem.partition.n_B();
-  if (count <= 0 || !(pairs.value[6] > 0.0)) return held_modes(problem, internal, most);
-  const MatrixXd y = pairs.vector.rightCols(count);
-  Modes modes{false, pairs.value.tail(count), MatrixXd::Zero(problem.system.size(), count)};
-  modes.q(problem.partition.boundary, Eigen::all) = y.topRows(n_B);
-  modes.q(problem.partition.internal, Eigen::all) =
-      boundary.Psi * y.topRows(n_B) + internal.Phi * y.bottomRows(y.rows() - n_B);
-  return modes;
-}
+constexpr double least_share = 0.25;  ///< of λ_h that is left of λ: beyond, the estimate is no more than "useless"
 
 /// [translation; rotation] of every node; zero rotations where it has none.
-MatrixXd motions(const InternalProblem& problem, const MatrixXd& q) {
-  const MatrixXd x = expand(problem.system.T, q);
-  const Coordinates& numbers = problem.system.coordinates;
-  MatrixXd motion = MatrixXd::Zero(6 * static_cast<Eigen::Index>(problem.mesh.nodes()), q.cols());
-  for (int n = 0; n < problem.mesh.nodes(); ++n) {
+MatrixXd motions(const Mesh& mesh, const System& system, const MatrixXd& q) {
+  const MatrixXd x = expand(system.T, q);
+  const Coordinates& numbers = system.coordinates;
+  MatrixXd motion = MatrixXd::Zero(6 * static_cast<Eigen::Index>(mesh.nodes()), q.cols());
+  for (int n = 0; n < mesh.nodes(); ++n) {
     const int count = numbers.rotates(n) ? 6 : 3;
     motion.middleRows(6 * n, count) = x.middleRows(numbers.of(n, 0), count);
   }
@@ -114,14 +80,12 @@ Properties by_property(const Mesh& mesh, const MatrixXd& errors) {
 
 }  // namespace
 
-MeshErrors mesh_errors(const InternalProblem& problem, const BoundaryModes& boundary, const InternalModes& internal,
-                       const formats::Superelement& element, int most) {
-  const Mesh& mesh = problem.mesh;
-  const Modes modes = free_modes_of(problem, boundary, internal, element, most);
-  const Eigen::Index count = modes.lambda.size();
-  MeshErrors result{modes.boundary_held, modes.lambda, VectorXd::Zero(count), Eigen::Matrix3Xd::Zero(3, count), {}};
+MeshErrors mesh_errors(const Mesh& mesh, const System& system, const FreeMotions& modes, int most) {
+  const Eigen::Index count = std::min<Eigen::Index>(most, modes.lambda.size());
+  MeshErrors result{
+      modes.boundary_held, modes.lambda.head(count), VectorXd::Zero(count), Eigen::Matrix3Xd::Zero(3, count), {}};
   if (count == 0) return result;
-  const MatrixXd errors = element_errors(mesh, motions(problem, modes.q), modes.lambda);
+  const MatrixXd errors = element_errors(mesh, motions(mesh, system, modes.q.leftCols(count)), result.lambda);
   const auto beams = static_cast<Eigen::Index>(mesh.beams.size()),
              shells = static_cast<Eigen::Index>(mesh.shells.size());
   result.by_kind.row(0) = errors.topRows(beams).colwise().sum();

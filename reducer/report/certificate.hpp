@@ -1,6 +1,7 @@
 // What a superelement is worth: computed after the reduction and from the file alone, printed and stored as JSON.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,11 @@ struct FileCertificate {
   double stiffness_condition = 0.0;     ///< largest over smallest eigenvalue ≠ 0 of the scaled S̄
   double mass_condition = 0.0;          ///< likewise of M̄
   std::vector<std::string> massless;    ///< directions that move no mass
+  /// Of every internal mode in the rigid motions of the boundary about the centre of mass, [x y z, about x y z]: Γ =
+  /// (M_IB + M_II Ψ) R_B, whose squares are the modal effective masses ([Wij04]); empty if the file is not canonical.
+  std::vector<std::array<double, 6>> participation;
+  std::array<double, 6> effective_mass_whole{};  ///< mass and inertia in these motions
+  std::array<double, 6> effective_mass_left{};   ///< what no internal mode carries: at the boundary, in dropped modes
   std::vector<std::string> warnings;
 };
 
@@ -66,6 +72,8 @@ struct ModelCertificate {
   double stiffness_coupling = 0.0;
   double orthonormality = 0.0;
   std::vector<double> free_frequency;  ///< elastic frequencies of the full model; empty for large parts
+  /// Modal assurance of the full model's modes (rows) and the reduced part's, weighted with the mass.
+  std::vector<std::vector<double>> assurance;
   /// Of the free frequencies of the reduced part below the first dropped mode: relative error that the dropped modes
   /// cause, and between which the frequency of the full part lies.
   std::vector<double> truncation_estimate, truncation_lower, truncation_upper;

@@ -50,6 +50,9 @@ json file_json(const FileCertificate& c) {
           {"stiffness_condition", c.stiffness_condition},
           {"mass_condition", c.mass_condition},
           {"massless_directions", c.massless},
+          {"participation", c.participation},
+          {"effective_mass_whole", c.effective_mass_whole},
+          {"effective_mass_left", c.effective_mass_left},
           {"warnings", c.warnings}};
 }
 
@@ -108,6 +111,7 @@ json model_json(const ModelCertificate& c) {
           {"stiffness_coupling", c.stiffness_coupling},
           {"orthonormality", c.orthonormality},
           {"free_frequency", c.free_frequency},
+          {"assurance", c.assurance},
           {"notes", c.notes},
           {"beams", c.beams},
           {"shells", c.shells},
@@ -169,6 +173,7 @@ ModelCertificate model_from(const json& j) {
   c.stiffness_coupling = j.at("stiffness_coupling");
   c.orthonormality = j.at("orthonormality");
   c.free_frequency = j.at("free_frequency").get<std::vector<double>>();
+  c.assurance = j.value("assurance", c.assurance);
   c.notes = j.at("notes").get<std::vector<std::string>>();
   c.beams = j.at("beams");
   c.shells = j.at("shells");
@@ -227,6 +232,56 @@ std::string frequency_table(const FileCertificate& file, const std::optional<Mod
   }
   if (count > most_rows) text += fmt::format("  {:>4} {} more in the certificate file\n", "...", count - most_rows);
   return text;
+}
+
+/// Shares of mass and inertia in per cent: of the ten first modes with one per cent in some direction, of all, and
+/// left.
+std::string effective_mass_text(const FileCertificate& c) {
+  if (c.participation.empty()) return "";
+  std::string text = fmt::format("effective mass of the held part [%]\n  {:>4} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+                                 "mode", "x", "y", "z", "about x", "about y", "about z");
+  const auto line = [&](const std::string& name, const auto& mass_along) {
+    text += fmt::format("  {:>4}", name);
+    for (std::size_t k = 0; k < 6; ++k) {
+      const double whole = c.effective_mass_whole[k];
+      text += whole > 0.0 ? fmt::format(" {:>9.2f}", 100.0 * mass_along(k) / whole) : fmt::format(" {:>9}", "-");
+    }
+    text += "\n";
+  };
+  constexpr int most_rows = 10;
+  int told = 0;
+  for (std::size_t m = 0; m < c.participation.size() && told < most_rows; ++m) {
+    const auto& row = c.participation[m];
+    const auto square = [&row](std::size_t k) { return row[k] * row[k]; };
+    bool matters = false;
+    for (std::size_t k = 0; k < 6; ++k) matters = matters || square(k) > 0.01 * c.effective_mass_whole[k];
+    if (!matters) continue;
+    line(fmt::format("{}", m + 1), square);
+    ++told;
+  }
+  line("all", [&c](std::size_t k) { return c.effective_mass_whole[k] - c.effective_mass_left[k]; });
+  line("left", [&c](std::size_t k) { return c.effective_mass_left[k]; });
+  return text;
+}
+
+/// Of each mode with all full modes of its frequency (within 0.1 %), so that double modes may be turned.
+std::string assurance_text(const FileCertificate& file, const ModelCertificate& c) {
+  double least = 2.0;
+  std::size_t worst = 0;
+  for (std::size_t k = 0; k < std::min(c.assurance.size(), file.free_frequency.size()); ++k) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < c.assurance.size(); ++i)
+      if (k < c.assurance[i].size() &&
+          (i == k || std::abs(c.free_frequency[i] - c.free_frequency[k]) < 1e-3 * c.free_frequency[k]))
+        sum += c.assurance[i][k];
+    if (k < c.assurance[0].size() && sum < least) {
+      least = sum;
+      worst = k;
+    }
+  }
+  if (least > 1.5) return "";
+  return fmt::format("{:<19}at least {:.6f} with the free modes of the full model (mode {})\n", "modal assurance",
+                     least, worst + 1);
 }
 
 std::string modal_body_text(const ModalBodyCertificate& c, double length, const Units& units) {
@@ -333,6 +388,8 @@ std::string certificate_text(const formats::Superelement& element, const FileCer
                       file.mass_condition, file.characteristic_length);
   text += fmt::format("{:<19}{}\n", "without mass", file.massless.empty() ? "none" : listed(file.massless, "; "));
   text += frequency_table(file, model, element.units);
+  if (model) text += assurance_text(file, *model);
+  text += effective_mass_text(file);
   if (!file.free_frequency_note.empty())
     text += fmt::format("{:<19}no free frequencies: {}\n", "note", file.free_frequency_note);
   if (model && model->modal_body)

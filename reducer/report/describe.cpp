@@ -14,7 +14,6 @@ namespace tisserand::reducer {
 namespace {
 
 constexpr int small_part = 6000;
-constexpr int most_compared = 12;
 constexpr int most_estimated = 20;
 
 std::vector<double> frequencies(const Eigen::VectorXd& lambda) {
@@ -114,17 +113,20 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
   return c;
 }
 
-std::vector<double> compared_frequencies(const System& system, const InternalModes& internal) {
-  if (system.size() > small_part || internal.available == 0) return {};
+void describe_comparison(const System& system, const InternalModes& internal, const FreeMotions& modes,
+                         ModelCertificate& c) {
+  if (system.size() > small_part || internal.available == 0 || modes.boundary_held) return;
   const double scale = internal.lambda.size() > 0 ? internal.lambda[0] : internal.first_dropped.value_or(0.0);
-  return full_free_frequencies(system, scale, most_compared);
+  const ModeComparison full = compare_free_modes(system, scale, most_compared, modes.q);
+  c.free_frequency = full.frequency;
+  for (const auto& row : full.assurance.rowwise()) c.assurance.emplace_back(row.begin(), row.end());
 }
 
 Doubts check_mesh(const Mesh& mesh, const formats::Part& part) {
   check_used(mesh, part.file);
   check_connected(mesh, part.file);
   check_boundary_holds(mesh, part.file);
-  Doubts doubts{mesh.warnings, plausibility_warnings(mesh, part.units)};
+  Doubts doubts{mesh.warnings, plausibility_warnings(mesh, part.units, part.materials)};
   const std::string& where = part.mesh.file.empty() ? part.file : part.mesh.file;
   for (const auto& more : {check_shapes(mesh, where), doubts.numbers})
     doubts.all.insert(doubts.all.end(), more.begin(), more.end());

@@ -21,12 +21,18 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
 /// Counts of nodes, elements and ties.
 void describe_mesh(const Mesh& mesh, const System& system, ModelCertificate& c);
 
+inline constexpr int most_estimated_on_mesh = 5;
+
 /// The errors of the mesh; a warning where one exceeds the accuracy asked for, or 5 % if none is.
 void describe_mesh_errors(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c);
 
-/// Lowest free frequencies of the full model, for parts that are small enough to compute them beside the reduction: up
-/// to 6000 coordinates, where the dense eigenvalue problem takes no longer than the rest. Else empty.
-std::vector<double> compared_frequencies(const System& system, const InternalModes& internal);
+inline constexpr int most_compared = 12;
+
+/// Lowest free frequencies of the full model and the assurance of the modes (most_compared of them), for parts that are
+/// small enough to compute them beside the reduction: up to 6000 coordinates, where the eigenvalue problem takes no
+/// longer than the rest.
+void describe_comparison(const System& system, const InternalModes& internal, const FreeMotions& modes,
+                         ModelCertificate& c);
 
 /// What is doubtful about the mesh; `numbers`: of the plausibility of its numbers alone.
 struct Doubts {

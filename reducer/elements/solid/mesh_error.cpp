@@ -27,14 +27,15 @@ constexpr auto energy_rule() {
     return stiffness_rule<shape>();
 }
 
-/// Share of the way from the middle to the corners where stresses are sampled: near the middle of first-order shapes;
-/// the points of degree 2 and of reduced integration of the others.
+/// Share of the way from the middle to the corners where stresses are sampled, along each natural coordinate: near the
+/// middle of first-order shapes; the points of degree 2 and of reduced integration of the others.
 template <SolidShape shape>
-constexpr double sample_share() {
-  if constexpr (shape == SolidShape::tetrahedron10) return 0.44721359549995793928;
-  if constexpr (shape == SolidShape::hexahedron20) return 0.57735026918962576451;
-  if constexpr (shape == SolidShape::prism15) return 0.5;
-  return 0.2;
+constexpr NaturalPoint sample_share() {
+  constexpr double gauss = gauss2[1].at, tetrahedron = 0.44721359549995793928;
+  if constexpr (shape == SolidShape::tetrahedron10) return {tetrahedron, tetrahedron, tetrahedron};
+  if constexpr (shape == SolidShape::hexahedron20) return {gauss, gauss, gauss};
+  if constexpr (shape == SolidShape::prism15) return {0.5, 0.5, gauss};
+  return {0.2, 0.2, 0.2};
 }
 
 /// One point of the first-order tetrahedron, whose stress is constant; else as many as corners.
@@ -50,7 +51,7 @@ constexpr auto sample_rule() {
       for (std::size_t k = 0; k < 3; ++k) middle[k] += Basis::nodes[i][k] / static_cast<double>(Basis::corners);
     for (std::size_t i = 0; i < Basis::corners; ++i)
       for (std::size_t k = 0; k < 3; ++k)
-        rule.point[i][k] = middle[k] + sample_share<shape>() * (Basis::nodes[i][k] - middle[k]);
+        rule.point[i][k] = middle[k] + sample_share<shape>()[k] * (Basis::nodes[i][k] - middle[k]);
     return rule;
   }
 }
