@@ -30,9 +30,13 @@ void sample_stresses(const Mesh& mesh, const SolidElement& solid, const Eigen::M
 /// consistent matrix is. Twice the strain energy, for modes with vᵀ M v = 1. Where E_h is the energy of these
 /// displacements it is ‖σ* − σ_h‖² of [ZZ87]; it also holds for assumed strains, stresses and shear, whose energy is
 /// another. `smooth`: σ* at the corners of shells, [N; M; Q] in element axes, 8 rows each; at all nodes of solids, 6
-/// rows each, part axes.
+/// rows each, part axes. At edges of shells beyond which nothing goes on smoothly (`ending[i]`: from corner i to the
+/// next) the twisting moment M_ns passes into shear along the edge in a layer of width δ = √(f_Q/f_M), of the size of
+/// the thickness (f: compliances of M_ns and of shear along the edge), that σ* does not have. With M_ns(1 − e^(−y/δ))
+/// and the shear in equilibrium with it HR is less by ∫ 2 M_ns γ_s + δ f_M M_ns² ds, γ_s: shear strain of the edge.
+using ShellEdges = std::array<bool, 4>;
 Eigen::VectorXd energy_error(const Mesh& mesh, const ShellElement& shell, const Eigen::MatrixXd& u,
-                             const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth);
+                             const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth, const ShellEdges& ending);
 Eigen::VectorXd energy_error(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u,
                              const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth);
 

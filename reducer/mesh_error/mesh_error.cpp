@@ -45,8 +45,9 @@ MatrixXd element_errors(const Mesh& mesh, const MatrixXd& motion, const VectorXd
         errors.row(e) = energy_error(mesh, beam, u, lambda).transpose();
       } else if (e < beams + shells) {
         const ShellElement& shell = mesh.shells[e - beams];
-        errors.row(e) =
-            energy_error(mesh, shell, motion_of(shell, motion), lambda, smooth.of_shell(e - beams)).transpose();
+        errors.row(e) = energy_error(mesh, shell, motion_of(shell, motion), lambda, smooth.of_shell(e - beams),
+                                     smooth.ending(e - beams))
+                            .transpose();
       } else {
         const SolidElement& solid = mesh.solids[e - beams - shells];
         errors.row(e) = energy_error(mesh, solid, motion_of(solid, motion), lambda, smooth.of_solid(e - beams - shells))

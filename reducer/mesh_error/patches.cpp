@@ -7,8 +7,6 @@
 
 #include <Eigen/Geometry>
 
-#include "reducer/elements/mesh_error.hpp"
-
 namespace tisserand::reducer {
 namespace {
 
@@ -54,6 +52,11 @@ std::array<int, 2> beside(const ShellElement& shell, int corner) {
   return {shell.nodes[(corner + 1) % n], shell.nodes[(corner + n - 1) % n]};
 }
 
+/// The edge from the corner to the node beside it, counted by its first corner.
+int edge_towards(const ShellElement& shell, int corner, int node) {
+  return beside(shell, corner)[0] == node ? corner : (corner + shell.corners() - 1) % shell.corners();
+}
+
 bool smooth_between(const Mesh& mesh, const Eigen::Matrix3Xd& normal, int e, int f) {
   const ShellElement &a = mesh.shells[e], &b = mesh.shells[f];
   const double cosine = normal.col(e).dot(normal.col(f));
@@ -76,7 +79,8 @@ class Groups {
 };
 
 /// Shells that share an edge at the node with no third one, and solids of one property.
-Groups groups_at(const Mesh& mesh, const Eigen::Matrix3Xd& normal, const std::vector<Corner>& corners) {
+Groups groups_at(const Mesh& mesh, const Eigen::Matrix3Xd& normal, const std::vector<Corner>& corners,
+                 std::vector<ShellEdges>& ending) {
   Groups groups(corners.size());
   const int count = static_cast<int>(corners.size()), border = shells(mesh);
   const auto shares_edge = [&](const Corner& c, int node) {
@@ -95,6 +99,8 @@ Groups groups_at(const Mesh& mesh, const Eigen::Matrix3Xd& normal, const std::ve
                                                  return shares_edge(c, node);
                                                }) == 2) {
             groups.join(i, j);
+            ending[e][edge_towards(mesh.shells[e], corners[i].corner, node)] = false;
+            ending[f][edge_towards(mesh.shells[f], corners[j].corner, node)] = false;
           }
       }
     }
@@ -108,7 +114,7 @@ void make_patches(const Mesh& mesh, StressPatches& all) {
   std::vector<int> patch_of;
   for (int node = 0; node < mesh.nodes(); ++node) {
     const std::vector<Corner>& corners = at[node];
-    const Groups groups = groups_at(mesh, normal, corners);
+    const Groups groups = groups_at(mesh, normal, corners, all.ending);
     patch_of.assign(corners.size(), -1);
     for (int i = 0; i < static_cast<int>(corners.size()); ++i) {
       int& patch = patch_of[groups.of(i)];
@@ -179,6 +185,7 @@ StressPatches stress_patches(const Mesh& mesh) {
   const int elements = shells(mesh) + static_cast<int>(mesh.solids.size());
   all.first.push_back(0);
   for (int e = 0; e < elements; ++e) all.first.push_back(all.first.back() + corners_of(mesh, e));
+  all.ending.assign(mesh.shells.size(), {true, true, true, true});
   all.of_corner.assign(static_cast<std::size_t>(all.first.back()), -1);
   make_patches(mesh, all);
   find_sources(mesh, all);

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "reducer/elements/mesh_error.hpp"
 #include "reducer/mesh/mesh.hpp"
 
 namespace tisserand::reducer {
@@ -21,8 +22,9 @@ struct StressPatch {
 
 struct StressPatches {
   std::vector<StressPatch> patch;
-  std::vector<int> first;      ///< elements + 1: into `of_corner`
-  std::vector<int> of_corner;  ///< patch of each corner of each element
+  std::vector<int> first;          ///< elements + 1: into `of_corner`
+  std::vector<int> of_corner;      ///< patch of each corner of each element
+  std::vector<ShellEdges> ending;  ///< of shells: edges at which patches end
 };
 
 /// Patches end where properties or offsets change, where three shells share an edge, and at edges where the normals of

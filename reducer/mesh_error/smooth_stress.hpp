@@ -22,6 +22,7 @@ class SmoothStress {
   /// yy zz xy yz zx] at all nodes of a solid.
   Eigen::MatrixXd of_shell(int shell) const;
   Eigen::MatrixXd of_solid(int solid) const;
+  const ShellEdges& ending(int shell) const { return patches_.ending[shell]; }
 
  private:
   struct Polynomial {

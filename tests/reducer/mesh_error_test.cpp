@@ -60,7 +60,7 @@ Energies energies(const Mesh& mesh, const MatrixXd& motion) {
   for (int e = 0; e < static_cast<int>(mesh.shells.size()); ++e) {
     const MatrixXd u = motion_of(mesh.shells[e], motion);
     element_matrices(mesh, mesh.shells[e], matrices);
-    sum.error += energy_error(mesh, mesh.shells[e], u, none, smooth.of_shell(e))[0];
+    sum.error += energy_error(mesh, mesh.shells[e], u, none, smooth.of_shell(e), smooth.ending(e))[0];
     sum.energy += (u.transpose() * matrices.S * u)(0, 0);
   }
   return sum;

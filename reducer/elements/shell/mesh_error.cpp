@@ -143,9 +143,31 @@ Eigen::Matrix<double, 8, 8> compliance(const ShellSection& section) {
   return F;
 }
 
+/// ∫ 2 M_ns γ_s + δ f_M M_ns² ds along the edge from corner i, n = [s_y, −s_x]. γ_s = (w_j − w_i)/L + mean of β · s is
+/// constant, β = [θy, −θx].
+template <int Corners>
+Eigen::VectorXd layer_at_edge(const ShellGeometry<Corners>& geometry, int i, const Eigen::Matrix<double, 8, 8>& F,
+                              const Eigen::MatrixXd& v, const Eigen::MatrixXd& smooth) {
+  const int j = (i + 1) % Corners;
+  const Eigen::Vector2d d = geometry.corner.col(j) - geometry.corner.col(i);
+  const double length = d.norm(), x = d.x() / length, y = d.y() / length;
+  const Eigen::Vector3d twist(2.0 * x * y, -2.0 * x * y, y * y - x * x);  // [xx yy xy] of a unit M_ns
+  const Eigen::Vector3d part(x * y, -x * y, y * y - x * x);               // M_ns of [xx yy xy]
+  const double f_M = twist.dot(F.block<3, 3>(3, 3) * twist);
+  const double f_Q = Eigen::Vector2d(x, y).dot(F.bottomRightCorner<2, 2>() * Eigen::Vector2d(x, y));
+  const double width = std::min(std::sqrt(f_Q / f_M), geometry.area / length);
+  const Eigen::ArrayXd gamma =
+      ((v.row(6 * j + 2) - v.row(6 * i + 2)) / length + 0.5 * x * (v.row(6 * i + 4) + v.row(6 * j + 4)) -
+       0.5 * y * (v.row(6 * i + 3) + v.row(6 * j + 3)))
+          .transpose();
+  const Eigen::ArrayXd a = (part.transpose() * smooth.middleRows<3>(8 * i + 3)).transpose();
+  const Eigen::ArrayXd b = (part.transpose() * smooth.middleRows<3>(8 * j + 3)).transpose();
+  return length * ((a + b) * gamma + width * f_M / 3.0 * (a.square() + a * b + b.square()));
+}
+
 template <int Corners>
 Eigen::VectorXd error_of(const Mesh& mesh, const ShellElement& shell, const Eigen::MatrixXd& u,
-                         const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth) {
+                         const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth, const ShellEdges& ending) {
   const ShellProperty& property = mesh.shell_properties[shell.property];
   const ShellSection& section = property.section;
   const ShellGeometry<Corners> geometry = shell_geometry<Corners>(mesh, shell);
@@ -160,6 +182,8 @@ Eigen::VectorXd error_of(const Mesh& mesh, const ShellElement& shell, const Eige
     const Eigen::Matrix<double, 8, Eigen::Dynamic> gap = F * stress - 2.0 * strains<Corners>(point, v);
     error += point.dA * stress.cwiseProduct(gap).colwise().sum().transpose();
   }
+  for (int i = 0; i < Corners; ++i)
+    if (ending[i] && !section.D.isZero(0.0)) error += layer_at_edge<Corners>(geometry, i, F, v, smooth);
   if (property.mass_matrix == formats::MassMatrix::lumped) {
     using Arms = Eigen::Matrix<double, Corners, 1>;
     const Eigen::MatrixXd at_middle = motion_along_normal<Corners>(geometry, Arms(Arms::Constant(shell.offset)), u);
@@ -212,9 +236,9 @@ void sample_stresses(const Mesh& mesh, const ShellElement& shell, const Eigen::M
 }
 
 Eigen::VectorXd energy_error(const Mesh& mesh, const ShellElement& shell, const Eigen::MatrixXd& u,
-                             const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth) {
-  return shell.corners() == 3 ? error_of<3>(mesh, shell, u, lambda, smooth)
-                              : error_of<4>(mesh, shell, u, lambda, smooth);
+                             const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth, const ShellEdges& ending) {
+  return shell.corners() == 3 ? error_of<3>(mesh, shell, u, lambda, smooth, ending)
+                              : error_of<4>(mesh, shell, u, lambda, smooth, ending);
 }
 
 double angle_at_corner(const Mesh& mesh, const ShellElement& shell, int corner) {
