@@ -315,7 +315,7 @@ std::string contents_text(const ModelCertificate& c) {
 std::string mesh_text(const MeshCertificate& c) {
   if (c.error.empty()) return "";
   std::vector<std::string> words;
-  for (const double error : c.error) words.push_back(fmt::format("{:+.2g} %", 100.0 * error));
+  for (const double error : c.error) words.push_back(fmt::format("{:+.3g} %", 100.0 * error));
   return fmt::format("{:<19}{} of the lowest {} frequencies (estimate; +: too high)\n", "error of the mesh",
                      listed(words), c.boundary_held ? "fixed" : "free");
 }

@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "reducer/elements/checks.hpp"
+#include "reducer/mesh_error/mesh_error.hpp"
 #include "reducer/modes/full_model.hpp"
 #include "reducer/modes/truncation.hpp"
 
@@ -15,6 +16,8 @@ namespace {
 
 constexpr int small_part = 6000;
 constexpr int most_estimated = 20;
+constexpr int most_compared = 12;
+constexpr int most_on_mesh = 5;
 
 std::vector<double> frequencies(const Eigen::VectorXd& lambda) {
   std::vector<double> result;
@@ -55,15 +58,14 @@ void warn_of_mesh(const formats::Part& part, const MeshErrors& errors, ModelCert
   if (worst < 0 || std::abs(errors.relative[worst]) <= limit) return;
   Eigen::Index kind = 0;
   errors.by_kind.col(worst).cwiseAbs().maxCoeff(&kind);
+  const double share = std::abs(errors.relative[worst]);
   c.warnings.push_back(fmt::format(
-      "the mesh is too coarse: it makes the {} frequency {:.4g} some {:.2g} % too {}, {:.2g} % are {}, most of it in "
+      "the mesh is too coarse: it makes the {} frequency {:.4g} some {:.3g} %{} too {}, {:.3g} % are {}, most of it in "
       "'{}': give it {}",
-      errors.boundary_held ? "fixed" : "free", frequency(errors.lambda[worst]),
-      100.0 * std::abs(errors.relative[worst]), errors.relative[worst] > 0.0 ? "high" : "low", 100.0 * limit,
+      errors.boundary_held ? "fixed" : "free", frequency(errors.lambda[worst]), 100.0 * share,
+      share < 1.0 ? "" : " or more", errors.relative[worst] > 0.0 ? "high" : "low", 100.0 * limit,
       accuracy ? "asked for" : "usual", errors.place[static_cast<std::size_t>(worst)], remedy_for(kind)));
 }
-
-}  // namespace
 
 void describe_mesh_errors(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c) {
   const auto list = [](const auto& values) { return std::vector<double>(values.begin(), values.end()); };
@@ -73,6 +75,18 @@ void describe_mesh_errors(const formats::Part& part, const MeshErrors& errors, M
       errors.place};
   warn_of_mesh(part, errors, c);
 }
+
+void describe_comparison(const System& system, const InternalModes& internal, const FreeMotions& modes,
+                         ModelCertificate& c) {
+  if (system.size() > small_part || internal.available == 0) return;
+  const double scale = internal.lambda.size() > 0 ? internal.lambda[0] : internal.first_dropped.value_or(0.0);
+  const ModeComparison full = compare_free_modes(system, scale, most_compared, modes.q);
+  c.free_frequency = full.frequency;
+  if (modes.boundary_held) return;
+  for (const auto& row : full.assurance.rowwise()) c.assurance.emplace_back(row.begin(), row.end());
+}
+
+}  // namespace
 
 void describe_mesh(const Mesh& mesh, const System& system, ModelCertificate& c) {
   c.nodes = mesh.nodes();
@@ -113,13 +127,11 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
   return c;
 }
 
-void describe_comparison(const System& system, const InternalModes& internal, const FreeMotions& modes,
-                         ModelCertificate& c) {
-  if (system.size() > small_part || internal.available == 0 || modes.boundary_held) return;
-  const double scale = internal.lambda.size() > 0 ? internal.lambda[0] : internal.first_dropped.value_or(0.0);
-  const ModeComparison full = compare_free_modes(system, scale, most_compared, modes.q);
-  c.free_frequency = full.frequency;
-  for (const auto& row : full.assurance.rowwise()) c.assurance.emplace_back(row.begin(), row.end());
+void describe_lowest_modes(const formats::Part& part, const InternalProblem& problem, const BoundaryModes& boundary,
+                           const InternalModes& internal, const formats::Superelement& element, ModelCertificate& c) {
+  const FreeMotions modes = free_motions(problem, boundary, internal, element, most_compared);
+  describe_comparison(problem.system, internal, modes, c);
+  describe_mesh_errors(part, mesh_errors(problem.mesh, problem.system, modes, most_on_mesh), c);
 }
 
 Doubts check_mesh(const Mesh& mesh, const formats::Part& part) {

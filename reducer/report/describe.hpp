@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "formats/part/part.hpp"
-#include "reducer/mesh_error/mesh_error.hpp"
 #include "reducer/modes/boundary_modes.hpp"
 #include "reducer/modes/internal_modes.hpp"
 #include "reducer/modes/project.hpp"
@@ -21,18 +20,11 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
 /// Counts of nodes, elements and ties.
 void describe_mesh(const Mesh& mesh, const System& system, ModelCertificate& c);
 
-inline constexpr int most_estimated_on_mesh = 5;
-
-/// The errors of the mesh; a warning where one exceeds the accuracy asked for, or 5 % if none is.
-void describe_mesh_errors(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c);
-
-inline constexpr int most_compared = 12;
-
-/// Lowest free frequencies of the full model and the assurance of the modes (most_compared of them), for parts that are
-/// small enough to compute them beside the reduction: up to 6000 coordinates, where the eigenvalue problem takes no
-/// longer than the rest.
-void describe_comparison(const System& system, const InternalModes& internal, const FreeMotions& modes,
-                         ModelCertificate& c);
+/// The lowest modes of the reduced part: beside those of the full model for parts that are small enough to compute them
+/// as well (up to 6000 coordinates, where that takes no longer than the rest), and the errors of the mesh with a
+/// warning where one exceeds the accuracy asked for, or 5 % if none is.
+void describe_lowest_modes(const formats::Part& part, const InternalProblem& problem, const BoundaryModes& boundary,
+                           const InternalModes& internal, const formats::Superelement& element, ModelCertificate& c);
 
 /// What is doubtful about the mesh; `numbers`: of the plausibility of its numbers alone.
 struct Doubts {

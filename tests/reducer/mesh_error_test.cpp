@@ -14,7 +14,7 @@
 #include "reducer/mesh_error/patches.hpp"
 #include "reducer/mesh_error/smooth_stress.hpp"
 #include "reducer/properties/laminate.hpp"
-#include "tests/problems/mesh_errors.hpp"
+#include "tests/reducer/mesh_errors.hpp"
 #include "tests/reducer/parts.hpp"
 #include "tests/support/meshes/shell_grids.hpp"
 #include "tests/support/meshes/solid_mesh.hpp"
@@ -28,11 +28,7 @@ using Eigen::VectorXd;
 using reducer::Mesh;
 using reducer::SolidShape;
 using ::testing::AllOf;
-using ::testing::Each;
-using ::testing::Gt;
 using ::testing::HasSubstr;
-using ::testing::Lt;
-using ::testing::SizeIs;
 
 constexpr SolidShape all_shapes[] = {SolidShape::tetrahedron4, SolidShape::tetrahedron10, SolidShape::hexahedron8,
                                      SolidShape::hexahedron20, SolidShape::prism6,        SolidShape::prism15};
@@ -41,9 +37,10 @@ reducer::SolidProperty steel(formats::MassMatrix mass) {
   return {reducer::isotropic_solid(2.1e11, 0.3, 7850.0), mass, "block"};
 }
 
-/// Σ energy_error and Σ uᵀ S u of displacements of the nodes, 6 rows each.
+/// Σ energy_error, of shells without and with the layers at their edges, and Σ uᵀ S u of displacements of the nodes, 6
+/// rows each.
 struct Energies {
-  double error = 0.0, energy = 0.0;
+  double error = 0.0, with_layers = 0.0, energy = 0.0;
 };
 
 Energies energies(const Mesh& mesh, const MatrixXd& motion) {
@@ -60,7 +57,9 @@ Energies energies(const Mesh& mesh, const MatrixXd& motion) {
   for (int e = 0; e < static_cast<int>(mesh.shells.size()); ++e) {
     const MatrixXd u = motion_of(mesh.shells[e], motion);
     element_matrices(mesh, mesh.shells[e], matrices);
-    sum.error += energy_error(mesh, mesh.shells[e], u, none, smooth.of_shell(e), smooth.ending(e))[0];
+    const MatrixXd stress = smooth.of_shell(e);
+    sum.error += energy_error(mesh, mesh.shells[e], u, none, stress, {})[0];
+    sum.with_layers += energy_error(mesh, mesh.shells[e], u, none, stress, smooth.ending(e))[0];
     sum.energy += (u.transpose() * matrices.S * u)(0, 0);
   }
   return sum;
@@ -83,10 +82,11 @@ TEST(MeshError, ConstantStressHasNone) {
   }
 }
 
-/// u_x = x²: strain 2x, whose part that trilinear bricks of size h miss is 2(x − middle); energy h²/(3 x²) with x² the
-/// mean over the block (bricks with incompatible displacements miss it as well: ∫ξ σ = 0 holds it off). Linear patches
-/// recover 2x exactly, at the boundary from inside.
-TEST(MeshError, LinearStressIsRecoveredExactly) {
+/// u_x = x²: strain 2x, whose part that trilinear bricks of size 1 miss is 2(x − middle): error Σ ∫ 4(x − m)² of n/3
+/// per area beside the energy Σ (2m)² = Σ (2k + 1)² = n(4n² − 1)/3. Linear patches recover 2x but for the samples at a
+/// fifth of the way to the corners, at which the bricks have their middles' stress: slopes at the ends are 1/(1 + 0.2²)
+/// of it.
+TEST(MeshError, LinearStressIsRecovered) {
   const int n = 6;
   Mesh mesh =
       solid_block({SolidShape::hexahedron8, {n, 3, 3}, Vector3d(n, 3, 3), 0.0}, steel(formats::MassMatrix::consistent));
@@ -94,8 +94,7 @@ TEST(MeshError, LinearStressIsRecoveredExactly) {
   MatrixXd motion = MatrixXd::Zero(6 * mesh.nodes(), 1);
   for (int k = 0; k < mesh.nodes(); ++k) motion(6 * k, 0) = std::pow(mesh.position(0, k), 2);
   const Energies found = energies(mesh, motion);
-  // Σ ∫ (2(x − m))² = n · 4/12 per area; the energy of the bricks Σ (2m)² = Σ (2k + 1)² = n(4n² − 1)/3.
-  EXPECT_NEAR(found.error / found.energy, (n / 3.0) / (n * (4.0 * n * n - 1.0) / 3.0), 1e-10);
+  EXPECT_NEAR(found.error / found.energy, 1.0 / (4.0 * n * n - 1.0), 0.04 / (4.0 * n * n - 1.0));
 }
 
 /// The same bent sheet twisted by a constant curvature: no error, whatever the directions of its elements' axes and
@@ -116,6 +115,23 @@ TEST(MeshError, ConstantCurvatureOfASheetHasNone) {
     const Energies found = energies(mesh, motion);
     EXPECT_LT(std::abs(found.error), 1e-10 * found.energy) << static_cast<int>(facets);
   }
+}
+
+/// w = x y: M_ns = 2 D_s at all edges, D_s = D (1 − ν)/2; with M_ns (1 − e^(−y/δ)) and the shear −M_ns e^(−y/δ)/δ in
+/// equilibrium with it a free edge is softer by ∫ M_ns² e^(−2y/δ) (1/D_s + 1/(A_s δ²)) dy = M_ns² δ/D_s for δ² =
+/// D_s/A_s.
+TEST(MeshError, FreeEdgesOfATwistedSheetAreSofterByTheLayer) {
+  const double t = 0.05, D_s = 1e6 * t * t * t / 12.0 / (1.0 - 0.09) * 0.35, A_s = 5.0 / 6.0 * 1e6 / 2.6 * t;
+  const Mesh mesh = shell_grid(
+      {4, 3, reducer::Facets::quadrilaterals, false}, [](double a, double b) { return Vector3d(2 * a, b, 0.0); },
+      reducer::isotropic_shell(1e6, 0.3, 1.0, t, 5.0 / 6.0));
+  MatrixXd motion = MatrixXd::Zero(6 * mesh.nodes(), 1);
+  for (int k = 0; k < mesh.nodes(); ++k) {
+    const double x = mesh.position(0, k), y = mesh.position(1, k);
+    motion.block<3, 1>(6 * k + 2, 0) = Vector3d(x * y, x, -y);
+  }
+  const double edge = 4.0 * D_s * std::sqrt(D_s / A_s), perimeter = 6.0;
+  EXPECT_NEAR(energies(mesh, motion).with_layers, perimeter * edge, 1e-9 * edge);
 }
 
 /// Patches end at a fold, at a web and where the property changes; not where a normal is turned round.
@@ -156,23 +172,21 @@ TEST(MeshError, OfBeamsIsThatOfTheHermiteElement) {
   }
 }
 
-std::vector<double> quotients(const reducer::MeshErrorCase& one, const Mesh& reference) {
-  const auto fine = reducer::reduction_for_mesh_errors(reference).model.mesh_error;
-  const auto coarse = reducer::reduction_for_mesh_errors(one.mesh(1)).model.mesh_error;
-  std::vector<double> result;
-  for (std::size_t k = 0; k < coarse.error.size(); ++k)
-    result.push_back(coarse.error[k] / (coarse.frequency[k] / fine.frequency[k] - 1.0));
-  return result;
-}
-
-/// The demand: estimate over error between 0.3 and 3 for the five lowest modes. References: three to four times as
-/// fine here, eight in docs/VERIFICATION.md.
+/// The demand: estimate over error between 0.3 and 3 for the five lowest modes of a plate, a curved shell and a solid;
+/// references of other meshes and elements (docs/VERIFICATION.md has the figures).
 TEST(MeshError, IsOfTheSizeOfTheError) {
+  std::string part;
+  std::vector<double> exact;
   for (const reducer::MeshErrorCase& one : reducer::mesh_error_cases()) {
-    if (one.element == "3-node shells") continue;  // errors of both signs: in the table
-    const bool shells = one.element == "4-node shells";
-    EXPECT_THAT(quotients(one, shells ? one.mesh(4) : one.reference()), AllOf(SizeIs(5), Each(AllOf(Gt(0.3), Lt(3.0)))))
-        << one.part << ", " << one.element;
+    if (one.part != part) exact = reducer::reduction_for_mesh_errors(one.reference()).model.mesh_error.frequency;
+    const auto coarse = reducer::reduction_for_mesh_errors(one.mesh()).model.mesh_error;
+    part = one.part;
+    ASSERT_EQ(coarse.error.size(), 5u);
+    for (const auto& [error, estimate] : compared_errors(coarse, exact)) {
+      if (std::abs(error) < reducer::least_compared_error) continue;
+      EXPECT_GT(estimate / error, 0.3) << one.part << ", " << one.element << ", error " << error;
+      EXPECT_LT(estimate / error, 3.0) << one.part << ", " << one.element << ", error " << error;
+    }
   }
 }
 
@@ -183,8 +197,7 @@ TEST(MeshError, OneTetrahedronThroughAPlateIsToldWithItsRemedy) {
   for (const std::string& warning : plate.model.warnings)
     if (warning.find("too coarse") != std::string::npos) told.push_back(warning);
   ASSERT_EQ(told.size(), 1u);
-  EXPECT_THAT(told[0],
-              AllOf(HasSubstr("% too high"), HasSubstr("'block'"), HasSubstr("`size`"), HasSubstr("`order: 2`")));
+  EXPECT_THAT(told[0], AllOf(HasSubstr("'block'"), HasSubstr("`size`"), HasSubstr("`order: 2`")));
 }
 
 /// An accuracy that the mesh does not have.
