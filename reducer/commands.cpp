@@ -25,6 +25,7 @@
 #include "reducer/recovery/fields.hpp"
 #include "reducer/reduce.hpp"
 #include "reducer/report/certificate.hpp"
+#include "reducer/report/certificate_page.hpp"
 #include "reducer/report/phases.hpp"
 #include "reducer/solve/files.hpp"
 #include "reducer/solve/report.hpp"
@@ -138,7 +139,14 @@ int solve(const Arguments& arguments) {
 int show(const Arguments& arguments) {
   const formats::LoadedSuperelement loaded = formats::read_superelement(arguments.input);
   const FileCertificate file = certify(loaded.superelement, loaded.report);
-  say(certificate_text(loaded.superelement, file, read_certificate(arguments.input, loaded.superelement.content_id)));
+  const auto model = read_certificate(arguments.input, loaded.superelement.content_id);
+  if (arguments.output.empty()) {
+    say(certificate_text(loaded.superelement, file, model));
+    return 0;
+  }
+  require_output(arguments.output, {arguments.input, certificate_path(arguments.input)}, Replaces::anything);
+  write_text_file(arguments.output, certificate_page(loaded.superelement, file, model));
+  say(fmt::format("page: {}\n", arguments.output));
   return 0;
 }
 

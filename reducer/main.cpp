@@ -78,7 +78,10 @@ Exit codes: 0 done, 1 error, 2 wrong usage.)help";
 
 constexpr const char* about_show = R"help(Prints the certificate of a superelement file: mass, frequencies, checks.
 
-  reducer show beam.superelement.h5)help";
+  reducer show beam.superelement.h5
+  reducer show beam.superelement.h5 -o beam.certificate.html     as a page with pictures (by gnuplot)
+
+Also errors of the mesh and of dropped modes, effective masses, and for small parts the modal assurance.)help";
 
 constexpr const char* about_mesh = R"help(Meshes a part and writes a gmsh file to look at.
 
@@ -246,6 +249,7 @@ int main(int argc, char** argv) {
   CLI::App* const solve_command = add_solve(app, asked, arguments);
   CLI::App* const show_command = add_command(app, "show", about_show, asked);
   show_command->add_option("file", arguments.input, "name.superelement.h5")->required();
+  show_command->add_option("-o,--output", arguments.output, "the certificate as a page with pictures, .html");
   CLI::App* const mesh_command = add_command(app, "mesh", about_mesh, asked);
   mesh_command->add_option("part", arguments.input, "part.yaml")->required();
   mesh_command->add_option("-o,--output", arguments.output, "gmsh file (default: beside the part)");

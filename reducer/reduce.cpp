@@ -7,7 +7,6 @@
 #include "common/text.hpp"
 #include "reducer/elements/checks.hpp"
 #include "reducer/modal_body/modal_body.hpp"
-#include "reducer/modes/full_model.hpp"
 #include "reducer/modes/project.hpp"
 #include "reducer/report/describe.hpp"
 #include "reducer/report/memory.hpp"
@@ -43,7 +42,8 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   result.model = describe(part, boundary, internal, projection.defects, result.superelement);
   describe_mesh(mesh, system, result.model);
   result.model.rigid = rigid;
-  result.model.free_frequency = compared_frequencies(system, internal);
+  begin("lowest modes");
+  describe_lowest_modes(part, problem, boundary, internal, result.superelement, result.model);
 
   if (part.recovery && recover) {
     begin("recovery");
@@ -68,7 +68,7 @@ Reduction reduce_mesh(const Mesh& mesh, const formats::Part& part, const PhaseLi
   const Doubts doubts = check_mesh(mesh, part);
   try {
     Reduction result = reduce_checked(mesh, part, begin, recover);
-    result.model.warnings = doubts.all;
+    result.model.warnings.insert(result.model.warnings.begin(), doubts.all.begin(), doubts.all.end());
     if (const auto doubt = mass_doubt(result.model.rigid.mass, part.units)) result.model.warnings.push_back(*doubt);
     return result;
   } catch (const Error& error) {

@@ -50,12 +50,16 @@ std::optional<EigenPairs> full_free_modes(const System& system, double scale, in
   return EigenPairs{spectrum.pairs.value.segment(6, kept), spectrum.pairs.vector.middleCols(6, kept)};
 }
 
-std::vector<double> full_free_frequencies(const System& system, double scale, int count) {
+ModeComparison compare_free_modes(const System& system, double scale, int count, const Eigen::MatrixXd& u) {
+  ModeComparison result;
   try {
     const std::optional<EigenPairs> pairs = full_free_modes(system, scale, count);
-    std::vector<double> result;
-    for (Eigen::Index k = 0; pairs && k < std::min<Eigen::Index>(count, pairs->value.size()); ++k)
-      result.push_back(std::sqrt(std::max(0.0, pairs->value[k])) / (2.0 * EIGEN_PI));
+    if (!pairs) return result;
+    const Eigen::Index kept = std::min<Eigen::Index>(count, pairs->value.size());
+    for (Eigen::Index k = 0; k < kept; ++k)
+      result.frequency.push_back(std::sqrt(std::max(0.0, pairs->value[k])) / (2.0 * EIGEN_PI));
+    const Eigen::MatrixXd Mu = multiply(symmetric_rows(system.matrices, system.matrices.M), u);
+    result.assurance = (pairs->vector.leftCols(kept).transpose() * Mu).cwiseAbs2();
     return result;
   } catch (const Error&) {
     return {};  // a comparison only: nearly massless parts have no frequencies that can be resolved beside the first

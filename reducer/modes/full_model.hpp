@@ -18,8 +18,15 @@ formats::RigidProperties full_rigid_properties(const System& system);
 /// Error if round-off hides the frequencies.
 std::optional<EigenPairs> full_free_modes(const System& system, double scale, int count);
 
-/// Up to `count` lowest elastic frequencies [1/time] of the free part. `scale`: some eigenvalue ω² of the size of the
-/// lowest. Empty if a rigid motion moves no mass or round-off hides the frequencies.
-std::vector<double> full_free_frequencies(const System& system, double scale, int count);
+/// Elastic modes of the free part beside others.
+struct ModeComparison {
+  std::vector<double> frequency;  ///< [1/time], at most `count` lowest
+  Eigen::MatrixXd assurance;      ///< (vᵢᵀ M u_k)²: one row per frequency, one column per mode u
+};
+
+/// Up to `count` lowest modes v of the full part beside the modes `u` (coordinates q, uᵀ M u = 1): modal assurance
+/// criterion weighted with the mass, 1 where they agree. `scale` as above. Empty if a rigid motion moves no mass or
+/// round-off hides the frequencies.
+ModeComparison compare_free_modes(const System& system, double scale, int count, const Eigen::MatrixXd& u);
 
 }  // namespace tisserand::reducer

@@ -9,7 +9,6 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/error.hpp"
-#include "reducer/modes/spectrum.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -142,10 +141,14 @@ Eigen::MatrixXd LeftOut::residual(double lambda) const {
   return R;
 }
 
-Eigen::VectorXd free_eigenvalues(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count) {
+EigenPairs free_modes(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count) {
   const double shift = shift_of(S, M);
-  if (shift == 0.0) return Eigen::VectorXd();
-  return dense_lowest(S, M, shift, std::min(count, static_cast<int>(S.rows()))).value;
+  if (shift == 0.0) return {};
+  return dense_lowest(S, M, shift, std::min(count, static_cast<int>(S.rows())));
+}
+
+Eigen::VectorXd free_eigenvalues(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count) {
+  return free_modes(S, M, count).value;
 }
 
 TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, int most) {

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include "reducer/modes/spectrum.hpp"
+
 namespace tisserand::reducer {
 
 /// What the boundary sees of the inside beyond the modes that are kept. U = S_II⁻¹ X, X = M_IB + M_II Ψ, all
@@ -46,8 +48,11 @@ TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::Matrix
 /// the bound; infinite if `lambda` is not below λ_d.
 double largest_truncation_error(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, double lambda);
 
-/// Eigenvalues of the free part, the six of its rigid motions first, from a shift of the size of the first elastic one;
-/// at most `count`. Throws Error if S − shift M is not positive definite.
+/// Modes of the free part, the six rigid motions first, from a shift of the size of the first elastic eigenvalue; at
+/// most `count`. Throws Error if S − shift M is not positive definite.
+EigenPairs free_modes(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count);
+
+/// Their eigenvalues.
 Eigen::VectorXd free_eigenvalues(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count);
 
 }  // namespace tisserand::reducer

@@ -74,6 +74,25 @@ bool rigid_motion_without_mass(const formats::Superelement& element, const forma
   return M.eigenvalues()[0] < massless_limit * M.eigenvalues()[5];
 }
 
+/// Nothing unless internal coordinates are modes: M_II = 1 and S_BI = 0.
+void find_effective_masses(const formats::Superelement& element, FileCertificate& c) {
+  const std::vector<int> rows = internal_rows(element);
+  const auto m = static_cast<Eigen::Index>(rows.size());
+  if (m == 0 || !element.mass(rows, rows).isIdentity(1e-9)) return;
+  const Eigen::MatrixXd S = element.stiffness(rows, Eigen::all);
+  const Eigen::MatrixXd modes = element.stiffness(rows, rows);
+  if ((S.squaredNorm() - modes.diagonal().squaredNorm()) > 1e-18 * S.squaredNorm()) return;
+  const Eigen::MatrixXd MR = element.mass * formats::rigid_motions(element, c.rigid.center_of_mass);
+  const Eigen::MatrixXd Gamma = MR(rows, Eigen::all);
+  const Eigen::MatrixXd R = formats::rigid_motions(element, c.rigid.center_of_mass);
+  const Eigen::RowVectorXd whole = R.cwiseProduct(MR).colwise().sum(), carried = Gamma.cwiseAbs2().colwise().sum();
+  for (const auto& row : Gamma.rowwise()) std::copy(row.begin(), row.end(), c.participation.emplace_back().begin());
+  for (int k = 0; k < 6; ++k) {
+    c.effective_mass_whole[k] = whole[k];
+    c.effective_mass_left[k] = std::max(whole[k] - carried[k], 0.0);
+  }
+}
+
 }  // namespace
 
 double frequency(double lambda) { return std::sqrt(std::max(lambda, 0.0)) / (2.0 * EIGEN_PI); }
@@ -85,6 +104,7 @@ FileCertificate certify(const formats::Superelement& element, const formats::Sup
   c.characteristic_length = report.characteristic_length;
   c.warnings = report.warnings;
   c.fixed_frequency = fixed_frequencies(element);
+  find_effective_masses(element, c);
 
   const Eigen::VectorXd scale = row_scale(element, report.characteristic_length);
   using Solver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;

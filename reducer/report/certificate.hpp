@@ -1,6 +1,7 @@
 // What a superelement is worth: computed after the reduction and from the file alone, printed and stored as JSON.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,11 @@ struct FileCertificate {
   double stiffness_condition = 0.0;     ///< largest over smallest eigenvalue ≠ 0 of the scaled S̄
   double mass_condition = 0.0;          ///< likewise of M̄
   std::vector<std::string> massless;    ///< directions that move no mass
+  /// Of every internal mode in the rigid motions of the boundary about the centre of mass, [x y z, about x y z]: Γ =
+  /// (M_IB + M_II Ψ) R_B, whose squares are the modal effective masses ([Wij04]); empty if the file is not canonical.
+  std::vector<std::array<double, 6>> participation;
+  std::array<double, 6> effective_mass_whole{};  ///< mass and inertia in these motions
+  std::array<double, 6> effective_mass_left{};   ///< what no internal mode carries: at the boundary, in dropped modes
   std::vector<std::string> warnings;
 };
 
@@ -31,6 +37,15 @@ struct ModalBodyCertificate {
   std::string reference;           ///< "center held", "mean axis"
   std::vector<double> frequency;   ///< of its modes
   formats::RigidProperties rigid;  ///< of the lumped masses
+};
+
+/// What the mesh does to the lowest frequencies: mesh_error/mesh_error.hpp.
+struct MeshCertificate {
+  bool boundary_held = false;              ///< of the part with its boundary held; else free
+  std::vector<double> frequency;           ///< of the reduced part
+  std::vector<double> error;               ///< estimate of (f_h − f)/f: positive where the frequency is too high
+  std::vector<double> beam, shell, solid;  ///< their parts of (λ_h − λ)/λ_h
+  std::vector<std::string> place;          ///< property whose elements cause most of it
 };
 
 /// What is only known while reducing.
@@ -59,9 +74,12 @@ struct ModelCertificate {
   double stiffness_coupling = 0.0;
   double orthonormality = 0.0;
   std::vector<double> free_frequency;  ///< elastic frequencies of the full model; empty for large parts
+  /// Modal assurance of the full model's modes (rows) and the reduced part's, weighted with the mass.
+  std::vector<std::vector<double>> assurance;
   /// Of the free frequencies of the reduced part below the first dropped mode: relative error that the dropped modes
   /// cause, and between which the frequency of the full part lies.
   std::vector<double> truncation_estimate, truncation_lower, truncation_upper;
+  MeshCertificate mesh_error;
   std::optional<ModalBodyCertificate> modal_body;
   std::vector<std::string> notes;     ///< whole sentences, for example about a completed cluster
   std::vector<std::string> warnings;  ///< of the way in and of the checks of the mesh

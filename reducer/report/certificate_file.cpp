@@ -50,6 +50,9 @@ json file_json(const FileCertificate& c) {
           {"stiffness_condition", c.stiffness_condition},
           {"mass_condition", c.mass_condition},
           {"massless_directions", c.massless},
+          {"participation", c.participation},
+          {"effective_mass_whole", c.effective_mass_whole},
+          {"effective_mass_left", c.effective_mass_left},
           {"warnings", c.warnings}};
 }
 
@@ -62,6 +65,27 @@ std::optional<ModalBodyCertificate> modal_body_from(const json& j) {
   if (j.is_null()) return std::nullopt;
   return ModalBodyCertificate{j.at("reference"), j.at("frequency").get<std::vector<double>>(),
                               rigid_from(j.at("rigid"))};
+}
+
+json mesh_json(const MeshCertificate& c) {
+  return {{"boundary_held", c.boundary_held},
+          {"frequency", c.frequency},
+          {"error", c.error},
+          {"beams", c.beam},
+          {"shells", c.shell},
+          {"solids", c.solid},
+          {"place", c.place}};
+}
+
+MeshCertificate mesh_from(const json& j) {
+  const auto numbers = [&j](const char* key) { return j.at(key).get<std::vector<double>>(); };
+  return {j.at("boundary_held"),
+          numbers("frequency"),
+          numbers("error"),
+          numbers("beams"),
+          numbers("shells"),
+          numbers("solids"),
+          j.at("place").get<std::vector<std::string>>()};
 }
 
 json model_json(const ModelCertificate& c) {
@@ -89,6 +113,7 @@ json model_json(const ModelCertificate& c) {
           {"stiffness_coupling", c.stiffness_coupling},
           {"orthonormality", c.orthonormality},
           {"free_frequency", c.free_frequency},
+          {"assurance", c.assurance},
           {"notes", c.notes},
           {"beams", c.beams},
           {"shells", c.shells},
@@ -99,6 +124,7 @@ json model_json(const ModelCertificate& c) {
           {"eliminated", c.eliminated},
           {"redundant", c.redundant},
           {"inactive", c.inactive},
+          {"mesh_error", mesh_json(c.mesh_error)},
           {"modal_body", modal_body_json(c.modal_body)},
           {"warnings", c.warnings}};
 }
@@ -151,6 +177,7 @@ ModelCertificate model_from(const json& j) {
   c.stiffness_coupling = j.at("stiffness_coupling");
   c.orthonormality = j.at("orthonormality");
   c.free_frequency = j.at("free_frequency").get<std::vector<double>>();
+  c.assurance = j.value("assurance", c.assurance);
   c.notes = j.at("notes").get<std::vector<std::string>>();
   c.beams = j.at("beams");
   c.shells = j.at("shells");
@@ -161,6 +188,7 @@ ModelCertificate model_from(const json& j) {
   c.eliminated = j.at("eliminated");
   c.redundant = j.at("redundant");
   c.inactive = j.at("inactive").get<std::vector<std::string>>();
+  if (const auto mesh = j.find("mesh_error"); mesh != j.end()) c.mesh_error = mesh_from(*mesh);
   c.modal_body = modal_body_from(j.value("modal_body", json()));
   c.warnings = j.at("warnings").get<std::vector<std::string>>();
   return c;
@@ -216,6 +244,56 @@ std::string frequency_table(const FileCertificate& file, const std::optional<Mod
   return text;
 }
 
+/// Shares of mass and inertia in per cent: of the ten first modes with one per cent in some direction, of all, and
+/// left.
+std::string effective_mass_text(const FileCertificate& c) {
+  if (c.participation.empty()) return "";
+  std::string text = fmt::format("effective mass of the held part [%]\n  {:>4} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+                                 "mode", "x", "y", "z", "about x", "about y", "about z");
+  const auto line = [&](const std::string& name, const auto& mass_along) {
+    text += fmt::format("  {:>4}", name);
+    for (std::size_t k = 0; k < 6; ++k) {
+      const double whole = c.effective_mass_whole[k];
+      text += whole > 0.0 ? fmt::format(" {:>9.2f}", 100.0 * mass_along(k) / whole) : fmt::format(" {:>9}", "-");
+    }
+    text += "\n";
+  };
+  constexpr int most_rows = 10;
+  int told = 0;
+  for (std::size_t m = 0; m < c.participation.size() && told < most_rows; ++m) {
+    const auto& row = c.participation[m];
+    const auto square = [&row](std::size_t k) { return row[k] * row[k]; };
+    bool matters = false;
+    for (std::size_t k = 0; k < 6; ++k) matters = matters || square(k) > 0.01 * c.effective_mass_whole[k];
+    if (!matters) continue;
+    line(fmt::format("{}", m + 1), square);
+    ++told;
+  }
+  line("all", [&c](std::size_t k) { return c.effective_mass_whole[k] - c.effective_mass_left[k]; });
+  line("left", [&c](std::size_t k) { return c.effective_mass_left[k]; });
+  return text;
+}
+
+/// Of each mode with all full modes of its frequency (within 0.1 %), so that double modes may be turned.
+std::string assurance_text(const FileCertificate& file, const ModelCertificate& c) {
+  double least = 2.0;
+  std::size_t worst = 0;
+  for (std::size_t k = 0; k < std::min(c.assurance.size(), file.free_frequency.size()); ++k) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < c.assurance.size(); ++i)
+      if (k < c.assurance[i].size() &&
+          (i == k || std::abs(c.free_frequency[i] - c.free_frequency[k]) < 1e-3 * c.free_frequency[k]))
+        sum += c.assurance[i][k];
+    if (k < c.assurance[0].size() && sum < least) {
+      least = sum;
+      worst = k;
+    }
+  }
+  if (least > 1.5) return "";
+  return fmt::format("{:<19}at least {:.6f} with the free modes of the full model (mode {})\n", "modal assurance",
+                     least, worst + 1);
+}
+
 std::string modal_body_text(const ModalBodyCertificate& c, double length, const Units& units) {
   std::vector<std::string> frequencies;
   for (const double value : c.frequency) frequencies.push_back(fmt::format("{:.6g}", value));
@@ -258,6 +336,15 @@ std::string modes_text(const ModelCertificate& c) {
   return text + "\n";
 }
 
+/// Of the lowest frequencies, in per cent.
+std::string mesh_text(const MeshCertificate& c) {
+  if (c.error.empty()) return "";
+  std::vector<std::string> words;
+  for (const double error : c.error) words.push_back(fmt::format("{:+.3g} %", 100.0 * error));
+  return fmt::format("{:<19}{} of the lowest {} frequencies (estimate; +: too high)\n", "error of the mesh",
+                     listed(words), c.boundary_held ? "fixed" : "free");
+}
+
 std::string model_text(const ModelCertificate& c) {
   std::string text = fmt::format("{:<19}{} nodes, {} elements, {} coordinates ({})\n", "full model", c.nodes,
                                  c.elements, c.coordinates, c.part);
@@ -268,6 +355,7 @@ std::string model_text(const ModelCertificate& c) {
   text += fmt::format("{:<19}rigid motion {:.1e} of boundary modes, {:.1e} of S; S_BI {:.1e}; M_II - 1 {:.1e}\n",
                       "round-off removed", c.boundary_rigid_defect, c.rigid_residual_before_projection,
                       c.stiffness_coupling, c.orthonormality);
+  text += mesh_text(c.mesh_error);
   for (const std::string& note : c.notes) text += fmt::format("{:<19}{}\n", "note", note);
   for (const std::string& warning : c.warnings) text += fmt::format("{:<19}{}\n", "warning", warning);
   return text;
@@ -321,6 +409,8 @@ std::string certificate_text(const formats::Superelement& element, const FileCer
                       file.mass_condition, file.characteristic_length);
   text += fmt::format("{:<19}{}\n", "without mass", file.massless.empty() ? "none" : listed(file.massless, "; "));
   text += frequency_table(file, model, element.units);
+  if (model) text += assurance_text(file, *model);
+  text += effective_mass_text(file);
   if (!file.free_frequency_note.empty())
     text += fmt::format("{:<19}no free frequencies: {}\n", "note", file.free_frequency_note);
   if (model && model->modal_body)

@@ -1,10 +1,13 @@
 // Figures from every stage of a reduction.
 #include "reducer/report/describe.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "common/error.hpp"
 #include "reducer/elements/checks.hpp"
+#include "reducer/mesh_error/mesh_error.hpp"
 #include "reducer/modes/full_model.hpp"
 #include "reducer/modes/truncation.hpp"
 
@@ -12,8 +15,9 @@ namespace tisserand::reducer {
 namespace {
 
 constexpr int small_part = 6000;
-constexpr int most_compared = 12;
 constexpr int most_estimated = 20;
+constexpr int most_compared = 12;
+constexpr int most_on_mesh = 5;
 
 std::vector<double> frequencies(const Eigen::VectorXd& lambda) {
   std::vector<double> result;
@@ -32,6 +36,54 @@ void describe_truncation(const formats::Superelement& element, const InternalMod
   } catch (const Error&) {
     return;  // some motion has neither stiffness nor mass: there are no free frequencies (FileCertificate)
   }
+}
+
+/// What makes the mesh of a kind of element finer, in the words of part.yaml.
+std::string remedy_for(Eigen::Index kind) {
+  if (kind == 0) return "more `elements` per beam";
+  if (kind == 1) return "a smaller `size`";
+  return "a smaller `size`, or `order: 2`";
+}
+
+/// One warning, of the worst mode among those that matter.
+void warn_of_mesh(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c) {
+  constexpr double usual_limit = 0.05;
+  const auto& accuracy = part.modes.accuracy;
+  const double limit = accuracy ? accuracy->error : usual_limit;
+  Eigen::Index worst = -1;
+  for (Eigen::Index k = 0; k < errors.relative.size(); ++k) {
+    if (accuracy && frequency(errors.lambda[k]) > accuracy->up_to) break;
+    if (worst < 0 || std::abs(errors.relative[k]) > std::abs(errors.relative[worst])) worst = k;
+  }
+  if (worst < 0 || std::abs(errors.relative[worst]) <= limit) return;
+  Eigen::Index kind = 0;
+  errors.by_kind.col(worst).cwiseAbs().maxCoeff(&kind);
+  const double share = std::abs(errors.relative[worst]);
+  c.warnings.push_back(fmt::format(
+      "the mesh is too coarse: it makes the {} frequency {:.4g} some {:.3g} %{} too {}, {:.3g} % are {}, most of it in "
+      "'{}': give it {}",
+      errors.boundary_held ? "fixed" : "free", frequency(errors.lambda[worst]), 100.0 * share,
+      share < 1.0 ? "" : " or more", errors.relative[worst] > 0.0 ? "high" : "low", 100.0 * limit,
+      accuracy ? "asked for" : "usual", errors.place[static_cast<std::size_t>(worst)], remedy_for(kind)));
+}
+
+void describe_mesh_errors(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c) {
+  const auto list = [](const auto& values) { return std::vector<double>(values.begin(), values.end()); };
+  const Eigen::RowVectorXd beam = errors.by_kind.row(0), shell = errors.by_kind.row(1), solid = errors.by_kind.row(2);
+  c.mesh_error = {
+      errors.boundary_held, frequencies(errors.lambda), list(errors.relative), list(beam), list(shell), list(solid),
+      errors.place};
+  warn_of_mesh(part, errors, c);
+}
+
+void describe_comparison(const System& system, const InternalModes& internal, const FreeMotions& modes,
+                         ModelCertificate& c) {
+  if (system.size() > small_part || internal.available == 0) return;
+  const double scale = internal.lambda.size() > 0 ? internal.lambda[0] : internal.first_dropped.value_or(0.0);
+  const ModeComparison full = compare_free_modes(system, scale, most_compared, modes.q);
+  c.free_frequency = full.frequency;
+  if (modes.boundary_held) return;
+  for (const auto& row : full.assurance.rowwise()) c.assurance.emplace_back(row.begin(), row.end());
 }
 
 }  // namespace
@@ -82,16 +134,17 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
   return c;
 }
 
-std::vector<double> compared_frequencies(const System& system, const InternalModes& internal) {
-  if (system.size() > small_part || internal.available == 0) return {};
-  const double scale = internal.lambda.size() > 0 ? internal.lambda[0] : internal.first_dropped.value_or(0.0);
-  return full_free_frequencies(system, scale, most_compared);
+void describe_lowest_modes(const formats::Part& part, const InternalProblem& problem, const BoundaryModes& boundary,
+                           const InternalModes& internal, const formats::Superelement& element, ModelCertificate& c) {
+  const FreeMotions modes = free_motions(problem, boundary, internal, element, most_compared);
+  describe_comparison(problem.system, internal, modes, c);
+  describe_mesh_errors(part, mesh_errors(problem.mesh, problem.system, modes, most_on_mesh), c);
 }
 
 Doubts check_elements(const Mesh& mesh, const formats::Part& part) {
   check_used(mesh, part.file);
   check_connected(mesh, part.file);
-  Doubts doubts{mesh.warnings, plausibility_warnings(mesh, part.units)};
+  Doubts doubts{mesh.warnings, plausibility_warnings(mesh, part.units, part.materials)};
   const std::string& where = part.mesh.file.empty() ? part.file : part.mesh.file;
   for (const auto& more : {check_shapes(mesh, where), doubts.numbers})
     doubts.all.insert(doubts.all.end(), more.begin(), more.end());

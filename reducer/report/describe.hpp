@@ -20,9 +20,11 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
 /// Counts of nodes, elements and ties.
 void describe_mesh(const Mesh& mesh, const System& system, ModelCertificate& c);
 
-/// Lowest free frequencies of the full model, for parts that are small enough to compute them beside the reduction: up
-/// to 6000 coordinates, where the dense eigenvalue problem takes no longer than the rest. Else empty.
-std::vector<double> compared_frequencies(const System& system, const InternalModes& internal);
+/// The lowest modes of the reduced part: beside those of the full model for parts that are small enough to compute them
+/// as well (up to 6000 coordinates, where that takes no longer than the rest), and the errors of the mesh with a
+/// warning where one exceeds the accuracy asked for, or 5 % if none is.
+void describe_lowest_modes(const formats::Part& part, const InternalProblem& problem, const BoundaryModes& boundary,
+                           const InternalModes& internal, const formats::Superelement& element, ModelCertificate& c);
 
 /// What is doubtful about the mesh; `numbers`: of the plausibility of its numbers alone.
 struct Doubts {

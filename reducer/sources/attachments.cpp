@@ -41,6 +41,19 @@ Eigen::Vector3d mean(const MeshBuilder& builder, const std::map<int, double>& le
   return sum / total;
 }
 
+/// Whether the legs lie on one straight line, about which their translations do not turn: within 1e-5 of their extent,
+/// as ties/averaging.cpp judges it.
+bool on_one_line(const MeshBuilder& builder, const std::map<int, double>& legs) {
+  const Eigen::Vector3d middle = mean(builder, legs);
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();
+  for (const auto& [node, weight] : legs)
+    if (const Eigen::Vector3d arm = builder.position(node) - middle; arm.norm() > along.norm()) along = arm;
+  return std::ranges::all_of(legs, [&](const auto& leg) {
+    const Eigen::Vector3d arm = builder.position(leg.first) - middle;
+    return arm.cross(along).norm() <= 1e-5 * along.squaredNorm();
+  });
+}
+
 void add_spider(MeshBuilder& builder, const formats::SpiderLine& line) {
   const std::map<int, double> legs = legs_of(builder, line);
   Spider spider;
@@ -50,8 +63,8 @@ void add_spider(MeshBuilder& builder, const formats::SpiderLine& line) {
   spider.reference =
       own_centroid ? builder.add_node(mean(builder, legs), line.name) : find_place(builder, line.at, user_of(line));
   if (line.at.kind == formats::PlaceKind::position) builder.label.back() = line.name;
-  // Mean rotations follow from translations; those of single nodes would count twice.
-  if (spider.kind == SpiderKind::averaging) spider.node_components = translations_only;
+  // Mean rotations follow from translations; those of single nodes would count twice, but about a line they alone tell.
+  if (spider.kind == SpiderKind::averaging && !on_one_line(builder, legs)) spider.node_components = translations_only;
   for (const auto& [node, weight] : legs) {
     if (node == spider.reference) continue;
     spider.nodes.push_back(node);

@@ -176,11 +176,12 @@ Inverse invert(const Matrix6& matrix) {
                                  const std::string& name, const std::string& where) {
   std::vector<std::string> words;
   for (const int c : components) words.push_back(component_text(c));
-  throw Error(fmt::format("{}: its {} nodes do not define {} of its reference {}", name, spider.nodes.size(),
-                          join(words, ", "), mesh.node_label[spider.reference]),
-              where,
-              "take nodes that are not on one line, average rotations too, or leave these components of the reference "
-              "out");
+  throw Error(
+      fmt::format("{}: its {} nodes do not define {} of its reference {}", name, spider.nodes.size(), join(words, ", "),
+                  mesh.node_label[spider.reference]),
+      where,
+      "take nodes that are not on one line, or make it a rigid spider; in a deck also average rotations, or leave "
+      "these components of the reference out");
 }
 
 }  // namespace

@@ -264,8 +264,15 @@ TEST(Plausibility, MillimetreMeshesWithMetreMaterialsAreSuspected) {
   const Units mm{length_unit("mm"), mass_unit("t"), time_unit("s")};
   EXPECT_THAT(reducer::plausibility_warnings(mesh, mm),
               ElementsAre(AllOf(HasSubstr("bar"), HasSubstr("speed of sound"), HasSubstr("mm, t, s"))));
+  // Kilogrammes per cubic metre beside megapascals: what the density looks like, and what it should be (7850/1e12).
+  formats::Material steel{"steel", 2.1e5, 0.3, 7850.0, ""};
+  mesh.solid_properties[0].material = reducer::isotropic_solid(2.1e5, 0.3, 7850.0);
+  EXPECT_THAT(reducer::plausibility_warnings(mesh, mm, {steel}),
+              ElementsAre(AllOf(HasSubstr("material 'steel'"), HasSubstr("7850 t/mm^3"), HasSubstr("10 to 30 000"),
+                                HasSubstr("looks like kg/m^3 (in units of the part 7.85e-09)"))));
+  steel.density = 7.85e-9;
   mesh.solid_properties[0].material = reducer::isotropic_solid(2.1e5, 0.3, 7.85e-9);
-  EXPECT_TRUE(reducer::plausibility_warnings(mesh, mm).empty());
+  EXPECT_TRUE(reducer::plausibility_warnings(mesh, mm, {steel}).empty());
   mesh.position *= 2e6;
   EXPECT_THAT(reducer::plausibility_warnings(mesh, mm), ElementsAre(HasSubstr("is mm the unit of its nodes?")));
   EXPECT_TRUE(reducer::plausibility_warnings(mesh, Units::consistent()).empty());

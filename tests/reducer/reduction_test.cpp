@@ -3,12 +3,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "common/child.hpp"
 #include "common/error.hpp"
+#include "reducer/report/certificate_page.hpp"
 #include "reducer/system/partition.hpp"
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/reduction_laws.hpp"
@@ -152,6 +156,52 @@ TEST(Reduction, CertificateTellsASeventhFreeMotion) {
   const reducer::Reduction r = reduce(part);
   EXPECT_THAT(r.file.free_frequency_note, HasSubstr("7 motions meet no stiffness where a rigid body has six"));
   EXPECT_TRUE(r.file.free_frequency.empty());
+}
+
+/// A bar held at both ends moves along itself in sin(nπx/L): effective mass 8/(nπ)² of the whole for odd n, 0 for even
+/// (the integral of the mode). Linear elements lose (π/64)²/12 = 2e-4 of it.
+TEST(Reduction, EffectiveMassOfABar) {
+  const reducer::Reduction r = reduce(plain_beam(Vector3d::Zero(), Vector3d(1.7, 0.0, 0.0), 64, 60));
+  const double whole = r.file.effective_mass_whole[0];
+  EXPECT_NEAR(whole, r.file.rigid.mass, 1e-9 * whole);
+  ASSERT_EQ(static_cast<int>(r.file.participation.size()), r.model.modes_kept);
+  double most = 0.0;
+  std::array<double, 6> sum{};
+  for (const auto& row : r.file.participation) {
+    most = std::max(most, row[0] * row[0] / whole);
+    for (std::size_t k = 0; k < 6; ++k) sum[k] += row[k] * row[k];
+  }
+  EXPECT_NEAR(most, 8.0 / (EIGEN_PI * EIGEN_PI), 1e-3);
+  for (std::size_t k = 0; k < 6; ++k)
+    EXPECT_NEAR(sum[k] + r.file.effective_mass_left[k], r.file.effective_mass_whole[k],
+                1e-9 * r.file.effective_mass_whole[k]);
+}
+
+/// With all modes the reduced part is the full one; with few, the lowest modes agree still and others do not.
+TEST(Reduction, ModesAgreeWithThoseOfTheFullModel) {
+  formats::Part part = plain_beam(Vector3d::Zero(), Vector3d(1.7, 0.0, 0.0), 8, 42);
+  const reducer::Reduction all = reduce(part);
+  ASSERT_EQ(all.model.assurance.size(), 12u);
+  for (std::size_t k = 0; k < 12; ++k) EXPECT_NEAR(all.model.assurance[k][k], 1.0, 1e-6) << k;
+  part.modes.count = 4;
+  const reducer::Reduction few = reduce(part);
+  EXPECT_NEAR(few.model.assurance[0][0], 1.0, 1e-2);
+  EXPECT_LT(few.model.assurance[11][11], 0.99);
+}
+
+/// One file that needs nothing else; names from files are text.
+TEST(Reduction, CertificateAsAPage) {
+  formats::Part part = plain_beam(Vector3d::Zero(), Vector3d(1.7, 0.0, 0.0), 16, 12);
+  part.name = "<b>&";
+  const reducer::Reduction r = reduce(part);
+  const std::string page = reducer::certificate_page(r.superelement, r.file, r.model);
+  for (const char* heading : {"Frequencies", "Errors of the free frequencies", "Effective mass", "Modal assurance"})
+    EXPECT_THAT(page, HasSubstr(std::string("<h2>") + heading));
+  EXPECT_THAT(page, ::testing::AllOf(HasSubstr("<h1>&lt;b&gt;&amp;</h1>"), ::testing::EndsWith("</html>\n"),
+                                     ::testing::Not(HasSubstr("<b>"))));
+  std::size_t pictures = 0;
+  for (std::size_t at = page.find("<svg"); at != std::string::npos; at = page.find("<svg", at + 1)) ++pictures;
+  EXPECT_EQ(pictures, is_program("gnuplot") ? 9u : 0u);  // frequencies, errors, six directions, assurance
 }
 
 }  // namespace

@@ -38,6 +38,7 @@ void print_page() {
   fmt::print("## Component modes\n\n");
   print(synthesis_problems());
   fmt::print("{}", to_markdown(synthesis_laws()));
+  fmt::print("{}", mesh_error_table());
 }
 
 }  // namespace

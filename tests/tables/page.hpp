@@ -53,5 +53,6 @@ std::vector<Problem> shell_static_problems();
 std::vector<Problem> synthesis_problems();
 Laws shell_patch_laws();
 Laws synthesis_laws();
+std::string mesh_error_table();
 
 }  // namespace tisserand::tables

@@ -166,22 +166,26 @@ ModeRows mode_work(const Eigen::Matrix<double, 2, 4>& corner, double size, const
 
 }  // namespace
 
-Eigen::Matrix<double, 6, 24> quad_resultants(const ShellGeometry<4>& geometry, const ShellSection& section) {
+Eigen::MatrixXd quad_resultants(const ShellGeometry<4>& geometry, const ShellSection& section,
+                                const Eigen::Matrix2Xd& natural) {
   constexpr int linear_modes = 7;
   const double size = std::sqrt(geometry.area);
   const Eigen::Matrix3d A_inverse = section.A.inverse();
+  const Eigen::Matrix3d B_A_inverse = section.B * A_inverse;
+  const Eigen::Matrix3d D = section.D - B_A_inverse * section.B;
   const ModeRows F = mode_work(geometry.corner, size, plate_part(geometry, section, A_inverse, size));
   const Eigen::Matrix<double, linear_modes, linear_modes> H =
       complementary_energy(geometry.corner, size, A_inverse).topLeftCorner<linear_modes, linear_modes>();
   const Eigen::Matrix<double, linear_modes, 24> beta = H.llt().solve(F.topRows<linear_modes>());
-  const BilinearShape centre = bilinear_shape(0.0, 0.0);
-  const Eigen::Matrix2d J = centre.slope * geometry.corner.transpose();
-  const Eigen::Matrix<double, 3, 12> kappa = curvature_rows<4>(J.inverse() * centre.slope);
-  const Eigen::Matrix<double, 3, 12> M = (section.D - section.B * A_inverse * section.B) * kappa;
-  Eigen::Matrix<double, 6, 24> rows;
-  rows.topRows<3>() = stress_modes(Eigen::Vector2d::Zero()).leftCols<linear_modes>() * beta;
-  rows.bottomRows<3>() = section.B * A_inverse * rows.topRows<3>();
-  for (int i = 0; i < 4; ++i) rows.block<3, 3>(3, 6 * i + 2) += M.block<3, 3>(0, 3 * i);
+  Eigen::MatrixXd rows(6 * natural.cols(), 24);
+  for (Eigen::Index k = 0; k < natural.cols(); ++k) {
+    const BilinearShape shape = bilinear_shape(natural(0, k), natural(1, k));
+    const Eigen::Matrix2d J = shape.slope * geometry.corner.transpose();
+    const Eigen::Matrix<double, 3, 12> M = D * curvature_rows<4>(J.inverse() * shape.slope);
+    rows.middleRows<3>(6 * k) = stress_modes(geometry.corner * shape.N / size).leftCols<linear_modes>() * beta;
+    rows.middleRows<3>(6 * k + 3) = B_A_inverse * rows.middleRows<3>(6 * k);
+    for (int i = 0; i < 4; ++i) rows.block<3, 3>(6 * k + 3, 6 * i + 2) += M.block<3, 3>(0, 3 * i);
+  }
   return rows;
 }
 

@@ -46,37 +46,10 @@ Eigen::Matrix<double, 18, 18> local_stiffness(const ShellGeometry<3>& geometry, 
 }
 
 Eigen::Matrix<double, 6, 24> local_resultants(const ShellGeometry<4>& geometry, const ShellSection& section) {
-  return quad_resultants(geometry, section);
+  return quad_resultants(geometry, section, Eigen::Vector2d::Zero());
 }
 Eigen::Matrix<double, 6, 18> local_resultants(const ShellGeometry<3>& geometry, const ShellSection& section) {
   return triangle_resultants(geometry, section);
-}
-
-/// A sheet without membrane or without bending stiffness (PSHELL with MID1 or MID2 blank): the elements divide by what
-/// is missing, so a unit sheet takes its place; B = 0 keeps both parts apart.
-ShellSection whole_section(ShellSection section) {
-  if (section.A.isZero(0.0)) section.A.setIdentity();
-  if (section.D.isZero(0.0)) {
-    section.D.setIdentity();
-    section.As.setIdentity();
-  }
-  return section;
-}
-
-/// The rows and columns of what is missing are cleared.
-template <int Corners>
-Eigen::Matrix<double, 6 * Corners, 6 * Corners> stiffness(const ShellGeometry<Corners>& geometry,
-                                                          const ShellSection& section) {
-  const bool has_membrane = !section.A.isZero(0.0), has_bending = !section.D.isZero(0.0);
-  if (has_membrane && has_bending) return local_stiffness(geometry, section);
-  Eigen::Matrix<double, 6 * Corners, 6 * Corners> K = local_stiffness(geometry, whole_section(section));
-  for (int i = 0; i < 6 * Corners; ++i) {
-    const bool in_plane = i % 6 < 2 || i % 6 == 5;
-    if (in_plane ? has_membrane : has_bending) continue;
-    K.row(i).setZero();
-    K.col(i).setZero();
-  }
-  return K;
 }
 
 template <int Corners>
@@ -84,7 +57,7 @@ void matrices(const Mesh& mesh, const ShellElement& shell, ElementMatrices& out)
   using Arms = Eigen::Matrix<double, Corners, 1>;
   const ShellProperty& property = mesh.shell_properties[shell.property];
   const ShellGeometry<Corners> geometry = shell_geometry<Corners>(mesh, shell);
-  Eigen::Matrix<double, 6 * Corners, 6 * Corners> K = stiffness<Corners>(geometry, property.section);
+  Eigen::Matrix<double, 6 * Corners, 6 * Corners> K = shell_stiffness<Corners>(geometry, property.section);
   move_along_normal<Corners>(Arms(Arms::Constant(shell.offset) - geometry.height), K);
   turn<Corners>(geometry.R_PE, K, out.S);
   K = property.mass_matrix == formats::MassMatrix::consistent ? consistent_shell_mass(geometry, property.section)
@@ -116,6 +89,33 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> stress(const Mesh& mesh, const ShellEle
 }
 
 }  // namespace
+
+ShellSection whole_section(ShellSection section) {
+  if (section.A.isZero(0.0)) section.A.setIdentity();
+  if (section.D.isZero(0.0)) {
+    section.D.setIdentity();
+    section.As.setIdentity();
+  }
+  return section;
+}
+
+template <int Corners>
+Eigen::Matrix<double, 6 * Corners, 6 * Corners> shell_stiffness(const ShellGeometry<Corners>& geometry,
+                                                                const ShellSection& section) {
+  const bool has_membrane = !section.A.isZero(0.0), has_bending = !section.D.isZero(0.0);
+  if (has_membrane && has_bending) return local_stiffness(geometry, section);
+  Eigen::Matrix<double, 6 * Corners, 6 * Corners> K = local_stiffness(geometry, whole_section(section));
+  for (int i = 0; i < 6 * Corners; ++i) {
+    const bool in_plane = i % 6 < 2 || i % 6 == 5;
+    if (in_plane ? has_membrane : has_bending) continue;
+    K.row(i).setZero();
+    K.col(i).setZero();
+  }
+  return K;
+}
+
+template Eigen::Matrix<double, 18, 18> shell_stiffness<3>(const ShellGeometry<3>&, const ShellSection&);
+template Eigen::Matrix<double, 24, 24> shell_stiffness<4>(const ShellGeometry<4>&, const ShellSection&);
 
 Eigen::Matrix<double, 6, Eigen::Dynamic> shell_stress(const Mesh& mesh, const ShellElement& shell) {
   return shell.corners() == 3 ? stress<3>(mesh, shell) : stress<4>(mesh, shell);

@@ -26,9 +26,20 @@ QuadMatrix quad_stiffness(const ShellGeometry<4>& geometry, const ShellSection& 
 /// Three corners. Membrane: Felippa's optimal triangle; bending and shear: Katili's DKMT; see the source file.
 TriangleMatrix triangle_stiffness(const ShellGeometry<3>& geometry, const ShellSection& section);
 
-/// [N; M] per unit length at the mean of the corners, as the stiffness has them: membrane forces of the linear stress
-/// modes (of triangles the basic part), moments of the curvature there.
-Eigen::Matrix<double, 6, 24> quad_resultants(const ShellGeometry<4>& geometry, const ShellSection& section);
+/// [N; M] per unit length, as the stiffness has them: membrane forces of the linear stress modes (of triangles the
+/// basic part), moments of the curvature. Quadrilaterals: six rows for each point with natural coordinates `natural`
+/// (2 x points); triangles: at the mean of the corners.
+Eigen::MatrixXd quad_resultants(const ShellGeometry<4>& geometry, const ShellSection& section,
+                                const Eigen::Matrix2Xd& natural);
 Eigen::Matrix<double, 6, 18> triangle_resultants(const ShellGeometry<3>& geometry, const ShellSection& section);
+
+/// A sheet without membrane or without bending stiffness (PSHELL with MID1 or MID2 blank): the elements divide by what
+/// is missing, so a unit sheet takes its place; B = 0 keeps both parts apart.
+ShellSection whole_section(ShellSection section);
+
+/// The stiffness of either shape; rows and columns of what the sheet lacks are cleared.
+template <int Corners>
+Eigen::Matrix<double, 6 * Corners, 6 * Corners> shell_stiffness(const ShellGeometry<Corners>& geometry,
+                                                                const ShellSection& section);
 
 }  // namespace tisserand::reducer

@@ -153,6 +153,20 @@ Eigen::Matrix<double, 3 * Functions, 3 * Functions> contract(
   return S;
 }
 
+/// Strain [xx yy zz xy yz zx] of functions with the gradients `slope` (one row per function): 6 x 3 functions.
+template <int Functions>
+Eigen::Matrix<double, 6, 3 * Functions> strain_rows(const Eigen::Matrix<double, Functions, 3>& slope) {
+  constexpr int pair[3][2] = {{0, 1}, {1, 2}, {2, 0}};
+  Eigen::Matrix<double, 6, 3 * Functions> rows = Eigen::Matrix<double, 6, 3 * Functions>::Zero();
+  for (int a = 0; a < Functions; ++a)
+    for (int k = 0; k < 3; ++k) {
+      rows(k, 3 * a + k) = slope(a, k);
+      rows(3 + k, 3 * a + pair[k][0]) = slope(a, pair[k][1]);
+      rows(3 + k, 3 * a + pair[k][1]) = slope(a, pair[k][0]);
+    }
+  return rows;
+}
+
 /// H = G Gᵀ; not a template, so that the compiler sees one matrix product instead of six.
 inline void gram(const Eigen::Ref<const Eigen::MatrixXd>& G, Eigen::Ref<Eigen::MatrixXd> H) {
   H.noalias() = G * G.transpose();

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "reducer/reduce.hpp"
+#include "tests/reducer/parts.hpp"
 #include "tests/reducer/sources/part_text.hpp"
 
 namespace tisserand::testing::places_test {
@@ -77,10 +79,22 @@ TEST(Spiders, WeighNodesByTheirShareOfTheEdge) {
     const double y = mesh.position(1, edge.nodes[k]);
     EXPECT_NEAR(edge.weight[k], y < 1e-6 || y > 0.4 - 1e-6 ? 0.05 : 0.1, 1e-8);
   }
-  EXPECT_EQ(edge.node_components, reducer::translations_only);
+  EXPECT_EQ(mesh.spiders[1].node_components, reducer::translations_only);
   EXPECT_EQ(mesh.spiders[1].nodes.size(), 35u);
   for (const double weight : mesh.spiders[1].weight) EXPECT_EQ(weight, 1.0);
   EXPECT_THAT(mesh.spiders[2].weight, ::testing::ElementsAre(1.0, 1.0)) << "no element lies between the two corners";
+}
+
+/// Translations on a straight line do not tell how it turns about itself; with the rotations of the shells the spiders
+/// follow every rigid motion.
+TEST(Spiders, AverageStraightEdges) {
+  const PartText part(plate +
+                      "spiders: {e: {kind: averaging, on: left}, f: {kind: averaging, on: right}}\nboundary: [e, f]\n");
+  start_solvers();
+  const reducer::Reduction reduction = reducer::reduce(part.read(), [](const std::string&) {});
+  EXPECT_EQ(reduction.superelement.size(), 12 + reduction.model.modes_kept);
+  EXPECT_LT(reduction.model.rigid_residual_before_projection, 1e-9);  // round-off of the condensation
+  EXPECT_GT(reduction.superelement.stiffness.diagonal().minCoeff(), 0.0);
 }
 
 TEST(Spiders, ThatGrabNothingAreRefused) {

@@ -1,0 +1,28 @@
+// The error of the mesh, which no number of modes cures: of the lowest frequencies, from stresses that jump between
+// elements.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reducer/modes/free_motions.hpp"
+
+namespace tisserand::reducer {
+
+/// Of the lowest modes of FreeMotions.
+struct MeshErrors {
+  bool boundary_held = false;
+  Eigen::VectorXd lambda;    ///< ω²
+  Eigen::VectorXd relative;  ///< estimate of (f_h − f)/f: positive where the frequency is too high; at most 1
+  /// Share of beams, shells, solids in λ_h − λ, relative to λ_h: 3 x modes.
+  Eigen::Matrix3Xd by_kind;
+  std::vector<std::string> place;  ///< per mode: the property whose elements cause most of it
+};
+
+/// At most `most` modes. With smooth stresses σ* the continuous part has λ ≈ HR(σ*, u)/M(u) (energy_error() of the
+/// elements), whose error is the product of those of σ* and u; so λ_h − λ ≈ Σ energy_error for uᵀ M u = 1, and
+/// (f_h − f)/f = √(λ_h/λ) − 1. Springs, masses, spiders and equations have no error of the mesh; neither facets in
+/// place of a curved surface nor edges of spiders are seen.
+MeshErrors mesh_errors(const Mesh& mesh, const System& system, const FreeMotions& modes, int most);
+
+}  // namespace tisserand::reducer

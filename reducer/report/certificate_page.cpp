@@ -1,0 +1,194 @@
+// Pictures of the certificate by gnuplot, and HTML around them.
+#include "reducer/report/certificate_page.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "common/child.hpp"
+#include "common/error.hpp"
+#include "common/text.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+constexpr const char* page_style = R"html(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width">
+<style>
+body{font:16px/1.5 system-ui,sans-serif;max-width:70em;margin:2em auto;padding:0 1em;color:#222}
+svg{width:100%;height:auto}table{border-collapse:collapse;font-size:14px}
+td,th{padding:.15em .7em;text-align:right;border-bottom:1px solid #ddd}td:first-child,th:first-child{text-align:left}
+.panels{display:grid;grid-template-columns:1fr 1fr 1fr}.warned{color:#b00}pre{font-size:13px;overflow-x:auto}
+</style>
+)html";
+
+constexpr std::array<const char*, 6> directions{"x", "y", "z", "about x", "about y", "about z"};
+
+std::string safe(const std::string& text) {
+  std::string result;
+  for (const char c : printable(text)) {
+    if (c == '<')
+      result += "&lt;";
+    else if (c == '>')
+      result += "&gt;";
+    else if (c == '&')
+      result += "&amp;";
+    else
+      result += c;
+  }
+  return result;
+}
+
+/// What gnuplot draws (-d: without the user's settings), or what is in the way.
+std::string picture(int width, int height, const std::string& script) {
+  if (!is_program("gnuplot")) return "<p class=warned>no picture: gnuplot is not installed</p>\n";
+  ChildRequest request;
+  request.words = {"gnuplot", "-d"};
+  request.input = fmt::format(
+      "set terminal svg size {},{} font 'sans,15' linewidth 1.3 background 'white'\nset encoding utf8\n"
+      "set grid ytics lc rgb '#dddddd'\nset border 3\nset tics nomirror\n{}",
+      width, height, script);
+  const ChildReport report = run_child(request);
+  const std::size_t begin = report.text.find("<svg"), end = report.text.rfind("</svg>");
+  if (report.ending != ChildEnding::left || report.code != 0 || begin == std::string::npos || end == std::string::npos)
+    return fmt::format("<p class=warned>no picture: gnuplot failed: {}</p>\n", safe(report.complaint));
+  return report.text.substr(begin, end + 6 - begin) + "\n";
+}
+
+/// Named data of gnuplot, one line per row.
+std::string data_block(const std::string& name, const std::vector<std::string>& rows) {
+  return fmt::format("${} << EOD\n{}\nEOD\n", name, join(rows, "\n"));
+}
+
+/// Frequencies of the reduced part with the interval that holds the full part's, widened by the error of the mesh.
+std::string frequencies(const FileCertificate& file, const ModelCertificate& model) {
+  std::vector<std::string> rows, held;
+  for (std::size_t k = 0; k < std::min(file.free_frequency.size(), model.truncation_lower.size()); ++k) {
+    const double f = file.free_frequency[k];
+    const double mesh =
+        k < model.mesh_error.error.size() && !model.mesh_error.boundary_held ? model.mesh_error.error[k] : 0;
+    const double exact = f / (1.0 + mesh);
+    rows.push_back(fmt::format("{} {} {} {}", k + 1, f, std::min({model.truncation_lower[k], exact, f}),
+                               std::max({model.truncation_upper[k], exact, f})));
+  }
+  for (std::size_t k = 0; k < std::min<std::size_t>(file.fixed_frequency.size(), 20); ++k)
+    held.push_back(fmt::format("{} {}", k + 1, file.fixed_frequency[k]));
+  if (rows.empty() || held.empty()) return "";
+  return "<h2>Frequencies</h2>\n<p>Of the free reduced part; bars: what the full part and a finer mesh may "
+         "have.</p>\n" +
+         picture(1200, 480,
+                 data_block("free", rows) + data_block("held", held) +
+                     "set key top left\nset xlabel 'mode'\nset ylabel 'frequency [1/time]'\nset xrange [0:*]\n"
+                     "plot $held using 1:2 with points pt 6 lc rgb '#999999' title 'boundary held', "
+                     "$free using 1:2:3:4 with yerrorbars pt 7 ps 0.5 lc rgb '#0060ad' title 'free'\n");
+}
+
+/// Errors by the mesh and by dropped modes, one above the other on one scale.
+std::string errors(const ModelCertificate& model) {
+  std::vector<std::string> dropped, mesh;
+  const auto add = [](const std::vector<double>& values, std::vector<std::string>& rows) {
+    for (std::size_t k = 0; k < values.size(); ++k)
+      if (std::abs(values[k]) > 0.0) rows.push_back(fmt::format("{} {}", k + 1, 100.0 * std::abs(values[k])));
+  };
+  add(model.truncation_estimate, dropped);
+  add(model.mesh_error.error, mesh);
+  std::vector<std::string> plots;
+  std::string blocks;
+  if (!mesh.empty()) {
+    blocks += data_block("mesh", mesh);
+    plots.push_back("$mesh using 1:2 with linespoints pt 5 lc rgb '#d95319' title 'mesh'");
+  }
+  if (!dropped.empty()) {
+    blocks += data_block("dropped", dropped);
+    plots.push_back("$dropped using 1:2 with linespoints pt 7 lc rgb '#0060ad' title 'dropped modes'");
+  }
+  if (plots.empty()) return "";
+  return fmt::format(
+             "<h2>Errors of the {} frequencies</h2>\n<p>Estimates: what a finer mesh, and what more internal modes, "
+             "would change.</p>\n",
+             model.mesh_error.boundary_held ? "fixed" : "free") +
+         picture(1200, 420,
+                 blocks +
+                     "set logscale y\nset format y '%g'\nset xlabel 'mode'\nset ylabel 'error [%]'\n"
+                     "set xrange [0.5:*]\nset key outside right\nplot " +
+                     join(plots, ", ") + "\n");
+}
+
+/// One picture per direction, side by side: the share of each mode and their sum.
+std::string effective_masses(const FileCertificate& c) {
+  if (c.participation.empty()) return "";
+  constexpr std::size_t most_drawn = 100;
+  std::string pictures = "<div class=panels>\n";
+  std::string sums = "<table><tr><th>direction<th>carried by modes [%]<th>left out [%]</tr>\n";
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    const double whole = c.effective_mass_whole[k];
+    std::vector<std::string> rows;
+    double sum = 0.0;
+    for (std::size_t m = 0; m < c.participation.size() && whole > 0.0; ++m) {
+      const double share = 100.0 * c.participation[m][k] * c.participation[m][k] / whole;
+      sum += share;
+      if (m < most_drawn) rows.push_back(fmt::format("{} {:.5g} {:.5g}", m + 1, share, sum));
+    }
+    if (rows.empty()) rows.push_back("1 0 0");
+    pictures +=
+        picture(400, 300,
+                data_block("mass", rows) +
+                    fmt::format("set yrange [0:105]\nset style fill solid 0.8 noborder\nunset key\nset title '{}'\n"
+                                "set xlabel 'mode'\nset ylabel '%'\nplot $mass using 1:2 with boxes lc rgb "
+                                "'#0060ad', $mass using 1:3 with steps lw 2 lc rgb '#d95319'\n",
+                                directions[k]));
+    sums += fmt::format("<tr><td>{}<td>{:.2f}<td>{:.2f}</tr>\n", directions[k], sum,
+                        whole > 0.0 ? 100.0 * c.effective_mass_left[k] / whole : 0.0);
+  }
+  return "<h2>Effective mass</h2>\n<p>Of the internal modes in rigid motions of the boundary about the centre of mass "
+         "(bars), "
+         "and their sum; the rest moves with the boundary or belongs to dropped modes.</p>\n" +
+         pictures + "</div>\n" + sums + "</table>\n";
+}
+
+std::string assurance(const ModelCertificate& model) {
+  if (model.assurance.empty()) return "";
+  std::vector<std::string> rows;
+  for (const std::vector<double>& row : model.assurance) {
+    std::vector<std::string> values;
+    for (const double value : row) values.push_back(fmt::format("{:.6g}", value));
+    rows.push_back(join(values, " "));
+  }
+  return "<h2>Modal assurance</h2>\n<p>Free modes of the full model (up) and of the reduced part (right): 1 (dark) "
+         "where they "
+         "agree.</p>\n" +
+         picture(1200, 620,
+                 data_block("mac", rows) +
+                     "set size square\nset palette defined (0 'white', 1 '#0060ad')\nset cbrange [0:1]\nset xlabel "
+                     "'reduced part'\nset ylabel 'full model'\nunset grid\nunset key\n"
+                     "set xrange [0.5:*]\nset yrange [0.5:*]\nset autoscale fix\n"
+                     "plot $mac matrix using ($1+1):($2+1):3 with image pixels\n");
+}
+
+std::string warnings_of(const FileCertificate& file, const std::optional<ModelCertificate>& model) {
+  std::string html;
+  for (const std::string& warning : file.warnings) html += fmt::format("<p class=warned>{}</p>\n", safe(warning));
+  if (model)
+    for (const std::string& warning : model->warnings) html += fmt::format("<p class=warned>{}</p>\n", safe(warning));
+  return html;
+}
+
+}  // namespace
+
+std::string certificate_page(const formats::Superelement& element, const FileCertificate& file,
+                             const std::optional<ModelCertificate>& model) {
+  std::string html = page_style;
+  html += fmt::format("<title>{0}</title></head><body>\n<h1>{0}</h1>\n", safe(element.name));
+  html += warnings_of(file, model);
+  if (model) html += frequencies(file, *model) + errors(*model);
+  html += effective_masses(file);
+  if (model) html += assurance(*model);
+  return html + fmt::format("<h2>Certificate</h2>\n<pre>{}</pre>\n</body></html>\n",
+                            safe(certificate_text(element, file, model)));
+}
+
+}  // namespace tisserand::reducer
