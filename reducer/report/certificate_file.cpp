@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -278,7 +279,10 @@ std::string effective_mass_text(const FileCertificate& c) {
 std::string assurance_text(const FileCertificate& file, const ModelCertificate& c) {
   double least = 2.0;
   std::size_t worst = 0;
+  // Above the first dropped mode nobody expects the reduced part to have the modes of the full one.
+  const double end = c.first_dropped_frequency.value_or(std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < std::min(c.assurance.size(), file.free_frequency.size()); ++k) {
+    if (file.free_frequency[k] > end) break;
     double sum = 0.0;
     for (std::size_t i = 0; i < c.assurance.size(); ++i)
       if (k < c.assurance[i].size() &&
@@ -290,8 +294,9 @@ std::string assurance_text(const FileCertificate& file, const ModelCertificate& 
     }
   }
   if (least > 1.5) return "";
-  return fmt::format("{:<19}at least {:.6f} with the free modes of the full model (mode {})\n", "modal assurance",
-                     least, worst + 1);
+  return fmt::format(
+      "{:<19}at least {:.6f} with the free modes of the full model below the first dropped one (mode {})\n",
+      "modal assurance", least, worst + 1);
 }
 
 std::string modal_body_text(const ModalBodyCertificate& c, double length, const Units& units) {
