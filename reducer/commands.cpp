@@ -121,7 +121,8 @@ int solve(const Arguments& arguments) {
   Phases phases;
   phases.begin("read");
   const formats::Part part = part_of(arguments);
-  const std::string stem = arguments.output.empty() ? beside(arguments.input, ".solution") : arguments.output;
+  std::string stem = arguments.output.empty() ? beside(arguments.input, ".solution") : arguments.output;
+  if (stem.ends_with(".csv")) stem.resize(stem.size() - std::string_view(".csv").size());
   const std::vector<std::string> files = solution_files(stem, part, arguments.solve_request);
   for (const std::string& file : files) require_output(file, inputs_of(part, arguments), Replaces::anything);
   phases.begin("start solvers");

@@ -283,19 +283,23 @@ std::string assurance_text(const FileCertificate& file, const ModelCertificate& 
   const double end = c.first_dropped_frequency.value_or(std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < std::min(c.assurance.size(), file.free_frequency.size()); ++k) {
     if (file.free_frequency[k] > end) break;
+    if (k >= c.assurance[0].size()) break;
+    // Modes may change their order: the one that it is most like, with those of the same frequency.
+    std::size_t like = 0;
+    for (std::size_t i = 0; i < c.assurance.size(); ++i)
+      if (c.assurance[i][k] > c.assurance[like][k]) like = i;
     double sum = 0.0;
     for (std::size_t i = 0; i < c.assurance.size(); ++i)
-      if (k < c.assurance[i].size() &&
-          (i == k || std::abs(c.free_frequency[i] - c.free_frequency[k]) < 1e-3 * c.free_frequency[k]))
+      if (std::abs(c.free_frequency[i] - c.free_frequency[like]) < 1e-3 * c.free_frequency[like])
         sum += c.assurance[i][k];
-    if (k < c.assurance[0].size() && sum < least) {
+    if (sum < least) {
       least = sum;
       worst = k;
     }
   }
   if (least > 1.5) return "";
   return fmt::format(
-      "{:<19}at least {:.6f} with the free modes of the full model below the first dropped one (mode {})\n",
+      "{:<19}at least {:.6f} with a free mode of the full model, below the first dropped one (mode {})\n",
       "modal assurance", least, worst + 1);
 }
 
