@@ -157,6 +157,11 @@ int finite_mode_count(const Matrix& M) {
   return M.size() - Factor::indefinite(unit, null_pivot).null();
 }
 
+double least_dropped(const Eigen::VectorXd& value, Eigen::Index kept, Eigen::Index available) {
+  if (kept < value.size()) return value[kept];
+  return kept < available ? value[kept - 1] : std::numeric_limits<double>::infinity();
+}
+
 void fix_basis(const InternalProblem& problem, Eigen::VectorXd& lambda, Eigen::MatrixXd& Phi) {
   if (lambda.size() == 0) return;
   const Gauge gauge = make_gauge(problem);
@@ -178,6 +183,7 @@ namespace {
 struct Candidates {
   Spectrum spectrum;
   Eigen::MatrixXd coupling;  ///< n_B x pairs
+  int available = 0;         ///< finite eigenvalues in all
   int kept = 0;              ///< modes of them
   int moments = 0;           ///< vectors beside those
 };
@@ -207,7 +213,7 @@ double error_with(const BoundaryModes& boundary, const Candidates& c, int kept, 
   const Eigen::VectorXd& value = c.spectrum.pairs.value;
   const Eigen::MatrixXd L = c.coupling.leftCols(kept);
   LeftOut out;
-  out.first_dropped = kept < value.size() ? value[kept] : std::numeric_limits<double>::infinity();
+  out.first_dropped = least_dropped(value, kept, c.available);
   out.G = dropped_flexibility(boundary, L, value.head(kept));
   out.coupling.resize(L.rows(), 0);
   return error_with(boundary, value.head(kept), L, out, accuracy);
@@ -233,7 +239,7 @@ int moments_for(const InternalProblem& problem, const BoundaryModes& boundary, c
   const Eigen::MatrixXd G = dropped_flexibility(boundary, L, value);
   const MomentSpace moments =
       moment_space(problem, boundary, c.spectrum.pairs.vector.leftCols(kept), G, eigenvalue_of(accuracy.up_to));
-  const double dropped = kept < all.size() ? all[kept] : std::numeric_limits<double>::infinity();
+  const double dropped = least_dropped(all, kept, c.available);
   const RitzSpace& space = moments.space;
   const int count = fewest(0, static_cast<int>(space.size()), [&](int p) {
     return error_with(boundary, value, L, space.left_out(space.values(p), G, dropped), accuracy) <= accuracy.error;
@@ -266,6 +272,7 @@ Candidates candidates_for(const InternalProblem& problem, const BoundaryModes& b
   for (int sought = least + 4;; sought = 2 * sought) {
     sought = std::min(sought, available);
     Candidates c;
+    c.available = available;
     c.spectrum = lowest_pairs(pencil, sought, available, choose_solver(n_I, sought), count_of(selection.verify));
     c.coupling = mass_coupling(problem.blocks, boundary, c.spectrum.pairs.vector);
     if (meets_accuracy(problem, boundary, selection, least, c)) return c;
@@ -285,7 +292,7 @@ void add_moment_vectors(const InternalProblem& problem, const BoundaryModes& bou
   const Eigen::Index m = modes.lambda.size(), p = moments.whole(std::min<Eigen::Index>(count, moments.order.size()));
   const RitzSpace::Values values = moments.space.values(p);
   modes.moments = static_cast<int>(p);
-  modes.left_out = moments.space.left_out(values, modes.left_out.G, *modes.first_dropped);
+  modes.left_out = moments.space.left_out(values, modes.left_out.G, modes.left_out.first_dropped);
   modes.lambda.conservativeResize(m + p);
   modes.lambda.tail(p) = values.theta;
   modes.Phi.conservativeResize(Eigen::NoChange, m + p);
@@ -338,9 +345,9 @@ InternalModes internal_modes(const InternalProblem& problem, const BoundaryModes
   modes.Phi = spectrum.pairs.vector.leftCols(kept);
   modes.coupling = mass_coupling(problem.blocks, boundary, modes.Phi);
   modes.left_out.G = dropped_flexibility(boundary, modes.coupling, modes.lambda);
-  modes.left_out.first_dropped = modes.first_dropped.value_or(std::numeric_limits<double>::infinity());
-  if (moments > 0 && modes.first_dropped) {
-    const double lambda = selection.accuracy ? eigenvalue_of(selection.accuracy->up_to) : *modes.first_dropped;
+  modes.left_out.first_dropped = least_dropped(spectrum.pairs.value, kept, modes.available);
+  if (moments > 0 && kept < modes.available) {
+    const double lambda = selection.accuracy ? eigenvalue_of(selection.accuracy->up_to) : modes.left_out.first_dropped;
     add_moment_vectors(problem, boundary, moments, lambda, modes);
   }
   fix_basis(problem, modes.lambda, modes.Phi);

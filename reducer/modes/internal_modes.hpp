@@ -20,7 +20,7 @@ struct InternalModes {
   Eigen::MatrixXd coupling;       ///< n_B x m: (M_BI + Ψᵀ M_II) Φ
   LeftOut left_out;               ///< of truncation_errors()
   int moments = 0;                ///< moment vectors: the last ones
-  int free_modes = 0;             ///< elastic modes of the free part that are held
+  std::optional<int> free_modes;  ///< of methods with them: elastic modes of the free part that are held
   Eigen::MatrixXd boundary_mass;  ///< n_B x n_B, of MacNeal's method, in place of BoundaryModes::M
   int requested = 0;
   int available = 0;                    ///< finite eigenvalues of (S_II, M_II)
@@ -46,6 +46,10 @@ struct InternalProblem {
 /// element size and density do not make ill-conditioned; above, where nobody asks for so many modes, the number of
 /// coordinates with mass.
 int finite_mode_count(const Matrix& M);
+
+/// What no dropped eigenvalue is below when the first `kept` are kept of those found, `value` (ascending, one at
+/// least), of `available` finite ones: the next that was found, else the last that is kept; infinite if all are kept.
+double least_dropped(const Eigen::VectorXd& value, Eigen::Index kept, Eigen::Index available);
 
 /// By number, by cut-off frequency, or as many as the accuracy takes: all below its frequency, and more until the bound
 /// of the errors of the free part's frequencies up to it meets the error: moment vectors first, unless `moments` is 0,

@@ -181,7 +181,8 @@ InternalModes free_boundary_vectors(const InternalProblem& problem, const Bounda
   modes.Phi = space.vectors(values);
   modes.left_out = space.left_out(values, boundary.flexibility, *modes.first_dropped);
   modes.coupling = modes.left_out.coupling;
-  modes.requested = modes.free_modes = static_cast<int>(free.value.size());
+  modes.requested = static_cast<int>(free.value.size());
+  modes.free_modes = modes.requested;
   modes.solver = "free modes and inertia relief";
   if (selection.method == formats::ReductionMethod::macneal) take_macneal_mass(boundary, free.value.size(), modes);
   const MatrixXd before = modes.Phi;

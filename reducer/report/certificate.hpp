@@ -61,8 +61,8 @@ struct ModelCertificate {
   std::vector<std::string> inactive;  ///< coordinates without stiffness and mass, removed
   formats::RigidProperties rigid;     ///< of the mesh, from its full mass matrix
   int modes_requested = 0, modes_kept = 0, modes_available = 0;
-  int moment_vectors = 0;  ///< internal coordinates behind the modes
-  int free_modes = 0;      ///< of Rubin's and MacNeal's method: elastic modes of the free part
+  int moment_vectors = 0;         ///< internal coordinates behind the modes
+  std::optional<int> free_modes;  ///< of Rubin's and MacNeal's method: elastic modes of the free part
   std::optional<double> cutoff;
   std::optional<formats::Accuracy> accuracy;
   std::optional<double> first_dropped_frequency;

@@ -99,7 +99,7 @@ json model_json(const ModelCertificate& c) {
           {"modes_kept", c.modes_kept},
           {"modes_available", c.modes_available},
           {"moment_vectors", c.moment_vectors},
-          {"free_modes", c.free_modes},
+          {"free_modes", c.free_modes ? json(*c.free_modes) : json(nullptr)},
           {"cutoff", optional_json(c.cutoff)},
           {"accuracy", c.accuracy ? json{{"error", c.accuracy->error}, {"up_to", c.accuracy->up_to}} : json(nullptr)},
           {"truncation_estimate", c.truncation_estimate},
@@ -162,7 +162,7 @@ ModelCertificate model_from(const json& j) {
   c.modes_kept = j.at("modes_kept");
   c.modes_available = j.at("modes_available");
   c.moment_vectors = j.value("moment_vectors", 0);
-  c.free_modes = j.value("free_modes", 0);
+  if (const json free = j.value("free_modes", json()); !free.is_null()) c.free_modes = free.get<int>();
   c.cutoff = optional_from(j.at("cutoff"));
   if (const json& accuracy = j.at("accuracy"); !accuracy.is_null())
     c.accuracy = formats::Accuracy{accuracy.at("error"), accuracy.at("up_to")};
@@ -222,7 +222,7 @@ std::string frequency_table(const FileCertificate& file, const std::optional<Mod
   const std::vector<double>& estimate = model ? model->truncation_estimate : none;
   const std::string unit = units.named() ? (units.time.factor == 1.0 ? "Hz" : "1/" + units.time.label) : "1/time";
   // Behind the modes with the boundary held stand values that are no modes of the part.
-  const std::size_t modes = !model ? count : model->free_modes > 0 ? 0 : static_cast<std::size_t>(model->modes_kept);
+  const std::size_t modes = !model ? count : model->free_modes ? 0 : static_cast<std::size_t>(model->modes_kept);
   std::string text = fmt::format("frequencies [{}]\n  {:>4} {:>16} {:>16} {:>16} {:>10} {:>10}\n", unit, "mode",
                                  "boundary fixed", "free, reduced", full.empty() ? "" : "free, full",
                                  full.empty() ? "" : "error", estimate.empty() ? "" : "estimate");
@@ -240,7 +240,7 @@ std::string frequency_table(const FileCertificate& file, const std::optional<Mod
   }
   if (file.fixed_frequency.size() > modes)
     text += fmt::format("  {:>4} of a {}: no mode of the part\n", "*",
-                        model && model->free_modes > 0 ? "vector that free modes leave inside" : "moment vector");
+                        model && model->free_modes ? "vector that free modes leave inside" : "moment vector");
   if (count > most_rows) text += fmt::format("  {:>4} {} more in the certificate file\n", "...", count - most_rows);
   return text;
 }
@@ -334,9 +334,9 @@ std::string contents_text(const ModelCertificate& c) {
 std::string modes_text(const ModelCertificate& c) {
   const std::string first =
       c.first_dropped_frequency ? fmt::format(" at {:.8g}", *c.first_dropped_frequency) : std::string();
-  if (c.free_modes > 0)
+  if (c.free_modes)
     return fmt::format("{:<19}{} of the free part, {} internal vectors; first with the boundary held{}\n", "modes",
-                       c.free_modes, c.modes_kept, first);
+                       *c.free_modes, c.modes_kept, first);
   std::string text = fmt::format(
       "{:<19}{} kept ({} asked for, {} exist), {}", "internal modes", c.modes_kept, c.modes_requested,
       c.modes_available, c.modes_counted ? fmt::format("{} counted below the cut", *c.modes_counted) : "not counted");

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "common/error.hpp"
@@ -26,7 +28,8 @@ std::vector<double> frequencies(const Eigen::VectorXd& lambda) {
 }
 
 void describe_truncation(const formats::Superelement& element, const InternalModes& internal, ModelCertificate& c) {
-  if (!internal.first_dropped || internal.boundary_mass.size() > 0) return;  // no bound of MacNeal's method
+  if (!std::isfinite(internal.left_out.first_dropped) || internal.boundary_mass.size() > 0)
+    return;  // no bound of MacNeal's method
   try {
     const TruncationErrors errors =
         truncation_errors(element.stiffness, element.mass, internal.left_out, most_estimated);
@@ -128,8 +131,7 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
   if (internal.boundary_mass.size() > 0)
     c.notes.push_back(
         "MacNeal's mass is that of rigid motions and kept modes: the directions below move without mass, and what they "
-        "do in "
-        "dynamics rests on round-off; method: rubin gives them their mass.");
+        "do in dynamics rests on round-off; method: rubin gives them their mass.");
   describe_truncation(element, internal, c);
   return c;
 }

@@ -277,6 +277,24 @@ TEST(FreeBoundary, MacNealLeavesTheResidualMassOut) {
   EXPECT_EQ(r.superelement.method, "macneal");
 }
 
+// Without free modes the six vectors of rigid accelerations remain, which are no modes of the held part.
+TEST(FreeBoundary, VectorsWithoutFreeModesAreNotCalledModes) {
+  const reducer::Reduction r = reduce(by_free_modes(ReductionMethod::rubin, 0));
+  EXPECT_EQ(r.model.free_modes, 0);
+  EXPECT_EQ(r.file.fixed_frequency.size(), 6u);
+  EXPECT_THAT(reducer::certificate_text(r.superelement, r.file, r.model),
+              ::testing::HasSubstr("0 of the free part, 6 internal vectors"));
+}
+
+// Where nothing behind the kept pairs was found the last of them is a bound, and only all modes leave nothing out.
+TEST(MomentVectors, DroppedOnesAreNotBelowWhatIsKept) {
+  const VectorXd value = VectorXd::LinSpaced(4, 1.0, 4.0);
+  EXPECT_EQ(reducer::least_dropped(value, 3, 9), 4.0);
+  EXPECT_EQ(reducer::least_dropped(value, 0, 9), 1.0);
+  EXPECT_EQ(reducer::least_dropped(value, 4, 9), 4.0);
+  EXPECT_EQ(reducer::least_dropped(value, 4, 4), std::numeric_limits<double>::infinity());
+}
+
 TEST(FreeBoundary, CutOffCountsFreeModes) {
   formats::Part part = by_free_modes(ReductionMethod::rubin, 0);
   const std::vector<double> full = reduce(part).model.free_frequency;
