@@ -2,6 +2,7 @@
 #include "reducer/commands.hpp"
 
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <string_view>
 
@@ -19,7 +20,9 @@
 #include "formats/superelement/superelement.hpp"
 #include "formats/yaml/override.hpp"
 #include "reducer/algebra/petsc.hpp"
+#include "reducer/algebra/ranks.hpp"
 #include "reducer/elements/checks.hpp"
+#include "reducer/follow.hpp"
 #include "reducer/mesh/gmsh_file.hpp"
 #include "reducer/recover/recover.hpp"
 #include "reducer/recovery/fields.hpp"
@@ -74,9 +77,11 @@ std::unique_ptr<formats::RecoveryWriter> write_recovery(const RecoverySource& so
   return writer;
 }
 
-/// "time", "processor time".
+/// "time", "processor time", of several processes that of the first.
 std::string times_text(const Phases& phases) {
-  return fmt::format("{:<19}{}\n{:<19}{}\n", "time", phases.text(), "processor time", phases.processor_text());
+  const std::string times =
+      fmt::format("{:<19}{}\n{:<19}{}\n", "time", phases.text(), "processor time", phases.processor_text());
+  return rank_count() == 1 ? times : fmt::format("{}{:<19}{}, times of the first\n", times, "processes", rank_count());
 }
 
 int run(const Arguments& arguments) {
@@ -234,11 +239,23 @@ int section(const Arguments& arguments) {
   return 0;
 }
 
+/// Of several processes those beside the first, which alone serves commands that share no work.
+int follow(const Arguments& arguments) {
+  if (arguments.command != Command::run && arguments.command != Command::solve) return 0;
+  std::packaged_task<Mesh()> mesh([&] { return build_mesh(part_of(arguments)); });
+  mesh();  // what fails here fails for the first process too, which tells it; if not, it is told when the mesh is
+           // needed
+  const SolverSession session;
+  follow_leader(mesh.get_future());
+  return 0;
+}
+
 }  // namespace
 
 int perform(const Arguments& arguments, char** argv) {
   prepare_environment();
   restart_if_blas_is_slow(argv);
+  if (is_follower()) return follow(arguments);
   switch (arguments.command) {
     case Command::run:
       return run(arguments);

@@ -12,6 +12,7 @@
 #include "common/console.hpp"
 #include "common/error.hpp"
 #include "reducer/commands.hpp"
+#include "reducer/startup.hpp"
 
 namespace {
 
@@ -57,6 +58,7 @@ constexpr const char* about_run = R"help(Reduces a part to a superelement file w
   reducer run beam.part.yaml -o out/arm.superelement.h5 --set modes=4 --set points.tip='[2, 0, 0]'
   reducer run beam.part.yaml --set cutoff=500       internal modes up to 500 1/time
   reducer run rod.part.yaml --set 'modal_body={reference: base, modes: 6}'    also rod.modal.h5, for `type: modal`
+  mpirun -n 4 reducer run big.part.yaml             four processes share assembly, factorisation and eigenvalues
 
 Writes name.superelement.h5 and name.certificate.json, whole or not at all.
 Exit codes: 0 done, 1 error, 2 wrong usage.)help";
@@ -217,6 +219,11 @@ void add_permission(CLI::App* command, tisserand::formats::MeshFile::Permission&
       ->check(CLI::PositiveNumber);
 }
 
+/// On the error stream, of several processes by the first one only.
+void tell(const std::string& text) {
+  if (!tisserand::reducer::is_follower()) tisserand::complain("reducer", text);
+}
+
 /// Prints what is wrong with the words of the command line.
 int tell_usage(const CLI::ParseError& error, const std::string& asked) {
   const std::vector<std::string> commands{"run",    "solve",   "show",    "mesh",   "view",
@@ -275,6 +282,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (tisserand::reducer::is_follower()) return 0;
     return error.get_exit_code() == 0 ? app.exit(error) : tell_usage(error, asked);
   }
   arguments.command = run_command->parsed()    ? Command::run
@@ -290,9 +298,9 @@ int main(int argc, char** argv) {
   try {
     return tisserand::reducer::perform(arguments, argv);
   } catch (const tisserand::Error& error) {
-    tisserand::complain("reducer", error.what());
+    tell(error.what());
   } catch (const std::exception& error) {
-    tisserand::complain("reducer", error.what());
+    tell(error.what());
   }
   return 1;
 }

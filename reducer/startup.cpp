@@ -42,7 +42,19 @@ std::string_view loaded_core() {
   return symbol == nullptr ? std::string_view() : reinterpret_cast<CoreName>(symbol)();
 }
 
+/// The number that a launcher of MPI gave this process; null without one.
+const char* rank_of_launcher() {
+  for (const char* const variable : {"OMPI_COMM_WORLD_RANK", "PMIX_RANK", "PMI_RANK"})
+    if (const char* const rank = std::getenv(variable)) return rank;
+  return nullptr;
+}
+
 }  // namespace
+
+bool is_follower() {
+  const char* const rank = rank_of_launcher();
+  return rank != nullptr && std::string_view(rank) != "0";
+}
 
 std::string program_folder() {
   std::array<char, PATH_MAX> buffer{};
@@ -53,7 +65,7 @@ std::string program_folder() {
 
 void prepare_environment() {
   setenv("OPENBLAS_NUM_THREADS", "1", replace);  // with more the sums, and so the bits of files, are others
-  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) {
+  if (rank_of_launcher() == nullptr) {
     setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
     // Programs that start and end together race for one folder of sessions.
     setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);

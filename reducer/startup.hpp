@@ -8,6 +8,10 @@ namespace tisserand::reducer {
 /// The folder of the program that runs, with / at its end: other programs of ours are found from there.
 std::string program_folder();
 
+/// Whether a launcher of MPI (mpirun, srun) started this process beside another that leads: it says nothing, writes
+/// nothing, and works where the leader asks it to.
+bool is_follower();
+
 /// OpenBLAS 0.3.21 takes processors that it does not know for the oldest (4-5 times slower) and reads OPENBLAS_CORETYPE
 /// only while it is loaded; OpenMPI starts a daemon per process unless told otherwise. Sets the variables for this
 /// processor; those that the user has set stay.

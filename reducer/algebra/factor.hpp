@@ -1,5 +1,5 @@
-// Factorisation of a sparse symmetric matrix: L Lᵀ where it is clearly positive definite, else L D Lᵀ (MUMPS through
-// PETSc), which counts signs and finds null vectors.
+// Factorisation of a sparse symmetric matrix: L Lᵀ where it is clearly positive definite, else L D Lᵀ, which counts
+// signs and finds null vectors; L D Lᵀ by all ranks where there are several.
 #pragma once
 
 #include <functional>
@@ -9,6 +9,7 @@
 
 #include "reducer/algebra/cholesky.hpp"
 #include "reducer/algebra/petsc.hpp"
+#include "reducer/algebra/shared_factor.hpp"
 
 namespace tisserand::reducer {
 
@@ -26,28 +27,27 @@ class Factor {
   static Factor indefinite(const Matrix& A, double null_pivot);
   static Factor indefinite(const Matrix& A) { return indefinite(A, 1e-14); }
 
-  int negative() const { return negative_; }
-  int null() const { return null_; }
+  int negative() const;
+  int null() const;
   /// Entries and operations of L; of MUMPS by its own estimate.
   const FactorCost& cost() const { return cost_; }
 
   /// A⁻¹ B. Only if null() is 0.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
-  /// A⁻¹ b for raw arrays of n values; returns a PETSc error code, for callbacks.
-  int solve_raw(const double* b, double* x) const;
   /// A basis of the null space (n x null()).
   Eigen::MatrixXd null_vectors() const;
+  /// Null unless it lies on several ranks.
+  const SharedFactor* shared() const { return shared_.get(); }
 
  private:
-  void factor_indefinite(const Matrix& A, double null_pivot);
-  Eigen::MatrixXd solve_indefinite(const Eigen::MatrixXd& B) const;
+  void factor_indefinite(const Matrix& A, double null_pivot, const std::function<void(const FactorCost&)>& accept);
+  const Mumps* mumps() const;
 
   std::unique_ptr<Cholesky> definite_;
-  Matrix indefinite_;
+  std::unique_ptr<Mumps> indefinite_;
+  std::unique_ptr<SharedFactor> shared_;
   FactorCost cost_;
   int size_ = 0;
-  int negative_ = 0;
-  int null_ = 0;
 };
 
 }  // namespace tisserand::reducer

@@ -11,6 +11,7 @@
 #include <slepcsys.h>
 
 #include "common/error.hpp"
+#include "reducer/algebra/ranks.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -49,10 +50,12 @@ SolverSession::SolverSession() {
   if (SlepcInitialize(&count, &begin, nullptr, nullptr) != 0)
     throw Error("PETSc and SLEPc do not start", "reducer", "check the installation of MPI, PETSc and SLEPc");
   petsc_check(PetscPushErrorHandler(collect, &failure_text()));
+  ranks_beside_leader();
 }
 
 SolverSession::~SolverSession() {
   PetscPopErrorHandler();
+  if (rank_count() > 1 && rank_number() == 0) call_followers({Task::end, 0, 0});
   SlepcFinalize();
 }
 

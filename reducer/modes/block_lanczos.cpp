@@ -1,9 +1,11 @@
-// Block Lanczos iteration with thick restart, on BLAS 3.
+// Block Lanczos iteration with thick restart, on BLAS 3; over all ranks where the factor lies on them.
 #include "reducer/modes/block_lanczos.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
+#include <utility>
 
 #include <petscsys.h>
 #include <Eigen/Cholesky>
@@ -62,13 +64,41 @@ void combine_columns(const MatrixXd& Z, MatrixXd& V) {
   }
 }
 
+/// What the iteration applies, to the rows that this process has.
+struct Operator {
+  double shift = 0.0;
+  Index size = 0;   ///< rows of all
+  Index first = 0;  ///< the first row of this process
+  Index rows = 0;   ///< how many it has
+  bool shared = false;
+  std::function<MatrixXd(const MatrixXd&)> mass;   ///< M X
+  std::function<MatrixXd(const MatrixXd&)> solve;  ///< (S − shift M)⁻¹ X
+  std::function<void(double)> share;               ///< hears how much is done
+
+  /// Aᵀ B over the rows of all.
+  MatrixXd inner_products(const ColumnRange& A, const ColumnRange& B) const {
+    MatrixXd C = reducer::inner_products(A, B);
+    if (shared && C.size() > 0) sum_over_ranks(C.data(), C.size());
+    return C;
+  }
+  /// The numbers of the leader for all, so that no rank decides otherwise than the others.
+  void agree(double* values, Index count) const {
+    if (shared) broadcast(values, count);
+  }
+  bool agree(bool value) const {
+    double number = value ? 1.0 : 0.0;
+    agree(&number, 1);
+    return number != 0.0;
+  }
+};
+
 class BlockLanczos {
  public:
-  BlockLanczos(const Pencil& pencil, int wanted, Index size)
-      : pencil_(pencil),
+  BlockLanczos(Operator op, int wanted)
+      : op_(std::move(op)),
         wanted_(wanted),
-        most_(static_cast<int>(std::min<Index>(2 * wanted + 9 * lanczos_block, size))),
-        V_(size, most_ + lanczos_block),
+        most_(static_cast<int>(std::min<Index>(2 * wanted + 9 * lanczos_block, op_.size))),
+        V_(op_.rows, most_ + lanczos_block),
         T_(MatrixXd::Zero(most_ + lanczos_block, most_ + lanczos_block)) {}
 
   std::optional<EigenPairs> solve() {
@@ -77,11 +107,14 @@ class BlockLanczos {
     for (int step = 0; step < most_steps; ++step) {
       if (!grow()) return std::nullopt;
       const Eigen::SelfAdjointEigenSolver<MatrixXd> ritz(T_.topLeftCorner(size_, size_));
-      const Eigen::VectorXd mu = ritz.eigenvalues().reverse();
-      const MatrixXd Z = ritz.eigenvectors().rowwise().reverse();
+      Eigen::VectorXd mu = ritz.eigenvalues().reverse();
+      MatrixXd Z = ritz.eigenvectors().rowwise().reverse();
+      op_.agree(mu.data(), mu.size());
+      op_.agree(Z.data(), Z.size());
       const MatrixXd residual = R_ * Z.bottomRows(lanczos_block);
       int converged = 0;
-      while (converged < size_ && residual.col(converged).norm() <= converged_residual * mu[converged]) ++converged;
+      while (converged < size_ && op_.agree(residual.col(converged).norm() <= converged_residual * mu[converged]))
+        ++converged;
       tell(converged);
       if (converged >= wanted_) return pairs(mu.head(converged), Z.leftCols(converged));
       if (size_ + lanczos_block > most_) restart(mu, Z, residual);
@@ -94,21 +127,21 @@ class BlockLanczos {
   void tell(int converged) {
     ++blocks_;
     const double columns = lanczos_block * blocks_ / (3.0 * wanted_ + 60.0);
-    pencil_.share(std::max(static_cast<double>(converged) / wanted_, std::min(columns, 0.95)));
+    op_.share(std::max(static_cast<double>(converged) / wanted_, std::min(columns, 0.95)));
   }
 
   /// The first block: one application of the operator to random vectors, so that it has nothing without mass.
   bool start() {
     std::mt19937_64 random(20260101);
-    MatrixXd X(V_.rows(), lanczos_block);
+    MatrixXd X(op_.size, lanczos_block);
     for (double& x : X.reshaped()) x = static_cast<double>(random() >> 11) * 0x1p-52 - 1.0;
-    W_ = pencil_.factor.solve(multiply(pencil_.M, X));
+    W_ = op_.solve(op_.mass(X.middleRows(op_.first, op_.rows)));
     return normalise();
   }
 
   /// Applies the operator to the last block of V and appends the next one: OP V = V T + V_next R (0 .. 0 1).
   bool grow() {
-    W_ = pencil_.factor.solve(P_);
+    W_ = op_.solve(P_);
     const Index before =
         arrow_.rows() == size_ ? 0 : size_ - lanczos_block;  // the block before the last, or all after a restart
     if (size_ > 0) {
@@ -117,7 +150,7 @@ class BlockLanczos {
       T_.block(before, size_, size_ - before, lanczos_block) = coupling;
       T_.block(size_, before, lanczos_block, size_ - before) = coupling.transpose();
     }
-    const MatrixXd A = inner_products(P_, W_);
+    const MatrixXd A = op_.inner_products(P_, W_);
     T_.block(size_, size_, lanczos_block, lanczos_block) = 0.5 * (A + A.transpose());
     add_times(-1.0, V_.middleCols(size_, lanczos_block), T_.block(size_, size_, lanczos_block, lanczos_block), W_);
     size_ += lanczos_block;
@@ -128,21 +161,22 @@ class BlockLanczos {
   bool normalise() {
     R_ = MatrixXd::Identity(lanczos_block, lanczos_block);
     for (int pass = 0; pass < 5; ++pass) {
-      P_ = multiply(pencil_.M, W_);
-      const MatrixXd H = inner_products(V_.leftCols(size_), P_);
+      P_ = op_.mass(W_);
+      const MatrixXd H = op_.inner_products(V_.leftCols(size_), P_);
       add_times(-1.0, V_.leftCols(size_), H, W_);
-      const MatrixXd G = inner_products(W_, P_);
+      const MatrixXd G = op_.inner_products(W_, P_);
       const Eigen::LLT<MatrixXd> factor(0.5 * (G + G.transpose()));
-      if (factor.info() != Eigen::Success) return false;
-      const MatrixXd R = factor.matrixU();
+      if (!op_.agree(factor.info() == Eigen::Success)) return false;
+      MatrixXd R = factor.matrixU();
+      op_.agree(R.data(), R.size());
       divide_by(R, W_);
       divide_by(R, P_);
       R_ = (R * R_).eval();
-      if (!(R_.diagonal().minCoeff() > 0.0)) return false;
+      if (!op_.agree(R_.diagonal().minCoeff() > 0.0)) return false;
       // What the pass removed was small and the block well conditioned: the next would change round-off only.
       const Eigen::VectorXd diagonal = R.diagonal();
       const double removed = size_ > 0 ? H.cwiseAbs().maxCoeff() : 0.0;
-      if (removed < 1e-9 * diagonal.minCoeff() && diagonal.minCoeff() > 1e-3 * diagonal.maxCoeff()) {
+      if (op_.agree(removed < 1e-9 * diagonal.minCoeff() && diagonal.minCoeff() > 1e-3 * diagonal.maxCoeff())) {
         V_.middleCols(size_, lanczos_block) = W_;
         return true;
       }
@@ -164,10 +198,10 @@ class BlockLanczos {
   EigenPairs pairs(const Eigen::VectorXd& mu, const MatrixXd& Z) {
     combine_columns(Z, V_);
     V_.conservativeResize(Eigen::NoChange, Z.cols());
-    return {(pencil_.shift + mu.array().inverse()).matrix(), std::move(V_)};
+    return {(op_.shift + mu.array().inverse()).matrix(), std::move(V_)};
   }
 
-  const Pencil& pencil_;
+  Operator op_;
   int wanted_;
   int most_;  ///< columns of V at which the iteration is restarted
   MatrixXd V_;
@@ -180,11 +214,36 @@ class BlockLanczos {
   int blocks_ = 0;  ///< how many were solved for
 };
 
+/// The same by all ranks: M of the leader, its rows of the vectors and at the end all of them. Collective.
+std::optional<EigenPairs> search_by_ranks(const Mumps& factor, const SymmetricRows& M, double shift, int wanted,
+                                          std::function<void(double)> share) {
+  broadcast(&shift, 1);
+  const Matrix mass = spread(M);
+  const Share mine = rows_of_rank(factor.rows(), rank_number());
+  Operator op{shift, factor.rows(), mine.first, mine.end - mine.first, true, nullptr, nullptr, std::move(share)};
+  op.mass = [&mass](const MatrixXd& X) { return multiply_rows(mass, X); };
+  op.solve = [&factor](const MatrixXd& X) { return factor.solve(X); };
+  std::optional<EigenPairs> pairs = BlockLanczos(std::move(op), wanted).solve();
+  if (pairs) pairs->vector = gather_rows(pairs->vector, factor.rows());
+  return pairs;
+}
+
 }  // namespace
 
 std::optional<EigenPairs> block_lanczos(const Pencil& pencil, int wanted) {
-  const Index size = pencil.S.size();
-  return BlockLanczos(pencil, wanted, size).solve();
+  if (const SharedFactor* const shared = pencil.factor.shared()) {
+    call_followers({Task::search, shared->number(), wanted});
+    return all_or_none(
+        [&] { return search_by_ranks(shared->mumps(), symmetric_rows(pencil.M), pencil.shift, wanted, pencil.share); });
+  }
+  Operator op{pencil.shift, pencil.S.size(), 0, pencil.S.size(), false, nullptr, nullptr, pencil.share};
+  op.mass = [&pencil](const MatrixXd& X) { return multiply(pencil.M, X); };
+  op.solve = [&pencil](const MatrixXd& X) { return pencil.factor.solve(X); };
+  return BlockLanczos(std::move(op), wanted).solve();
+}
+
+void help_to_search(const Mumps& factor, int wanted) {
+  search_by_ranks(factor, {}, 0.0, wanted, [](double /*done*/) {});
 }
 
 }  // namespace tisserand::reducer

@@ -14,7 +14,11 @@ inline constexpr int lanczos_block = 8;  ///< at most that many eigenvectors of 
 /// (S − shift M)⁻¹ M, which is symmetric in the inner product of M: three-term recurrence, one pass of
 /// orthogonalisation against all earlier vectors, thick restart [WS00]. Converged: ‖OP x − μ x‖_M ≤ 1e-8 μ, μ = 1/(λ −
 /// shift). Starts from the same random numbers always. Empty if the basis cannot grow (an invariant subspace, hardly
-/// any mass) or does not converge. Memory: about 2 `wanted` + 80 vectors.
+/// any mass) or does not converge. Memory: about 2 `wanted` + 80 vectors. If the factor lies on several ranks, so do
+/// the vectors while it runs, and sums over rows are sums over ranks.
 std::optional<EigenPairs> block_lanczos(const Pencil& pencil, int wanted);
+
+/// What the followers do meanwhile.
+void help_to_search(const Mumps& factor, int wanted);
 
 }  // namespace tisserand::reducer

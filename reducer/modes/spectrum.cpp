@@ -27,12 +27,19 @@ PetscErrorCode apply_factor(PC preconditioner, Vec b, Vec x) {
   PetscErrorCode code = PCShellGetContext(preconditioner, &context);
   const PetscScalar* in = nullptr;
   PetscScalar* out = nullptr;
+  PetscInt n = 0;
+  if (code == 0) code = VecGetSize(b, &n);
   if (code == 0) code = VecGetArrayRead(b, &in);
   if (code == 0) code = VecGetArrayWrite(x, &out);
-  if (code == 0) code = static_cast<const Factor*>(context)->solve_raw(in, out);
-  if (code == 0) code = VecRestoreArrayWrite(x, &out);
-  if (code == 0) code = VecRestoreArrayRead(b, &in);
-  return code;
+  if (code != 0) return code;
+  try {
+    const Factor& factor = *static_cast<const Factor*>(context);
+    Eigen::Map<Eigen::VectorXd>(out, n) = factor.solve(Eigen::Map<const Eigen::VectorXd>(in, n));
+  } catch (const std::exception&) {
+    return PETSC_ERR_LIB;
+  }
+  code = VecRestoreArrayWrite(x, &out);
+  return code == 0 ? VecRestoreArrayRead(b, &in) : code;
 }
 
 /// Owner of a SLEPc solver set up for shift-invert with the pencil's factor.

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "reducer/algebra/ranks.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -100,7 +101,9 @@ Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Pa
   if (p.n_I() == 0) return {};
   return Factor(blocks.S_II, [&](const FactorCost& cost) {
     const SymmetricRows rows = symmetric_rows(blocks.S_II);
-    const double need = memory_need(cost, rows.begin[rows.size], p, part.modes.count, ritz_vectors(part.modes, p));
+    const double here = static_cast<double>(ranks_beside_leader()) / rank_count();  // of a factor that is shared
+    const double need = memory_need({here * cost.entries, cost.operations}, rows.begin[rows.size], p, part.modes.count,
+                                    ritz_vectors(part.modes, p));
     require_memory(need, available_memory(), p, part.file);
     begin(fmt::format("factorisation ({:.2g} GB{})", need / gigabyte, time_text(cost.operations)));
   });

@@ -1,10 +1,14 @@
-// Assembly: graph of the nodes, then element matrices in batches, computed and added by all threads.
+// Assembly: graph of the nodes, then element matrices in batches, computed and added by all threads; of several ranks
+// each computes the rows of its share of the nodes.
 #include "reducer/system/assembly.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <string_view>
 
 #include "common/error.hpp"
 #include "common/parallel.hpp"
+#include "reducer/algebra/ranks.hpp"
 #include "reducer/elements/each_element.hpp"
 #include "reducer/elements/element_matrices.hpp"
 
@@ -13,9 +17,11 @@ namespace {
 
 constexpr int batch_size = 1024;  ///< elements whose matrices are held at a time: at most 60 MB (20-node bricks)
 
-/// Per node its neighbours of higher number, itself first, and where their columns begin in the node's first row.
+/// Per node of a share its neighbours of higher number, itself first, and where their columns begin in the node's first
+/// row.
 struct NodeGraph {
-  std::vector<int> begin{0};
+  Share nodes;
+  std::vector<int> begin{0};  ///< of the share's first node, ...
   std::vector<int> neighbour;
   std::vector<int> shift;
 };
@@ -45,9 +51,9 @@ Incidence find_incidence(const Mesh& mesh) {
   return incidence;
 }
 
-/// Neighbours of a share of the nodes; `begin` counts from 0 within the share.
 NodeGraph share_of_graph(const Mesh& mesh, const Coordinates& coordinates, const Incidence& incidence, Share share) {
   NodeGraph graph;
+  graph.nodes = share;
   std::vector<int> found;
   for (int n = share.first; n < share.end; ++n) {
     found.assign(1, n);
@@ -69,13 +75,19 @@ NodeGraph share_of_graph(const Mesh& mesh, const Coordinates& coordinates, const
   return graph;
 }
 
-NodeGraph find_graph(const Mesh& mesh, const Coordinates& coordinates, int threads) {
+/// Share t of `threads` of those nodes.
+Share part_of(Share nodes, int t, int threads) {
+  const Share part = share_of(nodes.end - nodes.first, t, threads);
+  return {nodes.first + part.first, nodes.first + part.end};
+}
+
+NodeGraph find_graph(const Mesh& mesh, const Coordinates& coordinates, Share nodes, int threads) {
   const Incidence incidence = find_incidence(mesh);
   std::vector<NodeGraph> part(static_cast<std::size_t>(threads));
-  on_threads(threads, [&](int t) {
-    part[t] = share_of_graph(mesh, coordinates, incidence, share_of(mesh.nodes(), t, threads));
-  });
+  on_threads(threads,
+             [&](int t) { part[t] = share_of_graph(mesh, coordinates, incidence, part_of(nodes, t, threads)); });
   NodeGraph graph = std::move(part[0]);
+  graph.nodes = nodes;
   for (std::size_t t = 1; t < part.size(); ++t) {
     const int offset = graph.begin.back();
     for (std::size_t n = 1; n < part[t].begin.size(); ++n) graph.begin.push_back(offset + part[t].begin[n]);
@@ -85,13 +97,15 @@ NodeGraph find_graph(const Mesh& mesh, const Coordinates& coordinates, int threa
   return graph;
 }
 
-/// The pattern of S and M with values 0. Row c of a node leaves out the first c columns of the node itself.
+/// The pattern of the rows of the graph's nodes with values 0. Row c of a node leaves out the first c columns of the
+/// node itself.
 SymmetricPair empty_pair(const Coordinates& coordinates, const NodeGraph& graph) {
   SymmetricPair pair;
   long entries = 0;
   const auto size = [&](int n) { return coordinates.rotates(n) ? 6 : 3; };
-  for (int i = 0; i < coordinates.count(); ++i) {
-    const int last = graph.begin[coordinates.node[i] + 1] - 1;
+  const int first = coordinates.first[graph.nodes.first], end = coordinates.first[graph.nodes.end];
+  for (int i = first; i < end; ++i) {
+    const int last = graph.begin[coordinates.node[i] - graph.nodes.first + 1] - 1;
     entries += graph.shift[last] + size(graph.neighbour[last]) - coordinates.component[i];
     check_entry_count(entries);
     pair.begin.push_back(static_cast<int>(entries));
@@ -99,10 +113,10 @@ SymmetricPair empty_pair(const Coordinates& coordinates, const NodeGraph& graph)
   pair.column.resize(static_cast<std::size_t>(entries));
   pair.S.resize(static_cast<std::size_t>(entries));
   pair.M.resize(static_cast<std::size_t>(entries));
-  for (int i = 0; i < coordinates.count(); ++i) {
+  for (int i = first; i < end; ++i) {
     const int n = coordinates.node[i];
-    int k = pair.begin[i];
-    for (int p = graph.begin[n]; p < graph.begin[n + 1]; ++p) {
+    int k = pair.begin[i - first];
+    for (int p = graph.begin[n - graph.nodes.first]; p < graph.begin[n - graph.nodes.first + 1]; ++p) {
       const int m = graph.neighbour[p];
       for (int c = m == n ? coordinates.component[i] : 0; c < size(m); ++c) pair.column[k++] = coordinates.of(m, c);
     }
@@ -118,17 +132,19 @@ void compute(const Mesh& mesh, int element, ElementMatrices& out) {
 void add(const ElementNodes& nodes, const ElementMatrices& element, const Coordinates& coordinates,
          const NodeGraph& graph, Share share, SymmetricPair& pair) {
   const int size = static_cast<int>(element.S.rows()) / nodes.count;
+  const int first_row = coordinates.first[graph.nodes.first];
   for (int i = 0; i < nodes.count; ++i) {
     const int a = nodes.node[i];
     if (a < share.first || a >= share.end) continue;
-    const auto row = graph.neighbour.begin() + graph.begin[a], row_end = graph.neighbour.begin() + graph.begin[a + 1];
+    const auto row = graph.neighbour.begin() + graph.begin[a - graph.nodes.first],
+               row_end = graph.neighbour.begin() + graph.begin[a - graph.nodes.first + 1];
     for (int j = 0; j < nodes.count; ++j) {
       const int b = nodes.node[j];
       if (b < a) continue;
       const int shift = graph.shift[std::lower_bound(row, row_end, b) - graph.neighbour.begin()];
       for (int c = 0; c < size; ++c) {
         const int first = a == b ? c : 0;
-        const int at = pair.begin[coordinates.of(a, c)] - c + shift;
+        const int at = pair.begin[coordinates.of(a, c) - first_row] - c + shift;
         for (int d = first; d < size; ++d) {
           pair.S[at + d] += element.S(size * j + d, size * i + c);
           pair.M[at + d] += element.M(size * j + d, size * i + c);
@@ -138,18 +154,34 @@ void add(const ElementNodes& nodes, const ElementMatrices& element, const Coordi
   }
 }
 
-void add_elements(const Mesh& mesh, const Coordinates& coordinates, const NodeGraph& graph, int threads,
+/// Elements with a node among those, ascending.
+std::vector<int> elements_at(const Mesh& mesh, Share nodes) {
+  std::vector<int> elements;
+  for (int e = 0; e < mesh.elements(); ++e) {
+    const ElementNodes of = element_nodes(mesh, e);
+    if (std::any_of(of.node.begin(), of.node.begin() + of.count,
+                    [&](int n) { return n >= nodes.first && n < nodes.end; }))
+      elements.push_back(e);
+  }
+  return elements;
+}
+
+/// Rows of `nodes`, which are among those of the graph.
+void add_elements(const Mesh& mesh, const Coordinates& coordinates, const NodeGraph& graph, Share nodes, int threads,
                   SymmetricPair& pair) {
-  std::vector<ElementMatrices> batch(static_cast<std::size_t>(std::min(batch_size, mesh.elements())));
-  for (int first = 0; first < mesh.elements(); first += batch_size) {
-    const int count = std::min(batch_size, mesh.elements() - first);
+  const std::vector<int> elements = elements_at(mesh, nodes);
+  const int total = static_cast<int>(elements.size());
+  std::vector<ElementMatrices> batch(static_cast<std::size_t>(std::min(batch_size, total)));
+  for (int first = 0; first < total; first += batch_size) {
+    const int count = std::min(batch_size, total - first);
     on_threads(threads, [&](int t) {
       const Share share = share_of(count, t, threads);
-      for (int k = share.first; k < share.end; ++k) compute(mesh, first + k, batch[k]);
+      for (int k = share.first; k < share.end; ++k) compute(mesh, elements[first + k], batch[k]);
     });
     on_threads(threads, [&](int t) {
-      const Share share = share_of(mesh.nodes(), t, threads);
-      for (int k = 0; k < count; ++k) add(element_nodes(mesh, first + k), batch[k], coordinates, graph, share, pair);
+      const Share share = part_of(nodes, t, threads);
+      for (int k = 0; k < count; ++k)
+        add(element_nodes(mesh, elements[first + k]), batch[k], coordinates, graph, share, pair);
     });
   }
 }
@@ -163,14 +195,58 @@ void add_masses(const Mesh& mesh, const Coordinates& coordinates, SymmetricPair&
   }
 }
 
+/// A number that tells meshes apart: all ranks must have made the same one.
+int fingerprint(const Mesh& mesh) {
+  std::size_t hash = std::hash<std::string_view>()({reinterpret_cast<const char*>(mesh.position.data()),
+                                                    sizeof(double) * static_cast<std::size_t>(mesh.position.size())});
+  for (int e = 0; e < mesh.elements(); ++e) {
+    const ElementNodes nodes = element_nodes(mesh, e);
+    for (int i = 0; i < nodes.count; ++i) hash = 31 * hash + static_cast<std::size_t>(nodes.node[i]);
+  }
+  return static_cast<int>(hash >> 33);
+}
+
+/// What the ranks add to the rows of their nodes.
+void add_by_ranks(const Mesh& mesh, const Coordinates& coordinates, const NodeGraph& graph, int threads,
+                  SymmetricPair& pair) {
+  call_followers({Task::assemble, 0, fingerprint(mesh)});
+  all_or_none([&] {
+    add_elements(mesh, coordinates, graph, share_of(mesh.nodes(), 0, rank_count()), threads, pair);
+    for (int r = 1; r < rank_count(); ++r) {
+      const Share nodes = share_of(mesh.nodes(), r, rank_count());
+      const int first = pair.begin[coordinates.first[nodes.first]], end = pair.begin[coordinates.first[nodes.end]];
+      for (std::vector<double>* const values : {&pair.S, &pair.M})
+        receive_from(r, values->data() + first, static_cast<std::size_t>(end - first));
+    }
+  });
+}
+
 }  // namespace
 
 SymmetricPair assemble(const Mesh& mesh, const Coordinates& coordinates, int threads) {
-  const NodeGraph graph = find_graph(mesh, coordinates, threads);
+  const Share all{0, mesh.nodes()};
+  const NodeGraph graph = find_graph(mesh, coordinates, all, threads);
   SymmetricPair pair = empty_pair(coordinates, graph);
-  add_elements(mesh, coordinates, graph, threads, pair);
+  if (rank_count() > 1 && coordinates.count() >= fewest_shared_rows)
+    add_by_ranks(mesh, coordinates, graph, threads, pair);
+  else
+    add_elements(mesh, coordinates, graph, all, threads, pair);
   add_masses(mesh, coordinates, pair);
   return pair;
+}
+
+void help_to_assemble(const Mesh& mesh, int leaders_fingerprint) {
+  if (fingerprint(mesh) != leaders_fingerprint)
+    throw Error("this process made another mesh of the part than the first one", "assembly",
+                "start all processes on like machines, with the same files and programs");
+  const Coordinates coordinates = number_coordinates(mesh);
+  const Share nodes = share_of(mesh.nodes(), rank_number(), rank_count());
+  const int threads = core_count();
+  const NodeGraph graph = find_graph(mesh, coordinates, nodes, threads);
+  SymmetricPair pair = empty_pair(coordinates, graph);
+  add_elements(mesh, coordinates, graph, nodes, threads, pair);
+  send_to_leader(pair.S.data(), pair.S.size());
+  send_to_leader(pair.M.data(), pair.M.size());
 }
 
 }  // namespace tisserand::reducer

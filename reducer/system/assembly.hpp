@@ -8,7 +8,11 @@
 namespace tisserand::reducer {
 
 /// Sum of the elements and of the nodal masses. Memory is reserved exactly from the graph of the nodes. Every entry is
-/// summed in the order of the elements, so the result is the same for any number of threads.
+/// summed in the order of the elements, so the result is the same for any number of threads and ranks.
+/// By several ranks it needs that many followers in help_to_assemble().
 SymmetricPair assemble(const Mesh& mesh, const Coordinates& coordinates, int threads);
+
+/// What the followers do meanwhile, with their own copy of the mesh. Throws Error if the leader has another one.
+void help_to_assemble(const Mesh& mesh, int leaders_fingerprint);
 
 }  // namespace tisserand::reducer
