@@ -7,6 +7,7 @@
 #include "common/text.hpp"
 #include "reducer/elements/checks.hpp"
 #include "reducer/modal_body/modal_body.hpp"
+#include "reducer/modes/full_model.hpp"
 #include "reducer/modes/project.hpp"
 #include "reducer/report/describe.hpp"
 #include "reducer/report/memory.hpp"
@@ -19,16 +20,15 @@ namespace {
 Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin,
                          const RecoveryListener& recover) {
   begin("assembly");
-  const System system = build_system(mesh, part.file);
+  System system = build_system(mesh, part.file);
   const formats::RigidProperties rigid = require_mass(system, part.file);
   const Partition coordinates = partition(mesh, system);
-  const Blocks blocks = split(system.matrices, coordinates);
+  const Blocks blocks = take_apart(system, coordinates, part.modes.method);
   const Factor S_II = factor_inside(blocks, coordinates, part, begin);
   check_no_mechanism(S_II, mesh, system, coordinates, part.file);
 
   begin("boundary modes");
   const BoundaryModes boundary = boundary_modes(S_II, blocks, system, coordinates, begin.share);
-
   begin("internal modes");
   const InternalProblem problem{mesh, system, coordinates, blocks, S_II, part.file, begin.share};
   const InternalModes internal = internal_modes(problem, boundary, part.modes);

@@ -110,8 +110,7 @@ LoadVectors load_vectors(const Mesh& mesh, const System& system) {
     check_nothing_is_lost(mesh, system, load, nodal, lost.head<3>().norm() + lost.tail<3>().norm() / far,
                           loads.size[c]);
     if (load.gravity.isZero(0.0)) continue;
-    const Eigen::VectorXd weight =
-        multiply(symmetric_rows(system.matrices, system.matrices.M), system.R.leftCols<3>() * load.gravity);
+    const Eigen::VectorXd weight = system.MR.leftCols<3>() * load.gravity;
     loads.q.col(c) += weight;
     const Vector6 weight_resultant = R.transpose() * weight;
     loads.applied.col(c) += weight_resultant;

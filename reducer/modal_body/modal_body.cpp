@@ -121,11 +121,9 @@ LumpedModes held_modes(const Mesh& mesh, const System& system, const formats::Mo
 
 /// What round-off left of rigid motions is taken out; then Xᵀ M X = 1 again.
 void make_orthogonal_to_rigid_motions(const System& system, Eigen::MatrixXd& q) {
-  const SymmetricRows M = symmetric_rows(system.matrices, system.matrices.M);
-  const Eigen::MatrixXd MR = multiply(M, system.R);
-  const Eigen::MatrixXd rigid = system.R.transpose() * MR;
-  q -= system.R * rigid.ldlt().solve(MR.transpose() * q);
-  const Eigen::MatrixXd gram = q.transpose() * multiply(M, q);
+  const Eigen::MatrixXd rigid = system.R.transpose() * system.MR;
+  q -= system.R * rigid.ldlt().solve(system.MR.transpose() * q);
+  const Eigen::MatrixXd gram = q.transpose() * multiply(symmetric_rows(system.matrices, system.matrices.M), q);
   q = gram.llt().matrixU().solve<Eigen::OnTheRight>(q).eval();
 }
 

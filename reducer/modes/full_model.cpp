@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -13,11 +14,16 @@ namespace tisserand::reducer {
 namespace {
 
 Eigen::Matrix<double, 6, 6> rigid_mass_about(const System& system, const Eigen::Vector3d& point) {
-  const Eigen::MatrixXd R = rigid_motions_about(system, point);
-  return R.transpose() * multiply(symmetric_rows(system.matrices, system.matrices.M), R);
+  return rigid_motions_about(system, point).transpose() * rigid_momenta_about(system, point);
 }
 
 }  // namespace
+
+Blocks take_apart(System& system, const Partition& p, formats::ReductionMethod method) {
+  if (method == formats::ReductionMethod::craig_bampton && system.size() > most_compared_coordinates)
+    return split(std::move(system.matrices), p);
+  return split(system.matrices, p);
+}
 
 formats::RigidProperties full_rigid_properties(const System& system) {
   const Eigen::Vector3d& mean = system.middle;

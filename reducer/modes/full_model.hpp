@@ -4,11 +4,20 @@
 #include <optional>
 #include <vector>
 
+#include "formats/part/part.hpp"
 #include "formats/superelement/superelement.hpp"
 #include "reducer/modes/spectrum.hpp"
+#include "reducer/system/partition.hpp"
 #include "reducer/system/system.hpp"
 
 namespace tisserand::reducer {
+
+/// Coordinates up to which a part is compared with its full model, which then takes no longer than the rest.
+inline constexpr int most_compared_coordinates = 6000;
+
+/// The blocks of S and M. `system` keeps the whole matrices, too, where functions below need them later: for methods
+/// with modes of the free part, and for parts that are small enough to be compared.
+Blocks take_apart(System& system, const Partition& p, formats::ReductionMethod method);
 
 /// Mass, centre of mass and inertia about it from Rᵀ M R of the full mass matrix.
 formats::RigidProperties full_rigid_properties(const System& system);

@@ -48,15 +48,14 @@ Gauge make_gauge(const InternalProblem& problem) {
   const System& system = problem.system;
   const Partition& p = problem.partition;
   Gauge gauge;
-  Eigen::MatrixXd R = rigid_motions_about(system, system.middle);
-  const Eigen::MatrixXd rigid_mass = R.transpose() * multiply(symmetric_rows(system.matrices, system.matrices.M), R);
+  const Eigen::MatrixXd rigid_mass =
+      rigid_motions_about(system, system.middle).transpose() * rigid_momenta_about(system, system.middle);
   gauge.mass = rigid_mass(0, 0);
   const Eigen::Matrix3d first = rigid_mass.topRightCorner<3, 3>() / gauge.mass;  // −skew(center − middle)
   const Eigen::Vector3d center = system.middle + Eigen::Vector3d(first(1, 2), first(2, 0), first(0, 1));
-  R = rigid_motions_about(system, center);
-  R.rightCols<3>() /= system.length;
-  gauge.rigid =
-      rows(multiply(symmetric_rows(system.matrices, system.matrices.M), R), p.internal) * component_weight.asDiagonal();
+  Eigen::MatrixXd MR = rigid_momenta_about(system, center);
+  MR.rightCols<3>() /= system.length;
+  gauge.rigid = rows(MR, p.internal) * component_weight.asDiagonal();
   set_place_weights(problem, center, gauge);
   return gauge;
 }

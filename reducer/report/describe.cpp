@@ -16,7 +16,6 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr int small_part = 6000;
 constexpr int most_estimated = 20;
 constexpr int most_compared = 12;
 constexpr int most_on_mesh = 5;
@@ -81,7 +80,7 @@ void describe_mesh_errors(const formats::Part& part, const MeshErrors& errors, M
 
 void describe_comparison(const System& system, const InternalModes& internal, const FreeMotions& modes,
                          ModelCertificate& c) {
-  if (system.size() > small_part || internal.available == 0) return;
+  if (system.size() > most_compared_coordinates || internal.available == 0) return;
   const double scale = internal.lambda.size() > 0 ? internal.lambda[0] : internal.first_dropped.value_or(0.0);
   const ModeComparison full = compare_free_modes(system, scale, most_compared, modes.q);
   c.free_frequency = full.frequency;

@@ -55,8 +55,8 @@ void check_balanced(const Mesh& mesh, const System& system, const LoadVectors& l
 }
 
 void take_out_mean_motion(const System& system, MatrixXd& q) {
-  MatrixXd MR = multiply(symmetric_rows(system.matrices, system.matrices.M), system.R);
-  if (!((system.R.transpose() * MR).llt().info() == Eigen::Success)) MR = system.R;
+  const bool has_mass = (system.R.transpose() * system.MR).llt().info() == Eigen::Success;
+  const MatrixXd& MR = has_mass ? system.MR : system.R;
   q -= system.R * (system.R.transpose() * MR).ldlt().solve(MR.transpose() * q);
 }
 

@@ -56,8 +56,7 @@ SupportedModes supported_modes(const Mesh& mesh, const System& system, const Sup
   for (int q = 0; q < system.size(); ++q) all.internal.push_back(q);
   const Blocks none;
   fix_basis({mesh, system, all, none, s.factor, where}, modes.lambda, modes.q);
-  const Eigen::MatrixXd R = rigid_motions_about(system, full_rigid_properties(system).center_of_mass);
-  const Eigen::MatrixXd MR = multiply(symmetric_rows(system.matrices, system.matrices.M), R);
+  const Eigen::MatrixXd MR = rigid_momenta_about(system, full_rigid_properties(system).center_of_mass);
   modes.effective = (MR.transpose() * modes.q).array().square().matrix();
   return modes;
 }

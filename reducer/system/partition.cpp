@@ -32,26 +32,29 @@ Partition partition(const Mesh& mesh, const System& system) {
   return p;
 }
 
-SymmetricPair internal_matrices(const SymmetricPair& matrices, const Partition& p) {
+SymmetricPair internal_matrices(SymmetricPair matrices, const Partition& p) {
   const std::vector<int> place = places(p);
-  SymmetricPair II;
-  II.begin.reserve(p.internal.size() + 1);
-  II.column.reserve(matrices.column.size());
-  II.S.reserve(matrices.column.size());
-  II.M.reserve(matrices.column.size());
+  std::vector<int> begin{0};
+  begin.reserve(p.internal.size() + 1);
+  int to = 0;  // rows and columns that stay keep their order: every entry moves down
   for (const int i : p.internal) {
     for (int k = matrices.begin[i]; k < matrices.begin[i + 1]; ++k) {
       if (place[matrices.column[k]] < 0) continue;
-      II.column.push_back(place[matrices.column[k]]);
-      II.S.push_back(matrices.S[k]);
-      II.M.push_back(matrices.M[k]);
+      matrices.column[to] = place[matrices.column[k]];
+      matrices.S[to] = matrices.S[k];
+      matrices.M[to] = matrices.M[k];
+      ++to;
     }
-    II.begin.push_back(static_cast<int>(II.column.size()));
+    begin.push_back(to);
   }
-  return II;
+  matrices.begin = std::move(begin);
+  matrices.column.resize(static_cast<std::size_t>(to));
+  matrices.S.resize(static_cast<std::size_t>(to));
+  matrices.M.resize(static_cast<std::size_t>(to));
+  return matrices;
 }
 
-Blocks split(const SymmetricPair& matrices, const Partition& p) {
+Blocks split(SymmetricPair matrices, const Partition& p) {
   const std::vector<int> place = places(p);
   Blocks blocks;
   blocks.S_BB = blocks.M_BB = Eigen::MatrixXd::Zero(p.n_B(), p.n_B());
@@ -73,7 +76,7 @@ Blocks split(const SymmetricPair& matrices, const Partition& p) {
   blocks.S_IB.setFromTriplets(S_IB.begin(), S_IB.end());
   blocks.M_IB.setFromTriplets(M_IB.begin(), M_IB.end());
   if (p.n_I() > 0) {
-    SystemMatrices II = to_petsc(internal_matrices(matrices, p));
+    SystemMatrices II = to_petsc(internal_matrices(std::move(matrices), p));
     blocks.S_II = std::move(II.stiffness);
     blocks.M_II = std::move(II.mass);
   }

@@ -32,10 +32,11 @@ struct Blocks {
   Eigen::MatrixXd S_BB, M_BB;
 };
 
-/// S_II and M_II.
-SymmetricPair internal_matrices(const SymmetricPair& matrices, const Partition& p);
+/// S_II and M_II, in the arrays of `matrices`.
+SymmetricPair internal_matrices(SymmetricPair matrices, const Partition& p);
 
-Blocks split(const SymmetricPair& matrices, const Partition& p);
+/// Moved from, `matrices` become the blocks: large ones are not held twice.
+Blocks split(SymmetricPair matrices, const Partition& p);
 
 /// Rows of a matrix over all coordinates.
 Eigen::MatrixXd rows(const Eigen::MatrixXd& all, const std::vector<int>& which);

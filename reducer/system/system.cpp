@@ -57,7 +57,15 @@ System assembled(const Mesh& mesh, const Kept& kept, const std::string& where) {
   system.mesh_mass = mass_diagonal(full);
   system.matrices = condense(std::move(full), system.T, threads);
   remove_inactive(mesh, kept.present, where, threads, system);
+  system.MR = multiply(symmetric_rows(system.matrices, system.matrices.M), system.R);
   return system;
+}
+
+/// R, or M R, for another point.
+Eigen::MatrixXd about(const System& system, const Eigen::Vector3d& point, Eigen::MatrixXd R) {
+  R.rightCols<3>() *= system.length;
+  R.rightCols<3>() += R.leftCols<3>() * skew<double>(Eigen::Vector3d(point - system.middle));
+  return R;
 }
 
 }  // namespace
@@ -89,10 +97,11 @@ std::vector<int> boundary_coordinates(const Mesh& mesh, const Coordinates& coord
 }
 
 Eigen::MatrixXd rigid_motions_about(const System& system, const Eigen::Vector3d& point) {
-  Eigen::MatrixXd R = system.R;
-  R.rightCols<3>() *= system.length;
-  R.rightCols<3>() += R.leftCols<3>() * skew<double>(Eigen::Vector3d(point - system.middle));
-  return R;
+  return about(system, point, system.R);
+}
+
+Eigen::MatrixXd rigid_momenta_about(const System& system, const Eigen::Vector3d& point) {
+  return about(system, point, system.MR);
 }
 
 }  // namespace tisserand::reducer

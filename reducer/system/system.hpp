@@ -18,8 +18,9 @@ namespace tisserand::reducer {
 struct System {
   Coordinates coordinates;        ///< of the mesh
   Transformation T;               ///< x from q; coordinates without stiffness and mass stay 0
-  SymmetricPair matrices;         ///< S and M of q
+  SymmetricPair matrices;         ///< S and M of q, until a reduction takes them apart
   Eigen::MatrixXd R;              ///< q x 6: rigid motions about `middle`, rotations divided by `length`
+  Eigen::MatrixXd MR;             ///< q x 6: M R
   Eigen::VectorXd mesh_mass;      ///< diagonal of M of the mesh's coordinates, before ties
   Eigen::Vector3d middle;         ///< mean of the nodes
   double length = 1.0;            ///< characteristic length
@@ -43,7 +44,8 @@ std::string coordinate_name(const Mesh& mesh, const System& system, int x);
 /// Coordinates x that the boundary retains, in the order of Mesh::boundary.
 std::vector<int> boundary_coordinates(const Mesh& mesh, const Coordinates& coordinates);
 
-/// The rigid motions of q about `point`, rotations not scaled.
+/// The rigid motions R of q about `point`, rotations not scaled, and their momenta M R.
 Eigen::MatrixXd rigid_motions_about(const System& system, const Eigen::Vector3d& point);
+Eigen::MatrixXd rigid_momenta_about(const System& system, const Eigen::Vector3d& point);
 
 }  // namespace tisserand::reducer
