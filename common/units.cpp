@@ -1,4 +1,4 @@
-// Known units, conversion factors, and labels such as "N" or "t mm s^-2".
+// Known units, conversion factors, and labels such as "N" or "kg mm s^-2".
 #include "common/units.hpp"
 
 #include <array>
@@ -67,21 +67,20 @@ Unit time_unit(const std::string& label) { return find_unit(time_units, label, "
 
 std::string unit_label(const Units& units, int length, int mass, int time) {
   if (!units.named()) return "";
-  const bool si = units.length.factor == 1.0 && units.mass.factor == 1.0 && units.time.factor == 1.0;
-  if (si && mass == 1 && time == -2 && length == 1) return "N";
-  if (si && mass == 1 && time == -2 && length == 2) return "N m";
-  if (si && mass == 1 && time == -3 && length == 2) return "W";
-  if (mass == 1 && time == -2 && length == -1) {
-    const double pascal = units.mass.factor / (units.length.factor * units.time.factor * units.time.factor);
-    if (pascal == 1.0) return "Pa";
-    if (std::abs(pascal / 1e6 - 1.0) < 1e-12) return "MPa";
-  }
+  const auto is = [](double factor, double wanted) { return std::abs(factor / wanted - 1.0) < 1e-12; };
+  const double l = units.length.factor, t = units.time.factor, newton = units.mass.factor * l / (t * t);
+  if (mass == 1 && time == -2 && length == 1 && is(newton, 1.0)) return "N";
+  if (mass == 1 && time == -2 && length == 2 && is(newton, 1.0)) return "N " + units.length.label;
+  if (mass == 1 && time == -3 && length == 2 && is(newton * l / t, 1.0)) return "W";
+  if (mass == 1 && time == -3 && length == 2 && is(newton * l / t, 1e-3)) return "mW";
+  if (mass == 1 && time == -2 && length == -1 && is(newton / (l * l), 1.0)) return "Pa";
+  if (mass == 1 && time == -2 && length == -1 && is(newton / (l * l), 1e6)) return "MPa";
   return powers(units, length, mass, time);
 }
 
 std::string energy_label(const Units& units) {
   const std::string label = unit_label(units, 2, 1, -2);
-  return label == "N m" ? "J" : label;
+  return label == "N m" ? "J" : label == "N mm" ? "mJ" : label;
 }
 
 std::string after_number(const std::string& label) { return label.empty() ? "" : " " + label; }

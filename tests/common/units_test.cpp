@@ -59,7 +59,11 @@ TEST(Units, LabelsOfProducts) {
   EXPECT_EQ(unit_label(Units::si(), 1, 1, -2), "N");
   EXPECT_EQ(unit_label(Units::si(), 2, 1, -2), "N m");
   EXPECT_EQ(unit_label(Units::si(), 1, 0, -1), "m s^-1");
-  EXPECT_EQ(unit_label(mm, 1, 1, -2), "t mm s^-2");
+  EXPECT_EQ(unit_label(mm, 1, 1, -2), "N");
+  EXPECT_EQ(unit_label(mm, 2, 1, -2), "N mm");
+  EXPECT_EQ(energy_label(mm), "mJ");
+  EXPECT_EQ(unit_label(mm, 2, 1, -3), "mW");
+  EXPECT_EQ(unit_label({length_unit("mm"), mass_unit("kg"), time_unit("s")}, 1, 1, -2), "kg mm s^-2");
   EXPECT_EQ(unit_label(Units::si(), -1, 1, -2), "Pa");
   EXPECT_EQ(unit_label(mm, -1, 1, -2), "MPa");
   EXPECT_EQ(unit_label(mm, 0, 0, 0), "");
