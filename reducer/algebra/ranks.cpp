@@ -21,6 +21,13 @@ constexpr int columns_per_message = 32;
 
 int int_of(Eigen::Index count) { return static_cast<int>(count); }
 
+/// Work without PETSc, such as assembly, needs no session.
+bool messages_can_be_sent() {
+  int initialised = 0;
+  MPI_Initialized(&initialised);
+  return initialised != 0;
+}
+
 /// Entries of each rank's rows of `columns` columns, and where they begin.
 struct Layout {
   std::vector<int> count, begin;
@@ -94,13 +101,13 @@ void send_rows(const SymmetricRows& A, int rank) {
 
 int rank_count() {
   int count = 1;
-  MPI_Comm_size(PETSC_COMM_WORLD, &count);
+  if (messages_can_be_sent()) MPI_Comm_size(PETSC_COMM_WORLD, &count);
   return count;
 }
 
 int rank_number() {
   int rank = 0;
-  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  if (messages_can_be_sent()) MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
   return rank;
 }
 

@@ -12,7 +12,7 @@
 
 namespace tisserand::reducer {
 
-/// 1 unless a launcher such as mpirun started more. Needs a SolverSession, as all below.
+/// 1 unless a launcher such as mpirun started more, and without a SolverSession, which all others below need.
 int rank_count();
 int rank_number();
 /// Ranks on the machine of the leader. Collective at its first call, which SolverSession makes.
