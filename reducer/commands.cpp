@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <future>
+#include <map>
 #include <memory>
 #include <string_view>
 
@@ -84,6 +85,16 @@ std::string times_text(const Phases& phases) {
   return rank_count() == 1 ? times : fmt::format("{}{:<19}{}, times of the first\n", times, "processes", rank_count());
 }
 
+/// "companion.h5 (1.2 MB: second order of 24 coordinates, load cases gust, weight)".
+std::string companion_text(const formats::Companion& companion, const std::string& path) {
+  std::vector<std::string> holds, cases;
+  if (companion.has_second_order()) holds.push_back(fmt::format("second order of {} coordinates", companion.S1.cols()));
+  for (const formats::LoadCase& load : companion.load_cases) cases.push_back(load.name);
+  if (!cases.empty()) holds.push_back("load cases " + join(cases, ", "));
+  return fmt::format("{} ({:.3g} MB: {})", path, 1e-6 * static_cast<double>(std::filesystem::file_size(path)),
+                     join(holds, ", "));
+}
+
 int run(const Arguments& arguments) {
   Phases phases;
   phases.begin("read");
@@ -92,32 +103,37 @@ int run(const Arguments& arguments) {
   require_output(output, {arguments.input}, Replaces::hdf5_only);
   if (part.recovery) require_output(formats::recovery_path(output), {arguments.input}, Replaces::hdf5_only);
   const std::string companion = formats::companion_path(output);
-  if (part.second_order != formats::SecondOrder::no)
+  if (part.second_order != formats::SecondOrder::no || !part.load_cases.empty())
     require_output(companion, {arguments.input, output}, Replaces::hdf5_only);
   const std::string modal_body = beside(output, ".modal.h5");
   if (part.modal_body) require_output(modal_body, {arguments.input, output}, Replaces::hdf5_only);
+  if (part.modal_body && part.recovery)
+    require_output(formats::recovery_path(modal_body), {arguments.input, output}, Replaces::hdf5_only);
   phases.begin("start solvers");
   const SolverSession session;
-  std::unique_ptr<formats::RecoveryWriter> recovery;
-  Reduction reduction =
-      reduce(part,
-             PhaseListener([&phases](const std::string& phase) { phases.begin(phase); },
-                           [&phases](double done) { phases.share(done); }),
-             [&](const RecoverySource& source) { recovery = write_recovery(source, formats::recovery_path(output)); });
+  std::map<std::string, std::unique_ptr<formats::RecoveryWriter>> recoveries;
+  Reduction reduction = reduce(part,
+                               PhaseListener([&phases](const std::string& phase) { phases.begin(phase); },
+                                             [&phases](double done) { phases.share(done); }),
+                               [&](const RecoverySource& source) {
+                                 const std::string path = formats::recovery_path(source.is_modal ? modal_body : output);
+                                 recoveries[path] = write_recovery(source, path);
+                               });
   phases.begin("write");
   formats::write_superelement(output, reduction.superelement);
-  if (recovery) recovery->finish();
+  for (const auto& [path, recovery] : recoveries) recovery->finish();
   write_certificate(output, reduction.superelement, reduction.file, reduction.model);
   if (reduction.companion) formats::write_companion(companion, *reduction.companion, reduction.superelement);
   if (reduction.modal_body) formats::write_modal_body(modal_body, *reduction.modal_body);
   phases.end();
   say(certificate_text(reduction.superelement, reduction.file, reduction.model));
+  if (!part.supports.empty())
+    say(fmt::format("{:<19}supports: they are for `reducer solve`; the superelement is that of the free part\n",
+                    "not used"));
   say(times_text(phases));
   say(fmt::format("{:<19}{}\n{:<19}{}\n", "written", output, "", certificate_path(output)));
-  if (recovery) say(fmt::format("{:<19}{}\n", "", formats::recovery_path(output)));
-  if (reduction.companion)
-    say(fmt::format("{:<19}{} ({:.3g} MB: second order of {} coordinates)\n", "", companion,
-                    1e-6 * static_cast<double>(std::filesystem::file_size(companion)), reduction.superelement.size()));
+  for (const auto& [path, recovery] : recoveries) say(fmt::format("{:<19}{}\n", "", path));
+  if (reduction.companion) say(fmt::format("{:<19}{}\n", "", companion_text(*reduction.companion, companion)));
   if (reduction.modal_body) say(fmt::format("{:<19}{}\n", "", modal_body));
   return 0;
 }

@@ -47,11 +47,11 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
 
   if (part.recovery && recover) {
     begin("recovery");
-    recover({mesh, system, coordinates, boundary, internal, result.superelement});
+    recover(recovery_source(mesh, system, coordinates, boundary, internal, result.superelement));
   }
   begin("second order");
   result.companion = companion_if_asked(part, problem, boundary, internal, result.superelement, result.model);
-  result.modal_body = modal_body_if_asked(mesh, part, begin, result.file, result.model);
+  result.modal_body = modal_body_if_asked(mesh, part, begin, recover, result.file, result.model);
   return result;
 }
 

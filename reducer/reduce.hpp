@@ -36,10 +36,8 @@ struct PhaseListener {
   std::function<void(double)> share = [](double /*done*/) {};  ///< 0 to 1, about
 };
 
-/// Called with what a recovery file is made from, where the part asks for one (phase "recovery").
-using RecoveryListener = std::function<void(const RecoverySource& source)>;
-
-/// Needs a SolverSession. Throws Error for whatever is wrong with the part.
+/// `recover` hears what recovery files are made from, of the superelement and of the modal body, where the part asks
+/// for them. Needs a SolverSession. Throws Error for whatever is wrong with the part.
 Reduction reduce(const formats::Part& part, const PhaseListener& begin, const RecoveryListener& recover);
 inline Reduction reduce(const formats::Part& part, const PhaseListener& begin) { return reduce(part, begin, nullptr); }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "common/sha256.hpp"
 #include "common/text.hpp"
 #include "formats/hdf5/head.hpp"
 
@@ -192,6 +193,23 @@ void write_integrals(hdf5::Id file, const ModalIntegrals& sums, const std::strin
 }  // namespace
 
 void try_modal_body(const std::string& path) { static_cast<void>(read_unchecked(path)); }
+
+std::string content_id(const ModalBody& body) {
+  Sha256 sha;
+  const auto add = [&sha](const double* values, Index count) {
+    sha.add(values, static_cast<std::size_t>(count) * sizeof(double));
+  };
+  const std::uint64_t counts[] = {static_cast<std::uint64_t>(body.modes()), body.node_name.size()};
+  sha.add(counts, sizeof counts);
+  add(body.frame_position.data(), 3);
+  add(body.omega2.data(), body.omega2.size());
+  add(body.node_mass.data(), body.node_mass.size());
+  const RowMajor position = body.node_position;
+  add(position.data(), position.size());
+  for (const auto& X : body.X) add(X.data(), X.size());
+  for (const std::string& name : body.node_name) sha.add(name.c_str(), name.size() + 1);
+  return sha.hex();
+}
 
 LoadedModalBody read_modal_body(const std::string& path) {
   hdf5::rehearse(path, [&path] { try_modal_body(path); });

@@ -49,6 +49,9 @@ struct ModalBody {
   Eigen::Index modes() const { return omega2.size(); }
 };
 
+/// SHA-256 (hex) of modes and nodes: what recovery and results files name it by.
+std::string content_id(const ModalBody& body);
+
 /// The sums over the nodes that are there.
 ModalIntegrals integrals_of(const ModalBody& body);
 

@@ -154,7 +154,10 @@ std::vector<Field> part_fields() {
        "also a [modal body file](MODAL_BODY.md) beside the superelement, see [modal_body](#modal_body)", "none"},
       {"supports", "{text: held | support}",
        "`reducer solve`: place or group -> directions that are held, see [supports](#supports)", "none"},
-      {"load_cases", "{name: load_case}", "`reducer solve`: name -> loads, see [load_cases](#load_cases)", "none"}};
+      {"load_cases", "{name: load_case}",
+       "name -> loads, for `reducer solve`, and for scenes through the [companion file](COMPANION.md), see "
+       "[load_cases](#load_cases)",
+       "none"}};
 }
 
 std::vector<Field> accuracy_fields() {

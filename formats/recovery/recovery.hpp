@@ -54,8 +54,8 @@ struct RecoveryElements {
 struct Recovery {
   std::string name;
   std::string producer;
-  std::string content_id;  ///< of the superelement file that it belongs to
-  /// Of the images of that file (mirrored()), mirror_axes() in order.
+  std::string content_id;  ///< of the superelement file, or of the modal body, that it belongs to
+  /// Of the images of that (mirrored()), mirror_axes() in order.
   std::array<std::string, 7> mirror_content_id;
   Units units;  ///< those of the superelement
 
@@ -116,7 +116,7 @@ using FieldRows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 /// All that RECOVERY.md demands of it; `where` is the file in messages. Throws Error.
 void check(const Recovery& recovery, const std::string& where);
 
-/// part.superelement.h5 -> part.recovery.h5
+/// part.superelement.h5 -> part.recovery.h5, part.modal.h5 -> part.modal.recovery.h5
 std::string recovery_path(const std::string& superelement_file);
 
 /// Writes beside `path`, and publishes in finish(); without that nothing is left.

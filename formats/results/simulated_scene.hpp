@@ -17,7 +17,7 @@ struct SimulatedBody {
   static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   std::string name;
   std::string kind;        ///< superelement, rigid, beam, virtual, modal
-  std::string content_id;  ///< of the superelement that it is made from (of a mirrored one that of the image), or empty
+  std::string content_id;  ///< of its superelement or modal body file (of a mirrored one that of the image), or empty
   std::string file;        ///< its path as the run had it, or empty
   double mass = unknown;
   double gyration = unknown;  ///< radius: its square times the mass is a third of the trace of the inertia

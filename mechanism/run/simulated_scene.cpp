@@ -23,37 +23,41 @@ std::string absolute(const std::string& path) {
 
 double gyration_radius(const Eigen::Matrix3d& inertia, double mass) { return std::sqrt(inertia.trace() / 3.0 / mass); }
 
-using Superelements = MirroredFiles<formats::LoadedSuperelement>;
+struct Files {
+  MirroredFiles<formats::LoadedSuperelement> superelements;
+  MirroredFiles<formats::LoadedModalBody> modal_bodies;
+};
 
-SimulatedBody described(const formats::SuperelementBodySpec& spec, Superelements& files) {
+SimulatedBody described(const formats::SuperelementBodySpec& spec, Files& files) {
   SimulatedBody body;
   body.kind = spec.rigid ? "rigid" : "superelement";
   body.file = absolute(spec.file);
-  body.content_id = files.at(spec.file, spec.mirror).superelement.content_id;
+  body.content_id = files.superelements.at(spec.file, spec.mirror).superelement.content_id;
   return body;
 }
 
-SimulatedBody described(const formats::ModalBodySpec& spec, Superelements&) {
+SimulatedBody described(const formats::ModalBodySpec& spec, Files& files) {
   SimulatedBody body;
   body.kind = "modal";
   body.file = absolute(spec.file);
+  body.content_id = formats::content_id(files.modal_bodies.at(spec.file, spec.mirror).body);
   return body;
 }
 
-SimulatedBody described(const formats::RigidBodySpec& spec, Superelements&) {
+SimulatedBody described(const formats::RigidBodySpec& spec, Files&) {
   SimulatedBody body;
   body.kind = "rigid";
   body.center_of_mass = spec.center_of_mass;
   return body;
 }
 
-SimulatedBody described(const formats::BeamBodySpec&, Superelements&) {
+SimulatedBody described(const formats::BeamBodySpec&, Files&) {
   SimulatedBody body;
   body.kind = "beam";
   return body;
 }
 
-SimulatedBody described(const formats::VirtualBodySpec&, Superelements&) {
+SimulatedBody described(const formats::VirtualBodySpec&, Files&) {
   SimulatedBody body;
   body.kind = "virtual";
   body.mass = body.gyration = 0.0;
@@ -192,9 +196,9 @@ formats::SimulatedScene simulated_scene(const formats::Scene& scene, const BodyF
   simulated.file = absolute(scene.file);
   simulated.gravity = scene.gravity;
   std::map<std::string, int> index;
-  Superelements superelements(files.superelements);
+  Files read{MirroredFiles(files.superelements), MirroredFiles(files.modal_bodies)};
   for (const formats::BodySpec& spec : scene.bodies) {
-    SimulatedBody body = std::visit([&](const auto& one) { return described(one, superelements); }, spec);
+    SimulatedBody body = std::visit([&](const auto& one) { return described(one, read); }, spec);
     body.name = std::visit([](const auto& one) { return one.name; }, spec);
     index[body.name] = static_cast<int>(simulated.bodies.size());
     simulated.bodies.push_back(std::move(body));

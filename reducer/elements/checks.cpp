@@ -80,6 +80,48 @@ void warn_thick_shells(const Mesh& mesh, std::vector<std::string>& warnings) {
   }
 }
 
+Eigen::AlignedBox3d box_of_elements(const Mesh& mesh) {
+  Eigen::AlignedBox3d box;
+  for (const BeamElement& beam : mesh.beams)
+    box.extend(mesh.position.col(beam.first)), box.extend(mesh.position.col(beam.second));
+  for (const ShellElement& shell : mesh.shells)
+    for (int i = 0; i < shell.corners(); ++i) box.extend(mesh.position.col(shell.nodes[i]));
+  for (const SolidElement& solid : mesh.solids)
+    for (int i = 0; i < node_count(solid.shape); ++i) box.extend(mesh.position.col(solid.nodes[i]));
+  return box;
+}
+
+/// Spiders whose own node lies beside the part by more than a fifth of its size and more than what they grab extends:
+/// an arm that is meant to be long looks the same as a position in other units.
+void warn_far_spiders(const Mesh& mesh, const Units& units, std::vector<std::string>& warnings) {
+  const Eigen::AlignedBox3d part = box_of_elements(mesh);
+  if (part.isEmpty()) return;
+  const double size = part.diagonal().norm();
+  double farthest = 0.0;
+  std::vector<std::string> names;
+  for (const Spider& spider : mesh.spiders) {
+    Eigen::AlignedBox3d legs;
+    for (const int node : spider.nodes) legs.extend(mesh.position.col(node));
+    const double beside = part.exteriorDistance(Eigen::Vector3d(mesh.position.col(spider.reference)));
+    if (!(beside > 0.2 * size && beside > legs.diagonal().norm())) continue;
+    names.insert(beside > farthest ? names.begin() : names.end(), spider.name);
+    farthest = std::max(farthest, beside);
+  }
+  if (names.empty()) return;
+  const std::string unit = units.named() ? " " + units.length.label : "";
+  constexpr std::size_t told = 5;
+  std::string others;
+  if (names.size() > 1)
+    others = fmt::format(
+        " (and {}{} also lie{} far beside it)",
+        join(std::vector<std::string>(names.begin() + 1, names.begin() + std::min(names.size(), told)), ", "),
+        names.size() > told ? fmt::format(" and {} more", names.size() - told) : "", names.size() == 2 ? "s" : "");
+  warnings.push_back(
+      fmt::format("the node of spider '{}' lies {:.3g}{} beside the part, which is {:.3g}{} large{}: check its "
+                  "position and the unit of its coordinates",
+                  names[0], farthest, unit, size, unit, others));
+}
+
 /// In units of the part; both per length, per area or per volume.
 struct Substance {
   std::string what;
@@ -188,6 +230,7 @@ std::vector<std::string> plausibility_warnings(const Mesh& mesh, const Units& un
                                                const std::vector<formats::Material>& materials) {
   std::vector<std::string> warnings;
   warn_thick_shells(mesh, warnings);
+  warn_far_spiders(mesh, units, warnings);
   for (const NodalMass& mass : mesh.masses)
     if (std::string doubt = formats::inertia_doubt(fmt::format("point mass '{}'", mass.name), mass.inertia);
         !doubt.empty())

@@ -125,6 +125,13 @@ double extent_of(MeshFileKind kind, int dimension, int tag) {
   return dimension == 1 ? side[0] : dimension == 2 ? 0.25 * side[0] * side[1] : 0.25 * side[0] * side[1] * side[2];
 }
 
+/// Diagonal of the box around everything, in the unit that it was read in.
+double size_of_model() {
+  std::array<double, 6> b{};
+  gmsh::model::getBoundingBox(-1, -1, b[0], b[1], b[2], b[3], b[4], b[5]);
+  return std::hypot(b[3] - b[0], b[4] - b[1], b[5] - b[2]);
+}
+
 /// Refuses a size that would take days: by the number of regular triangles, squares or tetrahedra of that edge.
 void check_size(const GeometryRequest& request, int dimension, const gmsh::vectorpair& entities) {
   if (!(request.size > 0.0)) return;
@@ -141,9 +148,10 @@ void check_size(const GeometryRequest& request, int dimension, const gmsh::vecto
   double count = 0.0;
   for (const auto& [d, tag] : entities) count += extent_of(request.kind, d, tag) / cell;
   if (count > most_elements)
-    throw Error(fmt::format("mesh: size {:g} would make about {:.2g} elements, more than {:g}", request.size, count,
-                            most_elements),
-                request.file, "use a larger size, and `sizes` where details need smaller ones");
+    throw Error(fmt::format("mesh: size {:g} would make about {:.2g} elements, more than {:g}: the geometry is {:.4g} "
+                            "large in units of the part",
+                            request.size, count, most_elements, size_of_model() * request.scale),
+                request.file, "use a larger size, and `sizes` where details need smaller ones; check the units");
 }
 
 /// Meshes the geometry, unless the file has done so itself.
@@ -284,6 +292,35 @@ class Reader {
   std::unordered_set<std::array<int, 20>, NodesHash> seen_;
 };
 
+void open_file(const GeometryRequest& request) {
+  gmsh::option::setString("Geometry.OCCTargetUnit", request.target_unit);
+  gmsh::open(request.file);
+  check_gmsh_messages(request.file, remedy);
+}
+
+/// The tolerances of gmsh are lengths, about 1e-8: below a thousandth it meshes badly, below a tenth of that not at
+/// all. Files with units are then read in millimetres and scaled after meshing.
+void open_geometry(GeometryRequest& request) {
+  open_file(request);
+  static const std::map<std::string, double> millimetres{
+      {"M", 1e3}, {"CM", 10.0}, {"KM", 1e6}, {"IN", 25.4}, {"FT", 304.8}};
+  const auto unit = millimetres.find(request.target_unit);
+  const bool has_units = request.kind == MeshFileKind::step || request.kind == MeshFileKind::iges;
+  if (has_units && unit != millimetres.end() && size_of_model() < 1e-3) {
+    gmsh::clear();
+    request.target_unit = "MM";
+    request.scale /= unit->second;
+    open_file(request);
+  }
+  const double size = size_of_model();
+  if (size > 0.0 && size < 1e-4)
+    throw Error(fmt::format("the geometry is {:.3g} {} large: the tolerances of gmsh, lengths of 1e-8, are too coarse "
+                            "for it",
+                            size, has_units ? "mm" : "of its units"),
+                request.file,
+                "check its unit; or enlarge it in the CAD program, and give scale under mesh to take it back");
+}
+
 CellMesh read_out(const GeometryRequest& request, bool is_geometry) {
   CellMesh mesh;
   Reader reader(request, mesh);
@@ -305,13 +342,15 @@ CellMesh read_out(const GeometryRequest& request, bool is_geometry) {
 
 }  // namespace
 
-CellMesh read_geometry(const GeometryRequest& request, const std::function<void(MesherPhase)>& begin) {
+CellMesh read_geometry(const GeometryRequest& asked, const std::function<void(MesherPhase)>& begin) {
+  GeometryRequest request = asked;
   if (request.kind == MeshFileKind::iges) make_step_reader();
   set_sizes(request);
-  gmsh::option::setString("Geometry.OCCTargetUnit", request.target_unit);
-  gmsh::open(request.file);
-  check_gmsh_messages(request.file, remedy);
   const bool is_geometry = request.kind != MeshFileKind::msh;
+  if (is_geometry)
+    open_geometry(request);
+  else
+    open_file(request);
   std::vector<std::string> warnings;
   if (is_geometry) {
     begin(MesherPhase::meshing);

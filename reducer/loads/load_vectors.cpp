@@ -88,7 +88,8 @@ void check_nothing_is_lost(const Mesh& mesh, const System& system, const MeshLoa
 
 LoadVectors load_vectors(const Mesh& mesh, const System& system) {
   const auto cases = static_cast<Index>(mesh.load_cases.size());
-  LoadVectors loads{Eigen::MatrixXd::Zero(system.size(), cases), Eigen::MatrixXd::Zero(6, cases),
+  LoadVectors loads{Eigen::MatrixXd::Zero(system.coordinates.count(), cases),
+                    Eigen::MatrixXd::Zero(system.size(), cases), Eigen::MatrixXd::Zero(6, cases),
                     Eigen::VectorXd::Zero(cases)};
   const Eigen::MatrixXd R = rigid_motions_about(system, Eigen::Vector3d::Zero());
   for (Index c = 0; c < cases; ++c) {
@@ -103,6 +104,7 @@ LoadVectors load_vectors(const Mesh& mesh, const System& system) {
       resultant.tail<3>() += value.tail<3>() + Eigen::Vector3d(mesh.position.col(node)).cross(force);
       loads.size[c] += force.norm() + value.tail<3>().norm() / system.length;
     }
+    loads.x.col(c) = nodal.force();
     loads.q.col(c) = gather(system.T, nodal.force());
     loads.applied.col(c) = R.transpose() * loads.q.col(c);
     const double far = system.length + system.middle.norm();

@@ -9,6 +9,7 @@
 namespace tisserand::reducer {
 
 struct LoadVectors {
+  Eigen::MatrixXd x;        ///< coordinates of the mesh x cases: f, without gravity
   Eigen::MatrixXd q;        ///< coordinates q x cases: Tᵀ f + M R g
   Eigen::MatrixXd applied;  ///< 6 x cases: resultant [force; moment about the origin of the part frame]
   Eigen::VectorXd size;     ///< sum of the magnitudes of the forces on nodes (moments over System::length)

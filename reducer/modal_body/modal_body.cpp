@@ -131,7 +131,7 @@ LumpedModes free_modes(const Mesh& mesh, const System& system, const formats::Mo
   if (!(lowest > 0.0))
     throw Error("modal_body: the part has no free frequencies, and so no mean axis", body.where,
                 "hold six components: reference: tip");
-  const std::optional<EigenPairs> pairs = full_free_modes(system, lowest, body.modes);
+  const std::optional<FreeModes> pairs = full_free_modes(system, lowest, body.modes);
   if (!pairs)
     throw Error("modal_body: some rigid motion of the lumped masses moves no mass, which leaves the mean axis open",
                 body.where, "hold six components, or give the part inertia about every axis");
@@ -239,7 +239,8 @@ ModalBodyCertificate describe(const formats::ModalBody& body) {
 
 }  // namespace
 
-formats::ModalBody lumped_modal_body(const Mesh& mesh, const formats::Part& part, double lowest) {
+formats::ModalBody lumped_modal_body(const Mesh& mesh, const formats::Part& part, double lowest,
+                                     const RecoveryListener& recover) {
   const formats::ModalBodyRequest& request = *part.modal_body;
   const Mesh lumped = lumped_mesh(mesh);
   const System system = build_system(lumped, part.file);
@@ -261,16 +262,18 @@ formats::ModalBody lumped_modal_body(const Mesh& mesh, const formats::Part& part
     fill(mesh, system, modes, nodes, body);
   }
   set_reference(mesh, body);
+  if (recover) recover(recovery_source(mesh, system, modes.q, body));
   return body;
 }
 
 std::optional<formats::ModalBody> modal_body_if_asked(const Mesh& mesh, const formats::Part& part,
                                                       const std::function<void(const std::string&)>& begin,
-                                                      const FileCertificate& file, ModelCertificate& model) {
+                                                      const RecoveryListener& recover, const FileCertificate& file,
+                                                      ModelCertificate& model) {
   if (!part.modal_body) return std::nullopt;
   begin("modal body");
   const double lowest = file.free_frequency.empty() ? 0.0 : std::pow(2.0 * EIGEN_PI * file.free_frequency[0], 2);
-  formats::ModalBody body = lumped_modal_body(mesh, part, lowest);
+  formats::ModalBody body = lumped_modal_body(mesh, part, lowest, part.recovery ? recover : nullptr);
   model.modal_body = describe(body);
   return body;
 }

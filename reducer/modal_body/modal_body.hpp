@@ -8,6 +8,7 @@
 #include "formats/modal_body/modal_body.hpp"
 #include "formats/part/part.hpp"
 #include "reducer/mesh/mesh.hpp"
+#include "reducer/recovery/fields.hpp"
 #include "reducer/report/certificate.hpp"
 
 namespace tisserand::reducer {
@@ -20,12 +21,15 @@ namespace tisserand::reducer {
 /// Held components: modes of the rest, basis and signs as of internal modes. Mean axis: elastic modes of the free part,
 /// exactly orthogonal to its rigid motions; `lowest` is an eigenvalue ω² of the size of its first. A group of equal
 /// frequencies is completed. Throws Error for conditions that leave the frame loose, more modes than there are, masses
-/// that couple nodes (released beams), a mean axis without inertia or without `lowest` (0).
-formats::ModalBody lumped_modal_body(const Mesh& mesh, const formats::Part& part, double lowest);
+/// that couple nodes (released beams), a mean axis without inertia or without `lowest` (0). `recover` hears of the
+/// modes.
+formats::ModalBody lumped_modal_body(const Mesh& mesh, const formats::Part& part, double lowest,
+                                     const RecoveryListener& recover = nullptr);
 
 /// What `part.modal_body` asks for, if it does, in a phase of its own; `file` and `model`: of the superelement.
 std::optional<formats::ModalBody> modal_body_if_asked(const Mesh& mesh, const formats::Part& part,
                                                       const std::function<void(const std::string&)>& begin,
-                                                      const FileCertificate& file, ModelCertificate& model);
+                                                      const RecoveryListener& recover, const FileCertificate& file,
+                                                      ModelCertificate& model);
 
 }  // namespace tisserand::reducer

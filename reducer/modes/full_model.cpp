@@ -37,7 +37,7 @@ formats::RigidProperties full_rigid_properties(const System& system) {
   return rigid;
 }
 
-std::optional<EigenPairs> full_free_modes(const System& system, double scale, int count) {
+std::optional<FreeModes> full_free_modes(const System& system, double scale, int count, Count verify) {
   const Eigen::Matrix<double, 6, 6> rigid = rigid_mass_about(system, system.middle);
   Eigen::Matrix<double, 6, 1> unit = rigid.diagonal().cwiseMax(0.0).cwiseSqrt().cwiseInverse();
   if (!unit.allFinite()) return std::nullopt;
@@ -47,19 +47,21 @@ std::optional<EigenPairs> full_free_modes(const System& system, double scale, in
   const SystemMatrices matrices = to_petsc(system.matrices);
   const int available = finite_mode_count(matrices.mass);
   const int wanted = std::min(available, 6 + count);
-  if (wanted <= 6) return EigenPairs{};
+  if (wanted <= 6) return FreeModes{};
   const double shift = -0.1 * scale;
   const Factor factor(combine(matrices.stiffness, -shift, matrices.mass));
   const Spectrum spectrum = lowest_pairs({matrices.stiffness, matrices.mass, factor, shift}, wanted, available,
-                                         choose_solver(system.size(), wanted), Count::if_cheap);
+                                         choose_solver(system.size(), wanted), verify);
   const int kept = spectrum.kept - 6;
-  return EigenPairs{spectrum.pairs.value.segment(6, kept), spectrum.pairs.vector.middleCols(6, kept)};
+  FreeModes modes{{spectrum.pairs.value.segment(6, kept), spectrum.pairs.vector.middleCols(6, kept)}, {}};
+  if (spectrum.counted) modes.counted = *spectrum.counted - 6;
+  return modes;
 }
 
 ModeComparison compare_free_modes(const System& system, double scale, int count, const Eigen::MatrixXd& u) {
   ModeComparison result;
   try {
-    const std::optional<EigenPairs> pairs = full_free_modes(system, scale, count);
+    const std::optional<FreeModes> pairs = full_free_modes(system, scale, count);
     if (!pairs) return result;
     const Eigen::Index kept = std::min<Eigen::Index>(count, pairs->value.size());
     for (Eigen::Index k = 0; k < kept; ++k)

@@ -22,10 +22,14 @@ Blocks take_apart(System& system, const Partition& p, formats::ReductionMethod m
 /// Mass, centre of mass and inertia about it from Rᵀ M R of the full mass matrix.
 formats::RigidProperties full_rigid_properties(const System& system);
 
+struct FreeModes : EigenPairs {
+  std::optional<int> counted;  ///< elastic modes below the cut by inertia, which are as many
+};
+
 /// Elastic modes of the free part, vᵀ M v = 1: the `count` lowest, fewer if there are no more; a group of equal ones is
 /// completed. `scale`: some eigenvalue ω² of the size of the lowest. Empty if a rigid motion moves no mass. Throws
 /// Error if round-off hides the frequencies.
-std::optional<EigenPairs> full_free_modes(const System& system, double scale, int count);
+std::optional<FreeModes> full_free_modes(const System& system, double scale, int count, Count verify = Count::if_cheap);
 
 /// Elastic modes of the free part beside others.
 struct ModeComparison {

@@ -130,6 +130,8 @@ std::string solver_text(EigenSolver solver) {
   return "";
 }
 
+}  // namespace
+
 Count count_of(formats::Verification verify) {
   switch (verify) {
     case formats::Verification::if_cheap:
@@ -142,7 +144,11 @@ Count count_of(formats::Verification verify) {
   return Count::always;
 }
 
-}  // namespace
+void fail_low_cutoff(const formats::ModeSelection& selection, const char* kind, double lowest) {
+  throw Error(fmt::format("cutoff {:g} is below the first {} mode, {:.4g}: no mode would be kept", *selection.cutoff,
+                          kind, std::sqrt(std::max(0.0, lowest)) / (2.0 * EIGEN_PI)),
+              selection.where, "raise it, or write `modes: 0` in its place if none is wanted");
+}
 
 int finite_mode_count(const Matrix& M) {
   constexpr Eigen::Index factored = 20000;
@@ -334,6 +340,7 @@ InternalModes internal_modes(const InternalProblem& problem, const BoundaryModes
     moments = c.moments;
   } else {
     spectrum = spectrum_for(pencil, selection, n_I, std::max(1, modes.requested), modes.available);
+    if (selection.cutoff && modes.requested == 0) fail_low_cutoff(selection, "internal", spectrum.pairs.value[0]);
     kept = modes.requested == 0 ? 0 : spectrum.kept;
   }
   modes.solver = solver_text(spectrum.solver);

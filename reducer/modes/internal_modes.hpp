@@ -47,13 +47,20 @@ struct InternalProblem {
 /// coordinates with mass.
 int finite_mode_count(const Matrix& M);
 
+/// Whether a search is followed by a count.
+Count count_of(formats::Verification verify);
+
+/// Throws the Error for a cut-off that keeps nothing; `lowest`: ω² of the first mode of that kind.
+[[noreturn]] void fail_low_cutoff(const formats::ModeSelection& selection, const char* kind, double lowest);
+
 /// What no dropped eigenvalue is below when the first `kept` are kept of those found, `value` (ascending, one at
 /// least), of `available` finite ones: the next that was found, else the last that is kept; infinite if all are kept.
 double least_dropped(const Eigen::VectorXd& value, Eigen::Index kept, Eigen::Index available);
 
 /// By number, by cut-off frequency, or as many as the accuracy takes: all below its frequency, and more until the bound
 /// of the errors of the free part's frequencies up to it meets the error: moment vectors first, unless `moments` is 0,
-/// then modes. Throws Error if more modes are asked for than exist, or if 1000 modes do not meet the accuracy.
+/// then modes. Throws Error if more modes are asked for than exist, if the cut-off is below the first, or if 1000 modes
+/// do not meet the accuracy.
 InternalModes internal_modes(const InternalProblem& problem, const BoundaryModes& boundary,
                              const formats::ModeSelection& selection);
 

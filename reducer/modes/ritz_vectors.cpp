@@ -58,16 +58,18 @@ void fail_without_mass(const InternalProblem& problem) {
 }
 
 /// Elastic modes of the free part, by number or up to a frequency. `lambda_1`: an eigenvalue of the size of the first.
-EigenPairs chosen_free_modes(const InternalProblem& problem, const formats::ModeSelection& selection, double lambda_1) {
+FreeModes chosen_free_modes(const InternalProblem& problem, const formats::ModeSelection& selection, double lambda_1) {
   int count = selection.count;
+  const Count verify = selection.cutoff ? Count::always : count_of(selection.verify);
   if (selection.cutoff) {
     const SystemMatrices all = to_petsc(problem.system.matrices);
     constexpr int rigid = 6;
     count = std::max(0, count_below(all.stiffness, all.mass, std::pow(2.0 * EIGEN_PI * *selection.cutoff, 2)) - rigid);
   }
-  if (count == 0) return {VectorXd(), MatrixXd(problem.system.size(), 0)};
-  std::optional<EigenPairs> pairs = full_free_modes(problem.system, lambda_1, count);
+  if (count == 0 && !selection.cutoff) return {{VectorXd(), MatrixXd(problem.system.size(), 0)}, {}};
+  std::optional<FreeModes> pairs = full_free_modes(problem.system, lambda_1, std::max(1, count), verify);
   if (!pairs) fail_without_mass(problem);
+  if (count == 0 && pairs->value.size() > 0) fail_low_cutoff(selection, "free", pairs->value[0]);
   if (pairs->value.size() < count)
     throw Error(fmt::format("{} free modes asked for, but only {} exist", count, pairs->value.size()), problem.where,
                 fmt::format("ask for at most {} modes", pairs->value.size()));
@@ -174,7 +176,7 @@ InternalModes free_boundary_vectors(const InternalProblem& problem, const Bounda
   const Pencil pencil{problem.blocks.S_II, problem.blocks.M_II, problem.S_II, 0.0};
   const Spectrum held = lowest_pairs(pencil, 1, modes.available, choose_solver(n_I, 1), Count::never);
   modes.first_dropped = held.pairs.value[0];
-  const EigenPairs free = chosen_free_modes(problem, selection, held.pairs.value[0]);
+  const FreeModes free = chosen_free_modes(problem, selection, held.pairs.value[0]);
   const RitzSpace space(problem, boundary, modes.Phi, inside_of(problem, boundary, free.vector));
   const RitzSpace::Values values = space.values(space.size());
   modes.lambda = values.theta;
@@ -183,6 +185,7 @@ InternalModes free_boundary_vectors(const InternalProblem& problem, const Bounda
   modes.coupling = modes.left_out.coupling;
   modes.requested = static_cast<int>(free.value.size());
   modes.free_modes = modes.requested;
+  modes.counted = free.counted;
   modes.solver = "free modes and inertia relief";
   if (selection.method == formats::ReductionMethod::macneal) take_macneal_mass(boundary, free.value.size(), modes);
   const MatrixXd before = modes.Phi;

@@ -15,21 +15,30 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using formats::ResultsLayout;
 
-/// Row of /superelements that the request means.
-int find_body(const ResultsLayout& layout, const formats::ResultsReader& results, const std::string& body) {
-  const auto& names = layout.superelements;
-  if (body.empty() && names.size() == 1) return 0;
+/// Row of /superelements or of /modal_bodies.
+struct Found {
+  std::size_t row = 0;
+  bool is_modal = false;
+  std::string name;
+};
+
+Found find_body(const ResultsLayout& layout, const formats::ResultsReader& results, const std::string& body) {
+  std::vector<std::string> names = layout.superelements;
+  names.insert(names.end(), layout.modal_bodies.begin(), layout.modal_bodies.end());
+  const auto at = [&](std::size_t k) {
+    const bool is_modal = k >= layout.superelements.size();
+    return Found{is_modal ? k - layout.superelements.size() : k, is_modal, names[k]};
+  };
+  if (body.empty() && names.size() == 1) return at(0);
   const std::string remedy = names.empty() ? "give results of a scene with a flexible superelement, and store its "
                                              "coordinates (channel superelements/y)"
                                            : "give --body " + listed(names, " or --body ");
   if (body.empty())
-    throw Error(fmt::format("holds {} superelements, and none is chosen", names.size()), results.path(), remedy);
+    throw Error(fmt::format("holds {} superelements and modal bodies, and none is chosen", names.size()),
+                results.path(), remedy);
   const auto found = std::find(names.begin(), names.end(), body);
-  if (found != names.end()) return static_cast<int>(found - names.begin());
+  if (found != names.end()) return at(static_cast<std::size_t>(found - names.begin()));
   const std::string shown = printable_line(body, 60);
-  if (std::find(layout.modal_bodies.begin(), layout.modal_bodies.end(), body) != layout.modal_bodies.end())
-    throw Error(fmt::format("body '{}' is modal: its coordinates w are not those of a superelement", shown),
-                results.path(), "simulate the superelement itself (type: superelement)");
   for (const formats::SimulatedBody& simulated : layout.simulated.bodies)
     if (simulated.name == body)
       throw Error(fmt::format("body '{}' was simulated as {}: it does not deform as a superelement does", shown,
@@ -72,10 +81,57 @@ void to_file(const formats::Recovery& recovery, const BodyMotion& motion, Matrix
   }
 }
 
-Vector3d frame_origin(const ResultsLayout& layout, const std::string& body) {
+const formats::SimulatedBody* simulated_body(const ResultsLayout& layout, const std::string& body) {
   for (const formats::SimulatedBody& simulated : layout.simulated.bodies)
-    if (simulated.name == body) return simulated.origin;
-  return Vector3d::Constant(formats::SimulatedBody::unknown);
+    if (simulated.name == body) return &simulated;
+  return nullptr;
+}
+
+std::string content_id_of(const ResultsLayout& layout, const Found& found) {
+  if (found.is_modal) {
+    const formats::SimulatedBody* body = simulated_body(layout, found.name);
+    return body ? body->content_id : "";
+  }
+  return found.row < layout.superelement_content_ids.size() ? layout.superelement_content_ids[found.row] : "";
+}
+
+/// The stored coordinates of the body, in the units of the scene: those that the file has and the body has not are 0.
+MatrixXd coordinates(const ResultsLayout& layout, const formats::ResultsReader& results, const Found& found, Index n,
+                     const std::vector<std::size_t>& rows) {
+  const std::string dataset = found.is_modal ? "modal_bodies/w" : "superelements/y";
+  const std::vector<int>& offset = found.is_modal ? layout.modal_offset : layout.modes_offset;
+  const MatrixXd all = results.read_dataset(dataset, rows);
+  if (all.cols() == 0)
+    throw Error(fmt::format("the coordinates of {} are not stored", found.is_modal ? "modal bodies" : "superelements"),
+                results.path(), fmt::format("add {} to output.channels of the scene and run it again", dataset));
+  const Index first = offset[found.row], own = offset[found.row + 1] - first;
+  if ((found.is_modal ? own > n : own != n) || first < 0 || own < 0 || first + own > all.cols())
+    throw Error(fmt::format("body '{}' has {} coordinates, its recovery file {}", found.name, own, n), results.path(),
+                "the file is damaged; run the scene again");
+  MatrixXd y = MatrixXd::Zero(n, all.rows());
+  y.topRows(own) = all.middleCols(first, own).transpose();
+  if (!y.allFinite())
+    throw Error(fmt::format("coordinates of body '{}' are not finite", found.name), results.path(),
+                "the run has failed, or the file is damaged");
+  return y;
+}
+
+/// Motion of the floating frame and its origin, as far as they are stored.
+void add_frame(const ResultsLayout& layout, const formats::ResultsReader& results, const Found& found,
+               const std::vector<std::size_t>& rows, BodyMotion& motion) {
+  const auto node = std::ranges::find(layout.nodes, found.name) - layout.nodes.begin();
+  const Index row = found.is_modal ? node : static_cast<Index>(found.row);
+  const std::string group = found.is_modal ? "nodes/" : "superelements/frame_";
+  motion.origin.setConstant(formats::SimulatedBody::unknown);
+  if (found.is_modal && row < layout.simulated.node_reference.cols())
+    motion.origin = layout.simulated.node_reference.col(row);
+  else if (const formats::SimulatedBody* body = simulated_body(layout, found.name); body && !found.is_modal)
+    motion.origin = body->origin;
+  const MatrixXd position = results.read_dataset(group + "position", rows);
+  const MatrixXd rotation = results.read_dataset(group + "rotation", rows);
+  if (position.cols() < 3 * (row + 1) || rotation.cols() < 4 * (row + 1)) return;
+  motion.position = position.middleCols(3 * row, 3).transpose();
+  motion.rotation = rotation.middleCols(4 * row, 4).transpose();
 }
 
 }  // namespace
@@ -83,44 +139,25 @@ Vector3d frame_origin(const ResultsLayout& layout, const std::string& body) {
 BodyMotion body_motion(const formats::Recovery& recovery, const formats::ResultsReader& results,
                        const RecoverRequest& request) {
   const ResultsLayout& layout = results.layout();
-  const int row = find_body(layout, results, request.body);
-  const auto index = static_cast<std::size_t>(row);
+  const Found found = find_body(layout, results, request.body);
   BodyMotion motion;
-  motion.body = layout.superelements[index];
-  const std::string id = index < layout.superelement_content_ids.size() ? layout.superelement_content_ids[index] : "";
-  motion.mirror = formats::require_same_superelement(recovery, id, request.recovery, motion.body);
+  motion.body = found.name;
+  motion.mirror =
+      formats::require_same_superelement(recovery, content_id_of(layout, found), request.recovery, found.name);
   motion.to_scene = convert_units(recovery.units, layout.units, request.recovery);
   motion.scene_units = layout.units;
   const std::vector<double> time = results.time();
   const std::vector<std::size_t> rows = chosen_rows(time, request, results.path());
   for (const std::size_t r : rows) motion.time.push_back(time[r]);
-
-  const MatrixXd all = results.read_dataset("superelements/y", rows);
-  if (all.cols() == 0)
-    throw Error("the coordinates of superelements are not stored", results.path(),
-                "add superelements/y to output.channels of the scene and run it again");
-  const Index first = layout.modes_offset[index], n = layout.modes_offset[index + 1] - first;
-  if (n != recovery.coordinates() || first < 0 || first + n > all.cols())
-    throw Error(
-        fmt::format("body '{}' has {} coordinates, its recovery file {}", motion.body, n, recovery.coordinates()),
-        results.path(), "the file is damaged; run the scene again");
-  motion.y = all.middleCols(first, n).transpose();
-  if (!motion.y.allFinite())
-    throw Error(fmt::format("coordinates of body '{}' are not finite", motion.body), results.path(),
-                "the run has failed, or the file is damaged");
+  motion.y = coordinates(layout, results, found, recovery.coordinates(), rows);
   to_file(recovery, motion, motion.y);
-
-  const MatrixXd position = results.read_dataset("superelements/frame_position", rows);
-  const MatrixXd rotation = results.read_dataset("superelements/frame_rotation", rows);
-  motion.origin = frame_origin(layout, motion.body);
-  if (position.cols() >= 3 * (row + 1) && rotation.cols() >= 4 * (row + 1)) {
-    motion.position = position.middleCols(3 * row, 3).transpose();
-    motion.rotation = rotation.middleCols(4 * row, 4).transpose();
-  }
+  if (found.is_modal) motion.y /= std::sqrt(motion.to_scene.mass) * motion.to_scene.length;
+  add_frame(layout, results, found, rows, motion);
   if (request.frame == RecoverFrame::world && (motion.position.cols() == 0 || !motion.origin.allFinite() ||
                                                !motion.position.allFinite() || !motion.rotation.allFinite()))
-    throw Error(fmt::format("where body '{}' is in the world is not stored", motion.body), results.path(),
-                "give --frame part, or run the scene again with all channels of superelements");
+    throw Error(
+        fmt::format("where body '{}' is in the world is not stored", motion.body), results.path(),
+        "give --frame part, or run the scene again with all channels of superelements, or of nodes for a modal body");
   return motion;
 }
 

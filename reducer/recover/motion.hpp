@@ -17,8 +17,8 @@ namespace tisserand::reducer {
 /// Fields of the recovery file, times y, are those of the part; `mirror` turns them into those of the body. T instants.
 struct BodyMotion {
   std::string body;
-  std::vector<double> time;   ///< T
-  Eigen::MatrixXd y;          ///< n x T: coordinates of the part, not of the image, units of the recovery file
+  std::vector<double> time;  ///< T
+  Eigen::MatrixXd y;  ///< n x T: coordinates of the part (of a modal body w), not of the image, units of the file
   Eigen::Matrix3Xd position;  ///< of the floating frame, units of the scene; empty: not stored
   Eigen::Matrix4Xd rotation;  ///< w x y z
   Eigen::Vector3d origin;     ///< of the undeformed floating frame in the part frame of the image, units of the scene
@@ -30,7 +30,7 @@ struct BodyMotion {
   double stress_factor() const { return to_scene.force() / (to_scene.length * to_scene.length); }
 };
 
-/// Throws Error: no such body, a body that has no coordinates of a superelement (rigid, modal), another superelement,
+/// Throws Error: no such body, a body without coordinates of its own (rigid), another superelement or modal body,
 /// coordinates that are not stored, not finite or not as many, no instants.
 BodyMotion body_motion(const formats::Recovery& recovery, const formats::ResultsReader& results,
                        const RecoverRequest& request);

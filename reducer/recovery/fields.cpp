@@ -163,10 +163,7 @@ void motion_fields(const Mesh& mesh, const MotionSource& source, const formats::
 }
 
 void recovery_fields(const RecoverySource& source, const formats::Recovery& tables, const FieldSink& sink) {
-  const FullShapes shapes(source.system, source.partition, source.boundary, source.internal);
-  motion_fields(source.mesh,
-                {[&](const std::vector<int>& nodes) { return shapes.motions(nodes); }, shapes.coordinates()}, tables,
-                sink);
+  motion_fields(source.mesh, source.motion, tables, sink);
 }
 
 }  // namespace tisserand::reducer

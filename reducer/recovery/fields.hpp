@@ -3,21 +3,38 @@
 
 #include <functional>
 
+#include "formats/modal_body/modal_body.hpp"
 #include "formats/part/part.hpp"
 #include "formats/recovery/recovery.hpp"
 #include "reducer/recovery/shapes.hpp"
 
 namespace tisserand::reducer {
 
+/// States of the mesh, one per column: (6 nodes) x columns, [translation; rotation] of each node asked for, part axes.
+struct MotionSource {
+  std::function<Eigen::MatrixXd(const std::vector<int>& nodes)> motions;
+  Eigen::Index columns = 0;
+};
+
 /// What a recovery file is made from, while a reduction holds it.
 struct RecoverySource {
   const Mesh& mesh;
-  const System& system;
-  const Partition& partition;
-  const BoundaryModes& boundary;
-  const InternalModes& internal;
-  const formats::Superelement& superelement;
+  const Coordinates& coordinates;
+  MotionSource motion;     ///< of each coordinate of the file
+  formats::Recovery head;  ///< names, units, identity, coordinates: what is not of the mesh
+  bool is_modal = false;   ///< of the modal body, not of the superelement
 };
+
+/// Hears of it (phase "recovery").
+using RecoveryListener = std::function<void(const RecoverySource& source)>;
+
+/// The arguments live as long as the result.
+RecoverySource recovery_source(const Mesh& mesh, const System& system, const Partition& partition,
+                               const BoundaryModes& boundary, const InternalModes& internal,
+                               const formats::Superelement& superelement);
+/// `q`: its modes in the system's coordinates.
+RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eigen::MatrixXd& q,
+                               const formats::ModalBody& body);
 
 /// Takes the next rows of a field.
 using FieldSink = std::function<void(formats::RecoveryField field, const Eigen::MatrixXd& rows)>;
@@ -31,12 +48,6 @@ formats::Recovery recovery_tables(const RecoverySource& source);
 
 /// The same of a mesh that was solved for as it is: no superelement and no coordinates of one.
 formats::Recovery solved_tables(const Mesh& mesh, const Coordinates& coordinates);
-
-/// States of the mesh, one per column: (6 nodes) x columns, [translation; rotation] of each node asked for, part axes.
-struct MotionSource {
-  std::function<Eigen::MatrixXd(const std::vector<int>& nodes)> motions;
-  Eigen::Index columns = 0;
-};
 
 /// Displacements, section forces and stresses of all states, in blocks of some megabytes.
 void motion_fields(const Mesh& mesh, const MotionSource& source, const formats::Recovery& tables,

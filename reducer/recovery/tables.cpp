@@ -1,5 +1,6 @@
 // Mesh and properties as the recovery file has them.
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "common/error.hpp"
@@ -32,18 +33,17 @@ ElementShape shape_of(SolidShape shape) {
   TISSERAND_ENSURE(false, "solid shape {}", static_cast<int>(shape));
 }
 
-void add_head(const RecoverySource& source, Recovery& r) {
-  const formats::Superelement& element = source.superelement;
-  r.name = element.name;
-  r.producer = element.producer;
-  r.units = element.units;
-  r.content_id = formats::content_id(element);
-  for (int image = 0; image < 7; ++image)
-    r.mirror_content_id[static_cast<std::size_t>(image)] =
-        formats::mirrored({element, {}}, formats::mirror_axes(image)).superelement.content_id;
-  r.boundary_name = element.node_name;
-  r.dof_node = element.dof_node;
-  r.dof_component = element.dof_component;
+/// `part`: a Superelement or ModalBody.
+template <class Part, class Image>
+Recovery head_of(const Part& part, const Image& image) {
+  Recovery r;
+  r.name = part.name;
+  r.producer = part.producer;
+  r.units = part.units;
+  r.content_id = formats::content_id(part);
+  for (int k = 0; k < 7; ++k)
+    r.mirror_content_id[static_cast<std::size_t>(k)] = formats::content_id(image(formats::mirror_axes(k)));
+  return r;
 }
 
 /// Rows of Recovery::elements; groups are the properties of beams, then of shells, then of solids.
@@ -150,9 +150,52 @@ Recovery solved_tables(const Mesh& mesh, const Coordinates& coordinates) {
   return r;
 }
 
+RecoverySource recovery_source(const Mesh& mesh, const System& system, const Partition& partition,
+                               const BoundaryModes& boundary, const InternalModes& internal,
+                               const formats::Superelement& superelement) {
+  const auto shapes = std::make_shared<const FullShapes>(system, partition, boundary, internal);
+  Recovery head = head_of(superelement, [&](const Eigen::Vector3d& axes) {
+    return formats::mirrored(formats::LoadedSuperelement{superelement, {}}, axes).superelement;
+  });
+  head.dof_node = superelement.dof_node;
+  head.dof_component = superelement.dof_component;
+  return {mesh,
+          system.coordinates,
+          {[shapes](const auto& nodes) { return shapes->motions(nodes); }, shapes->coordinates()},
+          std::move(head),
+          false};
+}
+
+RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eigen::MatrixXd& q,
+                               const formats::ModalBody& body) {
+  const auto x = std::make_shared<const Eigen::MatrixXd>(expand(system.T, q));
+  const auto motions = [x, &numbers = system.coordinates](const std::vector<int>& nodes) {
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(nodes.size()), x->cols());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (int k = numbers.first[nodes[i]]; k < numbers.first[nodes[i] + 1]; ++k)
+        out.row(6 * static_cast<Eigen::Index>(i) + numbers.component[k]) = x->row(k);
+    return out;
+  };
+  Recovery head = head_of(body, [&](const Eigen::Vector3d& axes) {
+    return formats::mirrored(formats::LoadedModalBody{body, {}}, axes).body;
+  });
+  for (int k = 0; k < static_cast<int>(q.cols()); ++k) {
+    head.dof_node.push_back(-1);
+    head.dof_component.push_back(k);
+  }
+  return {mesh, system.coordinates, {motions, q.cols()}, std::move(head), true};
+}
+
 Recovery recovery_tables(const RecoverySource& source) {
-  Recovery r = solved_tables(source.mesh, source.system.coordinates);
-  add_head(source, r);
+  Recovery r = solved_tables(source.mesh, source.coordinates);
+  const Recovery& head = source.head;
+  r.name = head.name;
+  r.producer = head.producer;
+  r.units = head.units;
+  r.content_id = head.content_id;
+  r.mirror_content_id = head.mirror_content_id;
+  r.dof_node = head.dof_node;
+  r.dof_component = head.dof_component;
   return r;
 }
 

@@ -11,6 +11,7 @@
 #include "formats/superelement/weights.hpp"
 #include "reducer/elements/each_element.hpp"
 #include "reducer/elements/element_matrices.hpp"
+#include "reducer/loads/load_vectors.hpp"
 #include "reducer/second_order/inertia.hpp"
 #include "reducer/second_order/quadratic_forms.hpp"
 #include "reducer/second_order/tie_strain.hpp"
@@ -23,7 +24,7 @@ using Eigen::MatrixXd;
 
 constexpr int batch_rows = 1024;  ///< stresses of a batch of elements, about
 constexpr int largest_batch = 64;
-constexpr int loads = 12;  ///< six rigid accelerations, six centrifugal ones
+constexpr int inertial = 12;  ///< loads: six rigid accelerations, six centrifugal ones
 
 constexpr double large_file = 20e6;  ///< bytes of a companion that is not written unasked
 
@@ -60,7 +61,7 @@ MatrixXd gather_forces(const Transformation& T, const MatrixXd& f) {
 
 /// g_a = M D_a and g_jk = −½ ([e_k x] M D_3+j + [e_j x] M D_3+k), on x.
 MatrixXd inertia_loads(const MatrixXd& MD) {
-  MatrixXd g(MD.rows(), loads);
+  MatrixXd g(MD.rows(), inertial);
   g.leftCols<6>() = MD;
   const MatrixXd turning = MD.rightCols<3>();
   for (int pair = 0; pair < 6; ++pair) {
@@ -175,17 +176,48 @@ MatrixXd tie_residual(const Mesh& mesh, const Coordinates& coordinates, const Ti
   return residual;
 }
 
-/// Masses beside their nodes swing on rigid arms: their inertia loads g (the last columns) on ½ θ × (θ × c).
+/// MD g for the gravity of each load case.
+MatrixXd weights_of(const Mesh& mesh, const MatrixXd& MD) {
+  MatrixXd weight(MD.rows(), static_cast<Index>(mesh.load_cases.size()));
+  for (Index c = 0; c < weight.cols(); ++c)
+    weight.col(c) = MD.leftCols<3>() * mesh.load_cases[static_cast<std::size_t>(c)].gravity;
+  return weight;
+}
+
+/// Inertial loads and load cases, on x.
+MatrixXd all_loads(const Mesh& mesh, const LoadVectors& cases, const MatrixXd& MD) {
+  MatrixXd g(MD.rows(), inertial + cases.x.cols());
+  g << inertia_loads(MD), weights_of(mesh, MD);
+  g.rightCols(cases.x.cols()).topRows(cases.x.rows()) += cases.x;
+  return g;
+}
+
+/// Φᵀ f of the load cases, by name.
+std::vector<formats::LoadCase> reduced_cases(const InternalProblem& problem, const BoundaryModes& boundary,
+                                             const InternalModes& internal, const LoadVectors& cases) {
+  const MatrixXd f_B = rows(cases.q, problem.partition.boundary), f_I = rows(cases.q, problem.partition.internal);
+  MatrixXd force(f_B.rows() + internal.lambda.size(), f_B.cols());
+  force << f_B + boundary.Psi.transpose() * f_I, internal.Phi.transpose() * f_I;
+  std::vector<formats::LoadCase> reduced;
+  for (Index c = 0; c < force.cols(); ++c)
+    reduced.push_back({problem.mesh.load_cases[static_cast<std::size_t>(c)].name, force.col(c), {}});
+  return reduced;
+}
+
+void sort_by_name(std::vector<formats::LoadCase>& cases) { std::ranges::sort(cases, {}, &formats::LoadCase::name); }
+
+/// Masses beside their nodes swing on rigid arms: their loads (the last columns) on ½ θ × (θ × c).
 void add_offset_masses(const Mesh& mesh, const Coordinates& coordinates, const MatrixXd& Phi, const MatrixXd& D,
                        QuadraticForms& forms) {
   for (const NodalMass& mass : mesh.masses) {
     if (mass.offset.isZero(0.0) || !coordinates.rotates(mass.node)) continue;
     const int x = coordinates.of(mass.node, 0);
     const MatrixXd MD = nodal_mass_matrix(mass) * D.middleRows<6>(x);
-    const MatrixXd g = inertia_loads(MD);
+    MatrixXd g(6, inertial + static_cast<Index>(mesh.load_cases.size()));
+    g << inertia_loads(MD), weights_of(mesh, MD);
     StrainBatch batch{{{&turned_point(), 1}}, 1, {}, {}};
-    batch.stress.setZero(6, Phi.cols() + loads);
-    batch.stress.topRightCorner(3, loads) = g.topRows<3>();
+    batch.stress.setZero(6, Phi.cols() + g.cols());
+    batch.stress.topRightCorner(3, g.cols()) = g.topRows<3>();
     batch.gradient.setZero(9, Phi.cols());
     batch.gradient.topRows<3>() = Phi.middleRows<3>(x + 3);
     batch.gradient.middleRows<3>(3) = -0.5 * skew<double>(mass.offset) * Phi.middleRows<3>(x + 3);
@@ -208,7 +240,7 @@ bool deforms(const formats::Superelement& element) {
 
 }  // namespace
 
-bool wants_companion(const formats::Part& part, const formats::Superelement& element) {
+bool wants_second_order(const formats::Part& part, const formats::Superelement& element) {
   if (!deforms(element)) return false;
   const bool fits = element.size() <= formats::max_companion_size;
   switch (part.second_order) {
@@ -227,7 +259,7 @@ bool wants_companion(const formats::Part& part, const formats::Superelement& ele
 
 void describe_companion(const Mesh& mesh, const formats::Part& part, const formats::Superelement& element,
                         ModelCertificate& model) {
-  if (!wants_companion(part, element)) {
+  if (!wants_second_order(part, element)) {
     if (!deforms(element) && part.second_order == formats::SecondOrder::yes)
       model.notes.push_back("No companion file: with one boundary node and no modes the part cannot deform.");
     if (deforms(element) && part.second_order == formats::SecondOrder::unless_large)
@@ -254,18 +286,36 @@ Eigen::VectorXd default_weights(const formats::Superelement& element) {
   return weights;
 }
 
-formats::Companion make_companion(const InternalProblem& problem, const BoundaryModes& boundary,
-                                  const InternalModes& internal, const formats::Superelement& element,
-                                  const Eigen::VectorXd& weights) {
-  const Mesh& mesh = problem.mesh;
-  const System& system = problem.system;
-  const int threads = core_count(), n = static_cast<int>(element.size());
+namespace {
+
+formats::Companion companion_head(const formats::Superelement& element, const Eigen::VectorXd& weights) {
   formats::Companion c;
   c.content_id = formats::content_id(element);
   c.producer = element.producer;
   c.units = element.units;
   c.weights = weights;
   c.reference_point = element.node_position.transpose() * weights;
+  return c;
+}
+
+}  // namespace
+
+formats::Companion make_load_companion(const InternalProblem& problem, const BoundaryModes& boundary,
+                                       const InternalModes& internal, const formats::Superelement& element,
+                                       const Eigen::VectorXd& weights) {
+  formats::Companion c = companion_head(element, weights);
+  c.load_cases = reduced_cases(problem, boundary, internal, load_vectors(problem.mesh, problem.system));
+  sort_by_name(c.load_cases);
+  return c;
+}
+
+formats::Companion make_companion(const InternalProblem& problem, const BoundaryModes& boundary,
+                                  const InternalModes& internal, const formats::Superelement& element,
+                                  const Eigen::VectorXd& weights) {
+  const Mesh& mesh = problem.mesh;
+  const System& system = problem.system;
+  const int threads = core_count(), n = static_cast<int>(element.size());
+  formats::Companion c = companion_head(element, weights);
   set_integrals(element, c);
 
   const MatrixXd Phi = expand(system.T, reduced_displacements(problem, boundary, internal));
@@ -275,10 +325,13 @@ formats::Companion make_companion(const InternalProblem& problem, const Boundary
   c.C = inertia.C;
   c.E = inertia.E;
 
-  const MatrixXd g = inertia_loads(inertia.MD);
-  MatrixXd displacements(Phi.rows(), n + loads);
+  const LoadVectors cases = load_vectors(mesh, system);
+  c.load_cases = reduced_cases(problem, boundary, internal, cases);
+  const MatrixXd g = all_loads(mesh, cases, inertia.MD);
+  const int all = n + static_cast<int>(g.cols());
+  MatrixXd displacements(Phi.rows(), all);
   displacements << Phi, expand(system.T, residual_displacements(problem, internal, gather_forces(system.T, g)));
-  QuadraticForms forms(n, n + loads, threads);
+  QuadraticForms forms(n, all, threads);
   ElementBatches(mesh, system.coordinates, displacements, n, threads)
       .for_each([&](const StrainBatch& batch) { forms.add(batch); }, problem.share);
   add_offset_masses(mesh, system.coordinates, Phi, D, forms);
@@ -291,6 +344,9 @@ formats::Companion make_companion(const InternalProblem& problem, const Boundary
     c.N[a] = -forms.matrix(n + a);
     c.T[a] = -forms.matrix(n + 6 + a);
   }
+  for (std::size_t k = 0; k < c.load_cases.size(); ++k)
+    c.load_cases[k].stiffness = -forms.matrix(n + inertial + static_cast<int>(k));
+  sort_by_name(c.load_cases);
   return c;
 }
 
@@ -298,8 +354,11 @@ std::optional<formats::Companion> companion_if_asked(const formats::Part& part, 
                                                      const BoundaryModes& boundary, const InternalModes& internal,
                                                      const formats::Superelement& element, ModelCertificate& model) {
   describe_companion(problem.mesh, part, element, model);
-  if (!wants_companion(part, element) || internal.boundary_mass.size() > 0) return std::nullopt;
-  return make_companion(problem, boundary, internal, element, default_weights(element));
+  const bool second_order = wants_second_order(part, element) && internal.boundary_mass.size() == 0;
+  if (!second_order && problem.mesh.load_cases.empty()) return std::nullopt;
+  const Eigen::VectorXd weights = default_weights(element);
+  return second_order ? make_companion(problem, boundary, internal, element, weights)
+                      : make_load_companion(problem, boundary, internal, element, weights);
 }
 
 }  // namespace tisserand::reducer

@@ -10,25 +10,31 @@
 
 namespace tisserand::reducer {
 
-/// Whether the part asks for a companion of this superelement, which can deform: `second_order`, or its arrays stay
-/// below 20 MB. Throws Error if it asks for more coordinates than companion files hold.
-bool wants_companion(const formats::Part& part, const formats::Superelement& element);
+/// Whether the part asks for the second order of this superelement, which can deform: `second_order`, or its arrays
+/// stay below 20 MB. Throws Error if it asks for more coordinates than companion files hold.
+bool wants_second_order(const formats::Part& part, const formats::Superelement& element);
 
 /// What the user should know of it: notes on a companion that is left out, warnings of ties without second order.
 void describe_companion(const Mesh& mesh, const formats::Part& part, const formats::Superelement& element,
                         ModelCertificate& model);
 
-/// H, C, E, N, T, S0, S1 by one pass over the masses of the elements, twelve solutions with the factor of S_II, and one
-/// pass over the stresses of n + 12 displacements. Copies of all displacements (coordinates of the mesh x (n + 12)) and
-/// blocks of elements are held. `element`: the reduced part, rows boundary first; `weights`: one per boundary node.
+/// H, C, E, N, T, S0, S1 by one pass over the masses of the elements, twelve solutions with the factor of S_II and one
+/// more per load case of the mesh, and one pass over the stresses of n + 12 + cases displacements. Copies of all
+/// displacements (coordinates of the mesh x their number) and blocks of elements are held. `element`: the reduced part,
+/// rows boundary first; `weights`: one per boundary node.
 formats::Companion make_companion(const InternalProblem& problem, const BoundaryModes& boundary,
                                   const InternalModes& internal, const formats::Superelement& element,
                                   const Eigen::VectorXd& weights);
 
+/// One with the forces of the load cases alone.
+formats::Companion make_load_companion(const InternalProblem& problem, const BoundaryModes& boundary,
+                                       const InternalModes& internal, const formats::Superelement& element,
+                                       const Eigen::VectorXd& weights);
+
 /// The default weights of mechanisms.
 Eigen::VectorXd default_weights(const formats::Superelement& element);
 
-/// All of it: described, and made with the default weights if it is wanted.
+/// All of it: described, and made with the default weights if second order is wanted or there are load cases.
 std::optional<formats::Companion> companion_if_asked(const formats::Part& part, const InternalProblem& problem,
                                                      const BoundaryModes& boundary, const InternalModes& internal,
                                                      const formats::Superelement& element, ModelCertificate& model);

@@ -23,7 +23,7 @@ Spectrum lowest(const Supported& s, int count, int available) {
 /// Elastic ones of the free part; a first eigenvalue on six held coordinates lies below them and gives their scale.
 void free_modes(const System& system, const Supported& s, int count, int available, const std::string& where,
                 SupportedModes& modes) {
-  const std::optional<EigenPairs> pairs = full_free_modes(system, lowest(s, 1, available).pairs.value[0], count);
+  const std::optional<FreeModes> pairs = full_free_modes(system, lowest(s, 1, available).pairs.value[0], count);
   if (!pairs)
     throw Error("some rigid motion of the part moves no mass, so it has no free modes", where,
                 "give supports, or inertia about every axis");

@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include "common/text.hpp"
+#include "formats/modal_body/modal_body.hpp"
 #include "formats/page/header_parts.hpp"
 #include "formats/page/page.hpp"
 #include "formats/page/skin.hpp"
@@ -260,13 +261,20 @@ std::string part_page(const ViewedPart& part) {
 }
 
 std::vector<double> frequencies_beside(const formats::RecoveryReader& recovery) {
-  constexpr std::string_view ending = ".recovery.h5";
-  std::string path = recovery.path();
-  if (!path.ends_with(ending)) return {};
-  path.replace(path.size() - ending.size(), ending.size(), ".superelement.h5");
-  if (!std::filesystem::is_regular_file(path)) return {};
-  const formats::Superelement element = formats::read_superelement(path).superelement;
-  if (formats::content_id(element) != recovery.recovery().content_id) return {};
+  constexpr std::string_view ending = ".recovery.h5", modal = ".modal.recovery.h5";
+  if (!recovery.path().ends_with(ending)) return {};
+  const std::string stem = recovery.path().substr(0, recovery.path().size() - ending.size());
+  const std::string& id = recovery.recovery().content_id;
+  if (recovery.path().ends_with(modal) && std::filesystem::is_regular_file(stem + ".h5")) {
+    const formats::ModalBody body = formats::read_modal_body(stem + ".h5").body;
+    if (formats::content_id(body) != id) return {};
+    std::vector<double> frequency;
+    for (const double value : body.omega2) frequency.push_back(std::sqrt(value) / (2.0 * EIGEN_PI));
+    return frequency;
+  }
+  if (!std::filesystem::is_regular_file(stem + ".superelement.h5")) return {};
+  const formats::Superelement element = formats::read_superelement(stem + ".superelement.h5").superelement;
+  if (formats::content_id(element) != id) return {};
   std::vector<double> frequency(element.dof_node.size(), 0.0);
   for (std::size_t k = 0; k < frequency.size(); ++k)
     if (element.dof_node[k] < 0) {

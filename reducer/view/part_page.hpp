@@ -29,8 +29,8 @@ struct ViewedPart {
 /// coordinate of a recovery file is a mode: one node moved along one component, or an internal mode with its frequency.
 std::string part_page(const ViewedPart& part);
 
-/// Frequencies of the coordinates of a recovery file [1/time], by the superelement file that lies beside it; none where
-/// that is missing or another one.
+/// Frequencies of the coordinates of a recovery file [1/time], by the superelement or modal body that lies beside it;
+/// none where that is missing or another one.
 std::vector<double> frequencies_beside(const formats::RecoveryReader& recovery);
 
 }  // namespace tisserand::reducer

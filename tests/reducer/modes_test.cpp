@@ -10,8 +10,10 @@
 
 #include "common/error.hpp"
 #include "reducer/modes/block_lanczos.hpp"
+#include "reducer/report/memory.hpp"
 #include "reducer/sources/build_mesh.hpp"
 #include "tests/reducer/parts.hpp"
+#include "tests/support/thrown.hpp"
 
 namespace tisserand::testing::modes_test {
 namespace {
@@ -61,11 +63,31 @@ TEST(Clusters, NumberingDoesNotMatterForDoubleModes) {
 TEST(Cutoff, KeepsAllModesBelow) {
   // Fixed-boundary frequencies of the beam: 2.522 (twice), 6.924 (twice), 13.50 (twice) 1/time.
   formats::Part part = cardona_beam(40, 0);
-  for (const auto& [cutoff, expected] : {std::pair{2.0, 0}, std::pair{2.6, 2}, std::pair{7.0, 4}, std::pair{13.0, 4}}) {
+  for (const auto& [cutoff, expected] : {std::pair{2.6, 2}, std::pair{7.0, 4}, std::pair{13.0, 4}}) {
     part.modes.cutoff = cutoff;
     const reducer::Reduction r = reduce(part);
     EXPECT_EQ(r.superelement.size(), 12 + expected) << "cutoff " << cutoff;
     EXPECT_GT(*r.model.first_dropped_frequency, cutoff);
+  }
+}
+
+TEST(Cutoff, BelowTheFirstModeIsAnErrorThatNamesIt) {
+  formats::Part part = cardona_beam(40, 0);
+  part.modes.cutoff = 2.0;
+  EXPECT_THAT(error_of(part),
+              AllOf(HasSubstr("cutoff 2 is below the first internal mode, 2.52"), HasSubstr("modes: 0")));
+  part.modes.method = formats::ReductionMethod::rubin;  // first free frequency of the beam: 2.52, twice
+  EXPECT_THAT(error_of(part), HasSubstr("cutoff 2 is below the first free mode, 2.5"));
+}
+
+TEST(Cutoff, NeedsNoCountWhereNoneIsWanted) {
+  formats::Part part = cardona_beam(40, 4);
+  for (const auto method : {formats::ReductionMethod::craig_bampton, formats::ReductionMethod::rubin}) {
+    part.modes.method = method;
+    part.modes.verify = formats::Verification::inertia;
+    EXPECT_EQ(reduce(part).model.modes_counted, 4);
+    part.modes.verify = formats::Verification::none;
+    EXPECT_EQ(reduce(part).model.modes_counted, std::nullopt);
   }
 }
 
@@ -234,6 +256,47 @@ TEST(BlockLanczos, FortyEqualFrequenciesOfTwentyLookAlikes) {
   if (s.pairs.value.size() > 40) {  // pairs behind the cut come as they are found
     EXPECT_NEAR(s.pairs.value[40] / s.pairs.value[0], std::pow(4.694091 / 1.875104, 4), 2.0);
   }
+}
+
+// A factor in which one of two arms is 1e12 times as stiff: no search sees the modes of that arm, the count does.
+TEST(EigenvalueSolver, ThatMissesModesIsAnError) {
+  const Pieces p = pieces_of(star(2, 12));
+  reducer::SymmetricPair altered = p.system.matrices;
+  for (int q = 0; q < altered.size(); ++q)
+    if (p.mesh.position(0, p.system.coordinates.node[q]) < -1.0)
+      for (int k = altered.begin[q]; k < altered.begin[q + 1]; ++k) altered.S[k] *= 1e12;
+  const reducer::Factor blind(reducer::split(altered, p.partition).S_II);
+  const auto search = [&](const reducer::Factor& factor) {
+    return reducer::lowest_pairs({p.blocks.S_II, p.blocks.M_II, factor, 0.0}, 8,
+                                 reducer::finite_mode_count(p.blocks.M_II), reducer::EigenSolver::block_lanczos,
+                                 reducer::Count::always);
+  };
+  EXPECT_EQ(search(p.factor).counted, 8);
+  EXPECT_THAT(test_support::error_of([&] { search(blind); }),
+              AllOf(HasSubstr("internal modes found where"), HasSubstr("eigenvalue solver")));
+}
+
+// The factor of another part: what is found are no modes.
+TEST(EigenvalueSolver, ThatDoesNotConvergeIsAnError) {
+  const Pieces p = pieces_of(grid(4, 3));
+  reducer::SymmetricPair altered = p.system.matrices;
+  for (int q = 0; q < altered.size(); ++q) altered.S[altered.begin[q]] *= 1.0 + 0.1 * (q % 7);
+  const reducer::Factor other(reducer::split(altered, p.partition).S_II);
+  EXPECT_THAT(test_support::error_of([&] {
+                reducer::lowest_pairs({p.blocks.S_II, p.blocks.M_II, other, 0.0}, 10,
+                                      reducer::finite_mode_count(p.blocks.M_II), reducer::EigenSolver::block_lanczos,
+                                      reducer::Count::never);
+              }),
+              AllOf(HasSubstr("relative residual"), HasSubstr("eigenvalue solver")));
+}
+
+TEST(Memory, PartsThatDoNotFitAreRefusedBeforeTheyAreFactored) {
+  reducer::Partition p;
+  p.internal.resize(1000);
+  EXPECT_EQ(test_support::error_of([&] { reducer::require_memory(1e9, 2e9, p, "part.yaml"); }), "no error");
+  EXPECT_THAT(test_support::error_of([&] { reducer::require_memory(3e9, 2e9, p, "part.yaml"); }),
+              AllOf(HasSubstr("part.yaml"), HasSubstr("1000 internal coordinates needs 3 GB of memory more"),
+                    HasSubstr("2 GB are free"), HasSubstr("fewer elements")));
 }
 
 TEST(BlockLanczos, CountsOnlyWhereAskedOrCheap) {

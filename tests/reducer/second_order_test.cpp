@@ -305,14 +305,16 @@ reducer::Mesh column_mesh(int elements) {
   return mesh;
 }
 
-/// The lowest positive factor of the load f on the free rows: det(S + λ Σ y_j H_j) = 0, S y = f.
-double buckling_factor(const Body& body, const std::vector<int>& free, const VectorXd& load) {
+/// The lowest positive factor of the load f on the free rows: det(S + λ (Σ y_j H_j - K_f)) = 0, S y = f; `own`: the
+/// load's K_f.
+double buckling_factor(const Body& body, const std::vector<int>& free, const VectorXd& load, const MatrixXd& own = {}) {
   const MatrixXd S = body.element.stiffness(free, free);
   VectorXd y = VectorXd::Zero(body.element.size());
   const VectorXd y_free = S.ldlt().solve(VectorXd(load(free)));
   y(free) = y_free;
   MatrixXd K_G = MatrixXd::Zero(body.element.size(), body.element.size());
   for (Index j = 0; j < y.size(); ++j) K_G += y[j] * body.companion.H[j];
+  if (own.size() > 0) K_G -= own;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(-K_G(free, free), S);
   return 1.0 / eigen.eigenvalues()[static_cast<Index>(free.size()) - 1];
 }
@@ -337,6 +339,73 @@ TEST(SecondOrderReduction, PinnedColumnBucklesAtEulersLoad) {
   }
 }
 
+// A clamped column falls under its own weight at q L³/EI = 7.8373 (Greenhill 1881; Timoshenko and Gere, Theory of
+// Elastic Stability, 2.12), here from the weight between two boundary nodes alone. A line load of the same size is the
+// same.
+TEST(SecondOrderReduction, ClampedColumnBucklesUnderItsOwnWeight) {
+  reducer::Mesh mesh = column_mesh(40);  // EI = 100, L = 10, mass per length 1
+  reducer::MeshLoadCase weight, line;
+  weight.name = "weight";
+  weight.gravity = -Vector3d::UnitX();
+  line.name = "line";
+  for (int e = 0; e < 40; ++e) line.beams.push_back({e, -Vector3d::UnitX()});
+  mesh.load_cases = {weight, line};
+  for (const auto& [modes, tolerance] : {std::pair{4, 2e-3}, {12, 2e-4}}) {
+    const Body body = reduce_at(mesh, modes, {});
+    ASSERT_EQ(body.companion.load_cases.size(), 2u);
+    const formats::LoadCase &by_line = body.companion.load_cases[0], &by_weight = body.companion.load_cases[1];
+    EXPECT_EQ(by_line.name, "line");
+    EXPECT_EQ(by_weight.name, "weight");
+    EXPECT_LT((by_line.force - by_weight.force).norm(), 1e-9 * by_line.force.norm());
+    EXPECT_LT((by_line.stiffness - by_weight.stiffness).norm(), 1e-9 * by_line.stiffness.norm());
+    const std::vector<int> free = free_rows(body, {0, 1, 2, 3, 4, 5});
+    const double q = buckling_factor(body, free, by_weight.force, by_weight.stiffness);
+    EXPECT_NEAR(q * 1000.0 / 100.0 / 7.8373, 1.0, tolerance) << modes;
+  }
+}
+
+// The resultant of a reduced load is that of the load, gravity is S1ᵀ g, and the boundary moves under it as the whole
+// part does: a cantilever's tip by q L⁴/(8 EI) under a uniform load across.
+TEST(SecondOrderReduction, LoadCasesAreExactOnTheBoundary) {
+  reducer::Mesh mesh = column_mesh(8);
+  reducer::MeshLoadCase wind;
+  wind.name = "wind";
+  for (int e = 0; e < 8; ++e) wind.beams.push_back({e, 0.01 * Vector3d::UnitY()});
+  reducer::MeshLoadCase fall;
+  fall.name = "fall";
+  fall.gravity = Vector3d(0.3, -0.2, 0.7);
+  mesh.load_cases = {wind, fall};
+  for (const int modes : {0, 6}) {
+    const Body body = reduce_at(mesh, modes, {});
+    const formats::LoadCase &by_fall = body.companion.load_cases[0], &by_wind = body.companion.load_cases[1];
+    const VectorXd expected = body.companion.S1.transpose() * fall.gravity;
+    EXPECT_LT((by_fall.force - expected).norm(), 1e-10 * expected.norm());
+    const MatrixXd R = formats::rigid_motions(body.element, Vector3d::Zero());
+    const VectorXd resultant = R.transpose() * by_wind.force;  // q L, and q L²/2 about z
+    EXPECT_NEAR(resultant[1], 0.1, 1e-12);
+    EXPECT_NEAR(resultant[5], 0.5, 1e-12);
+    const std::vector<int> free = free_rows(body, {0, 1, 2, 3, 4, 5});
+    const VectorXd y = body.element.stiffness(free, free).ldlt().solve(VectorXd(by_wind.force(free)));
+    EXPECT_NEAR(y[1] / (0.01 * 1e4 / (8.0 * 100.0)), 1.0, 1e-9);
+  }
+}
+
+TEST(SecondOrderReduction, LoadCasesAreWrittenWithoutSecondOrderToo) {
+  formats::Part part = cardona_beam(6, 2);
+  part.second_order = formats::SecondOrder::no;
+  part.load_cases.emplace_back();
+  part.load_cases[0].name = "fall";
+  part.load_cases[0].gravity = Vector3d(0, 0, -9.81);
+  const reducer::Reduction reduction = reduce(part);
+  ASSERT_TRUE(reduction.companion.has_value());
+  EXPECT_FALSE(reduction.companion->has_second_order());
+  ASSERT_EQ(reduction.companion->load_cases.size(), 1u);
+  EXPECT_EQ(reduction.companion->load_cases[0].stiffness.size(), 0);
+  Superelement element = reduction.superelement;
+  element.content_id = formats::content_id(element);
+  formats::check(*reduction.companion, element, "beam");
+}
+
 TEST(SecondOrderReduction, PartsSayWhetherTheyWantIt) {
   formats::Part part = cardona_beam(6, 2);
   const reducer::Reduction with = reduce(part);
@@ -356,14 +425,14 @@ TEST(SecondOrderReduction, PartsThatCannotDeformHaveNone) {
   Superelement element;
   element.node_position.setZero(1, 3);
   element.dof_node.assign(6, 0);
-  EXPECT_FALSE(reducer::wants_companion(part, element));
+  EXPECT_FALSE(reducer::wants_second_order(part, element));
   part.second_order = formats::SecondOrder::yes;
-  EXPECT_FALSE(reducer::wants_companion(part, element));
+  EXPECT_FALSE(reducer::wants_second_order(part, element));
   reducer::ModelCertificate model;
   reducer::describe_companion({}, part, element, model);
   EXPECT_THAT(model.notes, ::testing::ElementsAre(::testing::HasSubstr("the part cannot deform")));
   element.dof_node.push_back(-1);
-  EXPECT_TRUE(reducer::wants_companion(part, element));
+  EXPECT_TRUE(reducer::wants_second_order(part, element));
 }
 
 TEST(SecondOrderReduction, LargeOnesAreWrittenOnlyIfAskedFor) {
@@ -372,21 +441,21 @@ TEST(SecondOrderReduction, LargeOnesAreWrittenOnlyIfAskedFor) {
   Superelement element;
   element.dof_node.assign(165,
                           -1);  // 8 (165² 166/2 + 3 · 165² + 9 · 165 · 166) bytes = 20.7 MB; 160 coordinates: 19.0 MB
-  EXPECT_FALSE(reducer::wants_companion(part, element));
+  EXPECT_FALSE(reducer::wants_second_order(part, element));
   reducer::ModelCertificate model;
   reducer::describe_companion({}, part, element, model);
   ASSERT_EQ(model.notes.size(), 1u);
   EXPECT_THAT(model.notes[0], ::testing::HasSubstr("it would hold 21 MB; second_order: yes"));
   part.second_order = formats::SecondOrder::yes;
-  EXPECT_TRUE(reducer::wants_companion(part, element));
+  EXPECT_TRUE(reducer::wants_second_order(part, element));
   part.second_order = formats::SecondOrder::unless_large;
   element.dof_node.assign(160, -1);
-  EXPECT_TRUE(reducer::wants_companion(part, element));
+  EXPECT_TRUE(reducer::wants_second_order(part, element));
   element.dof_node.assign(501, -1);
-  EXPECT_FALSE(reducer::wants_companion(part, element));
+  EXPECT_FALSE(reducer::wants_second_order(part, element));
   part.second_order = formats::SecondOrder::yes;
   try {
-    static_cast<void>(reducer::wants_companion(part, element));
+    static_cast<void>(reducer::wants_second_order(part, element));
     FAIL() << "no error";
   } catch (const Error& error) {
     EXPECT_THAT(error.what(),

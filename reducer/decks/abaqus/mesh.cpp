@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -214,6 +215,41 @@ void fill_nodes(Model& model) {
   fill_ids(model);
 }
 
+namespace {
+
+bool lacks_section(const RawElement& element) {
+  return element.section < 0 && element.type->kind != ElementKind::ground_spring;
+}
+
+void add_missing_section(Model& model, const std::string& set, int count, const RawElement& first) {
+  const std::string element = model.element_text(first);
+  const std::string who = count == 1    ? element
+                          : set.empty() ? fmt::format("{} elements in no set, from {} on:", count, element)
+                                        : fmt::format("set '{}': {} elements, from {} on:", set, count, element);
+  model.findings.add(
+      who + (count == 1 ? " has no section" : " no section"), model.where(first),
+      "name the set in *SHELL SECTION, *SOLID SECTION, *BEAM SECTION, *MASS, *ROTARY INERTIA or *SPRING");
+}
+
+/// One finding per set; an element of several counts with the first by name.
+void find_missing_sections(Model& model) {
+  std::vector<bool> told(model.elements.size(), false);
+  const auto tell = [&](const std::string& set, const auto& rows) {
+    int count = 0, first = -1;
+    for (const int row : rows) {
+      if (told[row] || !lacks_section(model.elements[row])) continue;
+      told[row] = true;
+      first = count++ == 0 ? row : std::min(first, row);
+    }
+    if (count > 0) add_missing_section(model, set, count, model.elements[first]);
+  };
+  for (const Scope& scope : model.scopes)
+    for (const auto& [name, rows] : scope.element_sets) tell(name, rows);
+  tell("", std::views::iota(0, static_cast<int>(model.elements.size())));
+}
+
+}  // namespace
+
 void fill_elements(Model& model) {
   std::array<std::size_t, 3> count{};
   count_elements(model, count);
@@ -226,12 +262,9 @@ void fill_elements(Model& model) {
     } else if (element.type->kind == ElementKind::ground_spring) {
       SectionUse none;
       element.row = add_element(model, element, none);
-    } else {
-      model.findings.add(fmt::format("{} has no section", model.element_text(element)), model.where(element),
-                         "name its set in *SHELL SECTION, *SOLID SECTION, *BEAM SECTION, *MASS, *ROTARY INERTIA or "
-                         "*SPRING");
     }
   }
+  find_missing_sections(model);
 }
 
 }  // namespace tisserand::reducer::abaqus

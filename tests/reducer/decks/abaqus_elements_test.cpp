@@ -13,6 +13,7 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Corners of the reference elements of Abaqus and the corners between which its middle nodes lie, counted from 1
 /// (Abaqus, "Three-dimensional solid element library", node ordering).
@@ -141,6 +142,12 @@ TEST(AbaqusElements, ErrorsNameElementAndLine) {
               HasSubstr("4 nodes, but S3 has 3"));
   EXPECT_THAT(abaqus_error(abaqus_plate + "*ELEMENT, TYPE=S4\n2, 1, 2, 3, 4\n"),
               HasSubstr("element 2 (S4) has no section"));
+  const std::string many = abaqus_error(abaqus_plate +
+                                        "*ELEMENT, TYPE=S4, ELSET=skin\n2, 1, 2, 3, 4\n3, 1, 2, 3, 4\n"
+                                        "*ELEMENT, TYPE=S3\n4, 1, 2, 3\n5, 1, 2, 3\n");
+  EXPECT_THAT(many, AllOf(HasSubstr("set 'skin': 2 elements, from element 2 (S4) on: no section"),
+                          HasSubstr("2 elements in no set, from element 4 (S3) on: no section"),
+                          Not(HasSubstr("element 3")), Not(HasSubstr("element 5"))));
   EXPECT_THAT(abaqus_error(abaqus_plate + "*ELEMENT\n2, 1, 2, 3, 4\n"), HasSubstr("without TYPE"));
   EXPECT_THAT(abaqus_error("*NODE\n1, 1., nan, 0.\n"), HasSubstr("'nan' is no coordinate"));
   EXPECT_THAT(abaqus_error("*NODE, SYSTEM=S\n1, 1., 0., 0.\n"), HasSubstr("SYSTEM=S"));

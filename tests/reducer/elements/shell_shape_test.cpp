@@ -11,6 +11,7 @@
 namespace tisserand::reducer::shell_shape_test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -81,6 +82,29 @@ TEST(ShellShape, AspectAndThicknessOfTheWallAreWarned) {
   EXPECT_THAT(plausibility_warnings(one_shell(square(), steel(0.3)), Units::si()),
               ElementsAre(HasSubstr("are 0.3 thick and extend over 1.414")));
   EXPECT_THAT(plausibility_warnings(one_shell(square(), steel(0.28)), Units::si()), IsEmpty());
+}
+
+TEST(Plausibility, SpidersFarBesideThePartAreTold) {
+  Mesh mesh = one_shell(square(), steel(0.01));  // √2 large
+  const auto add = [&mesh](const std::string& name, const Eigen::Vector3d& at) {
+    mesh.position.conservativeResize(3, mesh.position.cols() + 1);
+    mesh.position.rightCols<1>() = at;
+    Spider spider;
+    spider.name = name;
+    spider.reference = static_cast<int>(mesh.position.cols()) - 1;
+    spider.nodes = {1, 2};
+    mesh.spiders.push_back(spider);
+  };
+  const Eigen::Vector3d corner = mesh.position.col(1);
+  add("hub", corner + Eigen::Vector3d(0.0, 0.0, 0.9));  // an arm shorter than the edge it grabs
+  EXPECT_THAT(plausibility_warnings(mesh, Units::si()), IsEmpty());
+  add("axle", corner + Eigen::Vector3d(0.0, 0.0, 3.2));
+  EXPECT_THAT(plausibility_warnings(mesh, Units::si()),
+              ElementsAre(AllOf(HasSubstr("spider 'axle' lies 3.2 m beside the part, which is 1.41 m large"),
+                                HasSubstr("unit of its coordinates"))));
+  add("pin", corner + Eigen::Vector3d(0.0, 0.0, 320.0));
+  EXPECT_THAT(plausibility_warnings(mesh, Units::consistent()),
+              ElementsAre(HasSubstr("spider 'pin' lies 320 beside the part, which is 1.41 large (and axle also lies")));
 }
 
 TEST(ShellShape, MaterialDirectionMustNotBeTheNormal) {

@@ -17,8 +17,6 @@
 #include "formats/results/results.hpp"
 #include "formats/sections/profiles.hpp"
 #include "formats/superelement/mirror.hpp"
-#include "formats/vtk/vtu.hpp"
-#include "reducer/elements/checks.hpp"
 #include "reducer/recover/places.hpp"
 #include "reducer/recovery/fields.hpp"
 #include "reducer/solve/files.hpp"
@@ -26,7 +24,6 @@
 #include "reducer/view/part_page.hpp"
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/recovery/recovered.hpp"
-#include "tests/support/meshes/solid_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/view/page_reader.hpp"
 #include "tests/support/vtk/vtu_reader.hpp"
@@ -237,7 +234,7 @@ TEST_F(Recover, OneOfSeveralBodiesIsChosen) {
   run_.y = {y_, mode};
   write(run_, file("run.results.h5"));
   RecoverRequest r = request();
-  EXPECT_THAT(error_of(r), AllOf(HasSubstr("holds 2 superelements"), HasSubstr("--body left")));
+  EXPECT_THAT(error_of(r), AllOf(HasSubstr("holds 2 superelements and modal bodies"), HasSubstr("--body left")));
   r.body = "right";
   r.points = {"0.6666666666666666,0,0"};
   reducer::recover(r);
@@ -259,6 +256,91 @@ TEST_F(Recover, TimesChooseTheNearestInstants) {
   EXPECT_EQ(series[1], std::pair(0.4, std::string("arm_00001.vtu")));
   r.times = {0.9};
   EXPECT_THAT(error_of(r), HasSubstr("time 0.9 is not within its instants 0 to 0.4"));
+}
+
+/// Results of a scene in mm, t, s with one modal body "arm", its frame and its coordinates w.
+void write_modal(const std::string& path, const formats::ModalBody& body, const VectorXd& w,
+                 const Eigen::Quaterniond& rotation) {
+  formats::ResultsLayout layout;
+  layout.scene = "test";
+  layout.producer = "tests";
+  layout.units = {{1e-3, "mm"}, {1e3, "t"}, {1.0, "s"}};
+  layout.nodes = {"arm"};
+  layout.modal_bodies = {"arm"};
+  layout.modal_offset = {0, static_cast<int>(w.size())};
+  layout.modes_offset = layout.boundary_offset = {0};
+  layout.channels = {"modal_bodies/w", "nodes/position", "nodes/rotation"};
+  layout.simulated.analysis = "dynamics";
+  layout.simulated.bodies.emplace_back();
+  layout.simulated.bodies[0].name = "arm";
+  layout.simulated.bodies[0].kind = "modal";
+  layout.simulated.bodies[0].content_id = formats::content_id(body);
+  layout.simulated.body_of_node = {0};
+  layout.simulated.node_reference = 1e3 * body.frame_position;
+  formats::ResultsWriter writer(path, layout);
+  formats::ResultsRow row;
+  row.resize(layout);
+  row.w = w;
+  row.node_position.col(0) << 100.0, 200.0, 300.0;
+  row.node_rotation.col(0) << rotation.w(), rotation.x(), rotation.y(), rotation.z();
+  writer.append(row);
+  writer.finish(true, "", "{}");
+}
+
+// A modal body has a file of its own: three of its modes in a scene of other units, the body itself and its image.
+TEST_F(Recover, ModalBodiesHaveTheirModesAndStresses) {
+  formats::Part part = cantilever();
+  part.modal_body.emplace();
+  part.modal_body->modes = 4;
+  part.modal_body->held = {{"base", 63}};
+  const auto [data, body] = recovered_modal_body(part);
+  write(data, file("arm.recovery.h5"));
+  const MatrixXd u = data.of(formats::RecoveryField::translation);
+  const int tip = reducer::find_node(data.tables, "tip", "test");
+  for (std::size_t k = 0; k < body.X.size(); ++k) {  // all nodes of the mesh, in its order
+    const MatrixXd Xd = body.X[k].topRows<3>();
+    EXPECT_LT((u.middleRows<3>(3 * static_cast<Index>(k)) - Xd).norm(), 1e-12 * u.norm()) << body.node_name[k];
+  }
+  const VectorXd w = (VectorXd(3) << 2e-3, -1e-3, 3e-4).finished();  // sqrt(kg) m
+  const Eigen::Quaterniond turned(Eigen::AngleAxisd(0.5 * M_PI, Vector3d::UnitZ()));
+  RecoverRequest r = request();
+  r.points = {"tip", "base"};
+  double stress = 0.0;
+  for (const Vector3d& axes : {Vector3d(1, 1, 1), Vector3d(1, -1, 1)}) {
+    const formats::ModalBody image = formats::mirrored({body, {}}, axes).body;
+    write_modal(file("run.results.h5"), image, w / std::sqrt(1e3) * 1e3, turned);
+    EXPECT_THAT(reducer::recover(r), AllOf(HasSubstr("body 'arm', 1 instants"), HasSubstr(" MPa at ")));
+    const std::vector<double> line = last_line(file("out/arm_points.csv"));
+    const Vector3d moved = 1e3 * axes.asDiagonal() * (u.middleRows<3>(3 * tip).leftCols<3>() * w);
+    const Vector3d rest = Vector3d(100, 200, 300) + turned * (1e3 * (Vector3d(length, 0, 0) - image.frame_position));
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_NEAR(line[1 + static_cast<std::size_t>(c)], (turned * moved)[c], 1e-6 * moved.norm());
+      EXPECT_NEAR(line[4 + static_cast<std::size_t>(c)], (rest + turned * moved)[c], 1e-5 * rest.norm());
+    }
+    if (stress > 0.0) {
+      EXPECT_DOUBLE_EQ(line[14], stress) << "the image bears the same stress";
+    }
+    stress = line[14];
+  }
+  // At the clamped end: bending moments of the modes, M = Σ w ω² m(x) with the inertia forces of the lumped masses.
+  double My = 0.0, Mz = 0.0, N = 0.0;
+  for (std::size_t k = 0; k < body.X.size(); ++k)
+    for (Index j = 0; j < 3; ++j) {
+      const double scale = w[j] * body.omega2[j] * body.node_mass[static_cast<Index>(k)];
+      const Vector3d f = scale * body.X[k].topRows<3>().col(j);
+      const Vector3d m = w[j] * body.omega2[j] * body.node_inertia[k] * body.X[k].bottomRows<3>().col(j);
+      const double arm = body.node_position(static_cast<Index>(k), 0) + body.frame_position.x();
+      N += f.x();
+      My += -arm * f.z() + m.y();
+      Mz += arm * f.y() + m.z();
+    }
+  const double b = 0.02, h = 0.03;
+  const double expected = std::abs(N) / (b * h) + std::abs(Mz) / (b * b * h / 6.0) + std::abs(My) / (b * h * h / 6.0);
+  EXPECT_NEAR(stress, 1e-6 * expected, 1e-5 * 1e-6 * expected);
+  r.recovery = file("other.recovery.h5");
+  write(data_, r.recovery);
+  EXPECT_THAT(error_of(r),
+              AllOf(HasSubstr("other.recovery.h5"), HasSubstr("belongs to the superelement or modal body")));
 }
 
 TEST_F(Recover, BadInputIsTold) {
@@ -394,55 +476,6 @@ TEST_F(Recover, PageShowsTheMeshAndItsModes) {
   EXPECT_LT((mean_at(length, u) - Vector3d(0, 1, 0)).norm(), 2e-2);  // largest: at a corner
   EXPECT_EQ(run["nodes"][1]["name"], "tip");
   EXPECT_LT((page.place(run, run["nodes"][1]["place"], 0) - Vector3d(length, 0, 0)).norm(), 1e-6);
-}
-
-// A tetrahedron that is turned inside out is refused by the reduction, and red on the page.
-TEST(PartPage, ShowsFaultyElementsInRed) {
-  Eigen::Matrix3Xd nodes = reducer::natural_nodes(reducer::SolidShape::tetrahedron4);
-  nodes.col(0).swap(nodes.col(1));
-  const reducer::Mesh mesh = reducer::one_solid(reducer::SolidShape::tetrahedron4, nodes, {});
-  reducer::ViewedPart part;
-  part.units = Units::si();
-  part.tables = reducer::mesh_tables(mesh);
-  part.faulty = reducer::faulty_elements(mesh);
-  EXPECT_EQ(part.faulty, std::vector<int>{0});
-  const test_support::PageReader page(reducer::part_page(part));
-  ASSERT_EQ(page.run()["bodies"].size(), 1u);
-  EXPECT_EQ(page.run()["bodies"][0]["name"], "1 faulty elements");
-  EXPECT_EQ(page.run()["bodies"][0]["colour"], "#d62728");
-  EXPECT_EQ(page.read(page.run()["shapes"][0]["triangles"]).rows(), 4);
-  EXPECT_TRUE(page.run()["modes"].is_null());
-}
-
-// Volume of one cell by VTK's order of nodes: the tetrahedra that fan from the first corner over the outer faces as VTK
-// defines them (wedge: base looks outwards).
-TEST(Vtu, CellsHaveTheOrientationOfVtk) {
-  for (const reducer::SolidShape shape : reducer::all_solid_shapes) {
-    const reducer::Mesh mesh = reducer::one_solid(shape, reducer::natural_nodes(shape), {});
-    formats::RecoveryElements elements;
-    elements.shape = {static_cast<formats::ElementShape>(3 + static_cast<int>(shape))};
-    elements.first = {0, reducer::node_count(shape)};
-    elements.node.assign(mesh.solids[0].nodes.begin(), mesh.solids[0].nodes.begin() + reducer::node_count(shape));
-    const formats::VtuCells cells = formats::vtu_cells(elements);
-    const auto at = [&](int k) -> Vector3d {
-      return mesh.position.col(cells.connectivity[static_cast<std::size_t>(k)]);
-    };
-    const auto middle = [&](int node, int a, int b) {
-      EXPECT_LT((at(node) - 0.5 * (at(a) + at(b))).norm(), 1e-12) << reducer::solid_name(shape) << node;
-    };
-    const Vector3d up = (at(1) - at(0)).cross(at(2) - at(0));
-    const bool wedge = cells.type[0] == 13 || cells.type[0] == 26;
-    EXPECT_GT((wedge ? -1.0 : 1.0) * up.dot(at(cells.type[0] == 12 || cells.type[0] == 25 ? 4 : 3) - at(0)), 0.0);
-    const std::vector<std::pair<int, int>> edges =
-        cells.type[0] == 24   ? std::vector<std::pair<int, int>>{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}
-        : cells.type[0] == 25 ? std::vector<std::pair<int, int>>{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6},
-                                                                 {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}
-        : cells.type[0] == 26
-            ? std::vector<std::pair<int, int>>{{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}
-            : std::vector<std::pair<int, int>>{};
-    const int corners = cells.type[0] == 24 ? 4 : cells.type[0] == 25 ? 8 : 6;
-    for (int e = 0; e < static_cast<int>(edges.size()); ++e) middle(corners + e, edges[e].first, edges[e].second);
-  }
 }
 
 }  // namespace

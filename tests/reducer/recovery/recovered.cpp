@@ -6,6 +6,26 @@
 
 namespace tisserand::testing {
 
+namespace {
+
+void keep(const reducer::RecoverySource& source, Recovered& result) {
+  std::array<Eigen::Index, 5> filled{};
+  result.tables = reducer::recovery_tables(source);
+  formats::check(result.tables, "part.recovery.h5");
+  for (const formats::RecoveryField field : formats::recovery_fields)
+    result.field[static_cast<std::size_t>(field)].resize(
+        static_cast<Eigen::Index>(formats::width(field)) * formats::items(result.tables, field),
+        result.tables.coordinates());
+  reducer::recovery_fields(source, result.tables, [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) {
+    const auto f = static_cast<std::size_t>(field);
+    result.field[f].middleRows(filled[f], rows.rows()) = rows;
+    filled[f] += rows.rows();
+  });
+  for (std::size_t f = 0; f < filled.size(); ++f) TISSERAND_ENSURE(filled[f] == result.field[f].rows(), "field {}", f);
+}
+
+}  // namespace
+
 Recovered recovered(const reducer::Mesh& mesh, int modes) {
   start_solvers();
   formats::Part part;
@@ -15,25 +35,23 @@ Recovered recovered(const reducer::Mesh& mesh, int modes) {
   part.modes.count = modes;
   part.recovery = true;
   Recovered result;
-  std::array<Eigen::Index, 5> filled{};
-  const auto keep = [&](const reducer::RecoverySource& source) {
-    result.tables = reducer::recovery_tables(source);
-    formats::check(result.tables, "part.recovery.h5");
-    for (const formats::RecoveryField field : formats::recovery_fields)
-      result.field[static_cast<std::size_t>(field)].resize(
-          static_cast<Eigen::Index>(formats::width(field)) * formats::items(result.tables, field),
-          result.tables.coordinates());
-    reducer::recovery_fields(source, result.tables, [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) {
-      const auto f = static_cast<std::size_t>(field);
-      result.field[f].middleRows(filled[f], rows.rows()) = rows;
-      filled[f] += rows.rows();
-    });
-  };
-  result.superelement = reducer::reduce_mesh(
-                            mesh, part, [](const std::string&) {}, keep)
-                            .superelement;
-  for (std::size_t f = 0; f < filled.size(); ++f) TISSERAND_ENSURE(filled[f] == result.field[f].rows(), "field {}", f);
+  result.superelement =
+      reducer::reduce_mesh(
+          mesh, part, [](const std::string&) {}, [&](const reducer::RecoverySource& source) { keep(source, result); })
+          .superelement;
   return result;
+}
+
+std::pair<Recovered, formats::ModalBody> recovered_modal_body(formats::Part part) {
+  start_solvers();
+  part.recovery = true;
+  Recovered result;
+  reducer::Reduction reduction = reducer::reduce(
+      part, [](const std::string&) {},
+      [&](const reducer::RecoverySource& source) {
+        if (source.is_modal) keep(source, result);
+      });
+  return {std::move(result), std::move(*reduction.modal_body)};
 }
 
 void set_boundary(reducer::Mesh& mesh, const std::vector<int>& nodes, bool rotations) {

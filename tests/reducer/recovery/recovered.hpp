@@ -3,10 +3,13 @@
 
 #include <array>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "formats/modal_body/modal_body.hpp"
+#include "formats/part/part.hpp"
 #include "formats/recovery/recovery.hpp"
 #include "reducer/mesh/mesh.hpp"
 
@@ -22,6 +25,9 @@ struct Recovered {
 
 /// Reduces the mesh with `modes` internal modes.
 Recovered recovered(const reducer::Mesh& mesh, int modes);
+
+/// What the part's modal body has for recovery, and that body.
+std::pair<Recovered, formats::ModalBody> recovered_modal_body(formats::Part part);
 
 /// Boundary nodes of six coordinates, or of translations, at these nodes, named b0, b1, ...
 void set_boundary(reducer::Mesh& mesh, const std::vector<int>& nodes, bool rotations);

@@ -52,6 +52,7 @@ INSTANTIATE_TEST_SUITE_P(Files, SamePlate,
 TEST(Cad, FaceIsConvertedToTheUnitsOfThePart) {
   for (const auto& [file, unit, size, length] : {std::tuple{"square.step", "mm", 60.0, 600.0},
                                                  {"square.step", "m", 0.06, 0.6},
+                                                 {"square.step", "km", 6e-5, 6e-4},  // read in mm: see below
                                                  {"square.igs", "cm", 6.0, 60.0}}) {
     const reducer::Mesh mesh = mesh_of(fmt::format(
         "units: {{length: {}, mass: kg, time: s}}\nmesh: {{file: {}{}, size: {}, cells: quadrilaterals}}\n"
@@ -139,6 +140,19 @@ TEST(Geometry, SecondOrderFacesAreNoShells) {
                        "square.step, order: 2}\n"
                        "shells: {s: {on: all, thickness: 10, material: steel}}\nboundary: {o: {near: [0, 0, 0]}}\n"),
               AllOf(HasSubstr("is of second order (6 nodes)"), HasSubstr("order: 1")));
+}
+
+TEST(Geometry, WhatTheTolerancesOfGmshDoNotResolveIsRefused) {
+  const PartText part(
+      "mesh: {file: chip.geo}\nshells: {s: {on: all, thickness: 1e-6, material: steel}}\n"
+      "boundary: {o: {near: [0, 0, 0]}}\n");
+  write_text_file(part.file("chip.geo"), "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 3e-5, 4e-5};\n");
+  EXPECT_THAT(part.error(), AllOf(HasSubstr("chip.geo"), HasSubstr("the geometry is 5e-05 of its units large"),
+                                  HasSubstr("scale under mesh")));
+  EXPECT_THAT(error_of("mesh: {file: " + meshes +
+                       "square.step, size: 1e-6}\n"
+                       "shells: {s: {on: all, thickness: 0.1, material: steel}}\nboundary: {o: {near: [0, 0, 0]}}\n"),
+              AllOf(HasSubstr("would make about"), HasSubstr("the geometry is 0.72")));  // of 0.6 x 0.4 m
 }
 
 /// The error for a file with this content and name.
