@@ -307,7 +307,7 @@ void open_geometry(GeometryRequest& request) {
   const auto unit = millimetres.find(request.target_unit);
   const bool has_units = request.kind == MeshFileKind::step || request.kind == MeshFileKind::iges;
   if (has_units && unit != millimetres.end() && size_of_model() < 1e-3) {
-    gmsh::clear();
+    gmsh::model::remove();
     request.target_unit = "MM";
     request.scale /= unit->second;
     open_file(request);

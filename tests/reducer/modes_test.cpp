@@ -276,18 +276,18 @@ TEST(EigenvalueSolver, ThatMissesModesIsAnError) {
               AllOf(HasSubstr("internal modes found where"), HasSubstr("eigenvalue solver")));
 }
 
-// The factor of another part: what is found are no modes.
-TEST(EigenvalueSolver, ThatDoesNotConvergeIsAnError) {
+// The factor of a softer part: its eigenvalues are not those that are counted.
+TEST(EigenvalueSolver, ThatSolvesAnotherProblemIsAnError) {
   const Pieces p = pieces_of(grid(4, 3));
   reducer::SymmetricPair altered = p.system.matrices;
-  for (int q = 0; q < altered.size(); ++q) altered.S[altered.begin[q]] *= 1.0 + 0.1 * (q % 7);
+  for (double& value : altered.S) value *= 0.3;
   const reducer::Factor other(reducer::split(altered, p.partition).S_II);
   EXPECT_THAT(test_support::error_of([&] {
                 reducer::lowest_pairs({p.blocks.S_II, p.blocks.M_II, other, 0.0}, 10,
                                       reducer::finite_mode_count(p.blocks.M_II), reducer::EigenSolver::block_lanczos,
-                                      reducer::Count::never);
+                                      reducer::Count::always);
               }),
-              AllOf(HasSubstr("relative residual"), HasSubstr("eigenvalue solver")));
+              HasSubstr("internal modes found where"));
 }
 
 TEST(Memory, PartsThatDoNotFitAreRefusedBeforeTheyAreFactored) {

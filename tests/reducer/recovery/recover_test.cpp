@@ -290,6 +290,7 @@ void write_modal(const std::string& path, const formats::ModalBody& body, const 
 // A modal body has a file of its own: three of its modes in a scene of other units, the body itself and its image.
 TEST_F(Recover, ModalBodiesHaveTheirModesAndStresses) {
   formats::Part part = cantilever();
+  part.units = Units::si();
   part.modal_body.emplace();
   part.modal_body->modes = 4;
   part.modal_body->held = {{"base", 63}};

@@ -147,7 +147,7 @@ TEST(Geometry, WhatTheTolerancesOfGmshDoNotResolveIsRefused) {
       "mesh: {file: chip.geo}\nshells: {s: {on: all, thickness: 1e-6, material: steel}}\n"
       "boundary: {o: {near: [0, 0, 0]}}\n");
   write_text_file(part.file("chip.geo"), "SetFactory(\"OpenCASCADE\");\nRectangle(1) = {0, 0, 0, 3e-5, 4e-5};\n");
-  EXPECT_THAT(part.error(), AllOf(HasSubstr("chip.geo"), HasSubstr("the geometry is 5e-05 of its units large"),
+  EXPECT_THAT(part.error(), AllOf(HasSubstr("chip.geo"), HasSubstr("the geometry is 5.03e-05 of its units large"),
                                   HasSubstr("scale under mesh")));
   EXPECT_THAT(error_of("mesh: {file: " + meshes +
                        "square.step, size: 1e-6}\n"
