@@ -64,6 +64,15 @@ void Phases::share(double done) {
   if (running_) phases_.back().share = done;
 }
 
+void Phases::solve(int columns) {
+  const std::lock_guard lock(mutex_);
+  columns_ += columns;
+  if (columns > 0)
+    solving_since_ = processor_seconds();
+  else
+    solving_seconds_ += processor_seconds() - solving_since_;
+}
+
 void Phases::end() {
   const std::lock_guard lock(mutex_);
   if (running_) {
@@ -82,6 +91,16 @@ std::string Phases::text() const {
 std::string Phases::processor_text() const {
   const std::lock_guard lock(mutex_);
   return listed_times(phases_, &Phase::processor_seconds);
+}
+
+int Phases::columns() const {
+  const std::lock_guard lock(mutex_);
+  return columns_;
+}
+
+std::string Phases::solutions_text() const {
+  const std::lock_guard lock(mutex_);
+  return fmt::format("{} columns {:.3f} s", columns_, solving_seconds_);
 }
 
 void Phases::watch() {
