@@ -78,14 +78,15 @@ std::unique_ptr<formats::RecoveryWriter> write_recovery(const RecoverySource& so
   return writer;
 }
 
-/// "time", "processor time", "substitutions"; of several processes the times of the first, whose substitutions are
-/// shared.
+/// "time", "processor time", "peak memory", "substitutions"; of several processes those of the first, and no
+/// substitutions, which are shared.
 std::string times_text(const Phases& phases) {
-  const std::string times =
-      fmt::format("{:<19}{}\n{:<19}{}\n", "time", phases.text(), "processor time", phases.processor_text());
-  if (rank_count() == 1)
-    return phases.columns() == 0 ? times : fmt::format("{}{:<19}{}\n", times, "substitutions", phases.solutions_text());
-  return fmt::format("{}{:<19}{}, times of the first\n", times, "processes", rank_count());
+  std::string text = fmt::format("{:<19}{}\n{:<19}{}\n{:<19}{}\n", "time", phases.text(), "processor time",
+                                 phases.processor_text(), "peak memory", phases.memory_text());
+  if (rank_count() > 1)
+    return text + fmt::format("{:<19}{}, times and memory of the first\n", "processes", rank_count());
+  if (phases.columns() > 0) text += fmt::format("{:<19}{}\n", "substitutions", phases.solutions_text());
+  return text;
 }
 
 /// "companion.h5 (1.2 MB: second order of 24 coordinates, load cases gust, weight)".

@@ -1,5 +1,7 @@
-// Time per phase and the thread that reports long ones.
+// Time and memory per phase and the thread that reports long ones.
 #include "reducer/report/phases.hpp"
+
+#include <sys/resource.h>
 
 #include <cstdio>
 #include <ctime>
@@ -17,6 +19,12 @@ double processor_seconds() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// The most that this process has held at one time (Linux counts in 1024 bytes).
+double peak_bytes() {
+  rusage usage{};
+  return getrusage(RUSAGE_SELF, &usage) == 0 ? 1024.0 * static_cast<double>(usage.ru_maxrss) : 0.0;
 }
 
 /// "mesh 0.010 s, ..., total 0.310 s".
@@ -78,6 +86,7 @@ void Phases::end() {
   if (running_) {
     phases_.back().seconds = seconds_since(phases_.back().start);
     phases_.back().processor_seconds = processor_seconds() - phases_.back().processor_start;
+    phases_.back().peak_bytes = peak_bytes();
   }
   running_ = false;
   changed_.notify_all();
@@ -91,6 +100,14 @@ std::string Phases::text() const {
 std::string Phases::processor_text() const {
   const std::lock_guard lock(mutex_);
   return listed_times(phases_, &Phase::processor_seconds);
+}
+
+std::string Phases::memory_text() const {
+  const std::lock_guard lock(mutex_);
+  std::string text;
+  for (const Phase& phase : phases_)
+    text += fmt::format("{}{} {:.0f} MB", text.empty() ? "" : ", ", phase.name, 1e-6 * phase.peak_bytes);
+  return text;
 }
 
 int Phases::columns() const {

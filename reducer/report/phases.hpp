@@ -1,4 +1,4 @@
-// Time per phase of a reduction, and a sign of life on stderr when one takes longer than a second.
+// Time and memory per phase of a reduction, and a sign of life on stderr when one takes longer than a second.
 #pragma once
 
 #include <chrono>
@@ -28,6 +28,8 @@ class Phases {
   std::string text() const;
   /// The same of the processor, all threads together.
   std::string processor_text() const;
+  /// "mesh 61 MB, assembly 102 MB, ...": the most that the process has held until the end of each phase.
+  std::string memory_text() const;
   /// How many columns were solved in all.
   int columns() const;
   /// "126 columns 0.512 s" by the processor, all phases together.
@@ -42,6 +44,7 @@ class Phases {
     double share = 0.0;
     double processor_start = 0.0;
     double processor_seconds = 0.0;
+    double peak_bytes = 0.0;
   };
   void watch();
 
