@@ -78,11 +78,15 @@ std::unique_ptr<formats::RecoveryWriter> write_recovery(const RecoverySource& so
   return writer;
 }
 
-/// "time", "processor time", of several processes that of the first.
+/// "time", "processor time", "peak memory", "substitutions"; of several processes those of the first, and no
+/// substitutions, which are shared.
 std::string times_text(const Phases& phases) {
-  const std::string times =
-      fmt::format("{:<19}{}\n{:<19}{}\n", "time", phases.text(), "processor time", phases.processor_text());
-  return rank_count() == 1 ? times : fmt::format("{}{:<19}{}, times of the first\n", times, "processes", rank_count());
+  std::string text = fmt::format("{:<19}{}\n{:<19}{}\n{:<19}{}\n", "time", phases.text(), "processor time",
+                                 phases.processor_text(), "peak memory", phases.memory_text());
+  if (rank_count() > 1)
+    return text + fmt::format("{:<19}{}, times and memory of the first\n", "processes", rank_count());
+  if (phases.columns() > 0) text += fmt::format("{:<19}{}\n", "substitutions", phases.solutions_text());
+  return text;
 }
 
 /// "companion.h5 (1.2 MB: second order of 24 coordinates, load cases gust, weight)".
@@ -112,13 +116,14 @@ int run(const Arguments& arguments) {
   phases.begin("start solvers");
   const SolverSession session;
   std::map<std::string, std::unique_ptr<formats::RecoveryWriter>> recoveries;
-  Reduction reduction = reduce(part,
-                               PhaseListener([&phases](const std::string& phase) { phases.begin(phase); },
-                                             [&phases](double done) { phases.share(done); }),
-                               [&](const RecoverySource& source) {
-                                 const std::string path = formats::recovery_path(source.is_modal ? modal_body : output);
-                                 recoveries[path] = write_recovery(source, path);
-                               });
+  Reduction reduction = reduce(
+      part,
+      PhaseListener([&phases](const std::string& phase) { phases.begin(phase); },
+                    [&phases](double done) { phases.share(done); }, [&phases](int columns) { phases.solve(columns); }),
+      [&](const RecoverySource& source) {
+        const std::string path = formats::recovery_path(source.is_modal ? modal_body : output);
+        recoveries[path] = write_recovery(source, path);
+      });
   phases.begin("write");
   formats::write_superelement(output, reduction.superelement);
   for (const auto& [path, recovery] : recoveries) recovery->finish();

@@ -24,7 +24,7 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   const formats::RigidProperties rigid = require_mass(system, part.file);
   const Partition coordinates = partition(mesh, system);
   const Blocks blocks = take_apart(system, coordinates, part.modes.method);
-  const Factor S_II = factor_inside(blocks, coordinates, part, begin);
+  const Factor S_II = factor_inside(blocks, coordinates, part, begin, begin.solve);
   check_no_mechanism(S_II, mesh, system, coordinates, part.file);
 
   begin("boundary modes");

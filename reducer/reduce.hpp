@@ -24,16 +24,21 @@ struct Reduction {
   std::optional<formats::ModalBody> modal_body;  ///< the same part as a floating-frame body, if it asks for it
 };
 
-/// Hears when a phase begins, by its name, and how much of it is done: the caller measures time and shows progress.
+/// Hears when a phase begins, by its name, how much of it is done, and when substitutions with the factor of the inside
+/// begin and end: the caller measures time and shows progress.
 struct PhaseListener {
   template <class Begin>
   PhaseListener(Begin heard) : begin(std::move(heard)) {}
   template <class Begin, class Share>
   PhaseListener(Begin heard, Share done) : begin(std::move(heard)), share(std::move(done)) {}
+  template <class Begin, class Share, class Solve>
+  PhaseListener(Begin heard, Share done, Solve columns)
+      : begin(std::move(heard)), share(std::move(done)), solve(std::move(columns)) {}
   void operator()(const std::string& phase) const { begin(phase); }
 
   std::function<void(const std::string& phase)> begin;
   std::function<void(double)> share = [](double /*done*/) {};  ///< 0 to 1, about
+  std::function<void(int)> solve;                              ///< Factor::tell_solutions
 };
 
 /// `recover` hears what recovery files are made from, of the superelement and of the modal body, where the part asks

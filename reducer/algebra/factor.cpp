@@ -48,6 +48,14 @@ int Factor::null() const { return mumps() == nullptr ? 0 : mumps()->null(); }
 
 Eigen::MatrixXd Factor::solve(const Eigen::MatrixXd& B) const {
   if (size_ == 0) return Eigen::MatrixXd(0, B.cols());
+  if (!heard_ || B.cols() == 0) return solution(B);
+  heard_(static_cast<int>(B.cols()));
+  Eigen::MatrixXd X = solution(B);
+  heard_(0);
+  return X;
+}
+
+Eigen::MatrixXd Factor::solution(const Eigen::MatrixXd& B) const {
   if (shared_ != nullptr) return shared_->solve(B);
   return definite_ != nullptr ? definite_->solve(B) : indefinite_->solve(B);
 }

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -32,6 +33,8 @@ class Factor {
   /// Entries and operations of L; of MUMPS by its own estimate.
   const FactorCost& cost() const { return cost_; }
 
+  /// `heard` hears the number of columns when a solution begins, and 0 when it ends: for whoever has a clock.
+  void tell_solutions(std::function<void(int)> heard) { heard_ = std::move(heard); }
   /// A⁻¹ B. Only if null() is 0.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
   /// A basis of the null space (n x null()).
@@ -42,10 +45,12 @@ class Factor {
  private:
   void factor_indefinite(const Matrix& A, double null_pivot, const std::function<void(const FactorCost&)>& accept);
   const Mumps* mumps() const;
+  Eigen::MatrixXd solution(const Eigen::MatrixXd& B) const;
 
   std::unique_ptr<Cholesky> definite_;
   std::unique_ptr<Mumps> indefinite_;
   std::unique_ptr<SharedFactor> shared_;
+  std::function<void(int)> heard_;
   FactorCost cost_;
   int size_ = 0;
 };

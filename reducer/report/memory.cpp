@@ -96,10 +96,10 @@ void require_memory(double need, double available, const Partition& p, const std
 }
 
 Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Part& part,
-                     const std::function<void(const std::string&)>& begin) {
+                     const std::function<void(const std::string&)>& begin, const std::function<void(int)>& solve) {
   begin("ordering");
   if (p.n_I() == 0) return {};
-  return Factor(blocks.S_II, [&](const FactorCost& cost) {
+  Factor factor(blocks.S_II, [&](const FactorCost& cost) {
     const SymmetricRows rows = symmetric_rows(blocks.S_II);
     const double here = static_cast<double>(ranks_beside_leader()) / rank_count();  // of a factor that is shared
     const double need = memory_need({here * cost.entries, cost.operations}, rows.begin[rows.size], p, part.modes.count,
@@ -107,6 +107,8 @@ Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Pa
     require_memory(need, available_memory(), p, part.file);
     begin(fmt::format("factorisation ({:.2g} GB{})", need / gigabyte, time_text(cost.operations)));
   });
+  factor.tell_solutions(solve);
+  return factor;
 }
 
 }  // namespace tisserand::reducer

@@ -22,8 +22,9 @@ double available_memory();
 void require_memory(double need, double available, const Partition& p, const std::string& where);
 
 /// Factors S_II after its memory has been found to suffice; begins the phase "factorisation (1.2 GB, about 12 s)",
-/// which tells the need, and the time where it is seconds. Of a part without inside: an empty factor.
+/// which tells the need, and the time where it is seconds. Of a part without inside: an empty factor. `solve` hears of
+/// its solutions.
 Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Part& part,
-                     const std::function<void(const std::string&)>& begin);
+                     const std::function<void(const std::string&)>& begin, const std::function<void(int)>& solve);
 
 }  // namespace tisserand::reducer

@@ -1,5 +1,7 @@
-// Time per phase and the thread that reports long ones.
+// Time and memory per phase and the thread that reports long ones.
 #include "reducer/report/phases.hpp"
+
+#include <sys/resource.h>
 
 #include <cstdio>
 #include <ctime>
@@ -17,6 +19,12 @@ double processor_seconds() {
   timespec time{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// The most that this process has held at one time (Linux counts in 1024 bytes).
+double peak_bytes() {
+  rusage usage{};
+  return getrusage(RUSAGE_SELF, &usage) == 0 ? 1024.0 * static_cast<double>(usage.ru_maxrss) : 0.0;
 }
 
 /// "mesh 0.010 s, ..., total 0.310 s".
@@ -64,11 +72,21 @@ void Phases::share(double done) {
   if (running_) phases_.back().share = done;
 }
 
+void Phases::solve(int columns) {
+  const std::lock_guard lock(mutex_);
+  columns_ += columns;
+  if (columns > 0)
+    solving_since_ = processor_seconds();
+  else
+    solving_seconds_ += processor_seconds() - solving_since_;
+}
+
 void Phases::end() {
   const std::lock_guard lock(mutex_);
   if (running_) {
     phases_.back().seconds = seconds_since(phases_.back().start);
     phases_.back().processor_seconds = processor_seconds() - phases_.back().processor_start;
+    phases_.back().peak_bytes = peak_bytes();
   }
   running_ = false;
   changed_.notify_all();
@@ -82,6 +100,24 @@ std::string Phases::text() const {
 std::string Phases::processor_text() const {
   const std::lock_guard lock(mutex_);
   return listed_times(phases_, &Phase::processor_seconds);
+}
+
+std::string Phases::memory_text() const {
+  const std::lock_guard lock(mutex_);
+  std::string text;
+  for (const Phase& phase : phases_)
+    text += fmt::format("{}{} {:.0f} MB", text.empty() ? "" : ", ", phase.name, 1e-6 * phase.peak_bytes);
+  return text;
+}
+
+int Phases::columns() const {
+  const std::lock_guard lock(mutex_);
+  return columns_;
+}
+
+std::string Phases::solutions_text() const {
+  const std::lock_guard lock(mutex_);
+  return fmt::format("{} columns {:.3f} s", columns_, solving_seconds_);
 }
 
 void Phases::watch() {

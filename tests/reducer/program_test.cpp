@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
@@ -89,6 +90,28 @@ TEST_F(Program, RunWritesSuperelementAndCertificateBesideThePart) {
   const Outcome show = call("show " + (folder / "beam.superelement.h5").string());
   EXPECT_EQ(show.code, 0);
   EXPECT_THAT(show.text, AllOf(HasSubstr("free, full"), HasSubstr("first dropped"), HasSubstr("mass 9.927684")));
+}
+
+// Two boundary nodes: a column of boundary modes and one of the flexibility for each of 12 coordinates. A mode takes
+// one column at least, that of its residual. The peak of a process never falls.
+TEST_F(Program, RunTellsMemoryByPhaseAndColumnsSolved) {
+  const auto columns = [&](int modes) {
+    const Outcome run = call("run " + part + " --set second_order=no --set modes=" + std::to_string(modes));
+    EXPECT_EQ(run.code, 0) << run.text;
+    std::smatch peak, solved;
+    EXPECT_TRUE(std::regex_search(run.text, peak, std::regex("\npeak memory +(read .* MB, write [0-9]+ MB)\n")));
+    double before = 1.0;
+    const std::regex number("[a-z)] ([0-9]+) MB");
+    const std::string text = peak[1];
+    for (std::sregex_iterator it(text.begin(), text.end(), number), end; it != end; ++it) {
+      EXPECT_GE(std::stod((*it)[1]), before) << text;
+      before = std::stod((*it)[1]);
+    }
+    EXPECT_TRUE(
+        std::regex_search(run.text, solved, std::regex("\nsubstitutions +([0-9]+) columns [0-9]+\\.[0-9]+ s\n")));
+    return solved.size() > 1 ? std::stoi(solved[1]) : 0;
+  };
+  for (const int modes : {8, 16}) EXPECT_GE(columns(modes), 12 + 12 + modes);
 }
 
 TEST_F(Program, RunWritesTheModalBodyThatThePartAsksFor) {

@@ -293,11 +293,13 @@ TEST_F(Recover, ModalBodiesHaveTheirModesAndStresses) {
   part.units = Units::si();
   part.modal_body.emplace();
   part.modal_body->modes = 4;
+  part.modal_body->all_nodes = true;
   part.modal_body->held = {{"base", 63}};
   const auto [data, body] = recovered_modal_body(part);
   write(data, file("arm.recovery.h5"));
   const MatrixXd u = data.of(formats::RecoveryField::translation);
   const int tip = reducer::find_node(data.tables, "tip", "test");
+  ASSERT_EQ(static_cast<int>(body.X.size()), data.tables.nodes());
   for (std::size_t k = 0; k < body.X.size(); ++k) {  // all nodes of the mesh, in its order
     const MatrixXd Xd = body.X[k].topRows<3>();
     EXPECT_LT((u.middleRows<3>(3 * static_cast<Index>(k)) - Xd).norm(), 1e-12 * u.norm()) << body.node_name[k];
