@@ -12,6 +12,7 @@
 #include "common/text.hpp"
 #include "formats/hdf5/head.hpp"
 #include "formats/superelement/names.hpp"
+#include "formats/superelement/rigid_strain.hpp"
 #include "formats/superelement/scaling.hpp"
 
 namespace tisserand::formats {
@@ -212,19 +213,39 @@ void check_rigid_rank(const Superelement& e, const Place& place) {
   fail(fmt::format("turning about the line {}-{}", name(std::min(other, far)), name(std::max(other, far))), remedy);
 }
 
-/// max |S R| in scaled coordinates; throws above the limit of the filter.
-double check_rigid_residual(const Superelement& e, const Eigen::MatrixXd& scaled, const Eigen::MatrixXd& R,
-                            const Place& place) {
+/// Throws if rigid motions meet more resistance than projection may remove. `bound` are errors of the entries of
+/// `scaled`.
+void check_rigid_strain(const Superelement& e, const Eigen::MatrixXd& scaled, const Eigen::MatrixXd& R,
+                        const Eigen::MatrixXd& bound, SuperelementReport& report, const Place& place) {
   static constexpr const char* motions[] = {"moving in x",     "moving in y",     "moving in z",
                                             "turning about x", "turning about y", "turning about z"};
+  const std::string positions =
+      "check positions of nodes and their unit, signs and order of rotations (in radians), or whether the part was "
+      "fixed to the ground";
   Eigen::Index row = 0, motion = 0;
-  const double residual = (scaled * R).cwiseAbs().maxCoeff(&row, &motion);
-  if (residual <= rigid_residual_filtered) return residual;
-  throw Error(
-      fmt::format("the part resists rigid motion: {} gives a relative force of {:.3e} (at most {:g}) in {}",
-                  motions[motion], residual, rigid_residual_filtered, row_text(e, row)),
-      place.dataset("/stiffness"),
-      "check signs, rotation parametrisation and units of positions, or whether the part was fixed to the ground");
+  report.rigid_residual = (scaled * R).cwiseAbs().maxCoeff(&row, &motion);
+  if (report.rigid_residual <= rigid_residual_exact) return;
+  if (report.rigid_residual > rigid_residual_filtered)
+    throw Error(fmt::format("the part resists rigid motion: {} gives a relative force of {:.3e} (at most {:g}) in {}",
+                            motions[motion], report.rigid_residual, rigid_residual_filtered, row_text(e, row)),
+                place.dataset("/stiffness"), positions);
+  const RigidStrain strain = rigid_strain(0.5 * (scaled + scaled.transpose()), R, bound);
+  report.rigid_change = strain.change;
+  const bool explained = strain.cause == RigidStrainCause::rounding;
+  if (strain.change <= (explained ? rigid_change_rounding : rigid_change_accepted)) return;
+  const std::string found = fmt::format(
+      "the part resists rigid motion: {} gives a relative force of {:.3e} in {}, {:.3g} times what its softest "
+      "deformation takes",
+      motions[strain.motion], strain.force, row_text(e, strain.row), strain.change);
+  const std::string digits = report.rounding.empty() ? "" : fmt::format(" ({})", report.rounding);
+  if (explained)
+    throw Error(fmt::format("{} (at most {:g}); rounding of the entries{} may explain this, but then they do not hold "
+                            "that deformation",
+                            found, rigid_change_rounding, digits),
+                place.dataset("/stiffness"), "write the matrix with more digits; if it has them, " + positions);
+  throw Error(fmt::format("{} (at most {:g}), and rounding of the entries{} does not explain it", found,
+                          rigid_change_accepted, digits),
+              place.dataset("/stiffness"), positions);
 }
 
 void check_rigid_mass(const Superelement& e, double length, const Place& place) {
@@ -280,7 +301,29 @@ void check_inertia(const Superelement& e, double length, SuperelementReport& rep
 
 }  // namespace
 
+bool needs_filter(const SuperelementReport& report) {
+  return report.rigid_residual > rigid_residual_accepted || report.rigid_change > rigid_change_accepted;
+}
+
+std::string filter_note(const SuperelementReport& report, const std::string& where) {
+  const std::string note = fmt::format(
+      "{}: rigid motions strain the part (relative force {:.3e}, {:.1e} times what its softest deformation takes); "
+      "this was removed from /stiffness by projection",
+      where, report.rigid_residual, report.rigid_change);
+  if (report.rigid_change <= rigid_change_accepted) return note + ".";
+  return note + fmt::format(
+                    ". Rounding of the entries{} explains it and leaves the stiffness of that deformation uncertain by "
+                    "about as much; a matrix with more digits would not.",
+                    report.rounding.empty() ? "" : fmt::format(" ({})", report.rounding));
+}
+
 SuperelementReport check(const Superelement& element, const std::string& where) {
+  const bool square = element.stiffness.rows() == element.size() && element.stiffness.cols() == element.size();
+  return check(element, where,
+               square && element.stiffness.allFinite() ? entry_errors(element.stiffness) : EntryErrors{});
+}
+
+SuperelementReport check(const Superelement& element, const std::string& where, const EntryErrors& errors) {
   const Place place{where};
   hdf5::check_units(element.units, where);
   check_sizes(element, place);
@@ -304,8 +347,12 @@ SuperelementReport check(const Superelement& element, const std::string& where) 
 
   SuperelementReport report;
   report.characteristic_length = s.length;
-  report.rigid_residual = check_rigid_residual(element, S, R, place);
-  if (report.rigid_residual > rigid_residual_accepted) {
+  report.rounding = errors.reason;
+  Eigen::MatrixXd bound;
+  if (errors.bound.size() > 0)
+    bound = s.stiffness_row.asDiagonal() * errors.bound * s.stiffness_row.asDiagonal() / s.stiffness_scale;
+  check_rigid_strain(element, S, R, bound, report, place);
+  if (needs_filter(report)) {
     Superelement filtered = element;
     filter_rigid_motions(filtered);
     S = s.stiffness_row.asDiagonal() * filtered.stiffness * s.stiffness_row.asDiagonal() / s.stiffness_scale;

@@ -9,8 +9,8 @@
 
 namespace tisserand::formats {
 
-inline constexpr double rigid_residual_accepted = 1e-9;  ///< as it is
-inline constexpr double rigid_residual_filtered = 1e-4;  ///< removed by projection; above: Error
+inline constexpr double rigid_residual_accepted = 1e-9;  ///< as it is, unless the softest deformation feels it
+inline constexpr double rigid_residual_filtered = 1e-4;  ///< removed by projection at most; above: Error
 inline constexpr Eigen::Index max_coordinates = 10000;   ///< n; bounds the memory that a file can ask for
 
 /// Largest distance of a node from the mean of the nodes; 1 if that is 0.

@@ -201,12 +201,10 @@ LoadedSuperelement read_rehearsed_superelement(const std::string& path) {
   if (!file.content_id)
     loaded.report.warnings.push_back(path + ": has no attribute 'content_id', so that damage cannot be noticed.");
   if (!file.unknown.empty()) loaded.report.warnings.push_back(file.unknown);
-  if (loaded.report.rigid_residual > rigid_residual_accepted) {
+  if (needs_filter(loaded.report)) {
     filter_rigid_motions(e);
     loaded.report.filtered = true;
-    loaded.report.warnings.push_back(fmt::format(
-        "{}: rigid motions strain the part (relative force {:.3e}); this was removed from /stiffness by projection.",
-        path, loaded.report.rigid_residual));
+    loaded.report.warnings.push_back(filter_note(loaded.report, path));
   }
   return loaded;
 }

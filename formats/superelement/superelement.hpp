@@ -40,6 +40,8 @@ struct RigidProperties {
 struct SuperelementReport {
   double characteristic_length = 1.0;  ///< l = max distance of a node from the mean of the nodes (1 if 0)
   double rigid_residual = 0.0;         ///< max |S R| / (max |S|), rotations scaled with the characteristic length
+  double rigid_change = 0.0;           ///< of the softest deformation by that residual (rigid_strain.hpp); 0: round-off
+  std::string rounding;                ///< "10 digits", "single precision": what entries of S have; empty: double
   bool filtered = false;               ///< read_superelement() has projected the rigid motions out of S̄
   RigidProperties rigid;
   std::vector<std::string> warnings;
@@ -57,8 +59,18 @@ Eigen::MatrixXd rigid_motions(const Superelement& element, const Eigen::Vector3d
 /// From M̄ alone.
 RigidProperties rigid_properties(const Superelement& element);
 
-/// All that SUPERELEMENT.md demands. `where` is the file name in messages. Throws Error.
+struct EntryErrors;
+
+/// All that SUPERELEMENT.md demands. `where` is the file name in messages. Throws Error. `errors` are those of the
+/// entries of S; without them its digits are counted, which a turn of axes before this would have hidden.
 SuperelementReport check(const Superelement& element, const std::string& where);
+SuperelementReport check(const Superelement& element, const std::string& where, const EntryErrors& errors);
+
+/// Whether rigid motions are to be projected out of S: residual above 1e-9, or felt by the softest deformation.
+bool needs_filter(const SuperelementReport& report);
+
+/// The sentence for the user once that was done.
+std::string filter_note(const SuperelementReport& report, const std::string& where);
 
 /// S <- Piᵀ S Pi with Pi = 1 − R R⁺: removes a small rigid-mode residual.
 void filter_rigid_motions(Superelement& element);
@@ -66,7 +78,7 @@ void filter_rigid_motions(Superelement& element);
 /// SHA-256 over dof table, names, positions, S, M as stored.
 std::string content_id(const Superelement& element);
 
-/// Reads, checks and (residual between 1e-9 and 1e-4) filters. Throws Error naming dataset, indices, value and meaning.
+/// Reads, checks and (needs_filter()) filters. Throws Error naming dataset, indices, value and meaning.
 LoadedSuperelement read_superelement(const std::string& path);
 
 /// Many files at less cost: HDF5 can crash on a damaged file, so each is read in a child process first, which takes

@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "formats/superelement/canonical.hpp"
+#include "formats/superelement/rigid_strain.hpp"
 
 namespace tisserand::reducer::exchange {
 namespace {
@@ -53,8 +54,10 @@ void require_places(const ReducedMatrices& matrices, const Order& order) {
   if (!errors.empty()) throw merge_errors(errors);
 }
 
-/// Components of nodes with axes of their own, turned into the part frame: A <- T A Tᵀ.
-void turn_axes(const ReducedMatrices& matrices, const Order& order, Eigen::MatrixXd& A, Eigen::MatrixXd& B) {
+enum class Turned { values, bounds };
+
+/// Components of nodes with axes of their own, turned into the part frame: A <- T A Tᵀ; with |T| for bounds of entries.
+void turn_axes(const ReducedMatrices& matrices, const Order& order, Turned turned, Eigen::MatrixXd& A) {
   std::map<std::pair<long, int>, std::array<Eigen::Index, 3>> triples;  // node and 0 (translations) or 1 (rotations)
   for (Eigen::Index i = 0; i < order.boundary; ++i) {
     const RowKey& key = matrices.rows[order.row[i]];
@@ -62,18 +65,17 @@ void turn_axes(const ReducedMatrices& matrices, const Order& order, Eigen::Matri
     found->second[key.component % 3] = i;
   }
   for (const auto& [key, triple] : triples) {
-    const Eigen::Matrix3d& axes = matrices.places.at(key.first).axes;
+    Eigen::Matrix3d axes = matrices.places.at(key.first).axes;
     if (axes == Eigen::Matrix3d::Identity()) continue;
     if (std::find(triple.begin(), triple.end(), -1) != triple.end())
       throw Error(fmt::format("node {} has axes of its own, but not all three {}", key.first,
                               key.second == 0 ? "translations" : "rotations"),
                   matrices.source, "keep x, y and z of a node together");
-    for (Eigen::MatrixXd* matrix : {&A, &B}) {
-      const Eigen::MatrixXd rows = axes * (*matrix)(triple, Eigen::all);
-      (*matrix)(triple, Eigen::all) = rows;
-      const Eigen::MatrixXd columns = (*matrix)(Eigen::all, triple) * axes.transpose();
-      (*matrix)(Eigen::all, triple) = columns;
-    }
+    if (turned == Turned::bounds) axes = axes.cwiseAbs().eval();
+    const Eigen::MatrixXd rows = axes * A(triple, Eigen::all);
+    A(triple, Eigen::all) = rows;
+    const Eigen::MatrixXd columns = A(Eigen::all, triple) * axes.transpose();
+    A(Eigen::all, triple) = columns;
   }
 }
 
@@ -111,9 +113,20 @@ formats::Superelement describe(const ReducedMatrices& matrices, const ImportOpti
   }
   element.stiffness = matrices.stiffness(order.row, order.row);
   element.mass = matrices.mass(order.row, order.row);
-  turn_axes(matrices, order, element.stiffness, element.mass);
-  for (Eigen::MatrixXd* A : {&element.stiffness, &element.mass}) *A = (0.5 * (*A + A->transpose())).eval();
+  for (Eigen::MatrixXd* A : {&element.stiffness, &element.mass}) {
+    turn_axes(matrices, order, Turned::values, *A);
+    *A = (0.5 * (*A + A->transpose())).eval();
+  }
   return element;
+}
+
+/// Errors of the entries of S as the file rounded them, in the order and axes of the superelement.
+formats::EntryErrors rounding_errors(const ReducedMatrices& matrices, const Order& order) {
+  formats::EntryErrors errors = formats::entry_errors(matrices.stiffness);
+  if (errors.bound.size() == 0) return errors;
+  errors.bound = errors.bound(order.row, order.row).eval();
+  turn_axes(matrices, order, Turned::bounds, errors.bound);
+  return errors;
 }
 
 bool is_canonical(const formats::Superelement& e, Eigen::Index nb) {
@@ -169,14 +182,19 @@ Imported to_superelement(const ReducedMatrices& matrices, const ImportOptions& o
   c.source = matrices.source;
   c.stiffness_asymmetry = matrices.stiffness_asymmetry;
   c.mass_asymmetry = matrices.mass_asymmetry;
-  c.rigid_residual = formats::check(e, matrices.source).rigid_residual;
+  const formats::SuperelementReport found = formats::check(e, matrices.source, rounding_errors(matrices, order));
+  c.rigid_residual = found.rigid_residual;
   const Eigen::Index nb = order.boundary, m = e.size() - nb;
   c.stiffness_coupling = share(e.stiffness.topRightCorner(nb, m), e.stiffness);
   c.canonical = is_canonical(e, nb);
+  // Projected before the canonical form too, which hides how far the file had rounded its entries.
+  c.filtered = found.rigid_residual > rigid_residual_kept;
+  if (!c.canonical && c.filtered) formats::filter_rigid_motions(e);
   if (!c.canonical) make_canonical(e, nb, matrices.source, c);
-  c.filtered = formats::check(e, matrices.source).rigid_residual > rigid_residual_kept;
+  c.filtered = c.filtered || formats::check(e, matrices.source).rigid_residual > rigid_residual_kept;
   if (c.filtered) filter(e, nb);
   result.report = formats::check(e, matrices.source);
+  if (formats::needs_filter(found)) result.report.warnings.push_back(formats::filter_note(found, matrices.source));
   e.content_id = formats::content_id(e);
   return result;
 }

@@ -110,12 +110,12 @@ TEST(SuperelementFile, EqualContentsGiveEqualBytes) {
 TEST(SuperelementFile, ResidualOfRigidMotionsIsFilteredAndSaid) {
   const TemporaryFolder folder;
   Superelement e = craig_bampton_beam({}, 2);
-  e.stiffness(0, 0) *= 1 + 1e-6;
+  e.stiffness(0, 0) *= 1 + 1.5e-9;
   write_superelement(folder.file("a.h5"), e);
   const LoadedSuperelement loaded = read_superelement(folder.file("a.h5"));
   EXPECT_TRUE(loaded.report.filtered);
-  // The only change is 1e-6 of the largest entry of S, which rigid motion in x meets with factor 1.
-  EXPECT_NEAR(loaded.report.rigid_residual, 1e-6, 1e-8);
+  // The only change is 1.5e-9 of the largest entry of S, which rigid motion in x meets with factor 1.
+  EXPECT_NEAR(loaded.report.rigid_residual, 1.5e-9, 1e-11);
   ASSERT_EQ(loaded.report.warnings.size(), 1u);
   EXPECT_THAT(loaded.report.warnings[0], HasSubstr("removed from /stiffness by projection"));
   EXPECT_LT(check(loaded.superelement, "x").rigid_residual, 1e-14);

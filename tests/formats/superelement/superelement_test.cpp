@@ -183,7 +183,7 @@ TEST(Superelement, SmallRigidResidualIsFilteredByProjection) {
       noise(i, j) = std::sin(1.0 + 3.0 * static_cast<double>(i * j)) + (i == j ? 20 : 0);
   noise = (0.5 * (noise + noise.transpose())).eval();
   e.stiffness += 1e-7 * exact.stiffness.cwiseAbs().maxCoeff() / 20 * noise;
-  EXPECT_GT(check(e, "x").rigid_residual, 1e-8);
+  EXPECT_THAT(error_of(e), HasSubstr("resists rigid motion"));
   filter_rigid_motions(e);
   EXPECT_LT(check(e, "x").rigid_residual, 1e-14);
   EXPECT_EQ((e.stiffness - e.stiffness.transpose()).norm(), 0.0);
