@@ -34,8 +34,9 @@
 #include "reducer/solve/files.hpp"
 #include "reducer/solve/report.hpp"
 #include "reducer/sources/build_mesh.hpp"
-#include "reducer/sources/survey.hpp"
 #include "reducer/startup.hpp"
+#include "reducer/survey/picture.hpp"
+#include "reducer/survey/survey.hpp"
 #include "reducer/view/part_page.hpp"
 
 namespace tisserand::reducer {
@@ -249,7 +250,16 @@ int view(const Arguments& arguments) {
 }
 
 int groups(const Arguments& arguments) {
-  say(survey(part_or_file(arguments)));
+  const formats::Part part = part_or_file(arguments);
+  if (arguments.output.empty()) {
+    say(survey(part).text);
+    return 0;
+  }
+  check_faces_output(arguments.output);
+  require_output(arguments.output, inputs_of(part, arguments), Replaces::anything);
+  const Survey surveyed = survey(finely_meshed(part));
+  draw_faces(surveyed, arguments.input, arguments.output);
+  say(fmt::format("{}picture: {}\n", surveyed.text, arguments.output));
   return 0;
 }
 

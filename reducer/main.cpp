@@ -29,7 +29,7 @@ Examples:
   reducer show beam.superelement.h5              the certificate: mass, frequencies, checks
   reducer mesh beam.part.yaml                    writes beam.msh, to look at with gmsh
   reducer view bracket.part.yaml                 bracket.html: the mesh, in any browser; of a recovery file also its modes
-  reducer groups bracket.step                    faces, edges, volumes and groups with numbers, sizes and boxes
+  reducer groups bracket.step -o faces.png       faces, edges, groups with numbers, sizes and forms, and a picture
   reducer section beam.part.yaml                 constants of its sections
   reducer recover beam.recovery.h5 run.results.h5   displacement and stress of the part in a run, for ParaView
 
@@ -100,12 +100,20 @@ constexpr const char* about_view =
 
 Parts whose elements are refused by `reducer run` are shown all the same.)help";
 
-constexpr const char* about_groups = R"help(Lists faces, edges, volumes, groups and sets with numbers, sizes and boxes.
+constexpr const char* about_groups =
+    R"help(Lists faces, edges, volumes, groups and sets with numbers, sizes, boxes and forms.
 
   reducer groups bracket.step
-  reducer groups bracket.part.yaml        also plates, ... and groups that the part file defines
+  reducer groups bracket.part.yaml            also plates, ... and groups that the part file defines
+  reducer groups bracket.step -o faces.png    also a picture of the faces with their numbers, from two sides (or .svg)
+  reducer groups bracket.step -o faces.html   also a page in which they turn, for any browser
 
-These are the names and numbers for `on:` and `groups:` in part.yaml: face 12, 'left_hole', ...)help";
+These are the names and numbers for `on:` and `groups:` in part.yaml: face 12, 'left_hole', ...
+
+Faces, and groups of them, are planes with their normal; cylinders, cones, spheres and tori with radius (cone: half angle;
+torus: of the middle circle, then of the tube), axis and a point (of the axis; cone: apex; sphere and torus: centre);
+or else curved. Normals point outward where the table says so, else they are those of the elements. Curved faces are
+convex as a shaft or concave as a bore. By the geometry itself, of meshes by the corners of their elements.)help";
 
 constexpr const char* about_section =
     R"help(Prints all constants of the sections of a part: areas, moments, torsion, shear centre.
@@ -268,6 +276,8 @@ int main(int argc, char** argv) {
   view_command->add_option("--set", arguments.set, "path=value: override a value of the part")->allow_extra_args(false);
   CLI::App* const groups_command = add_command(app, "groups", about_groups, asked);
   groups_command->add_option("file", arguments.input, "part.yaml, or a mesh, geometry or deck")->required();
+  groups_command->add_option("-o,--output", arguments.output,
+                             "faces in colours with their numbers: .html, .png or .svg (default: none)");
   groups_command->add_option("--set", arguments.set, "path=value: override a value of the part")
       ->allow_extra_args(false);
   CLI::App* const section_command = add_command(app, "section", about_section, asked);

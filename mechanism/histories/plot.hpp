@@ -33,10 +33,6 @@ void plot(const std::vector<Series>& series, const PlotOptions& options);
 /// The text that gnuplot reads: data in blocks, every text quoted by gnuplot_quoted(). `picture` is the file it writes.
 std::string gnuplot_script(const std::vector<Series>& series, const PlotOptions& options, const std::string& picture);
 
-/// A gnuplot string in single quotes, in which nothing is expanded. Throws Error on control characters (a line end
-/// would end the command).
-std::string gnuplot_quoted(const std::string& text);
-
 /// "m s^-2" -> "m s⁻²": exponents of unit labels as superscripts.
 std::string with_superscripts(const std::string& unit);
 

@@ -16,6 +16,7 @@
 
 #include "common/error.hpp"
 #include "reducer/gmsh/curved.hpp"
+#include "reducer/gmsh/geometry.hpp"
 #include "reducer/gmsh/session.hpp"
 
 namespace tisserand::reducer {
@@ -358,6 +359,7 @@ CellMesh read_geometry(const GeometryRequest& asked, const std::function<void(Me
     generate(request, warnings);
   }
   CellMesh mesh = read_out(request, is_geometry);
+  if (is_geometry && request.describes_faces) mesh.geometry = geometry_of(mesh.entities, request.scale);
   mesh.warnings.insert(mesh.warnings.begin(), warnings.begin(), warnings.end());
   for (const std::string& warning : gmsh_messages("Warning")) mesh.warnings.push_back("gmsh: " + warning);
   return mesh;

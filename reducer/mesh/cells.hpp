@@ -61,12 +61,22 @@ struct EntityGroup {
   std::vector<int> entities;  ///< rows of CellMesh::entities
 };
 
+/// What the kernel of a geometry knows of an edge or face beyond its mesh.
+struct EntityGeometry {
+  double size = 0.0;  ///< length or area; 0: the kernel does not tell
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> point;   ///< of a face, on its surface, also beyond its edges
+  std::vector<Eigen::Vector3d> normal;  ///< there, of length 1
+  std::vector<int> volumes;             ///< numbers of those that the face bounds
+};
+
 struct CellMesh {
   std::vector<Eigen::Vector3d> position;
   std::vector<long> node_id;               ///< number in the file
   std::array<std::vector<Cell>, 4> cells;  ///< by dimension
   std::vector<Entity> entities;
   std::vector<EntityGroup> groups;
+  std::vector<EntityGeometry> geometry;  ///< per entity; empty: not asked for, or no geometry
   std::vector<std::string> warnings;
 };
 

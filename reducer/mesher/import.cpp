@@ -40,6 +40,7 @@ GeometryRequest geometry_request(const ImportRequest& request) {
   result.quadrilaterals = settings.cells && *settings.cells == formats::Cells::quadrilaterals;
   result.scale = settings.scale;
   result.sizes = request.sizes;
+  result.describes_faces = request.describes_faces;
   // gmsh takes for commands: name.opt beside a file of any kind, and files with endings such as .Step.
   std::error_code error;
   const std::string ending = std::filesystem::path(settings.file).extension().string();

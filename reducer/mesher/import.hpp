@@ -15,6 +15,7 @@ struct ImportRequest {
   const Units& units;  ///< of the part: STEP and IGES are converted to its length
   int dimension = 2;   ///< geometry is meshed up to this dimension
   std::vector<SizedEntity> sizes;
+  bool describes_faces = false;  ///< fills CellMesh::geometry of a geometry
 };
 
 /// Cells of all dimensions up to the request's, each once, with entities, labels and physical groups; coordinates in

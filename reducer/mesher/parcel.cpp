@@ -120,14 +120,52 @@ std::vector<Cell> unpack_cells(Unpacker& from, int dimension, std::size_t node_c
   return cells;
 }
 
+void pack_vectors(Packer& to, const std::vector<Eigen::Vector3d>& vectors) {
+  to.value(3 * vectors.size());
+  for (const Eigen::Vector3d& vector : vectors)
+    for (const double value : vector) to.value(value);
+}
+
+std::vector<Eigen::Vector3d> unpack_vectors(Unpacker& from) {
+  const auto numbers = from.row<double>();
+  from.require(numbers.size() % 3 == 0, "nodes without coordinates");
+  std::vector<Eigen::Vector3d> vectors(numbers.size() / 3);
+  for (std::size_t n = 0; n < vectors.size(); ++n) {
+    vectors[n] = Eigen::Vector3d(numbers[3 * n], numbers[3 * n + 1], numbers[3 * n + 2]);
+    from.require(vectors[n].allFinite(), "a coordinate that is no finite number");
+  }
+  return vectors;
+}
+
 void unpack_nodes(Unpacker& from, CellMesh& mesh) {
-  const auto coordinates = from.row<double>();
+  mesh.position = unpack_vectors(from);
   mesh.node_id = from.row<long>();
-  from.require(coordinates.size() == 3 * mesh.node_id.size(), "nodes without coordinates");
-  mesh.position.resize(mesh.node_id.size());
-  for (std::size_t n = 0; n < mesh.position.size(); ++n) {
-    mesh.position[n] = Eigen::Vector3d(coordinates[3 * n], coordinates[3 * n + 1], coordinates[3 * n + 2]);
-    from.require(mesh.position[n].allFinite(), "a coordinate that is no finite number");
+  from.require(mesh.position.size() == mesh.node_id.size(), "nodes without coordinates");
+}
+
+void pack_geometry(Packer& to, const std::vector<EntityGeometry>& geometry) {
+  to.value(geometry.size());
+  for (const EntityGeometry& entity : geometry) {
+    to.value(entity.size);
+    for (const double value : entity.center) to.value(value);
+    pack_vectors(to, entity.point);
+    pack_vectors(to, entity.normal);
+    to.row(entity.volumes);
+  }
+}
+
+void unpack_geometry(Unpacker& from, CellMesh& mesh) {
+  mesh.geometry.resize(from.size(4 * sizeof(double)));
+  from.require(mesh.geometry.empty() || mesh.geometry.size() == mesh.entities.size(), "geometry without an entity");
+  for (EntityGeometry& entity : mesh.geometry) {
+    entity.size = from.value<double>();
+    for (double& value : entity.center) value = from.value<double>();
+    from.require(std::isfinite(entity.size) && entity.size >= 0.0 && entity.center.allFinite(),
+                 "a size that is no finite number");
+    entity.point = unpack_vectors(from);
+    entity.normal = unpack_vectors(from);
+    from.require(entity.point.size() == entity.normal.size(), "points of a face without normals");
+    entity.volumes = from.row<int>();
   }
 }
 
@@ -172,7 +210,8 @@ std::string pack(const GeometryRequest& r) {
   to.text(r.target_unit);
   for (const int value : {r.dimension, r.curvature, r.order}) to.value(value);
   for (const double value : {r.size, r.smallest, r.scale, r.seconds, r.bytes}) to.value(value);
-  for (const bool value : {r.quadrilaterals, r.is_program, r.is_trusted}) to.value(static_cast<std::uint8_t>(value));
+  for (const bool value : {r.quadrilaterals, r.describes_faces, r.is_program, r.is_trusted})
+    to.value(static_cast<std::uint8_t>(value));
   to.value(r.sizes.size());
   for (const SizedEntity& sized : r.sizes) {
     to.value(sized.dimension);
@@ -191,7 +230,7 @@ GeometryRequest unpack_request(const std::string& bytes) {
   r.target_unit = from.raw_text();
   for (int* value : {&r.dimension, &r.curvature, &r.order}) *value = from.value<int>();
   for (double* value : {&r.size, &r.smallest, &r.scale, &r.seconds, &r.bytes}) *value = from.value<double>();
-  for (bool* value : {&r.quadrilaterals, &r.is_program, &r.is_trusted}) *value = from.flag();
+  for (bool* value : {&r.quadrilaterals, &r.describes_faces, &r.is_program, &r.is_trusted}) *value = from.flag();
   r.sizes.resize(from.size(sizeof(double)));
   for (SizedEntity& sized : r.sizes) {
     sized.dimension = from.value<int>();
@@ -205,9 +244,7 @@ GeometryRequest unpack_request(const std::string& bytes) {
 std::string pack(const CellMesh& mesh) {
   Packer to;
   to.value(AnswerKind::mesh);
-  to.value(3 * mesh.position.size());
-  for (const Eigen::Vector3d& position : mesh.position)
-    for (const double value : position) to.value(value);
+  pack_vectors(to, mesh.position);
   to.row(mesh.node_id);
   for (int d = 1; d <= 3; ++d) pack_cells(to, mesh.cells[d]);
   to.value(mesh.entities.size());
@@ -224,6 +261,7 @@ std::string pack(const CellMesh& mesh) {
     to.value(group.dimension);
     to.row(group.entities);
   }
+  pack_geometry(to, mesh.geometry);
   to.value(mesh.warnings.size());
   for (const std::string& warning : mesh.warnings) to.text(warning);
   return to.bytes;
@@ -249,6 +287,7 @@ CellMesh unpack_answer(const std::string& bytes, const std::string& file) {
   for (int d = 1; d <= 3; ++d) mesh.cells[d] = unpack_cells(from, d, mesh.position.size());
   unpack_entities(from, mesh);
   unpack_groups(from, mesh);
+  unpack_geometry(from, mesh);
   mesh.warnings.resize(from.size(sizeof(std::size_t)));
   for (std::string& warning : mesh.warnings) warning = from.text();
   from.end();

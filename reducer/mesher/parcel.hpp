@@ -40,11 +40,12 @@ struct GeometryRequest {
   bool quadrilaterals = false;
   double scale = 1.0;
   std::vector<SizedEntity> sizes;
-  bool is_program = false;    ///< gmsh may run commands that the file, or one beside it, holds
-  bool is_trusted = false;    ///< may read files anywhere
-  double seconds = 0.0;       ///< limit of processor time
-  double wall_seconds = 0.0;  ///< limit by the clock; the caller's matter, not sent
-  double bytes = 0.0;         ///< limit of memory
+  bool describes_faces = false;  ///< fills CellMesh::geometry
+  bool is_program = false;       ///< gmsh may run commands that the file, or one beside it, holds
+  bool is_trusted = false;       ///< may read files anywhere
+  double seconds = 0.0;          ///< limit of processor time
+  double wall_seconds = 0.0;     ///< limit by the clock; the caller's matter, not sent
+  double bytes = 0.0;            ///< limit of memory
 };
 
 std::string pack(const GeometryRequest& request);

@@ -43,6 +43,10 @@ void append_cells(MeshBuilder& builder, const CellMesh& file) {
     entity.first += first[entity.dimension];
     all.entities.push_back(entity);
   }
+  if (!file.geometry.empty()) {
+    all.geometry.resize(static_cast<std::size_t>(entity_shift));  // what the part file draws has none
+    all.geometry.insert(all.geometry.end(), file.geometry.begin(), file.geometry.end());
+  }
   for (EntityGroup group : file.groups) {
     for (int& entity : group.entities) entity += entity_shift;
     all.groups.push_back(std::move(group));
@@ -169,7 +173,7 @@ void add_mesh_file(MeshBuilder& builder) {
   const MeshFileKind kind = mesh_file_kind(part.mesh.file, part.mesh.where);
   if (kind == MeshFileKind::nastran || kind == MeshFileKind::abaqus) return add_deck(builder, kind);
   if (kind == MeshFileKind::msh) refuse_settings(part, "a .msh file");
-  ImportRequest request{part.mesh, part.units, wanted_dimension(part), {}};
+  ImportRequest request{part.mesh, part.units, wanted_dimension(part), {}, builder.describes_faces};
   request.sizes = sized_entities(builder, request);
   append_cells(builder, import_with_gmsh(request));
 }

@@ -18,13 +18,6 @@ void add_cell(const MeshBuilder& builder, const Cell& cell, Weights& weights) {
   for (int k = 0; k < form_of(cell.shape).nodes; ++k) weights[cell.nodes[k]] += shares.size * shares.share[k];
 }
 
-Cell as_cell(const ShellElement& shell) {
-  Cell cell;
-  cell.shape = shell.corners() == 3 ? CellShape::triangle3 : CellShape::quadrilateral4;
-  std::copy_n(shell.nodes.begin(), shell.corners(), cell.nodes.begin());
-  return cell;
-}
-
 Cell line_cell(int first, int second) {
   Cell cell;
   cell.nodes[0] = first;
@@ -34,7 +27,7 @@ Cell line_cell(int first, int second) {
 
 void add_elements(const MeshBuilder& builder, const ElementSet& set, Weights& weights) {
   const Mesh& mesh = builder.mesh;
-  for (const int e : set.shells) add_cell(builder, as_cell(mesh.shells[e]), weights);
+  for (const int e : set.shells) add_cell(builder, shell_cell(mesh.shells[e]), weights);
   for (const int e : set.solids) add_cell(builder, as_cell(mesh.solids[e]), weights);
   for (const int e : set.beams) {
     const BeamElement& beam = mesh.beams[e];
@@ -42,35 +35,53 @@ void add_elements(const MeshBuilder& builder, const ElementSet& set, Weights& we
   }
 }
 
-/// Shells between the nodes; without any, edges of shells between them, each once.
-void add_shells_between(const MeshBuilder& builder, const std::unordered_set<int>& nodes, Weights& weights) {
+/// Edges of shells between the nodes, each once.
+std::vector<Cell> edges_between(const MeshBuilder& builder, const std::unordered_set<int>& nodes) {
   std::map<std::pair<int, int>, Cell> edges;
   for (const ShellElement& shell : builder.mesh.shells) {
     const int corners = shell.corners();
-    int inside = 0;
     for (int k = 0; k < corners; ++k) {
       const int a = shell.nodes[k], b = shell.nodes[(k + 1) % corners];
-      inside += nodes.contains(a) ? 1 : 0;
       if (nodes.contains(a) && nodes.contains(b)) edges[std::minmax(a, b)] = line_cell(a, b);
     }
-    if (inside == corners) add_cell(builder, as_cell(shell), weights);
   }
-  if (!weights.empty()) return;
-  for (const auto& [key, edge] : edges) add_cell(builder, edge, weights);
+  std::vector<Cell> cells;
+  for (const auto& [key, edge] : edges) cells.push_back(edge);
+  return cells;
 }
 
 /// Shares of nodes that are named themselves; every one of them has a positive share.
 void add_nodes(const MeshBuilder& builder, const std::vector<int>& named, Weights& weights) {
-  const std::unordered_set<int> nodes(named.begin(), named.end());
+  std::vector<Cell> between = faces_between(builder, named).cells;
+  if (between.empty()) between = edges_between(builder, {named.begin(), named.end()});
   Weights shares;
-  for (const Cell& face : outer_faces(builder.mesh, [&](int node) { return nodes.contains(node); }))
-    add_cell(builder, face, shares);
-  if (shares.empty()) add_shells_between(builder, nodes, shares);
+  for (const Cell& cell : between) add_cell(builder, cell, shares);
   const bool all = std::ranges::all_of(named, [&](int n) { return shares.contains(n); });
   for (const int node : named) weights[node] += all ? shares[node] : 1.0;
 }
 
 }  // namespace
+
+Cell shell_cell(const ShellElement& shell) {
+  Cell cell;
+  cell.shape = shell.corners() == 3 ? CellShape::triangle3 : CellShape::quadrilateral4;
+  std::copy_n(shell.nodes.begin(), shell.corners(), cell.nodes.begin());
+  return cell;
+}
+
+FaceCells faces_between(const MeshBuilder& builder, const std::vector<int>& named) {
+  const std::unordered_set<int> nodes(named.begin(), named.end());
+  FaceCells faces;
+  faces.cells = outer_faces(builder.mesh, [&](int node) { return nodes.contains(node); });
+  faces.sign.assign(faces.cells.size(), 1);
+  if (!faces.cells.empty()) return faces;
+  for (const ShellElement& shell : builder.mesh.shells)
+    if (std::all_of(shell.nodes.begin(), shell.nodes.begin() + shell.corners(),
+                    [&](int node) { return nodes.contains(node); }))
+      faces.cells.push_back(shell_cell(shell));
+  faces.sign.assign(faces.cells.size(), 0);
+  return faces;
+}
 
 std::vector<std::pair<int, double>> node_weights(const MeshBuilder& builder, const Selection& selection) {
   Weights weights;

@@ -26,6 +26,7 @@ struct MeshBuilder {
   int first_file_node = 0;  ///< nodes of the mesh file: [first, last)
   int last_file_node = 0;
   bool file_is_deck = false;
+  bool describes_faces = false;                       ///< fills cells.geometry of a geometry
   bool needs_boundary = true;                         ///< or the part is only looked at
   std::unordered_map<long, int> node_of_id;           ///< of the mesh file
   std::map<std::string, std::vector<int>> node_sets;  ///< of a deck, names in lower case

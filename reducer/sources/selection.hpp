@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "reducer/faces/face_facts.hpp"
 #include "reducer/sources/mesh_builder.hpp"
 #include "reducer/sources/places.hpp"
 
@@ -27,6 +28,11 @@ std::vector<std::string> group_names(const MeshBuilder& builder);
 /// Nodes and their shares of length, area or volume (sum: the whole). Nodes that are named themselves share the faces,
 /// or else the edges, of elements that lie between them; if there are none, each has 1. Sorted by node.
 std::vector<std::pair<int, double>> node_weights(const MeshBuilder& builder, const Selection& selection);
+
+Cell shell_cell(const ShellElement& shell);
+
+/// Faces of solids, or else shells, all of whose corners are named.
+FaceCells faces_between(const MeshBuilder& builder, const std::vector<int>& named);
 
 /// Weighted mean of the nodes of groups.
 Eigen::Vector3d centroid(const MeshBuilder& builder, const std::vector<std::string>& names, const User& user);

@@ -88,6 +88,10 @@ std::vector<Piece> groups_of(const ViewedPart& part) {
   }
   for (std::size_t g = 0; g < r.group_name.size(); ++g) pieces.all()[g].name = r.group_name[g];
   for (int e = 0; e < r.elements.count(); ++e) pieces.all()[r.elements.group[e]].kind = kind_of(r.elements.shape[e]);
+  for (std::size_t g = 0; g < part.looks.size(); ++g) {
+    pieces.all()[g].kind = part.looks[g].kind;
+    pieces.all()[g].colour = part.looks[g].colour;
+  }
   pieces.all().back().name = fmt::format("{} faulty elements", part.faulty.size());
   pieces.all().back().kind = "faulty";
   pieces.all().back().colour = "#d62728";
@@ -222,6 +226,17 @@ void add_nodes(const ViewedPart& part, PageBlocks& blocks, Json& json) {
   blocks.next();
 }
 
+/// Numbers of the mesh; of groups with looks, what they are.
+Json report_lines(const ViewedPart& part) {
+  const Recovery& r = part.tables;
+  Json lines = Json::array({Json::array({"nodes", std::to_string(r.nodes())}),
+                            Json::array({"elements", std::to_string(r.elements.count())})});
+  if (part.looks.empty()) lines.push_back(Json::array({"boundary nodes", listed(r.boundary_name)}));
+  for (std::size_t g = 0; g < part.looks.size(); ++g)
+    lines.push_back(Json::array({r.group_name[g], part.looks[g].kind}));
+  return lines;
+}
+
 }  // namespace
 
 std::string part_page(const ViewedPart& part) {
@@ -247,10 +262,7 @@ std::string part_page(const ViewedPart& part) {
   const Eigen::VectorXd largest = largest_displacements(pieces, r.coordinates());
   for (const Piece& piece : pieces) add_piece(piece, largest, blocks, json);
   add_nodes(part, blocks, json);
-  json["report"] = {{"notes", part.notes},
-                    {"lines", Json::array({Json::array({"nodes", std::to_string(r.nodes())}),
-                                           Json::array({"elements", std::to_string(r.elements.count())}),
-                                           Json::array({"boundary nodes", listed(r.boundary_name)})})}};
+  json["report"] = {{"notes", part.notes}, {"lines", report_lines(part)}};
   blocks.next();
   const Json header{{"format", "tisserand-page"},
                     {"version", 1},

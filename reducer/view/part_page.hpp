@@ -11,6 +11,12 @@
 
 namespace tisserand::reducer {
 
+/// How a group is called and painted.
+struct GroupLook {
+  std::string kind;
+  std::string colour;  ///< "#rrggbb"
+};
+
 struct ViewedPart {
   std::string title;
   std::string file;          ///< as the page names it
@@ -18,6 +24,7 @@ struct ViewedPart {
   formats::Recovery tables;  ///< mesh_tables(), or those of a recovery file
   std::vector<int> faulty;   ///< elements that are shown in red
   std::vector<Spider> spiders;
+  std::vector<GroupLook> looks;  ///< of the groups in order; empty: by their elements, in colours of the page
   std::vector<FacePlace> faces;  ///< of the geometry: named beside the boundary nodes
   std::vector<std::string> notes;
   const formats::RecoveryReader* recovery = nullptr;  ///< its modes move; null: none

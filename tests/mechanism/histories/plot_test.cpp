@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "common/error.hpp"
+#include "common/gnuplot.hpp"
 #include "tests/support/thrown.hpp"
 
 namespace tisserand::mechanism::plot_test {

@@ -12,7 +12,6 @@
 
 #include "reducer/elements/checks.hpp"
 #include "reducer/mesh/gmsh_file.hpp"
-#include "reducer/sources/survey.hpp"
 #include "tests/reducer/sources/part_text.hpp"
 #include "tests/reducer/sources/sorted_matrices.hpp"
 
@@ -197,16 +196,6 @@ TEST(MeshOfAnySource, IsWrittenToLookAtAndReadAgain) {
                        ", ignore: [pin]}\nsolids: {body: {on: body, "
                        "material: steel}}\nboundary: {a: {node: 1}}\n");
   EXPECT_EQ(again.mesh().solids.size(), mesh.solids.size());
-}
-
-TEST(Survey, ListsFacesGroupsAndSizes) {
-  EXPECT_THAT(reducer::survey(reducer::part_of_file(meshes + "bracket.step")),
-              AllOf(HasSubstr("face 7"), HasSubstr("edge 1"), HasSubstr("mm")));
-  const PartText part("mesh: {file: " + meshes +
-                      "plate-2.2.msh}\ngroups: {g: {edges: [2, 4]}}\nboundary: {a: {node: 1}}\n");
-  EXPECT_THAT(reducer::survey(part.read()), AllOf(HasSubstr("deck        face           24        0.24  [0.3, 0.2, 0]"),
-                                                  HasSubstr("g           edge            8"),
-                                                  HasSubstr("left        edge            4         0.4")));
 }
 
 }  // namespace

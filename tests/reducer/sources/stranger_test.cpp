@@ -308,6 +308,7 @@ reducer::CellMesh small_mesh() {
   mesh.cells[2] = {cell};
   mesh.entities = {{2, 1, "top", 0, 1}};
   mesh.groups = {{"deck", 2, {0}}};
+  mesh.geometry = {{0.5, {0.3, 0.3, 0}, {{0, 0, 0}}, {{0, 0, 1}}, {4}}};
   mesh.warnings = {"note"};
   return mesh;
 }
@@ -338,6 +339,9 @@ TEST(Answers, ThatDoNotFitAreRefused) {
   EXPECT_THAT(broken([](auto& m) { m.entities[0].first = static_cast<std::size_t>(-1); }), HasSubstr("not there"));
   EXPECT_THAT(broken([](auto& m) { m.entities[0].dimension = 4; }), HasSubstr("no known dimension"));
   EXPECT_THAT(broken([](auto& m) { m.entities.clear(), m.groups.clear(); }), HasSubstr("without an entity"));
+  EXPECT_THAT(broken([](auto& m) { m.geometry.push_back(m.geometry[0]); }), HasSubstr("geometry without an entity"));
+  EXPECT_THAT(broken([](auto& m) { m.geometry[0].normal.clear(); }), HasSubstr("points of a face without normals"));
+  EXPECT_THAT(broken([](auto& m) { m.geometry[0].size = -1.0; }), HasSubstr("no finite number"));
   EXPECT_THAT(broken([](auto& m) { m.groups[0].entities[0] = 1; }), HasSubstr("entities that are not there"));
 }
 

@@ -1,0 +1,18 @@
+// The forms of faces as a table of text.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "reducer/survey/survey.hpp"
+
+namespace tisserand::reducer {
+
+/// "[1, 2.5, 0]": four digits, zero where only round-off is left.
+std::string point_text(const Eigen::Vector3d& x);
+
+/// One row per face: form, side, radius, normal or axis, point of the axis (apex of a cone, centre of a sphere or
+/// torus). Empty without faces.
+std::string form_table(const std::vector<SurveyedFace>& faces, const std::string& title, const Units& units);
+
+}  // namespace tisserand::reducer
