@@ -86,7 +86,8 @@ formats::Companion companion_on_body(formats::Companion companion, const formats
   for (Eigen::Index i = 0; i < dropped; ++i) rows.push_back(body.boundary_size + body.modes + static_cast<int>(i));
   formats::drop_modes(companion, whole.M, whole.R, rows, matrices.S_II.tail(dropped));
   formats::move_reference(companion, body.reference_origin);
-  formats::galilean_step_keeping_gram(companion, whole_mass(body), rigid_columns(body));
+  if (companion.has_second_order())
+    formats::galilean_step_keeping_gram(companion, whole_mass(body), rigid_columns(body));
   return companion;
 }
 
