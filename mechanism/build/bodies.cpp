@@ -214,7 +214,8 @@ class BodyBuilder {
     }
     const CompanionUse companion = companion_of(spec, element);
     if (!companion.load_cases.empty())
-      c_.part_resultants[spec.name] = part_resultants(*companion.file, element, file.report.rigid.center_of_mass, units);
+      c_.part_resultants[spec.name] =
+          part_resultants(*companion.file, element, file.report.rigid.center_of_mass, units);
     add_rigid_body(rigid);
   }
 

@@ -22,10 +22,10 @@ struct Construction {
   const formats::Scene& scene;
   Model model;
   MarkerTable markers;
-  std::vector<Eigen::Quaterniond> frames;  ///< of the superelements at the start
-  std::vector<BodyStart> starts;           ///< of all bodies
+  std::vector<Eigen::Quaterniond> frames;                             ///< of the superelements at the start
+  std::vector<BodyStart> starts;                                      ///< of all bodies
   std::map<std::string, std::vector<PartResultant>> part_resultants;  ///< of load cases on rigid superelements
-  std::set<std::string> vanished;          ///< joints that eliminated virtual bodies hung on
+  std::set<std::string> vanished;                                     ///< joints that eliminated virtual bodies hung on
   std::vector<RigidArm> arms;
   std::set<double> breakpoints;
   std::vector<std::string> notes;

@@ -16,7 +16,8 @@ namespace {
 Error missing_load_case(const formats::PartLoadSpec& load, const formats::SuperelementBodySpec& spec,
                         const formats::Companion* companion) {
   const std::string path = formats::companion_path(spec.file);
-  const std::string who = fmt::format("load '{}': body '{}' has no load case '{}'", load.name, load.body, load.load_case);
+  const std::string who =
+      fmt::format("load '{}': body '{}' has no load case '{}'", load.name, load.body, load.load_case);
   if (companion == nullptr)
     return {fmt::format("{}: there is no {}", who, path), load.where,
             "`load_cases` in the part file and `reducer run` write load cases there"};
@@ -51,8 +52,8 @@ void require_load_cases(const formats::Scene& scene, const formats::Superelement
   std::vector<Error> errors;
   for (const formats::PartLoadSpec& load : scene.part_loads) {
     if (load.body != spec.name) continue;
-    if (companion == nullptr ||
-        std::ranges::find(companion->load_cases, load.load_case, &formats::LoadCase::name) == companion->load_cases.end())
+    if (companion == nullptr || std::ranges::find(companion->load_cases, load.load_case, &formats::LoadCase::name) ==
+                                    companion->load_cases.end())
       errors.push_back(missing_load_case(load, spec, companion));
   }
   if (!errors.empty()) throw merge_errors(errors);

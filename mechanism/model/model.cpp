@@ -165,8 +165,8 @@ void for_each_map(Model& model, Visit visit) {
   for_each_body_pool(model, [&]<class T>(Pool<T>& pool) {
     for (ElementMap& map : pool.maps) visit(map, std::is_same_v<T, RigidBody> ? rigid : all);
   });
-  for (auto* maps : {&model.bushings.maps, &model.tyres.maps, &model.loads.maps, &model.part_loads.maps,
-                     &model.channel_uses.maps})
+  for (auto* maps :
+       {&model.bushings.maps, &model.tyres.maps, &model.loads.maps, &model.part_loads.maps, &model.channel_uses.maps})
     for (ElementMap& map : *maps) visit(map, all);
   for (std::size_t i = 0; i < model.joints.size(); ++i)
     visit(model.joints.maps[i], fills_all(model, i) ? all : stiffness_entries(model.joints[i]));

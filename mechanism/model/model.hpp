@@ -107,7 +107,7 @@ struct Model {
   std::vector<Road> roads;
   Pool<Tyre> tyres;
   Pool<Load> loads;
-  Pool<PartLoad> part_loads;  ///< maps: of their node where the body is rigid, else those of the superelement
+  Pool<PartLoad> part_loads;        ///< maps: of their node where the body is rigid, else those of the superelement
   std::vector<double> breakpoints;  ///< ascending, of all loads
   /// Where positions of nodes and ground count from, in the world: zero but for scenes that stand far away, whose
   /// positions would lose digits. Added where positions leave the stage.

@@ -70,11 +70,11 @@ struct SuperelementDamping {
 /// A load case of the companion file with the factor 1, in axes of the frame (load_cases.hpp).
 struct BodyLoadCase {
   std::string name;
-  Eigen::VectorXd force;                                      ///< nb + m: f
-  Eigen::MatrixXd stiffness;                                  ///< (nb + m)²: K; empty without stiffening
-  Eigen::Vector3d total = Eigen::Vector3d::Zero();            ///< resultant
-  Eigen::Vector3d moment = Eigen::Vector3d::Zero();           ///< about x₀, undeformed
-  Eigen::Matrix<double, 3, Eigen::Dynamic> arm;               ///< 3 x (nb + m): ∂(moment)/∂y
+  Eigen::VectorXd force;                             ///< nb + m: f
+  Eigen::MatrixXd stiffness;                         ///< (nb + m)²: K; empty without stiffening
+  Eigen::Vector3d total = Eigen::Vector3d::Zero();   ///< resultant
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< about x₀, undeformed
+  Eigen::Matrix<double, 3, Eigen::Dynamic> arm;      ///< 3 x (nb + m): ∂(moment)/∂y
 };
 
 /// From the coordinates of the body to those of the file: y_I(file) = static_part y_B + modal_part y_I.

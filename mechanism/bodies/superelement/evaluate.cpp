@@ -73,6 +73,17 @@ void residual(const SuperelementBody& body, SuperelementScratch& scratch, const 
   }
 }
 
+void load_case_direction(const SuperelementBody& body, int load_case, const SuperelementScratch& scratch,
+                         Eigen::VectorXd& boundary, Eigen::VectorXd& internal) {
+  LoadTerms<double> t = make_load_terms<double>(body);
+  t.factors[load_case] = 1.0;
+  load_terms(body, scratch.motion, t);
+  boundary = -t.g.head(body.boundary_size);
+  internal = t.g.tail(body.modes);
+  pull_back<double>(body, scratch.motion, {-t.force, -t.moment}, boundary);
+  boundary = -boundary;
+}
+
 namespace {
 
 double quadratic_form(const Eigen::MatrixXd& A, const Eigen::VectorXd& v) {

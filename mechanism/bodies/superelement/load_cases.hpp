@@ -18,10 +18,10 @@ namespace tisserand::mechanism {
 template <class S>
 struct LoadTerms {
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-  Eigen::VectorXd factors;          ///< one per load case: set by the caller
-  Vector y;                         ///< N, boundary then internal
-  Vector g;                         ///< N: Σ s (f + K y)
-  Vec3<S> force = Vec3<S>::Zero();  ///< resultant, axes of the frame
+  Eigen::VectorXd factors;           ///< one per load case: set by the caller
+  Vector y;                          ///< N, boundary then internal
+  Vector g;                          ///< N: Σ s (f + K y)
+  Vec3<S> force = Vec3<S>::Zero();   ///< resultant, axes of the frame
   Vec3<S> moment = Vec3<S>::Zero();  ///< about x₀
 };
 
