@@ -40,7 +40,7 @@ void add_internal_loads(const Model& model, const State& state, const TangentCoe
     if (superelement < 0) continue;
     update_direction(model, at, evaluation);
     const PartLoadDirection& direction = evaluation.part_load_directions[at];
-    const CarrierMatrix row = part_load_channel_row(model, state, use, c, evaluation);
+    const MatrixXd row = part_load_channel_row(model, state, use, c, evaluation);
     const int first = model.sizes.boundary + model.internal_offset[superelement];
     const int* columns = model.channel_uses.maps[use].coordinates.data() + direction.boundary.size();
     for (Eigen::Index j = 0; j < row.cols(); ++j)

@@ -46,7 +46,7 @@ void add_part_load_channel(const Model& model, const State& state, std::size_t u
   const auto at = static_cast<std::size_t>(model.channel_uses[use].index);
   update_direction(model, at, evaluation);
   const Eigen::VectorXd& direction = evaluation.part_load_directions[at].boundary;
-  const CarrierMatrix row = part_load_channel_row(model, state, use, target.coefficients, evaluation);
+  const Eigen::MatrixXd row = part_load_channel_row(model, state, use, target.coefficients, evaluation);
   const std::vector<int>& slots = model.channel_uses.maps[use].slots;
   const Eigen::Index rows = direction.size(), size = rows + row.cols();
   for (Eigen::Index j = 0; j < row.cols(); ++j)
@@ -57,15 +57,14 @@ void add_part_load_channel(const Model& model, const State& state, std::size_t u
 
 }  // namespace
 
-CarrierMatrix part_load_channel_row(const Model& model, const State& state, std::size_t use,
-                                    const TangentCoefficients& coefficients, Evaluation& evaluation) {
+Eigen::MatrixXd part_load_channel_row(const Model& model, const State& state, std::size_t use,
+                                      const TangentCoefficients& coefficients, Evaluation& evaluation) {
   const ChannelUse& of = model.channel_uses[use];
   const Channel& channel = model.channels[of.channel];
   const double slope = evaluation.load_factor *
                        function_of(of, evaluation).derivative(static_cast<std::size_t>(of.argument), state.load_time());
   const Row12 row = slope * channel_row(model, channel, coefficients, evaluation);
-  return pulled_rows(model, carrier_map(model, {channel.a.node, channel.b.node}), local_view(row), evaluation,
-                     evaluation.carriers.upper);
+  return model_rows(model, carrier_map(model, {channel.a.node, channel.b.node}), local_view(row), evaluation);
 }
 
 void update_channels(const Model& model, Evaluation& evaluation) {

@@ -137,8 +137,8 @@ void add_tyre_tangents(const Model& model, Evaluation& evaluation, const Tangent
 void add_channel_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
 
 /// c_c ∂(channel)/∂v + c_k ∂(channel)/∂q times ∂(factor)/∂(channel) for one use by a part load, in the coordinates of
-/// the map of the use behind those of the load; in a buffer.
-CarrierMatrix part_load_channel_row(const Model& model, const State& state, std::size_t use,
-                                    const TangentCoefficients& coefficients, Evaluation& evaluation);
+/// the map of the use behind those of the load. Takes memory.
+Eigen::MatrixXd part_load_channel_row(const Model& model, const State& state, std::size_t use,
+                                      const TangentCoefficients& coefficients, Evaluation& evaluation);
 
 }  // namespace tisserand::mechanism
