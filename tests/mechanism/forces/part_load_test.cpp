@@ -381,17 +381,17 @@ TEST(PartLoad, BadLoadCases) {
   scene.part_loads.push_back(part_load("wind", 1.0));
   const BodyFiles files = files_of(beam(2));
   EXPECT_THAT(
-      test_support::thrown([&] { build_model(scene, files); }),
+      test_support::error_of([&] { build_model(scene, files); }),
       HasSubstr("test.yaml:9:3: load 'load_wind': body 'beam' has no load case 'wind' in beam.companion.h5; its "
                 "load cases are across, aside, down, push"));
   BodyFiles none = files;
   none.companions.clear();
-  EXPECT_THAT(test_support::thrown([&] { build_model(scene, none); }),
+  EXPECT_THAT(test_support::error_of([&] { build_model(scene, none); }),
               HasSubstr("load 'load_wind': body 'beam' has no load case 'wind': there is no beam.companion.h5; "
                         "`load_cases` in the part file and `reducer run` write load cases there"));
   BodyFiles empty = files;
   empty.companions["beam"].load_cases.clear();
-  EXPECT_THAT(test_support::thrown([&] { build_model(scene, empty); }), HasSubstr("beam.companion.h5 has none"));
+  EXPECT_THAT(test_support::error_of([&] { build_model(scene, empty); }), HasSubstr("beam.companion.h5 has none"));
 }
 
 // A file that holds load cases alone serves linear bodies.
