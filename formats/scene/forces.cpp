@@ -197,9 +197,11 @@ void read_loads(const MapReader& map, const SceneDefinitions& definitions, Scene
   for (const YamlNode* node : map.entries("loads", "load")) {
     const Context context = entry_context(map.context().reader, "load", *node);
     const YamlNode* type = find_child(*node, "type");
-    if (type != nullptr && type->text == "part_load")
+    const std::optional<std::size_t> word =
+        type == nullptr ? 0 : read_word(context, *type, "type", {"force", "moment", "part_load"});
+    if (word == 2)
       scene.part_loads.push_back(read_part_load(context, *node, definitions));
-    else
+    else if (word)
       scene.loads.push_back(read_load(context, *node, definitions));
   }
 }
