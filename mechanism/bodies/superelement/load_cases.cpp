@@ -16,9 +16,12 @@ std::vector<BodyLoadCase> make_load_cases(const SuperelementBody& body, const fo
     load.total = R.leftCols<3>().transpose() * load.force;
     load.moment = R.rightCols<3>().transpose() * load.force;
     load.arm.setZero(3, n);
-    for (const SuperelementNode& node : body.node)
-      for (const int row : {node.translation_row, node.rotation_row})
-        if (row >= 0) load.arm.middleCols<3>(row) = -skew<double>(load.force.segment<3>(row));
+    for (const SuperelementNode& node : body.node) {
+      if (const int row = node.translation_row; row >= 0)
+        load.arm.middleCols<3>(row) = -skew<double>(load.force.segment<3>(row));
+      if (const int row = node.rotation_row; row >= 0)
+        load.arm.middleCols<3>(row) = -0.5 * skew<double>(load.force.segment<3>(row));
+    }
     if (from.stiffness.size() > 0) load.arm += R.rightCols<3>().transpose() * from.stiffness;
     if (body.second_order.stiffening) load.stiffness = from.stiffness;
     cases.push_back(std::move(load));

@@ -2,9 +2,9 @@
 //
 // With the factor s a load case does the virtual work s [F·R₀ᵀδx₀ + m(y)·δΘ₀ + (f + K y)·δy]: f = Φᵀ f of the
 // coordinates y, F and m(y) its resultant in axes of the floating frame, m about x₀. To first order in y its points of
-// attack move with the body: with ∂m/∂y = −[f_i~], −[m_i~] of the boundary nodes + R_θᵀ K it is the moment of the
-// forces where they are, since K = −Φᵀ K_G[w_f] Φ and a turn of the stressed body turns the forces that hold it,
-// K_G[w_f] R_θ e = e × (f and what holds it).
+// attack move with the body: ∂m/∂y = −[f_i~] for displacements and −½[m_i~] for rotations of the boundary nodes, + R_θᵀ
+// K. For K = −Φᵀ K_G[w_f] Φ, and a turn of the stressed body turns the forces that hold it: K_G[w_f] R_θ e = e × f for
+// forces and ½ e × m for moments, which belong to rotation vectors (half, since K_G is symmetric).
 #pragma once
 
 #include <Eigen/Core>
@@ -64,8 +64,8 @@ void load_terms(const SuperelementBody& body, const LocalMotion<S>& motion, Load
     if (const double s = t.factors[static_cast<Eigen::Index>(i)]; s != 0.0) add_load_case(body.load_cases[i], s, t);
 }
 
-/// The load cases `names` of a companion on the coordinates of the body (companion_on_body()), `stiffness` where the
-/// body has stiffening.
+/// The load cases of a companion on the coordinates of the body (companion_on_body()), `stiffness` where the body has
+/// stiffening.
 std::vector<BodyLoadCase> make_load_cases(const SuperelementBody& body, const formats::Companion& companion);
 
 /// Power of the load cases with their factors, after update_kinematics() and load_terms().

@@ -190,14 +190,14 @@ TEST(PartLoad, FallIsGravityOnASecondOrderBodyToSecondOrder) {
   }
 }
 
-TEST(PartLoad, FallIsGravityOfABeamToFirstOrder) {
-  SecondOrderBody from = beam(6);
+// Moments of clamped ends count half with the turn of their nodes: otherwise the difference is ½ ψ × q L²/12, half a
+// turn times the weight. Hermite shapes weigh displacements along and across differently, which leaves (h/L)² of that.
+TEST(PartLoad, FallIsGravityOfABeam) {
+  const SecondOrderBody from = beam(6);
   const SuperelementBody body = body_with_loads(from, {});
-  for (const auto& [name, a] : {std::pair<const char*, Vector3d>{"across", z}, {"down", {-1, 0, 0}}}) {
-    const double large = apart_from_gravity(body, test_support::random_state(body, 3, 2e-3), name, a);
-    const double small = apart_from_gravity(body, test_support::random_state(body, 3, 1e-3), name, a);
-    std::printf("%s %g %g\n", name, large, small);
-  }
+  constexpr double turn = 1e-3;
+  for (const auto& [name, a] : {std::pair<const char*, Vector3d>{"across", z}, {"down", {-1, 0, 0}}})
+    EXPECT_LT(apart_from_gravity(body, test_support::random_state(body, 3, turn), name, a), 0.05 * turn) << name;
 }
 
 /// c_m ∂/∂v̇ + c_c ∂/∂v + c_k ∂/∂q of (r_B, r_I) by central differences.
@@ -299,11 +299,9 @@ TEST(PartLoad, WorkIsInTheBalanceOfEnergy) {
       run.start();
       run.run(2.0);
       EXPECT_GT(std::abs(run.state().work()), 10.0);
-      std::printf("iterations %ld steps %ld\n", run.iterations, run.steps);
       return run.energy().total() - run.state().initial_energy() - run.state().work() + run.state().dissipated();
     };
     const double coarse = balance(0.01), fine = balance(0.005);
-    std::printf("balance %g %g\n", coarse, fine);
     EXPECT_LT(std::abs(fine), 0.05);
     EXPECT_NEAR(coarse / fine, 4.0, 1.0);
   }
@@ -352,7 +350,6 @@ TEST(PartLoad, ColumnBucklesUnderItsWeight) {
       const double middle = 0.5 * (below + above);
       (least_stiffness(files, middle * EI / std::pow(length, 3)) > 0.0 ? below : above) = middle;
     }
-    std::printf("greenhill %d %g\n", modes, below);
     EXPECT_NEAR(below / 7.8373, 1.0, 0.01);
   }
 }
