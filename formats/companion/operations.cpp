@@ -33,12 +33,14 @@ void correct_coupling(Companion& c, const MatrixXd& mass, const MatrixXd& R, con
   for (int k = 0; k < 3; ++k) c.C[k] += momentum * defect.d[k];
 }
 
-/// Applies `change` to every matrix over coordinates but H.
+/// Applies `change` to every matrix over coordinates but H that is there.
 template <class Change>
 void for_each_matrix(Companion& c, const Change& change) {
-  for (MatrixXd& C : c.C) change(C);
-  for (auto* arrays : {&c.E, &c.N, &c.T})
-    for (MatrixXd& matrix : *arrays) change(matrix);
+  if (c.has_second_order()) {
+    for (MatrixXd& C : c.C) change(C);
+    for (auto* arrays : {&c.E, &c.N, &c.T})
+      for (MatrixXd& matrix : *arrays) change(matrix);
+  }
   for (LoadCase& load : c.load_cases)
     if (load.stiffness.size() > 0) change(load.stiffness);
 }

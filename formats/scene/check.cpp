@@ -399,6 +399,10 @@ Faults find_faults(const Scene& scene) {
     check_path_name("load", load.name, load.where, loads, faults);
     check_load(index, load, faults);
   }
+  for (const PartLoadSpec& load : scene.part_loads) {
+    check_path_name("load", load.name, load.where, loads, faults);
+    check_part_load(index, load, faults);
+  }
   check_settings(scene, faults);
   return faults;
 }

@@ -4,8 +4,10 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "common/text.hpp"
 #include "formats/scene/check_parts.hpp"
 #include "formats/scene/time_function_reader.hpp"
+#include "formats/yaml/name_check.hpp"
 
 namespace tisserand::formats {
 
@@ -175,6 +177,22 @@ void check_load(const SceneIndex& scene, const LoadSpec& load, Faults& faults) {
   check_marker(scene, load.at, subject, load.where, "at", faults);
   for (std::size_t i = 0; i < load.components.size(); ++i)
     check_time_function(load.components[i], subject, load.where, fmt::format("value[{}]", i), faults);
+}
+
+void check_part_load(const SceneIndex& scene, const PartLoadSpec& load, Faults& faults) {
+  const std::string subject = fmt::format("load '{}'", load.name);
+  check_time_function(load.value, subject, load.where, "value", faults);
+  const auto body = scene.bodies.find(load.body);
+  if (body != scene.bodies.end() && std::holds_alternative<SuperelementBodySpec>(*body->second)) return;
+  std::vector<std::string> superelements;
+  for (const BodySpec& one : scene.scene.bodies)
+    if (const auto* spec = std::get_if<SuperelementBodySpec>(&one)) superelements.push_back(spec->name);
+  if (body == scene.bodies.end())
+    check_reference(subject, "superelement", load.body, superelements, load.where, "body", faults);
+  else
+    faults.add(load.where, "body", fmt::format("{}: body '{}' is no superelement", subject, load.body),
+               superelements.empty() ? "load cases belong to superelements: give a load at a marker"
+                                     : "the superelements are " + join(superelements, ", "));
 }
 
 }  // namespace tisserand::formats

@@ -34,5 +34,6 @@ void check_bushing(const SceneIndex& scene, const BushingSpec& bushing, Faults& 
 void check_road(const RoadSpec& road, Faults& faults);
 void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, Faults& faults);
 void check_load(const SceneIndex& scene, const LoadSpec& load, Faults& faults);
+void check_part_load(const SceneIndex& scene, const PartLoadSpec& load, Faults& faults);
 
 }  // namespace tisserand::formats

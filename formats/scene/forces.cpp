@@ -111,6 +111,16 @@ LoadSpec read_load(const Context& context, const YamlNode& node, const SceneDefi
   return load;
 }
 
+PartLoadSpec read_part_load(const Context& context, const YamlNode& node, const SceneDefinitions& definitions) {
+  const MapReader map(context, node, "part_load");
+  PartLoadSpec load;
+  load.name = node.key;
+  load.where = context.entry;
+  read_fields(map, load);
+  if (const YamlNode* value = map.require("value")) load.value = read_function(map, *value, "value", definitions);
+  return load;
+}
+
 }  // namespace
 
 std::vector<MotionSpec> read_motions(const MapReader& map, const SceneDefinitions& definitions) {
@@ -183,11 +193,17 @@ std::vector<BushingSpec> read_bushings(const MapReader& map) {
   return bushings;
 }
 
-std::vector<LoadSpec> read_loads(const MapReader& map, const SceneDefinitions& definitions) {
-  std::vector<LoadSpec> loads;
-  for (const YamlNode* node : map.entries("loads", "load"))
-    loads.push_back(read_load(entry_context(map.context().reader, "load", *node), *node, definitions));
-  return loads;
+void read_loads(const MapReader& map, const SceneDefinitions& definitions, Scene& scene) {
+  for (const YamlNode* node : map.entries("loads", "load")) {
+    const Context context = entry_context(map.context().reader, "load", *node);
+    const YamlNode* type = find_child(*node, "type");
+    const std::optional<std::size_t> word =
+        type == nullptr ? 0 : read_word(context, *type, "type", {"force", "moment", "part_load"});
+    if (word == 2)
+      scene.part_loads.push_back(read_part_load(context, *node, definitions));
+    else if (word)
+      scene.loads.push_back(read_load(context, *node, definitions));
+  }
 }
 
 std::vector<KeySet> force_key_sets() {
@@ -250,7 +266,12 @@ std::vector<KeySet> force_key_sets() {
                                             "required"),
         {"at", "place", "node or marker, not `ground`", "required"},
         choice<&LoadSpec::axes, load_axes>("axes", "`world`, or `body`: follows the node"),
-        {"value", "[function]3", "three components, each a function of time", "required"}}}};
+        {"value", "[function]3", "three components, each a function of time", "required"}}},
+      {"part_load",
+       {{"type", "'part_load'", "", "required"},
+        plain<&PartLoadSpec::body>("body", "text", "a superelement, also one with `use: rigid`", "required"),
+        plain<&PartLoadSpec::load_case>("case", "text", "name of a load case of its companion file", "required"),
+        {"value", "function", "factor of the load case, a function of time", "required"}}}};
 }
 
 }  // namespace tisserand::formats

@@ -49,7 +49,8 @@ std::shared_ptr<const RoadHeights> read_road_heights(const MapReader& map, const
                                                      RoadKind kind);
 std::vector<RoadSpec> read_roads(const MapReader& map, const SceneDefinitions& definitions);
 std::vector<TyreSpec> read_tyres(const MapReader& map, const SceneDefinitions& definitions);
-std::vector<LoadSpec> read_loads(const MapReader& map, const SceneDefinitions& definitions);
+/// `loads`: on markers, and those of `type: part_load`.
+void read_loads(const MapReader& map, const SceneDefinitions& definitions, Scene& scene);
 /// `analysis` and its groups, or `analyses`.
 void read_analyses(const MapReader& map, Scene& scene);
 /// The groups of settings below `map`, which belong to `entry`: the scene, or one analysis of the given kind. `start`:

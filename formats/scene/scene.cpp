@@ -85,7 +85,7 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
   scene.bushings = read_bushings(map);
   scene.roads = read_roads(map, definitions);
   scene.tyres = read_tyres(map, definitions);
-  scene.loads = read_loads(map, definitions);
+  read_loads(map, definitions, scene);
   read_analyses(map, scene);
   return scene;
 }
@@ -170,7 +170,7 @@ std::vector<Field> scene_fields() {
       {"bushings", "{name: bushing}", "name -> stiffness and damping between two markers in all directions", "none"},
       {"roads", "{name: road}", "name -> ground that tyres roll on", "none"},
       {"tyres", "{name: tyre}", "name -> tyre of a wheel on a road", "none"},
-      {"loads", "{name: load}", "name -> load", "none"},
+      {"loads", "{name: load | part_load}", "name -> load", "none"},
       choice<&Scene::virtual_bodies, virtual_body_ways>("virtual_bodies",
                                                         "`eliminate` or `keep`, see [below](#type-virtual)"),
       words<analysis_kinds>(

@@ -17,8 +17,8 @@
 #include "formats/roads/road_heights.hpp"
 #include "formats/scene/analysis.hpp"
 #include "formats/scene/body_spec.hpp"
+#include "formats/scene/function_spec.hpp"
 #include "formats/sections/section.hpp"
-#include "formats/tables/time_table.hpp"
 #include "formats/yaml/override.hpp"
 #include "formats/yaml/tree.hpp"
 
@@ -77,14 +77,6 @@ struct GearSpec {
   std::string where;
 };
 
-/// Function of time: a number, a table (linear between points, constant outside) or an expression in t.
-struct TimeExpression {
-  std::string text;
-  std::vector<double> breakpoints;  ///< steps end here
-  std::string where;
-};
-using TimeFunctionSpec = std::variant<double, TimeTable, TimeExpression>;
-
 enum class LoadKind { force, moment };
 enum class LoadAxes { world, body };
 
@@ -94,6 +86,15 @@ struct LoadSpec {
   MarkerSpec at;
   LoadAxes axes = LoadAxes::world;  ///< body: follows the node
   std::array<TimeFunctionSpec, 3> components;
+  std::string where;
+};
+
+/// A load case of the companion file of a superelement, times a function of time.
+struct PartLoadSpec {
+  std::string name;
+  std::string body;
+  std::string load_case;
+  TimeFunctionSpec value = 0.0;
   std::string where;
 };
 
@@ -116,15 +117,6 @@ struct InitialSpec {
   std::optional<double> rate;
   std::string where;
 };
-
-/// A law between two quantities: proportional, or a table y(x) with ascending x.
-enum class Interpolation { linear, cubic };
-struct CurveSpec {
-  Interpolation interpolation = Interpolation::linear;
-  std::vector<double> x;
-  std::vector<double> y;
-};
-using LawSpec = std::variant<double, CurveSpec>;
 
 /// line: along a coordinate of a joint, or along the distance of two markers; torsion: along the angle of two markers
 /// about their z axes. Q = −f(q − free) − d(q̇) + stops + force.
@@ -261,6 +253,7 @@ struct Scene {
   std::vector<RoadSpec> roads;
   std::vector<TyreSpec> tyres;
   std::vector<LoadSpec> loads;
+  std::vector<PartLoadSpec> part_loads;  ///< also under `loads`, `type: part_load`
   VirtualBodies virtual_bodies = VirtualBodies::eliminate;
   AnalysisKind analysis = AnalysisKind::dynamics;
   IntegratorSpec integrator;

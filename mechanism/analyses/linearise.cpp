@@ -30,6 +30,25 @@ void add_superelement(const Model& model, std::size_t i, const TangentCoefficien
     for (Eigen::Index row = 0; row < local.rows(); ++row) A(rows[row], rows[column]) += local(row, column);
 }
 
+/// What channels in the factors of part loads add to the rows of internal coordinates.
+void add_internal_loads(const Model& model, const State& state, const TangentCoefficients& c, Evaluation& evaluation,
+                        MatrixXd& A) {
+  for (std::size_t use = 0; use < model.channel_uses.size(); ++use) {
+    const auto at = static_cast<std::size_t>(model.channel_uses[use].index);
+    if (model.channel_uses[use].owner != ChannelUse::Owner::part_load) continue;
+    const int superelement = model.part_loads[at].superelement;
+    if (superelement < 0) continue;
+    update_direction(model, at, evaluation);
+    const PartLoadDirection& direction = evaluation.part_load_directions[at];
+    const MatrixXd row = part_load_channel_row(model, state, use, c, evaluation);
+    const int first = model.sizes.boundary + model.internal_offset[superelement];
+    const int* columns = model.channel_uses.maps[use].coordinates.data() + direction.boundary.size();
+    for (Eigen::Index j = 0; j < row.cols(); ++j)
+      if (columns[j] >= 0)
+        A.col(columns[j]).segment(first, direction.internal.size()) -= row(0, j) * direction.internal;
+  }
+}
+
 /// c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q; `matrix` receives the values of the pattern.
 MatrixXd exact_matrix(const Model& model, const State& state, const TangentCoefficients& c, Evaluation& evaluation,
                       MatrixValues& matrix) {
@@ -43,6 +62,7 @@ MatrixXd exact_matrix(const Model& model, const State& state, const TangentCoeff
       if (i < boundary) A(i, j) = matrix.scale * matrix.values[pattern.slot(i, j)];
     }
   for (std::size_t i = 0; i < model.superelements.size(); ++i) add_superelement(model, i, c, evaluation, A);
+  add_internal_loads(model, state, c, evaluation, A);
   return A;
 }
 

@@ -321,6 +321,7 @@ void pass_breakpoint(const Model& model, const formats::Scene& scene, State& sta
   };
   for (auto& components : workspace.now.load_functions)
     for (TimeFunction& function : components) look_at(function);
+  for (TimeFunction& function : workspace.now.part_load_functions) look_at(function);
   for (std::optional<TimeFunction>& function : workspace.now.spring_forces)
     if (function) look_at(*function);
   if (!jumps) return;

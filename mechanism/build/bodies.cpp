@@ -73,7 +73,11 @@ std::vector<const formats::VirtualBodySpec*> eliminated_bodies(const formats::Sc
 class BodyBuilder {
  public:
   BodyBuilder(const BodyFiles& files, Construction& c)
-      : c_(c), superelements_(files.superelements), companions_(files.companions), modal_bodies_(files.modal_bodies) {}
+      : c_(c),
+        superelements_(files.superelements),
+        companions_(files.companions),
+        modal_bodies_(files.modal_bodies),
+        load_cases_(load_cases_by_file(c.scene)) {}
 
   void add_place(const std::string& name, const Marker& marker) {
     c_.model.places.push_back({name, marker});
@@ -144,13 +148,14 @@ class BodyBuilder {
     }
     SuperelementUse use;
     use.name = spec.name;
-    const formats::Companion* companion = companion_of(spec, element);
+    const CompanionUse companion = companion_of(spec, element);
     use.body = find_or_build(spec, file, companion, units, built_superelements_, c_.model.superelement_bodies);
     use.gravity = spec.gravity.value_or(c_.scene.gravity);
     const SuperelementBody& body = c_.model.superelement_bodies[use.body];
     for (const std::string& note : body.notes) c_.notes.push_back(fmt::format("body '{}': {}", spec.name, note));
-    if (const SecondOrderChoice choice = choose_second_order(spec, companion); choice.any()) {
-      use.companion_id = companion->companion_id;
+    if (!body.load_cases.empty()) use.companion_id = companion.file->companion_id;
+    if (const SecondOrderChoice choice = choose_second_order(spec, companion.terms); choice.any()) {
+      use.companion_id = companion.file->companion_id;
       c_.notes.push_back(
           fmt::format("body '{}': {}, by {}", spec.name, describe(choice), formats::companion_path(spec.file)));
     }
@@ -167,11 +172,22 @@ class BodyBuilder {
     c_.frames.push_back(spec.start.pose.orientation.normalized());
   }
 
-  /// The companion of the file, mirrored as the body is; null: there is none, or the body does without.
-  const formats::Companion* companion_of(const formats::SuperelementBodySpec& spec,
-                                         const formats::Superelement& image) {
+  /// What the body has of the companion of its file. Throws Error for load cases that are not there.
+  CompanionUse companion_of(const formats::SuperelementBodySpec& spec, const formats::Superelement& image) {
+    CompanionUse use;
+    const bool loaded = bears_part_load(c_.scene, spec.name);
+    if (loaded || may_use_companion(spec)) use.file = mirrored_companion(spec, image);
+    if (may_use_companion(spec)) use.terms = use.file;
+    require_load_cases(c_.scene, spec, use.file);
+    if (loaded) use.load_cases = load_cases_.at(spec.file);
+    return use;
+  }
+
+  /// The companion of the file, mirrored as the body is; null: there is none.
+  const formats::Companion* mirrored_companion(const formats::SuperelementBodySpec& spec,
+                                               const formats::Superelement& image) {
     const auto found = companions_.find(spec.file);
-    if (found == companions_.end() || !may_use_companion(spec)) return nullptr;
+    if (found == companions_.end()) return nullptr;
     if ((spec.mirror.array() > 0.0).all()) return &found->second;
     const std::array<double, 3> axes{spec.mirror.x(), spec.mirror.y(), spec.mirror.z()};
     const auto [at, is_new] = mirrored_companions_.try_emplace({spec.file, axes}, found->second);
@@ -196,6 +212,10 @@ class BodyBuilder {
       node.pose.position = element.node_position.row(j).transpose() * units.length;
       rigid.nodes.push_back(node);
     }
+    const CompanionUse companion = companion_of(spec, element);
+    if (!companion.load_cases.empty())
+      c_.part_resultants[spec.name] =
+          part_resultants(*companion.file, element, file.report.rigid.center_of_mass, units);
     add_rigid_body(rigid);
   }
 
@@ -267,6 +287,7 @@ class BodyBuilder {
   std::map<std::pair<std::string, std::array<double, 3>>, formats::Companion> mirrored_companions_;
   MirroredFiles<formats::LoadedModalBody> modal_bodies_;
   BuiltSuperelements built_superelements_;
+  std::map<std::string, std::vector<std::string>> load_cases_;
 };
 
 void add_bodies(const BodyFiles& files, Construction& c) {

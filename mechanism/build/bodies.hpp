@@ -1,6 +1,7 @@
 // From the bodies of a scene to nodes, places and pools; virtual bodies are kept or eliminated.
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "mechanism/build/build_model.hpp"
 #include "mechanism/build/markers.hpp"
 #include "mechanism/build/mirrored_files.hpp"
+#include "mechanism/build/part_loads.hpp"
 #include "mechanism/build/superelements.hpp"
 
 namespace tisserand::mechanism {
@@ -20,9 +22,10 @@ struct Construction {
   const formats::Scene& scene;
   Model model;
   MarkerTable markers;
-  std::vector<Eigen::Quaterniond> frames;  ///< of the superelements at the start
-  std::vector<BodyStart> starts;           ///< of all bodies
-  std::set<std::string> vanished;          ///< joints that eliminated virtual bodies hung on
+  std::vector<Eigen::Quaterniond> frames;                             ///< of the superelements at the start
+  std::vector<BodyStart> starts;                                      ///< of all bodies
+  std::map<std::string, std::vector<PartResultant>> part_resultants;  ///< of load cases on rigid superelements
+  std::set<std::string> vanished;                                     ///< joints that eliminated virtual bodies hung on
   std::vector<RigidArm> arms;
   std::set<double> breakpoints;
   std::vector<std::string> notes;

@@ -8,6 +8,7 @@
 #include "common/error.hpp"
 #include "formats/hdf5/file.hpp"
 #include "mechanism/build/build_model.hpp"
+#include "mechanism/build/part_loads.hpp"
 #include "mechanism/build/superelements.hpp"
 
 namespace tisserand::mechanism {
@@ -15,9 +16,10 @@ namespace {
 
 using TryToRead = void (*)(const std::string& path);
 
-/// Whether a companion file is there that the body may use.
-bool reads_companion(const formats::SuperelementBodySpec& spec) {
-  return may_use_companion(spec) && std::filesystem::exists(formats::companion_path(spec.file));
+/// Whether a companion file is there that the body may use, or of which a load names a case.
+bool reads_companion(const formats::Scene& scene, const formats::SuperelementBodySpec& spec) {
+  return (may_use_companion(spec) || bears_part_load(scene, spec.name)) &&
+         std::filesystem::exists(formats::companion_path(spec.file));
 }
 
 /// All files of a scene, and how each is tried.
@@ -26,7 +28,7 @@ std::map<std::string, std::set<TryToRead>> trials(const formats::Scene& scene) {
   for (const formats::BodySpec& body : scene.bodies)
     if (const auto* superelement = std::get_if<formats::SuperelementBodySpec>(&body)) {
       list[superelement->file].insert(formats::try_superelement);
-      if (reads_companion(*superelement))
+      if (reads_companion(scene, *superelement))
         list[formats::companion_path(superelement->file)].insert(formats::try_companion);
     } else if (const auto* modal = std::get_if<formats::ModalBodySpec>(&body))
       list[modal->file].insert(formats::try_modal_body);
@@ -66,7 +68,7 @@ BodyFiles read_body_files(const formats::Scene& scene) {
     try {
       if (superelement != nullptr && superelements.insert(superelement->file).second)
         files.superelements[superelement->file] = read_superelement(superelement->file);
-      if (superelement != nullptr && reads_companion(*superelement) &&
+      if (superelement != nullptr && reads_companion(scene, *superelement) &&
           files.superelements.contains(superelement->file) && companions.insert(superelement->file).second)
         files.companions[superelement->file] = read_companion(formats::companion_path(superelement->file),
                                                               files.superelements.at(superelement->file).superelement);

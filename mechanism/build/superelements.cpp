@@ -9,15 +9,16 @@ namespace tisserand::mechanism {
 
 namespace {
 
-SuperelementOptions options_of(const formats::SuperelementBodySpec& spec, const formats::Companion* companion,
+SuperelementOptions options_of(const formats::SuperelementBodySpec& spec, const CompanionUse& companion,
                                const UnitConversion& units) {
-  const SecondOrderChoice choice = choose_second_order(spec, companion);
+  const SecondOrderChoice choice = choose_second_order(spec, companion.terms);
   SuperelementOptions options;
   options.frame = spec.frame;
   options.frame_node = spec.frame_node;
   options.inertia = choice.inertia;
   options.stiffening = choice.stiffening;
-  if (choice.any()) options.companion = companion;
+  options.load_cases = companion.load_cases;
+  if (choice.any() || !options.load_cases.empty()) options.companion = companion.file;
   options.modes = spec.modes;
   options.cutoff = spec.cutoff;
   options.position_weights = spec.position_weights;
@@ -32,7 +33,7 @@ SuperelementOptions options_of(const formats::SuperelementBodySpec& spec, const 
 bool make_the_same(const SuperelementOptions& a, const SuperelementOptions& b) {
   const auto all = [](const SuperelementOptions& o) {
     return std::tie(o.frame, o.frame_node, o.inertia, o.stiffening, o.modes, o.cutoff, o.position_weights,
-                    o.rotation_weights, o.damping);
+                    o.rotation_weights, o.damping, o.load_cases);
   };
   return all(a) == all(b);
 }
@@ -91,7 +92,7 @@ SecondOrderChoice choose_second_order(const formats::SuperelementBodySpec& spec,
 }
 
 int find_or_build(const formats::SuperelementBodySpec& spec, const formats::LoadedSuperelement& file,
-                  const formats::Companion* companion, const UnitConversion& units, BuiltSuperelements& built,
+                  const CompanionUse& companion, const UnitConversion& units, BuiltSuperelements& built,
                   std::vector<SuperelementBody>& bodies) {
   SuperelementOptions options = options_of(spec, companion, units);
   std::vector<BuiltSuperelements::Entry>& entries = built.of_file[&file];

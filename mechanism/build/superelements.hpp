@@ -39,10 +39,17 @@ SecondOrderChoice choose_second_order(const formats::SuperelementBodySpec& spec,
 /// "inertia F, stiffening full".
 std::string describe(const SecondOrderChoice& choice);
 
+/// What a body has of the companion of its file.
+struct CompanionUse {
+  const formats::Companion* file = nullptr;   ///< null: there is none, or the body does without
+  const formats::Companion* terms = nullptr;  ///< the same, or null: the body does without second-order terms
+  std::vector<std::string> load_cases;        ///< that loads name for any body of the file, ascending
+};
+
 /// Index among `bodies` of the body that `spec` makes from the file; built and appended if there is none. units: file
-/// -> scene. companion: of the file, or null. Throws Error.
+/// -> scene. Throws Error.
 int find_or_build(const formats::SuperelementBodySpec& spec, const formats::LoadedSuperelement& file,
-                  const formats::Companion* companion, const UnitConversion& units, BuiltSuperelements& built,
+                  const CompanionUse& companion, const UnitConversion& units, BuiltSuperelements& built,
                   std::vector<SuperelementBody>& bodies);
 
 }  // namespace tisserand::mechanism

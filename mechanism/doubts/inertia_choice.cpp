@@ -86,6 +86,7 @@ void InertiaChoice::compare(const Model& model, const State& state, const Evalua
   for (Other& other : others_[model.superelements[index].body]) {
     update_kinematics(other.body, nodes_of(model, index, evaluation), state.y().data() + internal,
                       state.v().data() + first, state.vdot().data() + first, own.motion.R0, other.scratch);
+    other.scratch.forces.loads.factors = own.forces.loads.factors;
     residual(other.body, other.scratch, gravity);
     load_.setZero(body.boundary_size + body.modes);
     add_local(other.body, other.scratch, 1.0, load_);

@@ -88,6 +88,7 @@ void add_forces(const Model& model, const State& state, const Pool<SuperelementU
     scatter(pool.maps[i], scratch.forces.r_B, evaluation.residual);
     note_scale(body, scratch, evaluation);
     if (body.damping.active) evaluation.damping_power += energy(body, scratch, gravity).damping_power;
+    if (!body.load_cases.empty()) evaluation.load_power += load_power(body, scratch.motion, scratch.forces.loads);
   }
 }
 

@@ -1,13 +1,21 @@
 // Channels and what depends on them.
 #include "mechanism/equations/terms.hpp"
+#include "mechanism/model/element_map.hpp"
 
 namespace tisserand::mechanism {
 namespace {
 
 TimeFunction& function_of(const ChannelUse& use, Evaluation& evaluation) {
   const auto at = static_cast<std::size_t>(use.index);
-  return use.owner == ChannelUse::Owner::load ? evaluation.load_functions[at][use.component]
-                                              : *evaluation.spring_forces[at];
+  switch (use.owner) {
+    case ChannelUse::Owner::load:
+      return evaluation.load_functions[at][use.component];
+    case ChannelUse::Owner::part_load:
+      return evaluation.part_load_functions[at];
+    case ChannelUse::Owner::spring:
+      break;
+  }
+  return *evaluation.spring_forces[at];
 }
 
 /// c_c ∂(channel)/∂v + c_k ∂(channel)/∂q.
@@ -32,7 +40,32 @@ Eigen::Matrix<double, size, 1> no_force() {
   return Eigen::Matrix<double, size, 1>::Zero();
 }
 
+/// On the columns of the channel, rows of the load.
+void add_part_load_channel(const Model& model, const State& state, std::size_t use, Evaluation& evaluation,
+                           const TangentTarget& target) {
+  const auto at = static_cast<std::size_t>(model.channel_uses[use].index);
+  update_direction(model, at, evaluation);
+  const Eigen::VectorXd& direction = evaluation.part_load_directions[at].boundary;
+  const Eigen::MatrixXd row = part_load_channel_row(model, state, use, target.coefficients, evaluation);
+  const std::vector<int>& slots = model.channel_uses.maps[use].slots;
+  const Eigen::Index rows = direction.size(), size = rows + row.cols();
+  for (Eigen::Index j = 0; j < row.cols(); ++j)
+    for (Eigen::Index i = 0; i < rows; ++i)
+      if (const int slot = slots[i + (rows + j) * size]; slot >= 0)
+        target.values[slot] -= target.factor * direction[i] * row(0, j);
+}
+
 }  // namespace
+
+Eigen::MatrixXd part_load_channel_row(const Model& model, const State& state, std::size_t use,
+                                      const TangentCoefficients& coefficients, Evaluation& evaluation) {
+  const ChannelUse& of = model.channel_uses[use];
+  const Channel& channel = model.channels[of.channel];
+  const double slope = evaluation.load_factor *
+                       function_of(of, evaluation).derivative(static_cast<std::size_t>(of.argument), state.load_time());
+  const Row12 row = slope * channel_row(model, channel, coefficients, evaluation);
+  return model_rows(model, carrier_map(model, {channel.a.node, channel.b.node}), local_view(row), evaluation);
+}
 
 void update_channels(const Model& model, Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.channels.size(); ++i) {
@@ -54,6 +87,10 @@ void add_channel_tangents(const Model& model, const State& state, Evaluation& ev
   Eigen::Matrix<double, 24, 24> on_spring = Eigen::Matrix<double, 24, 24>::Zero();
   for (std::size_t i = 0; i < model.channel_uses.size(); ++i) {
     const ChannelUse& use = model.channel_uses[i];
+    if (use.owner == ChannelUse::Owner::part_load) {
+      add_part_load_channel(model, state, i, evaluation, target);
+      continue;
+    }
     const auto owner = static_cast<std::size_t>(use.index);
     const Row12 row = channel_row(model, model.channels[use.channel], target.coefficients, evaluation);
     const double slope =

@@ -51,6 +51,7 @@ void evaluate_constraints(const Model& model, const State& state, Evaluation& ev
 void evaluate_in_step(const Model& model, const State& state, Evaluation& evaluation) {
   evaluate_constraints(model, state, evaluation);
   clear_forces(evaluation);
+  update_part_loads(model, state, evaluation);
   for_each_body_pool(model, [&](const auto& pool) { add_forces(model, state, pool, evaluation); });  // G_iner + G_int
   add_joints(model, state, evaluation);
   add_frictions(model, state, evaluation);
@@ -59,6 +60,7 @@ void evaluate_in_step(const Model& model, const State& state, Evaluation& evalua
   add_bushings(model, evaluation);
   add_tyres(model, evaluation);
   add_loads(model, state, evaluation);
+  add_part_loads(model, evaluation);
   evaluation.stage = Stage::forces;
 }
 

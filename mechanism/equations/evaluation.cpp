@@ -15,6 +15,24 @@ std::vector<std::array<TimeFunction, 3>> compile_loads(const Model& model) {
   return functions;
 }
 
+std::vector<TimeFunction> compile_part_loads(const Model& model) {
+  std::vector<TimeFunction> functions;
+  for (const PartLoad& load : model.part_loads) functions.emplace_back(load.value, model.scope);
+  return functions;
+}
+
+std::vector<PartLoadDirection> size_directions(const Model& model) {
+  std::vector<PartLoadDirection> directions(model.part_loads.size());
+  for (const ChannelUse& use : model.channel_uses) {
+    if (use.owner != ChannelUse::Owner::part_load) continue;
+    const PartLoad& load = model.part_loads[use.index];
+    PartLoadDirection& direction = directions[use.index];
+    direction.boundary.setZero(static_cast<Eigen::Index>(model.part_loads.maps[use.index].coordinates.size()));
+    if (load.superelement >= 0) direction.internal.setZero(body_of(model, load.superelement).modes);
+  }
+  return directions;
+}
+
 std::vector<MotionFunction> compile_motions(const Model& model) {
   std::vector<MotionFunction> functions;
   for (const formats::TimeFunctionSpec& motion : model.motions)
@@ -46,12 +64,15 @@ Evaluation::Evaluation(const Model& model)
       bushings(model.bushings.size()),
       tyres(model.tyres.size()),
       load_values(model.loads.size(), Eigen::Vector3d::Zero()),
+      part_load_values(model.part_loads.size(), 0.0),
       residual(Eigen::VectorXd::Zero(model.sizes.boundary)),
       bias(active),
       tie_wrenches(model.ties.size(), Vector6d::Zero()),
       motions(compile_motions(model)),
       spring_forces(compile_spring_forces(model)),
       load_functions(compile_loads(model)),
+      part_load_functions(compile_part_loads(model)),
+      part_load_directions(size_directions(model)),
       carriers(make_carrier_scratch(model)) {
   for (const SuperelementBody& body : model.superelement_bodies) superelement_work.push_back(make_work(body));
   for (std::size_t i = 0; i < model.superelements.size(); ++i) superelements.push_back(make_scratch(body_of(model, i)));

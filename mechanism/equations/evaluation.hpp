@@ -28,6 +28,11 @@ struct CarrierScratch {
   Eigen::VectorXd lower, upper, rate;  ///< rows of constraints and of rates
 };
 
+/// The generalised force of the factor 1 of a part load: on the coordinates of its map, and the internal ones.
+struct PartLoadDirection {
+  Eigen::VectorXd boundary, internal;
+};
+
 /// How far the latest evaluate() of a state has come; each stage needs the one before (evaluate.hpp).
 enum class Stage { nothing, motion, constraints, forces };
 
@@ -47,7 +52,7 @@ struct Evaluation {
 
   // Stage motion.
   std::vector<NodeMotion> motion;  ///< of every node; one more at the end: ground
-  std::vector<Tread> treads;  ///< of every tyre
+  std::vector<Tread> treads;       ///< of every tyre
   std::vector<ModalScratch> modal_bodies;
   std::vector<ModalNodeTerms> modal_nodes;  ///< active ones; all of them after update_modal_nodes()
 
@@ -66,8 +71,9 @@ struct Evaluation {
   std::vector<BushingTerms> bushings;
   std::vector<TyreTerms> tyres;
   std::vector<Eigen::Vector3d> load_values;
-  Eigen::VectorXd residual;             ///< r, boundary coordinates (uncondensed)
-  std::array<double, 3> force_scale{};  ///< largest force, moment and internal force of any single term
+  std::vector<double> part_load_values;  ///< factors
+  Eigen::VectorXd residual;              ///< r, boundary coordinates (uncondensed)
+  std::array<double, 3> force_scale{};   ///< largest force, moment and internal force of any single term
   double load_power = 0.0;
   double damping_power = 0.0;
   double spring_energy = 0.0;  ///< strain energy of springs, stops and bushings
@@ -80,7 +86,9 @@ struct Evaluation {
   std::vector<MotionFunction> motions;
   std::vector<std::optional<TimeFunction>> spring_forces;
   std::vector<std::array<TimeFunction, 3>> load_functions;
-  std::vector<SuperelementWork> superelement_work;  ///< of each body
+  std::vector<TimeFunction> part_load_functions;
+  std::vector<PartLoadDirection> part_load_directions;  ///< sized where channels enter the factor
+  std::vector<SuperelementWork> superelement_work;      ///< of each body
   CarrierScratch carriers;
 };
 

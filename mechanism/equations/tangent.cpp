@@ -46,6 +46,7 @@ void add_node_tangents(const Model& model, const State& state, TangentKind kind,
                        const TangentTarget& target) {
   add_body_tangents(model, kind, evaluation, target);
   add_load_tangents(model, evaluation, target);
+  add_part_load_tangents(model, evaluation, target);
   add_joint_tangents(model, state, evaluation, target);
   add_friction_tangents(model, state, evaluation, target);
   add_coordinate_tangents(model, state, evaluation, target);

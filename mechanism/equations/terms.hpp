@@ -112,20 +112,33 @@ void update_channels(const Model& model, Evaluation& evaluation);
 void add_frictions(const Model& model, const State& state, Evaluation& evaluation);
 /// Loads F (with the sign of r) and their power.
 void add_loads(const Model& model, const State& state, Evaluation& evaluation);
+/// Factors of part loads, also in the scratch of the superelements that bear them: before the forces of bodies.
+void update_part_loads(const Model& model, const State& state, Evaluation& evaluation);
+/// Their forces on rigid bodies, and the power of all of them.
+void add_part_loads(const Model& model, Evaluation& evaluation);
 /// Forces, energy and powers of bushings.
 void add_bushings(const Model& model, Evaluation& evaluation);
 /// Forces of tyres, the energy of their vertical springs, and what else they take as dissipated power.
 void add_tyres(const Model& model, Evaluation& evaluation);
 
 /// Rows, columns and geometric stiffness of joints, of couplings and motions; tangents of springs, friction (also ∂r/∂λ
-/// beside Bᵀ), bushings, tyres, and of loads and spring forces by the channels.
+/// beside Bᵀ), bushings, tyres, of part loads on rigid bodies, and of loads and spring forces by the channels (of part
+/// loads on superelements without what internal coordinates pass on).
 void add_joint_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
 void add_coordinate_tangents(const Model& model, const State& state, Evaluation& evaluation,
                              const TangentTarget& target);
 void add_load_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target);
+void add_part_load_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target);
+/// evaluation.part_load_directions[i] at the motion of the last evaluate().
+void update_direction(const Model& model, std::size_t i, Evaluation& evaluation);
 void add_friction_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
 void add_bushing_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target);
 void add_tyre_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target);
 void add_channel_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target);
+
+/// c_c ∂(channel)/∂v + c_k ∂(channel)/∂q times ∂(factor)/∂(channel) for one use by a part load, in the coordinates of
+/// the map of the use behind those of the load. Takes memory.
+Eigen::MatrixXd part_load_channel_row(const Model& model, const State& state, std::size_t use,
+                                      const TangentCoefficients& coefficients, Evaluation& evaluation);
 
 }  // namespace tisserand::mechanism

@@ -22,9 +22,10 @@ struct Channel {
   formats::TyreQuantity quantity = formats::TyreQuantity::load;
 };
 
-/// Where a channel enters a force: the value of a component of a load, or the force of a spring.
+/// Where a channel enters a force: the value of a component of a load, the force of a spring, or the factor of a part
+/// load.
 struct ChannelUse {
-  enum class Owner { load, spring };
+  enum class Owner { load, spring, part_load };
   Owner owner = Owner::load;
   int index = 0;      ///< in the pool of its owner
   int component = 0;  ///< of a load

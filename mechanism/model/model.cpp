@@ -55,15 +55,31 @@ void number_elements(Model& model) {
       model.tyres.maps.back().coordinates.push_back(model.sizes.first_modal() + tyre.lag + k);
   }
   for (const Load& load : model.loads) add(model.loads.maps, load.at.node);
+  for (const PartLoad& load : model.part_loads)
+    if (load.superelement < 0)
+      add(model.part_loads.maps, load.node);
+    else
+      model.part_loads.maps.push_back({model.superelements.maps[load.superelement].coordinates, {}, {}});
   for (const Coordinate& c : model.coordinates) add(model.coordinates.maps, c.a.node, c.b.node);
   for (const ChannelUse& use : model.channel_uses) {
     const auto owner = static_cast<std::size_t>(use.index);
     const Channel& channel = model.channels[use.channel];
-    if (use.owner == ChannelUse::Owner::load) {
-      add(model.channel_uses.maps, model.loads[owner].at.node, channel.a.node, channel.b.node);
-    } else {
-      const Coordinate& c = model.coordinates[model.springs[owner].coordinate];
-      add(model.channel_uses.maps, c.a.node, c.b.node, channel.a.node, channel.b.node);
+    switch (use.owner) {
+      case ChannelUse::Owner::load:
+        add(model.channel_uses.maps, model.loads[owner].at.node, channel.a.node, channel.b.node);
+        break;
+      case ChannelUse::Owner::part_load: {
+        ElementMap map{model.part_loads.maps[owner].coordinates, {}, {}};
+        append_carrier(model, channel.a.node, map.coordinates);
+        append_carrier(model, channel.b.node, map.coordinates);
+        model.channel_uses.maps.push_back(std::move(map));
+        break;
+      }
+      case ChannelUse::Owner::spring: {
+        const Coordinate& c = model.coordinates[model.springs[owner].coordinate];
+        add(model.channel_uses.maps, c.a.node, c.b.node, channel.a.node, channel.b.node);
+        break;
+      }
     }
   }
   for (const Coupling& coupling : model.couplings) {
@@ -149,7 +165,8 @@ void for_each_map(Model& model, Visit visit) {
   for_each_body_pool(model, [&]<class T>(Pool<T>& pool) {
     for (ElementMap& map : pool.maps) visit(map, std::is_same_v<T, RigidBody> ? rigid : all);
   });
-  for (auto* maps : {&model.bushings.maps, &model.tyres.maps, &model.loads.maps, &model.channel_uses.maps})
+  for (auto* maps :
+       {&model.bushings.maps, &model.tyres.maps, &model.loads.maps, &model.part_loads.maps, &model.channel_uses.maps})
     for (ElementMap& map : *maps) visit(map, all);
   for (std::size_t i = 0; i < model.joints.size(); ++i)
     visit(model.joints.maps[i], fills_all(model, i) ? all : stiffness_entries(model.joints[i]));

@@ -15,6 +15,7 @@
 #include "mechanism/forces/bushing.hpp"
 #include "mechanism/forces/expression_scope.hpp"
 #include "mechanism/forces/load.hpp"
+#include "mechanism/forces/part_load.hpp"
 #include "mechanism/forces/spring.hpp"
 #include "mechanism/joints/coordinate.hpp"
 #include "mechanism/joints/friction.hpp"
@@ -106,6 +107,7 @@ struct Model {
   std::vector<Road> roads;
   Pool<Tyre> tyres;
   Pool<Load> loads;
+  Pool<PartLoad> part_loads;        ///< maps: of their node where the body is rigid, else those of the superelement
   std::vector<double> breakpoints;  ///< ascending, of all loads
   /// Where positions of nodes and ground count from, in the world: zero but for scenes that stand far away, whose
   /// positions would lose digits. Added where positions leave the stage.

@@ -177,6 +177,8 @@ void fill_tyres(const Model& model, const Evaluation& evaluation, formats::Resul
 
 void fill_loads(const Model& model, const Evaluation& evaluation, formats::ResultsRow& row) {
   for (std::size_t i = 0; i < model.loads.size(); ++i) row.load.col(i) = evaluation.load_values[i];
+  for (std::size_t i = 0; i < model.part_loads.size(); ++i)
+    row.load.col(model.loads.size() + i) = evaluation.part_load_values[i] * model.part_loads[i].force;
 }
 
 void add_force_names(const Model& model, formats::ResultsLayout& layout) {
@@ -191,6 +193,7 @@ void add_force_names(const Model& model, formats::ResultsLayout& layout) {
     layout.treads = layout.treads || tyre.relaxes();
   }
   for (const Load& load : model.loads) layout.loads.push_back({load.name, load.kind == formats::LoadKind::force});
+  for (const PartLoad& load : model.part_loads) layout.loads.push_back({load.name, true});
   for (const Friction& friction : model.frictions) layout.frictions.push_back(model.joints[friction.joint].name);
 }
 

@@ -50,6 +50,7 @@ std::vector<std::string> effects(const Model& model) {
   add(model.bushings.size(), "bushings");
   add(model.tyres.size(), "tyres");
   add(model.loads.size(), "loads");
+  add(model.part_loads.size(), "part loads");
   if (has_gravity(model)) list.push_back("gravity");
   bool damped = false;
   for_each_body(model, [&](const auto& body) { damped = damped || is_damped(model, body); });
@@ -189,6 +190,12 @@ std::string nonfinite_load(Run& run, double time) {
           nonfinite_text(what, model.loads[i].components[k], time, workspace.now.load_functions[i][k](time));
       if (!text.empty()) return text;
     }
+  for (std::size_t i = 0; i < model.part_loads.size(); ++i) {
+    const PartLoad& load = model.part_loads[i];
+    const std::string text = nonfinite_text(fmt::format("load '{}', value", load.name), load.value, time,
+                                            workspace.now.part_load_functions[i](time));
+    if (!text.empty()) return text;
+  }
   for (std::size_t i = 0; i < model.springs.size(); ++i) {
     if (!workspace.now.spring_forces[i]) continue;
     const std::string what = fmt::format("spring '{}', force", model.springs[i].name);

@@ -22,7 +22,7 @@ struct Reference {
   Kind kind;
 };
 
-constexpr std::array<Reference, 14> references{{{"joints", "a", Kind::body},
+constexpr std::array<Reference, 15> references{{{"joints", "a", Kind::body},
                                                 {"joints", "b", Kind::body},
                                                 {"joints", "between", Kind::joint},
                                                 {"motions", "coordinate", Kind::joint},
@@ -35,7 +35,8 @@ constexpr std::array<Reference, 14> references{{{"joints", "a", Kind::body},
                                                 {"channels", "a", Kind::body},
                                                 {"channels", "b", Kind::body},
                                                 {"channels", "tyre", Kind::tyre},
-                                                {"loads", "at", Kind::body}}};
+                                                {"loads", "at", Kind::body},
+                                                {"loads", "body", Kind::body}}};
 
 constexpr std::array<std::string_view, 10> instantiated{"bodies",  "joints",  "inputs",   "channels", "motions",
                                                         "initial", "springs", "bushings", "tyres",    "loads"};

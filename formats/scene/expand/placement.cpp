@@ -304,7 +304,7 @@ void Placement::tyre(YamlNode& tyre) {
 }
 
 void Placement::load(YamlNode& load) {
-  if (!frame_.turned()) return;
+  if (!frame_.turned() || word(load, "type") == "part_load") return;  // load cases turn with their body
   marker(load, "at", frame_.S);
   const double handed = word(load, "type") == "moment" ? frame_.S.diagonal().prod() : 1.0;
   const Matrix3d by = handed * (word(load, "axes") == "body" ? frame_.S : frame_.G);

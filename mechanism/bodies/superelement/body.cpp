@@ -6,10 +6,12 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "common/error.hpp"
 #include "formats/superelement/canonical.hpp"
 #include "formats/superelement/weights.hpp"
+#include "mechanism/bodies/superelement/load_cases.hpp"
 
 namespace tisserand::mechanism {
 
@@ -261,6 +263,19 @@ void set_gravity_constants(SuperelementBody& body) {
   }
 }
 
+void use_companion(const formats::Superelement& element, const CanonicalMatrices& matrices,
+                   const SuperelementOptions& options, SuperelementBody& body) {
+  TISSERAND_ENSURE(options.companion != nullptr, "no companion of '{}'", body.name);
+  formats::Companion companion = *options.companion;
+  std::erase_if(companion.load_cases, [&](const formats::LoadCase& load) {
+    return !std::binary_search(options.load_cases.begin(), options.load_cases.end(), load.name);
+  });
+  companion = companion_on_body(std::move(companion), element, matrices, options.units, body);
+  if (companion.has_second_order())
+    body.second_order = make_second_order(body, companion, options.inertia, options.stiffening);
+  body.load_cases = make_load_cases(body, companion);
+}
+
 }  // namespace
 
 SuperelementBody build_superelement_body(const formats::Superelement& element, const formats::RigidProperties& rigid,
@@ -273,12 +288,9 @@ SuperelementBody build_superelement_body(const formats::Superelement& element, c
   cut_modes(options, matrices, body);
   set_frame(element, rigid, options, body);
   set_gravity_constants(body);
-  if (options.inertia == formats::InertiaOption::F || options.stiffening != formats::StiffeningOption::off) {
-    TISSERAND_ENSURE(options.companion != nullptr, "no companion of '{}'", body.name);
-    body.second_order =
-        make_second_order(body, companion_on_body(*options.companion, element, matrices, options.units, body),
-                          options.inertia, options.stiffening);
-  }
+  if (options.inertia == formats::InertiaOption::F || options.stiffening != formats::StiffeningOption::off ||
+      !options.load_cases.empty())
+    use_companion(element, matrices, options, body);
   set_damping(options.damping, options.where, body);
   return body;
 }

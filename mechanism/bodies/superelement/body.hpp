@@ -20,7 +20,8 @@ struct SuperelementOptions {
   std::string frame_node;  ///< for FrameKind::node
   formats::InertiaOption inertia = formats::InertiaOption::B;
   formats::StiffeningOption stiffening = formats::StiffeningOption::off;
-  const formats::Companion* companion = nullptr;      ///< of the file; for inertia F and stiffening
+  const formats::Companion* companion = nullptr;      ///< of the file; for inertia F, stiffening and load cases
+  std::vector<std::string> load_cases;                ///< those that are used, ascending
   std::optional<int> modes;                           ///< absent: all in the file
   std::optional<double> cutoff;                       ///< frequency ω/2π [1/time of the scene]
   std::vector<formats::NodeWeight> position_weights;  ///< empty: from the centre of mass
@@ -66,6 +67,16 @@ struct SuperelementDamping {
   bool is_full() const { return BB.size() > 0; }
 };
 
+/// A load case of the companion file with the factor 1, in axes of the frame (load_cases.hpp).
+struct BodyLoadCase {
+  std::string name;
+  Eigen::VectorXd force;                             ///< nb + m: f
+  Eigen::MatrixXd stiffness;                         ///< (nb + m)²: K; empty without stiffening
+  Eigen::Vector3d total = Eigen::Vector3d::Zero();   ///< resultant
+  Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< about x₀, undeformed
+  Eigen::Matrix<double, 3, Eigen::Dynamic> arm;      ///< 3 x (nb + m): ∂(moment)/∂y
+};
+
 /// From the coordinates of the body to those of the file: y_I(file) = static_part y_B + modal_part y_I.
 struct FileCoordinates {
   std::vector<int> boundary_row;  ///< nb: row of the file of each boundary coordinate
@@ -103,6 +114,7 @@ struct SuperelementBody {
   Eigen::Matrix<double, 3, Eigen::Dynamic> Gamma_I;          ///< Φ_TᵀM̄, internal columns (3 x m)
 
   SecondOrder second_order;  ///< empty: linear strain, inertia by M̄ alone
+  std::vector<BodyLoadCase> load_cases;
 
   FileCoordinates file;
   std::vector<std::string> notes;  ///< what the user should know, whole sentences
@@ -113,7 +125,7 @@ struct SuperelementUse {
   std::string name;
   int body = 0;              ///< index into the model's bodies
   std::vector<int> nodes;    ///< indices into the model's nodes, in the order of the body
-  std::string companion_id;  ///< of the companion whose terms it has; empty: none
+  std::string companion_id;  ///< of the companion whose terms or load cases it has; empty: none
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
 };
 

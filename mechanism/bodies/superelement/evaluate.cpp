@@ -73,6 +73,28 @@ void residual(const SuperelementBody& body, SuperelementScratch& scratch, const 
   }
 }
 
+double load_power(const SuperelementBody& body, const LocalMotion<double>& motion, const LoadTerms<double>& t) {
+  const Eigen::Index nb = body.boundary_size;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  // of x₀, axes of the frame
+  for (const int j : body.translation_nodes) {
+    const auto i = static_cast<std::size_t>(j);
+    velocity += body.node[i].alpha * motion.node[i].xd;
+  }
+  return t.force.dot(velocity) + t.moment.dot(motion.Omega0) + t.g.head(nb).dot(motion.deformation_rate_B) +
+         t.g.tail(body.modes).dot(motion.rate_I);
+}
+
+void load_case_direction(const SuperelementBody& body, int load_case, const SuperelementScratch& scratch,
+                         Eigen::VectorXd& boundary, Eigen::VectorXd& internal) {
+  LoadTerms<double> t = make_load_terms<double>(body);
+  t.factors[load_case] = 1.0;
+  load_terms(body, scratch.motion, t);
+  boundary = -t.g.head(body.boundary_size);
+  internal = t.g.tail(body.modes);
+  pull_back<double>(body, scratch.motion, {-t.force, -t.moment}, boundary);
+  boundary = -boundary;
+}
+
 namespace {
 
 double quadratic_form(const Eigen::MatrixXd& A, const Eigen::VectorXd& v) {

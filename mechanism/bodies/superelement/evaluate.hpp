@@ -106,14 +106,15 @@ void residual(const SuperelementBody& body, SuperelementScratch& scratch, const 
 void tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
              SuperelementWork& work);
 
-/// The step tangent with the internal coordinates kept: work.A_BB, and A_BI, A_IB of the tangent, whose sizes the caller
-/// has set; all linear in the coefficients. A_II is c_m + c_c D_II + c_k S_II. condense() and expand() are not for it.
+/// The step tangent with the internal coordinates kept: work.A_BB, and A_BI, A_IB of the tangent, whose sizes the
+/// caller has set; all linear in the coefficients. A_II is c_m + c_c D_II + c_k S_II. condense() and expand() are not
+/// for it.
 void kept_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients, SuperelementScratch& scratch,
                   SuperelementWork& work);
 
-/// Like tangent() with the exact combination c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q by dual numbers; the elimination of y_I takes
-/// the diagonal of A_II, which with inertia M is all of it only at rest (Ω₀ couples internal coordinates; the step
-/// tangent of M leaves that out, bodies/superelement/center_tangent.hpp). Allocates.
+/// Like tangent() with the exact combination c_m ∂r/∂v̇ + c_c ∂r/∂v + c_k ∂r/∂q by dual numbers; the elimination of y_I
+/// takes the diagonal of A_II, which with inertia M is all of it only at rest (Ω₀ couples internal coordinates; the
+/// step tangent of M leaves that out, bodies/superelement/center_tangent.hpp). Allocates.
 void exact_tangent(const SuperelementBody& body, const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,
                    const TangentCoefficients& coefficients, SuperelementScratch& scratch, SuperelementWork& work);
 
@@ -132,6 +133,10 @@ void expand_motion(const SuperelementBody& body, const SuperelementScratch& scra
 void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch& scratch,
                          const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity,
                          const TangentCoefficients& coefficients, TangentKind kind, Eigen::MatrixXd& A);
+
+/// Generalised force of a load case with the factor 1 on the nodes and on the internal coordinates, after residual().
+void load_case_direction(const SuperelementBody& body, int load_case, const SuperelementScratch& scratch,
+                         Eigen::VectorXd& boundary, Eigen::VectorXd& internal);
 
 struct SuperelementEnergy {
   double kinetic = 0.0;            ///< ½ ẏᵀ M̄ ẏ

@@ -48,6 +48,7 @@ void exact_columns(const SuperelementBody& body, const SuperelementScratch& scra
   A.resize(n, n);
   LocalMotion<Dual> motion = make_local_motion<Dual>(body);
   SuperelementForces<Dual> forces = make_forces<Dual>(body);
+  forces.loads.factors = scratch.forces.loads.factors;
   std::vector<Node> moved(body.node.size());
   std::vector<int> index(body.node.size());
   const Eigen::Matrix3d& R0 = body.frame == FrameAlgorithm::incremental ? scratch.R0_reference : scratch.motion.R0;

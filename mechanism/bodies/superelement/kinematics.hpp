@@ -80,7 +80,7 @@ void local_motion(const SuperelementBody& body, const NodeView<Node>& nodes, Loc
   local_rates(body, nodes, motion);
   const bool exact_center = body.inertia == formats::InertiaOption::M;
   const bool second_derivatives = exact_center || body.second_order.inertia;
-  if (body.damping.active || second_derivatives) deformation_rates(body, nodes, motion);
+  if (body.damping.active || second_derivatives || !body.load_cases.empty()) deformation_rates(body, nodes, motion);
   if (second_derivatives) deformation_accelerations(body, nodes, motion);
   if (exact_center) center_of_mass_motion(body, motion);
 }

@@ -5,6 +5,7 @@
 
 #include "mechanism/bodies/superelement/full_inertia.hpp"
 #include "mechanism/bodies/superelement/kinematics.hpp"
+#include "mechanism/bodies/superelement/load_cases.hpp"
 #include "mechanism/bodies/superelement/products.hpp"
 #include "mechanism/bodies/superelement/strain.hpp"
 
@@ -17,10 +18,11 @@ struct SuperelementForces {
   Vector r_B, r_I;
   Vector p_B;  ///< (M̄ ẏ)_B, momenta in axes of the frame (rotation rows: material axes in option B)
   Vector f_B;  ///< (M̄ ÿ)_B
-  Vector s_B;  ///< S̄ y + D ẏ − Φ-projected weight, boundary rows
+  Vector s_B;  ///< S̄ y + D ẏ − Φ-projected weight and load cases, boundary rows
 
   StrainTerms<S> strain;    ///< sized where the body has stiffening
   InertiaTerms<S> inertia;  ///< sized where it has full inertia
+  LoadTerms<S> loads;       ///< sized where it has load cases, whose factors the caller sets
 };
 
 template <class S>
@@ -32,6 +34,7 @@ SuperelementForces<S> make_forces(const SuperelementBody& body) {
   const SecondOrder& second = body.second_order;
   if (second.stiffening) forces.strain = make_strain_terms<S>(*second.stiffening);
   if (second.inertia) forces.inertia = make_inertia_terms<S>(*second.inertia);
+  forces.loads = make_load_terms<S>(body);
   return forces;
 }
 
@@ -116,34 +119,40 @@ Vec3<S> apply_gravity(const SuperelementBody& body, const LocalMotion<S>& motion
   return body.mass * cross<S>(deformed_center_of_mass(body, motion), g);
 }
 
-/// A₀ᵀ G_x + Uᵀ G_θ + Υᵀ G_y of the boundary, G_y = out.f_B + out.s_B, into out.r_B: forces on (x₀, Θ₀, y) as forces on
-/// the nodes.
+/// The part of the load cases that acts through y: s −= Σ s (f + K y).
+template <class S>
+void apply_load_cases(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
+  load_terms(body, motion, out.loads);
+  out.s_B -= out.loads.g.head(body.boundary_size);
+  out.r_I -= out.loads.g.tail(body.modes);
+}
+
+/// A₀ᵀ G_x + Uᵀ G_θ + Υᵀ G_y of the boundary, G_y = r_B at entry: forces on (x₀, Θ₀, y) as forces on the nodes.
 template <class S>
 void pull_back(const SuperelementBody& body, const LocalMotion<S>& motion, const FrameForces<S>& frame,
-               SuperelementForces<S>& out) {
-  out.r_B = out.f_B + out.s_B;
+               Eigen::Matrix<S, Eigen::Dynamic, 1>& r_B) {
   Vec3<S> moment = frame.G_theta, total = -frame.G_x;
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     if (node.has_translation()) {
-      const Vec3<S> f = out.r_B.template segment<3>(node.translation_row);
+      const Vec3<S> f = r_B.template segment<3>(node.translation_row);
       total += f;
       moment -= cross<S>(motion.node[i].xh, f);
     }
-    if (node.has_rotation()) moment -= motion.node[i].Tinv * out.r_B.template segment<3>(node.rotation_row);
+    if (node.has_rotation()) moment -= motion.node[i].Tinv * r_B.template segment<3>(node.rotation_row);
   }
   const bool polar = body.frame == FrameAlgorithm::polar;
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     const LocalNode<S>& local = motion.node[i];
     if (node.has_translation()) {
-      const Vec3<S> f = out.r_B.template segment<3>(node.translation_row) - node.alpha * total;
-      out.r_B.template segment<3>(node.translation_row).noalias() = motion.R0 * f;
-      if (polar) out.r_B.template segment<3>(node.translation_row) += local.U_x.transpose() * moment;
+      const Vec3<S> f = r_B.template segment<3>(node.translation_row) - node.alpha * total;
+      r_B.template segment<3>(node.translation_row).noalias() = motion.R0 * f;
+      if (polar) r_B.template segment<3>(node.translation_row) += local.U_x.transpose() * moment;
     }
     if (node.has_rotation()) {
-      const Vec3<S> f = out.r_B.template segment<3>(node.rotation_row);
-      out.r_B.template segment<3>(node.rotation_row) = local.Tinv.transpose() * f + local.U.transpose() * moment;
+      const Vec3<S> f = r_B.template segment<3>(node.rotation_row);
+      r_B.template segment<3>(node.rotation_row) = local.Tinv.transpose() * f + local.U.transpose() * moment;
     }
   }
 }
@@ -159,10 +168,16 @@ void full_inertia_forces(const SuperelementBody& body, const LocalMotion<S>& mot
   add_damping_forces<NB>(body, motion, out);
   add_stiffening(body, motion, out);
   const Vec3<S> g = motion.R0.transpose() * gravity.template cast<S>();
-  const FrameForces<S> frame = inertia_forces<S>(body, motion, g, out.inertia);
+  FrameForces<S> frame = inertia_forces<S>(body, motion, g, out.inertia);
   out.f_B = out.inertia.G_y.head(body.boundary_size);
   out.r_I += out.inertia.G_y.tail(body.modes);
-  pull_back(body, motion, frame, out);
+  if (!body.load_cases.empty()) {
+    apply_load_cases(body, motion, out);
+    frame.G_x -= out.loads.force;
+    frame.G_theta -= out.loads.moment;
+  }
+  out.r_B = out.f_B + out.s_B;
+  pull_back(body, motion, frame, out.r_B);
 }
 
 /// r = Pᵀ M̄ ÿ + [Pᵀ(O₀ ∓ O_B) − UᵀVᵀ] p + Υᵀ(S̄ y + D ẏ) − gravity; − O_B in option A ([Car00] (45)), + in B ((60)),
@@ -186,6 +201,11 @@ void superelement_forces(const SuperelementBody& body, const LocalMotion<S>& mot
     if (exact_center) g -= motion.center_acceleration;
     moment -= apply_gravity(body, motion, g, out);
     total += body.mass * g;
+  }
+  if (!body.load_cases.empty()) {
+    apply_load_cases(body, motion, out);
+    moment -= out.loads.moment;
+    total += out.loads.force;
   }
   const bool option_A = body.inertia == formats::InertiaOption::A;
   for (std::size_t i = 0; i < body.node.size(); ++i) {

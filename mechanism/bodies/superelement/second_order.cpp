@@ -1,4 +1,4 @@
-// From arrays on the coordinates of a body to the constants of its second-order terms.
+// From arrays on the coordinates of a body to the constants of its second-order terms and load cases.
 #include "mechanism/bodies/superelement/second_order.hpp"
 
 #include <cmath>
@@ -8,6 +8,7 @@
 #include "common/math/rotation.hpp"
 #include "formats/companion/operations.hpp"
 #include "mechanism/bodies/superelement/body.hpp"
+#include "mechanism/bodies/superelement/load_cases.hpp"
 
 namespace tisserand::mechanism {
 
@@ -86,7 +87,8 @@ formats::Companion companion_on_body(formats::Companion companion, const formats
   for (Eigen::Index i = 0; i < dropped; ++i) rows.push_back(body.boundary_size + body.modes + static_cast<int>(i));
   formats::drop_modes(companion, whole.M, whole.R, rows, matrices.S_II.tail(dropped));
   formats::move_reference(companion, body.reference_origin);
-  formats::galilean_step_keeping_gram(companion, whole_mass(body), rigid_columns(body));
+  if (companion.has_second_order())
+    formats::galilean_step_keeping_gram(companion, whole_mass(body), rigid_columns(body));
   return companion;
 }
 
@@ -154,6 +156,46 @@ SecondOrder make_second_order(const SuperelementBody& body, const formats::Compa
     terms.inertia = make_full_inertia(
         body, companion, stiffening == formats::StiffeningOption::full ? Foreshortening::on : Foreshortening::off);
   return terms;
+}
+
+namespace {
+
+/// −Φᵀ K_G[K⁻¹ f] Φ: with the share of the modes that are kept, which `stiffness` of the file leaves to H.
+Eigen::MatrixXd whole_stiffness(const SuperelementBody& body, const formats::Companion& companion,
+                                const formats::LoadCase& load) {
+  Eigen::MatrixXd K = load.stiffness;
+  if (!companion.has_second_order() || load.force.size() == 0) return K;
+  for (Eigen::Index i = 0; i < body.modes; ++i) {
+    const Eigen::Index row = body.boundary_size + i;
+    K -= (load.force[row] / body.S_II[i]) * companion.H[static_cast<std::size_t>(row)];
+  }
+  return K;
+}
+
+}  // namespace
+
+std::vector<BodyLoadCase> make_load_cases(const SuperelementBody& body, const formats::Companion& companion) {
+  const Eigen::Index n = body.boundary_size + body.modes;
+  const Eigen::MatrixXd R = rigid_columns(body);
+  std::vector<BodyLoadCase> cases;
+  for (const formats::LoadCase& from : companion.load_cases) {
+    BodyLoadCase load;
+    load.name = from.name;
+    load.force = from.force.size() > 0 ? from.force : Eigen::VectorXd(Eigen::VectorXd::Zero(n));
+    load.total = R.leftCols<3>().transpose() * load.force;
+    load.moment = R.rightCols<3>().transpose() * load.force;
+    load.arm.setZero(3, n);
+    for (const SuperelementNode& node : body.node) {
+      if (const int row = node.translation_row; row >= 0)
+        load.arm.middleCols<3>(row) = -skew<double>(load.force.segment<3>(row));
+      if (const int row = node.rotation_row; row >= 0)
+        load.arm.middleCols<3>(row) = -0.5 * skew<double>(load.force.segment<3>(row));
+    }
+    if (from.stiffness.size() > 0) load.arm += R.rightCols<3>().transpose() * whole_stiffness(body, companion, from);
+    if (body.second_order.stiffening) load.stiffness = from.stiffness;
+    cases.push_back(std::move(load));
+  }
+  return cases;
 }
 
 }  // namespace tisserand::mechanism

@@ -61,6 +61,16 @@ void add_strain_stiffness(const SuperelementBody& body, const StrainTerms<double
   if (c.stiffness != 0.0) add_combination(stiffening.Gamma, c.stiffness, t.e, K);
 }
 
+/// The same of the load cases: −c_k Σ s K.
+void add_load_stiffness(const SuperelementBody& body, const LoadTerms<double>& t, double stiffness,
+                        SecondOrderWork& work) {
+  for (std::size_t i = 0; i < body.load_cases.size(); ++i) {
+    const double factor = stiffness * t.factors[static_cast<Eigen::Index>(i)];
+    const MatrixXd& load = body.load_cases[i].stiffness;
+    if (factor != 0.0 && load.size() > 0) work.K.bottomRightCorner(load.rows(), load.cols()) -= factor * load;
+  }
+}
+
 /// The same of S̄, which is block diagonal.
 void add_linear_stiffness(const SuperelementBody& body, double factor, SecondOrderWork& work) {
   const int nb = body.boundary_size, m = body.modes;
@@ -124,6 +134,7 @@ void assemble_full_inertia(const SuperelementBody& body, const SuperelementForce
   else
     add_linear_stiffness(body, c.stiffness + c.damping * body.damping.stiffness, work);
   add_damping(body, c.damping, work);
+  add_load_stiffness(body, forces.loads, c.stiffness, work);
 }
 
 /// K_y − S̄, lower triangle.
@@ -132,6 +143,7 @@ void assemble_stiffening(const SuperelementBody& body, const SuperelementForces<
   work.K.setZero();
   add_strain_stiffness(body, forces.strain, c, work);
   add_linear_stiffness(body, -(c.stiffness + c.damping * body.damping.stiffness), work);
+  add_load_stiffness(body, forces.loads, c.stiffness, work);
 }
 
 /// work.work_1 = Zᵀ K_bb Z.

@@ -88,6 +88,64 @@ TEST(SceneStart, WhatIsWrittenIsToldFromWhatIsNot) {
               HasSubstr("initial 'hing': there is no joint 'hing'; did you mean 'hinge'?"));
 }
 
+const std::string loaded = R"yaml(scene: loaded
+bodies:
+  wing: {type: superelement, file: wing.superelement.h5}
+  plate: {type: rigid, from: wing.superelement.h5}
+  wheel: {type: rigid, mass: 1, inertia: [1, 1, 1]}
+loads:
+  gust: {type: part_load, body: wing, case: wind, value: "100 * sin(3 * t)"}
+  push: {type: force, at: wheel, value: [0, 0, 1]}
+  still: {type: part_load, body: plate, case: wind, value: 7}
+integrator: {step: 0.01, end: 1}
+)yaml";
+
+std::string error_of_loads(const std::string& from, const std::string& to) {
+  const Folder folder;
+  const std::string path = folder.file("scene.yaml", replaced(loaded, from, to));
+  return error_of(folder, [&] { read_scene(path, {}); });
+}
+
+TEST(SceneForces, PartLoads) {
+  const Scene scene = read(loaded);
+  ASSERT_EQ(scene.loads.size(), 1u);
+  ASSERT_EQ(scene.part_loads.size(), 2u);
+  EXPECT_EQ(scene.part_loads[0].name, "gust");
+  EXPECT_EQ(scene.part_loads[0].body, "wing");
+  EXPECT_EQ(scene.part_loads[0].load_case, "wind");
+  EXPECT_EQ(std::get<TimeExpression>(scene.part_loads[0].value).text, "100 * sin(3 * t)");
+  EXPECT_EQ(std::get<double>(scene.part_loads[1].value), 7.0);
+}
+
+TEST(SceneForces, BadPartLoads) {
+  EXPECT_THAT(error_of_loads("body: wing, case", "body: wheel, case"),
+              HasSubstr("load 'gust': body 'wheel' is no superelement; the superelements are wing, plate"));
+  EXPECT_THAT(error_of_loads("body: wing, case", "body: wingg, case"),
+              HasSubstr("load 'gust': there is no superelement 'wingg'; did you mean 'wing'?"));
+  EXPECT_THAT(error_of_loads("case: wind, value: 7", "value: 7"), HasSubstr("missing key 'case'"));
+  EXPECT_THAT(error_of_loads("case: wind, value: 7", "case: wind"), HasSubstr("missing key 'value'"));
+  EXPECT_THAT(error_of_loads("case: wind, value: 7", "case: wind, axes: body, value: 7"),
+              HasSubstr("unknown key 'axes'"));
+  EXPECT_THAT(error_of_loads("still:", "push:"), HasSubstr("push"));
+  EXPECT_THAT(error_of_loads("type: part_load, body: wing", "type: part_lode, body: wing"), HasSubstr("part_load"));
+}
+
+// Names of an assembly are those of the instance; the load turns with its body.
+TEST(SceneForces, PartLoadsOfAssemblies) {
+  const Scene scene = read(R"(scene: aeroplane
+assemblies:
+  side:
+    bodies: {wing: {type: superelement, file: wing.superelement.h5}}
+    loads: {gust: {type: part_load, body: wing, case: wind, value: 3}}
+instances: {left: {use: side}, right: {use: side, mirror: xz, pose: {position: [0, 1, 0]}}}
+integrator: {step: 0.01, end: 1}
+)");
+  ASSERT_EQ(scene.part_loads.size(), 2u);
+  EXPECT_EQ(scene.part_loads[1].name, "right/gust");
+  EXPECT_EQ(scene.part_loads[1].body, "right/wing");
+  EXPECT_EQ(std::get<double>(scene.part_loads[1].value), 3.0);
+}
+
 // z of the markers is reversed in the mirror: displacements along z and turns about x and y change their signs.
 TEST(SceneForces, FieldsAreMirrored) {
   const Scene scene = read(R"(scene: car

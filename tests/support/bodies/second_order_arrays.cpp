@@ -1,6 +1,8 @@
 // Arrays of the second order by their definitions, dense.
 #include "tests/support/bodies/second_order_arrays.hpp"
 
+#include <algorithm>
+
 #include <Eigen/Cholesky>
 
 #include "common/math/rotation.hpp"
@@ -43,6 +45,14 @@ VectorXd residual_flexibility(const FullModel& model, const std::vector<int>& in
   return w;
 }
 
+std::vector<int> internal_rows(const FullModel& model, const std::vector<Keep>& keep) {
+  std::vector<int> internal;
+  for (std::size_t node = 0; node < keep.size(); ++node)
+    for (int c = 0; c < model.components; ++c)
+      if (keep[node] == Keep::nothing) internal.push_back(model.components * static_cast<int>(node) + c);
+  return internal;
+}
+
 }  // namespace
 
 SecondOrderBody second_order_by_definition(const FullModel& model, const GeometricStiffness& geometric_stiffness,
@@ -51,10 +61,7 @@ SecondOrderBody second_order_by_definition(const FullModel& model, const Geometr
   body.element = craig_bampton(model, keep, modes);
   body.element.content_id = formats::content_id(body.element);
   body.omega_squared = body.element.stiffness.diagonal().tail(modes);
-  std::vector<int> internal;
-  for (std::size_t node = 0; node < keep.size(); ++node)
-    for (int c = 0; c < model.components; ++c)
-      if (keep[node] == Keep::nothing) internal.push_back(model.components * static_cast<int>(node) + c);
+  const std::vector<int> internal = internal_rows(model, keep);
 
   formats::Companion& c = body.companion;
   c.content_id = body.element.content_id;
@@ -88,6 +95,18 @@ SecondOrderBody second_order_by_definition(const FullModel& model, const Geometr
   const VectorXd load = VectorXd::LinSpaced(M.rows(), 0.1, 0.1 * static_cast<double>(M.rows()));
   c.load_cases.push_back({"push", Phi.transpose() * load, second_order(load)});
   return body;
+}
+
+void add_load_case(const FullModel& model, const GeometricStiffness& geometric_stiffness, const std::vector<Keep>& keep,
+                   const std::string& name, const VectorXd& load, SecondOrderBody& body) {
+  const Index modes = body.omega_squared.size();
+  const MatrixXd Phi = craig_bampton_basis(model, keep, static_cast<int>(modes));
+  const VectorXd w =
+      residual_flexibility(model, internal_rows(model, keep), Phi.rightCols(modes), body.omega_squared, load);
+  const MatrixXd K = -Phi.transpose() * geometric_stiffness(w) * Phi;
+  std::vector<formats::LoadCase>& cases = body.companion.load_cases;
+  cases.push_back({name, Phi.transpose() * load, 0.5 * (K + K.transpose())});
+  std::ranges::sort(cases, {}, &formats::LoadCase::name);
 }
 
 }  // namespace tisserand::test_support

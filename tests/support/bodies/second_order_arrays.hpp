@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,5 +26,9 @@ using GeometricStiffness = std::function<Eigen::MatrixXd(const Eigen::VectorXd&)
 /// order.
 SecondOrderBody second_order_by_definition(const FullModel& model, const GeometricStiffness& geometric_stiffness,
                                            const std::vector<Keep>& keep, int modes, const Eigen::VectorXd& weights);
+
+/// Adds a load case from its forces on all coordinates of the model; `body`: of the same model, `keep` as there.
+void add_load_case(const FullModel& model, const GeometricStiffness& geometric_stiffness, const std::vector<Keep>& keep,
+                   const std::string& name, const Eigen::VectorXd& load, SecondOrderBody& body);
 
 }  // namespace tisserand::test_support

@@ -47,6 +47,12 @@ Shapes shapes(double x, double l) {
   return s;
 }
 
+std::vector<Keep> keep_of(const BernoulliBeam& beam, const std::vector<int>& kept) {
+  std::vector<Keep> keep(static_cast<std::size_t>(beam.model.position.rows()), Keep::nothing);
+  for (const int node : kept) keep[node] = Keep::all;
+  return keep;
+}
+
 }  // namespace
 
 BernoulliBeam bernoulli_beam(const SectionData& section, double length, int elements) {
@@ -93,12 +99,18 @@ MatrixXd geometric_stiffness(const BernoulliBeam& beam, const VectorXd& w) {
 }
 
 SecondOrderBody second_order_beam(const BernoulliBeam& beam, const std::vector<int>& kept, int modes) {
-  std::vector<Keep> keep(static_cast<std::size_t>(beam.model.position.rows()), Keep::nothing);
-  for (const int node : kept) keep[node] = Keep::all;
+  const std::vector<Keep> keep = keep_of(beam, kept);
   const auto count = static_cast<Eigen::Index>(kept.size());
   return second_order_by_definition(
       beam.model, [&beam](const VectorXd& w) { return geometric_stiffness(beam, w); }, keep, modes,
       VectorXd::Constant(count, 1.0 / static_cast<double>(count)));
+}
+
+void add_load_case(const BernoulliBeam& beam, const std::vector<int>& kept, const std::string& name,
+                   const VectorXd& load, SecondOrderBody& body) {
+  add_load_case(
+      beam.model, [&beam](const VectorXd& w) { return geometric_stiffness(beam, w); }, keep_of(beam, kept), name, load,
+      body);
 }
 
 }  // namespace tisserand::test_support

@@ -1,6 +1,7 @@
 // A straight beam of Bernoulli elements with its companion: geometric stiffness with moments and shear.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "tests/support/bodies/second_order_arrays.hpp"
@@ -30,5 +31,9 @@ Eigen::MatrixXd geometric_stiffness(const BernoulliBeam& beam, const Eigen::Vect
 
 /// Reduced to the nodes `kept` (indices, of all elements + 1) and `modes`, the weights equal.
 SecondOrderBody second_order_beam(const BernoulliBeam& beam, const std::vector<int>& kept, int modes);
+
+/// Adds a load case from its forces on all coordinates of the beam; `kept` as for the body.
+void add_load_case(const BernoulliBeam& beam, const std::vector<int>& kept, const std::string& name,
+                   const Eigen::VectorXd& load, SecondOrderBody& body);
 
 }  // namespace tisserand::test_support

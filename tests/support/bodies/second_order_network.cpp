@@ -43,6 +43,13 @@ SecondOrderBody second_order_network(int modes, const Eigen::Vector4d& weights) 
   return second_order_network(spring_network(), {all, all, all, all, nothing, nothing}, modes, weights);
 }
 
+void add_load_case(const std::string& name, const VectorXd& load, SecondOrderBody& body) {
+  using enum Keep;
+  const FullModel model = spring_network();
+  const auto stiffness = [&model](const VectorXd& w) { return geometric_stiffness(model, w); };
+  add_load_case(model, stiffness, {all, all, all, all, nothing, nothing}, name, load, body);
+}
+
 FullModel mirrored_network(const Vector3d& axes) {
   FullModel model = spring_network();
   const Eigen::VectorXd sign = axes.replicate(model.position.rows(), 1);

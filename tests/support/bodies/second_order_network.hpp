@@ -1,6 +1,7 @@
 // A superelement with its companion, computed by the definitions of COMPANION.md from a network of springs.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,6 +18,9 @@ SecondOrderBody second_order_network(const FullModel& model, const std::vector<K
 
 /// The network of the tests: four corners kept, of the twelve internal modes the first `modes`.
 SecondOrderBody second_order_network(int modes, const Eigen::Vector4d& weights);
+
+/// Adds a load case from its forces on all coordinates of the network of the tests.
+void add_load_case(const std::string& name, const Eigen::VectorXd& load, SecondOrderBody& body);
 
 /// spring_network() seen in the mirror diag(axes).
 FullModel mirrored_network(const Eigen::Vector3d& axes);
