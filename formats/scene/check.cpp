@@ -10,7 +10,6 @@
 #include "common/text.hpp"
 #include "formats/scene/check_parts.hpp"
 #include "formats/scene/expand/expression.hpp"
-#include "formats/scene/settings_check.hpp"
 #include "formats/scene/time_function_reader.hpp"
 #include "formats/sections/reader.hpp"
 #include "formats/yaml/line_check.hpp"

@@ -36,4 +36,7 @@ void check_tyre(const SceneIndex& scene, const TyreSpec& tyre, Faults& faults);
 void check_load(const SceneIndex& scene, const LoadSpec& load, Faults& faults);
 void check_part_load(const SceneIndex& scene, const PartLoadSpec& load, Faults& faults);
 
+/// Ranges of integrator, statics, output and initial_tolerance; the times of the integrator only in dynamics.
+void check_settings(const Scene& scene, Faults& faults);
+
 }  // namespace tisserand::formats

@@ -1,5 +1,5 @@
 // Ranges of the settings of integrator, statics and output.
-#include "formats/scene/settings_check.hpp"
+#include "formats/scene/check_parts.hpp"
 
 #include <cmath>
 #include <utility>

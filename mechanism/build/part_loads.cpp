@@ -20,10 +20,10 @@ Error missing_load_case(const formats::PartLoadSpec& load, const formats::Supere
       fmt::format("load '{}': body '{}' has no load case '{}'", load.name, load.body, load.load_case);
   if (companion == nullptr)
     return {fmt::format("{}: there is no {}", who, path), load.where,
-            "`load_cases` in the part file and `reducer run` write load cases there"};
+            "let the program that made it write one: `load_cases` in the part file"};
   if (companion->load_cases.empty())
     return {fmt::format("{}: {} has none", who, path), load.where,
-            "`load_cases` in the part file and `reducer run` write load cases there"};
+            "let the program that made it write one: `load_cases` in the part file"};
   std::vector<std::string> names;
   for (const formats::LoadCase& one : companion->load_cases) names.push_back(one.name);
   return {fmt::format("{} in {}", who, path), load.where, "its load cases are " + listed(names)};

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <map>
 
+#include <fmt/format.h>
+
 #include "common/text.hpp"
 #include "mechanism/bodies/beam/mesh.hpp"
 #include "mechanism/view/recovered_shape.hpp"

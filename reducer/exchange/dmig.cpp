@@ -227,7 +227,9 @@ std::string real_field(double value, char letter) {
     std::string mantissa = text.substr(0, e);
     if (mantissa.find('.') == std::string::npos) mantissa += ".0";
     while (mantissa.back() == '0' && mantissa[mantissa.size() - 2] != '.') mantissa.pop_back();
-    const std::string field = fmt::format("{}{}{}", mantissa, letter, std::atoi(text.c_str() + e + 1));
+    const int exponent = std::atoi(text.c_str() + e + 1);
+    std::string field = fmt::format("{}{}{}", mantissa, letter, exponent);
+    if (field.size() > 16 && exponent < 0) field = fmt::format("{}{}", mantissa, exponent);
     if (field.size() <= 16) return field;
   }
   return "";

@@ -21,10 +21,11 @@ struct DmigSource {
 ReducedMatrices read_dmig(const DmigSource& source);
 
 /// Bulk data with GRID (numbers 1, 2, ...), SPOINT (from 1000001), ASET1 and DMIG KAAX and MAAX, IFO 6, TIN 2, large
-/// field. A value keeps as many digits as 16 characters hold, 10 to 13.
+/// field. A value keeps as many digits as 16 characters hold, 11 to 14
+/// (exponents of up to two digits).
 std::string dmig_text(const formats::Superelement& element);
 
-/// `value` in at most 16 characters with exponent letter `letter` (E or D).
+/// `value` in at most 16 characters with exponent letter `letter` (E or D), without it (1.5-10) where that saves a digit.
 std::string real_field(double value, char letter);
 
 }  // namespace tisserand::reducer::exchange

@@ -1,5 +1,5 @@
 // Derivatives of the transposed projector at fixed forces.
-#include "mechanism/bodies/superelement/frame_stiffness.hpp"
+#include "mechanism/bodies/superelement/second_order_tangent.hpp"
 
 namespace tisserand::mechanism {
 

@@ -3,8 +3,6 @@
 
 #include <Eigen/Dense>
 
-#include "mechanism/bodies/superelement/frame_stiffness.hpp"
-
 namespace tisserand::mechanism {
 
 namespace {

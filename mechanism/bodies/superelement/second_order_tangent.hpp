@@ -29,4 +29,15 @@ Eigen::MatrixXd whole_full_inertia_tangent(const SuperelementBody& body, const T
 Eigen::MatrixXd whole_stiffening_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
                                          const SuperelementScratch& scratch);
 
+/// 3 x nb each.
+struct FrameStiffnessWork {
+  Eigen::Matrix<double, 3, Eigen::Dynamic>& dm;
+  Eigen::Matrix<double, 3, Eigen::Dynamic>& dc;
+};
+
+/// A += factor K_f, K_f δq = (δΥᵀ) f at the frozen frame ([SO] 5), f: elastic forces on y_B, from the turning of the
+/// frame under them. For frames from rotations; not symmetric with material increments.
+void add_frame_stiffness(const SuperelementBody& body, const SuperelementTangent& frozen, const Eigen::VectorXd& f,
+                         double factor, FrameStiffnessWork work, Eigen::MatrixXd& A);
+
 }  // namespace tisserand::mechanism
