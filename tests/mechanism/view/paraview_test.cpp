@@ -4,10 +4,9 @@
 #include <cstdlib>
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include <fmt/format.h>
 
 #include "mechanism/simulate.hpp"
 #include "tests/support/temporary_folder.hpp"
