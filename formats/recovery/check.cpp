@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <set>
 
+#include <Eigen/LU>
+
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "formats/hdf5/head.hpp"
