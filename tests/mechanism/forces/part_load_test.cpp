@@ -389,7 +389,7 @@ TEST(PartLoad, BadLoadCases) {
   none.companions.clear();
   EXPECT_THAT(test_support::error_of([&] { build_model(scene, none); }),
               HasSubstr("load 'load_wind': body 'beam' has no load case 'wind': there is no beam.companion.h5; "
-                        "`load_cases` in the part file"));
+                        "let the program that made it write one: `load_cases` in the part file"));
   BodyFiles empty = files;
   empty.companions["beam"].load_cases.clear();
   EXPECT_THAT(test_support::error_of([&] { build_model(scene, empty); }), HasSubstr("beam.companion.h5 has none"));
