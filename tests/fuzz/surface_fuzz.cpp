@@ -14,7 +14,8 @@ void check_whole(const tisserand::formats::TriangleSurface& surface) {
   bool whole = !surface.triangles.empty();
   for (const Eigen::Vector3d& vertex : surface.vertices) whole = whole && vertex.allFinite();
   for (const auto& triangle : surface.triangles)
-    for (const int vertex : triangle) whole = whole && vertex >= 0 && vertex < static_cast<int>(surface.vertices.size());
+    for (const int vertex : triangle)
+      whole = whole && vertex >= 0 && vertex < static_cast<int>(surface.vertices.size());
   if (whole) return;
   std::fputs("the surface is not whole\n", stderr);
   std::abort();

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include "reducer/decks/nastran/fields.hpp"
 #include "tests/reducer/exchange/exchange_files.hpp"
 
 namespace tisserand::reducer::exchange::dmig_test {
@@ -217,14 +218,13 @@ TEST(Dmig, ThereAndBackKeepsTheDigitsOfTheFormat) {
 TEST(Dmig, RealFieldFillsSixteenCharacters) {
   EXPECT_EQ(real_field(0.0, 'D'), "0.0D0");
   EXPECT_EQ(real_field(-2.0, 'E'), "-2.0E0");
-  for (const double value : {M_PI, -M_PI, 1e-9 / 3, -1e22 / 7, 4.9e-324}) {
+  for (const double value : {M_PI, -M_PI, 1e-9 / 3, -1e22 / 7, -1e-123 / 3, 4.9e-324}) {
     const std::string field = real_field(value, 'E');
     EXPECT_LE(field.size(), 16u) << field;
-    EXPECT_NEAR(std::strtod(field.c_str(), nullptr) / value, 1.0, 5e-9) << field;
+    EXPECT_NEAR(parse_real(field).value() / value, 1.0, 5e-10) << field;
   }
   // Without its letter where that leaves room for one more digit; Nastran reads 1.5-10 as 1.5e-10.
   EXPECT_EQ(real_field(-1e-9 / 3, 'D'), "-3.3333333333-10");
-  EXPECT_EQ(real_field(-1e-123 / 3, 'D'), "-3.333333333-124");
   EXPECT_EQ(real_field(1e-9 / 3, 'D'), "3.33333333333-10");
   EXPECT_EQ(real_field(-1.5e-10, 'D'), "-1.5D-10");
   EXPECT_EQ(real_field(M_PI, 'D'), "3.14159265359D0");
