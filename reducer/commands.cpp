@@ -95,7 +95,7 @@ std::string companion_text(const formats::Companion& companion, const std::strin
   std::vector<std::string> holds, cases;
   if (companion.has_second_order()) holds.push_back(fmt::format("second order of {} coordinates", companion.S1.cols()));
   for (const formats::LoadCase& load : companion.load_cases) cases.push_back(load.name);
-  if (!cases.empty()) holds.push_back("load cases " + join(cases, ", "));
+  if (!cases.empty()) holds.push_back("load cases " + listed(cases));
   return fmt::format("{} ({:.3g} MB: {})", path, 1e-6 * static_cast<double>(std::filesystem::file_size(path)),
                      join(holds, ", "));
 }

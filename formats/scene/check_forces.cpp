@@ -192,7 +192,7 @@ void check_part_load(const SceneIndex& scene, const PartLoadSpec& load, Faults& 
   else
     faults.add(load.where, "body", fmt::format("{}: body '{}' is no superelement", subject, load.body),
                superelements.empty() ? "load cases belong to superelements: give a load at a marker"
-                                     : "the superelements are " + join(superelements, ", "));
+                                     : "the superelements are " + listed(superelements));
 }
 
 }  // namespace tisserand::formats

@@ -210,7 +210,7 @@ std::vector<PreflightLine> preflight_table(const Preflight& preflight, const Mob
                                    ? "no constraint equation"
                                    : fmt::format("{} of {} constraint equations", mobility.redundant.size(),
                                                  mobility.constraints)});
-  if (!mobility.free.empty()) lines.push_back({"free", join(mobility.free, ", ")});
+  if (!mobility.free.empty()) lines.push_back({"free", listed(mobility.free)});
   if (preflight.groups.size() <= 1) lines.push_back({"connections", "all bodies with the ground"});
   if (preflight.gaps.empty()) lines.push_back({"joints", "all meet at the start"});
   if (preflight.doubts.empty()) lines.push_back({"masses", "plausible"});

@@ -55,6 +55,24 @@ TEST_F(Reducer, FaultsOfAPartAreToldAndLeaveNothing) {
   }
 }
 
+// As of `mechanism`; here gmsh has a process of its own, which is called through descriptors 3 and 4.
+TEST_F(Reducer, ClosedStreamsHarmNothing) {
+  write_text(file("square.part.yaml"),
+             "part: square\nunits: {length: mm, mass: t, time: s}\nmesh: {file: " + std::string(TISSERAND_SOURCE_DIR) +
+                 "/meshes/square.step, size: 200}\n"
+                 "materials: {steel: {E: 2.1e5, nu: 0.3, density: 7.85e-9}}\n"
+                 "shells: {s: {on: face 1, thickness: 5, material: steel}}\n"
+                 "boundary: {o: {near: [0, 0, 0]}}\nmodes: 2\n");
+  const auto run = [&](const std::string& name, const std::string& streams) {
+    return call({"/bin/sh", "-c", program("reducer") + " run square.part.yaml -o " + name + streams}, where);
+  };
+  const Outcome open = run("open.superelement.h5", "");
+  ASSERT_EQ(open.code, 0) << open.error;
+  ASSERT_EQ(run("closed.superelement.h5", " <&- >&- 2>&-").code, 0);
+  EXPECT_EQ(formats::read_superelement(file("closed.superelement.h5")).superelement.content_id,
+            formats::read_superelement(file("open.superelement.h5")).superelement.content_id);
+}
+
 TEST_F(Reducer, FilesOfOtherKindsAreNamed) {
   expect_error(reducer({"run", "arm.scene.yaml"}), {"arm.scene.yaml:1:", "a scene, not a part"});
   expect_error(reducer({"run", "se.superelement.h5"}), {"another kind of file"});

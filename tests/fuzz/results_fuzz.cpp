@@ -1,9 +1,11 @@
-// Fuzzing target: any valid HDF5 container in place of a results file or a checkpoint gives what all commands read of
-// it, or an Error, nothing else. The first byte says which; the others are as in superelement_fuzz.cpp. None: sound
-// results of three rows, which must be read. A checkpoint without its content_id is refused, after it was read.
+// Fuzzing target: any valid HDF5 container in place of a results file or a checkpoint gives what all commands, and the
+// inputs of a scene, read of it, or an Error, nothing else. The first byte says which; the others are as in
+// superelement_fuzz.cpp. None: sound results of three rows, which must be read. A checkpoint without its content_id is
+// refused, after it was read.
 #include "container_target.hpp"
 #include "formats/results/checkpoint.hpp"
 #include "formats/results/results.hpp"
+#include "formats/tables/input_table.hpp"
 #include "tests/support/results_rows.hpp"
 
 namespace tisserand {
@@ -29,6 +31,7 @@ void read_results(const std::string& path) {
   for (const formats::Channel& channel : reader.channels()) names.push_back(channel.name);
   if (!names.empty()) static_cast<void>(reader.read(names.back()));
   static_cast<void>(reader.read_rows(names, 0, reader.rows()));
+  static_cast<void>(formats::read_input_table({path, "time", "energy/total"}));
 }
 
 void write_checkpoint(const std::string& path) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -245,7 +245,9 @@ void find_missing_sections(Model& model) {
   };
   for (const Scope& scope : model.scopes)
     for (const auto& [name, rows] : scope.element_sets) tell(name, rows);
-  tell("", std::views::iota(0, static_cast<int>(model.elements.size())));
+  std::vector<int> all(model.elements.size());
+  std::iota(all.begin(), all.end(), 0);
+  tell("", all);
 }
 
 }  // namespace

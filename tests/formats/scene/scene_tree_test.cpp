@@ -99,6 +99,7 @@ TEST(SceneParameters, ErrorsNameThem) {
   EXPECT_EQ(error("parameters: {a: -1}\nbodies: {block: {type: rigid, mass: $a, inertia: [1, 1, 1]}}\n"),
             "scene.yaml:2:17: body 'block': mass -1 must be positive");
   EXPECT_THAT(error("gravity: [0, 0, \"${1\"]\n" + rest), HasSubstr("is followed by no name and no {formula}"));
+  EXPECT_THAT(error("gravity: [0, 0, \"${2,5 * 2}\"]\n" + rest), HasSubstr("expression '2,5 * 2': a comma"));
 }
 
 TEST(SceneParameters, GrowthIsBounded) {
