@@ -100,6 +100,14 @@ std::string companion_text(const formats::Companion& companion, const std::strin
                      join(holds, ", "));
 }
 
+PhaseListener listener_of(Phases& phases) {
+  PhaseListener listener([&phases](const std::string& phase) { phases.begin(phase); });
+  listener.share = [&phases](double done) { phases.share(done); };
+  listener.solve = [&phases](int columns) { phases.solve(columns); };
+  listener.tell = [](const std::string& line) { fmt::print(stderr, "{}\n", line); };
+  return listener;
+}
+
 int run(const Arguments& arguments) {
   Phases phases;
   phases.begin("read");
@@ -117,14 +125,10 @@ int run(const Arguments& arguments) {
   phases.begin("start solvers");
   const SolverSession session;
   std::map<std::string, std::unique_ptr<formats::RecoveryWriter>> recoveries;
-  Reduction reduction = reduce(
-      part,
-      PhaseListener([&phases](const std::string& phase) { phases.begin(phase); },
-                    [&phases](double done) { phases.share(done); }, [&phases](int columns) { phases.solve(columns); }),
-      [&](const RecoverySource& source) {
-        const std::string path = formats::recovery_path(source.is_modal ? modal_body : output);
-        recoveries[path] = write_recovery(source, path);
-      });
+  Reduction reduction = reduce(part, listener_of(phases), [&](const RecoverySource& source) {
+    const std::string path = formats::recovery_path(source.is_modal ? modal_body : output);
+    recoveries[path] = write_recovery(source, path);
+  });
   phases.begin("write");
   formats::write_superelement(output, reduction.superelement);
   for (const auto& [path, recovery] : recoveries) recovery->finish();

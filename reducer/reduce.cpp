@@ -24,13 +24,13 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   const formats::RigidProperties rigid = require_mass(system, part.file);
   const Partition coordinates = partition(mesh, system);
   const Blocks blocks = take_apart(system, coordinates, part.modes.method);
-  const Factor S_II = factor_inside(blocks, coordinates, part, begin, begin.solve);
+  const Factor S_II = factor_inside(blocks, coordinates, part, begin);
   check_no_mechanism(S_II, mesh, system, coordinates, part.file);
-
   begin("boundary modes");
   const BoundaryModes boundary = boundary_modes(S_II, blocks, system, coordinates, begin.share);
   begin("internal modes");
-  const InternalProblem problem{mesh, system, coordinates, blocks, S_II, part.file, begin.share};
+  const auto seek = [&](int modes) { require_memory_of_modes(modes, coordinates, part.file); };
+  const InternalProblem problem{mesh, system, coordinates, blocks, S_II, part.file, begin.share, begin.begin, seek};
   const InternalModes internal = internal_modes(problem, boundary, part.modes);
   begin("projection");
   Projection projection = project(part, problem, boundary, internal);

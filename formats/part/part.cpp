@@ -140,7 +140,7 @@ std::vector<Field> part_fields() {
       choice<&ModeSelection::verify, verification_words>(
           "verify",
           "`inertia`: one more factorisation counts the internal modes below the cut, and none can be missing; `none`",
-          "`inertia` where that takes less than a tenth of the time"),
+          "`inertia` where that takes less than a tenth of the time, or where `cutoff` or `accuracy` asks how many"),
       {"recovery", "'yes' | 'no' | true | false",
        "`yes`: also a [recovery file](RECOVERY.md) beside the superelement, by which displacements and stresses of "
        "the whole part come back from results",

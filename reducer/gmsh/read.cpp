@@ -139,15 +139,16 @@ void check_size(const GeometryRequest& request, int dimension, const gmsh::vecto
   const double size = request.size / request.scale;
   double tolerance = 0.0;
   gmsh::option::getNumber("Geometry.Tolerance", tolerance);
-  if (size < tolerance)
-    throw Error(fmt::format("mesh: size {:g} is below the tolerance of the geometry, {:g}", request.size,
-                            tolerance * request.scale),
-                request.file, "give a size of the order of the geometry's details, in units of the part");
   const double cell = dimension == 1   ? size
                       : dimension == 2 ? (request.quadrilaterals ? 1.0 : std::sqrt(3.0) / 4.0) * size * size
                                        : std::sqrt(2.0) / 12.0 * size * size * size;
   double count = 0.0;
   for (const auto& [d, tag] : entities) count += extent_of(request.kind, d, tag) / cell;
+  if (size < tolerance)
+    throw Error(fmt::format("mesh: size {:g} is below the tolerance of the geometry, {:g}, and would make about {:.2g} "
+                            "elements",
+                            request.size, tolerance * request.scale, count),
+                request.file, "give a size of the order of the geometry's details, in units of the part");
   if (count > most_elements)
     throw Error(fmt::format("mesh: size {:g} would make about {:.2g} elements, more than {:g}: the geometry is {:.4g} "
                             "large in units of the part",

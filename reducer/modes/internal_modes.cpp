@@ -104,12 +104,20 @@ double decisive_number(const InternalProblem& problem, const Gauge& gauge, const
 
 double eigenvalue_of(double frequency) { return std::pow(2.0 * EIGEN_PI * frequency, 2); }
 
+Pencil pencil_of(const InternalProblem& problem) {
+  return {problem.blocks.S_II, problem.blocks.M_II, problem.S_II, 0.0, problem.share, problem.begin};
+}
+
+/// ω² below which modes are wanted.
+double limit_of(const formats::ModeSelection& selection) {
+  return eigenvalue_of(selection.cutoff ? *selection.cutoff : selection.accuracy->up_to);
+}
+
 /// Number of modes to begin with, from the selection.
 int wanted_modes(const InternalProblem& problem, const formats::ModeSelection& selection, int available) {
   if (selection.cutoff || selection.accuracy) {
     if (problem.partition.n_I() == 0) return 0;
-    const double limit = eigenvalue_of(selection.cutoff ? *selection.cutoff : selection.accuracy->up_to);
-    return std::min(available, count_below(problem.blocks.S_II, problem.blocks.M_II, limit));
+    return std::min(available, count_below(pencil_of(problem), limit_of(selection)));
   }
   if (selection.count <= available) return selection.count;
   throw Error(fmt::format("{} internal modes asked for, but only {} exist", selection.count, available),
@@ -269,18 +277,40 @@ bool meets_accuracy(const InternalProblem& problem, const BoundaryModes& boundar
   return true;
 }
 
+/// Whether none is missing among those kept: by the first count, `below`, if they are the modes below the frequency of
+/// the accuracy, else by one more, which is noted.
+bool none_missing(const Pencil& pencil, const formats::ModeSelection& selection, int below, Candidates& c) {
+  std::optional<int>& counted = c.spectrum.counted;
+  if (counted || (c.kept != below && selection.verify == formats::Verification::none)) return true;
+  const Eigen::VectorXd& value = c.spectrum.pairs.value;
+  const double limit = limit_of(selection);
+  const bool all_below =
+      c.kept == below && (below == 0 || value[below - 1] < limit) && (below == value.size() || value[below] >= limit);
+  const int count = all_below || c.kept == 0 ? below : count_kept(pencil, c.spectrum.pairs, c.kept);
+  if (count == c.kept) counted = count;
+  return count == c.kept;
+}
+
 /// Computes ever more pairs until they meet the accuracy.
 Candidates candidates_for(const InternalProblem& problem, const BoundaryModes& boundary, const Pencil& pencil,
                           const formats::ModeSelection& selection, int least, int available) {
   constexpr int most = 1000;
+  const int below = least;
   const auto n_I = static_cast<Eigen::Index>(problem.partition.n_I());
+  Count verify = count_of(selection.verify);
   for (int sought = least + 4;; sought = 2 * sought) {
     sought = std::min(sought, available);
+    problem.seek(sought);
     Candidates c;
     c.available = available;
-    c.spectrum = lowest_pairs(pencil, sought, available, choose_solver(n_I, sought), count_of(selection.verify));
+    c.spectrum = lowest_pairs(pencil, sought, available, choose_solver(n_I, sought), verify);
     c.coupling = mass_coupling(problem.blocks, boundary, c.spectrum.pairs.vector);
-    if (meets_accuracy(problem, boundary, selection, least, c)) return c;
+    if (meets_accuracy(problem, boundary, selection, least, c)) {
+      if (none_missing(pencil, selection, below, c)) return c;
+      verify = Count::always;  // which looks for those that hid
+      sought = (sought + 1) / 2;
+      continue;
+    }
     if (2 * sought > most || c.spectrum.kept == available)
       throw Error(fmt::format("the accuracy of {:g} up to {:g} is not met: {} internal modes leave {:.2g}",
                               selection.accuracy->error, selection.accuracy->up_to, c.spectrum.kept,
@@ -330,7 +360,7 @@ InternalModes internal_modes(const InternalProblem& problem, const BoundaryModes
   modes.coupling.resize(boundary.Psi.cols(), 0);
   modes.left_out.G = boundary.flexibility;
   if (modes.available == 0) return modes;
-  const Pencil pencil{problem.blocks.S_II, problem.blocks.M_II, problem.S_II, 0.0, problem.share};
+  const Pencil pencil = pencil_of(problem);
   Spectrum spectrum;
   int kept = 0, moments = selection.moments.value_or(0);
   if (selection.accuracy) {
@@ -339,6 +369,7 @@ InternalModes internal_modes(const InternalProblem& problem, const BoundaryModes
     modes.requested = kept = c.kept;
     moments = c.moments;
   } else {
+    problem.seek(std::max(1, modes.requested));
     spectrum = spectrum_for(pencil, selection, n_I, std::max(1, modes.requested), modes.available);
     if (selection.cutoff && modes.requested == 0) fail_low_cutoff(selection, "internal", spectrum.pairs.value[0]);
     kept = modes.requested == 0 ? 0 : spectrum.kept;

@@ -27,7 +27,7 @@ struct InternalModes {
   std::optional<double> first_dropped;  ///< ω² of the lowest mode left out
   std::string solver;
   double residual = 0.0;       ///< Spectrum::residual
-  std::optional<int> counted;  ///< Spectrum::counted
+  std::optional<int> counted;  ///< of the modes kept, by inertia: all of them, or not counted
 };
 
 /// What the internal modes are computed from.
@@ -39,6 +39,8 @@ struct InternalProblem {
   const Factor& S_II;
   std::string where;
   std::function<void(double)> share = [](double /*done*/) {};  ///< hears how much of a phase is done
+  std::function<void(const std::string&)> begin = [](const std::string& /*phase*/) {};  ///< Pencil::begin
+  std::function<void(int)> seek = [](int /*modes*/) {};  ///< hears how many modes are about to be sought; may refuse
 };
 
 /// Rank of M: the number of finite eigenvalues, since S is regular. Lumped masses without rotary inertia leave

@@ -236,7 +236,7 @@ Spectrum iterated_spectrum(const Pencil& pencil, int count, int available, Eigen
                           (verify == Count::if_cheap && counting_is_cheap(pencil.factor, count)) ||
                           largest_cluster(s.pairs.value.head(s.kept), pencil.shift) >= lanczos_block;
       if (s.kept < found && !needed) return s;
-      if (s.kept < available) s.counted = count_below(pencil.S, pencil.M, value_in_gap(s.pairs, s.kept, pencil.shift));
+      if (s.kept < available) s.counted = count_kept(pencil, s.pairs, s.kept);
       if (s.counted == s.kept) return s;
     }
     KrylovSchur again(pencil);  // repeated eigenvalues hide from one Krylov sequence: look for what is orthogonal
@@ -257,6 +257,17 @@ int cluster_end(const Eigen::VectorXd& value, int count, double shift) {
 
 int count_below(const Matrix& S, const Matrix& M, double value) {
   return Factor::indefinite(combine(S, -value, M)).negative();
+}
+
+int count_below(const Pencil& pencil, double value) {
+  pencil.begin("count");
+  const int count = count_below(pencil.S, pencil.M, value);
+  pencil.begin("internal modes");
+  return count;
+}
+
+int count_kept(const Pencil& pencil, const EigenPairs& pairs, int kept) {
+  return count_below(pencil, value_in_gap(pairs, kept, pencil.shift));
 }
 
 EigenSolver choose_solver(Eigen::Index size, int count) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 
 #include <Eigen/Core>
 
@@ -24,6 +25,8 @@ struct Pencil {
   const Factor& factor;
   double shift = 0.0;
   std::function<void(double)> share = [](double /*done*/) {};  ///< hears how much of a search is done, about
+  /// Hears "count" before eigenvalues are counted, "internal modes" after it.
+  std::function<void(const std::string&)> begin = [](const std::string& /*phase*/) {};
 };
 
 enum class EigenSolver { dense, block_lanczos, krylov_schur };
@@ -48,6 +51,12 @@ int cluster_end(const Eigen::VectorXd& value, int count, double shift);
 
 /// Number of eigenvalues of (S, M) below `value`: negative pivots of S − value M.
 int count_below(const Matrix& S, const Matrix& M, double value);
+/// The same as a phase of its own.
+int count_below(const Pencil& pencil, double value);
+
+/// The number of eigenvalues up to the gap behind the first `kept` pairs (one at least), by inertia: `kept` unless some
+/// are missing.
+int count_kept(const Pencil& pencil, const EigenPairs& pairs, int kept);
 
 /// Which solver serves a problem of this size.
 EigenSolver choose_solver(Eigen::Index size, int count);

@@ -337,10 +337,11 @@ std::string modes_text(const ModelCertificate& c) {
   if (c.free_modes)
     return fmt::format("{:<19}{} of the free part, {} internal vectors; first with the boundary held{}\n", "modes",
                        *c.free_modes, c.modes_kept, first);
-  std::string text = fmt::format(
-      "{:<19}{} kept ({} asked for, {} exist), {}", "internal modes", c.modes_kept, c.modes_requested,
-      c.modes_available, c.modes_counted ? fmt::format("{} counted below the cut", *c.modes_counted) : "not counted");
+  std::string text = fmt::format("{:<19}{} kept ({} asked for, {} exist)", "internal modes", c.modes_kept,
+                                 c.modes_requested, c.modes_available);
   if (!first.empty()) text += ", first dropped" + first;
+  text += fmt::format("\n{:<19}{}", "count by inertia",
+                      c.modes_counted ? fmt::format("{} below the cut", *c.modes_counted) : "not counted");
   if (c.moment_vectors > 0) text += fmt::format("\n{:<19}{}", "moment vectors", c.moment_vectors);
   return text + "\n";
 }

@@ -76,12 +76,23 @@ std::string time_text(double operations) {
 
 }  // namespace
 
+namespace {
+
+constexpr double number = 8.0;  ///< bytes
+
+/// Vectors that the search for `modes` pairs holds: its basis, and a block of solutions with what they need.
+double search_vectors(const Partition& p, int modes) {
+  constexpr double blocks = 8.0 * 8.0;
+  return std::min(static_cast<double>(p.n_I()), 2.0 * modes + 80.0) + blocks;
+}
+
+}  // namespace
+
 double memory_need(const FactorCost& cost, double stored_entries, const Partition& p, int modes, int ritz_vectors) {
-  constexpr double entry = 12.0, blocks = 8.0 * 8.0;
+  constexpr double entry = 12.0;
   const auto n = static_cast<double>(p.n_I());
   const double permuted = 2.0 * entry * stored_entries;
-  const double basis = std::min(n, 2.0 * modes + 80.0);
-  const double vectors = 8.0 * n * (static_cast<double>(p.n_B()) + basis + blocks + 4.0 * ritz_vectors);
+  const double vectors = number * n * (static_cast<double>(p.n_B()) + search_vectors(p, modes) + 4.0 * ritz_vectors);
   return cost.bytes() + std::max(permuted, vectors);
 }
 
@@ -95,8 +106,12 @@ void require_memory(double need, double available, const Partition& p, const std
       where, "use fewer elements or modes, or a machine with more memory");
 }
 
-Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Part& part,
-                     const std::function<void(const std::string&)>& begin, const std::function<void(int)>& solve) {
+void require_memory_of_modes(int modes, const Partition& p, const std::string& where) {
+  require_memory(number * static_cast<double>(p.n_I()) * search_vectors(p, modes), available_memory(), p, where);
+}
+
+Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Part& part, const PhaseListener& begin) {
+  constexpr double told = 0.5 * gigabyte;
   begin("ordering");
   if (p.n_I() == 0) return {};
   Factor factor(blocks.S_II, [&](const FactorCost& cost) {
@@ -104,10 +119,15 @@ Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Pa
     const double here = static_cast<double>(ranks_beside_leader()) / rank_count();  // of a factor that is shared
     const double need = memory_need({here * cost.entries, cost.operations}, rows.begin[rows.size], p, part.modes.count,
                                     ritz_vectors(part.modes, p));
-    require_memory(need, available_memory(), p, part.file);
+    const double available = available_memory();
+    require_memory(need, available, p, part.file);
+    if (need >= told)
+      begin.tell(
+          fmt::format("{} internal coordinates: factor and modes need about {:.2g} GB of memory, {:.3g} GB are free",
+                      p.n_I(), need / gigabyte, available / gigabyte));
     begin(fmt::format("factorisation ({:.2g} GB{})", need / gigabyte, time_text(cost.operations)));
   });
-  factor.tell_solutions(solve);
+  factor.tell_solutions(begin.solve);
   return factor;
 }
 

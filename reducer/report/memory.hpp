@@ -1,11 +1,11 @@
 // Memory of a reduction, told and compared with what there is before the large part of it is taken.
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "formats/part/part.hpp"
 #include "reducer/algebra/factor.hpp"
+#include "reducer/report/phase_listener.hpp"
 #include "reducer/system/partition.hpp"
 
 namespace tisserand::reducer {
@@ -21,10 +21,13 @@ double available_memory();
 /// Throws Error if `need` exceeds `available` bytes.
 void require_memory(double need, double available, const Partition& p, const std::string& where);
 
+/// Throws Error if the vectors of a search for so many modes do not fit, now that the factor is there: how many a
+/// cut-off or an accuracy takes is known late.
+void require_memory_of_modes(int modes, const Partition& p, const std::string& where);
+
 /// Factors S_II after its memory has been found to suffice; begins the phase "factorisation (1.2 GB, about 12 s)",
-/// which tells the need, and the time where it is seconds. Of a part without inside: an empty factor. `solve` hears of
-/// its solutions.
-Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Part& part,
-                     const std::function<void(const std::string&)>& begin, const std::function<void(int)>& solve);
+/// which tells the need, and the time where it is seconds. Half a gigabyte and more is told at once. Of a part without
+/// inside: an empty factor.
+Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Part& part, const PhaseListener& begin);
 
 }  // namespace tisserand::reducer

@@ -3,6 +3,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <ctime>
 
@@ -27,12 +28,30 @@ double peak_bytes() {
   return getrusage(RUSAGE_SELF, &usage) == 0 ? 1024.0 * static_cast<double>(usage.ru_maxrss) : 0.0;
 }
 
+/// Phases by name in the order of their beginnings, times of equal ones added, peaks the last: a phase goes on when
+/// another is over.
+template <class Phase>
+std::vector<Phase> merged(const std::vector<Phase>& phases) {
+  std::vector<Phase> list;
+  for (const Phase& phase : phases) {
+    const auto same = std::ranges::find(list, phase.name, &Phase::name);
+    if (same == list.end()) {
+      list.push_back(phase);
+      continue;
+    }
+    same->seconds += phase.seconds;
+    same->processor_seconds += phase.processor_seconds;
+    same->peak_bytes = phase.peak_bytes;
+  }
+  return list;
+}
+
 /// "mesh 0.010 s, ..., total 0.310 s".
 template <class Phase>
 std::string listed_times(const std::vector<Phase>& phases, double Phase::*seconds) {
   std::string text;
   double total = 0.0;
-  for (const Phase& phase : phases) {
+  for (const Phase& phase : merged(phases)) {
     text += fmt::format("{} {:.3f} s, ", phase.name, phase.*seconds);
     total += phase.*seconds;
   }
@@ -105,7 +124,7 @@ std::string Phases::processor_text() const {
 std::string Phases::memory_text() const {
   const std::lock_guard lock(mutex_);
   std::string text;
-  for (const Phase& phase : phases_)
+  for (const Phase& phase : merged(phases_))
     text += fmt::format("{}{} {:.0f} MB", text.empty() ? "" : ", ", phase.name, 1e-6 * phase.peak_bytes);
   return text;
 }

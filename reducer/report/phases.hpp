@@ -10,7 +10,8 @@
 
 namespace tisserand::reducer {
 
-/// A phase ends when the next begins. A watching thread reports a phase after its first second, then ever more rarely.
+/// A phase ends when the next begins, and goes on when one of its name begins. A watching thread reports a phase after
+/// its first second, then ever more rarely.
 class Phases {
  public:
   Phases();

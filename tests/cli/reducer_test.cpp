@@ -1,4 +1,6 @@
 // The faults of parts and of reduced files, told by `reducer`; skipped where that program is not built.
+#include <cmath>
+
 #include "tests/cli/scenes.hpp"
 
 namespace tisserand::cli::reducer_test {
@@ -71,6 +73,30 @@ TEST_F(Reducer, ClosedStreamsHarmNothing) {
   ASSERT_EQ(run("closed.superelement.h5", " <&- >&- 2>&-").code, 0);
   EXPECT_EQ(formats::read_superelement(file("closed.superelement.h5")).superelement.content_id,
             formats::read_superelement(file("open.superelement.h5")).superelement.content_id);
+}
+
+// A cantilever with P = 100 at its tip, by `mechanism` with none and with both of the modes of the file: statics needs
+// none. Stress at the clamp: P L r/I = 4 P L/(pi r^3).
+TEST_F(Reducer, StressOfABodyWithFewerModesThanTheFile) {
+  ASSERT_EQ(reducer({"run", "beam.part.yaml", "--set", "recovery=yes"}).code, 0);
+  write_text(file("clamp.scene.yaml"), R"yaml(scene: clamp
+analysis: statics
+bodies: {beam: {type: superelement, file: beam.superelement.h5, second_order: off, modes: 0}}
+joints: {clamp: {type: fixed, a: ground, b: beam/base}}
+loads: {push: {type: force, at: beam/tip, value: [0, 0, -100]}}
+)yaml");
+  for (const char* modes : {"0", "2"}) {
+    const Outcome run =
+        mechanism({"run", "clamp.scene.yaml", "--set", "bodies.beam.modes=" + std::string(modes), "-o", "clamp.h5"});
+    ASSERT_EQ(run.code, 0) << run.error;
+    const Outcome fields = reducer({"recover", "beam.recovery.h5", "clamp.h5", "-o", "fields"});
+    ASSERT_EQ(fields.code, 0) << fields.error;
+    const std::string what = "largest stress of beams";
+    const std::size_t at = fields.out.find(what);
+    ASSERT_NE(at, std::string::npos) << fields.out;
+    const double stress = 4.0 * 100.0 * 2.0 / (M_PI * std::pow(0.03, 3));
+    EXPECT_NEAR(std::stod(fields.out.substr(at + what.size())), stress, 1e-5 * stress) << modes << " modes";
+  }
 }
 
 TEST_F(Reducer, FilesOfOtherKindsAreNamed) {

@@ -360,6 +360,48 @@ TEST(Truncation, AccuracyAddsModesUntilItIsMet) {
   EXPECT_GT(reduce(part).model.modes_kept, fewest);
 }
 
+TEST(Truncation, AccuracyThatIsNotMetTellsWhatWasReached) {
+  formats::Part part = cardona_beam(200, 0);  // 1194 coordinates inside, of which 1000 modes at most
+  part.modes.moments = 0;
+  part.modes.accuracy = formats::Accuracy{1e-16, 1.001 * reduce(part).model.free_frequency[0]};
+  EXPECT_THAT(test_support::error_of([&] { reduce(part); }),
+              ::testing::ContainsRegex("the accuracy of 1e-16 up to [0-9.e+-]+ is not met: [0-9]+ internal modes leave "
+                                       "[0-9.]+e-[0-9]+; ask for a larger error or a lower frequency"));
+}
+
+// Where modes below the frequency suffice beside moment vectors, the count that chose them proves them; where more are
+// kept, one more count does. 4600 coordinates: found by iteration.
+TEST(Truncation, ModesThatAnAccuracyKeepsAreCounted) {
+  formats::Part part = grid(8, 6);
+  const double up_to = 1.001 * reduce(part).model.free_frequency[4];
+  part.modes.accuracy = formats::Accuracy{1e-3, up_to};
+  const reducer::ModelCertificate some = reduce(part).model;
+  EXPECT_GT(some.moment_vectors, 0);
+  EXPECT_EQ(some.modes_counted, some.modes_kept);
+  part.modes.moments = 0;
+  const reducer::ModelCertificate more = reduce(part).model;
+  EXPECT_GT(more.modes_kept, some.modes_kept);
+  EXPECT_EQ(more.modes_counted, more.modes_kept);
+  part.modes.verify = formats::Verification::none;
+  EXPECT_FALSE(reduce(part).model.modes_counted);
+}
+
+// t/L = 1e-4: membrane 1e8 times stiffer than bending. Frequencies of thin plates are as their thickness.
+TEST(BlockLanczos, FortyModesOfAVeryThinShell) {
+  const auto lowest = [](const std::string& thickness) {
+    const formats::Part part = formats::read_part(
+        std::string(TISSERAND_SOURCE_DIR) + "/tests/benchmarks/spider_plate.part.yaml",
+        {formats::parse_override("plates.sheet.elements=[24, 24]"), formats::parse_override("modes=40"),
+         formats::parse_override("shells.wall.thickness=" + thickness)});
+    const reducer::Reduction r = reduce(part);
+    EXPECT_GE(r.model.modes_kept, 40);
+    EXPECT_LT(r.model.mode_residual, 1e-8);
+    return r.file.fixed_frequency;
+  };
+  const std::vector<double> thin = lowest("1e-4"), thicker = lowest("1e-3");
+  for (std::size_t k = 0; k < 40; ++k) EXPECT_NEAR(thicker[k] / thin[k], 10.0, 0.01) << "mode " << k;
+}
+
 TEST(BlockLanczos, FiveThousandCoordinatesNoneMissed) {
   const Pieces p = pieces_of(grid(8, 6));
   EXPECT_GT(p.system.size(), 4500);

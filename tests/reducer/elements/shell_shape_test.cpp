@@ -107,6 +107,19 @@ TEST(Plausibility, SpidersFarBesideThePartAreTold) {
               ElementsAre(HasSubstr("spider 'pin' lies 320 beside the part, which is 1.41 large (and axle also lies")));
 }
 
+TEST(Plausibility, InertiaOfAPointMassThatNoBodyHasIsTold) {
+  Mesh mesh = one_shell(square(), steel(0.01));
+  NodalMass mass;
+  mass.name = "tip";
+  mass.mass = 2.0;
+  mass.inertia = Eigen::Vector3d(1.0, 1.0, 2.0).asDiagonal();  // a flat body
+  mesh.masses = {mass};
+  EXPECT_THAT(plausibility_warnings(mesh, Units::si()), IsEmpty());
+  mesh.masses[0].inertia(2, 2) = 5.0;
+  EXPECT_THAT(plausibility_warnings(mesh, Units::si()),
+              ElementsAre(AllOf(HasSubstr("point mass 'tip'"), HasSubstr("1, 1, 5 the largest exceeds the sum"))));
+}
+
 TEST(ShellShape, MaterialDirectionMustNotBeTheNormal) {
   Mesh mesh = one_shell(square(), steel(0.05));
   mesh.shells[0].material_x = Eigen::Vector3d(0.0, 0.0, 2.0);

@@ -152,6 +152,11 @@ TEST(Geometry, WhatTheTolerancesOfGmshDoNotResolveIsRefused) {
                        "square.step, size: 1e-6}\n"
                        "shells: {s: {on: all, thickness: 0.1, material: steel}}\nboundary: {o: {near: [0, 0, 0]}}\n"),
               AllOf(HasSubstr("would make about"), HasSubstr("the geometry is 0.72")));  // of 0.6 x 0.4 m
+  // 0.24 m^2 in equal triangles of edge 1e-12 m: 0.24/(sqrt(3)/4 1e-24) = 5.5e23.
+  EXPECT_THAT(error_of("mesh: {file: " + meshes +
+                       "square.step, size: 1e-12}\n"
+                       "shells: {s: {on: all, thickness: 0.1, material: steel}}\nboundary: {o: {near: [0, 0, 0]}}\n"),
+              AllOf(HasSubstr("below the tolerance of the geometry"), HasSubstr("would make about 5.5e+23 elements")));
 }
 
 /// The error for a file with this content and name.
