@@ -202,6 +202,7 @@ bool FlexibleTargets::reduce(const std::string& scene) const {
     reduce("turning_piece", "turning_whole", "--set points.tip.0=1 --set beams.beam.elements=32 --set modes=12");
   if (scene == "princeton_second_order") reduce("princeton_piece", "princeton_second_4", "--set modes=12");
   if (scene == "bend_45_second_order") reduce("bend_piece", "bend_second_5", "--set modes=16");
+  if (scene == "flying_second_order") reduce("flying_piece", "flying_16", "--set points.tip.0=0.625");
   if (scene == "roll_up_second_order") {
     reduce("roll_up_piece", "roll_up_6", "--set points.tip.0=1.66666666666667");
     reduce("roll_up_piece", "roll_up_12", "--set points.tip.0=0.833333333333333");
@@ -221,7 +222,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SuperelementTargets,
                                            "l_frame_loads_superelement", "top_fast_superelement",
                                            "top_slow_superelement", "turning_superelements", "spin_up_second_order",
                                            "turning_second_order", "princeton_second_order", "bend_45_second_order",
-                                           "roll_up_second_order", "l_frame_loads_second_order"),
+                                           "roll_up_second_order", "l_frame_loads_second_order", "flying_second_order"),
                          [](const ::testing::TestParamInfo<const char*>& scene) { return scene.param; });
 TEST_P(SuperelementTargets, AreMet) {
   if (!reduce(GetParam())) GTEST_SKIP() << "built without the reducer";
