@@ -193,9 +193,20 @@ bool FlexibleTargets::reduce(const std::string& scene) const {
            "--set points.tip=[7.84590957278449,-0.308266633275107,0]");
   }
   if (scene == "l_frame_tones_superelement") reduce("l_frame", "l_frame", "--set modes=32");
-  if (scene == "l_frame_loads_superelement")
+  if (scene == "l_frame_loads_superelement" || scene == "l_frame_loads_second_order")
     reduce("l_frame", "l_frame_thin", "--set sections.flat.width=0.6 --set modes=0");
   if (scene.starts_with("top_")) reduce("top", "top", "");
+  if (scene == "spin_up_second_order")
+    reduce("spin_up_piece", "whole", "--set points.tip.0=10 --set beams.beam.elements=32");
+  if (scene == "turning_second_order")
+    reduce("turning_piece", "turning_whole", "--set points.tip.0=1 --set beams.beam.elements=32 --set modes=12");
+  if (scene == "princeton_second_order") reduce("princeton_piece", "princeton_second_4", "--set modes=12");
+  if (scene == "bend_45_second_order") reduce("bend_piece", "bend_second_5", "--set modes=16");
+  if (scene == "flying_second_order") reduce("flying_piece", "flying_16", "--set points.tip.0=0.625");
+  if (scene == "roll_up_second_order") {
+    reduce("roll_up_piece", "roll_up_6", "--set points.tip.0=1.66666666666667");
+    reduce("roll_up_piece", "roll_up_12", "--set points.tip.0=0.833333333333333");
+  }
   if (scene == "turning_superelements") {
     reduce("turning_piece", "turning_4", "");
     reduce("turning_piece", "turning_8", "--set points.tip.0=0.125");
@@ -209,7 +220,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SuperelementTargets,
                                            "princeton_superelement_4", "princeton_superelement_8",
                                            "bend_45_superelements", "l_frame_tones_superelement",
                                            "l_frame_loads_superelement", "top_fast_superelement",
-                                           "top_slow_superelement", "turning_superelements"),
+                                           "top_slow_superelement", "turning_superelements", "spin_up_second_order",
+                                           "turning_second_order", "princeton_second_order", "bend_45_second_order",
+                                           "roll_up_second_order", "l_frame_loads_second_order", "flying_second_order"),
                          [](const ::testing::TestParamInfo<const char*>& scene) { return scene.param; });
 TEST_P(SuperelementTargets, AreMet) {
   if (!reduce(GetParam())) GTEST_SKIP() << "built without the reducer";

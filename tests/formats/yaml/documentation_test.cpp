@@ -1,4 +1,4 @@
-// The Python snippets of SUPERELEMENT.md and RESULTS.md, run as they stand there.
+// The Python snippets of SUPERELEMENT.md, COMPANION.md and RESULTS.md, run as they stand there.
 #include <cstdlib>
 #include <fstream>
 
@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "common/text.hpp"
+#include "formats/companion/companion.hpp"
 #include "formats/results/results.hpp"
 #include "formats/superelement/superelement.hpp"
 #include "tests/support/results_rows.hpp"
@@ -42,6 +43,23 @@ TEST(Documentation, PythonWritesASuperelement) {
   EXPECT_THAT(loaded.report.warnings, ::testing::IsEmpty());
   EXPECT_DOUBLE_EQ(loaded.report.rigid.mass, 2.0);
   EXPECT_EQ(loaded.superelement.units.length.label, "m");
+}
+
+// After the lines of SUPERELEMENT.md, as the page says.
+TEST(Documentation, PythonWritesACompanion) {
+  if (!has_h5py()) GTEST_SKIP() << "python3-h5py is not installed";
+  const TemporaryFolder folder;
+  ASSERT_EQ(run(snippet("SUPERELEMENT.md") + snippet("COMPANION.md"), folder, ""), 0)
+      << text_of(folder.file("out.txt"));
+  const LoadedSuperelement loaded = read_superelement(folder.file("tetrahedron.superelement.h5"));
+  const Companion companion = read_companion(folder.file("tetrahedron.companion.h5"), loaded.superelement);
+  EXPECT_DOUBLE_EQ(companion.mass, 2.0);
+  // Node b, at (1, 0, 0), moved by 1 along x: its springs to a, c, d carry 1e6 (1, 1/√2, 1/√2), over their lengths 1e6
+  // (1, 1/2, 1/2), and hold b along y with the part of that across each, 1, 1/2, 1; all that a has of it is the first.
+  const int bx = 3, by = 4, ay = 1;
+  EXPECT_NEAR(companion.H[bx](by, by), 1e6 * (1.0 + 0.25 + 0.5), 1e-3);
+  EXPECT_NEAR(companion.H[bx](ay, by), -1e6, 1e-3);
+  EXPECT_DOUBLE_EQ(companion.C[2](by, bx), 0.5);  // half a kilogram at b: e_z x e_x = e_y
 }
 
 TEST(Documentation, PythonReadsResults) {
