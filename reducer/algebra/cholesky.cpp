@@ -158,17 +158,24 @@ double Cholesky::factor() {
 }
 
 Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& B) const {
+  constexpr Eigen::Index most_groups = 4;  // of right-hand sides that meet a supernode while the cache has it
   const State& s = *state_;
   const int* const permutation = static_cast<const int*>(s.L->Perm);
   Eigen::MatrixXd X(B.rows(), B.cols());
   std::vector<double> gathered(static_cast<std::size_t>(Line::at(s.most_rows)));
-  std::vector<double> lines(static_cast<std::size_t>(Line::at(B.rows())));
+  const std::ptrdiff_t size = Line::at(B.rows());
+  const Eigen::Index groups = (B.cols() + Line::width - 1) / Line::width;
+  std::vector<double> lines(static_cast<std::size_t>(size * std::min(groups, most_groups)));
   const auto original = [permutation](Eigen::Index i) { return permutation[i]; };
-  for (Eigen::Index first = 0; first < B.cols(); first += Line::width) {
-    to_lines(B, first, original, lines.data());
-    for (std::size_t k = 0; k < s.L->nsuper; ++k) forward(s.supernode(k), gathered.data(), lines.data());
-    for (std::size_t k = s.L->nsuper; k > 0; --k) backward(s.supernode(k - 1), gathered.data(), lines.data());
-    from_lines(lines.data(), first, original, X);
+  for (Eigen::Index first = 0; first < groups; first += most_groups) {
+    const Eigen::Index count = std::min(most_groups, groups - first);
+    for (Eigen::Index g = 0; g < count; ++g) to_lines(B, Line::width * (first + g), original, lines.data() + g * size);
+    for (std::size_t k = 0; k < s.L->nsuper; ++k)
+      for (Eigen::Index g = 0; g < count; ++g) forward(s.supernode(k), gathered.data(), lines.data() + g * size);
+    for (std::size_t k = s.L->nsuper; k > 0; --k)
+      for (Eigen::Index g = 0; g < count; ++g) backward(s.supernode(k - 1), gathered.data(), lines.data() + g * size);
+    for (Eigen::Index g = 0; g < count; ++g)
+      from_lines(lines.data() + g * size, Line::width * (first + g), original, X);
   }
   return X;
 }

@@ -129,39 +129,44 @@ void sort_pairs(EigenPairs& pairs) {
   pairs.vector = Eigen::MatrixXd(pairs.vector(Eigen::all, order));
 }
 
-/// X := X R⁻¹ with Xᵀ M X = Rᵀ R, and MX likewise: what a column has of earlier ones goes.
-void orthonormalise(EigenPairs& pairs, Eigen::MatrixXd& MX) {
-  const Eigen::MatrixXd G = pairs.vector.transpose() * MX;
-  const Eigen::LLT<Eigen::MatrixXd> factor(0.5 * (G + G.transpose()));
-  if (factor.info() != Eigen::Success) return;
-  factor.matrixU().solveInPlace<Eigen::OnTheRight>(pairs.vector);
-  factor.matrixU().solveInPlace<Eigen::OnTheRight>(MX);
+/// X := X R⁻¹ with the upper triangle of Xᵀ M X = Rᵀ R: what a column has of earlier ones goes.
+void orthonormalise(const Eigen::MatrixXd& G, Eigen::MatrixXd& X) {
+  const Eigen::LLT<Eigen::MatrixXd, Eigen::Upper> factor(G);
+  if (factor.info() == Eigen::Success) factor.matrixU().solveInPlace<Eigen::OnTheRight>(X);
 }
 
 /// One step of inverse iteration, y = (λ − shift) (S − shift M)⁻¹ M x: removes from x what nearly massless coordinates
 /// hide from the solver, whose inner product is that of M. As S y − λ M y = (λ − shift) M (x − y), it tells the
 /// residual of y without the cancellation of S y. λ becomes Rayleigh's quotient. Pairs far above the first keep x,
 /// since the step amplifies the round-off along the first. Then sorted, Xᵀ M X = 1; returns the residuals, relative to
-/// (λ − shift) ‖M y‖, of far ones also to λ/λ₁.
+/// (λ − shift) ‖M y‖, of far ones also to λ/λ₁. A few columns at a time: vectors take the memory here.
 Eigen::VectorXd purify(const Pencil& pencil, EigenPairs& pairs) {
   constexpr double far = 1e4;
+  constexpr Eigen::Index at_once = 64;
   sort_pairs(pairs);
   discard_unresolved(pencil.shift, pairs);
-  Eigen::MatrixXd MX = multiply(pencil.M, pairs.vector);
   const Eigen::VectorXd lambda = pairs.value.array() - pencil.shift;
-  const Eigen::MatrixXd Y = pencil.factor.solve(MX * lambda.asDiagonal());
-  Eigen::MatrixXd MY = multiply(pencil.M, Y);
-  Eigen::VectorXd residual = (MX - MY).colwise().norm().cwiseQuotient(MY.colwise().norm());
-  for (Eigen::Index k = 0; k < lambda.size(); ++k) {
-    if (lambda[k] < far * lambda[0]) {
-      pairs.value[k] = pencil.shift + lambda[k] * Y.col(k).dot(MX.col(k)) / Y.col(k).dot(MY.col(k));
-      pairs.vector.col(k) = Y.col(k);
-    } else {
-      residual[k] /= 1.0 + lambda[k] / lambda[0];
-      MY.col(k) = MX.col(k);
+  Eigen::VectorXd residual(lambda.size());
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(lambda.size(), lambda.size());
+  for (Eigen::Index first = 0; first < lambda.size(); first += at_once) {
+    const Eigen::Index count = std::min(at_once, lambda.size() - first), end = first + count;
+    const Eigen::MatrixXd MX = multiply(pencil.M, pairs.vector.middleCols(first, count));
+    const Eigen::MatrixXd Y = pencil.factor.solve(MX * lambda.segment(first, count).asDiagonal());
+    Eigen::MatrixXd MY = multiply(pencil.M, Y);
+    residual.segment(first, count) = (MX - MY).colwise().norm().cwiseQuotient(MY.colwise().norm());
+    for (Eigen::Index c = 0; c < count; ++c) {
+      const Eigen::Index k = first + c;
+      if (lambda[k] < far * lambda[0]) {
+        pairs.value[k] = pencil.shift + lambda[k] * Y.col(c).dot(MX.col(c)) / Y.col(c).dot(MY.col(c));
+        pairs.vector.col(k) = Y.col(c);
+      } else {
+        residual[k] /= 1.0 + lambda[k] / lambda[0];
+        MY.col(c) = MX.col(c);
+      }
     }
+    G.block(0, first, end, count).noalias() = pairs.vector.leftCols(end).transpose() * MY;
   }
-  orthonormalise(pairs, MY);
+  orthonormalise(G, pairs.vector);
   sort_pairs(pairs);
   return residual;
 }
@@ -224,7 +229,8 @@ Spectrum iterated_spectrum(const Pencil& pencil, int count, int available, Eigen
   constexpr int attempts = 6;
   Spectrum s;
   s.solver = solver;
-  s.pairs = first_search(pencil, std::min(available, count + 2), s);
+  const int wanted = std::min(available, count + 2);
+  s.pairs = first_search(pencil, wanted, s);
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const Eigen::VectorXd residual = purify(pencil, s.pairs);
     const auto found = static_cast<int>(s.pairs.value.size());
@@ -234,7 +240,7 @@ Spectrum iterated_spectrum(const Pencil& pencil, int count, int available, Eigen
       if (s.kept == available) s.counted = available;
       const bool needed = verify == Count::always ||
                           (verify == Count::if_cheap && counting_is_cheap(pencil.factor, count)) ||
-                          largest_cluster(s.pairs.value.head(s.kept), pencil.shift) >= lanczos_block;
+                          largest_cluster(s.pairs.value.head(s.kept), pencil.shift) >= lanczos_block(wanted);
       if (s.kept < found && !needed) return s;
       if (s.kept < available) s.counted = count_kept(pencil, s.pairs, s.kept);
       if (s.counted == s.kept) return s;

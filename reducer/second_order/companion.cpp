@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 
 #include "common/error.hpp"
 #include "common/math/rotation.hpp"
@@ -83,13 +84,18 @@ MatrixXd residual_displacements(const InternalProblem& problem, const InternalMo
   return w;
 }
 
-/// Stresses and gradients of elements of one layout, the next `count` from `first` on.
+/// Stresses and gradients of the elements, in batches of one layout each, a block of elements at a time.
 class ElementBatches {
  public:
   ElementBatches(const Mesh& mesh, const Coordinates& coordinates, const MatrixXd& displacements, Index n, int threads)
-      : mesh_(mesh), coordinates_(coordinates), displacements_(displacements), n_(n), threads_(threads) {}
+      : mesh_(mesh),
+        coordinates_(coordinates),
+        displacements_(displacements),
+        n_(n),
+        threads_(threads),
+        scratch_(static_cast<std::size_t>(threads)) {}
 
-  /// Calls use(batch) for all elements in their order.
+  /// Calls use(batches) for all elements in their order; `done` hears the share of them that is behind.
   template <class Use>
   void for_each(const Use& use, const std::function<void(double)>& done) {
     for (int first = 0; first < mesh_.elements(); first += block) {
@@ -100,44 +106,64 @@ class ElementBatches {
         for (int e = share.first; e < share.end; ++e)
           with_element(mesh_, first + e, [&](const auto& kind) { second_order(mesh_, kind, rows_[e]); });
       });
-      for (int begin = 0; begin < count;) {
-        const int most = std::clamp(batch_rows / static_cast<int>(rows_[begin].stress.rows()), 1, largest_batch);
-        int end = begin + 1;
-        while (end < count && end - begin < most && rows_[end].sections == rows_[begin].sections) ++end;
-        fill(first, begin, end);
-        use(batch_);
-        begin = end;
-      }
+      const int batches = start_batches(count);
+      on_threads(threads_, [&](int t) {
+        const Share share = share_of(count, t, threads_);
+        for (int e = share.first; e < share.end; ++e) fill(first + e, e, scratch_[t]);
+      });
+      use(std::span(batches_.data(), static_cast<std::size_t>(batches)));
     }
   }
 
  private:
   static constexpr int block = 256;
 
-  void fill(int first, int begin, int end) {
-    batch_.sections = rows_[begin].sections;
-    batch_.count = end - begin;
-    batch_.stress.resize(rows_[begin].stress.rows() * batch_.count, displacements_.cols());
-    batch_.gradient.resize(rows_[begin].gradient.rows() * batch_.count, n_);
-    on_threads(threads_, [&](int t) {
-      const Share share = share_of(batch_.count, t, threads_);
-      MatrixXd d, product;
-      for (int e = share.first; e < share.end; ++e) {
-        const SecondOrderRows& rows = rows_[begin + e];
-        d.resize(rows.stress.cols(), displacements_.cols());
-        gather(element_rows(mesh_, coordinates_, first + begin + e, d.rows()), displacements_, d);
-        product.noalias() = rows.stress * d;
-        put(product, e, batch_.stress);
-        product.noalias() = rows.gradient * d.leftCols(n_);
-        put(product, e, batch_.gradient);
-      }
-    });
+  /// Where an element of the block goes.
+  struct Place {
+    std::size_t batch = 0;
+    int at = 0;
+  };
+  /// Of a thread.
+  struct Scratch {
+    MatrixXd d;
+    MatrixXd product;
+  };
+
+  /// Cuts the block into batches and sets their sizes; returns how many.
+  int start_batches(int count) {
+    int batches = 0;
+    for (int begin = 0; begin < count; ++batches) {
+      const SecondOrderRows& like = rows_[begin];
+      const int most = std::clamp(batch_rows / static_cast<int>(like.stress.rows()), 1, largest_batch);
+      int end = begin;
+      for (; end < count && end - begin < most && rows_[end].sections == like.sections; ++end)
+        place_[end] = {static_cast<std::size_t>(batches), end - begin};
+      if (batches == static_cast<int>(batches_.size())) batches_.emplace_back();
+      StrainBatch& batch = batches_[static_cast<std::size_t>(batches)];
+      batch.sections = like.sections;
+      batch.count = end - begin;
+      batch.stress.resize(like.stress.rows() * batch.count, displacements_.cols());
+      batch.gradient.resize(like.gradient.rows() * batch.count, n_);
+      begin = end;
+    }
+    return batches;
   }
 
-  /// Row r of element e at row r · count + e.
-  void put(const MatrixXd& product, int e, MatrixXd& all) const {
+  void fill(int element, int e, Scratch& scratch) {
+    const SecondOrderRows& rows = rows_[e];
+    StrainBatch& batch = batches_[place_[e].batch];
+    scratch.d.resize(rows.stress.cols(), displacements_.cols());
+    gather(element_rows(mesh_, coordinates_, element, scratch.d.rows()), displacements_, scratch.d);
+    scratch.product.noalias() = rows.stress * scratch.d;
+    put(scratch.product, place_[e].at, batch.count, batch.stress);
+    scratch.product.noalias() = rows.gradient * scratch.d.leftCols(n_);
+    put(scratch.product, place_[e].at, batch.count, batch.gradient);
+  }
+
+  /// Row r of element number `at` of a batch at row r · count + at.
+  static void put(const MatrixXd& product, int at, int count, MatrixXd& all) {
     for (Index c = 0; c < product.cols(); ++c)
-      for (Index r = 0; r < product.rows(); ++r) all(r * batch_.count + e, c) = product(r, c);
+      for (Index r = 0; r < product.rows(); ++r) all(r * count + at, c) = product(r, c);
   }
 
   const Mesh& mesh_;
@@ -146,7 +172,9 @@ class ElementBatches {
   Index n_;
   int threads_;
   std::vector<SecondOrderRows> rows_ = std::vector<SecondOrderRows>(block);
-  StrainBatch batch_;
+  std::vector<Place> place_ = std::vector<Place>(block);
+  std::vector<StrainBatch> batches_;
+  std::vector<Scratch> scratch_;
 };
 
 /// g − S w on the coordinates that ties make dependent: forces on x, by the elements at them.
@@ -221,7 +249,7 @@ void add_offset_masses(const Mesh& mesh, const Coordinates& coordinates, const M
     batch.gradient.setZero(9, Phi.cols());
     batch.gradient.topRows<3>() = Phi.middleRows<3>(x + 3);
     batch.gradient.middleRows<3>(3) = -0.5 * skew<double>(mass.offset) * Phi.middleRows<3>(x + 3);
-    forms.add(batch);
+    forms.add({&batch, 1});
   }
 }
 
@@ -333,11 +361,11 @@ formats::Companion make_companion(const InternalProblem& problem, const Boundary
   displacements << Phi, expand(system.T, residual_displacements(problem, internal, gather_forces(system.T, g)));
   QuadraticForms forms(n, all, threads);
   ElementBatches(mesh, system.coordinates, displacements, n, threads)
-      .for_each([&](const StrainBatch& batch) { forms.add(batch); }, problem.share);
+      .for_each([&](std::span<const StrainBatch> batches) { forms.add(batches); }, problem.share);
   add_offset_masses(mesh, system.coordinates, Phi, D, forms);
   if (const TieForces ties = find_tie_forces(mesh, system, problem.where); !ties.empty()) {
     const MatrixXd residual = tie_residual(mesh, system.coordinates, ties, displacements, g);
-    for (const StrainBatch& batch : tie_batches(mesh, system, ties, multipliers(ties, residual), Phi)) forms.add(batch);
+    forms.add(tie_batches(mesh, system, ties, multipliers(ties, residual), Phi));
   }
   for (int j = 0; j < n; ++j) c.H.push_back(forms.matrix(j));
   for (int a = 0; a < 6; ++a) {

@@ -6,8 +6,8 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr Eigen::Index least_width =
-    192;  ///< columns of a piece: wide enough for matrix products, small enough for caches
+/// Columns of a piece: wide enough for matrix products, small enough for its strains to stay in the cache.
+constexpr Eigen::Index least_width = 64;
 
 }  // namespace
 
@@ -36,16 +36,19 @@ QuadraticForms::QuadraticForms(int coordinates, int displacements, int threads)
   sum_.setZero(displacements, n_ * (n_ + 1) / 2);
 }
 
-void QuadraticForms::add(const StrainBatch& batch) {
+void QuadraticForms::add(std::span<const StrainBatch> batches) {
   const int pieces = static_cast<int>(pieces_.size());
   on_threads(threads_, [&](int t) {
-    for (int p = t; p < pieces; p += threads_) add(batch, pieces_[p], forms_[t]);
+    for (int p = t; p < pieces; p += threads_)
+      for (const StrainBatch& batch : batches) add(batch, pieces_[p], forms_[t]);
   });
 }
 
-void QuadraticForms::add(const StrainBatch& batch, const Piece& piece, Eigen::MatrixXd& forms) {
-  const Eigen::Index B = batch.count;
-  forms.setZero(batch.stress.rows(), piece.width);
+void QuadraticForms::add(const StrainBatch& batch, const Piece& piece, Eigen::VectorXd& memory) {
+  const Eigen::Index B = batch.count, rows = batch.stress.rows();
+  if (memory.size() < rows * piece.width) memory.resize(rows * piece.width);
+  Eigen::Map<Eigen::MatrixXd> forms(memory.data(), rows, piece.width);
+  forms.setZero();
   Eigen::Index column = 0;
   for (int k = piece.first; k < piece.end; ++k)
     for (int l = k; l < n_; ++l, ++column) {

@@ -2,6 +2,7 @@
 // the reduced coordinates.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,7 +30,8 @@ class QuadraticForms {
  public:
   QuadraticForms(int coordinates, int displacements, int threads);
 
-  void add(const StrainBatch& batch);
+  /// One after the other; each thread takes pieces of the pairs.
+  void add(std::span<const StrainBatch> batches);
 
   /// Φᵀ K_G[w_j] Φ, n x n, symmetric.
   Eigen::MatrixXd matrix(int displacement) const;
@@ -42,12 +44,12 @@ class QuadraticForms {
     Eigen::Index column = 0;
     Eigen::Index width = 0;
   };
-  void add(const StrainBatch& batch, const Piece& piece, Eigen::MatrixXd& forms);
+  void add(const StrainBatch& batch, const Piece& piece, Eigen::VectorXd& memory);
 
   int n_ = 0;
   int threads_ = 1;
   std::vector<Piece> pieces_;
-  std::vector<Eigen::MatrixXd> forms_;  ///< per thread: E2 of the pairs of a piece
+  std::vector<Eigen::VectorXd> forms_;  ///< per thread: memory for E2 of the pairs of a piece
   Eigen::MatrixXd sum_;                 ///< displacements x pairs
 };
 

@@ -1,0 +1,118 @@
+// Both products a few rows at a time: those of the block lie side by side as lines, columns of A meet them four at
+// once.
+#include "reducer/algebra/tall.hpp"
+
+#include <algorithm>
+#include <type_traits>
+#include <vector>
+
+#include "reducer/algebra/line.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Tall = Eigen::Ref<const MatrixXd>;
+
+constexpr Index tall_rows = 128;
+constexpr int tall_columns = 4;  ///< columns of A
+
+Index groups_of(Index columns) { return (columns + Line::width - 1) / Line::width; }
+
+/// Rows `first` ... `first + count − 1` of columns of B, group g from line `g · stride` on; zero beyond the last
+/// column.
+void load_rows(const Tall& B, Index first, Index count, Index stride, double* lines) {
+  for (Index g = 0; g < groups_of(B.cols()); ++g)
+    for (Index c = 0; c < Line::width; ++c) {
+      const Index column = Line::width * g + c;
+      double* const to = lines + Line::at(g * stride) + c;
+      for (Index i = 0; i < count; ++i) to[Line::at(i)] = column < B.cols() ? B(first + i, column) : 0.0;
+    }
+}
+
+/// The way back.
+void store_rows(const double* lines, Index first, Index count, Index stride, Eigen::Ref<MatrixXd> B) {
+  for (Index column = 0; column < B.cols(); ++column) {
+    const double* const from = lines + Line::at(column / Line::width * stride) + column % Line::width;
+    for (Index i = 0; i < count; ++i) B(first + i, column) = from[Line::at(i)];
+  }
+}
+
+/// sum_j += Σ a_ij b_i, `columns` of A from `a` on, `stride` numbers from one to the next.
+template <int columns>
+void add_inner(const double* a, Index stride, Index count, const double* lines, double* sums) {
+  Line sum[columns];
+  for (int j = 0; j < columns; ++j) sum[j] = Line::load(sums + Line::at(j));
+  for (Index i = 0; i < count; ++i) {
+    const Line b = Line::load(lines + Line::at(i));
+    for (int j = 0; j < columns; ++j) sum[j].add(a[j * stride + i], b);
+  }
+  for (int j = 0; j < columns; ++j) sum[j].store(sums + Line::at(j));
+}
+
+/// c_i −= Σ a_ij b_j likewise.
+template <int columns>
+void subtract_product(const double* a, Index stride, Index count, const double* factors, double* lines) {
+  Line b[columns];
+  for (int j = 0; j < columns; ++j) b[j] = Line::load(factors + Line::at(j));
+  for (Index i = 0; i < count; ++i) {
+    Line c = Line::load(lines + Line::at(i));
+    for (int j = 0; j < columns; ++j) c.add(-a[j * stride + i], b[j]);
+    c.store(lines + Line::at(i));
+  }
+}
+
+/// four(j) for columns j ... j + 3, one(j) for those that are left.
+template <class Four, class One>
+void for_columns(Index columns, const Four& four, const One& one) {
+  Index j = 0;
+  for (; j + tall_columns <= columns; j += tall_columns) four(j);
+  for (; j < columns; ++j) one(j);
+}
+
+}  // namespace
+
+MatrixXd tall_inner_products(const Tall& A, const Tall& B) {
+  const Index groups = groups_of(B.cols()), stride = A.outerStride();
+  std::vector<double> lines(static_cast<std::size_t>(Line::at(groups * tall_rows)));
+  std::vector<double> sums(static_cast<std::size_t>(Line::at(groups * A.cols())));
+  for (Index first = 0; first < A.rows(); first += tall_rows) {
+    const Index count = std::min(tall_rows, A.rows() - first);
+    load_rows(B, first, count, tall_rows, lines.data());
+    const auto add = [&](auto columns, Index j) {
+      for (Index g = 0; g < groups; ++g)
+        add_inner<columns.value>(A.data() + j * stride + first, stride, count, lines.data() + Line::at(g * tall_rows),
+                                 sums.data() + Line::at(g * A.cols() + j));
+    };
+    for_columns(
+        A.cols(), [&](Index j) { add(std::integral_constant<int, tall_columns>{}, j); },
+        [&](Index j) { add(std::integral_constant<int, 1>{}, j); });
+  }
+  MatrixXd C(A.cols(), B.cols());
+  store_rows(sums.data(), 0, A.cols(), A.cols(), C);
+  return C;
+}
+
+void subtract_tall_product(const Tall& A, const MatrixXd& B, Eigen::Ref<MatrixXd> C) {
+  const Index groups = groups_of(B.cols()), stride = A.outerStride();
+  std::vector<double> lines(static_cast<std::size_t>(Line::at(groups * tall_rows)));
+  std::vector<double> factors(static_cast<std::size_t>(Line::at(groups * A.cols())));
+  load_rows(B, 0, A.cols(), A.cols(), factors.data());
+  for (Index first = 0; first < A.rows(); first += tall_rows) {
+    const Index count = std::min(tall_rows, A.rows() - first);
+    load_rows(C, first, count, tall_rows, lines.data());
+    const auto subtract = [&](auto columns, Index j) {
+      for (Index g = 0; g < groups; ++g)
+        subtract_product<columns.value>(A.data() + j * stride + first, stride, count,
+                                        factors.data() + Line::at(g * A.cols() + j),
+                                        lines.data() + Line::at(g * tall_rows));
+    };
+    for_columns(
+        A.cols(), [&](Index j) { subtract(std::integral_constant<int, tall_columns>{}, j); },
+        [&](Index j) { subtract(std::integral_constant<int, 1>{}, j); });
+    store_rows(lines.data(), first, count, tall_rows, C);
+  }
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,18 @@
+// Products of a tall matrix with a block of a few columns. BLAS would copy the tall one into its own order at each
+// call, which takes as long as the product.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace tisserand::reducer {
+
+/// Aᵀ B (k x b) for A (n x k) and B (n x b), n the largest by far. A is read once, for up to eight columns of B in
+/// registers; sums run in a fixed order.
+Eigen::MatrixXd tall_inner_products(const Eigen::Ref<const Eigen::MatrixXd>& A,
+                                    const Eigen::Ref<const Eigen::MatrixXd>& B);
+
+/// C := C − A B for A (n x k), B (k x b) and C (n x b).
+void subtract_tall_product(const Eigen::Ref<const Eigen::MatrixXd>& A, const Eigen::MatrixXd& B,
+                           Eigen::Ref<Eigen::MatrixXd> C);
+
+}  // namespace tisserand::reducer
