@@ -21,7 +21,8 @@ install(FILES packaging/copyright DESTINATION ${pages_folder})
 set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 install(DIRECTORY examples meshes DESTINATION ${data_folder}
-        PATTERN run PERMISSIONS ${CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS})
+        PATTERN run PERMISSIONS ${CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS}
+        PATTERN one_against_pieces PERMISSIONS ${CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS})
 foreach(folder IN ITEMS tests/verification/references tests/verification/references/cardona)
   file(GLOB references CONFIGURE_DEPENDS ${folder}/*.csv)
   install(FILES ${references} DESTINATION ${data_folder}/${folder})
