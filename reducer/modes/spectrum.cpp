@@ -286,7 +286,9 @@ Spectrum lowest_pairs(const Pencil& pencil, int count, int available, EigenSolve
                                             : iterated_spectrum(pencil, count, available, solver, verify);
   if (!(s.residual < 1e-8))
     throw Error(fmt::format("internal modes have a relative residual of {:.1e}, above 1e-8", s.residual),
-                "eigenvalue solver", "the part is badly conditioned: avoid very short beside very long elements");
+                "eigenvalue solver",
+                "the part is badly conditioned: avoid very short beside very long elements, and very stiff beside very "
+                "soft ones");
   return s;
 }
 

@@ -33,7 +33,7 @@ bodies:
   bar: {type: rigid, mass: 2, inertia: [0.2, 0.2, 0.2], pose: {position: [1.5, 0, 0]}}
 joints:
   hinge: {type: revolute, a: ground, b: crank, axis: [0, 1, 0]}
-  pin: {type: revolute, a: crank/tip, b: bar, at: [1, 0, 0], axis: [0, 1, 0]}
+  pin: {type: revolute, a: crank/tip, b: bar, position: [1, 0, 0], axis: [0, 1, 0]}
 motions: {turn: {coordinate: hinge, value: "2*t"}}
 integrator: {step: 0.001, end: 0.002}
 )yaml");

@@ -290,6 +290,28 @@ TEST(EigenvalueSolver, ThatSolvesAnotherProblemIsAnError) {
               HasSubstr("internal modes found where"));
 }
 
+// A free part with a shift so close to its rigid motions that a solution keeps no digit of them.
+TEST(EigenvalueSolver, ThatIsNotAccurateEnoughIsAnError) {
+  const Pieces p = pieces_of(grid(4, 3));
+  const reducer::SystemMatrices free = reducer::to_petsc(p.system.matrices);
+  const int available = reducer::finite_mode_count(free.mass);
+  const double first =
+      reducer::lowest_pairs({p.blocks.S_II, p.blocks.M_II, p.factor, 0.0}, 1, reducer::finite_mode_count(p.blocks.M_II),
+                            reducer::EigenSolver::block_lanczos, reducer::Count::never)
+          .pairs.value[0];
+  const auto error = [&](double shift) {
+    const reducer::Factor factor(reducer::combine(free.stiffness, -shift, free.mass));
+    return test_support::error_of([&] {
+      reducer::lowest_pairs({free.stiffness, free.mass, factor, shift}, 10, available,
+                            reducer::EigenSolver::block_lanczos, reducer::Count::never);
+    });
+  };
+  EXPECT_EQ(error(-first), "no error");
+  EXPECT_THAT(error(-1e-13 * first), ::testing::AnyOf(AllOf(HasSubstr("internal modes have a relative residual of "),
+                                                            HasSubstr("above 1e-8; the part is badly conditioned")),
+                                                      HasSubstr("internal modes found where 10 exist")));
+}
+
 TEST(Memory, PartsThatDoNotFitAreRefusedBeforeTheyAreFactored) {
   reducer::Partition p;
   p.internal.resize(1000);
