@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "mechanism/study/measure.hpp"
 
 namespace tisserand::mechanism::findings_test {

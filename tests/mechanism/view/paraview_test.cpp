@@ -7,6 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include "mechanism/simulate.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/vtk/vtu_reader.hpp"
