@@ -2,6 +2,7 @@
 // nonlinear beams where deformations are small.
 #include <fstream>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
