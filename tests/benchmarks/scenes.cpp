@@ -24,6 +24,7 @@
 #include "mechanism/run/schedule.hpp"
 #include "mechanism/step/step.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
+#include "tests/support/bodies/second_order_beam.hpp"
 #include "tests/support/scenes/scenes.hpp"
 
 namespace tisserand::benchmarks {
@@ -125,7 +126,7 @@ Cost run_and_visit(const Case& input, Visit visit) {
   const formats::Scene& scene = input.scene;
   Cost cost;
   const double at_start = cpu_seconds();
-  mechanism::BuiltModel built = mechanism::build_model(scene, input.files);
+  mechanism::BuiltModel built = mechanism::build_model(scene, input.body_files());
   mechanism::Workspace workspace(built.model);
   workspace.memory.tuning = input.tuning;
   const double built_at = cpu_seconds();
@@ -196,6 +197,36 @@ Case hinged_beam(int modes, formats::Formulation formulation) {
   return input;
 }
 
+mechanism::BodyFiles Case::body_files() const {
+  mechanism::BodyFiles all(files);
+  all.companions = companions;
+  return all;
+}
+
+Case hinged_beam(int modes, SecondOrderTerms terms) {
+  constexpr int elements = 24;
+  const BeamData beam = paper_beam();
+  const test_support::SectionData section{.EA = beam.young * beam.area,
+                                          .GJ = beam.shear_modulus * beam.J,
+                                          .EI_y = beam.young * beam.Iy,
+                                          .EI_z = beam.young * beam.Iz,
+                                          .mass = beam.density * beam.area,
+                                          .torsional_inertia = beam.density * (beam.Iy + beam.Iz),
+                                          .rotary_y = beam.density * beam.Iy,
+                                          .rotary_z = beam.density * beam.Iz};
+  const test_support::SecondOrderBody made = test_support::second_order_beam(
+      test_support::bernoulli_beam(section, beam.length, elements), {0, elements}, modes);
+  Case input{test_support::empty_scene(0.01, 20.0), {}};
+  test_support::add_file("beam", made.element, input.files);
+  input.companions["beam"] = made.companion;
+  formats::SuperelementBodySpec body = test_support::superelement_body("beam", "beam");
+  body.inertia = terms.inertia;
+  body.stiffening = terms.stiffening;
+  input.scene.bodies.push_back(body);
+  add_hinge_and_torque(fmt::format("beam/{}", made.element.node_name.front()), input.scene);
+  return input;
+}
+
 Case nonlinear_beam(int elements, int nodes_per_element) {
   Case input{test_support::empty_scene(0.01, 20.0), {}};
   const BeamData beam = paper_beam();
@@ -245,7 +276,7 @@ Cost run(const Case& input) {
 Cost run_hinged_beam(const Case& input, const std::string& base) {
   const double step = input.scene.integrator.step;
   const std::map<long, double> reference = reference_rates(step);
-  const mechanism::BuiltModel built = mechanism::build_model(input.scene, input.files);
+  const mechanism::BuiltModel built = mechanism::build_model(input.scene, input.body_files());
   int rotation = -1;
   for (const mechanism::Node& node : built.model.nodes)
     if (node.name == base) rotation = node.rotation;
@@ -264,7 +295,7 @@ Cost run_hinged_beam(const Case& input, const std::string& base) {
 }
 
 Stopped::Stopped(const Case& input, double time)
-    : scene(input.scene), built(mechanism::build_model(scene, input.files)), workspace(built.model) {
+    : scene(input.scene), built(mechanism::build_model(scene, input.body_files())), workspace(built.model) {
   (void)mechanism::start(scene, mechanism::StartFrom::poses, built, workspace);
   mechanism::Schedule schedule(scene, built.model.breakpoints);
   while (built.state.time() < time) {

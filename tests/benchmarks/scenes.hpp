@@ -1,6 +1,7 @@
 // Scenes of the benchmarks, written in code, and a run in memory with its costs.
 #pragma once
 
+#include <map>
 #include <string>
 
 #include <Eigen/Core>
@@ -17,11 +18,23 @@ struct Case {
   formats::Scene scene;
   mechanism::SuperelementFiles files;
   mechanism::StepTuning tuning = {};
+  std::map<std::string, formats::Companion> companions = {};  ///< of those files
+
+  mechanism::BodyFiles body_files() const;
 };
 
 /// Hinged beam of [Car00] 8.1, moment 200, 2000 steps of 0.01, as one reduced body: 24 beam elements, boundary nodes
 /// base and tip, `modes` (at most 138) modes with fixed boundary; frame karcher, inertia B.
 Case hinged_beam(int modes, formats::Formulation formulation);
+
+/// Inertia and stiffening of a superelement.
+struct SecondOrderTerms {
+  formats::InertiaOption inertia = formats::InertiaOption::B;
+  formats::StiffeningOption stiffening = formats::StiffeningOption::off;
+};
+
+/// The same beam of 24 elements without shear and with its companion.
+Case hinged_beam(int modes, SecondOrderTerms terms);
 
 /// The same beam as geometrically exact elements of two or three nodes.
 Case nonlinear_beam(int elements, int nodes_per_element);

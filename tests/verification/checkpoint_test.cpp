@@ -18,6 +18,7 @@
 #include "mechanism/simulate.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/bodies/lumped_bodies.hpp"
+#include "tests/support/bodies/second_order_beam.hpp"
 #include "tests/support/scenes/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -116,8 +117,39 @@ formats::Scene soft_rod() {
   return scene;
 }
 
+/// A second-order superelement that turns about a hinge, bent by its weight.
+formats::Scene blade() {
+  formats::Scene scene = test_support::empty_scene(0.004, 0.4);
+  scene.gravity = {0, 0, -9.81};
+  formats::SuperelementBodySpec body = test_support::superelement_body("blade", "blade");
+  body.start.angular_velocity = {0, 0, 2};
+  body.damping.stiffness = 1e-4;
+  scene.bodies.push_back(body);
+  scene.joints.push_back(
+      joint("hinge", JointKind::revolute, "ground", "blade/n0", Vector3d::Zero(), Vector3d::UnitZ()));
+  return scene;
+}
+
+/// Of `blade`; its companion under the name of its contents.
+void add_blade(BodyFiles& list) {
+  const test_support::SectionData section{.EA = 1e5,
+                                          .GJ = 80,
+                                          .EI_y = 100,
+                                          .EI_z = 200,
+                                          .mass = 1,
+                                          .torsional_inertia = 0.03,
+                                          .rotary_y = 0.01,
+                                          .rotary_z = 0.02};
+  const test_support::SecondOrderBody made =
+      test_support::second_order_beam(test_support::bernoulli_beam(section, 2.0, 8), {0, 8}, 4);
+  test_support::add_file("blade", made.element, list.superelements);
+  list.companions["blade"] = made.companion;
+  list.companions["blade"].companion_id = formats::companion_id(made.companion);
+}
+
 BodyFiles files() {
   BodyFiles list;
+  add_blade(list);
   test_support::add_file("beam", test_support::craig_bampton_beam({}, 3), list.superelements);
   const test_support::Rod rod{0.0, 1.0, 1e-3, 1e6, 4e5, 1e-7, 2000.0, 4};
   list.modal_bodies["rod"].body = test_support::modal_body(test_support::lumped_rod(rod), {}, 4);
@@ -137,7 +169,8 @@ void PrintTo(const Case& one, std::ostream* out) { *out << one.name; }
 class Checkpoint : public ::testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, Checkpoint,
                          ::testing::Values(Case{"swing", swing}, Case{"whip", whip},
-                                           Case{"parallelogram", parallelogram}, Case{"soft_rod", soft_rod}),
+                                           Case{"parallelogram", parallelogram}, Case{"soft_rod", soft_rod},
+                                           Case{"blade", blade}),
                          [](const ::testing::TestParamInfo<Case>& given) { return given.param.name; });
 
 // The first run goes through a second checkpoint, which both runs pass alike; the file kept is that of the first.
@@ -181,8 +214,8 @@ TEST_P(Checkpoint, GoesOnFromAStoredInstantToTheTolerance) {
   EXPECT_LT((rest.state.w() - whole.state.w()).norm(), 1e-3 * whole.state.w().norm());
 }
 
-std::string refusal(const formats::Scene& scene, const std::string& file, const std::string& results) {
-  const BodyFiles list = files();
+std::string refusal(const formats::Scene& scene, const std::string& file, const std::string& results,
+                    const BodyFiles& list = files()) {
   RunRequest again = request(scene, list, results);
   again.restart = file;
   try {
@@ -221,6 +254,23 @@ TEST(CheckpointFile, IsRefusedIfItIsNotOfThisSceneOrNotWhole) {
   bytes[at] ^= 1;
   std::ofstream(folder.file("bent.h5"), std::ios::binary) << bytes;
   EXPECT_THAT(refusal(scene, folder.file("bent.h5"), out), HasSubstr("damaged"));
+}
+
+TEST(CheckpointFile, IsRefusedWithoutTheCompanionThatItWasWrittenWithAndWithAnother) {
+  TemporaryFolder folder;
+  formats::Scene scene = blade();
+  scene.checkpoint.interval = 0.1;
+  static_cast<void>(simulate(request(scene, files(), folder.file("a.results.h5")), {}));
+  const std::string file = folder.file("a.checkpoint.h5"), out = folder.file("b.results.h5");
+  scene.integrator.end = 1.0;
+  EXPECT_EQ(refusal(scene, file, out), "");
+  BodyFiles without = files(), other = files();
+  without.companions.clear();
+  EXPECT_THAT(refusal(scene, file, out, without), HasSubstr("(or companion files)"));
+  formats::Companion& companion = other.companions.at("blade");
+  companion.E[0] *= 1.0 + 1e-9;
+  companion.companion_id = formats::companion_id(companion);
+  EXPECT_THAT(refusal(scene, file, out, other), HasSubstr("(or companion files)"));
 }
 
 /// All channels of a file, bit for bit; its instants in rows.
