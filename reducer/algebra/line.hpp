@@ -14,6 +14,7 @@ struct Line {
   typedef double Packet __attribute__((vector_size(packet * sizeof(double)), aligned(sizeof(double)), may_alias));
   Packet part[width / packet];
 
+  static Line zero() { return {}; }
   static Line load(const double* from) {
     Line line;
     for (int p = 0; p < width / packet; ++p) line.part[p] = *reinterpret_cast<const Packet*>(from + packet * p);
@@ -24,6 +25,10 @@ struct Line {
   }
   void add(double factor, const Line& other) {
     for (int p = 0; p < width / packet; ++p) part[p] += factor * other.part[p];
+  }
+  /// += factor (a b + c d)
+  void add_products(double factor, const Line& a, const Line& b, const Line& c, const Line& d) {
+    for (int p = 0; p < width / packet; ++p) part[p] += factor * (a.part[p] * b.part[p] + c.part[p] * d.part[p]);
   }
   void divide(double by) {
     for (int p = 0; p < width / packet; ++p) part[p] /= by;

@@ -39,15 +39,20 @@ void store_rows(const double* lines, Index first, Index count, Index stride, Eig
   }
 }
 
+// Unrolled also where the compiler is not asked for -O3: lines of four columns must stay in registers.
+
 /// sum_j += Σ a_ij b_i, `columns` of A from `a` on, `stride` numbers from one to the next.
 template <int columns>
 void add_inner(const double* a, Index stride, Index count, const double* lines, double* sums) {
   Line sum[columns];
+#pragma GCC unroll 4
   for (int j = 0; j < columns; ++j) sum[j] = Line::load(sums + Line::at(j));
   for (Index i = 0; i < count; ++i) {
     const Line b = Line::load(lines + Line::at(i));
+#pragma GCC unroll 4
     for (int j = 0; j < columns; ++j) sum[j].add(a[j * stride + i], b);
   }
+#pragma GCC unroll 4
   for (int j = 0; j < columns; ++j) sum[j].store(sums + Line::at(j));
 }
 
@@ -55,9 +60,11 @@ void add_inner(const double* a, Index stride, Index count, const double* lines, 
 template <int columns>
 void subtract_product(const double* a, Index stride, Index count, const double* factors, double* lines) {
   Line b[columns];
+#pragma GCC unroll 4
   for (int j = 0; j < columns; ++j) b[j] = Line::load(factors + Line::at(j));
   for (Index i = 0; i < count; ++i) {
     Line c = Line::load(lines + Line::at(i));
+#pragma GCC unroll 4
     for (int j = 0; j < columns; ++j) c.add(-a[j * stride + i], b[j]);
     c.store(lines + Line::at(i));
   }

@@ -23,7 +23,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr int batch_rows = 1024;  ///< stresses of a batch of elements, about
+constexpr int batch_rows = 1024;  ///< stresses of a batch of elements, about; a multiple of eight elements
 constexpr int largest_batch = 64;
 constexpr int inertial = 12;  ///< loads: six rigid accelerations, six centrifugal ones
 
@@ -134,7 +134,7 @@ class ElementBatches {
     int batches = 0;
     for (int begin = 0; begin < count; ++batches) {
       const SecondOrderRows& like = rows_[begin];
-      const int most = std::clamp(batch_rows / static_cast<int>(like.stress.rows()), 1, largest_batch);
+      const int most = std::clamp(batch_rows / static_cast<int>(like.stress.rows()) / 8 * 8, 8, largest_batch);
       int end = begin;
       for (; end < count && end - begin < most && rows_[end].sections == like.sections; ++end)
         place_[end] = {static_cast<std::size_t>(batches), end - begin};

@@ -2,12 +2,59 @@
 #include "reducer/second_order/quadratic_forms.hpp"
 
 #include "common/parallel.hpp"
+#include "reducer/algebra/line.hpp"
 
 namespace tisserand::reducer {
 namespace {
 
 /// Columns of a piece: wide enough for matrix products, small enough for its strains to stay in the cache.
 constexpr Eigen::Index least_width = 64;
+
+/// E2 of one stress: its products, with the first row of each gradient.
+struct StressTerms {
+  struct Product {
+    Eigen::Index first;
+    Eigen::Index second;
+    double coefficient;
+  };
+  std::vector<Product> products;
+};
+
+/// Stress by stress, all points of the sections; `count` elements in a row of gradients.
+std::vector<StressTerms> terms_of(const std::vector<StrainSection>& sections, Eigen::Index count) {
+  std::vector<StressTerms> stresses(static_cast<std::size_t>(stress_rows(sections)));
+  int stress = 0, gradient = 0;
+  for (const StrainSection& section : sections)
+    for (int r = 0; r < section.repeat; ++r) {
+      for (const QuadraticTerm& term : section.pattern->terms)
+        stresses[static_cast<std::size_t>(stress + term.stress)].products.push_back(
+            {(gradient + term.first) * count, (gradient + term.second) * count, term.coefficient});
+      stress += section.pattern->stresses;
+      gradient += section.pattern->gradients;
+    }
+  return stresses;
+}
+
+/// One element, in the form of a Line.
+struct Number {
+  double value;
+  static Number zero() { return {0.0}; }
+  static Number load(const double* from) { return {*from}; }
+  void store(double* to) const { *to = value; }
+  void add_products(double factor, Number a, Number b, Number c, Number d) {
+    value += factor * (a.value * b.value + c.value * d.value);
+  }
+};
+
+/// q_e = Σ c (g_k[a] g_l[b] + g_k[b] g_l[a]) of elements from e on, summed in registers.
+template <class Elements>
+void put_terms(const StressTerms& terms, Eigen::Index e, const double* g_k, const double* g_l, double* q) {
+  Elements sum = Elements::zero();
+  for (const StressTerms::Product& p : terms.products)
+    sum.add_products(p.coefficient, Elements::load(g_k + p.first + e), Elements::load(g_l + p.second + e),
+                     Elements::load(g_k + p.second + e), Elements::load(g_l + p.first + e));
+  sum.store(q + e);
+}
 
 }  // namespace
 
@@ -48,24 +95,19 @@ void QuadraticForms::add(const StrainBatch& batch, const Piece& piece, Eigen::Ve
   const Eigen::Index B = batch.count, rows = batch.stress.rows();
   if (memory.size() < rows * piece.width) memory.resize(rows * piece.width);
   Eigen::Map<Eigen::MatrixXd> forms(memory.data(), rows, piece.width);
-  forms.setZero();
+  const std::vector<StressTerms> stresses = terms_of(batch.sections, B);
   Eigen::Index column = 0;
   for (int k = piece.first; k < piece.end; ++k)
     for (int l = k; l < n_; ++l, ++column) {
       const double* const g_k = batch.gradient.col(k).data();
       const double* const g_l = batch.gradient.col(l).data();
-      Eigen::Index stress = 0, gradient = 0;
-      for (const StrainSection& section : batch.sections)
-        for (int r = 0; r < section.repeat; ++r) {
-          for (const QuadraticTerm& term : section.pattern->terms) {
-            double* const q = forms.col(column).data() + (stress + term.stress) * B;
-            const Eigen::Index a = (gradient + term.first) * B, b = (gradient + term.second) * B;
-            for (Eigen::Index e = 0; e < B; ++e)
-              q[e] += term.coefficient * (g_k[a + e] * g_l[b + e] + g_k[b + e] * g_l[a + e]);
-          }
-          stress += section.pattern->stresses;
-          gradient += section.pattern->gradients;
-        }
+      double* q = forms.col(column).data();
+      for (const StressTerms& terms : stresses) {
+        Eigen::Index e = 0;
+        for (; e + Line::width <= B; e += Line::width) put_terms<Line>(terms, e, g_k, g_l, q);
+        for (; e < B; ++e) put_terms<Number>(terms, e, g_k, g_l, q);
+        q += B;
+      }
     }
   sum_.middleCols(piece.column, piece.width).noalias() += batch.stress.transpose() * forms;
 }
