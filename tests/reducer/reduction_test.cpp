@@ -158,6 +158,21 @@ TEST(Reduction, CertificateTellsASeventhFreeMotion) {
   EXPECT_TRUE(r.file.free_frequency.empty());
 }
 
+TEST(Reduction, MomentVectorsAreMarkedAsNoModes) {
+  formats::Part part = plain_beam(Vector3d::Zero(), Vector3d(1.7, 0.0, 0.0), 16, 4);
+  const auto text_of = [&] {
+    const reducer::Reduction r = reduce(part);
+    EXPECT_EQ(r.model.moment_vectors, part.modes.moments.value_or(0));
+    return reducer::certificate_text(r.superelement, r.file, r.model);
+  };
+  EXPECT_THAT(text_of(), ::testing::Not(HasSubstr("no mode of the part")));
+  part.modes.moments = 3;
+  const std::string text = text_of();
+  EXPECT_THAT(text, ::testing::AllOf(HasSubstr("moment vectors     3\n"),
+                                     HasSubstr("   * of a moment vector: no mode of the part\n")));
+  EXPECT_EQ(std::count(text.begin(), text.end(), '*'), 3 + 1);
+}
+
 /// A bar held at both ends moves along itself in sin(nπx/L): effective mass 8/(nπ)² of the whole for odd n, 0 for even
 /// (the integral of the mode). Linear elements lose (π/64)²/12 = 2e-4 of it.
 TEST(Reduction, EffectiveMassOfABar) {
