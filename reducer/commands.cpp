@@ -71,10 +71,11 @@ std::string beside(const std::string& input, const std::string& ending) {
 }
 
 /// Tables and fields; the file takes its name when its superelement is there.
-std::unique_ptr<formats::RecoveryWriter> write_recovery(const RecoverySource& source, const std::string& path) {
+std::unique_ptr<formats::RecoveryWriter> write_recovery(const RecoverySource& source, const std::string& path,
+                                                        const PhaseListener& listener) {
   const formats::Recovery tables = recovery_tables(source);
   auto writer = std::make_unique<formats::RecoveryWriter>(path, tables);
-  recovery_fields(source, tables,
+  recovery_fields(source, tables, listener.share,
                   [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) { writer->append(field, rows); });
   return writer;
 }
@@ -125,9 +126,10 @@ int run(const Arguments& arguments) {
   phases.begin("start solvers");
   const SolverSession session;
   std::map<std::string, std::unique_ptr<formats::RecoveryWriter>> recoveries;
-  Reduction reduction = reduce(part, listener_of(phases), [&](const RecoverySource& source) {
+  const PhaseListener listener = listener_of(phases);
+  Reduction reduction = reduce(part, listener, [&](const RecoverySource& source) {
     const std::string path = formats::recovery_path(source.is_modal ? modal_body : output);
-    recoveries[path] = write_recovery(source, path);
+    recoveries[path] = write_recovery(source, path, listener);
   });
   phases.begin("write");
   formats::write_superelement(output, reduction.superelement);
@@ -158,8 +160,7 @@ int solve(const Arguments& arguments) {
   for (const std::string& file : files) require_output(file, inputs_of(part, arguments), Replaces::anything);
   phases.begin("start solvers");
   const SolverSession session;
-  const Solution solution =
-      solve(part, arguments.solve_request, [&phases](const std::string& phase) { phases.begin(phase); });
+  const Solution solution = solve(part, arguments.solve_request, listener_of(phases));
   phases.begin("write");
   write_solution(solution, part, arguments.solve_request, stem);
   phases.end();

@@ -20,7 +20,7 @@ namespace {
 Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const PhaseListener& begin,
                          const RecoveryListener& recover) {
   begin("assembly");
-  System system = build_system(mesh, part.file);
+  System system = build_system(mesh, part.file, begin.share);
   const formats::RigidProperties rigid = require_mass(system, part.file);
   const Partition coordinates = partition(mesh, system);
   const Blocks blocks = take_apart(system, coordinates, part.modes.method);

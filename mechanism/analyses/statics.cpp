@@ -66,8 +66,10 @@ StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options,
     const double force = std::max(workspace.now.force_scale[0], workspace.now.force_scale[1] / model.length);
     // Positions are rounded to ε length, which the stiffness turns into forces that no iteration can remove.
     const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
+    const double internal =
+        std::max(options.tolerance * workspace.now.force_scale[2], internal_round_off(model, workspace.now));
     const bool forces = report.residual <= std::max(options.tolerance * force, round_off) &&
-                        largest_internal_residual(workspace) <= options.tolerance * workspace.now.force_scale[2];
+                        largest_internal_residual(workspace) <= internal;
     if (iteration > 0 && forces && report.constraint <= options.tolerance * model.length) return StepOutcome::accepted;
     if (!std::isfinite(report.residual)) return StepOutcome::diverged;
     report.interrupted = interrupted && interrupted();
@@ -106,6 +108,22 @@ void explain_statics(double reached, double step, StaticsReport& report) {
 }
 
 }  // namespace
+
+double internal_round_off(const Model& model, const Evaluation& evaluation) {
+  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+  double largest = 0.0;
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const SuperelementBody& body = body_of(model, i);
+    if (!body.second_order.stiffening || body.modes == 0) continue;
+    Eigen::VectorXd size = Eigen::VectorXd::Ones(body.boundary_size);
+    for (const SuperelementNode& node : body.node)
+      if (node.translation_row >= 0) size.segment<3>(node.translation_row).setConstant(model.length);
+    const Eigen::VectorXd strain = body.second_order.stiffening->L.leftCols(body.boundary_size).cwiseAbs() * size;
+    const auto& h = evaluation.superelements[i].forces.strain.h;
+    largest = std::max(largest, (h.rightCols(body.modes).cwiseAbs().transpose() * strain).maxCoeff());
+  }
+  return rounding * largest;
+}
 
 std::string free_motion(const Model& model, const formats::StaticsSpec& options, State state, Workspace& workspace) {
   // Dense matrices: larger scenes are told by the equation at which the sparse factors fail, or while they are solved.

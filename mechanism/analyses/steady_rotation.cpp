@@ -50,7 +50,8 @@ bool balanced(const Model& model, const formats::StaticsSpec& options, const Lin
   const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
   const double largest_internal = internal.size() > 0 ? internal.cwiseAbs().maxCoeff() : 0.0;
   return report.residual <= std::max(options.tolerance * force, round_off) &&
-         largest_internal <= options.tolerance * internal_scale(model, evaluation) &&
+         largest_internal <=
+             std::max(options.tolerance * internal_scale(model, evaluation), internal_round_off(model, evaluation)) &&
          report.constraint <= options.tolerance * model.length;
 }
 

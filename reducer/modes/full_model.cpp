@@ -37,7 +37,8 @@ formats::RigidProperties full_rigid_properties(const System& system) {
   return rigid;
 }
 
-std::optional<FreeModes> full_free_modes(const System& system, double scale, int count, Count verify) {
+std::optional<FreeModes> full_free_modes(const System& system, double scale, int count, Count verify,
+                                         const std::function<void(double)>& share) {
   const Eigen::Matrix<double, 6, 6> rigid = rigid_mass_about(system, system.middle);
   Eigen::Matrix<double, 6, 1> unit = rigid.diagonal().cwiseMax(0.0).cwiseSqrt().cwiseInverse();
   if (!unit.allFinite()) return std::nullopt;
@@ -48,11 +49,11 @@ std::optional<FreeModes> full_free_modes(const System& system, double scale, int
   const int available = finite_mode_count(matrices.mass);
   const int wanted = std::min(available, 6 + count);
   if (wanted <= 6) return FreeModes{};
-  // As far below the rigid motions as the first mode above: a solution errs by ε λ_max/(λ − shift), 7e-8 for bricks with
-  // a tenth of it.
+  // As far below the rigid motions as the first mode above: a solution errs by ε λ_max/(λ − shift), 7e-8 for bricks
+  // with a tenth of it.
   const double shift = -scale;
   const Factor factor(combine(matrices.stiffness, -shift, matrices.mass));
-  const Spectrum spectrum = lowest_pairs({matrices.stiffness, matrices.mass, factor, shift}, wanted, available,
+  const Spectrum spectrum = lowest_pairs({matrices.stiffness, matrices.mass, factor, shift, share}, wanted, available,
                                          choose_solver(system.size(), wanted), verify);
   const int kept = spectrum.kept - 6;
   FreeModes modes{{spectrum.pairs.value.segment(6, kept), spectrum.pairs.vector.middleCols(6, kept)}, {}};

@@ -1,6 +1,7 @@
 // Figures of the unreduced part that the certificate sets beside those of the reduced one.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -27,9 +28,11 @@ struct FreeModes : EigenPairs {
 };
 
 /// Elastic modes of the free part, vᵀ M v = 1: the `count` lowest, fewer if there are no more; a group of equal ones is
-/// completed. `scale`: some eigenvalue ω² of the size of the lowest. Empty if a rigid motion moves no mass. Throws
-/// Error if round-off hides the frequencies.
-std::optional<FreeModes> full_free_modes(const System& system, double scale, int count, Count verify = Count::if_cheap);
+/// completed. `scale`: some eigenvalue ω² of the size of the lowest. `share` hears how much of the search is done.
+/// Empty if a rigid motion moves no mass. Throws Error if round-off hides the frequencies.
+std::optional<FreeModes> full_free_modes(
+    const System& system, double scale, int count, Count verify = Count::if_cheap,
+    const std::function<void(double)>& share = [](double /*done*/) {});
 
 /// Elastic modes of the free part beside others.
 struct ModeComparison {

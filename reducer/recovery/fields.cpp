@@ -155,15 +155,24 @@ void solid_stresses(const Mesh& mesh, const MotionSource& shapes, const formats:
 }  // namespace
 
 void motion_fields(const Mesh& mesh, const MotionSource& source, const formats::Recovery& tables,
-                   const FieldSink& sink) {
-  displacements(source, tables, sink);
-  beam_forces(mesh, source, tables, sink);
-  shell_stresses(mesh, source, tables, sink);
-  solid_stresses(mesh, source, tables, sink);
+                   const std::function<void(double)>& share, const FieldSink& sink) {
+  double total = 0.0, made = 0.0;  // rows
+  for (const RecoveryField field : formats::recovery_fields)
+    total += static_cast<double>(formats::width(field)) * formats::items(tables, field);
+  const FieldSink counted = [&](RecoveryField field, const MatrixXd& rows) {
+    sink(field, rows);
+    made += static_cast<double>(rows.rows());
+    share(made / total);
+  };
+  displacements(source, tables, counted);
+  beam_forces(mesh, source, tables, counted);
+  shell_stresses(mesh, source, tables, counted);
+  solid_stresses(mesh, source, tables, counted);
 }
 
-void recovery_fields(const RecoverySource& source, const formats::Recovery& tables, const FieldSink& sink) {
-  motion_fields(source.mesh, source.motion, tables, sink);
+void recovery_fields(const RecoverySource& source, const formats::Recovery& tables,
+                     const std::function<void(double)>& share, const FieldSink& sink) {
+  motion_fields(source.mesh, source.motion, tables, share, sink);
 }
 
 }  // namespace tisserand::reducer

@@ -49,11 +49,13 @@ formats::Recovery recovery_tables(const RecoverySource& source);
 /// The same of a mesh that was solved for as it is: no superelement and no coordinates of one.
 formats::Recovery solved_tables(const Mesh& mesh, const Coordinates& coordinates);
 
-/// Displacements, section forces and stresses of all states, in blocks of some megabytes.
+/// Displacements, section forces and stresses of all states, in blocks of some megabytes. `share` hears how much of
+/// them is made.
 void motion_fields(const Mesh& mesh, const MotionSource& source, const formats::Recovery& tables,
-                   const FieldSink& sink);
+                   const std::function<void(double)>& share, const FieldSink& sink);
 
 /// All fields in blocks of some megabytes, whole chunks each. `tables` are recovery_tables() of the same source.
-void recovery_fields(const RecoverySource& source, const formats::Recovery& tables, const FieldSink& sink);
+void recovery_fields(const RecoverySource& source, const formats::Recovery& tables,
+                     const std::function<void(double)>& share, const FieldSink& sink);
 
 }  // namespace tisserand::reducer

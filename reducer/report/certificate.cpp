@@ -128,11 +128,14 @@ FileCertificate certify(const formats::Superelement& element, const formats::Sup
         fmt::format("{} motions meet no stiffness where a rigid body has six: something in it is loose", free);
     return c;
   }
+  if (rigid_motion_without_mass(element, report)) {
+    c.free_frequency_note = "some rigid motion moves no mass";
+    return c;
+  }
   try {
     c.free_frequency = free_frequencies(element, massless);
   } catch (const Error& error) {
-    c.free_frequency_note =
-        rigid_motion_without_mass(element, report) ? "some rigid motion moves no mass" : error.message();
+    c.free_frequency_note = error.message();
   }
   return c;
 }

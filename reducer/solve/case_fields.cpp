@@ -38,7 +38,8 @@ void add_loads_between(const Mesh& mesh, Eigen::MatrixXd& beam_force) {
 
 }  // namespace
 
-RecoveredFields case_fields(const Mesh& mesh, const formats::Recovery& tables, const Eigen::MatrixXd& motions) {
+RecoveredFields case_fields(const Mesh& mesh, const formats::Recovery& tables, const Eigen::MatrixXd& motions,
+                            const std::function<void(double)>& share) {
   const Index cases = motions.cols();
   const auto sized = [&](RecoveryField field, Eigen::MatrixXf& values) {
     values.resize(static_cast<Index>(formats::width(field)) * formats::items(tables, field), cases);
@@ -57,7 +58,7 @@ RecoveredFields case_fields(const Mesh& mesh, const formats::Recovery& tables, c
                               return rows;
                             },
                             cases};
-  motion_fields(mesh, source, tables, [&](RecoveryField field, const Eigen::MatrixXd& rows) {
+  motion_fields(mesh, source, tables, share, [&](RecoveryField field, const Eigen::MatrixXd& rows) {
     switch (field) {
       case RecoveryField::translation:
         return append(rows, displacement);

@@ -1,6 +1,8 @@
 // Forces and stresses of the solved load cases.
 #pragma once
 
+#include <functional>
+
 #include "reducer/recover/stresses.hpp"
 #include "reducer/recovery/fields.hpp"
 
@@ -8,6 +10,7 @@ namespace tisserand::reducer {
 
 /// Of node motions (6 nodes) x cases of Mesh::load_cases. Section forces of beams are those at the ends of the axis,
 /// with what distributed loads and gravity on the element add there.
-RecoveredFields case_fields(const Mesh& mesh, const formats::Recovery& tables, const Eigen::MatrixXd& motions);
+RecoveredFields case_fields(const Mesh& mesh, const formats::Recovery& tables, const Eigen::MatrixXd& motions,
+                            const std::function<void(double)>& share);
 
 }  // namespace tisserand::reducer

@@ -19,8 +19,7 @@ Eigen::MatrixXd node_motions(const System& system, const Eigen::MatrixXd& q) {
   return motion;
 }
 
-Solution solve(const formats::Part& part, const SolveRequest& request,
-               const std::function<void(const std::string&)>& begin) {
+Solution solve(const formats::Part& part, const SolveRequest& request, const PhaseListener& begin) {
   if (part.load_cases.empty() && request.modes == 0)
     throw Error("there is nothing to solve: the part has no load cases", part.file,
                 "give it load_cases, or ask for modes: --modes 10");
@@ -28,8 +27,7 @@ Solution solve(const formats::Part& part, const SolveRequest& request,
   return solve_mesh(build_mesh_to_solve(part), part, request, begin);
 }
 
-Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& request,
-                    const std::function<void(const std::string&)>& begin) {
+Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& request, const PhaseListener& begin) {
   begin("checks");
   Solution s;
   s.mesh = std::move(mesh);
@@ -38,7 +36,7 @@ Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& re
   begin("assembly");
   std::vector<int> held_x;
   for (const HeldCoordinate& h : held) held_x.push_back(h.x);
-  s.system = build_system(s.mesh, held_x, part.file);
+  s.system = build_system(s.mesh, held_x, part.file, begin.share);
   s.rigid = full_rigid_properties(s.system);
   if (request.modes > 0) require_mass(s.system, part.file);
   s.loads = load_vectors(s.mesh, s.system);
@@ -50,13 +48,13 @@ Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& re
   s.statics = statics(s.mesh, s.system, supported, s.loads, part.file);
   if (request.modes > 0) {
     begin("modes");
-    s.modes = supported_modes(s.mesh, s.system, supported, request.modes, part.file);
+    s.modes = supported_modes(s.mesh, s.system, supported, request.modes, part.file, begin.share);
   }
   begin("stresses");
   s.tables = solved_tables(s.mesh, s.system.coordinates);
   s.tables.name = part.name;
   s.tables.units = part.units;
-  s.fields = case_fields(s.mesh, s.tables, node_motions(s.system, s.statics.q));
+  s.fields = case_fields(s.mesh, s.tables, node_motions(s.system, s.statics.q), begin.share);
   return s;
 }
 

@@ -1,13 +1,13 @@
 // `reducer solve`: statics and modes of the unreduced part on its supports.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "formats/part/part.hpp"
 #include "reducer/recover/stresses.hpp"
+#include "reducer/report/phase_listener.hpp"
 #include "reducer/solve/request.hpp"
 #include "reducer/solve/statics.hpp"
 #include "reducer/solve/supported_modes.hpp"
@@ -31,12 +31,10 @@ struct Solution {
 
 /// Needs a SolverSession; `begin` hears the phases. Throws Error for whatever is wrong with the part, and if it has
 /// neither load cases nor modes are asked for.
-Solution solve(const formats::Part& part, const SolveRequest& request,
-               const std::function<void(const std::string&)>& begin);
+Solution solve(const formats::Part& part, const SolveRequest& request, const PhaseListener& begin);
 
 /// The same from a mesh on, with its supports and load cases; `part` gives name, units and the file for messages.
-Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& request,
-                    const std::function<void(const std::string&)>& begin);
+Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& request, const PhaseListener& begin);
 
 /// [translation; rotation] of every node for states q of the system: (6 nodes) x columns, part axes.
 Eigen::MatrixXd node_motions(const System& system, const Eigen::MatrixXd& q);

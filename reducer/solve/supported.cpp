@@ -67,7 +67,7 @@ void check_stiff(const Supported& s, const Mesh& mesh, const System& system, con
 }  // namespace
 
 Supported support(const Mesh& mesh, const System& system, const std::vector<HeldCoordinate>& held, int modes,
-                  const std::string& where, const std::function<void(const std::string&)>& begin) {
+                  const std::string& where, const PhaseListener& begin) {
   Supported s;
   s.is_free = mesh.supports.empty();
   if (!s.is_free) check_rigid(mesh, system, held, where);

@@ -1,12 +1,12 @@
 // The part on its supports: which coordinates are held and the factor of the stiffness of the others.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "reducer/algebra/factor.hpp"
 #include "reducer/loads/supports.hpp"
+#include "reducer/report/phase_listener.hpp"
 #include "reducer/system/partition.hpp"
 
 namespace tisserand::reducer {
@@ -21,6 +21,6 @@ struct Supported {
 /// Throws Error if supports leave a rigid motion (named), if something inside moves without stiffness, or if the
 /// memory does not suffice for the factor and `modes` modes.
 Supported support(const Mesh& mesh, const System& system, const std::vector<HeldCoordinate>& held, int modes,
-                  const std::string& where, const std::function<void(const std::string&)>& begin);
+                  const std::string& where, const PhaseListener& begin);
 
 }  // namespace tisserand::reducer

@@ -1,6 +1,7 @@
 // Modes of the unreduced part on its supports, or of the free part.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -19,8 +20,9 @@ struct SupportedModes {
   std::optional<int> counted;
 };
 
-/// The `count` lowest; a group of equal frequencies is completed. Throws Error if fewer exist.
+/// The `count` lowest; a group of equal frequencies is completed. `share` hears how much of the search is done. Throws
+/// Error if fewer exist.
 SupportedModes supported_modes(const Mesh& mesh, const System& system, const Supported& s, int count,
-                               const std::string& where);
+                               const std::string& where, const std::function<void(double)>& share);
 
 }  // namespace tisserand::reducer

@@ -168,7 +168,7 @@ std::vector<int> elements_at(const Mesh& mesh, Share nodes) {
 
 /// Rows of `nodes`, which are among those of the graph.
 void add_elements(const Mesh& mesh, const Coordinates& coordinates, const NodeGraph& graph, Share nodes, int threads,
-                  SymmetricPair& pair) {
+                  const std::function<void(double)>& done, SymmetricPair& pair) {
   const std::vector<int> elements = elements_at(mesh, nodes);
   const int total = static_cast<int>(elements.size());
   std::vector<ElementMatrices> batch(static_cast<std::size_t>(std::min(batch_size, total)));
@@ -183,6 +183,7 @@ void add_elements(const Mesh& mesh, const Coordinates& coordinates, const NodeGr
       for (int k = 0; k < count; ++k)
         add(element_nodes(mesh, elements[first + k]), batch[k], coordinates, graph, share, pair);
     });
+    done(static_cast<double>(first + count) / total);
   }
 }
 
@@ -208,10 +209,10 @@ int fingerprint(const Mesh& mesh) {
 
 /// What the ranks add to the rows of their nodes.
 void add_by_ranks(const Mesh& mesh, const Coordinates& coordinates, const NodeGraph& graph, int threads,
-                  SymmetricPair& pair) {
+                  const std::function<void(double)>& share, SymmetricPair& pair) {
   call_followers({Task::assemble, 0, fingerprint(mesh)});
   all_or_none([&] {
-    add_elements(mesh, coordinates, graph, share_of(mesh.nodes(), 0, rank_count()), threads, pair);
+    add_elements(mesh, coordinates, graph, share_of(mesh.nodes(), 0, rank_count()), threads, share, pair);
     for (int r = 1; r < rank_count(); ++r) {
       const Share nodes = share_of(mesh.nodes(), r, rank_count());
       const int first = pair.begin[coordinates.first[nodes.first]], end = pair.begin[coordinates.first[nodes.end]];
@@ -223,14 +224,15 @@ void add_by_ranks(const Mesh& mesh, const Coordinates& coordinates, const NodeGr
 
 }  // namespace
 
-SymmetricPair assemble(const Mesh& mesh, const Coordinates& coordinates, int threads) {
+SymmetricPair assemble(const Mesh& mesh, const Coordinates& coordinates, int threads,
+                       const std::function<void(double)>& share) {
   const Share all{0, mesh.nodes()};
   const NodeGraph graph = find_graph(mesh, coordinates, all, threads);
   SymmetricPair pair = empty_pair(coordinates, graph);
   if (rank_count() > 1 && coordinates.count() >= fewest_shared_rows)
-    add_by_ranks(mesh, coordinates, graph, threads, pair);
+    add_by_ranks(mesh, coordinates, graph, threads, share, pair);
   else
-    add_elements(mesh, coordinates, graph, all, threads, pair);
+    add_elements(mesh, coordinates, graph, all, threads, share, pair);
   add_masses(mesh, coordinates, pair);
   return pair;
 }
@@ -244,7 +246,8 @@ void help_to_assemble(const Mesh& mesh, int leaders_fingerprint) {
   const int threads = core_count();
   const NodeGraph graph = find_graph(mesh, coordinates, nodes, threads);
   SymmetricPair pair = empty_pair(coordinates, graph);
-  add_elements(mesh, coordinates, graph, nodes, threads, pair);
+  add_elements(
+      mesh, coordinates, graph, nodes, threads, [](double /*done*/) {}, pair);
   send_to_leader(pair.S.data(), pair.S.size());
   send_to_leader(pair.M.data(), pair.M.size());
 }

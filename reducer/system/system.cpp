@@ -35,7 +35,8 @@ struct Kept {
   std::vector<int> independent, present;
 };
 
-System assembled(const Mesh& mesh, const Kept& kept, const std::string& where) {
+System assembled(const Mesh& mesh, const Kept& kept, const std::string& where,
+                 const std::function<void(double)>& share) {
   System system;
   const int threads = core_count();
   system.coordinates = number_coordinates(mesh);
@@ -52,7 +53,7 @@ System assembled(const Mesh& mesh, const Kept& kept, const std::string& where) {
   system.R.resize(system.size(), 6);
   for (int q = 0; q < system.size(); ++q) system.R.row(q) = ties.rigid[system.T.source[q]].transpose();
 
-  SymmetricPair full = assemble(mesh, system.coordinates, threads);
+  SymmetricPair full = assemble(mesh, system.coordinates, threads, share);
   check_finite(full, mesh, system.coordinates, where);
   system.mesh_mass = mass_diagonal(full);
   system.matrices = condense(std::move(full), system.T, threads);
@@ -70,15 +71,16 @@ Eigen::MatrixXd about(const System& system, const Eigen::Vector3d& point, Eigen:
 
 }  // namespace
 
-System build_system(const Mesh& mesh, const std::string& where) {
+System build_system(const Mesh& mesh, const std::string& where, const std::function<void(double)>& share) {
   const Coordinates coordinates = number_coordinates(mesh);
   check_retained(mesh, coordinates, where);
   const std::vector<int> boundary = boundary_coordinates(mesh, coordinates);
-  return assembled(mesh, {boundary, boundary}, where);
+  return assembled(mesh, {boundary, boundary}, where, share);
 }
 
-System build_system(const Mesh& mesh, const std::vector<int>& held, const std::string& where) {
-  return assembled(mesh, {held, {}}, where);
+System build_system(const Mesh& mesh, const std::vector<int>& held, const std::string& where,
+                    const std::function<void(double)>& share) {
+  return assembled(mesh, {held, {}}, where, share);
 }
 
 std::string coordinate_name(const Mesh& mesh, const System& system, int x) {

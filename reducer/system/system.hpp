@@ -1,6 +1,7 @@
 // The equations of motion of the part in independent coordinates: what all that follows works on.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,11 +33,14 @@ struct System {
   int size() const { return T.independent; }
 };
 
-/// Numbers coordinates, assembles, eliminates ties exactly, removes what has neither stiffness nor mass.
-System build_system(const Mesh& mesh, const std::string& where);
+/// Numbers coordinates, assembles, eliminates ties exactly, removes what has neither stiffness nor mass. `share` hears
+/// how much of the elements is added.
+System build_system(
+    const Mesh& mesh, const std::string& where, const std::function<void(double)>& share = [](double /*done*/) {});
 
 /// The same without a boundary: ties leave the `held` coordinates of the mesh independent.
-System build_system(const Mesh& mesh, const std::vector<int>& held, const std::string& where);
+System build_system(const Mesh& mesh, const std::vector<int>& held, const std::string& where,
+                    const std::function<void(double)>& share);
 
 /// "tip (rotation x)" for x or for the x that is q.
 std::string coordinate_name(const Mesh& mesh, const System& system, int x);

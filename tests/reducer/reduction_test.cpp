@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
+#include <vector>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -13,6 +15,7 @@
 #include "common/child.hpp"
 #include "common/error.hpp"
 #include "reducer/report/certificate_page.hpp"
+#include "reducer/solve/solve.hpp"
 #include "reducer/system/partition.hpp"
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/reduction_laws.hpp"
@@ -156,6 +159,44 @@ TEST(Reduction, CertificateTellsASeventhFreeMotion) {
   const reducer::Reduction r = reduce(part);
   EXPECT_THAT(r.file.free_frequency_note, HasSubstr("7 motions meet no stiffness where a rigid body has six"));
   EXPECT_TRUE(r.file.free_frequency.empty());
+}
+
+/// A straight beam whose nodes have lost their inertia about its axis turns about it without moving mass; its other
+/// motions and those of the sound beam are told.
+TEST(Reduction, CertificateTellsARigidMotionWithoutMass) {
+  const reducer::Reduction r = reduce(plain_beam(Vector3d::Zero(), Vector3d(2.0, 0.0, 0.0), 4, 0));
+  EXPECT_EQ(r.file.free_frequency_note, "");
+  EXPECT_EQ(r.file.free_frequency.size(), 6u);
+  Superelement twisting = r.superelement;
+  for (Eigen::Index row = 0; row < twisting.size(); ++row) {
+    if (twisting.dof_component[static_cast<std::size_t>(row)] != 3) continue;
+    twisting.mass.row(row).setZero();
+    twisting.mass.col(row).setZero();
+  }
+  const reducer::FileCertificate c = reducer::certify(twisting, formats::check(twisting, "twisting"));
+  EXPECT_EQ(c.free_frequency_note, "some rigid motion moves no mass");
+  EXPECT_TRUE(c.free_frequency.empty());
+}
+
+/// Phases that take long with large parts say how much of them is done, up to all of it.
+TEST(Reduction, LongPhasesTellHowMuchOfThemIsDone) {
+  std::map<std::string, std::vector<double>> heard;
+  std::string phase;
+  reducer::PhaseListener listener([&](const std::string& name) { phase = name; });
+  listener.share = [&](double done) { heard[phase].push_back(done); };
+  formats::Part part = plain_beam(Vector3d::Zero(), Vector3d(2.0, 0.0, 0.0), 2000, 6);
+  part.recovery = true;
+  start_solvers();
+  reducer::reduce(part, listener, [&](const reducer::RecoverySource& source) {
+    reducer::recovery_fields(source, reducer::recovery_tables(source), listener.share, [](auto, const MatrixXd&) {});
+  });
+  reducer::solve(part, {3, {}}, listener);
+  for (const char* name : {"assembly", "boundary modes", "recovery", "second order", "modes", "stresses"}) {
+    const std::vector<double>& shares = heard[name];
+    ASSERT_FALSE(shares.empty()) << name;
+    EXPECT_TRUE(std::ranges::all_of(shares, [](double done) { return done >= 0.0 && done <= 1.0; })) << name;
+    EXPECT_GT(shares.back(), 0.8) << name;
+  }
 }
 
 TEST(Reduction, MomentVectorsAreMarkedAsNoModes) {

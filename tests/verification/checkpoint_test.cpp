@@ -18,8 +18,8 @@
 #include "mechanism/simulate.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/bodies/lumped_bodies.hpp"
-#include "tests/support/bodies/second_order_beam.hpp"
 #include "tests/support/scenes/scenes.hpp"
+#include "tests/support/scenes/second_order_scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::mechanism::checkpoint_test {
@@ -132,14 +132,7 @@ formats::Scene blade() {
 
 /// Of `blade`; its companion under the name of its contents.
 void add_blade(BodyFiles& list) {
-  const test_support::SectionData section{.EA = 1e5,
-                                          .GJ = 80,
-                                          .EI_y = 100,
-                                          .EI_z = 200,
-                                          .mass = 1,
-                                          .torsional_inertia = 0.03,
-                                          .rotary_y = 0.01,
-                                          .rotary_z = 0.02};
+  const test_support::SectionData section = test_support::slender_section(1e5);
   const test_support::SecondOrderBody made =
       test_support::second_order_beam(test_support::bernoulli_beam(section, 2.0, 8), {0, 8}, 4);
   test_support::add_file("blade", made.element, list.superelements);

@@ -9,11 +9,11 @@
 #include "common/math/rotation.hpp"
 #include "mechanism/analyses/modes.hpp"
 #include "mechanism/analyses/statics.hpp"
-#include "tests/support/bodies/second_order_beam.hpp"
 #include "tests/support/bodies/second_order_network.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"
 #include "tests/support/scenes/model_tangent.hpp"
 #include "tests/support/scenes/scenes.hpp"
+#include "tests/support/scenes/second_order_scenes.hpp"
 #include "tests/support/thrown.hpp"
 
 namespace tisserand::mechanism::part_load_test {
@@ -27,6 +27,7 @@ using formats::JointKind;
 using formats::StiffeningOption;
 using test_support::BodyState;
 using test_support::empty_scene;
+using test_support::files_of;
 using test_support::joint;
 using test_support::SecondOrderBody;
 using test_support::Simulation;
@@ -44,14 +45,7 @@ VectorXd body_force(const test_support::FullModel& model, const Vector3d& a) {
 /// EI 100 and 200, length 10, mass 1 per length; two boundary nodes. Load cases of a force per length of 1: "across"
 /// along z, "aside" along y, "down" against x.
 SecondOrderBody beam(int modes) {
-  const test_support::SectionData section{.EA = 1e6,
-                                          .GJ = 80,
-                                          .EI_y = 100,
-                                          .EI_z = 200,
-                                          .mass = 1,
-                                          .torsional_inertia = 0.03,
-                                          .rotary_y = 0.01,
-                                          .rotary_z = 0.02};
+  const test_support::SectionData section = test_support::slender_section(1e6);
   const test_support::BernoulliBeam model = test_support::bernoulli_beam(section, 10.0, 16);
   SecondOrderBody body = test_support::second_order_beam(model, {0, 16}, modes);
   const auto add = [&](const char* name, const Vector3d& a) {
@@ -63,14 +57,6 @@ SecondOrderBody beam(int modes) {
   return body;
 }
 constexpr double length = 10.0, EI = 100.0;
-
-BodyFiles files_of(const SecondOrderBody& body) {
-  BodyFiles files;
-  test_support::add_file("beam", body.element, files.superelements);
-  formats::check(body.companion, body.element, "beam");
-  files.companions["beam"] = body.companion;
-  return files;
-}
 
 formats::PartLoadSpec part_load(const std::string& load_case, const formats::TimeFunctionSpec& value) {
   return {"load_" + load_case, "beam", load_case, value, "test.yaml:9:3"};

@@ -16,11 +16,13 @@ void keep(const reducer::RecoverySource& source, Recovered& result) {
     result.field[static_cast<std::size_t>(field)].resize(
         static_cast<Eigen::Index>(formats::width(field)) * formats::items(result.tables, field),
         result.tables.coordinates());
-  reducer::recovery_fields(source, result.tables, [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) {
-    const auto f = static_cast<std::size_t>(field);
-    result.field[f].middleRows(filled[f], rows.rows()) = rows;
-    filled[f] += rows.rows();
-  });
+  const auto unheard = [](double /*done*/) {};
+  reducer::recovery_fields(source, result.tables, unheard,
+                           [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) {
+                             const auto f = static_cast<std::size_t>(field);
+                             result.field[f].middleRows(filled[f], rows.rows()) = rows;
+                             filled[f] += rows.rows();
+                           });
   for (std::size_t f = 0; f < filled.size(); ++f) TISSERAND_ENSURE(filled[f] == result.field[f].rows(), "field {}", f);
 }
 

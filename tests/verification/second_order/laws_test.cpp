@@ -14,8 +14,8 @@
 #include "mechanism/analyses/modes.hpp"
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/bodies/superelement/evaluate.hpp"
-#include "tests/support/bodies/second_order_beam.hpp"
 #include "tests/support/scenes/scenes.hpp"
+#include "tests/support/scenes/second_order_scenes.hpp"
 
 namespace tisserand::mechanism::second_order_laws_test {
 namespace {
@@ -28,28 +28,15 @@ using formats::LoadKind;
 using formats::StiffeningOption;
 using test_support::constant_load;
 using test_support::empty_scene;
+using test_support::files_of;
 using test_support::joint;
 using test_support::Simulation;
 
 const Vector3d z = Vector3d::UnitZ();
 
-BodyFiles files_of(const test_support::SecondOrderBody& body) {
-  BodyFiles files;
-  test_support::add_file("beam", body.element, files.superelements);
-  files.companions["beam"] = body.companion;
-  return files;
-}
-
 /// Length 10, EI 100 and 200; two boundary nodes, the first and `last`.
 test_support::SecondOrderBody beam(double EA, int elements, int modes, int last) {
-  const test_support::SectionData section{.EA = EA,
-                                          .GJ = 80,
-                                          .EI_y = 100,
-                                          .EI_z = 200,
-                                          .mass = 1,
-                                          .torsional_inertia = 0.03,
-                                          .rotary_y = 0.01,
-                                          .rotary_z = 0.02};
+  const test_support::SectionData section = test_support::slender_section(EA);
   return test_support::second_order_beam(test_support::bernoulli_beam(section, 10.0, elements), {0, last}, modes);
 }
 

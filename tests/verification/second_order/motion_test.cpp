@@ -16,9 +16,9 @@
 #include "mechanism/run/checkpoint.hpp"
 #include "mechanism/run/frame_angles.hpp"
 #include "mechanism/run/run.hpp"
-#include "tests/support/bodies/second_order_beam.hpp"
 #include "tests/support/reference_table.hpp"
 #include "tests/support/scenes/scenes.hpp"
+#include "tests/support/scenes/second_order_scenes.hpp"
 #include "tests/support/thrown.hpp"
 
 namespace tisserand::mechanism::second_order_motion_test {
@@ -31,32 +31,17 @@ using formats::LoadKind;
 using formats::StiffeningOption;
 using test_support::constant_load;
 using test_support::empty_scene;
+using test_support::files_of;
 using test_support::joint;
 using test_support::Simulation;
 
 const Vector3d z = Vector3d::UnitZ();
 
-/// The body of this name of every scene here.
-BodyFiles files_of(const test_support::SecondOrderBody& body) {
-  BodyFiles files;
-  test_support::add_file("beam", body.element, files.superelements);
-  formats::check(body.companion, body.element, "beam");
-  files.companions["beam"] = body.companion;
-  return files;
-}
-
 formats::SuperelementBodySpec beam_body() { return test_support::superelement_body("beam", "beam"); }
 
 /// EA 1e6, EI 100 and 200, GJ 80, length 10, without shear; two boundary nodes.
 test_support::SecondOrderBody column(int modes) {
-  const test_support::SectionData section{.EA = 1e6,
-                                          .GJ = 80,
-                                          .EI_y = 100,
-                                          .EI_z = 200,
-                                          .mass = 1,
-                                          .torsional_inertia = 0.03,
-                                          .rotary_y = 0.01,
-                                          .rotary_z = 0.02};
+  const test_support::SectionData section = test_support::slender_section(1e6);
   const test_support::BernoulliBeam beam = test_support::bernoulli_beam(section, 10.0, 16);
   return test_support::second_order_beam(beam, {0, 16}, modes);
 }
@@ -305,14 +290,7 @@ TEST(SecondOrderDynamics, BeamOnABallJointDoesNotSpin) {
 // A free beam that tumbles and vibrates, without numerical damping: nothing drifts. An independent program has 1.3e-4
 // of its energy as largest error at this step.
 TEST(SecondOrderDynamics, FreeBeamKeepsItsEnergy) {
-  const test_support::SectionData section{.EA = 1e4,
-                                          .GJ = 80,
-                                          .EI_y = 100,
-                                          .EI_z = 200,
-                                          .mass = 1,
-                                          .torsional_inertia = 0.03,
-                                          .rotary_y = 0.01,
-                                          .rotary_z = 0.02};
+  const test_support::SectionData section = test_support::slender_section(1e4);
   const BodyFiles files =
       files_of(test_support::second_order_beam(test_support::bernoulli_beam(section, 10.0, 12), {0, 12}, 4));
   formats::Scene scene = empty_scene(0.005, 50.0);
