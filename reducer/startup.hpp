@@ -13,8 +13,8 @@ std::string program_folder();
 bool is_follower();
 
 /// OpenBLAS 0.3.21 takes processors that it does not know for the oldest (4-5 times slower) and reads OPENBLAS_CORETYPE
-/// only while it is loaded; OpenMPI starts a daemon per process unless told otherwise. Sets the variables for this
-/// processor; those that the user has set stay.
+/// only while it is loaded; OpenMPI starts a daemon per process unless told otherwise; malloc takes small pages and gives
+/// memory back at once. Sets the variables for this processor; those that the user has set stay.
 void prepare_environment();
 
 /// If OpenBLAS has chosen its oldest kernels on a better processor all the same: starts this program once more in place
