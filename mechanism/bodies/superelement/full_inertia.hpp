@@ -2,6 +2,8 @@
 // displacement of the interior.
 #pragma once
 
+#include <type_traits>
+
 #include "mechanism/bodies/superelement/momentum.hpp"
 #include "mechanism/bodies/superelement/products.hpp"
 
@@ -30,15 +32,14 @@ struct InertiaTerms {
   using Vector = Eigen::Matrix<S, Eigen::Dynamic, 1>;
   using Six = Eigen::Matrix<S, 6, 1>;
   Vector y, yd, ydd;
-  FormRows<S> Ey;   ///< 6 x N
-  FormRows<S> NTy;  ///< 12 x N, or empty
-  Vector Cy, Cyd;   ///< 3N: C_x y, C_y y, C_z y
+  FormRows<S> forms_y;  ///< [N_a y], [T_jk y], [E_jk y], or the last alone: rows in the order of FullInertia::forms
+  Vector Cy, Cyd;       ///< 3N, padded: C_x y, C_y y, C_z y
   Vector xi, p, xid, pd;
-  Vector quadratic;  ///< 12: ẏᵀ N_a ẏ, ẏᵀ T_jk ẏ, or empty
+  Vector quadratic;  ///< 12: ẏᵀ N_a ẏ, ẏᵀ T_jk ẏ
   Vector G_y;        ///< inertia and weight without the elastic force
-  Vector turned;     ///< 3N: scratch
+  Vector turned;     ///< 3N, padded: scratch
   Vec3<S> sigma = Vec3<S>::Zero(), nu = Vec3<S>::Zero();
-  Mat3<S> TT = Mat3<S>::Zero(), JJ = Mat3<S>::Zero();
+  Mat3<S> TT = Mat3<S>::Zero(), JJ = Mat3<S>::Zero(), JJd = Mat3<S>::Zero();
   Vec3<S> pi_v = Vec3<S>::Zero(), pi_O = Vec3<S>::Zero();  ///< momentum; angular momentum about x₀
   S kinetic = S(0.0);
 };
@@ -49,38 +50,35 @@ InertiaTerms<S> make_inertia_terms(const FullInertia& inertia) {
   const Eigen::Index n = inertia.M.rows();
   InertiaTerms<S> t;
   t.y = t.yd = t.ydd = t.xi = t.p = t.xid = t.pd = t.G_y = Vector::Zero(n);
-  t.Cy = t.Cyd = t.turned = Vector::Zero(3 * n);
-  t.Ey = FormRows<S>::Zero(6, n);
-  if (!inertia.NT) return t;
-  t.NTy = FormRows<S>::Zero(12, n);
+  t.Cy = t.Cyd = t.turned = Vector::Zero(inertia.C.rows);
+  t.forms_y = FormRows<S>::Zero(inertia.forms.count, n);
   t.quadratic = Vector::Zero(12);
   return t;
 }
 
-/// rows x with rows (6 or 12, N).
+/// rows x with the first Rows of `rows`.
 template <int Rows, class S>
 Eigen::Matrix<S, Rows, 1> rows_times(const FormRows<S>& rows, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x) {
   Eigen::Matrix<S, Rows, 1> out = Eigen::Matrix<S, Rows, 1>::Zero();
   for (Eigen::Index k = 0; k < x.size(); ++k)
-    for (int a = 0; a < Rows; ++a) out[a] += rows(a, k) * x[k];
+    out += Eigen::Map<const Eigen::Matrix<S, Rows, 1>>(rows.data() + k * rows.rows()) * x[k];
   return out;
 }
 
 /// Rᵀ x.
 template <class S>
 Eigen::Matrix<S, 6, 1> rigid_part(const FullInertia& inertia, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x) {
-  Eigen::Matrix<S, 6, 1> out = Eigen::Matrix<S, 6, 1>::Zero();
-  for (int a = 0; a < 6; ++a)
-    for (Eigen::Index k = 0; k < x.size(); ++k) out[a] += inertia.R(k, a) * x[k];
+  const Eigen::Index nb = inertia.boundary_size;  // R is zero for internal coordinates
+  Eigen::Matrix<S, 6, 1> out;
+  for (int a = 0; a < 6; ++a) out[a] = inner_product<S>(inertia.R.col(a).head(nb), x.head(nb));
   return out;
 }
 
 /// [xᵀ C_k y]_k of `stack`, the three vectors C_k y.
 template <class S>
 Vec3<S> turning_part(const Eigen::Matrix<S, Eigen::Dynamic, 1>& x, const Eigen::Matrix<S, Eigen::Dynamic, 1>& stack) {
-  Vec3<S> out = Vec3<S>::Zero();
-  for (int k = 0; k < 3; ++k)
-    for (Eigen::Index i = 0; i < x.size(); ++i) out[k] += x[i] * stack[k * x.size() + i];
+  Vec3<S> out;
+  for (int k = 0; k < 3; ++k) out[k] = inner_product<S>(x, stack.segment(k * x.size(), x.size()));
   return out;
 }
 
@@ -94,10 +92,14 @@ void add_turned(const Vec3<S>& a, const Eigen::Matrix<S, Eigen::Dynamic, 1>& sta
 /// J₀⁻¹ a.
 template <class S>
 Eigen::Matrix<S, 6, 1> solve_rigid(const FullInertia& inertia, const Eigen::Matrix<S, 6, 1>& a) {
-  Eigen::Matrix<S, 6, 1> out = Eigen::Matrix<S, 6, 1>::Zero();
-  for (int j = 0; j < 6; ++j)
-    for (int i = 0; i < 6; ++i) out[i] += inertia.J0_inverse(i, j) * a[j];
-  return out;
+  if constexpr (std::is_same_v<S, double>) {
+    return inertia.J0_inverse * a;
+  } else {
+    Eigen::Matrix<S, 6, 1> out = Eigen::Matrix<S, 6, 1>::Zero();
+    for (int j = 0; j < 6; ++j)
+      for (int i = 0; i < 6; ++i) out[i] += inertia.J0_inverse(i, j) * a[j];
+    return out;
+  }
 }
 
 /// x = R a + rate and Mx.
@@ -105,11 +107,19 @@ template <class S>
 void true_motion(const FullInertia& inertia, const Eigen::Matrix<S, 6, 1>& a,
                  const Eigen::Matrix<S, Eigen::Dynamic, 1>& rate, Eigen::Matrix<S, Eigen::Dynamic, 1>& x,
                  Eigen::Matrix<S, Eigen::Dynamic, 1>& Mx) {
-  x = rate;
+  const Eigen::Index nb = inertia.boundary_size, m = x.size() - nb;
+  x = rate;  // R is zero for internal coordinates
   for (int j = 0; j < 6; ++j)
-    for (Eigen::Index i = 0; i < x.size(); ++i) x[i] += inertia.R(i, j) * a[j];
-  Mx.setZero();
-  multiply_add<Eigen::Dynamic>(inertia.M, x, Mx);
+    for (Eigen::Index i = 0; i < nb; ++i) x[i] += inertia.R(i, j) * a[j];
+  Mx.head(nb).setZero();
+  Mx.tail(m) = x.tail(m);
+  if constexpr (std::is_same_v<S, double>) {
+    Mx.noalias() += inertia.M.leftCols(nb) * x.head(nb);
+    Mx.head(nb).noalias() += inertia.M.topRightCorner(nb, m) * x.tail(m);
+  } else {
+    for (Eigen::Index k = 0; k < x.size(); ++k)
+      for (Eigen::Index i = 0; i < (k < nb ? x.size() : nb); ++i) Mx[i] += inertia.M(i, k) * x[k];
+  }
 }
 
 /// Second-order displacement and its rates: σ, ν, TT and the same of ẏ, ÿ; zero without N and T.
@@ -120,23 +130,29 @@ struct Foreshortened {
   Mat3<S> T = Mat3<S>::Zero(), Td = Mat3<S>::Zero();
 };
 
-template <class S>
-Foreshortened<S> foreshortened(const FullInertia& inertia, InertiaTerms<S>& t) {
+/// E y, and N y, T y where they are on, with JJ and its rate.
+template <int Count, class S>
+Foreshortened<S> set_form_products(const FullInertia& inertia, InertiaTerms<S>& t) {
+  using Rows = Eigen::Matrix<S, Count, 1>;
+  using Six = Eigen::Matrix<S, 6, 1>;
+  constexpr bool all = Count == FullInertia::all;
+  constexpr int E = all ? 12 : 0;
+  apply_pairs<Count, E, S>(inertia.forms, t.y, t.yd, t.forms_y, t.quadratic);
+  const Rows at_y = rows_times<Count, S>(t.forms_y, t.y), rate = rows_times<Count, S>(t.forms_y, t.yd);
+  t.JJ = symmetric3<S>(Six(at_y.template segment<6>(E)));
+  t.JJd = symmetric3<S>(Six(2.0 * rate.template segment<6>(E)));
   Foreshortened<S> w;
-  if (!inertia.NT) return w;
-  using Twelve = Eigen::Matrix<S, 12, 1>;
-  apply_forms<S>(*inertia.NT, t.y, t.NTy);
-  evaluate_forms<S>(*inertia.NT, t.yd, t.quadratic);
-  const Twelve at_y = rows_times<12, S>(t.NTy, t.y), rate = rows_times<12, S>(t.NTy, t.yd),
-               second = rows_times<12, S>(t.NTy, t.ydd);
-  w.sigma = 0.5 * at_y.template head<3>();
-  w.nu = 0.5 * at_y.template segment<3>(3);
-  w.T = symmetric3<S>(Eigen::Matrix<S, 6, 1>(0.5 * at_y.template tail<6>()));
-  w.sigma_d = rate.template head<3>();
-  w.nu_d = rate.template segment<3>(3);
-  w.Td = symmetric3<S>(Eigen::Matrix<S, 6, 1>(rate.template tail<6>()));
-  w.sigma_dd = second.template head<3>() + t.quadratic.template head<3>();
-  w.nu_dd = second.template segment<3>(3) + t.quadratic.template segment<3>(3);
+  if constexpr (all) {
+    const Eigen::Matrix<S, 6, 1> second = rows_times<6, S>(t.forms_y, t.ydd);
+    w.sigma = 0.5 * at_y.template head<3>();
+    w.nu = 0.5 * at_y.template segment<3>(3);
+    w.T = symmetric3<S>(Six(0.5 * at_y.template segment<6>(6)));
+    w.sigma_d = rate.template head<3>();
+    w.nu_d = rate.template segment<3>(3);
+    w.Td = symmetric3<S>(Six(rate.template segment<6>(6)));
+    w.sigma_dd = second.template head<3>() + t.quadratic.template head<3>();
+    w.nu_dd = second.template segment<3>(3) + t.quadratic.template segment<3>(3);
+  }
   return w;
 }
 
@@ -146,13 +162,11 @@ Foreshortened<S> set_products(const FullInertia& inertia, const LocalMotion<S>& 
   t.y << motion.y_B, motion.y_I;
   t.yd << motion.deformation_rate_B, motion.rate_I;
   t.ydd << motion.deformation_acceleration_B, motion.acceleration_I;
-  apply_forms<S>(inertia.E, t.y, t.Ey);
-  t.JJ = symmetric3<S>(rows_times<6, S>(t.Ey, t.y));
   t.Cy.setZero();
   t.Cyd.setZero();
-  multiply_add<Eigen::Dynamic>(inertia.C, t.y, t.Cy);
-  multiply_add<Eigen::Dynamic>(inertia.C, t.yd, t.Cyd);
-  const Foreshortened<S> w = foreshortened(inertia, t);
+  multiply_add(inertia.C, t.y, t.Cy, t.yd, t.Cyd);
+  const Foreshortened<S> w = inertia.foreshortening ? set_form_products<FullInertia::all, S>(inertia, t)
+                                                    : set_form_products<FullInertia::E_alone, S>(inertia, t);
   t.sigma = w.sigma;
   t.nu = w.nu;
   t.TT = w.T;
@@ -195,13 +209,15 @@ void set_shape_forces(const SuperelementBody& body, const RigidVelocity<S>& r, c
   t.G_y = t.pd;
   multiply_transposed_add(inertia.C, t.turned, t.G_y);
   const Eigen::Matrix<S, 6, 1> centrifugal = -pair_factors<S>(Om, Om);
-  for (Eigen::Index k = 0; k < n; ++k)
-    for (int a = 0; a < 6; ++a) t.G_y[k] += centrifugal[a] * t.Ey(a, k);
-  if (inertia.NT) {
-    Eigen::Matrix<S, 12, 1> factor;
-    factor << r.vd - cross<S>(r.v, Om) - g, r.Od - 0.5 * cross<S>(r.O, Om), -pair_factors<S>(r.O, Om);
-    for (Eigen::Index k = 0; k < n; ++k)
-      for (int a = 0; a < 12; ++a) t.G_y[k] += factor[a] * t.NTy(a, k);
+  if (inertia.foreshortening) {
+    Eigen::Matrix<S, FullInertia::all, 1> factor;
+    factor << r.vd - cross<S>(r.v, Om) - g, r.Od - 0.5 * cross<S>(r.O, Om), -pair_factors<S>(r.O, Om), centrifugal,
+        S(0.0), S(0.0);
+    add_transposed<FullInertia::all, S>(t.forms_y, factor, t.G_y);
+  } else {
+    Eigen::Matrix<S, FullInertia::E_alone, 1> factor;
+    factor << centrifugal, S(0.0), S(0.0);
+    add_transposed<FullInertia::E_alone, S>(t.forms_y, factor, t.G_y);
   }
   for (Eigen::Index k = 0; k < body.boundary_size; ++k)
     for (int i = 0; i < 3; ++i) t.G_y[k] -= body.Gamma_B(i, k) * g[i];
@@ -230,14 +246,13 @@ FrameForces<S> inertia_forces(const SuperelementBody& body, const LocalMotion<S>
   const RigidVelocity<S> r{velocity.template head<3>(), velocity.template tail<3>(), rate.template head<3>(),
                            rate.template tail<3>()};
   const Vec3<S> turning = turning_part<S>(t.xi, t.Cy);
-  const Mat3<S> JJd = symmetric3<S>(Six(2.0 * rows_times<6, S>(t.Ey, t.yd)));
   t.kinetic += dot3<S>(Om, turning) + 0.5 * dot3<S>(Om, Vec3<S>(t.JJ * Om));
   t.pi_v = P.template head<3>();
   t.pi_O = P.template tail<3>() + turning + t.JJ * Om + cross<S>(w.sigma, r.v) + 0.5 * cross<S>(w.nu, r.O) + w.T * r.O;
   const Vec3<S> pi_vd = Pd.template head<3>();
-  const Vec3<S> pi_Od = Pd.template tail<3>() + turning_part<S>(t.xid, t.Cy) + turning_part<S>(t.xi, t.Cyd) + JJd * Om +
-                        t.JJ * Omd + cross<S>(w.sigma_d, r.v) + cross<S>(w.sigma, r.vd) + 0.5 * cross<S>(w.nu_d, r.O) +
-                        0.5 * cross<S>(w.nu, r.Od) + w.Td * r.O + w.T * r.Od;
+  const Vec3<S> pi_Od = Pd.template tail<3>() + turning_part<S>(t.xid, t.Cy) + turning_part<S>(t.xi, t.Cyd) +
+                        t.JJd * Om + t.JJ * Omd + cross<S>(w.sigma_d, r.v) + cross<S>(w.sigma, r.vd) +
+                        0.5 * cross<S>(w.nu_d, r.O) + 0.5 * cross<S>(w.nu, r.Od) + w.Td * r.O + w.T * r.Od;
   set_shape_forces(body, r, Om, g, t);
   const Vec3<S> s =
       body.mass * (body.center_of_mass.template cast<S>() + mean_of<S>(body, motion.y_B, motion.y_I)) + w.sigma;

@@ -8,23 +8,50 @@
 
 namespace tisserand::mechanism {
 
+/// e' of inverse_tangent_so3() by s = |ψ|²: (1/8 − 3e/2)/s + e²/2, by its series (|B₂ₖ|/(2k)!) where that cancels.
+template <class S>
+S inverse_tangent_slope(const S& s, const S& e) {
+  return real_part(s) < 0.1
+             ? S(1.0 / 720 +
+                 s * (1.0 / 15120 + s * (1.0 / 403200 + s * (1.0 / 11975040 + s * (691.0 / 261534873600.0 +
+                                                                                   s * (6.0 / 74724249600.0))))))
+             : S((0.125 - 1.5 * e) / s + 0.5 * e * e);
+}
+
 /// d/dt T⁻¹(ψ) for given ψ̇: ψ̇~/2 + e (ψ̇~ψ~ + ψ~ψ̇~) + 2 e' (ψ·ψ̇) ψ~², with e of inverse_tangent_so3() as a function of
-/// s = |ψ|² and e' = (1/8 − 3e/2)/s + e²/2, by its series (|B₂ₖ|/(2k)!) where that cancels.
+/// s = |ψ|².
 template <class S>
 Mat3<S> inverse_tangent_rate(const Vec3<S>& psi, const Vec3<S>& psid) {
   const S s = dot3<S>(psi, psi);
   const AngleFunctions<S> f(s);
-  const S slope =
-      real_part(s) < 0.1
-          ? S(1.0 / 720 +
-              s * (1.0 / 15120 + s * (1.0 / 403200 +
-                                      s * (1.0 / 11975040 + s * (691.0 / 261534873600.0 + s * (6.0 / 74724249600.0))))))
-          : S((0.125 - 1.5 * f.e) / s + 0.5 * f.e * f.e);
+  const S slope = inverse_tangent_slope<S>(s, f.e);
   const Mat3<S> P = skew<S>(psi), Pd = skew<S>(psid);
   return 0.5 * Pd + f.e * (Pd * P + P * Pd) + (2.0 * slope * dot3<S>(psi, psid)) * (P * P);
 }
 
-/// Ω̇₀ = U q̈ + U̇ q̇, after deformation_rates(). From the second derivative of what defines the frame: Σ αⱼ ψⱼ = 0 gives
+/// What ψ̈ = T⁻¹(ψ) Ω̇ − T⁻ᵀ(ψ) Ω̇₀ + Ṫ⁻¹ Ω − Ṫ⁻ᵀ Ω₀ has beyond angular accelerations: only the first term of Ṫ⁻¹ is skew.
+template <class S>
+Vec3<S> turning_bias(const Vec3<S>& psi, const Vec3<S>& psid, const Vec3<S>& Omega, const Vec3<S>& Omega0) {
+  const S s = dot3<S>(psi, psi);
+  const AngleFunctions<S> f(s);
+  const Vec3<S> relative = Omega - Omega0, turned = cross<S>(psi, relative);
+  const S bend = 2.0 * inverse_tangent_slope<S>(s, f.e) * dot3<S>(psi, psid);
+  return 0.5 * cross<S>(psid, Vec3<S>(Omega + Omega0)) +
+         f.e * (cross<S>(psid, turned) + cross<S>(psi, cross<S>(psid, relative))) + bend * cross<S>(psi, turned);
+}
+
+/// Rotation rows of ÿ_B: turning_bias() alone, after deformation_rates().
+template <class S, class Node>
+void turning_biases(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const int row = body.node[i].rotation_row;
+    if (row < 0) continue;
+    motion.deformation_acceleration_B.template segment<3>(row) = turning_bias<S>(
+        motion.node[i].psi, Vec3<S>(motion.deformation_rate_B.template segment<3>(row)), nodes[i].Omega, motion.Omega0);
+  }
+}
+
+/// Ω̇₀ = U q̈ + U̇ q̇, after turning_biases(). From the second derivative of what defines the frame: Σ αⱼ ψⱼ = 0 gives
 /// U̇ q̇ = Σ Uⱼ T(ψⱼ) (Ṫ⁻¹(ψⱼ) Ωⱼ − Ṫ⁻ᵀ(ψⱼ) Ω₀); the polar frame Σ U_xⱼ R₀ (−2 Ω₀ × x̂ⱼ' − Ω₀ × (Ω₀ × x̂ⱼ)).
 template <class S, class Node>
 Vec3<S> frame_acceleration(const SuperelementBody& body, const NodeView<Node>& nodes, const LocalMotion<S>& motion) {
@@ -43,10 +70,8 @@ Vec3<S> frame_acceleration(const SuperelementBody& body, const NodeView<Node>& n
   for (const int j : body.rotation_nodes) {
     const auto i = static_cast<std::size_t>(j);
     const LocalNode<S>& local = motion.node[i];
-    const Vec3<S> rate = motion.deformation_rate_B.template segment<3>(body.node[i].rotation_row);
-    const Mat3<S> Tinv_rate = inverse_tangent_rate<S>(local.psi, rate);
-    const Vec3<S> bias = Tinv_rate * nodes[i].Omega - Tinv_rate.transpose() * motion.Omega0;
-    acceleration += local.U * (nodes[i].Omegad + tangent_so3<S>(local.psi) * bias);
+    const Vec3<S> bias = motion.deformation_acceleration_B.template segment<3>(body.node[i].rotation_row);
+    acceleration += local.U * (nodes[i].Omegad + inverse3<S>(local.Tinv) * bias);
   }
   return acceleration;
 }
@@ -68,6 +93,7 @@ Vec3<S> mean_of(const SuperelementBody& body, const Eigen::Matrix<S, Eigen::Dyna
 template <class S, class Node>
 void deformation_accelerations(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
   const Mat3<S> R0T = motion.R0.transpose();
+  turning_biases(body, nodes, motion);
   const Vec3<S> w = motion.Omega0, wd = frame_acceleration(body, nodes, motion);
   Vec3<S> x0d = Vec3<S>::Zero(), x0dd = Vec3<S>::Zero();
   for (const int j : body.translation_nodes) {
@@ -85,11 +111,8 @@ void deformation_accelerations(const SuperelementBody& body, const NodeView<Node
           cross<S>(wd, local.xh);
     }
     if (node.has_rotation()) {
-      const Vec3<S> rate = motion.deformation_rate_B.template segment<3>(node.rotation_row);
-      const Mat3<S> Tinv_rate = inverse_tangent_rate<S>(local.psi, rate);
-      motion.deformation_acceleration_B.template segment<3>(node.rotation_row) =
-          local.Tinv * nodes[i].Omegad - local.Tinv.transpose() * wd + Tinv_rate * nodes[i].Omega -
-          Tinv_rate.transpose() * w;
+      const Vec3<S> turning = local.Tinv * nodes[i].Omegad - local.Tinv.transpose() * wd;
+      motion.deformation_acceleration_B.template segment<3>(node.rotation_row) += turning;
     }
   }
   motion.origin_velocity = x0d;

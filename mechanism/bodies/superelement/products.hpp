@@ -35,4 +35,42 @@ void multiply_transposed_add(const Eigen::MatrixXd& A, const Eigen::Matrix<S, Ei
   }
 }
 
+/// out += A x, both of this scalar.
+template <class S>
+void multiply_add(const Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>& A,
+                  const Eigen::Matrix<S, Eigen::Dynamic, 1>& x, S factor, Eigen::Matrix<S, Eigen::Dynamic, 1>& out) {
+  if constexpr (std::is_same_v<S, double>) {
+    out.noalias() += factor * A * x;
+  } else {
+    for (Eigen::Index k = 0; k < A.cols(); ++k)
+      for (Eigen::Index i = 0; i < A.rows(); ++i) out[i] += factor * A(i, k) * x[k];
+  }
+}
+
+/// out += Aᵀ x, both of this scalar; A has Rows rows or, padded, more.
+template <int Rows, class S>
+void add_transposed(const Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>& A, const Eigen::Matrix<S, Rows, 1>& x,
+                    Eigen::Matrix<S, Eigen::Dynamic, 1>& out) {
+  for (Eigen::Index k = 0; k < A.cols(); ++k) {
+    const Eigen::Map<const Eigen::Matrix<S, Rows, 1>> column(A.data() + k * A.rows(), x.size());
+    if constexpr (std::is_same_v<S, double>) {
+      out[k] += column.dot(x);
+    } else {
+      for (Eigen::Index a = 0; a < x.size(); ++a) out[k] += column[a] * x[a];
+    }
+  }
+}
+
+/// x · y.
+template <class S, class X, class Y>
+S inner_product(const X& x, const Y& y) {
+  if constexpr (std::is_same_v<S, double>) {
+    return x.dot(y);
+  } else {
+    S sum(0.0);
+    for (Eigen::Index i = 0; i < x.size(); ++i) sum += x[i] * y[i];
+    return sum;
+  }
+}
+
 }  // namespace tisserand::mechanism

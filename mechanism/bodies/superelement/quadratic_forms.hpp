@@ -6,66 +6,143 @@
 
 #include <Eigen/Core>
 
+#include "common/math/column_kernels.hpp"
+
 namespace tisserand::mechanism {
 
-/// Two coordinates of one body, k ≤ l.
-struct CoordinatePair {
+/// Entries (k, l), k ≤ l, of the matrices 4 `first` to 4 (`first` + `blocks`) − 1.
+struct FormRun {
   int k = 0, l = 0;
+  int first = 0, blocks = 0;
 };
 
-/// Symmetric matrices A_a (size x size, a = 0 .. count − 1) by the pairs of coordinates at which any of them has an
-/// entry: column p of `entry` holds all A_a(k, l) of pairs[p], so that one pass through memory serves all of them.
+/// Symmetric matrices A_a (size x size), a = 0 .. count − 1, by the pairs of coordinates at which four of them that
+/// follow one another have an entry. One pass through memory serves all of them, and what is zero is not there: the
+/// rows of a straight beam keep a thirtieth of their numbers.
 struct QuadraticForms {
-  int size = 0;
-  std::vector<CoordinatePair> pairs;
-  Eigen::MatrixXd entry;  ///< count x pairs
+  static constexpr int block = 4;  ///< matrices of a run, one register
+  /// Entries up to this share of the largest are nothing: symmetry and planes leave zeros, which solutions with K_II
+  /// and congruences fill with what is left of rounding, up to some thousand ε.
+  static constexpr double round_off = 1e-12;
 
-  Eigen::Index count() const { return entry.rows(); }
+  int size = 0;
+  int count = 0;  ///< a multiple of `block`: matrices of zeros fill the last one
+  std::vector<FormRun> runs;
+  std::vector<double> entry;  ///< of each run in turn, `block` numbers for each of its blocks
 };
 
-/// The symmetric parts of `matrices`. unit: the size of each coordinate. Pairs at which no matrix has more than 1e-15
-/// of its largest entry, in these units, are left out.
-QuadraticForms quadratic_forms(const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& unit);
+/// The symmetric parts of `matrices`. unit: the size of each coordinate. scale: entries of matrix a up to `round_off`
+/// times scale[a], in these units, are left out.
+QuadraticForms quadratic_forms(const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& unit,
+                               const Eigen::VectorXd& scale);
+
+/// The largest entry of any of them, in these units.
+double largest_entry(const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& unit);
 
 /// Scratch of the kernels of this file for any scalar: column k holds the row k of every A_a times y.
 template <class S>
 using FormRows = Eigen::Matrix<S, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// rows (count x size): column k becomes [(A_a y)_k]. 2 count pairs multiplications.
+/// rows (count x size): column k becomes [(A_a y)_k].
 template <class S, class Vector>
 void apply_forms(const QuadraticForms& forms, const Vector& y, FormRows<S>& rows) {
   rows.setZero();
-  const Eigen::Index count = forms.count();
-  for (std::size_t p = 0; p < forms.pairs.size(); ++p) {
-    const auto [k, l] = forms.pairs[p];
-    const double* entry = forms.entry.data() + static_cast<Eigen::Index>(p) * count;
-    if constexpr (std::is_same_v<S, double>) {
-      const Eigen::Map<const Eigen::VectorXd> column(entry, count);
-      rows.col(k) += y[l] * column;
-      if (k != l) rows.col(l) += y[k] * column;
-    } else {
-      for (Eigen::Index a = 0; a < count; ++a) rows(a, k) += entry[a] * y[l];
-      if (k == l) continue;
-      for (Eigen::Index a = 0; a < count; ++a) rows(a, l) += entry[a] * y[k];
+  const double* entry = forms.entry.data();
+  for (const FormRun& run : forms.runs) {
+    const Eigen::Index first = QuadraticForms::block * run.first, length = QuadraticForms::block * run.blocks;
+    S* at_k = rows.data() + run.k * Eigen::Index{forms.count} + first;
+    S* at_l = rows.data() + run.l * Eigen::Index{forms.count} + first;
+    const S y_k = run.k == run.l ? S(0.0) : S(y[run.k]), y_l = y[run.l];
+    for (Eigen::Index a = 0; a < length; a += QuadraticForms::block, entry += QuadraticForms::block) {
+      if constexpr (std::is_same_v<S, double>) {
+        using namespace column_kernels;
+        const Four e = load(entry);
+        store(at_k + a, load(at_k + a) + e * y_l);
+        store(at_l + a, load(at_l + a) + e * y_k);
+      } else {
+        for (int i = 0; i < QuadraticForms::block; ++i) {
+          if (entry[i] == 0.0) continue;
+          at_k[a + i] += entry[i] * y_l;
+          at_l[a + i] += entry[i] * y_k;
+        }
+      }
     }
-  }
-}
-
-/// values = [yᵀ A_a y].
-template <class S, class Vector>
-void evaluate_forms(const QuadraticForms& forms, const Vector& y, Eigen::Matrix<S, Eigen::Dynamic, 1>& values) {
-  values.setZero();
-  const Eigen::Index count = forms.count();
-  for (std::size_t p = 0; p < forms.pairs.size(); ++p) {
-    const auto [k, l] = forms.pairs[p];
-    const double* entry = forms.entry.data() + static_cast<Eigen::Index>(p) * count;
-    const S weight = (k == l ? 1.0 : 2.0) * y[k] * y[l];
-    for (Eigen::Index a = 0; a < count; ++a) values[a] += entry[a] * weight;
   }
 }
 
 /// Lower triangle of `sum` (size x size) += scale Σ factor_a A_a.
 void add_combination(const QuadraticForms& forms, double scale, const Eigen::VectorXd& factor,
                      Eigen::Ref<Eigen::MatrixXd> sum);
+
+/// Few symmetric matrices A_a, all of which have an entry wherever one has: at each pair k ≤ l of coordinates `count`
+/// numbers, the pairs column by column (l), k upwards.
+struct PairedForms {
+  static constexpr int block = QuadraticForms::block;
+
+  int size = 0;
+  int count = 0;           ///< a multiple of `block`: matrices of zeros fill the last one
+  std::vector<int> first;  ///< size + 1: where the pairs of column l begin in `row`
+  std::vector<int> row;    ///< k of each pair
+  std::vector<double> entry;
+};
+
+/// As quadratic_forms().
+PairedForms paired_forms(const std::vector<Eigen::MatrixXd>& matrices, const Eigen::VectorXd& unit,
+                         const Eigen::VectorXd& scale);
+
+namespace paired_forms_kernel {
+
+/// In double numbers: the sums of column l and of the values stay in registers.
+template <int Count, int Values>
+void apply(const PairedForms& forms, const double* y, const double* x, double* rows, double* values) {
+  using namespace column_kernels;
+  constexpr int blocks = Count / PairedForms::block, value_blocks = Values / PairedForms::block;
+  Four value[value_blocks + 1] = {};
+  const double* entry = forms.entry.data();
+  for (int l = 0; l < forms.size; ++l) {
+    Four sum[blocks] = {};
+    for (int pair = forms.first[l]; pair < forms.first[l + 1]; ++pair, entry += Count) {
+      const int k = forms.row[pair];
+      const double weight = (k == l ? 1.0 : 2.0) * x[k] * x[l];
+      for (int b = 0; b < blocks; ++b) sum[b] += load(entry + PairedForms::block * b) * y[k];
+      for (int b = 0; b < value_blocks; ++b) value[b] += load(entry + PairedForms::block * b) * weight;
+      if (k == l) continue;
+      double* at_k = rows + Count * k;
+      for (int b = 0; b < blocks; ++b) {
+        double* to = at_k + PairedForms::block * b;
+        store(to, load(to) + load(entry + PairedForms::block * b) * y[l]);
+      }
+    }
+    for (int b = 0; b < blocks; ++b) store(rows + Count * l + PairedForms::block * b, sum[b]);
+  }
+  for (int b = 0; b < value_blocks; ++b) store(values + PairedForms::block * b, value[b]);
+}
+
+}  // namespace paired_forms_kernel
+
+/// rows (Count x size): column k becomes [(A_a y)_k]; values: [xᵀ A_a x] of the first Values matrices.
+template <int Count, int Values, class S>
+void apply_pairs(const PairedForms& forms, const Eigen::Matrix<S, Eigen::Dynamic, 1>& y,
+                 const Eigen::Matrix<S, Eigen::Dynamic, 1>& x, FormRows<S>& rows,
+                 Eigen::Matrix<S, Eigen::Dynamic, 1>& values) {
+  if constexpr (std::is_same_v<S, double>) {
+    paired_forms_kernel::apply<Count, Values>(forms, y.data(), x.data(), rows.data(), values.data());
+  } else {
+    rows.setZero();
+    values.setZero();
+    const double* entry = forms.entry.data();
+    for (int l = 0; l < forms.size; ++l)
+      for (int pair = forms.first[l]; pair < forms.first[l + 1]; ++pair) {
+        const int k = forms.row[pair];
+        const S weight = (k == l ? 1.0 : 2.0) * x[k] * x[l];
+        for (int a = 0; a < Count; ++a, ++entry) {
+          if (*entry == 0.0) continue;
+          rows(a, l) += *entry * y[k];
+          if (k != l) rows(a, k) += *entry * y[l];
+          if (a < Values) values[a] += *entry * weight;
+        }
+      }
+  }
+}
 
 }  // namespace tisserand::mechanism

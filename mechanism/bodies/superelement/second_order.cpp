@@ -1,7 +1,11 @@
 // From arrays on the coordinates of a body to the constants of its second-order terms and load cases.
 #include "mechanism/bodies/superelement/second_order.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -92,56 +96,133 @@ formats::Companion companion_on_body(formats::Companion companion, const formats
   return companion;
 }
 
-Stiffening make_stiffening(const SuperelementBody& body, const formats::Companion& companion) {
+namespace {
+
+/// Rows of a positive semidefinite A = LᵀL, and the coordinates in which L is triangular: L(a, pivot[b]) = 0 for b < a.
+struct PivotedRows {
+  MatrixXd L;
+  std::vector<int> pivot;
+};
+
+PivotedRows pivoted_rows(MatrixXd A) {
   constexpr double no_strain = 1e-9;
+  const Eigen::Index n = A.rows();
+  PivotedRows rows{MatrixXd(n, n), {}};
+  double first = 0.0;
+  for (Eigen::Index a = 0; a < n; ++a) {
+    Eigen::Index p = 0;
+    const double largest = A.diagonal().maxCoeff(&p);
+    if (a == 0) first = largest;
+    if (!(largest > no_strain * first)) break;
+    const VectorXd row = A.col(p) / std::sqrt(largest);
+    rows.L.row(a) = row.transpose();
+    rows.pivot.push_back(static_cast<int>(p));
+    A -= row * row.transpose();
+    A.row(p).setZero();
+    A.col(p).setZero();
+  }
+  rows.L.conservativeResize(static_cast<Eigen::Index>(rows.pivot.size()), n);
+  return rows;
+}
+
+/// The order of rows in which those with entries at the same pairs of coordinates follow one another.
+std::vector<int> order_by_entries(const std::vector<MatrixXd>& Gamma, const VectorXd& unit, double round_off) {
+  std::vector<std::vector<bool>> present;
+  for (const MatrixXd& A : Gamma) {
+    const MatrixXd scaled = unit.asDiagonal() * A * unit.asDiagonal();
+    std::vector<bool> entries;
+    for (Eigen::Index i = 0; i < scaled.size(); ++i) entries.push_back(std::abs(scaled.data()[i]) > round_off);
+    present.push_back(std::move(entries));
+  }
+  std::vector<int> order(Gamma.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&present](int a, int b) { return present[b] < present[a]; });
+  return order;
+}
+
+}  // namespace
+
+Stiffening make_stiffening(const SuperelementBody& body, const formats::Companion& companion) {
   const int nb = body.boundary_size, m = body.modes;
   const VectorXd unit = coordinate_units(body);
-  const MatrixXd scaled = unit.head(nb).asDiagonal() * body.S_BB * unit.head(nb).asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(scaled);
-  const VectorXd& lambda = solver.eigenvalues();
-  const Eigen::Index strained = (lambda.array() > no_strain * lambda[nb - 1]).count(), rows = strained + m;
-  Stiffening out;
-  out.L = MatrixXd::Zero(rows, nb + m);
-  MatrixXd inverse = MatrixXd::Zero(nb + m, rows);
-  for (Eigen::Index a = 0; a < strained; ++a) {
-    const VectorXd v = solver.eigenvectors().col(nb - strained + a);
-    const double root = std::sqrt(lambda[nb - strained + a]);
-    out.L.row(a).head(nb) = root * v.cwiseQuotient(unit.head(nb));
-    inverse.col(a).head(nb) = v.cwiseProduct(unit.head(nb)) / root;
+  const auto scale = unit.head(nb).asDiagonal();
+  const PivotedRows boundary = pivoted_rows(scale * body.S_BB * scale);
+  const auto strained = static_cast<int>(boundary.pivot.size());
+  MatrixXd L = MatrixXd::Zero(strained + m, nb + m);
+  L.topLeftCorner(strained, nb) = boundary.L * scale.inverse();
+  std::vector<MatrixXd> Gamma;
+  for (int b = 0; b < strained; ++b) {  // Σ_a L(a, p_b) Γ_a = H of the coordinate p_b
+    const int p = boundary.pivot[b];
+    MatrixXd row = companion.H[p];
+    for (int a = 0; a < b; ++a)
+      if (L(a, p) != 0.0) row -= L(a, p) * Gamma[a];
+    Gamma.emplace_back(row / L(b, p));
   }
   for (int i = 0; i < m; ++i) {
-    out.L(strained + i, nb + i) = std::sqrt(body.S_II[i]);
-    inverse(nb + i, strained + i) = 1.0 / std::sqrt(body.S_II[i]);
+    L(strained + i, nb + i) = std::sqrt(body.S_II[i]);
+    Gamma.emplace_back(companion.H[nb + i] / L(strained + i, nb + i));
   }
-  std::vector<MatrixXd> Gamma(static_cast<std::size_t>(rows), MatrixXd::Zero(nb + m, nb + m));
-  for (Eigen::Index a = 0; a < rows; ++a)
-    for (int j = 0; j < nb + m; ++j)
-      if (inverse(j, a) != 0.0) Gamma[a] += inverse(j, a) * companion.H[j];
-  out.Gamma = quadratic_forms(Gamma, unit);
+  const double largest = largest_entry(Gamma, unit);
+  const std::vector<int> order = order_by_entries(Gamma, unit, QuadraticForms::round_off * largest);
+  std::vector<MatrixXd> ordered;
+  for (const int a : order) ordered.push_back(Gamma[a]);
+  Stiffening out;
+  out.Gamma = quadratic_forms(ordered, unit, VectorXd::Constant(strained + m, largest));
+  out.L = MatrixXd::Zero(out.Gamma.count, nb + m);
+  out.L.topRows(strained + m) = L(order, Eigen::all);
+  out.L_blocks = block_columns(out.L, 0.0);
+  out.reach.setZero(out.L.rows(), 2);
+  for (const SuperelementNode& node : body.node) {
+    if (node.has_translation())
+      out.reach.col(0) += out.L.middleCols<3>(node.translation_row).cwiseAbs().rowwise().sum();
+    if (node.has_rotation()) out.reach.col(1) += out.L.middleCols<3>(node.rotation_row).cwiseAbs().rowwise().sum();
+  }
   return out;
 }
+
+namespace {
+
+/// C_x, C_y, C_z one above the other, without what is nothing in the units of the coordinates.
+BlockColumns turning_blocks(const std::array<MatrixXd, 3>& C, const VectorXd& unit) {
+  const Eigen::Index n = unit.size();
+  MatrixXd stack(3 * n, n);
+  const double nothing = QuadraticForms::round_off * largest_entry({C.begin(), C.end()}, unit);
+  for (int k = 0; k < 3; ++k) {
+    const MatrixXd scaled = unit.asDiagonal() * C[k] * unit.asDiagonal();
+    stack.middleRows(k * n, n) = (scaled.array().abs() > nothing).select(C[k], 0.0);
+  }
+  return block_columns(stack, 0.0);
+}
+
+}  // namespace
 
 FullInertia make_full_inertia(const SuperelementBody& body, const formats::Companion& companion,
                               Foreshortening foreshortening) {
   FullInertia inertia;
+  inertia.boundary_size = body.boundary_size;
   inertia.M = whole_mass(body);
   inertia.R = rigid_columns(body);
   inertia.MR = inertia.M * inertia.R;
   double length = 0.0;
   for (const SuperelementNode& node : body.node) length = std::max(length, node.X.norm());
   inertia.J0_inverse = invert_inertia(inertia.R.transpose() * inertia.MR, length > 0.0 ? length : 1.0);
-  const Eigen::Index n = inertia.M.rows();
-  inertia.C.resize(3 * n, n);
-  for (int k = 0; k < 3; ++k) inertia.C.middleRows(k * n, n) = companion.C[k];
   const VectorXd unit = coordinate_units(body);
-  inertia.E = quadratic_forms({companion.E.begin(), companion.E.end()}, unit);
+  inertia.C = turning_blocks(companion.C, unit);
+  const std::vector<MatrixXd> E(companion.E.begin(), companion.E.end());
+  const VectorXd E_scale = VectorXd::Constant(6, largest_entry(E, unit));
   switch (foreshortening) {
     case Foreshortening::off:
+      inertia.forms = paired_forms(E, unit, E_scale);
       break;
     case Foreshortening::on: {
-      std::vector<MatrixXd> NT(companion.N.begin(), companion.N.end());
-      NT.insert(NT.end(), companion.T.begin(), companion.T.end());
-      inertia.NT = quadratic_forms(NT, unit);
+      std::vector<MatrixXd> forms(companion.N.begin(), companion.N.end());
+      forms.insert(forms.end(), companion.T.begin(), companion.T.end());
+      VectorXd scale(18);  // N of translations, and a length more
+      scale << VectorXd::Constant(3, largest_entry({forms.begin(), forms.begin() + 3}, unit)),
+          VectorXd::Constant(9, largest_entry({forms.begin() + 3, forms.end()}, unit)), E_scale;
+      forms.insert(forms.end(), E.begin(), E.end());
+      inertia.foreshortening = true;
+      inertia.forms = paired_forms(forms, unit, scale);
       break;
     }
   }

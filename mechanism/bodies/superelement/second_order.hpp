@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "common/math/block_columns.hpp"
 #include "common/units.hpp"
 #include "formats/companion/companion.hpp"
 #include "formats/scene/body_spec.hpp"
@@ -17,21 +18,26 @@ namespace tisserand::mechanism {
 struct SuperelementBody;
 
 /// Strain energy as a sum of squares, V = ½ Σ e_a², e_a = l_a·y + ½ yᵀ Γ_a y: the rows L of S̄ = LᵀL, with Γ. S̄ y stays
-/// what it is without stiffening; these are the terms beyond it.
+/// what it is without stiffening; these are the terms beyond it. The last rows may be zero, as those of QuadraticForms.
 struct Stiffening {
-  Eigen::MatrixXd L;     ///< rows x N
-  QuadraticForms Gamma;  ///< rows
+  Eigen::MatrixXd L;                               ///< rows x N
+  BlockColumns L_blocks;                           ///< the same
+  QuadraticForms Gamma;                            ///< rows
+  Eigen::Matrix<double, Eigen::Dynamic, 2> reach;  ///< rows x 2: Σ_k |l_ak| over translations of nodes, over rotations
 };
 
 /// T = ½ ‖Φ ξ + Ω × Φ y‖²_M with ξ = R (ν + J₀⁻¹ n₂) + ẏ, ν = (v₀, Ω).
 struct FullInertia {
-  Eigen::MatrixXd M;                            ///< N x N
+  int boundary_size = 0;
+  Eigen::MatrixXd M;                            ///< N x N, 1 on the internal coordinates
   Eigen::Matrix<double, Eigen::Dynamic, 6> R;   ///< rigid motions in y about x₀
   Eigen::Matrix<double, Eigen::Dynamic, 6> MR;  ///< M̄ R
   Eigen::Matrix<double, 6, 6> J0_inverse;       ///< of RᵀM̄R; pseudo-inverse where an axis has no inertia
-  Eigen::MatrixXd C;                            ///< 3N x N: C_x, C_y, C_z, after the Galilean step
-  QuadraticForms E;                             ///< 6
-  std::optional<QuadraticForms> NT;             ///< 12: N, T; absent: no foreshortening in the inertia
+  BlockColumns C;                               ///< 3N x N: C_x, C_y, C_z, after the Galilean step
+  bool foreshortening = false;                  ///< whether N and T are on
+  PairedForms forms;                            ///< N (6), T (6), E (6), or E alone
+
+  static constexpr int all = 20, E_alone = 8;  ///< counts of `forms`, with the zeros that fill blocks
 };
 
 /// The terms that are on.
@@ -49,8 +55,10 @@ formats::Companion companion_on_body(formats::Companion companion, const formats
                                      const formats::CanonicalMatrices& matrices, const UnitConversion& units,
                                      const SuperelementBody& body);
 
-/// Rows of S̄ = LᵀL: eigenvectors of the scaled S̄_BB above 1e-9 of its largest eigenvalue, and ωᵢ of the internal
-/// coordinates; Γ_a = Σⱼ (L⁺)_ja Hⱼ ([SO] 2.3). The companion is that of companion_on_body().
+/// Rows of S̄ = LᵀL: of the scaled S̄_BB by Cholesky with pivots above 1e-9 of the first, and ωᵢ of the internal
+/// coordinates; Lᵀ Γ = H ([SO] 2.3). Any rows have the same energy; these keep apart what S̄ keeps apart (stretch,
+/// torsion, bending in either plane of a straight beam), and Γ with them. Rows of like Γ follow one another. The
+/// companion is that of companion_on_body().
 Stiffening make_stiffening(const SuperelementBody& body, const formats::Companion& companion);
 
 enum class Foreshortening { off, on };

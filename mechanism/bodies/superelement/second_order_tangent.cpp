@@ -101,15 +101,15 @@ void add_inertia(const SuperelementBody& body, const InertiaTerms<double>& t, do
   const Eigen::Map<const MatrixXd> Cy(t.Cy.data(), n, 3);
   const Eigen::Matrix<double, 6, 3> rigid_Cy = inertia.R.transpose().lazyProduct(Cy);
   work.X = inertia.MR;
-  if (inertia.NT) {
+  if (inertia.foreshortening) {
     Eigen::Matrix<double, 6, 3> turn;
     turn << -skew<double>(t.sigma), -0.5 * skew<double>(t.nu) + t.TT;
     W.rightCols<3>() += inertia.J0_inverse * turn;
-    work.D.noalias() = inertia.J0_inverse.lazyProduct(t.NTy.topRows(6));
-    work.X += 0.5 * t.NTy.topRows(6).transpose();
+    work.D.noalias() = inertia.J0_inverse.lazyProduct(t.forms_y.topRows(6));
+    work.X += 0.5 * t.forms_y.topRows(6).transpose();
     yy.triangularView<Lower>() += factor * work.X * work.D;
     yy.triangularView<Lower>() += factor * work.D.transpose() * work.X.transpose();
-    work.X += 0.5 * t.NTy.topRows(6).transpose();
+    work.X += 0.5 * t.forms_y.topRows(6).transpose();
     rigid.rightCols<3>().noalias() += factor * work.D.transpose().lazyProduct(rigid_Cy);
   }
   rigid.noalias() += factor * work.X.lazyProduct(W);

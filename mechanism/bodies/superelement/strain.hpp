@@ -38,16 +38,11 @@ void strain_terms(const Stiffening& stiffening, const LocalMotion<S>& motion, St
   t.g.setZero();
   t.linear.setZero();
   t.force.setZero();
-  multiply_add<Eigen::Dynamic>(stiffening.L, t.y, t.linear);
-  for (Eigen::Index k = 0; k < t.y.size(); ++k)
-    for (Eigen::Index a = 0; a < t.g.size(); ++a) t.g[a] += 0.5 * t.h(a, k) * t.y[k];
+  multiply_add(stiffening.L_blocks, t.y, t.linear);
+  multiply_add<S>(t.h, t.y, S(0.5), t.g);
   t.e = t.linear + t.g;
-  multiply_transposed_add(stiffening.L, t.g, t.force);
-  for (Eigen::Index k = 0; k < t.y.size(); ++k) {
-    S sum(0.0);
-    for (Eigen::Index a = 0; a < t.e.size(); ++a) sum += t.h(a, k) * t.e[a];
-    t.force[k] += sum;
-  }
+  multiply_transposed_add(stiffening.L_blocks, t.g, t.force);
+  add_transposed<Eigen::Dynamic, S>(t.h, t.e, t.force);
 }
 
 /// t.force += b [(L + h)ᵀ(L + h) − LᵀL] ẏ, after strain_terms() and deformation_rates().
