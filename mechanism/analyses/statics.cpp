@@ -11,6 +11,7 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/equations/iteration_matrix.hpp"
+#include "mechanism/equations/round_off.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -108,22 +109,6 @@ void explain_statics(double reached, double step, StaticsReport& report) {
 }
 
 }  // namespace
-
-double internal_round_off(const Model& model, const Evaluation& evaluation) {
-  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
-  double largest = 0.0;
-  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    const SuperelementBody& body = body_of(model, i);
-    if (!body.second_order.stiffening || body.modes == 0) continue;
-    Eigen::VectorXd size = Eigen::VectorXd::Ones(body.boundary_size);
-    for (const SuperelementNode& node : body.node)
-      if (node.translation_row >= 0) size.segment<3>(node.translation_row).setConstant(model.length);
-    const Eigen::VectorXd strain = body.second_order.stiffening->L.leftCols(body.boundary_size).cwiseAbs() * size;
-    const auto& h = evaluation.superelements[i].forces.strain.h;
-    largest = std::max(largest, (h.rightCols(body.modes).cwiseAbs().transpose() * strain).maxCoeff());
-  }
-  return rounding * largest;
-}
 
 std::string free_motion(const Model& model, const formats::StaticsSpec& options, State state, Workspace& workspace) {
   // Dense matrices: larger scenes are told by the equation at which the sparse factors fail, or while they are solved.

@@ -42,11 +42,6 @@ std::string free_motion(const Model& model, const formats::StaticsSpec& options,
 [[nodiscard]] StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& options, State& state,
                                           Workspace& workspace);
 
-/// Internal forces that no iteration removes: positions are rounded to ε length and turns to ε, which changes the
-/// generalised strains of stiffening by up to Σ_k |l_ak| δ_k, and their forces on internal coordinates by as much times
-/// |h_a| ([SO] 3). After evaluate(). Zero for linear bodies, whose internal coordinates feel no boundary.
-double internal_round_off(const Model& model, const Evaluation& evaluation);
-
 /// From zero to the whole of loads and gravity (the evaluation's load factor) in load steps: `solve` brings the state
 /// to equilibrium under the present factor. Load steps are halved where it fails; an outcome other than accepted is
 /// explained in the report. Ends with a load factor of one.

@@ -13,6 +13,7 @@
 #include "mechanism/analyses/linearise.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/equations/iteration_matrix.hpp"
+#include "mechanism/equations/round_off.hpp"
 
 namespace tisserand::mechanism {
 namespace {

@@ -1,0 +1,32 @@
+// Rounding of positions and turns, through the generalised strains.
+#include "mechanism/equations/round_off.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tisserand::mechanism {
+
+double internal_round_off(const Model& model, std::size_t superelement, const Evaluation& evaluation) {
+  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const SuperelementBody& body = body_of(model, superelement);
+  if (!body.second_order.stiffening) return 0.0;
+  const auto& reach = body.second_order.stiffening->reach;
+  const auto& h = evaluation.superelements[superelement].forces.strain.h;
+  double largest = 0.0;
+  for (Eigen::Index k = body.boundary_size; k < h.cols(); ++k) {
+    double force = 0.0;
+    for (Eigen::Index a = 0; a < h.rows(); ++a) force += std::abs(h(a, k)) * (model.length * reach(a, 0) + reach(a, 1));
+    largest = std::max(largest, force);
+  }
+  return rounding * largest;
+}
+
+double internal_round_off(const Model& model, const Evaluation& evaluation) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < model.superelements.size(); ++i)
+    largest = std::max(largest, internal_round_off(model, i, evaluation));
+  return largest;
+}
+
+}  // namespace tisserand::mechanism
