@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "mechanism/equations/round_off.hpp"
-
 namespace tisserand::mechanism {
 namespace {
 
@@ -43,15 +41,6 @@ Closed closed_constraints(const Model& model, const IntegratorSpec& options, dou
           std::min(options.constraint_tolerance, std::max(motion, round_off)) / step};
 }
 
-/// Up to which internal forces of a superelement may be left: `allowed`, or their round-off, which matters only where
-/// they are larger.
-double largest_internal(const Model& model, std::size_t superelement, double allowed, const Evaluation& evaluation) {
-  if (!body_of(model, superelement).second_order.stiffening) return allowed;
-  const auto& r = evaluation.superelements[superelement].forces.r_I;
-  if (r.size() == 0 || r.cwiseAbs().maxCoeff() <= allowed) return allowed;
-  return std::max(allowed, internal_round_off(model, superelement, evaluation));
-}
-
 }  // namespace
 
 double size_of(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& increment) {
@@ -79,9 +68,8 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
   }
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const auto& r = evaluation.superelements[i].forces.r_I;
-    const double allowed_internal = largest_internal(model, i, options.tolerance * internal, evaluation);
     for (Eigen::Index k = 0; k < r.size(); ++k)
-      raise(norms.force_ratio, norms.worst_coordinate, std::abs(r[k]) / allowed_internal,
+      raise(norms.force_ratio, norms.worst_coordinate, std::abs(r[k]) / (options.tolerance * internal),
             model.sizes.boundary + model.internal_offset[i] + static_cast<int>(k));
     raise(norms.force_ratio, norms.worst_coordinate, evaluation.superelements[i].motion.frame_error / frame_tolerance,
           model.superelements.maps[i].coordinates.front());

@@ -148,8 +148,9 @@ TEST(SecondOrderReferences, LittleBendingFindsItsEquilibrium) {
 }
 
 // The same in slow motion: a moment that grows over 50 periods of the first mode, in steps of half of one, leaves the
-// internal forces as small as statics do. Bending by φ within a step stretches by φ², so that Newton's errors are
-// φ², φ⁴, ..: three iterations end below 1e-8, and one more is for kept factors.
+// internal forces as small as statics do. Increments that are round-off end the iterations of a step (step/newton.cpp).
+// Bending by φ within a step stretches by φ², so that Newton's errors are φ², φ⁴, ..: three iterations end below 1e-8,
+// and one more is for kept factors.
 TEST(SecondOrderReferences, LittleBendingInSlowMotionEndsItsIterations) {
   for (const double angle : {0.001, 0.02, 0.1}) {
     formats::Scene scene = empty_scene(1.0, 100.0);
