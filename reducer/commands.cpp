@@ -5,7 +5,9 @@
 #include <future>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string_view>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -14,6 +16,7 @@
 #include "common/output_path.hpp"
 #include "common/text.hpp"
 #include "formats/companion/companion.hpp"
+#include "formats/companion/owner.hpp"
 #include "formats/modal_body/modal_body.hpp"
 #include "formats/part/part.hpp"
 #include "formats/recovery/recovery.hpp"
@@ -101,6 +104,25 @@ std::string companion_text(const formats::Companion& companion, const std::strin
                      join(holds, ", "));
 }
 
+/// What lies where this run, which writes no companion, would have put one: that of an earlier run is removed, since
+/// mechanisms would take it for the new superelement's. Others' files stay, and are told.
+std::string clear_companion(const std::string& path, const std::string& content_id) {
+  if (!std::filesystem::exists(path)) return "";
+  const std::optional<formats::CompanionOwner> owner = formats::companion_owner(path);
+  const bool fits = owner && owner->superelement == content_id;
+  if (!owner || !owner->producer.starts_with("Tisserand reducer"))
+    return fmt::format("{:<19}{} (not written by this program), {}\n", "lies beside it", path,
+                       fits    ? "which mechanisms take: it belongs to this superelement"
+                       : owner ? "which mechanisms refuse: it belongs to another superelement; remove it"
+                               : "which mechanisms refuse: it is no companion file; remove it");
+  std::error_code fault;
+  std::filesystem::remove(path, fault);
+  if (fault)
+    throw Error("the companion of an earlier run cannot be removed: " + fault.message(), path,
+                "remove it: mechanisms would take it, or refuse the new superelement beside it");
+  return fmt::format("{:<19}{} of an earlier run: this one writes none\n", "removed", path);
+}
+
 PhaseListener listener_of(Phases& phases) {
   PhaseListener listener([&phases](const std::string& phase) { phases.begin(phase); });
   listener.share = [&phases](double done) { phases.share(done); };
@@ -136,6 +158,7 @@ int run(const Arguments& arguments) {
   for (const auto& [path, recovery] : recoveries) recovery->finish();
   write_certificate(output, reduction.superelement, reduction.file, reduction.model);
   if (reduction.companion) formats::write_companion(companion, *reduction.companion, reduction.superelement);
+  const std::string cleared = reduction.companion ? "" : clear_companion(companion, reduction.superelement.content_id);
   if (reduction.modal_body) formats::write_modal_body(modal_body, *reduction.modal_body);
   phases.end();
   say(certificate_text(reduction.superelement, reduction.file, reduction.model));
@@ -147,6 +170,7 @@ int run(const Arguments& arguments) {
   for (const auto& [path, recovery] : recoveries) say(fmt::format("{:<19}{}\n", "", path));
   if (reduction.companion) say(fmt::format("{:<19}{}\n", "", companion_text(*reduction.companion, companion)));
   if (reduction.modal_body) say(fmt::format("{:<19}{}\n", "", modal_body));
+  say(cleared);
   return 0;
 }
 

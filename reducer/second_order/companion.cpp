@@ -381,8 +381,15 @@ formats::Companion make_companion(const InternalProblem& problem, const Boundary
 std::optional<formats::Companion> companion_if_asked(const formats::Part& part, const InternalProblem& problem,
                                                      const BoundaryModes& boundary, const InternalModes& internal,
                                                      const formats::Superelement& element, ModelCertificate& model) {
-  describe_companion(problem.mesh, part, element, model);
-  const bool second_order = wants_second_order(part, element) && internal.boundary_mass.size() == 0;
+  const bool wanted = wants_second_order(part, element), has_own_mass = internal.boundary_mass.size() > 0;
+  if (wanted && has_own_mass)
+    model.notes.push_back(
+        "No second order in a companion file (stiffening, exact inertia): the mass of method macneal is not that of "
+        "the "
+        "displacements of its coordinates; method craig_bampton or rubin has both.");
+  else
+    describe_companion(problem.mesh, part, element, model);
+  const bool second_order = wanted && !has_own_mass;
   if (!second_order && problem.mesh.load_cases.empty()) return std::nullopt;
   const Eigen::VectorXd weights = default_weights(element);
   return second_order ? make_companion(problem, boundary, internal, element, weights)

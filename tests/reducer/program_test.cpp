@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "formats/companion/companion.hpp"
 #include "formats/modal_body/modal_body.hpp"
 #include "formats/recovery/recovery.hpp"
 #include "formats/superelement/superelement.hpp"
@@ -128,6 +129,30 @@ TEST_F(Program, RunWritesTheModalBodyThatThePartAsksFor) {
   EXPECT_EQ(loaded.body.node_name, (std::vector<std::string>{"base", "tip"}));
   const Outcome show = call("show " + (folder / "beam.superelement.h5").string());
   EXPECT_THAT(show.text, HasSubstr("modal body         4 modes, tip held: "));
+}
+
+// A mechanism would take the companion of an earlier run for that of the new superelement, or refuse both.
+TEST_F(Program, RunLeavesNoCompanionOfAnEarlierRunBehind) {
+  const std::string companion = (folder / "beam.companion.h5").string(),
+                    superelement = (folder / "beam.superelement.h5").string(),
+                    bare = "run " + part + " --set second_order=no";
+  ASSERT_EQ(call("run " + part).code, 0);
+  formats::Companion other = formats::read_companion(companion, formats::read_superelement(superelement).superelement);
+  const Outcome run = call(bare + " --set modes=4");
+  ASSERT_EQ(run.code, 0) << run.text;
+  EXPECT_THAT(run.text, HasSubstr("removed            " + companion + " of an earlier run"));
+  EXPECT_FALSE(std::filesystem::exists(companion));
+  EXPECT_THAT(call(bare).text, ::testing::Not(HasSubstr(companion)));
+  // Files of others stay.
+  other.producer = "another program";
+  formats::write_companion(companion, other, formats::read_superelement(superelement).superelement);
+  EXPECT_THAT(call(bare).text,
+              AllOf(HasSubstr(companion), HasSubstr("mechanisms take: it belongs to this superelement")));
+  EXPECT_THAT(call(bare + " --set modes=4").text, HasSubstr("mechanisms refuse: it belongs to another superelement"));
+  EXPECT_TRUE(std::filesystem::exists(companion));
+  std::ofstream(companion) << "notes";
+  EXPECT_THAT(call(bare).text, HasSubstr("mechanisms refuse: it is no companion file"));
+  EXPECT_TRUE(std::filesystem::exists(companion));
 }
 
 TEST_F(Program, ThreadsOfTheBlasLeaveEveryBitAsItIs) {
