@@ -39,6 +39,7 @@ void print_page() {
   print(synthesis_problems());
   fmt::print("{}", to_markdown(synthesis_laws()));
   fmt::print("{}", mesh_error_table());
+  fmt::print("{}", buckling_table());
 }
 
 }  // namespace

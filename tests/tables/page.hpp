@@ -54,5 +54,6 @@ std::vector<Problem> synthesis_problems();
 Laws shell_patch_laws();
 Laws synthesis_laws();
 std::string mesh_error_table();
+std::string buckling_table();
 
 }  // namespace tisserand::tables

@@ -230,12 +230,15 @@ TEST(SecondOrder, BeamHasTheKnownAnswer) {
   std::ifstream file(std::string(TISSERAND_REFERENCES) + "/second_order_known_answers.json");
   const nlohmann::json entry = nlohmann::json::parse(file).at("element"), section = entry["section"];
   BeamElementData data;
-  data.material = {"m", 1.0, -0.5, 1.0, ""};  // E = G = 1: the constants are the products of the section
+  // E = G = 1: the constants are the products of the section; ρ = 1e-4 times EI is the rotary inertia.
+  data.material = {"m", 1.0, -0.5, 1e-4, ""};
   data.section.area = section["EA"];
   data.section.second_moment_y = section["EI2"];
   data.section.second_moment_z = section["EI3"];
   data.section.torsion_constant = section["GJ"];
   data.section.shear_area_y = data.section.shear_area_z = section["GA"];
+  data.added_mass.first = data.added_mass.second = section["rA"].get<double>() - 1e-4 * data.section.area;
+  data.added_mass.inertia = section["rJ"];
   Mesh mesh = beam_mesh(data);
   mesh.position << 0.0, entry["length"].get<double>(), 0.0, 0.0, 0.0, 0.0;
   mesh.beams[0].R_PE.setIdentity();
@@ -244,6 +247,15 @@ TEST(SecondOrder, BeamHasTheKnownAnswer) {
   EXPECT_LE((c.S - K).cwiseAbs().maxCoeff(), 1e-11 * K.cwiseAbs().maxCoeff());
   const MatrixXd found = geometric_stiffness(c.rows, test_support::to_vector(entry["w"]));
   EXPECT_LE((found - K_G).cwiseAbs().maxCoeff(), 1e-11 * K_G.cwiseAbs().maxCoeff());
+  ElementMatrices matrices;
+  element_matrices(mesh, mesh.beams[0], matrices);
+  const MatrixXd M = test_support::to_matrix(entry["M"]);
+  EXPECT_LE((matrices.M - M).cwiseAbs().maxCoeff(), 1e-11 * M.cwiseAbs().maxCoeff());
+  // The stretch of w alone has its axial force and nothing else.
+  VectorXd stretch = VectorXd::Zero(12);
+  stretch[6] = entry["w"][6].get<double>() - entry["w"][0].get<double>();
+  const MatrixXd axial = test_support::to_matrix(entry["KG_N_only"]);
+  EXPECT_LE((geometric_stiffness(c.rows, stretch) - axial).cwiseAbs().maxCoeff(), 1e-11 * axial.cwiseAbs().maxCoeff());
 }
 
 /// ½ fᵀ S f of what is left of d when the rotation exp(ω), ω = turn d, is taken out exactly.
