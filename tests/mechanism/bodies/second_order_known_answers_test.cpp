@@ -97,6 +97,19 @@ TEST_P(SecondOrderAnswers, ElasticForce) {
   EXPECT_LT(relative_difference(in_file(f), to_vector(result_["f_y"])), kTolerance);
 }
 
+// K_y d = S d + Σ [(l_a + h_a)(h_a . d) + h_a (l_a . d) + e_a Γ_a d] with the rows of the body.
+TEST_P(SecondOrderAnswers, StiffnessOfTheDeformedBody) {
+  const auto& t = scratch_.forces.strain;
+  const Stiffening& stiffening = *body_.second_order.stiffening;
+  const VectorXd d = direction(), linear = stiffening.L * d, bent = t.h * d;
+  FormRows<double> turned(t.h.rows(), t.h.cols());
+  apply_forms<double>(stiffening.Gamma, d, turned);
+  VectorXd product = stiffening.L.transpose() * bent + t.h.transpose() * (linear + bent) + turned.transpose() * t.e;
+  product.head(body_.boundary_size) += body_.S_BB * d.head(body_.boundary_size);
+  product.tail(body_.modes) += body_.S_II.cwiseProduct(d.tail(body_.modes));
+  EXPECT_LT(relative_difference(in_file(product), to_vector(result_["Ky_direction"])), kTolerance);
+}
+
 TEST_P(SecondOrderAnswers, ForcesAreThoseOfLagrange) {
   EXPECT_LT(relative_difference(residual(), to_vector(result_["G"])), kTolerance);
   EXPECT_LT(relative_difference(residual(), to_vector(result_["G_exact_lagrange"])), kTolerance);
