@@ -376,6 +376,28 @@ TEST(SecondOrderReduction, PartsThatCannotDeformHaveNone) {
   EXPECT_TRUE(reducer::wants_second_order(part, element));
 }
 
+// The shares are those of docs/SECOND_ORDER.md, section 6 (test DoubleCurvature).
+TEST(SecondOrderReduction, NotesOfShellsSayFromWhichDeflectionOnTheyErr) {
+  formats::Part part;
+  Superelement element;
+  element.dof_node.assign(7, -1);
+  reducer::Mesh mesh;
+  reducer::ModelCertificate beams, shells, linear;
+  reducer::describe_companion(mesh, part, element, beams);
+  EXPECT_TRUE(beams.notes.empty());
+  mesh.shell_properties.resize(2);
+  mesh.shell_properties[0].section.thickness = 0.02;
+  mesh.shell_properties[1].section.thickness = 0.0125;
+  mesh.shells.resize(2);
+  mesh.shells[1].property = 1;
+  reducer::describe_companion(mesh, part, element, shells);
+  ASSERT_EQ(shells.notes.size(), 1u);
+  EXPECT_THAT(shells.notes[0], ::testing::HasSubstr("by its thickness (0.0125)"));
+  part.second_order = formats::SecondOrder::no;
+  reducer::describe_companion(mesh, part, element, linear);
+  EXPECT_TRUE(linear.notes.empty());
+}
+
 TEST(SecondOrderReduction, LargeOnesAreWrittenOnlyIfAskedFor) {
   formats::Part part;
   part.file = "large.part.yaml";
