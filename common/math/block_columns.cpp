@@ -12,7 +12,7 @@ BlockColumns block_columns(const Eigen::MatrixXd& A, double nothing) {
   out.rows = block * ((rows + block - 1) / block);
   Eigen::VectorXd column = Eigen::VectorXd::Zero(out.rows);
   for (int k = 0; k < A.cols(); ++k) {
-    column.head(rows) = (A.col(k).array().abs() > nothing).select(A.col(k), 0.0);
+    column.head(rows) = (A.col(k).array().abs() <= nothing).select(0.0, A.col(k));
     bool open = false;
     for (int b = 0; b < out.rows / block; ++b) {
       const auto numbers = column.segment<block>(Eigen::Index{block} * b);

@@ -395,9 +395,8 @@ std::optional<formats::Companion> companion_if_asked(const formats::Part& part, 
   const bool wanted = wants_second_order(part, element), has_own_mass = internal.boundary_mass.size() > 0;
   if (wanted && has_own_mass)
     model.notes.push_back(
-        "No second order in a companion file (stiffening, exact inertia): the mass of method macneal is not that of "
-        "the "
-        "displacements of its coordinates; method craig_bampton or rubin has both.");
+        "No second order in a companion file (stiffening, exact inertia): method macneal leaves out the mass that its "
+        "coordinates move; methods craig_bampton and rubin keep it.");
   else
     describe_companion(problem.mesh, part, element, model);
   const bool second_order = wanted && !has_own_mass;

@@ -32,7 +32,7 @@ void set_entries(const std::vector<Eigen::MatrixXd>& matrices, const Eigen::Vect
   for (std::size_t a = 0; a < matrices.size(); ++a) {
     const auto i = static_cast<Eigen::Index>(a);
     const double value = 0.5 * (matrices[a](k, l) + matrices[a](l, k));
-    entries[i] = std::abs(value) * unit[k] * unit[l] > QuadraticForms::round_off * scale[i] ? value : 0.0;
+    entries[i] = std::abs(value) * unit[k] * unit[l] <= QuadraticForms::round_off * scale[i] ? 0.0 : value;
   }
 }
 

@@ -189,7 +189,7 @@ BlockColumns turning_blocks(const std::array<MatrixXd, 3>& C, const VectorXd& un
   const double nothing = QuadraticForms::round_off * largest_entry({C.begin(), C.end()}, unit);
   for (int k = 0; k < 3; ++k) {
     const MatrixXd scaled = unit.asDiagonal() * C[k] * unit.asDiagonal();
-    stack.middleRows(k * n, n) = (scaled.array().abs() > nothing).select(C[k], 0.0);
+    stack.middleRows(k * n, n) = (scaled.array().abs() <= nothing).select(0.0, C[k]);
   }
   return block_columns(stack, 0.0);
 }
