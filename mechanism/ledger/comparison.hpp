@@ -19,7 +19,7 @@ struct LedgerChange {
 class Comparison {
  public:
   /// `sizes` of what `own` measures, which lives as long as this; `length` of the scene.
-  Comparison(const Sizes3& sizes, double length) : sizes_(sizes), length_(length) {}
+  Comparison(const MeasureSizes& sizes, double length) : sizes_(sizes), length_(length) {}
 
   void add(const WindowHistory& own, const WindowHistory& other);
   /// One of each kind, the largest first.
@@ -28,7 +28,7 @@ class Comparison {
  private:
   void note(const Measured& measured, double size, double difference);
 
-  const Sizes3& sizes_;
+  const MeasureSizes& sizes_;
   double length_;
   std::map<MeasureKind, LedgerChange> largest_;
 };

@@ -14,15 +14,15 @@ namespace {
 /// An option is told to be right where it changes what F gives by less.
 constexpr double right_option = 0.01;
 
-double difference(const InertiaRun& a, const InertiaRun& b, const Sizes3& sizes, double length) {
+double difference(const InertiaRun& a, const InertiaRun& b, const MeasureSizes& sizes, double length) {
   Comparison comparison(sizes, length);
   for (std::size_t w = 0; w < a.windows->size(); ++w) comparison.add((*a.windows)[w], (*b.windows)[w]);
   const std::vector<LedgerChange> changes = comparison.changes();
   return changes.empty() ? 0.0 : changes.front().part;
 }
 
-std::string verdict_among_equals(const std::string& body, const std::vector<InertiaRun>& runs, const Sizes3& sizes,
-                                 double length) {
+std::string verdict_among_equals(const std::string& body, const std::vector<InertiaRun>& runs,
+                                 const MeasureSizes& sizes, double length) {
   double largest = 0.0;
   for (const InertiaRun& a : runs)
     for (const InertiaRun& b : runs) largest = std::max(largest, difference(a, b, sizes, length));
@@ -37,7 +37,7 @@ std::string verdict_among_equals(const std::string& body, const std::vector<Iner
 
 }  // namespace
 
-std::string inertia_verdict(const std::string& body, const std::vector<InertiaRun>& runs, const Sizes3& sizes,
+std::string inertia_verdict(const std::string& body, const std::vector<InertiaRun>& runs, const MeasureSizes& sizes,
                             double length) {
   const auto best = std::ranges::find(runs, "F", &InertiaRun::option);
   if (best == runs.end()) return verdict_among_equals(body, runs, sizes, length);

@@ -18,7 +18,7 @@ struct InertiaRun {
 
 /// Against F, which has all of the mass: the cheapest option that changes nothing by more than 1 %. Without a companion
 /// file, and so without F, none is known to be right, unless they agree.
-std::string inertia_verdict(const std::string& body, const std::vector<InertiaRun>& runs, const Sizes3& sizes,
+std::string inertia_verdict(const std::string& body, const std::vector<InertiaRun>& runs, const MeasureSizes& sizes,
                             double length);
 
 }  // namespace tisserand::mechanism

@@ -195,7 +195,7 @@ class LedgerMaker {
   BuiltModel own_;
   ReferenceRun reference_;
   std::vector<WindowHistory> own_windows_;
-  std::optional<Sizes3> sizes_;
+  std::optional<MeasureSizes> sizes_;
   std::vector<double> own_per_step_;  ///< processor time of the scene as it is, beside each line
   std::map<const LedgerLine*, std::vector<WindowHistory>> histories_;
   Ledger ledger_;

@@ -129,7 +129,7 @@ std::vector<int> Measures::places_in(const Measures& other) const {
   return places;
 }
 
-Sizes3::Sizes3(const std::vector<Measured>& list) {
+MeasureSizes::MeasureSizes(const std::vector<Measured>& list) {
   std::map<std::string, int> groups;
   for (const Measured& one : list) {
     from_first_.push_back(one.kind == MeasureKind::position || one.kind == MeasureKind::deflection);
@@ -138,7 +138,7 @@ Sizes3::Sizes3(const std::vector<Measured>& list) {
   group_size_.assign(groups.size(), 0.0);
 }
 
-void Sizes3::observe(const MeasuredRow& row) {
+void MeasureSizes::observe(const MeasuredRow& row) {
   if (first_.size() == 0) first_ = row;
   for (std::size_t i = 0; i < from_first_.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);

@@ -53,9 +53,9 @@ class Measures {
 };
 
 /// Largest distance from the first row (positions, deflections) or value (forces, channels) of each group.
-class Sizes3 {
+class MeasureSizes {
  public:
-  explicit Sizes3(const std::vector<Measured>& list);
+  explicit MeasureSizes(const std::vector<Measured>& list);
   void observe(const MeasuredRow& row);
   /// Of thing i: that of the largest of its group.
   double of(std::size_t i) const { return group_size_[static_cast<std::size_t>(group_of_[i])]; }

@@ -23,6 +23,7 @@ std::optional<State> beginning_of_last(const std::vector<PlannedAnalysis>& plann
     if (!one.from.empty()) begin = ends.at(one.from);
     if (&one == &planned.back()) return begin;
     RunEnd end = simulate(RunRequest{one.scene, files, std::move(begin), "", "", std::nullopt}, control);
+    if (end.report.outcome == RunOutcome::interrupted) return std::nullopt;
     if (end.report.outcome != RunOutcome::completed)
       throw Error(fmt::format("analysis '{}', from which '{}' begins, did not end: {}", one.name, planned.back().name,
                               end.report.reason),

@@ -130,6 +130,7 @@ ReferenceRun run_reference(const formats::Scene& scene, const std::optional<Stat
   RunRequest request{whole, stage.files, begin, "", "", std::nullopt};
   request.listener = &listener;
   const RunReport report = simulate(request, stage.control).report;
+  if (report.outcome == RunOutcome::interrupted) return run;
   if (report.outcome != RunOutcome::completed) throw_unfinished(scene, report);
   run.steps = report.steps;
   require_windows(scene, run);

@@ -42,11 +42,12 @@ struct LedgerStage {
 };
 
 /// Runs the scene from `begin` (absent: its poses) without results; keeps the states at which windows begin, and the
-/// largest sizes of what is measured. Throws Error where it does not come to its end.
+/// largest sizes of what is measured. Throws Error where it does not come to its end; one that is interrupted returns
+/// what there is.
 struct ReferenceRun {
   std::vector<LedgerWindow> windows;
   std::optional<Measures> measures;
-  std::optional<Sizes3> sizes;
+  std::optional<MeasureSizes> sizes;
   long steps = 0;
 };
 ReferenceRun run_reference(const formats::Scene& scene, const std::optional<State>& begin, const LedgerStage& stage);

@@ -18,6 +18,9 @@ std::string cost_text(double cost) {
   return fmt::format("{} {:.0f} % per step", cost < 0.0 ? "save" : "cost", 100.0 * std::abs(cost));
 }
 
+/// Up to what stands in brackets: the whole is in the JSON.
+std::string without_details(const std::string& reason) { return reason.substr(0, reason.find(" (")); }
+
 std::string line_text(const LedgerLine& line) {
   const Toggle& toggle = line.toggle;
   std::string text = fmt::format("{}: {}; ", toggle.subject(), toggle.is);
@@ -27,7 +30,7 @@ std::string line_text(const LedgerLine& line) {
     text += fmt::format("{}{} would change {}, {}", toggle.becomes,
                         toggle.with.empty() ? "" : fmt::format(" (with {})", toggle.with), changes_text(line),
                         cost_text(line.cost));
-  if (line.replayed && !line.failure.empty()) text += fmt::format("; a window ended early: {}", line.failure);
+  if (line.replayed && !line.failure.empty()) text += fmt::format("; ended early: {}", without_details(line.failure));
   if (line.activity) text += fmt::format("; activity {}", percent_text(line.share));
   return text;
 }
@@ -55,7 +58,7 @@ std::string percent_text(double part) {
   if (percent == 0.0) return "0 %";
   if (percent < 1e-6) return "less than 1e-6 %";
   if (percent < 0.1) return fmt::format("{:.1g} %", percent);
-  return percent < 100.0 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.0f} %", percent);
+  return percent < 99.5 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.0f} %", percent);
 }
 
 std::string ledger_text(const Ledger& ledger, const Units& units) {
