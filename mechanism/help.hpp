@@ -17,6 +17,7 @@ Examples:
   mechanism view arm.results.h5 -o arm.html            a page with the motion, for any browser
   mechanism picture arm.results.h5 --time 1.2 -o a.png a still of it
   mechanism study arm.study.yaml --tolerance 1e-3      what accuracy costs, and the cheapest setting for it
+  mechanism ledger arm.scene.yaml                      what each effect changes, and what it costs
   mechanism export arm.results.h5 -c energy -o arm.csv
 
 A scene in ten lines:
@@ -126,6 +127,21 @@ inline constexpr const char* about_study =
 
 The study file (formats/STUDY.md) names scenes, axes, quantities and the reference. A run that fails is a result. Interrupted at
 any moment, the same command goes on: what has run is not repeated.
+Exit codes: 0 done, 1 error, 2 wrong usage, 130 interrupted.)help";
+
+inline constexpr const char* about_ledger =
+    R"help(Sizes the effects of a scene, on or off: what each changes in the motion, and what it costs.
+
+  mechanism ledger arm.scene.yaml
+  mechanism ledger arm.scene.yaml -c nodes/position/arm/tip/z --effect stiffening --effect inertia
+  mechanism ledger arm.scene.yaml --windows 1 --share 1       the whole run again with each effect the other way round
+  mechanism ledger arm.scene.yaml --results arm.results.h5 --json
+
+The scene runs once. Then, for each effect of each body (formats/SCENE.md, effects; and the inertia options of superelements),
+some windows of the run are repeated from the same states with this effect alone switched, and compared: positions by the
+largest displacement in the scene, deflections by the largest of their body, forces of joints by the largest of all. Times are
+those of the processor, the least of some repetitions. Activity is the share of the power that flows through the effect.
+Nothing is stored, and a run pays nothing for it.
 Exit codes: 0 done, 1 error, 2 wrong usage, 130 interrupted.)help";
 
 }  // namespace tisserand::mechanism::help

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -21,9 +22,11 @@
 #include "formats/results/results.hpp"
 #include "formats/scene/scene.hpp"
 #include "formats/yaml/override.hpp"
+#include "mechanism/command_files.hpp"
 #include "mechanism/help.hpp"
 #include "mechanism/histories/plot.hpp"
 #include "mechanism/histories/tables.hpp"
+#include "mechanism/ledger/perform.hpp"
 #include "mechanism/run/analyses.hpp"
 #include "mechanism/run/checkpoint.hpp"
 #include "mechanism/simulate.hpp"
@@ -58,24 +61,15 @@ void listen_for_interrupts() {
   }
 }
 
+/// Seconds of the processor that this program has used.
+double processor_clock() {
+  timespec now{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
 double wall_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-/// "dir/pendulum.scene.yaml" -> "pendulum.results.h5" in the working folder.
-std::string default_results(const std::string& scene) {
-  std::string stem = std::filesystem::path(scene).filename().string();
-  for (const char* ending : {".yaml", ".yml", ".scene"})
-    if (stem.ends_with(ending)) stem.resize(stem.size() - std::string(ending).size());
-  return stem + ".results.h5";
-}
-
-/// "dir/pendulum.results.h5" -> "pendulum.html" in the working folder.
-std::string default_page(const std::vector<std::string>& results, const char* ending) {
-  std::string stem = results.empty() ? "run" : std::filesystem::path(results.front()).filename().string();
-  for (const char* known : {".part", ".h5", ".results"})
-    if (stem.ends_with(known)) stem.resize(stem.size() - std::string(known).size());
-  return stem + ending;
 }
 
 struct RunArguments {
@@ -92,17 +86,6 @@ formats::Scene read(const RunArguments& arguments) {
   std::vector<formats::Override> overrides;
   for (const std::string& text : arguments.settings) overrides.push_back(formats::parse_override(text));
   return formats::read_scene(arguments.scene, overrides);
-}
-
-/// The files that a run reads and must not replace.
-std::vector<std::string> inputs(const formats::Scene& scene) {
-  std::vector<std::string> files{scene.file};
-  for (const formats::BodySpec& body : scene.bodies)
-    if (const auto* spec = std::get_if<formats::SuperelementBodySpec>(&body))
-      files.push_back(spec->file);
-    else if (const auto* modal = std::get_if<formats::ModalBodySpec>(&body))
-      files.push_back(modal->file);
-  return files;
 }
 
 int exit_code(const mechanism::RunReport& report) {
@@ -138,30 +121,15 @@ mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunReq
   return end;
 }
 
-/// The results file that was asked for; empty: that of the scene. A run that goes on from a file never overwrites what
-/// the file belongs to.
-std::string output_of(const RunArguments& arguments, const std::optional<mechanism::RestartFile>& restart) {
-  const bool appends = arguments.joining == mechanism::Joining::appended;
-  if (!restart && appends)
-    throw Error("--append needs a run to go on from", "", "name its checkpoint or results file with --restart");
-  if (!restart) return arguments.output;
-  if (appends) return arguments.output.empty() ? restart->results : arguments.output;
-  if (arguments.output.empty())
-    throw Error("--restart needs a results file of its own", "",
-                "name it with -o, so that what was computed before is kept, or join both with --append");
-  mechanism::require_apart(*restart, arguments.output);
-  return arguments.output;
-}
-
 int run(const RunArguments& arguments) {
   const formats::Scene scene = read(arguments);
   std::optional<mechanism::RestartFile> restart;
   if (!arguments.restart.empty()) restart = mechanism::find_restart(arguments.restart);
-  const std::string output = output_of(arguments, restart);
+  const std::string output = mechanism::output_of(arguments.output, arguments.joining, restart);
   const bool chosen = !output.empty();
-  std::vector<mechanism::PlannedAnalysis> planned =
-      mechanism::plan(scene, arguments.analysis, {chosen ? output : default_results(arguments.scene), chosen});
-  std::vector<std::string> files_read = inputs(scene);
+  std::vector<mechanism::PlannedAnalysis> planned = mechanism::plan(
+      scene, arguments.analysis, {chosen ? output : mechanism::default_results(arguments.scene), chosen});
+  std::vector<std::string> files_read = mechanism::inputs(scene);
   if (restart) {
     if (planned.size() > 1 && arguments.analysis.empty())
       throw Error("the scene has several analyses", arguments.scene, "name the one that goes on with --analysis");
@@ -200,6 +168,25 @@ int check(const RunArguments& arguments) {
                     mechanism::report_text(report, scene.units)));
   }
   return 0;
+}
+
+struct LedgerArguments {
+  RunArguments run;
+  mechanism::LedgerCommand command;
+};
+
+int ledger(const LedgerArguments& arguments) {
+  listen_for_interrupts();
+  Progress progress("ledger", 1.0);
+  mechanism::RunControl control;
+  control.interrupted = [] { return interrupt_requested.load(std::memory_order_relaxed); };
+  control.clock = processor_clock;
+  const std::string told =
+      mechanism::perform_ledger(read(arguments.run), arguments.run.analysis, arguments.command, control,
+                                [&](double done, const std::string& next) { progress.update(done, next); });
+  progress.finish();
+  say(told);
+  return interrupt_requested ? exit_interrupted : 0;
 }
 
 void add_run_arguments(CLI::App& command, RunArguments& arguments) {
@@ -263,6 +250,31 @@ void add_study(CLI::App& app, mechanism::StudyRequest& request, int& code) {
   command->callback([&] { code = study(request); });
 }
 
+void add_ledger(CLI::App& app, LedgerArguments& arguments, int& code) {
+  mechanism::LedgerCommand& ledger = arguments.command;
+  CLI::App* command = app.add_subcommand("ledger", first_line(about_ledger));
+  add_run_arguments(*command, arguments.run);
+  command->add_option("--analysis", arguments.run.analysis,
+                      "one of the scene's `analyses`; default: the last of dynamics");
+  command->add_option("--results", ledger.results,
+                      "results of this scene whose instants begin the windows; default: a run without results");
+  command->add_option("--windows", ledger.windows.windows, "how many, evenly over the run")->check(CLI::Range(1, 1000));
+  command->add_option("--share", ledger.windows.share, "of the run that they cover together; 1: all of it")
+      ->check(CLI::Range(1e-6, 1.0));
+  command->add_option("--repeats", ledger.repeats, "of each window, for its time")->check(CLI::Range(1, 1000));
+  command
+      ->add_option("--channel,-c", ledger.channels,
+                   "channel, group or pattern that is compared; default: positions, deflections and forces of joints")
+      ->allow_extra_args(false);
+  command->add_option("--effect", ledger.choice.effects, "only this effect, or inertia; may be repeated")
+      ->allow_extra_args(false);
+  command->add_option("--body", ledger.choice.bodies, "only of this body; may be repeated")->allow_extra_args(false);
+  command->add_option("--active", ledger.least_activity, "effects with a smaller share of activity are not tried")
+      ->check(CLI::Range(0.0, 1.0));
+  command->add_flag("--json", ledger.json, "the same as JSON, with all figures");
+  command->callback([&] { code = ::ledger(arguments); });
+}
+
 void add_page_options(CLI::App& command, mechanism::ViewRequest& page) {
   command.add_option("--title", page.title, "title; default: names of the scenes");
   command.add_option("--instants", page.instants, "the most instants of a run, evenly chosen")
@@ -308,7 +320,7 @@ void add_picture(CLI::App& app, PictureArguments& arguments) {
       "--bare", [&] { request.captions = mechanism::Captions::none; }, "without title and times");
   command->callback([&] {
     request.page.shown = complete(arguments.runs);
-    if (request.output.empty()) request.output = default_page(request.page.shown.files, ".png");
+    if (request.output.empty()) request.output = mechanism::default_page(request.page.shown.files, ".png");
     require_output(request.output, drawn_files(arguments.runs), Replaces::anything);
     say(mechanism::picture(request));
   });
@@ -365,6 +377,9 @@ int command_line(int argc, char** argv) {
 
   mechanism::StudyRequest study_request;
   add_study(app, study_request, code);
+
+  LedgerArguments ledger_arguments;
+  add_ledger(app, ledger_arguments, code);
 
   std::string export_file, export_output;
   std::vector<std::string> export_channels;
@@ -423,7 +438,7 @@ int command_line(int argc, char** argv) {
   add_page_options(*view_command, view_request);
   view_command->callback([&] {
     view_request.shown = complete(view_arguments);
-    if (view_request.output.empty()) view_request.output = default_page(view_request.shown.files, ".html");
+    if (view_request.output.empty()) view_request.output = mechanism::default_page(view_request.shown.files, ".html");
     if (paraview.empty()) require_output(view_request.output, drawn_files(view_arguments), Replaces::anything);
     say(paraview.empty() ? mechanism::view(view_request) : mechanism::write_paraview(view_request, paraview));
   });
@@ -449,6 +464,7 @@ int command_line(int argc, char** argv) {
             {"view", about_view},
             {"picture", about_picture},
             {"study", about_study},
+            {"ledger", about_ledger},
             {"compare", about_compare}},
            argc, argv);
   try {

@@ -311,6 +311,19 @@ std::vector<Block> all_blocks(const ResultsLayout& layout) {
   return blocks;
 }
 
+std::string without_alias(std::string channel, const ResultsLayout& layout) {
+  if (!channel.starts_with("nodes/")) return channel;
+  for (const auto& [name, node] : layout.node_aliases) {
+    const std::string inside = "/" + name;
+    const std::size_t at = channel.find(inside);
+    if (at == std::string::npos) continue;
+    const std::size_t end = at + inside.size();
+    if (end == channel.size() || channel[end] == '/')
+      return channel.replace(at + 1, name.size(), layout.nodes[static_cast<std::size_t>(node)]);
+  }
+  return channel;
+}
+
 std::vector<Block> mode_blocks(const ResultsLayout& layout) {
   const std::string rate = unit_label(layout.units, 0, 0, -1), frequency = rate == "s^-1" ? "Hz" : rate;
   const std::vector<std::string> complex{"real", "imaginary"};

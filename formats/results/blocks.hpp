@@ -28,6 +28,9 @@ struct Block {
 /// All blocks that the layout has columns for, in the order of RESULTS.md, /time first; the selection is not applied.
 std::vector<Block> all_blocks(const ResultsLayout& layout);
 
+/// "nodes/position/rod/end/x" -> "nodes/position/rod/8/x": a node that has two names is stored once. Also of patterns.
+std::string without_alias(std::string channel, const ResultsLayout& layout);
+
 /// Those of /modes, whose rows are modes and no instants.
 std::vector<Block> mode_blocks(const ResultsLayout& layout);
 

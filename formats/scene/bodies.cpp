@@ -17,7 +17,6 @@ constexpr Choice<InertiaOption> inertia_options[] = {
     {"A", InertiaOption::A}, {"B", InertiaOption::B}, {"M", InertiaOption::M}, {"F", InertiaOption::F}};
 constexpr Choice<StiffeningOption> stiffening_options[] = {
     {"off", StiffeningOption::off}, {"stress", StiffeningOption::stress}, {"full", StiffeningOption::full}};
-constexpr Choice<bool> on_or_off[] = {{"off", false}, {"on", true}};
 
 std::string resolve(const std::string& folder, const std::string& file) {
   return file.empty() ? file : (std::filesystem::path(folder) / file).lexically_normal().string();

@@ -49,6 +49,13 @@ struct Damping {
   bool operator==(const Damping&) const = default;
 };
 
+/// Terms of a body that a program may leave out of its equations; `effects` of a scene does.
+struct BodyTerms {
+  bool rotary_inertia = true;  ///< of the sections of beams
+  bool gyroscopic = true;      ///< Ω × J Ω of rigid bodies
+  bool damping = true;         ///< that of the body, with that of its file
+};
+
 struct SuperelementBodySpec {
   std::string name;
   std::string file;  ///< resolved path
@@ -68,6 +75,7 @@ struct SuperelementBodySpec {
   Damping damping;
   std::optional<Eigen::Vector3d> gravity;  ///< absent: that of the scene
   std::vector<ShapeSpec> shapes;
+  BodyTerms terms;
   std::string where;
 };
 
@@ -85,6 +93,7 @@ struct RigidBodySpec {
   std::vector<RigidNodeSpec> nodes;        ///< named places for joints and loads; the part frame itself is `<body>`
   std::optional<Eigen::Vector3d> gravity;  ///< absent: that of the scene
   std::vector<ShapeSpec> shapes;
+  BodyTerms terms;
   std::string where;
 };
 
@@ -114,6 +123,7 @@ struct BeamBodySpec {
   Section section;
   Material material;
   std::optional<Eigen::Vector3d> gravity;  ///< absent: that of the scene
+  BodyTerms terms;
   std::string where;
 };
 
@@ -129,6 +139,7 @@ struct ModalBodySpec {
   Damping damping;                         ///< beside that of the file
   std::optional<Eigen::Vector3d> gravity;  ///< absent: that of the scene
   std::vector<ShapeSpec> shapes;
+  BodyTerms terms;
   std::string where;
 };
 

@@ -205,6 +205,17 @@ void check_node(const SceneIndex& scene, const MarkerSpec& marker, const std::st
                fmt::format("write {}/<node>{}", body_name, beam ? fmt::format(", for example {}/end", body_name) : ""));
 }
 
+/// Whether bodies have what is switched hangs on their files and is told where the model is built.
+void check_effects(const Scene& scene, Faults& faults) {
+  std::vector<std::string> names;
+  if (!scene.effects.empty())
+    for (const BodySpec& body : scene.bodies) names.push_back(name_of(body));
+  std::set<std::string> told;
+  for (const EffectSwitch& one : scene.effects)
+    if (!one.body.empty() && told.insert(one.body).second)
+      check_reference("effects", "body", one.body, names, one.where, "", faults);
+}
+
 }  // namespace
 
 void check_marker(const SceneIndex& scene, const MarkerSpec& marker, const std::string& subject,
@@ -347,6 +358,7 @@ Faults find_faults(const Scene& scene) {
   if (scene.name.empty()) faults.add(scene.file, "scene", "the scene has no name", "scene: <name>");
   if (!scene.gravity.allFinite()) faults.add(scene.file, "gravity", "gravity must be finite", "");
   if (scene.bodies.empty()) faults.add(scene.file, "bodies", "the scene has no bodies", "");
+  check_effects(scene, faults);
   const SceneIndex index(scene);
   std::unordered_set<std::string> bodies, joints, motions, springs, bushings, roads, tyres, loads;
   for (const BodySpec& body : scene.bodies) {

@@ -41,9 +41,10 @@ KeySet instance_fields() {
 
 std::vector<KeySet> scene_key_sets() {
   std::vector<KeySet> sets{{"scene", scene_fields()}, {"assembly", assembly_fields()}, instance_fields()};
-  for (const auto& lists : {common_key_sets(), section_key_sets(), body_key_sets(), shape_of_body_key_sets(),
-                            joint_key_sets(), force_key_sets(), tyre_key_sets(), channel_key_sets(),
-                            time_function_key_sets(), analysis_key_sets(), integrator_key_sets(), settings_key_sets()})
+  for (const auto& lists :
+       {common_key_sets(), section_key_sets(), effect_key_sets(), body_key_sets(), shape_of_body_key_sets(),
+        joint_key_sets(), force_key_sets(), tyre_key_sets(), channel_key_sets(), time_function_key_sets(),
+        analysis_key_sets(), integrator_key_sets(), settings_key_sets()})
     sets.insert(sets.end(), lists.begin(), lists.end());
   return sets;
 }

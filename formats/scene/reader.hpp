@@ -16,6 +16,7 @@ inline constexpr Choice<AnalysisKind> analysis_kinds[] = {{"dynamics", AnalysisK
                                                           {"kinematics", AnalysisKind::kinematics},
                                                           {"inverse_dynamics", AnalysisKind::inverse_dynamics},
                                                           {"modes", AnalysisKind::modes}};
+inline constexpr Choice<bool> on_or_off[] = {{"off", false}, {"on", true}};
 
 /// What bodies may refer to.
 struct SceneDefinitions {
@@ -35,6 +36,8 @@ CoordinateRef read_coordinate(const MapReader& map, const YamlNode& node, const 
 
 /// `shape` of a body.
 std::vector<ShapeSpec> read_shapes(const MapReader& body, const SceneDefinitions& definitions);
+/// `effects` of the scene.
+std::vector<EffectSwitch> read_effects(const MapReader& map);
 std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& definitions);
 /// `joints`: joints, and gears and racks between their coordinates.
 void read_joints(const MapReader& map, Scene& scene);
@@ -59,6 +62,7 @@ void read_groups(const MapReader& map, const Context& entry, std::optional<doubl
 
 // Lists of fields, each beside the functions that read them.
 std::vector<Field> scene_fields();
+std::vector<KeySet> effect_key_sets();
 std::vector<KeySet> body_key_sets();
 std::vector<KeySet> shape_of_body_key_sets();
 NamedType shape_of_body_type();

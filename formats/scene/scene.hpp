@@ -17,7 +17,8 @@
 #include "formats/roads/road_heights.hpp"
 #include "formats/scene/analysis.hpp"
 #include "formats/scene/body_spec.hpp"
-#include "formats/scene/function_spec.hpp"
+#include "formats/scene/effects.hpp"
+#include "formats/tables/function_spec.hpp"
 #include "formats/sections/section.hpp"
 #include "formats/yaml/override.hpp"
 #include "formats/yaml/tree.hpp"
@@ -241,6 +242,7 @@ struct Scene {
   std::shared_ptr<const YamlNode> tree;  ///< after `include`, instances and overrides; null: made by a program
   Units units = Units::si();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  std::vector<EffectSwitch> effects;  ///< carried out where the model is built (mechanism/build/effects.hpp)
   std::vector<BodySpec> bodies;
   std::vector<JointSpec> joints;
   std::vector<GearSpec> gears;

@@ -6,7 +6,7 @@
 
 #include "formats/scene/check_parts.hpp"
 #include "formats/scene/reader.hpp"
-#include "formats/scene/road_spectrum.hpp"
+#include "formats/roads/road_spectrum.hpp"
 #include "formats/scene/time_function_reader.hpp"
 #include "formats/tyres/tyre_property_file.hpp"
 #include "formats/yaml/fields.hpp"

@@ -17,6 +17,7 @@ struct RigidBody {
   double mass = 0.0;
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  bool gyroscopic = true;  ///< false: Ω × J Ω is left out
 };
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
@@ -25,13 +26,20 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 /// Newton and Euler: r = [m (ẍ − g); J Ω̇ + Ω × J Ω], force in world axes, moment in body axes.
 inline void residual(const RigidBody& body, const NodeMotion& n, const Eigen::Vector3d& gravity, Vector6d& r) {
   r.head<3>() = body.mass * (n.xdd - gravity);
-  r.tail<3>() = body.inertia * n.Omegad + n.Omega.cross(body.inertia * n.Omega);
+  if (body.gyroscopic)
+    r.tail<3>() = body.inertia * n.Omegad + n.Omega.cross(body.inertia * n.Omega);
+  else
+    r.tail<3>() = body.inertia * n.Omegad;
 }
 
 /// c_m ∂r/∂v̇ + c_c ∂r/∂v; the stiffness is zero.
 inline void tangent(const RigidBody& body, const NodeMotion& n, const TangentCoefficients& c, Matrix6d& A) {
   A.setZero();
   A.diagonal().head<3>().setConstant(c.mass * body.mass);
+  if (!body.gyroscopic) {
+    A.block<3, 3>(3, 3) = c.mass * body.inertia;
+    return;
+  }
   const Eigen::Vector3d momentum = body.inertia * n.Omega;
   A.block<3, 3>(3, 3) =
       c.mass * body.inertia + c.damping * (skew<double>(n.Omega) * body.inertia - skew<double>(momentum));

@@ -200,6 +200,7 @@ class BodyBuilder {
     formats::RigidBodySpec rigid;
     rigid.name = spec.name;
     rigid.gravity = spec.gravity;
+    rigid.terms = spec.terms;
     rigid.start = spec.start;
     rigid.mass = file.report.rigid.mass * units.mass;
     rigid.center_of_mass = file.report.rigid.center_of_mass * units.length;
@@ -229,7 +230,7 @@ class BodyBuilder {
     const int node = add_node(spec.name, spec.start, spec.center_of_mass, 1, 1, c_);
     note_start(spec.name, spec.start, node, c_);
     c_.model.rigid_bodies.push_back(
-        {spec.name, node, spec.mass, spec.inertia, spec.gravity.value_or(c_.scene.gravity)});
+        {spec.name, node, spec.mass, spec.inertia, spec.gravity.value_or(c_.scene.gravity), spec.terms.gyroscopic});
     add_frame(spec.name, {node, -spec.center_of_mass, Matrix3d::Identity()});
     for (const formats::RigidNodeSpec& place : spec.nodes)
       add_place(spec.name + "/" + place.name, {node, place.pose.position - spec.center_of_mass,
@@ -249,9 +250,11 @@ class BodyBuilder {
     add_alias(spec.name + "/start", last + 1 - static_cast<int>(nodes.size()));
     add_alias(spec.name + "/end", last);
     const Vector3d gravity = spec.gravity.value_or(c_.scene.gravity);
-    const auto append = [&nodes, &gravity](const auto& elements, auto& pool) {
+    const auto append = [&](const auto& elements, auto& pool) {
       for (auto element : elements) {
         element.gravity = gravity;
+        element.rotary = spec.terms.rotary_inertia;
+        if (!element.rotary) element.inertia.fill(Matrix3d::Zero());
         for (int& node : element.nodes) node = nodes[node];
         pool.push_back(element);
       }

@@ -2,6 +2,7 @@
 #include "mechanism/build/build_model.hpp"
 
 #include "mechanism/build/bodies.hpp"
+#include "mechanism/build/effects.hpp"
 #include "mechanism/build/initial_state.hpp"
 #include "mechanism/build/joints.hpp"
 #include "mechanism/build/loads.hpp"
@@ -33,6 +34,7 @@ void give_velocity(const formats::InitialSpec& entry, Construction& c) {
 }  // namespace
 
 BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files) {
+  if (const auto switched = with_effects_switched(scene, files)) return build_model(*switched, files);
   Construction c = with_bodies(scene, files);
   c.collect([&] { eliminate_virtual_bodies(c); });
   c.throw_errors();

@@ -57,7 +57,8 @@ struct BuiltModel {
   std::vector<std::string> notes;  ///< conversions, cut modes, warnings: whole sentences
 };
 
-/// Throws Error (all that are found) for names that do not exist, joints on nodes without rotations, and so on.
+/// Of a scene with switches: what is on (build/effects.hpp). Throws Error (all that are found) for names that do not
+/// exist, joints on nodes without rotations, and so on.
 BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files);
 
 }  // namespace tisserand::mechanism

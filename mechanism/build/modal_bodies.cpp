@@ -73,6 +73,7 @@ BuiltModalBody build_modal_body(const formats::ModalBody& file, const formats::M
   body.modes = count_modes(file, spec, units);
   set_integrals(file.integrals, units, body);
   set_stiffness(file, spec.damping, units, body);
+  if (!spec.terms.damping) body.damping.setZero();
   const double root = std::sqrt(units.mass);
   for (std::size_t k = 0; k < file.node_name.size(); ++k) {
     ModalNode node;

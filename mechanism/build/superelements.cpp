@@ -23,7 +23,7 @@ SuperelementOptions options_of(const formats::SuperelementBodySpec& spec, const 
   options.cutoff = spec.cutoff;
   options.position_weights = spec.position_weights;
   options.rotation_weights = spec.rotation_weights;
-  options.damping = spec.damping;
+  if (spec.terms.damping) options.damping = spec.damping;
   options.units = units;
   options.where = spec.where;
   return options;

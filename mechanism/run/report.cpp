@@ -90,6 +90,7 @@ std::string report_json(const RunReport& report) {
   json["linear_solver"] = solver_json(report);
   json["doubts"] = report.doubts;
   json["effects"] = report.effects;
+  json["switches"] = report.switches;
   json["notes"] = report.notes;
   if (!report.table.empty()) json["table"] = {{"title", report.table_title}, {"lines", report.table}};
   const auto before = nlohmann::ordered_json::parse(report.before, nullptr, false);
@@ -109,6 +110,7 @@ std::string report_text(const RunReport& report, const Units& units) {
   };
   for (const std::string& note : report.notes) line("note", note);
   line("model", join(report.effects, ", "));
+  line("effects", report.switches);
   line("mobility", fmt::format("{} degrees of freedom: {} coordinates, {} constraints of rank {}",
                                report.mobility.degrees_of_freedom, report.mobility.coordinates,
                                report.mobility.constraints, report.mobility.rank));

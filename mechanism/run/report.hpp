@@ -42,6 +42,7 @@ struct RunReport {
   std::vector<std::string> notes;
   std::vector<std::string> doubts;  ///< of the results, measured while it ran
   std::vector<std::string> effects;  ///< what the model contains: pools and terms that are on
+  std::string switches;              ///< optional effects that it has, and those that the scene switches off
   std::string solver;
   SolverHealth solver_health;
   int unknowns = 0, nonzeros = 0;

@@ -10,6 +10,7 @@
 #include "common/text.hpp"
 #include "mechanism/analyses/kinematics.hpp"
 #include "mechanism/analyses/statics.hpp"
+#include "mechanism/build/effects.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/model/bodies.hpp"
 #include "mechanism/run/output.hpp"
@@ -166,11 +167,12 @@ void note_start(const StartReport& start, Run& run) {
 }  // namespace
 
 Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunControl& run_control)
-    : scene(scene_to_run),
+    : switched(with_effects_switched(scene_to_run, files)),
+      scene(switched ? *switched : scene_to_run),
       control(run_control),
-      built(build_model(scene_to_run, files)),
+      built(build_model(scene, files)),
       workspace(built.model),
-      doubts(scene_to_run, built.model),
+      doubts(scene, built.model),
       at_start(built.state) {
   report.analysis = scene.analysis;
   report.notes = built.notes;
@@ -178,6 +180,7 @@ Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunCo
   report.unknowns = built.model.pattern->size();
   report.nonzeros = built.model.pattern->nonzeros();
   report.effects = effects(built.model);
+  report.switches = effects_text(effects_of(scene_to_run, files));
 }
 
 std::string nonfinite_load(Run& run, double time) {
@@ -295,7 +298,10 @@ void write_row(Run& run, const StepReport& step, double size, RowWriter& out, co
     row.work = row.dissipated = row.balance = std::numeric_limits<double>::quiet_NaN();
   if (edit) edit(row);
   out.writer.append(row);
-  if (run.listener != nullptr) run.listener->row(row);
+  if (run.listener != nullptr) {
+    run.listener->row(row);
+    run.listener->state(run.built.state);
+  }
   RunReport& report = run.report;
   if (report.analysis == formats::AnalysisKind::dynamics) run.doubts.at_row(row);
   ++report.rows;

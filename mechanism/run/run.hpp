@@ -28,11 +28,14 @@ class RunListener {
   virtual ~RunListener() = default;
   virtual void begin(const formats::ResultsLayout& layout) = 0;
   virtual void row(const formats::ResultsRow& row) = 0;
+  /// After each row: the state that it tells.
+  virtual void state(const State&) {}
   /// Before the report is stored.
   virtual void end(RunReport& report) = 0;
 };
 
 struct Run {
+  std::optional<formats::Scene> switched;  ///< where the scene switches effects: what is left of it
   const formats::Scene& scene;
   const RunControl& control;
   RunListener* listener = nullptr;

@@ -87,21 +87,11 @@ class Recorder : public RunListener {
   std::size_t column_ = 0;
 };
 
-/// "nodes/position/rod/end/x" -> "nodes/position/rod/8/x": a node that has two names is stored once.
-std::string without_alias(std::string channel, const formats::ResultsLayout& layout) {
-  for (const auto& [name, node] : layout.node_aliases) {
-    const std::size_t at = channel.find("/" + name + "/");
-    if (at == std::string::npos || !channel.starts_with("nodes/")) continue;
-    return channel.replace(at + 1, name.size(), layout.nodes[static_cast<std::size_t>(node)]);
-  }
-  return channel;
-}
-
 void Recorder::begin(const formats::ResultsLayout& layout) {
   history = {};
   history.source = where_;
   history.channel = channel_;
-  const std::string channel = without_alias(channel_, layout);
+  const std::string channel = formats::without_alias(channel_, layout);
   std::vector<std::string> names;
   for (const formats::Block& block : formats::all_blocks(layout))
     for (std::size_t i = 0; i < block.width(); ++i) {

@@ -210,7 +210,7 @@ TEST_F(Outputs, UsageErrorsAreTwoAndHelpTeaches) {
     EXPECT_THAT(outcome.error, AllOf(HasSubstr("mechanism: "), HasSubstr("--help` explains")));
   }
   EXPECT_THAT(mechanism({"rnu"}).error, HasSubstr("there is no command 'rnu'; did you mean 'run'?"));
-  for (const char* command : {"run", "check", "export", "channels", "plot", "compare"}) {
+  for (const char* command : {"run", "check", "export", "channels", "plot", "compare", "ledger"}) {
     const Outcome outcome = mechanism({command, "--help"});
     EXPECT_EQ(outcome.code, 0);
     EXPECT_THAT(outcome.out, HasSubstr(std::string("\n  mechanism ") + command));  // an example

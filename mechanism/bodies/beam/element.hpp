@@ -46,6 +46,7 @@ struct BeamElement {
   std::array<Eigen::Vector3d, points> initial_kappa{};  ///< κ₀
   double mass = 0.0;                                    ///< ρ A L
   std::array<Eigen::Matrix3d, N> inertia{};             ///< rotary inertia of node i in node axes
+  bool rotary = true;                                   ///< false: inertia is zero, and left out of all sums
   Eigen::Vector3d gravity = {0, 0, 0};                  ///< of its body, for the caller to scale and pass on
 };
 

@@ -233,6 +233,7 @@ void add_inertia(const BeamElement<N>& e, const NodePointers<Motion, N>& node, c
     Vec3<S> f = gravity.template cast<S>() * S(-m * Shares<N>::node[i]);
     for (int j = 0; j < N; ++j) f += node[j]->xdd * S(m * Shares<N>::mass[i][j]);
     r.template segment<3>(6 * i) += f;
+    if (!e.rotary) continue;
     const Mat3<S> J = e.inertia[i].template cast<S>();
     const Vec3<S> spin = J * node[i]->Omega;
     r.template segment<3>(6 * i + 3) += J * node[i]->Omegad + cross<S>(node[i]->Omega, spin);

@@ -79,6 +79,7 @@ void set_inertia(const BeamElement<N>& e, std::span<const NodeMotion> nodes, con
   for (int i = 0; i < N; ++i) {
     for (int j = 0; j < N; ++j)
       for (int k = 0; k < 3; ++k) A(6 * i + k, 6 * j + k) = c.mass * e.mass * beam::Shares<N>::mass[i][j];
+    if (!e.rotary) continue;
     const Matrix3d& J = e.inertia[i];
     const Vector3d& Omega = nodes[e.nodes[i]].Omega;
     const Vector3d spin = J * Omega;

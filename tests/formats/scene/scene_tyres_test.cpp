@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "formats/scene/road_spectrum.hpp"
+#include "formats/roads/road_spectrum.hpp"
 #include "formats/scene/scene.hpp"
 #include "tests/formats/yaml/text_input.hpp"
 

@@ -1,7 +1,7 @@
 // Stochastic roads by class and seed, as tables of heights.
 #pragma once
 
-#include "formats/scene/scene.hpp"
+#include "formats/tables/function_spec.hpp"
 
 namespace tisserand::formats {
 

@@ -1,9 +1,12 @@
 // Waves of stochastic roads, added by the recurrence of cosines.
-#include "formats/scene/road_spectrum.hpp"
+#include "formats/roads/road_spectrum.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <random>
+
+#include <Eigen/Core>
 
 namespace tisserand::formats {
 

@@ -1,0 +1,309 @@
+// What each type of body has of each effect, and how the specification of a body does without it.
+#include "mechanism/build/effects.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "mechanism/build/superelements.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using formats::Effect;
+
+/// What a body has of an effect: nothing, a term that can be left out, or something that is part of other terms.
+struct Share {
+  enum class Kind { none, term, part };
+  Kind kind = Kind::none;
+  const char* remedy = "";  ///< none: what gives it the effect; part: what to do instead of switching
+};
+
+constexpr Share own_term{Share::Kind::term};
+Share no_share(const char* remedy) { return {Share::Kind::none, remedy}; }
+Share inseparable(const char* remedy) { return {Share::Kind::part, remedy}; }
+Share share_if(bool has, const char* remedy) { return has ? own_term : no_share(remedy); }
+
+constexpr const char* no_weight = "give the scene or the body 'gravity'";
+constexpr const char* no_damping = "give the body 'damping'";
+constexpr const char* of_joints =
+    "friction belongs to joints: switch it for the scene, or change 'friction' of a joint";
+constexpr const char* of_springs = "stops belong to springs: switch them for the scene, or change 'lower' and 'upper'";
+
+bool is_damped(const formats::Damping& damping) { return damping != formats::Damping{}; }
+
+/// What all bodies with mass answer alike.
+template <class Spec>
+Share common_share(const Spec& spec, Effect effect, const formats::Scene& scene) {
+  if (effect == Effect::gravity) return share_if(!spec.gravity.value_or(scene.gravity).isZero(0.0), no_weight);
+  return no_share(effect == Effect::friction ? of_joints : effect == Effect::stops ? of_springs : "");
+}
+
+Share share_of_rigid(Effect effect) {
+  if (effect == Effect::gyroscopic) return own_term;
+  return no_share(effect == Effect::flexibility      ? "a rigid body has none: take a superelement, or use: flexible"
+                  : effect == Effect::rotary_inertia ? "a rigid body turns with its 'inertia'"
+                                                     : "rigid bodies have none");
+}
+
+/// By the companion of its file, if there is one and the body may use it.
+SecondOrderChoice choice_of(const formats::SuperelementBodySpec& spec, const BodyFiles& files) {
+  const auto found = may_use_companion(spec) ? files.companions.find(spec.file) : files.companions.end();
+  return choose_second_order(spec, found == files.companions.end() ? nullptr : &found->second);
+}
+
+bool takes_common_share(Effect effect) {
+  return effect == Effect::gravity || effect == Effect::friction || effect == Effect::stops;
+}
+
+Share share_of(const formats::SuperelementBodySpec& spec, Effect effect, const formats::Scene& scene,
+               const BodyFiles& files) {
+  if (takes_common_share(effect)) return common_share(spec, effect, scene);
+  if (spec.rigid) return share_of_rigid(effect);
+  if (effect == Effect::flexibility) return own_term;
+  if (effect == Effect::stiffening)
+    return share_if(choice_of(spec, files).stiffening != formats::StiffeningOption::off,
+                    "write the companion file (second_order: yes in the part file), or give 'stiffening'");
+  if (effect == Effect::damping) return share_if(is_damped(spec.damping), no_damping);
+  if (effect == Effect::rotary_inertia)
+    return inseparable("it is in the mass matrix: write rotary_inertia: off at the beams of the part file");
+  return inseparable("its inertia forces go together: choose 'inertia' of the body");
+}
+
+Share share_of(const formats::ModalBodySpec& spec, Effect effect, const formats::Scene& scene, const BodyFiles& files) {
+  if (takes_common_share(effect)) return common_share(spec, effect, scene);
+  const formats::ModalBody& file = files.modal_bodies.at(spec.file).body;
+  if (effect == Effect::flexibility) return share_if(spec.modes.value_or(1) > 0 && file.modes() > 0, "give it 'modes'");
+  if (effect == Effect::damping) return share_if(is_damped(spec.damping) || !file.zeta.isZero(0.0), no_damping);
+  if (effect == Effect::stiffening)
+    return no_share("modal bodies have none: take a superelement with a companion file");
+  if (effect == Effect::rotary_inertia) return inseparable("write its file with masses without inertia");
+  return inseparable("its inertia forces go together");
+}
+
+Share share_of(const formats::BeamBodySpec& spec, Effect effect, const formats::Scene& scene, const BodyFiles&) {
+  if (takes_common_share(effect)) return common_share(spec, effect, scene);
+  if (effect == Effect::rotary_inertia) return own_term;
+  if (effect == Effect::damping) return no_share("beams have none: put dampers beside it");
+  if (effect == Effect::flexibility) return inseparable("make it a rigid body, or reduce it to a superelement");
+  if (effect == Effect::stiffening)
+    return inseparable("the strains of beams are nonlinear: reduce it to a superelement");
+  return no_share("that of its sections goes with rotary_inertia: off");
+}
+
+Share share_of(const formats::RigidBodySpec& spec, Effect effect, const formats::Scene& scene, const BodyFiles&) {
+  return takes_common_share(effect) ? common_share(spec, effect, scene) : share_of_rigid(effect);
+}
+
+Share share_of(const formats::VirtualBodySpec&, Effect effect, const formats::Scene&, const BodyFiles&) {
+  return no_share(effect == Effect::friction ? of_joints
+                  : effect == Effect::stops  ? of_springs
+                                             : "a virtual body has no mass and no stiffness");
+}
+
+const std::string& body_name(const formats::BodySpec& body) {
+  return std::visit([](const auto& spec) -> const std::string& { return spec.name; }, body);
+}
+
+bool has_stops(const formats::SpringSpec& spring) { return spring.lower || spring.upper; }
+
+bool has_friction(const formats::Scene& scene) {
+  return std::ranges::any_of(scene.joints, [](const formats::JointSpec& joint) { return joint.friction.has_value(); });
+}
+
+bool belongs_to_scene(Effect effect) { return effect == Effect::friction || effect == Effect::stops; }
+
+bool scene_has(Effect effect, const formats::Scene& scene) {
+  return effect == Effect::friction ? has_friction(scene) : std::ranges::any_of(scene.springs, has_stops);
+}
+
+/// The switches of a scene: what is said of a body counts before what is said of all.
+class Switches {
+ public:
+  explicit Switches(const formats::Scene& scene) {
+    for (const formats::EffectSwitch& one : scene.effects) on_[{one.effect, one.body}] = one.on;
+  }
+  bool on(Effect effect, const std::string& body) const {
+    auto found = on_.find({effect, body});
+    if (found == on_.end()) found = on_.find({effect, ""});
+    return found == on_.end() || found->second;
+  }
+
+ private:
+  std::map<std::pair<Effect, std::string>, bool> on_;
+};
+
+// How a body does without an effect of which it has a term.
+
+void leave_out_common(Effect effect, std::optional<Eigen::Vector3d>& gravity, formats::BodyTerms& terms) {
+  if (effect == Effect::gravity) gravity = Eigen::Vector3d::Zero();
+  if (effect == Effect::damping) terms.damping = false;
+  if (effect == Effect::gyroscopic) terms.gyroscopic = false;
+  if (effect == Effect::rotary_inertia) terms.rotary_inertia = false;
+}
+
+/// `before`: the body with all of its effects.
+void leave_out(Effect effect, const BodyFiles& files, const formats::SuperelementBodySpec& before,
+               formats::SuperelementBodySpec& spec) {
+  leave_out_common(effect, spec.gravity, spec.terms);
+  if (effect == Effect::flexibility) spec.rigid = true;
+  if (effect != Effect::stiffening) return;
+  spec.inertia = choice_of(before, files).inertia;
+  spec.stiffening = formats::StiffeningOption::off;
+  spec.second_order.reset();
+}
+
+void leave_out(Effect effect, const BodyFiles&, const formats::ModalBodySpec&, formats::ModalBodySpec& spec) {
+  leave_out_common(effect, spec.gravity, spec.terms);
+  if (effect != Effect::flexibility) return;
+  spec.modes = 0;
+  spec.cutoff.reset();
+}
+
+template <class Spec>
+void leave_out(Effect effect, const BodyFiles&, const Spec&, Spec& spec) {
+  if constexpr (requires { spec.gravity; }) leave_out_common(effect, spec.gravity, spec.terms);
+}
+
+formats::BodySpec without_effects_off(const formats::BodySpec& body, const Switches& switches,
+                                      const formats::Scene& scene, const BodyFiles& files) {
+  return std::visit(
+      [&](const auto& before) -> formats::BodySpec {
+        auto spec = before;
+        for (const Effect effect : formats::all_effects)
+          if (!switches.on(effect, spec.name) && share_of(before, effect, scene, files).kind == Share::Kind::term)
+            leave_out(effect, files, before, spec);
+        return spec;
+      },
+      body);
+}
+
+/// Faults of one switch.
+class SwitchCheck {
+ public:
+  SwitchCheck(const formats::Scene& scene, const BodyFiles& files) : scene_(scene), files_(files) {}
+
+  void check(const formats::EffectSwitch& one) const {
+    if (one.body.empty())
+      check_of_scene(one);
+    else
+      check_of_body(one);
+  }
+
+ private:
+  Share share(const formats::BodySpec& body, Effect effect) const {
+    return std::visit([&](const auto& spec) { return share_of(spec, effect, scene_, files_); }, body);
+  }
+
+  [[noreturn]] static void throw_part(const formats::EffectSwitch& one, const std::string& body, const char* remedy) {
+    throw Error(fmt::format("effects: {} of body '{}' is no term of its own that could be switched",
+                            formats::effect_word(one.effect), body),
+                one.where, fmt::format("{}{}", remedy, one.body.empty() ? "; or switch other bodies by name" : ""));
+  }
+
+  void check_of_body(const formats::EffectSwitch& one) const {
+    const auto body = std::ranges::find(scene_.bodies, one.body, body_name);
+    TISSERAND_ENSURE(body != scene_.bodies.end(), "no body '{}'", one.body);
+    const Share share = this->share(*body, one.effect);
+    const std::string word = formats::effect_word(one.effect);
+    if (share.kind == Share::Kind::part) throw_part(one, one.body, share.remedy);
+    if (share.kind == Share::Kind::none)
+      throw Error(fmt::format("effects: body '{}' has no {} to switch {}", one.body, word, one.on ? "on" : "off"),
+                  one.where, share.remedy);
+  }
+
+  void check_of_scene(const formats::EffectSwitch& one) const {
+    bool has = belongs_to_scene(one.effect) && scene_has(one.effect, scene_);
+    const char* remedy = one.effect == Effect::friction ? "give a joint 'friction'"
+                         : one.effect == Effect::stops  ? "give a spring 'lower' or 'upper'"
+                                                        : "";
+    for (const formats::BodySpec& body : scene_.bodies) {
+      if (belongs_to_scene(one.effect)) break;
+      const Share share = this->share(body, one.effect);
+      if (share.kind == Share::Kind::part && !one.on && !is_switched_by_name(one.effect, body_name(body)))
+        throw_part(one, body_name(body), share.remedy);
+      has = has || share.kind != Share::Kind::none;
+      if (share.kind == Share::Kind::none) remedy = share.remedy;
+    }
+    if (!has)
+      throw Error(fmt::format("effects: nothing in the scene has {} to switch {}", formats::effect_word(one.effect),
+                              one.on ? "on" : "off"),
+                  one.where, remedy);
+  }
+
+  bool is_switched_by_name(Effect effect, const std::string& body) const {
+    return std::ranges::any_of(
+        scene_.effects, [&](const formats::EffectSwitch& one) { return one.effect == effect && one.body == body; });
+  }
+
+  const formats::Scene& scene_;
+  const BodyFiles& files_;
+};
+
+void require_switches_fit(const formats::Scene& scene, const BodyFiles& files) {
+  const SwitchCheck switches(scene, files);
+  std::vector<Error> errors;
+  for (const formats::EffectSwitch& one : scene.effects) {
+    try {
+      switches.check(one);
+    } catch (const Error& error) {
+      errors.push_back(error);
+    }
+  }
+  if (!errors.empty()) throw merge_errors(errors);
+}
+
+}  // namespace
+
+std::vector<EffectUse> effects_of(const formats::Scene& scene, const BodyFiles& files) {
+  const Switches switches(scene);
+  std::vector<EffectUse> uses;
+  for (const Effect effect : formats::all_effects) {
+    if (belongs_to_scene(effect) && scene_has(effect, scene)) uses.push_back({effect, "", switches.on(effect, "")});
+    for (const formats::BodySpec& body : scene.bodies) {
+      const auto share = [&](const auto& spec) { return share_of(spec, effect, scene, files); };
+      if (std::visit(share, body).kind == Share::Kind::term)
+        uses.push_back({effect, body_name(body), switches.on(effect, body_name(body))});
+    }
+  }
+  return uses;
+}
+
+std::string effects_text(const std::vector<EffectUse>& uses) {
+  std::vector<std::string> on, off;
+  for (const Effect effect : formats::all_effects) {
+    const std::string word = formats::effect_word(effect);
+    std::vector<std::string> left_out;
+    std::size_t all = 0;
+    for (const EffectUse& use : uses) {
+      if (use.effect != effect) continue;
+      ++all;
+      if (!use.on) left_out.push_back(fmt::format("'{}'", use.body));
+    }
+    if (left_out.size() < all) on.push_back(word);
+    if (left_out.empty()) continue;
+    off.push_back(left_out.size() == all ? word : fmt::format("{} of {}", word, listed(left_out)));
+  }
+  if (on.empty() && off.empty()) return "none";
+  return join(on, ", ") + (off.empty() ? "" : fmt::format("{}off: {}", on.empty() ? "" : "; ", join(off, ", ")));
+}
+
+std::optional<formats::Scene> with_effects_switched(const formats::Scene& scene, const BodyFiles& files) {
+  if (scene.effects.empty()) return std::nullopt;
+  require_switches_fit(scene, files);
+  const Switches switches(scene);
+  formats::Scene switched = scene;
+  switched.effects.clear();
+  for (formats::BodySpec& body : switched.bodies) body = without_effects_off(body, switches, scene, files);
+  if (!switches.on(Effect::friction, ""))
+    for (formats::JointSpec& joint : switched.joints) joint.friction.reset();
+  if (!switches.on(Effect::stops, ""))
+    for (formats::SpringSpec& spring : switched.springs) spring.lower = spring.upper = std::nullopt;
+  return switched;
+}
+
+}  // namespace tisserand::mechanism

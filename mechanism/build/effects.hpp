@@ -1,0 +1,30 @@
+// From a scene that switches effects to one without switches, of which a model has only what is on.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/scene/scene.hpp"
+#include "mechanism/build/build_model.hpp"
+
+namespace tisserand::mechanism {
+
+/// One effect of one body, or of all joints (friction) or springs (stops), that can be left out of the equations.
+struct EffectUse {
+  formats::Effect effect = formats::Effect::gravity;
+  std::string body;  ///< empty: of the scene
+  bool on = true;    ///< as the switches of the scene leave it
+};
+
+/// All that the scene has, whether on or off, in the order of the effects, then of the bodies.
+std::vector<EffectUse> effects_of(const formats::Scene& scene, const BodyFiles& files);
+
+/// "flexibility, gravity of 2 of 3 bodies; off: friction, damping of 'rod'".
+std::string effects_text(const std::vector<EffectUse>& uses);
+
+/// The scene with its switches carried out and none left; absent: it has none. Throws Error (all that are found) for an
+/// effect that the scene or the body does not have, or that is no term of its own there.
+std::optional<formats::Scene> with_effects_switched(const formats::Scene& scene, const BodyFiles& files);
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,57 @@
+// Options against the one that neglects least, or against one another.
+#include "mechanism/ledger/inertia_verdict.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "common/text.hpp"
+#include "mechanism/ledger/table.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+/// An option is told to be right where it changes what F gives by less.
+constexpr double right_option = 0.01;
+
+double difference(const InertiaRun& a, const InertiaRun& b, const MeasureSizes& sizes, double length) {
+  Comparison comparison(sizes, length);
+  for (std::size_t w = 0; w < a.windows->size(); ++w) comparison.add((*a.windows)[w], (*b.windows)[w]);
+  const std::vector<LedgerChange> changes = comparison.changes();
+  return changes.empty() ? 0.0 : changes.front().part;
+}
+
+std::string verdict_among_equals(const std::string& body, const std::vector<InertiaRun>& runs,
+                                 const MeasureSizes& sizes, double length) {
+  double largest = 0.0;
+  for (const InertiaRun& a : runs)
+    for (const InertiaRun& b : runs) largest = std::max(largest, difference(a, b, sizes, length));
+  if (largest <= right_option)
+    return fmt::format("inertia of '{}': its options agree within {}, any of them is right", body,
+                       percent_text(largest));
+  return fmt::format(
+      "inertia of '{}': its options differ by up to {}: without a companion file none is known to be right; write one, "
+      "or cut the body into several",
+      body, percent_text(largest));
+}
+
+}  // namespace
+
+std::string inertia_verdict(const std::string& body, const std::vector<InertiaRun>& runs, const MeasureSizes& sizes,
+                            double length) {
+  const auto best = std::ranges::find(runs, "F", &InertiaRun::option);
+  if (best == runs.end()) return verdict_among_equals(body, runs, sizes, length);
+  const InertiaRun* right = &*best;
+  std::vector<std::string> parts;
+  for (const InertiaRun& run : runs) {
+    if (&run == &*best) continue;
+    const double error = difference(*best, run, sizes, length);
+    parts.push_back(fmt::format("{} by {}", run.option, percent_text(error)));
+    if (run.differs != nullptr) *run.differs = error;
+    if (error <= right_option && run.cost < right->cost) right = &run;
+  }
+  return fmt::format("inertia of '{}': {} differ from F, which has all of the mass: take {}", body, join(parts, ", "),
+                     right->option);
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,64 @@
+// Plan, states, ledger, words.
+#include "mechanism/ledger/perform.hpp"
+
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "mechanism/ledger/table.hpp"
+#include "mechanism/run/analyses.hpp"
+#include "mechanism/simulate.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+/// Where the last of the planned analyses begins: at the end of another, which is run for it; absent: at the poses.
+std::optional<State> beginning_of_last(const std::vector<PlannedAnalysis>& planned, const BodyFiles& files,
+                                       const RunControl& control) {
+  std::map<std::string, State> ends;
+  for (const PlannedAnalysis& one : planned) {
+    std::optional<State> begin;
+    if (!one.from.empty()) begin = ends.at(one.from);
+    if (&one == &planned.back()) return begin;
+    RunEnd end = simulate(RunRequest{one.scene, files, std::move(begin), "", "", std::nullopt}, control);
+    if (end.report.outcome == RunOutcome::interrupted) return std::nullopt;
+    if (end.report.outcome != RunOutcome::completed)
+      throw Error(fmt::format("analysis '{}', from which '{}' begins, did not end: {}", one.name, planned.back().name,
+                              end.report.reason),
+                  one.scene.file, "correct it, or name another one with --analysis");
+    ends.insert_or_assign(one.name, std::move(end.state));
+  }
+  return std::nullopt;
+}
+
+/// The analysis that is meant, by default the last of dynamics, and those that it starts from.
+std::vector<PlannedAnalysis> planned_for(const formats::Scene& scene, std::string analysis) {
+  if (analysis.empty())
+    for (const formats::Analysis& one : scene.analyses)
+      if (one.kind == formats::AnalysisKind::dynamics) analysis = one.name;
+  return plan(scene, analysis, {});
+}
+
+}  // namespace
+
+std::string perform_ledger(const formats::Scene& scene, const std::string& analysis, const LedgerCommand& command,
+                           const RunControl& control,
+                           const std::function<void(double done, const std::string& next)>& progress) {
+  const std::vector<PlannedAnalysis> planned = planned_for(scene, analysis);
+  const BodyFiles files = read_ledger_files(scene);
+  LedgerRequest request{planned.back().scene, beginning_of_last(planned, files, control)};
+  request.results = command.results;
+  request.windows = command.windows;
+  request.repeats = command.repeats;
+  request.channels = command.channels;
+  request.choice = command.choice;
+  request.least_activity = command.least_activity;
+  request.progress = progress;
+  const Ledger ledger = make_ledger(request, files, control);
+  if (command.json) return ledger_json(ledger);
+  return fmt::format("{}: {}: {}", scene.file, scene.name, ledger_text(ledger, scene.units));
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,171 @@
+// Runs without files, heard by listeners.
+#include "mechanism/ledger/replay.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "formats/results/results.hpp"
+#include "mechanism/run/stored_state.hpp"
+#include "mechanism/simulate.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+/// Rows of a window that are compared, at most: fewer where steps are cut for them.
+constexpr int most_rows = 40;
+
+double run_time(const formats::Scene& scene) { return scene.integrator.end - scene.integrator.start; }
+
+/// Beginning and end of window i: windows of equal length, their beginnings evenly over the run.
+std::pair<double, double> window_times(const formats::IntegratorSpec& integrator, const WindowChoice& choice, int i) {
+  const double whole = integrator.end - integrator.start;
+  const double start = integrator.start + whole * i / choice.windows;
+  return {start, start + choice.share * whole / choice.windows};
+}
+
+/// Its end on the grid of steps that begins at `start`, one step at least, not beyond the run.
+double end_on_grid(const formats::IntegratorSpec& integrator, double start, double end) {
+  if (!integrator.error_control.active && integrator.step > 0.0)
+    end = start + integrator.step * std::max(1.0, std::round((end - start) / integrator.step));
+  return std::min(end, integrator.end);
+}
+
+class ReferenceListener : public RunListener {
+ public:
+  ReferenceListener(const formats::Scene& scene, const LedgerStage& stage, ReferenceRun& run)
+      : scene_(scene), stage_(stage), run_(run) {}
+
+  void begin(const formats::ResultsLayout& layout) override {
+    run_.measures.emplace(scene_, layout, stage_.channels);
+    run_.sizes.emplace(run_.measures->list());
+  }
+  void row(const formats::ResultsRow& row) override { run_.sizes->observe(run_.measures->values(row)); }
+  void state(const State& state) override {
+    const int next = static_cast<int>(run_.windows.size());
+    if (next == stage_.choice.windows) return;
+    const auto [start, end] = window_times(scene_.integrator, stage_.choice, next);
+    const double round_off = 1e-9 * run_time(scene_), time = state.time();
+    if (time < start - round_off || time > scene_.integrator.end - round_off) return;
+    run_.windows.push_back({time, end_on_grid(scene_.integrator, time, time + (end - start)), state});
+  }
+  void end(RunReport&) override {}
+
+ private:
+  const formats::Scene& scene_;
+  const LedgerStage& stage_;
+  ReferenceRun& run_;
+};
+
+class ReplayListener : public RunListener {
+ public:
+  ReplayListener(const formats::Scene& scene, KeepStates keep, const LedgerStage& stage, WindowHistory& history)
+      : scene_(scene), keep_(keep), stage_(stage), history_(history) {}
+
+  void begin(const formats::ResultsLayout& layout) override {
+    history_.measures.emplace(scene_, layout, stage_.channels);
+  }
+  void row(const formats::ResultsRow& row) override {
+    history_.time.push_back(row.time);
+    history_.rows.push_back(history_.measures->values(row));
+  }
+  void state(const State& state) override {
+    if (keep_ == KeepStates::yes) history_.states.push_back(state);
+  }
+  void end(RunReport&) override {}
+
+ private:
+  const formats::Scene& scene_;
+  KeepStates keep_;
+  const LedgerStage& stage_;
+  WindowHistory& history_;
+};
+
+/// The scene as a window of itself.
+formats::Scene windowed(const formats::Scene& scene, const LedgerWindow& window, double whole) {
+  formats::Scene part = scene;
+  formats::IntegratorSpec& integrator = part.integrator;
+  integrator.start = window.start;
+  integrator.end = window.end;
+  part.checkpoint = {};
+  part.initial_tolerance = 1.0;  // of a body that becomes rigid the joints are open by its deformation
+  part.output = {};
+  part.output.from = window.start;
+  if (!integrator.error_control.active) {
+    const double steps = integrator.step > 0.0 ? (window.end - window.start) / integrator.step : 1.0;
+    part.output.every = std::max(1, static_cast<int>(steps / most_rows));
+    return part;
+  }
+  // What belongs to the length of the run stays as it was.
+  formats::ErrorControl& control = integrator.error_control;
+  if (control.max_step == 0.0) control.max_step = 0.1 * whole;
+  if (control.min_step == 0.0) control.min_step = 1e-12 * whole;
+  if (integrator.method != formats::Method::radau) control.tolerance *= (window.end - window.start) / whole;
+  if (window.begin.step() > 0.0) integrator.step = window.begin.step();
+  part.output.interval = (window.end - window.start) / most_rows;
+  return part;
+}
+
+[[noreturn]] void throw_unfinished(const formats::Scene& scene, const RunReport& report) {
+  throw Error(fmt::format("the run that the ledger is made of ended early: {}", report.reason), scene.file,
+              "a scene that runs to its end can have a ledger: shorten integrator.end");
+}
+
+void require_windows(const formats::Scene& scene, const ReferenceRun& run) {
+  if (run.windows.empty())
+    throw Error("the run holds no instant at which a window could begin", scene.file, "give it more steps");
+}
+
+}  // namespace
+
+ReferenceRun run_reference(const formats::Scene& scene, const std::optional<State>& begin, const LedgerStage& stage) {
+  formats::Scene whole = scene;
+  whole.checkpoint = {};
+  whole.output = {};
+  whole.output.from = scene.integrator.start;
+  ReferenceRun run;
+  ReferenceListener listener(whole, stage, run);
+  RunRequest request{whole, stage.files, begin, "", "", std::nullopt};
+  request.listener = &listener;
+  const RunReport report = simulate(request, stage.control).report;
+  if (report.outcome == RunOutcome::interrupted) return run;
+  if (report.outcome != RunOutcome::completed) throw_unfinished(scene, report);
+  run.steps = report.steps;
+  require_windows(scene, run);
+  return run;
+}
+
+ReferenceRun windows_of_results(const formats::Scene& scene, const std::string& file, const LedgerStage& stage) {
+  const std::vector<double> time = formats::ResultsReader(file).time();
+  const BuiltModel built = build_model(scene, stage.files);
+  Workspace workspace(built.model);
+  ReferenceRun run;
+  for (int i = 0; i < stage.choice.windows; ++i) {
+    const auto [start, end] = window_times(scene.integrator, stage.choice, i);
+    const auto found = std::ranges::lower_bound(time, start - 1e-9 * run_time(scene));
+    if (found == time.end() || *found >= scene.integrator.end) break;
+    State state = built.state;
+    read_stored_state(built.model, file, *found, state, workspace);
+    run.windows.push_back({*found, end_on_grid(scene.integrator, *found, *found + (end - start)), state});
+  }
+  require_windows(scene, run);
+  return run;
+}
+
+WindowHistory replay_window(const formats::Scene& scene, const LedgerWindow& window, const State& begin, double whole,
+                            KeepStates keep, const LedgerStage& stage) {
+  const formats::Scene part = windowed(scene, window, whole);
+  WindowHistory history;
+  ReplayListener listener(part, keep, stage, history);
+  RunRequest request{part, stage.files, begin, "", "", std::nullopt};
+  request.listener = &listener;
+  const RunReport report = simulate(request, stage.control).report;
+  history.seconds = report.seconds_steps;
+  history.steps = report.steps;
+  if (report.outcome != RunOutcome::completed) history.failure = report.reason;
+  return history;
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,71 @@
+// Effects of a scene from the command line: what runs tell of switches, and `mechanism ledger`.
+#include <regex>
+
+#include "tests/cli/scenes.hpp"
+
+namespace tisserand::cli::effects_test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Effects : public Folder {};
+
+TEST_F(Effects, AreToldByCheckAndInTheReportOfARun) {
+  EXPECT_THAT(with("check", {}).out, HasSubstr("effects          flexibility, rotary_inertia, gyroscopic, gravity\n"));
+  const Outcome bare = with("run", {"effects.rod.gravity=off", "effects.rod.rotary_inertia=off"});
+  ASSERT_EQ(bare.code, 0) << bare.error;
+  EXPECT_THAT(bare.out, HasSubstr("flexibility, gyroscopic, gravity; off: rotary_inertia, gravity of 'rod'"));
+}
+
+// A superelement that nothing holds falls by ½ g t², also as a rigid body; its own channels are gone then.
+TEST_F(Effects, ARigidSuperelementHasNoDeformationInTheResults) {
+  const Outcome run = with("run", {"effects.se.flexibility=off", "integrator.end=0.05"});
+  ASSERT_EQ(run.code, 0) << run.error;
+  const Outcome channels = mechanism({"channels", "arm.results.h5"});
+  EXPECT_THAT(channels.out, AllOf(HasSubstr("nodes/position/se/tip"), Not(HasSubstr("superelements/y"))));
+}
+
+TEST_F(Effects, ALedgerSizesThemLineByLine) {
+  const Outcome told = mechanism({"ledger", "arm.scene.yaml", "--windows", "2", "--share", "1", "--repeats", "1"});
+  ASSERT_EQ(told.code, 0) << told.error;
+  EXPECT_THAT(told.out, HasSubstr("arm.scene.yaml: arm: 2 windows of 0.05 s; "));
+  for (const char* subject : {"flexibility of 'se'", "rotary_inertia of 'rod'", "gyroscopic of 'block'",
+                              "gravity of 'rod'", "gravity of 'block'", "gravity of 'se'"})
+    EXPECT_TRUE(std::regex_search(
+        told.out,
+        std::regex(std::string("  ") + subject + ": on; off would change .* by .* %, (cost|save) [0-9]+ % per step")))
+        << subject << "\n"
+        << told.out;
+  EXPECT_THAT(told.out, HasSubstr("inertia of 'se': B; A would change"));
+  EXPECT_THAT(names(), Not(::testing::Contains(HasSubstr("results"))));  // nothing is stored
+}
+
+TEST_F(Effects, ALedgerTakesChosenOnesAndStoredStates) {
+  ASSERT_EQ(with("run", {}).code, 0);
+  const Outcome json = mechanism({"ledger", "arm.scene.yaml", "--results", "arm.results.h5", "--effect", "gravity",
+                                  "--body", "rod", "-c", "nodes/position/rod/end/z", "--json"});
+  ASSERT_EQ(json.code, 0) << json.error;
+  EXPECT_THAT(json.out, AllOf(HasSubstr("\"of\": \"nodes/position/rod/end/z\""), HasSubstr("\"body\": \"rod\""),
+                              Not(HasSubstr("\"body\": \"block\"")), HasSubstr("\"windows\": 5")));
+}
+
+TEST_F(Effects, ALedgerSaysWhatIsWrong) {
+  const auto told = [this](std::vector<std::string> words) {
+    words.insert(words.begin(), {"ledger", "arm.scene.yaml"});
+    return mechanism(words);
+  };
+  EXPECT_EQ(told({"--share", "2"}).code, 2);
+  EXPECT_EQ(told({"--windows", "0"}).code, 2);
+  expect_error(told({"--effect", "gravty"}), {"no effect 'gravty'", "did you mean 'gravity'?"});
+  expect_error(told({"--body", "blok"}), {"no body 'blok'", "did you mean 'block'?"});
+  expect_error(told({"-c", "nodes/position/rod/nd/z"}), {"there is no channel 'nodes/position/rod/nd/z'"});
+  expect_error(told({"--results", "none.results.h5"}), {"none.results.h5"});
+  expect_error(told({"--set", "analysis=statics"}), {"a dynamics analysis"});
+  expect_error(told({"--set", "integrator.max_iterations=1", "--set", "integrator.max_halvings=1"}),
+               {"the run that the ledger is made of ended early"});
+}
+
+}  // namespace
+}  // namespace tisserand::cli::effects_test

@@ -1,0 +1,86 @@
+// `effects` of scenes: switches of all and of bodies, their places, errors.
+#include "formats/scene/effects.hpp"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/error.hpp"
+#include "formats/scene/scene.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace tisserand::formats::effects_test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+constexpr const char* head = R"(scene: arm
+bodies: {arm: {type: rigid, mass: 1, inertia: [1, 1, 1]}, friction: {type: rigid, mass: 1, inertia: [1, 1, 1]}}
+integrator: {step: 0.01, end: 1}
+)";
+
+Scene read(const std::string& text, const std::vector<Override>& changes = {}) {
+  const test_support::TemporaryFolder folder;
+  std::ofstream(folder.file("a.scene.yaml")) << head << text;
+  return read_scene(folder.file("a.scene.yaml"), changes);
+}
+
+std::string error_of(const std::string& text) {
+  try {
+    static_cast<void>(read(text));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(SceneEffects, AreSwitchesOfAllAndOfBodies) {
+  EXPECT_TRUE(read("").effects.empty());
+  const Scene scene = read("effects: {friction: off, arm: {gravity: on, damping: off}}\n", {{"effects.stops", "off"}});
+  ASSERT_EQ(scene.effects.size(), 4U);
+  EXPECT_EQ(scene.effects[0].effect, Effect::friction);
+  EXPECT_EQ(scene.effects[0].body, "");
+  EXPECT_FALSE(scene.effects[0].on);
+  EXPECT_THAT(scene.effects[0].where, HasSubstr("a.scene.yaml:4:11"));
+  EXPECT_EQ(scene.effects[1].effect, Effect::damping);  // in the order of the effects
+  EXPECT_EQ(scene.effects[1].body, "arm");
+  EXPECT_EQ(scene.effects[2].effect, Effect::gravity);
+  EXPECT_TRUE(scene.effects[2].on);
+  EXPECT_EQ(scene.effects[3].effect, Effect::stops);
+  EXPECT_THAT(scene.effects[3].where, HasSubstr("--set effects.stops=off"));
+}
+
+// A body may have the name of an effect: a map is a body, a word a switch.
+TEST(SceneEffects, TellBodiesFromEffectsByTheirValues) {
+  const Scene scene = read("effects: {friction: {gravity: off}}\n");
+  ASSERT_EQ(scene.effects.size(), 1U);
+  EXPECT_EQ(scene.effects[0].body, "friction");
+  EXPECT_EQ(scene.effects[0].effect, Effect::gravity);
+}
+
+TEST(SceneEffects, EveryEffectHasAWordThatIsRead) {
+  for (const Effect effect : all_effects) {
+    const Scene scene = read("effects: {" + effect_word(effect) + ": off}\n");
+    ASSERT_EQ(scene.effects.size(), 1U);
+    EXPECT_EQ(scene.effects[0].effect, effect);
+  }
+}
+
+TEST(SceneEffects, AreRefusedWithPlaceAndRemedy) {
+  EXPECT_THAT(error_of("effects: {gravty: off}\n"),
+              AllOf(HasSubstr("a.scene.yaml:4:11: effects: there is no effect 'gravty'"),
+                    HasSubstr("did you mean 'gravity'?"), HasSubstr("of a body write gravty: {damping: off}")));
+  EXPECT_THAT(
+      error_of("effects: {gravity: auto}\n"),
+      AllOf(HasSubstr("a.scene.yaml:4:20"), HasSubstr("unknown value of 'gravity' 'auto'"), HasSubstr("off, on")));
+  EXPECT_THAT(error_of("effects: {amr: {gravity: off}}\n"),
+              AllOf(HasSubstr("there is no body 'amr'"), HasSubstr("did you mean 'arm'?")));
+  EXPECT_THAT(error_of("effects: {arm: {gravty: off}}\n"), HasSubstr("unknown key 'gravty'"));
+  EXPECT_THAT(error_of("effects: {arm: {gravity: [off]}}\n"), HasSubstr("must be one word"));
+  EXPECT_THAT(error_of("effects: [gravity]\n"), HasSubstr("must be a map"));
+}
+
+}  // namespace
+}  // namespace tisserand::formats::effects_test
