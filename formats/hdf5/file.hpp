@@ -128,6 +128,8 @@ void rehearse(const std::string& path, const std::function<void()>& read, const 
 
 // Writing, used by the writers of superelements and results. `file` is a file or group identifier; missing groups on
 // the way are made. Texts are UTF-8. All throw Error with `where` in front.
+/// The groups on the way to a dataset, without times: equal contents give equal bytes whenever they are written.
+void create_groups(Id file, const std::string& dataset);
 void write_text_attribute(Id file, const std::string& object, const std::string& name, const std::string& value,
                           const std::string& where);
 void write_number_attribute(Id file, const std::string& object, const std::string& name, double value,

@@ -22,8 +22,7 @@ Handle packed_dataset(Id file, const std::string& dataset, const Shape& shape, s
                       const std::string& where) {
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
   const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
-  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose), link(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(link.id(), 1);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_obj_track_times(creation.id(), false);
   const bool empty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
   if (!empty) {
@@ -34,7 +33,8 @@ Handle packed_dataset(Id file, const std::string& dataset, const Shape& shape, s
     H5Pset_deflate(creation.id(), packed_deflate_level);
     H5Pset_fletcher32(creation.id());
   }
-  Handle handle(H5Dcreate2(file, dataset.c_str(), type, space.id(), link.id(), creation.id(), H5P_DEFAULT), H5Dclose);
+  create_groups(file, dataset);
+  Handle handle(H5Dcreate2(file, dataset.c_str(), type, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), H5Dclose);
   if (!handle.valid()) throw last_error(fmt::format("cannot write dataset {}", dataset), where, packed_remedy);
   return handle;
 }

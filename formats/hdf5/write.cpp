@@ -65,17 +65,6 @@ void set_checked_storage(Id creation, Id space, Id file_type, Packing packing) {
   H5Pset_fletcher32(creation);
 }
 
-/// The groups on the way to a dataset.
-void create_groups(Id file, const std::string& dataset) {
-  const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
-  H5Pset_obj_track_times(creation.id(), false);
-  for (std::size_t end = dataset.find('/', 1); end != std::string::npos; end = dataset.find('/', end + 1)) {
-    const std::string group = dataset.substr(0, end);
-    if (H5Lexists(file, group.c_str(), H5P_DEFAULT) > 0) continue;
-    const Handle made(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), H5Gclose);
-  }
-}
-
 /// Creates and writes; no times are stored, so that equal contents give equal bytes.
 void write_values(Id file, const std::string& dataset, Id space, Id file_type, Id memory_type, const void* values,
                   const std::string& where, Packing packing = Packing::none) {
@@ -106,6 +95,16 @@ herr_t free_image(void* bytes, H5FD_file_image_op_t, void*) {
 }
 
 }  // namespace
+
+void create_groups(Id file, const std::string& dataset) {
+  const Handle creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+  H5Pset_obj_track_times(creation.id(), false);
+  for (std::size_t end = dataset.find('/', 1); end != std::string::npos; end = dataset.find('/', end + 1)) {
+    const std::string group = dataset.substr(0, end);
+    if (H5Lexists(file, group.c_str(), H5P_DEFAULT) > 0) continue;
+    const Handle made(H5Gcreate2(file, group.c_str(), H5P_DEFAULT, creation.id(), H5P_DEFAULT), H5Gclose);
+  }
+}
 
 void write_text_attribute(Id file, const std::string& object, const std::string& name, const std::string& value,
                           const std::string& where) {

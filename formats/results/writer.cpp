@@ -51,16 +51,15 @@ void create_growing(hdf5::Id file, const Block& block, const std::string& where)
     chunk.push_back(e);
   }
   const int rank = static_cast<int>(extent.size());
-  const hdf5::Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   const hdf5::Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   const hdf5::Handle space(H5Screate_simple(rank, extent.data(), limit.data()), H5Sclose);
-  H5Pset_create_intermediate_group(links.id(), 1);
   H5Pset_obj_track_times(creation.id(), false);
   H5Pset_chunk(creation.id(), rank, chunk.data());
   H5Pset_fletcher32(creation.id());
   H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
+  hdf5::create_groups(file, block.dataset);
   const hdf5::Handle dataset(
-      H5Dcreate2(file, block.dataset.c_str(), H5T_IEEE_F64LE, space.id(), links.id(), creation.id(), H5P_DEFAULT),
+      H5Dcreate2(file, block.dataset.c_str(), H5T_IEEE_F64LE, space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
       H5Dclose);
   if (!dataset.valid())
     throw hdf5::last_error("cannot create dataset " + block.dataset, where,
