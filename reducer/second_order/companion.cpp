@@ -396,7 +396,7 @@ std::optional<formats::Companion> companion_if_asked(const formats::Part& part, 
   if (wanted && has_own_mass)
     model.notes.push_back(
         "No second order in a companion file (stiffening, exact inertia): method macneal leaves out the mass that its "
-        "coordinates move; methods craig_bampton and rubin keep it.");
+        "coordinates move; take method craig_bampton or rubin.");
   else
     describe_companion(problem.mesh, part, element, model);
   const bool second_order = wanted && !has_own_mass;
