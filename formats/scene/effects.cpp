@@ -58,7 +58,9 @@ std::string effect_word(Effect effect) {
 std::vector<EffectSwitch> read_effects(const MapReader& map) {
   std::vector<EffectSwitch> switches;
   for (const YamlNode* node : map.entries("effects", "effect or body"))
-    if (node->kind == YamlKind::map)
+    if (node->key.empty())
+      map.context().fail(node->key_place, "there is no body ''", "name a body of the scene");
+    else if (node->kind == YamlKind::map)
       read_body_effects(map, *node, switches);
     else
       read_scene_effect(map, *node, switches);

@@ -264,7 +264,9 @@ std::vector<EffectUse> effects_of(const formats::Scene& scene, const BodyFiles& 
   std::vector<EffectUse> uses;
   for (const Effect effect : formats::all_effects) {
     if (belongs_to_scene(effect) && scene_has(effect, scene)) uses.push_back({effect, "", switches.on(effect, "")});
+    const bool is_of_deformation = effect == Effect::stiffening || effect == Effect::damping;
     for (const formats::BodySpec& body : scene.bodies) {
+      if (is_of_deformation && !switches.on(Effect::flexibility, body_name(body))) continue;
       const auto share = [&](const auto& spec) { return share_of(spec, effect, scene, files); };
       if (std::visit(share, body).kind == Share::Kind::term)
         uses.push_back({effect, body_name(body), switches.on(effect, body_name(body))});

@@ -17,7 +17,8 @@ struct EffectUse {
   bool on = true;    ///< as the switches of the scene leave it
 };
 
-/// All that the scene has, whether on or off, in the order of the effects, then of the bodies.
+/// All that the scene has, whether on or off, in the order of the effects, then of the bodies; of a body whose
+/// flexibility is off neither stiffening nor damping.
 std::vector<EffectUse> effects_of(const formats::Scene& scene, const BodyFiles& files);
 
 /// "flexibility, gravity of 2 of 3 bodies; off: friction, damping of 'rod'".

@@ -29,8 +29,8 @@ void Comparison::add(const WindowHistory& own, const WindowHistory& other) {
 
 void Comparison::note(const Measured& measured, double size, double difference) {
   const bool is_length = measured.kind == MeasureKind::position || measured.kind == MeasureKind::deflection;
-  if (is_length) size = std::max(size, least_size * length_);
-  if (!(size > 0.0)) return;
+  if (is_length && size < least_size * length_) size = length_;
+  if (!(size > 0.0) || !(difference >= 0.0)) return;  // not a number: not there
   LedgerChange& change = largest_[measured.kind];
   const double part = difference / size;
   if (part > change.part || change.of.empty()) change = {measured.name, std::max(part, 0.0)};

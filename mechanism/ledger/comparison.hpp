@@ -15,7 +15,7 @@ struct LedgerChange {
 };
 
 /// Adds up windows: the largest difference at the same instants of each kind of measure, over the size of its group.
-/// Where a group hardly moves, lengths are compared with 1e-9 of the size of the scene.
+/// Where a group does not move, lengths are compared with the size of the scene.
 class Comparison {
  public:
   /// `sizes` of what `own` measures, which lives as long as this; `length` of the scene.

@@ -14,7 +14,6 @@
 #include "mechanism/ledger/activity.hpp"
 #include "mechanism/ledger/comparison.hpp"
 #include "mechanism/ledger/inertia_verdict.hpp"
-#include "mechanism/ledger/settle.hpp"
 #include "mechanism/ledger/transfer.hpp"
 
 namespace tisserand::mechanism {
@@ -41,10 +40,13 @@ class LedgerMaker {
     reference_ = request_.results.empty() ? run_reference(request_.scene, request_.begin, stage_)
                                           : windows_of_results(request_.scene, request_.results, stage_);
     if (interrupted()) return stopped();
-    for (const LedgerWindow& window : reference_.windows)
+    for (const LedgerWindow& window : reference_.windows) {
       own_windows_.push_back(replay(request_.scene, window, window.begin, KeepStates::yes));
+      if (interrupted()) return stopped();
+      require_whole(own_windows_.back());
+    }
     measure_sizes();
-    for (const Toggle& toggle : toggles) ledger_.lines.push_back({toggle, {}, 0.0, {}, 0.0, false, "", 0.0});
+    for (const Toggle& toggle : toggles) ledger_.lines.emplace_back().toggle = toggle;
     weigh_activities();
     for (std::size_t i = 0; i < ledger_.lines.size() && !interrupted(); ++i) {
       tell(static_cast<double>(i + 1) / static_cast<double>(ledger_.lines.size() + 1), toggles[i].subject());
@@ -63,12 +65,18 @@ class LedgerMaker {
   }
   Ledger stopped() {
     ledger_.interrupted = true;
-    return std::move(ledger_);
+    std::erase_if(ledger_.lines, [](const LedgerLine& line) { return !line.replayed; });
+    return finished();
   }
 
-  WindowHistory replay(const formats::Scene& scene, const LedgerWindow& window, const State& begin,
+  WindowHistory replay(const formats::Scene& scene, const LedgerWindow& window, const std::optional<State>& begin,
                        KeepStates keep) const {
     return replay_window(scene, window, begin, whole(), keep, stage_);
+  }
+  void require_whole(const WindowHistory& own) const {
+    if (!own.failure.empty() || own.states.empty())
+      throw Error(fmt::format("a window of the scene as it is ended early: {}", own.failure), request_.scene.file,
+                  "take results of this very scene, or leave --results out");
   }
 
   /// Of a run of its own all of it was seen, of stored results the windows.
@@ -90,7 +98,7 @@ class LedgerMaker {
         if (line.toggle.effect == formats::effect_word(formats::Effect::flexibility)) {
           if (line.toggle.is == "on") line.activity = powers.of_strain(line.toggle.body);
         } else {
-          const BuiltModel other = build_model(toggled(request_.scene, line.toggle), stage_.files);
+          const BuiltModel other = build_model(toggled(request_.scene, stage_.files, line.toggle), stage_.files);
           if (share_states(own_.model, other.model)) line.activity = powers.of_difference(other.model);
         }
       } catch (const Error& error) {
@@ -114,43 +122,58 @@ class LedgerMaker {
 
   /// The scene as it is and as it could be by turns, so that both have the same machine.
   void replay_toggled(LedgerLine& line) {
-    const formats::Scene scene = toggled(request_.scene, line.toggle);
+    const formats::Scene scene = toggled(request_.scene, stage_.files, line.toggle);
     const BuiltModel other = build_model(scene, stage_.files);
+    const bool whole_run = begins_anew(line.toggle, other.model);
+    const std::vector<LedgerWindow> windows = whole_run ? std::vector{whole_window()} : reference_.windows;
+    const std::vector<WindowHistory>& own_windows = whole_run ? own_run() : own_windows_;
     Comparison comparison(*sizes_, own_.model.length);
     std::vector<WindowHistory> histories;
     Cost own, changed;
-    for (std::size_t w = 0; w < reference_.windows.size() && !interrupted(); ++w) {
-      const LedgerWindow& window = reference_.windows[w];
-      const State begin = beginning(line.toggle, w, other.model);
-      histories.push_back(replay(scene, window, begin, KeepStates::no));
-      if (line.failure.empty() && !histories.back().failure.empty()) line.failure = histories.back().failure;
-      comparison.add(own_windows_[w], histories.back());
-      add_times(scene, window, begin, own, changed);
+    std::string failure;
+    for (std::size_t w = 0; w < windows.size() && !interrupted(); ++w) {
+      const std::optional<State> own_begin = whole_run ? request_.begin : windows[w].begin;
+      const std::optional<State> begin = whole_run ? start_of_run(other.model) : own_windows[w].states.front();
+      histories.push_back(replay(scene, windows[w], begin, KeepStates::no));
+      if (failure.empty()) failure = histories.back().failure;
+      comparison.add(own_windows[w], histories.back());
+      add_times(windows[w], own_begin, begin, scene, own, changed);
     }
+    if (interrupted()) return;  // figures of a part of the windows would mislead
+    line.failure = failure;
     line.changes = comparison.changes();
+    line.whole_run = whole_run;
     line.replayed = true;
     line.cost = own.per_step() > 0.0 ? changed.per_step() / own.per_step() - 1.0 : 0.0;
     if (line.toggle.effect == inertia_word) histories_[&line] = std::move(histories);
     own_per_step_.push_back(own.per_step());
   }
 
-  /// Where the other model begins: as the scene does, at the first row of its own window. What becomes stiffer or
-  /// softer takes the deformation that it would have in the same motion.
-  State beginning(const Toggle& toggle, std::size_t window, const Model& other) const {
-    const State& own = own_windows_[window].states.front();
-    if (!share_states(own_.model, other)) return transfer(own_.model, own, other);
-    const bool settles =
-        toggle.effect == inertia_word || toggle.effect == formats::effect_word(formats::Effect::stiffening);
-    const LedgerWindow& times = reference_.windows[window];
-    return settles ? settled(other, own, times.end - times.start) : own;
+  /// A body of another stiffness would begin a window with a deformation that is none of its own, and vibrate: it runs
+  /// from the start.
+  bool begins_anew(const Toggle& toggle, const Model& other) const {
+    return toggle.effect == inertia_word || toggle.effect == formats::effect_word(formats::Effect::stiffening) ||
+           !share_states(own_.model, other);
+  }
+  LedgerWindow whole_window() const {
+    return {request_.scene.integrator.start, request_.scene.integrator.end, reference_.windows.front().begin};
+  }
+  const std::vector<WindowHistory>& own_run() {
+    if (own_run_.empty()) own_run_.push_back(replay(request_.scene, whole_window(), request_.begin, KeepStates::yes));
+    return own_run_;
+  }
+  /// Absent: the poses of the scene.
+  std::optional<State> start_of_run(const Model& other) const {
+    if (!request_.begin || share_states(own_.model, other)) return request_.begin;
+    return transfer(own_.model, *request_.begin, other);
   }
 
-  void add_times(const formats::Scene& scene, const LedgerWindow& window, const State& begin, Cost& own,
-                 Cost& changed) const {
+  void add_times(const LedgerWindow& window, const std::optional<State>& own_begin, const std::optional<State>& begin,
+                 const formats::Scene& scene, Cost& own, Cost& changed) const {
     double own_least = std::numeric_limits<double>::infinity(), least = own_least;
     long own_steps = 0, steps = 0;
     for (int k = 0; k < request_.repeats && !interrupted(); ++k) {
-      const WindowHistory before = replay(request_.scene, window, window.begin, KeepStates::no);
+      const WindowHistory before = replay(request_.scene, window, own_begin, KeepStates::no);
       const WindowHistory after = replay(scene, window, begin, KeepStates::no);
       own_least = std::min(own_least, before.seconds);
       least = std::min(least, after.seconds);
@@ -168,7 +191,7 @@ class LedgerMaker {
     for (LedgerLine& line : ledger_.lines) {
       if (line.toggle.effect != inertia_word || !line.failure.empty()) continue;
       std::vector<InertiaRun>& of_body = runs[line.toggle.body];
-      if (of_body.empty()) of_body.push_back({line.toggle.is, &own_windows_, 0.0, nullptr});
+      if (of_body.empty()) of_body.push_back({line.toggle.is, &own_run(), 0.0, nullptr});
       of_body.push_back({line.toggle.becomes, &histories_.at(&line), line.cost, &line.from_best});
     }
     for (const auto& [body, of_body] : runs)
@@ -178,7 +201,7 @@ class LedgerMaker {
   Ledger finished() {
     ledger_.scene = request_.scene.name;
     ledger_.windows = static_cast<int>(reference_.windows.size());
-    ledger_.window = reference_.windows.front().end - reference_.windows.front().start;
+    if (ledger_.windows > 0) ledger_.window = reference_.windows.front().end - reference_.windows.front().start;
     if (!own_per_step_.empty()) {
       const auto [least, most] = std::ranges::minmax(own_per_step_);
       ledger_.seconds_per_step = least;
@@ -195,6 +218,7 @@ class LedgerMaker {
   BuiltModel own_;
   ReferenceRun reference_;
   std::vector<WindowHistory> own_windows_;
+  std::vector<WindowHistory> own_run_;  ///< all of it, once a line needs it
   std::optional<MeasureSizes> sizes_;
   std::vector<double> own_per_step_;  ///< processor time of the scene as it is, beside each line
   std::map<const LedgerLine*, std::vector<WindowHistory>> histories_;

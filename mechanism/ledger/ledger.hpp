@@ -34,6 +34,7 @@ struct LedgerLine {
   std::vector<LedgerChange> changes;  ///< the largest of each kind of measure, the largest first
   double cost = 0.0;                  ///< of processor time per step, over that of the scene as it is, less one
   bool replayed = false;
+  bool whole_run = false;  ///< replayed from the start of the run, not over its windows
   std::string failure;     ///< why there are no figures, or why a window ended early
   double from_best = 0.0;  ///< inertia options: change against inertia F with stiffening, if it is there
 };

@@ -30,44 +30,56 @@ std::string flexible_body_of(const std::string& place, const std::map<std::strin
   return "";
 }
 
-std::map<std::string, bool> flexible_bodies(const formats::Scene& scene) {
+/// Whether each body deforms in the model that the layout belongs to; of a model that is only compared with another,
+/// whether it deforms in either.
+std::map<std::string, bool> flexible_bodies(const formats::Scene& scene, const formats::ResultsLayout& layout,
+                                            Measures::Missing missing) {
+  const bool in_either = missing == Measures::Missing::is_left_out;
   std::map<std::string, bool> flexible;
-  for (const formats::BodySpec& body : scene.bodies) {
-    const auto* superelement = std::get_if<formats::SuperelementBodySpec>(&body);
-    const bool deforms = superelement != nullptr || std::holds_alternative<formats::BeamBodySpec>(body) ||
-                         std::holds_alternative<formats::ModalBodySpec>(body);
-    flexible[std::visit([](const auto& spec) { return spec.name; }, body)] = deforms;
-  }
+  for (const formats::BodySpec& body : scene.bodies)
+    flexible[std::visit([](const auto& spec) { return spec.name; }, body)] =
+        std::holds_alternative<formats::BeamBodySpec>(body) ||
+        (in_either && !std::holds_alternative<formats::RigidBodySpec>(body));
+  if (in_either) return flexible;
+  for (const std::string& name : layout.superelements) flexible[name] = true;
+  for (std::size_t i = 0; i < layout.modal_bodies.size(); ++i)
+    flexible[layout.modal_bodies[i]] = layout.modal_offset[i + 1] > layout.modal_offset[i];
   return flexible;
+}
+
+Eigen::Quaterniond rotation_of(const formats::ResultsRow& row, int node) {
+  const Eigen::Vector4d q = row.node_rotation.col(node);
+  return Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
 }
 
 /// R₁ᵀ (x − x₁): of a rigid body it is constant.
 Vector3d seen_from(const formats::ResultsRow& row, int base, int node) {
-  const Eigen::Vector4d q = row.node_rotation.col(base);
-  const Eigen::Quaterniond R(q[0], q[1], q[2], q[3]);
-  return R.conjugate() * Vector3d(row.node_position.col(node) - row.node_position.col(base));
+  return rotation_of(row, base).conjugate() * Vector3d(row.node_position.col(node) - row.node_position.col(base));
 }
 
 }  // namespace
 
 Measures::Measures(const formats::Scene& scene, const formats::ResultsLayout& layout,
-                   const std::vector<std::string>& channels) {
-  if (channels.empty()) add_defaults(scene, layout);
-  for (const std::string& channel : channels) add_channel(channel, layout, scene.file);
+                   const std::vector<std::string>& channels, Missing missing) {
+  if (channels.empty()) add_defaults(scene, layout, missing);
+  for (const std::string& channel : channels) add_channel(channel, layout, scene.file, missing);
 }
 
-void Measures::add_defaults(const formats::Scene& scene, const formats::ResultsLayout& layout) {
+void Measures::add_defaults(const formats::Scene& scene, const formats::ResultsLayout& layout, Missing missing) {
   const auto add = [this](MeasureKind kind, const std::string& name, const std::string& group, Source source) {
     list_.push_back({kind, name, group});
     sources_.push_back(source);
   };
-  const std::map<std::string, bool> flexible = flexible_bodies(scene);
+  const std::map<std::string, bool> flexible = flexible_bodies(scene, layout, missing);
   std::map<std::string, int> base;
   for (std::size_t i = 0; i < layout.nodes.size(); ++i) {
     const std::string& name = layout.nodes[i];
     const int index = static_cast<int>(i);
     add(MeasureKind::position, "nodes/position/" + name, "position", {index, -1, nullptr});
     const std::string body = flexible_body_of(name, flexible);
+    if (flexible.contains(name))  // the body itself: two axes tell how it turns
+      for (const int axis : {0, 1})
+        add(MeasureKind::direction, fmt::format("axis {} of {}", "xy"[axis], name), "axis", {index, axis, nullptr});
     if (body.empty() || body == name) continue;
     const auto [first, is_first] = base.try_emplace(body, index);
     if (!is_first)
@@ -77,7 +89,8 @@ void Measures::add_defaults(const formats::Scene& scene, const formats::ResultsL
     add(MeasureKind::force, "joints/force/" + layout.joints[i], "force", {static_cast<int>(i), -1, nullptr});
 }
 
-void Measures::add_channel(const std::string& given, const formats::ResultsLayout& layout, const std::string& where) {
+void Measures::add_channel(const std::string& given, const formats::ResultsLayout& layout, const std::string& where,
+                           Missing missing) {
   const std::string pattern = formats::without_alias(given, layout);
   std::vector<std::string> names;
   const std::size_t before = list_.size();
@@ -90,7 +103,7 @@ void Measures::add_channel(const std::string& given, const formats::ResultsLayou
       list_.push_back({MeasureKind::channel, told, told});
       sources_.push_back({static_cast<int>(i), -1, block.values});
     }
-  if (list_.size() == before)
+  if (list_.size() == before && missing == Missing::is_error)
     throw Error(fmt::format("there is no channel '{}'", printable_line(given, 200)), where,
                 fmt::format("the nearest are {}", listed(nearest_names(pattern, names))));
 }
@@ -106,6 +119,9 @@ MeasuredRow Measures::values(const formats::ResultsRow& row) const {
         break;
       case MeasureKind::deflection:
         value = seen_from(row, source.base, source.index);
+        break;
+      case MeasureKind::direction:
+        value = rotation_of(row, source.index) * Vector3d::Unit(source.base);
         break;
       case MeasureKind::force:
         value = row.joint_force.col(source.index);
@@ -132,7 +148,8 @@ std::vector<int> Measures::places_in(const Measures& other) const {
 MeasureSizes::MeasureSizes(const std::vector<Measured>& list) {
   std::map<std::string, int> groups;
   for (const Measured& one : list) {
-    from_first_.push_back(one.kind == MeasureKind::position || one.kind == MeasureKind::deflection);
+    from_first_.push_back(one.kind == MeasureKind::position || one.kind == MeasureKind::deflection ||
+                          one.kind == MeasureKind::direction);
     group_of_.push_back(groups.try_emplace(one.group, static_cast<int>(groups.size())).first->second);
   }
   group_size_.assign(groups.size(), 0.0);

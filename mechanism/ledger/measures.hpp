@@ -13,8 +13,8 @@
 namespace tisserand::mechanism {
 
 /// What is compared by name: a vector of a place, the deflection of a node against the first node of its body (in axes
-/// of that node), the reaction of a joint, or one number of a channel.
-enum class MeasureKind { position, deflection, force, channel };
+/// of that node), the direction of an axis of a body, the reaction of a joint, or one number of a channel.
+enum class MeasureKind { position, deflection, direction, force, channel };
 struct Measured {
   MeasureKind kind = MeasureKind::position;
   std::string name;   ///< "nodes/position/rod/mid", "deflection of rod/mid"
@@ -27,9 +27,11 @@ using MeasuredRow = Eigen::Matrix3Xd;
 /// Finds what is measured in the rows of a layout; another layout of the same scene may have less.
 class Measures {
  public:
-  /// Without `channels`: positions of all places, deflections of all bodies that deform, forces of all joints. Throws
-  /// Error for a channel that means nothing.
-  Measures(const formats::Scene& scene, const formats::ResultsLayout& layout, const std::vector<std::string>& channels);
+  enum class Missing { is_error, is_left_out };
+  /// Without `channels`: positions of all places, axes of all bodies with a node of their name, deflections of all
+  /// bodies that deform, forces of all joints. Throws Error for a channel that is missing where that is one.
+  Measures(const formats::Scene& scene, const formats::ResultsLayout& layout, const std::vector<std::string>& channels,
+           Missing missing);
 
   const std::vector<Measured>& list() const { return list_; }
   /// Not-a-number where the row has none.
@@ -41,12 +43,13 @@ class Measures {
   /// Columns of a place in rows: of `node`, or of a joint, or of a channel.
   struct Source {
     int index = 0;
-    int base = -1;  ///< of deflections: place of the first node of the body
+    int base = -1;  ///< of deflections: place of the first node of the body; of directions: the axis
     const double* (*values)(const formats::ResultsRow&) = nullptr;
   };
 
-  void add_defaults(const formats::Scene& scene, const formats::ResultsLayout& layout);
-  void add_channel(const std::string& given, const formats::ResultsLayout& layout, const std::string& where);
+  void add_defaults(const formats::Scene& scene, const formats::ResultsLayout& layout, Missing missing);
+  void add_channel(const std::string& given, const formats::ResultsLayout& layout, const std::string& where,
+                   Missing missing);
 
   std::vector<Measured> list_;
   std::vector<Source> sources_;

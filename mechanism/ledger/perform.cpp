@@ -41,11 +41,18 @@ std::vector<PlannedAnalysis> planned_for(const formats::Scene& scene, std::strin
   return plan(scene, analysis, {});
 }
 
+void require_part(const char* option, double value) {
+  if (!(value >= 0.0 && value <= 1.0))
+    throw Error(fmt::format("{}: {} is no part of a whole", option, value), "", "give a number from 0 to 1");
+}
+
 }  // namespace
 
 std::string perform_ledger(const formats::Scene& scene, const std::string& analysis, const LedgerCommand& command,
                            const RunControl& control,
                            const std::function<void(double done, const std::string& next)>& progress) {
+  require_part("--share", command.windows.share);
+  require_part("--active", command.least_activity);
   const std::vector<PlannedAnalysis> planned = planned_for(scene, analysis);
   const BodyFiles files = read_ledger_files(scene);
   LedgerRequest request{planned.back().scene, beginning_of_last(planned, files, control)};

@@ -15,7 +15,7 @@ namespace tisserand::mechanism {
 namespace {
 
 /// Rows of a window that are compared, at most: fewer where steps are cut for them.
-constexpr int most_rows = 40;
+constexpr int most_rows = 40, most_rows_of_a_run = 200;
 
 double run_time(const formats::Scene& scene) { return scene.integrator.end - scene.integrator.start; }
 
@@ -39,7 +39,7 @@ class ReferenceListener : public RunListener {
       : scene_(scene), stage_(stage), run_(run) {}
 
   void begin(const formats::ResultsLayout& layout) override {
-    run_.measures.emplace(scene_, layout, stage_.channels);
+    run_.measures.emplace(scene_, layout, stage_.channels, Measures::Missing::is_error);
     run_.sizes.emplace(run_.measures->list());
   }
   void row(const formats::ResultsRow& row) override { run_.sizes->observe(run_.measures->values(row)); }
@@ -65,7 +65,8 @@ class ReplayListener : public RunListener {
       : scene_(scene), keep_(keep), stage_(stage), history_(history) {}
 
   void begin(const formats::ResultsLayout& layout) override {
-    history_.measures.emplace(scene_, layout, stage_.channels);
+    history_.measures.emplace(scene_, layout, stage_.channels,
+                              keep_ == KeepStates::yes ? Measures::Missing::is_error : Measures::Missing::is_left_out);
   }
   void row(const formats::ResultsRow& row) override {
     history_.time.push_back(row.time);
@@ -86,25 +87,26 @@ class ReplayListener : public RunListener {
 /// The scene as a window of itself.
 formats::Scene windowed(const formats::Scene& scene, const LedgerWindow& window, double whole) {
   formats::Scene part = scene;
+  const double length = window.end - window.start;
+  const int rows = length > 0.99 * whole ? most_rows_of_a_run : most_rows;
   formats::IntegratorSpec& integrator = part.integrator;
   integrator.start = window.start;
   integrator.end = window.end;
   part.checkpoint = {};
-  part.initial_tolerance = 1.0;  // of a body that becomes rigid the joints are open by its deformation
   part.output = {};
   part.output.from = window.start;
   if (!integrator.error_control.active) {
-    const double steps = integrator.step > 0.0 ? (window.end - window.start) / integrator.step : 1.0;
-    part.output.every = std::max(1, static_cast<int>(steps / most_rows));
+    const double steps = integrator.step > 0.0 ? length / integrator.step : 1.0;
+    part.output.every = std::max(1, static_cast<int>(steps / rows));
     return part;
   }
   // What belongs to the length of the run stays as it was.
   formats::ErrorControl& control = integrator.error_control;
   if (control.max_step == 0.0) control.max_step = 0.1 * whole;
   if (control.min_step == 0.0) control.min_step = 1e-12 * whole;
-  if (integrator.method != formats::Method::radau) control.tolerance *= (window.end - window.start) / whole;
+  if (integrator.method != formats::Method::radau) control.tolerance *= length / whole;
   if (window.begin.step() > 0.0) integrator.step = window.begin.step();
-  part.output.interval = (window.end - window.start) / most_rows;
+  part.output.interval = length / rows;
   return part;
 }
 
@@ -146,6 +148,7 @@ ReferenceRun windows_of_results(const formats::Scene& scene, const std::string& 
     const auto [start, end] = window_times(scene.integrator, stage.choice, i);
     const auto found = std::ranges::lower_bound(time, start - 1e-9 * run_time(scene));
     if (found == time.end() || *found >= scene.integrator.end) break;
+    if (!run.windows.empty() && *found <= run.windows.back().start) continue;  // stored too rarely
     State state = built.state;
     read_stored_state(built.model, file, *found, state, workspace);
     run.windows.push_back({*found, end_on_grid(scene.integrator, *found, *found + (end - start)), state});
@@ -154,8 +157,8 @@ ReferenceRun windows_of_results(const formats::Scene& scene, const std::string& 
   return run;
 }
 
-WindowHistory replay_window(const formats::Scene& scene, const LedgerWindow& window, const State& begin, double whole,
-                            KeepStates keep, const LedgerStage& stage) {
+WindowHistory replay_window(const formats::Scene& scene, const LedgerWindow& window, const std::optional<State>& begin,
+                            double whole, KeepStates keep, const LedgerStage& stage) {
   const formats::Scene part = windowed(scene, window, whole);
   WindowHistory history;
   ReplayListener listener(part, keep, stage, history);

@@ -57,9 +57,9 @@ ReferenceRun windows_of_results(const formats::Scene& scene, const std::string& 
 
 enum class KeepStates { no, yes };
 
-/// One window of a run of length `whole` with `scene`, whose model `begin` is a state of. Throws Error where the scene
-/// cannot begin there.
-WindowHistory replay_window(const formats::Scene& scene, const LedgerWindow& window, const State& begin, double whole,
-                            KeepStates keep, const LedgerStage& stage);
+/// One window of a run of length `whole` with `scene`, whose model `begin` is a state of; absent: from its poses.
+/// Throws Error where the scene cannot begin there.
+WindowHistory replay_window(const formats::Scene& scene, const LedgerWindow& window, const std::optional<State>& begin,
+                            double whole, KeepStates keep, const LedgerStage& stage);
 
 }  // namespace tisserand::mechanism

@@ -27,9 +27,9 @@ std::string line_text(const LedgerLine& line) {
   if (!line.replayed)
     text += line.failure.empty() ? "not tried" : fmt::format("'{}' cannot be tried: {}", toggle.becomes, line.failure);
   else
-    text += fmt::format("{}{} would change {}, {}", toggle.becomes,
+    text += fmt::format("{}{} would change {}{}, {}", toggle.becomes,
                         toggle.with.empty() ? "" : fmt::format(" (with {})", toggle.with), changes_text(line),
-                        cost_text(line.cost));
+                        line.whole_run ? " in the whole run" : "", cost_text(line.cost));
   if (line.replayed && !line.failure.empty()) text += fmt::format("; ended early: {}", without_details(line.failure));
   if (line.activity) text += fmt::format("; activity {}", percent_text(line.share));
   return text;
@@ -41,6 +41,7 @@ nlohmann::ordered_json line_json(const LedgerLine& line) {
                               {"becomes", toggle.becomes}, {"with", toggle.with}, {"replayed", line.replayed}};
   json["changes"] = nlohmann::ordered_json::array();
   for (const LedgerChange& change : line.changes) json["changes"].push_back({{"of", change.of}, {"part", change.part}});
+  json["whole_run"] = line.whole_run;
   if (line.replayed) json["cost_per_step"] = line.cost;
   if (line.toggle.effect == inertia_word && line.replayed) json["differs_from_F"] = line.from_best;
   if (line.activity) {
@@ -63,9 +64,9 @@ std::string percent_text(double part) {
 
 std::string ledger_text(const Ledger& ledger, const Units& units) {
   const std::string time = unit_label(units, 0, 0, 1);
-  std::string text = fmt::format("{} windows of {:.4g}{}{}; {:.3g} µs of processor time per step, times to {:.0f} %\n",
-                                 ledger.windows, ledger.window, time.empty() ? "" : " ", time,
-                                 1e6 * ledger.seconds_per_step, std::ceil(100.0 * ledger.scatter));
+  std::string text = fmt::format("{} window{} of {:.4g}{}{}; {:.3g} µs of processor time per step, times to {:.0f} %\n",
+                                 ledger.windows, ledger.windows == 1 ? "" : "s", ledger.window, time.empty() ? "" : " ",
+                                 time, 1e6 * ledger.seconds_per_step, std::ceil(100.0 * ledger.scatter));
   for (const LedgerLine& line : ledger.lines) text += fmt::format("  {}\n", line_text(line));
   for (const std::string& verdict : ledger.verdicts) text += fmt::format("  {}\n", verdict);
   if (ledger.interrupted) text += "  interrupted: effects are missing\n";

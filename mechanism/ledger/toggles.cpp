@@ -66,8 +66,7 @@ class ToggleList {
     const std::vector<EffectUse> uses = effects_of(scene_, files_);
     for (const EffectUse& use : uses)
       if (!use.on) off_.insert({use.effect, use.body});
-    for (const EffectUse& use : uses)
-      if (!is_of_deformation(use.effect) || !is_off(Effect::flexibility, use.body)) add_switch(use);
+    for (const EffectUse& use : uses) add_switch(use);
     for (const formats::BodySpec& body : scene_.bodies)
       if (const auto* spec = std::get_if<SuperelementBodySpec>(&body);
           spec != nullptr && !is_off(Effect::flexibility, spec->name))
@@ -76,7 +75,6 @@ class ToggleList {
   }
 
  private:
-  static bool is_of_deformation(Effect effect) { return effect == Effect::stiffening || effect == Effect::damping; }
   bool is_off(Effect effect, const std::string& body) const { return off_.contains({effect, body}); }
 
   void add_switch(const EffectUse& use) {
@@ -187,17 +185,19 @@ std::vector<Toggle> toggles_of(const formats::Scene& scene, const BodyFiles& fil
   return list;
 }
 
-formats::Scene toggled(const formats::Scene& scene, const Toggle& toggle) {
+formats::Scene toggled(const formats::Scene& scene, const BodyFiles& files, const Toggle& toggle) {
   formats::Scene other = scene;
   if (toggle.change) other.effects.push_back(*toggle.change);
   if (!toggle.replaced) return other;
-  // The specification says now what the switch said.
-  std::erase_if(other.effects, [&](const formats::EffectSwitch& one) {
-    return one.effect == Effect::stiffening && one.body == toggle.body;
-  });
+  // Without switches, which may mean what the body is now to have.
+  if (auto switched = with_effects_switched(scene, files)) other = std::move(*switched);
   for (formats::BodySpec& body : other.bodies)
-    if (auto* spec = std::get_if<SuperelementBodySpec>(&body); spec != nullptr && spec->name == toggle.body)
-      *spec = *toggle.replaced;
+    if (auto* spec = std::get_if<SuperelementBodySpec>(&body); spec != nullptr && spec->name == toggle.body) {
+      spec->rigid = toggle.replaced->rigid;
+      spec->inertia = toggle.replaced->inertia;
+      spec->stiffening = toggle.replaced->stiffening;
+      spec->second_order = toggle.replaced->second_order;
+    }
   return other;
 }
 

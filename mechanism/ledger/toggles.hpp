@@ -41,6 +41,6 @@ BodyFiles read_ledger_files(const formats::Scene& scene);
 /// of superelements. Throws Error for a choice that means nothing.
 std::vector<Toggle> toggles_of(const formats::Scene& scene, const BodyFiles& files, const ToggleChoice& choice);
 
-formats::Scene toggled(const formats::Scene& scene, const Toggle& toggle);
+formats::Scene toggled(const formats::Scene& scene, const BodyFiles& files, const Toggle& toggle);
 
 }  // namespace tisserand::mechanism

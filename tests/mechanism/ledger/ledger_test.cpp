@@ -9,7 +9,6 @@
 
 #include "common/error.hpp"
 #include "mechanism/analyses/statics.hpp"
-#include "mechanism/ledger/settle.hpp"
 #include "mechanism/ledger/table.hpp"
 #include "mechanism/ledger/transfer.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
@@ -255,48 +254,6 @@ TEST(Transfer, LeavesDeformationBehind) {
   const State state = transfer(flexible.model, flexible.state, rigid.model);
   EXPECT_LT((state.x().col(0) - Vector3d(1, 0, 0)).norm(), 1e-13);  // half of BeamData::length
   EXPECT_LT(state.v().norm(), 1e-13);
-}
-
-/// The bar of BeamData, clamped, under a force along it, and twice as stiff.
-struct PulledBar {
-  static constexpr double force = 1e4;
-  test_support::BeamData data;
-  SuperelementFiles soft, stiff;
-  formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
-
-  PulledBar() {
-    test_support::BeamData twice = data;
-    twice.young *= 2.0;
-    test_support::add_file("bar", test_support::beam_superelement(data), soft);
-    test_support::add_file("bar", test_support::beam_superelement(twice), stiff);
-    scene.bodies.emplace_back(test_support::superelement_body("bar", "bar"));
-    scene.joints = {test_support::joint("clamp", JointKind::fixed, "ground", "bar/base", Vector3d::Zero(), {0, 0, 1})};
-    scene.loads = {test_support::constant_load("pull", formats::LoadKind::force, "bar/tip", {force, 0, 0})};
-  }
-  double extension() const { return force * data.length / (data.young * data.area); }
-};
-
-// u = F L/(E A) becomes half of it where the bar is twice as stiff; the clamp bears the same force.
-TEST(Settled, TakesTheDeformationThatBearsTheSameForces) {
-  const PulledBar bar;
-  BuiltModel soft = build_model(bar.scene, bar.soft);
-  const BuiltModel stiff = build_model(bar.scene, bar.stiff);
-  Workspace workspace(soft.model);
-  ASSERT_EQ(solve_statics(soft.model, {}, soft.state, workspace).outcome, StepOutcome::accepted);
-  ASSERT_NEAR(soft.state.x()(0, 1) - bar.data.length, bar.extension(), 1e-9 * bar.extension());
-  const State state = settled(stiff.model, soft.state, 0.1);
-  EXPECT_NEAR(state.x()(0, 1) - bar.data.length, 0.5 * bar.extension(), 1e-7 * bar.extension());
-  EXPECT_LT((state.lambda() - soft.state.lambda()).norm(), 1e-6 * bar.force);
-}
-
-// At rest and in motion: what bears its accelerations stays.
-TEST(Settled, LeavesAStateOfTheModelItself) {
-  Simulation run(turning_beam(), beam_files());
-  run.start();
-  run.run(0.1);
-  const State state = settled(run.model(), run.state(), 0.1);
-  EXPECT_LT((state.x() - run.state().x()).norm(), 1e-8);  // Newton's tolerance of the run, over the stiffness
-  EXPECT_LT((state.Q() - run.state().Q()).norm(), 1e-8);
 }
 
 std::string error_of(const formats::Scene& scene, const ToggleChoice& choice,
