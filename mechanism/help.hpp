@@ -138,9 +138,10 @@ inline constexpr const char* about_ledger =
   mechanism ledger arm.scene.yaml --results arm.results.h5 --json
 
 The scene runs once. Then, for each effect of each body (formats/SCENE.md, effects; and the inertia options of superelements),
-some windows of the run are repeated from the same states with this effect alone switched, and compared: positions by the
-largest displacement in the scene, deflections by the largest of their body, forces of joints by the largest of all. Times are
-those of the processor, the least of some repetitions. Activity is the share of the power that flows through the effect.
+some windows of the run are repeated from the same states with this effect alone switched (flexibility, stiffening and inertia
+over the whole run, from its start), and compared: positions by the largest displacement in the scene, deflections by the
+largest of their body, forces of joints by the largest of all. Times are those of the processor, the least of some
+repetitions. Activity is the share of the power that flows through the effect.
 Nothing is stored, and a run pays nothing for it.
 Exit codes: 0 done, 1 error, 2 wrong usage, 130 interrupted.)help";
 

@@ -58,6 +58,7 @@ std::string percent_text(double part) {
   const double percent = 100.0 * part;
   if (percent == 0.0) return "0 %";
   if (percent < 1e-6) return "less than 1e-6 %";
+  if (percent > 1e4) return "more than 10000 %";
   if (percent < 0.1) return fmt::format("{:.1g} %", percent);
   return percent < 99.5 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.0f} %", percent);
 }

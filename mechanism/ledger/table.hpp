@@ -7,7 +7,7 @@
 
 namespace tisserand::mechanism {
 
-/// "7.1 %"; "less than 1e-7 %" of what round-off makes; "1200 %".
+/// "7.1 %"; "less than 1e-6 %" of what round-off makes; "1200 %"; "more than 10000 %" of what runs away.
 std::string percent_text(double part);
 
 /// One line of words per effect and body, the largest change first, then the verdicts on inertia.

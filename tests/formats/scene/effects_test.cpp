@@ -77,6 +77,7 @@ TEST(SceneEffects, AreRefusedWithPlaceAndRemedy) {
       AllOf(HasSubstr("a.scene.yaml:4:20"), HasSubstr("unknown value of 'gravity' 'auto'"), HasSubstr("off, on")));
   EXPECT_THAT(error_of("effects: {amr: {gravity: off}}\n"),
               AllOf(HasSubstr("there is no body 'amr'"), HasSubstr("did you mean 'arm'?")));
+  EXPECT_THAT(error_of("effects: {\"\": {gravity: off}}\n"), HasSubstr("there is no body ''"));
   EXPECT_THAT(error_of("effects: {arm: {gravty: off}}\n"), HasSubstr("unknown key 'gravty'"));
   EXPECT_THAT(error_of("effects: {arm: {gravity: [off]}}\n"), HasSubstr("must be one word"));
   EXPECT_THAT(error_of("effects: [gravity]\n"), HasSubstr("must be a map"));

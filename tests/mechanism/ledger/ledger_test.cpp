@@ -121,6 +121,10 @@ TEST(Ledger, GyroscopicTermsDoNoWorkAndAreTried) {
   EXPECT_FALSE(line.activity.has_value());
   EXPECT_TRUE(line.replayed);
   EXPECT_GT(line.changes.at(0).part, 0.1);
+  // Its centre stays, its axes turn otherwise: seen without a channel too.
+  const Ledger unnamed = ledger_of(scene, {}, {1, 1.0}, {}, {});
+  EXPECT_THAT(line_of(unnamed, "gyroscopic").changes.at(0).of, ::testing::HasSubstr("of top"));
+  EXPECT_GT(line_of(unnamed, "gyroscopic").changes.at(0).part, 0.1);
 }
 
 /// A slender beam with a companion that turns about its end under a force along it.
@@ -185,6 +189,17 @@ TEST(Ledger, TriesWhatTheSceneDoesWithout) {
   const Ledger rigid = ledger_of(scene, beam_files(), {2, 0.5}, {{"flexibility"}, {}});
   EXPECT_EQ(line_of(rigid, "flexibility", "on").failure, "");
   EXPECT_GT(line_of(rigid, "flexibility", "on").changes.at(0).part, 0.0);
+}
+
+TEST(Ledger, SwitchesOfTheSceneDoNotStandAgainstWhatIsTried) {
+  formats::Scene scene = turning_beam();
+  scene.effects = {{formats::Effect::stiffening, "", false, "test"}};
+  const Ledger ledger = ledger_of(scene, beam_files(), {2, 0.5}, {{"inertia"}, {}});
+  EXPECT_EQ(ledger.lines.size(), 3U);
+  for (const LedgerLine& line : ledger.lines) {
+    EXPECT_EQ(line.failure, "") << line.toggle.becomes;
+    EXPECT_TRUE(line.whole_run);
+  }
 }
 
 // The flexible beam bends under the side force, the rigid one keeps its ends on a line: all of the deflection is gone.
