@@ -45,7 +45,8 @@ class LedgerMaker {
       if (interrupted()) return stopped();
       require_whole(own_windows_.back());
     }
-    measure_sizes();
+    measure_sizes(toggles);
+    if (interrupted()) return stopped();
     for (const Toggle& toggle : toggles) ledger_.lines.emplace_back().toggle = toggle;
     weigh_activities();
     for (std::size_t i = 0; i < ledger_.lines.size() && !interrupted(); ++i) {
@@ -75,16 +76,19 @@ class LedgerMaker {
   }
   void require_whole(const WindowHistory& own) const {
     if (!own.failure.empty() || own.states.empty())
-      throw Error(fmt::format("a window of the scene as it is ended early: {}", own.failure), request_.scene.file,
-                  "take results of this very scene, or leave --results out");
+      throw Error(fmt::format("the scene as it is ended early: {}", own.failure), request_.scene.file,
+                  "a scene that runs to its end can have a ledger: shorten integrator.end");
   }
 
-  /// Of a run of its own all of it was seen, of stored results the windows.
-  void measure_sizes() {
+  /// Of a run of its own all of it was seen; of stored results the windows, or the run where a line is over all of it.
+  void measure_sizes(const std::vector<Toggle>& toggles) {
     sizes_ = reference_.sizes;
     if (sizes_) return;
-    sizes_.emplace(own_windows_.front().measures->list());
-    for (const WindowHistory& window : own_windows_)
+    const std::vector<WindowHistory>& seen =
+        std::ranges::any_of(toggles, changes_deformation) ? own_run() : own_windows_;
+    if (interrupted()) return;
+    sizes_.emplace(seen.front().measures->list());
+    for (const WindowHistory& window : seen)
       for (const MeasuredRow& row : window.rows) sizes_->observe(row);
   }
 
@@ -149,17 +153,22 @@ class LedgerMaker {
     own_per_step_.push_back(own.per_step());
   }
 
+  static bool changes_deformation(const Toggle& toggle) {
+    return toggle.effect == inertia_word || toggle.effect == formats::effect_word(formats::Effect::stiffening) ||
+           toggle.effect == formats::effect_word(formats::Effect::flexibility);
+  }
   /// A body of another stiffness would begin a window with a deformation that is none of its own, and vibrate: it runs
   /// from the start.
   bool begins_anew(const Toggle& toggle, const Model& other) const {
-    return toggle.effect == inertia_word || toggle.effect == formats::effect_word(formats::Effect::stiffening) ||
-           !share_states(own_.model, other);
+    return changes_deformation(toggle) || !share_states(own_.model, other);
   }
   LedgerWindow whole_window() const {
     return {request_.scene.integrator.start, request_.scene.integrator.end, reference_.windows.front().begin};
   }
   const std::vector<WindowHistory>& own_run() {
-    if (own_run_.empty()) own_run_.push_back(replay(request_.scene, whole_window(), request_.begin, KeepStates::yes));
+    if (!own_run_.empty()) return own_run_;
+    own_run_.push_back(replay(request_.scene, whole_window(), request_.begin, KeepStates::yes));
+    if (!interrupted()) require_whole(own_run_.front());
     return own_run_;
   }
   /// Absent: the poses of the scene.

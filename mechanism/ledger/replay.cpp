@@ -134,7 +134,6 @@ ReferenceRun run_reference(const formats::Scene& scene, const std::optional<Stat
   const RunReport report = simulate(request, stage.control).report;
   if (report.outcome == RunOutcome::interrupted) return run;
   if (report.outcome != RunOutcome::completed) throw_unfinished(scene, report);
-  run.steps = report.steps;
   require_windows(scene, run);
   return run;
 }

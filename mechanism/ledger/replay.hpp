@@ -48,7 +48,6 @@ struct ReferenceRun {
   std::vector<LedgerWindow> windows;
   std::optional<Measures> measures;
   std::optional<MeasureSizes> sizes;
-  long steps = 0;
 };
 ReferenceRun run_reference(const formats::Scene& scene, const std::optional<State>& begin, const LedgerStage& stage);
 

@@ -9,6 +9,7 @@
 #include "common/error.hpp"
 #include "formats/scene/scene.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/thrown.hpp"
 
 namespace tisserand::formats::effects_test {
 namespace {
@@ -28,12 +29,7 @@ Scene read(const std::string& text, const std::vector<Override>& changes = {}) {
 }
 
 std::string error_of(const std::string& text) {
-  try {
-    static_cast<void>(read(text));
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return test_support::error_of([&text] { static_cast<void>(read(text)); });
 }
 
 TEST(SceneEffects, AreSwitchesOfAllAndOfBodies) {
