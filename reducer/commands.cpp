@@ -94,10 +94,11 @@ std::string times_text(const Phases& phases) {
   return text;
 }
 
-/// "companion.h5 (1.2 MB: second order of 24 coordinates, load cases gust, weight)".
+/// "companion.h5 (1.2 MB: second order of 24 coordinates, 9 rows of trapped stress, load cases gust, weight)".
 std::string companion_text(const formats::Companion& companion, const std::string& path) {
   std::vector<std::string> holds, cases;
   if (companion.has_second_order()) holds.push_back(fmt::format("second order of {} coordinates", companion.S1.cols()));
+  if (!companion.Lambda.empty()) holds.push_back(fmt::format("{} rows of trapped stress", companion.Lambda.size()));
   for (const formats::LoadCase& load : companion.load_cases) cases.push_back(load.name);
   if (!cases.empty()) holds.push_back("load cases " + listed(cases));
   return fmt::format("{} ({:.3g} MB: {})", path, 1e-6 * static_cast<double>(std::filesystem::file_size(path)),

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double symmetry_accepted = 1e-9;  // of scaled entries, as of S̄ and M̄
 constexpr double rigid_accepted = 1e-8;     // stress of rigid motions: round-off of a stress of the size E
+constexpr double trapped_accepted = 1e-6;   // of Λ on rigid motions: round-off of products with S̄
 constexpr double gram_accepted = 1e-9;      // of scaled eigenvalues
 constexpr double integral_accepted = 1e-6;  // of mass, S0, S1 against M̄, as of the rigid mass of superelements
 constexpr double weight_accepted = 1e-9;    // of sums of weights
@@ -157,6 +158,21 @@ void check_rigid_stress(const Inspection& at) {
   }
 }
 
+/// Λ_b R = 0: a body that turns traps nothing.
+void check_trapped(const Inspection& at) {
+  const Eigen::MatrixXd R = scaled_rigid_motions(at.superelement, at.force_row, at.scales.length);
+  for (std::size_t b = 0; b < at.companion.Lambda.size(); ++b) {
+    const std::string dataset = fmt::format("/Lambda[{}]", b);
+    check_symmetric(at, dataset, at.companion.Lambda[b], at.force_row);
+    const Eigen::MatrixXd scaled = at.force_row.asDiagonal() * at.companion.Lambda[b] * at.force_row.asDiagonal();
+    const double residual = (scaled * R).cwiseAbs().maxCoeff(), largest = scaled.cwiseAbs().maxCoeff();
+    if (!(residual <= trapped_accepted * largest))
+      throw Error(fmt::format("a rigid motion bends: Lambda R is {:.3e} of the largest entry (at most {:g})",
+                              residual / largest, trapped_accepted),
+                  at.dataset(dataset), other_program);
+  }
+}
+
 /// [M̄ Ω_k C_k; . Ω_j Ω_k E_jk] is the Gram matrix of the velocities Φ ẏ + Ω × Φ y: positive semidefinite for every Ω.
 /// E holds the part of its pairs that is symmetric in jk, so Ω is one of 13 directions: axes and diagonals of a cube.
 void check_gram(const Inspection& at) {
@@ -208,6 +224,7 @@ void check_second_order(const Inspection& at) {
     check_symmetric(at, fmt::format("/T[{}] ({})", jk, pairs[jk]), c.T[jk], at.mass_row);
   }
   check_rigid_stress(at);
+  check_trapped(at);
   check_gram(at);
 }
 

@@ -1,6 +1,7 @@
 // Companions between memory and *.companion.h5, with the identity of their content.
 #include "formats/companion/companion.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -22,7 +23,7 @@ constexpr hdf5::FileKind companion_kind{
     "tisserand-companion", "companion file",
     "give a *.companion.h5 file, as `reducer run` writes it with `second_order: yes` in the part file",
     "reduce the part again with a program of the same major version"};
-constexpr std::uint64_t max_load_cases = 1000;
+constexpr std::uint64_t max_load_cases = 1000, max_trapped_rows = 2000;
 const std::vector<std::string> second_order_datasets{"/H", "/C", "/E", "/N", "/T", "/S0", "/S1", "/mass"};
 
 std::uint64_t length_of(const hdf5::InputFile& file, const std::string& dataset, std::uint64_t limit,
@@ -50,6 +51,18 @@ Eigen::VectorXd read_vector(const hdf5::InputFile& file, const std::string& data
   return values;
 }
 
+void read_trapped(const hdf5::InputFile& file, std::uint64_t n, Companion& c) {
+  constexpr std::uint64_t most = max_companion_size;
+  const hdf5::Shape shape = file.info("/Lambda").shape;
+  if (shape.empty() || shape[0] < 1 || shape[0] > max_trapped_rows || shape[0] * n * n > most * most * most)
+    throw Error(fmt::format("has shape {}, expected 1 to {} matrices of n = {} coordinates", hdf5::shape_text(shape),
+                            std::min(max_trapped_rows, most * most * most / (n * n)), n),
+                file.path() + ": /Lambda",
+                "keep the largest rows alone, or compare the file with formats/COMPANION.md");
+  c.Lambda.resize(shape[0]);
+  read_symmetric(file, "/Lambda", n, c.Lambda.data(), shape[0]);
+}
+
 void read_second_order(const hdf5::InputFile& file, Companion& c) {
   for (const std::string& dataset : second_order_datasets)
     if (!file.has(dataset))
@@ -67,6 +80,7 @@ void read_second_order(const hdf5::InputFile& file, Companion& c) {
   read_symmetric(file, "/E", n, c.E.data(), 6);
   read_symmetric(file, "/N", n, c.N.data(), 6);
   read_symmetric(file, "/T", n, c.T.data(), 6);
+  if (file.has("/Lambda")) read_trapped(file, n, c);
 }
 
 void read_load_cases(const hdf5::InputFile& file, Companion& c) {
@@ -120,7 +134,7 @@ UncheckedCompanion read_unchecked_companion(const std::string& path) {
 
 void write_companion_head(hdf5::Id file, const Companion& c, const std::string& where) {
   hdf5::write_text_attribute(file, "/", "format", companion_kind.format, where);
-  hdf5::write_text_attribute(file, "/", "version", "1.0", where);
+  hdf5::write_text_attribute(file, "/", "version", c.Lambda.empty() ? "1.0" : "1.1", where);
   hdf5::write_text_attribute(file, "/", "producer", c.producer, where);
   hdf5::write_text_attribute(file, "/", "superelement", c.content_id, where);
   hdf5::write_text_attribute(file, "/", "content_id", c.companion_id, where);
@@ -146,6 +160,7 @@ void write_second_order(hdf5::Id file, const Companion& c, const std::string& wh
   write_triangles("/E", c.E.data(), 6);
   write_triangles("/N", c.N.data(), 6);
   write_triangles("/T", c.T.data(), 6);
+  if (!c.Lambda.empty()) write_triangles("/Lambda", c.Lambda.data(), static_cast<int>(c.Lambda.size()));
 }
 
 void write_load_cases(hdf5::Id file, const Companion& c, const std::string& where) {
@@ -200,6 +215,7 @@ std::string companion_id(const Companion& c) {
     identity.add_symmetric(c.H.data(), static_cast<int>(c.H.size()));
     for (const RowMajorX C : c.C) identity.add(C.data(), static_cast<std::size_t>(C.size()));
     for (const auto* arrays : {&c.E, &c.N, &c.T}) identity.add_symmetric(arrays->data(), 6);
+    if (!c.Lambda.empty()) identity.add_symmetric(c.Lambda.data(), static_cast<int>(c.Lambda.size()));
   }
   for (const LoadCase& load : c.load_cases) {
     identity.add(load.name);

@@ -52,6 +52,10 @@ struct Companion {
   std::array<Eigen::MatrixXd, 6> N;              ///< n x n, a: ½ yᵀ N_a y = D_aᵀ M w₂(y), symmetric
   std::array<Eigen::MatrixXd, 6> T;  ///< n x n, pairs jk: ½ yᵀ T_jk y = sym_jk D_(3+j)ᵀ M [e_k x] w₂(y)
 
+  /// n x n, symmetric: ½ Σ_b (½ yᵀ Λ_b y)² is the energy of membrane stress that bending traps, which no motion of the
+  /// elements relaxes; empty: not known
+  std::vector<Eigen::MatrixXd> Lambda;
+
   std::vector<LoadCase> load_cases;  ///< ascending names
 
   /// False: the file holds load cases only.

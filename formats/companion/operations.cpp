@@ -40,6 +40,7 @@ void for_each_matrix(Companion& c, const Change& change) {
     for (MatrixXd& C : c.C) change(C);
     for (auto* arrays : {&c.E, &c.N, &c.T})
       for (MatrixXd& matrix : *arrays) change(matrix);
+    for (MatrixXd& Lambda : c.Lambda) change(Lambda);
   }
   for (LoadCase& load : c.load_cases)
     if (load.stiffness.size() > 0) change(load.stiffness);
@@ -180,6 +181,7 @@ void convert(Companion& c, const UnitConversion& units, const std::vector<bool>&
   c.S0 *= moment;
   c.S1 *= moment;
   for (MatrixXd& H : c.H) H *= energy;
+  for (MatrixXd& Lambda : c.Lambda) Lambda *= std::sqrt(energy);
   for (MatrixXd& C : c.C) C *= inertia;
   for (int i = 0; i < 6; ++i) {
     c.E[i] *= inertia;

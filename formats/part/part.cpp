@@ -71,6 +71,9 @@ Part read_tree(YamlReader& reader, const std::string& path) {
   Part part;
   part.file = path;
   read_fields(map, part);
+  if (part.double_curvature > 0 && part.second_order == SecondOrder::no)
+    context.fail(map.find("double_curvature")->key_place, "'double_curvature' has no effect with second_order: no",
+                 "remove one of them");
   part.units = read_units(map);
   read_part_materials(map, part);
   part.sections = read_sections(map, part.units);
@@ -150,6 +153,11 @@ std::vector<Field> part_fields() {
                                                       "beside the superelement, from which a mechanism "
                                                       "takes stiffening, buckling and exact inertia",
                                                       "`yes` while the file stays below 20 MB"),
+      plain<&Part::double_curvature>(
+          "double_curvature", "integer>=0<=100",
+          "in the companion file also the membrane stress that bending into double curvature traps (plates that bend by "
+          "their thickness and more), of all pairs of so many lowest elastic modes of the free reduced part; 0: none",
+          "0"),
       {"modal_body", "modal_body",
        "also a [modal body file](MODAL_BODY.md) beside the superelement, see [modal_body](#modal_body)", "none"},
       {"supports", "{text: held | support}",

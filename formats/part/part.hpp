@@ -180,6 +180,7 @@ struct Part {
   ModeSelection modes;
   bool recovery = false;  ///< a recovery file beside the superelement
   SecondOrder second_order = SecondOrder::unless_large;
+  int double_curvature = 0;  ///< shapes whose pairs are looked at for membrane stress that bending traps
   std::optional<ModalBodyRequest> modal_body = std::nullopt;
   MeshFile mesh;
   std::vector<OrthotropicMaterial> orthotropic;

@@ -75,7 +75,8 @@ Damping read_damping(const MapReader& map) {
 
 /// Keys of a flexible superelement, which would be ignored where the body is rigid.
 void refuse_flexible_keys(const MapReader& map) {
-  for (const char* key : {"modes", "cutoff", "inertia", "stiffening", "second_order", "frame", "weights", "damping"})
+  for (const char* key :
+       {"modes", "cutoff", "inertia", "stiffening", "second_order", "double_curvature", "frame", "weights", "damping"})
     if (const YamlNode* node = map.find(key))
       map.context().fail(node->key_place, fmt::format("'{}' has no effect with use: rigid", key),
                          "remove it, or give use: flexible");
@@ -309,6 +310,11 @@ KeySet superelement_fields() {
            "`on`: inertia F and stiffening full; `off`: inertia B and stiffening off, as without a companion file",
            "`on` where a companion file lies beside the superelement file and neither `inertia` nor `stiffening` is "
            "given"),
+       choice<&SuperelementBodySpec::double_curvature, on_or_off>(
+           "double_curvature",
+           "with stiffening, the membrane stress that bending of plates into double curvature traps, by the rows that "
+           "`double_curvature` of the part file writes into the companion file",
+           "`on` where there is stiffening and the companion file has such rows"),
        {"frame", "/^(karcher|paper|node: ?[^ ]+)$/ | frame",
         "floating frame: `karcher` (mean rotation), `paper` (incremental mean, [Car00] (16)), `{node: base}` "
         "(attached to a node; also as text `\"node: base\"`)",

@@ -68,6 +68,7 @@ struct SuperelementBodySpec {
   std::optional<InertiaOption> inertia;        ///< absent: by `second_order`
   std::optional<StiffeningOption> stiffening;  ///< absent: by `second_order`
   std::optional<bool> second_order;            ///< absent: where there is a companion, and neither of the others is
+  std::optional<bool> double_curvature;        ///< absent: where there is stiffening, and the companion knows of it
   FrameKind frame = FrameKind::karcher;
   std::string frame_node;                    ///< for FrameKind::node
   std::vector<NodeWeight> position_weights;  ///< empty: from the file's centre of mass

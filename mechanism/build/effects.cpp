@@ -155,6 +155,7 @@ void leave_out(Effect effect, const BodyFiles& files, const formats::Superelemen
   spec.inertia = choice_of(before, files).inertia;
   spec.stiffening = formats::StiffeningOption::off;
   spec.second_order.reset();
+  spec.double_curvature.reset();
 }
 
 void leave_out(Effect effect, const BodyFiles&, const formats::ModalBodySpec&, formats::ModalBodySpec& spec) {

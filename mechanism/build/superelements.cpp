@@ -17,6 +17,7 @@ SuperelementOptions options_of(const formats::SuperelementBodySpec& spec, const 
   options.frame_node = spec.frame_node;
   options.inertia = choice.inertia;
   options.stiffening = choice.stiffening;
+  options.double_curvature = choice.double_curvature;
   options.load_cases = companion.load_cases;
   if (choice.any() || !options.load_cases.empty()) options.companion = companion.file;
   options.modes = spec.modes;
@@ -32,8 +33,8 @@ SuperelementOptions options_of(const formats::SuperelementBodySpec& spec, const 
 /// All but units and place: those of the file are the same for all uses.
 bool make_the_same(const SuperelementOptions& a, const SuperelementOptions& b) {
   const auto all = [](const SuperelementOptions& o) {
-    return std::tie(o.frame, o.frame_node, o.inertia, o.stiffening, o.modes, o.cutoff, o.position_weights,
-                    o.rotation_weights, o.damping, o.load_cases);
+    return std::tie(o.frame, o.frame_node, o.inertia, o.stiffening, o.double_curvature, o.modes, o.cutoff,
+                    o.position_weights, o.rotation_weights, o.damping, o.load_cases);
   };
   return all(a) == all(b);
 }
@@ -73,8 +74,9 @@ bool may_use_companion(const formats::SuperelementBodySpec& spec) {
 
 std::string describe(const SecondOrderChoice& choice) {
   constexpr const char* stiffening[] = {"off", "stress", "full"};
-  return fmt::format("inertia {}, stiffening {}", "ABMF"[static_cast<int>(choice.inertia)],
-                     stiffening[static_cast<int>(choice.stiffening)]);
+  return fmt::format("inertia {}, stiffening {}{}", "ABMF"[static_cast<int>(choice.inertia)],
+                     stiffening[static_cast<int>(choice.stiffening)],
+                     choice.double_curvature ? ", double curvature" : "");
 }
 
 SecondOrderChoice choose_second_order(const formats::SuperelementBodySpec& spec, const formats::Companion* companion) {
@@ -88,6 +90,14 @@ SecondOrderChoice choose_second_order(const formats::SuperelementBodySpec& spec,
                                                                                            : InertiaOption::B);
   refuse_wrong_combinations(spec, choice);
   if (choice.any() && !available) throw_without_companion(spec, choice, companion);
+  const bool knows = available && !companion->Lambda.empty(), stiffens = choice.stiffening != StiffeningOption::off;
+  choice.double_curvature = spec.double_curvature.value_or(knows && stiffens);
+  if (choice.double_curvature && !stiffens)
+    throw Error("double_curvature: on without stiffening, of which it is a part", spec.where,
+                "give second_order: on, or remove double_curvature");
+  if (choice.double_curvature && !knows)
+    throw Error(fmt::format("double_curvature: on, but {} has no Lambda", formats::companion_path(spec.file)),
+                spec.where, "reduce the part with `double_curvature: 20` in the part file, or remove double_curvature");
   return choice;
 }
 

@@ -29,6 +29,7 @@ bool may_use_companion(const formats::SuperelementBodySpec& spec);
 struct SecondOrderChoice {
   formats::InertiaOption inertia = formats::InertiaOption::B;
   formats::StiffeningOption stiffening = formats::StiffeningOption::off;
+  bool double_curvature = false;  ///< the companion's Λ
   bool any() const { return inertia == formats::InertiaOption::F || stiffening != formats::StiffeningOption::off; }
 };
 
@@ -36,7 +37,7 @@ struct SecondOrderChoice {
 /// wrong, and for terms of a companion that is not there.
 SecondOrderChoice choose_second_order(const formats::SuperelementBodySpec& spec, const formats::Companion* companion);
 
-/// "inertia F, stiffening full".
+/// "inertia F, stiffening full, double curvature".
 std::string describe(const SecondOrderChoice& choice);
 
 /// What a body has of the companion of its file.

@@ -56,6 +56,9 @@ int ritz_vectors(const formats::ModeSelection& modes, const Partition& p) {
   return modes.moments ? std::min(*modes.moments, most) : modes.accuracy ? most : 0;
 }
 
+/// Of shapes, whose forces are held four times too, when the modes are done (trapped_energy()).
+int pairs_of(int shapes) { return shapes * (shapes + 1) / 2; }
+
 /// ", about 12 s" for so many operations by the rate of a product of dense matrices on this machine; nothing below 2 s.
 std::string time_text(double operations) {
   constexpr double quick = 1e10, told = 2.0;
@@ -118,7 +121,7 @@ Factor factor_inside(const Blocks& blocks, const Partition& p, const formats::Pa
     const SymmetricRows rows = symmetric_rows(blocks.S_II);
     const double here = static_cast<double>(ranks_beside_leader()) / rank_count();  // of a factor that is shared
     const double need = memory_need({here * cost.entries, cost.operations}, rows.begin[rows.size], p, part.modes.count,
-                                    ritz_vectors(part.modes, p));
+                                    std::max(ritz_vectors(part.modes, p), pairs_of(part.double_curvature)));
     const double available = available_memory();
     require_memory(need, available, p, part.file);
     if (need >= told)

@@ -14,6 +14,7 @@
 #include "reducer/elements/each_element.hpp"
 #include "reducer/elements/element_matrices.hpp"
 #include "reducer/loads/load_vectors.hpp"
+#include "reducer/second_order/double_curvature.hpp"
 #include "reducer/second_order/inertia.hpp"
 #include "reducer/second_order/quadratic_forms.hpp"
 #include "reducer/second_order/tie_strain.hpp"
@@ -47,18 +48,6 @@ MatrixXd reduced_displacements(const InternalProblem& problem, const BoundaryMod
     Phi.row(p.internal[i]).tail(internal.lambda.size()) = internal.Phi.row(i);
   }
   return Phi;
-}
-
-/// Tᵀ f: forces on x as forces on q.
-MatrixXd gather_forces(const Transformation& T, const MatrixXd& f) {
-  MatrixXd result = MatrixXd::Zero(T.independent, f.cols());
-  for (Index x = 0; x < f.rows(); ++x) {
-    if (T.row[x] >= 0)
-      result.row(T.row[x]) += f.row(x);
-    else
-      for (const Term& term : T.dependent[-1 - T.row[x]]) result.row(term.coordinate) += term.coefficient * f.row(x);
-  }
-  return result;
 }
 
 /// g_a = M D_a and g_jk = −½ ([e_k x] M D_3+j + [e_j x] M D_3+k), on x.
@@ -283,7 +272,7 @@ bool wants_second_order(const formats::Part& part, const formats::Superelement& 
     case formats::SecondOrder::unless_large:
       break;
   }
-  return fits && companion_bytes(element.size()) < large_file;
+  return fits && (part.double_curvature > 0 || companion_bytes(element.size()) < large_file);
 }
 
 void describe_companion(const Mesh& mesh, const formats::Part& part, const formats::Superelement& element,
@@ -303,7 +292,7 @@ void describe_companion(const Mesh& mesh, const formats::Part& part, const forma
         fmt::format("The second order of {} is left out of the companion file: what they mean for "
                     "finite rotations is not known.",
                     listed(names)));
-  if (mesh.shells.empty()) return;
+  if (mesh.shells.empty() || part.double_curvature > 0) return;
   double thickness = std::numeric_limits<double>::infinity();
   for (const ShellElement& shell : mesh.shells)
     thickness = std::min(thickness, mesh.shell_properties[shell.property].section.thickness);
@@ -311,7 +300,7 @@ void describe_companion(const Mesh& mesh, const formats::Part& part, const forma
   model.notes.push_back(fmt::format(
       "Second order of shells leaves out membrane stress that bending into double curvature traps: a plate that bends "
       "by its thickness ({:.3g}{}{}) has forces 7 % (edges held in their plane) to 25 % too small, by twice that 11 to "
-      "58 %. Cut a plate that bends so far into several parts.",
+      "58 %. `double_curvature: 20` in the part file holds it; or cut such a plate into several parts.",
       thickness, unit.empty() ? "" : " ", unit));
 }
 
@@ -350,7 +339,7 @@ formats::Companion make_load_companion(const InternalProblem& problem, const Bou
 
 formats::Companion make_companion(const InternalProblem& problem, const BoundaryModes& boundary,
                                   const InternalModes& internal, const formats::Superelement& element,
-                                  const Eigen::VectorXd& weights) {
+                                  const Eigen::VectorXd& weights, int shapes) {
   const Mesh& mesh = problem.mesh;
   const System& system = problem.system;
   const int threads = core_count(), n = static_cast<int>(element.size());
@@ -369,16 +358,18 @@ formats::Companion make_companion(const InternalProblem& problem, const Boundary
   const MatrixXd g = all_loads(mesh, cases, inertia.MD);
   const int all = n + static_cast<int>(g.cols());
   MatrixXd displacements(Phi.rows(), all);
-  displacements << Phi, expand(system.T, residual_displacements(problem, internal, gather_forces(system.T, g)));
+  displacements << Phi, expand(system.T, residual_displacements(problem, internal, gather(system.T, g)));
   QuadraticForms forms(n, all, threads);
   ElementBatches(mesh, system.coordinates, displacements, n, threads)
       .for_each([&](std::span<const StrainBatch> batches) { forms.add(batches); }, problem.share);
   add_offset_masses(mesh, system.coordinates, Phi, D, forms);
-  if (const TieForces ties = find_tie_forces(mesh, system, problem.where); !ties.empty()) {
+  const TieForces ties = find_tie_forces(mesh, system, problem.where);
+  if (!ties.empty()) {
     const MatrixXd residual = tie_residual(mesh, system.coordinates, ties, displacements, g);
     forms.add(tie_batches(mesh, system, ties, multipliers(ties, residual), Phi));
   }
   for (int j = 0; j < n; ++j) c.H.push_back(forms.matrix(j));
+  if (shapes > 0) c.Lambda = trapped_stress(problem, boundary, element, ties, Phi, shapes);
   for (int a = 0; a < 6; ++a) {
     c.N[a] = -forms.matrix(n + a);
     c.T[a] = -forms.matrix(n + 6 + a);
@@ -402,8 +393,15 @@ std::optional<formats::Companion> companion_if_asked(const formats::Part& part, 
   const bool second_order = wanted && !has_own_mass;
   if (!second_order && problem.mesh.load_cases.empty()) return std::nullopt;
   const Eigen::VectorXd weights = default_weights(element);
-  return second_order ? make_companion(problem, boundary, internal, element, weights)
-                      : make_load_companion(problem, boundary, internal, element, weights);
+  if (!second_order) return make_load_companion(problem, boundary, internal, element, weights);
+  formats::Companion companion = make_companion(problem, boundary, internal, element, weights, part.double_curvature);
+  if (part.double_curvature > 0)
+    model.notes.push_back(
+        companion.Lambda.empty()
+            ? std::string("No membrane stress is trapped by bending: the companion file has no Lambda.")
+            : fmt::format("Membrane stress that bending traps has {} rows in the companion file.",
+                          companion.Lambda.size()));
+  return companion;
 }
 
 }  // namespace tisserand::reducer

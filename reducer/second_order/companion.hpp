@@ -10,8 +10,8 @@
 
 namespace tisserand::reducer {
 
-/// Whether the part asks for the second order of this superelement, which can deform: `second_order`, or its arrays
-/// stay below 20 MB. Throws Error if it asks for more coordinates than companion files hold.
+/// Whether the part asks for the second order of this superelement, which can deform: `second_order` or
+/// `double_curvature`, or its arrays stay below 20 MB. Throws Error if it asks for more coordinates than companion files hold.
 bool wants_second_order(const formats::Part& part, const formats::Superelement& element);
 
 /// What the user should know of it: notes on a companion that is left out, warnings of ties without second order.
@@ -21,10 +21,10 @@ void describe_companion(const Mesh& mesh, const formats::Part& part, const forma
 /// H, C, E, N, T, S0, S1 by one pass over the masses of the elements, twelve solutions with the factor of S_II and one
 /// more per load case of the mesh, and one pass over the stresses of n + 12 + cases displacements. Copies of all
 /// displacements (coordinates of the mesh x their number) and blocks of elements are held. `element`: the reduced part,
-/// rows boundary first; `weights`: one per boundary node.
+/// rows boundary first; `weights`: one per boundary node; `shapes`: of trapped_stress(), 0: no Λ.
 formats::Companion make_companion(const InternalProblem& problem, const BoundaryModes& boundary,
                                   const InternalModes& internal, const formats::Superelement& element,
-                                  const Eigen::VectorXd& weights);
+                                  const Eigen::VectorXd& weights, int shapes = 0);
 
 /// One with the forces of the load cases alone.
 formats::Companion make_load_companion(const InternalProblem& problem, const BoundaryModes& boundary,

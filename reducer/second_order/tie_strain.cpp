@@ -176,22 +176,45 @@ TieForces find_tie_forces(const Mesh& mesh, const System& system, const std::str
   return forces;
 }
 
-MatrixXd multipliers(const TieForces& forces, const MatrixXd& residual) {
+namespace {
+
+/// C_Dᵀ: a column per equation, a row per coordinate that they make dependent.
+Eigen::SparseMatrix<double> dependent_part(const TieForces& forces) {
   const auto size = static_cast<Eigen::Index>(forces.equation.size());
-  MatrixXd lambda = MatrixXd::Zero(static_cast<Eigen::Index>(forces.ties.equations.size()), residual.cols());
-  if (size == 0) return lambda;
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index i = 0; i < size; ++i)
     for (const Term& term : forces.ties.equations[forces.equation[i]].terms)
       if (const int row = forces.row_of[term.coordinate]; row >= 0) entries.emplace_back(row, i, term.coefficient);
   Eigen::SparseMatrix<double> C_D(size, size);
   C_D.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(C_D);
-  TISSERAND_ENSURE(factors.info() == Eigen::Success, "{} equations of ties do not give their {} coordinates", size,
-                   size);
-  const MatrixXd solution = factors.solve(residual);
-  for (Eigen::Index i = 0; i < size; ++i) lambda.row(forces.equation[i]) = solution.row(i);
+  return C_D;
+}
+
+using TieFactors = Eigen::SparseLU<Eigen::SparseMatrix<double>>;
+
+void factor(const TieForces& forces, TieFactors& factors) {
+  factors.compute(dependent_part(forces));
+  TISSERAND_ENSURE(factors.info() == Eigen::Success, "{0} equations of ties do not give their {0} coordinates",
+                   forces.equation.size());
+}
+
+}  // namespace
+
+MatrixXd multipliers(const TieForces& forces, const MatrixXd& residual) {
+  MatrixXd lambda = MatrixXd::Zero(static_cast<Eigen::Index>(forces.ties.equations.size()), residual.cols());
+  if (forces.equation.empty()) return lambda;
+  TieFactors factors;
+  factor(forces, factors);
+  const MatrixXd solution = factors.solve(residual);  // Eigen 3.4 solves wrongly into rows by index
+  lambda(forces.equation, Eigen::all) = solution;
   return lambda;
+}
+
+MatrixXd dependents(const TieForces& forces, const MatrixXd& constant) {
+  if (forces.equation.empty()) return MatrixXd::Zero(0, constant.cols());
+  TieFactors factors;
+  factor(forces, factors);
+  return factors.transpose().solve(MatrixXd(-constant(forces.equation, Eigen::all)));
 }
 
 std::vector<StrainBatch> tie_batches(const Mesh& mesh, const System& system, const TieForces& forces,

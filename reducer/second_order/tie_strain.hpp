@@ -38,6 +38,10 @@ TieForces find_tie_forces(const Mesh& mesh, const System& system, const std::str
 /// TieForces::dependent): C_Dᵀ λ = g − S w.
 Eigen::MatrixXd multipliers(const TieForces& forces, const Eigen::MatrixXd& residual);
 
+/// What c(x) = −constant makes of the dependent coordinates (rows of TieForces::dependent), all others zero.
+/// `constant`: a row per equation.
+Eigen::MatrixXd dependents(const TieForces& forces, const Eigen::MatrixXd& constant);
+
 /// Stresses and gradients of all spiders. `lambda`: multipliers(); `Phi`: displacements of all x for the coordinates.
 std::vector<StrainBatch> tie_batches(const Mesh& mesh, const System& system, const TieForces& forces,
                                      const Eigen::MatrixXd& lambda, const Eigen::MatrixXd& Phi);

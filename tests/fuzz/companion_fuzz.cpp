@@ -6,8 +6,11 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace tisserand;
-  static const test_support::SecondOrderBody body =
-      test_support::second_order_network(1, Eigen::Vector4d(0.25, 0.25, 0.25, 0.25));
+  static const test_support::SecondOrderBody body = [] {
+    auto network = test_support::second_order_network(1, Eigen::Vector4d(0.25, 0.25, 0.25, 0.25));
+    test_support::add_trapped_stress(network);
+    return network;
+  }();
   static const std::string sound = sound_file("companion", [](const std::string& path) {
     formats::Companion companion = body.companion;
     formats::write_companion(path, companion, body.element);

@@ -270,6 +270,7 @@ void use_companion(const formats::Superelement& element, const CanonicalMatrices
   std::erase_if(companion.load_cases, [&](const formats::LoadCase& load) {
     return !std::binary_search(options.load_cases.begin(), options.load_cases.end(), load.name);
   });
+  if (!options.double_curvature) companion.Lambda.clear();
   companion = companion_on_body(std::move(companion), element, matrices, options.units, body);
   if (companion.has_second_order())
     body.second_order = make_second_order(body, companion, options.inertia, options.stiffening);

@@ -20,6 +20,7 @@ struct SuperelementOptions {
   std::string frame_node;  ///< for FrameKind::node
   formats::InertiaOption inertia = formats::InertiaOption::B;
   formats::StiffeningOption stiffening = formats::StiffeningOption::off;
+  bool double_curvature = false;                      ///< the rows Λ of the companion
   const formats::Companion* companion = nullptr;      ///< of the file; for inertia F, stiffening and load cases
   std::vector<std::string> load_cases;                ///< those that are used, ascending
   std::optional<int> modes;                           ///< absent: all in the file

@@ -162,14 +162,17 @@ Stiffening make_stiffening(const SuperelementBody& body, const formats::Companio
     L(strained + i, nb + i) = std::sqrt(body.S_II[i]);
     Gamma.emplace_back(companion.H[nb + i] / L(strained + i, nb + i));
   }
+  Gamma.insert(Gamma.end(), companion.Lambda.begin(), companion.Lambda.end());
+  const auto trapped = static_cast<int>(companion.Lambda.size());  // rows that no coordinate stretches
+  L.conservativeResizeLike(MatrixXd::Zero(strained + m + trapped, nb + m));
   const double largest = largest_entry(Gamma, unit);
   const std::vector<int> order = order_by_entries(Gamma, unit, QuadraticForms::round_off * largest);
   std::vector<MatrixXd> ordered;
   for (const int a : order) ordered.push_back(Gamma[a]);
   Stiffening out;
-  out.Gamma = quadratic_forms(ordered, unit, VectorXd::Constant(strained + m, largest));
+  out.Gamma = quadratic_forms(ordered, unit, VectorXd::Constant(L.rows(), largest));
   out.L = MatrixXd::Zero(out.Gamma.count, nb + m);
-  out.L.topRows(strained + m) = L(order, Eigen::all);
+  out.L.topRows(L.rows()) = L(order, Eigen::all);
   out.L_blocks = block_columns(out.L, 0.0);
   out.reach.setZero(out.L.rows(), 2);
   for (const SuperelementNode& node : body.node) {

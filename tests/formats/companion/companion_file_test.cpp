@@ -48,6 +48,7 @@ void expect_equal(const Companion& a, const Companion& b) {
   EXPECT_EQ(a.E, b.E);
   EXPECT_EQ(a.N, b.N);
   EXPECT_EQ(a.T, b.T);
+  EXPECT_EQ(a.Lambda, b.Lambda);
   ASSERT_EQ(a.load_cases.size(), b.load_cases.size());
   for (std::size_t i = 0; i < a.load_cases.size(); ++i) {
     EXPECT_EQ(a.load_cases[i].name, b.load_cases[i].name);
@@ -66,6 +67,31 @@ TEST(CompanionFile, ReadsWhatWasWritten) {
   EXPECT_EQ(loaded.companion_id, written.companion_id);
   EXPECT_EQ(loaded.companion_id.size(), 64u);
   EXPECT_EQ(loaded.units.length.label, "m");
+}
+
+Companion with_trapped_stress() {
+  SecondOrderBody body = network();
+  test_support::add_trapped_stress(body);
+  return body.companion;
+}
+
+TEST(CompanionFile, MayHoldTrappedStress) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("net.companion.h5");
+  Companion written = with_trapped_stress();
+  write_companion(path, written, network().element);
+  expect_equal(read_companion(path, network().element), written);
+  const std::string with = written.companion_id;
+  written.Lambda.clear();
+  EXPECT_NE(companion_id(written), with);
+  written = with_trapped_stress();
+  change(path, [](hid_t file) {
+    H5Ldelete(file, "/Lambda", H5P_DEFAULT);
+    const std::vector<double> zeros(2001 * 105, 0.0);
+    hdf5::write_dataset(file, "/Lambda", {2001, 105}, zeros.data(), "test");
+  });
+  EXPECT_THAT(error_of([&] { static_cast<void>(read_companion(path, network().element)); }),
+              HasSubstr("/Lambda: has shape 2001 x 105, expected 1 to 2000 matrices of n = 14 coordinates"));
 }
 
 TEST(CompanionFile, MayHoldLoadCasesAlone) {
@@ -140,6 +166,16 @@ TEST(CompanionFile, EveryRuleIsChecked) {
       {"/H[4]: is not symmetric", [](Companion& c) { c.H[4](1, 2) += 1.0; }},
       {"/H: a rigid motion has stress: moving in x",
        [](Companion& c) { c.H[0](4, 4) += 1e-5 * c.H[0].cwiseAbs().maxCoeff(); }},
+      {"/Lambda[0]: a rigid motion bends",
+       [](Companion& c) {
+         c.Lambda = with_trapped_stress().Lambda;
+         c.Lambda[0](4, 4) *= 1.001;
+       }},
+      {"/Lambda[0]: is not symmetric",
+       [](Companion& c) {
+         c.Lambda = with_trapped_stress().Lambda;
+         c.Lambda[0](4, 5) += 1.0;
+       }},
       {"/C[1]: has 14 x 3", [](Companion& c) { c.C[1].conservativeResize(14, 3); }},
       {"/E[3] (yz): is not symmetric", [](Companion& c) { c.E[3](1, 2) += 1.0; }},
       {"/N[5]: is not symmetric", [](Companion& c) { c.N[5](1, 2) += 1.0; }},

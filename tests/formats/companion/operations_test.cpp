@@ -2,6 +2,7 @@
 #include "formats/companion/operations.hpp"
 
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "formats/superelement/mirror.hpp"
 #include "tests/support/bodies/second_order_network.hpp"
@@ -127,6 +128,50 @@ TEST(CompanionOperations, CongruenceIsThatOfTheBasis) {
   expect_near(turned.S1 * y, body.companion.S1 * Ay, "S1");
   EXPECT_NEAR(turned.load_cases[0].force.dot(y) / body.companion.load_cases[0].force.dot(Ay), 1.0, 1e-11);
   EXPECT_NEAR(form(turned.load_cases[0].stiffness, y) / form(body.companion.load_cases[0].stiffness, Ay), 1.0, 1e-11);
+}
+
+// ½ Σ (½ yᵀΛy)² is an energy of the motion: the same in all coordinates, units, and in a mirror, and dropped modes do
+// not change that of the others.
+TEST(CompanionOperations, TrappedStressHasTheSameEnergyInAllCoordinates) {
+  SecondOrderBody body = test_support::second_order_network(3, weights);
+  body.companion.load_cases.clear();
+  const MatrixXd& S = body.element.stiffness;
+  body.companion.Lambda = {S * S / S.norm(), S * body.element.mass * S / S.norm()};
+  const Eigen::Index n = S.rows();
+  const auto energy = [](const Companion& c, const Eigen::VectorXd& y) {
+    double sum = 0.0;
+    for (const MatrixXd& Lambda : c.Lambda) sum += 0.125 * std::pow(y.dot(Lambda * y), 2);
+    return sum;
+  };
+  const Eigen::VectorXd y = Eigen::VectorXd::NullaryExpr(n, [](Eigen::Index i) { return std::sin(1.0 + 3.0 * i); });
+  const double expected = energy(body.companion, y);
+
+  Companion turned = body.companion;
+  const MatrixXd A = MatrixXd::Identity(n, n) + 0.1 * y * y.reverse().transpose();
+  congruence(turned, A);
+  EXPECT_NEAR(energy(turned, A.partialPivLu().solve(y)) / expected, 1.0, 1e-11);
+
+  Eigen::VectorXd kept = y;
+  kept.tail(2).setZero();
+  Companion cut = body.companion;
+  drop_modes(cut, body.element.mass, rigid(body), {boundary_rows + 1, boundary_rows + 2}, body.omega_squared.tail(2));
+  EXPECT_NEAR(energy(cut, kept.head(n - 2)) / energy(body.companion, kept), 1.0, 1e-12);
+
+  Companion image = body.companion;
+  const Vector3d axes(1, -1, 1);
+  mirror(image, axes, mirrored(LoadedSuperelement{body.element, {}}, axes).superelement);
+  Eigen::VectorXd seen = y;
+  for (Eigen::Index row = 0; row < boundary_rows; ++row) seen[row] *= axes[body.element.dof_component[row]];
+  EXPECT_NEAR(energy(image, seen) / expected, 1.0, 1e-12);
+
+  const UnitConversion units{1000.0, 0.001, 500.0};
+  Companion converted = body.companion;
+  std::vector<bool> translation;
+  for (const int node : body.element.dof_node) translation.push_back(node >= 0);
+  convert(converted, units, translation);
+  Eigen::VectorXd other = y;
+  other.head(boundary_rows) *= units.length;
+  EXPECT_NEAR(energy(converted, other) / expected, 0.001 * 1e6 / (500.0 * 500.0), 1e-12);
 }
 
 TEST(CompanionOperations, MirrorImageIsTheCompanionOfTheImage) {

@@ -110,7 +110,9 @@ std::string read_point(const std::string& path) {
 }
 
 test_support::SecondOrderBody network() {
-  return test_support::second_order_network(6, Eigen::Vector4d(0.1, 0.2, 0.3, 0.4));
+  auto body = test_support::second_order_network(6, Eigen::Vector4d(0.1, 0.2, 0.3, 0.4));
+  test_support::add_trapped_stress(body);
+  return body;
 }
 
 void write_companion_file(const std::string& path) {
@@ -127,6 +129,7 @@ std::string read_companion_file(const std::string& path) {
   for (const Eigen::MatrixXd& C : c.C) all += bits(C);
   for (const auto* arrays : {&c.E, &c.N, &c.T})
     for (const Eigen::MatrixXd& matrix : *arrays) all += bits(matrix);
+  for (const Eigen::MatrixXd& Lambda : c.Lambda) all += bits(Lambda);
   for (const LoadCase& load : c.load_cases) all += text(load.name) + bits(load.force) + bits(load.stiffness);
   return all;
 }

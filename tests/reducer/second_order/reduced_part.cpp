@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 ReducedPart reduce_with_companion(const reducer::Mesh& mesh, const formats::ModeSelection& modes,
-                                  const VectorXd& weights) {
+                                  const VectorXd& weights, int shapes) {
   start_solvers();
   formats::Part part;
   part.name = "body";
@@ -36,16 +36,17 @@ ReducedPart reduce_with_companion(const reducer::Mesh& mesh, const formats::Mode
   const reducer::InternalModes internal = reducer::internal_modes(problem, boundary, part.modes);
   ReducedPart body{reducer::project(part, problem, boundary, internal).superelement, {}};
   body.element.content_id = formats::content_id(body.element);
-  body.companion = reducer::make_companion(problem, boundary, internal, body.element,
-                                           weights.size() > 0 ? weights : reducer::default_weights(body.element));
+  body.companion =
+      reducer::make_companion(problem, boundary, internal, body.element,
+                              weights.size() > 0 ? weights : reducer::default_weights(body.element), shapes);
   formats::check(body.companion, body.element, "body");
   return body;
 }
 
-ReducedPart reduce_with_companion(const reducer::Mesh& mesh, int modes, const VectorXd& weights) {
+ReducedPart reduce_with_companion(const reducer::Mesh& mesh, int modes, const VectorXd& weights, int shapes) {
   formats::ModeSelection selection;
   selection.count = modes;
-  return reduce_with_companion(mesh, selection, weights);
+  return reduce_with_companion(mesh, selection, weights, shapes);
 }
 
 int add_node(reducer::Mesh& mesh, const Vector3d& position) {

@@ -16,12 +16,13 @@ struct ReducedPart {
   formats::Companion companion;
 };
 
-/// Checked; `weights` of the floating frame, one per boundary node (none: the default ones).
+/// Checked; `weights` of the floating frame, one per boundary node (none: the default ones); `shapes` of Λ.
 ReducedPart reduce_with_companion(const reducer::Mesh& mesh, const formats::ModeSelection& modes,
-                                  const Eigen::VectorXd& weights = {});
+                                  const Eigen::VectorXd& weights = {}, int shapes = 0);
 
 /// Of so many modes.
-ReducedPart reduce_with_companion(const reducer::Mesh& mesh, int modes, const Eigen::VectorXd& weights = {});
+ReducedPart reduce_with_companion(const reducer::Mesh& mesh, int modes, const Eigen::VectorXd& weights = {},
+                                  int shapes = 0);
 
 /// Its number.
 int add_node(reducer::Mesh& mesh, const Eigen::Vector3d& position);

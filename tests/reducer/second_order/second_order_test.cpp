@@ -13,8 +13,10 @@
 #include "formats/companion/operations.hpp"
 #include "reducer/elements/beam/beam.hpp"
 #include "reducer/elements/spring.hpp"
+#include "reducer/modes/full_model.hpp"
 #include "reducer/properties/laminate.hpp"
 #include "reducer/second_order/companion.hpp"
+#include "reducer/second_order/double_curvature.hpp"
 #include "reducer/second_order/tie_strain.hpp"
 #include "tests/reducer/parts.hpp"
 #include "tests/reducer/second_order/reduced_part.hpp"
@@ -218,6 +220,43 @@ TEST(SecondOrderReduction, TiedPartsTurnWithoutEnergy) {
       EXPECT_NEAR(c.S1.row(a).dot(second) + turn.dot(c.N[a] * y), momentum[a], 1e-9 * momentum.norm())
           << rotations << a;
   }
+}
+
+/// Of three turns and two deformations of the tied part; `ties`: whether their second order is looked at.
+reducer::TrappedEnergy trapped_of_turned_part(bool average_rotations, bool ties) {
+  const reducer::Mesh mesh = tied_mesh(average_rotations);
+  start_solvers();
+  reducer::System system = reducer::build_system(mesh, "test");
+  const reducer::Partition coordinates = reducer::partition(mesh, system);
+  const reducer::Blocks blocks = reducer::take_apart(system, coordinates, formats::ReductionMethod::craig_bampton);
+  const reducer::Factor S_II(blocks.S_II);
+  const reducer::BoundaryModes boundary = reducer::boundary_modes(S_II, blocks, system, coordinates, [](double) {});
+  const reducer::InternalProblem problem{mesh, system, coordinates, blocks, S_II, "test"};
+  MatrixXd q = MatrixXd::Zero(system.size(), 2);  // as two loads inside bend it
+  const MatrixXd load =
+      MatrixXd::NullaryExpr(coordinates.n_I(), 2, [](Index i, Index k) { return std::sin(i * (k + 1.7)); });
+  q(coordinates.internal, Eigen::all) = 1e-3 * S_II.solve(load);
+  const MatrixXd bent = reducer::expand(system.T, q);
+  MatrixXd shapes = MatrixXd::Zero(bent.rows(), 5);
+  shapes.topLeftCorner(system.coordinates.count(), 3) =
+      reducer::rigid_motions(mesh, system.coordinates, Vector3d(0.3, 0.2, -0.1)).rightCols<3>();
+  shapes.rightCols<2>() = bent;
+  return reducer::trapped_energy(problem, boundary,
+                                 ties ? reducer::find_tie_forces(mesh, system, "test") : reducer::TieForces{}, shapes);
+}
+
+// A turn of a bent part traps nothing, whatever ties it together: pairs with a turn have no energy.
+TEST(SecondOrderReduction, TurnedPartsTrapNothing) {
+  for (const bool rotations : {false, true})
+    for (const bool ties : {true, false}) {
+      const reducer::TrappedEnergy energy = trapped_of_turned_part(rotations, ties);
+      const VectorXd share = energy.gram.diagonal().cwiseQuotient(energy.own);
+      EXPECT_GT(share.tail<3>().minCoeff(), 1e-3) << rotations;
+      if (ties)
+        EXPECT_LT(share.head<12>().cwiseAbs().maxCoeff(), 1e-8) << rotations;
+      else
+        EXPECT_GT(share.head<12>().maxCoeff(), 1e-4) << rotations;
+    }
 }
 
 // What it would be without the second order of ties: the test above can fail.

@@ -58,4 +58,10 @@ FullModel mirrored_network(const Vector3d& axes) {
   return model;
 }
 
+void add_trapped_stress(SecondOrderBody& body) {
+  const Eigen::MatrixXd& S = body.element.stiffness;
+  const Eigen::MatrixXd square = S * S / S.norm();
+  body.companion.Lambda.emplace_back(0.5 * (square + square.transpose()));
+}
+
 }  // namespace tisserand::test_support

@@ -22,6 +22,9 @@ SecondOrderBody second_order_network(int modes, const Eigen::Vector4d& weights);
 /// Adds a load case from its forces on all coordinates of the network of the tests.
 void add_load_case(const std::string& name, const Eigen::VectorXd& load, SecondOrderBody& body);
 
+/// Adds a row Λ = S̄²/|S̄|, which rigid motions do not stretch.
+void add_trapped_stress(SecondOrderBody& body);
+
 /// spring_network() seen in the mirror diag(axes).
 FullModel mirrored_network(const Eigen::Vector3d& axes);
 

@@ -357,6 +357,22 @@ TEST(SecondOrderChoice, FollowsTheSceneAndTheCompanion) {
   EXPECT_THROW(choice(InertiaOption::B, StiffeningOption::stress, {}, true), Error);
 }
 
+TEST(SecondOrderChoice, DoubleCurvatureIsOnWhereTheCompanionKnowsOfIt) {
+  formats::Companion companion = files_of(column(2)).companions.at("beam");
+  const auto choice = [&](std::optional<bool> double_curvature, std::optional<bool> second_order) {
+    formats::SuperelementBodySpec spec = beam_body();
+    spec.second_order = second_order, spec.double_curvature = double_curvature;
+    return describe(choose_second_order(spec, &companion));
+  };
+  EXPECT_EQ(choice({}, {}), "inertia F, stiffening full");
+  EXPECT_THAT(test_support::error_of([&] { choice(true, {}); }), ::testing::HasSubstr("has no Lambda"));
+  companion.Lambda = {Eigen::MatrixXd::Zero(companion.S1.cols(), companion.S1.cols())};
+  EXPECT_EQ(choice({}, {}), "inertia F, stiffening full, double curvature");
+  EXPECT_EQ(choice({}, false), "inertia B, stiffening off");
+  EXPECT_EQ(choice(false, {}), "inertia F, stiffening full");
+  EXPECT_THAT(test_support::error_of([&] { choice(true, false); }), ::testing::HasSubstr("without stiffening"));
+}
+
 /// The column with its load in a run, for comparisons of files that describe the same.
 Eigen::VectorXd after_a_second(const BodyFiles& files, const formats::SuperelementBodySpec& body, Units units) {
   formats::Scene scene = empty_scene(0.01, 1.0);

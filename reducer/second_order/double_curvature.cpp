@@ -1,0 +1,261 @@
+// From pairs of shapes to the Gram matrix of the stress that they trap, and its rows.
+#include "reducer/second_order/double_curvature.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+
+#include "common/parallel.hpp"
+#include "formats/superelement/scaling.hpp"
+#include "formats/superelement/superelement.hpp"
+#include "reducer/elements/each_element.hpp"
+#include "reducer/elements/element_matrices.hpp"
+#include "reducer/elements/second_order.hpp"
+#include "reducer/second_order/inertia.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Solver = Eigen::SelfAdjointEigenSolver<MatrixXd>;
+
+constexpr double no_strain = 1e-9;  ///< of scaled eigenvalues of S̄, as in mechanisms
+constexpr double no_force = 1e-12;  ///< of eigenvalues of an element's stiffness: rigid motions
+constexpr double round_off = 1e-8;  ///< of eigenvalues of the Gram matrix, in what elements on their own would relax
+constexpr double small_row = 1e-3;  ///< of eigenvalues of the Gram matrix, in the largest
+
+/// z = P y, y = Z z: shapes with the strain energy ½ zᵀz.
+struct Shapes {
+  MatrixXd Z;  ///< n x p
+  MatrixXd P;  ///< p x n, P R = 0
+};
+
+/// The p lowest elastic modes of the free reduced body.
+Shapes lowest_shapes(const formats::Superelement& element, int p) {
+  const formats::ScaledMatrices scales = formats::scale(element);
+  const auto unit = scales.stiffness_row.asDiagonal();
+  const Solver strain(unit * element.stiffness * unit);
+  const VectorXd& lambda = strain.eigenvalues();
+  Index rigid = 0;
+  while (rigid < lambda.size() && lambda[rigid] <= no_strain * lambda[lambda.size() - 1]) ++rigid;
+  const Index strained = lambda.size() - rigid;
+  const VectorXd root = lambda.tail(strained).cwiseSqrt();
+  const MatrixXd V = unit * strain.eigenvectors().rightCols(strained) * root.cwiseInverse().asDiagonal();
+  const MatrixXd R = formats::rigid_motions(element, Eigen::Vector3d::Zero());
+  const MatrixXd MR = element.mass * R;
+  const MatrixXd M =
+      element.mass - MR * (R.transpose() * MR).completeOrthogonalDecomposition().pseudoInverse() * MR.transpose();
+  const Solver mass(V.transpose() * M * V);  // 1/ω²
+  const Index kept = std::min<Index>(p, strained);
+  Shapes shapes;
+  shapes.Z = V * mass.eigenvectors().rightCols(kept);
+  shapes.P = shapes.Z.transpose() * element.stiffness;
+  return shapes;
+}
+
+/// E2 of (k, l) and of (l, k) of all pairs k ≤ l of shapes with these gradients: a row per stress.
+void pair_strains(const std::vector<StrainSection>& sections, const MatrixXd& gradient, MatrixXd& strain) {
+  const Index p = gradient.cols();
+  strain.setZero(stress_rows(sections), p * (p + 1) / 2);
+  for (Index k = 0, pair = 0; k < p; ++k)
+    for (Index l = k; l < p; ++l, ++pair) {
+      Index s = 0, g = 0;
+      for (const StrainSection& section : sections)
+        for (int r = 0; r < section.repeat; ++r) {
+          for (const QuadraticTerm& term : section.pattern->terms) {
+            const Index a = g + term.first, b = g + term.second;
+            strain(s + term.stress, pair) +=
+                term.coefficient * (gradient(a, k) * gradient(b, l) + gradient(b, k) * gradient(a, l));
+          }
+          s += section.pattern->stresses;
+          g += section.pattern->gradients;
+        }
+    }
+}
+
+/// −C_D⁻¹ c₂: how ties of second order move the coordinates that follow (rows of TieForces::dependent).
+MatrixXd following(const Mesh& mesh, const System& system, const TieForces& ties, const MatrixXd& shapes) {
+  const auto equations = static_cast<Index>(ties.ties.equations.size());
+  const Index p = shapes.cols();
+  MatrixXd c2 = MatrixXd::Zero(equations, p * (p + 1) / 2), strain;
+  for (const StrainBatch& batch : tie_batches(mesh, system, ties, MatrixXd::Identity(equations, equations), shapes)) {
+    pair_strains(batch.sections, batch.gradient, strain);
+    c2.noalias() += batch.stress.transpose() * strain;
+  }
+  return dependents(ties, c2);
+}
+
+/// 1/√K_kk: rotations and displacements alike.
+VectorXd unit_of(const MatrixXd& K) {
+  return K.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+}
+
+/// A with |A f|² = fᵀ K⁺ f for forces f in equilibrium: K scaled, without the motions that have no force.
+MatrixXd inverse_root(const MatrixXd& K, double none) {
+  const VectorXd unit = unit_of(K);
+  const Solver solver(unit.asDiagonal() * K * unit.asDiagonal());
+  const VectorXd& lambda = solver.eigenvalues();
+  Index first = 0;
+  while (first < lambda.size() && lambda[first] <= none * lambda[lambda.size() - 1]) ++first;
+  const Index rank = lambda.size() - first;
+  return lambda.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal() * solver.eigenvectors().rightCols(rank).transpose() *
+         unit.asDiagonal();
+}
+
+/// Forces of all pairs on x, and Σ f_eᵀ K_e⁺ f_e.
+struct PairForces {
+  MatrixXd force;
+  MatrixXd gram;
+};
+
+/// Adds the elements one after the other, some at a time on all threads.
+class PairAssembly {
+ public:
+  PairAssembly(const InternalProblem& problem, const TieForces& ties, const MatrixXd& shapes)
+      : problem_(problem),
+        ties_(ties),
+        shapes_(shapes),
+        moved_(ties.empty() ? MatrixXd() : following(problem.mesh, problem.system, ties, shapes)),
+        threads_(core_count()),
+        work_(static_cast<std::size_t>(threads_)) {
+    const Index pairs = shapes.cols() * (shapes.cols() + 1) / 2;
+    out_ = {MatrixXd::Zero(shapes.rows(), pairs), MatrixXd::Zero(pairs, pairs)};
+  }
+
+  PairForces run() {
+    const int elements = problem_.mesh.elements();
+    for (int first = 0; first < elements; first += block) {
+      problem_.share(static_cast<double>(first) / elements);
+      const int count = std::min(block, elements - first);
+      on_threads(threads_, [&](int t) {
+        const Share share = share_of(count, t, threads_);
+        for (int e = share.first; e < share.end; ++e) load(first + e, work_[t], loaded_[e]);
+      });
+      add(count);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  static constexpr int block = 32;     ///< elements at a time
+  static constexpr Index piece = 128;  ///< columns of the Gram matrix of one product: the same for any threads
+
+  struct Work {
+    SecondOrderRows rows;
+    ElementMatrices matrices;
+    MatrixXd d, strain;
+  };
+  /// f_e of all pairs, and F_e⁺ f_e.
+  struct Loaded {
+    ElementRows at;
+    MatrixXd f, root;
+  };
+
+  void load(int element, Work& work, Loaded& out) const {
+    const Mesh& mesh = problem_.mesh;
+    with_element(mesh, element, [&](const auto& kind) {
+      second_order(mesh, kind, work.rows);
+      element_matrices(mesh, kind, work.matrices);
+    });
+    const MatrixXd& K = work.matrices.S;
+    out.at = element_rows(mesh, problem_.system.coordinates, element, K.rows());
+    work.d.resize(K.rows(), shapes_.cols());
+    gather(out.at, shapes_, work.d);
+    pair_strains(work.rows.sections, work.rows.gradient * work.d, work.strain);
+    out.f.noalias() = work.rows.stress.transpose() * work.strain;
+    for (int i = 0; i < out.at.nodes; ++i)
+      for (int c = 0; c < out.at.size; ++c)
+        if (const int x = out.at.first[i] + c; !ties_.empty() && ties_.row_of[x] >= 0)
+          out.f.noalias() += K.col(out.at.size * i + c) * moved_.row(ties_.row_of[x]);
+    out.root.noalias() = inverse_root(K, no_force) * out.f;
+  }
+
+  void add(int count) {
+    Index rows = 0;
+    for (int e = 0; e < count; ++e) rows += loaded_[e].root.rows();
+    stack_.resize(rows, out_.gram.cols());
+    rows = 0;
+    for (int e = 0; e < count; ++e) {
+      const Loaded& element = loaded_[e];
+      for (int i = 0; i < element.at.nodes; ++i)
+        out_.force.middleRows(element.at.first[i], element.at.size) +=
+            element.f.middleRows(element.at.size * i, element.at.size);
+      stack_.middleRows(rows, element.root.rows()) = element.root;
+      rows += element.root.rows();
+    }
+    const auto pieces = static_cast<int>((stack_.cols() + piece - 1) / piece);
+    on_threads(threads_, [&](int t) {
+      for (int p = t; p < pieces; p += threads_) {
+        const Index first = p * piece, width = std::min(piece, stack_.cols() - first);
+        out_.gram.middleCols(first, width).noalias() += stack_.transpose() * stack_.middleCols(first, width);
+      }
+    });
+  }
+
+  const InternalProblem& problem_;
+  const TieForces& ties_;
+  const MatrixXd& shapes_;
+  MatrixXd moved_;  ///< following()
+  int threads_;
+  std::vector<Work> work_;
+  std::vector<Loaded> loaded_ = std::vector<Loaded>(block);
+  MatrixXd stack_;
+  PairForces out_;
+};
+
+/// fᵀ K⁺ f with the part free: inside with the boundary held, and what the boundary feels.
+MatrixXd shared_energy(const InternalProblem& problem, const BoundaryModes& boundary, const MatrixXd& force) {
+  const MatrixXd q = gather(problem.system.T, force);
+  MatrixXd h = rows(q, problem.partition.boundary);
+  MatrixXd energy = MatrixXd::Zero(force.cols(), force.cols());
+  if (problem.partition.n_I() > 0) {
+    const MatrixXd f_I = rows(q, problem.partition.internal);
+    energy.noalias() += f_I.transpose() * problem.S_II.solve(f_I);
+    h.noalias() += boundary.Psi.transpose() * f_I;
+  }
+  const MatrixXd root = inverse_root(boundary.S, no_strain) * h;
+  energy.noalias() += root.transpose() * root;
+  return energy;
+}
+
+}  // namespace
+
+TrappedEnergy trapped_energy(const InternalProblem& problem, const BoundaryModes& boundary, const TieForces& ties,
+                             const MatrixXd& shapes) {
+  PairForces pairs = PairAssembly(problem, ties, shapes).run();
+  TrappedEnergy energy{std::move(pairs.gram), {}};
+  energy.own = energy.gram.diagonal();
+  energy.gram -= shared_energy(problem, boundary, pairs.force);
+  return energy;
+}
+
+std::vector<MatrixXd> trapped_stress(const InternalProblem& problem, const BoundaryModes& boundary,
+                                     const formats::Superelement& element, const TieForces& ties, const MatrixXd& Phi,
+                                     int count) {
+  const Shapes shapes = lowest_shapes(element, count);
+  const Index p = shapes.Z.cols();
+  const TrappedEnergy energy = trapped_energy(problem, boundary, ties, Phi * shapes.Z);
+  VectorXd weight(energy.gram.rows());  // of pairs in the norm of symmetric matrices
+  for (Index k = 0, pair = 0; k < p; ++k)
+    for (Index l = k; l < p; ++l) weight[pair++] = k == l ? 1.0 : std::sqrt(2.0);
+  const Solver solver(weight.asDiagonal() * energy.gram * weight.asDiagonal());
+  const VectorXd& sigma = solver.eigenvalues();
+  std::vector<MatrixXd> rows;
+  for (Index b = sigma.size() - 1; b >= 0; --b) {
+    if (!(sigma[b] > small_row * sigma[sigma.size() - 1] && sigma[b] > round_off * energy.own.sum())) break;
+    MatrixXd row(p, p);
+    for (Index k = 0, pair = 0; k < p; ++k)
+      for (Index l = k; l < p; ++l, ++pair)
+        row(k, l) = row(l, k) = std::sqrt(sigma[b]) * solver.eigenvectors()(pair, b) / weight[pair];
+    const MatrixXd Lambda = shapes.P.transpose() * row * shapes.P;
+    rows.emplace_back(0.5 * (Lambda + Lambda.transpose()));
+  }
+  return rows;
+}
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,40 @@
+// Membrane stress that bending into double curvature traps: rows of the companion's strain that no coordinate
+// stretches.
+//
+// The second-order strains of a deformation d load the elements with the nodal forces f_e = ∂V3/∂w. A part whose
+// elements could follow on their own would lose all of the energy ½ f_eᵀ K_e⁺ f_e by that; the displacements that its
+// elements share take up ½ fᵀ K⁺ f of it, f = Σ f_e. The difference is never negative and is a form of degree four in
+// d: that of a plate of zero Gaussian curvature vanishes, that of a turned part too. Over pairs of shapes it is a Gram
+// matrix, whose eigenvectors are rows ½ dᵀ Λ_b d of the sum of squares V = ½ Σ e².
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/superelement/superelement.hpp"
+#include "reducer/modes/boundary_modes.hpp"
+#include "reducer/modes/internal_modes.hpp"
+#include "reducer/second_order/tie_strain.hpp"
+
+namespace tisserand::reducer {
+
+/// Gram matrix of the stress that pairs k ≤ l of shapes trap, row by row of pairs [energy, of the product of four
+/// amplitudes]: d = Σ z_k d_k has the energy ⅛ Σ m_kl z_k z_l gram(kl, mn) m_mn z_m z_n, m = 1 for k = l, else 2.
+struct TrappedEnergy {
+  Eigen::MatrixXd gram;
+  Eigen::VectorXd own;  ///< its diagonal, did the elements not share displacements: what round-off is measured by
+};
+
+/// `shapes`: displacements of all x. Memory: coordinates of the mesh x pairs. Pairs with a rigid motion trap nothing.
+TrappedEnergy trapped_energy(const InternalProblem& problem, const BoundaryModes& boundary, const TieForces& ties,
+                             const Eigen::MatrixXd& shapes);
+
+/// Λ_b (n x n, symmetric, Λ_b R = 0) [√energy / (y_k y_l)], largest first, of all pairs of the `shapes` lowest elastic
+/// modes of the free reduced body. `Phi`: displacements of all x for the coordinates of `element`. Memory: coordinates
+/// of the mesh x shapes (shapes + 1)/2.
+std::vector<Eigen::MatrixXd> trapped_stress(const InternalProblem& problem, const BoundaryModes& boundary,
+                                            const formats::Superelement& element, const TieForces& ties,
+                                            const Eigen::MatrixXd& Phi, int shapes);
+
+}  // namespace tisserand::reducer
