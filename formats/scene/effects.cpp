@@ -11,11 +11,15 @@ namespace tisserand::formats {
 
 namespace {
 
-constexpr Choice<Effect> effect_words[] = {
-    {"flexibility", Effect::flexibility}, {"rotary_inertia", Effect::rotary_inertia},
-    {"gyroscopic", Effect::gyroscopic},   {"stiffening", Effect::stiffening},
-    {"damping", Effect::damping},         {"gravity", Effect::gravity},
-    {"friction", Effect::friction},       {"stops", Effect::stops}};
+constexpr Choice<Effect> effect_words[] = {{"flexibility", Effect::flexibility},
+                                           {"rotary_inertia", Effect::rotary_inertia},
+                                           {"gyroscopic", Effect::gyroscopic},
+                                           {"stiffening", Effect::stiffening},
+                                           {"damping", Effect::damping},
+                                           {"gravity", Effect::gravity},
+                                           {"friction", Effect::friction},
+                                           {"stops", Effect::stops},
+                                           {"planar", Effect::planar}};
 
 std::optional<bool> read_switch(const Context& context, const YamlNode& node) {
   const auto index = read_word(context, node, fmt::format("value of '{}'", node.key), {"off", "on"});
@@ -26,6 +30,7 @@ void read_body_effects(const MapReader& scene, const YamlNode& node, std::vector
   const Context context = entry_context(scene.context().reader, "effects of body", node);
   const MapReader map(context, node, "body_effects");
   for (const Choice<Effect>& effect : effect_words) {
+    if (effect.value == Effect::planar) continue;  // of the scene alone
     const YamlNode* value = map.find(effect.word);
     if (value == nullptr) continue;
     if (const auto on = read_switch(context, *value))

@@ -5,8 +5,10 @@
 
 namespace tisserand::formats {
 
-/// A part of the equations that a scene can do without.
-enum class Effect { flexibility, rotary_inertia, gyroscopic, stiffening, damping, gravity, friction, stops };
+/// A part of the equations that a scene can do without; planar, of the scene alone and off unless it is asked for: the
+/// equations of motion in a plane.
+enum class Effect { flexibility, rotary_inertia, gyroscopic, stiffening, damping, gravity, friction, stops, planar };
+/// All that are terms of the equations.
 inline constexpr Effect all_effects[] = {Effect::flexibility, Effect::rotary_inertia, Effect::gyroscopic,
                                          Effect::stiffening,  Effect::damping,        Effect::gravity,
                                          Effect::friction,    Effect::stops};

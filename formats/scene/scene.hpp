@@ -18,8 +18,8 @@
 #include "formats/scene/analysis.hpp"
 #include "formats/scene/body_spec.hpp"
 #include "formats/scene/effects.hpp"
-#include "formats/tables/function_spec.hpp"
 #include "formats/sections/section.hpp"
+#include "formats/tables/function_spec.hpp"
 #include "formats/yaml/override.hpp"
 #include "formats/yaml/tree.hpp"
 
@@ -243,6 +243,7 @@ struct Scene {
   Units units = Units::si();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   std::vector<EffectSwitch> effects;  ///< carried out where the model is built (mechanism/build/effects.hpp)
+  std::string planar_at;  ///< where the switches asked for planar equations, once carried out; empty: they did not
   std::vector<BodySpec> bodies;
   std::vector<JointSpec> joints;
   std::vector<GearSpec> gears;

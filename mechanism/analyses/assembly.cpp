@@ -16,6 +16,7 @@
 #include "common/math/rotation.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/model/bodies.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -261,7 +262,7 @@ void disturb(const Model& model, int attempt, Bodies& bodies, State& state) {
   std::uniform_real_distribution<double> uniform(-0.3, 0.3);
   VectorXd d = VectorXd::Zero(6 * static_cast<Eigen::Index>(bodies.center.size()));
   for (Eigen::Index k = 0; k < d.size(); ++k)
-    if (k % 6 >= 3) d[k] = uniform(random);
+    if (k % 6 >= (model.planar ? 5 : 3)) d[k] = uniform(random);
   move(model, d, bodies, state);
 }
 
@@ -273,7 +274,7 @@ VectorXd rigid_velocities(const Model& model, const Bodies& bodies, const State&
     const auto body = static_cast<std::size_t>(bodies.of_node[i]);
     if (model.nodes[i].rotation < 0 || turning[body]) continue;
     const Eigen::Vector4d Q = state.Q().col(i);
-    const Vector3d Omega = state.v().segment<3>(model.nodes[i].rotation);
+    const Vector3d Omega = rotation_at(model, state.v(), model.nodes[i].rotation);
     w.segment<3>(6 * static_cast<Eigen::Index>(body) + 3) = Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]) * Omega;
     turning[body] = true;
   }
@@ -282,7 +283,7 @@ VectorXd rigid_velocities(const Model& model, const Bodies& bodies, const State&
     if (model.nodes[i].translation < 0 || moving[body]) continue;
     const auto at = 6 * static_cast<Eigen::Index>(body);
     const Vector3d arm = state.x().col(i) - bodies.center[body], omega = w.segment<3>(at + 3);
-    const Vector3d velocity = state.v().segment<3>(model.nodes[i].translation);
+    const Vector3d velocity = translation_at(model, state.v(), model.nodes[i].translation);
     w.segment<3>(at) = (velocity - omega.cross(arm)) / model.length;
     moving[body] = true;
   }
@@ -297,10 +298,11 @@ void set_velocities(const Model& model, const Bodies& bodies, const VectorXd& w,
     const Vector3d omega = w.segment<3>(at + 3);
     const Vector3d arm = state.x().col(column) - bodies.center[bodies.of_node[i]];
     if (model.nodes[i].translation >= 0)
-      state.v().segment<3>(model.nodes[i].translation) = model.length * w.segment<3>(at) + omega.cross(arm);
+      set_translation(model, model.length * w.segment<3>(at) + omega.cross(arm), model.nodes[i].translation, state.v());
     if (model.nodes[i].rotation >= 0) {
       const Eigen::Vector4d Q = state.Q().col(column);
-      state.v().segment<3>(model.nodes[i].rotation) = Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]).conjugate() * omega;
+      set_rotation(model, Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]).conjugate() * omega, model.nodes[i].rotation,
+                   state.v());
     }
   }
 }
@@ -410,17 +412,19 @@ std::vector<std::string> body_poses(const formats::Scene& scene, const Model& mo
       const auto column = static_cast<Eigen::Index>(i);
       const Eigen::Vector4d Q = state.Q().col(column), Q_start = at_start.Q().col(column);
       const Eigen::Quaterniond q(Q[0], Q[1], Q[2], Q[3]);
+      const Eigen::Quaterniond axes(to_world(model, Eigen::Matrix3d(Eigen::Matrix3d::Identity())));
       const Eigen::Quaterniond turn =
-          q * Eigen::Quaterniond(Q_start[0], Q_start[1], Q_start[2], Q_start[3]).conjugate();
+          axes * q * Eigen::Quaterniond(Q_start[0], Q_start[1], Q_start[2], Q_start[3]).conjugate() * axes.conjugate();
       const Eigen::Quaterniond orientation = (turn * start.pose.orientation).normalized();
-      const Vector3d arm = turn * Vector3d(at_start.x().col(column) - (start.pose.position - model.origin)),
-                     omega = q * Vector3d(state.v().segment<3>(node.rotation));
-      std::string line =
-          fmt::format("{}: {{pose: {{position: {}, orientation: {}}}", name,
-                      vector_text(model.origin + state.x().col(column) - arm), vector_text(wxyz(orientation)));
-      const Vector3d velocity = node.translation < 0
-                                    ? Vector3d(Vector3d::Zero())
-                                    : Vector3d(state.v().segment<3>(node.translation)) - omega.cross(arm);
+      const Vector3d position = to_world(model, Vector3d(state.x().col(column))),
+                     arm = turn *
+                           (to_world(model, Vector3d(at_start.x().col(column))) - (start.pose.position - model.origin)),
+                     omega = to_world(model, q * rotation_at(model, state.v(), node.rotation));
+      std::string line = fmt::format("{}: {{pose: {{position: {}, orientation: {}}}", name,
+                                     vector_text(model.origin + position - arm), vector_text(wxyz(orientation)));
+      const Vector3d velocity =
+          node.translation < 0 ? Vector3d(Vector3d::Zero())
+                               : to_world(model, translation_at(model, state.v(), node.translation)) - omega.cross(arm);
       if (!velocity.isZero(0.0)) line += fmt::format(", velocity: {}", vector_text(velocity));
       if (!omega.isZero(0.0)) line += fmt::format(", angular_velocity: {}", vector_text(omega));
       lines.push_back(line + "}");

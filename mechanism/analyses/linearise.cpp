@@ -8,6 +8,7 @@
 #include "common/error.hpp"
 #include "common/math/rotation.hpp"
 #include "mechanism/equations/terms.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -80,19 +81,20 @@ MatrixXd jacobian(const Model& model, const State& state, const MatrixValues& ma
   return B;
 }
 
-/// Replaces three columns of each matrix: those of r(q, v, v̇) by those of (ξ, ξ', ξ''). δq = T0 ξ, δv = T0 ξ' + T01 ξ,
-/// δv̇ = T0 ξ'' + T11 ξ' + T12 ξ.
+/// Replaces the columns of a node's translations or rotations in each matrix: those of r(q, v, v̇) by those of (ξ, ξ',
+/// ξ''). δq = T0 ξ, δv = T0 ξ' + T01 ξ, δv̇ = T0 ξ'' + T11 ξ' + T12 ξ.
 struct Columns {
   Matrix3d T0, T01, T11, T12;
 };
 
-void transform(int column, const Columns& t, Linearisation& l) {
-  const Eigen::Matrix<double, Eigen::Dynamic, 3> M = l.M.middleCols<3>(column), C = l.C.middleCols<3>(column),
-                                                 K = l.K.middleCols<3>(column);
-  l.M.middleCols<3>(column) = M * t.T0;
-  l.C.middleCols<3>(column) = M * t.T11 + C * t.T0;
-  l.K.middleCols<3>(column) = M * t.T12 + C * t.T01 + K * t.T0;
-  l.B.middleCols<3>(column) = (l.B.middleCols<3>(column) * t.T0).eval();
+void transform(int column, int count, const Columns& t, Linearisation& l) {
+  const auto part = [count](const Matrix3d& T) { return T.topLeftCorner(count, count); };
+  const MatrixXd M = l.M.middleCols(column, count), C = l.C.middleCols(column, count),
+                 K = l.K.middleCols(column, count);
+  l.M.middleCols(column, count) = M * part(t.T0);
+  l.C.middleCols(column, count) = M * part(t.T11) + C * part(t.T0);
+  l.K.middleCols(column, count) = M * part(t.T12) + C * part(t.T01) + K * part(t.T0);
+  l.B.middleCols(column, count) = (l.B.middleCols(column, count) * part(t.T0)).eval();
 }
 
 void turn_rows(int row, const Matrix3d& R, Linearisation& l) {
@@ -139,10 +141,10 @@ Linearisation linearise(const Model& model, const State& state, const Vector3d& 
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
     const NodeMotion& motion = evaluation.motion[i];
-    if (node.translation >= 0) transform(node.translation, {one, W, 2.0 * W, W * W}, l);
-    if (node.rotation < 0) continue;
+    if (node.translation >= 0) transform(node.translation, translations_of(model), {one, W, 2.0 * W, W * W}, l);
+    if (node.rotation < 0 || model.planar) continue;  // parallel axes of one rotation: R = 1, and nothing turns them
     const Matrix3d RT = motion.R.transpose(), spin = skew<double>(motion.Omega) * RT;
-    transform(node.rotation, {RT, RT * W, 2.0 * RT * W - spin, RT * W * W - spin * W}, l);
+    transform(node.rotation, 3, {RT, RT * W, 2.0 * RT * W - spin, RT * W * W - spin * W}, l);
     turn_rows(node.rotation, motion.R, l);
   }
   return l;

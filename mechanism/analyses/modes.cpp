@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "common/math/rotation.hpp"
 #include "mechanism/model/element_map.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/solver/matrix_rank.hpp"
 
 extern "C" void dgeev_(const char* left, const char* right, const int* n, double* A, const int* lda, double* real,
@@ -124,14 +125,12 @@ double choose_shift(const Reduced& m) {
 /// The component that moves most becomes 1.
 void normalise(const Model& model, VectorXcd& shape) {
   Complex largest = 0.0;
-  const auto look = [&](int row, double scale) {
-    for (int k = 0; k < 3 && row >= 0; ++k)
-      if (std::abs(shape[row + k]) * scale > std::abs(largest) * (1.0 + 1e-9)) largest = shape[row + k] * scale;
-  };
-  for (const Node& node : model.nodes) {
-    look(node.translation, 1.0 / model.length);
-    look(node.rotation, 1.0);
-  }
+  for (const Node& node : model.nodes)
+    for (int k = 0; k < 6; ++k) {
+      const int row = coordinate_of(model, node, k);
+      const double scale = k < 3 ? 1.0 / model.length : 1.0;
+      if (row >= 0 && std::abs(shape[row]) * scale > std::abs(largest) * (1.0 + 1e-9)) largest = shape[row] * scale;
+    }
   if (largest == Complex(0.0) && shape.size() > 0) largest = shape[0];
   for (Eigen::Index k = 0; k < shape.size(); ++k)
     if (std::abs(largest) < 1e-12 * std::abs(shape[k])) largest = shape[k];  // an internal mode whose boundary rests
@@ -157,8 +156,9 @@ std::string moves_most(const Model& model, const VectorXcd& shape) {
   double largest = 0.0;
   std::string name = "an internal mode";
   for (const Node& node : model.nodes) {
-    const double x = node.translation < 0 ? 0.0 : shape.segment<3>(node.translation).norm() / model.length;
-    const double turn = node.rotation < 0 ? 0.0 : shape.segment<3>(node.rotation).norm();
+    const double x =
+        node.translation < 0 ? 0.0 : shape.segment(node.translation, translations_of(model)).norm() / model.length;
+    const double turn = node.rotation < 0 ? 0.0 : shape.segment(node.rotation, rotations_of(model)).norm();
     if (std::max(x, turn) > (1.0 + 1e-6) * largest) {
       largest = std::max(x, turn);
       name = node.name;
@@ -172,7 +172,7 @@ std::string moves_most(const Model& model, const VectorXcd& shape) {
 MatrixXd null_space(const Model& model, const MatrixXd& B) {
   VectorXd scale = VectorXd::Ones(B.cols());
   for (const Node& node : model.nodes)
-    if (node.rotation >= 0) scale.segment<3>(node.rotation).setConstant(1.0 / model.length);
+    if (node.rotation >= 0) scale.segment(node.rotation, rotations_of(model)).setConstant(1.0 / model.length);
   if (B.rows() == 0) return scale.asDiagonal();
   MatrixXd BT = scale.asDiagonal() * B.transpose();
   for (Eigen::Index row = 0; row < BT.cols(); ++row) {
@@ -191,7 +191,7 @@ MatrixXd null_space(const Model& model, const MatrixXd& B) {
 
 ModesReport solve_modes(const Model& model, const State& state, const formats::ModesSpec& spec,
                         Evaluation& evaluation) {
-  const Eigen::Vector3d omega = spec.rotation.value_or(Eigen::Vector3d::Zero());
+  const Eigen::Vector3d omega = to_axes(model, spec.rotation.value_or(Eigen::Vector3d::Zero()));
   const Linearisation l = linearise(model, state, omega, evaluation);
   const MatrixXd Z = null_space(model, l.B);
   ModesReport report;
@@ -269,8 +269,9 @@ formats::ModesTable modes_table(const Model& model, const Evaluation& evaluation
       const Eigen::Vector<Complex, 6> motion = motion_of_node(model, evaluation, marker.node, mode.shape);
       const Eigen::Vector3d arm = motion_of(evaluation, marker.node).R * marker.p;
       const Eigen::Vector3cd turn = motion.tail<3>();
-      table.translation.col(k).segment<3>(3 * p) = motion.head<3>() - skew<double>(arm).cast<Complex>() * turn;
-      table.rotation.col(k).segment<3>(3 * p) = turn;
+      const Eigen::Matrix3cd axes = to_world(model, Eigen::Matrix3d(Eigen::Matrix3d::Identity())).cast<Complex>();
+      table.translation.col(k).segment<3>(3 * p) = axes * (motion.head<3>() - skew<double>(arm).cast<Complex>() * turn);
+      table.rotation.col(k).segment<3>(3 * p) = axes * turn;
     }
   }
   return table;

@@ -11,6 +11,7 @@
 
 #include "common/text.hpp"
 #include "mechanism/equations/tangent.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -74,14 +75,19 @@ MatrixXd column_products(const Model& model, const std::vector<int>& group, cons
   std::map<int, std::vector<std::pair<int, double>>> rows;
   int column = 0;
   for (const int node : group)
-    for (const int first : {model.nodes[node].translation, model.nodes[node].rotation})
-      for (int j = first; j < first + 3; ++j, ++column)
-        for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
-          const int i = pattern.rows()[at];
-          const int slot = pattern.slot(i, j);
-          const double value = matrix.values[slot] * model.value_scale[slot];
-          if (value != 0.0) rows[i].emplace_back(column, value);
-        }
+    for (int k = 0; k < 6; ++k, ++column) {
+      const int j = coordinate_of(model, model.nodes[node], k);
+      if (j < 0) {  // what a planar model has not does not move
+        rows[-1 - column].emplace_back(column, 1.0);
+        continue;
+      }
+      for (int at = pattern.column_start()[j]; at < pattern.column_start()[static_cast<std::size_t>(j) + 1]; ++at) {
+        const int i = pattern.rows()[at];
+        const int slot = pattern.slot(i, j);
+        const double value = matrix.values[slot] * model.value_scale[slot];
+        if (value != 0.0) rows[i].emplace_back(column, value);
+      }
+    }
   MatrixXd products = MatrixXd::Zero(column, column);
   for (const auto& [row, entries] : rows)
     for (const auto& [i, a] : entries)
@@ -203,9 +209,10 @@ std::vector<PreflightLine> preflight_doubts(const Preflight& preflight, const Un
 
 std::vector<PreflightLine> preflight_table(const Preflight& preflight, const Mobility& mobility, const Units& units) {
   std::vector<PreflightLine> lines;
-  lines.push_back({"bodies", fmt::format("{}, as rigid ones: mobility {}, by Gruebler's count 6 · {} - {} = {}",
-                                         mobility.parts, mobility.rigid_mobility, mobility.parts, mobility.constraints,
-                                         6 * mobility.parts - mobility.constraints)});
+  lines.push_back(
+      {"bodies", fmt::format("{}, as rigid ones: mobility {}, by Gruebler's count {} · {} - {} = {}", mobility.parts,
+                             mobility.rigid_mobility, mobility.freedoms, mobility.parts, mobility.constraints,
+                             mobility.freedoms * mobility.parts - mobility.constraints)});
   lines.push_back({"repeated", mobility.redundant.empty()
                                    ? "no constraint equation"
                                    : fmt::format("{} of {} constraint equations", mobility.redundant.size(),

@@ -13,6 +13,7 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/equations/iteration_matrix.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/solver/matrix_rank.hpp"
 #include "mechanism/step/step.hpp"
 #include "mechanism/step/step_control.hpp"
@@ -46,8 +47,8 @@ double largest_velocity(const Model& model, const State& state) {
   double largest = 0.0;
   for (const Node& node : model.nodes) {
     if (node.translation >= 0)
-      largest = std::max(largest, state.v().segment<3>(node.translation).norm() / model.length);
-    if (node.rotation >= 0) largest = std::max(largest, state.v().segment<3>(node.rotation).norm());
+      largest = std::max(largest, translation_at(model, state.v(), node.translation).norm() / model.length);
+    if (node.rotation >= 0) largest = std::max(largest, rotation_at(model, state.v(), node.rotation).norm());
   }
   return largest;
 }

@@ -6,6 +6,7 @@
 #include "common/math/rotation.hpp"
 #include "mechanism/equations/carriers.hpp"
 #include "mechanism/model/bodies.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -85,10 +86,11 @@ StartMatrix rigid_motions(const Model& model, const Parts& parts, const std::vec
     const Eigen::Matrix3d turn = -skew<double>(Eigen::Vector3d(state.x().col(at) - starts[part].point));
     const Eigen::Matrix3d R = quaternion_of(state.Q().col(at)).toRotationMatrix();
     for (int k = 0; k < 3; ++k) {
-      if (node.translation >= 0) entries.emplace_back(node.translation + k, 6 * part + k, model.length);
+      const int moved = coordinate_of(model, node, k), turned = coordinate_of(model, node, 3 + k);
+      if (moved >= 0) entries.emplace_back(moved, 6 * part + k, model.length);
       for (int j = 0; j < 3; ++j) {
-        if (node.translation >= 0) entries.emplace_back(node.translation + k, 6 * part + 3 + j, turn(k, j));
-        if (node.rotation >= 0) entries.emplace_back(node.rotation + k, 6 * part + 3 + j, R(j, k));
+        if (moved >= 0) entries.emplace_back(moved, 6 * part + 3 + j, turn(k, j));
+        if (turned >= 0) entries.emplace_back(turned, 6 * part + 3 + j, R(j, k));
       }
     }
   }
@@ -173,8 +175,8 @@ std::vector<int> parts_of_coordinates(const StartProblem& problem) {
     if (first >= 0) std::fill_n(part.begin() + first, count, problem.parts.of_node[node]);
   };
   for (int i = 0; i < model.sizes.nodes; ++i) {
-    mark(model.nodes[i].translation, 3, i);
-    mark(model.nodes[i].rotation, 3, i);
+    mark(model.nodes[i].translation, translations_of(model), i);
+    mark(model.nodes[i].rotation, rotations_of(model), i);
   }
   for (const ModalBody& body : model.modal_bodies) mark(model.sizes.first_modal() + body.offset, body.modes, body.node);
   for (const Tyre& tyre : model.tyres)

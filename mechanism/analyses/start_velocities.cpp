@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "mechanism/analyses/start_problem.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -215,8 +216,8 @@ void set_velocities_of(const StartProblem& problem, const StartSolution& solutio
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Eigen::Index at = 6 * static_cast<Eigen::Index>(problem.parts.of_node[i]);
     if (solution.w.segment<6>(at) == problem.w.segment<6>(at)) continue;
-    for (const int first : {model.nodes[i].translation, model.nodes[i].rotation})
-      if (first >= 0) state.v().segment<3>(first) = rigid.segment<3>(first);
+    for (int k = 0; k < 6; ++k)
+      if (const int at = coordinate_of(model, model.nodes[i], k); at >= 0) state.v()[at] = rigid[at];
   }
   if (solution.d.isZero(0.0)) return;
   state.v().head(model.sizes.boundary) += solution.d;

@@ -14,6 +14,7 @@
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/equations/iteration_matrix.hpp"
 #include "mechanism/equations/round_off.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -83,7 +84,7 @@ Saddle saddle(const Model& model, const State& state, const Linearisation& l) {
 std::string name_of_material(const Model& model, const State& state, VectorXd motion, Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i)
     if (const int row = model.nodes[i].rotation; row >= 0)
-      motion.segment<3>(row) = (evaluation.motion[i].R.transpose() * motion.segment<3>(row)).eval();
+      set_rotation(model, evaluation.motion[i].R.transpose() * rotation_at(model, motion, row), row, motion);
   evaluate_coordinates(model, state, evaluation);
   return name_of_motion(model, evaluation, motion);
 }
@@ -125,7 +126,7 @@ void apply(const Model& model, const VectorXd& xi, const VectorXd& multipliers, 
   VectorXd d = xi;
   for (std::size_t i = 0; i < model.nodes.size(); ++i)
     if (const int row = model.nodes[i].rotation; row >= 0)
-      d.segment<3>(row) = (evaluation.motion[i].R.transpose() * xi.segment<3>(row)).eval();
+      set_rotation(model, evaluation.motion[i].R.transpose() * rotation_at(model, xi, row), row, d);
   const State before = state;
   retract(model, before, d, state);
   const std::vector<int> rows = active_rows(state);
@@ -138,7 +139,7 @@ void apply(const Model& model, const VectorXd& xi, const VectorXd& multipliers, 
 Linearisation linearise_turning(const Model& model, const formats::RotationSpec& rotation, State& state,
                                 Evaluation& evaluation) {
   turn_steadily(model, rotation, state);
-  Linearisation l = linearise(model, state, rotation.angular_velocity, evaluation);
+  Linearisation l = linearise(model, state, to_axes(model, rotation.angular_velocity), evaluation);
   if (l.B.rows() == 0 || !state.lambda().isZero(0.0) || !l.r.allFinite()) return l;
   VectorXd scale = VectorXd::Ones(l.r.size());
   scale.head(model.sizes.boundary) = model.equation_scale.head(model.sizes.boundary).matrix();
@@ -147,7 +148,7 @@ Linearisation linearise_turning(const Model& model, const formats::RotationSpec&
   const std::vector<int> rows = active_rows(state);
   for (std::size_t row = 0; row < rows.size(); ++row)
     if (rows[row] >= 0) state.lambda()[row] = multipliers[rows[row]];
-  return linearise(model, state, rotation.angular_velocity, evaluation);
+  return linearise(model, state, to_axes(model, rotation.angular_velocity), evaluation);
 }
 
 StepOutcome balance(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted, State& state,
@@ -173,20 +174,21 @@ StepOutcome balance(const Model& model, const formats::StaticsSpec& options, con
 }  // namespace
 
 void turn_steadily(const Model& model, const formats::RotationSpec& rotation, State& state) {
-  const Vector3d& omega = rotation.angular_velocity;
+  const Vector3d omega = to_axes(model, rotation.angular_velocity),
+                 about = to_axes(model, rotation.about - model.origin);
   state.v().setZero();
   state.vdot().setZero();
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
     const auto column = static_cast<Eigen::Index>(i);
     if (node.translation >= 0) {
-      const Vector3d velocity = omega.cross(state.x().col(column) - (rotation.about - model.origin));
-      state.v().segment<3>(node.translation) = velocity;
-      state.vdot().segment<3>(node.translation) = omega.cross(velocity);
+      const Vector3d velocity = omega.cross(state.x().col(column) - about);
+      set_translation(model, velocity, node.translation, state.v());
+      set_translation(model, omega.cross(velocity), node.translation, state.vdot());
     }
     if (node.rotation >= 0) {
       const Eigen::Vector4d Q = state.Q().col(column);
-      state.v().segment<3>(node.rotation) = Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]).conjugate() * omega;
+      set_rotation(model, Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]).conjugate() * omega, node.rotation, state.v());
     }
   }
 }
@@ -197,13 +199,14 @@ std::string free_turn_name(const Model& model, const formats::RotationSpec& rota
   state.v().setZero();
   state.vdot().setZero();
   const Linearisation l = linearise(model, state, Vector3d::Zero(), evaluation);
-  const Vector3d axis = rotation.angular_velocity.normalized(), about = rotation.about - model.origin;
+  const Vector3d axis = to_axes(model, rotation.angular_velocity.normalized()),
+                 about = to_axes(model, rotation.about - model.origin);
   VectorXd turn = VectorXd::Zero(l.r.size());
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
     if (node.translation >= 0)
-      turn.segment<3>(node.translation) = axis.cross(state.x().col(static_cast<Eigen::Index>(i)) - about);
-    if (node.rotation >= 0) turn.segment<3>(node.rotation) = axis;
+      set_translation(model, axis.cross(state.x().col(static_cast<Eigen::Index>(i)) - about), node.translation, turn);
+    if (node.rotation >= 0) set_rotation(model, axis, node.rotation, turn);
   }
   const double motion = turn.cwiseAbs().maxCoeff();
   const double gap = l.B.rows() > 0 ? (l.B * turn).cwiseAbs().maxCoeff() : 0.0;

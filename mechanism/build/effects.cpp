@@ -250,7 +250,7 @@ void require_switches_fit(const formats::Scene& scene, const BodyFiles& files) {
   std::vector<Error> errors;
   for (const formats::EffectSwitch& one : scene.effects) {
     try {
-      switches.check(one);
+      if (one.effect != Effect::planar) switches.check(one);  // build/planar.hpp
     } catch (const Error& error) {
       errors.push_back(error);
     }
@@ -301,6 +301,8 @@ std::optional<formats::Scene> with_effects_switched(const formats::Scene& scene,
   const Switches switches(scene);
   formats::Scene switched = scene;
   switched.effects.clear();
+  for (const formats::EffectSwitch& one : scene.effects)
+    if (one.effect == Effect::planar) switched.planar_at = one.on ? one.where : "";
   for (formats::BodySpec& body : switched.bodies) body = without_effects_off(body, switches, scene, files);
   if (!switches.on(Effect::friction, ""))
     for (formats::JointSpec& joint : switched.joints) joint.friction.reset();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mechanism/equations/tangent.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -54,8 +55,8 @@ State initial_state(const Construction& c, Model& model) {
     const auto column = static_cast<Eigen::Index>(i);
     state.x().col(column) = m.x;
     state.Q().col(column) = wxyz(Eigen::Quaterniond(m.R).normalized());
-    if (model.nodes[i].translation >= 0) state.v().segment<3>(model.nodes[i].translation) = m.xd;
-    if (model.nodes[i].rotation >= 0) state.v().segment<3>(model.nodes[i].rotation) = m.Omega;
+    if (model.nodes[i].translation >= 0) set_translation(model, m.xd, model.nodes[i].translation, state.v());
+    if (model.nodes[i].rotation >= 0) set_rotation(model, m.Omega, model.nodes[i].rotation, state.v());
   }
   for (std::size_t i = 0; i < c.frames.size(); ++i) state.frames().col(i) = wxyz(c.frames[i]);
   Evaluation evaluation(model);

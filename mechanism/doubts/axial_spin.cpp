@@ -40,7 +40,7 @@ bool alike_across(const Matrix3d& matrix, const Vector3d& axis) {
 AxialSpin::AxialSpin(const Model& model) : seen_(model.superelements.size()) {
   for (const SuperelementBody& body : model.superelement_bodies) {
     Judged& judged = judged_.emplace_back();
-    const std::optional<Axis> axis = body.second_order.any() ? std::nullopt : axis_of(body);
+    const std::optional<Axis> axis = body.second_order.any() || body.planar ? std::nullopt : axis_of(body);
     if (!axis) continue;
     const auto turns = rigid_columns(body).topRows(body.boundary_size).rightCols<3>();
     const Matrix3d J = turns.transpose() * body.M_BB * turns;

@@ -35,10 +35,9 @@ std::vector<std::vector<bool>> held_coordinates(const Model& model) {
     for (std::size_t j = 0; j < nodes.size(); ++j) {
       if (users[nodes[j]] < 2) continue;
       const SuperelementNode& node = body.node[j];
-      for (int k = 0; k < 3; ++k) {
-        if (node.has_translation()) one[node.translation_row + k] = true;
-        if (node.has_rotation() && attached == 1) one[node.rotation_row + k] = true;
-      }
+      for (int k = 0; k < body.translations() && node.has_translation(); ++k) one[node.translation_row + k] = true;
+      for (int k = 0; k < body.rotations() && node.has_rotation() && attached == 1; ++k)
+        one[node.rotation_row + k] = true;
     }
     held.push_back(std::move(one));
   }

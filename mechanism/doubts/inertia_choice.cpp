@@ -34,10 +34,11 @@ std::vector<InertiaOption> others_of(const SuperelementBody& body) {
 void add_local(const SuperelementBody& body, const SuperelementScratch& scratch, double sign, Eigen::VectorXd& load) {
   const auto& r = scratch.forces.r_B;
   for (const SuperelementNode& node : body.node) {
+    const int n = body.translations(), turns = body.rotations();
     if (node.has_translation())
-      load.segment<3>(node.translation_row) +=
-          sign * (scratch.motion.R0.transpose() * r.segment<3>(node.translation_row));
-    if (node.has_rotation()) load.segment<3>(node.rotation_row) += sign * r.segment<3>(node.rotation_row);
+      load.segment(node.translation_row, n) +=
+          sign * (scratch.motion.R0.topLeftCorner(n, n).transpose() * r.segment(node.translation_row, n));
+    if (node.has_rotation()) load.segment(node.rotation_row, turns) += sign * r.segment(node.rotation_row, turns);
   }
   load.tail(body.modes) += sign * scratch.forces.r_I;
 }

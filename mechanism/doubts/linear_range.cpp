@@ -39,13 +39,13 @@ constexpr const char* modal_remedy = "cut it into several, or take superelements
 /// does not turn, and the nodes between them are free.
 double transverse_stiffness(const SuperelementBody& body, const Axis& axis) {
   std::vector<int> kept, between;
-  for (int k = 0; k < 3; ++k) kept.push_back(body.node[axis.last].translation_row + k);
+  const int n = body.translations();
+  for (int k = 0; k < n; ++k) kept.push_back(body.node[axis.last].translation_row + k);
   for (int j = 0; j < static_cast<int>(body.node.size()); ++j) {
     if (j == axis.first || j == axis.last) continue;
-    for (int k = 0; k < 3; ++k) {
-      if (body.node[j].has_translation()) between.push_back(body.node[j].translation_row + k);
-      if (body.node[j].has_rotation()) between.push_back(body.node[j].rotation_row + k);
-    }
+    const SuperelementNode& node = body.node[j];
+    for (int k = 0; k < n && node.has_translation(); ++k) between.push_back(node.translation_row + k);
+    for (int k = 0; k < body.rotations() && node.has_rotation(); ++k) between.push_back(node.rotation_row + k);
   }
   MatrixXd S = body.S_BB(kept, kept);
   if (!between.empty()) {
@@ -53,7 +53,7 @@ double transverse_stiffness(const SuperelementBody& body, const Axis& axis) {
     if (factor.info() != Eigen::Success) return 0.0;
     S -= body.S_BB(kept, between) * factor.solve(MatrixXd(body.S_BB(between, kept)));
   }
-  const MatrixXd across = MatrixXd::Identity(3, 3) - axis.direction * axis.direction.transpose();
+  const MatrixXd across = MatrixXd::Identity(n, n) - axis.direction.head(n) * axis.direction.head(n).transpose();
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(across * S * across, Eigen::EigenvaluesOnly).eigenvalues()[1];
 }
 
@@ -92,7 +92,8 @@ LinearRange::Limits LinearRange::limits_of(const SuperelementBody& body) {
   limits.axial = Eigen::VectorXd::Zero(body.boundary_size);
   for (const int j : body.translation_nodes) {
     const double share = (body.node[j].X - body.node[axis->first].X).dot(axis->direction) / limits.span;
-    limits.axial += share * (body.S_BB.middleCols<3>(body.node[j].translation_row) * axis->direction);
+    limits.axial += share * (body.S_BB.middleCols(body.node[j].translation_row, body.translations()) *
+                             axis->direction.head(body.translations()));
   }
   limits.lag = std::sqrt(body.mass * limits.span / limits.buckling);
   return limits;
@@ -133,7 +134,7 @@ void LinearRange::observe(const Model& model, const State& state, const Evaluati
     const SuperelementBody& body = body_of(model, i);
     const LocalMotion<double>& motion = evaluation.superelements[i].motion;
     for (const int j : body.translation_nodes)
-      raise(seen_[i].deflection, motion.y_B.segment<3>(body.node[j].translation_row).norm());
+      raise(seen_[i].deflection, motion.y_B.segment(body.node[j].translation_row, body.translations()).norm());
     raise(seen_[i].spin, motion.Omega0.norm());
     if (limits.axial.size() > 0) raise_axial(seen_[i], limits.axial.dot(motion.y_B), limits.lag, passed);
   }

@@ -10,6 +10,7 @@
 
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/tangent.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -38,9 +39,11 @@ Eigen::ArrayXd masses(const Model& model, const State& state) {
       const Node& node = model.nodes[model.superelements[k].nodes[j]];
       const SuperelementNode& local = body.node[j];
       if (local.has_translation())
-        mass.segment<3>(node.translation) = body.M_BB.diagonal().segment<3>(local.translation_row).mean();
+        mass.segment(node.translation, translations_of(model)) =
+            body.M_BB.diagonal().segment(local.translation_row, translations_of(model)).mean();
       if (local.has_rotation())
-        mass.segment<3>(node.rotation) = body.M_BB.diagonal().segment<3>(local.rotation_row).array();
+        mass.segment(node.rotation, rotations_of(model)) =
+            body.M_BB.diagonal().segment(local.rotation_row, rotations_of(model)).array();
     }
     mass.segment(model.sizes.boundary + model.internal_offset[k], body.modes).setOnes();
   }
@@ -72,7 +75,7 @@ void StepResolution::close(const Model& model, const State& before, const State&
   const double step = state.time() - before.time();
   for (int i = 0; i < static_cast<int>(model.nodes.size()); ++i) {
     if (model.nodes[i].rotation < 0) continue;
-    const double angle = step * state.v().segment<3>(model.nodes[i].rotation).norm();
+    const double angle = step * rotation_at(model, state.v(), model.nodes[i].rotation).norm();
     if (angle > fastest_.angle) fastest_ = {angle, state.time(), i};
   }
   const double rate = motion_ > 0.0 ? std::sqrt(change_ / motion_) : 0.0;

@@ -30,7 +30,8 @@ constexpr double most_measured = 200.0;
 constexpr double turn = 1e-3;
 
 bool is_judged(const SuperelementBody& body) {
-  return !body.second_order.any() && (body.inertia == InertiaOption::B || body.inertia == InertiaOption::M) &&
+  return !body.planar && !body.second_order.any() &&
+         (body.inertia == InertiaOption::B || body.inertia == InertiaOption::M) &&
          body.frame != FrameAlgorithm::incremental;
 }
 

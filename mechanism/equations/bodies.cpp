@@ -13,15 +13,14 @@ using Eigen::Vector3d;
 /// Inertia and internal forces of a superelement one by one: they cancel in the residual of a free vibration.
 void note_scale(const SuperelementBody& body, const SuperelementScratch& scratch, Evaluation& evaluation) {
   const auto& forces = scratch.forces;
-  const auto note = [&evaluation, &forces](int kind, int row) {
-    if (row < 0) return;
+  const auto note = [&evaluation, &forces](int kind, int row, int count) {
     double& scale = evaluation.force_scale[kind];
-    scale = std::max(
-        {scale, forces.f_B.segment<3>(row).cwiseAbs().maxCoeff(), forces.s_B.segment<3>(row).cwiseAbs().maxCoeff()});
+    for (int k = row; k < row + count && row >= 0; ++k)
+      scale = std::max({scale, std::abs(forces.f_B[k]), std::abs(forces.s_B[k])});
   };
   for (const SuperelementNode& node : body.node) {
-    note(0, node.translation_row);
-    note(1, node.rotation_row);
+    note(0, node.translation_row, body.translations());
+    note(1, node.rotation_row, body.rotations());
   }
   const auto& motion = scratch.motion;
   double& internal = evaluation.force_scale[2];

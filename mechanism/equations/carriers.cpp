@@ -150,7 +150,7 @@ Eigen::MatrixXd model_rows(const Model& model, const ElementMap& map, const Loca
 Matrix3d step_tangent(const Model& model, const Evaluation& evaluation, int node) {
   const int modal = modal_node(model, node);
   const int owner = modal < 0 ? node : modal_body_of(model, modal).node;
-  if (owner < 0 || model.nodes[owner].rotation < 0) return Matrix3d::Identity();
+  if (owner < 0 || model.nodes[owner].rotation < 0 || model.planar) return Matrix3d::Identity();
   const Vector3d turn = evaluation.displacement.segment<3>(model.nodes[owner].rotation);
   return turn.isZero(0.0) ? Matrix3d(Matrix3d::Identity()) : tangent_so3<double>(turn);
 }

@@ -3,6 +3,7 @@
 
 #include "common/math/rotation.hpp"
 #include "mechanism/equations/carriers.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -20,7 +21,7 @@ Eigen::Quaterniond exp_quaternion(const Eigen::Vector3d& turn) {
 
 /// Material increment T(θ) d of a node's rotation for an increment d of the rotation vector θ of the step.
 Eigen::Vector3d turn_increment(const Model& model, const Evaluation& evaluation, int node, const Eigen::Vector3d& d) {
-  if (node < 0 || model.nodes[node].rotation < 0) return d;
+  if (node < 0 || model.nodes[node].rotation < 0 || model.planar) return d;  // T(θ) d = d for parallel vectors
   const Eigen::Vector3d theta = evaluation.displacement.segment<3>(model.nodes[node].rotation);
   const AngleFunctions<double> f(theta.squaredNorm());
   const Eigen::Vector3d across = theta.cross(d);
@@ -92,10 +93,10 @@ void retract(const Model& model, const State& from, const Eigen::Ref<const Eigen
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
     const auto column = static_cast<Eigen::Index>(i);
-    if (node.translation >= 0) x.col(column) = x0.col(column) + d.segment<3>(node.translation);
+    if (node.translation >= 0) x.col(column) = x0.col(column) + translation_at(model, d, node.translation);
     if (node.rotation >= 0) {
       const Eigen::Quaterniond q0(Q0(0, column), Q0(1, column), Q0(2, column), Q0(3, column));
-      Q.col(column) = wxyz(q0 * exp_quaternion(d.segment<3>(node.rotation)));
+      Q.col(column) = wxyz(q0 * exp_quaternion(rotation_at(model, d, node.rotation)));
     }
   }
   to.w() = from.w() + d.segment(model.sizes.first_modal(), model.sizes.modal);

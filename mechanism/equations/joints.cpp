@@ -35,6 +35,7 @@ Rows constraint_rows(const Model& model, const Pair& item, const Rows& B, const 
     case ConstraintRows::Kind::plain:
       break;
     case ConstraintRows::Kind::position:
+      if (model.planar) break;  // T(θ) d = d for parallel vectors
       rows.template middleCols<3>(3) = B.template middleCols<3>(3) * step_tangent(model, evaluation, item.a.node);
       rows.template middleCols<3>(9) = B.template middleCols<3>(9) * step_tangent(model, evaluation, item.b.node);
       break;

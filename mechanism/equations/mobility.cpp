@@ -74,7 +74,8 @@ Row6 rigid_row(const Model& model, const Parts& parts, const Evaluation& evaluat
   return rigid;
 }
 
-/// scaled_jacobian() for rigid motions of the parts.
+/// scaled_jacobian() for rigid motions of the parts; in planar models behind it columns that hold what leaves the
+/// plane.
 Eigen::SparseMatrix<double> rigid_jacobian(const Model& model, const Parts& parts, const Evaluation& evaluation) {
   Triplets entries;
   const auto add = [&](int row, const Marker& marker, const Row6& values) {
@@ -88,7 +89,10 @@ Eigen::SparseMatrix<double> rigid_jacobian(const Model& model, const Parts& part
     add(row, pair.a, values.head<6>());
     add(row, pair.b, values.tail<6>());
   });
-  return compressed(6 * parts.count(), model.sizes.constraints, entries);
+  int columns = model.sizes.constraints;
+  for (int part = 0; part < parts.count() && model.planar; ++part)
+    for (int j = 2; j < 5; ++j) entries.emplace_back(6 * part + j, columns++, 1.0);
+  return compressed(6 * parts.count(), columns, entries);
 }
 
 ColumnRank rank_of(const Eigen::SparseMatrix<double>& A) {
@@ -204,8 +208,7 @@ std::vector<LockedJoint> locked_joints(const Model& model, const Parts& parts, c
                             b.node < 0 ? ground : parts.of_node[b.node]};
     const Eigen::Vector3d point = motion_of(evaluation, a.node < 0 ? b.node : a.node).x;
     const Eigen::MatrixXd relative = motion(joint.b, point) - motion(joint.a, point);
-    if (joint.a != joint.b && (Z.cols() == 0 || relative.cwiseAbs().maxCoeff() < 1e-9))
-      locked.push_back(joint);
+    if (joint.a != joint.b && (Z.cols() == 0 || relative.cwiseAbs().maxCoeff() < 1e-9)) locked.push_back(joint);
   }
   return locked;
 }
@@ -267,7 +270,8 @@ Mobility count_mobility(const Model& model, const State& state, Evaluation& eval
   mobility.rank = rank.rank;
   mobility.redundant = std::move(rank.dependent);
   mobility.degrees_of_freedom = mobility.coordinates - mobility.rank;
-  const bool all_rigid = 6 * mobility.parts == mobility.coordinates;
+  mobility.freedoms = model.planar ? 3 : 6;
+  const bool all_rigid = !model.planar && 6 * mobility.parts == mobility.coordinates;
   const int rigid_rank = all_rigid ? mobility.rank : rank_of(rigid_jacobian(model, parts, evaluation)).rank;
   mobility.rigid_mobility = 6 * mobility.parts - rigid_rank;
   return mobility;

@@ -17,6 +17,7 @@ struct Mobility {
   int rank = 0;                ///< of the constraint Jacobian
   int degrees_of_freedom = 0;  ///< coordinates − rank
   int parts = 0;               ///< bodies, each counted as a rigid one
+  int freedoms = 6;            ///< of one body; in planar models 3
   int rigid_mobility =
       0;  ///< degrees of freedom if every body were rigid: 6 parts − rank; Gruebler's is 6 parts − constraints
   std::vector<int> redundant;  ///< constraint rows that depend on the others

@@ -1,6 +1,8 @@
 // Stage motion: what nodes and modes do at a state.
 #include "mechanism/equations/terms.hpp"
 
+#include "mechanism/model/node_coordinates.hpp"
+
 namespace tisserand::mechanism {
 namespace {
 
@@ -26,12 +28,12 @@ void update_motion(const Model& model, const State& state, Evaluation& evaluatio
     motion.x = x.col(column);
     motion.R = Eigen::Quaterniond(Q(0, column), Q(1, column), Q(2, column), Q(3, column)).toRotationMatrix();
     if (node.translation >= 0) {
-      motion.xd = v.segment<3>(node.translation);
-      motion.xdd = vdot.segment<3>(node.translation);
+      motion.xd = translation_at(model, v, node.translation);
+      motion.xdd = translation_at(model, vdot, node.translation);
     }
     if (node.rotation >= 0) {
-      motion.Omega = v.segment<3>(node.rotation);
-      motion.Omegad = vdot.segment<3>(node.rotation);
+      motion.Omega = rotation_at(model, v, node.rotation);
+      motion.Omegad = rotation_at(model, vdot, node.rotation);
     }
   }
   for (std::size_t i = 0; i < model.tyres.size(); ++i)

@@ -4,15 +4,22 @@
 #include "common/math/rotation.hpp"
 
 namespace tisserand::mechanism {
+namespace {
 
 using Eigen::Vector3d;
 using formats::LoadAxes;
 using formats::LoadKind;
 
+/// A load in world axes, in axes of the node.
+Vector3d in_node_axes(const Load& load, const NodeMotion& node, const Vector3d& value) {
+  return node.R.transpose() * (load.turn ? Vector3d(*load.turn * value) : value);
+}
+
+}  // namespace
+
 Vector6d load_force(const Load& load, const NodeMotion& node, const Vector3d& value) {
   // `material`: the load in node axes.
-  const Vector3d material =
-      load.axes == LoadAxes::body ? Vector3d(load.at.R * value) : Vector3d(node.R.transpose() * value);
+  const Vector3d material = load.axes == LoadAxes::body ? Vector3d(load.at.R * value) : in_node_axes(load, node, value);
   Vector6d force = Vector6d::Zero();
   if (load.kind == LoadKind::force) {
     force.head<3>() = node.R * material;
@@ -27,7 +34,7 @@ Matrix6d load_stiffness(const Load& load, const NodeMotion& node, const Vector3d
   Matrix6d K = Matrix6d::Zero();
   if (load.axes == LoadAxes::world) {
     // δ(Rᵀ f) = (Rᵀ f)~ δΘ
-    const Eigen::Matrix3d change = skew<double>(node.R.transpose() * value);
+    const Eigen::Matrix3d change = skew<double>(in_node_axes(load, node, value));
     if (load.kind == LoadKind::force)
       K.block<3, 3>(3, 3) = skew<double>(load.at.p) * change;
     else

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct Load {
   formats::LoadAxes axes = formats::LoadAxes::world;
   Marker at;
   std::array<formats::TimeFunctionSpec, 3> components;
+  std::optional<Eigen::Matrix3d> turn;  ///< from the axes of the world to those of a planar model
   std::string where;
 };
 

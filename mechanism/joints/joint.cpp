@@ -16,7 +16,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 const Relation& relation_of(const Joint& joint, int equation) {
-  return joint.relations[equation - (joint.coincident ? 3 : 0)];
+  return joint.relations[equation - joint.coincident_rows()];
 }
 
 constexpr std::array<const char*, 3> axis_name{"x", "y", "z"};
@@ -24,7 +24,7 @@ constexpr std::array<const char*, 3> axis_name{"x", "y", "z"};
 }  // namespace
 
 bool is_length(const Joint& joint, int equation) {
-  return (joint.coincident && equation < 3) || is_length(relation_of(joint, equation));
+  return equation < joint.coincident_rows() || is_length(relation_of(joint, equation));
 }
 
 namespace {
@@ -99,7 +99,7 @@ std::vector<NamedRelation> free_coordinates(const Joint& joint) {
 }
 
 std::string joint_equation_name(const Joint& joint, int equation) {
-  if (joint.coincident && equation < 3) return std::string("translation ") + axis_name[equation];
+  if (equation < joint.coincident_rows()) return std::string("translation ") + axis_name[equation];
   const Relation& r = relation_of(joint, equation);
   switch (r.kind) {
     case RelationKind::along:
@@ -124,7 +124,7 @@ void joint_constraints(const Joint& joint, const NodeMotion& a, const NodeMotion
     terms.B.block<3, 3>(0, 3).noalias() = a.R * skew<double>(joint.a.p);
     terms.B.block<3, 3>(0, 6).setIdentity();
     terms.B.block<3, 3>(0, 9).noalias() = -b.R * skew<double>(joint.b.p);
-    row = 3;
+    row = joint.coincident_rows();
   }
   const MarkerPair pair{joint.a, joint.b, a, b};
   for (int k = 0; k < joint.relation_count; ++k, ++row) {
@@ -139,7 +139,7 @@ void joint_bias(const Joint& joint, const NodeMotion& a, const NodeMotion& b, Jo
   if (joint.coincident) {
     terms.bias.head<3>() =
         b.R * b.Omega.cross(b.Omega.cross(joint.b.p)) - a.R * a.Omega.cross(a.Omega.cross(joint.a.p));
-    row = 3;
+    row = joint.coincident_rows();
   }
   const MarkerPair pair{joint.a, joint.b, a, b};
   for (int k = 0; k < joint.relation_count; ++k, ++row) terms.bias[row] = bias(joint.relations[k], pair);
@@ -152,7 +152,7 @@ void joint_rate_gradient(const Joint& joint, const NodeMotion& a, const NodeMoti
   if (joint.coincident) {
     N.block<3, 3>(0, 3).noalias() = a.R * skew<double>(a.Omega.cross(joint.a.p));
     N.block<3, 3>(0, 9).noalias() = -b.R * skew<double>(b.Omega.cross(joint.b.p));
-    row = 3;
+    row = joint.coincident_rows();
   }
   const MarkerPair pair{joint.a, joint.b, a, b};
   for (int k = 0; k < joint.relation_count; ++k, ++row) N.row(row) = rate_gradient(joint.relations[k], pair);
@@ -162,11 +162,11 @@ void joint_stiffness(const Joint& joint, const NodeMotion& a, const NodeMotion& 
   K.setZero();
   int row = 0;
   if (joint.coincident) {
-    const Eigen::Map<const Vector3d> f(lambda);
+    const Vector3d f(lambda[0], lambda[1], joint.planar ? 0.0 : lambda[2]);
     // Rows Θ of Bᵀλ: −p_A~ R_Aᵀ f for A and +p_B~ R_Bᵀ f for B; δ(Rᵀ f) = (Rᵀ f)~ δΘ.
     K.block<3, 3>(3, 3) = -skew<double>(joint.a.p) * skew<double>(a.R.transpose() * f);
     K.block<3, 3>(9, 9) = skew<double>(joint.b.p) * skew<double>(b.R.transpose() * f);
-    row = 3;
+    row = joint.coincident_rows();
   }
   const MarkerPair pair{joint.a, joint.b, a, b};
   for (int k = 0; k < joint.relation_count; ++k, ++row) add_stiffness(joint.relations[k], pair, lambda[row], K);

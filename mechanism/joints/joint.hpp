@@ -21,13 +21,15 @@ struct Joint {
   Marker a;
   Marker b;
   bool coincident = true;
+  bool planar = false;  ///< in planar models: origins kept together in x and y alone
   std::array<Relation, 6> relations{};
   int relation_count = 0;
   double constant = 0.0;  ///< length of a joint that keeps a distance; 0 for all others
   int row = 0;            ///< first multiplier
   int thread = -1;        ///< of screws: index in Model::couplings of z − lead × angle
 
-  int size() const { return (coincident ? 3 : 0) + relation_count; }
+  int coincident_rows() const { return !coincident ? 0 : planar ? 2 : 3; }
+  int size() const { return coincident_rows() + relation_count; }
 };
 
 /// Whether equation `k` of the joint is a length (or a number of order one: angles, products of unit vectors).

@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "mechanism/equations/evaluate.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -104,8 +105,8 @@ class Transfer {
     const Motion6 motion = motion_of_node(index);
     state.x().col(index) = motion.x;
     state.Q().col(index) = wxyz(Eigen::Quaterniond(motion.R).normalized());
-    if (node.translation >= 0) state.v().segment<3>(node.translation) = motion.xd;
-    if (node.rotation >= 0) state.v().segment<3>(node.rotation) = motion.Omega;
+    if (node.translation >= 0) set_translation(to_, motion.xd, node.translation, state.v());
+    if (node.rotation >= 0) set_rotation(to_, motion.Omega, node.rotation, state.v());
   }
 
   void set_superelements(State& state) const {

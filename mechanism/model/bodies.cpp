@@ -2,6 +2,7 @@
 #include "mechanism/model/bodies.hpp"
 
 #include "mechanism/model/element_map.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -47,8 +48,10 @@ ElementMap body_map(const Model& model, const SuperelementUse& use) {
   ElementMap map;
   for (std::size_t j = 0; j < body.node.size(); ++j) {
     const Node& node = model.nodes[use.nodes[j]];
-    for (int k = 0; k < 3 && body.node[j].has_translation(); ++k) map.coordinates.push_back(node.translation + k);
-    for (int k = 0; k < 3 && body.node[j].has_rotation(); ++k) map.coordinates.push_back(node.rotation + k);
+    for (int k = 0; k < translations_of(model) && body.node[j].has_translation(); ++k)
+      map.coordinates.push_back(node.translation + k);
+    for (int k = 0; k < rotations_of(model) && body.node[j].has_rotation(); ++k)
+      map.coordinates.push_back(node.rotation + k);
   }
   return map;
 }

@@ -3,16 +3,14 @@
 
 #include <algorithm>
 
+#include "mechanism/model/node_coordinates.hpp"
+
 namespace tisserand::mechanism {
 
 void append_carrier(const Model& model, int node, std::vector<int>& coordinates) {
   const int modal = modal_node(model, node);
   const int owner = modal < 0 ? node : modal_body_of(model, modal).node;
-  for (int k = 0; k < 6; ++k) {
-    const Node* own = owner < 0 ? nullptr : &model.nodes[owner];
-    const int first = own == nullptr ? -1 : k < 3 ? own->translation : own->rotation;
-    coordinates.push_back(first < 0 ? -1 : first + k % 3);
-  }
+  for (int k = 0; k < 6; ++k) coordinates.push_back(owner < 0 ? -1 : coordinate_of(model, model.nodes[owner], k));
   if (modal < 0) return;
   const ModalBody& body = modal_body_of(model, modal);
   for (int k = 0; k < body.modes; ++k) coordinates.push_back(model.sizes.first_modal() + body.offset + k);

@@ -8,6 +8,7 @@
 
 #include "mechanism/model/bodies.hpp"
 #include "mechanism/model/element_map.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/model/sparsity.hpp"
 
 namespace tisserand::mechanism {
@@ -178,7 +179,7 @@ void scale_equations(Model& model) {
   const SparsePattern& pattern = *model.pattern;
   model.equation_scale.setOnes(pattern.size());
   for (const Node& node : model.nodes)
-    if (node.rotation >= 0) model.equation_scale.segment<3>(node.rotation) = 1.0 / model.length;
+    if (node.rotation >= 0) model.equation_scale.segment(node.rotation, rotations_of(model)) = 1.0 / model.length;
   for (const ModalBody& body : model.modal_bodies)
     model.equation_scale.segment(model.sizes.first_modal() + body.offset, body.modes) = std::sqrt(body.mass);
   for (int row = 0; row < model.sizes.constraints; ++row)
@@ -235,10 +236,10 @@ bool has_rotation(const Model& model, int node) {
 std::string coordinate_name(const Model& model, int coordinate) {
   static const char* const axis[] = {"x", "y", "z"};
   for (const Node& node : model.nodes) {
-    if (node.translation >= 0 && coordinate >= node.translation && coordinate < node.translation + 3)
-      return fmt::format("{}, translation {}", node.name, axis[coordinate - node.translation]);
-    if (node.rotation >= 0 && coordinate >= node.rotation && coordinate < node.rotation + 3)
-      return fmt::format("{}, rotation about its {} axis", node.name, axis[coordinate - node.rotation]);
+    for (int k = 0; k < 6; ++k)
+      if (coordinate == coordinate_of(model, node, k))
+        return k < 3 ? fmt::format("{}, translation {}", node.name, axis[k])
+                     : fmt::format("{}, rotation about its {} axis", node.name, axis[k - 3]);
   }
   const int modal = coordinate - model.sizes.first_modal();
   for (const ModalBody& body : model.modal_bodies)

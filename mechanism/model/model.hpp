@@ -70,7 +70,11 @@ struct ConstraintMap {
 struct Model {
   std::string name;
   Units units;
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< of the scene; bodies carry their own
+  /// Whether all motion stays in the x-y plane of `axes`: nodes then have two translations and one rotation
+  /// (node_coordinates.hpp), about an own axis that is z in them too.
+  bool planar = false;
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< in which the model is computed, world; unit unless planar
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();   ///< of the scene; bodies carry their own
   double length = 1.0;           ///< characteristic length: extent of the nodes (1 if they coincide)
   double stiffness_scale = 1.0;  ///< largest diagonal entry of ∂r/∂q at the start
   double mass_scale = 1.0;       ///< largest diagonal entry of ∂r/∂v̇ at the start
@@ -122,6 +126,17 @@ struct Model {
   std::unique_ptr<SparsePattern> pattern;  ///< of [A Bᵀ; B 0], boundary coordinates then multipliers
   SolverChoice solver;
 };
+
+/// From the axes of a planar model to the world, and back.
+inline Eigen::Vector3d to_world(const Model& model, const Eigen::Vector3d& v) {
+  return model.planar ? Eigen::Vector3d(model.axes * v) : v;
+}
+inline Eigen::Vector3d to_axes(const Model& model, const Eigen::Vector3d& v) {
+  return model.planar ? Eigen::Vector3d(model.axes.transpose() * v) : v;
+}
+inline Eigen::Matrix3d to_world(const Model& model, const Eigen::Matrix3d& R) {
+  return model.planar ? Eigen::Matrix3d(model.axes * R) : R;
+}
 
 /// The body of a superelement.
 inline const SuperelementBody& body_of(const Model& model, std::size_t superelement) {

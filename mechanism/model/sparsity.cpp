@@ -55,14 +55,14 @@ EntryFlags stiffness_entries(const Joint& joint) {
 
 EntryFlags gradient_entries(const Joint& joint) {
   Flags flags(joint.size(), 12);
-  for (int k = 0; k < 3 && joint.coincident; ++k) {
+  for (int k = 0; k < joint.coincident_rows(); ++k) {
     flags.set(k, k);
     flags.set(k, 6 + k);
     if (!joint.a.p.isZero(0.0)) flags.set_block(k, 3, 1, 3);
     if (!joint.b.p.isZero(0.0)) flags.set_block(k, 9, 1, 3);
   }
   for (int k = 0; k < joint.relation_count; ++k) {
-    const int row = (joint.coincident ? 3 : 0) + k;
+    const int row = joint.coincident_rows() + k;
     if (turns_only(joint.relations[k].kind)) {
       for (const int column : first_turn) flags.set_block(row, column, 1, 3);
     } else {

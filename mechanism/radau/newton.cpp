@@ -9,6 +9,7 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/model/bodies.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/step/step_control.hpp"
 #include "mechanism/step/tuning.hpp"
 
@@ -83,7 +84,7 @@ Newton::Newton(const Model& model)
       complex_rows_(Eigen::VectorXcd::Zero(model.sizes.constraints)) {
   axes_ = parts_.orientation;
   for_each_body(model, [&](const auto& body) {
-    if (!is_flexible(body)) return;
+    if (!is_flexible(body) || model.planar) return;
     for (const int node : attached_nodes(model, body)) {
       const bool turns = node >= 0 && model.nodes[node].translation >= 0 && model.nodes[node].rotation >= 0;
       if (turns && std::ranges::count(turning_, node) == 0) turning_.push_back(node);
@@ -173,7 +174,7 @@ void Newton::solve(const Model& model, const State& state, Stages& stages) {
     for_turning_nodes(
         [&](std::size_t node, int row) { d.segment<3>(row) = (turns_[i][node] * d.segment<3>(row)).eval(); });
     for (const Node& node : model.nodes) {
-      if (node.rotation < 0) continue;
+      if (node.rotation < 0 || model.planar) continue;
       const Vector3d theta = stages.d.col(i).segment<3>(node.rotation);
       d.segment<3>(node.rotation) = (inverse_tangent_so3<double>(theta) * d.segment<3>(node.rotation)).eval();
     }
@@ -228,7 +229,8 @@ bool Newton::iterate(const Model& model, const State& begin, const StepEnd& end,
     if (stages.d.cwiseAbs().maxCoeff() > 1e100) return fails(StepOutcome::diverged);
     double turn = 0.0;
     for (const Node& node : model.nodes)
-      if (node.rotation >= 0) turn = std::max(turn, stages.d.middleRows<3>(node.rotation).cwiseAbs().maxCoeff());
+      if (node.rotation >= 0)
+        turn = std::max(turn, stages.d.middleRows(node.rotation, rotations_of(model)).cwiseAbs().maxCoeff());
     if (turn > farthest_turn) return fails(StepOutcome::too_many_iterations);
     update_rates(model, stages);
     placed = placed || confidence * size.ratio <= accuracy.newton;

@@ -8,6 +8,7 @@
 
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/step/accept.hpp"
 #include "mechanism/step/convergence.hpp"
 #include "mechanism/step/step_control.hpp"
@@ -64,7 +65,7 @@ radau::Accuracy Radau::accuracy() const {
 double Radau::farthest_turn() const {
   double turn = 0.0;
   for (const Node& node : model_.nodes)
-    if (node.rotation >= 0) turn = std::max(turn, stages_.d.col(2).segment<3>(node.rotation).norm());
+    if (node.rotation >= 0) turn = std::max(turn, rotation_at(model_, stages_.d.col(2), node.rotation).norm());
   return turn;
 }
 

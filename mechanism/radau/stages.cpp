@@ -5,6 +5,7 @@
 
 #include "common/math/rotation.hpp"
 #include "mechanism/equations/increments.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism::radau {
 namespace {
@@ -62,7 +63,7 @@ Bubble bubble(double tau) {
 template <class Map, class Column>
 void map_rotations(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& turns, Map map, Column&& column) {
   for (const Node& node : model.nodes) {
-    if (node.rotation < 0) continue;
+    if (node.rotation < 0 || model.planar) continue;  // T(θ) x = x for parallel vectors
     const Vector3d theta = turns.segment<3>(node.rotation);
     column.template segment<3>(node.rotation) = (map(theta) * column.template segment<3>(node.rotation)).eval();
   }

@@ -4,12 +4,16 @@
 #include <limits>
 
 #include "formats/results/blocks.hpp"
-#include "mechanism/bodies/superelement/rates.hpp"
+#include "mechanism/bodies/superelement/evaluate.hpp"
 #include "mechanism/equations/terms.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/step/redundancy.hpp"
 
 namespace tisserand::mechanism {
 namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
 
 /// A node that owns no translations or no rotations has none to report.
 void blank_missing(const Model& model, const Marker& marker, Eigen::Index column, formats::ResultsRow& row) {
@@ -31,13 +35,14 @@ void fill_places(const Model& model, const Evaluation& evaluation, formats::Resu
     const Marker& marker = model.places[i].marker;
     const NodeMotion& node = motion_of(evaluation, marker.node);
     const auto column = static_cast<Eigen::Index>(i);
-    row.node_position.col(column) = model.origin + marker_position(marker, node);
-    row.node_rotation.col(column) = wxyz(Eigen::Quaterniond(marker_rotation(marker, node)));
-    row.node_velocity.col(column) = marker_velocity(marker, node);
-    row.node_angular_velocity.col(column) = node.R * node.Omega;
-    row.node_acceleration.col(column) =
-        node.xdd + node.R * (node.Omegad.cross(marker.p) + node.Omega.cross(node.Omega.cross(marker.p)));
-    row.node_angular_acceleration.col(column) = node.R * node.Omegad;
+    row.node_position.col(column) = model.origin + to_world(model, marker_position(marker, node));
+    row.node_rotation.col(column) = wxyz(Eigen::Quaterniond(to_world(model, marker_rotation(marker, node))));
+    row.node_velocity.col(column) = to_world(model, marker_velocity(marker, node));
+    row.node_angular_velocity.col(column) = to_world(model, Vector3d(node.R * node.Omega));
+    row.node_acceleration.col(column) = to_world(
+        model,
+        Vector3d(node.xdd + node.R * (node.Omegad.cross(marker.p) + node.Omega.cross(node.Omega.cross(marker.p)))));
+    row.node_angular_acceleration.col(column) = to_world(model, Vector3d(node.R * node.Omegad));
     blank_missing(model, marker, column, row);
   }
 }
@@ -49,8 +54,9 @@ void fill_superelements(const Model& model, Evaluation& evaluation, formats::Res
     SuperelementScratch& scratch = evaluation.superelements[i];
     const NodeView<NodeMotion> nodes = nodes_of(model, i, evaluation);
     const auto column = static_cast<Eigen::Index>(i);
-    row.frame_position.col(column) = model.origin + scratch.motion.x0;
-    row.frame_rotation.col(column) = wxyz(Eigen::Quaterniond(scratch.motion.R0));
+    row.frame_position.col(column) = model.origin + to_world(model, scratch.motion.x0);
+    const Matrix3d part_axes = body.planar ? Matrix3d(scratch.motion.R0 * body.axes.transpose()) : scratch.motion.R0;
+    row.frame_rotation.col(column) = wxyz(Eigen::Quaterniond(to_world(model, part_axes)));
     const Eigen::Index count = file_coordinate_count(body);
     file_coordinates(body, scratch, row.y.segment(y, count));
     file_rates(body, scratch, nodes, row.y_rate.segment(y, count));
@@ -59,9 +65,11 @@ void fill_superelements(const Model& model, Evaluation& evaluation, formats::Res
       const SuperelementNode& node = body.node[j];
       row.boundary_force.col(boundary).setZero();
       if (node.has_translation())
-        row.boundary_force.col(boundary).head<3>() = scratch.forces.r_B.segment<3>(node.translation_row);
+        row.boundary_force.col(boundary).head<3>() =
+            to_world(model, translation_at(model, scratch.forces.r_B, node.translation_row));
       if (node.has_rotation())
-        row.boundary_force.col(boundary).tail<3>() = nodes[j].R * scratch.forces.r_B.segment<3>(node.rotation_row);
+        row.boundary_force.col(boundary).tail<3>() =
+            to_world(model, Vector3d(nodes[j].R * rotation_at(model, scratch.forces.r_B, node.rotation_row)));
     }
   }
 }

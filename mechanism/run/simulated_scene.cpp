@@ -100,7 +100,8 @@ Eigen::Matrix3Xd node_references(const formats::Scene& scene, const Model& model
     if (body_of_node[i] >= 0)
       part = std::visit([](const auto& one) { return one.start.pose; }, scene.bodies[body_of_node[i]]);
     references.col(static_cast<Eigen::Index>(i)) =
-        part.orientation.normalized().conjugate() * (marker_position(marker, node) + model.origin - part.position);
+        part.orientation.normalized().conjugate() *
+        (to_world(model, marker_position(marker, node)) + model.origin - part.position);
   }
   return references;
 }
@@ -123,7 +124,8 @@ class StoredNodes {
     found.orientation = Eigen::Quaterniond(marker.R).normalized();
     if (marker.node < 0) {
       found.node = SimulatedMarker::ground;
-      found.position += model_.origin;
+      found.position = model_.origin + to_world(model_, marker.p);
+      found.orientation = Eigen::Quaterniond(to_world(model_, marker.R)).normalized();
       return found;
     }
     const auto named = by_name_.find(name);

@@ -11,6 +11,7 @@
 #include "common/error.hpp"
 #include "formats/results/results.hpp"
 #include "mechanism/equations/evaluate.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -58,6 +59,11 @@ std::size_t find_row(const formats::ResultsReader& reader, const std::string& fi
   return static_cast<std::size_t>(nearest - time.begin());
 }
 
+/// The turn about z that R is but for round-off.
+Eigen::Quaterniond turn_in_plane(const Eigen::Quaterniond& R) {
+  return Eigen::Quaterniond(R.w(), 0.0, 0.0, R.z()).normalized();
+}
+
 void read_nodes(const Model& model, const StoredRow& stored, State& state) {
   std::vector<bool> done(model.nodes.size(), false);
   for (const Place& place : model.places) {
@@ -71,22 +77,26 @@ void read_nodes(const Model& model, const StoredRow& stored, State& state) {
     if (node.rotation >= 0) {
       const Eigen::Vector4d Q = stored.quaternion("nodes/rotation", place.name);
       R = Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]).normalized() * Eigen::Quaterniond(place.marker.R).conjugate();
-      omega = stored.vector("nodes/angular_velocity", place.name);
+      if (model.planar) R = turn_in_plane(Eigen::Quaterniond(model.axes).conjugate() * R);
+      omega = to_axes(model, stored.vector("nodes/angular_velocity", place.name));
       state.Q().col(column) = wxyz(R);
-      state.v().segment<3>(node.rotation) = R.conjugate() * omega;
+      set_rotation(model, R.conjugate() * omega, node.rotation, state.v());
     }
     if (node.translation < 0) continue;
     const Vector3d arm = R * place.marker.p;
-    state.x().col(column) = stored.vector("nodes/position", place.name) - model.origin - arm;
-    state.v().segment<3>(node.translation) = stored.vector("nodes/velocity", place.name) - omega.cross(arm);
+    state.x().col(column) = to_axes(model, stored.vector("nodes/position", place.name) - model.origin) - arm;
+    const Vector3d velocity = to_axes(model, stored.vector("nodes/velocity", place.name)) - omega.cross(arm);
+    set_translation(model, velocity, node.translation, state.v());
   }
 }
 
 /// Canonical internal coordinates of those of the file.
 VectorXd canonical(const SuperelementBody& body, const VectorXd& file) {
-  VectorXd boundary(body.boundary_size), internal(static_cast<Eigen::Index>(body.file.internal_row.size()));
+  VectorXd boundary(static_cast<Eigen::Index>(body.file.boundary_row.size())),
+      internal(static_cast<Eigen::Index>(body.file.internal_row.size()));
   for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i) boundary[i] = file[body.file.boundary_row[i]];
   for (std::size_t k = 0; k < body.file.internal_row.size(); ++k) internal[k] = file[body.file.internal_row[k]];
+  if (body.planar) boundary = (body.file.lift.transpose() * boundary).eval();
   return body.file.modal_part.colPivHouseholderQr().solve(internal - body.file.static_part * boundary);
 }
 
@@ -95,6 +105,12 @@ void read_superelements(const Model& model, const StoredRow& stored, State& stat
     const SuperelementBody& body = body_of(model, i);
     const std::string& name = model.superelements[i].name;
     state.frames().col(i) = stored.quaternion("superelements/frame_rotation", name);
+    if (model.planar) {
+      const Eigen::Vector4d Q = state.frames().col(i);
+      const Eigen::Quaterniond R(Q[0], Q[1], Q[2], Q[3]);
+      state.frames().col(i) =
+          wxyz(turn_in_plane(Eigen::Quaterniond(model.axes).conjugate() * R * Eigen::Quaterniond(body.axes)));
+    }
     if (body.modes == 0) continue;
     std::vector<std::string> columns;
     for (Eigen::Index k = 0; k < file_coordinate_count(body); ++k) columns.push_back(fmt::format("{}", k));

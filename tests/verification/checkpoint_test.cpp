@@ -130,6 +130,17 @@ formats::Scene blade() {
   return scene;
 }
 
+formats::Scene in_its_plane(formats::Scene scene) {
+  scene.effects.push_back({formats::Effect::planar, "", true, "switch"});
+  return scene;
+}
+formats::Scene planar_swing() { return in_its_plane(swing()); }
+formats::Scene planar_blade() {
+  formats::Scene scene = blade();
+  scene.gravity = {0, -9.81, 0};
+  return in_its_plane(scene);
+}
+
 /// Of `blade`; its companion under the name of its contents.
 void add_blade(BodyFiles& list) {
   const test_support::SectionData section = test_support::slender_section(1e5);
@@ -163,7 +174,8 @@ class Checkpoint : public ::testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, Checkpoint,
                          ::testing::Values(Case{"swing", swing}, Case{"whip", whip},
                                            Case{"parallelogram", parallelogram}, Case{"soft_rod", soft_rod},
-                                           Case{"blade", blade}),
+                                           Case{"blade", blade}, Case{"planar_swing", planar_swing},
+                                           Case{"planar_blade", planar_blade}),
                          [](const ::testing::TestParamInfo<Case>& given) { return given.param.name; });
 
 // The first run goes through a second checkpoint, which both runs pass alike; the file kept is that of the first.

@@ -45,8 +45,8 @@ enum class FrameAlgorithm {
 /// One boundary node: where its coordinates stand in the boundary vector, and its constants in the floating frame.
 struct SuperelementNode {
   std::string name;
-  int translation_row = -1;                           ///< first of three rows [x], -1: no translations
-  int rotation_row = -1;                              ///< first of three rows [Θ], -1: no rotations
+  int translation_row = -1;                           ///< first of three rows [x] (planar: two), -1: no translations
+  int rotation_row = -1;                              ///< first of three rows [Θ] (planar: one), -1: no rotations
   double alpha = 0.0;                                 ///< weight of the position, Σ = 1
   double alpha_rotation = 0.0;                        ///< weight of the rotation, Σ = 1
   Eigen::Vector3d X = Eigen::Vector3d::Zero();        ///< reference position relative to x₀ = Σ αⱼ Xⱼ
@@ -84,6 +84,7 @@ struct FileCoordinates {
   std::vector<int> internal_row;  ///< rows of the file of its internal coordinates
   Eigen::MatrixXd static_part;    ///< −S_II⁻¹ S_IB
   Eigen::MatrixXd modal_part;     ///< Q, only the modes kept
+  Eigen::MatrixXd lift;           ///< of planar bodies: boundary rows of the file by the boundary coordinates
 };
 
 /// A superelement in canonical form (S_BI = 0, M_II = 1, S_II diagonal and ascending) and in units of the scene: what
@@ -91,6 +92,12 @@ struct FileCoordinates {
 /// of the file; then m internal coordinates.
 struct SuperelementBody {
   std::string name;  ///< in the file
+  /// Of planar models (planar_body.hpp): two translations and one rotation per node, in these axes of the part, z
+  /// normal to the plane; of vectors of the frame z is zero.
+  bool planar = false;
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  int translations() const { return planar ? 2 : 3; }  ///< of a node
+  int rotations() const { return planar ? 1 : 3; }
   std::vector<SuperelementNode> node;
   int boundary_size = 0;  ///< nb
   int modes = 0;          ///< m

@@ -58,8 +58,8 @@ Eigen::VectorXd coordinate_units(const SuperelementBody& body) {
   const double length = square > 0.0 ? std::sqrt(square) : 1.0;
   Eigen::VectorXd unit = Eigen::VectorXd::Constant(body.boundary_size + body.modes, length * std::sqrt(body.mass));
   for (const SuperelementNode& node : body.node) {
-    if (node.has_translation()) unit.segment<3>(node.translation_row).setConstant(length);
-    if (node.has_rotation()) unit.segment<3>(node.rotation_row).setOnes();
+    if (node.has_translation()) unit.segment(node.translation_row, body.translations()).setConstant(length);
+    if (node.has_rotation()) unit.segment(node.rotation_row, body.rotations()).setOnes();
   }
   return unit;
 }
@@ -67,9 +67,12 @@ Eigen::VectorXd coordinate_units(const SuperelementBody& body) {
 Eigen::MatrixXd rigid_columns(const SuperelementBody& body) {
   Eigen::MatrixXd R = Eigen::MatrixXd::Zero(body.boundary_size + body.modes, 6);
   for (const SuperelementNode& node : body.node) {
-    if (node.has_translation())
-      R.middleRows<3>(node.translation_row) << Eigen::Matrix3d::Identity(), -skew<double>(node.X);
-    if (node.has_rotation()) R.block<3, 3>(node.rotation_row, 3).setIdentity();
+    if (node.has_translation()) {
+      R.block(node.translation_row, 0, body.translations(), 3).setIdentity();
+      R.block(node.translation_row, 3, body.translations(), 3) = -skew<double>(node.X).topRows(body.translations());
+    }
+    if (node.has_rotation())
+      R.block(node.rotation_row, 6 - body.rotations(), body.rotations(), body.rotations()).setIdentity();
   }
   return R;
 }

@@ -18,7 +18,7 @@ SuperelementScratch make_scratch(const SuperelementBody& body) {
   tangent.U.setZero(3, body.boundary_size);
   if (body.damping.is_full()) tangent.inverse_II.setZero(body.modes, body.modes);
   if (body.second_order.any()) tangent.factor.resize(body.modes);
-  if (body.inertia == formats::InertiaOption::M || body.damping.is_full() || body.second_order.any()) {
+  if (body.planar || body.inertia == formats::InertiaOption::M || body.damping.is_full() || body.second_order.any()) {
     tangent.A_BI.setZero(body.boundary_size, body.modes);
     tangent.A_IB.setZero(body.modes, body.boundary_size);
   }
@@ -35,6 +35,7 @@ SuperelementWork make_work(const SuperelementBody& body) {
     matrix->setZero(nb, 3);
   for (Eigen::VectorXd* vector : {&work.r_B_condensed, &work.boundary_1, &work.boundary_2}) vector->setZero(nb);
   work.internal_1.setZero(m);
+  if (body.planar) work.planar_columns.setZero(nb, 16);
   if (body.damping.is_full()) {
     work.K.setZero(nb, nb);
     work.factor_II.setZero(m, m);
@@ -61,6 +62,12 @@ void update_kinematics(const SuperelementBody& body, const NodeView<NodeMotion>&
 
 void residual(const SuperelementBody& body, SuperelementScratch& scratch, const Eigen::Vector3d& gravity) {
   switch (body.boundary_size) {
+    case 6:
+      superelement_forces<6>(body, scratch.motion, gravity, scratch.forces);
+      break;
+    case 9:
+      superelement_forces<9>(body, scratch.motion, gravity, scratch.forces);
+      break;
     case 12:
       superelement_forces<12>(body, scratch.motion, gravity, scratch.forces);
       break;
@@ -152,11 +159,26 @@ Eigen::Index file_coordinate_count(const SuperelementBody& body) {
 void file_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
                       Eigen::Ref<Eigen::VectorXd> out) {
   const LocalMotion<double>& motion = scratch.motion;
-  for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i) out[body.file.boundary_row[i]] = motion.y_B[i];
+  for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i)
+    out[body.file.boundary_row[i]] = boundary_of_file(body, motion.y_B, i);
   for (std::size_t k = 0; k < body.file.internal_row.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     out[body.file.internal_row[k]] =
         body.file.static_part.row(row).dot(motion.y_B) + body.file.modal_part.row(row).dot(motion.y_I);
+  }
+}
+
+void file_rates(const SuperelementBody& body, SuperelementScratch& scratch, const NodeView<NodeMotion>& nodes,
+                Eigen::Ref<Eigen::VectorXd> out) {
+  LocalMotion<double>& motion = scratch.motion;
+  if (!body.damping.active)  // otherwise update_kinematics() has done it
+    deformation_rates(body, nodes, motion);
+  for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i)
+    out[body.file.boundary_row[i]] = boundary_of_file(body, motion.deformation_rate_B, i);
+  for (std::size_t k = 0; k < body.file.internal_row.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    out[body.file.internal_row[k]] = body.file.static_part.row(row).dot(motion.deformation_rate_B) +
+                                     body.file.modal_part.row(row).dot(motion.rate_I);
   }
 }
 
@@ -165,15 +187,18 @@ void boundary_weight(const SuperelementBody& body, const TangentCoefficients& co
   Eigen::MatrixXd& A = work.A_BB;
   A = coefficients.mass * body.M_BB + coefficients.stiffness * body.S_BB;
   const Eigen::Matrix3d& R0 = scratch.motion.R0;
+  const int n = body.translations();
   for (const SuperelementNode& node : body.node) {
     if (!node.has_translation()) continue;
     for (Eigen::Index j = 0; j < A.cols(); ++j) {
-      const Eigen::Vector3d turned = R0 * A.col(j).segment<3>(node.translation_row);
-      A.col(j).segment<3>(node.translation_row) = turned;
+      Eigen::Vector3d turned = Eigen::Vector3d::Zero();
+      turned.head(n) = A.col(j).segment(node.translation_row, n);
+      A.col(j).segment(node.translation_row, n) = (R0 * turned).head(n);
     }
     for (Eigen::Index i = 0; i < A.rows(); ++i) {
-      const Eigen::RowVector3d turned = A.row(i).segment<3>(node.translation_row) * R0.transpose();
-      A.row(i).segment<3>(node.translation_row) = turned;
+      Eigen::Vector3d turned = Eigen::Vector3d::Zero();
+      turned.head(n) = A.row(i).segment(node.translation_row, n).transpose();
+      A.row(i).segment(node.translation_row, n) = (R0 * turned).head(n).transpose();
     }
   }
 }

@@ -48,6 +48,7 @@ struct SuperelementWork {
   Eigen::MatrixXd work_1, work_2, work_3;                           ///< nb x nb
   Eigen::Matrix<double, Eigen::Dynamic, 3> thin_1, thin_2, thin_3;  ///< nb x 3
   Eigen::VectorXd boundary_1, boundary_2, internal_1;
+  Eigen::MatrixXd planar_columns;  ///< nb x 16, of planar bodies
 
   SecondOrderWork second;
 };
@@ -60,7 +61,7 @@ struct SuperelementTangent {
   Eigen::Matrix3d R0;
   Eigen::Vector3d Omega0;
   std::vector<LocalNode<double>> node;
-  Eigen::Matrix<double, 3, Eigen::Dynamic> U;  ///< 3 x nb, U P⁻¹: columns in axes of the frame
+  Eigen::Matrix<double, 3, Eigen::Dynamic> U;  ///< 3 x nb, U P⁻¹: columns in axes of the frame; not of planar bodies
 
   bool dense_coupling =
       false;  ///< A_BI and A_IB are stored (exact tangent, inertia M, full damping) instead of W M_BI and M_IB Z
@@ -153,6 +154,16 @@ SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratc
 /// internal coordinates of the file. After update_kinematics().
 void file_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
                       Eigen::Ref<Eigen::VectorXd> out);
+
+/// Rates of file_coordinates(). After update_kinematics() with the same nodes.
+void file_rates(const SuperelementBody& body, SuperelementScratch& scratch, const NodeView<NodeMotion>& nodes,
+                Eigen::Ref<Eigen::VectorXd> out);
+
+/// Row i of the boundary coordinates of the file, for boundary coordinates or their rates.
+inline double boundary_of_file(const SuperelementBody& body, const Eigen::VectorXd& y_B, std::size_t i) {
+  const auto row = static_cast<Eigen::Index>(i);
+  return body.planar ? body.file.lift.row(row).dot(y_B) : y_B[row];
+}
 
 /// Number of coordinates of the file, the size of `out` above.
 Eigen::Index file_coordinate_count(const SuperelementBody& body);

@@ -56,11 +56,10 @@ void exact_columns(const SuperelementBody& body, const SuperelementScratch& scra
     const Eigen::VectorXd direction = Eigen::VectorXd::Unit(n, column);
     for (std::size_t i = 0; i < body.node.size(); ++i) {
       const SuperelementNode& node = body.node[i];
-      const Eigen::Vector3d zero = Eigen::Vector3d::Zero();
-      const Eigen::Vector3d x =
-          node.has_translation() ? Eigen::Vector3d(direction.segment<3>(node.translation_row)) : zero;
-      const Eigen::Vector3d theta =
-          node.has_rotation() ? Eigen::Vector3d(direction.segment<3>(node.rotation_row)) : zero;
+      Eigen::Vector3d x = Eigen::Vector3d::Zero(), theta = x;
+      if (node.has_translation())
+        x.head(body.translations()) = direction.segment(node.translation_row, body.translations());
+      if (node.has_rotation()) theta.tail(body.rotations()) = direction.segment(node.rotation_row, body.rotations());
       moved[i] = perturbed(nodes[i], x, theta, c);
       index[i] = static_cast<int>(i);
     }
@@ -155,6 +154,10 @@ void uncondensed_tangent(const SuperelementBody& body, const SuperelementScratch
   }
   if (body.second_order.inertia) {
     A = whole_full_inertia_tangent(body, c, scratch);
+    return;
+  }
+  if (body.planar) {
+    A = planar_whole_tangent(body, c, scratch);
     return;
   }
   const DenseForm d = dense_form(body, scratch);

@@ -5,12 +5,17 @@
 
 #include "mechanism/bodies/superelement/frame.hpp"
 #include "mechanism/bodies/superelement/momentum.hpp"
+#include "mechanism/bodies/superelement/planar.hpp"
 
 namespace tisserand::mechanism {
 
 /// ẏ_B = Υ q̇: u̇ᵢ = R₀ᵀ(ẋᵢ − ẋ₀) + x̂ᵢ × Ω₀, ψ̇ᵢ = T⁻¹(ψᵢ) Ωᵢ − T⁻¹(−ψᵢ) Ω₀.
 template <class S, class Node>
 void deformation_rates(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
+  if (body.planar) {
+    planar::deformation_rates(body, nodes, motion);
+    return;
+  }
   Vec3<S> x0d = Vec3<S>::Zero();
   for (const int j : body.translation_nodes) {
     const auto i = static_cast<std::size_t>(j);
@@ -63,6 +68,14 @@ void local_rates(const SuperelementBody& body, const NodeView<Node>& nodes, Loca
 /// floating_frame().
 template <class S, class Node>
 void local_motion(const SuperelementBody& body, const NodeView<Node>& nodes, LocalMotion<S>& motion) {
+  const bool exact_center = body.inertia == formats::InertiaOption::M;
+  const bool second_derivatives = exact_center || body.second_order.inertia;
+  const bool deformation = body.damping.active || second_derivatives || !body.load_cases.empty();
+  if (body.planar) {
+    planar::local_motion(body, nodes, deformation, second_derivatives, motion);
+    if (exact_center) center_of_mass_motion(body, motion);
+    return;
+  }
   floating_frame(body, nodes, motion);
   motion.x0.setZero();
   motion.Omega0.setZero();
@@ -78,9 +91,7 @@ void local_motion(const SuperelementBody& body, const NodeView<Node>& nodes, Loc
     motion.Omega0 += motion.node[i].U * nodes[i].Omega;
   }
   local_rates(body, nodes, motion);
-  const bool exact_center = body.inertia == formats::InertiaOption::M;
-  const bool second_derivatives = exact_center || body.second_order.inertia;
-  if (body.damping.active || second_derivatives || !body.load_cases.empty()) deformation_rates(body, nodes, motion);
+  if (deformation) deformation_rates(body, nodes, motion);
   if (second_derivatives) deformation_accelerations(body, nodes, motion);
   if (exact_center) center_of_mass_motion(body, motion);
 }

@@ -128,9 +128,11 @@ void center_of_mass_motion(const SuperelementBody& body, LocalMotion<S>& motion)
   Vec3<S> cdd = Vec3<S>::Zero();  // m c̈, first of the boundary
   for (const SuperelementNode& node : body.node)
     for (const int row : {node.translation_row, node.rotation_row})
-      if (row >= 0)
+      if (row >= 0 && !body.planar)
         cdd += body.Gamma_B.template middleCols<3>(row).template cast<S>() *
                motion.deformation_acceleration_B.template segment<3>(row);
+  for (Eigen::Index k = 0; k < body.boundary_size && body.planar; ++k)
+    for (int i = 0; i < 2; ++i) cdd[i] += body.Gamma_B(i, k) * motion.deformation_acceleration_B[k];
   for (Eigen::Index k = 0; k < body.modes; ++k)
     for (int i = 0; i < 3; ++i) cdd[i] += body.Gamma_I(i, k) * motion.acceleration_I[k];
   const Vec3<S> c = body.center_of_mass.template cast<S>() + mean_of<S>(body, motion.y_B, motion.y_I);

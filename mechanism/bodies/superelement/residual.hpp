@@ -132,6 +132,11 @@ template <class S>
 void pull_back(const SuperelementBody& body, const LocalMotion<S>& motion, const FrameForces<S>& frame,
                Eigen::Matrix<S, Eigen::Dynamic, 1>& r_B) {
   Vec3<S> moment = frame.G_theta, total = -frame.G_x;
+  if (body.planar) {
+    moment.z() += planar::frame_moment<S>(body, motion, r_B, total);
+    planar::forces_on_nodes<S>(body, motion, total, moment.z(), r_B);
+    return;
+  }
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     const SuperelementNode& node = body.node[i];
     if (node.has_translation()) {
@@ -180,6 +185,22 @@ void full_inertia_forces(const SuperelementBody& body, const LocalMotion<S>& mot
   pull_back(body, motion, frame, out.r_B);
 }
 
+/// The sums over nodes of superelement_forces() in the plane: there the turning momentum of rotations vanishes.
+template <class S>
+void planar_forces(const SuperelementBody& body, const LocalMotion<S>& motion, S moment, Vec3<S> total,
+                   SuperelementForces<S>& out) {
+  moment += planar::frame_moment<S>(body, motion, out.s_B, total);
+  out.r_B = out.f_B + out.s_B;
+  for (std::size_t i = 0; i < body.node.size(); ++i) {
+    const int row = body.node[i].translation_row;
+    if (row < 0) continue;
+    const Vec3<S> p = planar::vector_at(out.p_B, row);
+    moment -= planar::cross_z<S>(p, motion.node[i].xd);
+    out.r_B.template segment<2>(row) += planar::turned<S>(motion.Omega0.z(), p).template head<2>();
+  }
+  planar::forces_on_nodes<S>(body, motion, total, moment, out.r_B);
+}
+
 /// r = Pᵀ M̄ ÿ + [Pᵀ(O₀ ∓ O_B) − UᵀVᵀ] p + Υᵀ(S̄ y + D ẏ) − gravity; − O_B in option A ([Car00] (45)), + in B ((60)),
 /// with the sign of UᵀVᵀ corrected (the print has +, which contradicts its own derivation and Lagrange's equations).
 /// Option M is B with T = ½ ẏᵀ(M̄ − M̄ Φ_T Φ_TᵀM̄/m) ẏ + ½ m |ẋ_cm|²: the force m J_cmᵀ ẍ_cm of the last term is that of
@@ -206,6 +227,10 @@ void superelement_forces(const SuperelementBody& body, const LocalMotion<S>& mot
     apply_load_cases(body, motion, out);
     moment -= out.loads.moment;
     total += out.loads.force;
+  }
+  if (body.planar) {
+    planar_forces(body, motion, moment.z(), total, out);
+    return;
   }
   const bool option_A = body.inertia == formats::InertiaOption::A;
   for (std::size_t i = 0; i < body.node.size(); ++i) {

@@ -14,6 +14,10 @@ using Eigen::MatrixXd;
 /// out = X [A₀; U; Υ], X with 6 + nb columns.
 void times_Z(const SuperelementBody& body, const SuperelementTangent& frozen, const MatrixXd& X, MatrixXd& out,
              MatrixXd& thin) {
+  if (body.planar) {
+    planar_times_Z(body, frozen, X, out, thin);
+    return;
+  }
   auto total = thin.leftCols(3), turn = thin.middleCols(3, 3);
   total.setZero();
   turn = X.middleCols<3>(3);
@@ -162,7 +166,10 @@ void copy_boundary(const SuperelementBody& body, SecondOrderWork& w) {
 void add_frame_stiffness(const SuperelementBody& body, const SuperelementForces<double>& forces, double factor,
                          const SuperelementTangent& frozen, SuperelementWork& work) {
   if (factor == 0.0) return;
-  if (body.frame != FrameAlgorithm::polar)
+  if (body.frame == FrameAlgorithm::polar) return;
+  if (body.planar)
+    planar_frame_stiffness(body, frozen, forces.s_B, factor, work.A_BB);
+  else
     add_frame_stiffness(body, frozen, forces.s_B, factor, {work.second.dm, work.second.dc}, work.A_BB);
 }
 

@@ -40,4 +40,23 @@ struct FrameStiffnessWork {
 void add_frame_stiffness(const SuperelementBody& body, const SuperelementTangent& frozen, const Eigen::VectorXd& f,
                          double factor, FrameStiffnessWork work, Eigen::MatrixXd& A);
 
+// Of planar bodies (planar_tangent.cpp): the same terms with few enough coordinates that products with vectors and the
+// dense coupling to internal coordinates are the quickest way.
+
+/// work.A_BB with internal coordinates kept, and A_BI, A_IB of `scratch.tangent`, for work.coefficients, after freezing
+/// the state; with the terms of inertia option M. Stiffness and damping as in tangent(): work.K if the damping is full.
+void planar_tangent(const SuperelementBody& body, SuperelementScratch& scratch, SuperelementWork& work);
+
+/// The whole step tangent, internal coordinates kept. Allocates.
+Eigen::MatrixXd planar_whole_tangent(const SuperelementBody& body, const TangentCoefficients& coefficients,
+                                     const SuperelementScratch& scratch);
+
+/// out = X [A₀; U; Υ], X with 6 + nb columns: x₀, Θ₀, y_B.
+void planar_times_Z(const SuperelementBody& body, const SuperelementTangent& frozen, const Eigen::MatrixXd& X,
+                    Eigen::MatrixXd& out, Eigen::MatrixXd& thin);
+
+/// add_frame_stiffness() (second_order_tangent.hpp) of the plane.
+void planar_frame_stiffness(const SuperelementBody& body, const SuperelementTangent& frozen, const Eigen::VectorXd& f,
+                            double factor, Eigen::MatrixXd& A);
+
 }  // namespace tisserand::mechanism

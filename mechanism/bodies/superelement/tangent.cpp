@@ -70,6 +70,7 @@ void freeze(const SuperelementBody& body, const LocalMotion<double>& motion, con
   frozen.R0 = motion.R0;
   frozen.Omega0 = motion.Omega0;
   frozen.node = motion.node;
+  if (body.planar) return;
   if (body.frame == FrameAlgorithm::polar) {
     for (const int j : body.translation_nodes) {
       const auto i = static_cast<std::size_t>(j);
@@ -311,11 +312,15 @@ void tangent(const SuperelementBody& body, const TangentCoefficients& coefficien
   freeze(body, scratch.motion, work, scratch.tangent);
   const bool exact_center = body.inertia == InertiaOption::M;
   const bool stiffening = body.second_order.stiffening.has_value();
-  const bool eliminate = body.modes > 0 && !body.damping.is_full() && !exact_center && !stiffening;
-  boundary_tangent(body, scratch, eliminate, work);
-  // They work in the vectors and thin matrices that the tangent above is done with.
-  if (body.modes > 0 && !eliminate) store_coupling(body, scratch.tangent, work);
-  if (exact_center) add_center_of_mass_tangent(body, scratch, work);
+  const bool eliminate = body.modes > 0 && !body.planar && !body.damping.is_full() && !exact_center && !stiffening;
+  if (body.planar) {
+    planar_tangent(body, scratch, work);
+  } else {
+    boundary_tangent(body, scratch, eliminate, work);
+    // They work in the vectors and thin matrices that the tangent above is done with.
+    if (body.modes > 0 && !eliminate) store_coupling(body, scratch.tangent, work);
+    if (exact_center) add_center_of_mass_tangent(body, scratch, work);
+  }
   if (stiffening) add_stiffening_tangent(body, coefficients, scratch, work);
   if (body.modes > 0 && !eliminate) eliminate_internal(body, scratch.tangent, work);
 }
@@ -326,6 +331,10 @@ void kept_tangent(const SuperelementBody& body, const TangentCoefficients& coeff
   work.coefficients = coefficients;
   work.constants_valid = false;
   freeze(body, scratch.motion, work, scratch.tangent);
+  if (body.planar) {
+    planar_tangent(body, scratch, work);
+    return;
+  }
   boundary_tangent(body, scratch, false, work);
   if (body.modes > 0) store_coupling(body, scratch.tangent, work);
   if (body.inertia == InertiaOption::M) add_center_of_mass_tangent(body, scratch, work);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "mechanism/model/node_coordinates.hpp"
+
 namespace tisserand::test_support {
 
 void add_file(const std::string& name, const formats::Superelement& element, mechanism::SuperelementFiles& files) {
@@ -148,11 +150,11 @@ Eigen::Quaterniond Simulation::rotation(const std::string& name) {
 }
 
 Eigen::Vector3d Simulation::velocity(const std::string& name) {
-  return state().v().segment<3>(built.model.nodes[node(name)].translation);
+  return mechanism::translation_at(built.model, state().v(), built.model.nodes[node(name)].translation);
 }
 
 Eigen::Vector3d Simulation::Omega(const std::string& name) {
-  return state().v().segment<3>(built.model.nodes[node(name)].rotation);
+  return mechanism::rotation_at(built.model, state().v(), built.model.nodes[node(name)].rotation);
 }
 
 }  // namespace tisserand::test_support

@@ -1,0 +1,24 @@
+// From a superelement body in space to the one that moves in a plane: the rows of S̄, M̄ and of all that goes with them
+// which stay in it.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "mechanism/bodies/superelement/body.hpp"
+
+namespace tisserand::mechanism {
+
+/// Why a body does not stay in the plane: "entry 0.2 of its stiffness ...".
+struct LeavesPlane {
+  std::string what;
+};
+
+/// axes: of the plane in the part frame, z normal. Boundary rows: per node [x y, θ_z]; internal modes that do not
+/// couple with them are left out, those of one frequency turned apart before. Entries that couple motion in the plane
+/// with motion out of it up to 1e-10 of the diagonals (of the largest entry, for arrays of second order) count as zero;
+/// larger ones throw LeavesPlane.
+SuperelementBody planar_body(const SuperelementBody& body, const Eigen::Matrix3d& axes);
+
+}  // namespace tisserand::mechanism

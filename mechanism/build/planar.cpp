@@ -1,0 +1,348 @@
+// What stays in the plane, item by item; then the coordinates anew.
+#include "mechanism/build/planar.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/error.hpp"
+#include "mechanism/bodies/planar/planar_body.hpp"
+#include "mechanism/joints/relation.hpp"
+#include "mechanism/model/bodies.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+
+/// Largest share of what leaves the plane in what stays in it.
+constexpr double share = 1e-10;
+
+std::string text_of(const Vector3d& v) {
+  const auto clean = [](double x) { return std::abs(x) < 1e-9 ? 0.0 : x; };
+  return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", clean(v.x()), clean(v.y()), clean(v.z()));
+}
+
+/// The scene in the axes of its plane, and the error that names what leaves it.
+class PlanarCheck {
+ public:
+  explicit PlanarCheck(Construction& c) : c_(c), model_(c.model) {}
+
+  void bodies() const;
+  void velocities() const;
+  void forces() const;
+  /// Leaves the equations in the plane.
+  void reduce(Joint& joint) const;
+
+ private:
+  /// Of a row of derivatives by [x_A Θ_A x_B Θ_B], rotations over the characteristic length.
+  struct Parts {
+    double in = 0.0, out = 0.0;
+    bool stays() const { return out <= share * in; }
+    bool leaves() const { return in <= share * out; }
+  };
+  Parts parts_of(const Row12& row, const Marker& a, const Marker& b) const;
+  [[noreturn]] void leave(const std::string& what, const std::string& remedy) const;
+  /// Throws unless the part of `v` out of the plane is nothing in what `size` says.
+  void require_in_plane(const Vector3d& v, double size, const std::string& what, const std::string& remedy) const;
+  void require_normal(const Vector3d& v, double size, const std::string& what, const std::string& remedy) const;
+  void require_apart(const MatrixXd& A, const std::vector<bool>& in_plane, const std::string& what) const;
+  void coordinate(int index, const std::string& user) const;
+  void coordinates() const;
+  void bushing(const Bushing& one) const;
+  void load(const Load& one) const;
+  void beams() const;
+  MarkerPair markers(const Marker& a, const Marker& b) const {
+    const auto motion = [this](int node) -> const NodeMotion& { return node < 0 ? ground_ : c_.markers.start[node]; };
+    return {a, b, motion(a.node), motion(b.node)};
+  }
+  bool relation_stays(const std::string& name, const Relation& relation, double constant, const Marker& a,
+                      const Marker& b) const;
+
+  Construction& c_;
+  const Model& model_;
+  NodeMotion ground_;
+};
+
+void PlanarCheck::leave(const std::string& what, const std::string& remedy) const {
+  throw Error(
+      fmt::format("effects: the scene is not planar: {} (normal of the plane {})", what, text_of(model_.axes.col(2))),
+      c_.scene.planar_at, remedy + ", or give planar: off");
+}
+
+void PlanarCheck::require_in_plane(const Vector3d& v, double size, const std::string& what,
+                                   const std::string& remedy) const {
+  if (!(std::abs(v.z()) <= share * size)) leave(fmt::format("{} has the part {:.6g} along it", what, v.z()), remedy);
+}
+
+void PlanarCheck::require_normal(const Vector3d& v, double size, const std::string& what,
+                                 const std::string& remedy) const {
+  const double across = v.head<2>().norm();
+  if (!(across <= share * size)) leave(fmt::format("{} has the part {:.6g} across it", what, across), remedy);
+}
+
+PlanarCheck::Parts PlanarCheck::parts_of(const Row12& row, const Marker& a, const Marker& b) const {
+  Parts parts;
+  for (int k = 0; k < 12; ++k) {
+    if ((k < 6 ? a : b).node < 0) continue;
+    const bool turns = k % 6 >= 3;
+    const double value = row[k] / (turns ? model_.length : 1.0);
+    double& part = turns == (k % 3 == 2) ? parts.in : parts.out;
+    part = std::hypot(part, value);
+  }
+  return parts;
+}
+
+void PlanarCheck::require_apart(const MatrixXd& A, const std::vector<bool>& in_plane, const std::string& what) const {
+  for (Eigen::Index i = 0; i < A.rows(); ++i)
+    for (Eigen::Index j = 0; j < A.cols(); ++j) {
+      const double size = std::sqrt(std::abs(A(i, i) * A(j, j)));
+      if (in_plane[i] != in_plane[j] && !(std::abs(A(i, j)) <= share * size))
+        leave(fmt::format("{} couples motion in it with motion out of it: entry {:.3g} beside diagonals of {:.3g} and "
+                          "{:.3g}",
+                          what, A(i, j), A(i, i), A(j, j)),
+              "make it symmetric to the plane");
+    }
+}
+
+void PlanarCheck::velocities() const {
+  double fastest = 0.0;
+  for (const NodeMotion& node : c_.markers.start)
+    fastest = std::max({fastest, node.xd.norm(), model_.length * node.Omega.norm()});
+  for (const BodyStart& body : c_.starts) {
+    const Vector3d v = body.velocity.value_or(Vector3d::Zero()),
+                   omega = body.angular_velocity.value_or(Vector3d::Zero());
+    require_in_plane(v, std::max(fastest, v.norm()), fmt::format("the velocity of body '{}'", body.name),
+                     "start it in the plane");
+    require_normal(omega, std::max(fastest / model_.length, omega.norm()),
+                   fmt::format("the angular velocity of body '{}'", body.name), "let it turn about the normal");
+  }
+}
+
+void PlanarCheck::bodies() const {
+  if (!model_.tyres.empty())
+    leave(fmt::format("tyre '{}' rolls in space", model_.tyres.front().name), "leave tyres out");
+  if (!model_.modal_bodies.empty())
+    leave(fmt::format("modal body '{}' moves in space", model_.modal_bodies.front().name),
+          "take a superelement in its place");
+  for_each_body(model_, [&](const auto& body) {
+    require_in_plane(body.gravity, body.gravity.norm(), fmt::format("gravity of body '{}'", name_of(model_, body)),
+                     "turn it into the plane");
+  });
+  for (const RigidBody& body : model_.rigid_bodies)
+    require_normal(body.inertia.col(2) - body.inertia(2, 2) * Vector3d::UnitZ(), body.inertia.trace(),
+                   fmt::format("the inertia of body '{}' about the normal", body.name),
+                   "give it a principal axis along the normal (products of inertia 0)");
+  beams();
+}
+
+/// Mass and stiffness at the start.
+void PlanarCheck::beams() const {
+  const std::vector<bool> node{true, true, false, false, false, true};
+  const auto check = [&]<int N>(const Pool<BeamElement<N>>& pool) {
+    std::vector<bool> in_plane;
+    for (int k = 0; k < 6 * N; ++k) in_plane.push_back(node[k % 6]);
+    Eigen::Matrix<double, 6 * N, 1> r;
+    Eigen::Matrix<double, 6 * N, 6 * N> A;
+    for (const BeamElement<N>& beam : pool)
+      for (const TangentCoefficients& c : {TangentCoefficients{1.0, 0.0, 0.0}, TangentCoefficients{0.0, 0.0, 1.0}}) {
+        residual_and_tangent(beam, c_.markers.start, Vector3d::Zero(), c, r, A);
+        require_apart(
+            A, in_plane,
+            fmt::format("{} of beam '{}'", c.mass > 0.0 ? "the mass" : "the stiffness", name_of(model_, beam)));
+      }
+  };
+  check(model_.beams2);
+  check(model_.beams3);
+}
+
+bool PlanarCheck::relation_stays(const std::string& name, const Relation& relation, double constant, const Marker& a,
+                                 const Marker& b) const {
+  const RelationTerms terms = evaluate(relation, markers(a, b));
+  const Parts parts = parts_of(terms.G, a, b);
+  const double size = is_length(relation) ? model_.length : 1.0;
+  if (parts.stays()) return true;
+  if (parts.leaves() && relation.kind != RelationKind::distance && std::abs(terms.value - constant) <= share * size)
+    return false;
+  leave(
+      parts.leaves() ? fmt::format("{} is open by {:.6g} out of the plane", name, terms.value - constant)
+                     : fmt::format("{} ties motion in the plane to motion out of it ({:.3g} beside {:.3g})", name,
+                                   parts.out, parts.in),
+      "put its markers at the places of their bodies in the plane, and all their axes along the normal or in the plane "
+      "(x_axis)");
+}
+
+void PlanarCheck::reduce(Joint& joint) const {
+  const std::string name = fmt::format("joint '{}'", joint.name);
+  if (joint.coincident) {
+    const MarkerPair pair = markers(joint.a, joint.b);
+    JointTerms terms;
+    joint_constraints(joint, pair.node_a, pair.node_b, terms);
+    for (int row = 0; row < 3; ++row) {
+      const Parts parts = parts_of(Row12(terms.B.row(row)), joint.a, joint.b);
+      if (row < 2 && !parts.stays())
+        leave(fmt::format("{} is {:.6g} and {:.6g} out of the planes of the nodes that it joins", name,
+                          joint.a.node < 0 ? 0.0 : joint.a.p.z(), joint.b.node < 0 ? 0.0 : joint.b.p.z()),
+              "put it into their planes");
+    }
+    if (!(std::abs(terms.phi[2]) <= share * model_.length))
+      leave(fmt::format("{} is open by {:.6g} along the normal", name, terms.phi[2]), "close it at the start");
+  }
+  int kept = 0;
+  for (int k = 0; k < joint.relation_count; ++k)
+    if (relation_stays(name, joint.relations[k], joint.constant, joint.a, joint.b))
+      joint.relations[kept++] = joint.relations[k];
+  joint.relation_count = kept;
+  joint.planar = true;
+}
+
+void PlanarCheck::coordinate(int index, const std::string& user) const {
+  const Coordinate& one = model_.coordinates[index];
+  const Parts parts = parts_of(evaluate(one.relation, markers(one.a, one.b)).G, one.a, one.b);
+  if (!parts.stays())
+    leave(fmt::format("{} acts along coordinate '{}', which is not in it ({:.3g} out of it, {:.3g} in it)", user,
+                      one.name, parts.out, parts.in),
+          "act in the plane");
+}
+
+void PlanarCheck::coordinates() const {
+  for (const Coupling& coupling : model_.couplings)
+    for (const CouplingTerm& term : coupling.terms) coordinate(term.coordinate, coupling.name);
+  for (const Spring& spring : model_.springs) coordinate(spring.coordinate, fmt::format("spring '{}'", spring.name));
+  for (const Channel& channel : model_.channels)
+    if (channel.coordinate >= 0) coordinate(channel.coordinate, fmt::format("channel '{}'", channel.name));
+}
+
+void PlanarCheck::bushing(const Bushing& one) const {
+  const MarkerPair pair = markers(one.a, one.b);
+  Bushing bushing = one;
+  BushingTerms terms;
+  evaluate(bushing, pair, terms);
+  if (bushing.free_at_start) bushing.free = terms.deflection;
+  evaluate(bushing, pair, terms);
+  const std::string name = fmt::format("bushing '{}'", one.name);
+  const Parts parts = parts_of(terms.force.transpose(), one.a, one.b);
+  if (!parts.stays() && parts.out > 0.0)
+    leave(fmt::format("{} pulls out of it with {:.3g}, beside {:.3g} in it", name, parts.out, parts.in),
+          "let its preload and its deflection without force be in the plane");
+  std::vector<bool> in_plane;
+  for (int k = 0; k < 12; ++k) in_plane.push_back(k % 6 < 3 ? k % 3 < 2 : k % 3 == 2);
+  Square12 A;
+  for (const TangentCoefficients& c : {TangentCoefficients{0.0, 1.0, 0.0}, TangentCoefficients{0.0, 0.0, 1.0}}) {
+    tangent(bushing, pair, terms, c, A);
+    require_apart(A, in_plane, name);
+  }
+}
+
+/// Components that are no constants must act in the plane, the constant ones together.
+void PlanarCheck::load(const Load& one) const {
+  const bool force = one.kind == formats::LoadKind::force;
+  const std::string name = fmt::format("{} '{}'", force ? "force" : "moment", one.name);
+  const Eigen::Matrix3d axes = one.axes == formats::LoadAxes::world ? *one.turn : one.at.R;
+  Vector3d sum = Vector3d::Zero();
+  double size = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const double* constant = std::get_if<double>(&one.components[k]);
+    const Vector3d direction = axes.col(k);
+    const Vector3d out = force ? Vector3d(0, 0, direction.z()) : Vector3d(direction.x(), direction.y(), 0);
+    if (constant == nullptr && out.norm() > share)
+      leave(fmt::format("component {} of {} is no constant and has the part {:.3g} out of it", "xyz"[k], name,
+                        out.norm()),
+            "let what points out of the plane be the number 0");
+    sum += constant == nullptr ? Vector3d(Vector3d::Zero()) : Vector3d(*constant * out);
+    size = std::max(size, constant == nullptr ? 0.0 : std::abs(*constant));
+  }
+  if (sum.norm() > share * size)
+    leave(fmt::format("{} has the part {:.6g} out of it", name, sum.norm()), "leave it out");
+  if (force && one.at.node >= 0 && std::abs(one.at.p.z()) > share * model_.length)
+    leave(fmt::format("{} acts {:.6g} out of the plane of its node", name, one.at.p.z()), "let it act in the plane");
+}
+
+void PlanarCheck::forces() const {
+  coordinates();
+  for (const Bushing& one : model_.bushings) bushing(one);
+  for (const Load& one : model_.loads) load(one);
+  for (const PartLoad& one : model_.part_loads) {
+    if (one.node < 0) continue;
+    const std::string name = fmt::format("part load '{}'", one.name), remedy = "leave it out";
+    require_in_plane(one.force, one.force.norm(), name, remedy);
+    require_normal(one.moment, std::max(one.moment.norm(), model_.length * one.force.norm()), "the moment of " + name,
+                   remedy);
+  }
+}
+
+/// Two translations and one rotation per node, and nothing out of the plane at the start.
+void number_coordinates(Construction& c) {
+  int next = 0;
+  for (Node& node : c.model.nodes) {
+    if (node.translation >= 0) node.translation = std::exchange(next, next + 2);
+    if (node.rotation >= 0) node.rotation = std::exchange(next, next + 1);
+  }
+  c.model.sizes.boundary = next;
+  for (RigidBody& body : c.model.rigid_bodies) {
+    body.gravity.z() = 0.0;
+    body.inertia.col(2).head<2>().setZero();
+    body.inertia.row(2).head<2>().setZero();
+  }
+}
+
+/// Axes that differ by less are the same.
+constexpr double same_axes = 1e-12;
+
+struct Reduced {
+  int from = 0;
+  Eigen::Matrix3d axes;
+};
+
+SuperelementBody reduced_body(const SuperelementBody& body, const Eigen::Matrix3d& axes, const std::string& name,
+                              const Construction& c) {
+  try {
+    return planar_body(body, axes);
+  } catch (const LeavesPlane& fault) {
+    throw Error(fmt::format("effects: the scene is not planar: of superelement '{}', {}", name, fault.what),
+                c.scene.planar_at, "make the part symmetric to the plane, or give planar: off");
+  }
+}
+
+/// Replaces the bodies of the superelements by planar ones, in the axes that are given per use; uses with the same body
+/// and the same axes share one. Throws Error that names the superelement and what in it leaves the plane.
+void make_superelements_planar(const std::vector<Eigen::Matrix3d>& axes, Construction& c) {
+  Model& model = c.model;
+  std::vector<SuperelementBody> bodies;
+  std::vector<Reduced> made;
+  model.internal_offset.assign(1, 0);
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    SuperelementUse& use = model.superelements[i];
+    std::size_t at = 0;
+    while (at < made.size() &&
+           (made[at].from != use.body || (made[at].axes - axes[i]).cwiseAbs().maxCoeff() > same_axes))
+      ++at;
+    if (at == made.size()) {
+      bodies.push_back(reduced_body(model.superelement_bodies[use.body], axes[i], use.name, c));
+      made.push_back({use.body, axes[i]});
+    }
+    use.body = static_cast<int>(at);
+    use.gravity.z() = 0.0;
+    model.internal_offset.push_back(model.internal_offset.back() + bodies[at].modes);
+  }
+  model.superelement_bodies = std::move(bodies);
+}
+
+}  // namespace
+
+void make_planar(Construction& c) {
+  const std::vector<Eigen::Matrix3d> axes = turn_into_plane(find_normal(c), c);
+  const PlanarCheck check(c);
+  check.bodies();
+  make_superelements_planar(axes, c);
+  check.velocities();
+  for (Joint& joint : c.model.joints) check.reduce(joint);
+  check.forces();
+  c.model.planar = true;
+  number_coordinates(c);
+  c.notes.push_back(fmt::format("planar: motion in the plane normal to {}, two translations and one rotation per node",
+                                text_of(c.model.axes.col(2))));
+}
+
+}  // namespace tisserand::mechanism
