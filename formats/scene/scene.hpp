@@ -243,6 +243,7 @@ struct Scene {
   Units units = Units::si();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   std::vector<EffectSwitch> effects;  ///< carried out where the model is built (mechanism/build/effects.hpp)
+  AutomaticSpec automatic;            ///< of effects that are automatic
   std::vector<BodySpec> bodies;
   std::vector<JointSpec> joints;
   std::vector<GearSpec> gears;
