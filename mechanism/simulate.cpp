@@ -9,7 +9,6 @@
 #include "mechanism/run/checkpoint.hpp"
 #include "mechanism/run/output.hpp"
 #include "mechanism/run/run.hpp"
-#include "mechanism/run/simulated_scene.hpp"
 
 namespace tisserand::mechanism {
 
@@ -24,9 +23,7 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
   else
     resume(run, request.restart, request.at, request.joining);
   const double begin_steps = run.seconds();
-  keep_chosen_places(run.scene, run.built.model);
-  formats::ResultsLayout layout = results_layout(run.built.model, run.scene);
-  layout.simulated = simulated_scene(run.scene, request.files, run.built, run.at_start);
+  const formats::ResultsLayout layout = begin_rows(run, request.files);
   formats::ResultsRow row;
   row.resize(layout);
   formats::ResultsWriter writer(request.path, layout, run.beginning.value_or(formats::ResultsBeginning{}));
@@ -62,7 +59,7 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
   report.seconds_steps = run.seconds() - begin_steps - report.seconds_output;
   if (run.listener != nullptr) run.listener->end(report);
   writer.finish(report.outcome == RunOutcome::completed, report.reason, report_json(report));
-  return {std::move(report), std::move(run.built.state)};
+  return {std::move(report), run.automatic ? run.automatic->whole_state(run) : std::move(run.built.state)};
 }
 
 RunReport simulate(const formats::Scene& scene, const std::string& path, const RunControl& control) {
@@ -71,7 +68,8 @@ RunReport simulate(const formats::Scene& scene, const std::string& path, const R
 }
 
 RunReport inspect(const formats::Scene& scene, const RunControl& control) {
-  Run run(scene, read_body_files(scene), control);
+  const BodyFiles files = read_body_files(scene);
+  Run run(scene, files, control);
   start(run);
   keep_chosen_places(run.scene, run.built.model);
   return run.report;

@@ -103,6 +103,7 @@ ResultsLayout read_layout(const hdf5::InputFile& file) {
   l.frictions = names(file, "/forces/friction_name");
   l.tyres = names(file, "/tyres/name");
   l.treads = file.has("/tyres/deflection");
+  l.switched = file.has("/energy/switched");
   l.loads = read_coordinates(file, "/forces/load_");
   // Version 1.0 had one angle per joint, not-a-number where the joint has none.
   if (l.coordinates.empty() && file.text_attribute("/", "version") == "1.0")

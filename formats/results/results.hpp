@@ -52,6 +52,7 @@ struct ResultsLayout {
   std::vector<Coordinate> loads;      ///< forces (length) and moments (angle)
   std::vector<std::string> channels;  ///< selection, as in OutputSpec; empty: all
   std::vector<std::string> superelement_content_ids;
+  bool switched = false;  ///< the run switches effects: energy of its switches
   SimulatedScene simulated;
 };
 
@@ -82,6 +83,7 @@ struct ResultsRow {
       tyre_deflection_rate;  ///< of the tread, along and across the wheel; 0 without relaxation
   Eigen::Matrix3Xd load;     ///< force or moment of each load, in its axes: those of the world or of its node
   double kinetic = 0.0, strain = 0.0, potential = 0.0, work = 0.0, dissipated = 0.0, total = 0.0, balance = 0.0;
+  double switched = 0.0;  ///< energy that switches of effects have added
   double step = 0.0, iterations = 0.0, residual = 0.0, constraint = 0.0;
   bool reactions = true;  ///< whether the layout stores those of joints, drives or gears; set by resize()
 

@@ -21,9 +21,25 @@ constexpr Choice<Effect> effect_words[] = {{"flexibility", Effect::flexibility},
                                            {"stops", Effect::stops},
                                            {"planar", Effect::planar}};
 
-std::optional<bool> read_switch(const Context& context, const YamlNode& node) {
-  const auto index = read_word(context, node, fmt::format("value of '{}'", node.key), {"off", "on"});
-  return index ? std::optional(on_or_off[*index].value) : std::nullopt;
+std::string automatic_words() {
+  std::vector<std::string> words;
+  for (const Choice<Effect>& effect : effect_words)
+    if (can_be_automatic(effect.value)) words.emplace_back(effect.word);
+  return join(words, ", ");
+}
+
+/// Of the effect that the key of the node names; nothing and an error for another value than it can have.
+void read_switch(const Context& context, const YamlNode& node, const Choice<Effect>& effect, const std::string& body,
+                 std::vector<EffectSwitch>& switches) {
+  if (node.kind == YamlKind::scalar && node.text == "auto" && !can_be_automatic(effect.value)) {
+    context.fail(node.place, fmt::format("'{}' cannot be 'auto': no run switches it", node.key),
+                 fmt::format("give it 'on' or 'off'; 'auto' can be {}", automatic_words()));
+    return;
+  }
+  std::vector<std::string> words{"off", "on"};
+  if (can_be_automatic(effect.value)) words.emplace_back("auto");
+  if (const auto index = read_word(context, node, fmt::format("value of '{}'", node.key), words))
+    switches.push_back({effect.value, body, *index > 0, context.reader.where(node.key_place), *index == 2});
 }
 
 void read_body_effects(const MapReader& scene, const YamlNode& node, std::vector<EffectSwitch>& switches) {
@@ -32,9 +48,7 @@ void read_body_effects(const MapReader& scene, const YamlNode& node, std::vector
   for (const Choice<Effect>& effect : effect_words) {
     if (effect.value == Effect::planar) continue;  // of the scene alone
     const YamlNode* value = map.find(effect.word);
-    if (value == nullptr) continue;
-    if (const auto on = read_switch(context, *value))
-      switches.push_back({effect.value, node.key, *on, context.reader.where(value->key_place)});
+    if (value != nullptr) read_switch(context, *value, effect, node.key, switches);
   }
 }
 
@@ -42,8 +56,7 @@ void read_scene_effect(const MapReader& scene, const YamlNode& node, std::vector
   const Context context{scene.context().reader, "effects", scene.context().reader.where(node.key_place)};
   const auto found = std::ranges::find(effect_words, node.key, &Choice<Effect>::word);
   if (found != std::end(effect_words)) {
-    if (const auto on = read_switch(context, node))
-      switches.push_back({found->value, "", *on, context.reader.where(node.key_place)});
+    read_switch(context, node, *found, "", switches);
     return;
   }
   std::vector<std::string> words;
@@ -54,42 +67,64 @@ void read_scene_effect(const MapReader& scene, const YamlNode& node, std::vector
                            near ? fmt::format("did you mean '{}'? ", *near) : "", join(words, ", "), node.key));
 }
 
+/// `tolerance` or `window`, unless it is the name of a body.
+bool is_automatic_setting(const YamlNode& node) {
+  return (node.key == "tolerance" || node.key == "window") && node.kind != YamlKind::map;
+}
+
+void read_automatic_setting(const MapReader& scene, const YamlNode& node, AutomaticSpec& spec) {
+  const Context context{scene.context().reader, "effects", scene.context().reader.where(node.key_place)};
+  const double value = read_number(context, node, node.key);
+  if (value <= 0.0)
+    context.fail(node.place, fmt::format("'{}' must be positive, not {}", node.key, value),
+                 node.key == "window" ? "give a length of time, some steps long" : "0.001 is the default");
+  else if (node.key == "window")
+    spec.window = value;
+  else
+    spec.tolerance = value;
+}
+
 }  // namespace
 
 std::string effect_word(Effect effect) {
   return std::string(std::ranges::find(effect_words, effect, &Choice<Effect>::value)->word);
 }
 
-std::vector<EffectSwitch> read_effects(const MapReader& map) {
-  std::vector<EffectSwitch> switches;
+void read_effects(const MapReader& map, Scene& scene) {
+  std::vector<EffectSwitch>& switches = scene.effects;
   for (const YamlNode* node : map.entries("effects", "effect or body"))
-    if (node->key.empty())
+    if (is_automatic_setting(*node))
+      read_automatic_setting(map, *node, scene.automatic);
+    else if (node->key.empty())
       map.context().fail(node->key_place, "there is no body ''", "name a body of the scene");
     else if (node->kind == YamlKind::map)
       read_body_effects(map, *node, switches);
     else
       read_scene_effect(map, *node, switches);
-  return switches;
 }
 
 std::vector<KeySet> effect_key_sets() {
   const auto field = [](std::string_view key, std::string_view meaning) {
     return Field{key, "'on' | 'off'", meaning, "as of the scene: `on`"};
   };
-  return {{"body_effects",
-           {field("flexibility",
+  const auto automatic = [](std::string_view key, std::string_view meaning) {
+    return Field{key, "'on' | 'off' | 'auto'", meaning, "as of the scene: `on`"};
+  };
+  return {
+      {"body_effects",
+       {automatic("flexibility",
                   "deformation of superelements and modal bodies. Off: a superelement is a rigid body as with `use: "
                   "rigid`, and its other keys stay without effect; a modal body keeps no mode"),
-            field("rotary_inertia", "of the sections of beams, against turning about their own axes"),
-            field("gyroscopic", "Ω × J Ω in the equation of moments of rigid bodies"),
-            field("stiffening",
+        field("rotary_inertia", "of the sections of beams, against turning about their own axes"),
+        field("gyroscopic", "Ω × J Ω in the equation of moments of rigid bodies"),
+        automatic("stiffening",
                   "what a companion file adds to the linear strain of a superelement, by `stiffening` or "
                   "`second_order`; its inertia stays as it is"),
-            field("damping",
-                  "of superelements and modal bodies, with that of the file; dampers of springs and bushings stay"),
-            field("gravity", "weight of bodies with mass; load cases of parts stay"),
-            field("friction", "Coulomb friction of all joints: of the scene, not of a body"),
-            field("stops", "`lower` and `upper` of all springs: of the scene, not of a body")}}};
+        field("damping",
+              "of superelements and modal bodies, with that of the file; dampers of springs and bushings stay"),
+        field("gravity", "weight of bodies with mass; load cases of parts stay"),
+        field("friction", "Coulomb friction of all joints: of the scene, not of a body"),
+        field("stops", "`lower` and `upper` of all springs: of the scene, not of a body")}}};
 }
 
 }  // namespace tisserand::formats

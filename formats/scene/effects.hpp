@@ -1,6 +1,7 @@
 // Effects of a mechanism, and what a scene switches of them (`effects` of scene.yaml).
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace tisserand::formats {
@@ -16,12 +17,23 @@ inline constexpr Effect all_effects[] = {Effect::flexibility, Effect::rotary_ine
 /// The word of an effect in scene.yaml.
 std::string effect_word(Effect effect);
 
+/// Whether a run can switch it by itself (`auto`): what of the motion the effect would change follows from the motion
+/// without it, at once.
+constexpr bool can_be_automatic(Effect effect) { return effect == Effect::flexibility || effect == Effect::stiffening; }
+
 /// Of one body, or of all that have the effect; what is said of a body counts for it.
 struct EffectSwitch {
   Effect effect = Effect::gravity;
   std::string body;  ///< empty: the whole scene
   bool on = true;
   std::string where;
+  bool automatic = false;  ///< with `on`: the run switches it
+};
+
+/// How a run switches effects that are automatic (mechanism/run/automatic_effects.hpp).
+struct AutomaticSpec {
+  double tolerance = 1e-3;       ///< of positions relative to the size of the scene, of forces to the largest
+  std::optional<double> window;  ///< [time]; absent: 20 steps, with error control a hundredth of the run
 };
 
 }  // namespace tisserand::formats

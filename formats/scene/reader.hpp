@@ -37,7 +37,7 @@ CoordinateRef read_coordinate(const MapReader& map, const YamlNode& node, const 
 /// `shape` of a body.
 std::vector<ShapeSpec> read_shapes(const MapReader& body, const SceneDefinitions& definitions);
 /// `effects` of the scene.
-std::vector<EffectSwitch> read_effects(const MapReader& map);
+void read_effects(const MapReader& map, Scene& scene);
 std::vector<BodySpec> read_bodies(const MapReader& map, const SceneDefinitions& definitions);
 /// `joints`: joints, and gears and racks between their coordinates.
 void read_joints(const MapReader& map, Scene& scene);

@@ -75,7 +75,7 @@ Scene read_tree(YamlReader& reader, const std::string& path, Faults& faults) {
   const SceneDefinitions definitions{std::filesystem::path(path).parent_path().string(), scene.units,
                                      read_materials(map), read_sections(map, scene.units)};
   check_definitions(definitions.materials, definitions.sections, faults);
-  scene.effects = read_effects(map);
+  read_effects(map, scene);
   scene.bodies = read_bodies(map, definitions);
   read_joints(map, scene);
   scene.inputs = read_inputs(map, definitions);
@@ -157,8 +157,10 @@ std::vector<Field> scene_fields() {
       plain<&Scene::name>("scene", "text+", "name, goes into the results", "required"),
       {"units", "'consistent' | units", "as in PART.md; superelements are converted on load", "SI"},
       plain<&Scene::gravity>("gravity", "vector", "acceleration, world axes [length/time²]"),
-      {"effects", "{text: 'on' | 'off' | body_effects}",
-       "effect -> `off` or `on`, or body -> its effects, see [below](#effects)", "on"},
+      {"effects", "{text: 'on' | 'off' | 'auto' | number>0 | body_effects}",
+       "effect -> `off`, `on` or `auto`, or body -> its effects; `tolerance` and `window` of `auto`, see "
+       "[below](#effects)",
+       "on"},
       {"materials", "{name: material}", "as in PART.md, for beams of the scene", "none"},
       {"sections", "{name: section}", ditto},
       {"bodies", "{name: body}+", "name -> body; `ground` is taken", "required, unless instances bring them"},

@@ -243,7 +243,8 @@ struct Scene {
   Units units = Units::si();
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
   std::vector<EffectSwitch> effects;  ///< carried out where the model is built (mechanism/build/effects.hpp)
-  std::string planar_at;  ///< where the switches asked for planar equations, once carried out; empty: they did not
+  std::string planar_at;    ///< where the switches asked for planar equations, once carried out; empty: they did not
+  AutomaticSpec automatic;  ///< of effects that are automatic
   std::vector<BodySpec> bodies;
   std::vector<JointSpec> joints;
   std::vector<GearSpec> gears;

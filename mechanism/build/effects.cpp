@@ -115,6 +115,13 @@ bool has_friction(const formats::Scene& scene) {
   return std::ranges::any_of(scene.joints, [](const formats::JointSpec& joint) { return joint.friction.has_value(); });
 }
 
+/// Whether a run can switch it while it moves: of superelements.
+bool is_switched_by_runs(const formats::BodySpec& body) {
+  return std::holds_alternative<formats::SuperelementBodySpec>(body);
+}
+
+std::string value_word(const formats::EffectSwitch& one) { return one.automatic ? "auto" : one.on ? "on" : "off"; }
+
 bool belongs_to_scene(Effect effect) { return effect == Effect::friction || effect == Effect::stops; }
 
 bool scene_has(Effect effect, const formats::Scene& scene) {
@@ -125,16 +132,24 @@ bool scene_has(Effect effect, const formats::Scene& scene) {
 class Switches {
  public:
   explicit Switches(const formats::Scene& scene) {
-    for (const formats::EffectSwitch& one : scene.effects) on_[{one.effect, one.body}] = one.on;
+    for (const formats::EffectSwitch& one : scene.effects) list_[{one.effect, one.body}] = &one;
   }
   bool on(Effect effect, const std::string& body) const {
-    auto found = on_.find({effect, body});
-    if (found == on_.end()) found = on_.find({effect, ""});
-    return found == on_.end() || found->second;
+    const formats::EffectSwitch* one = find(effect, body);
+    return one == nullptr || one->on;
+  }
+  bool automatic(Effect effect, const std::string& body) const {
+    const formats::EffectSwitch* one = find(effect, body);
+    return one != nullptr && one->automatic;
   }
 
  private:
-  std::map<std::pair<Effect, std::string>, bool> on_;
+  const formats::EffectSwitch* find(Effect effect, const std::string& body) const {
+    auto found = list_.find({effect, body});
+    if (found == list_.end()) found = list_.find({effect, ""});
+    return found == list_.end() ? nullptr : found->second;
+  }
+  std::map<std::pair<Effect, std::string>, const formats::EffectSwitch*> list_;
 };
 
 // How a body does without an effect of which it has a term.
@@ -213,8 +228,12 @@ class SwitchCheck {
     const std::string word = formats::effect_word(one.effect);
     if (share.kind == Share::Kind::part) throw_part(one, one.body, share.remedy);
     if (share.kind == Share::Kind::none)
-      throw Error(fmt::format("effects: body '{}' has no {} to switch {}", one.body, word, one.on ? "on" : "off"),
-                  one.where, share.remedy);
+      throw Error(fmt::format("effects: body '{}' has no {} to switch {}", one.body, word, value_word(one)), one.where,
+                  share.remedy);
+    if (one.automatic && !is_switched_by_runs(*body))
+      throw Error(
+          fmt::format("effects: {} of modal body '{}' cannot be 'auto': runs switch superelements", word, one.body),
+          one.where, "give it 'on' or 'off'");
   }
 
   void check_of_scene(const formats::EffectSwitch& one) const {
@@ -232,7 +251,7 @@ class SwitchCheck {
     }
     if (!has)
       throw Error(fmt::format("effects: nothing in the scene has {} to switch {}", formats::effect_word(one.effect),
-                              one.on ? "on" : "off"),
+                              value_word(one)),
                   one.where, remedy);
   }
 
@@ -248,9 +267,14 @@ class SwitchCheck {
 void require_switches_fit(const formats::Scene& scene, const BodyFiles& files) {
   const SwitchCheck switches(scene, files);
   std::vector<Error> errors;
+  const bool automatic = std::ranges::any_of(scene.effects, &formats::EffectSwitch::automatic);
   for (const formats::EffectSwitch& one : scene.effects) {
     try {
-      if (one.effect != Effect::planar) switches.check(one);  // build/planar.hpp
+      if (one.effect != Effect::planar)
+        switches.check(one);  // build/planar.hpp
+      else if (one.on && automatic)
+        throw Error("effects: planar beside effects that are 'auto', which switch bodies in space", one.where,
+                    "give the others 'on' or 'off', or do without planar");
     } catch (const Error& error) {
       errors.push_back(error);
     }
@@ -270,7 +294,8 @@ std::vector<EffectUse> effects_of(const formats::Scene& scene, const BodyFiles& 
       if (is_of_deformation && !switches.on(Effect::flexibility, body_name(body))) continue;
       const auto share = [&](const auto& spec) { return share_of(spec, effect, scene, files); };
       if (std::visit(share, body).kind == Share::Kind::term)
-        uses.push_back({effect, body_name(body), switches.on(effect, body_name(body))});
+        uses.push_back({effect, body_name(body), switches.on(effect, body_name(body)),
+                        switches.automatic(effect, body_name(body)) && is_switched_by_runs(body)});
     }
   }
   return uses;
@@ -293,6 +318,18 @@ std::string effects_text(const std::vector<EffectUse>& uses) {
   }
   if (on.empty() && off.empty()) return "none";
   return join(on, ", ") + (off.empty() ? "" : fmt::format("{}off: {}", on.empty() ? "" : "; ", join(off, ", ")));
+}
+
+std::vector<EffectUse> automatic_effects(const formats::Scene& scene, const BodyFiles& files) {
+  std::vector<EffectUse> uses = effects_of(scene, files);
+  std::erase_if(uses, [](const EffectUse& use) { return !use.automatic; });
+  return uses;
+}
+
+formats::Scene with_switches(formats::Scene scene, const std::vector<EffectUse>& uses) {
+  for (formats::EffectSwitch& one : scene.effects) one.automatic = false;
+  for (const EffectUse& use : uses) scene.effects.push_back({use.effect, use.body, use.on, scene.file});
+  return scene;
 }
 
 std::optional<formats::Scene> with_effects_switched(const formats::Scene& scene, const BodyFiles& files) {

@@ -1,7 +1,7 @@
 // The doubts of a run, asked one after the other.
 #include "mechanism/doubts/doubts.hpp"
 
-#include <iterator>
+#include <algorithm>
 #include <utility>
 
 #include "mechanism/doubts/damping_reach.hpp"
@@ -38,12 +38,27 @@ void Doubts::at_state(const Model& model, const State& state, const Evaluation& 
 
 void Doubts::at_row(const formats::ResultsRow& row) { energy_.observe(row); }
 
+std::vector<std::string> Doubts::of_model(const Model& model) const {
+  std::vector<std::string> all = told_;
+  for (auto&& some : {swing_.doubts(), resolution_.doubts(model), range_.doubts(model), inertia_.doubts(model),
+                      torsion_.doubts(model), spin_.doubts(model), tyres_.doubts(model), damping_doubts(model)})
+    for (const std::string& doubt : some)
+      if (std::ranges::find(all, doubt) == all.end()) all.push_back(doubt);
+  return all;
+}
+
+void Doubts::leave(const Model& model) { told_ = of_model(model); }
+
+void Doubts::enter(const formats::Scene& scene, const Model& model) {
+  Doubts anew(scene, model);
+  anew.energy_ = energy_;
+  anew.told_ = std::move(told_);
+  *this = std::move(anew);
+}
+
 std::vector<std::string> Doubts::tell(const Model& model) const {
   std::vector<std::string> all = energy_.doubts();
-  for (auto&& some : {swing_.doubts(), resolution_.doubts(model), range_.doubts(model), inertia_.doubts(model),
-                      torsion_.doubts(model), spin_.doubts(model), tyres_.doubts(model),
-                      damping_doubts(model)})
-    all.insert(all.end(), some.begin(), some.end());
+  for (std::string& doubt : of_model(model)) all.push_back(std::move(doubt));
   return all;
 }
 

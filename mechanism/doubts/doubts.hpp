@@ -25,6 +25,11 @@ class Doubts {
   void at_state(const Model& model, const State& state, const Evaluation& evaluation);
   void at_row(const formats::ResultsRow& row);
 
+  /// The run goes on with another model of the scene: what there was to tell of this one is kept, and observing begins
+  /// anew, but of the energy.
+  void leave(const Model& model);
+  void enter(const formats::Scene& scene, const Model& model);
+
   /// Costs nothing while there is nothing to tell; eigenvalues of bodies that spin.
   std::vector<std::string> tell(const Model& model) const;
 
@@ -42,6 +47,9 @@ class Doubts {
   TyreRange tyres_;
   StepResolution resolution_;
   MultiplierSwing swing_;
+  std::vector<std::string> told_;  ///< of models that were left
+
+  std::vector<std::string> of_model(const Model& model) const;
 };
 
 }  // namespace tisserand::mechanism

@@ -18,7 +18,7 @@ class SampledPowers {
   /// Model and states live as long as this.
   SampledPowers(const Model& model, const std::vector<WindowHistory>& windows);
 
-  /// Of what `other` has more or less than the model; they share states (ledger/transfer.hpp).
+  /// Of what `other` has more or less than the model; they share states (switching/transfer.hpp).
   double of_difference(const Model& other) const;
   /// Of the strain of a superelement or modal body: Σ |ΔW| between rows.
   double of_strain(const std::string& body) const;

@@ -14,7 +14,7 @@
 #include "mechanism/ledger/activity.hpp"
 #include "mechanism/ledger/comparison.hpp"
 #include "mechanism/ledger/inertia_verdict.hpp"
-#include "mechanism/ledger/transfer.hpp"
+#include "mechanism/switching/transfer.hpp"
 
 namespace tisserand::mechanism {
 namespace {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "mechanism/build/effects.hpp"
 #include "mechanism/ledger/table.hpp"
 #include "mechanism/run/analyses.hpp"
 #include "mechanism/simulate.hpp"
@@ -55,7 +56,8 @@ std::string perform_ledger(const formats::Scene& scene, const std::string& analy
   require_part("--active", command.least_activity);
   const std::vector<PlannedAnalysis> planned = planned_for(scene, analysis);
   const BodyFiles files = read_ledger_files(scene);
-  LedgerRequest request{planned.back().scene, beginning_of_last(planned, files, control)};
+  const formats::Scene whole = with_switches(planned.back().scene, {});  // auto: on
+  LedgerRequest request{whole, beginning_of_last(planned, files, control)};
   request.results = command.results;
   request.windows = command.windows;
   request.repeats = command.repeats;

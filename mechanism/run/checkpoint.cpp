@@ -67,20 +67,35 @@ void begin_with(Run& run, const formats::ResultsBeginning& beginning) {
   run.report.notes.push_back(fmt::format("begins with the {} instants of {}", beginning.rows, beginning.file));
 }
 
+[[noreturn]] void throw_of_another_scene(const Run& run, const formats::Checkpoint& checkpoint,
+                                         const std::string& file) {
+  throw Error(fmt::format("is a checkpoint of scene '{}' with other bodies, joints or superelements (or companion "
+                          "files) than '{}' has",
+                          checkpoint.scene, run.scene.name),
+              file, "go on with the scene that wrote it; values, loads and the end may differ");
+}
+
+/// The model of the checkpoint and the memory of the schedule: what is behind that belongs to automatic effects.
+void restore_memory(Run& run, const formats::Checkpoint& checkpoint, const std::string& file) {
+  const std::vector<double>& memory = checkpoint.schedule;
+  const std::size_t own = Schedule(run.scene, run.built.model.breakpoints).memory().size();
+  const std::size_t behind = run.automatic ? run.automatic->memory_size() : 0;
+  if (memory.size() != own + behind) throw_of_another_scene(run, checkpoint, file);
+  const auto at = memory.begin() + static_cast<std::ptrdiff_t>(own);
+  run.schedule_memory.assign(memory.begin(), at);
+  if (run.automatic) run.automatic->restore(run, {at, memory.end()});
+}
+
 void resume_checkpoint(Run& run, const std::string& file, Joining joining) {
   const formats::Checkpoint checkpoint = formats::read_checkpoint(file);
+  restore_memory(run, checkpoint, file);
   State& state = run.built.state;
   const std::string own = fingerprint(run.built.model, state);
   if (checkpoint.state_version != State::version || checkpoint.state.size() != state.block().size() ||
-      checkpoint.schedule.size() != Schedule(run.scene, run.built.model.breakpoints).memory().size() ||
       checkpoint.fingerprint != own)
-    throw Error(fmt::format("is a checkpoint of scene '{}' with other bodies, joints or superelements (or companion "
-                            "files) than '{}' has",
-                            checkpoint.scene, run.scene.name),
-                file, "go on with the scene that wrote it; values, loads and the end may differ");
+    throw_of_another_scene(run, checkpoint, file);
   require_before_end(run.scene, checkpoint.time, file);
   state.block() = checkpoint.state;
-  run.schedule_memory = checkpoint.schedule;
   run.report.mobility = count_mobility(run.built.model, state, run.workspace.now);
   run.workspace.forget();
   run.report.notes.push_back(
@@ -148,15 +163,22 @@ void Checkpoints::set_next(double time) {
     next_ = start_ + *spec_.interval * (std::floor((time - start_ + round_off_) / *spec_.interval) + 1.0);
 }
 
-void Checkpoints::after_step(const Model& model, const Schedule& schedule, const State& state, Workspace& workspace,
-                             Stepper& stepper, formats::ResultsWriter& results) {
+bool Checkpoints::due_after_step(double time) {
   ++steps_;
-  const bool due = (spec_.every && steps_ >= *spec_.every) || state.time() >= next_ - round_off_;
-  if (!due) return;
+  return (spec_.every && steps_ >= *spec_.every) || time >= next_ - round_off_;
+}
+
+void Checkpoints::write(Run& run, const Schedule& schedule, Stepper& stepper, formats::ResultsWriter& results) {
+  const State& state = run.built.state;
+  std::vector<double> memory = schedule.memory();
+  if (run.automatic) {
+    const std::vector<double> effects = run.automatic->memory();
+    memory.insert(memory.end(), effects.begin(), effects.end());
+  }
   results.flush();
-  formats::write_checkpoint(path_, {scene_, producer(), fingerprint(model, state), State::version, state.time(),
-                                    results_, results.run(), results.rows(), state.block(), schedule.memory()});
-  stepper.forget(workspace);
+  formats::write_checkpoint(path_, {scene_, producer(), fingerprint(run.built.model, state), State::version,
+                                    state.time(), results_, results.run(), results.rows(), state.block(), memory});
+  stepper.forget(run.workspace);
   set_next(state.time());
 }
 

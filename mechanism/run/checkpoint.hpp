@@ -27,8 +27,12 @@ class Checkpoints {
   /// After an accepted step. Where a checkpoint is written all rows until then are on the disk, and workspace and
   /// method forget factors and what they have learnt, so that this run and one that goes on from the file execute the
   /// same arithmetic.
-  void after_step(const Model& model, const Schedule& schedule, const State& state, Workspace& workspace,
-                  Stepper& stepper, formats::ResultsWriter& results);
+  void after_step(Run& run, const Schedule& schedule, Stepper& stepper, formats::ResultsWriter& results) {
+    if (due_after_step(run.built.state.time())) write(run, schedule, stepper, results);
+  }
+  /// The two parts of it.
+  bool due_after_step(double time);
+  void write(Run& run, const Schedule& schedule, Stepper& stepper, formats::ResultsWriter& results);
 
  private:
   void set_next(double time);

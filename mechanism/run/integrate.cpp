@@ -7,11 +7,9 @@
 
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/doubts/failure_cause.hpp"
-#include "mechanism/run/checkpoint.hpp"
-#include "mechanism/run/frame_angles.hpp"
+#include "mechanism/run/effect_windows.hpp"
 #include "mechanism/run/off_road.hpp"
 #include "mechanism/run/run.hpp"
-#include "mechanism/run/schedule.hpp"
 #include "mechanism/step/step.hpp"
 
 namespace tisserand::mechanism {
@@ -25,16 +23,53 @@ void write_last_row(Run& run, const StepReport& step, double size, RowWriter& ou
 }
 
 /// Rows that the step to the present state has passed without ending there.
-void write_rows_between(Run& run, const StepReport& step, double size, Schedule& schedule, Stepper& stepper,
-                        RowWriter& out) {
+void store_rows_between(Run& run, StepLoop& loop, Stepper& stepper, EffectWindows& windows) {
   State& state = run.built.state;
   std::optional<State> end;
-  while (const std::optional<double> due = schedule.pass_instant(end ? end->time() : state.time())) {
+  while (const std::optional<double> due = loop.schedule.pass_instant(end ? end->time() : state.time())) {
     if (!end) end.emplace(state);
     stepper.interpolate(*due, state, run.workspace);
-    write_row(run, step, size, out);
+    windows.store(loop.last, loop.last_size);
   }
   if (end) state.block() = end->block();
+}
+
+/// Why the run ends with a step that failed, or nothing: a shorter one is next.
+std::string failure_of(Run& run, const StepReport& step, const StepEnd& target, StepLoop& loop) {
+  RunReport& report = run.report;
+  const double before = run.built.state.time();
+  ++report.rejected;
+  if (step.outcome == StepOutcome::inaccurate) ++report.inaccurate;
+  const std::string why =
+      fmt::format("t = {:.6g}, step {:.3g}: {}", before, target.time - before, explain(run.built.model, step));
+  if (report.rejections.size() < 20) report.rejections.push_back(why);
+  const std::string load = nonfinite_load(run, target.load_time);
+  if (!load.empty()) return load + "; correct the formula or end the run before";
+  if (loop.schedule.retry(before, step)) return {};
+  return fmt::format("{} ({}){}", why, loop.schedule.limit(),
+                     failure_cause(run.built.model, run.scene.integrator, run.doubts, {step, loop.first_tried},
+                                   run.built.state, run.workspace));
+}
+
+/// What an accepted step to the present state leaves in report and loop, and its rows.
+void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, Stepper& stepper,
+               EffectWindows& windows) {
+  RunReport& report = run.report;
+  State& state = run.built.state;
+  ++report.steps;
+  run.doubts.after_step(run.built.model, run.workspace.memory.previous, state, run.workspace.now);
+  loop.last = step;
+  loop.last_size = size;
+  report.least_step = report.steps == 1 ? size : std::min(report.least_step, size);
+  report.greatest_step = std::max(report.greatest_step, size);
+  loop.schedule.adapt(step, size);
+  report.largest_constraint = std::max(report.largest_constraint, step.constraint);
+  store_rows_between(run, loop, stepper, windows);
+  const Schedule::Event event = loop.schedule.accept(state.time());
+  if (event.output) windows.store(step, size);
+  if (!event.breakpoint) return;
+  pass_breakpoint(run.built.model, run.scene, state, run.workspace);
+  stepper.pass_jump();
 }
 
 }  // namespace
@@ -43,77 +78,59 @@ void integrate(Run& run, RowWriter& out) {
   const Model& model = run.built.model;
   State& state = run.built.state;
   RunReport& report = run.report;
-  Schedule schedule(run.scene, model.breakpoints);
   Stepper stepper(model, run.scene.integrator);
-  Checkpoints checkpoints(run.scene, out.results, state.time());
-  FrameAngles angles(model);
-  StepReport last;
-  double last_size = 0.0;
-  double tried_at = std::numeric_limits<double>::quiet_NaN(), first_tried = 0.0;
-  if (!run.schedule_memory.empty()) schedule.restore(run.schedule_memory);
+  StepLoop loop{Schedule(run.scene, model.breakpoints),
+                Checkpoints(run.scene, out.results, state.time()),
+                FrameAngles(model),
+                {},
+                0.0,
+                std::numeric_limits<double>::quiet_NaN()};
+  if (!run.schedule_memory.empty()) loop.schedule.restore(run.schedule_memory);
+  EffectWindows windows(run, loop, stepper, out);
+  const auto stop = [&](RunOutcome outcome, std::string reason) {
+    report.outcome = outcome;
+    report.reason = std::move(reason);
+  };
   // A run that is appended has the row of this instant, if the run before it was to store one.
-  const bool begins_with_row = run.schedule_memory.empty() ? schedule.output_at_start() : !run.beginning;
-  if (begins_with_row) write_row(run, {}, 0.0, out);
-  while (!schedule.finished(state.time())) {
+  const bool begins_with_row = run.schedule_memory.empty() ? loop.schedule.output_at_start() : !run.beginning;
+  if (begins_with_row) windows.store({}, 0.0);
+  while (!loop.schedule.finished(state.time())) {
     if (run.control.interrupted && run.control.interrupted()) {
-      report.outcome = RunOutcome::interrupted;
-      report.reason = fmt::format("interrupted at t = {:.6g}", state.time());
+      stop(RunOutcome::interrupted, fmt::format("interrupted at t = {:.6g}", state.time()));
       break;
     }
     const double before = state.time();
-    const StepEnd target = schedule.next(before);
-    if (tried_at != before) {
-      tried_at = before;
-      first_tried = target.time - before;
+    const StepEnd target = loop.schedule.next(before);
+    if (loop.tried_at != before) {
+      loop.tried_at = before;
+      loop.first_tried = target.time - before;
     }
     const StepReport step = stepper.advance(target, state, run.workspace);
     report.iterations += step.iterations;
     report.factorisations += step.factorisations;
     report.row_choices += step.row_choices;
     if (step.outcome != StepOutcome::accepted) {
-      ++report.rejected;
-      if (step.outcome == StepOutcome::inaccurate) ++report.inaccurate;
-      const std::string why =
-          fmt::format("t = {:.6g}, step {:.3g}: {}", before, target.time - before, explain(model, step));
-      if (report.rejections.size() < 20) report.rejections.push_back(why);
-      const std::string load = nonfinite_load(run, target.load_time);
-      if (load.empty() && schedule.retry(before, step)) continue;
-      report.outcome = RunOutcome::not_converged;
-      report.reason = load.empty() ? fmt::format("{} ({}){}", why, schedule.limit(),
-                                                 failure_cause(model, run.scene.integrator, run.doubts,
-                                                               {step, first_tried}, state, run.workspace))
-                                   : load + "; correct the formula or end the run before";
+      std::string failure = failure_of(run, step, target, loop);
+      if (failure.empty()) continue;
+      stop(RunOutcome::not_converged, std::move(failure));
       break;
     }
-    ++report.steps;
-    run.doubts.after_step(model, run.workspace.memory.previous, state, run.workspace.now);
-    last = step;
-    last_size = state.time() - before;
-    report.least_step = report.steps == 1 ? last_size : std::min(report.least_step, last_size);
-    report.greatest_step = std::max(report.greatest_step, last_size);
-    schedule.adapt(step, last_size);
-    report.largest_constraint = std::max(report.largest_constraint, step.constraint);
-    write_rows_between(run, step, last_size, schedule, stepper, out);
-    const Schedule::Event event = schedule.accept(state.time());
-    if (event.output) write_row(run, step, last_size, out);
-    if (event.breakpoint) {
-      pass_breakpoint(model, run.scene, state, run.workspace);
-      stepper.pass_jump();
-    }
-    checkpoints.after_step(model, schedule, state, run.workspace, stepper, out.writer);
-    if (run.control.progress) run.control.progress(state.time());
-    std::string end = angles.observe(model, state, run.workspace.now);
+    take_note(run, step, state.time() - before, loop, stepper, windows);
+    std::string end = loop.angles.observe(model, state, run.workspace.now);
     if (end.empty()) end = off_road(model, state, run.workspace.now);
-    if (!end.empty()) {
-      report.outcome = RunOutcome::not_converged;
-      report.reason = std::move(end);
+    const bool again = windows.after_step();
+    if (run.control.progress) run.control.progress(state.time());
+    if (!end.empty() && !again) {
+      stop(RunOutcome::not_converged, std::move(end));
       break;
     }
   }
+  windows.flush();
   report.time = state.time();
-  angles.tell(model, report);
+  loop.angles.tell(model, report);
   report.solver_health = stepper.health(run.workspace);
-  if (report.outcome != RunOutcome::completed) write_last_row(run, last, last_size, out);
+  if (run.automatic) run.automatic->tell(run.scene.integrator.start, report.time, report);
+  if (report.outcome != RunOutcome::completed) write_last_row(run, loop.last, loop.last_size, out);
 }
 
 void equilibrate(Run& run, RowWriter& out) {

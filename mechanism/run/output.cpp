@@ -1,6 +1,7 @@
 // World-frame motion of the places, reactions, boundary forces and energies of one instant.
 #include "mechanism/run/output.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "formats/results/blocks.hpp"
@@ -262,7 +263,9 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
   return layout;
 }
 
-void fill_row(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
+namespace {
+
+void fill_bodies(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
   evaluate(model, state, evaluation);
   update_modal_nodes(model, evaluation);
   row.time = state.time();
@@ -271,6 +274,10 @@ void fill_row(const Model& model, const State& state, Evaluation& evaluation, fo
   const Eigen::Index modes = row.w.size();  // the deflections of treads are behind them
   row.w = state.w().head(modes);
   row.w_rate = state.v().segment(model.sizes.first_modal(), modes);
+}
+
+/// After evaluate() and update_modal_nodes().
+void fill_actions(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
   evaluate_coordinates(model, state, evaluation);
   Eigen::VectorXd least;
   if (row.reactions && is_overconstrained(state)) least = least_norm_multipliers(model, evaluation, state.lambda());
@@ -290,6 +297,46 @@ void fill_row(const Model& model, const State& state, Evaluation& evaluation, fo
   row.work = state.work();
   row.dissipated = state.dissipated();
   row.balance = row.total - state.initial_energy() - row.work + row.dissipated;
+}
+
+/// After fill_bodies() of a superelement that the model that runs has as a rigid body: what its nodes do not receive is
+/// what is left over there.
+void fill_rigid_superelement(const Model& model, std::size_t i, const Evaluation& evaluation,
+                             formats::ResultsRow& row) {
+  Eigen::Index y = 0, boundary = 0;
+  for (std::size_t k = 0; k < i; ++k) {
+    y += file_coordinate_count(body_of(model, k));
+    boundary += static_cast<Eigen::Index>(body_of(model, k).node.size());
+  }
+  const SuperelementBody& body = body_of(model, i);
+  row.y.segment(y, file_coordinate_count(body)).setZero();
+  row.y_rate.segment(y, file_coordinate_count(body)).setZero();
+  for (std::size_t j = 0; j < body.node.size(); ++j, ++boundary) {
+    const Node& node = model.nodes[model.superelements[i].nodes[j]];
+    const NodeMotion& motion = motion_of(evaluation, model.superelements[i].nodes[j]);
+    if (node.translation >= 0)
+      row.boundary_force.col(boundary).head<3>() -= evaluation.residual.segment<3>(node.translation);
+    if (node.rotation >= 0)
+      row.boundary_force.col(boundary).tail<3>() -= motion.R * evaluation.residual.segment<3>(node.rotation);
+  }
+}
+
+}  // namespace
+
+void fill_row(const Model& model, const State& state, Evaluation& evaluation, formats::ResultsRow& row) {
+  fill_bodies(model, state, evaluation, row);
+  fill_actions(model, state, evaluation, row);
+}
+
+void fill_row(const RowSource& running, const RowSource& whole, formats::ResultsRow& row) {
+  fill_bodies(whole.model, whole.state, whole.evaluation, row);
+  for (std::size_t i = 0; i < whole.model.superelements.size(); ++i)
+    if (std::ranges::find(running.model.superelements, whole.model.superelements[i].name, &SuperelementUse::name) ==
+        running.model.superelements.end())
+      fill_rigid_superelement(whole.model, i, whole.evaluation, row);
+  evaluate(running.model, running.state, running.evaluation);
+  update_modal_nodes(running.model, running.evaluation);
+  fill_actions(running.model, running.state, running.evaluation, row);
 }
 
 }  // namespace tisserand::mechanism

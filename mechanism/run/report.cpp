@@ -23,6 +23,36 @@ const char* outcome_name(RunOutcome outcome) {
   return "";
 }
 
+/// "off at the start; woke at t = 0.12, 0.4, slept at t = 0.2; on for 63 % of the time".
+std::string history_text(const SwitchHistory& history) {
+  constexpr std::size_t shown = 5;
+  std::vector<std::string> woke, slept;
+  bool awake = history.was_awake;
+  for (const double time : history.changes) {
+    awake = !awake;
+    std::vector<std::string>& list = awake ? woke : slept;
+    if (list.size() < shown) list.push_back(fmt::format("{:.6g}", time));
+    if (list.size() == shown) list.push_back("...");
+  }
+  const auto at = [](const char* what, const std::vector<std::string>& times) {
+    return times.empty() ? "" : fmt::format("; {} at t = {}", what, join(times, ", "));
+  };
+  return fmt::format("{} of '{}': {} at the start{}{}; on for {:.3g} % of the time", history.effect, history.body,
+                     history.was_awake ? "on" : "off", at("woke", woke), at("slept", slept), 100.0 * history.part_on);
+}
+
+nlohmann::ordered_json automatic_json(const RunReport& report) {
+  auto list = nlohmann::ordered_json::array();
+  for (const SwitchHistory& history : report.automatic)
+    list.push_back({{"effect", history.effect},
+                    {"body", history.body},
+                    {"on_at_start", history.was_awake},
+                    {"changes", history.changes},
+                    {"time_on", history.time_on},
+                    {"part_on", history.part_on}});
+  return list;
+}
+
 double relative_balance(const RunReport& report) {
   return report.energy_reference > 0.0 ? report.largest_balance / report.energy_reference : 0.0;
 }
@@ -91,6 +121,10 @@ std::string report_json(const RunReport& report) {
   json["doubts"] = report.doubts;
   json["effects"] = report.effects;
   json["switches"] = report.switches;
+  if (!report.automatic.empty()) {
+    json["automatic"] = automatic_json(report);
+    json["repeated_steps"] = report.repeated;
+  }
   json["notes"] = report.notes;
   if (!report.table.empty()) json["table"] = {{"title", report.table_title}, {"lines", report.table}};
   const auto before = nlohmann::ordered_json::parse(report.before, nullptr, false);
@@ -111,6 +145,7 @@ std::string report_text(const RunReport& report, const Units& units) {
   for (const std::string& note : report.notes) line("note", note);
   line("model", join(report.effects, ", "));
   line("effects", report.switches);
+  for (const SwitchHistory& history : report.automatic) line("auto", history_text(history));
   line("mobility", fmt::format("{} degrees of freedom: {} coordinates, {} constraints of rank {}",
                                report.mobility.degrees_of_freedom, report.mobility.coordinates,
                                report.mobility.constraints, report.mobility.rank));
@@ -122,7 +157,8 @@ std::string report_text(const RunReport& report, const Units& units) {
   line("outcome", report.reason.empty() ? outcome_name(report.outcome)
                                         : fmt::format("{}: {}", outcome_name(report.outcome), report.reason));
   line("reached", fmt::format("t = {:.6g}{}", report.time, after_number(time)));
-  line("steps", fmt::format("{} ({} taken again), {} iterations, {} factorisations", report.steps, report.rejected,
+  line("steps", fmt::format("{} ({} taken again{}), {} iterations, {} factorisations", report.steps, report.rejected,
+                            report.repeated > 0 ? fmt::format(", {} for effects that woke", report.repeated) : "",
                             report.iterations, report.factorisations));
   constexpr std::size_t shown = 3;
   for (std::size_t i = 0; i < std::min(shown, report.rejections.size()); ++i) line("taken again", report.rejections[i]);

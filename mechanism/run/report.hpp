@@ -11,6 +11,15 @@
 
 namespace tisserand::mechanism {
 
+/// An automatic effect over a run.
+struct SwitchHistory {
+  std::string effect, body;
+  bool was_awake = true;        ///< at the start
+  std::vector<double> changes;  ///< when it fell asleep or woke, in turn
+  double time_on = 0.0;
+  double part_on = 0.0;  ///< of the time of the run
+};
+
 enum class RunOutcome { completed, not_converged, interrupted };
 
 struct RunReport {
@@ -43,6 +52,8 @@ struct RunReport {
   std::vector<std::string> doubts;  ///< of the results, measured while it ran
   std::vector<std::string> effects;  ///< what the model contains: pools and terms that are on
   std::string switches;              ///< optional effects that it has, and those that the scene switches off
+  std::vector<SwitchHistory> automatic;
+  long repeated = 0;  ///< steps that were taken again because an effect woke
   std::string solver;
   SolverHealth solver_health;
   int unknowns = 0, nonzeros = 0;

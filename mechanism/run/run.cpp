@@ -14,6 +14,7 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/model/bodies.hpp"
 #include "mechanism/run/output.hpp"
+#include "mechanism/run/simulated_scene.hpp"
 #include "mechanism/step/redundancy.hpp"
 
 namespace tisserand::mechanism {
@@ -181,6 +182,9 @@ Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunCo
   report.nonzeros = built.model.pattern->nonzeros();
   report.effects = effects(built.model);
   report.switches = effects_text(effects_of(scene_to_run, files));
+  if (scene.analysis != formats::AnalysisKind::dynamics) return;
+  std::vector<EffectUse> uses = automatic_effects(scene_to_run, files);
+  if (!uses.empty()) automatic = std::make_unique<AutomaticEffects>(scene_to_run, files, std::move(uses));
 }
 
 std::string nonfinite_load(Run& run, double time) {
@@ -276,6 +280,15 @@ void start(Run& run) {
   prepare(run);
 }
 
+formats::ResultsLayout begin_rows(Run& run, const BodyFiles& files) {
+  if (run.automatic && !run.automatic->has_begun()) run.automatic->begin(run);
+  keep_chosen_places(run.scene, run.whole().model);
+  formats::ResultsLayout layout = results_layout(run.whole().model, run.scene);
+  layout.switched = run.automatic != nullptr;
+  layout.simulated = simulated_scene(run.scene, files, run.whole(), run.at_start);
+  return layout;
+}
+
 void tell_doubts(Run& run) {
   std::vector<std::string>& doubts = run.report.doubts;
   for (std::string& doubt : run.doubts.tell(run.built.model)) doubts.push_back(std::move(doubt));
@@ -289,7 +302,10 @@ void write_row(Run& run, const StepReport& step, double size, RowWriter& out) { 
 void write_row(Run& run, const StepReport& step, double size, RowWriter& out, const RowEdit& edit) {
   formats::ResultsRow& row = out.row;
   const double before = run.seconds();
-  fill_row(run.built.model, run.built.state, run.workspace.now, row);
+  if (run.automatic)
+    run.automatic->fill_row(run, row);
+  else
+    fill_row(run.built.model, run.built.state, run.workspace.now, row);
   row.step = size;
   row.iterations = step.iterations;
   row.residual = step.residual;
@@ -300,7 +316,7 @@ void write_row(Run& run, const StepReport& step, double size, RowWriter& out, co
   out.writer.append(row);
   if (run.listener != nullptr) {
     run.listener->row(row);
-    run.listener->state(run.built.state);
+    run.listener->state(run.automatic ? run.automatic->whole_state(run) : run.built.state);
   }
   RunReport& report = run.report;
   if (report.analysis == formats::AnalysisKind::dynamics) run.doubts.at_row(row);

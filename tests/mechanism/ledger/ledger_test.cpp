@@ -10,7 +10,7 @@
 #include "common/error.hpp"
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/ledger/table.hpp"
-#include "mechanism/ledger/transfer.hpp"
+#include "mechanism/switching/transfer.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/scenes/scenes.hpp"
 #include "tests/support/scenes/second_order_scenes.hpp"

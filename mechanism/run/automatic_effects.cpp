@@ -1,0 +1,283 @@
+// Start, windows, switches and what is told of them.
+#include "mechanism/run/automatic_effects.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/run/output.hpp"
+#include "mechanism/run/run.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+/// An effect that takes less than this part of what is allowed, for so many windows, sleeps.
+constexpr double quiet_demand = 0.25;
+constexpr int quiet_windows = 10;
+/// Steps of a window where the scene gives no length, and its part of the run where steps have no fixed size.
+constexpr double window_steps = 20.0, window_part = 0.01;
+
+double window_of(const formats::Scene& scene) {
+  const formats::IntegratorSpec& integrator = scene.integrator;
+  if (scene.automatic.window) return *scene.automatic.window;
+  return integrator.error_control.active ? window_part * (integrator.end - integrator.start)
+                                         : window_steps * integrator.step;
+}
+
+void require_method(const formats::Scene& scene) {
+  const formats::Method method = scene.integrator.method;
+  if (method == formats::Method::generalised_alpha || method == formats::Method::hht) return;
+  throw Error("effects: 'auto' switches between steps of generalised_alpha and hht, not of bdf and radau", scene.file,
+              "give another method, or 'on' and 'off' in place of 'auto'");
+}
+
+bool is_flexibility(const EffectUse& use) { return use.effect == formats::Effect::flexibility; }
+
+}  // namespace
+
+AutomaticEffects::AutomaticEffects(const formats::Scene& scene, const BodyFiles& files, std::vector<EffectUse> uses)
+    : scene_(scene),
+      files_(files),
+      window_(window_of(scene)),
+      whole_{{}, State(Sizes{}), {}, {}, {}},
+      whole_state_(Sizes{}) {
+  require_method(scene);
+  for (EffectUse& use : uses) uses_.push_back({std::move(use), -1, true, true, 0, {}});
+  for (Use& use : uses_)
+    for (std::size_t k = 0; k < uses_.size(); ++k)
+      if (!is_flexibility(use.effect) && is_flexibility(uses_[k].effect) && uses_[k].effect.body == use.effect.body)
+        use.flexibility = static_cast<int>(k);
+}
+
+AutomaticEffects::Awake AutomaticEffects::awake() const {
+  Awake list;
+  for (const Use& use : uses_) list.push_back(use.awake);
+  return list;
+}
+
+formats::Scene AutomaticEffects::scene_with(const Awake& awake) const {
+  std::vector<EffectUse> list;
+  for (std::size_t k = 0; k < uses_.size(); ++k) {
+    list.push_back(uses_[k].effect);
+    list.back().on = awake[k];
+  }
+  return *with_effects_switched(with_switches(scene_, list), files_);
+}
+
+void AutomaticEffects::give_whole(Run& run) {
+  whole_ = std::move(run.built);
+  whole_state_ = whole_.state;
+  whole_now_.emplace(whole_.model);
+  std::vector<EffectUse> list;
+  for (const Use& use : uses_) list.push_back(use.effect);
+  demand_.emplace(whole_.model, list, scene_.automatic.tolerance);
+}
+
+void AutomaticEffects::take_over(BuiltModel built, const Awake& awake, const formats::Scene& scene, Run& run) {
+  run.built = std::move(built);
+  run.workspace = Workspace(run.built.model);
+  run.doubts.enter(scene, run.built.model);
+  sampled_ = false;
+  now_.emplace(run.built.model);
+  lift_.emplace(run.built.model, whole_.model);
+  for (std::size_t k = 0; k < uses_.size(); ++k) {
+    uses_[k].quiet = uses_[k].awake == awake[k] ? uses_[k].quiet : 0;
+    uses_[k].awake = awake[k];
+  }
+}
+
+void AutomaticEffects::start_with(const Awake& awake, Run& run) {
+  const formats::Scene scene = scene_with(awake);
+  BuiltModel built = build_model(scene, files_);
+  Workspace workspace(built.model);
+  start(scene, StartFrom::poses, built, workspace);
+  take_over(std::move(built), awake, scene, run);
+}
+
+/// Of the whole state: with all effects but the flexibility of bodies that have neither deformation nor its rate.
+AutomaticEffects::Awake AutomaticEffects::all_but_undeformed() const {
+  Awake list(uses_.size(), true);
+  const Model& model = whole_.model;
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const int at = model.internal_offset[i], modes = body_of(model, i).modes;
+    const bool rests = whole_state_.y().segment(at, modes).isZero(0.0) &&
+                       whole_state_.v().segment(model.sizes.boundary + at, modes).isZero(0.0);
+    if (modes == 0 || !rests) continue;
+    for (std::size_t k = 0; k < uses_.size(); ++k)
+      if (uses_[k].effect.body == model.superelements[i].name) list[k] = false;
+  }
+  for (std::size_t k = 0; k < uses_.size(); ++k)
+    if (uses_[k].flexibility < 0 && !is_flexibility(uses_[k].effect)) list[k] = true;
+  return list;
+}
+
+void AutomaticEffects::begin(Run& run) {
+  give_whole(run);
+  fresh_ = run.from == StartFrom::poses;
+  if (fresh_) {
+    start_with(Awake(uses_.size(), false), run);
+    sample_here(run);
+    Awake needed;
+    for (std::size_t k = 0; k < uses_.size(); ++k) {
+      const int flexibility = uses_[k].flexibility;
+      needed.push_back(demand_->of(k) > 1.0 || (flexibility >= 0 && demand_->of(flexibility) > 1.0));
+    }
+    if (needed != awake()) start_with(needed, run);
+  } else {
+    const Awake all(uses_.size(), true), some = all_but_undeformed();
+    BuiltModel built = build_model(scene_with(all), files_);
+    built.state.block() = whole_.state.block();
+    take_over(std::move(built), all, scene_with(all), run);
+    if (some != all) switch_to(some, {}, true, run);
+    switched_ = 0.0;
+  }
+  for (Use& use : uses_) {
+    use.was_awake = use.awake;
+    use.changes.clear();
+  }
+}
+
+void AutomaticEffects::restore(Run& run, const std::vector<double>& memory) {
+  const std::size_t count = uses_.size();
+  give_whole(run);
+  Awake list;
+  for (std::size_t k = 0; k < count; ++k) list.push_back(memory[k] != 0.0);
+  const formats::Scene scene = scene_with(list);
+  take_over(build_model(scene, files_), list, scene, run);
+  for (std::size_t k = 0; k < count; ++k) {
+    uses_[k].was_awake = uses_[k].awake;
+    uses_[k].quiet = static_cast<int>(memory[count + k]);
+  }
+  energy_reference_ = memory[2 * count];
+  switched_ = memory[2 * count + 1];
+}
+
+std::vector<double> AutomaticEffects::memory() const {
+  std::vector<double> memory;
+  for (const Use& use : uses_) memory.push_back(use.awake ? 1.0 : 0.0);
+  for (const Use& use : uses_) memory.push_back(use.quiet);
+  memory.push_back(energy_reference_);
+  memory.push_back(switched_);
+  return memory;
+}
+
+const State& AutomaticEffects::whole_state(const Run& run) {
+  evaluate_motion(run.built.model, run.built.state, *now_);
+  lift_->apply(run.built.state, *now_, whole_state_);
+  return whole_state_;
+}
+
+void AutomaticEffects::fill_row(Run& run, formats::ResultsRow& row) {
+  whole_state(run);
+  mechanism::fill_row({run.built.model, run.built.state, run.workspace.now}, {whole_.model, whole_state_, *whole_now_},
+                      row);
+  row.switched = switched_;
+  row.balance -= switched_;
+}
+
+void AutomaticEffects::sample_here(const Run& run) {
+  sampled_ = true;
+  const State& state = run.built.state;
+  whole_state(run);
+  evaluate(whole_.model, whole_state_, *whole_now_);
+  demand_->sample(whole_state_, *whole_now_, awake(), state.force_scale(0));
+  const Energy energy = evaluate_energy(whole_.model, *whole_now_);
+  energy_reference_ =
+      std::max(energy_reference_, std::abs(energy.kinetic) + std::abs(energy.strain) + std::abs(state.work()));
+}
+
+void AutomaticEffects::begin_window(const Run& run) {
+  blocked_ = false;
+  if (!sampled_) {
+    demand_->forget();
+    sample_here(run);
+  }
+  demand_->begin_window();
+}
+
+bool AutomaticEffects::sample(const Run& run) {
+  sample_here(run);
+  for (std::size_t k = 0; k < uses_.size(); ++k)
+    if (!uses_[k].awake && demand_->of(k) > 1.0 && !blocked_) return true;
+  return false;
+}
+
+bool AutomaticEffects::wake(Run& run) {
+  Awake next = awake();
+  for (std::size_t k = 0; k < uses_.size(); ++k) next[k] = next[k] || demand_->of(k) > 1.0;
+  for (std::size_t k = 0; k < uses_.size(); ++k)
+    if (uses_[k].flexibility >= 0 && !uses_[uses_[k].flexibility].awake && next[uses_[k].flexibility]) next[k] = true;
+  if (fresh_ && run.report.steps == 0) {
+    start_with(next, run);
+    for (Use& use : uses_) use.was_awake = use.awake;
+    begin_window(run);
+    return true;
+  }
+  sample_here(run);
+  Deformations bent;
+  for (std::size_t k = 0; k < uses_.size(); ++k) {
+    if (!is_flexibility(uses_[k].effect) || uses_[k].awake || !next[k]) continue;
+    const auto use = std::ranges::find(whole_.model.superelements, uses_[k].effect.body, &SuperelementUse::name);
+    bent[use->name] = demand_->deformation(use - whole_.model.superelements.begin());
+  }
+  const bool woken = switch_to(next, bent, false, run) || switch_to(next, {}, true, run);
+  sampled_ = false;
+  begin_window(run);
+  blocked_ = !woken;
+  return woken;
+}
+
+bool AutomaticEffects::switch_to(const Awake& next, const Deformations& deformations, bool at_any_cost, Run& run) {
+  const formats::Scene scene = scene_with(next);
+  BodyGroup changed;
+  for (std::size_t k = 0; k < uses_.size(); ++k)
+    if (next[k] != uses_[k].awake) changed.insert(uses_[k].effect.body);
+  auto after = switch_model(scene, files_, {run.built.model, run.built.state}, changed, deformations);
+  if (!after) return false;
+  if (!at_any_cost && !(std::abs(after->energy) <= scene_.automatic.tolerance * energy_reference_)) return false;
+  const double time = run.built.state.time();
+  for (std::size_t k = 0; k < uses_.size(); ++k)
+    if (next[k] != uses_[k].awake) uses_[k].changes.push_back(time);
+  run.doubts.leave(run.built.model);
+  take_over(std::move(after->built), next, scene, run);
+  switched_ += after->energy;
+  return true;
+}
+
+bool AutomaticEffects::end_window(Run& run) {
+  Awake next = awake();
+  for (std::size_t k = 0; k < uses_.size(); ++k) {
+    uses_[k].quiet = uses_[k].awake && demand_->of(k) < quiet_demand ? uses_[k].quiet + 1 : 0;
+    if (uses_[k].quiet >= quiet_windows) next[k] = false;
+  }
+  for (std::size_t k = 0; k < uses_.size(); ++k)
+    if (uses_[k].flexibility >= 0 && !next[uses_[k].flexibility]) next[k] = false;
+  if (next == awake()) return false;
+  if (switch_to(next, {}, false, run)) return true;
+  for (std::size_t k = 0; k < uses_.size(); ++k)
+    if (!next[k]) uses_[k].quiet = 0;  // it waits
+  return false;
+}
+
+void AutomaticEffects::tell(double start, double end, RunReport& report) const {
+  for (const Use& use : uses_) {
+    SwitchHistory history{formats::effect_word(use.effect.effect), use.effect.body, use.was_awake, use.changes, 0.0};
+    bool on = use.was_awake;
+    double since = start;
+    for (const double time : use.changes) {
+      if (on) history.time_on += time - since;
+      since = time;
+      on = !on;
+    }
+    if (on) history.time_on += end - since;
+    history.part_on = end > start ? history.time_on / (end - start) : on ? 1.0 : 0.0;
+    report.automatic.push_back(std::move(history));
+  }
+}
+
+}  // namespace tisserand::mechanism

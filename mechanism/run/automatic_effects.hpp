@@ -1,0 +1,96 @@
+// Effects that a run switches by itself (`auto`): which are awake, and the models with and without them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "formats/results/results.hpp"
+#include "mechanism/build/build_model.hpp"
+#include "mechanism/build/effects.hpp"
+#include "mechanism/switching/demand.hpp"
+#include "mechanism/switching/switch_model.hpp"
+#include "mechanism/switching/transfer.hpp"
+
+namespace tisserand::mechanism {
+
+struct Run;
+struct RunReport;
+
+/// The model of the run is that of the effects that are awake. Beside it stands the whole model, with all effects on:
+/// its layout is that of the results, and in its coordinates is told what a sleeping effect would do (demand.hpp). An
+/// effect that matters wakes at the beginning of the window in which that was seen; one that has taken less than a
+/// quarter of what is allowed for ten windows sleeps, if the energy that this costs is allowed too.
+class AutomaticEffects {
+ public:
+  /// `uses`: automatic_effects() of the scene. Throws Error for a method that cannot be switched.
+  AutomaticEffects(const formats::Scene& scene, const BodyFiles& files, std::vector<EffectUse> uses);
+
+  /// Takes the whole model from the run, which has started with it, and gives it one of those effects that matter at
+  /// the start; a run that does not begin with the poses of the scene has all but the flexibility of undeformed bodies.
+  void begin(Run& run);
+  /// Takes the whole model from the run, and gives it that of a checkpoint, whose state is for the caller to set.
+  void restore(Run& run, const std::vector<double>& memory);
+  /// For checkpoints at the ends of windows.
+  std::vector<double> memory() const;
+  std::size_t memory_size() const { return 2 * uses_.size() + 2; }
+
+  bool has_begun() const { return demand_.has_value(); }
+  BuiltModel& whole() { return whole_; }
+  /// The state of the run in coordinates of the whole model.
+  const State& whole_state(const Run& run);
+  void fill_row(Run& run, formats::ResultsRow& row);
+  /// That switches have added so far.
+  double switched_energy() const { return switched_; }
+
+  double window() const { return window_; }
+  /// At an instant that was sampled last, or with a new model.
+  void begin_window(const Run& run);
+  /// Whether an effect that sleeps matters at the state of the run, so that the window must be repeated.
+  bool sample(const Run& run);
+  /// Where the window began: what matters wakes. Returns whether it could.
+  bool wake(Run& run);
+  /// What has been quiet for some windows sleeps. Returns whether the model is another one.
+  bool end_window(Run& run);
+
+  /// One line per effect.
+  void tell(double start, double end, RunReport& report) const;
+
+ private:
+  struct Use {
+    EffectUse effect;
+    int flexibility = -1;  ///< of stiffening: the use of its body that it needs; -1: none is automatic
+    bool awake = true;
+    bool was_awake = true;        ///< at the start
+    int quiet = 0;                ///< windows in which it has taken little
+    std::vector<double> changes;  ///< when it woke or fell asleep
+  };
+  using Awake = std::vector<bool>;
+
+  Awake awake() const;
+  formats::Scene scene_with(const Awake& awake) const;
+  void sample_here(const Run& run);
+  /// From the poses of the scene, as if it had no other effects.
+  void start_with(const Awake& awake, Run& run);
+  bool switch_to(const Awake& next, const Deformations& deformations, bool at_any_cost, Run& run);
+  void take_over(BuiltModel built, const Awake& awake, const formats::Scene& scene, Run& run);
+  Awake all_but_undeformed() const;
+  void give_whole(Run& run);
+
+  formats::Scene scene_;  ///< with its switches
+  const BodyFiles& files_;
+  std::vector<Use> uses_;
+  double window_ = 0.0;
+  BuiltModel whole_;
+  State whole_state_;
+  std::optional<Evaluation> whole_now_, now_;  ///< of the whole model, and of that of the run
+  std::optional<StateTransfer> lift_;          ///< from the model of the run to the whole one
+  std::optional<Demand> demand_;
+  bool sampled_ = false;  ///< where the run stands, with its present model
+  bool blocked_ = false;  ///< what matters could not be woken in this window
+  bool fresh_ = false;    ///< the run stands at the poses of the scene
+  double energy_reference_ = 0.0;
+  double switched_ = 0.0;
+};
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,94 @@
+// Pseudo-inverse in coordinates of one size; products with S̄ and M̄.
+#include "mechanism/switching/compliance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Eigenvalues of the scaled S̄ below this part of the largest belong to motions without strain.
+constexpr double strainless = 1e-11;
+
+MatrixXd pseudo_inverse(const MatrixXd& S, const VectorXd& units) {
+  const MatrixXd scaled = units.asDiagonal() * S * units.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(scaled);
+  const VectorXd& values = modes.eigenvalues();
+  VectorXd inverse = VectorXd::Zero(values.size());
+  for (Eigen::Index k = 0; k < values.size(); ++k)
+    if (values[k] > strainless * values.maxCoeff()) inverse[k] = 1.0 / values[k];
+  const MatrixXd shapes = units.asDiagonal() * modes.eigenvectors();
+  return shapes * inverse.asDiagonal() * shapes.transpose();
+}
+
+}  // namespace
+
+Compliance::Compliance(const SuperelementBody& body)
+    : body_(body),
+      inverse_(pseudo_inverse(body.S_BB, coordinate_units(body).head(body.boundary_size))),
+      rigid_(rigid_columns(body)) {
+  MatrixXd Phi_M(6, rigid_.rows());
+  for (int k = 0; k < 6; ++k) Phi_M.row(k) = mass(rigid_.col(k)).transpose();
+  part_ = (Phi_M * rigid_).completeOrthogonalDecomposition().solve(Phi_M);
+}
+
+VectorXd Compliance::mass(const VectorXd& y) const {
+  const Eigen::Index nb = body_.boundary_size, m = body_.modes;
+  VectorXd p(nb + m);
+  p.head(nb) = body_.M_BB * y.head(nb) + body_.M_BI * y.tail(m);
+  p.tail(m) = body_.M_IB * y.head(nb) + y.tail(m);
+  return p;
+}
+
+VectorXd Compliance::stiffness(const VectorXd& y) const {
+  const Eigen::Index nb = body_.boundary_size, m = body_.modes;
+  VectorXd f(nb + m);
+  f.head(nb) = body_.S_BB * y.head(nb);
+  f.tail(m) = body_.S_II.cwiseProduct(y.tail(m));
+  return f;
+}
+
+VectorXd Compliance::without_rigid_motion(const VectorXd& y) const { return y - rigid_ * (part_ * y); }
+
+VectorXd Compliance::deformation(const VectorXd& load) const {
+  const Eigen::Index nb = body_.boundary_size, m = body_.modes;
+  VectorXd y(nb + m);
+  y.head(nb) = inverse_ * load.head(nb);
+  y.tail(m) = load.tail(m).cwiseQuotient(body_.S_II);
+  return without_rigid_motion(y);
+}
+
+double Compliance::displacement(const VectorXd& y) const {
+  double largest = 2.0 * std::sqrt(kinetic_energy(y) / body_.mass);  // √2 √(yᵀ M̄ y / m)
+  for (const int j : body_.translation_nodes)
+    largest = std::max(largest, y.segment<3>(body_.node[j].translation_row).norm());
+  return largest;
+}
+
+double Compliance::force(const VectorXd& y) const {
+  const Eigen::Index m = body_.modes;
+  const VectorXd elastic = body_.S_BB * y.head(body_.boundary_size);
+  const VectorXd inner = body_.M_BI * body_.S_II.cwiseProduct(y.tail(m));
+  double largest = 0.0;
+  for (const int j : body_.translation_nodes) {
+    const int row = body_.node[j].translation_row;
+    largest = std::max(largest, elastic.segment<3>(row).norm() + inner.segment<3>(row).norm());
+  }
+  return largest;
+}
+
+double Compliance::inertia_force(const VectorXd& acceleration) const {
+  const VectorXd force = mass(without_rigid_motion(acceleration));
+  double largest = 0.0;
+  for (const int j : body_.translation_nodes)
+    largest = std::max(largest, force.segment<3>(body_.node[j].translation_row).norm());
+  return largest;
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,209 @@
+// Switches of models: momenta, what is not touched, deformations that bodies begin with.
+#include "mechanism/switching/switch_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include "mechanism/build/effects.hpp"
+#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/switching/compliance.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
+#include "tests/support/scenes/scenes.hpp"
+
+namespace tisserand::mechanism::switch_model_test {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using formats::JointKind;
+using test_support::Simulation;
+
+const test_support::BeamData beam_data;
+
+BodyFiles files() {
+  BodyFiles list;
+  test_support::add_file("beam", test_support::craig_bampton_beam(beam_data, 3), list.superelements);
+  return list;
+}
+
+/// Two beams on a ball joint with a load at their end, thrown and turning, and a block that flies alone.
+formats::Scene thrown(bool held) {
+  formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
+  for (const char* name : {"left", "right"}) {
+    formats::SuperelementBodySpec beam = test_support::superelement_body(name, "beam");
+    beam.start.pose.position = {name == std::string("left") ? 0.0 : 2.0, 0, 0};
+    beam.start.velocity = held ? Vector3d(0, 0, 0) : Vector3d(3, 2, 1);
+    beam.start.angular_velocity = Vector3d(0, 0, 1.5);
+    if (name == std::string("right")) beam.start.velocity = *beam.start.velocity + Vector3d(0, 3, 0);  // 1.5 x 2
+    scene.bodies.emplace_back(beam);
+  }
+  formats::RigidBodySpec block = test_support::rigid_body("block", 2.0, {0.1, 0, 0}, {0.1, 0.2, 0.3});
+  block.start.pose.position = {0, 5, 0};
+  block.start.velocity = Vector3d(0.3, 0.2, 0.1);
+  block.start.angular_velocity = Vector3d(1, 2, 3);
+  scene.bodies.emplace_back(block);
+  scene.joints = {test_support::joint("ball", JointKind::spherical, "left/tip", "right/base", {2, 0, 0}, {0, 0, 1})};
+  if (held)
+    scene.joints.push_back(
+        test_support::joint("hinge", JointKind::revolute, "ground", "left/base", {0, 0, 0}, {0, 0, 1}));
+  scene.loads = {test_support::constant_load("pull", formats::LoadKind::force, "right/tip", {5, 30, 20})};
+  return scene;
+}
+
+formats::Scene with_flexibility(const formats::Scene& scene, const std::string& body, bool on) {
+  return *with_effects_switched(with_switches(scene, {{formats::Effect::flexibility, body, on}}), files());
+}
+
+/// Sums over all bodies: of superelements their mass matrix times the rates in axes of the frame, so independent of
+/// momentum_of(), which takes differences of energies.
+Momentum sum_of_momenta(const Model& model, const State& state) {
+  Evaluation now(model);
+  evaluate(model, state, now);
+  Momentum sum = Momentum::Zero();
+  for (const RigidBody& body : model.rigid_bodies) {
+    const NodeMotion& node = now.motion[body.node];
+    sum.head<3>() += body.mass * node.xd;
+    sum.tail<3>() += node.x.cross(body.mass * node.xd) + node.R * (body.inertia * node.Omega);
+  }
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const SuperelementBody& body = body_of(model, i);
+    const LocalMotion<double>& motion = now.superelements[i].motion;
+    const VectorXd p = body.M_BB * motion.rate_B + body.M_BI * motion.rate_I;
+    for (std::size_t j = 0; j < body.node.size(); ++j) {
+      const NodeMotion& node = now.motion[model.superelements[i].nodes[j]];
+      const Vector3d linear = motion.R0 * p.segment<3>(body.node[j].translation_row);
+      sum.head<3>() += linear;
+      sum.tail<3>() += node.x.cross(linear) + node.R * p.segment<3>(body.node[j].rotation_row);
+    }
+  }
+  return sum;
+}
+
+/// Bent and vibrating, after some steps with the load.
+State bent(Simulation& run) {
+  run.start();
+  run.run(0.05);
+  return run.state();
+}
+
+struct Switches {
+  SwitchedModel rigid, back;
+};
+
+Switches forth_and_back(const formats::Scene& scene, const Model& model, const State& state,
+                        const Deformations& deformations) {
+  auto rigid = switch_model(with_flexibility(scene, "right", false), files(), {model, state}, {"right"}, {});
+  EXPECT_TRUE(rigid.has_value());
+  auto back = switch_model(with_flexibility(scene, "right", true), files(), {rigid->built.model, rigid->built.state},
+                           {"right"}, deformations);
+  EXPECT_TRUE(back.has_value());
+  return {std::move(*rigid), std::move(*back)};
+}
+
+// No ground, so nothing may change. The tolerance is round-off: 1e-12 of the momentum.
+TEST(SwitchModel, KeepsLinearAndAngularMomentumForthAndBack) {
+  const formats::Scene scene = thrown(false);
+  Simulation run(scene, files());
+  const State state = bent(run);
+  const Momentum before = sum_of_momenta(run.model(), state);
+  const Compliance compliance(body_of(run.model(), 1));
+  VectorXd load = VectorXd::Zero(15);
+  load[5] = -200.0;
+  load[11] = 200.0;
+  const Switches after = forth_and_back(scene, run.model(), state, {{"right", compliance.deformation(load)}});
+  const Momentum rigid = sum_of_momenta(after.rigid.built.model, after.rigid.built.state);
+  const Momentum back = sum_of_momenta(after.back.built.model, after.back.built.state);
+  EXPECT_LT((rigid - before).head<3>().norm(), 1e-12 * before.head<3>().norm());
+  EXPECT_LT((rigid - before).tail<3>().norm(), 1e-12 * before.tail<3>().norm());
+  EXPECT_LT((back - before).head<3>().norm(), 1e-12 * before.head<3>().norm());
+  EXPECT_LT((back - before).tail<3>().norm(), 1e-12 * before.tail<3>().norm());
+  EXPECT_GT((rigid - before).norm(), 0.0);  // and they were computed anew
+}
+
+// The block is another group: no number of it changes.
+TEST(SwitchModel, TouchesNoOtherBody) {
+  const formats::Scene scene = thrown(false);
+  Simulation run(scene, files());
+  const State state = bent(run);
+  const Switches after = forth_and_back(scene, run.model(), state, {});
+  const auto block = [](const Model& model, const State& of) {
+    Evaluation now(model);
+    evaluate(model, of, now);
+    for (std::size_t i = 0; i < model.nodes.size(); ++i)
+      if (model.nodes[i].name == "block") return now.motion[i];
+    return NodeMotion{};
+  };
+  const NodeMotion was = block(run.model(), state);
+  ASSERT_GT(was.x.norm(), 1.0);
+  for (const BuiltModel* built : {&after.rigid.built, &after.back.built}) {
+    const NodeMotion is = block(built->model, built->state);
+    EXPECT_EQ(is.x, was.x);
+    EXPECT_EQ(is.R, was.R);
+    EXPECT_EQ(is.xd, was.xd);
+    EXPECT_EQ(is.Omega, was.Omega);
+  }
+}
+
+// A chain on a hinge about z can turn about it alone: there the moment of momentum stays, whatever the hinge gives.
+TEST(SwitchModel, KeepsTheMomentumThatGroundLeavesFree) {
+  const formats::Scene scene = thrown(true);
+  Simulation run(scene, files());
+  const State state = bent(run);
+  const Switches after = forth_and_back(scene, run.model(), state, {});
+  const auto about_hinge = [](const Model& model, const State& of) {
+    Evaluation now(model);
+    return momentum_of(model, of, {"left", "right"}, Vector3d::Zero(), now)[5];
+  };
+  const double before = about_hinge(run.model(), state);
+  ASSERT_GT(std::abs(before), 1.0);
+  EXPECT_NEAR(about_hinge(after.rigid.built.model, after.rigid.built.state), before, 1e-12 * std::abs(before));
+  EXPECT_NEAR(about_hinge(after.back.built.model, after.back.built.state), before, 1e-12 * std::abs(before));
+}
+
+// Without deformation rigid to flexible and back is the same motion to round-off, and costs no energy.
+TEST(SwitchModel, RigidToFlexibleAndBackReturnsTheMotion) {
+  formats::Scene scene = thrown(false);
+  scene.loads.clear();
+  const formats::Scene rigid = with_flexibility(scene, "right", false);
+  Simulation run(rigid, files());
+  run.start();
+  run.run(0.02);
+  const auto flexible =
+      switch_model(with_flexibility(scene, "right", true), files(), {run.model(), run.state()}, {"right"}, {});
+  ASSERT_TRUE(flexible.has_value());
+  const auto back = switch_model(rigid, files(), {flexible->built.model, flexible->built.state}, {"right"}, {});
+  ASSERT_TRUE(back.has_value());
+  EXPECT_LT((back->built.state.x() - run.state().x()).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((back->built.state.Q() - run.state().Q()).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((back->built.state.v() - run.state().v()).cwiseAbs().maxCoeff(), 1e-9);
+  const auto same = switch_model(rigid, files(), {run.model(), run.state()}, {}, {});  // accelerations solved for anew
+  ASSERT_TRUE(same.has_value());
+  ASSERT_GT(same->built.state.lambda().norm(), 1.0);
+  EXPECT_LT((back->built.state.lambda() - same->built.state.lambda()).norm(), 1e-9 * same->built.state.lambda().norm());
+  EXPECT_LT(std::abs(flexible->energy), 1e-9 * run.energy().kinetic);
+}
+
+// A free beam under a moment M at both ends: w'' = M/EI, its ends are M L²/(12 EI) from the mean of its mass, and
+// turned by M L/EI against each other. Hermite's cubic holds the parabola, its mass the mean; rotary inertia is left
+// out.
+TEST(Compliance, IsThatOfABeam) {
+  test_support::BeamData data;
+  data.rotary_inertia = false;
+  BodyFiles list;
+  test_support::add_file("beam", test_support::beam_superelement(data), list.superelements);
+  formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
+  scene.bodies.emplace_back(test_support::superelement_body("beam", "beam"));
+  const BuiltModel built = build_model(scene, list);
+  const Compliance compliance(body_of(built.model, 0));
+  const double M = 100.0, L = data.length, EI = data.young * data.Iz;
+  VectorXd load = VectorXd::Zero(12);
+  load[5] = -M;
+  load[11] = M;
+  const VectorXd y = compliance.deformation(load);
+  EXPECT_NEAR(y[11] - y[5], M * L / EI, 1e-9 * M * L / EI);
+  EXPECT_NEAR(std::abs(y[1]), M * L * L / (12.0 * EI), 1e-9 * M * L * L / EI);
+  EXPECT_NEAR(compliance.strain_energy(y), 0.5 * M * M * L / EI, 1e-9 * M * M * L / EI);
+  EXPECT_LT((compliance.without_rigid_motion(y) - y).norm(), 1e-12 * y.norm());
+}
+
+}  // namespace
+}  // namespace tisserand::mechanism::switch_model_test

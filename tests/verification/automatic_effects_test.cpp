@@ -1,0 +1,304 @@
+// Runs that switch effects by themselves: what never switches is the fixed scene, what switches stays within the
+// tolerance, results and checkpoints know nothing of it, what sleeps is not there.
+#include <cmath>
+#include <filesystem>
+#include <functional>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/error.hpp"
+#include "formats/results/results.hpp"
+#include "mechanism/build/effects.hpp"
+#include "mechanism/run/run.hpp"
+#include "mechanism/simulate.hpp"
+#include "tests/support/bodies/beam_superelement.hpp"
+#include "tests/support/scenes/scenes.hpp"
+#include "tests/support/scenes/second_order_scenes.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace tisserand::mechanism::automatic_effects_test {
+namespace {
+
+using Eigen::Vector3d;
+using formats::Effect;
+using formats::JointKind;
+using test_support::TemporaryFolder;
+using ::testing::HasSubstr;
+
+const Vector3d z = Vector3d::UnitZ();
+
+BodyFiles files() {
+  BodyFiles list;
+  test_support::add_file("beam", test_support::craig_bampton_beam({}, 3), list.superelements);
+  test_support::BeamData stout;
+  stout.Iy = stout.Iz = 1e-6;
+  test_support::add_file("stout", test_support::craig_bampton_beam(stout, 3), list.superelements);
+  return list;
+}
+
+formats::EffectSwitch automatic(Effect effect, const std::string& body = "") {
+  return {effect, body, true, "switch", true};
+}
+formats::EffectSwitch fixed(Effect effect, bool on) { return {effect, "", on, "switch"}; }
+
+/// A beam on a hinge that a moment turns from 0.1 to 0.4, with a bob on a ball joint at its tip. Its first frequency is
+/// about 20 Hz, and it is damped; `moment` 300 bends it by some thousandths of its length.
+formats::Scene swing(double moment) {
+  formats::Scene scene = test_support::empty_scene(1e-3, 1.2);
+  formats::SuperelementBodySpec beam = test_support::superelement_body("beam", "beam");
+  beam.damping.ratio = 0.3;
+  scene.bodies.emplace_back(beam);
+  formats::RigidBodySpec bob = test_support::rigid_body("bob", 1.0, Vector3d::Zero(), {0.01, 0.01, 0.01});
+  bob.start.pose.position = {2, 0, 0};
+  scene.bodies.emplace_back(bob);
+  scene.joints = {test_support::joint("hinge", JointKind::revolute, "ground", "beam/base", Vector3d::Zero(), z),
+                  test_support::joint("ball", JointKind::spherical, "beam/tip", "bob", {2, 0, 0}, z)};
+  formats::SpringSpec motor;
+  motor.name = "motor";
+  motor.coordinate = formats::CoordinateRef{"hinge", ""};
+  motor.force = formats::TimeTable{{0.0, 0.1, 0.2, 0.3, 0.4, 1.2}, {0.0, 0.0, moment, moment, 0.0, 0.0}};
+  scene.springs = {motor};
+  return scene;
+}
+
+/// A stout beam with the bob that falls about the hinge: it bends by some millionths of its length, and its first
+/// frequency is over a hundred times that of the pendulum.
+formats::Scene pendulum() {
+  formats::Scene scene = swing(0.0);
+  std::get<formats::SuperelementBodySpec>(scene.bodies[0]).file = "stout";
+  scene.springs.clear();
+  scene.gravity = {0, -9.81, 0};
+  return scene;
+}
+
+formats::Scene with(formats::Scene scene, const std::vector<formats::EffectSwitch>& effects) {
+  scene.effects = effects;
+  return scene;
+}
+
+RunReport run(const formats::Scene& scene, const std::string& path) {
+  const BodyFiles list = files();
+  return simulate(RunRequest{scene, list, std::nullopt, path, "", std::nullopt}, {}).report;
+}
+
+Eigen::MatrixXd rows(const std::string& file, const std::vector<std::string>& selection) {
+  const formats::ResultsReader reader(file);
+  std::vector<std::string> names;
+  for (const formats::Channel& channel : formats::select_channels(reader.channels(), selection, "test"))
+    names.push_back(channel.name);
+  return reader.read_rows(names, 0, reader.rows());
+}
+
+double largest_difference(const std::string& a, const std::string& b, const std::vector<std::string>& selection) {
+  return (rows(a, selection) - rows(b, selection)).cwiseAbs().maxCoeff();
+}
+
+double largest(const std::string& file, const std::vector<std::string>& selection) {
+  return rows(file, selection).cwiseAbs().maxCoeff();
+}
+
+const std::vector<std::string> motion = {"nodes/position/beam/tip/*",
+                                         "nodes/rotation/beam/tip/*",
+                                         "nodes/velocity/beam/base/*",
+                                         "nodes/acceleration/beam/tip/*",
+                                         "nodes/*/bob/*",
+                                         "joints"};
+
+// Asleep throughout. The rigid scene calls the same places by the same names.
+TEST(AutomaticEffects, ThatSleepThroughoutAreTheRigidSceneToTheBit) {
+  TemporaryFolder folder;
+  const std::string a = folder.file("a.results.h5"), b = folder.file("b.results.h5");
+  const RunReport report = run(with(pendulum(), {automatic(Effect::flexibility)}), a);
+  run(with(pendulum(), {fixed(Effect::flexibility, false)}), b);
+  ASSERT_EQ(report.automatic.size(), 1U);
+  EXPECT_FALSE(report.automatic[0].was_awake);
+  EXPECT_TRUE(report.automatic[0].changes.empty());
+  EXPECT_EQ(report.automatic[0].part_on, 0.0);
+  EXPECT_GT(largest(b, {"joints/rate"}), 1.0);
+  EXPECT_EQ(largest_difference(a, b, motion), 0.0);
+  EXPECT_EQ(largest_difference(a, b, {"energy/kinetic", "energy/balance", "energy/work"}), 0.0);
+  EXPECT_EQ(largest(a, {"energy/switched"}), 0.0);
+  EXPECT_EQ(largest(a, {"superelements/y", "superelements/y_rate"}), 0.0);
+}
+
+// A moment that bends it from the start on, and a tolerance that never lets it sleep.
+TEST(AutomaticEffects, ThatAreAwakeThroughoutAreTheFlexibleSceneToTheBit) {
+  TemporaryFolder folder;
+  const std::string a = folder.file("a.results.h5"), b = folder.file("b.results.h5");
+  formats::Scene scene = swing(0.0);
+  scene.springs[0].force = 300.0;
+  scene.integrator.end = 0.3;
+  formats::Scene own = with(scene, {automatic(Effect::flexibility)});
+  own.automatic.tolerance = 1e-9;
+  const RunReport report = run(own, a);
+  run(scene, b);
+  EXPECT_TRUE(report.automatic[0].was_awake);
+  EXPECT_EQ(report.automatic[0].part_on, 1.0);
+  EXPECT_EQ(largest_difference(a, b, {"nodes", "superelements", "joints", "forces", "energy/total"}), 0.0);
+}
+
+// Awake while the moment bends it. Positions to some tolerances (1e-3 of the size, 2): it falls asleep at a quarter of
+// it and starts bent as the load asks. The rigid scene errs by more.
+TEST(AutomaticEffects, WakeAndSleepWithinTheTolerance) {
+  TemporaryFolder folder;
+  const std::string a = folder.file("a.results.h5"), b = folder.file("b.results.h5"), c = folder.file("c.results.h5");
+  const RunReport report = run(with(swing(300.0), {automatic(Effect::flexibility)}), a);
+  run(swing(300.0), b);
+  run(with(swing(300.0), {fixed(Effect::flexibility, false)}), c);
+  ASSERT_EQ(report.outcome, RunOutcome::completed) << report.reason;
+  const SwitchHistory& history = report.automatic[0];
+  EXPECT_FALSE(history.was_awake);
+  ASSERT_GE(history.changes.size(), 2U);
+  EXPECT_GE(history.changes[0], 0.079);  // the load begins at the edge of a window
+  EXPECT_LT(history.changes[0], 0.2);
+  EXPECT_GT(history.changes[1], 0.4);
+  EXPECT_GT(report.repeated, 0);
+  EXPECT_GT(history.part_on, 0.1);
+  EXPECT_LT(history.part_on, 0.9);
+  const double error = largest_difference(a, b, {"nodes/position"}), rigid = largest_difference(c, b, {"joints/force"});
+  EXPECT_LT(error, 4e-3);
+  EXPECT_LT(largest_difference(a, b, {"joints/force"}), 0.02 * largest(b, {"joints/force"}));
+  EXPECT_GT(rigid, 0.02 * largest(b, {"joints/force"}));
+  // What switches cost is told, within the part of the energy that is allowed, and the balance closes with it.
+  const double energy = largest(a, {"energy/kinetic"});
+  EXPECT_GT(largest(a, {"energy/switched"}), 0.0);
+  EXPECT_LT(largest(a, {"energy/switched"}), 1e-3 * energy * static_cast<double>(history.changes.size()));
+  EXPECT_LT(largest(a, {"energy/balance"}), 2.0 * largest(b, {"energy/balance"}) + 1e-4 * energy);
+}
+
+// The layout is that of the scene with all on, but for what switches cost; and so are the names of channels.
+TEST(AutomaticEffects, KeepTheLayoutOfResults) {
+  TemporaryFolder folder;
+  const std::string a = folder.file("a.results.h5"), b = folder.file("b.results.h5");
+  run(with(swing(300.0), {automatic(Effect::flexibility)}), a);
+  run(swing(300.0), b);
+  std::vector<std::string> own, other;
+  for (const formats::Channel& channel : formats::ResultsReader(a).channels())
+    if (channel.name != "energy/switched") own.push_back(channel.name);
+  for (const formats::Channel& channel : formats::ResultsReader(b).channels()) other.push_back(channel.name);
+  EXPECT_EQ(own, other);
+  EXPECT_EQ(formats::ResultsReader(a).rows(), formats::ResultsReader(b).rows());
+  EXPECT_EQ(formats::ResultsReader(a).time(), formats::ResultsReader(b).time());
+}
+
+// Of a rigid body too the forces on its nodes are those of its joints: at the tip the ball joint's.
+TEST(AutomaticEffects, TellWhatNodesOfASleepingBodyReceive) {
+  TemporaryFolder folder;
+  const std::string a = folder.file("a.results.h5");
+  run(with(pendulum(), {automatic(Effect::flexibility)}), a);
+  // Of the bob, whose mass is 1, and its weight.
+  const double force = largest(a, {"nodes/acceleration/bob/*"});
+  ASSERT_GT(force, 9.0);
+  EXPECT_EQ(largest(a, {"superelements/y"}), 0.0);
+  const Eigen::MatrixXd received = rows(a, {"superelements/boundary_force/beam/tip/force_*"});
+  Eigen::MatrixXd needed = rows(a, {"nodes/acceleration/bob/*"});
+  needed.col(1).array() += 9.81;
+  EXPECT_LT((received + needed).cwiseAbs().maxCoeff(), 1e-6 * force);  // Newton's iteration ends at 1e-8
+}
+
+// As of a run without switches (checkpoint_test.cpp), through the switch that wakes and the one that lets sleep.
+TEST(AutomaticEffects, GoOnFromACheckpointBitEqual) {
+  TemporaryFolder folder;
+  const BodyFiles list = files();
+  formats::Scene scene = with(swing(300.0), {automatic(Effect::flexibility)});
+  for (const double at : {0.05, 0.25}) {
+    scene.checkpoint.interval = at;
+    const std::string kept = folder.file(at < 0.1 ? "kept.h5" : "later.h5");
+    std::filesystem::remove(folder.file("a.checkpoint.h5"));
+    RunControl control;
+    control.progress = [&](double) {
+      const std::string written = folder.file("a.checkpoint.h5");
+      if (std::filesystem::exists(written) && !std::filesystem::exists(kept)) std::filesystem::copy_file(written, kept);
+    };
+    const RunEnd whole =
+        simulate(RunRequest{scene, list, std::nullopt, folder.file("a.results.h5"), "", std::nullopt}, control);
+    RunRequest again{scene, list, std::nullopt, folder.file("b.results.h5"), kept, std::nullopt};
+    const RunEnd rest = simulate(again, {});
+    ASSERT_GE(whole.report.automatic[0].changes.size(), 2U);
+    ASSERT_GE(rest.report.automatic[0].changes.size(), 1U);
+    EXPECT_LT(rest.report.steps, whole.report.steps);
+    EXPECT_EQ(rest.state.block(), whole.state.block());
+    EXPECT_GT(rest.state.v().norm(), 0.0);
+  }
+}
+
+// From a stored instant at which the body is rigid it goes on rigid, where it is flexible flexible.
+TEST(AutomaticEffects, GoOnFromAStoredInstant) {
+  TemporaryFolder folder;
+  const BodyFiles list = files();
+  const formats::Scene scene = with(swing(300.0), {automatic(Effect::flexibility)});
+  const RunEnd whole =
+      simulate(RunRequest{scene, list, std::nullopt, folder.file("a.results.h5"), "", std::nullopt}, {});
+  for (const double at : {0.05, 0.25}) {
+    RunRequest again{scene, list, std::nullopt, folder.file("b.results.h5"), folder.file("a.results.h5"), at};
+    const RunEnd rest = simulate(again, {});
+    EXPECT_EQ(rest.report.automatic[0].was_awake, at > 0.1);
+    EXPECT_LT((rest.state.x() - whole.state.x()).cwiseAbs().maxCoeff(), 4e-3);
+  }
+}
+
+// Pools, coordinates and pattern of the model that runs are those of the scene without the effect.
+TEST(AutomaticEffects, ThatSleepAreNotInTheModel) {
+  const BodyFiles list = files();
+  const formats::Scene scene = with(pendulum(), {automatic(Effect::flexibility)});
+  const RunControl control;
+  mechanism::Run sleeping(scene, list, control);
+  start(sleeping);
+  static_cast<void>(begin_rows(sleeping, list));
+  const Model rigid = build_model(with(pendulum(), {fixed(Effect::flexibility, false)}), list).model;
+  const Model& model = sleeping.built.model;
+  EXPECT_TRUE(model.superelements.empty());
+  EXPECT_TRUE(model.superelement_bodies.empty());
+  EXPECT_EQ(model.rigid_bodies.size(), rigid.rigid_bodies.size());
+  EXPECT_EQ(model.sizes.velocities(), rigid.sizes.velocities());
+  EXPECT_EQ(model.pattern->nonzeros(), rigid.pattern->nonzeros());
+  EXPECT_EQ(sleeping.whole().model.superelements.size(), 1U);
+}
+
+/// A slender beam of second order that its hinge spins up: stiffening holds it straight, without it bends away.
+formats::Scene spin_up() {
+  formats::Scene scene = test_support::empty_scene(2e-3, 2.0);
+  scene.bodies.emplace_back(test_support::superelement_body("beam", "beam"));
+  scene.joints = {test_support::joint("hinge", JointKind::revolute, "ground", "beam/n0", Vector3d::Zero(), z)};
+  scene.motions = {test_support::drive("hinge", "t < 1 ? 2 * t^2 : 4 * t - 2", {1.0})};
+  return scene;
+}
+
+TEST(AutomaticEffects, StiffeningWakesWhereABeamSpins) {
+  const auto beam = test_support::bernoulli_beam(test_support::slender_section(1e4), 1.0, 4);
+  const BodyFiles list = test_support::files_of(test_support::second_order_beam(beam, {0, 4}, 2));
+  TemporaryFolder folder;
+  const auto end_of = [&](formats::Scene scene, const std::vector<formats::EffectSwitch>& effects) {
+    scene.effects = effects;
+    return simulate(RunRequest{scene, list, std::nullopt, "", "", std::nullopt}, {});
+  };
+  const RunEnd whole = end_of(spin_up(), {}), own = end_of(spin_up(), {automatic(Effect::stiffening)});
+  ASSERT_EQ(own.report.automatic.size(), 1U);
+  EXPECT_FALSE(own.report.automatic[0].was_awake);  // it begins straight
+  EXPECT_LT((own.state.x() - whole.state.x()).cwiseAbs().maxCoeff(), 2e-3);
+}
+
+std::string error_of(formats::Scene scene, const std::vector<formats::EffectSwitch>& effects) {
+  scene.effects = effects;
+  try {
+    static_cast<void>(run(scene, ""));
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+TEST(AutomaticEffects, AreRefusedWhereNothingCanBeSwitched) {
+  EXPECT_THAT(error_of(swing(0.0), {automatic(Effect::stiffening, "beam")}),
+              HasSubstr("body 'beam' has no stiffening to switch auto"));
+  EXPECT_THAT(error_of(swing(0.0), {automatic(Effect::flexibility, "bob")}),
+              HasSubstr("body 'bob' has no flexibility to switch auto"));
+  formats::Scene scene = swing(0.0);
+  scene.integrator.method = formats::Method::radau;
+  EXPECT_THAT(error_of(scene, {automatic(Effect::flexibility)}),
+              ::testing::AllOf(HasSubstr("generalised_alpha and hht"), HasSubstr("'on' and 'off'")));
+}
+
+}  // namespace
+}  // namespace tisserand::mechanism::automatic_effects_test
