@@ -217,7 +217,7 @@ void set_velocities_of(const StartProblem& problem, const StartSolution& solutio
     const Eigen::Index at = 6 * static_cast<Eigen::Index>(problem.parts.of_node[i]);
     if (solution.w.segment<6>(at) == problem.w.segment<6>(at)) continue;
     for (int k = 0; k < 6; ++k)
-      if (const int at = coordinate_of(model, model.nodes[i], k); at >= 0) state.v()[at] = rigid[at];
+      if (const int own = coordinate_of(model, model.nodes[i], k); own >= 0) state.v()[own] = rigid[own];
   }
   if (solution.d.isZero(0.0)) return;
   state.v().head(model.sizes.boundary) += solution.d;
