@@ -116,6 +116,10 @@ void check_modes(const Part& part, Faults& faults) {
   if (modes.count < 0)
     faults.add(modes.where, "modes", fmt::format("modes {} must not be negative", modes.count),
                "modes: 0 gives Guyan reduction");
+  if (part.double_curvature < 0 || part.double_curvature > 100)
+    faults.add(modes.where, "double_curvature",
+               fmt::format("double_curvature {} must be 0 to 100 shapes", part.double_curvature),
+               "20 hold what plates need");
   if (modes.cutoff && !(*modes.cutoff > 0.0 && std::isfinite(*modes.cutoff)))
     faults.add(modes.where, "cutoff", fmt::format("cutoff {:g} must be positive", *modes.cutoff), "");
   if (modes.moments && *modes.moments < 0)
