@@ -11,7 +11,8 @@
 namespace tisserand::reducer {
 
 /// Whether the part asks for the second order of this superelement, which can deform: `second_order` or
-/// `double_curvature`, or its arrays stay below 20 MB. Throws Error if it asks for more coordinates than companion files hold.
+/// `double_curvature`, or its arrays stay below 20 MB. Throws Error if it asks for more coordinates than companion
+/// files hold.
 bool wants_second_order(const formats::Part& part, const formats::Superelement& element);
 
 /// What the user should know of it: notes on a companion that is left out, warnings of ties without second order.

@@ -35,7 +35,7 @@ struct Shapes {
   MatrixXd P;  ///< p x n, P R = 0
 };
 
-/// The p lowest elastic modes of the free reduced body.
+/// The p lowest elastic modes of the free reduced body; unlike free_modes() also where a rigid motion has no mass.
 Shapes lowest_shapes(const formats::Superelement& element, int p) {
   const formats::ScaledMatrices scales = formats::scale(element);
   const auto unit = scales.stiffness_row.asDiagonal();
@@ -63,19 +63,10 @@ void pair_strains(const std::vector<StrainSection>& sections, const MatrixXd& gr
   const Index p = gradient.cols();
   strain.setZero(stress_rows(sections), p * (p + 1) / 2);
   for (Index k = 0, pair = 0; k < p; ++k)
-    for (Index l = k; l < p; ++l, ++pair) {
-      Index s = 0, g = 0;
-      for (const StrainSection& section : sections)
-        for (int r = 0; r < section.repeat; ++r) {
-          for (const QuadraticTerm& term : section.pattern->terms) {
-            const Index a = g + term.first, b = g + term.second;
-            strain(s + term.stress, pair) +=
-                term.coefficient * (gradient(a, k) * gradient(b, l) + gradient(b, k) * gradient(a, l));
-          }
-          s += section.pattern->stresses;
-          g += section.pattern->gradients;
-        }
-    }
+    for (Index l = k; l < p; ++l, ++pair)
+      for_each_product(sections, [&](int stress, int a, int b, double coefficient) {
+        strain(stress, pair) += coefficient * (gradient(a, k) * gradient(b, l) + gradient(b, k) * gradient(a, l));
+      });
 }
 
 /// −C_D⁻¹ c₂: how ties of second order move the coordinates that follow (rows of TieForces::dependent).

@@ -23,15 +23,9 @@ struct StressTerms {
 /// Stress by stress, all points of the sections; `count` elements in a row of gradients.
 std::vector<StressTerms> terms_of(const std::vector<StrainSection>& sections, Eigen::Index count) {
   std::vector<StressTerms> stresses(static_cast<std::size_t>(stress_rows(sections)));
-  int stress = 0, gradient = 0;
-  for (const StrainSection& section : sections)
-    for (int r = 0; r < section.repeat; ++r) {
-      for (const QuadraticTerm& term : section.pattern->terms)
-        stresses[static_cast<std::size_t>(stress + term.stress)].products.push_back(
-            {(gradient + term.first) * count, (gradient + term.second) * count, term.coefficient});
-      stress += section.pattern->stresses;
-      gradient += section.pattern->gradients;
-    }
+  for_each_product(sections, [&](int stress, int first, int second, double coefficient) {
+    stresses[static_cast<std::size_t>(stress)].products.push_back({first * count, second * count, coefficient});
+  });
   return stresses;
 }
 

@@ -23,6 +23,19 @@ struct StrainBatch {
 int stress_rows(const std::vector<StrainSection>& sections);
 int gradient_rows(const std::vector<StrainSection>& sections);
 
+/// use(stress, first, second, coefficient) for the products of all points of the sections: rows of stress and gradient.
+template <class Use>
+void for_each_product(const std::vector<StrainSection>& sections, const Use& use) {
+  int stress = 0, gradient = 0;
+  for (const StrainSection& section : sections)
+    for (int r = 0; r < section.repeat; ++r) {
+      for (const QuadraticTerm& term : section.pattern->terms)
+        use(stress + term.stress, gradient + term.first, gradient + term.second, term.coefficient);
+      stress += section.pattern->stresses;
+      gradient += section.pattern->gradients;
+    }
+}
+
 /// Accumulates Φᵀ K_G[w_j] Φ for all w_j: per batch one matrix product (stresses of w)ᵀ (E2 of pairs Φ_k, Φ_l), about
 /// 2 · stresses · (number of w) · n²/2 operations. Columns are cut into fixed pieces, so that sums are the same for any
 /// number of threads.
