@@ -380,6 +380,20 @@ formats::Companion make_companion(const InternalProblem& problem, const Boundary
   return c;
 }
 
+namespace {
+
+/// What the rows hold, and what not: nothing is left out where all shapes of deformation are looked at.
+std::string trapped_text(const formats::Companion& companion, int shapes) {
+  const Index all = companion.S1.cols() - 6;
+  return fmt::format(
+      "Membrane stress that bending traps has {} rows in the companion file{}.", companion.Lambda.size(),
+      shapes < all
+          ? fmt::format(", of the {} lowest of {} shapes: what bending in others traps is left out", shapes, all)
+          : "");
+}
+
+}  // namespace
+
 std::optional<formats::Companion> companion_if_asked(const formats::Part& part, const InternalProblem& problem,
                                                      const BoundaryModes& boundary, const InternalModes& internal,
                                                      const formats::Superelement& element, ModelCertificate& model) {
@@ -399,8 +413,7 @@ std::optional<formats::Companion> companion_if_asked(const formats::Part& part, 
     model.notes.push_back(
         companion.Lambda.empty()
             ? std::string("No membrane stress is trapped by bending: the companion file has no Lambda.")
-            : fmt::format("Membrane stress that bending traps has {} rows in the companion file.",
-                          companion.Lambda.size()));
+            : trapped_text(companion, part.double_curvature));
   return companion;
 }
 
