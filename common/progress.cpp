@@ -4,10 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "common/clock.hpp"
 
 namespace tisserand {
 
@@ -25,10 +26,7 @@ std::string duration(double seconds) {
 
 }  // namespace
 
-ProgressOutput standard_progress() {
-  return {stderr, ::isatty(::fileno(stderr)) == 1,
-          [] { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }};
-}
+ProgressOutput standard_progress() { return {stderr, ::isatty(::fileno(stderr)) == 1, wall_clock}; }
 
 Progress::Progress(std::string name, double total) : Progress(std::move(name), total, standard_progress()) {}
 

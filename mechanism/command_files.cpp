@@ -7,6 +7,15 @@
 #include "common/error.hpp"
 
 namespace tisserand::mechanism {
+namespace {
+
+std::string stem_of_results(std::string path) {
+  for (const char* known : {".part", ".h5", ".results"})
+    if (path.ends_with(known)) path.resize(path.size() - std::string(known).size());
+  return path;
+}
+
+}  // namespace
 
 std::string default_results(const std::string& scene) {
   std::string stem = std::filesystem::path(scene).filename().string();
@@ -15,11 +24,11 @@ std::string default_results(const std::string& scene) {
   return stem + ".results.h5";
 }
 
+std::string ledger_file(const std::string& results) { return stem_of_results(results) + ".ledger.json"; }
+
 std::string default_page(const std::vector<std::string>& results, const char* ending) {
-  std::string stem = results.empty() ? "run" : std::filesystem::path(results.front()).filename().string();
-  for (const char* known : {".part", ".h5", ".results"})
-    if (stem.ends_with(known)) stem.resize(stem.size() - std::string(known).size());
-  return stem + ending;
+  return (results.empty() ? "run" : stem_of_results(std::filesystem::path(results.front()).filename().string())) +
+         ending;
 }
 
 std::vector<std::string> inputs(const formats::Scene& scene) {

@@ -1,9 +1,7 @@
 // Command line of the second stage.
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <ctime>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -14,6 +12,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include "common/clock.hpp"
 #include "common/console.hpp"
 #include "common/error.hpp"
 #include "common/output_path.hpp"
@@ -59,17 +58,6 @@ void listen_for_interrupts() {
     action.sa_flags = SA_RESETHAND | SA_RESTART;
     ::sigaction(signal, &action, nullptr);
   }
-}
-
-/// Seconds of the processor that this program has used.
-double processor_clock() {
-  timespec now{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double wall_clock() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 struct RunArguments {
@@ -121,6 +109,23 @@ mechanism::RunEnd run_one(const RunArguments& arguments, const mechanism::RunReq
   return end;
 }
 
+mechanism::RunControl ledger_control() {
+  mechanism::RunControl control;
+  control.interrupted = [] { return interrupt_requested.load(std::memory_order_relaxed); };
+  control.clock = processor_clock;
+  return control;
+}
+
+/// What `output: {ledger: yes}` asks for, after the report of the run.
+void tell_ledger(const mechanism::PlannedAnalysis& one, std::optional<mechanism::State> begin, bool restarted) {
+  Progress progress("ledger", 1.0);
+  const std::string told =
+      mechanism::ledger_beside(one, std::move(begin), restarted, mechanism::ledger_file(one.results), ledger_control(),
+                               [&](double done, const std::string& next) { progress.update(done, next); });
+  progress.finish();
+  say(told);
+}
+
 int run(const RunArguments& arguments) {
   const formats::Scene scene = read(arguments);
   std::optional<mechanism::RestartFile> restart;
@@ -140,6 +145,8 @@ int run(const RunArguments& arguments) {
   for (const mechanism::PlannedAnalysis& one : planned) {
     require_output(one.results, files_read, Replaces::hdf5_only);
     formats::require_unheld_results(one.results);
+    if (mechanism::wants_ledger(one))
+      require_output(mechanism::ledger_file(one.results), files_read, Replaces::anything);
   }
   listen_for_interrupts();
   const mechanism::BodyFiles files = mechanism::read_body_files(scene);
@@ -149,13 +156,13 @@ int run(const RunArguments& arguments) {
     std::optional<mechanism::State> begin;
     if (!one.from.empty()) begin = ends.at(one.from);
     mechanism::RunEnd end =
-        run_one(arguments,
-                {one.scene, files, std::move(begin), one.results, arguments.restart, arguments.at, arguments.joining},
+        run_one(arguments, {one.scene, files, begin, one.results, arguments.restart, arguments.at, arguments.joining},
                 one.name, told);
     if (const int code = exit_code(end.report); code != 0) return code;
+    if (mechanism::wants_ledger(one)) tell_ledger(one, std::move(begin), !arguments.restart.empty());
     ends.insert_or_assign(one.name, std::move(end.state));
   }
-  return 0;
+  return interrupt_requested ? exit_interrupted : 0;
 }
 
 int check(const RunArguments& arguments) {
@@ -178,11 +185,8 @@ struct LedgerArguments {
 int ledger(const LedgerArguments& arguments) {
   listen_for_interrupts();
   Progress progress("ledger", 1.0);
-  mechanism::RunControl control;
-  control.interrupted = [] { return interrupt_requested.load(std::memory_order_relaxed); };
-  control.clock = processor_clock;
   const std::string told =
-      mechanism::perform_ledger(read(arguments.run), arguments.run.analysis, arguments.command, control,
+      mechanism::perform_ledger(read(arguments.run), arguments.run.analysis, arguments.command, ledger_control(),
                                 [&](double done, const std::string& next) { progress.update(done, next); });
   progress.finish();
   say(told);

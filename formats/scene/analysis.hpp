@@ -87,6 +87,7 @@ struct OutputSpec {
   std::optional<double> interval;
   double from = 0.0;                  ///< the reader's default is integrator.start
   std::vector<std::string> channels;  ///< groups or datasets such as "nodes", "nodes/position", "energy"; empty: all
+  bool ledger = false;                ///< after a run of dynamics: what each effect changes and costs
 };
 
 struct ModesSpec {

@@ -115,10 +115,23 @@ void check_groups(const Scene& scene, const std::string& where, Faults& faults) 
                    "use generalised_alpha or hht, or leave checkpoints out");
 }
 
+/// Several analyses take `output` from the scene, so that one of dynamics among them is enough.
+void check_ledger(const Scene& scene, Faults& faults) {
+  bool asked = scene.output.ledger, dynamics = scene.analysis == AnalysisKind::dynamics && scene.analyses.empty();
+  for (const Analysis& analysis : scene.analyses) {
+    asked = asked || analysis.output.ledger;
+    dynamics = dynamics || analysis.kind == AnalysisKind::dynamics;
+  }
+  if (asked && !dynamics)
+    Group{scene.file, "output", faults}.add("ledger", "ledger: only dynamics has a ledger, and no analysis is one",
+                                            "leave it out");
+}
+
 }  // namespace
 
 void check_settings(const Scene& scene, Faults& faults) {
   std::vector<std::string> names;
+  check_ledger(scene, faults);
   for (const Analysis& analysis : scene.analyses) {
     check_name("analysis", analysis.name, analysis.where, names, faults);
     check_groups(scene_of(scene, analysis), analysis.where, faults);

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <map>
 
+#include "formats/roads/road_spectrum.hpp"
 #include "formats/scene/check_parts.hpp"
 #include "formats/scene/reader.hpp"
-#include "formats/roads/road_spectrum.hpp"
 #include "formats/scene/time_function_reader.hpp"
 #include "formats/tyres/tyre_property_file.hpp"
 #include "formats/yaml/fields.hpp"
@@ -26,7 +26,6 @@ constexpr Choice<RoadClass> road_classes[] = {{"A", RoadClass::A}, {"B", RoadCla
                                               {"G", RoadClass::G}, {"H", RoadClass::H}};
 constexpr Choice<TyreKind> tyre_kinds[] = {{"comprehensive_slip", TyreKind::comprehensive_slip},
                                            {"magic_formula", TyreKind::magic_formula}};
-constexpr Choice<bool> yes_or_no[] = {{"yes", true}, {"no", false}, {"true", true}, {"false", false}};
 
 /// Keys of one kind of tyre alone; the first of each list are required there.
 constexpr std::string_view slip_keys[] = {

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/text.hpp"
 #include "mechanism/build/effects.hpp"
 #include "mechanism/ledger/table.hpp"
-#include "mechanism/run/analyses.hpp"
 #include "mechanism/simulate.hpp"
 
 namespace tisserand::mechanism {
@@ -47,17 +47,10 @@ void require_part(const char* option, double value) {
     throw Error(fmt::format("{}: {} is no part of a whole", option, value), "", "give a number from 0 to 1");
 }
 
-}  // namespace
-
-std::string perform_ledger(const formats::Scene& scene, const std::string& analysis, const LedgerCommand& command,
-                           const RunControl& control,
-                           const std::function<void(double done, const std::string& next)>& progress) {
-  require_part("--share", command.windows.share);
-  require_part("--active", command.least_activity);
-  const std::vector<PlannedAnalysis> planned = planned_for(scene, analysis);
-  const BodyFiles files = read_ledger_files(scene);
-  const formats::Scene whole = with_switches(planned.back().scene, {});  // auto: on
-  LedgerRequest request{whole, beginning_of_last(planned, files, control)};
+Ledger ledger_of(const formats::Scene& scene, std::optional<State> begin, const LedgerCommand& command,
+                 const BodyFiles& files, const RunControl& control, const LedgerProgress& progress) {
+  const formats::Scene whole = with_switches(scene, {});  // auto: on
+  LedgerRequest request{whole, std::move(begin)};
   request.results = command.results;
   request.windows = command.windows;
   request.repeats = command.repeats;
@@ -65,7 +58,31 @@ std::string perform_ledger(const formats::Scene& scene, const std::string& analy
   request.choice = command.choice;
   request.least_activity = command.least_activity;
   request.progress = progress;
-  const Ledger ledger = make_ledger(request, files, control);
+  return make_ledger(request, files, control);
+}
+
+}  // namespace
+
+bool wants_ledger(const PlannedAnalysis& one) {
+  return one.scene.output.ledger && one.scene.analysis == formats::AnalysisKind::dynamics;
+}
+
+std::string ledger_beside(const PlannedAnalysis& one, std::optional<State> begin, bool restarted,
+                          const std::string& path, const RunControl& control, const LedgerProgress& progress) {
+  if (restarted) return "ledger: none is made of a run that goes on from a file; `mechanism ledger` makes it\n";
+  const Ledger ledger = ledger_of(one.scene, std::move(begin), {}, read_ledger_files(one.scene), control, progress);
+  write_text_file(path, ledger_json(ledger));
+  return fmt::format("ledger: {}  {:<16} {}\n", ledger_text(ledger, one.scene.units), "written", path);
+}
+
+std::string perform_ledger(const formats::Scene& scene, const std::string& analysis, const LedgerCommand& command,
+                           const RunControl& control, const LedgerProgress& progress) {
+  require_part("--share", command.windows.share);
+  require_part("--active", command.least_activity);
+  const std::vector<PlannedAnalysis> planned = planned_for(scene, analysis);
+  const BodyFiles files = read_ledger_files(scene);
+  const Ledger ledger =
+      ledger_of(planned.back().scene, beginning_of_last(planned, files, control), command, files, control, progress);
   if (command.json) return ledger_json(ledger);
   return fmt::format("{}: {}: {}", scene.file, scene.name, ledger_text(ledger, scene.units));
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mechanism/equations/increments.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -29,8 +30,8 @@ void weigh(const Model& model, PositionProjection& projection) {
   const auto weight = [&](int i) -> double& { return values[model.pattern->slot(i, i)]; };
   projection.turns.setZero();
   for (const Node& node : model.nodes)
-    for (int k = 0; k < 3 && node.rotation >= 0; ++k)
-      if (weight(node.rotation + k) != 0.0) projection.turns[node.rotation + k] = 1.0;
+    for (int k = 3; k < 6; ++k)
+      if (const int i = coordinate_of(model, node, k); i >= 0 && weight(i) != 0.0) projection.turns[i] = 1.0;
   for (int i = 0; i < model.sizes.boundary; ++i) {
     projection.held[i] = weight(i) != 0.0;
     weight(i) += least_weight / (model.equation_scale[i] * model.equation_scale[i]);

@@ -5,21 +5,16 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <ctime>
 
 #include <fmt/format.h>
+
+#include "common/clock.hpp"
 
 namespace tisserand::reducer {
 namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double processor_seconds() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
 /// The most that this process has held at one time (Linux counts in 1024 bytes).
@@ -81,7 +76,7 @@ Phases::~Phases() {
 void Phases::begin(const std::string& name) {
   end();
   const std::lock_guard lock(mutex_);
-  phases_.push_back({name, Clock::now(), 0.0, 0.0, processor_seconds(), 0.0});
+  phases_.push_back({name, Clock::now(), 0.0, 0.0, processor_clock(), 0.0});
   running_ = true;
   changed_.notify_all();
 }
@@ -95,16 +90,16 @@ void Phases::solve(int columns) {
   const std::lock_guard lock(mutex_);
   columns_ += columns;
   if (columns > 0)
-    solving_since_ = processor_seconds();
+    solving_since_ = processor_clock();
   else
-    solving_seconds_ += processor_seconds() - solving_since_;
+    solving_seconds_ += processor_clock() - solving_since_;
 }
 
 void Phases::end() {
   const std::lock_guard lock(mutex_);
   if (running_) {
     phases_.back().seconds = seconds_since(phases_.back().start);
-    phases_.back().processor_seconds = processor_seconds() - phases_.back().processor_start;
+    phases_.back().processor_seconds = processor_clock() - phases_.back().processor_start;
     phases_.back().peak_bytes = peak_bytes();
   }
   running_ = false;

@@ -220,6 +220,16 @@ TEST(Planar, SpinUpOfASecondOrderBeamAsInSpace) {
   for (const Quaterniond& q : {upright, on_edge, askew}) expect_same_run(spin_up(q), files);
 }
 
+// Factors of the projection of positions are renewed where bodies have turned far: at the same steps as in space, so
+// that not even what they are too old for differs (it was 2e-9 of the length).
+TEST(Planar, RenewsTheProjectionOfPositionsAsInSpace) {
+  Turned t = spin_up(upright);
+  t.scene.integrator.step = 0.01;
+  t.scene.integrator.end = 1.0;
+  t.scene.motions = {test_support::drive("root", "t^4")};
+  expect_same_run(t, second_order_files(), 1e-12);
+}
+
 // Three of six coordinates per rigid body; of a revolute joint two of five equations, of a prismatic one two of five.
 TEST(Planar, HasHalfTheCoordinatesAndNoRedundantEquation) {
   const formats::Scene scene = rigid_slider_crank(upright).scene;
