@@ -8,6 +8,7 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/equations/iteration_matrix.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/step/accept.hpp"
 
 namespace tisserand::mechanism {
@@ -109,10 +110,10 @@ void Index1::rates(const double* y, double* ydot) const {
   const auto v = state_.v();
   for (int i = 0; i < nodes; ++i) {
     const Node& node = model_.nodes[i];
-    if (node.translation >= 0) Eigen::Map<Eigen::Vector3d>(ydot + 3 * i) = v.segment<3>(node.translation);
+    if (node.translation >= 0) Eigen::Map<Eigen::Vector3d>(ydot + 3 * i) = translation_at(model_, v, node.translation);
     if (node.rotation < 0) continue;
     const Eigen::Map<const Eigen::Vector4d> p(y + 3 * nodes + 4 * i);
-    const Eigen::Vector3d e = p.tail<3>(), Omega = v.segment<3>(node.rotation);
+    const Eigen::Vector3d e = p.tail<3>(), Omega = rotation_at(model_, v, node.rotation);
     double* pdot = ydot + 3 * nodes + 4 * i;
     pdot[0] = -0.5 * e.dot(Omega);
     Eigen::Map<Eigen::Vector3d>(pdot + 1) = 0.5 * (p[0] * Omega + e.cross(Omega));
@@ -177,7 +178,7 @@ void Index1::tolerances(double* absolute) const {
   std::fill_n(absolute + 3 * nodes, layout_.size() - 3 * nodes, tolerance);
   double* v = absolute + layout_.positions;
   for (const Node& node : model_.nodes)
-    if (node.translation >= 0) std::fill_n(v + node.translation, 3, tolerance * model_.length);
+    if (node.translation >= 0) std::fill_n(v + node.translation, translations_of(model_), tolerance * model_.length);
   // Internal coordinates and modes of a body of mass m are lengths times sqrt(m); they stand at the end of both parts.
   const int internal = model_.sizes.internal;
   for (const ModalBody& body : model_.modal_bodies) {

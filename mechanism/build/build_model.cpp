@@ -66,7 +66,7 @@ BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files) {
   for (const formats::LoadSpec& load : scene.loads) c.collect([&] { add_load(load, c); });
   for (const formats::PartLoadSpec& load : scene.part_loads) c.collect([&] { add_part_load(load, c); });
   c.throw_errors();
-  if (!scene.planar_at.empty()) make_planar(c);
+  if (!scene.planar_at.empty()) make_planar(initial, c);
 
   finish(c);
   BuiltModel built{std::move(c.model), State(Sizes{}), std::move(c.starts), std::move(initial), std::move(c.notes)};

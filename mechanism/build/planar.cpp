@@ -31,6 +31,8 @@ class PlanarCheck {
 
   void bodies() const;
   void velocities() const;
+  void starts(const std::vector<CoordinateStart>& initial) const;
+  void rotations() const;
   void forces() const;
   /// Leaves the equations in the plane.
   void reduce(Joint& joint) const;
@@ -118,6 +120,23 @@ void PlanarCheck::velocities() const {
     require_normal(omega, std::max(fastest / model_.length, omega.norm()),
                    fmt::format("the angular velocity of body '{}'", body.name), "let it turn about the normal");
   }
+}
+
+/// What `initial` says of joint coordinates.
+void PlanarCheck::starts(const std::vector<CoordinateStart>& initial) const {
+  for (const CoordinateStart& one : initial) coordinate(one.coordinate, fmt::format("initial '{}'", one.name));
+}
+
+/// Steady rotations of statics and modes.
+void PlanarCheck::rotations() const {
+  const auto require = [this](const std::optional<Vector3d>& omega, const char* name) {
+    if (omega)
+      require_normal(model_.axes.transpose() * *omega, omega->norm(), name, "let the scene turn about the normal");
+  };
+  const std::optional<formats::RotationSpec>& steady = c_.scene.statics.rotation;
+  if (c_.scene.analysis == formats::AnalysisKind::statics)
+    require(steady ? std::optional(steady->angular_velocity) : std::nullopt, "statics: the angular velocity");
+  if (c_.scene.analysis == formats::AnalysisKind::modes) require(c_.scene.modes.rotation, "modes: rotation");
 }
 
 void PlanarCheck::bodies() const {
@@ -331,12 +350,14 @@ void make_superelements_planar(const std::vector<Eigen::Matrix3d>& axes, Constru
 
 }  // namespace
 
-void make_planar(Construction& c) {
+void make_planar(const std::vector<CoordinateStart>& initial, Construction& c) {
   const std::vector<Eigen::Matrix3d> axes = turn_into_plane(find_normal(c), c);
   const PlanarCheck check(c);
   check.bodies();
   make_superelements_planar(axes, c);
   check.velocities();
+  check.starts(initial);
+  check.rotations();
   for (Joint& joint : c.model.joints) check.reduce(joint);
   check.forces();
   c.model.planar = true;

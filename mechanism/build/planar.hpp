@@ -11,9 +11,9 @@ namespace tisserand::mechanism {
 
 /// Finds the plane, turns the model into its axes (build/plane.hpp), and leaves of coordinates, equations of joints,
 /// superelements and modes those in the plane. Throws Error that names the first body, joint, load or velocity that
-/// could leave it, with the quantity, its value and a remedy. After all else is built, before the coordinates are
-/// numbered.
-void make_planar(Construction& c);
+/// could leave it, with the quantity, its value and a remedy; `initial` are the coordinates that start as the scene
+/// says. After all else is built, before the coordinates are numbered.
+void make_planar(const std::vector<CoordinateStart>& initial, Construction& c);
 
 // Of plane.cpp.
 

@@ -10,6 +10,7 @@ IterationMatrix::IterationMatrix(const Model& model)
     : increment(Eigen::VectorXd::Zero(model.sizes.velocities())),
       multipliers(Eigen::VectorXd::Zero(model.sizes.constraints)),
       correction(increment),
+      projection_multipliers(multipliers),
       rows(multipliers),
       system_(model) {
   int boundary = 0;
@@ -72,6 +73,7 @@ void IterationMatrix::solve_projection(const Model& model, const Eigen::Ref<cons
   system_.unknowns.tail(model.sizes.constraints) = right.cwiseProduct(evaluation.active);
   system_.solve(model);
   correction.head(n) = system_.unknowns.head(n);
+  projection_multipliers = system_.unknowns.tail(model.sizes.constraints) * system_.matrix.scale;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     gather(model, i, correction);
     expand_motion(body_of(model, i), evaluation.superelements[i], element_boundary_.data(),

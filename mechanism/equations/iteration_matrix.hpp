@@ -33,7 +33,7 @@ class IterationMatrix {
   /// `multipliers` dλ.
   void solve_increment(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& rows, Evaluation& evaluation);
   /// Solves A d + Bᵀ μ = 0, B d = rows: the smallest change, weighted with A, that does `rows` to the constraints.
-  /// `correction` receives d.
+  /// `correction` receives d, `projection_multipliers` μ.
   void solve_projection(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& rows, Evaluation& evaluation);
 
   /// Name of the coordinate or constraint that dominates the solution for a unit right-hand side: with nearly singular
@@ -41,10 +41,11 @@ class IterationMatrix {
   std::string weakest_equation(const Model& model);
   const SolverHealth& health() const { return system_.health(); }
 
-  Eigen::VectorXd increment;    ///< d of solve_increment()
-  Eigen::VectorXd multipliers;  ///< dλ of solve_increment()
-  Eigen::VectorXd correction;   ///< d of solve_projection()
-  Eigen::VectorXd rows;         ///< buffer for right-hand sides of constraint rows
+  Eigen::VectorXd increment;               ///< d of solve_increment()
+  Eigen::VectorXd multipliers;             ///< dλ of solve_increment()
+  Eigen::VectorXd correction;              ///< d of solve_projection()
+  Eigen::VectorXd projection_multipliers;  ///< μ of solve_projection()
+  Eigen::VectorXd rows;                    ///< buffer for right-hand sides of constraint rows
 
  private:
   void gather(const Model& model, std::size_t superelement, const Eigen::VectorXd& boundary);

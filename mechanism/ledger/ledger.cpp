@@ -209,6 +209,7 @@ class LedgerMaker {
 
   Ledger finished() {
     ledger_.scene = request_.scene.name;
+    ledger_.doubt = reference_.doubt;
     ledger_.windows = static_cast<int>(reference_.windows.size());
     if (ledger_.windows > 0) ledger_.window = reference_.windows.front().end - reference_.windows.front().start;
     if (!own_per_step_.empty()) {

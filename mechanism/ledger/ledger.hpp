@@ -48,6 +48,7 @@ struct Ledger {
   std::vector<LedgerLine> lines;      ///< the largest change first
   bool interrupted = false;           ///< lines are missing
   std::vector<std::string> verdicts;  ///< on the inertia of superelements, whole sentences
+  std::string doubt;                  ///< of the results whose instants begin windows; empty: none
 };
 
 /// Takes the windows of a run, and for each effect that the scene has or could have the same windows again with this

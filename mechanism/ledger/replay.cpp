@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "common/error.hpp"
 #include "formats/results/results.hpp"
+#include "formats/yaml/emit.hpp"
 #include "mechanism/run/stored_state.hpp"
 #include "mechanism/simulate.hpp"
 
@@ -120,6 +123,25 @@ void require_windows(const formats::Scene& scene, const ReferenceRun& run) {
     throw Error("the run holds no instant at which a window could begin", scene.file, "give it more steps");
 }
 
+/// The first line in which the scene of the results is another one.
+std::string other_scene(const formats::Scene& scene, const formats::ResultsReader& results) {
+  const std::string& stored = results.layout().simulated.text;
+  if (!scene.tree || stored.empty()) return {};
+  std::istringstream there(stored), here(formats::block_text(*scene.tree));
+  std::string a, b;
+  while (true) {
+    const bool more_there = bool(std::getline(there, a)), more_here = bool(std::getline(here, b));
+    if (!more_there && !more_here) return {};
+    if (more_there && more_here && a == b) continue;
+    const auto text = [](bool more, const std::string& line) {
+      return more ? fmt::format("'{}'", line.substr(std::min(line.find_first_not_of(' '), line.size()))) : "nothing";
+    };
+    return fmt::format(
+        "{} are results of another scene or of other settings: {} there, {} here; windows begin with its states",
+        results.path(), text(more_there, a), text(more_here, b));
+  }
+}
+
 }  // namespace
 
 ReferenceRun run_reference(const formats::Scene& scene, const std::optional<State>& begin, const LedgerStage& stage) {
@@ -139,10 +161,12 @@ ReferenceRun run_reference(const formats::Scene& scene, const std::optional<Stat
 }
 
 ReferenceRun windows_of_results(const formats::Scene& scene, const std::string& file, const LedgerStage& stage) {
-  const std::vector<double> time = formats::ResultsReader(file).time();
+  const formats::ResultsReader results(file);
+  const std::vector<double> time = results.time();
   const BuiltModel built = build_model(scene, stage.files);
   Workspace workspace(built.model);
   ReferenceRun run;
+  run.doubt = other_scene(scene, results);
   for (int i = 0; i < stage.choice.windows; ++i) {
     const auto [start, end] = window_times(scene.integrator, stage.choice, i);
     const auto found = std::ranges::lower_bound(time, start - 1e-9 * run_time(scene));

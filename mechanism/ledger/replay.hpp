@@ -48,6 +48,7 @@ struct ReferenceRun {
   std::vector<LedgerWindow> windows;
   std::optional<Measures> measures;
   std::optional<MeasureSizes> sizes;
+  std::string doubt;  ///< of stored results: that they are not of this scene; empty: they are, or do not tell
 };
 ReferenceRun run_reference(const formats::Scene& scene, const std::optional<State>& begin, const LedgerStage& stage);
 

@@ -70,6 +70,7 @@ std::string ledger_text(const Ledger& ledger, const Units& units) {
                                  time, 1e6 * ledger.seconds_per_step, std::ceil(100.0 * ledger.scatter));
   for (const LedgerLine& line : ledger.lines) text += fmt::format("  {}\n", line_text(line));
   for (const std::string& verdict : ledger.verdicts) text += fmt::format("  {}\n", verdict);
+  if (!ledger.doubt.empty()) text += fmt::format("  in doubt: {}\n", ledger.doubt);
   if (ledger.interrupted) text += "  interrupted: effects are missing\n";
   return text;
 }
@@ -81,6 +82,7 @@ std::string ledger_json(const Ledger& ledger) {
   json["effects"] = nlohmann::ordered_json::array();
   for (const LedgerLine& line : ledger.lines) json["effects"].push_back(line_json(line));
   json["inertia"] = ledger.verdicts;
+  if (!ledger.doubt.empty()) json["doubt"] = ledger.doubt;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

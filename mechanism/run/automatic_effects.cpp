@@ -12,6 +12,7 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/run/output.hpp"
 #include "mechanism/run/run.hpp"
+#include "mechanism/step/redundancy.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -19,12 +20,14 @@ namespace {
 /// An effect that takes less than this part of what is allowed, for so many windows, sleeps.
 constexpr double quiet_demand = 0.25;
 constexpr int quiet_windows = 10;
-/// Steps of a window where the scene gives no length, and its part of the run where steps have no fixed size.
-constexpr double window_steps = 20.0, window_part = 0.01;
+/// Steps of a window where the scene gives no length, and its part of the run where steps have no fixed size; three
+/// steps have second differences.
+constexpr double window_steps = 20.0, window_part = 0.01, least_steps = 3.0;
 
 double window_of(const formats::Scene& scene) {
   const formats::IntegratorSpec& integrator = scene.integrator;
-  if (scene.automatic.window) return *scene.automatic.window;
+  const double least = integrator.error_control.active ? 0.0 : least_steps * integrator.step;
+  if (scene.automatic.window) return std::max(*scene.automatic.window, least);
   return integrator.error_control.active ? window_part * (integrator.end - integrator.start)
                                          : window_steps * integrator.step;
 }
@@ -34,6 +37,20 @@ void require_method(const formats::Scene& scene) {
   if (method == formats::Method::generalised_alpha || method == formats::Method::hht) return;
   throw Error("effects: 'auto' switches between steps of generalised_alpha and hht, not of bdf and radau", scene.file,
               "give another method, or 'on' and 'off' in place of 'auto'");
+}
+
+/// Joints whose reactions are unique with all effects on and not with those bodies rigid that `model` has rigid.
+std::vector<std::string> undetermined(const Model& model, const Evaluation& now, const RunReport& whole) {
+  std::vector<std::string> names = joints_without_unique_reaction(model, now);
+  std::erase_if(names, [&whole](const std::string& name) { return std::ranges::count(whole.not_unique, name) > 0; });
+  return names;
+}
+
+std::string undetermined_text(const std::vector<std::string>& names) {
+  return fmt::format(
+      "auto: while bodies sleep the reactions of {} are not unique, which only flexibility decides: those "
+      "of least norm are stored; give flexibility: on where they or their friction matter",
+      listed(names));
 }
 
 bool is_flexibility(const EffectUse& use) { return use.effect == formats::Effect::flexibility; }
@@ -52,6 +69,46 @@ AutomaticEffects::AutomaticEffects(const formats::Scene& scene, const BodyFiles&
     for (std::size_t k = 0; k < uses_.size(); ++k)
       if (!is_flexibility(use.effect) && is_flexibility(uses_[k].effect) && uses_[k].effect.body == use.effect.body)
         use.flexibility = static_cast<int>(k);
+}
+
+std::string AutomaticEffects::rule() const {
+  std::vector<std::string> flexible, stiff;
+  for (const Use& use : uses_) (is_flexibility(use.effect) ? flexible : stiff).push_back(use.effect.body);
+  std::vector<std::string> parts;
+  if (!flexible.empty()) parts.push_back("flexibility of " + listed(flexible));
+  if (!stiff.empty()) parts.push_back("stiffening of " + listed(stiff));
+  return fmt::format("{}: tolerance {:.6g}, window {:.6g}{}", listed(parts, "; "), scene_.automatic.tolerance, window_,
+                     after_number(unit_label(scene_.units, 0, 0, 1)));
+}
+
+void AutomaticEffects::look_ahead(Run& run) const {
+  const formats::Scene scene = scene_with(Awake(uses_.size(), false));
+  BuiltModel built = build_model(scene, files_);
+  Workspace workspace(built.model);
+  start(scene, StartFrom::poses, built, workspace);
+  const std::vector<std::string> names = undetermined(built.model, workspace.now, run.report);
+  if (!names.empty()) run.report.notes.push_back(undetermined_text(names));
+}
+
+/// Once per joint.
+void AutomaticEffects::note_reactions(Run& run) {
+  evaluate(run.built.model, run.built.state, *now_);
+  std::vector<std::string> names = undetermined(run.built.model, *now_, run.report);
+  std::erase_if(names, [this](const std::string& name) { return !undetermined_.insert(name).second; });
+  if (!names.empty()) run.report.notes.push_back(undetermined_text(names));
+}
+
+/// Once.
+void AutomaticEffects::doubt_sleep(const Awake& next, Run& run) {
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < uses_.size(); ++k)
+    if (next[k] && !uses_[k].awake)
+      names.push_back(fmt::format("{} of '{}'", formats::effect_word(uses_[k].effect.effect), uses_[k].effect.body));
+  if (names.empty() || std::exchange(doubted_, true)) return;
+  run.report.doubts.push_back(fmt::format(
+      "{} would matter from t = {:.6g} on and cannot wake there, since the joints do not close with it: give "
+      "it 'on' in place of 'auto'",
+      listed(names), run.built.state.time()));
 }
 
 AutomaticEffects::Awake AutomaticEffects::awake() const {
@@ -85,6 +142,8 @@ void AutomaticEffects::take_over(BuiltModel built, const Awake& awake, const for
   sampled_ = false;
   now_.emplace(run.built.model);
   lift_.emplace(run.built.model, whole_.model);
+  inertia_.emplace(run.built.model, whole_.model);
+  inertia_set_ = false;
   for (std::size_t k = 0; k < uses_.size(); ++k) {
     uses_[k].quiet = uses_[k].awake == awake[k] ? uses_[k].quiet : 0;
     uses_[k].awake = awake[k];
@@ -99,15 +158,18 @@ void AutomaticEffects::start_with(const Awake& awake, Run& run) {
   take_over(std::move(built), awake, scene, run);
 }
 
-/// Of the whole state: with all effects but the flexibility of bodies that have neither deformation nor its rate.
-AutomaticEffects::Awake AutomaticEffects::all_but_undeformed() const {
+/// Of the whole state: with all effects but the flexibility of bodies that have neither deformation nor its rate. Their
+/// internal coordinates rest and their nodes stand as one rigid body, to what poses that were stored leave.
+AutomaticEffects::Awake AutomaticEffects::all_but_undeformed() {
+  constexpr double round_off = 1e-10;  // of the characteristic length
   Awake list(uses_.size(), true);
+  evaluate(whole_.model, whole_state_, *whole_now_);
   const Model& model = whole_.model;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const int at = model.internal_offset[i], modes = body_of(model, i).modes;
     const bool rests = whole_state_.y().segment(at, modes).isZero(0.0) &&
                        whole_state_.v().segment(model.sizes.boundary + at, modes).isZero(0.0);
-    if (modes == 0 || !rests) continue;
+    if (modes == 0 || !rests || demand_->bend(i, *whole_now_) > round_off * model.length) continue;
     for (std::size_t k = 0; k < uses_.size(); ++k)
       if (uses_[k].effect.body == model.superelements[i].name) list[k] = false;
   }
@@ -140,6 +202,7 @@ void AutomaticEffects::begin(Run& run) {
     use.was_awake = use.awake;
     use.changes.clear();
   }
+  note_reactions(run);
 }
 
 void AutomaticEffects::restore(Run& run, const std::vector<double>& memory) {
@@ -185,14 +248,16 @@ void AutomaticEffects::sample_here(const Run& run) {
   const State& state = run.built.state;
   whole_state(run);
   evaluate(whole_.model, whole_state_, *whole_now_);
-  demand_->sample(whole_state_, *whole_now_, awake(), state.force_scale(0));
+  if (!inertia_set_) inertia_->set(state, scene_.integrator.step);
+  inertia_set_ = true;
+  demand_->sample(whole_state_, *whole_now_, awake(), state.force_scale(0), *inertia_);
   const Energy energy = evaluate_energy(whole_.model, *whole_now_);
   energy_reference_ =
       std::max(energy_reference_, std::abs(energy.kinetic) + std::abs(energy.strain) + std::abs(state.work()));
 }
 
 void AutomaticEffects::begin_window(const Run& run) {
-  blocked_ = false;
+  blocked_ = inertia_set_ = false;
   if (!sampled_) {
     demand_->forget();
     sample_here(run);
@@ -216,6 +281,7 @@ bool AutomaticEffects::wake(Run& run) {
     start_with(next, run);
     for (Use& use : uses_) use.was_awake = use.awake;
     begin_window(run);
+    note_reactions(run);
     return true;
   }
   sample_here(run);
@@ -229,6 +295,7 @@ bool AutomaticEffects::wake(Run& run) {
   sampled_ = false;
   begin_window(run);
   blocked_ = !woken;
+  if (blocked_) doubt_sleep(next, run);
   return woken;
 }
 
@@ -246,6 +313,7 @@ bool AutomaticEffects::switch_to(const Awake& next, const Deformations& deformat
   run.doubts.leave(run.built.model);
   take_over(std::move(after->built), next, scene, run);
   switched_ += after->energy;
+  note_reactions(run);
   return true;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,10 @@ class AutomaticEffects {
   void begin(Run& run);
   /// Takes the whole model from the run, and gives it that of a checkpoint, whose state is for the caller to set.
   void restore(Run& run, const std::vector<double>& memory);
+  /// Which effects, by which tolerance and window.
+  std::string rule() const;
+  /// Of a check: notes what the reactions of all bodies asleep would be worth.
+  void look_ahead(Run& run) const;
   /// For checkpoints at the ends of windows.
   std::vector<double> memory() const;
   std::size_t memory_size() const { return 2 * uses_.size() + 2; }
@@ -73,8 +78,10 @@ class AutomaticEffects {
   /// From the poses of the scene, as if it had no other effects.
   void start_with(const Awake& awake, Run& run);
   bool switch_to(const Awake& next, const Deformations& deformations, bool at_any_cost, Run& run);
+  void note_reactions(Run& run);
+  void doubt_sleep(const Awake& next, Run& run);
   void take_over(BuiltModel built, const Awake& awake, const formats::Scene& scene, Run& run);
-  Awake all_but_undeformed() const;
+  Awake all_but_undeformed();
   void give_whole(Run& run);
 
   formats::Scene scene_;  ///< with its switches
@@ -86,9 +93,13 @@ class AutomaticEffects {
   std::optional<Evaluation> whole_now_, now_;  ///< of the whole model, and of that of the run
   std::optional<StateTransfer> lift_;          ///< from the model of the run to the whole one
   std::optional<Demand> demand_;
-  bool sampled_ = false;  ///< where the run stands, with its present model
-  bool blocked_ = false;  ///< what matters could not be woken in this window
-  bool fresh_ = false;    ///< the run stands at the poses of the scene
+  std::optional<CarriedInertia> inertia_;
+  std::set<std::string> undetermined_;  ///< joints of which was told that sleep leaves their reactions open
+  bool doubted_ = false;                ///< that something could not wake was told
+  bool inertia_set_ = false;            ///< in this window
+  bool sampled_ = false;                ///< where the run stands, with its present model
+  bool blocked_ = false;                ///< what matters could not be woken in this window
+  bool fresh_ = false;                  ///< the run stands at the poses of the scene
   double energy_reference_ = 0.0;
   double switched_ = 0.0;
 };

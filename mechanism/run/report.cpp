@@ -145,6 +145,7 @@ std::string report_text(const RunReport& report, const Units& units) {
   for (const std::string& note : report.notes) line("note", note);
   line("model", join(report.effects, ", "));
   line("effects", report.switches);
+  if (!report.automatic_rule.empty()) line("auto", report.automatic_rule);
   for (const SwitchHistory& history : report.automatic) line("auto", history_text(history));
   line("mobility", fmt::format("{} degrees of freedom: {} coordinates, {} constraints of rank {}",
                                report.mobility.degrees_of_freedom, report.mobility.coordinates,
@@ -162,7 +163,7 @@ std::string report_text(const RunReport& report, const Units& units) {
                             report.iterations, report.factorisations));
   constexpr std::size_t shown = 3;
   for (std::size_t i = 0; i < std::min(shown, report.rejections.size()); ++i) line("taken again", report.rejections[i]);
-  if (report.rejected > static_cast<long>(shown))
+  if (report.rejected > static_cast<long>(shown) && !report.rejections.empty())
     line("", fmt::format("and {} more; the report in the results file lists the first {}",
                          report.rejected - static_cast<long>(shown), report.rejections.size()));
   if (has_balance(report))

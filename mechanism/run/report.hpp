@@ -49,9 +49,10 @@ struct RunReport {
   std::string table_title;  ///< of the lines that only this analysis has: poses, modes
   std::vector<std::string> table;
   std::vector<std::string> notes;
-  std::vector<std::string> doubts;  ///< of the results, measured while it ran
+  std::vector<std::string> doubts;   ///< of the results, measured while it ran
   std::vector<std::string> effects;  ///< what the model contains: pools and terms that are on
   std::string switches;              ///< optional effects that it has, and those that the scene switches off
+  std::string automatic_rule;        ///< what a run switches by itself, by which tolerance and window; empty: nothing
   std::vector<SwitchHistory> automatic;
   long repeated = 0;  ///< steps that were taken again because an effect woke
   std::string solver;

@@ -184,7 +184,9 @@ Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunCo
   report.switches = effects_text(effects_of(scene_to_run, files));
   if (scene.analysis != formats::AnalysisKind::dynamics) return;
   std::vector<EffectUse> uses = automatic_effects(scene_to_run, files);
-  if (!uses.empty()) automatic = std::make_unique<AutomaticEffects>(scene_to_run, files, std::move(uses));
+  if (uses.empty()) return;
+  automatic = std::make_unique<AutomaticEffects>(scene_to_run, files, std::move(uses));
+  report.automatic_rule = automatic->rule();
 }
 
 std::string nonfinite_load(Run& run, double time) {

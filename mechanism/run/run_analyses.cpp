@@ -10,6 +10,7 @@
 #include "mechanism/analyses/kinematics.hpp"
 #include "mechanism/analyses/modes.hpp"
 #include "mechanism/equations/evaluate.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/run/off_road.hpp"
 #include "mechanism/run/output.hpp"
 #include "mechanism/run/run.hpp"
@@ -165,8 +166,9 @@ void add_body_coordinates(const Run& run, const ModesReport& modes, Evaluation& 
       moving.v() = motion;
       for (std::size_t i = 0; i < model.nodes.size(); ++i)
         if (const int rotation = model.nodes[i].rotation; rotation >= 0)
-          moving.v().segment<3>(rotation) =
-              motion_of(evaluation, static_cast<int>(i)).R.transpose() * motion.segment<3>(rotation);
+          set_rotation(model,
+                       motion_of(evaluation, static_cast<int>(i)).R.transpose() * rotation_at(model, motion, rotation),
+                       rotation, moving.v());
       fill_row(model, moving, evaluation, row);
     };
     rates(shape.real());
@@ -188,7 +190,8 @@ void find_modes(Run& run, RowWriter& out) {
   report.time = state.time();
   report.steps = 1;
   report.table = modes_lines(model, modes);
-  report.table_title = fmt::format("modes of {} degrees of freedom", modes.degrees_of_freedom);
+  report.table_title = fmt::format("modes of {} degrees of freedom{}", modes.degrees_of_freedom,
+                                   model.planar ? " in the plane; those out of it are not in the model" : "");
   double lowest = 0.0;
   for (const Mode& mode : modes.modes)
     if (lowest == 0.0) lowest = std::abs(mode.eigenvalue);

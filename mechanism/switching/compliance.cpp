@@ -16,22 +16,22 @@ using Eigen::VectorXd;
 /// Eigenvalues of the scaled S̄ below this part of the largest belong to motions without strain.
 constexpr double strainless = 1e-11;
 
-MatrixXd pseudo_inverse(const MatrixXd& S, const VectorXd& units) {
+/// V with Vᵀ S V = 1 and V Vᵀ the pseudo-inverse of S, in coordinates of one size.
+MatrixXd strained_shapes(const MatrixXd& S, const VectorXd& units) {
   const MatrixXd scaled = units.asDiagonal() * S * units.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(scaled);
-  const VectorXd& values = modes.eigenvalues();
-  VectorXd inverse = VectorXd::Zero(values.size());
-  for (Eigen::Index k = 0; k < values.size(); ++k)
-    if (values[k] > strainless * values.maxCoeff()) inverse[k] = 1.0 / values[k];
-  const MatrixXd shapes = units.asDiagonal() * modes.eigenvectors();
-  return shapes * inverse.asDiagonal() * shapes.transpose();
+  const VectorXd& values = modes.eigenvalues();  // ascending
+  const Eigen::Index count = (values.array() > strainless * values.maxCoeff()).count();
+  const VectorXd sizes = values.tail(count).cwiseSqrt().cwiseInverse();
+  return units.asDiagonal() * modes.eigenvectors().rightCols(count) * sizes.asDiagonal();
 }
 
 }  // namespace
 
 Compliance::Compliance(const SuperelementBody& body)
     : body_(body),
-      inverse_(pseudo_inverse(body.S_BB, coordinate_units(body).head(body.boundary_size))),
+      strained_(strained_shapes(body.S_BB, coordinate_units(body).head(body.boundary_size))),
+      inverse_(strained_ * strained_.transpose()),
       rigid_(rigid_columns(body)) {
   MatrixXd Phi_M(6, rigid_.rows());
   for (int k = 0; k < 6; ++k) Phi_M.row(k) = mass(rigid_.col(k)).transpose();
@@ -55,6 +55,14 @@ VectorXd Compliance::stiffness(const VectorXd& y) const {
 }
 
 VectorXd Compliance::without_rigid_motion(const VectorXd& y) const { return y - rigid_ * (part_ * y); }
+
+MatrixXd Compliance::elastic_shapes() const {
+  const Eigen::Index nb = body_.boundary_size, m = body_.modes, count = strained_.cols();
+  MatrixXd W = MatrixXd::Zero(nb + m, count + m);
+  W.topLeftCorner(nb, count) = strained_;
+  W.bottomRightCorner(m, m) = body_.S_II.cwiseSqrt().cwiseInverse().asDiagonal();
+  return W - rigid_ * (part_ * W);
+}
 
 VectorXd Compliance::deformation(const VectorXd& load) const {
   const Eigen::Index nb = body_.boundary_size, m = body_.modes;

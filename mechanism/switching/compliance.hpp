@@ -18,6 +18,9 @@ class Compliance {
   /// y − Φ (Φᵀ M̄ Φ)⁻¹ Φᵀ M̄ y.
   Eigen::VectorXd without_rigid_motion(const Eigen::VectorXd& y) const;
 
+  /// N x elastic coordinates: W with WᵀS̄W = 1, without rigid motion; internal coordinates last.
+  Eigen::MatrixXd elastic_shapes() const;
+
   double strain_energy(const Eigen::VectorXd& y) const { return 0.5 * y.dot(stiffness(y)); }
   double kinetic_energy(const Eigen::VectorXd& rate) const { return 0.5 * rate.dot(mass(rate)); }
   /// S̄ y.
@@ -36,7 +39,8 @@ class Compliance {
   Eigen::VectorXd mass(const Eigen::VectorXd& y) const;
 
   const SuperelementBody& body_;
-  Eigen::MatrixXd inverse_;                        ///< nb x nb: pseudo-inverse of S̄_BB
+  Eigen::MatrixXd strained_;                       ///< nb x elastic: V of S̄_BB, VᵀS̄V = 1
+  Eigen::MatrixXd inverse_;                        ///< nb x nb: V Vᵀ, pseudo-inverse of S̄_BB
   Eigen::MatrixXd rigid_;                          ///< Φ, N x 6
   Eigen::Matrix<double, 6, Eigen::Dynamic> part_;  ///< (Φᵀ M̄ Φ)⁻¹ Φᵀ M̄
 };

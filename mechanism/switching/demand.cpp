@@ -13,8 +13,8 @@ using Eigen::VectorXd;
 
 /// A of the header.
 double amplification(double r2) {
-  constexpr double most = 50.0;
-  const double resonance = std::min(1.0 / std::max(std::abs(1.0 - r2), 1.0 / most), most);
+  constexpr double most = 50.0, unsure = 0.1;
+  const double resonance = 1.0 / std::max(std::abs(1.0 - r2) - unsure * r2, 1.0 / most);
   return std::max(resonance, r2 > 0.5 ? 2.0 : 1.0);
 }
 
@@ -30,13 +30,20 @@ Demand::Demand(const Model& whole, const std::vector<EffectUse>& uses, double to
     TISSERAND_ENSURE(use != whole.superelements.end(), "no superelement '{}'", uses[k].body);
     Body& body = bodies_[use - whole.superelements.begin()];
     (uses[k].effect == formats::Effect::flexibility ? body.flexibility : body.stiffening) = static_cast<int>(k);
-    body.compliance = &compliances_.try_emplace(use->body, whole.superelement_bodies[use->body]).first->second;
+    const SuperelementBody& constants = whole.superelement_bodies[use->body];
+    body.compliance = &compliances_.try_emplace(use->body, constants).first->second;
+    if (constants.second_order.stiffening)
+      body.buckling = &buckling_.try_emplace(use->body, constants, *body.compliance).first->second;
   }
 }
 
 void Demand::begin_window() {
   std::ranges::fill(largest_, 0.0);
-  for (Body& body : bodies_) body.kinetic = body.strain = body.u = body.f = 0.0;
+  for (Body& body : bodies_) {
+    body.rate.resize(0);
+    body.change = body.tremor = {};
+    body.u = body.f = body.rate_u = body.rate_f = body.stressed = 0.0;
+  }
 }
 
 void Demand::forget() {
@@ -70,48 +77,134 @@ double Demand::stiffening_share(std::size_t superelement, const Evaluation& now)
   return part(std::abs(y.dot(now.superelements[superelement].forces.strain.force)), elastic);
 }
 
-void Demand::sample_body(std::size_t superelement, const State& state, const Evaluation& now, bool flexible,
-                         double largest_force) {
-  Body& body = bodies_[superelement];
-  const Compliance& compliance = *body.compliance;
-  const LocalMotion<double>& motion = now.superelements[superelement].motion;
-  VectorXd y(motion.y_B.size() + motion.y_I.size());
-  if (flexible) {
-    y << motion.y_B, motion.y_I;
-    y = compliance.without_rigid_motion(y);
-  } else {
-    y = compliance.deformation(load_of(superelement, now));
-  }
-  if (body.seen && state.time() > body.time) {
-    body.kinetic += compliance.kinetic_energy((y - body.y) / (state.time() - body.time));
-    body.strain += compliance.strain_energy(0.5 * (y + body.y));
-  }
-  body.y = y;
-  body.time = state.time();
-  body.seen = true;
-  const double r2 = part(body.kinetic, body.strain);
-  body.u = std::max(body.u, compliance.displacement(y));
-  body.f = std::max(body.f, compliance.force(y));
-  const double u = part(body.u, tolerance_ * whole_.length), f = part(body.f, tolerance_ * largest_force);
-  const auto note = [this](int use, double demand) {
-    if (use >= 0) largest_[use] = std::max(largest_[use], demand);
-  };
-  if (flexible) {
-    VectorXd acceleration(y.size());
-    acceleration << motion.acceleration_B, motion.acceleration_I;
-    note(body.flexibility, std::max(u, part(compliance.inertia_force(acceleration), tolerance_ * largest_force)));
-  } else {
-    note(body.flexibility, std::max(amplification(r2) * u, std::min(r2, 1.0) * f));
-  }
-  if (body.stiffening >= 0 && flexible) note(body.stiffening, stiffening_share(superelement, now) * std::max(u, f));
+double Demand::Change::frequency() const {
+  if (!(strain > 0.0 && strain_rate > 0.0)) return 0.0;
+  const double half = 0.5 * time / count;
+  return std::atan(half * std::sqrt(strain_rate / strain)) / half;
 }
 
-void Demand::sample(const State& state, const Evaluation& now, const std::vector<bool>& awake, double largest_force) {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const Body& body = bodies_[i];
-    if (body.compliance == nullptr) continue;
-    sample_body(i, state, now, body.flexibility < 0 || awake[body.flexibility], largest_force);
+double Demand::Change::r2() const {
+  if (!(strain_rate > 0.0)) return part(kinetic, strain);
+  return frequency() * frequency() * kinetic / strain_rate;
+}
+
+/// y of the header.
+VectorXd Demand::deformation_of(std::size_t superelement, const Evaluation& now, bool flexible) const {
+  const Compliance& compliance = *bodies_[superelement].compliance;
+  if (!flexible) return compliance.deformation(load_of(superelement, now));
+  const LocalMotion<double>& motion = now.superelements[superelement].motion;
+  VectorXd y(motion.y_B.size() + motion.y_I.size());
+  y << motion.y_B, motion.y_I;
+  return compliance.without_rigid_motion(y);
+}
+
+double Demand::bend(std::size_t superelement, const Evaluation& now) const {
+  const Compliance* compliance = bodies_[superelement].compliance;
+  return compliance == nullptr ? 0.0 : compliance->displacement(deformation_of(superelement, now, true));
+}
+
+/// To the next sample: from the second one of a window on there is a rate, from the third an acceleration.
+void Demand::move_on(Body& body, VectorXd y, double time) const {
+  const Compliance& compliance = *body.compliance;
+  body.acceleration.resize(0);
+  const auto add = [&compliance](Change& change, const VectorXd& middle, const VectorXd& rate, double dt) {
+    change.kinetic += compliance.kinetic_energy(rate);
+    change.strain += compliance.strain_energy(middle);
+    change.strain_rate += compliance.strain_energy(rate);
+    change.time += dt;
+    ++change.count;
+  };
+  if (body.seen && time > body.time) {
+    const double dt = time - body.time, middle = 0.5 * (time + body.time);
+    VectorXd rate = (y - body.y) / dt;
+    add(body.change, 0.5 * (y + body.y), rate, dt);
+    if (body.rate.size() > 0) {
+      body.acceleration = (rate - body.rate) / (middle - body.rate_time);
+      add(body.tremor, 0.5 * (rate + body.rate), body.acceleration, middle - body.rate_time);
+    }
+    body.rate = std::move(rate);
+    body.rate_time = middle;
+    body.rate_u = std::max(body.rate_u, compliance.displacement(body.rate));
+    body.rate_f = std::max(body.rate_f, compliance.force(body.rate));
   }
+  body.u = std::max(body.u, compliance.displacement(y));
+  body.f = std::max(body.f, compliance.force(y));
+  body.y = std::move(y);
+  body.time = time;
+  body.seen = true;
+}
+
+/// Of the bodies that sleep, which alone have to be foreseen; the others tell.
+void Demand::add_carried(const Evaluation& now, CarriedInertia& inertia) {
+  std::vector<VectorXd> rates, accelerations;
+  for (const Body& body : bodies_) {
+    rates.push_back(body.asleep ? body.rate : VectorXd());
+    accelerations.push_back(body.asleep ? body.acceleration : VectorXd());
+  }
+  const auto moves = [](const std::vector<VectorXd>& list) {
+    return std::ranges::any_of(list, [](const VectorXd& one) { return one.size() > 0; });
+  };
+  if (!moves(rates)) return;
+  const std::vector<double> more = inertia.energies(rates, now);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].change.kinetic += more[i];
+  if (!moves(accelerations)) return;
+  const std::vector<double> changing = inertia.energies(accelerations, now);
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].tremor.kinetic += changing[i];
+}
+
+/// Of flexibility.
+double Demand::demand_asleep(const Body& body, double largest_force) const {
+  const double r2 = body.change.r2(), changing_r2 = body.tremor.r2(), frequency = body.tremor.frequency();
+  const double period = frequency > 0.0 ? 1.0 / frequency : 0.0;  // over 2π
+  const double u =
+      std::max(amplification(r2) * body.u, body.u + (amplification(changing_r2) - 1.0) * period * body.rate_u);
+  const double f = std::min(changing_r2, 1.0) * period * body.rate_f;
+  return std::max(part(u, tolerance_ * whole_.length), part(f, tolerance_ * largest_force));
+}
+
+void Demand::note(int use, double demand) {
+  if (use >= 0) largest_[use] = std::max(largest_[use], demand);
+}
+
+/// Eigenvalues only where they can decide: over a bound, and more so than before in this window.
+void Demand::sample_stress(Body& body, bool flexible) {
+  constexpr double allowed = 0.1, tells = 0.2, grown = 1.1;
+  if (body.buckling == nullptr) return;
+  const double bound = body.buckling->bound(body.y) / allowed;
+  if (bound <= tells || bound <= grown * body.stressed) return;
+  body.stressed = bound;
+  const double demand = body.buckling->load_share(body.y) / allowed;
+  note(body.flexibility, demand);
+  if (flexible) note(body.stiffening, demand);
+}
+
+void Demand::note_body(std::size_t superelement, const Evaluation& now, bool flexible, double largest_force) {
+  Body& body = bodies_[superelement];
+  const LocalMotion<double>& motion = now.superelements[superelement].motion;
+  const double u = part(body.u, tolerance_ * whole_.length), f = part(body.f, tolerance_ * largest_force);
+  if (flexible) {
+    VectorXd acceleration(body.y.size());
+    acceleration << motion.acceleration_B, motion.acceleration_I;
+    const double inertia = body.compliance->inertia_force(acceleration);
+    note(body.flexibility, std::max(u, part(inertia, tolerance_ * largest_force)));
+  } else {
+    note(body.flexibility, demand_asleep(body, largest_force));
+  }
+  if (body.stiffening >= 0 && flexible) note(body.stiffening, stiffening_share(superelement, now) * std::max(u, f));
+  sample_stress(body, flexible);
+}
+
+void Demand::sample(const State& state, const Evaluation& now, const std::vector<bool>& awake, double largest_force,
+                    CarriedInertia& inertia) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    Body& body = bodies_[i];
+    if (body.compliance == nullptr) continue;
+    body.asleep = body.flexibility >= 0 && !awake[body.flexibility];
+    move_on(body, deformation_of(i, now, !body.asleep), state.time());
+  }
+  add_carried(now, inertia);
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (bodies_[i].compliance != nullptr) note_body(i, now, !bodies_[i].asleep, largest_force);
 }
 
 }  // namespace tisserand::mechanism

@@ -3,14 +3,21 @@
 // Of the motion of the model that runs, as a motion of the whole one, in which all effects are on, the residual of the
 // nodes of a rigid body is the load that deforms it, with its sign turned: what joints and forces exert there, less the
 // inertia of the rigid motion. Its quasi-static deformation is y = S̄⁺ g. How fast that changes, r² = Σ T(ẏ)/Σ V(y) over
-// the samples of a window, is the square of its frequency over that of the body: the deformation is larger by
-// A = 1/|1 − r²| (2 at least where loads jump, r² > 1/2; 50 at most), and its inertia changes forces by the part r², at
-// most 1, of those that deform it. A body that is awake has a deformation, and the inertia i of its accelerations, the
-// largest force on a node of M̄ ÿ. With u the largest displacement and f the largest force of y in the window, L the size
-// of the scene, F the largest force so far and τ the tolerance,
-//   flexibility:  D = max(A u/(τ L), min(r², 1) f/(τ F)) asleep, D = max(u/(τ L), i/(τ F)) awake
+// the samples of a window, is the square of its frequency over that of the body in its joints, T with what these move
+// along (carried_inertia.hpp): the deformation is larger by A = 1/(|1 − r²| − 0.1 r²), the shape of y being not quite
+// that of a mode (2 at least where loads jump, r² > 1/2; 50 at most), and its inertia changes forces by the part r², at
+// most 1, of those that tremble. Differences over dt see a sine of frequency Ω as one of (2/dt) tan(Ω dt/2): r² is
+// corrected by what Σ V(ẏ)/Σ V(y), that squared, says. A load that rests hides one that trembles: so the same again
+// with the changes, r'² = Σ T(ÿ)/Σ V(ẏ), of amplitudes u' and f' that are those of ẏ over their frequency. A body that
+// is awake has a deformation, and the inertia i of its accelerations, the largest force on a node of M̄ ÿ. With u the
+// largest displacement and f the largest force of y in the window, L the size of the scene, F the largest force so far
+// and τ the tolerance,
+//   flexibility:  D = max(A u/(τ L), (u + (A' − 1) u')/(τ L), min(r'², 1) f'/(τ F)) asleep,
+//                 D = max(u/(τ L), i/(τ F)) awake
 //   stiffening:   D = ρ max(u/(τ L), f/(τ F)),       ρ = |yᵀ(∂V/∂y − S̄ y)| / yᵀ S̄ y
-// An effect matters where D > 1.
+// A body with stiffening under a part p of its load of buckling (buckling.hpp) bends by 1/(1 − p) more than y, with
+// ends that the scene holds less by more: both effects matter from p = 0.1 on, D = p/0.1. An effect matters where D
+// > 1.
 #pragma once
 
 #include <map>
@@ -19,6 +26,8 @@
 
 #include "mechanism/build/effects.hpp"
 #include "mechanism/equations/evaluation.hpp"
+#include "mechanism/switching/buckling.hpp"
+#include "mechanism/switching/carried_inertia.hpp"
 #include "mechanism/switching/compliance.hpp"
 
 namespace tisserand::mechanism {
@@ -32,32 +41,58 @@ class Demand {
   void begin_window();
   /// The next sample is the first one.
   void forget();
-  /// At a state of the whole model, evaluated; awake: of each use; largest force: of the run so far.
-  void sample(const State& state, const Evaluation& now, const std::vector<bool>& awake, double largest_force);
+  /// At a state of the whole model, evaluated; awake: of each use; largest force: of the run so far; inertia: set in
+  /// this window.
+  void sample(const State& state, const Evaluation& now, const std::vector<bool>& awake, double largest_force,
+              CarriedInertia& inertia);
 
   /// D of a use: the largest of the samples of the window.
   double of(std::size_t use) const { return largest_[use]; }
   /// y of a superelement of the whole model at the latest sample; empty: it has no automatic effect.
   const Eigen::VectorXd& deformation(std::size_t superelement) const { return bodies_[superelement].y; }
+  /// The displacement of that at a state of the whole model, evaluated; 0: it has no automatic effect.
+  double bend(std::size_t superelement, const Evaluation& now) const;
 
  private:
+  /// A vector of deformation that changes from sample to sample of a window.
+  struct Change {
+    double kinetic = 0.0;      ///< Σ T of its rate
+    double strain = 0.0;       ///< Σ V of its means
+    double strain_rate = 0.0;  ///< Σ V of its rate
+    double time = 0.0;         ///< Σ dt
+    int count = 0;
+    double frequency() const;  ///< Ω, corrected
+    double r2() const;
+  };
   struct Body {
     const Compliance* compliance = nullptr;
+    const Buckling* buckling = nullptr;     ///< nothing: no stiffening
     int flexibility = -1, stiffening = -1;  ///< uses; -1: not automatic
     Eigen::VectorXd y;
     double time = 0.0;
+    bool asleep = false;                 ///< at the latest sample
     bool seen = false;                   ///< there was a sample
-    double kinetic = 0.0, strain = 0.0;  ///< sums over the window
-    double u = 0.0, f = 0.0;             ///< largest of the window
+    Eigen::VectorXd rate, acceleration;  ///< latest differences; empty: none in this window
+    double rate_time = 0.0;              ///< the middle of that of the rate
+    Change change, tremor;               ///< of y, of ẏ
+    double u = 0.0, f = 0.0;             ///< largest of y in the window
+    double rate_u = 0.0, rate_f = 0.0;   ///< largest of ẏ
+    double stressed = 0.0;               ///< largest Buckling::bound() that was looked into, of the window
   };
   Eigen::VectorXd load_of(std::size_t superelement, const Evaluation& now) const;
-  void sample_body(std::size_t superelement, const State& state, const Evaluation& now, bool flexible,
-                   double largest_force);
+  Eigen::VectorXd deformation_of(std::size_t superelement, const Evaluation& now, bool flexible) const;
+  void move_on(Body& body, Eigen::VectorXd y, double time) const;
+  void add_carried(const Evaluation& now, CarriedInertia& inertia);
+  double demand_asleep(const Body& body, double largest_force) const;
+  void note_body(std::size_t superelement, const Evaluation& now, bool flexible, double largest_force);
   double stiffening_share(std::size_t superelement, const Evaluation& now) const;
+  void sample_stress(Body& body, bool flexible);
+  void note(int use, double demand);
 
   const Model& whole_;
   double tolerance_;
   std::map<int, Compliance> compliances_;  ///< by the body of the uses of a file
+  std::map<int, Buckling> buckling_;       ///< the same, of those with stiffening
   std::vector<Body> bodies_;               ///< of each superelement
   std::vector<double> largest_;            ///< of each use
 };

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -277,6 +278,115 @@ TEST(AutomaticEffects, StiffeningWakesWhereABeamSpins) {
   ASSERT_EQ(own.report.automatic.size(), 1U);
   EXPECT_FALSE(own.report.automatic[0].was_awake);  // it begins straight
   EXPECT_LT((own.state.x() - whole.state.x()).cwiseAbs().maxCoeff(), 2e-3);
+}
+
+/// A beam that stands on a slide along y.
+formats::Scene shaken(double amplitude, double omega) {
+  formats::Scene scene = test_support::empty_scene(1e-3, 3.0);
+  formats::SuperelementBodySpec beam = test_support::superelement_body("beam", "beam");
+  beam.damping.ratio = 0.003;
+  scene.bodies.emplace_back(beam);
+  scene.bodies.emplace_back(test_support::rigid_body("foot", 1.0, Vector3d::Zero(), {0.1, 0.1, 0.1}));
+  scene.joints = {test_support::joint("slide", JointKind::prismatic, "ground", "foot", Vector3d::Zero(), {0, 1, 0}),
+                  test_support::joint("clamp", JointKind::fixed, "foot", "beam/base", Vector3d::Zero(), z)};
+  scene.motions = {test_support::drive(
+      "slide", fmt::format("{} * sin({} * t) * (t < 1 ? t^2 * (3 - 2 * t) : 1)", amplitude, omega), {1.0})};
+  scene.gravity = {0, -9.81, 0};
+  return scene;
+}
+
+// The frequency of a cantilever, [1.8751]² √(EI/(m l⁴)), is a sixth of that of the free beam, and its weight bends it
+// five times more than what shakes it, which builds up to several tolerances. The scene that is whole from the start
+// also trembles about its weight, by another tolerance or so.
+TEST(AutomaticEffects, WakeAtAResonanceThatTheWeightHides) {
+  const test_support::BeamData beam;
+  const double omega =
+      1.8751 * 1.8751 / (beam.length * beam.length) * std::sqrt(beam.young * beam.Iz / (beam.density * beam.area));
+  formats::Scene scene = with(shaken(2e-3, omega), {automatic(Effect::flexibility)});
+  scene.automatic.tolerance = 0.01;  // the weight takes three quarters of it
+  TemporaryFolder folder;
+  const std::string a = folder.file("a.results.h5"), b = folder.file("b.results.h5"), c = folder.file("c.results.h5");
+  const RunReport report = run(scene, a);
+  run(shaken(2e-3, omega), b);
+  run(with(shaken(2e-3, omega), {fixed(Effect::flexibility, false)}), c);
+  EXPECT_FALSE(report.automatic[0].was_awake);
+  ASSERT_FALSE(report.automatic[0].changes.empty());
+  const double tolerance = 0.01 * 2.0;
+  EXPECT_LT(largest_difference(a, b, {"nodes/position/beam/tip/*"}), 2.0 * tolerance);
+  EXPECT_GT(largest_difference(c, b, {"nodes/position/beam/tip/*"}), 3.0 * tolerance);
+}
+
+// Straight under its axial load it bends by nothing, and buckles. A tenth of the load of Euler, π² EI/l² with the
+// weaker EI of 100, is reached at t = 0.1.
+TEST(AutomaticEffects, WakeBeforeAColumnBuckles) {
+  const auto beam = test_support::bernoulli_beam(test_support::slender_section(1e5), 2.0, 8);
+  const BodyFiles list = test_support::files_of(test_support::second_order_beam(beam, {0, 4, 8}, 6));
+  formats::Scene scene = test_support::empty_scene(1e-3, 0.3);
+  scene.bodies.emplace_back(test_support::superelement_body("beam", "beam"));
+  scene.bodies.emplace_back(test_support::rigid_body("block", 1.0, Vector3d::Zero(), {1, 1, 1}));
+  scene.joints = {test_support::joint("clamp", JointKind::fixed, "ground", "beam/n0", Vector3d::Zero(), z),
+                  test_support::joint("hold", JointKind::fixed, "ground", "block", Vector3d::Zero(), z)};
+  scene.loads = {test_support::constant_load("axial", formats::LoadKind::force, "beam/n8", Vector3d::Zero()),
+                 test_support::constant_load("other", formats::LoadKind::force, "block", {0, 1000, 0})};
+  const double euler = EIGEN_PI * EIGEN_PI * 100.0 / 4.0;
+  scene.loads[0].components[0] = formats::TimeTable{{0.0, 0.2, 1.0}, {0.0, -0.2 * euler, -0.2 * euler}};
+  scene.effects = {automatic(Effect::flexibility), automatic(Effect::stiffening)};
+  const RunReport report = simulate(RunRequest{scene, list, std::nullopt, "", "", std::nullopt}, {}).report;
+  ASSERT_EQ(report.automatic.size(), 2U);
+  for (const SwitchHistory& history : report.automatic) {
+    EXPECT_FALSE(history.was_awake);
+    ASSERT_EQ(history.changes.size(), 1U) << history.effect;
+    EXPECT_NEAR(history.changes[0], 0.1, 0.021);  // at the edge of a window of 20 steps
+  }
+}
+
+// Its internal coordinates rest at the equilibrium of a load on its tip, but the beam is bent: it stays so.
+TEST(AutomaticEffects, KeepTheDeformationThatStaticsFound) {
+  const BodyFiles list = files();
+  formats::Scene scene = test_support::empty_scene(1e-3, 0.1);
+  scene.bodies.emplace_back(test_support::superelement_body("beam", "beam"));
+  scene.joints = {test_support::joint("clamp", JointKind::fixed, "ground", "beam/base", Vector3d::Zero(), z)};
+  scene.loads = {test_support::constant_load("tip", formats::LoadKind::force, "beam/tip", {0, 100, 0})};
+  formats::Scene at_rest = scene;
+  at_rest.analysis = formats::AnalysisKind::statics;
+  const RunEnd bent = simulate(RunRequest{at_rest, list, std::nullopt, "", "", std::nullopt}, {});
+  const RunEnd own =
+      simulate(RunRequest{with(scene, {automatic(Effect::flexibility)}), list, bent.state, "", "", std::nullopt}, {});
+  const double deflection = 100.0 * 8.0 / (3.0 * 2.1e11 * 2.0e-8);  // P l³/(3 EI)
+  EXPECT_GT(bent.state.x().row(1).maxCoeff(), 0.9 * deflection);
+  EXPECT_TRUE(own.report.automatic[0].was_awake);
+  EXPECT_LT((own.state.x() - bent.state.x()).cwiseAbs().maxCoeff(), 1e-6 * deflection);
+}
+
+/// A beam on two hinges to ground about z: rigid, it would hang on one of them.
+formats::Scene on_two_hinges() {
+  formats::Scene scene = pendulum();
+  scene.bodies.pop_back();
+  scene.joints = {test_support::joint("left", JointKind::revolute, "ground", "beam/base", Vector3d::Zero(), z),
+                  test_support::joint("right", JointKind::revolute, "ground", "beam/tip", {2, 0, 0}, z)};
+  return with(scene, {automatic(Effect::flexibility)});
+}
+
+TEST(AutomaticEffects, TellWhichReactionsSleepLeavesOpen) {
+  const BodyFiles list = files();
+  const auto told = ::testing::Contains(::testing::AllOf(HasSubstr("while bodies sleep"), HasSubstr("left"),
+                                                         HasSubstr("right"), HasSubstr("not unique")));
+  formats::Scene scene = on_two_hinges();
+  scene.integrator.end = 0.1;
+  scene.automatic.tolerance = 0.1;  // asleep throughout
+  EXPECT_THAT(run(scene, "").notes, told);
+  const RunControl control;
+  mechanism::Run checked(scene, list, control);
+  start(checked);
+  checked.automatic->look_ahead(checked);
+  EXPECT_THAT(checked.report.notes, told);
+  EXPECT_THAT(checked.report.automatic_rule,
+              ::testing::AllOf(HasSubstr("flexibility of beam"), HasSubstr("tolerance 0.1"), HasSubstr("window 0.02")));
+}
+
+TEST(AutomaticEffects, SayNothingOfReactionsThatAreUnique) {
+  EXPECT_THAT(run(with(pendulum(), {automatic(Effect::flexibility)}), "").notes,
+              ::testing::Not(::testing::Contains(HasSubstr("while bodies sleep"))));
 }
 
 std::string error_of(formats::Scene scene, const std::vector<formats::EffectSwitch>& effects) {

@@ -217,6 +217,29 @@ TEST_P(WithCvode, AJumpOfALoadIsABreakpoint) {
   EXPECT_NEAR(run.state().work(), 0.5 * run.velocity("body").squaredNorm(), 1e-5);
 }
 
+// Two links that swing in the x-z plane: to the tolerance of both solvers (1e-7 per step), through some hundred steps.
+TEST_P(WithCvode, PlanarScenesMoveAsInSpace) {
+  formats::Scene scene = with(test_support::empty_scene(1e-3, 1.0), 1e-7, GetParam());
+  scene.gravity = {0, 0, -9.81};
+  for (const char* name : {"a", "b"}) {
+    formats::RigidBodySpec link = test_support::rigid_body(name, 1.5, {0.5, 0, 0}, {0.02, 0.03, 0.04});
+    link.start.pose.position = {name[0] == 'a' ? 0.0 : 1.0, 0, 0};
+    scene.bodies.emplace_back(link);
+  }
+  const Vector3d y = Vector3d::UnitY();
+  scene.joints = {test_support::joint("main", formats::JointKind::revolute, "ground", "a", Vector3d::Zero(), y),
+                  test_support::joint("mid", formats::JointKind::revolute, "a", "b", {1, 0, 0}, y)};
+  BdfRun spatial(scene, {});
+  scene.effects = {{formats::Effect::planar, "", true, "scene"}};
+  BdfRun flat(scene, {});
+  ASSERT_TRUE(flat->model().planar);
+  spatial.run(1.0);
+  flat.run(1.0);
+  EXPECT_LT(spatial->position("b").z(), -0.5);
+  for (const char* name : {"a", "b"})  // in the axes of the plane
+    EXPECT_LT((flat->model().axes * flat->position(name) - spatial->position(name)).norm(), 1e-4) << name;
+}
+
 // The whole way of a scene: rows at the instants of `interval` and the end, counts in the report.
 TEST_P(WithCvode, ASceneRunsToItsResults) {
   const test_support::TemporaryFolder folder;

@@ -6,14 +6,17 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <fstream>
 
 #include "common/error.hpp"
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/ledger/table.hpp"
+#include "mechanism/simulate.hpp"
 #include "mechanism/switching/transfer.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/scenes/scenes.hpp"
 #include "tests/support/scenes/second_order_scenes.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::mechanism::ledger_test {
 namespace {
@@ -293,6 +296,25 @@ TEST(Ledger, SaysWhatIsWrongWithTheRequest) {
   formats::Scene accurate = thrown();
   accurate.integrator.accuracy.emplace();
   EXPECT_THAT(error_of(accurate, {}, {}), HasSubstr("give integrator.step or error_control"));
+}
+
+// Results of the scene before its ball was made heavier: nodes agree, and only the stored text can tell.
+TEST(Ledger, DoubtsResultsOfAnotherScene) {
+  const test_support::TemporaryFolder folder;
+  const std::string file = folder.file("ball.scene.yaml"), results = folder.file("ball.results.h5");
+  std::ofstream(file) << "scene: ball\ngravity: [0, 0, -9.81]\n"
+                         "bodies: {ball: {type: rigid, mass: 2, inertia: [1, 1, 1]}}\n"
+                         "integrator: {step: 0.01, end: 0.5}\n";
+  simulate(formats::read_scene(file, {}), results, {});
+  const auto doubt_of = [&](const std::vector<formats::Override>& overrides) {
+    LedgerRequest request{formats::read_scene(file, overrides)};
+    request.results = results;
+    request.repeats = 1;
+    return make_ledger(request, {}, counted()).doubt;
+  };
+  EXPECT_EQ(doubt_of({}), "");
+  EXPECT_THAT(doubt_of({{"bodies.ball.mass", "3"}}),
+              ::testing::AllOf(HasSubstr("another scene"), HasSubstr("mass: 2"), HasSubstr("mass: 3")));
 }
 
 TEST(Ledger, IsToldInLinesAndInJson) {

@@ -1,0 +1,54 @@
+// Least kinetic energy, shared out among the bodies that ask for it.
+#include "mechanism/switching/carried_inertia.hpp"
+
+#include <algorithm>
+
+#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/equations/increments.hpp"
+
+namespace tisserand::mechanism {
+
+using Eigen::VectorXd;
+
+CarriedInertia::CarriedInertia(const Model& running, const Model& whole)
+    : running_(running), whole_(whole), now_(running), matrix_(running) {}
+
+void CarriedInertia::set(const State& running, double step) {
+  evaluate(running_, running, now_);
+  matrix_.forget();  // a run from a checkpoint begins here
+  usable_ = running_.sizes.constraints > 0 && running_.sizes.constraints == whole_.sizes.constraints &&
+            matrix_.factor(running_, running, {{1.0, 0.0, step * step}, TangentKind::step, {}}, now_).regular;
+}
+
+void CarriedInertia::add_velocity(std::size_t superelement, const VectorXd& rate, const Evaluation& now,
+                                  VectorXd& v) const {
+  const SuperelementBody& body = body_of(whole_, superelement);
+  const Eigen::Matrix3d& R0 = now.superelements[superelement].motion.R0;
+  for (std::size_t j = 0; j < body.node.size(); ++j) {
+    const SuperelementNode& local = body.node[j];
+    const Node& node = whole_.nodes[whole_.superelements[superelement].nodes[j]];
+    if (local.has_translation()) v.segment<3>(node.translation) += R0 * rate.segment<3>(local.translation_row);
+    if (local.has_rotation()) v.segment<3>(node.rotation) += rate.segment<3>(local.rotation_row);
+  }
+}
+
+std::vector<double> CarriedInertia::energies(const std::vector<VectorXd>& rates, const Evaluation& whole) {
+  std::vector<double> list(rates.size(), 0.0);
+  if (!usable_) return list;
+  VectorXd v = VectorXd::Zero(whole_.sizes.velocities()), rows(whole_.sizes.constraints);
+  for (std::size_t i = 0; i < rates.size(); ++i)
+    if (rates[i].size() > 0) add_velocity(i, rates[i], whole, v);
+  apply_jacobian(whole_, whole, v, rows);
+  matrix_.solve_projection(running_, -rows, now_);
+  VectorXd force(v.size());
+  apply_transposed_jacobian(whole_, whole, matrix_.projection_multipliers, force);
+  for (std::size_t i = 0; i < rates.size(); ++i) {
+    if (rates[i].size() == 0) continue;
+    v.setZero();
+    add_velocity(i, rates[i], whole, v);
+    list[i] = std::max(0.0, 0.5 * force.dot(v));
+  }
+  return list;
+}
+
+}  // namespace tisserand::mechanism
