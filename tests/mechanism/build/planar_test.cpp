@@ -1,10 +1,8 @@
 // Planar scenes: the planar equations give the motion in space, with half the coordinates; what leaves the plane is
 // named.
 #include <cmath>
-#include <complex>
 #include <functional>
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <Eigen/QR>
@@ -16,11 +14,9 @@
 #include "mechanism/bodies/superelement/evaluate.hpp"
 #include "mechanism/build/effects.hpp"
 #include "mechanism/run/output.hpp"
-#include "mechanism/simulate.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/scenes/scenes.hpp"
 #include "tests/support/scenes/second_order_scenes.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::mechanism::planar_test {
 namespace {
@@ -290,47 +286,6 @@ TEST(Planar, StaticsAsInSpace) {
   EXPECT_GT(spatial.strain, 0.1);
   expect_same(flat, spatial, 1e-10);
   expect_same_forces(flat, spatial, 1e-8);
-}
-
-/// Amplitudes of the coordinates of the rod in each mode (columns), over that of the rotation of its base.
-formats::ModesTable modes_of(const formats::Scene& scene) {
-  test_support::TemporaryFolder folder;
-  const std::string path = folder.file("modes.results.h5");
-  simulate(RunRequest{scene, rod_files(4), std::nullopt, path, "", std::nullopt}, {});
-  const formats::ResultsReader reader(path);
-  const auto column = [&](const std::string& name) {
-    return Eigen::VectorXd(reader.read_rows({name}, 0, reader.modes()).col(0));
-  };
-  formats::ModesTable table;
-  table.frequency = column("modes/frequency");
-  const Eigen::VectorXd turn = column("modes/rotation/rod/base/z/real");
-  table.y.resize(10, turn.size());
-  for (int k = 0; k < 10; ++k)
-    table.y.row(k) =
-        column(fmt::format("modes/y/rod/{}/real", k)).cwiseQuotient(turn).transpose().cast<std::complex<double>>();
-  return table;
-}
-
-// Of a rod that stands turned in the plane, on a hinge with a spring. Each planar mode is one of those in space.
-TEST(Planar, ModesHaveTheShapesOfThoseInSpace) {
-  Turned t(upright);
-  t.add(test_support::superelement_body("rod", "rod"), {0, 0, 0}, 0.8, {0, 0, 0}, 0.0);
-  t.hinge("hinge", "ground", "rod/base", {0, 0, 0});
-  formats::SpringSpec spring;
-  spring.name = "spring";
-  spring.coordinate = formats::CoordinateRef{"hinge", ""};
-  spring.stiffness = 1000.0;
-  t.scene.springs = {spring};
-  t.scene.gravity.setZero();
-  t.scene.analysis = formats::AnalysisKind::modes;
-  const formats::ModesTable flat = modes_of(with_planar(t.scene)), spatial = modes_of(t.scene);
-  for (Eigen::Index mode = 0; mode < 2; ++mode) {
-    Eigen::Index same = 0;
-    EXPECT_LT((spatial.frequency.array() / flat.frequency[mode] - 1.0).abs().minCoeff(&same), 1e-9);
-    const double size = spatial.y.col(same).cwiseAbs().maxCoeff();
-    EXPECT_GT(size, 0.0);
-    EXPECT_LT((flat.y.col(mode) - spatial.y.col(same)).cwiseAbs().maxCoeff(), 1e-6 * size) << mode;
-  }
 }
 
 // --- The body alone: r_p = Eᵀ r(E q) and A_p = Eᵀ A E, since E is constant where motion stays in the plane.
