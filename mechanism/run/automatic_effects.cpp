@@ -111,6 +111,16 @@ void AutomaticEffects::doubt_sleep(const Awake& next, Run& run) {
       listed(names), run.built.state.time()));
 }
 
+void AutomaticEffects::doubt_undeformed(const Deformations& bent, double time, Run& run) {
+  std::vector<std::string> names;
+  for (const auto& [name, y] : bent) names.push_back(name);
+  run.report.doubts.push_back(
+      fmt::format("auto: {} woke undeformed at t = {:.6g}, since the joints do not close with the deformation that the "
+                  "loads ask for, and vibrates "
+                  "from there; give it 'on'",
+                  listed(names), time));
+}
+
 AutomaticEffects::Awake AutomaticEffects::awake() const {
   Awake list;
   for (const Use& use : uses_) list.push_back(use.awake);
@@ -132,7 +142,7 @@ void AutomaticEffects::give_whole(Run& run) {
   whole_now_.emplace(whole_.model);
   std::vector<EffectUse> list;
   for (const Use& use : uses_) list.push_back(use.effect);
-  demand_.emplace(whole_.model, list, scene_.automatic.tolerance);
+  demand_.emplace(whole_.model, list, scene_.automatic.tolerance, scene_.integrator.start);
 }
 
 void AutomaticEffects::take_over(BuiltModel built, const Awake& awake, const formats::Scene& scene, Run& run) {
@@ -265,16 +275,24 @@ void AutomaticEffects::begin_window(const Run& run) {
   demand_->begin_window();
 }
 
-bool AutomaticEffects::sample(const Run& run) {
+AutomaticEffects::Verdict AutomaticEffects::sample(const Run& run) {
   sample_here(run);
-  for (std::size_t k = 0; k < uses_.size(); ++k)
-    if (!uses_[k].awake && demand_->of(k) > 1.0 && !blocked_) return true;
-  return false;
+  Verdict verdict = Verdict::sleeps_well;
+  for (std::size_t k = 0; k < uses_.size() && !blocked_; ++k) {
+    if (uses_[k].awake) continue;
+    if (demand_->matters(k)) return Verdict::matters;
+    if (demand_->of(k) > 1.0) verdict = Verdict::may_matter;
+  }
+  return verdict;
 }
 
 bool AutomaticEffects::wake(Run& run) {
-  Awake next = awake();
-  for (std::size_t k = 0; k < uses_.size(); ++k) next[k] = next[k] || demand_->of(k) > 1.0;
+  Awake next = awake(), surely = next;
+  for (std::size_t k = 0; k < uses_.size(); ++k) {
+    next[k] = next[k] || demand_->of(k) > 1.0;
+    surely[k] = surely[k] || demand_->matters(k);
+  }
+  if (surely != awake()) next = surely;
   for (std::size_t k = 0; k < uses_.size(); ++k)
     if (uses_[k].flexibility >= 0 && !uses_[uses_[k].flexibility].awake && next[uses_[k].flexibility]) next[k] = true;
   if (fresh_ && run.report.steps == 0) {
@@ -291,7 +309,12 @@ bool AutomaticEffects::wake(Run& run) {
     const auto use = std::ranges::find(whole_.model.superelements, uses_[k].effect.body, &SuperelementUse::name);
     bent[use->name] = demand_->deformation(use - whole_.model.superelements.begin());
   }
-  const bool woken = switch_to(next, bent, false, run) || switch_to(next, {}, true, run);
+  const double time = run.built.state.time();
+  bool woken = switch_to(next, bent, true, run);
+  if (!woken && switch_to(next, {}, true, run)) {
+    woken = true;
+    doubt_undeformed(bent, time, run);
+  }
   sampled_ = false;
   begin_window(run);
   blocked_ = !woken;

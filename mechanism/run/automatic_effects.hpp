@@ -51,8 +51,11 @@ class AutomaticEffects {
   double window() const { return window_; }
   /// At an instant that was sampled last, or with a new model.
   void begin_window(const Run& run);
-  /// Whether an effect that sleeps matters at the state of the run, so that the window must be repeated.
-  bool sample(const Run& run);
+  /// What the state of the run says of effects that sleep: none matters, one does (the window must be repeated), or one
+  /// would if forces stayed as they are (the window must go on until they do).
+  enum class Verdict { sleeps_well, matters, may_matter };
+  Verdict sample(const Run& run);
+  void extend_window() { demand_->extend_window(); }
   /// Where the window began: what matters wakes. Returns whether it could.
   bool wake(Run& run);
   /// What has been quiet for some windows sleeps. Returns whether the model is another one.
@@ -79,6 +82,7 @@ class AutomaticEffects {
   void start_with(const Awake& awake, Run& run);
   bool switch_to(const Awake& next, const Deformations& deformations, bool at_any_cost, Run& run);
   void note_reactions(Run& run);
+  static void doubt_undeformed(const Deformations& bent, double time, Run& run);
   void doubt_sleep(const Awake& next, Run& run);
   void take_over(BuiltModel built, const Awake& awake, const formats::Scene& scene, Run& run);
   Awake all_but_undeformed();

@@ -11,6 +11,8 @@ namespace {
 
 /// Samples of a window besides that of its beginning, where its steps allow.
 constexpr int samples = 5;
+/// Windows that become one where it must be seen how far forces grow.
+constexpr double most_extended = 20.0;
 
 }  // namespace
 
@@ -97,14 +99,23 @@ bool EffectWindows::after_step() {
   const double time = run_.built.state.time();
   checkpoint_due_ = loop_.checkpoints.due_after_step(time) || checkpoint_due_;
   const double round_off = instant_tolerance(run_.scene.integrator.step, time);
-  const bool ends = time >= end_ - round_off || loop_.schedule.finished(time);
+  const bool last = loop_.schedule.finished(time), ends = time >= end_ - round_off || last;
   if (!ends && time < next_sample_ - round_off) return false;
   while (next_sample_ <= time + round_off) next_sample_ += run_.automatic->window() / samples;
-  if (run_.automatic->sample(run_)) {
+  using Verdict = AutomaticEffects::Verdict;
+  const Verdict verdict = run_.automatic->sample(run_);
+  const bool enough = last || time - beginning_->state.time() >= most_extended * run_.automatic->window() - round_off;
+  if (verdict == Verdict::matters || (verdict == Verdict::may_matter && enough)) {
     repeat();
     return true;
   }
-  if (ends) end_window();
+  if (!ends) return false;
+  if (verdict == Verdict::may_matter) {
+    end_ += run_.automatic->window();
+    run_.automatic->extend_window();
+  } else {
+    end_window();
+  }
   return false;
 }
 

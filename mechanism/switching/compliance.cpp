@@ -74,8 +74,17 @@ VectorXd Compliance::deformation(const VectorXd& load) const {
 
 double Compliance::displacement(const VectorXd& y) const {
   double largest = 2.0 * std::sqrt(kinetic_energy(y) / body_.mass);  // √2 √(yᵀ M̄ y / m)
-  for (const int j : body_.translation_nodes)
-    largest = std::max(largest, y.segment<3>(body_.node[j].translation_row).norm());
+  for (const int j : body_.translation_nodes) {
+    const SuperelementNode& seen = body_.node[j];
+    largest = std::max(largest, y.segment<3>(seen.translation_row).norm());
+    for (const SuperelementNode& from : body_.node) {
+      if (!from.has_translation() || !from.has_rotation()) continue;
+      const Eigen::Vector3d turn = y.segment<3>(from.rotation_row), arm = seen.X - from.X;
+      const Eigen::Vector3d apart =
+          y.segment<3>(seen.translation_row) - y.segment<3>(from.translation_row) - turn.cross(arm);
+      largest = std::max(largest, apart.norm());
+    }
+  }
   return largest;
 }
 

@@ -26,8 +26,9 @@ class Compliance {
   /// S̄ y.
   Eigen::VectorXd stiffness(const Eigen::VectorXd& y) const;
 
-  /// How far the body is bent: the largest displacement of a node, or √2 times the root mean square over its mass,
-  /// which is the amplitude of a sine: internal coordinates move no node.
+  /// How far the body is bent: the largest displacement of a node, also as seen from any other node, where the scene
+  /// may hold it, or √2 times the root mean square over its mass, which is the amplitude of a sine: internal
+  /// coordinates move no node.
   double displacement(const Eigen::VectorXd& y) const;
   /// The largest force on a node of those that deform it by y: of S̄ y, and of internal coordinates if their whole load
   /// came from inertia, M̄_BI S̄_II y_I.

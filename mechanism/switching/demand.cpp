@@ -23,8 +23,13 @@ double part(double value, double whole) { return value == 0.0 ? 0.0 : value / wh
 
 }  // namespace
 
-Demand::Demand(const Model& whole, const std::vector<EffectUse>& uses, double tolerance)
-    : whole_(whole), tolerance_(tolerance), bodies_(whole.superelements.size()), largest_(uses.size(), 0.0) {
+Demand::Demand(const Model& whole, const std::vector<EffectUse>& uses, double tolerance, double start)
+    : whole_(whole),
+      tolerance_(tolerance),
+      bodies_(whole.superelements.size()),
+      place_(uses.size(), 0.0),
+      force_(uses.size(), 0.0),
+      start_(start) {
   for (std::size_t k = 0; k < uses.size(); ++k) {
     const auto use = std::ranges::find(whole.superelements, uses[k].body, &SuperelementUse::name);
     TISSERAND_ENSURE(use != whole.superelements.end(), "no superelement '{}'", uses[k].body);
@@ -38,12 +43,21 @@ Demand::Demand(const Model& whole, const std::vector<EffectUse>& uses, double to
 }
 
 void Demand::begin_window() {
-  std::ranges::fill(largest_, 0.0);
+  std::ranges::fill(place_, 0.0);
+  std::ranges::fill(force_, 0.0);
+  extend_window();
+}
+
+void Demand::extend_window() {
   for (Body& body : bodies_) {
     body.rate.resize(0);
     body.change = body.tremor = {};
-    body.u = body.f = body.rate_u = body.rate_f = body.stressed = 0.0;
+    body.u = body.f = body.rate_u = body.acceleration_f = body.stressed = 0.0;
   }
+}
+
+double Demand::of(std::size_t use) const {
+  return std::max(place_[use], part(force_[use], tolerance_ * largest_force_));
 }
 
 void Demand::forget() {
@@ -81,6 +95,12 @@ double Demand::Change::frequency() const {
   if (!(strain > 0.0 && strain_rate > 0.0)) return 0.0;
   const double half = 0.5 * time / count;
   return std::atan(half * std::sqrt(strain_rate / strain)) / half;
+}
+
+double Demand::Change::amplitude_of(double acceleration) const {
+  if (count == 0) return 0.0;
+  const double half = 0.5 * time / count, sine = std::sin(half * frequency()) / half;
+  return sine > 0.0 ? acceleration / (sine * sine) : 0.0;
 }
 
 double Demand::Change::r2() const {
@@ -121,11 +141,11 @@ void Demand::move_on(Body& body, VectorXd y, double time) const {
     if (body.rate.size() > 0) {
       body.acceleration = (rate - body.rate) / (middle - body.rate_time);
       add(body.tremor, 0.5 * (rate + body.rate), body.acceleration, middle - body.rate_time);
+      body.acceleration_f = std::max(body.acceleration_f, compliance.force(body.acceleration));
     }
     body.rate = std::move(rate);
     body.rate_time = middle;
     body.rate_u = std::max(body.rate_u, compliance.displacement(body.rate));
-    body.rate_f = std::max(body.rate_f, compliance.force(body.rate));
   }
   body.u = std::max(body.u, compliance.displacement(y));
   body.f = std::max(body.f, compliance.force(y));
@@ -153,17 +173,19 @@ void Demand::add_carried(const Evaluation& now, CarriedInertia& inertia) {
 }
 
 /// Of flexibility.
-double Demand::demand_asleep(const Body& body, double largest_force) const {
+void Demand::note_asleep(const Body& body) {
   const double r2 = body.change.r2(), changing_r2 = body.tremor.r2(), frequency = body.tremor.frequency();
   const double period = frequency > 0.0 ? 1.0 / frequency : 0.0;  // over 2π
   const double u =
       std::max(amplification(r2) * body.u, body.u + (amplification(changing_r2) - 1.0) * period * body.rate_u);
-  const double f = std::min(changing_r2, 1.0) * period * body.rate_f;
-  return std::max(part(u, tolerance_ * whole_.length), part(f, tolerance_ * largest_force));
+  note(body.flexibility, part(u, tolerance_ * whole_.length),
+       std::min(changing_r2, 1.0) * body.tremor.amplitude_of(body.acceleration_f));
 }
 
-void Demand::note(int use, double demand) {
-  if (use >= 0) largest_[use] = std::max(largest_[use], demand);
+void Demand::note(int use, double place, double force) {
+  if (use < 0) return;
+  place_[use] = std::max(place_[use], place);
+  force_[use] = std::max(force_[use], force);
 }
 
 /// Eigenvalues only where they can decide: over a bound, and more so than before in this window.
@@ -174,28 +196,34 @@ void Demand::sample_stress(Body& body, bool flexible) {
   if (bound <= tells || bound <= grown * body.stressed) return;
   body.stressed = bound;
   const double demand = body.buckling->load_share(body.y) / allowed;
-  note(body.flexibility, demand);
-  if (flexible) note(body.stiffening, demand);
+  note(body.flexibility, demand, 0.0);
+  if (flexible) note(body.stiffening, demand, 0.0);
 }
 
-void Demand::note_body(std::size_t superelement, const Evaluation& now, bool flexible, double largest_force) {
+void Demand::note_body(std::size_t superelement, const Evaluation& now, bool flexible) {
   Body& body = bodies_[superelement];
   const LocalMotion<double>& motion = now.superelements[superelement].motion;
-  const double u = part(body.u, tolerance_ * whole_.length), f = part(body.f, tolerance_ * largest_force);
+  const double u = part(body.u, tolerance_ * whole_.length);
   if (flexible) {
     VectorXd acceleration(body.y.size());
     acceleration << motion.acceleration_B, motion.acceleration_I;
-    const double inertia = body.compliance->inertia_force(acceleration);
-    note(body.flexibility, std::max(u, part(inertia, tolerance_ * largest_force)));
+    note(body.flexibility, u, body.compliance->inertia_force(acceleration));
   } else {
-    note(body.flexibility, demand_asleep(body, largest_force));
+    note_asleep(body);
   }
-  if (body.stiffening >= 0 && flexible) note(body.stiffening, stiffening_share(superelement, now) * std::max(u, f));
+  if (body.stiffening >= 0 && flexible) {
+    const double share = stiffening_share(superelement, now);
+    note(body.stiffening, share * u, share * body.f);
+  }
   sample_stress(body, flexible);
 }
 
 void Demand::sample(const State& state, const Evaluation& now, const std::vector<bool>& awake, double largest_force,
                     CarriedInertia& inertia) {
+  const double dt = state.time() - time_, elapsed = state.time() - start_;
+  growing_ = (largest_force - largest_force_) * elapsed > largest_force_ * dt;
+  largest_force_ = largest_force;
+  time_ = state.time();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     Body& body = bodies_[i];
     if (body.compliance == nullptr) continue;
@@ -204,7 +232,7 @@ void Demand::sample(const State& state, const Evaluation& now, const std::vector
   }
   add_carried(now, inertia);
   for (std::size_t i = 0; i < bodies_.size(); ++i)
-    if (bodies_[i].compliance != nullptr) note_body(i, now, !bodies_[i].asleep, largest_force);
+    if (bodies_[i].compliance != nullptr) note_body(i, now, !bodies_[i].asleep);
 }
 
 }  // namespace tisserand::mechanism

@@ -8,10 +8,10 @@
 // that of a mode (2 at least where loads jump, r² > 1/2; 50 at most), and its inertia changes forces by the part r², at
 // most 1, of those that tremble. Differences over dt see a sine of frequency Ω as one of (2/dt) tan(Ω dt/2): r² is
 // corrected by what Σ V(ẏ)/Σ V(y), that squared, says. A load that rests hides one that trembles: so the same again
-// with the changes, r'² = Σ T(ÿ)/Σ V(ẏ), of amplitudes u' and f' that are those of ẏ over their frequency. A body that
-// is awake has a deformation, and the inertia i of its accelerations, the largest force on a node of M̄ ÿ. With u the
-// largest displacement and f the largest force of y in the window, L the size of the scene, F the largest force so far
-// and τ the tolerance,
+// with the changes, r'² = Σ T(ÿ)/Σ V(ẏ), of amplitudes u' and f' that are those of ẏ over their frequency and of ÿ over
+// its square. A body that is awake has a deformation, and the inertia i of its accelerations, the largest force on a
+// node of M̄ ÿ. With u the largest displacement and f the largest force of y in the window, L the size of the scene, F
+// the largest force so far and τ the tolerance,
 //   flexibility:  D = max(A u/(τ L), (u + (A' − 1) u')/(τ L), min(r'², 1) f'/(τ F)) asleep,
 //                 D = max(u/(τ L), i/(τ F)) awake
 //   stiffening:   D = ρ max(u/(τ L), f/(τ F)),       ρ = |yᵀ(∂V/∂y − S̄ y)| / yᵀ S̄ y
@@ -34,11 +34,13 @@ namespace tisserand::mechanism {
 
 class Demand {
  public:
-  /// Of these uses, all of superelements of the whole model, which must stay where it is.
-  Demand(const Model& whole, const std::vector<EffectUse>& uses, double tolerance);
+  /// Of these uses, all of superelements of the whole model, which must stay where it is; start: of the run [time].
+  Demand(const Model& whole, const std::vector<EffectUse>& uses, double tolerance, double start);
 
   /// Rates and largest values begin anew; the latest sample is where the first rate begins.
   void begin_window();
+  /// The window goes on for the length of another: only D stays.
+  void extend_window();
   /// The next sample is the first one.
   void forget();
   /// At a state of the whole model, evaluated; awake: of each use; largest force: of the run so far; inertia: set in
@@ -46,8 +48,12 @@ class Demand {
   void sample(const State& state, const Evaluation& now, const std::vector<bool>& awake, double largest_force,
               CarriedInertia& inertia);
 
-  /// D of a use: the largest of the samples of the window.
-  double of(std::size_t use) const { return largest_[use]; }
+  /// D of a use: the largest of the samples of the window, with F of the latest.
+  double of(std::size_t use) const;
+  /// D > 1, and not by forces that are large only beside an F that still grows: where it grows faster than in
+  /// proportion to the time of the run, as at a start from rest, what matters beside it now may be nothing beside what
+  /// comes.
+  bool matters(std::size_t use) const { return place_[use] > 1.0 || (!growing_ && of(use) > 1.0); }
   /// y of a superelement of the whole model at the latest sample; empty: it has no automatic effect.
   const Eigen::VectorXd& deformation(std::size_t superelement) const { return bodies_[superelement].y; }
   /// The displacement of that at a state of the whole model, evaluated; 0: it has no automatic effect.
@@ -62,6 +68,8 @@ class Demand {
     double time = 0.0;         ///< Σ dt
     int count = 0;
     double frequency() const;  ///< Ω, corrected
+    /// Of a sine of that frequency, from second differences of its samples.
+    double amplitude_of(double acceleration) const;
     double r2() const;
   };
   struct Body {
@@ -76,25 +84,30 @@ class Demand {
     double rate_time = 0.0;              ///< the middle of that of the rate
     Change change, tremor;               ///< of y, of ẏ
     double u = 0.0, f = 0.0;             ///< largest of y in the window
-    double rate_u = 0.0, rate_f = 0.0;   ///< largest of ẏ
+    double rate_u = 0.0;                 ///< largest of ẏ
+    double acceleration_f = 0.0;         ///< largest of ÿ
     double stressed = 0.0;               ///< largest Buckling::bound() that was looked into, of the window
   };
   Eigen::VectorXd load_of(std::size_t superelement, const Evaluation& now) const;
   Eigen::VectorXd deformation_of(std::size_t superelement, const Evaluation& now, bool flexible) const;
   void move_on(Body& body, Eigen::VectorXd y, double time) const;
   void add_carried(const Evaluation& now, CarriedInertia& inertia);
-  double demand_asleep(const Body& body, double largest_force) const;
-  void note_body(std::size_t superelement, const Evaluation& now, bool flexible, double largest_force);
+  void note_asleep(const Body& body);
+  void note_body(std::size_t superelement, const Evaluation& now, bool flexible);
   double stiffening_share(std::size_t superelement, const Evaluation& now) const;
   void sample_stress(Body& body, bool flexible);
-  void note(int use, double demand);
+  void note(int use, double place, double force);
 
   const Model& whole_;
   double tolerance_;
   std::map<int, Compliance> compliances_;  ///< by the body of the uses of a file
   std::map<int, Buckling> buckling_;       ///< the same, of those with stiffening
   std::vector<Body> bodies_;               ///< of each superelement
-  std::vector<double> largest_;            ///< of each use
+  std::vector<double> place_;              ///< of each use the largest D by places
+  std::vector<double> force_;              ///< the same by forces, times τ F
+  double largest_force_ = 0.0;             ///< F at the latest sample
+  double start_, time_ = 0.0;              ///< of the run; of the latest sample
+  bool growing_ = false;                   ///< F, faster than in proportion to the time of the run
 };
 
 }  // namespace tisserand::mechanism

@@ -22,6 +22,9 @@ using Eigen::Vector3d;
 /// Constraint rows that repeat others are chosen at the poses of the scene, where they meet; they must be met after the
 /// switch as well, to this part of the characteristic length or in radians.
 constexpr double left_out_tolerance = 1e-6;
+/// Bodies are moved onto their joints with the weight M + h² K, h so many steps: rigidly, as far as they can, since a
+/// body that is bent as its loads ask must not be bent anew by its place.
+constexpr double rigid_steps = 1e3;
 
 Eigen::Quaterniond quaternion(const Eigen::Vector4d& q) { return {q[0], q[1], q[2], q[3]}; }
 
@@ -73,7 +76,7 @@ double energy_of(const Model& model, const State& state, Evaluation& evaluation)
 void put_on_constraints(const formats::Scene& scene, const Model& model, State& state, Workspace& workspace) {
   constexpr double any = std::numeric_limits<double>::infinity();
   const double step = scene.integrator.step;
-  project_initial_positions(model, any, step, scene.file, state, workspace);
+  project_initial_positions(model, any, rigid_steps * step, scene.file, state, workspace);
   evaluate(model, state, workspace.now);
   if (!(largest_violation_left_out(model, workspace.now) < left_out_tolerance))
     throw Error("joints that repeat others stay open", scene.file, "");

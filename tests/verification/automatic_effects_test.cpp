@@ -280,6 +280,52 @@ TEST(AutomaticEffects, StiffeningWakesWhereABeamSpins) {
   EXPECT_LT((own.state.x() - whole.state.x()).cwiseAbs().maxCoeff(), 2e-3);
 }
 
+// While forces grow from nothing, what its inertia does to them is a large part of what they are and a small one of
+// what they become: of a force that goes with t², 2/(ω t)², with ω t about 40 where twenty windows end.
+TEST(AutomaticEffects, SleepWhereForcesGrowFromNothing) {
+  TemporaryFolder folder;
+  const std::string a = folder.file("a.results.h5"), b = folder.file("b.results.h5");
+  formats::Scene scene = pendulum();
+  scene.gravity.setZero();
+  scene.integrator.end = 0.8;
+  scene.motions = {test_support::drive("hinge", "2 * t^4")};
+  const RunReport report = run(with(scene, {automatic(Effect::flexibility)}), a);
+  run(scene, b);
+  EXPECT_FALSE(report.automatic[0].was_awake);
+  EXPECT_TRUE(report.automatic[0].changes.empty());
+  EXPECT_GT(largest(b, {"joints/force"}), 10.0);
+  EXPECT_LT(largest_difference(a, b, {"joints/force"}), 1e-3 * largest(b, {"joints/force"}));
+}
+
+// It rests, and no energy is there beside that of its deformation; yet it begins with what the load asks for: its clamp
+// goes on to feel the load times the length. It trembles by the rate of the load over the frequency of the cantilever,
+// since it begins at rest, in place of by twice the load.
+TEST(AutomaticEffects, WakeBentWhereNothingMoves) {
+  TemporaryFolder folder;
+  const std::string a = folder.file("a.results.h5");
+  formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
+  const test_support::BeamData beam;
+  scene.bodies.emplace_back(test_support::superelement_body("beam", "beam"));
+  scene.joints = {test_support::joint("clamp", JointKind::fixed, "ground", "beam/base", Vector3d::Zero(), z)};
+  // Bends it by 0.4 to 2 tolerances of 1e-3 of its length.
+  const double force = 4e-4 * 3.0 * beam.young * beam.Iz / (beam.length * beam.length);
+  formats::LoadSpec load = test_support::constant_load("tip", formats::LoadKind::force, "beam/tip", Vector3d::Zero());
+  load.components[1] = formats::TimeExpression{fmt::format("{} * (1 + 4 * t)", force), {}, "here"};
+  scene.loads = {load};
+  const RunReport report = run(with(scene, {automatic(Effect::flexibility)}), a);
+  EXPECT_FALSE(report.automatic[0].was_awake);
+  ASSERT_EQ(report.automatic[0].changes.size(), 1U);
+  EXPECT_NEAR(report.automatic[0].changes[0], 0.375, 0.02);  // 0.4 (1 + 4 t) = 1, at the edge of a window
+  EXPECT_GT(largest(a, {"energy/switched"}), 0.0);
+  const double omega =
+      1.8751 * 1.8751 / (beam.length * beam.length) * std::sqrt(beam.young * beam.Iz / (beam.density * beam.area));
+  const Eigen::VectorXd moment = rows(a, {"joints/moment/clamp/z"}).col(0).cwiseAbs();
+  const std::vector<double> time = formats::ResultsReader(a).time();
+  for (std::size_t i = 0; i < time.size(); ++i)
+    EXPECT_NEAR(moment[static_cast<Eigen::Index>(i)], force * (1.0 + 4.0 * time[i]) * beam.length,
+                1.3 * 4.0 / omega * force * beam.length);
+}
+
 /// A beam that stands on a slide along y.
 formats::Scene shaken(double amplitude, double omega) {
   formats::Scene scene = test_support::empty_scene(1e-3, 3.0);
