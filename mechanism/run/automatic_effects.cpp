@@ -260,6 +260,7 @@ void AutomaticEffects::sample_here(const Run& run) {
   evaluate(whole_.model, whole_state_, *whole_now_);
   if (!inertia_set_) inertia_->set(state, scene_.integrator.step);
   inertia_set_ = true;
+  blind_ = blind_ || !inertia_->knows();
   demand_->sample(whole_state_, *whole_now_, awake(), state.force_scale(0), *inertia_);
   const Energy energy = evaluate_energy(whole_.model, *whole_now_);
   energy_reference_ =
@@ -356,6 +357,11 @@ bool AutomaticEffects::end_window(Run& run) {
 }
 
 void AutomaticEffects::tell(double start, double end, RunReport& report) const {
+  if (blind_)
+    report.doubts.push_back(
+        "auto: what the joints of sleeping bodies move along was not counted at times, since no masses could be found "
+        "for "
+        "it: resonances with that are not seen; give flexibility: on to bodies that may resonate");
   for (const Use& use : uses_) {
     SwitchHistory history{formats::effect_word(use.effect.effect), use.effect.body, use.was_awake, use.changes, 0.0};
     bool on = use.was_awake;

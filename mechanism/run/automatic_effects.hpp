@@ -99,6 +99,7 @@ class AutomaticEffects {
   std::optional<Demand> demand_;
   std::optional<CarriedInertia> inertia_;
   std::set<std::string> undetermined_;  ///< joints of which was told that sleep leaves their reactions open
+  bool blind_ = false;                  ///< there was a window without carried inertia
   bool doubted_ = false;                ///< that something could not wake was told
   bool inertia_set_ = false;            ///< in this window
   bool sampled_ = false;                ///< where the run stands, with its present model

@@ -19,6 +19,8 @@ class CarriedInertia {
 
   /// Where the run stands. Factors once for all that follows.
   void set(const State& running, double step);
+  /// Whether energies() knows them: the models have the same constraints, or the running one none.
+  bool knows() const { return usable_ || running_.sizes.constraints == 0; }
   /// T of each superelement of the whole model, at a state of it that was evaluated; rates: of each, empty ones rest.
   /// Zero where the models have other constraints or nothing can be factored.
   std::vector<double> energies(const std::vector<Eigen::VectorXd>& rates, const Evaluation& whole);
