@@ -330,7 +330,9 @@ bool AutomaticEffects::switch_to(const Awake& next, const Deformations& deformat
     if (next[k] != uses_[k].awake) changed.insert(uses_[k].effect.body);
   auto after = switch_model(scene, files_, {run.built.model, run.built.state}, changed, deformations);
   if (!after) return false;
-  if (!at_any_cost && !(std::abs(after->energy) <= scene_.automatic.tolerance * energy_reference_)) return false;
+  const double tolerance = scene_.automatic.tolerance, force = run.built.state.force_scale(0);
+  if (!at_any_cost && !(std::abs(after->energy) <= tolerance * energy_reference_ && after->force <= tolerance * force))
+    return false;
   const double time = run.built.state.time();
   for (std::size_t k = 0; k < uses_.size(); ++k)
     if (next[k] != uses_[k].awake) uses_[k].changes.push_back(time);

@@ -2,6 +2,7 @@
 #include "mechanism/switching/switch_model.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -73,6 +74,16 @@ double energy_of(const Model& model, const State& state, Evaluation& evaluation)
   return evaluate_energy(model, evaluation).total();
 }
 
+/// The largest change of the reaction of a row that is one of a length and active before and after.
+double change_of_reactions(const Standing& before, const Model& model, const State& state) {
+  if (before.model.sizes.constraints != model.sizes.constraints) return 0.0;
+  double largest = 0.0;
+  for (int row = 0; row < model.sizes.constraints; ++row)
+    if (model.length_row[row] && before.state.active()[row] != 0.0 && state.active()[row] != 0.0)
+      largest = std::max(largest, std::abs(state.lambda()[row] - before.state.lambda()[row]));
+  return largest;
+}
+
 void put_on_constraints(const formats::Scene& scene, const Model& model, State& state, Workspace& workspace) {
   constexpr double any = std::numeric_limits<double>::infinity();
   const double step = scene.integrator.step;
@@ -98,7 +109,7 @@ std::optional<SwitchedModel> switch_model(const formats::Scene& scene, const Bod
   Evaluation then(before.model);
   const double energy = energy_of(before.model, before.state, then);
   update_modal_nodes(before.model, then);
-  std::optional<SwitchedModel> after(SwitchedModel{build_model(scene, files), 0.0});
+  std::optional<SwitchedModel> after(SwitchedModel{build_model(scene, files), 0.0, 0.0});
   const Model& model = after->built.model;
   State& state = after->built.state;
   Workspace workspace(model);
@@ -118,6 +129,7 @@ std::optional<SwitchedModel> switch_model(const formats::Scene& scene, const Bod
   } catch (const Error&) {
     return std::nullopt;
   }
+  after->force = change_of_reactions(before, model, state);
   keep_sums(before.state, state);
   after->energy = energy_of(model, state, workspace.now) - energy;
   return after;

@@ -26,14 +26,15 @@ using Deformations = std::map<std::string, Eigen::VectorXd>;
 struct SwitchedModel {
   BuiltModel built;
   double energy = 0.0;  ///< after the switch less before
+  double force = 0.0;   ///< largest jump of a reaction of a joint; 0 where the models have other constraints
 };
 
 /// `scene` with all switches carried out, from where `before` stands. Positions: StateTransfer, deformations, then onto
-/// the constraints in the mass norm. Velocities: those of the transfer with the smallest impulses of the joints that
-/// bring them onto the constraints; then each group of jointed bodies with one that `changed` moves as one rigid body
-/// until it has the linear and angular momentum of before, wherever its joints to ground leave it free. Accelerations,
-/// multipliers and what a step needs are solved for; sums and running maxima go on. Nothing: the joints cannot be
-/// closed, or nothing holds a direction.
+/// the constraints, rigidly as far as they let the bodies. Velocities: those of the transfer with the smallest impulses
+/// of the joints that bring them onto the constraints; then each group of jointed bodies with one that `changed` moves
+/// as one rigid body until it has the linear and angular momentum of before, wherever its joints to ground leave it
+/// free. Accelerations, multipliers and what a step needs are solved for; sums and running maxima go on. Nothing: the
+/// joints cannot be closed, or nothing holds a direction.
 std::optional<SwitchedModel> switch_model(const formats::Scene& scene, const BodyFiles& files, const Standing& before,
                                           const BodyGroup& changed, const Deformations& deformations);
 
