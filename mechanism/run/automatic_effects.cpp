@@ -9,6 +9,7 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "mechanism/doubts/held_body.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/run/output.hpp"
 #include "mechanism/run/run.hpp"
@@ -358,12 +359,29 @@ bool AutomaticEffects::end_window(Run& run) {
   return false;
 }
 
+std::vector<std::string> AutomaticEffects::slept_in_a_weld() const {
+  const std::vector<int> beam = welded_beams(whole_.model);
+  std::vector<std::string> names;
+  for (const Use& use : uses_) {
+    if (!is_flexibility(use.effect) || use.changes.size() < (use.was_awake ? 1U : 2U)) continue;
+    const auto at = std::ranges::find(whole_.model.superelements, use.effect.body, &SuperelementUse::name);
+    if (std::ranges::count(beam, beam[at - whole_.model.superelements.begin()]) > 1) names.push_back(use.effect.body);
+  }
+  return names;
+}
+
 void AutomaticEffects::tell(double start, double end, RunReport& report) const {
   if (blind_)
     report.doubts.push_back(
-        "auto: what the joints of sleeping bodies move along was not counted at times, since no masses could be found "
-        "for "
-        "it: resonances with that are not seen; give flexibility: on to bodies that may resonate");
+        "auto: what sleeping bodies move along with their joints could not be counted at times, so that resonances "
+        "with "
+        "it are not seen; give flexibility: on to bodies that may resonate");
+  if (const std::vector<std::string> names = slept_in_a_weld(); !names.empty())
+    report.doubts.push_back(
+        fmt::format("auto: {} fell asleep welded to flexible bodies, which may vibrate since then by more than "
+                    "tolerance allows; give "
+                    "the pieces of one part flexibility: on, or a smaller tolerance",
+                    listed(names)));
   for (const Use& use : uses_) {
     SwitchHistory history{formats::effect_word(use.effect.effect), use.effect.body, use.was_awake, use.changes, 0.0};
     bool on = use.was_awake;

@@ -82,6 +82,8 @@ class AutomaticEffects {
   void start_with(const Awake& awake, Run& run);
   bool switch_to(const Awake& next, const Deformations& deformations, bool at_any_cost, Run& run);
   void note_reactions(Run& run);
+  /// Bodies that fell asleep at times, of those welded to other superelements.
+  std::vector<std::string> slept_in_a_weld() const;
   static void doubt_undeformed(const Deformations& bent, double time, Run& run);
   void doubt_sleep(const Awake& next, Run& run);
   void take_over(BuiltModel built, const Awake& awake, const formats::Scene& scene, Run& run);
