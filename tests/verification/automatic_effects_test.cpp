@@ -168,6 +168,24 @@ TEST(AutomaticEffects, WakeAndSleepWithinTheTolerance) {
   EXPECT_LT(largest(a, {"energy/balance"}), 2.0 * largest(b, {"energy/balance"}) + 1e-4 * energy);
 }
 
+// A piece that falls asleep shakes what is welded to it, which no criterion of the piece alone sees; alone it is
+// silent.
+TEST(AutomaticEffects, PiecesOfAWeldThatSleepAreDoubted) {
+  const auto doubts_of = [](const formats::Scene& scene) {
+    TemporaryFolder folder;
+    const RunReport report = run(with(scene, {automatic(Effect::flexibility)}), folder.file("a.results.h5"));
+    EXPECT_GE(report.automatic.back().changes.size(), 1U);  // asleep at times
+    return fmt::format("{}", fmt::join(report.doubts, "\n"));
+  };
+  formats::Scene two = swing(300.0);
+  formats::SuperelementBodySpec second = test_support::superelement_body("second", "stout");
+  second.start.pose.position = {2, 0, 0};
+  two.bodies.emplace_back(second);
+  two.joints.push_back(test_support::joint("weld", JointKind::fixed, "beam/tip", "second/base", {2, 0, 0}, z));
+  EXPECT_THAT(doubts_of(two), HasSubstr("second fell asleep welded to flexible bodies"));
+  EXPECT_THAT(doubts_of(swing(300.0)), ::testing::Not(HasSubstr("welded")));
+}
+
 // The layout is that of the scene with all on, but for what switches cost; and so are the names of channels.
 TEST(AutomaticEffects, KeepTheLayoutOfResults) {
   TemporaryFolder folder;
