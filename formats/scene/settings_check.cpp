@@ -96,6 +96,9 @@ void check_groups(const Scene& scene, const std::string& where, Faults& faults) 
     output.add("from",
                fmt::format("from {:g} is later than the end {:g} of the integrator", scene.output.from, spec.end),
                "nothing would be stored; give an earlier time");
+  if (scene.output.ledger && spec.accuracy && scene.analysis == AnalysisKind::dynamics)
+    output.add("ledger", "ledger: a ledger needs steps, not `accuracy`, which changes them from run to run",
+               "give integrator.step or error_control in its place, or leave it out");
   for (const std::string& channel : scene.output.channels)
     if (channel.empty())
       output.add("channels", "a channel has no name", "");

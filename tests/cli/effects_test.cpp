@@ -54,6 +54,8 @@ TEST_F(Effects, ARunWritesALedgerWhereItIsAskedForOne) {
   expect_error(with("run", {"output={ledger: yes}", "analysis=statics"}),
                {"output: ledger: only dynamics has a ledger", "leave it out"});
   expect_error(with("run", {"output={ledger: maybe}"}), {"ledger", "maybe"});
+  expect_error(with("run", {"output={ledger: yes}", "integrator={end: 0.1, accuracy: {error: 0.01, of: energy}}"}),
+               {"a ledger needs steps, not `accuracy`"});
 }
 
 TEST_F(Effects, ALedgerTakesChosenOnesAndStoredStates) {
