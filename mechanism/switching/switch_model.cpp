@@ -24,7 +24,8 @@ using Eigen::Vector3d;
 /// switch as well, to this part of the characteristic length or in radians.
 constexpr double left_out_tolerance = 1e-6;
 /// Bodies are moved onto their joints with the weight M + h² K, h so many steps: rigidly, as far as they can, since a
-/// body that is bent as its loads ask must not be bent anew by its place.
+/// body that is bent as its loads ask must not be bent anew by its place. Of a vibration of a thousand steps per period
+/// h² K is still forty times M.
 constexpr double rigid_steps = 1e3;
 
 Eigen::Quaterniond quaternion(const Eigen::Vector4d& q) { return {q[0], q[1], q[2], q[3]}; }
