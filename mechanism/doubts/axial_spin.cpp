@@ -42,7 +42,7 @@ AxialSpin::AxialSpin(const Model& model) : seen_(model.superelements.size()) {
     Judged& judged = judged_.emplace_back();
     const std::optional<Axis> axis = body.second_order.any() || body.planar ? std::nullopt : axis_of(body);
     if (!axis) continue;
-    const auto turns = rigid_columns(body).topRows(body.boundary_size).rightCols<3>();
+    const Eigen::MatrixXd turns = rigid_columns(body).topRows(body.boundary_size).rightCols<3>();
     const Matrix3d J = turns.transpose() * body.M_BB * turns;
     const int end = body.node[axis->last].translation_row;
     if (!alike_across(J, axis->direction) || !alike_across(body.S_BB.block<3, 3>(end, end), axis->direction)) continue;
