@@ -229,6 +229,15 @@ void AutomaticEffects::restore(Run& run, const std::vector<double>& memory) {
   }
   energy_reference_ = memory[2 * count];
   switched_ = memory[2 * count + 1];
+  resumes_ = memory[2 * count + 2] != 0.0;
+  rates_.assign(memory.begin() + static_cast<std::ptrdiff_t>(2 * count + 3), memory.end());
+}
+
+std::size_t AutomaticEffects::memory_size(const Model& whole) const {
+  std::size_t rates = 0;
+  for (std::size_t i = 0; i < whole.superelements.size(); ++i)
+    rates += static_cast<std::size_t>(body_of(whole, i).boundary_size + body_of(whole, i).modes);
+  return 2 * uses_.size() + 3 + rates;
 }
 
 std::vector<double> AutomaticEffects::memory() const {
@@ -237,6 +246,10 @@ std::vector<double> AutomaticEffects::memory() const {
   for (const Use& use : uses_) memory.push_back(use.quiet);
   memory.push_back(energy_reference_);
   memory.push_back(switched_);
+  memory.push_back(sampled_ ? 1.0 : 0.0);
+  std::vector<double> rates = demand_->rates();
+  if (!sampled_) std::ranges::fill(rates, 0.0);  // of the model before a switch
+  memory.insert(memory.end(), rates.begin(), rates.end());
   return memory;
 }
 
@@ -272,7 +285,9 @@ void AutomaticEffects::begin_window(const Run& run) {
   blocked_ = inertia_set_ = false;
   if (!sampled_) {
     demand_->forget();
+    if (!rates_.empty()) demand_->set_rates(std::exchange(rates_, {}));
     sample_here(run);
+    inertia_set_ = !std::exchange(resumes_, false);  // else at the first sample of the window
   }
   demand_->begin_window();
 }

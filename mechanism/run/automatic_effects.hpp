@@ -38,7 +38,7 @@ class AutomaticEffects {
   void look_ahead(Run& run) const;
   /// For checkpoints at the ends of windows.
   std::vector<double> memory() const;
-  std::size_t memory_size() const { return 2 * uses_.size() + 2; }
+  std::size_t memory_size(const Model& whole) const;
 
   bool has_begun() const { return demand_.has_value(); }
   BuiltModel& whole() { return whole_; }
@@ -106,6 +106,8 @@ class AutomaticEffects {
   bool inertia_set_ = false;            ///< in this window
   bool sampled_ = false;                ///< where the run stands, with its present model
   bool blocked_ = false;                ///< what matters could not be woken in this window
+  bool resumes_ = false;                ///< from a checkpoint that was sampled where it stands
+  std::vector<double> rates_;           ///< of the checkpoint, until the first window begins
   bool fresh_ = false;                  ///< the run stands at the poses of the scene
   double energy_reference_ = 0.0;
   double switched_ = 0.0;

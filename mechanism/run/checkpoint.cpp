@@ -79,7 +79,7 @@ void begin_with(Run& run, const formats::ResultsBeginning& beginning) {
 void restore_memory(Run& run, const formats::Checkpoint& checkpoint, const std::string& file) {
   const std::vector<double>& memory = checkpoint.schedule;
   const std::size_t own = Schedule(run.scene, run.built.model.breakpoints).memory().size();
-  const std::size_t behind = run.automatic ? run.automatic->memory_size() : 0;
+  const std::size_t behind = run.automatic ? run.automatic->memory_size(run.built.model) : 0;
   if (memory.size() != own + behind) throw_of_another_scene(run, checkpoint, file);
   const auto at = memory.begin() + static_cast<std::ptrdiff_t>(own);
   run.schedule_memory.assign(memory.begin(), at);

@@ -45,6 +45,10 @@ Demand::Demand(const Model& whole, const std::vector<EffectUse>& uses, double to
 void Demand::begin_window() {
   std::ranges::fill(place_, 0.0);
   std::ranges::fill(force_, 0.0);
+  for (Body& body : bodies_) {
+    body.before = body.rate.size() > 0 ? body.rate : VectorXd(VectorXd::Zero(body.y.size()));
+    body.after.resize(0);
+  }
   extend_window();
 }
 
@@ -123,6 +127,36 @@ double Demand::bend(std::size_t superelement, const Evaluation& now) const {
   return compliance == nullptr ? 0.0 : compliance->displacement(deformation_of(superelement, now, true));
 }
 
+std::vector<double> Demand::rates() const {
+  std::vector<double> list;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const SuperelementBody& body = body_of(whole_, i);
+    VectorXd rate = bodies_[i].rate;
+    if (rate.size() == 0) rate.setZero(body.boundary_size + body.modes);
+    list.insert(list.end(), rate.begin(), rate.end());
+  }
+  return list;
+}
+
+void Demand::set_rates(const std::vector<double>& rates) {
+  const double* at = rates.data();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const int size = body_of(whole_, i).boundary_size + body_of(whole_, i).modes;
+    bodies_[i].rate = Eigen::Map<const VectorXd>(at, size);
+    at += size;
+  }
+}
+
+Deformation Demand::deformation(std::size_t superelement) const {
+  const Body& body = bodies_[superelement];
+  const VectorXd &y = body.y, &before = body.before, &after = body.after;
+  if (after.size() == 0) return {y, before};
+  const VectorXd mean = 0.5 * (before + after);
+  const Compliance& compliance = *body.compliance;
+  if (compliance.strain_energy(after - before) < compliance.strain_energy(mean)) return {y, mean};
+  return {y, compliance.strain_energy(before) < compliance.strain_energy(after) ? before : after};
+}
+
 /// To the next sample: from the second one of a window on there is a rate, from the third an acceleration.
 void Demand::move_on(Body& body, VectorXd y, double time) const {
   const Compliance& compliance = *body.compliance;
@@ -137,6 +171,7 @@ void Demand::move_on(Body& body, VectorXd y, double time) const {
   if (body.seen && time > body.time) {
     const double dt = time - body.time, middle = 0.5 * (time + body.time);
     VectorXd rate = (y - body.y) / dt;
+    if (body.after.size() == 0) body.after = rate;
     add(body.change, 0.5 * (y + body.y), rate, dt);
     if (body.rate.size() > 0) {
       body.acceleration = (rate - body.rate) / (middle - body.rate_time);

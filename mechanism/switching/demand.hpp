@@ -29,6 +29,7 @@
 #include "mechanism/switching/buckling.hpp"
 #include "mechanism/switching/carried_inertia.hpp"
 #include "mechanism/switching/compliance.hpp"
+#include "mechanism/switching/deformation.hpp"
 
 namespace tisserand::mechanism {
 
@@ -43,6 +44,10 @@ class Demand {
   void extend_window();
   /// The next sample is the first one.
   void forget();
+  /// The latest rates of all superelements, one after the other, zero where there is none: what the next window begins
+  /// with, for runs that go on from here. To be set after forget().
+  std::vector<double> rates() const;
+  void set_rates(const std::vector<double>& rates);
   /// At a state of the whole model, evaluated; awake: of each use; largest force: of the run so far; inertia: set in
   /// this window.
   void sample(const State& state, const Evaluation& now, const std::vector<bool>& awake, double largest_force,
@@ -54,8 +59,10 @@ class Demand {
   /// proportion to the time of the run, as at a start from rest, what matters beside it now may be nothing beside what
   /// comes.
   bool matters(std::size_t use) const { return place_[use] > 1.0 || (!growing_ && of(use) > 1.0); }
-  /// y of a superelement of the whole model at the latest sample; empty: it has no automatic effect.
-  const Eigen::VectorXd& deformation(std::size_t superelement) const { return bodies_[superelement].y; }
+  /// y of a superelement of the whole model at the latest sample, which the beginning of the window is again, with its
+  /// rate there: the mean of those before and after where these are much the same, else (a load jumps, or there was no
+  /// window before) the smaller.
+  Deformation deformation(std::size_t superelement) const;
   /// The displacement of that at a state of the whole model, evaluated; 0: it has no automatic effect.
   double bend(std::size_t superelement, const Evaluation& now) const;
 
@@ -82,11 +89,13 @@ class Demand {
     bool seen = false;                   ///< there was a sample
     Eigen::VectorXd rate, acceleration;  ///< latest differences; empty: none in this window
     double rate_time = 0.0;              ///< the middle of that of the rate
-    Change change, tremor;               ///< of y, of ẏ
-    double u = 0.0, f = 0.0;             ///< largest of y in the window
-    double rate_u = 0.0;                 ///< largest of ẏ
-    double acceleration_f = 0.0;         ///< largest of ÿ
-    double stressed = 0.0;               ///< largest Buckling::bound() that was looked into, of the window
+    Eigen::VectorXd before,
+        after;  ///< rates on both sides of the beginning of the window; before: zero, after: empty where not known
+    Change change, tremor;        ///< of y, of ẏ
+    double u = 0.0, f = 0.0;      ///< largest of y in the window
+    double rate_u = 0.0;          ///< largest of ẏ
+    double acceleration_f = 0.0;  ///< largest of ÿ
+    double stressed = 0.0;        ///< largest Buckling::bound() that was looked into, of the window
   };
   Eigen::VectorXd load_of(std::size_t superelement, const Evaluation& now) const;
   Eigen::VectorXd deformation_of(std::size_t superelement, const Evaluation& now, bool flexible) const;

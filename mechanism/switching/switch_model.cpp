@@ -3,16 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "common/error.hpp"
-#include "common/math/rotation.hpp"
 #include "mechanism/analyses/start.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/step/generalised_alpha.hpp"
 #include "mechanism/step/redundancy.hpp"
 #include "mechanism/switching/momentum.hpp"
+#include "mechanism/switching/rigid_projection.hpp"
 #include "mechanism/switching/transfer.hpp"
 
 namespace tisserand::mechanism {
@@ -23,35 +22,64 @@ using Eigen::Vector3d;
 /// Constraint rows that repeat others are chosen at the poses of the scene, where they meet; they must be met after the
 /// switch as well, to this part of the characteristic length or in radians.
 constexpr double left_out_tolerance = 1e-6;
-/// Bodies are moved onto their joints with the weight M + h² K, h so many steps: rigidly, as far as they can, since a
-/// body that is bent as its loads ask must not be bent anew by its place. Of a vibration of a thousand steps per period
-/// h² K is still forty times M.
+/// Steps of the time of RigidProjection: of a vibration of a thousand steps per period T² K is still forty times M.
 constexpr double rigid_steps = 1e3;
 
-Eigen::Quaterniond quaternion(const Eigen::Vector4d& q) { return {q[0], q[1], q[2], q[3]}; }
-
-/// Bends a body that stands undeformed, and moves its nodes on as points of the rigid body that it was.
-void bend(const Model& model, std::size_t superelement, const Eigen::VectorXd& y, State& state) {
-  const SuperelementBody& body = body_of(model, superelement);
-  const SuperelementUse& use = model.superelements[superelement];
-  const Eigen::Matrix3d R0 = quaternion(state.frames().col(superelement)).toRotationMatrix();
-  for (std::size_t j = 0; j < body.node.size(); ++j) {
-    const SuperelementNode& local = body.node[j];
-    const Node& node = model.nodes[use.nodes[j]];
-    const auto column = static_cast<Eigen::Index>(use.nodes[j]);
-    if (local.has_rotation()) {
-      const Vector3d Omega0 = state.v().segment<3>(node.rotation);  // the nodes have the axes of the frame
-      const Eigen::Matrix3d E = exp_so3<double>(y.segment<3>(local.rotation_row));
-      const Eigen::Matrix3d R = quaternion(state.Q().col(column)).toRotationMatrix() * E;
-      state.Q().col(column) = wxyz(Eigen::Quaterniond(R).normalized());
-      state.v().segment<3>(node.rotation) = E.transpose() * Omega0;
-      if (local.has_translation())
-        state.v().segment<3>(node.translation) += R0 * Omega0.cross(y.segment<3>(local.translation_row));
+/// Deformations of all superelements, of which some begin with a given one, and their nodes as they were placed.
+class KeptDeformations {
+ public:
+  KeptDeformations(const Model& model, const Deformations& given, State& state, Evaluation& now)
+      : model_(model), placed_(state) {
+    evaluate(model, state, now);
+    for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+      list_.push_back(deformation_of(model, i, now));
+      const auto found = given.find(model.superelements[i].name);
+      if (found == given.end()) continue;
+      list_[i] = found->second;
+      const FrameMotion frame = move_frame(model, i, now, list_[i]);
+      place_deformed(model, i, list_[i], frame, state);
     }
-    if (local.has_translation()) state.x().col(column) += R0 * y.segment<3>(local.translation_row);
+    placed_.block() = state.block();
   }
-  state.y().segment(model.internal_offset[superelement], body.modes) = y.tail(body.modes);
-}
+
+  /// Bodies that have moved since then take their deformations and rates anew where they stand: to first order what
+  /// turns a body also stretches it, and takes no velocity along. Returns whether there were any.
+  bool restore(State& state, Evaluation& now) const {
+    return place_those_that_moved(state, now, [this](std::size_t i) { return list_[i]; });
+  }
+  /// The same with rates alone.
+  bool restore_rates(State& state, Evaluation& now) const {
+    return place_those_that_moved(state, now, [this, &now](std::size_t i) {
+      return Deformation{deformation_of(model_, i, now).y, list_[i].rate};
+    });
+  }
+
+ private:
+  template <class DeformationOf>
+  bool place_those_that_moved(State& state, Evaluation& now, DeformationOf deformation) const {
+    evaluate(model_, state, now);
+    bool any = false;
+    for (std::size_t i = 0; i < list_.size(); ++i) {
+      if (!has_moved(i, state)) continue;
+      place_deformed(model_, i, deformation(i), frame_motion_of(model_, i, now), state);
+      any = true;
+    }
+    return any;
+  }
+
+  bool has_moved(std::size_t superelement, const State& state) const {
+    return std::ranges::any_of(model_.superelements[superelement].nodes, [&](int node) {
+      const Node& of = model_.nodes[node];
+      return state.x().col(node) != placed_.x().col(node) || state.Q().col(node) != placed_.Q().col(node) ||
+             (of.translation >= 0 && state.v().segment<3>(of.translation) != placed_.v().segment<3>(of.translation)) ||
+             (of.rotation >= 0 && state.v().segment<3>(of.rotation) != placed_.v().segment<3>(of.rotation));
+    });
+  }
+
+  const Model& model_;
+  State placed_;
+  std::vector<Deformation> list_;
+};
 
 /// Of each group of bodies that holds one that changed.
 void keep_momenta(const Standing& before, const BodyGroup& changed, const Model& model, State& state, Evaluation& then,
@@ -85,14 +113,16 @@ double change_of_reactions(const Standing& before, const Model& model, const Sta
   return largest;
 }
 
-void put_on_constraints(const formats::Scene& scene, const Model& model, State& state, Workspace& workspace) {
-  constexpr double any = std::numeric_limits<double>::infinity();
-  const double step = scene.integrator.step;
-  project_initial_positions(model, any, rigid_steps * step, scene.file, state, workspace);
-  evaluate(model, state, workspace.now);
-  if (!(largest_violation_left_out(model, workspace.now) < left_out_tolerance))
+void put_on_constraints(const formats::Scene& scene, const Model& model, const KeptDeformations& deformations,
+                        State& state, Evaluation& now) {
+  RigidProjection projection(model, rigid_steps * scene.integrator.step);
+  projection.positions(state, now);
+  if (deformations.restore(state, now)) projection.positions(state, now);
+  evaluate(model, state, now);
+  if (!(largest_violation_left_out(model, now) < left_out_tolerance))
     throw Error("joints that repeat others stay open", scene.file, "");
-  project_initial_velocities(model, any, step, scene.file, state, workspace);
+  projection.velocities(state, now);
+  if (deformations.restore_rates(state, now)) projection.velocities(state, now);
 }
 
 void make_ready(const formats::Scene& scene, const Model& model, State& state, Workspace& workspace) {
@@ -120,11 +150,9 @@ std::optional<SwitchedModel> switch_model(const formats::Scene& scene, const Bod
   state.lambda().setZero();
   state.active().setOnes();
   for (const int row : mobility.redundant) state.active()[row] = 0.0;
-  for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    if (const auto found = deformations.find(model.superelements[i].name); found != deformations.end())
-      bend(model, i, found->second, state);
+  const KeptDeformations kept(model, deformations, state, workspace.now);
   try {
-    put_on_constraints(scene, model, state, workspace);
+    put_on_constraints(scene, model, kept, state, workspace.now);
     keep_momenta(before, changed, model, state, then, workspace.now);
     make_ready(scene, model, state, workspace);
   } catch (const Error&) {

@@ -9,6 +9,7 @@
 
 #include "mechanism/build/build_model.hpp"
 #include "mechanism/step/workspace.hpp"
+#include "mechanism/switching/deformation.hpp"
 #include "mechanism/switching/momentum.hpp"
 
 namespace tisserand::mechanism {
@@ -19,8 +20,8 @@ struct Standing {
   const State& state;
 };
 
-/// Quasi-static deformations y that bodies begin with, by their names; others begin undeformed.
-using Deformations = std::map<std::string, Eigen::VectorXd>;
+/// Quasi-static deformations that bodies begin with, by their names; others begin undeformed.
+using Deformations = std::map<std::string, Deformation>;
 
 /// The model after a switch, ready for a step.
 struct SwitchedModel {
@@ -30,11 +31,11 @@ struct SwitchedModel {
 };
 
 /// `scene` with all switches carried out, from where `before` stands. Positions: StateTransfer, deformations, then onto
-/// the constraints, rigidly as far as they let the bodies. Velocities: those of the transfer with the smallest impulses
-/// of the joints that bring them onto the constraints; then each group of jointed bodies with one that `changed` moves
-/// as one rigid body until it has the linear and angular momentum of before, wherever its joints to ground leave it
-/// free. Accelerations, multipliers and what a step needs are solved for; sums and running maxima go on. Nothing: the
-/// joints cannot be closed, or nothing holds a direction.
+/// the constraints, rigidly as far as they let the bodies; superelements keep their deformation and its rate while they
+/// are moved. Velocities in the same way; then each group of jointed bodies with one that `changed` moves as one rigid
+/// body until it has the linear and angular momentum of before, wherever its joints to ground leave it free.
+/// Accelerations, multipliers and what a step needs are solved for; sums and running maxima go on. Nothing: the joints
+/// cannot be closed, or nothing holds a direction.
 std::optional<SwitchedModel> switch_model(const formats::Scene& scene, const BodyFiles& files, const Standing& before,
                                           const BodyGroup& changed, const Deformations& deformations);
 

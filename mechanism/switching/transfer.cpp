@@ -159,11 +159,16 @@ void StateTransfer::apply(const State& state, const Evaluation& now, State& resu
   result.work() = state.work();
   result.dissipated() = state.dissipated();
   result.initial_energy() = state.initial_energy();
+  for (int k = 0; k < 3; ++k) result.force_scale(k) = state.force_scale(k);
+  result.acceleration_scale() = state.acceleration_scale();
+  result.load_power() = state.load_power();
+  result.damping_power() = state.damping_power();
   for (std::size_t i = 0; i < to_.nodes.size(); ++i) set_node(static_cast<int>(i), state, now, result);
   set_superelements(state, result);
   set_modal_bodies(state, result);
   set_treads(state, result);
   set_hinges(state, result);
+  result.algorithmic() = result.vdot();  // those of a step are of its model
   const bool same_constraints = from_.sizes.constraints == to_.sizes.constraints;
   result.lambda().setZero();
   result.active().setOnes();

@@ -19,9 +19,12 @@ void raise(const std::vector<float>& values, double time, std::vector<float>& la
     }
 }
 
+/// Of values that symmetry makes equal the first one is named, not the one that round-off of floats makes larger.
+constexpr float as_large = 2e-6f;
+
 void raise(const std::vector<float>& values, int first, int end, double time, Peak& peak) {
   for (int i = first; i < end; ++i)
-    if (const float value = values[static_cast<std::size_t>(i)]; peak.at < 0 || value > peak.value)
+    if (const float value = values[static_cast<std::size_t>(i)]; peak.at < 0 || value > (1.0f + as_large) * peak.value)
       peak = {value, time, i};
 }
 

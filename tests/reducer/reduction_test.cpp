@@ -242,7 +242,9 @@ TEST(Reduction, ModesAgreeWithThoseOfTheFullModel) {
   part.modes.count = 4;
   const reducer::Reduction few = reduce(part);
   EXPECT_NEAR(few.model.assurance[0][0], 1.0, 1e-2);
-  EXPECT_LT(few.model.assurance[11][11], 0.99);
+  const std::vector<double>& highest = few.model.assurance[11];  // with each mode that the reduced part has
+  ASSERT_LT(highest.size(), 12u);
+  EXPECT_LT(*std::ranges::max_element(highest), 0.99);
 }
 
 /// One file that needs nothing else; names from files are text.

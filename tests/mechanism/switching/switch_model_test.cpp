@@ -112,7 +112,8 @@ TEST(SwitchModel, KeepsLinearAndAngularMomentumForthAndBack) {
   VectorXd load = VectorXd::Zero(15);
   load[5] = -200.0;
   load[11] = 200.0;
-  const Switches after = forth_and_back(scene, run.model(), state, {{"right", compliance.deformation(load)}});
+  const Switches after = forth_and_back(
+      scene, run.model(), state, {{"right", {compliance.deformation(load), 30.0 * compliance.deformation(load)}}});
   const Momentum rigid = sum_of_momenta(after.rigid.built.model, after.rigid.built.state);
   const Momentum back = sum_of_momenta(after.back.built.model, after.back.built.state);
   EXPECT_LT((rigid - before).head<3>().norm(), 1e-12 * before.head<3>().norm());
@@ -120,6 +121,43 @@ TEST(SwitchModel, KeepsLinearAndAngularMomentumForthAndBack) {
   EXPECT_LT((back - before).head<3>().norm(), 1e-12 * before.head<3>().norm());
   EXPECT_LT((back - before).tail<3>().norm(), 1e-12 * before.tail<3>().norm());
   EXPECT_GT((rigid - before).norm(), 0.0);  // and they were computed anew
+}
+
+// A cantilever of second order bent by 1e-3 rad: its place on the clamp neither stretches it (half the square of that
+// angle would, by as much as a tenth of its bending energy) nor lets it vibrate: deformation and rate are as asked.
+TEST(SwitchModel, MovesBentBodiesAsRigidOnes) {
+  BodyFiles list;
+  test_support::add_file("beam", test_support::craig_bampton_beam({}, 3), list.superelements);
+  formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
+  scene.bodies.emplace_back(test_support::superelement_body("beam", "beam"));
+  const Vector3d z = Vector3d::UnitZ();
+  scene.joints = {
+      test_support::joint("hinge", formats::JointKind::revolute, "ground", "beam/base", Vector3d::Zero(), z)};
+  scene.motions = {test_support::drive("hinge", "3 * t")};
+  const formats::Scene rigid = with_flexibility(scene, "beam", false);
+  Simulation run(rigid, list);
+  run.start();
+  run.run(0.05);
+  Simulation whole(scene, list);
+  const SuperelementBody& body = body_of(whole.model(), 0);
+  const Compliance compliance(body);
+  VectorXd load = VectorXd::Zero(body.boundary_size + body.modes);
+  load[body.node.back().translation_row + 1] = 1.0;
+  load[body.node.front().translation_row + 1] = -1.0;
+  load[body.node.front().rotation_row + 2] = -2.0;  // its length
+  VectorXd y = compliance.deformation(load);
+  y *= 1e-3 / std::abs(y[body.node.front().rotation_row + 2]);
+  const auto after = switch_model(scene, list, {run.model(), run.state()}, {"beam"}, {{"beam", {y, 20.0 * y}}});
+  ASSERT_TRUE(after.has_value());
+  Evaluation now(after->built.model);
+  evaluate(after->built.model, after->built.state, now);
+  EXPECT_LT(now.constraint.norm(), 1e-12);
+  EXPECT_LT(now.constraint_rate.norm(), 1e-12);
+  const Deformation is = deformation_of(after->built.model, 0, now);
+  const auto strain = [&](const VectorXd& of) { return compliance.strain_energy(compliance.without_rigid_motion(of)); };
+  ASSERT_GT(strain(y), 0.0);
+  EXPECT_LT(strain(is.y - y), 1e-8 * strain(y));
+  EXPECT_LT(strain(is.rate - 20.0 * y), 1e-8 * 400.0 * strain(y));
 }
 
 // The block is another group: no number of it changes.
