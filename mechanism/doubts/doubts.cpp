@@ -36,7 +36,9 @@ void Doubts::at_state(const Model& model, const State& state, const Evaluation& 
   tyres_.observe(model, state, evaluation);
 }
 
-void Doubts::at_row(const formats::ResultsRow& row) { energy_.observe(row); }
+void Doubts::at_row(const Model& model, const State& state, const formats::ResultsRow& row) {
+  energy_.observe(row, state.force_scale(0) * model.length);
+}
 
 std::vector<std::string> Doubts::of_model(const Model& model) const {
   std::vector<std::string> all = told_;

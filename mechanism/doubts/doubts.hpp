@@ -23,7 +23,7 @@ class Doubts {
   void after_step(const Model& model, const State& before, const State& state, const Evaluation& evaluation);
   /// At an evaluated state that no step of generalised alpha ends at: statics, rows of bdf.
   void at_state(const Model& model, const State& state, const Evaluation& evaluation);
-  void at_row(const formats::ResultsRow& row);
+  void at_row(const Model& model, const State& state, const formats::ResultsRow& row);
 
   /// The run goes on with another model of the scene: what there was to tell of this one is kept, and observing begins
   /// anew, but of the energy.

@@ -19,14 +19,14 @@ constexpr double round_off = 1e-12;
 
 }  // namespace
 
-void EnergyBalance::observe(const formats::ResultsRow& row) {
+void EnergyBalance::observe(const formats::ResultsRow& row, double possible) {
   if (!std::isfinite(row.balance)) return;
   if (std::abs(row.balance) > std::abs(largest_)) {
     largest_ = row.balance;
     at_ = row.time;
   }
   moved_ = std::max(moved_, row.kinetic + std::abs(row.strain) + std::abs(row.work));
-  level_ = std::max(level_, std::abs(row.total));
+  level_ = std::max({level_, std::abs(row.total), possible});
   const double share = end_ > start_ ? (row.time - start_) / (end_ - start_) : 0.0;
   Part& part = part_[std::clamp(static_cast<int>(parts * share), 0, parts - 1)];
   part.sum += row.balance;

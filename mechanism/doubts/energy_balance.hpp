@@ -14,7 +14,9 @@ class EnergyBalance {
  public:
   EnergyBalance(double start, double end) : start_(start), end_(end) {}
 
-  void observe(const formats::ResultsRow& row);
+  /// possible: work of the largest force so far over the characteristic length. What stands still balances round-off of
+  /// that.
+  void observe(const formats::ResultsRow& row, double possible);
 
   /// At most one: that the largest balance exceeds a hundredth of the energy that moved, or that it drifts there.
   std::vector<std::string> doubts() const;
@@ -33,7 +35,7 @@ class EnergyBalance {
   double largest_ = 0.0;            ///< with its sign
   double at_ = 0.0;
   double moved_ = 0.0;  ///< largest kinetic + |strain| + |work|
-  double level_ = 0.0;  ///< largest |total|, whose round-off is no balance
+  double level_ = 0.0;  ///< largest |total| or work that was possible, whose round-off is no balance
 };
 
 }  // namespace tisserand::mechanism

@@ -16,10 +16,10 @@ struct Failure {
   double size = 0.0;  ///< of the step that was first tried there
 };
 
-/// "; <cause>: <remedy>", asked in this order: multipliers that swing; torsion too soft for the spin; drives that joints
-/// cannot follow, with the step first tried; a constraint Jacobian that is nearly of lower rank at the state; an iteration matrix that is singular
-/// there with the step first tried, and with a quarter of it or not; a motion that changes much per step. Empty: none of these. Overwrites the
-/// evaluation and the matrix.
+/// "; <cause>: <remedy>", asked in this order: multipliers that swing; torsion too soft for the spin; drives that
+/// joints cannot follow, with the step first tried; a constraint Jacobian that is nearly of lower rank at the state; an
+/// iteration matrix that is singular there with the step first tried, and with a quarter of it or not; a motion that
+/// changes much per step. Empty: none of these. Overwrites the evaluation and the matrix.
 std::string failure_cause(const Model& model, const formats::IntegratorSpec& options, const Doubts& doubts,
                           const Failure& failure, State& state, Workspace& workspace);
 

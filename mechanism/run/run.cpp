@@ -321,7 +321,7 @@ void write_row(Run& run, const StepReport& step, double size, RowWriter& out, co
     run.listener->state(run.automatic ? run.automatic->whole_state(run) : run.built.state);
   }
   RunReport& report = run.report;
-  if (report.analysis == formats::AnalysisKind::dynamics) run.doubts.at_row(row);
+  if (report.analysis == formats::AnalysisKind::dynamics) run.doubts.at_row(run.built.model, run.built.state, row);
   ++report.rows;
   report.balance = row.balance;
   report.largest_balance = std::max(report.largest_balance, std::abs(row.balance));

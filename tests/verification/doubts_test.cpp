@@ -42,7 +42,7 @@ std::vector<std::string> told_by(Balance balance) {
   for (int i = 0; i <= 80; ++i) {
     row.time = i;
     row.balance = balance(row.time);
-    energy.observe(row);
+    energy.observe(row, 0.0);
   }
   return energy.doubts();
 }
@@ -51,6 +51,17 @@ TEST(EnergyDoubt, SpeaksBeyondAHundredthOfWhatMoved) {
   EXPECT_THAT(told_by([](double t) { return t < 40 ? 0.0 : -0.02; }),
               ElementsAre(HasSubstr("0.02 of the energy that moved was lost")));
   EXPECT_THAT(told_by([](double t) { return 0.009 * std::sin(t); }), IsEmpty());
+}
+
+// A body of weight 10 N that a fixed joint holds 0.3 m from its centre of mass: round-off is all that its energies
+// have.
+TEST(EnergyDoubt, IsSilentWhereNothingMoves) {
+  formats::Scene scene = test_support::empty_scene(0.01, 1.0);
+  scene.gravity = {0, -10, 0};
+  formats::RigidBodySpec body = test_support::rigid_body("body", 1.0, {0.3, 0.1, 0}, {0.01, 0.01, 0.01});
+  scene.bodies.emplace_back(body);
+  scene.joints = {test_support::joint("weld", formats::JointKind::fixed, "ground", "body", {0.17, 0, 0}, {0, 0, 1})};
+  EXPECT_THAT(run(scene).doubts, IsEmpty());
 }
 
 TEST(EnergyDoubt, SpeaksOfASteadyDrift) {
