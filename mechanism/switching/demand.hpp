@@ -89,13 +89,13 @@ class Demand {
     bool seen = false;                   ///< there was a sample
     Eigen::VectorXd rate, acceleration;  ///< latest differences; empty: none in this window
     double rate_time = 0.0;              ///< the middle of that of the rate
-    Eigen::VectorXd before,
-        after;  ///< rates on both sides of the beginning of the window; before: zero, after: empty where not known
-    Change change, tremor;        ///< of y, of ẏ
-    double u = 0.0, f = 0.0;      ///< largest of y in the window
-    double rate_u = 0.0;          ///< largest of ẏ
-    double acceleration_f = 0.0;  ///< largest of ÿ
-    double stressed = 0.0;        ///< largest Buckling::bound() that was looked into, of the window
+    Eigen::VectorXd before;              ///< rate until the beginning of the window; zero: not known
+    Eigen::VectorXd after;               ///< the first rate of the window; empty: not known
+    Change change, tremor;               ///< of y, of ẏ
+    double u = 0.0, f = 0.0;             ///< largest of y in the window
+    double rate_u = 0.0;                 ///< largest of ẏ
+    double acceleration_f = 0.0;         ///< largest of ÿ
+    double stressed = 0.0;               ///< largest Buckling::bound() that was looked into, of the window
   };
   Eigen::VectorXd load_of(std::size_t superelement, const Evaluation& now) const;
   Eigen::VectorXd deformation_of(std::size_t superelement, const Evaluation& now, bool flexible) const;

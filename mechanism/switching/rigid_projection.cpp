@@ -2,6 +2,7 @@
 #include "mechanism/switching/rigid_projection.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "common/error.hpp"
 #include "mechanism/equations/evaluate.hpp"
@@ -48,9 +49,12 @@ const Eigen::VectorXd& RigidProjection::change(const State& state, const Eigen::
 }
 
 void RigidProjection::positions(State& state, Evaluation& now) {
+  double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     evaluate(model_, state, now);
-    if (largest_gap(model_, now) <= met) return;
+    const double gap = largest_gap(model_, now);
+    if (gap <= met || (gap <= closed && gap > 0.5 * last)) return;  // to round-off
+    last = gap;
     const State before = state;
     retract(model_, before, change(state, now.constraint, now), state);
   }
