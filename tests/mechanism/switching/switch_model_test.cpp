@@ -8,6 +8,7 @@
 #include "mechanism/switching/buckling.hpp"
 #include "mechanism/switching/carried_inertia.hpp"
 #include "mechanism/switching/compliance.hpp"
+#include "mechanism/switching/rigid_projection.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/scenes/scenes.hpp"
 #include "tests/support/scenes/second_order_scenes.hpp"
@@ -158,6 +159,30 @@ TEST(SwitchModel, MovesBentBodiesAsRigidOnes) {
   ASSERT_GT(strain(y), 0.0);
   EXPECT_LT(strain(is.y - y), 1e-8 * strain(y));
   EXPECT_LT(strain(is.rate - 20.0 * y), 1e-8 * 400.0 * strain(y));
+}
+
+// Two bodies in a ball joint of which one moves at 1: they share it as their masses ask, m1 v/(m1 + m2), though a
+// spring holds the first to the ground: the stiffness of the scene is no weight.
+TEST(RigidProjection, SharesGapsByMassesAlone) {
+  formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
+  scene.bodies = {test_support::rigid_body("a", 1.0, Vector3d::Zero(), {1, 1, 1}),
+                  test_support::rigid_body("b", 3.0, Vector3d::Zero(), {1, 1, 1})};
+  scene.joints = {test_support::joint("ball", JointKind::spherical, "a", "b", Vector3d::Zero(), Vector3d::UnitZ())};
+  formats::SpringSpec spring;
+  spring.name = "spring";
+  spring.a = {"ground", Vector3d(-1, 0, 0), std::nullopt, "test"};
+  spring.b = {"a", Vector3d::Zero(), std::nullopt, "test"};
+  spring.stiffness = 1e4;
+  scene.springs = {spring};
+  Simulation run(scene, {});
+  run.start();
+  State state = run.state();
+  Evaluation now(run.model());
+  state.v().setZero();
+  state.v()[run.model().nodes[run.model().rigid_bodies[0].node].translation] = 1.0;
+  RigidProjection(run.model(), 1.0).velocities(state, now);
+  for (const RigidBody& body : run.model().rigid_bodies)
+    EXPECT_NEAR(state.v()[run.model().nodes[body.node].translation], 0.25, 1e-8);  // the least weight
 }
 
 // The block is another group: no number of it changes.
