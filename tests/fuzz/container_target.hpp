@@ -1,8 +1,6 @@
 // What the targets of binary files share: bytes -> a mutated copy of a sound file -> a reader.
 #pragma once
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
@@ -28,7 +26,7 @@ namespace tisserand {
 
 /// Path of a sound file of this process, written once by `write`.
 inline std::string sound_file(const std::string& kind, const std::function<void(const std::string&)>& write) {
-  const std::string path = "/dev/shm/tisserand-fuzz-" + std::to_string(::getpid()) + "." + kind + ".h5";
+  const std::string path = Scratch::file(kind + ".h5");
   write(path);
   return path;
 }

@@ -191,8 +191,10 @@ void foreign_dataset(Bytes& bytes, hid_t file, const std::string& name) {
   write_variable_texts(bytes, dataset, type, space);
 }
 
+/// Of at most 1 MiB: HDF5 writes all of an attribute at once, whether it was given values or not.
 void foreign_attribute(Bytes& bytes, hid_t file, const std::string& name) {
   const Id type(foreign_type(bytes)), space(foreign_space(bytes).id);
+  if (H5Sget_simple_extent_npoints(space) > (1 << 20) / static_cast<hssize_t>(H5Tget_size(type))) return;
   const Id attribute(H5Acreate2(file, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT));
   if (attribute < 0) return;
   const std::vector<char> values = foreign_values(bytes, type, space);
