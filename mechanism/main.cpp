@@ -272,7 +272,8 @@ void add_ledger(CLI::App& app, LedgerArguments& arguments, int& code) {
       ->allow_extra_args(false);
   command->add_option("--effect", ledger.choice.effects, "only this effect, or inertia; may be repeated")
       ->allow_extra_args(false);
-  command->add_option("--body", ledger.choice.bodies, "only of this body; may be repeated")->allow_extra_args(false);
+  command->add_option("--of", ledger.choice.owners, "only of this body, joint or spring; may be repeated")
+      ->allow_extra_args(false);
   command->add_option("--active", ledger.least_activity, "effects with a smaller share of activity are not tried")
       ->check(CLI::Range(0.0, 1.0));
   command->add_flag("--json", ledger.json, "the same as JSON, with all figures");

@@ -39,6 +39,14 @@ std::string format_of(const hdf5::InputFile& file) {
   return file.has_attribute("/", "format") ? file.text_attribute("/", "format") : "";
 }
 
+/// An attribute that counts, up to `most`.
+double count_attribute(const hdf5::InputFile& file, const std::string& name, double most) {
+  const double value = file.number_attribute("/", name);
+  if (value >= 0.0 && value <= most) return value;
+  throw Error(fmt::format("is damaged: attribute '{}' is {}, which counts nothing", name, value), file.path(),
+              "take an older checkpoint");
+}
+
 Checkpoint read_unchecked(const std::string& path) {
   const hdf5::InputFile file(path, hdf5::Completeness::closed);
   const std::string format = format_of(file);
@@ -55,12 +63,12 @@ Checkpoint read_unchecked(const std::string& path) {
   c.scene = file.text_attribute("/", "scene");
   c.producer = file.text_attribute("/", "producer");
   c.fingerprint = file.text_attribute("/", "fingerprint");
-  c.state_version = static_cast<int>(file.number_attribute("/", "state_version"));
+  c.state_version = static_cast<int>(count_attribute(file, "state_version", 1e9));
   c.time = file.number_attribute("/", "time");
   if (file.has_attribute("/", "run")) {  // since 1.1
     c.results = file.text_attribute("/", "results");
     c.run = file.text_attribute("/", "run");
-    c.rows = static_cast<std::size_t>(std::clamp(file.number_attribute("/", "rows"), 0.0, 1e15));
+    c.rows = static_cast<std::size_t>(count_attribute(file, "rows", 1e15));
   }
   c.state = read_numbers(file, "/state");
   c.schedule = read_numbers(file, "/schedule");

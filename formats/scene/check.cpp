@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <set>
 #include <unordered_set>
 
@@ -205,15 +206,30 @@ void check_node(const SceneIndex& scene, const MarkerSpec& marker, const std::st
                fmt::format("write {}/<node>{}", body_name, beam ? fmt::format(", for example {}/end", body_name) : ""));
 }
 
-/// Whether bodies have what is switched hangs on their files and is told where the model is built.
-void check_effects(const Scene& scene, Faults& faults) {
+/// Names of all that can have an effect of this owner.
+std::vector<std::string> effect_owners(EffectOwner owner, const Scene& scene) {
   std::vector<std::string> names;
-  if (!scene.effects.empty())
+  if (owner == EffectOwner::body)
     for (const BodySpec& body : scene.bodies) names.push_back(name_of(body));
-  std::set<std::string> told;
-  for (const EffectSwitch& one : scene.effects)
-    if (!one.body.empty() && told.insert(one.body).second)
-      check_reference("effects", "body", one.body, names, one.where, "", faults);
+  if (owner == EffectOwner::joint)
+    for (const JointSpec& joint : scene.joints) names.push_back(joint.name);
+  if (owner == EffectOwner::spring)
+    for (const SpringSpec& spring : scene.springs) names.push_back(spring.name);
+  return names;
+}
+
+/// Whether they have what is switched hangs on files too and is told where the model is built.
+void check_effects(const Scene& scene, Faults& faults) {
+  constexpr const char* nouns[] = {"body", "joint", "spring"};
+  std::map<EffectOwner, std::vector<std::string>> names;
+  std::set<std::pair<EffectOwner, std::string>> told;
+  for (const EffectSwitch& one : scene.effects) {
+    const EffectOwner owner = owner_of(one.effect);
+    if (one.owner.empty() || !told.insert({owner, one.owner}).second) continue;
+    if (!names.contains(owner)) names[owner] = effect_owners(owner, scene);
+    check_reference(fmt::format("effects: {}", effect_word(one.effect)), nouns[static_cast<int>(owner)], one.owner,
+                    names[owner], one.where, "", faults);
+  }
 }
 
 }  // namespace

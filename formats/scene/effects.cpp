@@ -1,4 +1,4 @@
-// `effects` of scene.yaml: switches of the scene, and of bodies by their names.
+// `effects` of scene.yaml: switches of the scene, and of bodies, joints and springs by their names.
 #include "formats/scene/effects.hpp"
 
 #include <algorithm>
@@ -29,8 +29,8 @@ std::string automatic_words() {
 }
 
 /// Of the effect that the key of the node names; nothing and an error for another value than it can have.
-void read_switch(const Context& context, const YamlNode& node, const Choice<Effect>& effect, const std::string& body,
-                 std::vector<EffectSwitch>& switches) {
+void read_switch(const Context& context, const YamlNode& node, const Choice<Effect>& effect,
+                 const std::string& owner, std::vector<EffectSwitch>& switches) {
   if (node.kind == YamlKind::scalar && node.text == "auto" && !can_be_automatic(effect.value)) {
     context.fail(node.place, fmt::format("'{}' cannot be 'auto': no run switches it", node.key),
                  fmt::format("give it 'on' or 'off'; 'auto' can be {}", automatic_words()));
@@ -39,11 +39,11 @@ void read_switch(const Context& context, const YamlNode& node, const Choice<Effe
   std::vector<std::string> words{"off", "on"};
   if (can_be_automatic(effect.value)) words.emplace_back("auto");
   if (const auto index = read_word(context, node, fmt::format("value of '{}'", node.key), words))
-    switches.push_back({effect.value, body, *index > 0, context.reader.where(node.key_place), *index == 2});
+    switches.push_back({effect.value, owner, *index > 0, context.reader.where(node.key_place), *index == 2});
 }
 
-void read_body_effects(const MapReader& scene, const YamlNode& node, std::vector<EffectSwitch>& switches) {
-  const Context context = entry_context(scene.context().reader, "effects of body", node);
+void read_effects_of_one(const MapReader& scene, const YamlNode& node, std::vector<EffectSwitch>& switches) {
+  const Context context = entry_context(scene.context().reader, "effects of", node);
   const MapReader map(context, node, "body_effects");
   for (const Choice<Effect>& effect : effect_words) {
     if (effect.value == Effect::planar) continue;  // of the scene alone
@@ -67,7 +67,7 @@ void read_scene_effect(const MapReader& scene, const YamlNode& node, std::vector
                            near ? fmt::format("did you mean '{}'? ", *near) : "", join(words, ", "), node.key));
 }
 
-/// `tolerance` or `window`, unless it is the name of a body.
+/// `tolerance` or `window`, unless it is a name.
 bool is_automatic_setting(const YamlNode& node) {
   return (node.key == "tolerance" || node.key == "window") && node.kind != YamlKind::map;
 }
@@ -92,13 +92,13 @@ std::string effect_word(Effect effect) {
 
 void read_effects(const MapReader& map, Scene& scene) {
   std::vector<EffectSwitch>& switches = scene.effects;
-  for (const YamlNode* node : map.entries("effects", "effect or body"))
+  for (const YamlNode* node : map.entries("effects", "effect, body, joint or spring"))
     if (is_automatic_setting(*node))
       read_automatic_setting(map, *node, scene.automatic);
     else if (node->key.empty())
       map.context().fail(node->key_place, "there is no body ''", "name a body of the scene");
     else if (node->kind == YamlKind::map)
-      read_body_effects(map, *node, switches);
+      read_effects_of_one(map, *node, switches);
     else
       read_scene_effect(map, *node, switches);
 }
@@ -123,8 +123,8 @@ std::vector<KeySet> effect_key_sets() {
         field("damping",
               "of superelements and modal bodies, with that of the file; dampers of springs and bushings stay"),
         field("gravity", "weight of bodies with mass; load cases of parts stay"),
-        field("friction", "Coulomb friction of all joints: of the scene, not of a body"),
-        field("stops", "`lower` and `upper` of all springs: of the scene, not of a body")}}};
+        field("friction", "Coulomb friction of joints: of the scene, or under the name of a joint"),
+        field("stops", "`lower` and `upper` of springs: of the scene, or under the name of a spring")}}};
 }
 
 }  // namespace tisserand::formats

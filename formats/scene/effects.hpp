@@ -21,10 +21,19 @@ std::string effect_word(Effect effect);
 /// without it, at once.
 constexpr bool can_be_automatic(Effect effect) { return effect == Effect::flexibility || effect == Effect::stiffening; }
 
-/// Of one body, or of all that have the effect; what is said of a body counts for it.
+/// What has an effect.
+enum class EffectOwner { body, joint, spring };
+
+constexpr EffectOwner owner_of(Effect effect) {
+  return effect == Effect::friction ? EffectOwner::joint
+         : effect == Effect::stops  ? EffectOwner::spring
+                                    : EffectOwner::body;
+}
+
+/// Of one body, joint (friction) or spring (stops), or of all that have the effect; what is said of one counts for it.
 struct EffectSwitch {
   Effect effect = Effect::gravity;
-  std::string body;  ///< empty: the whole scene
+  std::string owner;  ///< empty: the whole scene
   bool on = true;
   std::string where;
   bool automatic = false;  ///< with `on`: the run switches it

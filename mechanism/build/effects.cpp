@@ -1,4 +1,4 @@
-// What each type of body has of each effect, and how the specification of a body does without it.
+// What each type of body has of each effect, joints of friction and springs of stops, and how their specifications do without it.
 #include "mechanism/build/effects.hpp"
 
 #include <algorithm>
@@ -30,17 +30,12 @@ Share share_if(bool has, const char* remedy) { return has ? own_term : no_share(
 
 constexpr const char* no_weight = "give the scene or the body 'gravity'";
 constexpr const char* no_damping = "give the body 'damping'";
-constexpr const char* of_joints =
-    "friction belongs to joints: switch it for the scene, or change 'friction' of a joint";
-constexpr const char* of_springs = "stops belong to springs: switch them for the scene, or change 'lower' and 'upper'";
-
 bool is_damped(const formats::Damping& damping) { return damping != formats::Damping{}; }
 
-/// What all bodies with mass answer alike.
+/// Of all bodies with mass.
 template <class Spec>
-Share common_share(const Spec& spec, Effect effect, const formats::Scene& scene) {
-  if (effect == Effect::gravity) return share_if(!spec.gravity.value_or(scene.gravity).isZero(0.0), no_weight);
-  return no_share(effect == Effect::friction ? of_joints : effect == Effect::stops ? of_springs : "");
+Share share_of_weight(const Spec& spec, const formats::Scene& scene) {
+  return share_if(!spec.gravity.value_or(scene.gravity).isZero(0.0), no_weight);
 }
 
 Share share_of_rigid(Effect effect) {
@@ -56,13 +51,9 @@ SecondOrderChoice choice_of(const formats::SuperelementBodySpec& spec, const Bod
   return choose_second_order(spec, found == files.companions.end() ? nullptr : &found->second);
 }
 
-bool takes_common_share(Effect effect) {
-  return effect == Effect::gravity || effect == Effect::friction || effect == Effect::stops;
-}
-
 Share share_of(const formats::SuperelementBodySpec& spec, Effect effect, const formats::Scene& scene,
                const BodyFiles& files) {
-  if (takes_common_share(effect)) return common_share(spec, effect, scene);
+  if (effect == Effect::gravity) return share_of_weight(spec, scene);
   if (spec.rigid) return share_of_rigid(effect);
   if (effect == Effect::flexibility) return own_term;
   if (effect == Effect::stiffening)
@@ -75,7 +66,7 @@ Share share_of(const formats::SuperelementBodySpec& spec, Effect effect, const f
 }
 
 Share share_of(const formats::ModalBodySpec& spec, Effect effect, const formats::Scene& scene, const BodyFiles& files) {
-  if (takes_common_share(effect)) return common_share(spec, effect, scene);
+  if (effect == Effect::gravity) return share_of_weight(spec, scene);
   const formats::ModalBody& file = files.modal_bodies.at(spec.file).body;
   if (effect == Effect::flexibility) return share_if(spec.modes.value_or(1) > 0 && file.modes() > 0, "give it 'modes'");
   if (effect == Effect::damping) return share_if(is_damped(spec.damping) || !file.zeta.isZero(0.0), no_damping);
@@ -86,7 +77,7 @@ Share share_of(const formats::ModalBodySpec& spec, Effect effect, const formats:
 }
 
 Share share_of(const formats::BeamBodySpec& spec, Effect effect, const formats::Scene& scene, const BodyFiles&) {
-  if (takes_common_share(effect)) return common_share(spec, effect, scene);
+  if (effect == Effect::gravity) return share_of_weight(spec, scene);
   if (effect == Effect::rotary_inertia) return own_term;
   if (effect == Effect::damping) return no_share("beams have none: put dampers beside it");
   if (effect == Effect::flexibility) return inseparable("make it a rigid body, or reduce it to a superelement");
@@ -96,13 +87,11 @@ Share share_of(const formats::BeamBodySpec& spec, Effect effect, const formats::
 }
 
 Share share_of(const formats::RigidBodySpec& spec, Effect effect, const formats::Scene& scene, const BodyFiles&) {
-  return takes_common_share(effect) ? common_share(spec, effect, scene) : share_of_rigid(effect);
+  return effect == Effect::gravity ? share_of_weight(spec, scene) : share_of_rigid(effect);
 }
 
-Share share_of(const formats::VirtualBodySpec&, Effect effect, const formats::Scene&, const BodyFiles&) {
-  return no_share(effect == Effect::friction ? of_joints
-                  : effect == Effect::stops  ? of_springs
-                                             : "a virtual body has no mass and no stiffness");
+Share share_of(const formats::VirtualBodySpec&, Effect, const formats::Scene&, const BodyFiles&) {
+  return no_share("a virtual body has no mass and no stiffness");
 }
 
 const std::string& body_name(const formats::BodySpec& body) {
@@ -111,9 +100,7 @@ const std::string& body_name(const formats::BodySpec& body) {
 
 bool has_stops(const formats::SpringSpec& spring) { return spring.lower || spring.upper; }
 
-bool has_friction(const formats::Scene& scene) {
-  return std::ranges::any_of(scene.joints, [](const formats::JointSpec& joint) { return joint.friction.has_value(); });
-}
+bool has_friction(const formats::JointSpec& joint) { return joint.friction.has_value(); }
 
 /// Whether a run can switch it while it moves: of superelements.
 bool is_switched_by_runs(const formats::BodySpec& body) {
@@ -122,30 +109,46 @@ bool is_switched_by_runs(const formats::BodySpec& body) {
 
 std::string value_word(const formats::EffectSwitch& one) { return one.automatic ? "auto" : one.on ? "on" : "off"; }
 
-bool belongs_to_scene(Effect effect) { return effect == Effect::friction || effect == Effect::stops; }
+/// Friction of joints, stops of springs: what has it, and what gives it.
+struct Attachment {
+  std::vector<std::string> has, has_not;
+  const char* noun;
+  const char* remedy;
+};
 
-bool scene_has(Effect effect, const formats::Scene& scene) {
-  return effect == Effect::friction ? has_friction(scene) : std::ranges::any_of(scene.springs, has_stops);
+template <class Spec>
+void sort_out(const std::vector<Spec>& list, bool (*has)(const Spec&), Attachment& attachment) {
+  for (const Spec& spec : list) (has(spec) ? attachment.has : attachment.has_not).push_back(spec.name);
 }
 
-/// The switches of a scene: what is said of a body counts before what is said of all.
+Attachment attachment_of(Effect effect, const formats::Scene& scene) {
+  Attachment friction{{}, {}, "joint", "give a joint 'friction'"};
+  sort_out(scene.joints, has_friction, friction);
+  Attachment stops{{}, {}, "spring", "give a spring 'lower' or 'upper'"};
+  sort_out(scene.springs, has_stops, stops);
+  return effect == Effect::friction ? friction : stops;
+}
+
+bool is_of_bodies(Effect effect) { return formats::owner_of(effect) == formats::EffectOwner::body; }
+
+/// The switches of a scene: what is said of one counts before what is said of all.
 class Switches {
  public:
   explicit Switches(const formats::Scene& scene) {
-    for (const formats::EffectSwitch& one : scene.effects) list_[{one.effect, one.body}] = &one;
+    for (const formats::EffectSwitch& one : scene.effects) list_[{one.effect, one.owner}] = &one;
   }
-  bool on(Effect effect, const std::string& body) const {
-    const formats::EffectSwitch* one = find(effect, body);
+  bool on(Effect effect, const std::string& owner) const {
+    const formats::EffectSwitch* one = find(effect, owner);
     return one == nullptr || one->on;
   }
-  bool automatic(Effect effect, const std::string& body) const {
-    const formats::EffectSwitch* one = find(effect, body);
+  bool automatic(Effect effect, const std::string& owner) const {
+    const formats::EffectSwitch* one = find(effect, owner);
     return one != nullptr && one->automatic;
   }
 
  private:
-  const formats::EffectSwitch* find(Effect effect, const std::string& body) const {
-    auto found = list_.find({effect, body});
+  const formats::EffectSwitch* find(Effect effect, const std::string& owner) const {
+    auto found = list_.find({effect, owner});
     if (found == list_.end()) found = list_.find({effect, ""});
     return found == list_.end() ? nullptr : found->second;
   }
@@ -191,7 +194,7 @@ formats::BodySpec without_effects_off(const formats::BodySpec& body, const Switc
       [&](const auto& before) -> formats::BodySpec {
         auto spec = before;
         for (const Effect effect : formats::all_effects)
-          if (!switches.on(effect, spec.name) && share_of(before, effect, scene, files).kind == Share::Kind::term)
+          if (is_of_bodies(effect) && !switches.on(effect, spec.name) && share_of(before, effect, scene, files).kind == Share::Kind::term)
             leave_out(effect, files, before, spec);
         return spec;
       },
@@ -204,8 +207,10 @@ class SwitchCheck {
   SwitchCheck(const formats::Scene& scene, const BodyFiles& files) : scene_(scene), files_(files) {}
 
   void check(const formats::EffectSwitch& one) const {
-    if (one.body.empty())
-      check_of_scene(one);
+    if (!is_of_bodies(one.effect))
+      check_of_attachment(one);
+    else if (one.owner.empty())
+      check_of_bodies(one);
     else
       check_of_body(one);
   }
@@ -218,46 +223,60 @@ class SwitchCheck {
   [[noreturn]] static void throw_part(const formats::EffectSwitch& one, const std::string& body, const char* remedy) {
     throw Error(fmt::format("effects: {} of body '{}' is no term of its own that could be switched",
                             formats::effect_word(one.effect), body),
-                one.where, fmt::format("{}{}", remedy, one.body.empty() ? "; or switch other bodies by name" : ""));
+                one.where, fmt::format("{}{}", remedy, one.owner.empty() ? "; or switch other bodies by name" : ""));
   }
 
   void check_of_body(const formats::EffectSwitch& one) const {
-    const auto body = std::ranges::find(scene_.bodies, one.body, body_name);
-    TISSERAND_ENSURE(body != scene_.bodies.end(), "no body '{}'", one.body);
+    const auto body = std::ranges::find(scene_.bodies, one.owner, body_name);
+    TISSERAND_ENSURE(body != scene_.bodies.end(), "no body '{}'", one.owner);
     const Share share = this->share(*body, one.effect);
     const std::string word = formats::effect_word(one.effect);
-    if (share.kind == Share::Kind::part) throw_part(one, one.body, share.remedy);
+    if (share.kind == Share::Kind::part) throw_part(one, one.owner, share.remedy);
     if (share.kind == Share::Kind::none)
-      throw Error(fmt::format("effects: body '{}' has no {} to switch {}", one.body, word, value_word(one)), one.where,
+      throw Error(fmt::format("effects: body '{}' has no {} to switch {}", one.owner, word, value_word(one)), one.where,
                   share.remedy);
     if (one.automatic && !is_switched_by_runs(*body))
       throw Error(
-          fmt::format("effects: {} of modal body '{}' cannot be 'auto': runs switch superelements", word, one.body),
+          fmt::format("effects: {} of modal body '{}' cannot be 'auto': runs switch superelements", word, one.owner),
           one.where, "give it 'on' or 'off'");
   }
 
-  void check_of_scene(const formats::EffectSwitch& one) const {
-    bool has = belongs_to_scene(one.effect) && scene_has(one.effect, scene_);
-    const char* remedy = one.effect == Effect::friction ? "give a joint 'friction'"
-                         : one.effect == Effect::stops  ? "give a spring 'lower' or 'upper'"
-                                                        : "";
+  void check_of_attachment(const formats::EffectSwitch& one) const {
+    const Attachment attachment = attachment_of(one.effect, scene_);
+    if (one.owner.empty()) {
+      if (attachment.has.empty()) throw_absent(one, attachment.remedy);
+      return;
+    }
+    if (std::ranges::find(attachment.has, one.owner) != attachment.has.end()) return;
+    TISSERAND_ENSURE(std::ranges::find(attachment.has_not, one.owner) != attachment.has_not.end(), "no {} '{}'",
+                     attachment.noun, one.owner);
+    throw Error(fmt::format("effects: {} '{}' has no {} to switch {}", attachment.noun, one.owner,
+                            formats::effect_word(one.effect), value_word(one)),
+                one.where, attachment.remedy);
+  }
+
+  void check_of_bodies(const formats::EffectSwitch& one) const {
+    bool has = false;
+    const char* remedy = "";
     for (const formats::BodySpec& body : scene_.bodies) {
-      if (belongs_to_scene(one.effect)) break;
       const Share share = this->share(body, one.effect);
       if (share.kind == Share::Kind::part && !one.on && !is_switched_by_name(one.effect, body_name(body)))
         throw_part(one, body_name(body), share.remedy);
       has = has || share.kind != Share::Kind::none;
       if (share.kind == Share::Kind::none) remedy = share.remedy;
     }
-    if (!has)
-      throw Error(fmt::format("effects: nothing in the scene has {} to switch {}", formats::effect_word(one.effect),
-                              value_word(one)),
-                  one.where, remedy);
+    if (!has) throw_absent(one, remedy);
+  }
+
+  [[noreturn]] static void throw_absent(const formats::EffectSwitch& one, const char* remedy) {
+    throw Error(fmt::format("effects: nothing in the scene has {} to switch {}", formats::effect_word(one.effect),
+                            value_word(one)),
+                one.where, remedy);
   }
 
   bool is_switched_by_name(Effect effect, const std::string& body) const {
     return std::ranges::any_of(
-        scene_.effects, [&](const formats::EffectSwitch& one) { return one.effect == effect && one.body == body; });
+        scene_.effects, [&](const formats::EffectSwitch& one) { return one.effect == effect && one.owner == body; });
   }
 
   const formats::Scene& scene_;
@@ -288,7 +307,11 @@ std::vector<EffectUse> effects_of(const formats::Scene& scene, const BodyFiles& 
   const Switches switches(scene);
   std::vector<EffectUse> uses;
   for (const Effect effect : formats::all_effects) {
-    if (belongs_to_scene(effect) && scene_has(effect, scene)) uses.push_back({effect, "", switches.on(effect, "")});
+    if (!is_of_bodies(effect)) {
+      for (const std::string& name : attachment_of(effect, scene).has)
+        uses.push_back({effect, name, switches.on(effect, name)});
+      continue;
+    }
     const bool is_of_deformation = effect == Effect::stiffening || effect == Effect::damping;
     for (const formats::BodySpec& body : scene.bodies) {
       if (is_of_deformation && !switches.on(Effect::flexibility, body_name(body))) continue;
@@ -310,7 +333,7 @@ std::string effects_text(const std::vector<EffectUse>& uses) {
     for (const EffectUse& use : uses) {
       if (use.effect != effect) continue;
       ++all;
-      if (!use.on) left_out.push_back(fmt::format("'{}'", use.body));
+      if (!use.on) left_out.push_back(fmt::format("'{}'", use.owner));
     }
     if (left_out.size() < all) on.push_back(word);
     if (left_out.empty()) continue;
@@ -328,7 +351,7 @@ std::vector<EffectUse> automatic_effects(const formats::Scene& scene, const Body
 
 formats::Scene with_switches(formats::Scene scene, const std::vector<EffectUse>& uses) {
   for (formats::EffectSwitch& one : scene.effects) one.automatic = false;
-  for (const EffectUse& use : uses) scene.effects.push_back({use.effect, use.body, use.on, scene.file});
+  for (const EffectUse& use : uses) scene.effects.push_back({use.effect, use.owner, use.on, scene.file});
   return scene;
 }
 
@@ -341,10 +364,10 @@ std::optional<formats::Scene> with_effects_switched(const formats::Scene& scene,
   for (const formats::EffectSwitch& one : scene.effects)
     if (one.effect == Effect::planar) switched.planar_at = one.on ? one.where : "";
   for (formats::BodySpec& body : switched.bodies) body = without_effects_off(body, switches, scene, files);
-  if (!switches.on(Effect::friction, ""))
-    for (formats::JointSpec& joint : switched.joints) joint.friction.reset();
-  if (!switches.on(Effect::stops, ""))
-    for (formats::SpringSpec& spring : switched.springs) spring.lower = spring.upper = std::nullopt;
+  for (formats::JointSpec& joint : switched.joints)
+    if (!switches.on(Effect::friction, joint.name)) joint.friction.reset();
+  for (formats::SpringSpec& spring : switched.springs)
+    if (!switches.on(Effect::stops, spring.name)) spring.lower = spring.upper = std::nullopt;
   return switched;
 }
 

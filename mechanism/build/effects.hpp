@@ -10,15 +10,15 @@
 
 namespace tisserand::mechanism {
 
-/// One effect of one body, or of all joints (friction) or springs (stops), that can be left out of the equations.
+/// One effect of one body, joint (friction) or spring (stops) that can be left out of the equations.
 struct EffectUse {
   formats::Effect effect = formats::Effect::gravity;
-  std::string body;        ///< empty: of the scene
+  std::string owner;
   bool on = true;          ///< as the switches of the scene leave it
   bool automatic = false;  ///< with `on`: the run may switch it (mechanism/run/automatic_effects.hpp)
 };
 
-/// All that the scene has, whether on or off, in the order of the effects, then of the bodies; of a body whose
+/// All that the scene has, whether on or off, in the order of the effects, then of the bodies, joints or springs; of a body whose
 /// flexibility is off neither stiffening nor damping.
 std::vector<EffectUse> effects_of(const formats::Scene& scene, const BodyFiles& files);
 
@@ -32,7 +32,7 @@ formats::Scene with_switches(formats::Scene scene, const std::vector<EffectUse>&
 std::string effects_text(const std::vector<EffectUse>& uses);
 
 /// The scene with its switches carried out (what is automatic is on) and none left; absent: it has none. Throws Error
-/// (all that are found) for an effect that the scene or the body does not have, or that is no term of its own there.
+/// (all that are found) for an effect that the scene or one of them does not have, or that is no term of its own there.
 std::optional<formats::Scene> with_effects_switched(const formats::Scene& scene, const BodyFiles& files);
 
 }  // namespace tisserand::mechanism

@@ -100,7 +100,7 @@ class LedgerMaker {
       if (!line.toggle.works) continue;
       try {
         if (line.toggle.effect == formats::effect_word(formats::Effect::flexibility)) {
-          if (line.toggle.is == "on") line.activity = powers.of_strain(line.toggle.body);
+          if (line.toggle.is == "on") line.activity = powers.of_strain(line.toggle.owner);
         } else {
           const BuiltModel other = build_model(toggled(request_.scene, stage_.files, line.toggle), stage_.files);
           if (share_states(own_.model, other.model)) line.activity = powers.of_difference(other.model);
@@ -199,7 +199,7 @@ class LedgerMaker {
     std::map<std::string, std::vector<InertiaRun>> runs;
     for (LedgerLine& line : ledger_.lines) {
       if (line.toggle.effect != inertia_word || !line.failure.empty()) continue;
-      std::vector<InertiaRun>& of_body = runs[line.toggle.body];
+      std::vector<InertiaRun>& of_body = runs[line.toggle.owner];
       if (of_body.empty()) of_body.push_back({line.toggle.is, &own_run(), 0.0, nullptr});
       of_body.push_back({line.toggle.becomes, &histories_.at(&line), line.cost, &line.from_best});
     }

@@ -65,7 +65,7 @@ class ToggleList {
   std::vector<Toggle> all() {
     const std::vector<EffectUse> uses = effects_of(scene_, files_);
     for (const EffectUse& use : uses)
-      if (!use.on) off_.insert({use.effect, use.body});
+      if (!use.on) off_.insert({use.effect, use.owner});
     for (const EffectUse& use : uses) add_switch(use);
     for (const formats::BodySpec& body : scene_.bodies)
       if (const auto* spec = std::get_if<SuperelementBodySpec>(&body);
@@ -80,11 +80,11 @@ class ToggleList {
   void add_switch(const EffectUse& use) {
     Toggle toggle;
     toggle.effect = formats::effect_word(use.effect);
-    toggle.body = use.body;
+    toggle.owner = use.owner;
     toggle.is = word_of(use.on);
     toggle.becomes = word_of(!use.on);
     toggle.works = use.effect != Effect::gyroscopic;
-    toggle.change = formats::EffectSwitch{use.effect, use.body, !use.on, scene_.file};
+    toggle.change = formats::EffectSwitch{use.effect, use.owner, !use.on, scene_.file};
     list_.push_back(std::move(toggle));
   }
 
@@ -135,7 +135,7 @@ class ToggleList {
                     SuperelementBodySpec spec) {
     Toggle toggle;
     toggle.effect = effect;
-    toggle.body = spec.name;
+    toggle.owner = spec.name;
     toggle.is = is;
     toggle.becomes = becomes;
     toggle.with = with;
@@ -151,7 +151,7 @@ class ToggleList {
 
 }  // namespace
 
-std::string Toggle::subject() const { return body.empty() ? effect : fmt::format("{} of '{}'", effect, body); }
+std::string Toggle::subject() const { return fmt::format("{} of '{}'", effect, owner); }
 
 BodyFiles read_ledger_files(const formats::Scene& scene) {
   formats::Scene open = scene;
@@ -166,22 +166,24 @@ BodyFiles read_ledger_files(const formats::Scene& scene) {
 }
 
 std::vector<Toggle> toggles_of(const formats::Scene& scene, const BodyFiles& files, const ToggleChoice& choice) {
-  std::vector<std::string> bodies;
+  std::vector<std::string> owners;
   for (const formats::BodySpec& body : scene.bodies)
-    bodies.push_back(std::visit([](const auto& spec) { return spec.name; }, body));
+    owners.push_back(std::visit([](const auto& spec) { return spec.name; }, body));
+  for (const formats::JointSpec& joint : scene.joints) owners.push_back(joint.name);
+  for (const formats::SpringSpec& spring : scene.springs) owners.push_back(spring.name);
   require_known(choice.effects, effect_names(), "effect", scene.file);
-  require_known(choice.bodies, bodies, "body", scene.file);
+  require_known(choice.owners, owners, "body, joint or spring", scene.file);
   std::vector<Toggle> list = ToggleList(scene, files).all();
   const auto is_chosen = [](const std::vector<std::string>& names, const std::string& name) {
     return names.empty() || std::ranges::find(names, name) != names.end();
   };
   std::erase_if(list, [&](const Toggle& toggle) {
-    return !is_chosen(choice.effects, toggle.effect) || !is_chosen(choice.bodies, toggle.body);
+    return !is_chosen(choice.effects, toggle.effect) || !is_chosen(choice.owners, toggle.owner);
   });
   if (list.empty())
     throw Error("the scene has nothing that could be switched", scene.file,
-                choice.effects.empty() && choice.bodies.empty() ? "optional effects are listed in formats/SCENE.md"
-                                                                : "choose other effects or bodies");
+                choice.effects.empty() && choice.owners.empty() ? "optional effects are listed in formats/SCENE.md"
+                                                                : "choose others");
   return list;
 }
 
@@ -192,7 +194,7 @@ formats::Scene toggled(const formats::Scene& scene, const BodyFiles& files, cons
   // Without switches, which may mean what the body is now to have.
   if (auto switched = with_effects_switched(scene, files)) other = std::move(*switched);
   for (formats::BodySpec& body : other.bodies)
-    if (auto* spec = std::get_if<SuperelementBodySpec>(&body); spec != nullptr && spec->name == toggle.body) {
+    if (auto* spec = std::get_if<SuperelementBodySpec>(&body); spec != nullptr && spec->name == toggle.owner) {
       spec->rigid = toggle.replaced->rigid;
       spec->inertia = toggle.replaced->inertia;
       spec->stiffening = toggle.replaced->stiffening;

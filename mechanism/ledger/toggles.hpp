@@ -1,4 +1,4 @@
-// What a ledger tries: the scene with one effect of one body the other way round, or with another inertia option.
+// What a ledger tries: the scene with one effect of one body, joint or spring the other way round, or with another inertia option.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ inline constexpr const char* inertia_word = "inertia";
 /// What is switched, and how: by a switch, or by the specification of the body where the scene does not have it at all.
 struct Toggle {
   std::string effect;   ///< word of an effect, or "inertia"
-  std::string body;     ///< empty: of the scene
+  std::string owner;    ///< body, joint or spring
   std::string is;       ///< "on", "off", or the inertia option
   std::string becomes;  ///< the same
   std::string with;     ///< what changes along with it, in words, or empty
@@ -31,7 +31,7 @@ struct Toggle {
 /// Which of them are tried; empty: all.
 struct ToggleChoice {
   std::vector<std::string> effects;
-  std::vector<std::string> bodies;
+  std::vector<std::string> owners;  ///< bodies, joints, springs
 };
 
 /// The files that all of them may take: companions also of bodies that do without theirs. Throws Error.

@@ -68,13 +68,13 @@ AutomaticEffects::AutomaticEffects(const formats::Scene& scene, const BodyFiles&
   for (EffectUse& use : uses) uses_.push_back({std::move(use), -1, true, true, 0, {}});
   for (Use& use : uses_)
     for (std::size_t k = 0; k < uses_.size(); ++k)
-      if (!is_flexibility(use.effect) && is_flexibility(uses_[k].effect) && uses_[k].effect.body == use.effect.body)
+      if (!is_flexibility(use.effect) && is_flexibility(uses_[k].effect) && uses_[k].effect.owner == use.effect.owner)
         use.flexibility = static_cast<int>(k);
 }
 
 std::string AutomaticEffects::rule() const {
   std::vector<std::string> flexible, stiff;
-  for (const Use& use : uses_) (is_flexibility(use.effect) ? flexible : stiff).push_back(use.effect.body);
+  for (const Use& use : uses_) (is_flexibility(use.effect) ? flexible : stiff).push_back(use.effect.owner);
   std::vector<std::string> parts;
   if (!flexible.empty()) parts.push_back("flexibility of " + listed(flexible));
   if (!stiff.empty()) parts.push_back("stiffening of " + listed(stiff));
@@ -104,7 +104,7 @@ void AutomaticEffects::doubt_sleep(const Awake& next, Run& run) {
   std::vector<std::string> names;
   for (std::size_t k = 0; k < uses_.size(); ++k)
     if (next[k] && !uses_[k].awake)
-      names.push_back(fmt::format("{} of '{}'", formats::effect_word(uses_[k].effect.effect), uses_[k].effect.body));
+      names.push_back(fmt::format("{} of '{}'", formats::effect_word(uses_[k].effect.effect), uses_[k].effect.owner));
   if (names.empty() || std::exchange(doubted_, true)) return;
   run.report.doubts.push_back(fmt::format(
       "{} would matter from t = {:.6g} on and cannot wake there, since the joints do not close with it: give "
@@ -182,7 +182,7 @@ AutomaticEffects::Awake AutomaticEffects::all_but_undeformed() {
                        whole_state_.v().segment(model.sizes.boundary + at, modes).isZero(0.0);
     if (modes == 0 || !rests || demand_->bend(i, *whole_now_) > round_off * model.length) continue;
     for (std::size_t k = 0; k < uses_.size(); ++k)
-      if (uses_[k].effect.body == model.superelements[i].name) list[k] = false;
+      if (uses_[k].effect.owner == model.superelements[i].name) list[k] = false;
   }
   for (std::size_t k = 0; k < uses_.size(); ++k)
     if (uses_[k].flexibility < 0 && !is_flexibility(uses_[k].effect)) list[k] = true;
@@ -323,7 +323,7 @@ bool AutomaticEffects::wake(Run& run) {
   Deformations bent;
   for (std::size_t k = 0; k < uses_.size(); ++k) {
     if (!is_flexibility(uses_[k].effect) || uses_[k].awake || !next[k]) continue;
-    const auto use = std::ranges::find(whole_.model.superelements, uses_[k].effect.body, &SuperelementUse::name);
+    const auto use = std::ranges::find(whole_.model.superelements, uses_[k].effect.owner, &SuperelementUse::name);
     bent[use->name] = demand_->deformation(use - whole_.model.superelements.begin());
   }
   const double time = run.built.state.time();
@@ -343,7 +343,7 @@ bool AutomaticEffects::switch_to(const Awake& next, const Deformations& deformat
   const formats::Scene scene = scene_with(next);
   BodyGroup changed;
   for (std::size_t k = 0; k < uses_.size(); ++k)
-    if (next[k] != uses_[k].awake) changed.insert(uses_[k].effect.body);
+    if (next[k] != uses_[k].awake) changed.insert(uses_[k].effect.owner);
   auto after = switch_model(scene, files_, {run.built.model, run.built.state}, changed, deformations);
   if (!after) return false;
   const double tolerance = scene_.automatic.tolerance, force = run.built.state.force_scale(0);
@@ -379,8 +379,8 @@ std::vector<std::string> AutomaticEffects::slept_in_a_weld() const {
   std::vector<std::string> names;
   for (const Use& use : uses_) {
     if (!is_flexibility(use.effect) || use.changes.size() < (use.was_awake ? 1U : 2U)) continue;
-    const auto at = std::ranges::find(whole_.model.superelements, use.effect.body, &SuperelementUse::name);
-    if (std::ranges::count(beam, beam[at - whole_.model.superelements.begin()]) > 1) names.push_back(use.effect.body);
+    const auto at = std::ranges::find(whole_.model.superelements, use.effect.owner, &SuperelementUse::name);
+    if (std::ranges::count(beam, beam[at - whole_.model.superelements.begin()]) > 1) names.push_back(use.effect.owner);
   }
   return names;
 }
@@ -398,7 +398,7 @@ void AutomaticEffects::tell(double start, double end, RunReport& report) const {
                     "the pieces of one part flexibility: on, or a smaller tolerance",
                     listed(names)));
   for (const Use& use : uses_) {
-    SwitchHistory history{formats::effect_word(use.effect.effect), use.effect.body, use.was_awake, use.changes, 0.0};
+    SwitchHistory history{formats::effect_word(use.effect.effect), use.effect.owner, use.was_awake, use.changes, 0.0};
     bool on = use.was_awake;
     double since = start;
     for (const double time : use.changes) {

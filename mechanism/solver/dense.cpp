@@ -39,12 +39,13 @@ SmallDense::SmallDense(const SparsePattern& pattern)
       exchange_(static_cast<std::size_t>(n_), 0),
       work_(static_cast<std::size_t>(rows_), 0.0) {}
 
-/// Brings the largest entry of column k to row k, in L and in what is left of the matrix.
+/// Brings the largest entry of column k to row k, in L and in what is left of the matrix. Its size is known before its
+/// place: the search for both at once waits for each comparison.
 void SmallDense::exchange_rows(int k) {
   const double* a = upper_column(k);
+  const double size = largest(a + k, n_ - k);
   int pivot = k;
-  for (int i = k + 1; i < n_; ++i)
-    if (std::abs(a[i]) > std::abs(a[pivot])) pivot = i;
+  while (pivot < n_ - 1 && std::abs(a[pivot]) != size) ++pivot;  // not found: it is not a number, and pivots tell
   exchange_[k] = pivot;
   if (pivot == k) return;
   for (int j = 0; j < k; ++j) std::swap(lower_column(j)[k], lower_column(j)[pivot]);

@@ -31,8 +31,8 @@ Demand::Demand(const Model& whole, const std::vector<EffectUse>& uses, double to
       force_(uses.size(), 0.0),
       start_(start) {
   for (std::size_t k = 0; k < uses.size(); ++k) {
-    const auto use = std::ranges::find(whole.superelements, uses[k].body, &SuperelementUse::name);
-    TISSERAND_ENSURE(use != whole.superelements.end(), "no superelement '{}'", uses[k].body);
+    const auto use = std::ranges::find(whole.superelements, uses[k].owner, &SuperelementUse::name);
+    TISSERAND_ENSURE(use != whole.superelements.end(), "no superelement '{}'", uses[k].owner);
     Body& body = bodies_[use - whole.superelements.begin()];
     (uses[k].effect == formats::Effect::flexibility ? body.flexibility : body.stiffening) = static_cast<int>(k);
     const SuperelementBody& constants = whole.superelement_bodies[use->body];

@@ -61,10 +61,10 @@ TEST_F(Effects, ARunWritesALedgerWhereItIsAskedForOne) {
 TEST_F(Effects, ALedgerTakesChosenOnesAndStoredStates) {
   ASSERT_EQ(with("run", {}).code, 0);
   const Outcome json = mechanism({"ledger", "arm.scene.yaml", "--results", "arm.results.h5", "--effect", "gravity",
-                                  "--body", "rod", "-c", "nodes/position/rod/end/z", "--json"});
+                                  "--of", "rod", "-c", "nodes/position/rod/end/z", "--json"});
   ASSERT_EQ(json.code, 0) << json.error;
-  EXPECT_THAT(json.out, AllOf(HasSubstr("\"of\": \"nodes/position/rod/end/z\""), HasSubstr("\"body\": \"rod\""),
-                              Not(HasSubstr("\"body\": \"block\"")), HasSubstr("\"windows\": 5")));
+  EXPECT_THAT(json.out, AllOf(HasSubstr("\"of\": \"nodes/position/rod/end/z\""), HasSubstr("\"of\": \"rod\""),
+                              Not(HasSubstr("\"of\": \"block\"")), HasSubstr("\"windows\": 5")));
 }
 
 TEST_F(Effects, ALedgerSaysWhatIsWrong) {
@@ -75,7 +75,7 @@ TEST_F(Effects, ALedgerSaysWhatIsWrong) {
   EXPECT_EQ(told({"--share", "2"}).code, 2);
   EXPECT_EQ(told({"--windows", "0"}).code, 2);
   expect_error(told({"--effect", "gravty"}), {"no effect 'gravty'", "did you mean 'gravity'?"});
-  expect_error(told({"--body", "blok"}), {"no body 'blok'", "did you mean 'block'?"});
+  expect_error(told({"--of", "blok"}), {"no body, joint or spring 'blok'", "did you mean 'block'?"});
   expect_error(told({"-c", "nodes/position/rod/nd/z"}), {"there is no channel 'nodes/position/rod/nd/z'"});
   expect_error(told({"--results", "none.results.h5"}), {"none.results.h5"});
   expect_error(told({"--set", "analysis=statics"}), {"a dynamics analysis"});

@@ -139,8 +139,9 @@ Space foreign_space(Bytes& bytes) {
   return space;
 }
 
-/// Contiguous, compact, or in chunks with filters. Allocation as late as HDF5 allows.
-hid_t foreign_layout(Bytes& bytes, const std::vector<hsize_t>& shape) {
+/// Contiguous, compact, or in chunks with filters. Allocation as late as HDF5 allows. HDF5 itself crashes when it writes
+/// other types than numbers through its filter of n bits.
+hid_t foreign_layout(Bytes& bytes, hid_t type, const std::vector<hsize_t>& shape) {
   const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
   const std::size_t choice = bytes.below(8);
   if (choice == 1) H5Pset_layout(list, H5D_COMPACT);
@@ -152,7 +153,8 @@ hid_t foreign_layout(Bytes& bytes, const std::vector<hsize_t>& shape) {
     if (choice == 4) H5Pset_shuffle(list);
     if (choice == 5) H5Pset_fletcher32(list);
     if (choice == 6) H5Pset_scaleoffset(list, H5Z_SO_FLOAT_DSCALE, 2);
-    if (choice == 7) H5Pset_nbit(list);
+    const bool is_number = H5Tget_class(type) == H5T_INTEGER || H5Tget_class(type) == H5T_FLOAT;
+    if (choice == 7 && is_number) H5Pset_nbit(list);
   }
   return list;
 }
@@ -183,7 +185,7 @@ void write_variable_texts(Bytes& bytes, hid_t dataset, hid_t type, hid_t space) 
 void foreign_dataset(Bytes& bytes, hid_t file, const std::string& name) {
   const Id type(foreign_type(bytes));
   const Space shape = foreign_space(bytes);
-  const Id space(shape.id), layout(foreign_layout(bytes, shape.shape));
+  const Id space(shape.id), layout(foreign_layout(bytes, type, shape.shape));
   const Id dataset(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, layout, H5P_DEFAULT));
   if (dataset < 0) return;
   const std::vector<char> values = foreign_values(bytes, type, space);
@@ -252,7 +254,7 @@ void put_table(Bytes& bytes, hid_t file, Table table) {
       other_object(bytes, file, table.name);
       return;
     case 5: {
-      const Id type(foreign_type(bytes)), layout(foreign_layout(bytes, table.shape));
+      const Id type(foreign_type(bytes)), layout(foreign_layout(bytes, type, table.shape));
       write_table(file, table, type, layout);
       return;
     }

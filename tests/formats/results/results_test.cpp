@@ -19,6 +19,7 @@
 #include "common/error.hpp"
 #include "formats/hdf5/file.hpp"
 #include "formats/results/blocks.hpp"
+#include "formats/results/checkpoint.hpp"
 #include "tests/support/results_rows.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/thrown.hpp"
@@ -344,6 +345,21 @@ TEST(Results, FileLeftInTheMiddleOfItsLastWriteIsReadable) {
   const hdf5::InputFile file(path, hdf5::Completeness::any);
   EXPECT_FALSE(file.closed_properly());
   EXPECT_EQ(file.info("/time").shape, hdf5::Shape{5});
+}
+
+TEST(Results, CheckpointThatCountsNothingIsRefused) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.checkpoint.h5");
+  for (const char* name : {"rows", "state_version"}) {
+    write_checkpoint(path, {"scene", "mechanism", "fingerprint", 1, 0.5, "a.results.h5", "run", 3, {1.0}, {2.0}});
+    EXPECT_EQ(read_checkpoint(path).rows, 3U);
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    H5Adelete(file, name);
+    hdf5::write_number_attribute(file, ".", name, std::numeric_limits<double>::quiet_NaN(), path);
+    H5Fclose(file);
+    EXPECT_THAT(error_of([&] { read_checkpoint(path); }),
+                HasSubstr("attribute '" + std::string(name) + "' is nan, which counts nothing"));
+  }
 }
 
 TEST(Results, CsvHoldsTheSelection) {

@@ -37,11 +37,11 @@ TEST(SceneEffects, AreSwitchesOfAllAndOfBodies) {
   const Scene scene = read("effects: {friction: off, arm: {gravity: on, damping: off}}\n", {{"effects.stops", "off"}});
   ASSERT_EQ(scene.effects.size(), 4U);
   EXPECT_EQ(scene.effects[0].effect, Effect::friction);
-  EXPECT_EQ(scene.effects[0].body, "");
+  EXPECT_EQ(scene.effects[0].owner, "");
   EXPECT_FALSE(scene.effects[0].on);
   EXPECT_THAT(scene.effects[0].where, HasSubstr("a.scene.yaml:4:11"));
   EXPECT_EQ(scene.effects[1].effect, Effect::damping);  // in the order of the effects
-  EXPECT_EQ(scene.effects[1].body, "arm");
+  EXPECT_EQ(scene.effects[1].owner, "arm");
   EXPECT_EQ(scene.effects[2].effect, Effect::gravity);
   EXPECT_TRUE(scene.effects[2].on);
   EXPECT_EQ(scene.effects[3].effect, Effect::stops);
@@ -52,7 +52,7 @@ TEST(SceneEffects, AreSwitchesOfAllAndOfBodies) {
 TEST(SceneEffects, TellBodiesFromEffectsByTheirValues) {
   const Scene scene = read("effects: {friction: {gravity: off}}\n");
   ASSERT_EQ(scene.effects.size(), 1U);
-  EXPECT_EQ(scene.effects[0].body, "friction");
+  EXPECT_EQ(scene.effects[0].owner, "friction");
   EXPECT_EQ(scene.effects[0].effect, Effect::gravity);
 }
 
@@ -68,7 +68,7 @@ TEST(SceneEffects, AreAutomaticWhereARunCanSwitchThem) {
   const Scene scene = read("effects: {flexibility: auto, tolerance: 0.01, window: 0.2, arm: {stiffening: auto}}\n");
   ASSERT_EQ(scene.effects.size(), 2U);
   for (const EffectSwitch& one : scene.effects) EXPECT_TRUE(one.on && one.automatic);
-  EXPECT_EQ(scene.effects[1].body, "arm");
+  EXPECT_EQ(scene.effects[1].owner, "arm");
   EXPECT_EQ(scene.automatic.tolerance, 0.01);
   EXPECT_EQ(scene.automatic.window, 0.2);
   EXPECT_EQ(read("effects: {flexibility: auto}\n").automatic.tolerance, 1e-3);
@@ -93,6 +93,8 @@ TEST(SceneEffects, AreRefusedWithPlaceAndRemedy) {
       AllOf(HasSubstr("a.scene.yaml:4:20"), HasSubstr("unknown value of 'gravity' 'ought'"), HasSubstr("off, on")));
   EXPECT_THAT(error_of("effects: {amr: {gravity: off}}\n"),
               AllOf(HasSubstr("there is no body 'amr'"), HasSubstr("did you mean 'arm'?")));
+  EXPECT_THAT(error_of("effects: {arm: {friction: off}}\n"), HasSubstr("effects: friction: there is no joint 'arm'"));
+  EXPECT_THAT(error_of("effects: {arm: {stops: off}}\n"), HasSubstr("effects: stops: there is no spring 'arm'"));
   EXPECT_THAT(error_of("effects: {\"\": {gravity: off}}\n"), HasSubstr("there is no body ''"));
   EXPECT_THAT(error_of("effects: {arm: {gravty: off}}\n"), HasSubstr("unknown key 'gravty'"));
   EXPECT_THAT(error_of("effects: {arm: {gravity: [off]}}\n"), HasSubstr("must be one word"));

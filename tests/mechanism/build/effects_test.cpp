@@ -219,8 +219,9 @@ TEST(Effects, ThatAreNotThereAreErrorsWithARemedy) {
               AllOf(HasSubstr("switch: effects: body 'arm' has no stiffening to switch off"),
                     HasSubstr("write the companion file")));
   EXPECT_THAT(error_of(scene, {on(Effect::damping, "block")}, files), HasSubstr("'block' has no damping to switch on"));
-  EXPECT_THAT(error_of(scene, {off(Effect::friction, "block")}, files),
-              AllOf(HasSubstr("'block' has no friction"), HasSubstr("belongs to joints: switch it for the scene")));
+  EXPECT_THAT(
+      error_of(scene, {off(Effect::friction, "hinge")}, files),
+      AllOf(HasSubstr("joint 'hinge' has no friction to switch off"), HasSubstr("give a joint 'friction'")));
   EXPECT_THAT(error_of(scene, {off(Effect::flexibility)}, files),
               AllOf(HasSubstr("flexibility of body 'rod' is no term of its own"), HasSubstr("make it a rigid body")));
   EXPECT_THAT(
@@ -233,6 +234,25 @@ TEST(Effects, ThatAreNotThereAreErrorsWithARemedy) {
   EXPECT_THAT(error_of(free, {off(Effect::friction), off(Effect::stops), off(Effect::gravity)}, files),
               AllOf(HasSubstr("nothing in the scene has friction to switch off"), HasSubstr("has stops to switch off"),
                     HasSubstr("has gravity to switch off"), HasSubstr("give the scene or the body 'gravity'")));
+}
+
+TEST(Effects, FrictionAndStopsAreOfOneJointAndOneSpring) {
+  formats::Scene scene = mixed_scene();
+  scene.joints[1].friction = formats::FrictionSpec{0.2, std::nullopt, 1e-3, 0.01, std::nullopt};
+  scene.springs.push_back(scene.springs[0]);
+  scene.springs[1].name = "buffer";
+  const BodyFiles files = mixed_files();
+  const Model all = model_of(scene, {}, files);
+  ASSERT_EQ(all.frictions.size(), 2U);
+  const Model one = model_of(scene, {off(Effect::friction, "slide"), off(Effect::stops, "buffer")}, files);
+  ASSERT_EQ(one.frictions.size(), 1U);
+  EXPECT_EQ(one.frictions[0].radius, 0.01);
+  EXPECT_TRUE(one.springs[0].upper.has_value());
+  EXPECT_FALSE(one.springs[1].upper.has_value());
+  EXPECT_EQ(model_of(scene, {off(Effect::friction), on(Effect::friction, "hinge")}, files).frictions.size(), 1U);
+  scene.effects = {off(Effect::friction, "slide"), off(Effect::stops)};
+  EXPECT_THAT(effects_text(effects_of(scene, files)),
+              HasSubstr("gravity, friction; off: friction of 'slide', stops"));
 }
 
 TEST(Effects, AreToldWithWhatIsOff) {

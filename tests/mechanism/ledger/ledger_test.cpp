@@ -286,7 +286,7 @@ std::string error_of(const formats::Scene& scene, const ToggleChoice& choice,
 
 TEST(Ledger, SaysWhatIsWrongWithTheRequest) {
   EXPECT_THAT(error_of(thrown(), {{"gravty"}, {}}, {}), HasSubstr("no effect 'gravty'; did you mean 'gravity'?"));
-  EXPECT_THAT(error_of(thrown(), {{}, {"bal"}}, {}), HasSubstr("no body 'bal'; did you mean 'ball'?"));
+  EXPECT_THAT(error_of(thrown(), {{}, {"bal"}}, {}), HasSubstr("no body, joint or spring 'bal'; did you mean 'ball'?"));
   EXPECT_THAT(error_of(thrown(), {{"damping"}, {}}, {}), HasSubstr("nothing that could be switched"));
   EXPECT_THAT(error_of(thrown(), {}, {"nodes/position/bal/z"}),
               HasSubstr("there is no channel 'nodes/position/bal/z'"));
