@@ -29,8 +29,8 @@ std::string automatic_words() {
 }
 
 /// Of the effect that the key of the node names; nothing and an error for another value than it can have.
-void read_switch(const Context& context, const YamlNode& node, const Choice<Effect>& effect,
-                 const std::string& owner, std::vector<EffectSwitch>& switches) {
+void read_switch(const Context& context, const YamlNode& node, const Choice<Effect>& effect, const std::string& owner,
+                 std::vector<EffectSwitch>& switches) {
   if (node.kind == YamlKind::scalar && node.text == "auto" && !can_be_automatic(effect.value)) {
     context.fail(node.place, fmt::format("'{}' cannot be 'auto': no run switches it", node.key),
                  fmt::format("give it 'on' or 'off'; 'auto' can be {}", automatic_words()));

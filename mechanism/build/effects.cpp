@@ -1,4 +1,5 @@
-// What each type of body has of each effect, joints of friction and springs of stops, and how their specifications do without it.
+// What each type of body has of each effect, joints of friction and springs of stops, and how their specifications do
+// without it.
 #include "mechanism/build/effects.hpp"
 
 #include <algorithm>
@@ -194,7 +195,8 @@ formats::BodySpec without_effects_off(const formats::BodySpec& body, const Switc
       [&](const auto& before) -> formats::BodySpec {
         auto spec = before;
         for (const Effect effect : formats::all_effects)
-          if (is_of_bodies(effect) && !switches.on(effect, spec.name) && share_of(before, effect, scene, files).kind == Share::Kind::term)
+          if (is_of_bodies(effect) && !switches.on(effect, spec.name) &&
+              share_of(before, effect, scene, files).kind == Share::Kind::term)
             leave_out(effect, files, before, spec);
         return spec;
       },

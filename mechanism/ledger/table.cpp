@@ -37,7 +37,7 @@ std::string line_text(const LedgerLine& line) {
 
 nlohmann::ordered_json line_json(const LedgerLine& line) {
   const Toggle& toggle = line.toggle;
-  nlohmann::ordered_json json{{"effect", toggle.effect},   {"of", toggle.owner}, {"is", toggle.is},
+  nlohmann::ordered_json json{{"effect", toggle.effect},   {"of", toggle.owner},  {"is", toggle.is},
                               {"becomes", toggle.becomes}, {"with", toggle.with}, {"replayed", line.replayed}};
   json["changes"] = nlohmann::ordered_json::array();
   for (const LedgerChange& change : line.changes) json["changes"].push_back({{"of", change.of}, {"part", change.part}});

@@ -1,4 +1,5 @@
-// What a ledger tries: the scene with one effect of one body, joint or spring the other way round, or with another inertia option.
+// What a ledger tries: the scene with one effect of one body, joint or spring the other way round, or with another
+// inertia option.
 #pragma once
 
 #include <optional>

@@ -102,7 +102,7 @@ class SmallDense {
   void exchange_rows(int k);
 
   int n_ = 0;
-  int rows_ = 0;                  ///< leading dimension
+  int rows_ = 0;                  ///< leading dimension, and columns: of multiples of four, zeros behind n
   std::vector<double> lower_;     ///< L without its unit diagonal, zeros elsewhere
   std::vector<double> upper_;     ///< U without its diagonal, zeros elsewhere
   std::vector<double> diagonal_;  ///< reciprocals of the pivots

@@ -24,6 +24,15 @@ void subtract(double factor, const double* x, int begin, int end, double* y) {
   for (int i = begin / 4 * 4; i < end; i += 4) store(y + i, load(y + i) - factor * load(x + i));
 }
 
+/// y -= Σ factor[c] x[c], c = 0 ... 3, from row begin to row end - 1, multiples of 4; x: columns, `rows` apart.
+void subtract_four(const double (&factor)[4], const double* x, int rows, int begin, int end, double* y) {
+  using column_kernels::load, column_kernels::store;
+  const double *x0 = x, *x1 = x0 + rows, *x2 = x1 + rows, *x3 = x2 + rows;
+  for (int i = begin; i < end; i += 4)
+    store(y + i, load(y + i) - factor[0] * load(x0 + i) - factor[1] * load(x1 + i) - factor[2] * load(x2 + i) -
+                     factor[3] * load(x3 + i));
+}
+
 double largest(const double* column, int size) {
   return Eigen::Map<const Eigen::ArrayXd>(column, size).abs().maxCoeff();
 }
@@ -33,9 +42,9 @@ double largest(const double* column, int size) {
 SmallDense::SmallDense(const SparsePattern& pattern)
     : n_(pattern.size()),
       rows_((n_ + 3) / 4 * 4),
-      lower_(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(n_), 0.0),
+      lower_(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(rows_), 0.0),
       upper_(lower_),
-      diagonal_(static_cast<std::size_t>(n_), 0.0),
+      diagonal_(static_cast<std::size_t>(rows_), 0.0),
       exchange_(static_cast<std::size_t>(n_), 0),
       work_(static_cast<std::size_t>(rows_), 0.0) {}
 
@@ -53,7 +62,10 @@ void SmallDense::exchange_rows(int k) {
 }
 
 FactorReport SmallDense::factor(const SparsePattern&, const double* values) {
-  for (int j = 0; j < n_; ++j) std::copy_n(values + static_cast<std::ptrdiff_t>(n_) * j, n_, upper_column(j));
+  for (int j = 0; j < n_; ++j) {
+    std::copy_n(values + static_cast<std::ptrdiff_t>(n_) * j, n_, upper_column(j));
+    std::fill_n(upper_column(j) + n_, rows_ - n_, 0.0);
+  }
   double smallest = std::numeric_limits<double>::infinity(), greatest = 0.0;
   int weakest = -1;
   for (int k = 0; k < n_; ++k) {
@@ -77,15 +89,30 @@ FactorReport SmallDense::factor(const SparsePattern&, const double* values) {
   return {ratio > 0.0, ratio, ratio > 0.0 ? -1 : weakest, 1.0};
 }
 
+/// Four rows at a time, by numbers in the triangle on the diagonal and by registers in the rest; what is behind row n
+/// is zero.
 void SmallDense::solve(const SparsePattern&, const double*, double* b) {
-  std::copy_n(b, n_, work_.data());
-  for (int k = 0; k < n_; ++k) std::swap(work_[k], work_[exchange_[k]]);
-  for (int k = 0; k < n_; ++k) subtract(work_[k], lower_column(k), k + 1, n_, work_.data());
-  for (int k = n_ - 1; k >= 0; --k) {
-    const double x = work_[k] * diagonal_[k];
-    subtract(x, upper_column(k), 0, k, work_.data());
-    b[k] = x;
+  double* w = work_.data();
+  std::copy_n(b, n_, w);
+  std::fill_n(w + n_, rows_ - n_, 0.0);
+  for (int k = 0; k < n_; ++k) std::swap(w[k], w[exchange_[k]]);
+  for (int k = 0; k < rows_; k += 4) {
+    const double *l0 = lower_column(k), *l1 = lower_column(k + 1), *l2 = lower_column(k + 2);
+    const double x0 = w[k], x1 = w[k + 1] - l0[k + 1] * x0, x2 = w[k + 2] - l0[k + 2] * x0 - l1[k + 2] * x1;
+    const double x3 = w[k + 3] - l0[k + 3] * x0 - l1[k + 3] * x1 - l2[k + 3] * x2;
+    w[k + 1] = x1, w[k + 2] = x2, w[k + 3] = x3;
+    subtract_four({x0, x1, x2, x3}, l0, rows_, k + 4, rows_, w);
   }
+  for (int k = rows_ - 4; k >= 0; k -= 4) {
+    const double *u1 = upper_column(k + 1), *u2 = upper_column(k + 2), *u3 = upper_column(k + 3);
+    const double* d = diagonal_.data() + k;
+    const double x3 = w[k + 3] * d[3], x2 = (w[k + 2] - u3[k + 2] * x3) * d[2];
+    const double x1 = (w[k + 1] - u3[k + 1] * x3 - u2[k + 1] * x2) * d[1];
+    const double x0 = (w[k] - u3[k] * x3 - u2[k] * x2 - u1[k] * x1) * d[0];
+    w[k] = x0, w[k + 1] = x1, w[k + 2] = x2, w[k + 3] = x3;
+    subtract_four({x0, x1, x2, x3}, upper_column(k), rows_, 0, k, w);
+  }
+  std::copy_n(w, n_, b);
 }
 
 void SmallDense::solve_transposed(const SparsePattern&, const double*, double* b) {

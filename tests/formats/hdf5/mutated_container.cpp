@@ -139,8 +139,8 @@ Space foreign_space(Bytes& bytes) {
   return space;
 }
 
-/// Contiguous, compact, or in chunks with filters. Allocation as late as HDF5 allows. HDF5 itself crashes when it writes
-/// other types than numbers through its filter of n bits.
+/// Contiguous, compact, or in chunks with filters. Allocation as late as HDF5 allows. HDF5 itself crashes when it
+/// writes other types than numbers through its filter of n bits.
 hid_t foreign_layout(Bytes& bytes, hid_t type, const std::vector<hsize_t>& shape) {
   const hid_t list = H5Pcreate(H5P_DATASET_CREATE);
   const std::size_t choice = bytes.below(8);

@@ -219,9 +219,8 @@ TEST(Effects, ThatAreNotThereAreErrorsWithARemedy) {
               AllOf(HasSubstr("switch: effects: body 'arm' has no stiffening to switch off"),
                     HasSubstr("write the companion file")));
   EXPECT_THAT(error_of(scene, {on(Effect::damping, "block")}, files), HasSubstr("'block' has no damping to switch on"));
-  EXPECT_THAT(
-      error_of(scene, {off(Effect::friction, "hinge")}, files),
-      AllOf(HasSubstr("joint 'hinge' has no friction to switch off"), HasSubstr("give a joint 'friction'")));
+  EXPECT_THAT(error_of(scene, {off(Effect::friction, "hinge")}, files),
+              AllOf(HasSubstr("joint 'hinge' has no friction to switch off"), HasSubstr("give a joint 'friction'")));
   EXPECT_THAT(error_of(scene, {off(Effect::flexibility)}, files),
               AllOf(HasSubstr("flexibility of body 'rod' is no term of its own"), HasSubstr("make it a rigid body")));
   EXPECT_THAT(
@@ -251,8 +250,7 @@ TEST(Effects, FrictionAndStopsAreOfOneJointAndOneSpring) {
   EXPECT_FALSE(one.springs[1].upper.has_value());
   EXPECT_EQ(model_of(scene, {off(Effect::friction), on(Effect::friction, "hinge")}, files).frictions.size(), 1U);
   scene.effects = {off(Effect::friction, "slide"), off(Effect::stops)};
-  EXPECT_THAT(effects_text(effects_of(scene, files)),
-              HasSubstr("gravity, friction; off: friction of 'slide', stops"));
+  EXPECT_THAT(effects_text(effects_of(scene, files)), HasSubstr("gravity, friction; off: friction of 'slide', stops"));
 }
 
 TEST(Effects, AreToldWithWhatIsOff) {
