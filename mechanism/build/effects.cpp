@@ -31,6 +31,7 @@ Share share_if(bool has, const char* remedy) { return has ? own_term : no_share(
 
 constexpr const char* no_weight = "give the scene or the body 'gravity'";
 constexpr const char* no_damping = "give the body 'damping'";
+
 bool is_damped(const formats::Damping& damping) { return damping != formats::Damping{}; }
 
 /// Of all bodies with mass.

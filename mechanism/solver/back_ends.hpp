@@ -99,7 +99,7 @@ class SmallDense {
  private:
   double* lower_column(int k) { return lower_.data() + static_cast<std::ptrdiff_t>(rows_) * k; }
   double* upper_column(int k) { return upper_.data() + static_cast<std::ptrdiff_t>(rows_) * k; }
-  void exchange_rows(int k);
+  double exchange_rows(int k);
 
   int n_ = 0;
   int rows_ = 0;                  ///< leading dimension, and columns: of multiples of four, zeros behind n

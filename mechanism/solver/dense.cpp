@@ -49,16 +49,17 @@ SmallDense::SmallDense(const SparsePattern& pattern)
       work_(static_cast<std::size_t>(rows_), 0.0) {}
 
 /// Brings the largest entry of column k to row k, in L and in what is left of the matrix. Its size is known before its
-/// place: the search for both at once waits for each comparison.
-void SmallDense::exchange_rows(int k) {
+/// place: the search for both at once waits for each comparison. Returns the size; not a number if one of them is none.
+double SmallDense::exchange_rows(int k) {
   const double* a = upper_column(k);
-  const double size = largest(a + k, n_ - k);
+  const double size = Eigen::Map<const Eigen::ArrayXd>(a + k, n_ - k).abs().maxCoeff<Eigen::PropagateNaN>();
   int pivot = k;
-  while (pivot < n_ - 1 && std::abs(a[pivot]) != size) ++pivot;  // not found: it is not a number, and pivots tell
+  while (pivot < n_ - 1 && std::abs(a[pivot]) < size) ++pivot;
   exchange_[k] = pivot;
-  if (pivot == k) return;
+  if (pivot == k) return size;
   for (int j = 0; j < k; ++j) std::swap(lower_column(j)[k], lower_column(j)[pivot]);
   for (int j = k; j < n_; ++j) std::swap(upper_column(j)[k], upper_column(j)[pivot]);
+  return size;
 }
 
 FactorReport SmallDense::factor(const SparsePattern&, const double* values) {
@@ -69,9 +70,9 @@ FactorReport SmallDense::factor(const SparsePattern&, const double* values) {
   double smallest = std::numeric_limits<double>::infinity(), greatest = 0.0;
   int weakest = -1;
   for (int k = 0; k < n_; ++k) {
-    exchange_rows(k);
+    const double size = exchange_rows(k);
     double *u = upper_column(k), *l = lower_column(k);
-    const double pivot = u[k], size = std::abs(pivot);
+    const double pivot = u[k];
     if (!(size > 0.0) || !std::isfinite(size)) return {false, 0.0, k, 1.0};
     if (size < smallest) {
       smallest = size;
