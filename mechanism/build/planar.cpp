@@ -34,6 +34,8 @@ class PlanarCheck {
   void starts(const std::vector<CoordinateStart>& initial) const;
   void rotations() const;
   void forces() const;
+  /// Whether all that the coordinate depends on lies in the plane.
+  bool stays(const Coordinate& one) const;
   /// Leaves the equations in the plane.
   void reduce(Joint& joint) const;
 
@@ -214,6 +216,12 @@ void PlanarCheck::reduce(Joint& joint) const {
       joint.relations[kept++] = joint.relations[k];
   joint.relation_count = kept;
   joint.planar = true;
+  TISSERAND_ENSURE(joint.size() <= planar_rows, "{} equations in the plane of {}", joint.size(), name);
+}
+
+bool PlanarCheck::stays(const Coordinate& one) const {
+  return has_planar_axes(one.relation, one.a, one.b) &&
+         parts_of(evaluate(one.relation, markers(one.a, one.b)).G, one.a, one.b).stays();
 }
 
 void PlanarCheck::coordinate(int index, const std::string& user) const {
@@ -360,6 +368,7 @@ void make_planar(const std::vector<CoordinateStart>& initial, Construction& c) {
   check.rotations();
   for (Joint& joint : c.model.joints) check.reduce(joint);
   check.forces();
+  for (Coordinate& coordinate : c.model.coordinates) coordinate.planar = check.stays(coordinate);
   c.model.planar = true;
   number_coordinates(c);
   c.notes.push_back(fmt::format("planar: motion in the plane normal to {}, two translations and one rotation per node",

@@ -106,7 +106,6 @@ double ModalRange::distance(const Model& model, int node) const {
 }
 
 double ModalRange::axial_force(const Model& model, const State& state, const Evaluation& evaluation) const {
-  using Vector12 = Eigen::Matrix<double, 12, 1>;
   const ModalBody& body = model.modal_bodies[body_];
   const ModalScratch& now = evaluation.modal_bodies[body_];
   const Vector3d e = now.A * axis_;

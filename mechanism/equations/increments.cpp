@@ -1,6 +1,8 @@
 // Exponential of rotation vectors, and the rows of constraints.
 #include "mechanism/equations/increments.hpp"
 
+#include <cmath>
+
 #include "common/math/rotation.hpp"
 #include "mechanism/equations/carriers.hpp"
 #include "mechanism/model/node_coordinates.hpp"
@@ -17,6 +19,13 @@ Eigen::Quaterniond exp_quaternion(const Eigen::Vector3d& turn) {
   q.w() = 1.0 - 0.25 * a2 * half.c;
   q.vec() = 0.5 * half.s * turn;
   return q;
+}
+
+/// Of the rotation of a node by the increment `d` of its coordinates.
+Eigen::Quaterniond turn_of(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& d, int first) {
+  if (!model.planar) return exp_quaternion(rotation_at(model, d, first));
+  const double half = 0.5 * d[first];
+  return {std::cos(half), 0.0, 0.0, std::sin(half)};
 }
 
 /// Material increment T(θ) d of a node's rotation for an increment d of the rotation vector θ of the step.
@@ -47,7 +56,7 @@ void apply_jacobian(const Model& model, const Evaluation& evaluation, const Eige
   };
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     gather_local(model.joints.maps[i], model.joints[i]);
-    const Vector6d product = evaluation.joints[i].B.lazyProduct(local);  // rows beyond the joint's size are zero
+    const Vector6d product = rows_times(model.joints[i], evaluation.joints[i], local);
     for (int k = 0; k < model.joints[i].size(); ++k) rows[model.joints[i].row + k] = product[k];
   }
   for (const Coupling& coupling : model.couplings) {
@@ -74,9 +83,7 @@ void apply_transposed_jacobian(const Model& model, const Evaluation& evaluation,
   };
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
-    Vector6d rows = Vector6d::Zero();
-    for (int k = 0; k < joint.size(); ++k) rows[k] = mu[joint.row + k];
-    add(model.joints.maps[i], evaluation.joints[i].B.transpose().lazyProduct(rows));
+    add(model.joints.maps[i], transposed_times(joint, evaluation.joints[i], mu.data() + joint.row));
   }
   for (const Coupling& coupling : model.couplings)
     for (const CouplingTerm& term : coupling.terms) {
@@ -96,7 +103,7 @@ void retract(const Model& model, const State& from, const Eigen::Ref<const Eigen
     if (node.translation >= 0) x.col(column) = x0.col(column) + translation_at(model, d, node.translation);
     if (node.rotation >= 0) {
       const Eigen::Quaterniond q0(Q0(0, column), Q0(1, column), Q0(2, column), Q0(3, column));
-      Q.col(column) = wxyz(q0 * exp_quaternion(rotation_at(model, d, node.rotation)));
+      Q.col(column) = wxyz(q0 * turn_of(model, d, node.rotation));
     }
   }
   to.w() = from.w() + d.segment(model.sizes.first_modal(), model.sizes.modal);

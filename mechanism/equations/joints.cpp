@@ -9,21 +9,43 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using Vector12 = Eigen::Matrix<double, 12, 1>;
 
 Vector12 velocity_of(const MarkerPair& pair) {
   Vector12 v;
-  v << pair.node_a.xd, pair.node_a.Omega, pair.node_b.xd, pair.node_b.Omega;
+  v.segment<3>(0) = pair.node_a.xd;
+  v.segment<3>(3) = pair.node_a.Omega;
+  v.segment<3>(6) = pair.node_b.xd;
+  v.segment<3>(9) = pair.node_b.Omega;
   return v;
+}
+
+RelationTerms terms_of(const Coordinate& coordinate, const MarkerPair& pair) {
+  return coordinate.planar ? evaluate_in_plane(coordinate.relation, pair) : evaluate(coordinate.relation, pair);
+}
+
+double rate_of(const Coordinate& coordinate, const Row12& G, const MarkerPair& pair) {
+  if (!coordinate.planar) return G * velocity_of(pair);
+  return G[0] * pair.node_a.xd.x() + G[1] * pair.node_a.xd.y() + G[5] * pair.node_a.Omega.z() +
+         G[6] * pair.node_b.xd.x() + G[7] * pair.node_b.xd.y() + G[11] * pair.node_b.Omega.z();
+}
+
+Row12 rate_gradient_of(const Coordinate& coordinate, const MarkerPair& pair) {
+  return coordinate.planar ? rate_gradient_in_plane(coordinate.relation, pair)
+                           : rate_gradient(coordinate.relation, pair);
+}
+
+void add_stiffness_of(const Coordinate& coordinate, const MarkerPair& pair, double weight, Square12& K) {
+  coordinate.planar ? add_stiffness_in_plane(coordinate.relation, pair, weight, K)
+                    : add_stiffness(coordinate.relation, pair, weight, K);
 }
 
 void evaluate_coordinate(const Coordinate& coordinate, const State& state, const Evaluation& evaluation,
                          CoordinateTerms& terms) {
   const MarkerPair pair = markers_of(coordinate, evaluation);
-  const RelationTerms relation = evaluate(coordinate.relation, pair);
+  const RelationTerms relation = terms_of(coordinate, pair);
   terms.value = coordinate.turn < 0 ? relation.value : unwrapped(relation.value, state.hinges()[coordinate.turn]);
   terms.G = relation.G;
-  terms.rate = relation.G * velocity_of(pair);
+  terms.rate = rate_of(coordinate, relation.G, pair);
 }
 
 /// Turns the columns of B into those of the iteration matrix; `gradient`: ∂(B v)/∂q, asked for only if needed.
@@ -83,9 +105,7 @@ void add_constraint_rows(const Model& model, const Pair& item, const ElementMap&
 
 /// Bᵀλ of a joint.
 Vector12 joint_force(const Joint& joint, const JointTerms& terms, const State& state) {
-  Vector6d lambda = Vector6d::Zero();
-  for (int k = 0; k < joint.size(); ++k) lambda[k] = state.lambda()[joint.row + k];
-  return terms.B.transpose().lazyProduct(lambda);
+  return transposed_times(joint, terms, state.lambda().data() + joint.row);
 }
 
 }  // namespace
@@ -102,7 +122,7 @@ void update_joints(const Model& model, Evaluation& evaluation) {
     JointTerms& terms = evaluation.joints[i];
     joint_constraints(joint, pair.node_a, pair.node_b, terms);
     evaluation.constraint.segment(joint.row, size) = terms.phi.head(size);
-    const Vector6d rate = terms.B.lazyProduct(velocity_of(pair));  // rows beyond the joint's size are zero
+    const Vector6d rate = rows_times(joint, terms, velocity_of(pair));
     for (int k = 0; k < size; ++k) evaluation.constraint_rate[joint.row + k] = rate[k];
   }
 }
@@ -257,13 +277,13 @@ void add_coordinate_tangents(const Model& model, const State& state, Evaluation&
       const Coordinate& c = model.coordinates[at];
       const MarkerPair pair = markers_of(c, evaluation);
       K.setZero();
-      add_stiffness(c.relation, pair, term.factor * state.lambda()[coupling.row], K);
+      add_stiffness_of(c, pair, term.factor * state.lambda()[coupling.row], K);
       const Row12 B = term.factor * evaluation.coordinates[at].G;
       const ElementMap& columns = model.coordinates.maps[at];
       add_matrix(model, columns, K, coefficients.stiffness * target.factor, evaluation, target.values,
                  [&] { return Vector12(state.lambda()[coupling.row] * B.transpose()); });
       add_constraint_rows(model, c, columns, B, 1, map, slot, target, evaluation,
-                          [&] { return Row12(term.factor * rate_gradient(c.relation, pair)); });
+                          [&] { return Row12(term.factor * rate_gradient_of(c, pair)); });
       slot += columns.coordinates.size();
     }
   }
@@ -280,8 +300,8 @@ void add_coordinate_tangents(const Model& model, const State& state, Evaluation&
       continue;
     }
     K.noalias() = -(coefficients.stiffness * f.dQ_dq + coefficients.damping * f.dQ_dqd) * G.transpose() * G;
-    K.noalias() -= (coefficients.stiffness * f.dQ_dqd) * G.transpose() * rate_gradient(c.relation, pair);
-    add_stiffness(c.relation, pair, -coefficients.stiffness * f.Q, K);
+    K.noalias() -= (coefficients.stiffness * f.dQ_dqd) * G.transpose() * rate_gradient_of(c, pair);
+    add_stiffness_of(c, pair, -coefficients.stiffness * f.Q, K);
     scatter_matrix(model.coordinates.maps[at], K, target.factor, target.values);
   }
 }
@@ -290,7 +310,7 @@ void unwrap_hinges(const Model& model, const Evaluation& evaluation, State& stat
   for (const Coordinate& coordinate : model.coordinates) {
     if (coordinate.turn < 0) continue;
     double& angle = state.hinges()[coordinate.turn];
-    angle = unwrapped(evaluate(coordinate.relation, markers_of(coordinate, evaluation)).value, angle);
+    angle = unwrapped(terms_of(coordinate, markers_of(coordinate, evaluation)).value, angle);
   }
 }
 

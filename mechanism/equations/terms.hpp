@@ -35,10 +35,14 @@ void scatter(const ElementMap& map, const Vector& local, Eigen::VectorXd& global
 /// Adds factor times the local matrix to the stored values.
 template <class Matrix>
 void scatter_matrix(const ElementMap& map, const Matrix& local, double factor, std::vector<double>& values) {
-  const double* entry = local.data();
-  for (const int slot : map.slots) {
-    if (slot >= 0) values[slot] += factor * *entry;
-    ++entry;
+  if (map.slots.empty()) return;
+  const std::size_t size = map.coordinates.size();
+  for (std::size_t j = 0; j < size; ++j) {
+    if (map.coordinates[j] < 0) continue;
+    const double* column = local.data() + j * size;
+    const int* slots = map.slots.data() + j * size;
+    for (std::size_t i = 0; i < size; ++i)
+      if (slots[i] >= 0) values[slots[i]] += factor * column[i];
   }
 }
 

@@ -32,6 +32,11 @@ inline Eigen::Vector3d marker_velocity(const Marker& marker, const NodeMotion& c
   return carrier.xd + carrier.R * carrier.Omega.cross(marker.p);
 }
 
+/// x-y components of R v, of a rotation about z or of a vector with z zero.
+inline Eigen::Vector2d in_plane(const Eigen::Matrix3d& R, const Eigen::Vector3d& v) {
+  return {R(0, 0) * v.x() + R(0, 1) * v.y(), R(1, 0) * v.x() + R(1, 1) * v.y()};
+}
+
 /// R_WM.
 inline Eigen::Matrix3d marker_rotation(const Marker& marker, const NodeMotion& carrier) { return carrier.R * marker.R; }
 

@@ -13,6 +13,7 @@ namespace tisserand::mechanism {
 namespace {
 
 using Eigen::Matrix3d;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 const Relation& relation_of(const Joint& joint, int equation) {
@@ -116,8 +117,39 @@ std::string joint_equation_name(const Joint& joint, int equation) {
   return {};
 }
 
+namespace {
+/// Φ in x and y, and what of B is not zero.
+void coincidence_in_plane(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms) {
+  const Vector2d arm_a = in_plane(a.R, joint.a.p), arm_b = in_plane(b.R, joint.b.p);
+  terms.phi.head<2>() = (b.x - a.x).head<2>() + arm_b - arm_a;
+  terms.B(0, 0) = terms.B(1, 1) = -1.0;
+  terms.B(0, 6) = terms.B(1, 7) = 1.0;
+  terms.B(0, 5) = arm_a.y();
+  terms.B(1, 5) = -arm_a.x();
+  terms.B(0, 11) = -arm_b.y();
+  terms.B(1, 11) = arm_b.x();
+  for (int k = 0; k < 2; ++k) {
+    terms.B.row(k).segment<2>(3).setZero();
+    terms.B.row(k).segment<2>(9).setZero();
+    add_height(terms.B.row(k).segment<2>(3), a.R, joint.a.p.z(), -Vector2d::Unit(k));
+    add_height(terms.B.row(k).segment<2>(9), b.R, joint.b.p.z(), Vector2d::Unit(k));
+  }
+}
+}  // namespace
+
 void joint_constraints(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms) {
+  const MarkerPair pair{joint.a, joint.b, a, b};
   int row = 0;
+  if (joint.planar) {
+    if (joint.coincident) coincidence_in_plane(joint, a, b, terms);
+    row = joint.coincident_rows();
+    for (int k = 0; k < joint.relation_count; ++k, ++row) {
+      const RelationTerms relation = evaluate_in_plane(joint.relations[k], pair);
+      terms.phi[row] = relation.value - joint.constant;
+      terms.B.row(row) = relation.G;
+    }
+    return;
+  }
   if (joint.coincident) {
     terms.phi.head<3>() = marker_position(joint.b, b) - marker_position(joint.a, a);
     terms.B.block<3, 3>(0, 0) = -Matrix3d::Identity();
@@ -126,12 +158,41 @@ void joint_constraints(const Joint& joint, const NodeMotion& a, const NodeMotion
     terms.B.block<3, 3>(0, 9).noalias() = -b.R * skew<double>(joint.b.p);
     row = joint.coincident_rows();
   }
-  const MarkerPair pair{joint.a, joint.b, a, b};
   for (int k = 0; k < joint.relation_count; ++k, ++row) {
     const RelationTerms relation = evaluate(joint.relations[k], pair);
     terms.phi[row] = relation.value - joint.constant;
     terms.B.row(row) = relation.G;
   }
+}
+
+// Rows behind the joint's are zero, so that loops of planar joints have constant bounds.
+Eigen::Matrix<double, 6, 1> rows_times(const Joint& joint, const JointTerms& terms, const Vector12& d) {
+  Eigen::Matrix<double, 6, 1> product;
+  if (!joint.planar) {
+    product = terms.B.lazyProduct(d);
+    return product;
+  }
+  for (int k = 0; k < 6; ++k) {
+    double sum = 0.0;
+    if (k < planar_rows)
+      for (const int column : planar_columns) sum += terms.B(k, column) * d[column];
+    product[k] = sum;
+  }
+  return product;
+}
+
+Vector12 transposed_times(const Joint& joint, const JointTerms& terms, const double* lambda) {
+  Vector12 product;
+  Eigen::Matrix<double, 6, 1> own = Eigen::Matrix<double, 6, 1>::Zero();
+  for (int k = 0; k < joint.size(); ++k) own[k] = lambda[k];
+  if (!joint.planar) {
+    product = terms.B.transpose().lazyProduct(own);
+    return product;
+  }
+  for (int i = 0; i < 12; ++i) product[i] = 0.0;
+  for (const int column : planar_columns)
+    product[column] = terms.B(0, column) * own[0] + terms.B(1, column) * own[1] + terms.B(2, column) * own[2];
+  return product;
 }
 
 void joint_bias(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms) {
@@ -149,27 +210,39 @@ void joint_rate_gradient(const Joint& joint, const NodeMotion& a, const NodeMoti
                          Eigen::Matrix<double, 6, 12>& N) {
   N.setZero();
   int row = 0;
-  if (joint.coincident) {
+  if (joint.coincident && joint.planar) {
+    N.block<2, 1>(0, 5) = a.Omega.z() * in_plane(a.R, joint.a.p);
+    N.block<2, 1>(0, 11) = -b.Omega.z() * in_plane(b.R, joint.b.p);
+    row = joint.coincident_rows();
+  } else if (joint.coincident) {
     N.block<3, 3>(0, 3).noalias() = a.R * skew<double>(a.Omega.cross(joint.a.p));
     N.block<3, 3>(0, 9).noalias() = -b.R * skew<double>(b.Omega.cross(joint.b.p));
     row = joint.coincident_rows();
   }
   const MarkerPair pair{joint.a, joint.b, a, b};
-  for (int k = 0; k < joint.relation_count; ++k, ++row) N.row(row) = rate_gradient(joint.relations[k], pair);
+  for (int k = 0; k < joint.relation_count; ++k, ++row)
+    N.row(row) =
+        joint.planar ? rate_gradient_in_plane(joint.relations[k], pair) : rate_gradient(joint.relations[k], pair);
 }
 
 void joint_stiffness(const Joint& joint, const NodeMotion& a, const NodeMotion& b, const double* lambda, Square12& K) {
   K.setZero();
   int row = 0;
-  if (joint.coincident) {
-    const Vector3d f(lambda[0], lambda[1], joint.planar ? 0.0 : lambda[2]);
+  if (joint.coincident) row = joint.coincident_rows();
+  if (joint.coincident && joint.planar) {
+    const Vector2d f(lambda[0], lambda[1]);
+    K(5, 5) = in_plane(a.R, joint.a.p).dot(f);
+    K(11, 11) = -in_plane(b.R, joint.b.p).dot(f);
+  } else if (joint.coincident) {
+    const Vector3d f(lambda[0], lambda[1], lambda[2]);
     // Rows Θ of Bᵀλ: −p_A~ R_Aᵀ f for A and +p_B~ R_Bᵀ f for B; δ(Rᵀ f) = (Rᵀ f)~ δΘ.
     K.block<3, 3>(3, 3) = -skew<double>(joint.a.p) * skew<double>(a.R.transpose() * f);
     K.block<3, 3>(9, 9) = skew<double>(joint.b.p) * skew<double>(b.R.transpose() * f);
-    row = joint.coincident_rows();
   }
   const MarkerPair pair{joint.a, joint.b, a, b};
-  for (int k = 0; k < joint.relation_count; ++k, ++row) add_stiffness(joint.relations[k], pair, lambda[row], K);
+  for (int k = 0; k < joint.relation_count; ++k, ++row)
+    joint.planar ? add_stiffness_in_plane(joint.relations[k], pair, lambda[row], K)
+                 : add_stiffness(joint.relations[k], pair, lambda[row], K);
 }
 
 JointReaction reaction_of(const Row12& pulled_back, const MarkerPair& pair) {

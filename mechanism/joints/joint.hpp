@@ -65,10 +65,20 @@ std::string joint_equation_name(const Joint& joint, int equation);
 
 /// Values of one joint; the first size() rows count. Columns of B: [x_A Θ_A x_B Θ_B] (material rotations).
 struct JointTerms {
-  Eigen::Matrix<double, 6, 1> phi;
-  Eigen::Matrix<double, 6, 12> B;
-  Eigen::Matrix<double, 6, 1> bias;  ///< Ḃ v: Φ̈ = B v̇ + bias
+  Eigen::Matrix<double, 6, 1> phi = Eigen::Matrix<double, 6, 1>::Zero();
+  Eigen::Matrix<double, 6, 12> B = Eigen::Matrix<double, 6, 12>::Zero();
+  Eigen::Matrix<double, 6, 1> bias = Eigen::Matrix<double, 6, 1>::Zero();  ///< Ḃ v: Φ̈ = B v̇ + bias
 };
+
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+
+/// Equations of planar joints: not more than the three motions that they leave a body.
+constexpr int planar_rows = 3;
+
+/// B d; the first size() rows count.
+Eigen::Matrix<double, 6, 1> rows_times(const Joint& joint, const JointTerms& terms, const Vector12& d);
+/// Bᵀ λ of the joint's own rows, on coordinates of the model.
+Vector12 transposed_times(const Joint& joint, const JointTerms& terms, const double* lambda);
 
 /// Φ and B.
 void joint_constraints(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms);

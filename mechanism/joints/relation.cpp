@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "common/math/rotation.hpp"
+#include "mechanism/joints/axis_products.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -15,7 +16,10 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 void assign(Row12& row, const Vector3d& x_A, const Vector3d& Theta_A, const Vector3d& x_B, const Vector3d& Theta_B) {
-  row << x_A.transpose(), Theta_A.transpose(), x_B.transpose(), Theta_B.transpose();
+  row.segment<3>(0) = x_A;
+  row.segment<3>(3) = Theta_A;
+  row.segment<3>(6) = x_B;
+  row.segment<3>(9) = Theta_B;
 }
 
 double product(const Row12& G, const MarkerPair& p) {
@@ -24,18 +28,6 @@ double product(const Row12& G, const MarkerPair& p) {
 }
 
 // ---- products of axes --------------------------------------------------------------------------------------------
-
-/// sign · a_i·b_j.
-struct NormalTerm {
-  int i;
-  int j;
-  double sign;
-};
-
-struct NormalSum {
-  std::array<NormalTerm, 2> term;
-  int count;
-};
 
 /// a·b with a = R_A α, b = R_B β: u = R_Aᵀ b, w = R_Bᵀ a, so δ(a·b) = (α × u)·δΘ_A + (β × w)·δΘ_B.
 struct Normal {
@@ -100,23 +92,7 @@ void add_stiffness(const NormalSum& sum, const MarkerPair& p, double weight, Squ
   }
 }
 
-NormalSum normal_sum(const Relation& r) { return {{{{r.i, r.j, 1.0}, {}}}, 1}; }
-constexpr NormalSum twist_sum{{{{0, 1, 1.0}, {1, 0, -1.0}}}, 2};
-
 // ---- angles ------------------------------------------------------------------------------------------------------
-
-/// θ = atan2(sine, cosine). About z: of the rotation R_AB with z_B near z_A, exact where they agree. About x: where x_A
-/// is normal to y_B; about y: where y_B is normal to x_A (the two pins of a universal joint, R_AB = R_x R_y).
-struct AngleTerms {
-  NormalSum sine;
-  NormalSum cosine;
-};
-
-AngleTerms angle_terms(const Relation& r) {
-  if (r.i == 0) return {{{{{2, 1, 1.0}, {}}}, 1}, {{{{1, 1, 1.0}, {}}}, 1}};
-  if (r.i == 1) return {{{{{0, 2, 1.0}, {}}}, 1}, {{{{0, 0, 1.0}, {}}}, 1}};
-  return {{{{{1, 0, 1.0}, {0, 1, -1.0}}}, 2}, {{{{0, 0, 1.0}, {1, 1, 1.0}}}, 2}};
-}
 
 /// atan2 and its derivatives to second order.
 struct ArcTangent {

@@ -1,6 +1,7 @@
 // Scalar relations between two markers: what joints hold at zero, and what joint coordinates measure.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <Eigen/Core>
@@ -76,6 +77,25 @@ struct RelationTerms {
   Row12 G = Row12::Zero();
 };
 RelationTerms evaluate(const Relation& relation, const MarkerPair& pair);
+
+/// The columns [x y θ] of both carriers that planar models have.
+constexpr std::array<int, 6> planar_columns{0, 1, 5, 6, 7, 11};
+/// Whether the axes that the relation uses lie in the plane z = 0 of both carriers.
+bool has_planar_axes(const Relation& relation, const Marker& a, const Marker& b);
+/// Adds the moment across z, material axes, of a force `x` (world) that acts `height` along z from the carrier's
+/// origin: what a carrier in the plane does not feel, but what is reported of the ground.
+template <class Moment>
+void add_height(Moment&& moment, const Eigen::Matrix3d& R, double height, const Eigen::Vector2d& x) {
+  if (height == 0.0) return;
+  moment[0] -= height * (R(0, 1) * x.x() + R(1, 1) * x.y());
+  moment[1] += height * (R(0, 0) * x.x() + R(1, 0) * x.y());
+}
+/// evaluate() where carriers turn about z alone, of a relation with planar axes.
+RelationTerms evaluate_in_plane(const Relation& relation, const MarkerPair& pair);
+/// K += weight ∂²(value)/∂q², columns and rows planar_columns: symmetric, since turns about one axis add up.
+void add_stiffness_in_plane(const Relation& relation, const MarkerPair& pair, double weight, Square12& K);
+/// ∂(G v)/∂q = vᵀ ∂²(value)/∂q².
+Row12 rate_gradient_in_plane(const Relation& relation, const MarkerPair& pair);
 
 /// Ġ v: the second derivative of the value is G v̇ + Ġ v.
 double bias(const Relation& relation, const MarkerPair& pair);

@@ -106,7 +106,7 @@ class SmallDense {
   std::vector<double> lower_;     ///< L without its unit diagonal, zeros elsewhere
   std::vector<double> upper_;     ///< U without its diagonal, zeros elsewhere
   std::vector<double> diagonal_;  ///< reciprocals of the pivots
-  std::vector<int> exchange_;     ///< row k was exchanged with row exchange[k]
+  std::vector<int> order_;        ///< row k of the factors is row order[k] of the matrix
   std::vector<double> work_;      ///< right-hand side
 };
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include <Eigen/Core>
@@ -45,7 +46,7 @@ SmallDense::SmallDense(const SparsePattern& pattern)
       lower_(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(rows_), 0.0),
       upper_(lower_),
       diagonal_(static_cast<std::size_t>(rows_), 0.0),
-      exchange_(static_cast<std::size_t>(n_), 0),
+      order_(static_cast<std::size_t>(n_), 0),
       work_(static_cast<std::size_t>(rows_), 0.0) {}
 
 /// Brings the largest entry of column k to row k, in L and in what is left of the matrix. Its size is known before its
@@ -55,8 +56,8 @@ double SmallDense::exchange_rows(int k) {
   const double size = Eigen::Map<const Eigen::ArrayXd>(a + k, n_ - k).abs().maxCoeff<Eigen::PropagateNaN>();
   int pivot = k;
   while (pivot < n_ - 1 && std::abs(a[pivot]) < size) ++pivot;
-  exchange_[k] = pivot;
   if (pivot == k) return size;
+  std::swap(order_[k], order_[pivot]);
   for (int j = 0; j < k; ++j) std::swap(lower_column(j)[k], lower_column(j)[pivot]);
   for (int j = k; j < n_; ++j) std::swap(upper_column(j)[k], upper_column(j)[pivot]);
   return size;
@@ -67,6 +68,7 @@ FactorReport SmallDense::factor(const SparsePattern&, const double* values) {
     std::copy_n(values + static_cast<std::ptrdiff_t>(n_) * j, n_, upper_column(j));
     std::fill_n(upper_column(j) + n_, rows_ - n_, 0.0);
   }
+  std::iota(order_.begin(), order_.end(), 0);
   double smallest = std::numeric_limits<double>::infinity(), greatest = 0.0;
   int weakest = -1;
   for (int k = 0; k < n_; ++k) {
@@ -94,9 +96,8 @@ FactorReport SmallDense::factor(const SparsePattern&, const double* values) {
 /// is zero.
 void SmallDense::solve(const SparsePattern&, const double*, double* b) {
   double* w = work_.data();
-  std::copy_n(b, n_, w);
+  for (int k = 0; k < n_; ++k) w[k] = b[order_[k]];
   std::fill_n(w + n_, rows_ - n_, 0.0);
-  for (int k = 0; k < n_; ++k) std::swap(w[k], w[exchange_[k]]);
   for (int k = 0; k < rows_; k += 4) {
     const double *l0 = lower_column(k), *l1 = lower_column(k + 1), *l2 = lower_column(k + 2);
     const double x0 = w[k], x1 = w[k + 1] - l0[k + 1] * x0, x2 = w[k + 2] - l0[k + 2] * x0 - l1[k + 2] * x1;
@@ -122,7 +123,8 @@ void SmallDense::solve_transposed(const SparsePattern&, const double*, double* b
     b[k] = (b[k] - ConstMap(upper_column(k), k).dot(ConstMap(b, k))) * diagonal_[k];
   for (int k = n_ - 1; k >= 0; --k)  // Lᵀ
     b[k] -= ConstMap(lower_column(k) + k + 1, n_ - k - 1).dot(ConstMap(b + k + 1, n_ - k - 1));
-  for (int k = n_ - 1; k >= 0; --k) std::swap(b[k], b[exchange_[k]]);
+  std::copy_n(b, n_, work_.data());
+  for (int k = 0; k < n_; ++k) b[order_[k]] = work_[k];
 }
 
 double SmallDense::reciprocal_growth(const SparsePattern&, const double* values) {

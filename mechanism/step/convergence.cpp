@@ -24,6 +24,15 @@ void raise(double& value, int& at, double candidate, int index) {
   at = index;
 }
 
+/// Its size is known before its place: the search for both at once waits for each comparison. A NaN is the largest.
+template <class Array>
+double largest(const Array& values, int& at) {
+  const double size = values.template maxCoeff<Eigen::PropagateNaN>();
+  const auto is_it = [size](double value) { return std::isnan(size) ? std::isnan(value) : value >= size; };
+  for (at = 0; at < values.size() - 1 && !is_it(values.coeff(at));) ++at;
+  return size;
+}
+
 /// Violations up to which a constraint counts as closed, relative to the characteristic length.
 struct Closed {
   double position = 0.0;
@@ -44,10 +53,10 @@ Closed closed_constraints(const Model& model, const IntegratorSpec& options, dou
 }  // namespace
 
 double size_of(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& increment) {
-  double largest = 0.0;
-  for (int i = 0; i < model.sizes.boundary; ++i)
-    largest = std::max(largest, std::abs(increment[i]) / (model.length * model.equation_scale[i]));
-  return largest;
+  const int n = model.sizes.boundary;
+  if (n == 0) return 0.0;
+  return (increment.head(n).array().abs() / model.equation_scale.head(n)).maxCoeff<Eigen::PropagateNumbers>() /
+         model.length;
 }
 
 Norms measure(const Model& model, const IntegratorSpec& options, double step, const State& state,
@@ -57,34 +66,36 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
   for (int k = 0; k < 3; ++k) scale[k] = std::max(state.force_scale(k), evaluation.force_scale[k]);
   // Forces and moments measure each other through the length, so that a scale of zero in one does not stall the test.
   const double force = std::max(scale[0], scale[1] / model.length);
-  const double internal = std::max(scale[2], 1e-300);
+  const double internal_ratio = 1.0 / (options.tolerance * std::max(scale[2], 1e-250));
   // Positions are rounded to ε length, which the stiffness turns into forces that no iteration can remove.
   const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
   const double allowed = std::max(options.tolerance * force, round_off) + 1e-300;
-  for (int i = 0; i < model.sizes.boundary; ++i) {
-    const double r = std::abs(evaluation.residual[i]) * model.equation_scale[i];
-    norms.residual = std::max(norms.residual, r);
-    raise(norms.force_ratio, norms.worst_coordinate, r / allowed, i);
-  }
+  if (model.sizes.boundary > 0)
+    norms.residual = largest(evaluation.residual.array().abs() * model.equation_scale.head(model.sizes.boundary),
+                             norms.worst_coordinate);
+  norms.force_ratio = norms.residual / allowed;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const auto& r = evaluation.superelements[i].forces.r_I;
     for (Eigen::Index k = 0; k < r.size(); ++k)
-      raise(norms.force_ratio, norms.worst_coordinate, std::abs(r[k]) / (options.tolerance * internal),
+      raise(norms.force_ratio, norms.worst_coordinate, std::abs(r[k]) * internal_ratio,
             model.sizes.boundary + model.internal_offset[i] + static_cast<int>(k));
     raise(norms.force_ratio, norms.worst_coordinate, evaluation.superelements[i].motion.frame_error / frame_tolerance,
           model.superelements.maps[i].coordinates.front());
   }
   const Closed closed = closed_constraints(model, options, step, state);
+  const bool rates = options.formulation == Formulation::stabilised_index2;
+  const double position_ratio = 1.0 / closed.position, rate_ratio = 1.0 / closed.rate, inverse = 1.0 / model.length;
   for (int row = 0; row < model.sizes.constraints; ++row) {
-    const double length = model.length_row[row] ? model.length : 1.0;
-    norms.constraint = std::max(norms.constraint, std::abs(evaluation.constraint[row]) / length * model.length);
+    const double share = model.length_row[row] ? inverse : 1.0;
+    const double violation = std::abs(evaluation.constraint[row]) * share;
+    norms.constraint = std::max(norms.constraint, violation);
     if (evaluation.active[row] == 0.0) continue;
-    raise(norms.constraint_ratio, norms.worst_constraint,
-          std::abs(evaluation.constraint[row]) / (length * closed.position), row);
-    if (options.formulation == Formulation::stabilised_index2)
+    raise(norms.constraint_ratio, norms.worst_constraint, violation * position_ratio, row);
+    if (rates)
       raise(norms.constraint_ratio, norms.worst_constraint,
-            std::abs(evaluation.constraint_rate[row]) / (length * closed.rate), row);
+            std::abs(evaluation.constraint_rate[row]) * share * rate_ratio, row);
   }
+  norms.constraint *= model.length;
   return norms;
 }
 

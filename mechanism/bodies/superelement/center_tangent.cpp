@@ -43,10 +43,10 @@ struct FrameRotation {
   Matrix3d kappa, rate, GV = Matrix3d::Zero();
 };
 
-FrameRotation start_of_frame_rotation(const SuperelementBody& body, const LocalMotion<double>& motion) {
+FrameRotation start_of_frame_rotation(const LocalMotion<double>& motion) {
   FrameRotation shares;
-  shares.kappa = -skew<double>(body.center_of_mass + mean_of<double>(body, motion.y_B, motion.y_I));
-  shares.rate = -skew<double>(mean_of<double>(body, motion.deformation_rate_B, motion.rate_I));
+  shares.kappa = -skew<double>(motion.center);
+  shares.rate = -skew<double>(motion.center_rate);
   return shares;
 }
 
@@ -83,7 +83,7 @@ void add_rotation(const SuperelementBody& body, const LocalMotion<double>& motio
 void set_columns(const SuperelementBody& body, const LocalMotion<double>& motion, const TangentCoefficients& c,
                  CenterColumns& out) {
   for (Columns* columns : {&out.g, &out.z, &out.J, &out.F}) columns->setZero();
-  FrameRotation shares = start_of_frame_rotation(body, motion);
+  FrameRotation shares = start_of_frame_rotation(motion);
   for (std::size_t i = 0; i < body.node.size(); ++i) {
     if (body.node[i].has_translation()) add_translation(body, motion, i, c.damping, out, shares);
     if (body.node[i].has_rotation()) add_rotation(body, motion, i, c.damping, out, shares);

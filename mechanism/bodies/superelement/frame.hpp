@@ -56,6 +56,8 @@ struct LocalMotion {
   Vec3<S> origin_velocity = Vec3<S>::Zero();      ///< R₀ᵀẋ₀; only with inertia options M and F
   Vec3<S> origin_acceleration = Vec3<S>::Zero();  ///< R₀ᵀẍ₀; only with inertia options M and F
   Vec3<S> Omega0d = Vec3<S>::Zero();              ///< Ω̇₀; only with inertia options M and F
+  Vec3<S> center = Vec3<S>::Zero();               ///< c = X_cm + Φ_TᵀM̄ y/m; only with inertia option M
+  Vec3<S> center_rate = Vec3<S>::Zero();          ///< ċ; only with inertia option M
   Vec3<S> center_velocity = Vec3<S>::Zero();      ///< R₀ᵀẋ_cm; only with inertia option M
   Vec3<S> center_acceleration = Vec3<S>::Zero();  ///< R₀ᵀẍ_cm; only with inertia option M
   Vector y_I, rate_I, acceleration_I;

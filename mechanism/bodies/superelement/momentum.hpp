@@ -76,15 +76,38 @@ Vec3<S> frame_acceleration(const SuperelementBody& body, const NodeView<Node>& n
   return acceleration;
 }
 
+/// sum += Γ v, of Γ the rows that bodies have: two of planar ones.
+template <class S>
+void add_sum(const SuperelementBody& body, const Eigen::Matrix<double, 3, Eigen::Dynamic>& Gamma,
+             const Eigen::Matrix<S, Eigen::Dynamic, 1>& v, Vec3<S>& sum) {
+  S x = sum[0], y = sum[1], z = sum[2];
+  for (Eigen::Index k = 0; k < v.size(); ++k) {
+    x += Gamma(0, k) * v[k];
+    y += Gamma(1, k) * v[k];
+    if (!body.planar) z += Gamma(2, k) * v[k];
+  }
+  sum << x, y, z;
+}
+
+/// f −= Γᵀ g.
+template <class S>
+void subtract_share(const SuperelementBody& body, const Eigen::Matrix<double, 3, Eigen::Dynamic>& Gamma,
+                    const Vec3<S>& g, Eigen::Matrix<S, Eigen::Dynamic, 1>& f) {
+  const S x = g[0], y = g[1], z = g[2];
+  for (Eigen::Index k = 0; k < f.size(); ++k) {
+    S share = Gamma(0, k) * x + Gamma(1, k) * y;
+    if (!body.planar) share += Gamma(2, k) * z;
+    f[k] -= share;
+  }
+}
+
 /// Φ_TᵀM̄ [boundary; internal] / m.
 template <class S>
 Vec3<S> mean_of(const SuperelementBody& body, const Eigen::Matrix<S, Eigen::Dynamic, 1>& boundary,
                 const Eigen::Matrix<S, Eigen::Dynamic, 1>& internal) {
   Vec3<S> sum = Vec3<S>::Zero();
-  for (Eigen::Index k = 0; k < body.boundary_size; ++k)
-    for (int i = 0; i < 3; ++i) sum[i] += body.Gamma_B(i, k) * boundary[k];
-  for (Eigen::Index k = 0; k < body.modes; ++k)
-    for (int i = 0; i < 3; ++i) sum[i] += body.Gamma_I(i, k) * internal[k];
+  add_sum<S>(body, body.Gamma_B, boundary, sum);
+  add_sum<S>(body, body.Gamma_I, internal, sum);
   return sum / body.mass;
 }
 
@@ -120,26 +143,20 @@ void deformation_accelerations(const SuperelementBody& body, const NodeView<Node
   motion.Omega0d = wd;
 }
 
-/// motion.center_velocity and center_acceleration of x_cm = x₀ + R₀ c, c = X_cm + Φ_TᵀM̄ y/m, in axes of the frame:
-/// ẋ₀ + Ω₀ × c + ċ and ẍ₀ + Ω̇₀ × c + Ω₀ × (Ω₀ × c) + 2 Ω₀ × ċ + c̈. After deformation_accelerations().
+/// motion.center, center_rate, center_velocity and center_acceleration of x_cm = x₀ + R₀ c, c = X_cm + Φ_TᵀM̄ y/m, in
+/// axes of the frame: ẋ₀ + Ω₀ × c + ċ and ẍ₀ + Ω̇₀ × c + Ω₀ × (Ω₀ × c) + 2 Ω₀ × ċ + c̈. After
+/// deformation_accelerations().
 template <class S>
 void center_of_mass_motion(const SuperelementBody& body, LocalMotion<S>& motion) {
   const Vec3<S> w = motion.Omega0, wd = motion.Omega0d;
-  Vec3<S> cdd = Vec3<S>::Zero();  // m c̈, first of the boundary
-  for (const SuperelementNode& node : body.node)
-    for (const int row : {node.translation_row, node.rotation_row})
-      if (row >= 0 && !body.planar)
-        cdd += body.Gamma_B.template middleCols<3>(row).template cast<S>() *
-               motion.deformation_acceleration_B.template segment<3>(row);
-  for (Eigen::Index k = 0; k < body.boundary_size && body.planar; ++k)
-    for (int i = 0; i < 2; ++i) cdd[i] += body.Gamma_B(i, k) * motion.deformation_acceleration_B[k];
-  for (Eigen::Index k = 0; k < body.modes; ++k)
-    for (int i = 0; i < 3; ++i) cdd[i] += body.Gamma_I(i, k) * motion.acceleration_I[k];
   const Vec3<S> c = body.center_of_mass.template cast<S>() + mean_of<S>(body, motion.y_B, motion.y_I);
   const Vec3<S> cd = mean_of<S>(body, motion.deformation_rate_B, motion.rate_I);
+  const Vec3<S> cdd = mean_of<S>(body, motion.deformation_acceleration_B, motion.acceleration_I);
+  motion.center = c;
+  motion.center_rate = cd;
   motion.center_velocity = motion.origin_velocity + cross<S>(w, c) + cd;
-  motion.center_acceleration = motion.origin_acceleration + cross<S>(wd, c) + cross<S>(w, cross<S>(w, c)) +
-                               2.0 * cross<S>(w, cd) + cdd / body.mass;
+  motion.center_acceleration =
+      motion.origin_acceleration + cross<S>(wd, c) + cross<S>(w, cross<S>(w, c)) + 2.0 * cross<S>(w, cd) + cdd;
 }
 
 }  // namespace tisserand::mechanism

@@ -149,8 +149,7 @@ void set_center_columns(const SuperelementBody& body, const LocalMotion<double>&
   for (const SuperelementNode& node : body.node)
     if (const int row = node.translation_row; row >= 0)
       columns.hd().segment<2>(row) = across(motion.deformation_rate_B[row], motion.deformation_rate_B[row + 1]);
-  const Vector3d center = body.center_of_mass + mean_of<double>(body, motion.y_B, motion.y_I);
-  const Vector3d rate = mean_of<double>(body, motion.deformation_rate_B, motion.rate_I);
+  const Vector3d &center = motion.center, &rate = motion.center_rate;
   const Vector2d GV = c.damping * g.transpose().lazyProduct(columns.V());
   const Vector2d kappa = g.transpose().lazyProduct(columns.h()) / body.mass - across(center.x(), center.y());
   const Vector2d kappa_rate = g.transpose().lazyProduct(columns.hd()) / body.mass - across(rate.x(), rate.y());

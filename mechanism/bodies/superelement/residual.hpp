@@ -91,6 +91,7 @@ void local_forces(const SuperelementBody& body, const LocalMotion<S>& motion, Su
 /// Centre of mass relative to x₀, axes of the frame: X_cm + Φ_TᵀM̄ y / m.
 template <class S>
 Vec3<S> deformed_center_of_mass(const SuperelementBody& body, const LocalMotion<S>& motion) {
+  if (body.inertia == formats::InertiaOption::M) return motion.center;
   return body.center_of_mass.template cast<S>() + mean_of<S>(body, motion.y_B, motion.y_I);
 }
 
@@ -99,23 +100,17 @@ template <class S>
 void release_center_of_mass(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   const Vec3<S> velocity = mean_of<S>(body, motion.rate_B, motion.rate_I);
   const Vec3<S> acceleration = mean_of<S>(body, motion.acceleration_B, motion.acceleration_I);
-  for (Eigen::Index k = 0; k < body.boundary_size; ++k)
-    for (int i = 0; i < 3; ++i) {
-      out.p_B[k] -= body.Gamma_B(i, k) * velocity[i];
-      out.f_B[k] -= body.Gamma_B(i, k) * acceleration[i];
-    }
-  for (Eigen::Index k = 0; k < body.modes; ++k)
-    for (int i = 0; i < 3; ++i) out.r_I[k] -= body.Gamma_I(i, k) * acceleration[i];
+  subtract_share<S>(body, body.Gamma_B, velocity, out.p_B);
+  subtract_share<S>(body, body.Gamma_B, acceleration, out.f_B);
+  subtract_share<S>(body, body.Gamma_I, acceleration, out.r_I);
 }
 
 /// The part of the exact variation of V_g = −m g·x_cm that acts through y: s −= Γᵀ R₀ᵀg; returns the moment m c × R₀ᵀg.
 template <class S>
 Vec3<S> apply_gravity(const SuperelementBody& body, const LocalMotion<S>& motion, const Vec3<S>& g,
                       SuperelementForces<S>& out) {
-  for (Eigen::Index k = 0; k < body.boundary_size; ++k)
-    for (int i = 0; i < 3; ++i) out.s_B[k] -= body.Gamma_B(i, k) * g[i];
-  for (Eigen::Index k = 0; k < body.modes; ++k)
-    for (int i = 0; i < 3; ++i) out.r_I[k] -= body.Gamma_I(i, k) * g[i];
+  subtract_share<S>(body, body.Gamma_B, g, out.s_B);
+  subtract_share<S>(body, body.Gamma_I, g, out.r_I);
   return body.mass * cross<S>(deformed_center_of_mass(body, motion), g);
 }
 

@@ -222,6 +222,106 @@ TEST_P(EveryJoint, ReportedReactionIsTheForceOfTheEquationsAndDoesNoWork) {
   }
 }
 
+/// Carriers that turn about z alone, with markers off their planes at one height.
+struct PlanarPair : Pair {
+  PlanarPair(JointKind kind, unsigned seed, int turns) : Pair(kind, seed, 0.0) {
+    std::mt19937 random(seed + 20);
+    std::uniform_real_distribution<double> angle(-3.0, 3.0);
+    Matrix3d axes;  // of both markers: the normal is z, x or y
+    axes.setZero();
+    for (int k = 0; k < 3; ++k) axes((k + turns) % 3, k) = 1.0;
+    for (NodeMotion* motion : {&a, &b}) {
+      motion->R = turn(2, angle(random));
+      motion->x.z() = 0.0;
+    }
+    joint.a.R = turn(2, angle(random)) * axes;
+    joint.b.R = turn(2, angle(random)) * axes;
+    a.x.z() = 0.2;
+    joint.a.p.z() = 0.3;
+    b.x.z() = 0.4;
+    joint.b.p.z() = 0.1;
+    joint.planar = true;
+    int kept = 0;
+    for (int k = 0; k < joint.relation_count; ++k)
+      if (has_planar_axes(joint.relations[k], joint.a, joint.b)) joint.relations[kept++] = joint.relations[k];
+    joint.relation_count = kept;
+  }
+};
+
+// What a planar joint computes with two translations and a rotation per carrier is what it computes in space.
+TEST_P(EveryJoint, OfThePlaneIsThatOfSpace) {
+  for (unsigned seed = 0; seed < states; ++seed)
+    for (int turns = 0; turns < 3; ++turns) {
+      const PlanarPair pair(GetParam(), seed, turns);
+      Pair space = pair;
+      space.joint.planar = false;
+      const int size = pair.joint.size();
+      std::vector<int> rows;  // of space: without the third of the places
+      for (int k = 0; k < space.joint.size(); ++k)
+        if (!pair.joint.coincident || k != 2) rows.push_back(k);
+      const JointTerms plane = pair.terms(), all = space.terms();
+      const Eigen::VectorXd lambda = multipliers(seed);
+      Eigen::VectorXd of_space = Eigen::VectorXd::Zero(6);
+      ASSERT_EQ(static_cast<int>(rows.size()), size);
+      for (int k = 0; k < size; ++k) {
+        EXPECT_NEAR(plane.phi[k], all.phi[rows[k]], 1e-14);
+        EXPECT_LT((plane.B.row(k) - all.B.row(rows[k])).cwiseAbs().maxCoeff(), 1e-14) << "row " << k;
+        of_space[rows[k]] = lambda[k];
+      }
+      Vector12d v = Vector12d::Zero();
+      for (const int column : planar_columns) v[column] = pair.velocity()[column];
+      EXPECT_LT((rows_times(pair.joint, plane, v) - plane.B * v).head(size).norm(), 1e-14);
+      const Vector12d force = transposed_times(pair.joint, plane, lambda.data());
+      Square12 K, K_space;
+      joint_stiffness(pair.joint, pair.a, pair.b, lambda.data(), K);
+      joint_stiffness(space.joint, space.a, space.b, of_space.data(), K_space);
+      const Vector12d expected = all.B.transpose() * of_space;
+      for (const int i : planar_columns) {
+        EXPECT_NEAR(force[i], expected[i], 1e-14);
+        for (const int j : planar_columns) EXPECT_NEAR(K(i, j), K_space(i, j), 1e-14) << i << " " << j;
+      }
+      Eigen::Matrix<double, 6, 12> N, N_space;
+      Pair moving = pair;
+      for (NodeMotion* motion : {&moving.a, &moving.b}) {
+        motion->xd.z() = 0.0;
+        motion->Omega.head<2>().setZero();
+      }
+      joint_rate_gradient(pair.joint, moving.a, moving.b, N);
+      joint_rate_gradient(space.joint, moving.a, moving.b, N_space);
+      for (int k = 0; k < size; ++k)
+        for (const int j : planar_columns) EXPECT_NEAR(N(k, j), N_space(rows[k], j), 1e-14) << k << " " << j;
+      const JointReaction r = joint_reaction(pair.joint, pair.a, pair.b, lambda.data()),
+                          r_space = joint_reaction(space.joint, space.a, space.b, of_space.data());
+      EXPECT_LT((r.force - r_space.force).norm() + (r.moment - r_space.moment).norm(), 1e-14);
+    }
+}
+
+TEST(PlanarRelation, EveryOneIsThatOfSpace) {
+  int compared = 0;
+  for (int turns = 0; turns < 3; ++turns)
+    for (const RelationKind kind :
+         {RelationKind::along, RelationKind::normal, RelationKind::twist, RelationKind::distance, RelationKind::angle})
+      for (std::uint8_t i = 0; i < 3; ++i)
+        for (std::uint8_t j = 0; j < 3; ++j) {
+          const PlanarPair pair(JointKind::spherical, 7u + i, turns);
+          const Relation relation{kind, i, j};
+          if (!has_planar_axes(relation, pair.joint.a, pair.joint.b)) continue;
+          ++compared;
+          const MarkerPair markers{pair.joint.a, pair.joint.b, pair.a, pair.b};
+          const RelationTerms plane = evaluate_in_plane(relation, markers), space = evaluate(relation, markers);
+          EXPECT_NEAR(plane.value, space.value, 1e-14);
+          EXPECT_LT((plane.G - space.G).cwiseAbs().maxCoeff(), 1e-14) << static_cast<int>(kind);
+          Square12 K = Square12::Zero(), K_space = Square12::Zero();
+          add_stiffness_in_plane(relation, markers, 0.7, K);
+          add_stiffness(relation, markers, 0.7, K_space);
+          for (const int row : planar_columns)
+            for (const int column : planar_columns)
+              EXPECT_NEAR(K(row, column), K_space(row, column), 1e-14) << static_cast<int>(kind);
+        }
+  // Of three orientations: two axes along, four pairs of axes, one twist, any distance, one angle (times i and j).
+  EXPECT_EQ(compared, 3 * (2 * 3 + 4) + 9 + 27 + 3 * 3);
+}
+
 TEST_P(EveryJoint, RigidMotionOfTheWorldChangesNothing) {
   for (unsigned seed = 0; seed < states; ++seed) {
     Pair pair(GetParam(), seed, 0.7);

@@ -127,11 +127,16 @@ TEST_P(EverySolver, SingularMatrixIsReportedAndTheNextRegularOneIsSolved) {
 }
 
 TEST_P(EverySolver, ValuesThatAreNotNumbersAreReported) {
-  const SparsePattern pattern = pattern_of(5);
-  LinearSolver solver(pattern, GetParam());
-  std::vector<double> v = values(pattern, matrix(5, 3, 0));
-  v[2] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(solver.numeric(v).regular);
+  for (const int n : {5, 23}) {
+    const SparsePattern pattern = pattern_of(n);
+    const std::vector<double> numbers = values(pattern, matrix(n, 3, 0));
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+      LinearSolver solver(pattern, GetParam());
+      std::vector<double> v = numbers;
+      v[k] = std::numeric_limits<double>::quiet_NaN();
+      EXPECT_FALSE(solver.numeric(v).regular) << "entry " << k;
+    }
+  }
 }
 
 TEST_P(EverySolver, AfterForgetTheAnswerIsThatOfAFreshSolverBitForBit) {

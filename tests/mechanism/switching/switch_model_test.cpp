@@ -326,7 +326,17 @@ TEST(CarriedInertia, IsThatOfTheClampedBeamAndItsBob) {
   Evaluation now(whole.model());
   evaluate(whole.model(), whole.state(), now);
   EXPECT_LT(compliance.kinetic_energy(y), 0.5 * expected);
+  EXPECT_TRUE(carried.knows());
   EXPECT_NEAR(compliance.kinetic_energy(y) + carried.energies({y}, now)[0], expected, 1e-6 * expected);
+
+  // Multipliers of other joints say nothing of these.
+  scene.joints.pop_back();
+  Simulation other(scene, list);
+  other.start();
+  CarriedInertia unknown(other.model(), whole.model());
+  unknown.set(other.state(), 1e-9);
+  EXPECT_FALSE(unknown.knows());
+  EXPECT_EQ(unknown.energies({y}, now)[0], 0.0);
 }
 
 }  // namespace

@@ -1,0 +1,38 @@
+// Products of axes that relations consist of: shared by what they are in space and in the plane.
+#pragma once
+
+#include <array>
+
+#include "mechanism/joints/relation.hpp"
+
+namespace tisserand::mechanism {
+
+/// sign · a_i·b_j.
+struct NormalTerm {
+  int i;
+  int j;
+  double sign;
+};
+
+struct NormalSum {
+  std::array<NormalTerm, 2> term;
+  int count;
+};
+
+inline NormalSum normal_sum(const Relation& r) { return {{{{r.i, r.j, 1.0}, {}}}, 1}; }
+inline constexpr NormalSum twist_sum{{{{0, 1, 1.0}, {1, 0, -1.0}}}, 2};
+
+/// θ = atan2(sine, cosine). About z: of the rotation R_AB with z_B near z_A, exact where they agree. About x: where x_A
+/// is normal to y_B; about y: where y_B is normal to x_A (the two pins of a universal joint, R_AB = R_x R_y).
+struct AngleTerms {
+  NormalSum sine;
+  NormalSum cosine;
+};
+
+inline AngleTerms angle_terms(const Relation& r) {
+  if (r.i == 0) return {{{{{2, 1, 1.0}, {}}}, 1}, {{{{1, 1, 1.0}, {}}}, 1}};
+  if (r.i == 1) return {{{{{0, 2, 1.0}, {}}}, 1}, {{{{0, 0, 1.0}, {}}}, 1}};
+  return {{{{{1, 0, 1.0}, {0, 1, -1.0}}}, 2}, {{{{0, 0, 1.0}, {1, 1, 1.0}}}, 2}};
+}
+
+}  // namespace tisserand::mechanism
