@@ -12,7 +12,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Rows3 = Eigen::Matrix<double, 3, 12>;
-using Vector12d = Eigen::Matrix<double, 12, 1>;
 
 /// s = S v; unused rows are zero.
 struct Slip {
@@ -59,7 +58,7 @@ Slip slip_of(const Friction& friction, const LoadedJoint& loaded) {
     for (int k = 0; k < 3; ++k)
       if (const SlipRow& row = rows[k]; row.factor != 0.0) slip.S.row(k) = row.factor * evaluate(row.relation, p).G;
   }
-  Vector12d v;
+  Vector12 v;
   v << p.node_a.xd, p.node_a.Omega, p.node_b.xd, p.node_b.Omega;
   slip.s = slip.S.lazyProduct(v);
   return slip;
@@ -180,11 +179,11 @@ void tangent(const Friction& friction, const LoadedJoint& loaded, const TangentC
   const Vector3d pull = law.ratio * slip.s;
   const SlipGradient gradient = slip_gradient(friction, loaded, pull);
   const Rows3 ds = coefficients.damping * slip.S + coefficients.stiffness * gradient.rate;
-  const Vector12d direction = slip.S.transpose() * pull;
+  const Vector12 direction = slip.S.transpose() * pull;
   result.A.noalias() = slip.S.transpose() * (normal.N * by_slip * ds);
   result.A += (coefficients.stiffness * normal.N) * gradient.geometric;
   result.A.noalias() += coefficients.stiffness * direction * normal_gradient(friction, loaded, g, normal);
-  const auto by_row = [&](const Row12& row) -> Vector12d {
+  const auto by_row = [&](const Row12& row) -> Vector12 {
     const JointReaction unit = reaction_of(row, loaded.pair);
     return (normal.by_force.dot(unit.force) + normal.by_moment.dot(unit.moment)) * direction;
   };

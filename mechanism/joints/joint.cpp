@@ -165,7 +165,8 @@ void joint_constraints(const Joint& joint, const NodeMotion& a, const NodeMotion
   }
 }
 
-// Rows behind the joint's are zero, so that loops of planar joints have constant bounds.
+// Rows behind the joint's are zero, so that loops of planar joints have constant bounds. One result on both paths: two
+// would be copied, by registers that wait for the numbers just written.
 Eigen::Matrix<double, 6, 1> rows_times(const Joint& joint, const JointTerms& terms, const Vector12& d) {
   Eigen::Matrix<double, 6, 1> product;
   if (!joint.planar) {
@@ -190,6 +191,7 @@ Vector12 transposed_times(const Joint& joint, const JointTerms& terms, const dou
     return product;
   }
   for (int i = 0; i < 12; ++i) product[i] = 0.0;
+  static_assert(planar_rows == 3);
   for (const int column : planar_columns)
     product[column] = terms.B(0, column) * own[0] + terms.B(1, column) * own[1] + terms.B(2, column) * own[2];
   return product;

@@ -91,7 +91,7 @@ RelationTerms planar_turn(double value, double by_A) {
 }  // namespace
 
 bool has_planar_axes(const Relation& r, const Marker& a, const Marker& b) {
-  constexpr double share = 1e-10;
+  constexpr double share = 1e-10;  // as of couplings that count as none (build/planar.cpp)
   const auto lies = [](const Marker& marker, int axis) { return std::abs(marker.R(2, axis)) <= share; };
   const auto all_lie = [&](const NormalSum& sum) {
     return std::all_of(sum.term.begin(), sum.term.begin() + sum.count,
