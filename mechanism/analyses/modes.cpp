@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 
@@ -29,6 +32,8 @@ using Complex = std::complex<double>;
 
 /// |λ| below this times the shift is a rigid motion: a double eigenvalue 0 comes out as about the root of round-off.
 constexpr double rigid_tolerance = 1e-5;
+/// Round-off of the forces of a mode, relative to the sum of the sizes of all that cancel in them.
+constexpr double stiffness_round_off = 16.0 * std::numeric_limits<double>::epsilon();
 /// Growth below this times |λ| is round-off.
 constexpr double growth_tolerance = 1e-7;
 
@@ -73,6 +78,28 @@ Spectrum eigen(MatrixXd A, Vectors kind) {
 struct Reduced {
   MatrixXd M, C, K;
 };
+
+/// T with TᵀHT = 1 and TᵀMT diagonal, H = (K + Kᵀ)/2 + σM with the first σ = s², 100 s², … that makes H definite:
+/// modes, as far as damping and what is not symmetric leave them. The matrices of frequencies that are decades apart
+/// are graded in it, and the balancing of LAPACK keeps each to its own size; in any other basis round-off of the
+/// largest is in all. The unit matrix, where nothing makes H definite.
+MatrixXd graded_basis(const Reduced& m, double s) {
+  const MatrixXd K = 0.5 * (m.K + m.K.transpose());
+  double shift = s * s;
+  for (int attempt = 0; attempt < 6; ++attempt, shift *= 100.0) {
+    const Eigen::LLT<MatrixXd> factors(K + shift * m.M);
+    if (factors.info() != Eigen::Success) continue;
+    const auto L = factors.matrixL();
+    const MatrixXd half = L.solve(m.M);
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(L.solve(half.transpose()));
+    if (modes.info() == Eigen::Success) return L.transpose().solve(modes.eigenvectors());
+  }
+  return MatrixXd::Identity(m.M.rows(), m.M.rows());
+}
+
+Reduced in_basis(const MatrixXd& T, const Reduced& m) {
+  return {T.transpose() * m.M * T, T.transpose() * m.C * T, T.transpose() * m.K * T};
+}
 
 /// G = (A − sE)⁻¹E of A = [0 1; −K −C], E = [1 0; 0 M]: G [p; r] = [a; p + s a], P(s) a = −(M r + (C + sM) p).
 MatrixXd shifted_inverse(const Reduced& m, double s) {
@@ -120,6 +147,15 @@ double choose_shift(const Reduced& m) {
     if (s > 1e-2 * before) break;
   }
   return s;
+}
+
+/// Whether forces of inertia and damping of a mode with |λ| = `size` are below what round-off leaves of its forces of
+/// stiffness: nothing tells it from a rigid motion.
+bool drowns(const Linearisation& l, double size, const VectorXcd& shape) {
+  const VectorXd moves = shape.cwiseAbs();
+  const double forces = moves.dot(l.K.cwiseAbs() * moves);
+  const double inertia = std::abs(shape.dot(l.M * shape)), damping = std::abs(shape.dot(l.C * shape));
+  return size * (size * inertia + damping) < stiffness_round_off * forces;
 }
 
 /// The component that moves most becomes 1.
@@ -193,13 +229,16 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
                         Evaluation& evaluation) {
   const Eigen::Vector3d omega = to_axes(model, spec.rotation.value_or(Eigen::Vector3d::Zero()));
   const Linearisation l = linearise(model, state, omega, evaluation);
-  const MatrixXd Z = null_space(model, l.B);
+  MatrixXd Z = null_space(model, l.B);
   ModesReport report;
   report.degrees_of_freedom = static_cast<int>(Z.cols());
   report.largest_acceleration = acceleration_in_axes(model, state, omega, evaluation);
   if (Z.cols() == 0) return report;
-  const Reduced reduced{Z.transpose() * l.M * Z, Z.transpose() * l.C * Z, Z.transpose() * l.K * Z};
+  Reduced reduced = in_basis(Z, {l.M, l.C, l.K});
   const double s = choose_shift(reduced);
+  const MatrixXd T = graded_basis(reduced, s);
+  reduced = in_basis(T, reduced);
+  Z *= T;
   const Spectrum spectrum = eigen(shifted_inverse(reduced, s), Vectors::right);
   const double infinite = 1e-13 * spectrum.values.cwiseAbs().maxCoeff();
   int zeros = 0;
@@ -209,13 +248,13 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
     Mode mode;
     mode.eigenvalue = s + 1.0 / mu;
     const double size = std::abs(mode.eigenvalue);
-    const bool rigid = size < rigid_tolerance * s;
+    mode.shape = Z.cast<Complex>() * spectrum.vectors.col(k).head(Z.cols());
+    const bool rigid = size < rigid_tolerance * s || drowns(l, size, mode.shape);
     if (rigid && ++zeros % 2 == 0) continue;  // position and velocity of one rigid motion
     if (!rigid && mode.eigenvalue.imag() < 0.0) continue;
     if (rigid) mode.eigenvalue = 0.0;
     report.rigid += rigid ? 1 : 0;
     mode.unstable = mode.eigenvalue.real() > growth_tolerance * size;
-    mode.shape = Z.cast<Complex>() * spectrum.vectors.col(k).head(Z.cols());
     if (rigid)
       mode.shape = mode.shape.real().norm() >= mode.shape.imag().norm() ? mode.shape.real().cast<Complex>().eval()
                                                                         : mode.shape.imag().cast<Complex>().eval();

@@ -54,6 +54,15 @@ double measure_multipliers(const Model& model, const State& begin, const Evaluat
   return worst / (std::max(share * force, round_off) + 1e-300);
 }
 
+/// Turns the translations of a node from `row` on; of planar models about the normal.
+template <class Vector>
+void turn_translations(const Model& model, const Matrix3d& R, int row, Vector&& v) {
+  if (model.planar)
+    v.template segment<2>(row) = (R.topLeftCorner<2, 2>() * v.template segment<2>(row)).eval();
+  else
+    v.template segment<3>(row) = (R * v.template segment<3>(row)).eval();
+}
+
 bool same(double a, double b) { return std::abs(a - b) <= same_step * std::abs(b); }
 
 }  // namespace
@@ -84,7 +93,7 @@ Newton::Newton(const Model& model)
       complex_rows_(Eigen::VectorXcd::Zero(model.sizes.constraints)) {
   axes_ = parts_.orientation;
   for_each_body(model, [&](const auto& body) {
-    if (!is_flexible(body) || model.planar) return;
+    if (!is_flexible(body)) return;
     for (const int node : attached_nodes(model, body)) {
       const bool turns = node >= 0 && model.nodes[node].translation >= 0 && model.nodes[node].rotation >= 0;
       if (turns && std::ranges::count(turning_, node) == 0) turning_.push_back(node);
@@ -140,7 +149,7 @@ void Newton::evaluate_stage(const Model& model, const State& begin, const StepEn
   for_turning_nodes([&](std::size_t node, int row) {
     Matrix3d& turn = turns_[stage][node];
     turn.noalias() = evaluation.motion[node].R * axes_[node].transpose();
-    f.segment<3>(row) = (turn.transpose() * f.segment<3>(row)).eval();
+    turn_translations(model, turn.transpose(), row, f);
   });
   stages.load_power[stage] = evaluation.load_power;
   stages.damping_power[stage] = evaluation.damping_power;
@@ -171,8 +180,7 @@ void Newton::solve(const Model& model, const State& state, Stages& stages) {
   }
   for (int i = 0; i < 3; ++i) {
     auto d = f_.col(i);
-    for_turning_nodes(
-        [&](std::size_t node, int row) { d.segment<3>(row) = (turns_[i][node] * d.segment<3>(row)).eval(); });
+    for_turning_nodes([&](std::size_t node, int row) { turn_translations(model, turns_[i][node], row, d); });
     for (const Node& node : model.nodes) {
       if (node.rotation < 0 || model.planar) continue;
       const Vector3d theta = stages.d.col(i).segment<3>(node.rotation);
@@ -253,8 +261,7 @@ void Newton::project(const Model& model, const Eigen::VectorXd& violation, const
   first_ = evaluation.active;
   real_.solve(model, first_, correction, real_rows_);
   for_turning_nodes([&](std::size_t node, int row) {
-    correction.segment<3>(row) =
-        (evaluation.motion[node].R * (axes_[node].transpose() * correction.segment<3>(row))).eval();
+    turn_translations(model, evaluation.motion[node].R * axes_[node].transpose(), row, correction);
   });
 }
 
@@ -266,8 +273,8 @@ void Newton::estimate(const Model& model, const Stages& stages, const State& beg
   first_ = stages.v.lazyProduct(method.e) - method.e.sum() * stages.v_begin + stages.a_begin / omega;
   for_turning_nodes([&](std::size_t node, int row) {
     const Matrix3d back = turn_since(begin, node, axes_[node]).transpose();
-    correction.segment<3>(row) = (back * correction.segment<3>(row)).eval();
-    first_.segment<3>(row) = (back * first_.segment<3>(row)).eval();
+    turn_translations(model, back, row, correction);
+    turn_translations(model, back, row, first_);
   });
   first_ = omega * omega * correction + omega * first_;
   second_ = omega * correction;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/step/step.hpp"
 
 namespace tisserand::mechanism {
@@ -41,8 +42,8 @@ LocalError measure_error(const Model& model, const formats::ErrorControl& contro
   };
   const double length = control.tolerance * model.length + control.absolute;
   for (const Node& node : model.nodes) {
-    if (node.translation >= 0) look_at(node.translation, 3, length);
-    if (node.rotation >= 0) look_at(node.rotation, 3, control.tolerance);
+    if (node.translation >= 0) look_at(node.translation, translations_of(model), length);
+    if (node.rotation >= 0) look_at(node.rotation, rotations_of(model), control.tolerance);
   }
   for (const ModalBody& body : model.modal_bodies)
     look_at(model.sizes.first_modal() + body.offset, body.modes, length * std::sqrt(body.mass));
