@@ -150,10 +150,14 @@ double choose_shift(const Reduced& m) {
 }
 
 /// Whether forces of inertia and damping of a mode with |λ| = `size` are below what round-off leaves of its forces of
-/// stiffness: nothing tells it from a rigid motion.
-bool drowns(const Linearisation& l, double size, const VectorXcd& shape) {
+/// stiffness, those of the loads that turn with it included: nothing tells it from a rigid motion.
+bool drowns(const Model& model, const Linearisation& l, const Evaluation& evaluation, double size,
+            const VectorXcd& shape) {
   const VectorXd moves = shape.cwiseAbs();
-  const double forces = moves.dot(l.K.cwiseAbs() * moves);
+  const int n = model.sizes.boundary;
+  const double lengths = (moves.head(n).array() / model.equation_scale.head(n)).square().sum();
+  const double load = std::max(evaluation.force_scale[0], evaluation.force_scale[1] / model.length);
+  const double forces = moves.dot(l.K.cwiseAbs() * moves) + load / model.length * lengths;
   const double inertia = std::abs(shape.dot(l.M * shape)), damping = std::abs(shape.dot(l.C * shape));
   return size * (size * inertia + damping) < stiffness_round_off * forces;
 }
@@ -249,7 +253,7 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
     mode.eigenvalue = s + 1.0 / mu;
     const double size = std::abs(mode.eigenvalue);
     mode.shape = Z.cast<Complex>() * spectrum.vectors.col(k).head(Z.cols());
-    const bool rigid = size < rigid_tolerance * s || drowns(l, size, mode.shape);
+    const bool rigid = size < rigid_tolerance * s || drowns(model, l, evaluation, size, mode.shape);
     if (rigid && ++zeros % 2 == 0) continue;  // position and velocity of one rigid motion
     if (!rigid && mode.eigenvalue.imag() < 0.0) continue;
     if (rigid) mode.eigenvalue = 0.0;
