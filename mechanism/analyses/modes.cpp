@@ -32,7 +32,7 @@ using Complex = std::complex<double>;
 
 /// |λ| below this times the shift is a rigid motion: a double eigenvalue 0 comes out as about the root of round-off.
 constexpr double rigid_tolerance = 1e-5;
-/// Round-off of the forces of a mode, relative to the sum of the sizes of all that cancel in them.
+/// Round-off of the forces of a mode, relative to the largest stiffness in the scene.
 constexpr double stiffness_round_off = 16.0 * std::numeric_limits<double>::epsilon();
 /// Growth below this times |λ| is round-off.
 constexpr double growth_tolerance = 1e-7;
@@ -149,17 +149,17 @@ double choose_shift(const Reduced& m) {
   return s;
 }
 
-/// Whether forces of inertia and damping of a mode with |λ| = `size` are below what round-off leaves of its forces of
-/// stiffness, those of the loads that turn with it included: nothing tells it from a rigid motion.
+/// Whether forces of inertia and damping of a mode with |λ| = `size` are below the round-off of those of stiffness and
+/// of loads that turn with it: nothing tells it from a rigid motion. The basis of the null space mixes bodies, so that
+/// the stiffest leaves its round-off in all.
 bool drowns(const Model& model, const Linearisation& l, const Evaluation& evaluation, double size,
             const VectorXcd& shape) {
-  const VectorXd moves = shape.cwiseAbs();
   const int n = model.sizes.boundary;
-  const double lengths = (moves.head(n).array() / model.equation_scale.head(n)).square().sum();
+  const double lengths = (shape.head(n).array().abs() / model.equation_scale.head(n)).square().sum();
   const double load = std::max(evaluation.force_scale[0], evaluation.force_scale[1] / model.length);
-  const double forces = moves.dot(l.K.cwiseAbs() * moves) + load / model.length * lengths;
   const double inertia = std::abs(shape.dot(l.M * shape)), damping = std::abs(shape.dot(l.C * shape));
-  return size * (size * inertia + damping) < stiffness_round_off * forces;
+  return size * (size * inertia + damping) <
+         stiffness_round_off * (model.stiffness_scale + load / model.length) * lengths;
 }
 
 /// The component that moves most becomes 1.
