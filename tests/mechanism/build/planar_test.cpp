@@ -5,13 +5,10 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <Eigen/QR>
 
 #include "common/error.hpp"
 #include "formats/results/results.hpp"
 #include "mechanism/analyses/statics.hpp"
-#include "mechanism/bodies/planar/planar_body.hpp"
-#include "mechanism/bodies/superelement/evaluate.hpp"
 #include "mechanism/build/effects.hpp"
 #include "mechanism/run/output.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
@@ -318,105 +315,6 @@ TEST(Planar, StaticsAsInSpace) {
   EXPECT_GT(spatial.strain, 0.1);
   expect_same(flat, spatial, 1e-10);
   expect_same_forces(flat, spatial, 1e-8);
-}
-
-// --- The body alone: r_p = Eᵀ r(E q) and A_p = Eᵀ A E, since E is constant where motion stays in the plane.
-
-/// Motion of the nodes of a beam in the x-y plane, deformed and turned.
-std::vector<NodeMotion> some_motion(const SuperelementBody& body, double size) {
-  std::vector<NodeMotion> nodes;
-  double k = 1.0;
-  const Matrix3d R0 = Eigen::AngleAxisd(0.8, Vector3d::UnitZ()).toRotationMatrix();
-  for (const SuperelementNode& node : body.node) {
-    NodeMotion motion;
-    const double turn = size * std::sin(3.0 * k);
-    motion.R = R0 * Eigen::AngleAxisd(turn, Vector3d::UnitZ()).toRotationMatrix();
-    motion.x = Vector3d(0.3, -0.2, 0) + R0 * (node.X + size * Vector3d(std::cos(5.0 * k), std::sin(7.0 * k), 0));
-    motion.xd = {1.0 + 0.3 * std::sin(k), -2.0 * std::cos(k), 0};
-    motion.Omega = {0, 0, 3.0 + 0.1 * std::cos(4.0 * k)};
-    motion.xdd = {5.0 * std::sin(2.0 * k), 4.0, 0};
-    motion.Omegad = {0, 0, -7.0 + std::sin(6.0 * k)};
-    nodes.push_back(motion);
-    ++k;
-  }
-  return nodes;
-}
-
-struct Evaluated {
-  VectorXd r;
-  MatrixXd step, exact;
-  SuperelementEnergy energy;
-};
-
-Evaluated evaluated(const SuperelementBody& body, const std::vector<NodeMotion>& nodes, const VectorXd& y) {
-  SuperelementScratch scratch = make_scratch(body);
-  std::vector<int> index(nodes.size());
-  for (std::size_t i = 0; i < index.size(); ++i) index[i] = static_cast<int>(i);
-  const NodeView<NodeMotion> view{nodes.data(), index.data()};
-  const VectorXd yd = 30.0 * y, ydd = -200.0 * y;
-  const Matrix3d R0 = Eigen::AngleAxisd(0.79, Vector3d::UnitZ()).toRotationMatrix();
-  const Vector3d gravity(1, -9.81, 0);
-  update_kinematics(body, view, y.data(), yd.data(), ydd.data(), R0, scratch);
-  residual(body, scratch, gravity);
-  Evaluated out;
-  out.r.resize(body.boundary_size + body.modes);
-  out.r << scratch.forces.r_B, scratch.forces.r_I;
-  const TangentCoefficients c{1.3, 17.0, 250.0};
-  uncondensed_tangent(body, scratch, view, gravity, c, TangentKind::step, out.step);
-  uncondensed_tangent(body, scratch, view, gravity, c, TangentKind::exact, out.exact);
-  out.energy = energy(body, scratch, gravity);
-  return out;
-}
-
-/// Columns of the planar coordinates in those of the body in space.
-MatrixXd lift_of(const SuperelementBody& spatial, const SuperelementBody& flat) {
-  MatrixXd E = MatrixXd::Zero(spatial.boundary_size + spatial.modes, flat.boundary_size + flat.modes);
-  E.topLeftCorner(spatial.boundary_size, flat.boundary_size) = flat.file.lift;
-  E.bottomRightCorner(spatial.modes, flat.modes) =
-      spatial.file.modal_part.colPivHouseholderQr().solve(flat.file.modal_part);
-  return E;
-}
-
-void expect_restriction(const SuperelementBody& spatial, double size) {
-  const SuperelementBody flat = planar_body(spatial, Matrix3d::Identity());
-  const MatrixXd E = lift_of(spatial, flat);
-  VectorXd y(flat.modes);
-  for (int k = 0; k < flat.modes; ++k) y[k] = size * 0.3 * std::cos(2.0 * k);
-  const std::vector<NodeMotion> nodes = some_motion(spatial, size);
-  const Evaluated a = evaluated(flat, nodes, y),
-                  b = evaluated(spatial, nodes, E.bottomRightCorner(spatial.modes, flat.modes) * y);
-  const VectorXd r = E.transpose() * b.r;
-  EXPECT_LT((a.r - r).norm(), 1e-11 * b.r.norm());
-  EXPECT_LT((b.r - E * r).norm(), 1e-9 * b.r.norm());  // nothing out of the plane
-  const MatrixXd step = E.transpose() * b.step * E, exact = E.transpose() * b.exact * E;
-  EXPECT_LT((a.step - step).norm(), 1e-11 * step.norm());
-  EXPECT_LT((a.exact - exact).norm(), 1e-11 * exact.norm());
-  EXPECT_NEAR(a.energy.kinetic, b.energy.kinetic, 1e-11 * b.energy.kinetic);
-  EXPECT_NEAR(a.energy.strain, b.energy.strain, 1e-11 * b.energy.strain);
-  EXPECT_NEAR(a.energy.damping_power, b.energy.damping_power, 1e-11 * b.energy.damping_power + 1e-300);
-}
-
-TEST(Planar, ABodyIsTheRestrictionOfTheOneInSpace) {
-  const BodyFiles files = rod_files(6);
-  for (const formats::InertiaOption inertia :
-       {formats::InertiaOption::A, formats::InertiaOption::B, formats::InertiaOption::M})
-    for (const double ratio : {0.0, 0.02}) {
-      formats::Scene scene = test_support::empty_scene(1e-3, 0.1);
-      formats::SuperelementBodySpec spec = test_support::superelement_body("rod", "rod");
-      spec.inertia = inertia;
-      spec.damping.ratio = ratio;
-      spec.damping.stiffness = 1e-5;
-      scene.bodies.emplace_back(spec);
-      expect_restriction(build_model(scene, files).model.superelement_bodies[0], 0.01);
-    }
-}
-
-TEST(Planar, ASecondOrderBodyIsTheRestrictionOfTheOneInSpace) {
-  formats::Scene scene = test_support::empty_scene(1e-3, 0.1);
-  scene.bodies.emplace_back(test_support::superelement_body("beam", "beam"));
-  const SuperelementBody body = build_model(scene, second_order_files()).model.superelement_bodies[0];
-  ASSERT_TRUE(body.second_order.inertia && body.second_order.stiffening);
-  expect_restriction(body, 0.02);
 }
 
 // --- What leaves the plane.
