@@ -149,7 +149,7 @@ std::vector<std::string> joints_without_unique_reaction(const Model& model, cons
   const Eigen::VectorXd null = probe - without_null_space(weighted_jacobian(model, evaluation).A, probe);
   std::vector<std::string> names;
   for (const Joint& joint : model.joints)
-    if (null.segment(joint.row, joint.size()).cwiseAbs().maxCoeff() > 1e-7) names.push_back(joint.name);
+    if (null.segment(joint.row, joint.size()).norm() > 1e-7) names.push_back(joint.name);  // of planar ones maybe none
   for (const Coupling& coupling : model.couplings)
     if (std::abs(null[coupling.row]) > 1e-7) names.push_back(coupling.name);
   return names;

@@ -11,6 +11,7 @@
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/build/effects.hpp"
 #include "mechanism/run/output.hpp"
+#include "mechanism/step/redundancy.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/scenes/scenes.hpp"
 #include "tests/support/scenes/second_order_scenes.hpp"
@@ -297,6 +298,21 @@ TEST(Planar, RadauNeedsNoMoreIterationsThanInSpace) {
   }
   EXPECT_LE(flat.iterations, 1.2 * spatial.iterations);
   EXPECT_LE(flat.rejected, spatial.rejected + 2);
+}
+
+// Of a joint that holds what leaves the plane alone nothing is left: no row of it is looked at where others repeat each
+// other.
+TEST(Planar, AJointMayHaveNoEquation) {
+  Turned t(askew);
+  t.add(test_support::rigid_body("block", 1.0, {0.2, 0, 0}, {0.01, 0.02, 0.03}), {0, 0, 0}, 0.0, {0, 0, 0}, 0.0);
+  t.hinge("pin", "ground", "block", {0, 0, 0});
+  t.hinge("again", "ground", "block", {0, 0, 0});
+  t.scene.joints.push_back(joint("level", JointKind::parallel_axes, "ground", "block", {0, 0, 0}, t.vector({0, 0, 1})));
+  Simulation flat(with_planar(t.scene), BodyFiles{});
+  flat.start();
+  EXPECT_EQ(flat.model().joints[2].size(), 0);
+  EXPECT_THAT(joints_without_unique_reaction(flat.model(), flat.workspace.now),
+              ::testing::UnorderedElementsAre("pin", "again"));
 }
 
 TEST(Planar, StaticsAsInSpace) {
