@@ -32,8 +32,6 @@ using Complex = std::complex<double>;
 
 /// |λ| below this times the shift is a rigid motion: a double eigenvalue 0 comes out as about the root of round-off.
 constexpr double rigid_tolerance = 1e-5;
-/// Round-off of the forces of a mode, relative to the largest stiffness in the scene.
-constexpr double stiffness_round_off = 16.0 * std::numeric_limits<double>::epsilon();
 /// Growth below this times |λ| is round-off.
 constexpr double growth_tolerance = 1e-7;
 
@@ -79,15 +77,14 @@ struct Reduced {
   MatrixXd M, C, K;
 };
 
-/// T with TᵀHT = 1 and TᵀMT diagonal, H = (K + Kᵀ)/2 + σM with the first σ = s², 100 s², … that makes H definite:
-/// modes, as far as damping and what is not symmetric leave them. The matrices of frequencies that are decades apart
-/// are graded in it, and the balancing of LAPACK keeps each to its own size; in any other basis round-off of the
-/// largest is in all. The unit matrix, where nothing makes H definite.
+/// T with TᵀHT = 1 and TᵀMT diagonal, H the symmetric part of P(σ) = σ²M + σC + K with the first σ = s, 10 s, … that
+/// makes it definite: modes, as far as damping and what is not symmetric leave them. The matrices of frequencies that
+/// are decades apart are graded in it, and the balancing of LAPACK keeps each to its own size; in any other basis
+/// round-off of the largest is in all. The unit matrix, where nothing makes H definite.
 MatrixXd graded_basis(const Reduced& m, double s) {
-  const MatrixXd K = 0.5 * (m.K + m.K.transpose());
-  double shift = s * s;
-  for (int attempt = 0; attempt < 6; ++attempt, shift *= 100.0) {
-    const Eigen::LLT<MatrixXd> factors(K + shift * m.M);
+  for (int attempt = 0; attempt < 6; ++attempt, s *= 10.0) {
+    const MatrixXd P = s * s * m.M + s * m.C + m.K;
+    const Eigen::LLT<MatrixXd> factors(0.5 * (P + P.transpose()));
     if (factors.info() != Eigen::Success) continue;
     const auto L = factors.matrixL();
     const MatrixXd half = L.solve(m.M);
@@ -149,17 +146,19 @@ double choose_shift(const Reduced& m) {
   return s;
 }
 
-/// Whether forces of inertia and damping of a mode with |λ| = `size` are below the round-off of those of stiffness and
-/// of loads that turn with it: nothing tells it from a rigid motion. The basis of the null space mixes bodies, so that
-/// the stiffest leaves its round-off in all.
+/// Whether forces of inertia and damping of the shape Z q with |λ| = `size` are below the round-off of those of
+/// stiffness and of loads that turn with it: nothing tells it from a rigid motion. `spread`: |Z||q|. Componentwise,
+/// spreadᵀ|K|spread times 2√n ε for the two products in ZᵀKZ, of n terms each ([HM19]: errors of sums grow as √n), so
+/// that what no stiff body is tied to keeps its own.
 bool drowns(const Model& model, const Linearisation& l, const Evaluation& evaluation, double size,
-            const VectorXcd& shape) {
+            const VectorXcd& shape, const VectorXd& spread) {
   const int n = model.sizes.boundary;
-  const double lengths = (shape.head(n).array().abs() / model.equation_scale.head(n)).square().sum();
+  const double lengths = (spread.head(n).array() / model.equation_scale.head(n)).square().sum();
   const double load = std::max(evaluation.force_scale[0], evaluation.force_scale[1] / model.length);
+  const double forces = spread.dot(l.K.cwiseAbs() * spread) + load / model.length * lengths;
   const double inertia = std::abs(shape.dot(l.M * shape)), damping = std::abs(shape.dot(l.C * shape));
-  return size * (size * inertia + damping) <
-         stiffness_round_off * (model.stiffness_scale + load / model.length) * lengths;
+  const double round_off = 2.0 * std::sqrt(static_cast<double>(l.K.rows())) * std::numeric_limits<double>::epsilon();
+  return size * (size * inertia + damping) < round_off * forces;
 }
 
 /// The component that moves most becomes 1.
@@ -233,7 +232,7 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
                         Evaluation& evaluation) {
   const Eigen::Vector3d omega = to_axes(model, spec.rotation.value_or(Eigen::Vector3d::Zero()));
   const Linearisation l = linearise(model, state, omega, evaluation);
-  MatrixXd Z = null_space(model, l.B);
+  const MatrixXd Z = null_space(model, l.B);
   ModesReport report;
   report.degrees_of_freedom = static_cast<int>(Z.cols());
   report.largest_acceleration = acceleration_in_axes(model, state, omega, evaluation);
@@ -242,7 +241,6 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
   const double s = choose_shift(reduced);
   const MatrixXd T = graded_basis(reduced, s);
   reduced = in_basis(T, reduced);
-  Z *= T;
   const Spectrum spectrum = eigen(shifted_inverse(reduced, s), Vectors::right);
   const double infinite = 1e-13 * spectrum.values.cwiseAbs().maxCoeff();
   int zeros = 0;
@@ -252,8 +250,10 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
     Mode mode;
     mode.eigenvalue = s + 1.0 / mu;
     const double size = std::abs(mode.eigenvalue);
-    mode.shape = Z.cast<Complex>() * spectrum.vectors.col(k).head(Z.cols());
-    const bool rigid = size < rigid_tolerance * s || drowns(model, l, evaluation, size, mode.shape);
+    const VectorXcd q = T.cast<Complex>() * spectrum.vectors.col(k).head(Z.cols());
+    mode.shape = Z.cast<Complex>() * q;
+    const bool rigid =
+        size < rigid_tolerance * s || drowns(model, l, evaluation, size, mode.shape, Z.cwiseAbs() * q.cwiseAbs());
     if (rigid && ++zeros % 2 == 0) continue;  // position and velocity of one rigid motion
     if (!rigid && mode.eigenvalue.imag() < 0.0) continue;
     if (rigid) mode.eigenvalue = 0.0;
