@@ -32,6 +32,12 @@ inline void residual(const RigidBody& body, const NodeMotion& n, const Eigen::Ve
     r.tail<3>() = body.inertia * n.Omegad;
 }
 
+/// The same in a planar model, [force x y; moment about z], which its inertia does not leave.
+inline Eigen::Vector3d residual_in_plane(const RigidBody& body, const NodeMotion& n, const Eigen::Vector3d& gravity) {
+  return {body.mass * (n.xdd.x() - gravity.x()), body.mass * (n.xdd.y() - gravity.y()),
+          body.inertia(2, 2) * n.Omegad.z()};
+}
+
 /// c_m ∂r/∂v̇ + c_c ∂r/∂v; the stiffness is zero.
 inline void tangent(const RigidBody& body, const NodeMotion& n, const TangentCoefficients& c, Matrix6d& A) {
   A.setZero();

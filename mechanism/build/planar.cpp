@@ -7,17 +7,17 @@
 
 #include "common/error.hpp"
 #include "mechanism/bodies/planar/planar_body.hpp"
+#include "mechanism/bodies/planar/planar_modal_body.hpp"
 #include "mechanism/joints/relation.hpp"
 #include "mechanism/model/bodies.hpp"
+#include "mechanism/model/element_map.hpp"
+#include "mechanism/tyres/contact.hpp"
 
 namespace tisserand::mechanism {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
-
-/// Largest share of what leaves the plane in what stays in it.
-constexpr double share = 1e-10;
 
 std::string text_of(const Vector3d& v) {
   const auto clean = [](double x) { return std::abs(x) < 1e-9 ? 0.0 : x; };
@@ -34,6 +34,9 @@ class PlanarCheck {
   void starts(const std::vector<CoordinateStart>& initial) const;
   void rotations() const;
   void forces() const;
+  void tyres() const;
+  /// What acts on modal bodies.
+  void attachments() const;
   /// Whether all that the coordinate depends on lies in the plane.
   bool stays(const Coordinate& one) const;
   /// Leaves the equations in the plane.
@@ -43,8 +46,8 @@ class PlanarCheck {
   /// Of a row of derivatives by [x_A Θ_A x_B Θ_B], rotations over the characteristic length.
   struct Parts {
     double in = 0.0, out = 0.0;
-    bool stays() const { return out <= share * in; }
-    bool leaves() const { return in <= share * out; }
+    bool stays() const { return out <= planar_share * in; }
+    bool leaves() const { return in <= planar_share * out; }
   };
   Parts parts_of(const Row12& row, const Marker& a, const Marker& b) const;
   [[noreturn]] void leave(const std::string& what, const std::string& remedy) const;
@@ -54,7 +57,9 @@ class PlanarCheck {
   void require_apart(const MatrixXd& A, const std::vector<bool>& in_plane, const std::string& what) const;
   void coordinate(int index, const std::string& user) const;
   void coordinates() const;
+  void attachment(const Marker& marker, const std::string& user) const;
   void bushing(const Bushing& one) const;
+  void road(const Road& one, const Tyre& tyre, const Vector3d& center) const;
   void load(const Load& one) const;
   void beams() const;
   MarkerPair markers(const Marker& a, const Marker& b) const {
@@ -77,13 +82,14 @@ void PlanarCheck::leave(const std::string& what, const std::string& remedy) cons
 
 void PlanarCheck::require_in_plane(const Vector3d& v, double size, const std::string& what,
                                    const std::string& remedy) const {
-  if (!(std::abs(v.z()) <= share * size)) leave(fmt::format("{} has the part {:.6g} along it", what, v.z()), remedy);
+  if (!(std::abs(v.z()) <= planar_share * size))
+    leave(fmt::format("{} has the part {:.6g} along it", what, v.z()), remedy);
 }
 
 void PlanarCheck::require_normal(const Vector3d& v, double size, const std::string& what,
                                  const std::string& remedy) const {
   const double across = v.head<2>().norm();
-  if (!(across <= share * size)) leave(fmt::format("{} has the part {:.6g} across it", what, across), remedy);
+  if (!(across <= planar_share * size)) leave(fmt::format("{} has the part {:.6g} across it", what, across), remedy);
 }
 
 PlanarCheck::Parts PlanarCheck::parts_of(const Row12& row, const Marker& a, const Marker& b) const {
@@ -102,7 +108,7 @@ void PlanarCheck::require_apart(const MatrixXd& A, const std::vector<bool>& in_p
   for (Eigen::Index i = 0; i < A.rows(); ++i)
     for (Eigen::Index j = 0; j < A.cols(); ++j) {
       const double size = std::sqrt(std::abs(A(i, i) * A(j, j)));
-      if (in_plane[i] != in_plane[j] && !(std::abs(A(i, j)) <= share * size))
+      if (in_plane[i] != in_plane[j] && !(std::abs(A(i, j)) <= planar_share * size))
         leave(fmt::format("{} couples motion in it with motion out of it: entry {:.3g} beside diagonals of {:.3g} and "
                           "{:.3g}",
                           what, A(i, j), A(i, i), A(j, j)),
@@ -142,11 +148,6 @@ void PlanarCheck::rotations() const {
 }
 
 void PlanarCheck::bodies() const {
-  if (!model_.tyres.empty())
-    leave(fmt::format("tyre '{}' rolls in space", model_.tyres.front().name), "leave tyres out");
-  if (!model_.modal_bodies.empty())
-    leave(fmt::format("modal body '{}' moves in space", model_.modal_bodies.front().name),
-          "take a superelement in its place");
   for_each_body(model_, [&](const auto& body) {
     require_in_plane(body.gravity, body.gravity.norm(), fmt::format("gravity of body '{}'", name_of(model_, body)),
                      "turn it into the plane");
@@ -184,7 +185,8 @@ bool PlanarCheck::relation_stays(const std::string& name, const Relation& relati
   const Parts parts = parts_of(terms.G, a, b);
   const double size = is_length(relation) ? model_.length : 1.0;
   if (parts.stays()) return true;
-  if (parts.leaves() && relation.kind != RelationKind::distance && std::abs(terms.value - constant) <= share * size)
+  if (parts.leaves() && relation.kind != RelationKind::distance &&
+      std::abs(terms.value - constant) <= planar_share * size)
     return false;
   leave(
       parts.leaves() ? fmt::format("{} is open by {:.6g} out of the plane", name, terms.value - constant)
@@ -207,7 +209,7 @@ void PlanarCheck::reduce(Joint& joint) const {
                           joint.a.node < 0 ? 0.0 : joint.a.p.z(), joint.b.node < 0 ? 0.0 : joint.b.p.z()),
               "put it into their planes");
     }
-    if (!(std::abs(terms.phi[2]) <= share * model_.length))
+    if (!(std::abs(terms.phi[2]) <= planar_share * model_.length))
       leave(fmt::format("{} is open by {:.6g} along the normal", name, terms.phi[2]), "close it at the start");
   }
   int kept = 0;
@@ -273,21 +275,74 @@ void PlanarCheck::load(const Load& one) const {
     const double* constant = std::get_if<double>(&one.components[k]);
     const Vector3d direction = axes.col(k);
     const Vector3d out = force ? Vector3d(0, 0, direction.z()) : Vector3d(direction.x(), direction.y(), 0);
-    if (constant == nullptr && out.norm() > share)
+    if (constant == nullptr && out.norm() > planar_share)
       leave(fmt::format("component {} of {} is no constant and has the part {:.3g} out of it", "xyz"[k], name,
                         out.norm()),
             "let what points out of the plane be the number 0");
     sum += constant == nullptr ? Vector3d(Vector3d::Zero()) : Vector3d(*constant * out);
     size = std::max(size, constant == nullptr ? 0.0 : std::abs(*constant));
   }
-  if (sum.norm() > share * size)
+  if (sum.norm() > planar_share * size)
     leave(fmt::format("{} has the part {:.6g} out of it", name, sum.norm()), "leave it out");
-  if (force && one.at.node >= 0 && std::abs(one.at.p.z()) > share * model_.length)
+  if (force && one.at.node >= 0 && std::abs(one.at.p.z()) > planar_share * model_.length)
     leave(fmt::format("{} acts {:.6g} out of the plane of its node", name, one.at.p.z()), "let it act in the plane");
+}
+
+/// Inclined along the plane alone, and as high beside it as in it where the wheel rolls.
+void PlanarCheck::road(const Road& one, const Tyre& tyre, const Vector3d& center) const {
+  const std::string name = fmt::format("the normal of road '{}'", one.name);
+  require_in_plane(one.R.col(2), 1.0, name, "incline it along the plane alone");
+  if (one.surface)
+    leave(fmt::format("road '{}' has heights over a surface", one.name), "give its heights along the plane as a curve");
+  if (one.left.empty() && one.right.empty()) return;
+  require_normal(one.R.col(1), 1.0, fmt::format("y of road '{}'", one.name), "let its x lie in the plane");
+  const double beside = std::abs(one.R.col(1).dot(center - one.p));
+  if (one.transition > 0.0 && beside < 0.5 * one.transition + base_of_plane * tyre.radius)
+    leave(fmt::format("tyre '{}' rolls {:.6g} beside the middle of road '{}', where one track goes over into the other",
+                      tyre.name, beside, one.name),
+          "put the wheel on one of its tracks");
+}
+
+void PlanarCheck::tyres() const {
+  for (const Tyre& tyre : model_.tyres) {
+    const NodeMotion& wheel = c_.markers.start[tyre.wheel.node];
+    const std::string name = fmt::format("tyre '{}'", tyre.name);
+    require_normal(marker_rotation(tyre.wheel, wheel).col(1), 1.0, "the axle of " + name, "let it be the normal");
+    if (std::abs(tyre.wheel.p.z()) > planar_share * model_.length)
+      leave(fmt::format("{} rolls {:.6g} out of the plane of its node", name, tyre.wheel.p.z()),
+            "put it into the plane");
+    road(model_.roads[tyre.road], tyre, marker_position(tyre.wheel, wheel));
+    if (const double sideways = sideways_share(tyre); !(sideways <= planar_share))
+      leave(fmt::format("{} pulls sideways by {:.3g} of its load where it rolls straight", name, sideways),
+            "take the shifts out of its coefficients (LHY, LVY, LTR: 0)");
+  }
+}
+
+void PlanarCheck::attachment(const Marker& marker, const std::string& user) const {
+  const int modal = modal_node(model_, marker.node);
+  if (modal < 0) return;
+  if (const ModalNode& node = model_.modal_nodes[modal]; node.x.z() != 0.0)
+    leave(fmt::format("{} is on node '{}' of modal body '{}', {:.6g} beside the plane through its centre of mass", user,
+                      node.name, model_.modal_bodies[node.body].name, node.x.z()),
+          "take a node in this plane");
+}
+
+void PlanarCheck::attachments() const {
+  const auto pairs = [this](const auto& pool, const char* kind) {
+    for (const auto& one : pool)
+      for (const Marker* marker : {&one.a, &one.b}) attachment(*marker, fmt::format("{} '{}'", kind, one.name));
+  };
+  pairs(model_.joints, "joint");
+  pairs(model_.coordinates, "coordinate");
+  pairs(model_.bushings, "bushing");
+  pairs(model_.channels, "channel");
+  for (const Load& load : model_.loads) attachment(load.at, fmt::format("load '{}'", load.name));
+  for (const Tyre& tyre : model_.tyres) attachment(tyre.wheel, fmt::format("tyre '{}'", tyre.name));
 }
 
 void PlanarCheck::forces() const {
   coordinates();
+  tyres();
   for (const Bushing& one : model_.bushings) bushing(one);
   for (const Load& one : model_.loads) load(one);
   for (const PartLoad& one : model_.part_loads) {
@@ -306,7 +361,11 @@ void number_coordinates(Construction& c) {
     if (node.translation >= 0) node.translation = std::exchange(next, next + 2);
     if (node.rotation >= 0) node.rotation = std::exchange(next, next + 1);
   }
-  c.model.sizes.boundary = next;
+  c.model.sizes.boundary = std::exchange(next, 0);
+  for (ModalBody& body : c.model.modal_bodies) body.offset = std::exchange(next, next + body.modes);
+  for (Tyre& tyre : c.model.tyres)
+    if (tyre.relaxes()) tyre.lag = std::exchange(next, next + 2);
+  c.model.sizes.modal = next;
   for (RigidBody& body : c.model.rigid_bodies) {
     body.gravity.z() = 0.0;
     body.inertia.col(2).head<2>().setZero();
@@ -322,18 +381,19 @@ struct Reduced {
   Eigen::Matrix3d axes;
 };
 
-SuperelementBody reduced_body(const SuperelementBody& body, const Eigen::Matrix3d& axes, const std::string& name,
-                              const Construction& c) {
+/// What `reduce` returns; says of which body it is where something leaves the plane.
+template <class Reduce>
+auto named(const std::string& kind, const std::string& name, const Construction& c, Reduce reduce) {
   try {
-    return planar_body(body, axes);
+    return reduce();
   } catch (const LeavesPlane& fault) {
-    throw Error(fmt::format("effects: the scene is not planar: of superelement '{}', {}", name, fault.what),
+    throw Error(fmt::format("effects: the scene is not planar: of {} '{}', {}", kind, name, fault.what),
                 c.scene.planar_at, "make the part symmetric to the plane, or give planar: off");
   }
 }
 
-/// Replaces the bodies of the superelements by planar ones, in the axes that are given per use; uses with the same body
-/// and the same axes share one. Throws Error that names the superelement and what in it leaves the plane.
+/// Replaces the bodies of the superelements by planar ones, in the axes that are given per node; uses with the same
+/// body and the same axes share one. Throws Error that names the superelement and what in it leaves the plane.
 void make_superelements_planar(const std::vector<Eigen::Matrix3d>& axes, Construction& c) {
   Model& model = c.model;
   std::vector<SuperelementBody> bodies;
@@ -341,19 +401,32 @@ void make_superelements_planar(const std::vector<Eigen::Matrix3d>& axes, Constru
   model.internal_offset.assign(1, 0);
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     SuperelementUse& use = model.superelements[i];
+    const Eigen::Matrix3d& own = axes[use.nodes.front()];
     std::size_t at = 0;
-    while (at < made.size() &&
-           (made[at].from != use.body || (made[at].axes - axes[i]).cwiseAbs().maxCoeff() > same_axes))
+    while (at < made.size() && (made[at].from != use.body || (made[at].axes - own).cwiseAbs().maxCoeff() > same_axes))
       ++at;
     if (at == made.size()) {
-      bodies.push_back(reduced_body(model.superelement_bodies[use.body], axes[i], use.name, c));
-      made.push_back({use.body, axes[i]});
+      bodies.push_back(
+          named("superelement", use.name, c, [&] { return planar_body(model.superelement_bodies[use.body], own); }));
+      made.push_back({use.body, own});
     }
     use.body = static_cast<int>(at);
     use.gravity.z() = 0.0;
     model.internal_offset.push_back(model.internal_offset.back() + bodies[at].modes);
   }
   model.superelement_bodies = std::move(bodies);
+}
+
+/// The same of modal bodies, of which each use is its own.
+void make_modal_bodies_planar(const std::vector<Eigen::Matrix3d>& axes, Construction& c) {
+  Model& model = c.model;
+  for (int i = 0; i < static_cast<int>(model.modal_bodies.size()); ++i) {
+    ModalBody& body = model.modal_bodies[i];
+    std::vector<ModalNode*> nodes;
+    for (ModalNode& node : model.modal_nodes)
+      if (node.body == i) nodes.push_back(&node);
+    named("modal body", body.name, c, [&] { make_planar(axes[body.node], model.length, body, nodes); });
+  }
 }
 
 }  // namespace
@@ -363,11 +436,14 @@ void make_planar(const std::vector<CoordinateStart>& initial, Construction& c) {
   const PlanarCheck check(c);
   check.bodies();
   make_superelements_planar(axes, c);
+  make_modal_bodies_planar(axes, c);
   check.velocities();
   check.starts(initial);
   check.rotations();
+  check.attachments();
   for (Joint& joint : c.model.joints) check.reduce(joint);
   check.forces();
+  for (Tyre& tyre : c.model.tyres) tyre.planar = true;
   for (Coordinate& coordinate : c.model.coordinates) coordinate.planar = check.stays(coordinate);
   c.model.planar = true;
   number_coordinates(c);

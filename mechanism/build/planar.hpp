@@ -26,8 +26,8 @@ Eigen::Vector3d find_normal(const Construction& c);
 Eigen::Matrix3d axes_with_z(const Eigen::Vector3d& z);
 
 /// Turns all that is built into Model::axes = axes_with_z(normal), and nodes and superelements into own axes whose z is
-/// the normal at the start. Before the coordinates are numbered; superelement bodies stay as they are, with the axes of
-/// each use in the result.
+/// the normal at the start. Before the coordinates are numbered; bodies stay as they are, with the axes of each node in
+/// the result.
 std::vector<Eigen::Matrix3d> turn_into_plane(const Eigen::Vector3d& normal, Construction& c);
 
 }  // namespace tisserand::mechanism

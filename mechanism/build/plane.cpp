@@ -39,6 +39,7 @@ class Turn {
     for (const NodeMotion& node : start) own_.push_back(axes_with_z(node.R.transpose() * axes.col(2)));
   }
 
+  const std::vector<Matrix3d>& own() const { return own_; }
   const Matrix3d& own(int node) const { return node < 0 ? axes_ : own_[node]; }
   Vector3d vector(const Vector3d& world) const { return axes_.transpose() * world; }
   Matrix3d orientation(const Matrix3d& R, int node) const { return turn_about_z(axes_.transpose() * R * own(node)); }
@@ -77,6 +78,11 @@ void turn_markers(const Turn& turn, Construction& c) {
   pairs(model.channels);
   for (Place& place : model.places) turn(place.marker);
   for (Load& load : model.loads) turn(load.at);
+  for (Tyre& tyre : model.tyres) turn(tyre.wheel);
+  for (Road& road : model.roads) {
+    turn(road.p);
+    road.R = (model.axes.transpose() * road.R).eval();
+  }
   for (BodyStart& start : c.starts) turn(start.origin);
 }
 
@@ -105,6 +111,7 @@ void turn_bodies(const Turn& turn, Construction& c) {
   gravity(model.beams2);
   gravity(model.beams3);
   gravity(model.rigid_bodies);
+  gravity(model.modal_bodies);
 }
 
 void turn_forces(const Turn& turn, Construction& c) {
@@ -163,8 +170,6 @@ Matrix3d axes_with_z(const Vector3d& z) {
 std::vector<Matrix3d> turn_into_plane(const Vector3d& normal, Construction& c) {
   c.model.axes = axes_with_z(normal);
   const Turn turn(c.model.axes, c.model.length, c.markers.start);
-  std::vector<Matrix3d> own;
-  for (const SuperelementUse& use : c.model.superelements) own.push_back(turn.own(use.nodes.front()));
   turn_markers(turn, c);
   turn_bodies(turn, c);
   turn_forces(turn, c);
@@ -173,7 +178,7 @@ std::vector<Matrix3d> turn_into_plane(const Vector3d& normal, Construction& c) {
     if (start.angular_velocity) turn(*start.angular_velocity);
   }
   for (std::size_t i = 0; i < c.markers.start.size(); ++i) turn(c.markers.start[i], static_cast<int>(i));
-  return own;
+  return turn.own();
 }
 
 }  // namespace tisserand::mechanism

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mechanism/bodies/planar/modal_in_plane.hpp"
+
 namespace tisserand::mechanism {
 namespace {
 
@@ -99,21 +101,33 @@ void add_forces(const Model&, const State&, const Pool<BeamElement3>& pool, Eval
   add_beam_forces(pool, evaluation);
 }
 
-void add_forces(const Model&, const State&, const Pool<RigidBody>& pool, Evaluation& evaluation) {
+void add_forces(const Model& model, const State&, const Pool<RigidBody>& pool, Evaluation& evaluation) {
   Vector6d r;
   for (std::size_t i = 0; i < pool.size(); ++i) {
     const RigidBody& body = pool[i];
+    if (model.planar) {
+      const std::vector<int>& own = pool.maps[i].coordinates;
+      const Vector3d planar =
+          residual_in_plane(body, motion_of(evaluation, body.node), evaluation.load_factor * body.gravity);
+      for (int k = 0; k < 3; ++k)
+        if (const int at = own[k < 2 ? k : 5]; at >= 0) evaluation.residual[at] += planar[k];
+      note_scale_in_plane(planar, evaluation);
+      continue;
+    }
     residual(body, motion_of(evaluation, body.node), evaluation.load_factor * body.gravity, r);
     scatter(pool.maps[i], r, evaluation.residual);
     note_scale(r, evaluation);
   }
 }
 
-void add_forces(const Model&, const State&, const Pool<ModalBody>& pool, Evaluation& evaluation) {
+void add_forces(const Model& model, const State&, const Pool<ModalBody>& pool, Evaluation& evaluation) {
   for (std::size_t i = 0; i < pool.size(); ++i) {
     const ModalBody& body = pool[i];
     ModalScratch& scratch = evaluation.modal_bodies[i];
-    residual(body, scratch);
+    if (model.planar)
+      residual_in_plane(body, scratch);
+    else
+      residual(body, scratch);
     scatter(pool.maps[i], scratch.r, evaluation.residual);
     note_scale(body, scratch, evaluation);
     evaluation.damping_power += body.damping.dot(scratch.wd.cwiseAbs2());

@@ -83,6 +83,7 @@ void update_channels(const Model& model, Evaluation& evaluation) {
 }
 
 void add_channel_tangents(const Model& model, const State& state, Evaluation& evaluation, const TangentTarget& target) {
+  if (model.channel_uses.empty()) return;
   Eigen::Matrix<double, 18, 18> on_load = Eigen::Matrix<double, 18, 18>::Zero();
   Eigen::Matrix<double, 24, 24> on_spring = Eigen::Matrix<double, 24, 24>::Zero();
   for (std::size_t i = 0; i < model.channel_uses.size(); ++i) {

@@ -2,6 +2,7 @@
 #include "mechanism/equations/increments.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "common/math/rotation.hpp"
 #include "mechanism/equations/carriers.hpp"
@@ -21,12 +22,20 @@ Eigen::Quaterniond exp_quaternion(const Eigen::Vector3d& turn) {
   return q;
 }
 
-/// Of the rotation of a node by the increment `d` of its coordinates.
-Eigen::Quaterniond turn_of(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& d, int first) {
-  if (!model.planar) return exp_quaternion(rotation_at(model, d, first));
-  const double half = 0.5 * d[first];
-  return {std::cos(half), 0.0, 0.0, std::sin(half)};
-}
+/// cos and sin; by series of the small angles of steps, to round-off.
+struct Turn {
+  double c, s;
+  explicit Turn(double angle) {
+    const double a2 = angle * angle;
+    if (a2 > 0.01) {
+      c = std::cos(angle);
+      s = std::sin(angle);
+      return;
+    }
+    c = 1.0 + a2 * (-1.0 / 2 + a2 * (1.0 / 24 + a2 * (-1.0 / 720 + a2 * (1.0 / 40320))));
+    s = angle * (1.0 + a2 * (-1.0 / 6 + a2 * (1.0 / 120 + a2 * (-1.0 / 5040 + a2 * (1.0 / 362880)))));
+  }
+};
 
 /// Material increment T(θ) d of a node's rotation for an increment d of the rotation vector θ of the step.
 Eigen::Vector3d turn_increment(const Model& model, const Evaluation& evaluation, int node, const Eigen::Vector3d& d) {
@@ -55,9 +64,16 @@ void apply_jacobian(const Model& model, const Evaluation& evaluation, const Eige
     local.segment<3>(9) = turn_increment(model, evaluation, pair.b.node, local.segment<3>(9));
   };
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    gather_local(model.joints.maps[i], model.joints[i]);
-    const Vector6d product = rows_times(model.joints[i], evaluation.joints[i], local);
-    for (int k = 0; k < model.joints[i].size(); ++k) rows[model.joints[i].row + k] = product[k];
+    const Joint& joint = model.joints[i];
+    const ElementMap& map = model.joints.maps[i];
+    if (joint.planar && map.carriers.empty()) {
+      const Eigen::Vector3d product = rows_times_in_plane(joint, evaluation.joints[i], gather_in_plane(map, d));
+      for (int k = 0; k < joint.size(); ++k) rows[joint.row + k] = product[k];
+      continue;
+    }
+    gather_local(map, joint);
+    const Vector6d product = rows_times(evaluation.joints[i], local);
+    for (int k = 0; k < joint.size(); ++k) rows[joint.row + k] = product[k];
   }
   for (const Coupling& coupling : model.couplings) {
     double sum = 0.0;
@@ -83,7 +99,15 @@ void apply_transposed_jacobian(const Model& model, const Evaluation& evaluation,
   };
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
-    add(model.joints.maps[i], transposed_times(joint, evaluation.joints[i], mu.data() + joint.row));
+    const ElementMap& map = model.joints.maps[i];
+    const double* own = mu.data() + joint.row;
+    if (joint.planar && map.carriers.empty()) {
+      for (const auto& [marker, carrier] : {std::pair(&joint.a, 0), std::pair(&joint.b, 3)})
+        if (marker->node >= 0)
+          scatter_in_plane(map, carrier, transposed_times_in_plane(joint, evaluation.joints[i], own, carrier), result);
+      continue;
+    }
+    add(map, transposed_times(joint, evaluation.joints[i], own));
   }
   for (const Coupling& coupling : model.couplings)
     for (const CouplingTerm& term : coupling.terms) {
@@ -100,10 +124,22 @@ void retract(const Model& model, const State& from, const Eigen::Ref<const Eigen
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
     const auto column = static_cast<Eigen::Index>(i);
+    if (model.planar) {
+      if (node.translation >= 0) {
+        x.col(column) = x0.col(column);
+        x.col(column).head<2>() += d.segment<2>(node.translation);
+      }
+      if (node.rotation >= 0) {
+        const Turn half(0.5 * d[node.rotation]);
+        const double w = Q0(0, column), z = Q0(3, column);
+        Q.col(column) << w * half.c - z * half.s, 0.0, 0.0, w * half.s + z * half.c;
+      }
+      continue;
+    }
     if (node.translation >= 0) x.col(column) = x0.col(column) + translation_at(model, d, node.translation);
     if (node.rotation >= 0) {
       const Eigen::Quaterniond q0(Q0(0, column), Q0(1, column), Q0(2, column), Q0(3, column));
-      Q.col(column) = wxyz(q0 * turn_of(model, d, node.rotation));
+      Q.col(column) = wxyz(q0 * exp_quaternion(rotation_at(model, d, node.rotation)));
     }
   }
   to.w() = from.w() + d.segment(model.sizes.first_modal(), model.sizes.modal);

@@ -19,6 +19,15 @@ Vector12 velocity_of(const MarkerPair& pair) {
   return v;
 }
 
+PlanarVector velocity_in_plane(const MarkerPair& pair) {
+  PlanarVector v;
+  v << pair.node_a.xd.head<2>(), pair.node_a.Omega.z(), pair.node_b.xd.head<2>(), pair.node_b.Omega.z();
+  return v;
+}
+
+/// Whether the short way of planar joints serves: six coordinates that their carriers own.
+bool is_short(const Joint& joint, const ElementMap& map) { return joint.planar && map.carriers.empty(); }
+
 RelationTerms terms_of(const Coordinate& coordinate, const MarkerPair& pair) {
   return coordinate.planar ? evaluate_in_plane(coordinate.relation, pair) : evaluate(coordinate.relation, pair);
 }
@@ -103,6 +112,23 @@ void add_constraint_rows(const Model& model, const Pair& item, const ElementMap&
            target.values);
 }
 
+/// Adds Gᵀ Q of coordinate `at`.
+void add_along(const Model& model, std::size_t at, double Q, Evaluation& evaluation) {
+  const ElementMap& map = model.coordinates.maps[at];
+  const Row12& G = evaluation.coordinates[at].G;
+  if (model.coordinates[at].planar && map.carriers.empty()) {
+    for (const int carrier : {0, 3}) {
+      const Vector3d force = Q * Vector3d(G[2 * carrier], G[2 * carrier + 1], G[2 * carrier + 5]);
+      scatter_in_plane(map, carrier, force, evaluation.residual);
+      note_scale_in_plane(force, evaluation);
+    }
+    return;
+  }
+  const Vector12 force = Q * G.transpose();
+  add_force(model, map, force, evaluation);
+  note_scale(force, evaluation);
+}
+
 /// Bᵀλ of a joint.
 Vector12 joint_force(const Joint& joint, const JointTerms& terms, const State& state) {
   return transposed_times(joint, terms, state.lambda().data() + joint.row);
@@ -121,8 +147,13 @@ void update_joints(const Model& model, Evaluation& evaluation) {
     const MarkerPair pair = markers_of(joint, evaluation);
     JointTerms& terms = evaluation.joints[i];
     joint_constraints(joint, pair.node_a, pair.node_b, terms);
-    evaluation.constraint.segment(joint.row, size) = terms.phi.head(size);
-    const Vector6d rate = rows_times(joint, terms, velocity_of(pair));
+    for (int k = 0; k < size; ++k) evaluation.constraint[joint.row + k] = terms.phi[k];
+    if (joint.planar) {
+      const Vector3d rate = rows_times_in_plane(joint, terms, velocity_in_plane(pair));
+      for (int k = 0; k < size; ++k) evaluation.constraint_rate[joint.row + k] = rate[k];
+      continue;
+    }
+    const Vector6d rate = rows_times(terms, velocity_of(pair));
     for (int k = 0; k < size; ++k) evaluation.constraint_rate[joint.row + k] = rate[k];
   }
 }
@@ -154,7 +185,17 @@ void update_couplings(const Model& model, const State& state, Evaluation& evalua
 
 void add_joints(const Model& model, const State& state, Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
-    const Vector12 force = joint_force(model.joints[i], evaluation.joints[i], state);
+    const Joint& joint = model.joints[i];
+    if (is_short(joint, model.joints.maps[i])) {
+      for (const int carrier : {0, 3}) {
+        const Vector3d force =
+            transposed_times_in_plane(joint, evaluation.joints[i], state.lambda().data() + joint.row, carrier);
+        scatter_in_plane(model.joints.maps[i], carrier, force, evaluation.residual);
+        note_scale_in_plane(force, evaluation);
+      }
+      continue;
+    }
+    const Vector12 force = joint_force(joint, evaluation.joints[i], state);
     add_force(model, model.joints.maps[i], force, evaluation);
     note_scale(force, evaluation);
   }
@@ -164,11 +205,8 @@ void add_couplings(const Model& model, const State& state, Evaluation& evaluatio
   for (const Coupling& coupling : model.couplings) {
     const double lambda = state.lambda()[coupling.row];
     if (coupling.motion >= 0) evaluation.load_power -= lambda * evaluation.motion_values[coupling.motion].rate;
-    for (const CouplingTerm& term : coupling.terms) {
-      const Vector12 force = (lambda * term.factor) * evaluation.coordinates[term.coordinate].G.transpose();
-      add_force(model, model.coordinates.maps[term.coordinate], force, evaluation);
-      note_scale(force, evaluation);
-    }
+    for (const CouplingTerm& term : coupling.terms)
+      add_along(model, static_cast<std::size_t>(term.coordinate), lambda * term.factor, evaluation);
   }
 }
 
@@ -178,9 +216,7 @@ void add_springs(const Model& model, const State& state, Evaluation& evaluation)
     const CoordinateTerms& c = evaluation.coordinates[at];
     const double applied = applied_force(model, i, state.load_time(), evaluation);
     const SpringForce f = spring_force(model.springs[i], c.value, c.rate, applied);
-    const Vector12 force = -f.Q * c.G.transpose();
-    add_force(model, model.coordinates.maps[at], force, evaluation);
-    note_scale(force, evaluation);
+    add_along(model, at, -f.Q, evaluation);
     evaluation.spring_energy += f.energy;
     evaluation.damping_power += f.dissipated;
     evaluation.load_power += applied * c.rate;

@@ -1,6 +1,7 @@
 // Stage motion: what nodes and modes do at a state.
 #include "mechanism/equations/terms.hpp"
 
+#include "mechanism/bodies/planar/modal_in_plane.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
@@ -9,8 +10,12 @@ namespace {
 void update_modal_node(const Model& model, std::size_t i, Evaluation& evaluation) {
   const ModalNode& node = model.modal_nodes[i];
   const auto body = static_cast<std::size_t>(node.body);
-  update_node(node, evaluation.modal_bodies[body], motion_of(evaluation, model.modal_bodies[body].node),
-              evaluation.motion[node.node], evaluation.modal_nodes[i]);
+  const ModalScratch& scratch = evaluation.modal_bodies[body];
+  const NodeMotion& frame = motion_of(evaluation, model.modal_bodies[body].node);
+  if (model.planar && node.x.z() == 0.0)
+    update_node_in_plane(node, scratch, frame, evaluation.motion[node.node], evaluation.modal_nodes[i]);
+  else
+    update_node(node, scratch, frame, evaluation.motion[node.node], evaluation.modal_nodes[i]);
 }
 
 }  // namespace
@@ -26,6 +31,20 @@ void update_motion(const Model& model, const State& state, Evaluation& evaluatio
     NodeMotion& motion = evaluation.motion[i];
     const auto column = static_cast<Eigen::Index>(i);
     motion.x = x.col(column);
+    if (model.planar) {  // what leaves the plane stays 0, or as it was made
+      const double w = Q(0, column), z = Q(3, column);
+      motion.R(0, 0) = motion.R(1, 1) = 1.0 - 2.0 * z * z;
+      motion.R(0, 1) = -(motion.R(1, 0) = 2.0 * w * z);
+      if (node.translation >= 0) {
+        motion.xd.head<2>() = v.segment<2>(node.translation);
+        motion.xdd.head<2>() = vdot.segment<2>(node.translation);
+      }
+      if (node.rotation >= 0) {
+        motion.Omega.z() = v[node.rotation];
+        motion.Omegad.z() = vdot[node.rotation];
+      }
+      continue;
+    }
     motion.R = Eigen::Quaterniond(Q(0, column), Q(1, column), Q(2, column), Q(3, column)).toRotationMatrix();
     if (node.translation >= 0) {
       motion.xd = translation_at(model, v, node.translation);
@@ -48,9 +67,13 @@ void update_modal_bodies(const Model& model, const State& state, Evaluation& eva
   for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
     const ModalBody& body = model.modal_bodies[i];
     const int first = model.sizes.first_modal() + body.offset;
-    update_kinematics(body, motion_of(evaluation, body.node),
-                      {state.w().data() + body.offset, state.v().data() + first, state.vdot().data() + first},
-                      evaluation.load_factor * body.gravity, evaluation.modal_bodies[i]);
+    const NodeMotion& frame = motion_of(evaluation, body.node);
+    const ModalCoordinates modes{state.w().data() + body.offset, state.v().data() + first, state.vdot().data() + first};
+    const Eigen::Vector3d gravity = evaluation.load_factor * body.gravity;
+    if (model.planar)
+      update_kinematics_in_plane(body, frame, modes, gravity, evaluation.modal_bodies[i]);
+    else
+      update_kinematics(body, frame, modes, gravity, evaluation.modal_bodies[i]);
   }
   for (std::size_t i = 0; i < model.modal_nodes.size(); ++i)
     if (model.modal_nodes[i].active) update_modal_node(model, i, evaluation);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "mechanism/equations/carriers.hpp"
@@ -88,6 +89,13 @@ void note_scale(const Vector& local, Evaluation& evaluation) {
     evaluation.force_scale[1] =
         std::max(evaluation.force_scale[1], local.template segment<3>(i + 3).cwiseAbs().maxCoeff());
   }
+}
+
+/// The same of a node with three, [x y Θ].
+inline void note_scale_in_plane(const Eigen::Vector3d& local, Evaluation& evaluation) {
+  double &force = evaluation.force_scale[0], &moment = evaluation.force_scale[1];
+  force = std::max({force, std::abs(local[0]), std::abs(local[1])});
+  moment = std::max(moment, std::abs(local[2]));
 }
 
 /// F(t) of spring i at the load time, scaled as loads are.

@@ -118,16 +118,19 @@ std::string joint_equation_name(const Joint& joint, int equation) {
 }
 
 namespace {
-/// Φ in x and y, and what of B is not zero.
+/// Φ in x and y, and what of B is not zero; two rows at a time, as they are read soon after (a load of two numbers waits
+/// for two stores of one).
 void coincidence_in_plane(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms) {
   const Vector2d arm_a = in_plane(a.R, joint.a.p), arm_b = in_plane(b.R, joint.b.p);
   terms.phi.head<2>() = (b.x - a.x).head<2>() + arm_b - arm_a;
-  terms.B(0, 0) = terms.B(1, 1) = -1.0;
-  terms.B(0, 6) = terms.B(1, 7) = 1.0;
-  terms.B(0, 5) = arm_a.y();
-  terms.B(1, 5) = -arm_a.x();
-  terms.B(0, 11) = -arm_b.y();
-  terms.B(1, 11) = arm_b.x();
+  const auto column = [&terms](int c) { return terms.B.col(c).head<2>(); };
+  column(0) = -Vector2d::UnitX();
+  column(1) = -Vector2d::UnitY();
+  column(5) = Vector2d(arm_a.y(), -arm_a.x());
+  column(6) = Vector2d::UnitX();
+  column(7) = Vector2d::UnitY();
+  column(11) = Vector2d(-arm_b.y(), arm_b.x());
+  if (joint.a.p.z() == 0.0 && joint.b.p.z() == 0.0) return;
   for (int k = 0; k < 2; ++k) {
     terms.B.row(k).segment<2>(3).setZero();
     terms.B.row(k).segment<2>(9).setZero();
@@ -165,36 +168,12 @@ void joint_constraints(const Joint& joint, const NodeMotion& a, const NodeMotion
   }
 }
 
-// Rows behind the joint's are zero, so that loops of planar joints have constant bounds. One result on both paths: two
-// would be copied, by registers that wait for the numbers just written.
-Eigen::Matrix<double, 6, 1> rows_times(const Joint& joint, const JointTerms& terms, const Vector12& d) {
-  Eigen::Matrix<double, 6, 1> product;
-  if (!joint.planar) {
-    product = terms.B.lazyProduct(d);
-    return product;
-  }
-  for (int k = 0; k < 6; ++k) {
-    double sum = 0.0;
-    if (k < planar_rows)
-      for (const int column : planar_columns) sum += terms.B(k, column) * d[column];
-    product[k] = sum;
-  }
-  return product;
-}
+Eigen::Matrix<double, 6, 1> rows_times(const JointTerms& terms, const Vector12& d) { return terms.B.lazyProduct(d); }
 
 Vector12 transposed_times(const Joint& joint, const JointTerms& terms, const double* lambda) {
-  Vector12 product;
   Eigen::Matrix<double, 6, 1> own = Eigen::Matrix<double, 6, 1>::Zero();
   for (int k = 0; k < joint.size(); ++k) own[k] = lambda[k];
-  if (!joint.planar) {
-    product = terms.B.transpose().lazyProduct(own);
-    return product;
-  }
-  for (int i = 0; i < 12; ++i) product[i] = 0.0;
-  static_assert(planar_rows == 3);
-  for (const int column : planar_columns)
-    product[column] = terms.B(0, column) * own[0] + terms.B(1, column) * own[1] + terms.B(2, column) * own[2];
-  return product;
+  return terms.B.transpose().lazyProduct(own);
 }
 
 void joint_bias(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms) {

@@ -76,9 +76,34 @@ using Vector12 = Eigen::Matrix<double, 12, 1>;
 constexpr int planar_rows = 3;
 
 /// B d; the first size() rows count.
-Eigen::Matrix<double, 6, 1> rows_times(const Joint& joint, const JointTerms& terms, const Vector12& d);
-/// Bᵀ λ of the joint's own rows, on coordinates of the model.
+Eigen::Matrix<double, 6, 1> rows_times(const JointTerms& terms, const Vector12& d);
+/// Bᵀ λ of the joint's own rows.
 Vector12 transposed_times(const Joint& joint, const JointTerms& terms, const double* lambda);
+
+/// The same of a planar joint, on [x_A y_A Θ_A x_B y_B Θ_B], its planar_columns: a carrier at a time, the ground (d =
+/// 0) left out. Rows behind the joint's are zero, so that loops have constant bounds.
+using PlanarVector = Eigen::Matrix<double, 6, 1>;
+inline Eigen::Vector3d rows_times_in_plane(const Joint& joint, const JointTerms& terms, const PlanarVector& d) {
+  Eigen::Vector3d product = Eigen::Vector3d::Zero();
+  const auto add = [&](int carrier) {
+    for (int c = carrier; c < carrier + 3; ++c)
+      for (int k = 0; k < planar_rows; ++k) product[k] += terms.B(k, planar_columns[c]) * d[c];
+  };
+  if (joint.a.node >= 0) add(0);
+  if (joint.b.node >= 0) add(3);
+  return product;
+}
+/// Of the carrier whose columns begin at `carrier`: 0 (A) or 3 (B).
+inline Eigen::Vector3d transposed_times_in_plane(const Joint& joint, const JointTerms& terms, const double* lambda,
+                                                 int carrier) {
+  const int size = joint.size();
+  Eigen::Vector3d product = Eigen::Vector3d::Zero();
+  for (int k = 0; k < planar_rows; ++k) {
+    const double own = k < size ? lambda[k] : 0.0;
+    for (int c = 0; c < 3; ++c) product[c] += terms.B(k, planar_columns[carrier + c]) * own;
+  }
+  return product;
+}
 
 /// Φ and B.
 void joint_constraints(const Joint& joint, const NodeMotion& a, const NodeMotion& b, JointTerms& terms);

@@ -18,6 +18,22 @@ inline const ModalBody& modal_body_of(const Model& model, int modal) {
 /// Appends the coordinates of a node: six (−1 where it owns none; ground: all −1), or 6 + m of the body it follows.
 void append_carrier(const Model& model, int node, std::vector<int>& coordinates);
 
+/// Of two carriers in a planar model that own their coordinates: those at [x_A y_A Θ_A x_B y_B Θ_B].
+inline PlanarVector gather_in_plane(const ElementMap& map, const Eigen::VectorXd& global) {
+  PlanarVector local;
+  for (int c = 0; c < 6; ++c) {
+    const int coordinate = map.coordinates[planar_columns[c]];
+    local[c] = coordinate < 0 ? 0.0 : global[coordinate];
+  }
+  return local;
+}
+/// Adds what the carrier gets whose columns begin at `carrier`: 0 or 3.
+inline void scatter_in_plane(const ElementMap& map, int carrier, const Eigen::Vector3d& local,
+                             Eigen::VectorXd& global) {
+  for (int c = 0; c < 3; ++c)
+    if (const int at = map.coordinates[planar_columns[carrier + c]]; at >= 0) global[at] += local[c];
+}
+
 /// The map of an element on `nodes`: their coordinates one after the other, and the nodes if one follows a modal body.
 ElementMap carrier_map(const Model& model, const std::vector<int>& nodes);
 

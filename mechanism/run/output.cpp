@@ -171,8 +171,9 @@ void fill_tyres(const Model& model, const Evaluation& evaluation, formats::Resul
     const TyreTerms& tyre = evaluation.tyres[i];
     row.tyre_force.col(i) = tyre.force;
     row.tyre_moment.col(i) = tyre.moment;
-    row.tyre_contact.col(i) = tyre.normal.isZero(0.0) ? tyre.contact : Eigen::Vector3d(tyre.contact + model.origin);
-    row.tyre_normal.col(i) = tyre.normal;
+    row.tyre_contact.col(i) =
+        tyre.normal.isZero(0.0) ? tyre.contact : Eigen::Vector3d(to_world(model, tyre.contact) + model.origin);
+    row.tyre_normal.col(i) = to_world(model, tyre.normal);
     row.tyre_slip[i] = tyre.slip;
     row.tyre_slip_angle[i] = tyre.slip_angle;
     row.tyre_camber[i] = tyre.camber;
@@ -241,7 +242,7 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
   layout.modal_offset = {0};
   for (const ModalBody& body : model.modal_bodies) {
     layout.modal_bodies.push_back(body.name);
-    layout.modal_offset.push_back(layout.modal_offset.back() + body.modes);
+    layout.modal_offset.push_back(layout.modal_offset.back() + body.modes_in_space());
   }
   for (const Joint& joint : model.joints) layout.joints.push_back(joint.name);
   for (const Tie& tie : model.ties) layout.joints.push_back(tie.name);
@@ -271,9 +272,19 @@ void fill_bodies(const Model& model, const State& state, Evaluation& evaluation,
   row.time = state.time();
   fill_places(model, evaluation, row);
   fill_superelements(model, evaluation, row);
-  const Eigen::Index modes = row.w.size();  // the deflections of treads are behind them
-  row.w = state.w().head(modes);
-  row.w_rate = state.v().segment(model.sizes.first_modal(), modes);
+  int first = 0;
+  for (const ModalBody& body : model.modal_bodies) {
+    const auto fill = [&](const auto& own, auto&& in_space) {
+      if (body.is_planar())
+        in_space = body.lift * own;
+      else
+        in_space = own;
+    };
+    const int modes = body.modes_in_space();
+    fill(state.w().segment(body.offset, body.modes), row.w.segment(first, modes));
+    fill(state.v().segment(model.sizes.first_modal() + body.offset, body.modes), row.w_rate.segment(first, modes));
+    first += modes;
+  }
 }
 
 /// After evaluate() and update_modal_nodes().

@@ -125,10 +125,14 @@ void read_modal_bodies(const Model& model, const StoredRow& stored, State& state
   for (const ModalBody& body : model.modal_bodies) {
     if (body.modes == 0) continue;
     std::vector<std::string> columns;
-    for (int k = 0; k < body.modes; ++k) columns.push_back(fmt::format("{}", k));
-    state.w().segment(body.offset, body.modes) = stored.read("modal_bodies/w/" + body.name + "/", columns);
-    state.v().segment(model.sizes.first_modal() + body.offset, body.modes) =
-        stored.read("modal_bodies/w_rate/" + body.name + "/", columns);
+    for (int k = 0; k < body.modes_in_space(); ++k) columns.push_back(fmt::format("{}", k));
+    const auto own = [&](const std::string& dataset) {
+      VectorXd w = stored.read(dataset + body.name + "/", columns);
+      if (body.is_planar()) w = (body.lift.transpose() * w).eval();
+      return w;
+    };
+    state.w().segment(body.offset, body.modes) = own("modal_bodies/w/");
+    state.v().segment(model.sizes.first_modal() + body.offset, body.modes) = own("modal_bodies/w_rate/");
   }
 }
 

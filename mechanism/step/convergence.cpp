@@ -84,18 +84,17 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
   }
   const Closed closed = closed_constraints(model, options, step, state);
   const bool rates = options.formulation == Formulation::stabilised_index2;
-  const double position_ratio = 1.0 / closed.position, rate_ratio = 1.0 / closed.rate, inverse = 1.0 / model.length;
+  const double position_ratio = 1.0 / (closed.position * model.length), rate_ratio = 1.0 / (closed.rate * model.length);
+  const double* in_length = model.equation_scale.data() + model.sizes.boundary;
   for (int row = 0; row < model.sizes.constraints; ++row) {
-    const double share = model.length_row[row] ? inverse : 1.0;
-    const double violation = std::abs(evaluation.constraint[row]) * share;
+    const double violation = std::abs(evaluation.constraint[row]) * in_length[row];
     norms.constraint = std::max(norms.constraint, violation);
     if (evaluation.active[row] == 0.0) continue;
     raise(norms.constraint_ratio, norms.worst_constraint, violation * position_ratio, row);
     if (rates)
       raise(norms.constraint_ratio, norms.worst_constraint,
-            std::abs(evaluation.constraint_rate[row]) * share * rate_ratio, row);
+            std::abs(evaluation.constraint_rate[row]) * in_length[row] * rate_ratio, row);
   }
-  norms.constraint *= model.length;
   return norms;
 }
 

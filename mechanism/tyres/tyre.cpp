@@ -2,6 +2,7 @@
 // tangents.
 #include "mechanism/tyres/tyre.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/math/rotation.hpp"
@@ -327,6 +328,7 @@ Matrix8d tangent(const Tyre& tyre, const Road& road, const NodeMotion& node, con
     return Vector3d(vector[0].value, vector[1].value, vector[2].value);
   };
   for (int j = 0; j < (tyre.relaxes() ? 8 : 6); ++j) {
+    if (tyre.planar && j >= 2 && j <= 4) continue;
     const Vector8d unit = Vector8d::Unit(j);
     const Vector6d wheel = unit.head<6>();
     const auto moved = [&](int k, double at, double coefficient) { return Dual(at, coefficient * unit[6 + k]); };
@@ -345,6 +347,30 @@ Matrix8d tangent(const Tyre& tyre, const Road& road, const NodeMotion& node, con
     A.col(j).tail<2>() << lag[0].derivative, lag[1].derivative;
   }
   return A;
+}
+
+double sideways_share(const Tyre& tyre) {
+  const Road plane(formats::RoadSpec{}, Vector3d::Zero());
+  Tyre upright = tyre;
+  upright.wheel = Marker{};
+  TyreTerms terms;
+  NodeMotion wheel;
+  double largest = 0.0;
+  for (const double depth : {0.01, 0.03, 0.1})
+    for (const double speed : {0.0, 1.0, 10.0, 40.0})
+      for (const double slip : {-1.0, -0.1, 0.0, 0.02, 0.5}) {
+        const double driven = speed + slip * std::max(speed, 1.0);
+        wheel.x = {0.0, 0.0, (1.0 - depth) * tyre.radius};
+        wheel.xd = {speed, 0.0, 0.0};
+        wheel.Omega = {0.0, driven / tyre.radius, 0.0};
+        Tread tread;
+        if (tyre.relaxes()) tread.w[0] = -slip * tyre.radius;
+        evaluate(upright, plane, wheel, tread, terms);
+        const double across = std::max({std::abs(terms.force.y()), std::abs(terms.moment.x()) / tyre.radius,
+                                        std::abs(terms.moment.z()) / tyre.radius});
+        if (terms.force.z() > 0.0) largest = std::max(largest, across / terms.force.z());
+      }
+  return largest;
 }
 
 Matrix8d standing_stiffness(const Tyre& tyre, const Road& road, const NodeMotion& node, const TyreTerms& terms) {

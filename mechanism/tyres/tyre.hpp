@@ -51,6 +51,7 @@ struct Tyre {
   double low_speed = 0.0;
   double relaxation = 0.0;  ///< σ of comprehensive slip, both directions
   int lag = -1;             ///< modal coordinate of u, before that of v; −1: no relaxation
+  bool planar = false;      ///< rolls in the x-y plane of a planar model: its tangent has no other columns
 
   bool relaxes() const { return lag >= 0; }
 };
@@ -95,6 +96,10 @@ double tyre_quantity(const Tyre& tyre, const Road& road, const NodeMotion& node,
                      formats::TyreQuantity quantity);
 Vector6d tyre_quantity_gradient(const Tyre& tyre, const Road& road, const NodeMotion& node, const Tread& tread,
                                 formats::TyreQuantity quantity, const TangentCoefficients& coefficients);
+
+/// Largest share in the load of the force across the wheel, and of the moments over the radius that do not turn about
+/// the axle, where it rolls upright and straight on a plane: over loads, speeds and slips.
+double sideways_share(const Tyre& tyre);
 
 /// Stiffness with which statics holds what a standing tyre leaves free (matrix alone, no force): motion along the road,
 /// roll, deflections of the tread, and in the air also the way down.

@@ -33,6 +33,10 @@ struct ModalBody {
   Eigen::VectorXd stiffness;                          ///< ω_j²
   Eigen::VectorXd damping;                            ///< 2 ζ_j ω_j, and mass- and stiffness-proportional parts
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< for the caller to scale and pass on
+  Eigen::MatrixXd lift;  ///< of planar models: w of the body in space = lift w, of orthonormal columns, maybe none
+
+  bool is_planar() const { return lift.rows() > 0; }
+  int modes_in_space() const { return is_planar() ? static_cast<int>(lift.rows()) : modes; }
 };
 
 /// What residual and tangent share, sized once.

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <Eigen/SVD>
 
 namespace tisserand::mechanism {
 namespace {
@@ -15,14 +14,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr double share = 1e-10;         ///< of diagonals, or of the largest entry: nothing
-constexpr double one_frequency = 1e-8;  ///< relative difference of ω² of modes that may be mixed
-
-/// Columns of the coordinates of the body: those in the plane, and the others.
-struct Split {
-  MatrixXd in, out;
-};
 
 /// Boundary coordinates of the planar body, and the rest, in those of the body.
 Split split_boundary(const SuperelementBody& body, const Matrix3d& axes, SuperelementBody& planar) {
@@ -57,62 +48,20 @@ void require_apart(const MatrixXd& A, const Split& split, const std::string& wha
                  out = (split.out.transpose() * A * split.out).diagonal().cwiseAbs().cwiseSqrt();
   for (Eigen::Index i = 0; i < mixed.rows(); ++i)
     for (Eigen::Index j = 0; j < mixed.cols(); ++j)
-      if (!(std::abs(mixed(i, j)) <= share * in[i] * out[j]))
+      if (!(std::abs(mixed(i, j)) <= planar_share * in[i] * out[j]))
         throw LeavesPlane{
             fmt::format("{} couples motion in it with motion out of it: {:.3g} beside diagonals of {:.3g} "
                         "and {:.3g}",
                         what, mixed(i, j), in[i] * in[i], out[j] * out[j])};
 }
 
-/// Throws unless the vector is nothing beside `size`.
-void require_nothing(const MatrixXd& part, double size, const std::string& what) {
-  if (part.size() == 0) return;
-  const double largest = part.cwiseAbs().maxCoeff();
-  if (!(largest <= share * size))
-    throw LeavesPlane{fmt::format("{} leads out of it: {:.3g} beside {:.3g}", what, largest, size)};
-}
-
-/// Columns of M_BI in units of the diagonal of M̄, of which 1 is the mass of a mode.
-struct Couplings {
-  MatrixXd in, out;
-};
-
-Couplings couplings_of(const SuperelementBody& body, const Split& boundary) {
+/// By columns of M_BI in units of the diagonal of M̄, of which 1 is the mass of a mode.
+Split split_internal_modes(const SuperelementBody& body, const Split& boundary) {
   const auto scaled = [&body](const MatrixXd& E) {
     const VectorXd mass = (E.transpose() * body.M_BB * E).diagonal().cwiseMax(1e-300);
     return MatrixXd(mass.cwiseSqrt().cwiseInverse().asDiagonal() * (E.transpose() * body.M_BI));
   };
-  return {scaled(boundary.in), scaled(boundary.out)};
-}
-
-/// The modes in the plane and those out of it, as combinations of modes of one frequency. A mode that couples with
-/// nothing is out of it: nothing in the plane moves it.
-Split split_modes(const SuperelementBody& body, const Split& boundary) {
-  const Couplings all = couplings_of(body, boundary);
-  const int m = body.modes;
-  Split split{MatrixXd::Zero(m, m), MatrixXd::Zero(m, m)};
-  int in = 0, out = 0;
-  for (int first = 0, end = 0; first < m; first = end) {
-    const auto couples = [&](const MatrixXd& C, int k) { return C.col(k).cwiseAbs().maxCoeff() > share; };
-    end = first + 1;
-    MatrixXd turn = MatrixXd::Identity(1, 1);
-    if (couples(all.in, first) && couples(all.out, first)) {
-      while (end < m && body.S_II[end] <= (1.0 + one_frequency) * body.S_II[first]) ++end;
-      turn = Eigen::JacobiSVD<MatrixXd>(all.out.middleCols(first, end - first), Eigen::ComputeFullV).matrixV();
-    }
-    for (Eigen::Index k = 0; k < turn.cols(); ++k) {
-      const VectorXd mode = turn.col(k);
-      const double pull_in = (all.in.middleCols(first, end - first) * mode).cwiseAbs().maxCoeff(),
-                   pull_out = (all.out.middleCols(first, end - first) * mode).cwiseAbs().maxCoeff();
-      if (pull_in > share && pull_out > share)
-        throw LeavesPlane{fmt::format("internal mode {} couples with motion in it ({:.3g}) and out of it ({:.3g})",
-                                      first + 1, pull_in, pull_out)};
-      (pull_in > share ? split.in.col(in++) : split.out.col(out++)).segment(first, end - first) = mode;
-    }
-  }
-  split.in.conservativeResize(Eigen::NoChange, in);
-  split.out.conservativeResize(Eigen::NoChange, out);
-  return split;
+  return split_modes({scaled(boundary.in), scaled(boundary.out)}, body.S_II, "internal mode");
 }
 
 /// Boundary and modes in one.
@@ -261,8 +210,8 @@ Stiffening planar_stiffening(const Stiffening& from, const Split& whole, const S
   for (Eigen::Index a = 0; a < from.L.rows(); ++a) {
     const MatrixXd& A = Gamma[static_cast<std::size_t>(a)];
     const MatrixXd in = whole.in.transpose() * A * whole.in;
-    if ((from.L.row(a) * whole.in).cwiseAbs().maxCoeff() <= share * L_size &&
-        (in.size() == 0 || in.cwiseAbs().maxCoeff() <= share * size))
+    if ((from.L.row(a) * whole.in).cwiseAbs().maxCoeff() <= planar_share * L_size &&
+        (in.size() == 0 || in.cwiseAbs().maxCoeff() <= planar_share * size))
       continue;
     require_nothing(from.L.row(a) * whole.out, L_size, "a row of its strain");
     kept.push_back(staying(A, whole, size, "its array H"));
@@ -343,7 +292,7 @@ SuperelementBody planar_body(const SuperelementBody& body, const Matrix3d& axes)
   planar.boundary_size = static_cast<int>(boundary.in.cols());
   require_apart(body.S_BB, boundary, "its stiffness");
   require_apart(body.M_BB, boundary, "its mass");
-  const Split modes = split_modes(body, boundary);
+  const Split modes = split_internal_modes(body, boundary);
   planar.modes = static_cast<int>(modes.in.cols());
   const Split whole{joined(boundary.in, modes.in), joined(boundary.out, modes.out)};
   set_nodes(axes, planar);

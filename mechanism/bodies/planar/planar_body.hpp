@@ -2,18 +2,12 @@
 // which stay in it.
 #pragma once
 
-#include <string>
-
 #include <Eigen/Core>
 
+#include "mechanism/bodies/planar/split.hpp"
 #include "mechanism/bodies/superelement/body.hpp"
 
 namespace tisserand::mechanism {
-
-/// Why a body does not stay in the plane: "entry 0.2 of its stiffness ...".
-struct LeavesPlane {
-  std::string what;
-};
 
 /// axes: of the plane in the part frame, z normal. Boundary rows: per node [x y, θ_z]; internal modes that do not
 /// couple with them are left out, those of one frequency turned apart before. Entries that couple motion in the plane

@@ -6,10 +6,12 @@
 #include <gtest/gtest.h>
 #include <Eigen/QR>
 
+#include "mechanism/bodies/planar/modal_in_plane.hpp"
+#include "mechanism/bodies/planar/planar_modal_body.hpp"
 #include "mechanism/bodies/superelement/evaluate.hpp"
 #include "mechanism/build/build_model.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
-#include "tests/support/scenes/scenes.hpp"
+#include "tests/support/scenes/planar_scenes.hpp"
 #include "tests/support/scenes/second_order_scenes.hpp"
 
 namespace tisserand::mechanism::planar_body_test {
@@ -118,6 +120,71 @@ TEST(PlanarBody, OfSecondOrderIsTheRestrictionOfTheOneInSpace) {
   const SuperelementBody body = build_model(scene, files).model.superelement_bodies[0];
   ASSERT_TRUE(body.second_order.inertia && body.second_order.stiffening);
   expect_restriction(body, 0.02);
+}
+
+// A mode that moves the body along the normal alone: none is left, and results still have one.
+TEST(PlanarModalBody, MayKeepNoMode) {
+  ModalBody body;
+  body.modes = 1;
+  body.mass = 2.0;
+  body.P0 = Vector3d(0.3, 0.2, 0.1).asDiagonal();
+  body.J_mu.setIdentity();
+  body.C1 = Vector3d::UnitZ();
+  body.N_mu = Vector3d::Zero();
+  body.P1 = VectorXd::Zero(9);
+  body.P2 = MatrixXd::Zero(9, 1);
+  body.stiffness = VectorXd::Ones(1);
+  body.damping = VectorXd::Zero(1);
+  make_planar(Matrix3d::Identity(), 1.0, body, {});
+  EXPECT_EQ(body.modes, 0);
+  EXPECT_EQ(body.modes_in_space(), 1);
+  EXPECT_EQ(body.C1.cols(), 0);
+  EXPECT_EQ(VectorXd(body.lift * VectorXd(0)), VectorXd::Zero(1));
+}
+
+// What moves in the plane, by the kernels of the plane and by those of space.
+TEST(PlanarModalBody, MovesAsInSpace) {
+  const Model model =
+      build_model(test_support::with_planar(test_support::modal_slider_crank(test_support::upright).scene),
+                  test_support::modal_rod_files(6))
+          .model;
+  const ModalBody& body = model.modal_bodies[0];
+  ASSERT_EQ(body.modes, 3);
+  NodeMotion frame;
+  frame.x = {0.3, -0.2, 0.0};
+  frame.R = Eigen::AngleAxisd(0.8, Vector3d::UnitZ()).toRotationMatrix();
+  frame.xd = {1.0, -2.0, 0.0};
+  frame.xdd = {5.0, 4.0, 0.0};
+  frame.Omega = {0.0, 0.0, 3.0};
+  frame.Omegad = {0.0, 0.0, -7.0};
+  const VectorXd w = Vector3d(0.02, -0.03, 0.01), wd = Vector3d(0.5, 0.3, -0.7), wdd = Vector3d(-9.0, 4.0, 11.0);
+  ModalScratch plane = make_scratch(body), space = plane;
+  const ModalCoordinates modes{w.data(), wd.data(), wdd.data()};
+  update_kinematics_in_plane(body, frame, modes, {1, -9.81, 0}, plane);
+  update_kinematics(body, frame, modes, {1, -9.81, 0}, space);
+  residual_in_plane(body, plane);
+  residual(body, space);
+  EXPECT_LT((plane.r - space.r).norm(), 1e-13 * space.r.norm());
+  tangent(body, {1.0, 2.0, 3.0}, plane);
+  tangent(body, {1.0, 2.0, 3.0}, space);
+  const std::vector<int> rows{0, 1, 5, 6, 7, 8};
+  EXPECT_LT((plane.tangent(rows, rows) - space.tangent(rows, rows)).norm(), 1e-13 * space.tangent.norm());
+  const double energy_gap =
+      energy(body, frame, {1, -9.81, 0}, plane).kinetic - energy(body, frame, {1, -9.81, 0}, space).kinetic;
+  EXPECT_LT(std::abs(energy_gap), 1e-12);
+  for (const ModalNode& node : model.modal_nodes) {
+    ModalNodeTerms a = make_terms(node), b = a;
+    NodeMotion in_plane, in_space;
+    update_node_in_plane(node, plane, frame, in_plane, a);
+    update_node(node, space, frame, in_space, b);
+    const std::vector<int> turned{0, 1, 5};
+    EXPECT_LT((a.T(turned, rows) - b.T(turned, rows)).norm(), 1e-14);
+    EXPECT_LT((a.bias - b.bias).norm(), 1e-12);
+    EXPECT_LT((a.E - b.E).norm() + std::abs(a.L(2, 2) - b.L(2, 2)), 1e-14);
+    EXPECT_LT((in_plane.x - in_space.x).norm() + (in_plane.R - in_space.R).norm(), 1e-14);
+    EXPECT_LT((in_plane.xd - in_space.xd).norm() + (in_plane.Omega - in_space.Omega).norm(), 1e-13);
+    EXPECT_LT((in_plane.xdd - in_space.xdd).norm() + (in_plane.Omegad - in_space.Omegad).norm(), 1e-12);
+  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "formats/tyres/tyre_property_file.hpp"
+#include "mechanism/tyres/tyre.hpp"
 #include "tests/support/reference_table.hpp"
 
 namespace tisserand::mechanism::magic_formula_test {
@@ -251,6 +252,22 @@ TEST(MagicFormula, RelaxationLengthsAreThoseOfTheFile) {
   const RelaxationLengths<double> by_file = relaxation_lengths(old, slipping(old.p.FNOMIN, 0.0, 0.0, 0.0));
   EXPECT_NEAR(by_file.along, 2.0 * old.p.UNLOADED_RADIUS * old.p.LSGKP, 1e-12);
   EXPECT_NEAR(by_file.across, 1.5 * std::sin(2.0 * std::atan(1.0)) * old.p.UNLOADED_RADIUS * old.p.LSGAL, 1e-12);
+}
+
+// Comprehensive slip has no shifts, the synthetic file has all of them (ply steer, conicity).
+TEST(MagicFormula, PullsSidewaysByItsShifts) {
+  Tyre tyre;
+  tyre.radius = 0.31;
+  tyre.stiffness = 190e3;
+  tyre.low_speed = 0.1;
+  for (const double relaxation : {0.0, 0.4}) {
+    tyre.relaxation = relaxation;
+    tyre.lag = relaxation > 0.0 ? 0 : -1;
+    tyre.law = ComprehensiveSlip{80e3, 60e3, 3e3, 1.0, 0.75};
+    EXPECT_EQ(sideways_share(tyre), 0.0);
+    tyre.law = law_of("synthetic_pac2002_all.tir");
+    EXPECT_GT(sideways_share(tyre), 1e-3);
+  }
 }
 
 }  // namespace
