@@ -314,7 +314,7 @@ void PlanarCheck::tyres() const {
     road(model_.roads[tyre.road], tyre, marker_position(tyre.wheel, wheel));
     if (const double sideways = sideways_share(tyre); !(sideways <= planar_share))
       leave(fmt::format("{} pulls sideways by {:.3g} of its load where it rolls straight", name, sideways),
-            "take the shifts out of its coefficients (LHY, LVY, LTR: 0)");
+            "scale its shifts to nothing (LHY, LVY, LVYKA, LVMX, LRES, LS: 0)");
   }
 }
 
@@ -383,12 +383,13 @@ struct Reduced {
 
 /// What `reduce` returns; says of which body it is where something leaves the plane.
 template <class Reduce>
-auto named(const std::string& kind, const std::string& name, const Construction& c, Reduce reduce) {
+auto named(const std::string& kind, const std::string& name, const Construction& c, const std::string& remedy,
+           Reduce reduce) {
   try {
     return reduce();
   } catch (const LeavesPlane& fault) {
     throw Error(fmt::format("effects: the scene is not planar: of {} '{}', {}", kind, name, fault.what),
-                c.scene.planar_at, "make the part symmetric to the plane, or give planar: off");
+                c.scene.planar_at, remedy + ", or give planar: off");
   }
 }
 
@@ -406,8 +407,8 @@ void make_superelements_planar(const std::vector<Eigen::Matrix3d>& axes, Constru
     while (at < made.size() && (made[at].from != use.body || (made[at].axes - own).cwiseAbs().maxCoeff() > same_axes))
       ++at;
     if (at == made.size()) {
-      bodies.push_back(
-          named("superelement", use.name, c, [&] { return planar_body(model.superelement_bodies[use.body], own); }));
+      bodies.push_back(named("superelement", use.name, c, "make the part symmetric to the plane",
+                             [&] { return planar_body(model.superelement_bodies[use.body], own); }));
       made.push_back({use.body, own});
     }
     use.body = static_cast<int>(at);
@@ -425,7 +426,9 @@ void make_modal_bodies_planar(const std::vector<Eigen::Matrix3d>& axes, Construc
     std::vector<ModalNode*> nodes;
     for (ModalNode& node : model.modal_nodes)
       if (node.body == i) nodes.push_back(&node);
-    named("modal body", body.name, c, [&] { make_planar(axes[body.node], model.length, body, nodes); });
+    named("modal body", body.name, c,
+          "make the part symmetric to the plane, use both modes of a pair of one frequency and damp them alike",
+          [&] { make_planar(axes[body.node], model.length, body, nodes); });
   }
 }
 

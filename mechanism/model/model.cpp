@@ -243,8 +243,11 @@ std::string coordinate_name(const Model& model, int coordinate) {
   }
   const int modal = coordinate - model.sizes.first_modal();
   for (const ModalBody& body : model.modal_bodies)
-    if (modal >= body.offset && modal < body.offset + body.modes)
-      return fmt::format("{}, mode {}", body.name, modal - body.offset + 1);
+    if (modal >= body.offset && modal < body.offset + body.modes) {
+      Eigen::Index mode = modal - body.offset;
+      if (body.is_planar()) body.lift.col(mode).cwiseAbs().maxCoeff(&mode);
+      return fmt::format("{}, mode {}", body.name, mode + 1);
+    }
   for (const Tyre& tyre : model.tyres)
     if (tyre.relaxes() && modal >= tyre.lag && modal < tyre.lag + 2)
       return fmt::format("{}, deflection of the tread {} it", tyre.name, modal == tyre.lag ? "along" : "across");

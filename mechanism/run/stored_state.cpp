@@ -59,12 +59,53 @@ std::size_t find_row(const formats::ResultsReader& reader, const std::string& fi
   return static_cast<std::size_t>(nearest - time.begin());
 }
 
+/// What a planar model would leave out of a stored instant, and where there is most of it.
+class LeftOut {
+ public:
+  explicit LeftOut(const Model& model) : model_(model) {}
+
+  void node(const std::string& name, const Vector3d& velocity, const Vector3d& omega, double height) {
+    fastest_ = std::max({fastest_, velocity.norm(), model_.length * omega.norm()});
+    raise(speed_, name, std::max(std::abs(velocity.z()), model_.length * omega.head<2>().norm()));
+    raise(height_, name, std::abs(height));
+  }
+  /// A length beside those of the model.
+  void deflection(const std::string& name, double size) { raise(height_, name, size); }
+
+  void require_nothing(const std::string& file) const {
+    const auto require = [&file](const Largest& one, const char* what, double size, const char* beside) {
+      if (one.size <= share * size) return;
+      throw Error(
+          fmt::format(
+              "holds a motion out of the plane of the scene: {} of '{}' is {:.3g} along the normal, beside {} of "
+              "{:.3g}",
+              what, one.name, one.size, beside, size),
+          file, "go on without planar: on");
+    };
+    require(speed_, "the velocity", fastest_, "a largest one");
+    require(height_, "the displacement", model_.length, "a size of the scene");
+  }
+
+ private:
+  static constexpr double share = 1e-6;  // above what runs in space drift by
+  struct Largest {
+    double size = 0.0;
+    std::string name;
+  };
+  static void raise(Largest& largest, const std::string& name, double size) {
+    if (size > largest.size) largest = {size, name};
+  }
+  const Model& model_;
+  double fastest_ = 0.0;
+  Largest speed_, height_;
+};
+
 /// The turn about z that R is but for round-off.
 Eigen::Quaterniond turn_in_plane(const Eigen::Quaterniond& R) {
   return Eigen::Quaterniond(R.w(), 0.0, 0.0, R.z()).normalized();
 }
 
-void read_nodes(const Model& model, const StoredRow& stored, State& state) {
+void read_nodes(const Model& model, const StoredRow& stored, State& state, LeftOut& left_out) {
   std::vector<bool> done(model.nodes.size(), false);
   for (const Place& place : model.places) {
     const auto i = static_cast<std::size_t>(place.marker.node);
@@ -84,8 +125,10 @@ void read_nodes(const Model& model, const StoredRow& stored, State& state) {
     }
     if (node.translation < 0) continue;
     const Vector3d arm = R * place.marker.p;
+    const double start = state.x()(2, column);
     state.x().col(column) = to_axes(model, stored.vector("nodes/position", place.name) - model.origin) - arm;
     const Vector3d velocity = to_axes(model, stored.vector("nodes/velocity", place.name)) - omega.cross(arm);
+    left_out.node(place.name, velocity, omega, state.x()(2, column) - start);
     set_translation(model, velocity, node.translation, state.v());
   }
 }
@@ -121,26 +164,30 @@ void read_superelements(const Model& model, const StoredRow& stored, State& stat
   }
 }
 
-void read_modal_bodies(const Model& model, const StoredRow& stored, State& state) {
+void read_modal_bodies(const Model& model, const StoredRow& stored, State& state, LeftOut& left_out) {
   for (const ModalBody& body : model.modal_bodies) {
     if (body.modes == 0) continue;
     std::vector<std::string> columns;
     for (int k = 0; k < body.modes_in_space(); ++k) columns.push_back(fmt::format("{}", k));
-    const auto own = [&](const std::string& dataset) {
+    const auto own = [&](const std::string& dataset, bool rates) -> VectorXd {
       VectorXd w = stored.read(dataset + body.name + "/", columns);
-      if (body.is_planar()) w = (body.lift.transpose() * w).eval();
-      return w;
+      if (!body.is_planar()) return w;
+      const VectorXd in_plane = body.lift.transpose() * w;
+      if (rates) return in_plane;  // nodes tell them
+      left_out.deflection(body.name, (w - body.lift * in_plane).cwiseAbs().maxCoeff() / std::sqrt(body.mass));
+      return in_plane;
     };
-    state.w().segment(body.offset, body.modes) = own("modal_bodies/w/");
-    state.v().segment(model.sizes.first_modal() + body.offset, body.modes) = own("modal_bodies/w_rate/");
+    state.w().segment(body.offset, body.modes) = own("modal_bodies/w/", false);
+    state.v().segment(model.sizes.first_modal() + body.offset, body.modes) = own("modal_bodies/w_rate/", true);
   }
 }
 
-void read_treads(const Model& model, const StoredRow& stored, State& state) {
+void read_treads(const Model& model, const StoredRow& stored, State& state, LeftOut& left_out) {
   for (const Tyre& tyre : model.tyres) {
     if (!tyre.relaxes()) continue;
     const std::vector<std::string> columns{tyre.name + "/x", tyre.name + "/y"};
     state.w().segment<2>(tyre.lag) = stored.read("tyres/deflection/", columns);
+    left_out.deflection(tyre.name, std::abs(state.w()[tyre.lag + 1]));
     state.v().segment<2>(model.sizes.first_modal() + tyre.lag) = stored.read("tyres/deflection_rate/", columns);
   }
 }
@@ -151,10 +198,12 @@ StoredSums read_stored_state(const Model& model, const std::string& file, const 
                              Workspace& workspace) {
   const formats::ResultsReader reader(file);
   const StoredRow stored{reader, find_row(reader, file, at)};
-  read_nodes(model, stored, state);
+  LeftOut left_out(model);
+  read_nodes(model, stored, state, left_out);
   read_superelements(model, stored, state);
-  read_modal_bodies(model, stored, state);
-  read_treads(model, stored, state);
+  read_modal_bodies(model, stored, state, left_out);
+  read_treads(model, stored, state, left_out);
+  if (model.planar) left_out.require_nothing(file);
   for (const Coordinate& coordinate : model.coordinates)
     if (coordinate.turn >= 0) state.hinges()[coordinate.turn] = stored.read("joints/coordinate/", {coordinate.name})[0];
   state.time() = state.load_time() = stored.reader.read_rows({"time"}, stored.row, 1)(0, 0);

@@ -135,6 +135,7 @@ formats::Scene in_its_plane(formats::Scene scene) {
   return scene;
 }
 formats::Scene planar_swing() { return in_its_plane(swing()); }
+formats::Scene planar_soft_rod() { return in_its_plane(soft_rod()); }
 formats::Scene planar_blade() {
   formats::Scene scene = blade();
   scene.gravity = {0, -9.81, 0};
@@ -175,6 +176,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Checkpoint,
                          ::testing::Values(Case{"swing", swing}, Case{"whip", whip},
                                            Case{"parallelogram", parallelogram}, Case{"soft_rod", soft_rod},
                                            Case{"blade", blade}, Case{"planar_swing", planar_swing},
+                                           Case{"planar_soft_rod", planar_soft_rod},
                                            Case{"planar_blade", planar_blade}),
                          [](const ::testing::TestParamInfo<Case>& given) { return given.param.name; });
 
@@ -229,6 +231,20 @@ std::string refusal(const formats::Scene& scene, const std::string& file, const 
     return error.what();
   }
   return "";
+}
+
+// A planar model has no coordinates for what a run in space has stored.
+TEST(CheckpointFile, AStoredInstantOutOfThePlaneIsRefused) {
+  TemporaryFolder folder;
+  formats::Scene bent = soft_rod();
+  bent.gravity.y() = 1.0;
+  static_cast<void>(simulate(request(bent, files(), folder.file("bent.results.h5")), {}));
+  static_cast<void>(simulate(request(soft_rod(), files(), folder.file("flat.results.h5")), {}));
+  formats::Scene planar = planar_soft_rod();
+  planar.integrator.end = 0.5;
+  EXPECT_THAT(refusal(planar, folder.file("bent.results.h5"), folder.file("b.results.h5")),
+              HasSubstr("out of the plane of the scene"));
+  EXPECT_EQ(refusal(planar, folder.file("flat.results.h5"), folder.file("c.results.h5")), "");
 }
 
 TEST(CheckpointFile, IsRefusedIfItIsNotOfThisSceneOrNotWhole) {

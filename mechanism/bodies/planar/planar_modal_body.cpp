@@ -143,8 +143,11 @@ void make_planar(const Matrix3d& axes, double reach, ModalBody& body, const std:
   require_nothing(body.P0.col(2).head<2>() - body.J_mu.col(2).head<2>(), inertia, "a product of inertia");
   const Split modes = split_modes(pulls_of(body, nodes, reach), body.stiffness, "mode");
   require_apart(body.P2, modes);
-  const MatrixXd damping = modes.in.transpose() * body.damping.asDiagonal() * modes.out;
-  require_nothing(damping, body.modes > 0 ? body.damping.maxCoeff() : 0.0, "its damping");
+  const double damping = body.modes > 0 ? body.damping.maxCoeff() : 0.0;
+  MatrixXd of_others = modes.in.transpose() * body.damping.asDiagonal() * modes.in;
+  of_others.diagonal().setZero();
+  require_nothing(of_others, damping, "its damping");
+  require_nothing(modes.in.transpose() * body.damping.asDiagonal() * modes.out, damping, "its damping");
   for (ModalNode* node : nodes) {
     node->Xd = (node->Xd * modes.in).eval();
     node->Xt = (node->Xt * modes.in).eval();
