@@ -69,8 +69,12 @@ class LeftOut {
     raise(speed_, name, std::max(std::abs(velocity.z()), model_.length * omega.head<2>().norm()));
     raise(height_, name, std::abs(height));
   }
-  /// A length beside those of the model.
+  /// A length and a velocity beside those of the nodes.
   void deflection(const std::string& name, double size) { raise(height_, name, size); }
+  void rate(const std::string& name, double size) {
+    fastest_ = std::max(fastest_, size);
+    raise(speed_, name, size);
+  }
 
   void require_nothing(const std::string& file) const {
     const auto require = [&file](const Largest& one, const char* what, double size, const char* beside) {
@@ -166,15 +170,15 @@ void read_superelements(const Model& model, const StoredRow& stored, State& stat
 
 void read_modal_bodies(const Model& model, const StoredRow& stored, State& state, LeftOut& left_out) {
   for (const ModalBody& body : model.modal_bodies) {
-    if (body.modes == 0) continue;
+    if (body.modes_in_space() == 0) continue;
     std::vector<std::string> columns;
     for (int k = 0; k < body.modes_in_space(); ++k) columns.push_back(fmt::format("{}", k));
     const auto own = [&](const std::string& dataset, bool rates) -> VectorXd {
       VectorXd w = stored.read(dataset + body.name + "/", columns);
       if (!body.is_planar()) return w;
       const VectorXd in_plane = body.lift.transpose() * w;
-      if (rates) return in_plane;  // nodes tell them
-      left_out.deflection(body.name, (w - body.lift * in_plane).cwiseAbs().maxCoeff() / std::sqrt(body.mass));
+      const double out = (w - body.lift * in_plane).cwiseAbs().maxCoeff() / std::sqrt(body.mass);
+      rates ? left_out.rate(body.name, out) : left_out.deflection(body.name, out);
       return in_plane;
     };
     state.w().segment(body.offset, body.modes) = own("modal_bodies/w/", false);
