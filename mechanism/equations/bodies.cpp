@@ -171,10 +171,13 @@ void add_tangents(const Model&, const Pool<RigidBody>& pool, TangentKind, Evalua
   }
 }
 
-void add_tangents(const Model&, const Pool<ModalBody>& pool, TangentKind, Evaluation& evaluation,
+void add_tangents(const Model& model, const Pool<ModalBody>& pool, TangentKind, Evaluation& evaluation,
                   const TangentTarget& target) {
   for (std::size_t i = 0; i < pool.size(); ++i) {
-    tangent(pool[i], target.coefficients, evaluation.modal_bodies[i]);
+    if (model.planar)
+      tangent_in_plane(pool[i], target.coefficients, evaluation.modal_bodies[i]);
+    else
+      tangent(pool[i], target.coefficients, evaluation.modal_bodies[i]);
     scatter_matrix(pool.maps[i], evaluation.modal_bodies[i].tangent, target.factor, target.values);
   }
 }

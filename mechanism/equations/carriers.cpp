@@ -12,20 +12,30 @@ using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+/// Columns of a carrier.
+Index width_of(const Model& model, int node) {
+  const int modal = modal_node(model, node);
+  return modal < 0 ? 6 : 6 + modal_body_of(model, modal).modes;
+}
+
 /// Calls visit(local column, first column, modal node, width) for each carrier.
 template <class Visit>
 void for_each_carrier(const Model& model, const ElementMap& map, Visit visit) {
   Index first = 0, local = 0;
   for (const int node : map.carriers) {
-    const int modal = modal_node(model, node);
-    const Index width = modal < 0 ? 6 : 6 + modal_body_of(model, modal).modes;
-    visit(local, first, modal, width);
+    const Index width = width_of(model, node);
+    visit(local, first, modal_node(model, node), width);
     local += 6;
     first += width;
   }
 }
 
 const ModalNodeTerms& terms_of(const Evaluation& evaluation, int modal) { return evaluation.modal_nodes[modal]; }
+
+/// Rows x, y, Θ of a column of T.
+Vector3d rows_in_plane(const Eigen::Matrix<double, 6, Eigen::Dynamic>& T, Index column) {
+  return {T(0, column), T(1, column), T(5, column)};
+}
 
 }  // namespace
 
@@ -128,6 +138,43 @@ void pushed_increment(const Model& model, const ElementMap& map, const Evaluatio
     increment = (T.leftCols<6>() * increment).eval();
     for (Index j = 6; j < width; ++j) increment += at(j) * T.col(j);
   });
+}
+
+PlanarVector pushed_in_plane(const Model& model, const ElementMap& map, const Evaluation& evaluation,
+                             const Eigen::VectorXd& d) {
+  if (map.carriers.empty()) return gather_in_plane(map, d);
+  PlanarVector local;
+  for_each_carrier(model, map, [&](Index six, Index first, int modal, Index width) {
+    const int* const at = map.coordinates.data() + first;
+    Vector3d own = Vector3d::Zero();
+    for (int c = 0; c < 3; ++c)
+      if (at[planar_columns[c]] >= 0) own[c] = d[at[planar_columns[c]]];
+    if (modal >= 0) {
+      const auto& T = terms_of(evaluation, modal).T;
+      own.head<2>() += T.col(5).head<2>() * own[2];
+      for (Index j = 6; j < width; ++j) own += rows_in_plane(T, j) * d[at[j]];
+    }
+    local.segment<3>(six / 2) = own;
+  });
+  return local;
+}
+
+void scatter_in_plane(const Model& model, const ElementMap& map, int carrier, const Vector3d& force,
+                      const Evaluation& evaluation, Eigen::VectorXd& result) {
+  if (map.carriers.empty()) {
+    scatter_in_plane(map, carrier, force, result);
+    return;
+  }
+  const int modal = modal_node(model, map.carriers[carrier / 3]);
+  const int* const at = map.coordinates.data() + (carrier == 0 ? 0 : width_of(model, map.carriers[0]));
+  Vector3d own = force;
+  if (modal >= 0) {
+    const auto& T = terms_of(evaluation, modal).T;
+    own[2] += T.col(5).head<2>().dot(force.head<2>());
+    for (Index j = 6; j < 6 + modal_body_of(model, modal).modes; ++j) result[at[j]] += rows_in_plane(T, j).dot(force);
+  }
+  for (int c = 0; c < 3; ++c)
+    if (at[planar_columns[c]] >= 0) result[at[planar_columns[c]]] += own[c];
 }
 
 void turn_columns(const Model& model, const ElementMap& map, const Evaluation& evaluation, CarrierMatrix& rows) {

@@ -1,11 +1,11 @@
 // Exponential of rotation vectors, and the rows of constraints.
 #include "mechanism/equations/increments.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "common/math/rotation.hpp"
 #include "mechanism/equations/carriers.hpp"
+#include "mechanism/frames/turn.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
@@ -21,21 +21,6 @@ Eigen::Quaterniond exp_quaternion(const Eigen::Vector3d& turn) {
   q.vec() = 0.5 * half.s * turn;
   return q;
 }
-
-/// cos and sin; by series of the small angles of steps, to round-off.
-struct Turn {
-  double c, s;
-  explicit Turn(double angle) {
-    const double a2 = angle * angle;
-    if (a2 > 0.01) {
-      c = std::cos(angle);
-      s = std::sin(angle);
-      return;
-    }
-    c = 1.0 + a2 * (-1.0 / 2 + a2 * (1.0 / 24 + a2 * (-1.0 / 720 + a2 * (1.0 / 40320))));
-    s = angle * (1.0 + a2 * (-1.0 / 6 + a2 * (1.0 / 120 + a2 * (-1.0 / 5040 + a2 * (1.0 / 362880)))));
-  }
-};
 
 /// Material increment T(θ) d of a node's rotation for an increment d of the rotation vector θ of the step.
 Eigen::Vector3d turn_increment(const Model& model, const Evaluation& evaluation, int node, const Eigen::Vector3d& d) {
@@ -66,8 +51,9 @@ void apply_jacobian(const Model& model, const Evaluation& evaluation, const Eige
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
     const ElementMap& map = model.joints.maps[i];
-    if (joint.planar && map.carriers.empty()) {
-      const Eigen::Vector3d product = rows_times_in_plane(joint, evaluation.joints[i], gather_in_plane(map, d));
+    if (joint.planar) {
+      const Eigen::Vector3d product =
+          rows_times_in_plane(joint, evaluation.joints[i], pushed_in_plane(model, map, evaluation, d));
       for (int k = 0; k < joint.size(); ++k) rows[joint.row + k] = product[k];
       continue;
     }
@@ -79,8 +65,15 @@ void apply_jacobian(const Model& model, const Evaluation& evaluation, const Eige
     double sum = 0.0;
     for (const CouplingTerm& term : coupling.terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
-      gather_local(model.coordinates.maps[at], model.coordinates[at]);
-      sum += term.factor * evaluation.coordinates[at].G.dot(local);
+      const ElementMap& map = model.coordinates.maps[at];
+      const Row12& G = evaluation.coordinates[at].G;
+      if (model.coordinates[at].planar) {
+        const PlanarVector own = pushed_in_plane(model, map, evaluation, d);
+        sum += term.factor * (in_plane(G, 0).dot(own.head<3>()) + in_plane(G, 3).dot(own.tail<3>()));
+        continue;
+      }
+      gather_local(map, model.coordinates[at]);
+      sum += term.factor * G.dot(local);
     }
     rows[coupling.row] = sum;
   }
@@ -101,10 +94,11 @@ void apply_transposed_jacobian(const Model& model, const Evaluation& evaluation,
     const Joint& joint = model.joints[i];
     const ElementMap& map = model.joints.maps[i];
     const double* own = mu.data() + joint.row;
-    if (joint.planar && map.carriers.empty()) {
+    if (joint.planar) {
       for (const auto& [marker, carrier] : {std::pair(&joint.a, 0), std::pair(&joint.b, 3)})
         if (marker->node >= 0)
-          scatter_in_plane(map, carrier, transposed_times_in_plane(joint, evaluation.joints[i], own, carrier), result);
+          scatter_in_plane(model, map, carrier, transposed_times_in_plane(joint, evaluation.joints[i], own, carrier),
+                           evaluation, result);
       continue;
     }
     add(map, transposed_times(joint, evaluation.joints[i], own));
@@ -112,7 +106,14 @@ void apply_transposed_jacobian(const Model& model, const Evaluation& evaluation,
   for (const Coupling& coupling : model.couplings)
     for (const CouplingTerm& term : coupling.terms) {
       const auto at = static_cast<std::size_t>(term.coordinate);
-      add(model.coordinates.maps[at], (term.factor * mu[coupling.row]) * evaluation.coordinates[at].G.transpose());
+      const ElementMap& map = model.coordinates.maps[at];
+      const double own = term.factor * mu[coupling.row];
+      const Row12& G = evaluation.coordinates[at].G;
+      if (model.coordinates[at].planar)
+        for (const int carrier : {0, 3})
+          scatter_in_plane(model, map, carrier, own * in_plane(G, carrier), evaluation, result);
+      else
+        add(map, own * G.transpose());
     }
 }
 
@@ -123,6 +124,7 @@ void retract(const Model& model, const State& from, const Eigen::Ref<const Eigen
   const auto Q0 = from.Q();
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
+    if (node.translation < 0 && node.rotation < 0) continue;
     const auto column = static_cast<Eigen::Index>(i);
     if (model.planar) {
       if (node.translation >= 0) {

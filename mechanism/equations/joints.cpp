@@ -25,17 +25,14 @@ PlanarVector velocity_in_plane(const MarkerPair& pair) {
   return v;
 }
 
-/// Whether the short way of planar joints serves: six coordinates that their carriers own.
-bool is_short(const Joint& joint, const ElementMap& map) { return joint.planar && map.carriers.empty(); }
-
 RelationTerms terms_of(const Coordinate& coordinate, const MarkerPair& pair) {
   return coordinate.planar ? evaluate_in_plane(coordinate.relation, pair) : evaluate(coordinate.relation, pair);
 }
 
 double rate_of(const Coordinate& coordinate, const Row12& G, const MarkerPair& pair) {
   if (!coordinate.planar) return G * velocity_of(pair);
-  return G[0] * pair.node_a.xd.x() + G[1] * pair.node_a.xd.y() + G[5] * pair.node_a.Omega.z() +
-         G[6] * pair.node_b.xd.x() + G[7] * pair.node_b.xd.y() + G[11] * pair.node_b.Omega.z();
+  const PlanarVector v = velocity_in_plane(pair);
+  return in_plane(G, 0).dot(v.head<3>()) + in_plane(G, 3).dot(v.tail<3>());
 }
 
 Row12 rate_gradient_of(const Coordinate& coordinate, const MarkerPair& pair) {
@@ -116,10 +113,10 @@ void add_constraint_rows(const Model& model, const Pair& item, const ElementMap&
 void add_along(const Model& model, std::size_t at, double Q, Evaluation& evaluation) {
   const ElementMap& map = model.coordinates.maps[at];
   const Row12& G = evaluation.coordinates[at].G;
-  if (model.coordinates[at].planar && map.carriers.empty()) {
+  if (model.coordinates[at].planar) {
     for (const int carrier : {0, 3}) {
-      const Vector3d force = Q * Vector3d(G[2 * carrier], G[2 * carrier + 1], G[2 * carrier + 5]);
-      scatter_in_plane(map, carrier, force, evaluation.residual);
+      const Vector3d force = Q * in_plane(G, carrier);
+      scatter_in_plane(model, map, carrier, force, evaluation, evaluation.residual);
       note_scale_in_plane(force, evaluation);
     }
     return;
@@ -186,11 +183,11 @@ void update_couplings(const Model& model, const State& state, Evaluation& evalua
 void add_joints(const Model& model, const State& state, Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const Joint& joint = model.joints[i];
-    if (is_short(joint, model.joints.maps[i])) {
+    if (joint.planar) {
       for (const int carrier : {0, 3}) {
         const Vector3d force =
             transposed_times_in_plane(joint, evaluation.joints[i], state.lambda().data() + joint.row, carrier);
-        scatter_in_plane(model.joints.maps[i], carrier, force, evaluation.residual);
+        scatter_in_plane(model, model.joints.maps[i], carrier, force, evaluation, evaluation.residual);
         note_scale_in_plane(force, evaluation);
       }
       continue;

@@ -80,6 +80,10 @@ RelationTerms evaluate(const Relation& relation, const MarkerPair& pair);
 
 /// The columns [x y θ] of both carriers that planar models have.
 constexpr std::array<int, 6> planar_columns{0, 1, 5, 6, 7, 11};
+/// Of a row those of the carrier whose columns begin there at `carrier`: 0 (A) or 3 (B).
+inline Eigen::Vector3d in_plane(const Row12& row, int carrier) {
+  return {row[planar_columns[carrier]], row[planar_columns[carrier + 1]], row[planar_columns[carrier + 2]]};
+}
 /// Whether the axes that the relation uses lie in the plane z = 0 of both carriers.
 bool has_planar_axes(const Relation& relation, const Marker& a, const Marker& b);
 /// Adds the moment across z, material axes, of a force `x` (world) that acts `height` along z from the carrier's

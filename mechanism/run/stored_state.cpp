@@ -140,17 +140,20 @@ void read_nodes(const Model& model, const StoredRow& stored, State& state, LeftO
   }
 }
 
-/// Canonical internal coordinates of those of the file.
+/// Canonical internal coordinates of those of the file: the body's, then those of the modes that it leaves out.
 VectorXd canonical(const SuperelementBody& body, const VectorXd& file) {
   VectorXd boundary(static_cast<Eigen::Index>(body.file.boundary_row.size())),
       internal(static_cast<Eigen::Index>(body.file.internal_row.size()));
   for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i) boundary[i] = file[body.file.boundary_row[i]];
   for (std::size_t k = 0; k < body.file.internal_row.size(); ++k) internal[k] = file[body.file.internal_row[k]];
   if (body.planar) boundary = (body.file.lift.transpose() * boundary).eval();
-  return body.file.modal_part.colPivHouseholderQr().solve(internal - body.file.static_part * boundary);
+  Eigen::MatrixXd Q(internal.size(), body.file.modal_part.cols() + body.file.left_out.cols());
+  Q.leftCols(body.file.modal_part.cols()) = body.file.modal_part;
+  if (body.planar) Q.rightCols(body.file.left_out.cols()) = body.file.left_out;
+  return Q.colPivHouseholderQr().solve(internal - body.file.static_part * boundary);
 }
 
-void read_superelements(const Model& model, const StoredRow& stored, State& state) {
+void read_superelements(const Model& model, const StoredRow& stored, State& state, LeftOut& left_out) {
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const SuperelementBody& body = body_of(model, i);
     const std::string& name = model.superelements[i].name;
@@ -161,13 +164,18 @@ void read_superelements(const Model& model, const StoredRow& stored, State& stat
       state.frames().col(i) =
           wxyz(turn_in_plane(Eigen::Quaterniond(model.axes).conjugate() * R * Eigen::Quaterniond(body.axes)));
     }
-    if (body.modes == 0) continue;
+    const Eigen::Index others = body.file.left_out.cols();
+    if (body.modes + others == 0) continue;
     std::vector<std::string> columns;
     for (Eigen::Index k = 0; k < file_coordinate_count(body); ++k) columns.push_back(fmt::format("{}", k));
     const int at = model.internal_offset[i];
-    state.y().segment(at, body.modes) = canonical(body, stored.read("superelements/y/" + name + "/", columns));
-    state.v().segment(model.sizes.boundary + at, body.modes) =
-        canonical(body, stored.read("superelements/y_rate/" + name + "/", columns));
+    const VectorXd eta = canonical(body, stored.read("superelements/y/" + name + "/", columns)),
+                   rate = canonical(body, stored.read("superelements/y_rate/" + name + "/", columns));
+    state.y().segment(at, body.modes) = eta.head(body.modes);
+    state.v().segment(model.sizes.boundary + at, body.modes) = rate.head(body.modes);
+    if (others == 0) continue;
+    left_out.deflection(name, eta.tail(others).cwiseAbs().maxCoeff() / std::sqrt(body.mass));
+    left_out.rate(name, rate.tail(others).cwiseAbs().maxCoeff() / std::sqrt(body.mass));
   }
 }
 
@@ -207,7 +215,7 @@ StoredSums read_stored_state(const Model& model, const std::string& file, const 
   const StoredRow stored{reader, find_row(reader, file, at)};
   LeftOut left_out(model);
   read_nodes(model, stored, state, left_out);
-  read_superelements(model, stored, state);
+  read_superelements(model, stored, state, left_out);
   read_modal_bodies(model, stored, state, left_out);
   read_treads(model, stored, state, left_out);
   if (model.planar) left_out.require_nothing(file);

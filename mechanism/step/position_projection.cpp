@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/model/node_coordinates.hpp"
@@ -51,31 +52,36 @@ void find_held(const Model& model, PositionProjection& projection) {
     if (std::abs(system.unknowns[i]) <= most_give * model.equation_scale[i]) projection.held[i] = 1.0;
 }
 
-/// B₀ᵀ μ₁, from the columns of the factored matrix.
-void apply_old_rows(const Model& model, PositionProjection& projection) {
+/// Where the matrix holds B₀ᵀ.
+std::vector<PositionProjection::Entry> entries_of_rows(const Model& model) {
   const SparsePattern& pattern = *model.pattern;
-  const std::vector<double>& values = projection.system->matrix.values;
-  projection.old.setZero();
+  std::vector<PositionProjection::Entry> entries;
   for (int row = 0; row < model.sizes.constraints; ++row) {
     const int column = model.sizes.boundary + row;
-    if (projection.expected[row] == 0.0) continue;
-    for (int at = pattern.column_start()[column]; at < pattern.column_start()[column + 1]; ++at) {
-      const int i = pattern.rows()[at];
-      if (i >= model.sizes.boundary) continue;
-      const int slot = pattern.slot(i, column);
-      projection.old[i] += values[slot] / model.value_scale[slot] * projection.expected[row];
-    }
+    for (int at = pattern.column_start()[column]; at < pattern.column_start()[column + 1]; ++at)
+      if (const int i = pattern.rows()[at]; i < model.sizes.boundary)
+        entries.push_back({pattern.slot(i, column), i, row, 0.0});
   }
+  return entries;
+}
+
+/// B₀ of the matrix that was made for the factors.
+void keep_rows(const Model& model, PositionProjection& projection) {
+  const std::vector<double>& values = projection.system->matrix.values;
+  for (PositionProjection::Entry& entry : projection.entries)
+    entry.value = values[entry.slot] / model.value_scale[entry.slot];
 }
 
 /// μ₁ for a step of this length: δ, and with it μ over the scale of the matrix, goes with the cube of the step.
-void expect(const Model& model, double step, PositionProjection& projection) {
+void expect(double step, PositionProjection& projection) {
   projection.taken = step;
   if (projection.expected_step == 0.0) return;
   const double ratio = step / projection.expected_step;
   if (ratio != 1.0) projection.expected *= ratio * ratio * ratio;
   projection.expected_step = step;
-  apply_old_rows(model, projection);
+  projection.old.setZero();
+  for (const PositionProjection::Entry& entry : projection.entries)
+    projection.old[entry.coordinate] += entry.value * projection.expected[entry.row];
 }
 
 /// What the direction of the middle of the step asks of the upper rows, besides what they have been given; B is taken
@@ -104,11 +110,12 @@ void PositionProjection::forget() {
 FactorReport prepare_projection(const Model& model, const State& state, const StepScheme& scheme,
                                 Evaluation& evaluation, PositionProjection& projection) {
   if (serves(projection, scheme.step)) {
-    expect(model, scheme.step, projection);
+    expect(scheme.step, projection);
     return {true, 1.0, -1, 1.0};
   }
   if (!projection.system) {
     projection.system.emplace(model);
+    projection.entries = entries_of_rows(model);
     projection.turns.setZero(model.sizes.boundary);
     projection.open.setZero(model.sizes.constraints);
     projection.closed.setZero(model.sizes.constraints);
@@ -124,8 +131,9 @@ FactorReport prepare_projection(const Model& model, const State& state, const St
   projection.age = 0.0;
   projection.elapsed = 0.0;
   if (!report.regular) return report;
+  keep_rows(model, projection);
   find_held(model, projection);
-  expect(model, scheme.step, projection);
+  expect(scheme.step, projection);
   return report;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "mechanism/equations/saddle_system.hpp"
 #include "mechanism/step/generalised_alpha.hpp"
@@ -20,7 +21,14 @@ struct PositionProjection {
   void forget();
   bool has_factors() const { return step > 0.0; }
 
+  /// Of B₀: its slot in the matrix, where it stands, and what it was when the factors were made.
+  struct Entry {
+    int slot, coordinate, row;
+    double value;
+  };
+
   std::optional<SaddleSystem> system;
+  std::vector<Entry> entries;
   Eigen::VectorXd turns;   ///< boundary: 1 for rotations of bodies with mass, else 0
   Eigen::VectorXd open;    ///< rows that are still to be closed
   Eigen::VectorXd closed;  ///< rows that the latest change closes

@@ -19,8 +19,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Constraint rows that repeat others are chosen at the poses of the scene, where they meet; they must be met after the
-/// switch as well, to this part of the characteristic length or in radians.
+/// Constraint rows that repeat others are chosen where the mechanism stands; they must be met after the switch as well,
+/// to this part of the characteristic length or in radians.
 constexpr double left_out_tolerance = 1e-6;
 /// Steps of the time of RigidProjection: of a vibration of a thousand steps per period T² K is still forty times M.
 constexpr double rigid_steps = 1e3;
@@ -144,8 +144,8 @@ std::optional<SwitchedModel> switch_model(const formats::Scene& scene, const Bod
   const Model& model = after->built.model;
   State& state = after->built.state;
   Workspace workspace(model);
-  const Mobility mobility = count_mobility(model, state, workspace.now);
   StateTransfer(before.model, model).apply(before.state, then, state);
+  const Mobility mobility = count_mobility(model, state, workspace.now);
   state.vdot().setZero();
   state.lambda().setZero();
   state.active().setOnes();

@@ -247,6 +247,46 @@ TEST(CheckpointFile, AStoredInstantOutOfThePlaneIsRefused) {
   EXPECT_EQ(refusal(planar, folder.file("flat.results.h5"), folder.file("c.results.h5")), "");
 }
 
+/// A beam held at both ends: its boundary rests, its internal modes vibrate.
+formats::Scene held_beam(const Vector3d& gravity) {
+  formats::Scene scene = test_support::empty_scene(0.001, 0.05);
+  scene.gravity = gravity;
+  scene.bodies.push_back(test_support::superelement_body("beam", "beam"));
+  scene.joints.push_back(joint("base", JointKind::fixed, "ground", "beam/base", Vector3d::Zero(), y));
+  scene.joints.push_back(joint("tip", JointKind::fixed, "ground", "beam/tip", {2, 0, 0}, y));
+  return scene;
+}
+
+TEST(CheckpointFile, AStoredModeOutOfThePlaneIsRefusedWhereAllNodesRest) {
+  TemporaryFolder folder;
+  static_cast<void>(simulate(request(held_beam({0, -9.81, -5}), files(), folder.file("bent.results.h5")), {}));
+  static_cast<void>(simulate(request(held_beam({0, -9.81, 0}), files(), folder.file("flat.results.h5")), {}));
+  formats::Scene planar = in_its_plane(held_beam({0, -9.81, 0}));
+  planar.integrator.end = 0.1;
+  EXPECT_THAT(refusal(planar, folder.file("bent.results.h5"), folder.file("b.results.h5")),
+              AllOf(HasSubstr("out of the plane of the scene"), HasSubstr("'beam'")));
+  EXPECT_EQ(refusal(planar, folder.file("flat.results.h5"), folder.file("c.results.h5")), "");
+}
+
+// All that moves moves out of the plane; but so slowly that it is round-off of rest.
+TEST(CheckpointFile, RoundOffOfRestIsNoMotionOutOfThePlane) {
+  TemporaryFolder folder;
+  const auto drifting = [](double velocity) {
+    formats::Scene scene = test_support::empty_scene(0.01, 0.1);
+    formats::RigidBodySpec body = test_support::rigid_body("body", 1.0, Vector3d::Zero(), {0.1, 0.1, 0.1});
+    body.start.velocity = {0, 0, velocity};
+    scene.bodies.push_back(body);
+    return scene;
+  };
+  static_cast<void>(simulate(request(drifting(1e-14), {}, folder.file("rest.results.h5")), {}));
+  static_cast<void>(simulate(request(drifting(1e-6), {}, folder.file("slow.results.h5")), {}));
+  formats::Scene planar = in_its_plane(drifting(0.0));
+  planar.integrator.end = 0.2;
+  EXPECT_EQ(refusal(planar, folder.file("rest.results.h5"), folder.file("b.results.h5"), {}), "");
+  EXPECT_THAT(refusal(planar, folder.file("slow.results.h5"), folder.file("c.results.h5"), {}),
+              HasSubstr("the velocity of 'body'"));
+}
+
 TEST(CheckpointFile, IsRefusedIfItIsNotOfThisSceneOrNotWhole) {
   TemporaryFolder folder;
   const BodyFiles list = files();

@@ -116,7 +116,7 @@ ModalScratch make_scratch(const ModalBody& body) {
   s.D.setZero();
   s.N.setZero(3, m);
   for (Eigen::VectorXd* modal : {&s.w, &s.wd, &s.wdd}) modal->setZero(m);
-  for (Eigen::VectorXd* blocks : {&s.S, &s.Sd, &s.Sdd}) blocks->setZero(9 * m);
+  for (Eigen::VectorXd* blocks : {&s.S, &s.Sd, &s.Sdd}) blocks->setZero(body.P1.size());
   s.r.setZero(6 + m);
   s.tangent.setZero(6 + m, 6 + m);
   return s;

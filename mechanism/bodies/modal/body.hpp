@@ -19,14 +19,16 @@ namespace tisserand::mechanism {
 /// modes; modes are mass-normalised, so w has the unit √mass length.
 struct ModalBody {
   std::string name;
-  int node = 0;                                       ///< the frame, at the centre of mass: r, A
-  int modes = 0;                                      ///< m
-  int offset = 0;                                     ///< of its w in State::w
-  double mass = 0.0;                                  ///< Σ m_k
-  Eigen::Vector3d c0 = Eigen::Vector3d::Zero();       ///< Σ m_k x_k
-  Eigen::Matrix3Xd C1;                                ///< Σ m_k Xd_k
-  Eigen::Matrix3d P0 = Eigen::Matrix3d::Zero();       ///< Σ m_k x_k x_kᵀ
-  Eigen::VectorXd P1;                                 ///< 9 m: Σ m_k x_k Xd_kjᵀ, column by column, for each j
+  int node = 0;                                  ///< the frame, at the centre of mass: r, A
+  int modes = 0;                                 ///< m
+  int offset = 0;                                ///< of its w in State::w
+  double mass = 0.0;                             ///< Σ m_k
+  Eigen::Vector3d c0 = Eigen::Vector3d::Zero();  ///< Σ m_k x_k
+  Eigen::Matrix3Xd C1;                           ///< Σ m_k Xd_k
+  Eigen::Matrix3d P0 = Eigen::Matrix3d::Zero();  ///< Σ m_k x_k x_kᵀ
+  /// 9 m: Σ m_k x_k Xd_kjᵀ, column by column, for each j. Of planar models 2 m: the traces of all, then their spins xy
+  /// − yx, all that a turn in the plane meets; so do P2, S, Sd and Sdd.
+  Eigen::VectorXd P1;
   Eigen::MatrixXd P2;                                 ///< 9 m x m: column i holds Σ m_k Xd_ki Xd_kjᵀ for each j
   Eigen::Matrix3d J_mu = Eigen::Matrix3d::Zero();     ///< Σ μ_k
   Eigen::Matrix3Xd N_mu;                              ///< Σ μ_k Xt_k
@@ -46,7 +48,7 @@ struct ModalScratch {
   Eigen::Vector3d c, cd;    ///< c0 + C1 w and its rate
   Eigen::Matrix3d A;        ///< of the frame
   Eigen::Matrix3d J;        ///< inertia about the frame's origin
-  Eigen::Matrix3d D;        ///< Σ ẇ_j S_j
+  Eigen::Matrix3d D;        ///< Σ ẇ_j S_j; of planar models D(0, 0) is its trace
   Eigen::Matrix3Xd N;       ///< coupling of ω and ẇ: vee(S_j) + N_mu_j
   Eigen::VectorXd w, wd, wdd;
   Eigen::VectorXd S, Sd, Sdd;  ///< 9 m: S_j = P1_j + Σ_i w_i P2_ij; Σ_i ẇ_i P2_ij; Σ_i ẅ_i P2_ij

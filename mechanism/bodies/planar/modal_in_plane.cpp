@@ -1,7 +1,7 @@
 // Two translations, one turn, modes.
 #include "mechanism/bodies/planar/modal_in_plane.hpp"
 
-#include <cmath>
+#include "mechanism/frames/turn.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -27,16 +27,69 @@ Vector2d sum_of(const Eigen::Matrix3Xd& C, const VectorXd& w) {
   return sum;
 }
 
-/// The four numbers of each 3 x 3 block that stay in the plane.
-constexpr int block_in_plane[] = {0, 1, 3, 4};
+double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// blocks += P2 w, of these numbers.
-void add_products(const Eigen::MatrixXd& P2, const VectorXd& w, VectorXd& blocks) {
+/// sums += P2 w.
+void add_products(const Eigen::MatrixXd& P2, const VectorXd& w, VectorXd& sums) {
   for (Index i = 0; i < w.size(); ++i) {
     const double* column = P2.col(i).data();
-    for (Index first = 0; first < blocks.size(); first += 9)
-      for (const int a : block_in_plane) blocks[first + a] += column[first + a] * w[i];
+    for (Index a = 0; a < sums.size(); ++a) sums[a] += column[a] * w[i];
   }
+}
+
+/// Rows and columns of translations, turn and modes of the tangent, [r · · · · ω ẇ].
+constexpr Index turning = 5, first_mode = 6;
+
+void add_mass(const ModalBody& body, double factor, ModalScratch& s) {
+  auto& K = s.tangent;
+  const auto couple = [&](Index column, const Vector2d& force) {
+    K.col(column).head<2>() += force;
+    K.row(column).head<2>() += force.transpose();
+  };
+  K(0, 0) += factor * body.mass;
+  K(1, 1) += factor * body.mass;
+  K(turning, turning) += factor * s.J(2, 2);
+  couple(turning, factor * turned(s.A, across(s.c.head<2>())));
+  for (Index j = 0; j < body.modes; ++j) {
+    K(first_mode + j, first_mode + j) += factor;
+    K(turning, first_mode + j) += factor * s.N(2, j);
+    K(first_mode + j, turning) += factor * s.N(2, j);
+    couple(first_mode + j, factor * turned(s.A, body.C1.col(j).head<2>()));
+  }
+}
+
+void add_damping(const ModalBody& body, double factor, ModalScratch& s) {
+  auto& K = s.tangent;
+  const Index m = body.modes;
+  const double om = s.om.z();
+  K.col(turning).head<2>() += 2.0 * factor * turned(s.A, across(s.cd.head<2>()) - om * s.c.head<2>());
+  K(turning, turning) += 2.0 * factor * s.D(0, 0);
+  for (Index j = 0; j < m; ++j) {
+    K.col(first_mode + j).head<2>() += 2.0 * factor * om * turned(s.A, across(body.C1.col(j).head<2>()));
+    K(turning, first_mode + j) += 2.0 * factor * om * s.S[j];
+    K(first_mode + j, turning) += 2.0 * factor * (s.Sd[m + j] - om * s.S[j]);
+  }
+  K.bottomRightCorner(m, m) += 2.0 * factor * om * body.P2.bottomRows(m);
+  K.diagonal().tail(m) += factor * body.damping;
+}
+
+void add_stiffness(const ModalBody& body, double factor, ModalScratch& s) {
+  auto& K = s.tangent;
+  const Index m = body.modes;
+  const double om = s.om.z(), omd = s.omd.z();
+  const Vector2d c = s.c.head<2>(), cd = s.cd.head<2>(), ga = s.ga.head<2>();
+  const Vector2d pulled = omd * across(c) + sum_of(body.C1, s.wdd) - om * om * c + 2.0 * om * across(cd);
+  K.col(turning).head<2>() += factor * turned(s.A, across(pulled));
+  K(turning, turning) -= factor * c.dot(ga);
+  for (Index i = 0; i < m; ++i) {
+    const Vector2d Ci = body.C1.col(i).head<2>();
+    const double pull = cross(Ci, ga);
+    K.col(first_mode + i).head<2>() += factor * turned(s.A, omd * across(Ci) - om * om * Ci);
+    K(turning, first_mode + i) += factor * (pull + 2.0 * s.S[i] * omd - s.Sdd[m + i] + 2.0 * s.Sd[i] * om);
+    K(first_mode + i, turning) += factor * pull;
+  }
+  K.bottomRightCorner(m, m) += factor * (omd * body.P2.bottomRows(m) - om * om * body.P2.topRows(m));
+  K.diagonal().tail(m) += factor * body.stiffness;
 }
 
 }  // namespace
@@ -58,33 +111,39 @@ void update_kinematics_in_plane(const ModalBody& body, const NodeMotion& frame, 
   add_products(body.P2, s.w, s.S);
   s.Sd.setZero();
   add_products(body.P2, s.wd, s.Sd);
-  double inertia = body.P0(0, 0) + body.P0(1, 1) + body.J_mu(2, 2);
-  for (const int k : {0, 1})
-    for (const int l : {0, 1}) s.D(k, l) = 0.0;
+  double inertia = body.P0(0, 0) + body.P0(1, 1) + body.J_mu(2, 2), rate = 0.0;
   for (Index j = 0; j < m; ++j) {
-    const double *S = s.S.data() + 9 * j, *P1 = body.P1.data() + 9 * j;
-    inertia += s.w[j] * (S[0] + P1[0] + S[4] + P1[4]);
-    for (const int k : {0, 1})
-      for (const int l : {0, 1}) s.D(k, l) += s.wd[j] * S[k + 3 * l];
-    s.N(2, j) = S[3] - S[1] + body.N_mu(2, j);
+    inertia += s.w[j] * (s.S[j] + body.P1[j]);
+    rate += s.wd[j] * s.S[j];
+    s.N(2, j) = s.S[m + j] + body.N_mu(2, j);
   }
   s.J(2, 2) = inertia;
+  s.D(0, 0) = rate;
 }
 
 void residual_in_plane(const ModalBody& body, ModalScratch& s) {
+  const Index m = body.modes;
   const double om = s.om.z(), omd = s.omd.z();
   const Vector2d c = s.c.head<2>(), cd = s.cd.head<2>(), ga = s.ga.head<2>();
   const Vector2d inner =
       body.mass * ga + omd * across(c) + sum_of(body.C1, s.wdd) - om * om * c + 2.0 * om * across(cd);
   s.r.head<2>() = turned(s.A, inner);
-  s.r[5] = c.x() * ga.y() - c.y() * ga.x() + s.J(2, 2) * omd + 2.0 * om * (s.D(0, 0) + s.D(1, 1));
-  for (Index j = 0; j < body.modes; ++j) {
-    const double *S = s.S.data() + 9 * j, *Sd = s.Sd.data() + 9 * j;
-    s.r[5] += s.N(2, j) * s.wdd[j];
-    s.r[6 + j] = body.C1(0, j) * ga.x() + body.C1(1, j) * ga.y() + s.N(2, j) * omd + s.wdd[j] -
-                 om * om * (S[0] + S[4]) + 2.0 * om * (Sd[3] - Sd[1]) + body.stiffness[j] * s.w[j] +
-                 body.damping[j] * s.wd[j];
+  s.r[turning] = cross(c, ga) + s.J(2, 2) * omd + 2.0 * om * s.D(0, 0);
+  for (Index j = 0; j < m; ++j) {
+    s.r[turning] += s.N(2, j) * s.wdd[j];
+    s.r[first_mode + j] = body.C1(0, j) * ga.x() + body.C1(1, j) * ga.y() + s.N(2, j) * omd + s.wdd[j] -
+                          om * om * s.S[j] + 2.0 * om * s.Sd[m + j] + body.stiffness[j] * s.w[j] +
+                          body.damping[j] * s.wd[j];
   }
+}
+
+void tangent_in_plane(const ModalBody& body, const TangentCoefficients& coefficients, ModalScratch& s) {
+  s.tangent.setZero();
+  s.Sdd.setZero();
+  add_products(body.P2, s.wdd, s.Sdd);
+  if (coefficients.mass != 0.0) add_mass(body, coefficients.mass, s);
+  if (coefficients.damping != 0.0) add_damping(body, coefficients.damping, s);
+  if (coefficients.stiffness != 0.0) add_stiffness(body, coefficients.stiffness, s);
 }
 
 void update_node_in_plane(const ModalNode& node, const ModalScratch& body, const NodeMotion& frame, NodeMotion& motion,
@@ -109,7 +168,7 @@ void update_node_in_plane(const ModalNode& node, const ModalScratch& body, const
   t.theta.z() = theta;
   t.rate.z() = rate;
   t.om.z() = om;
-  const double c = std::cos(theta), s = std::sin(theta);
+  const auto [c, s] = Turn(theta);
   t.E(0, 0) = t.E(1, 1) = c;
   t.E(0, 1) = -s;
   t.E(1, 0) = s;

@@ -14,6 +14,8 @@ void update_kinematics_in_plane(const ModalBody& body, const NodeMotion& frame, 
                                 const Eigen::Vector3d& gravity, ModalScratch& scratch);
 /// residual() of body.hpp.
 void residual_in_plane(const ModalBody& body, ModalScratch& scratch);
+/// tangent() of body.hpp.
+void tangent_in_plane(const ModalBody& body, const TangentCoefficients& coefficients, ModalScratch& scratch);
 
 /// update_node() of a node in the plane, x.z = 0.
 void update_node_in_plane(const ModalNode& node, const ModalScratch& body, const NodeMotion& frame, NodeMotion& motion,

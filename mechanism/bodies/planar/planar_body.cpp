@@ -269,6 +269,7 @@ void set_matrices(const SuperelementBody& body, const Matrix3d& axes, const Spli
   planar.file.lift = boundary.in;
   planar.file.static_part = body.file.static_part * boundary.in;
   planar.file.modal_part = body.file.modal_part * modes.in;
+  planar.file.left_out = body.file.modal_part * modes.out;
 }
 
 void set_nodes(const Matrix3d& axes, SuperelementBody& planar) {

@@ -115,6 +115,17 @@ void keep_modes(const MatrixXd& W, ModalBody& body) {
   body.lift = W;
 }
 
+/// Traces and spins of blocks (9 rows each, one below the other), all traces first.
+MatrixXd traces_and_spins(const MatrixXd& blocks) {
+  const Index m = blocks.rows() / 9;
+  MatrixXd out(2 * m, blocks.cols());
+  for (Index j = 0; j < m; ++j) {
+    out.row(j) = blocks.row(9 * j) + blocks.row(9 * j + 4);
+    out.row(m + j) = blocks.row(9 * j + 3) - blocks.row(9 * j + 1);
+  }
+  return out;
+}
+
 /// Makes exact what counts as zero.
 void clear_normal(ModalBody& body) {
   const auto clear = [](auto&& A) {
@@ -128,10 +139,8 @@ void clear_normal(ModalBody& body) {
   body.J_mu.setZero();
   body.J_mu(2, 2) = J;
   clear(body.P0);
-  for (Index j = 0; j < body.modes; ++j) {
-    clear(Block(body.P1.data() + 9 * j));
-    for (Index i = 0; i < body.modes; ++i) clear(Block(body.P2.col(i).data() + 9 * j));
-  }
+  body.P1 = traces_and_spins(body.P1);
+  body.P2 = traces_and_spins(body.P2);
 }
 
 }  // namespace

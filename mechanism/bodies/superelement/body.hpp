@@ -85,6 +85,7 @@ struct FileCoordinates {
   Eigen::MatrixXd static_part;    ///< −S_II⁻¹ S_IB
   Eigen::MatrixXd modal_part;     ///< Q, only the modes kept
   Eigen::MatrixXd lift;           ///< of planar bodies: boundary rows of the file by the boundary coordinates
+  Eigen::MatrixXd left_out;       ///< of planar bodies: Q of the modes out of the plane
 };
 
 /// A superelement in canonical form (S_BI = 0, M_II = 1, S_II diagonal and ascending) and in units of the scene: what

@@ -124,6 +124,16 @@ TEST(SwitchModel, KeepsLinearAndAngularMomentumForthAndBack) {
   EXPECT_GT((rigid - before).norm(), 0.0);  // and they were computed anew
 }
 
+/// What a clamped beam shows under a force across its tip, turned by `angle` at the clamp.
+VectorXd bent_by(double angle, const SuperelementBody& body) {
+  VectorXd load = VectorXd::Zero(body.boundary_size + body.modes);
+  load[body.node.back().translation_row + 1] = 1.0;
+  load[body.node.front().translation_row + 1] = -1.0;
+  load[body.node.front().rotation_row + 2] = -2.0;  // its length
+  const VectorXd y = Compliance(body).deformation(load);
+  return angle / std::abs(y[body.node.front().rotation_row + 2]) * y;
+}
+
 // A cantilever of second order bent by 1e-3 rad: its place on the clamp neither stretches it (half the square of that
 // angle would, by as much as a tenth of its bending energy) nor lets it vibrate: deformation and rate are as asked.
 TEST(SwitchModel, MovesBentBodiesAsRigidOnes) {
@@ -142,12 +152,7 @@ TEST(SwitchModel, MovesBentBodiesAsRigidOnes) {
   Simulation whole(scene, list);
   const SuperelementBody& body = body_of(whole.model(), 0);
   const Compliance compliance(body);
-  VectorXd load = VectorXd::Zero(body.boundary_size + body.modes);
-  load[body.node.back().translation_row + 1] = 1.0;
-  load[body.node.front().translation_row + 1] = -1.0;
-  load[body.node.front().rotation_row + 2] = -2.0;  // its length
-  VectorXd y = compliance.deformation(load);
-  y *= 1e-3 / std::abs(y[body.node.front().rotation_row + 2]);
+  const VectorXd y = bent_by(1e-3, body);
   const auto after = switch_model(scene, list, {run.model(), run.state()}, {"beam"}, {{"beam", {y, 20.0 * y}}});
   ASSERT_TRUE(after.has_value());
   Evaluation now(after->built.model);
@@ -159,6 +164,56 @@ TEST(SwitchModel, MovesBentBodiesAsRigidOnes) {
   ASSERT_GT(strain(y), 0.0);
   EXPECT_LT(strain(is.y - y), 1e-8 * strain(y));
   EXPECT_LT(strain(is.rate - 20.0 * y), 1e-8 * 400.0 * strain(y));
+}
+
+/// A parallelogram of rigid links with a beam on its coupler, in the pose where all links lie on one line: an equation
+/// repeats others there that it does not repeat elsewhere.
+formats::Scene stretched_parallelogram() {
+  formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
+  const Vector3d z = Vector3d::UnitZ();
+  const auto link = [&scene](const std::string& name, double x, double length, double speed, double omega) {
+    formats::RigidBodySpec body = test_support::rigid_body(name, 3.0, {0.5 * length, 0, 0}, {0.1, 0.5, 0.5});
+    body.start.pose.position = {x, 0, 0};
+    body.start.velocity = {0, speed, 0};
+    body.start.angular_velocity = {0, 0, omega};
+    scene.bodies.emplace_back(body);
+  };
+  link("left", 0, 1, 0, 2);
+  link("coupler", 1, 3, 2, 0);
+  link("right", 3, 1, 0, 2);
+  formats::SuperelementBodySpec beam = test_support::superelement_body("beam", "beam");
+  beam.start.pose.position = {2, 0, 0};
+  beam.start.velocity = {0, 2, 0};
+  scene.bodies.emplace_back(beam);
+  const auto add = [&](const std::string& name, JointKind kind, const std::string& a, const std::string& b, double x) {
+    scene.joints.push_back(test_support::joint(name, kind, a, b, {x, 0, 0}, z));
+  };
+  add("a", JointKind::revolute, "ground", "left", 0);
+  add("b", JointKind::revolute, "left", "coupler", 1);
+  add("c", JointKind::revolute, "coupler", "right", 4);
+  add("d", JointKind::revolute, "ground", "right", 3);
+  add("weld", JointKind::fixed, "coupler", "beam/base", 2);
+  return scene;
+}
+
+// Equations that repeat others at the start are not left out where they no longer do.
+TEST(SwitchModel, WakesBentWhereOtherEquationsRepeatThanAtTheStart) {
+  const formats::Scene scene = stretched_parallelogram();
+  Simulation run(with_flexibility(scene, "beam", false), files());
+  run.start();
+  run.run(0.2);
+  Simulation whole(scene, files());
+  const SuperelementBody& body = body_of(whole.model(), 0);
+  const VectorXd y = bent_by(0.01, body);
+  const auto after =
+      switch_model(scene, files(), {run.model(), run.state()}, {"beam"}, {{"beam", {y, VectorXd::Zero(y.size())}}});
+  ASSERT_TRUE(after.has_value());
+  Evaluation now(after->built.model);
+  evaluate(after->built.model, after->built.state, now);
+  EXPECT_LT(now.constraint.norm(), 1e-9);
+  const Compliance compliance(body);
+  const auto strain = [&](const VectorXd& of) { return compliance.strain_energy(compliance.without_rigid_motion(of)); };
+  EXPECT_LT(strain(deformation_of(after->built.model, 0, now).y - y), 1e-6 * strain(y));
 }
 
 // Two bodies in a ball joint of which one moves at 1: they share it as their masses ask, m1 v/(m1 + m2), though a
