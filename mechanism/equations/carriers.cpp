@@ -140,9 +140,8 @@ void pushed_increment(const Model& model, const ElementMap& map, const Evaluatio
   });
 }
 
-PlanarVector pushed_in_plane(const Model& model, const ElementMap& map, const Evaluation& evaluation,
-                             const Eigen::VectorXd& d) {
-  if (map.carriers.empty()) return gather_in_plane(map, d);
+PlanarVector pushed_through_carriers(const Model& model, const ElementMap& map, const Evaluation& evaluation,
+                                     const Eigen::VectorXd& d) {
   PlanarVector local;
   for_each_carrier(model, map, [&](Index six, Index first, int modal, Index width) {
     const int* const at = map.coordinates.data() + first;
@@ -159,12 +158,8 @@ PlanarVector pushed_in_plane(const Model& model, const ElementMap& map, const Ev
   return local;
 }
 
-void scatter_in_plane(const Model& model, const ElementMap& map, int carrier, const Vector3d& force,
-                      const Evaluation& evaluation, Eigen::VectorXd& result) {
-  if (map.carriers.empty()) {
-    scatter_in_plane(map, carrier, force, result);
-    return;
-  }
+void scatter_through_carrier(const Model& model, const ElementMap& map, int carrier, const Vector3d& force,
+                             const Evaluation& evaluation, Eigen::VectorXd& result) {
   const int modal = modal_node(model, map.carriers[carrier / 3]);
   const int* const at = map.coordinates.data() + (carrier == 0 ? 0 : width_of(model, map.carriers[0]));
   Vector3d own = force;

@@ -49,14 +49,26 @@ void carrier_bias(const Model& model, const ElementMap& map, const Evaluation& e
 void pushed_increment(const Model& model, const ElementMap& map, const Evaluation& evaluation, const Eigen::VectorXd& d,
                       double* local);
 
-// Of planar models, for all maps: three numbers per carrier, [x y Θ].
+// Of planar models: three numbers per carrier, [x y Θ].
 
-/// T d of two carriers, [x_A y_A Θ_A x_B y_B Θ_B].
-PlanarVector pushed_in_plane(const Model& model, const ElementMap& map, const Evaluation& evaluation,
-                             const Eigen::VectorXd& d);
-/// result += Tᵀ force of the carrier whose columns begin at `carrier`: 0 (A) or 3 (B).
-void scatter_in_plane(const Model& model, const ElementMap& map, int carrier, const Eigen::Vector3d& force,
-                      const Evaluation& evaluation, Eigen::VectorXd& result);
+PlanarVector pushed_through_carriers(const Model& model, const ElementMap& map, const Evaluation& evaluation,
+                                     const Eigen::VectorXd& d);
+void scatter_through_carrier(const Model& model, const ElementMap& map, int carrier, const Eigen::Vector3d& force,
+                             const Evaluation& evaluation, Eigen::VectorXd& result);
+
+/// T d of two carriers, [x_A y_A Θ_A x_B y_B Θ_B]; for all maps.
+inline PlanarVector pushed_in_plane(const Model& model, const ElementMap& map, const Evaluation& evaluation,
+                                    const Eigen::VectorXd& d) {
+  return map.carriers.empty() ? gather_in_plane(map, d) : pushed_through_carriers(model, map, evaluation, d);
+}
+/// result += Tᵀ force of the carrier whose columns begin at `carrier`: 0 (A) or 3 (B); for all maps.
+inline void scatter_in_plane(const Model& model, const ElementMap& map, int carrier, const Eigen::Vector3d& force,
+                             const Evaluation& evaluation, Eigen::VectorXd& result) {
+  if (map.carriers.empty())
+    scatter_in_plane(map, carrier, force, result);
+  else
+    scatter_through_carrier(model, map, carrier, force, evaluation, result);
+}
 
 /// Multiplies the columns of turns with T(displacement of the step): rows for increments of rotation vectors.
 void turn_columns(const Model& model, const ElementMap& map, const Evaluation& evaluation, CarrierMatrix& rows);
