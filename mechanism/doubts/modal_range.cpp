@@ -8,7 +8,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
-#include "mechanism/bodies/planar/modal_in_plane.hpp"
 #include "mechanism/equations/terms.hpp"
 
 namespace tisserand::mechanism {
@@ -154,19 +153,12 @@ double ModalRange::first_frequency(const Model& model, double from) const {
   const NodeMotion rest;
   const VectorXd zero = VectorXd::Zero(body.modes);
   ModalScratch scratch = make_scratch(body);
-  const ModalCoordinates undeformed{zero.data(), zero.data(), zero.data()};
-  const std::vector<int> across = body.is_planar() ? std::vector{2, 3, 4} : std::vector<int>{};
-  if (body.is_planar()) {
-    update_kinematics_in_plane(body, rest, undeformed, Vector3d::Zero(), scratch);
-    tangent_in_plane(body, {1.0, 0.0, 0.0}, scratch);
-  } else {
-    update_kinematics(body, rest, undeformed, Vector3d::Zero(), scratch);
-    tangent(body, {1.0, 0.0, 0.0}, scratch);
-  }
+  update_kinematics(body, rest, {zero.data(), zero.data(), zero.data()}, Vector3d::Zero(), scratch);
+  tangent(body, {1.0, 0.0, 0.0}, scratch);
   const int rows = held.size() == 1 ? 6 : 3;
   const auto of_nodes = rows * static_cast<Eigen::Index>(held.size());
-  MatrixXd G = MatrixXd::Zero(std::max<Eigen::Index>(1, of_nodes + static_cast<Eigen::Index>(across.size())), n);
-  for (std::size_t k = 0; k < across.size(); ++k) G(of_nodes + static_cast<Eigen::Index>(k), across[k]) = 1.0;
+  MatrixXd G = MatrixXd::Zero(of_nodes + 3, n);
+  if (body.planar) G.block<3, 3>(of_nodes, 2).setIdentity();  // nothing leaves the plane
   for (std::size_t i = 0; i < held.size(); ++i) {
     ModalNodeTerms terms = make_terms(model.modal_nodes[held[i]]);
     NodeMotion motion;

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mechanism/bodies/planar/modal_in_plane.hpp"
-
 namespace tisserand::mechanism {
 namespace {
 
@@ -120,14 +118,11 @@ void add_forces(const Model& model, const State&, const Pool<RigidBody>& pool, E
   }
 }
 
-void add_forces(const Model& model, const State&, const Pool<ModalBody>& pool, Evaluation& evaluation) {
+void add_forces(const Model&, const State&, const Pool<ModalBody>& pool, Evaluation& evaluation) {
   for (std::size_t i = 0; i < pool.size(); ++i) {
     const ModalBody& body = pool[i];
     ModalScratch& scratch = evaluation.modal_bodies[i];
-    if (model.planar)
-      residual_in_plane(body, scratch);
-    else
-      residual(body, scratch);
+    residual(body, scratch);
     scatter(pool.maps[i], scratch.r, evaluation.residual);
     note_scale(body, scratch, evaluation);
     evaluation.damping_power += body.damping.dot(scratch.wd.cwiseAbs2());
@@ -171,13 +166,10 @@ void add_tangents(const Model&, const Pool<RigidBody>& pool, TangentKind, Evalua
   }
 }
 
-void add_tangents(const Model& model, const Pool<ModalBody>& pool, TangentKind, Evaluation& evaluation,
+void add_tangents(const Model&, const Pool<ModalBody>& pool, TangentKind, Evaluation& evaluation,
                   const TangentTarget& target) {
   for (std::size_t i = 0; i < pool.size(); ++i) {
-    if (model.planar)
-      tangent_in_plane(pool[i], target.coefficients, evaluation.modal_bodies[i]);
-    else
-      tangent(pool[i], target.coefficients, evaluation.modal_bodies[i]);
+    tangent(pool[i], target.coefficients, evaluation.modal_bodies[i]);
     scatter_matrix(pool.maps[i], evaluation.modal_bodies[i].tangent, target.factor, target.values);
   }
 }

@@ -49,19 +49,20 @@ void carrier_bias(const Model& model, const ElementMap& map, const Evaluation& e
 void pushed_increment(const Model& model, const ElementMap& map, const Evaluation& evaluation, const Eigen::VectorXd& d,
                       double* local);
 
-// Of planar models: three numbers per carrier, [x y Θ].
-
+// Of planar models: three numbers per carrier, [x y Θ]. For maps that list carriers:
 PlanarVector pushed_through_carriers(const Model& model, const ElementMap& map, const Evaluation& evaluation,
                                      const Eigen::VectorXd& d);
 void scatter_through_carrier(const Model& model, const ElementMap& map, int carrier, const Eigen::Vector3d& force,
                              const Evaluation& evaluation, Eigen::VectorXd& result);
 
-/// T d of two carriers, [x_A y_A Θ_A x_B y_B Θ_B]; for all maps.
+// And for all maps.
+
+/// T d of two carriers, [x_A y_A Θ_A x_B y_B Θ_B].
 inline PlanarVector pushed_in_plane(const Model& model, const ElementMap& map, const Evaluation& evaluation,
                                     const Eigen::VectorXd& d) {
   return map.carriers.empty() ? gather_in_plane(map, d) : pushed_through_carriers(model, map, evaluation, d);
 }
-/// result += Tᵀ force of the carrier whose columns begin at `carrier`: 0 (A) or 3 (B); for all maps.
+/// result += Tᵀ force of the carrier whose columns begin at `carrier`: 0 (A) or 3 (B).
 inline void scatter_in_plane(const Model& model, const ElementMap& map, int carrier, const Eigen::Vector3d& force,
                              const Evaluation& evaluation, Eigen::VectorXd& result) {
   if (map.carriers.empty())

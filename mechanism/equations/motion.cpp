@@ -1,7 +1,7 @@
 // Stage motion: what nodes and modes do at a state.
 #include "mechanism/equations/terms.hpp"
 
-#include "mechanism/bodies/planar/modal_in_plane.hpp"
+#include "mechanism/bodies/modal/in_plane.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 
 namespace tisserand::mechanism {
@@ -70,10 +70,7 @@ void update_modal_bodies(const Model& model, const State& state, Evaluation& eva
     const NodeMotion& frame = motion_of(evaluation, body.node);
     const ModalCoordinates modes{state.w().data() + body.offset, state.v().data() + first, state.vdot().data() + first};
     const Eigen::Vector3d gravity = evaluation.load_factor * body.gravity;
-    if (model.planar)
-      update_kinematics_in_plane(body, frame, modes, gravity, evaluation.modal_bodies[i]);
-    else
-      update_kinematics(body, frame, modes, gravity, evaluation.modal_bodies[i]);
+    update_kinematics(body, frame, modes, gravity, evaluation.modal_bodies[i]);
   }
   for (std::size_t i = 0; i < model.modal_nodes.size(); ++i)
     if (model.modal_nodes[i].active) update_modal_node(model, i, evaluation);

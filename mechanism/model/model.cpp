@@ -245,7 +245,7 @@ std::string coordinate_name(const Model& model, int coordinate) {
   for (const ModalBody& body : model.modal_bodies)
     if (modal >= body.offset && modal < body.offset + body.modes) {
       Eigen::Index mode = modal - body.offset;
-      if (body.is_planar()) body.lift.col(mode).cwiseAbs().maxCoeff(&mode);
+      if (body.planar) body.lift.col(mode).cwiseAbs().maxCoeff(&mode);
       return fmt::format("{}, mode {}", body.name, mode + 1);
     }
   for (const Tyre& tyre : model.tyres)

@@ -275,7 +275,7 @@ void fill_bodies(const Model& model, const State& state, Evaluation& evaluation,
   int first = 0;
   for (const ModalBody& body : model.modal_bodies) {
     const auto fill = [&](const auto& own, auto&& in_space) {
-      if (body.is_planar())
+      if (body.planar)
         in_space = body.lift * own;
       else
         in_space = own;

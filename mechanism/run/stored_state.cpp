@@ -78,7 +78,7 @@ class LeftOut {
 
   void require_nothing(const std::string& file) const {
     const auto require = [&file](const Largest& one, const char* what, double size, const char* beside) {
-      if (one.size <= share * size) return;
+      if (one.size <= share * size) return;  // not where it is no number
       throw Error(
           fmt::format(
               "holds a motion out of the plane of the scene: {} of '{}' is {:.3g} along the normal, beside {} of "
@@ -88,7 +88,7 @@ class LeftOut {
     };
     // Of what has come to rest round-off is left: less than this of the scene's size within the step.
     constexpr double rest = 1e-12;
-    if (speed_.size * model_.motion_spacing > rest * model_.length)
+    if (!(speed_.size * model_.motion_spacing <= rest * model_.length))
       require(speed_, "the velocity", fastest_, "a largest one");
     require(height_, "the displacement", model_.length, "a size of the scene");
   }
@@ -99,8 +99,9 @@ class LeftOut {
     double size = 0.0;
     std::string name;
   };
+  /// What is no number stays the largest.
   static void raise(Largest& largest, const std::string& name, double size) {
-    if (size > largest.size) largest = {size, name};
+    if (!(size <= largest.size) && !std::isnan(largest.size)) largest = {size, name};
   }
   const Model& model_;
   double fastest_ = 0.0;
@@ -186,7 +187,7 @@ void read_modal_bodies(const Model& model, const StoredRow& stored, State& state
     for (int k = 0; k < body.modes_in_space(); ++k) columns.push_back(fmt::format("{}", k));
     const auto own = [&](const std::string& dataset, bool rates) -> VectorXd {
       VectorXd w = stored.read(dataset + body.name + "/", columns);
-      if (!body.is_planar()) return w;
+      if (!body.planar) return w;
       const VectorXd in_plane = body.lift.transpose() * w;
       const double out = (w - body.lift * in_plane).cwiseAbs().maxCoeff() / std::sqrt(body.mass);
       rates ? left_out.rate(body.name, out) : left_out.deflection(body.name, out);

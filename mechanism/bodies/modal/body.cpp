@@ -2,6 +2,7 @@
 #include "mechanism/bodies/modal/body.hpp"
 
 #include "common/math/rotation.hpp"
+#include "mechanism/bodies/modal/in_plane.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -124,6 +125,7 @@ ModalScratch make_scratch(const ModalBody& body) {
 
 void update_kinematics(const ModalBody& body, const NodeMotion& frame, const ModalCoordinates& modes,
                        const Vector3d& gravity, ModalScratch& s) {
+  if (body.planar) return update_kinematics_in_plane(body, frame, modes, gravity, s);
   const Index m = body.modes;
   s.A = frame.R;
   s.om = frame.Omega;
@@ -150,6 +152,7 @@ void update_kinematics(const ModalBody& body, const NodeMotion& frame, const Mod
 }
 
 void residual(const ModalBody& body, ModalScratch& s) {
+  if (body.planar) return residual_in_plane(body, s);
   const Index m = body.modes;
   const Vector3d inner = body.mass * s.ga + s.omd.cross(s.c) + body.C1.lazyProduct(s.wdd) +
                          s.om.cross(s.om.cross(s.c)) + 2.0 * s.om.cross(s.cd);
@@ -166,6 +169,7 @@ void residual(const ModalBody& body, ModalScratch& s) {
 }
 
 void tangent(const ModalBody& body, const TangentCoefficients& coefficients, ModalScratch& s) {
+  if (body.planar) return tangent_in_plane(body, coefficients, s);
   s.tangent.setZero();
   s.Sdd.noalias() = body.P2 * s.wdd;
   if (coefficients.mass != 0.0) add_mass(body, coefficients.mass, s);

@@ -113,6 +113,7 @@ void keep_modes(const MatrixXd& W, ModalBody& body) {
   body.damping = (W.transpose() * body.damping.asDiagonal() * W).diagonal().eval();
   body.modes = static_cast<int>(kept);
   body.lift = W;
+  body.planar = true;
 }
 
 /// Traces and spins of blocks (9 rows each, one below the other), all traces first.

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/QR>
 
-#include "mechanism/bodies/planar/modal_in_plane.hpp"
+#include "mechanism/bodies/modal/in_plane.hpp"
 #include "mechanism/bodies/planar/planar_modal_body.hpp"
 #include "mechanism/bodies/superelement/evaluate.hpp"
 #include "mechanism/build/build_model.hpp"
@@ -167,20 +167,20 @@ TEST(PlanarModalBody, MovesAsInSpace) {
   const VectorXd w = Vector3d(0.02, -0.03, 0.01), wd = Vector3d(0.5, 0.3, -0.7), wdd = Vector3d(-9.0, 4.0, 11.0);
   const VectorXd lifted = body.lift * w, lifted_d = body.lift * wd, lifted_dd = body.lift * wdd;
   ModalScratch plane = make_scratch(body), space = make_scratch(space_body);
-  update_kinematics_in_plane(body, frame, {w.data(), wd.data(), wdd.data()}, gravity, plane);
+  update_kinematics(body, frame, {w.data(), wd.data(), wdd.data()}, gravity, plane);
   update_kinematics(space_body, frame, {lifted.data(), lifted_d.data(), lifted_dd.data()}, gravity, space);
   // Coordinates of the plane among [r ω w] in space.
   MatrixXd E = MatrixXd::Zero(6 + space_body.modes, 6);
   for (const auto& [row, column] : {std::pair(0, 0), std::pair(1, 1), std::pair(5, 2)}) E(row, column) = 1.0;
   E.bottomRightCorner(space_body.modes, 3) = body.lift;
   const std::vector<int> rows{0, 1, 5, 6, 7, 8};
-  residual_in_plane(body, plane);
+  residual(body, plane);
   residual(space_body, space);
   EXPECT_LT((plane.r(rows) - E.transpose() * space.r).norm(), 1e-13 * space.r.norm());
   EXPECT_LT((E * plane.r(rows) - space.r).norm(), 1e-12 * space.r.norm());  // nothing out of the plane
   for (const TangentCoefficients& c : {TangentCoefficients{1, 0, 0}, TangentCoefficients{0, 1, 0},
                                        TangentCoefficients{0, 0, 1}, TangentCoefficients{1, 2, 3}}) {
-    tangent_in_plane(body, c, plane);
+    tangent(body, c, plane);
     tangent(space_body, c, space);
     const MatrixXd expected = E.transpose() * space.tangent * E;
     EXPECT_LT((plane.tangent(rows, rows) - expected).norm(), 1e-13 * expected.norm());

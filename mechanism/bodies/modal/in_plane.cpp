@@ -1,5 +1,5 @@
 // Two translations, one turn, modes.
-#include "mechanism/bodies/planar/modal_in_plane.hpp"
+#include "mechanism/bodies/modal/in_plane.hpp"
 
 #include "mechanism/frames/turn.hpp"
 
@@ -40,7 +40,7 @@ void add_products(const Eigen::MatrixXd& P2, const VectorXd& w, VectorXd& sums) 
 /// Rows and columns of translations, turn and modes of the tangent, [r · · · · ω ẇ].
 constexpr Index turning = 5, first_mode = 6;
 
-void add_mass(const ModalBody& body, double factor, ModalScratch& s) {
+void add_mass_in_plane(const ModalBody& body, double factor, ModalScratch& s) {
   auto& K = s.tangent;
   const auto couple = [&](Index column, const Vector2d& force) {
     K.col(column).head<2>() += force;
@@ -58,12 +58,12 @@ void add_mass(const ModalBody& body, double factor, ModalScratch& s) {
   }
 }
 
-void add_damping(const ModalBody& body, double factor, ModalScratch& s) {
+void add_damping_in_plane(const ModalBody& body, double factor, ModalScratch& s) {
   auto& K = s.tangent;
   const Index m = body.modes;
   const double om = s.om.z();
   K.col(turning).head<2>() += 2.0 * factor * turned(s.A, across(s.cd.head<2>()) - om * s.c.head<2>());
-  K(turning, turning) += 2.0 * factor * s.D(0, 0);
+  K(turning, turning) += 2.0 * factor * s.wd.dot(s.S.head(m));
   for (Index j = 0; j < m; ++j) {
     K.col(first_mode + j).head<2>() += 2.0 * factor * om * turned(s.A, across(body.C1.col(j).head<2>()));
     K(turning, first_mode + j) += 2.0 * factor * om * s.S[j];
@@ -73,7 +73,7 @@ void add_damping(const ModalBody& body, double factor, ModalScratch& s) {
   K.diagonal().tail(m) += factor * body.damping;
 }
 
-void add_stiffness(const ModalBody& body, double factor, ModalScratch& s) {
+void add_stiffness_in_plane(const ModalBody& body, double factor, ModalScratch& s) {
   auto& K = s.tangent;
   const Index m = body.modes;
   const double om = s.om.z(), omd = s.omd.z();
@@ -111,14 +111,12 @@ void update_kinematics_in_plane(const ModalBody& body, const NodeMotion& frame, 
   add_products(body.P2, s.w, s.S);
   s.Sd.setZero();
   add_products(body.P2, s.wd, s.Sd);
-  double inertia = body.P0(0, 0) + body.P0(1, 1) + body.J_mu(2, 2), rate = 0.0;
+  double inertia = body.P0(0, 0) + body.P0(1, 1) + body.J_mu(2, 2);
   for (Index j = 0; j < m; ++j) {
     inertia += s.w[j] * (s.S[j] + body.P1[j]);
-    rate += s.wd[j] * s.S[j];
     s.N(2, j) = s.S[m + j] + body.N_mu(2, j);
   }
   s.J(2, 2) = inertia;
-  s.D(0, 0) = rate;
 }
 
 void residual_in_plane(const ModalBody& body, ModalScratch& s) {
@@ -128,9 +126,9 @@ void residual_in_plane(const ModalBody& body, ModalScratch& s) {
   const Vector2d inner =
       body.mass * ga + omd * across(c) + sum_of(body.C1, s.wdd) - om * om * c + 2.0 * om * across(cd);
   s.r.head<2>() = turned(s.A, inner);
-  s.r[turning] = cross(c, ga) + s.J(2, 2) * omd + 2.0 * om * s.D(0, 0);
+  s.r[turning] = cross(c, ga) + s.J(2, 2) * omd;
   for (Index j = 0; j < m; ++j) {
-    s.r[turning] += s.N(2, j) * s.wdd[j];
+    s.r[turning] += s.N(2, j) * s.wdd[j] + 2.0 * om * s.wd[j] * s.S[j];
     s.r[first_mode + j] = body.C1(0, j) * ga.x() + body.C1(1, j) * ga.y() + s.N(2, j) * omd + s.wdd[j] -
                           om * om * s.S[j] + 2.0 * om * s.Sd[m + j] + body.stiffness[j] * s.w[j] +
                           body.damping[j] * s.wd[j];
@@ -141,9 +139,9 @@ void tangent_in_plane(const ModalBody& body, const TangentCoefficients& coeffici
   s.tangent.setZero();
   s.Sdd.setZero();
   add_products(body.P2, s.wdd, s.Sdd);
-  if (coefficients.mass != 0.0) add_mass(body, coefficients.mass, s);
-  if (coefficients.damping != 0.0) add_damping(body, coefficients.damping, s);
-  if (coefficients.stiffness != 0.0) add_stiffness(body, coefficients.stiffness, s);
+  if (coefficients.mass != 0.0) add_mass_in_plane(body, coefficients.mass, s);
+  if (coefficients.damping != 0.0) add_damping_in_plane(body, coefficients.damping, s);
+  if (coefficients.stiffness != 0.0) add_stiffness_in_plane(body, coefficients.stiffness, s);
 }
 
 void update_node_in_plane(const ModalNode& node, const ModalScratch& body, const NodeMotion& frame, NodeMotion& motion,

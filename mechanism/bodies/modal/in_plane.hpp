@@ -1,5 +1,5 @@
-// Modal bodies of planar models and their nodes: what bodies/modal computes where nothing leaves the plane, in a part
-// of its time. Rotations add up: T = 1, and what couples the axes of a turn is zero.
+// Modal bodies of planar models and their nodes: what body.hpp and node.hpp compute, of [GA00] (8), (12) and (16) what
+// is left where nothing leaves the plane. Rotations add up: T = 1, and what couples the axes of a turn is zero.
 #pragma once
 
 #include "mechanism/bodies/modal/node.hpp"
@@ -9,12 +9,10 @@ namespace tisserand::mechanism {
 // Of bodies of make_planar(). What leaves the plane stays in the scratch as make_scratch() and make_terms() leave it:
 // zero.
 
-/// update_kinematics() of body.hpp.
+/// For update_kinematics(), residual() and tangent() of body.hpp, which come here by themselves.
 void update_kinematics_in_plane(const ModalBody& body, const NodeMotion& frame, const ModalCoordinates& modes,
                                 const Eigen::Vector3d& gravity, ModalScratch& scratch);
-/// residual() of body.hpp.
 void residual_in_plane(const ModalBody& body, ModalScratch& scratch);
-/// tangent() of body.hpp.
 void tangent_in_plane(const ModalBody& body, const TangentCoefficients& coefficients, ModalScratch& scratch);
 
 /// update_node() of a node in the plane, x.z = 0.
