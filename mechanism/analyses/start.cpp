@@ -308,7 +308,7 @@ void begin(const Model& model, State& state, Workspace& workspace) {
   state.work() = state.dissipated() = 0.0;
   state.initial_energy() = evaluate_energy(model, workspace.now).total();
   state.load_power() = workspace.now.load_power;
-  state.damping_power() = workspace.now.damping_power;
+  state.damping_power() = damping_power(model, workspace.now);
   for (int k = 0; k < 3; ++k) state.force_scale(k) = workspace.now.force_scale[k];
   unwrap_hinges(model, workspace.now, state);
 }
@@ -336,7 +336,7 @@ void pass_breakpoint(const Model& model, const formats::Scene& scene, State& sta
   rebuild_algorithmic_acceleration(step, state);
   evaluate(model, state, workspace.now);
   state.load_power() = workspace.now.load_power;
-  state.damping_power() = workspace.now.damping_power;
+  state.damping_power() = damping_power(model, workspace.now);
 }
 
 }  // namespace tisserand::mechanism

@@ -31,6 +31,7 @@ constexpr double no_say = 1e30;
 bool bdf_available() { return true; }
 
 struct Bdf::Data {
+  const Model& model;
   State& state;
   Workspace& workspace;
   Index1 equations;
@@ -47,8 +48,8 @@ struct Bdf::Data {
   SUNLinearSolver linear = nullptr;
   void* cvode = nullptr;
 
-  Data(const formats::Scene& scene, const Model& model, State& s, Workspace& w)
-      : state(s), workspace(w), equations(scene, model, s, w), size(equations.layout().size() + 2) {}
+  Data(const formats::Scene& scene, const Model& m, State& s, Workspace& w)
+      : model(m), state(s), workspace(w), equations(scene, m, s, w), size(equations.layout().size() + 2) {}
   ~Data() {
     if (cvode) CVodeFree(&cvode);
     if (linear) SUNLinSolFree(linear);
@@ -109,7 +110,7 @@ struct BdfCallbacks {
       if (!data.equations.try_accelerate()) return 1;  // CVODE may try a shorter step
       data.equations.rates(values_of(y), values_of(ydot));
       values_of(ydot)[data.size - 2] = data.workspace.now.load_power;
-      values_of(ydot)[data.size - 1] = data.workspace.now.damping_power;
+      values_of(ydot)[data.size - 1] = damping_power(data.model, data.workspace.now);
       const bool finite = std::isfinite(data.state.vdot().sum()) && std::isfinite(data.workspace.now.load_power);
       return finite ? 0 : 1;
     });

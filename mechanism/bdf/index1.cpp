@@ -168,7 +168,7 @@ bool Index1::project_without_reactions() {
 void Index1::settle() {
   mechanism::settle(model_, workspace_.now, state_);
   state_.load_power() = workspace_.now.load_power;
-  state_.damping_power() = workspace_.now.damping_power;
+  state_.damping_power() = damping_power(model_, workspace_.now);
 }
 
 void Index1::tolerances(double* absolute) const {

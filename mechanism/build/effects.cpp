@@ -104,11 +104,6 @@ bool has_stops(const formats::SpringSpec& spring) { return spring.lower || sprin
 
 bool has_friction(const formats::JointSpec& joint) { return joint.friction.has_value(); }
 
-/// Whether a run can switch it while it moves: of superelements.
-bool is_switched_by_runs(const formats::BodySpec& body) {
-  return std::holds_alternative<formats::SuperelementBodySpec>(body);
-}
-
 std::string value_word(const formats::EffectSwitch& one) { return one.automatic ? "auto" : one.on ? "on" : "off"; }
 
 /// Friction of joints, stops of springs: what has it, and what gives it.
@@ -238,10 +233,6 @@ class SwitchCheck {
     if (share.kind == Share::Kind::none)
       throw Error(fmt::format("effects: body '{}' has no {} to switch {}", one.owner, word, value_word(one)), one.where,
                   share.remedy);
-    if (one.automatic && !is_switched_by_runs(*body))
-      throw Error(
-          fmt::format("effects: {} of modal body '{}' cannot be 'auto': runs switch superelements", word, one.owner),
-          one.where, "give it 'on' or 'off'");
   }
 
   void check_of_attachment(const formats::EffectSwitch& one) const {
@@ -321,7 +312,7 @@ std::vector<EffectUse> effects_of(const formats::Scene& scene, const BodyFiles& 
       const auto share = [&](const auto& spec) { return share_of(spec, effect, scene, files); };
       if (std::visit(share, body).kind == Share::Kind::term)
         uses.push_back({effect, body_name(body), switches.on(effect, body_name(body)),
-                        switches.automatic(effect, body_name(body)) && is_switched_by_runs(body)});
+                        switches.automatic(effect, body_name(body))});
     }
   }
   return uses;

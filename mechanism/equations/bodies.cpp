@@ -86,7 +86,7 @@ void add_forces(const Model& model, const State& state, const Pool<SuperelementU
     residual(body, scratch, gravity);
     scatter(pool.maps[i], scratch.forces.r_B, evaluation.residual);
     note_scale(body, scratch, evaluation);
-    if (body.damping.active) evaluation.damping_power += energy(body, scratch, gravity).damping_power;
+    if (body.damping.active) evaluation.damper_power += energy(body, scratch, gravity).damping_power;
     if (!body.load_cases.empty()) evaluation.load_power += load_power(body, scratch.motion, scratch.forces.loads);
   }
 }
@@ -125,7 +125,7 @@ void add_forces(const Model&, const State&, const Pool<ModalBody>& pool, Evaluat
     residual(body, scratch);
     scatter(pool.maps[i], scratch.r, evaluation.residual);
     note_scale(body, scratch, evaluation);
-    evaluation.damping_power += body.damping.dot(scratch.wd.cwiseAbs2());
+    evaluation.damper_power += body.damping.dot(scratch.wd.cwiseAbs2());
   }
 }
 

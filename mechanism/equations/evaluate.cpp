@@ -18,7 +18,7 @@ void forget_results([[maybe_unused]] Evaluation& evaluation) {
                                   &evaluation.active, &evaluation.residual})
     result->setConstant(unknown);
   evaluation.force_scale.fill(unknown);
-  evaluation.load_power = evaluation.damping_power = evaluation.spring_energy = unknown;
+  evaluation.load_power = evaluation.damper_power = evaluation.spring_energy = unknown;
 #endif
   evaluation.stage = Stage::nothing;
 }
@@ -26,7 +26,7 @@ void forget_results([[maybe_unused]] Evaluation& evaluation) {
 void clear_forces(Evaluation& evaluation) {
   evaluation.residual.setZero();
   evaluation.force_scale.fill(0.0);
-  evaluation.load_power = evaluation.damping_power = evaluation.spring_energy = 0.0;
+  evaluation.load_power = evaluation.damper_power = evaluation.spring_energy = 0.0;
 }
 
 }  // namespace
@@ -75,6 +75,11 @@ Energy evaluate_energy(const Model& model, const Evaluation& evaluation) {
   for_each_body_pool(model, [&](const auto& pool) { add_energy(model, pool, evaluation, sum); });
   sum.strain += evaluation.spring_energy;
   return sum;
+}
+
+double damping_power(const Model& model, const Evaluation& evaluation) {
+  require_stage(evaluation, Stage::forces);
+  return evaluation.damper_power + tyre_power(model, evaluation);
 }
 
 }  // namespace tisserand::mechanism

@@ -15,7 +15,7 @@ void evaluate_motion(const Model& model, const State& state, Evaluation& evaluat
 void evaluate_constraints(const Model& model, const State& state, Evaluation& evaluation);
 
 /// That, and r = G_iner + G_int + G_damp + Bᵀλ − F (boundary coordinates; internal ones stay in the superelements'
-/// scratch), the force scales and the powers of loads and damping; at a state that stands for itself.
+/// scratch), the force scales and the powers of loads and dampers; at a state that stands for itself.
 void evaluate(const Model& model, const State& state, Evaluation& evaluation);
 
 /// The same for a state that evaluation.displacement leads to from where the step began.
@@ -41,6 +41,9 @@ void evaluate_bias(const Model& model, Evaluation& evaluation);
 
 /// At the state of the last evaluate().
 Energy evaluate_energy(const Model& model, const Evaluation& evaluation);
+
+/// What dampers, friction and tyres take. At the state of the last evaluate().
+double damping_power(const Model& model, const Evaluation& evaluation);
 
 /// Moves each stored angle by less than half a turn to that at the last evaluate().
 void unwrap_hinges(const Model& model, const Evaluation& evaluation, State& state);

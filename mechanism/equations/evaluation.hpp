@@ -75,7 +75,7 @@ struct Evaluation {
   Eigen::VectorXd residual;              ///< r, boundary coordinates (uncondensed)
   std::array<double, 3> force_scale{};   ///< largest force, moment and internal force of any single term
   double load_power = 0.0;
-  double damping_power = 0.0;
+  double damper_power = 0.0;   ///< that is dissipated, but by tyres: damping_power()
   double spring_energy = 0.0;  ///< strain energy of springs, stops and bushings
 
   // On request.

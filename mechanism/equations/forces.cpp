@@ -36,7 +36,7 @@ void add_frictions(const Model& model, const State& state, Evaluation& evaluatio
     terms = evaluate(friction, loaded_joint(model, state, evaluation, friction));
     add_force(model, model.joints.maps[friction.joint], terms.force, evaluation);
     note_scale(terms.force, evaluation);
-    evaluation.damping_power += terms.power;
+    evaluation.damper_power += terms.power;
   }
 }
 
@@ -99,7 +99,7 @@ void add_bushings(const Model& model, Evaluation& evaluation) {
     add_force(model, model.bushings.maps[i], terms.force, evaluation);
     note_scale(terms.force, evaluation);
     evaluation.spring_energy += terms.energy;
-    evaluation.damping_power += terms.dissipated;
+    evaluation.damper_power += terms.dissipated;
     evaluation.load_power += terms.supplied;
   }
 }
@@ -123,8 +123,17 @@ void add_tyres(const Model& model, Evaluation& evaluation) {
     add_force(model, model.tyres.maps[i], tyre_residual(terms), evaluation);
     note_scale(terms.residual, evaluation);
     evaluation.spring_energy += terms.energy;
-    evaluation.damping_power += terms.dissipated;
   }
+}
+
+double tyre_power(const Model& model, const Evaluation& evaluation) {
+  double power = 0.0;
+  for (std::size_t i = 0; i < model.tyres.size(); ++i) {
+    const Tyre& tyre = model.tyres[i];
+    power +=
+        dissipated_power(tyre, model.roads[tyre.road], motion_of(evaluation, tyre.wheel.node), evaluation.tyres[i]);
+  }
+  return power;
 }
 
 void add_tyre_tangents(const Model& model, Evaluation& evaluation, const TangentTarget& target) {

@@ -215,7 +215,7 @@ void add_springs(const Model& model, const State& state, Evaluation& evaluation)
     const SpringForce f = spring_force(model.springs[i], c.value, c.rate, applied);
     add_along(model, at, -f.Q, evaluation);
     evaluation.spring_energy += f.energy;
-    evaluation.damping_power += f.dissipated;
+    evaluation.damper_power += f.dissipated;
     evaluation.load_power += applied * c.rate;
   }
 }

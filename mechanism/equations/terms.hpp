@@ -130,8 +130,10 @@ void update_part_loads(const Model& model, const State& state, Evaluation& evalu
 void add_part_loads(const Model& model, Evaluation& evaluation);
 /// Forces, energy and powers of bushings.
 void add_bushings(const Model& model, Evaluation& evaluation);
-/// Forces of tyres, the energy of their vertical springs, and what else they take as dissipated power.
+/// Forces of tyres and the energy of their vertical springs.
 void add_tyres(const Model& model, Evaluation& evaluation);
+/// What else they take.
+double tyre_power(const Model& model, const Evaluation& evaluation);
 
 /// Rows, columns and geometric stiffness of joints, of couplings and motions; tangents of springs, friction (also ∂r/∂λ
 /// beside Bᵀ), bushings, tyres, of part loads on rigid bodies, and of loads and spring forces by the channels (of part

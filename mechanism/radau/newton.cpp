@@ -152,7 +152,7 @@ void Newton::evaluate_stage(const Model& model, const State& begin, const StepEn
     turn_translations(model, turn.transpose(), row, f);
   });
   stages.load_power[stage] = evaluation.load_power;
-  stages.damping_power[stage] = evaluation.damping_power;
+  stages.damping_power[stage] = damping_power(model, evaluation);
 }
 
 void Newton::solve(const Model& model, const State& state, Stages& stages) {

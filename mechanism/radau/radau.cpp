@@ -151,7 +151,7 @@ void Radau::accept(State& state, Workspace& workspace, StepReport& report) {
   state.work() += integral(stages_, stages_.load_power, 1.0);
   state.dissipated() += integral(stages_, stages_.damping_power, 1.0);
   state.load_power() = now.load_power;
-  state.damping_power() = now.damping_power;
+  state.damping_power() = damping_power(model_, now);
   std::swap(stages_, last_);
   ++parts_age_;
 }

@@ -56,6 +56,19 @@ std::string undetermined_text(const std::vector<std::string>& names) {
 
 bool is_flexibility(const EffectUse& use) { return use.effect == formats::Effect::flexibility; }
 
+/// Whether what no node shows rests: internal coordinates of superelements, if there are any, and modes.
+bool rests_inside(const Model& model, std::size_t index, const State& state) {
+  const int modal = modal_body_of(model, index);
+  if (modal < 0) {
+    const int at = model.internal_offset[index], count = body_of(model, index).modes;
+    return count > 0 && state.y().segment(at, count).isZero(0.0) &&
+           state.v().segment(model.sizes.boundary + at, count).isZero(0.0);
+  }
+  const ModalBody& body = model.modal_bodies[modal];
+  return state.w().segment(body.offset, body.modes).isZero(0.0) &&
+         state.v().segment(model.sizes.first_modal() + body.offset, body.modes).isZero(0.0);
+}
+
 }  // namespace
 
 AutomaticEffects::AutomaticEffects(const formats::Scene& scene, const BodyFiles& files, std::vector<EffectUse> uses)
@@ -176,13 +189,10 @@ AutomaticEffects::Awake AutomaticEffects::all_but_undeformed() {
   Awake list(uses_.size(), true);
   evaluate(whole_.model, whole_state_, *whole_now_);
   const Model& model = whole_.model;
-  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    const int at = model.internal_offset[i], modes = body_of(model, i).modes;
-    const bool rests = whole_state_.y().segment(at, modes).isZero(0.0) &&
-                       whole_state_.v().segment(model.sizes.boundary + at, modes).isZero(0.0);
-    if (modes == 0 || !rests || demand_->bend(i, *whole_now_) > round_off * model.length) continue;
+  for (std::size_t i = 0; i < deforming_bodies(model); ++i) {
+    if (!rests_inside(model, i, whole_state_) || demand_->bend(i, *whole_now_) > round_off * model.length) continue;
     for (std::size_t k = 0; k < uses_.size(); ++k)
-      if (uses_[k].effect.owner == model.superelements[i].name) list[k] = false;
+      if (uses_[k].effect.owner == name_of(model, i)) list[k] = false;
   }
   for (std::size_t k = 0; k < uses_.size(); ++k)
     if (uses_[k].flexibility < 0 && !is_flexibility(uses_[k].effect)) list[k] = true;
@@ -235,8 +245,8 @@ void AutomaticEffects::restore(Run& run, const std::vector<double>& memory) {
 
 std::size_t AutomaticEffects::memory_size(const Model& whole) const {
   std::size_t rates = 0;
-  for (std::size_t i = 0; i < whole.superelements.size(); ++i)
-    rates += static_cast<std::size_t>(body_of(whole, i).boundary_size + body_of(whole, i).modes);
+  for (std::size_t i = 0; i < deforming_bodies(whole); ++i)
+    rates += static_cast<std::size_t>(deformation_size(whole, i));
   return 2 * uses_.size() + 3 + rates;
 }
 
@@ -323,8 +333,8 @@ bool AutomaticEffects::wake(Run& run) {
   Deformations bent;
   for (std::size_t k = 0; k < uses_.size(); ++k) {
     if (!is_flexibility(uses_[k].effect) || uses_[k].awake || !next[k]) continue;
-    const auto use = std::ranges::find(whole_.model.superelements, uses_[k].effect.owner, &SuperelementUse::name);
-    bent[use->name] = demand_->deformation(use - whole_.model.superelements.begin());
+    const std::string& name = uses_[k].effect.owner;
+    bent[name] = demand_->deformation(deforming_body(whole_.model, name));
   }
   const double time = run.built.state.time();
   bool woken = switch_to(next, bent, true, run);
@@ -379,8 +389,8 @@ std::vector<std::string> AutomaticEffects::slept_in_a_weld() const {
   std::vector<std::string> names;
   for (const Use& use : uses_) {
     if (!is_flexibility(use.effect) || use.changes.size() < (use.was_awake ? 1U : 2U)) continue;
-    const auto at = std::ranges::find(whole_.model.superelements, use.effect.owner, &SuperelementUse::name);
-    if (std::ranges::count(beam, beam[at - whole_.model.superelements.begin()]) > 1) names.push_back(use.effect.owner);
+    const std::size_t index = deforming_body(whole_.model, use.effect.owner);
+    if (index < beam.size() && std::ranges::count(beam, beam[index]) > 1) names.push_back(use.effect.owner);
   }
   return names;
 }

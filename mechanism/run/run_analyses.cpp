@@ -38,11 +38,12 @@ void blank(formats::AnalysisKind kind, formats::ResultsRow& row) {
 }
 
 /// Work of drives, loads and dampers by the trapezoidal rule over the step that has ended.
-void count_work(double size, State& state, const Workspace& workspace) {
+void count_work(const Model& model, double size, State& state, const Workspace& workspace) {
+  const double damping = damping_power(model, workspace.now);
   state.work() += 0.5 * size * (state.load_power() + workspace.now.load_power);
-  state.dissipated() += 0.5 * size * (state.damping_power() + workspace.now.damping_power);
+  state.dissipated() += 0.5 * size * (state.damping_power() + damping);
   state.load_power() = workspace.now.load_power;
-  state.damping_power() = workspace.now.damping_power;
+  state.damping_power() = damping;
 }
 
 /// Forces of the present motion, if the analysis asks for them.
@@ -104,7 +105,7 @@ void move_along(Run& run, RowWriter& out) {
     }
     ++report.steps;
     report.largest_constraint = std::max(report.largest_constraint, step.constraint * model.length);
-    count_work(state.time() - before, state, run.workspace);
+    count_work(model, state.time() - before, state, run.workspace);
     if (schedule.accept(state.time()).output) write_motion_row(run, step, state.time() - before, out);
     if (run.control.progress) run.control.progress(state.time());
     if (run.scene.analysis != formats::AnalysisKind::inverse_dynamics) continue;  // without forces

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mechanism/equations/evaluate.hpp"
 #include "mechanism/step/convergence.hpp"
 #include "mechanism/step/redundancy.hpp"
 #include "mechanism/step/step_control.hpp"
@@ -15,9 +16,10 @@ void accept(const Model& model, double step, const Evaluation& now, State& state
   settle(model, now, state);
   state.acceleration_scale() = std::max(state.acceleration_scale(), size_of(model, state.algorithmic()));
   state.work() += 0.5 * step * (state.load_power() + now.load_power);
-  state.dissipated() += 0.5 * step * (state.damping_power() + now.damping_power);
+  const double damping = damping_power(model, now);
+  state.dissipated() += 0.5 * step * (state.damping_power() + damping);
   state.load_power() = now.load_power;
-  state.damping_power() = now.damping_power;
+  state.damping_power() = damping;
 }
 
 }  // namespace

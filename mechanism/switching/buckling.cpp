@@ -20,7 +20,7 @@ MatrixXd stress_stiffness(const QuadraticForms& Gamma, const VectorXd& e, const 
 
 }  // namespace
 
-Buckling::Buckling(const SuperelementBody& body, const Compliance& compliance)
+Buckling::Buckling(const SuperelementBody& body, const SuperelementCompliance& compliance)
     : stiffening_(&*body.second_order.stiffening), W_(compliance.elastic_shapes()) {
   norms_.resize(stiffening_->L.rows());
   for (Eigen::Index a = 0; a < norms_.size(); ++a)

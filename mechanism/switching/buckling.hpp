@@ -11,7 +11,7 @@ namespace tisserand::mechanism {
 /// coordinates z, y = W z, WᵀS̄W = 1, without rigid motion.
 class Buckling {
  public:
-  Buckling(const SuperelementBody& body, const Compliance& compliance);
+  Buckling(const SuperelementBody& body, const SuperelementCompliance& compliance);
 
   /// p, the part of the load of buckling that the stress of y is, with free ends that do not turn with the chord
   /// (π² EI/l² of a straight beam): −λ for the lowest eigenvalue λ of Wᵀ K_σ W, K_σ = Σ (l_a·y) Γ_a ([SO] 3); 0 where

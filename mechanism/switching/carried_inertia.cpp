@@ -5,6 +5,7 @@
 
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
+#include "mechanism/switching/deformation.hpp"
 
 namespace tisserand::mechanism {
 
@@ -20,13 +21,20 @@ void CarriedInertia::set(const State& running, double step) {
             matrix_.factor(running_, running, {{1.0, 0.0, step * step}, TangentKind::step, {}}, now_).regular;
 }
 
-void CarriedInertia::add_velocity(std::size_t superelement, const VectorXd& rate, const Evaluation& now,
-                                  VectorXd& v) const {
-  const SuperelementBody& body = body_of(whole_, superelement);
-  const Eigen::Matrix3d& R0 = now.superelements[superelement].motion.R0;
+void CarriedInertia::add_velocity(std::size_t index, const VectorXd& rate, const Evaluation& now, VectorXd& v) const {
+  if (const int modal = modal_body_of(whole_, index); modal >= 0) {
+    const ModalBody& body = whole_.modal_bodies[modal];
+    const Node& frame = whole_.nodes[body.node];
+    v.segment<3>(frame.translation) += now.modal_bodies[modal].A * rate.head<3>();
+    v.segment<3>(frame.rotation) += rate.segment<3>(3);
+    v.segment(whole_.sizes.first_modal() + body.offset, body.modes) += rate.tail(body.modes);
+    return;
+  }
+  const SuperelementBody& body = body_of(whole_, index);
+  const Eigen::Matrix3d& R0 = now.superelements[index].motion.R0;
   for (std::size_t j = 0; j < body.node.size(); ++j) {
     const SuperelementNode& local = body.node[j];
-    const Node& node = whole_.nodes[whole_.superelements[superelement].nodes[j]];
+    const Node& node = whole_.nodes[whole_.superelements[index].nodes[j]];
     if (local.has_translation()) v.segment<3>(node.translation) += R0 * rate.segment<3>(local.translation_row);
     if (local.has_rotation()) v.segment<3>(node.rotation) += rate.segment<3>(local.rotation_row);
   }

@@ -21,14 +21,14 @@ class CarriedInertia {
   void set(const State& running, double step);
   /// Whether energies() knows them: the models have the same constraints, or the running one none.
   bool knows() const { return usable_ || running_.sizes.constraints == 0; }
-  /// T of each superelement of the whole model, at a state of it that was evaluated; rates: of each, empty ones rest.
+  /// T of each body of the whole model that deforms (deformation.hpp), at a state of it that was evaluated; rates: of
+  /// each, empty ones rest.
   /// Zero where the models have other constraints or nothing can be factored.
   std::vector<double> energies(const std::vector<Eigen::VectorXd>& rates, const Evaluation& whole);
 
  private:
-  /// The velocity of the nodes of a superelement, added to `v`.
-  void add_velocity(std::size_t superelement, const Eigen::VectorXd& rate, const Evaluation& now,
-                    Eigen::VectorXd& v) const;
+  /// The velocity of a body, added to `v`.
+  void add_velocity(std::size_t index, const Eigen::VectorXd& rate, const Evaluation& now, Eigen::VectorXd& v) const;
 
   const Model& running_;
   const Model& whole_;

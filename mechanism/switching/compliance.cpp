@@ -28,17 +28,17 @@ MatrixXd strained_shapes(const MatrixXd& S, const VectorXd& units) {
 
 }  // namespace
 
-Compliance::Compliance(const SuperelementBody& body)
+SuperelementCompliance::SuperelementCompliance(const SuperelementBody& body)
     : body_(body),
       strained_(strained_shapes(body.S_BB, coordinate_units(body).head(body.boundary_size))),
       inverse_(strained_ * strained_.transpose()),
       rigid_(rigid_columns(body)) {
   MatrixXd Phi_M(6, rigid_.rows());
-  for (int k = 0; k < 6; ++k) Phi_M.row(k) = mass(rigid_.col(k)).transpose();
+  for (int k = 0; k < 6; ++k) Phi_M.row(k) = SuperelementCompliance::mass(rigid_.col(k)).transpose();
   part_ = (Phi_M * rigid_).completeOrthogonalDecomposition().solve(Phi_M);
 }
 
-VectorXd Compliance::mass(const VectorXd& y) const {
+VectorXd SuperelementCompliance::mass(const VectorXd& y) const {
   const Eigen::Index nb = body_.boundary_size, m = body_.modes;
   VectorXd p(nb + m);
   p.head(nb) = body_.M_BB * y.head(nb) + body_.M_BI * y.tail(m);
@@ -46,7 +46,7 @@ VectorXd Compliance::mass(const VectorXd& y) const {
   return p;
 }
 
-VectorXd Compliance::stiffness(const VectorXd& y) const {
+VectorXd SuperelementCompliance::stiffness(const VectorXd& y) const {
   const Eigen::Index nb = body_.boundary_size, m = body_.modes;
   VectorXd f(nb + m);
   f.head(nb) = body_.S_BB * y.head(nb);
@@ -54,9 +54,9 @@ VectorXd Compliance::stiffness(const VectorXd& y) const {
   return f;
 }
 
-VectorXd Compliance::without_rigid_motion(const VectorXd& y) const { return y - rigid_ * (part_ * y); }
+VectorXd SuperelementCompliance::without_rigid_motion(const VectorXd& y) const { return y - rigid_ * (part_ * y); }
 
-MatrixXd Compliance::elastic_shapes() const {
+MatrixXd SuperelementCompliance::elastic_shapes() const {
   const Eigen::Index nb = body_.boundary_size, m = body_.modes, count = strained_.cols();
   MatrixXd W = MatrixXd::Zero(nb + m, count + m);
   W.topLeftCorner(nb, count) = strained_;
@@ -64,7 +64,7 @@ MatrixXd Compliance::elastic_shapes() const {
   return W - rigid_ * (part_ * W);
 }
 
-VectorXd Compliance::deformation(const VectorXd& load) const {
+VectorXd SuperelementCompliance::deformation(const VectorXd& load) const {
   const Eigen::Index nb = body_.boundary_size, m = body_.modes;
   VectorXd y(nb + m);
   y.head(nb) = inverse_ * load.head(nb);
@@ -72,7 +72,7 @@ VectorXd Compliance::deformation(const VectorXd& load) const {
   return without_rigid_motion(y);
 }
 
-double Compliance::displacement(const VectorXd& y) const {
+double SuperelementCompliance::displacement(const VectorXd& y) const {
   double largest = 2.0 * std::sqrt(kinetic_energy(y) / body_.mass);  // √2 √(yᵀ M̄ y / m)
   for (const int j : body_.translation_nodes) {
     const SuperelementNode& seen = body_.node[j];
@@ -88,7 +88,7 @@ double Compliance::displacement(const VectorXd& y) const {
   return largest;
 }
 
-double Compliance::force(const VectorXd& y) const {
+double SuperelementCompliance::force(const VectorXd& y) const {
   const Eigen::Index m = body_.modes;
   const VectorXd elastic = body_.S_BB * y.head(body_.boundary_size);
   const VectorXd inner = body_.M_BI * body_.S_II.cwiseProduct(y.tail(m));
@@ -100,7 +100,7 @@ double Compliance::force(const VectorXd& y) const {
   return largest;
 }
 
-double Compliance::inertia_force(const VectorXd& acceleration) const {
+double SuperelementCompliance::inertia_force(const VectorXd& acceleration) const {
   const VectorXd force = mass(without_rigid_motion(acceleration));
   double largest = 0.0;
   for (const int j : body_.translation_nodes)

@@ -1,6 +1,8 @@
 // Coordinates of the frame, one node after the other.
 #include "mechanism/switching/deformation.hpp"
 
+#include <algorithm>
+
 #include "common/math/rotation.hpp"
 #include "mechanism/bodies/superelement/kinematics.hpp"
 
@@ -28,46 +30,101 @@ Vector6d motion_of_frame(const SuperelementBody& body, const LocalMotion<double>
   return a;
 }
 
-}  // namespace
-
-Deformation deformation_of(const Model& model, std::size_t superelement, const Evaluation& now) {
-  const SuperelementBody& body = body_of(model, superelement);
-  LocalMotion<double> motion = now.superelements[superelement].motion;
-  deformation_rates(body, nodes_of(model, superelement, now), motion);
-  Deformation deformation{VectorXd(body.boundary_size + body.modes), VectorXd(body.boundary_size + body.modes)};
-  deformation.y << motion.y_B, motion.y_I;
-  deformation.rate << motion.deformation_rate_B, motion.rate_I;
-  return deformation;
-}
-
-FrameMotion frame_motion_of(const Model& model, std::size_t superelement, const Evaluation& now) {
-  const SuperelementBody& body = body_of(model, superelement);
-  const LocalMotion<double>& motion = now.superelements[superelement].motion;
-  Vector3d xd = Vector3d::Zero();
-  for (const int j : body.translation_nodes) xd += body.node[j].alpha * motion.node[j].xd;
-  return {motion.x0, motion.R0 * xd, motion.R0, motion.Omega0};
-}
-
-FrameMotion move_frame(const Model& model, std::size_t superelement, const Evaluation& undeformed,
-                       Deformation& deformation) {
-  const SuperelementBody& body = body_of(model, superelement);
-  const LocalMotion<double>& motion = undeformed.superelements[superelement].motion;
-  const Vector6d a = motion_of_frame(body, motion, deformation.y),
-                 rate = motion_of_frame(body, motion, deformation.rate);
-  const Eigen::MatrixXd rigid = rigid_columns(body);
-  deformation.y -= rigid * a;
-  deformation.rate -= rigid * rate;
-  const FrameMotion before = frame_motion_of(model, superelement, undeformed);
+/// Before a motion of the frame by a = [d; θ] in its axes and after it, where a has that rate.
+FrameMotion moved(const FrameMotion& before, const Vector6d& a, const Vector6d& rate) {
   const Vector3d d = a.head<3>(), theta = a.tail<3>();
   const Matrix3d turn = exp_so3<double>(theta);
   return {before.x + before.R * d, before.xd + before.R * (rate.head<3>() + before.Omega.cross(d)), before.R * turn,
           turn.transpose() * before.Omega + tangent_so3<double>(theta) * rate.tail<3>()};
 }
 
-void place_deformed(const Model& model, std::size_t superelement, const Deformation& deformation,
-                    const FrameMotion& frame, State& state) {
-  const SuperelementBody& body = body_of(model, superelement);
-  const SuperelementUse& use = model.superelements[superelement];
+void place_modal_body(const Model& model, const ModalBody& body, const Deformation& deformation,
+                      const FrameMotion& frame, State& state) {
+  const Node& node = model.nodes[body.node];
+  state.x().col(body.node) = frame.x;
+  state.Q().col(body.node) = wxyz(Eigen::Quaterniond(frame.R).normalized());
+  state.v().segment<3>(node.translation) = frame.xd;
+  state.v().segment<3>(node.rotation) = frame.Omega;
+  state.w().segment(body.offset, body.modes) = deformation.y.tail(body.modes);
+  state.v().segment(model.sizes.first_modal() + body.offset, body.modes) = deformation.rate.tail(body.modes);
+}
+
+}  // namespace
+
+const std::string& name_of(const Model& model, std::size_t index) {
+  const int modal = modal_body_of(model, index);
+  return modal < 0 ? model.superelements[index].name : model.modal_bodies[modal].name;
+}
+
+std::size_t deforming_body(const Model& model, const std::string& name) {
+  std::size_t index = 0;
+  while (index < deforming_bodies(model) && name_of(model, index) != name) ++index;
+  return index;
+}
+
+Eigen::Index deformation_size(const Model& model, std::size_t index) {
+  const int modal = modal_body_of(model, index);
+  if (modal >= 0) return 6 + model.modal_bodies[modal].modes;
+  return body_of(model, index).boundary_size + body_of(model, index).modes;
+}
+
+VectorXd y_of(const Model& model, std::size_t index, const Evaluation& now) {
+  VectorXd y = VectorXd::Zero(deformation_size(model, index));
+  if (const int modal = modal_body_of(model, index); modal >= 0)
+    y.tail(y.size() - 6) = now.modal_bodies[modal].w;
+  else
+    y << now.superelements[index].motion.y_B, now.superelements[index].motion.y_I;
+  return y;
+}
+
+Deformation deformation_of(const Model& model, std::size_t index, const Evaluation& now) {
+  Deformation deformation{y_of(model, index, now), VectorXd::Zero(deformation_size(model, index))};
+  if (const int modal = modal_body_of(model, index); modal >= 0) {
+    deformation.rate.tail(deformation.rate.size() - 6) = now.modal_bodies[modal].wd;
+    return deformation;
+  }
+  LocalMotion<double> motion = now.superelements[index].motion;
+  deformation_rates(body_of(model, index), nodes_of(model, index, now), motion);
+  deformation.rate << motion.deformation_rate_B, motion.rate_I;
+  return deformation;
+}
+
+FrameMotion frame_motion_of(const Model& model, std::size_t index, const Evaluation& now) {
+  if (const int modal = modal_body_of(model, index); modal >= 0) {
+    const NodeMotion& node = motion_of(now, model.modal_bodies[modal].node);
+    return {node.x, node.xd, node.R, node.Omega};
+  }
+  const SuperelementBody& body = body_of(model, index);
+  const LocalMotion<double>& motion = now.superelements[index].motion;
+  Vector3d xd = Vector3d::Zero();
+  for (const int j : body.translation_nodes) xd += body.node[j].alpha * motion.node[j].xd;
+  return {motion.x0, motion.R0 * xd, motion.R0, motion.Omega0};
+}
+
+FrameMotion move_frame(const Model& model, std::size_t index, const Evaluation& undeformed, Deformation& deformation) {
+  const FrameMotion before = frame_motion_of(model, index, undeformed);
+  if (modal_body_of(model, index) >= 0) {
+    const Vector6d a = deformation.y.head<6>(), rate = deformation.rate.head<6>();
+    deformation.y.head<6>().setZero();
+    deformation.rate.head<6>().setZero();
+    return moved(before, a, rate);
+  }
+  const SuperelementBody& body = body_of(model, index);
+  const LocalMotion<double>& motion = undeformed.superelements[index].motion;
+  const Vector6d a = motion_of_frame(body, motion, deformation.y),
+                 rate = motion_of_frame(body, motion, deformation.rate);
+  const Eigen::MatrixXd rigid = rigid_columns(body);
+  deformation.y -= rigid * a;
+  deformation.rate -= rigid * rate;
+  return moved(before, a, rate);
+}
+
+void place_deformed(const Model& model, std::size_t index, const Deformation& deformation, const FrameMotion& frame,
+                    State& state) {
+  if (const int modal = modal_body_of(model, index); modal >= 0)
+    return place_modal_body(model, model.modal_bodies[modal], deformation, frame, state);
+  const SuperelementBody& body = body_of(model, index);
+  const SuperelementUse& use = model.superelements[index];
   for (std::size_t j = 0; j < body.node.size(); ++j) {
     const SuperelementNode& local = body.node[j];
     const Node& node = model.nodes[use.nodes[j]];
@@ -85,7 +142,7 @@ void place_deformed(const Model& model, std::size_t superelement, const Deformat
       state.v().segment<3>(node.rotation) = E.transpose() * frame.Omega + tangent_so3<double>(psi) * rate;
     }
   }
-  const int at = model.internal_offset[superelement];
+  const int at = model.internal_offset[index];
   state.y().segment(at, body.modes) = deformation.y.tail(body.modes);
   state.v().segment(model.sizes.boundary + at, body.modes) = deformation.rate.tail(body.modes);
 }

@@ -26,20 +26,28 @@ double part(double value, double whole) { return value == 0.0 ? 0.0 : value / wh
 Demand::Demand(const Model& whole, const std::vector<EffectUse>& uses, double tolerance, double start)
     : whole_(whole),
       tolerance_(tolerance),
-      bodies_(whole.superelements.size()),
+      bodies_(deforming_bodies(whole)),
       place_(uses.size(), 0.0),
       force_(uses.size(), 0.0),
       start_(start) {
   for (std::size_t k = 0; k < uses.size(); ++k) {
-    const auto use = std::ranges::find(whole.superelements, uses[k].owner, &SuperelementUse::name);
-    TISSERAND_ENSURE(use != whole.superelements.end(), "no superelement '{}'", uses[k].owner);
-    Body& body = bodies_[use - whole.superelements.begin()];
+    const std::size_t index = deforming_body(whole, uses[k].owner);
+    TISSERAND_ENSURE(index < bodies_.size(), "no body '{}' that deforms", uses[k].owner);
+    Body& body = bodies_[index];
     (uses[k].effect == formats::Effect::flexibility ? body.flexibility : body.stiffening) = static_cast<int>(k);
-    const SuperelementBody& constants = whole.superelement_bodies[use->body];
-    body.compliance = &compliances_.try_emplace(use->body, constants).first->second;
-    if (constants.second_order.stiffening)
-      body.buckling = &buckling_.try_emplace(use->body, constants, *body.compliance).first->second;
+    if (const int modal = modal_body_of(whole, index); modal >= 0)
+      body.compliance = &modal_compliances_.try_emplace(modal, whole, static_cast<std::size_t>(modal)).first->second;
+    else
+      add_superelement(whole.superelements[index], body);
   }
+}
+
+void Demand::add_superelement(const SuperelementUse& use, Body& body) {
+  const SuperelementBody& constants = whole_.superelement_bodies[use.body];
+  const SuperelementCompliance& compliance = compliances_.try_emplace(use.body, constants).first->second;
+  body.compliance = &compliance;
+  if (constants.second_order.stiffening)
+    body.buckling = &buckling_.try_emplace(use.body, constants, compliance).first->second;
 }
 
 void Demand::begin_window() {
@@ -69,14 +77,20 @@ void Demand::forget() {
   for (Body& body : bodies_) body.seen = false;
 }
 
-/// What is left over at the nodes of a body that does not deform, in axes of its frame, which its nodes have.
-VectorXd Demand::load_of(std::size_t superelement, const Evaluation& now) const {
-  const SuperelementBody& body = body_of(whole_, superelement);
-  const SuperelementScratch& scratch = now.superelements[superelement];
-  VectorXd load(body.boundary_size + body.modes);
+/// What is left over at the nodes of a body that does not deform, in axes of its frame, which its nodes have; at its
+/// modes.
+VectorXd Demand::load_of(std::size_t index, const Evaluation& now) const {
+  VectorXd load = VectorXd::Zero(deformation_size(whole_, index));
+  if (const int modal = modal_body_of(whole_, index); modal >= 0) {
+    const ModalBody& body = whole_.modal_bodies[modal];
+    load.tail(body.modes) = -now.residual.segment(whole_.sizes.first_modal() + body.offset, body.modes);
+    return load;
+  }
+  const SuperelementBody& body = body_of(whole_, index);
+  const SuperelementScratch& scratch = now.superelements[index];
   for (std::size_t j = 0; j < body.node.size(); ++j) {
     const SuperelementNode& local = body.node[j];
-    const Node& node = whole_.nodes[whole_.superelements[superelement].nodes[j]];
+    const Node& node = whole_.nodes[whole_.superelements[index].nodes[j]];
     if (local.has_translation())
       load.segment<3>(local.translation_row) =
           -scratch.motion.R0.transpose() * now.residual.segment<3>(node.translation);
@@ -87,12 +101,10 @@ VectorXd Demand::load_of(std::size_t superelement, const Evaluation& now) const 
 }
 
 /// ρ of the header.
-double Demand::stiffening_share(std::size_t superelement, const Evaluation& now) const {
-  const LocalMotion<double>& motion = now.superelements[superelement].motion;
-  VectorXd y(motion.y_B.size() + motion.y_I.size());
-  y << motion.y_B, motion.y_I;
-  const double elastic = 2.0 * bodies_[superelement].compliance->strain_energy(y);
-  return part(std::abs(y.dot(now.superelements[superelement].forces.strain.force)), elastic);
+double Demand::stiffening_share(std::size_t index, const Evaluation& now) const {
+  const VectorXd y = y_of(whole_, index, now);
+  const double elastic = 2.0 * bodies_[index].compliance->strain_energy(y);
+  return part(std::abs(y.dot(now.superelements[index].forces.strain.force)), elastic);
 }
 
 double Demand::Change::frequency() const {
@@ -113,26 +125,33 @@ double Demand::Change::r2() const {
 }
 
 /// y of the header.
-VectorXd Demand::deformation_of(std::size_t superelement, const Evaluation& now, bool flexible) const {
-  const Compliance& compliance = *bodies_[superelement].compliance;
-  if (!flexible) return compliance.deformation(load_of(superelement, now));
-  const LocalMotion<double>& motion = now.superelements[superelement].motion;
-  VectorXd y(motion.y_B.size() + motion.y_I.size());
-  y << motion.y_B, motion.y_I;
-  return compliance.without_rigid_motion(y);
+VectorXd Demand::deformation_at(std::size_t index, const Evaluation& now, bool flexible) const {
+  const Compliance& compliance = *bodies_[index].compliance;
+  if (!flexible) return compliance.deformation(load_of(index, now));
+  return compliance.without_rigid_motion(y_of(whole_, index, now));
 }
 
-double Demand::bend(std::size_t superelement, const Evaluation& now) const {
-  const Compliance* compliance = bodies_[superelement].compliance;
-  return compliance == nullptr ? 0.0 : compliance->displacement(deformation_of(superelement, now, true));
+VectorXd Demand::acceleration_at(std::size_t index, const Evaluation& now) const {
+  VectorXd acceleration = VectorXd::Zero(deformation_size(whole_, index));
+  if (const int modal = modal_body_of(whole_, index); modal >= 0) {
+    acceleration.tail(whole_.modal_bodies[modal].modes) = now.modal_bodies[modal].wdd;
+    return acceleration;
+  }
+  const LocalMotion<double>& motion = now.superelements[index].motion;
+  acceleration << motion.acceleration_B, motion.acceleration_I;
+  return acceleration;
+}
+
+double Demand::bend(std::size_t index, const Evaluation& now) const {
+  const Compliance* compliance = bodies_[index].compliance;
+  return compliance == nullptr ? 0.0 : compliance->displacement(deformation_at(index, now, true));
 }
 
 std::vector<double> Demand::rates() const {
   std::vector<double> list;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const SuperelementBody& body = body_of(whole_, i);
     VectorXd rate = bodies_[i].rate;
-    if (rate.size() == 0) rate.setZero(body.boundary_size + body.modes);
+    if (rate.size() == 0) rate.setZero(deformation_size(whole_, i));
     list.insert(list.end(), rate.begin(), rate.end());
   }
   return list;
@@ -141,14 +160,14 @@ std::vector<double> Demand::rates() const {
 void Demand::set_rates(const std::vector<double>& rates) {
   const double* at = rates.data();
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const int size = body_of(whole_, i).boundary_size + body_of(whole_, i).modes;
+    const Eigen::Index size = deformation_size(whole_, i);
     bodies_[i].rate = Eigen::Map<const VectorXd>(at, size);
     at += size;
   }
 }
 
-Deformation Demand::deformation(std::size_t superelement) const {
-  const Body& body = bodies_[superelement];
+Deformation Demand::deformation(std::size_t index) const {
+  const Body& body = bodies_[index];
   const VectorXd &y = body.y, &before = body.before, &after = body.after;
   if (after.size() == 0) return {y, before};
   const VectorXd mean = 0.5 * (before + after);
@@ -235,19 +254,15 @@ void Demand::sample_stress(Body& body, bool flexible) {
   if (flexible) note(body.stiffening, demand, 0.0);
 }
 
-void Demand::note_body(std::size_t superelement, const Evaluation& now, bool flexible) {
-  Body& body = bodies_[superelement];
-  const LocalMotion<double>& motion = now.superelements[superelement].motion;
+void Demand::note_body(std::size_t index, const Evaluation& now, bool flexible) {
+  Body& body = bodies_[index];
   const double u = part(body.u, tolerance_ * whole_.length);
-  if (flexible) {
-    VectorXd acceleration(body.y.size());
-    acceleration << motion.acceleration_B, motion.acceleration_I;
-    note(body.flexibility, u, body.compliance->inertia_force(acceleration));
-  } else {
+  if (flexible)
+    note(body.flexibility, u, body.compliance->inertia_force(acceleration_at(index, now)));
+  else
     note_asleep(body);
-  }
   if (body.stiffening >= 0 && flexible) {
-    const double share = stiffening_share(superelement, now);
+    const double share = stiffening_share(index, now);
     note(body.stiffening, share * u, share * body.f);
   }
   sample_stress(body, flexible);
@@ -263,7 +278,7 @@ void Demand::sample(const State& state, const Evaluation& now, const std::vector
     Body& body = bodies_[i];
     if (body.compliance == nullptr) continue;
     body.asleep = body.flexibility >= 0 && !awake[body.flexibility];
-    move_on(body, deformation_of(i, now, !body.asleep), state.time());
+    move_on(body, deformation_at(i, now, !body.asleep), state.time());
   }
   add_carried(now, inertia);
   for (std::size_t i = 0; i < bodies_.size(); ++i)

@@ -25,15 +25,16 @@ constexpr double left_out_tolerance = 1e-6;
 /// Steps of the time of RigidProjection: of a vibration of a thousand steps per period T² K is still forty times M.
 constexpr double rigid_steps = 1e3;
 
-/// Deformations of all superelements, of which some begin with a given one, and their nodes as they were placed.
+/// Deformations of all bodies that deform, of which some begin with a given one, and their coordinates as they were
+/// placed.
 class KeptDeformations {
  public:
   KeptDeformations(const Model& model, const Deformations& given, State& state, Evaluation& now)
       : model_(model), placed_(state) {
     evaluate(model, state, now);
-    for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    for (std::size_t i = 0; i < deforming_bodies(model); ++i) {
       list_.push_back(deformation_of(model, i, now));
-      const auto found = given.find(model.superelements[i].name);
+      const auto found = given.find(name_of(model, i));
       if (found == given.end()) continue;
       list_[i] = found->second;
       const FrameMotion frame = move_frame(model, i, now, list_[i]);
@@ -67,13 +68,23 @@ class KeptDeformations {
     return any;
   }
 
-  bool has_moved(std::size_t superelement, const State& state) const {
-    return std::ranges::any_of(model_.superelements[superelement].nodes, [&](int node) {
-      const Node& of = model_.nodes[node];
-      return state.x().col(node) != placed_.x().col(node) || state.Q().col(node) != placed_.Q().col(node) ||
-             (of.translation >= 0 && state.v().segment<3>(of.translation) != placed_.v().segment<3>(of.translation)) ||
-             (of.rotation >= 0 && state.v().segment<3>(of.rotation) != placed_.v().segment<3>(of.rotation));
-    });
+  bool has_moved(std::size_t index, const State& state) const {
+    const int modal = modal_body_of(model_, index);
+    if (modal < 0)
+      return std::ranges::any_of(model_.superelements[index].nodes,
+                                 [&](int node) { return node_has_moved(node, state); });
+    const ModalBody& body = model_.modal_bodies[modal];
+    const int rate = model_.sizes.first_modal() + body.offset;
+    return node_has_moved(body.node, state) ||
+           state.w().segment(body.offset, body.modes) != placed_.w().segment(body.offset, body.modes) ||
+           state.v().segment(rate, body.modes) != placed_.v().segment(rate, body.modes);
+  }
+
+  bool node_has_moved(int node, const State& state) const {
+    const Node& of = model_.nodes[node];
+    return state.x().col(node) != placed_.x().col(node) || state.Q().col(node) != placed_.Q().col(node) ||
+           (of.translation >= 0 && state.v().segment<3>(of.translation) != placed_.v().segment<3>(of.translation)) ||
+           (of.rotation >= 0 && state.v().segment<3>(of.rotation) != placed_.v().segment<3>(of.rotation));
   }
 
   const Model& model_;

@@ -8,6 +8,7 @@
 #include <Eigen/Cholesky>
 
 #include "common/error.hpp"
+#include "common/math/rotation.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 
@@ -44,6 +45,21 @@ NodeMotion rigid_motion(const SuperelementBody& body, const SuperelementScratch&
   result.Omega = V.tail<3>();
   result.xd = motion.R0 * (V.head<3>() + result.Omega.cross(body.center_of_mass));
   return result;
+}
+
+/// [Aᵀ ẋ; Ω] with which a body of fewer modes has the momenta of the one that `scratch` knows where it was evaluated:
+/// m v + Ω × c + ċ and c × v + J Ω + N ẇ. `there`: the other one, with its w, that and its rate at rest.
+Eigen::Matrix<double, 6, 1> velocity_of_momenta(const ModalBody& body, const ModalScratch& scratch,
+                                                const ModalScratch& there, const Vector3d& velocity) {
+  const Vector3d p = body.mass * velocity + scratch.om.cross(scratch.c) + scratch.cd - there.cd;
+  const Vector3d h = scratch.c.cross(velocity) + scratch.J * scratch.om + scratch.N * scratch.wd - there.N * there.wd;
+  const Matrix3d lever = skew<double>(there.c), J = there.J + lever * lever / body.mass;  // about the centre of mass
+  const Vector3d turn = h - there.c.cross(p) / body.mass;
+  Eigen::Matrix<double, 6, 1> V;
+  V.tail<3>() =
+      body.planar ? Vector3d(0.0, 0.0, turn.z() / J(2, 2)) : Vector3d(J.completeOrthogonalDecomposition().solve(turn));
+  V.head<3>() = (p - V.tail<3>().cross(there.c)) / body.mass;
+  return V;
 }
 
 }  // namespace
@@ -124,16 +140,36 @@ void StateTransfer::set_superelements(const State& state, State& result) const {
   }
 }
 
-void StateTransfer::set_modal_bodies(const State& state, State& result) const {
+void StateTransfer::set_modal_bodies(const State& state, const Evaluation& now, State& result) const {
   for (std::size_t i = 0; i < to_.modal_bodies.size(); ++i) {
+    const ModalBody& body = to_.modal_bodies[i];
+    const int at = to_.sizes.first_modal() + body.offset;
+    result.w().segment(body.offset, body.modes).setZero();
+    result.v().segment(at, body.modes).setZero();
+    result.vdot().segment(at, body.modes).setZero();
     if (modal_bodies_[i] < 0) continue;
-    const ModalBody &body = to_.modal_bodies[i], &own = from_.modal_bodies[modal_bodies_[i]];
-    const int modes = std::min(body.modes, own.modes);
-    const int at = to_.sizes.first_modal() + body.offset, there = from_.sizes.first_modal() + own.offset;
+    const ModalBody& own = from_.modal_bodies[modal_bodies_[i]];
+    const int modes = std::min(body.modes, own.modes), there = from_.sizes.first_modal() + own.offset;
     result.w().segment(body.offset, modes) = state.w().segment(own.offset, modes);
     result.v().segment(at, modes) = state.v().segment(there, modes);
     result.vdot().segment(at, modes) = state.vdot().segment(there, modes);
+    if (body.modes < own.modes) leave_modes_out(body, own, now.modal_bodies[modal_bodies_[i]], result);
   }
+}
+
+/// The frame stays, and takes the momenta of the modes that are gone.
+void StateTransfer::leave_modes_out(const ModalBody& body, const ModalBody& own, const ModalScratch& scratch,
+                                    State& result) const {
+  const Node& node = to_.nodes[body.node];
+  const double* rates = result.v().data() + to_.sizes.first_modal() + body.offset;
+  NodeMotion frame;
+  frame.R = scratch.A;
+  ModalScratch there = make_scratch(body);
+  update_kinematics(body, frame, {result.w().data() + body.offset, rates, rates}, Vector3d::Zero(), there);
+  const Vector3d velocity = translation_at(to_, result.v(), node.translation);
+  const auto V = velocity_of_momenta(own, scratch, there, scratch.A.transpose() * velocity);
+  set_translation(to_, scratch.A * V.head<3>(), node.translation, result.v());
+  set_rotation(to_, V.tail<3>(), node.rotation, result.v());
 }
 
 void StateTransfer::set_treads(const State& state, State& result) const {
@@ -165,7 +201,7 @@ void StateTransfer::apply(const State& state, const Evaluation& now, State& resu
   result.damping_power() = state.damping_power();
   for (std::size_t i = 0; i < to_.nodes.size(); ++i) set_node(static_cast<int>(i), state, now, result);
   set_superelements(state, result);
-  set_modal_bodies(state, result);
+  set_modal_bodies(state, now, result);
   set_treads(state, result);
   set_hinges(state, result);
   result.algorithmic() = result.vdot();  // those of a step are of its model

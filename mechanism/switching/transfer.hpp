@@ -24,7 +24,8 @@ class StateTransfer {
   /// `state`, at which `now` was evaluated, as a state of the other model: nodes of both keep their motion to the bit,
   /// places that become nodes or stop being some move with the rigid body, with accelerations. Bodies that are flexible
   /// in both keep their deformation, one that becomes flexible is undeformed. A body that becomes rigid takes the pose
-  /// of its floating frame and the linear and angular momentum that its mass matrix has in axes of the frame.
+  /// of its floating frame and the linear and angular momentum that its mass matrix has in axes of the frame; so does a
+  /// modal body that loses modes.
   /// Multipliers are kept where both models have the same constraints, else they are zero. No heap allocation where no
   /// body becomes rigid.
   void apply(const State& state, const Evaluation& now, State& result) const;
@@ -39,7 +40,8 @@ class StateTransfer {
   Source source_of(int node) const;
   void set_node(int index, const State& state, const Evaluation& now, State& result) const;
   void set_superelements(const State& state, State& result) const;
-  void set_modal_bodies(const State& state, State& result) const;
+  void set_modal_bodies(const State& state, const Evaluation& now, State& result) const;
+  void leave_modes_out(const ModalBody& body, const ModalBody& own, const ModalScratch& scratch, State& result) const;
   void set_treads(const State& state, State& result) const;
   void set_hinges(const State& state, State& result) const;
 

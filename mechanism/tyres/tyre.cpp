@@ -302,14 +302,18 @@ void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, const 
   terms.adhesion = a.adhesion;
   const Vector3d arm = disc.center - node.x;
   terms.residual << -a.force, -node.R.transpose() * (a.moment + arm.cross(a.force));
-  // Also on bent roads the energy changes by the rate of δ itself.
+  terms.energy = (tyre.stiffness / 2.0 + tyre.progressive * c.penetration / 3.0) * c.penetration * c.penetration;
+}
+
+/// Also on bent roads the energy changes by the rate of δ itself.
+double dissipated_power(const Tyre& tyre, const Road& road, const NodeMotion& node, const TyreTerms& terms) {
+  if (terms.penetration <= 0.0) return 0.0;
   Vector6d velocity;
   velocity << node.xd, node.Omega;
   const DiscMotion<Dual> moving = disc_motion(tyre, node, velocity, Vector6d::Zero());
   const double rate = find_contact(road, tyre.radius, moving).penetration.derivative;
-  const double spring = (tyre.stiffness + tyre.progressive * c.penetration) * c.penetration;
-  terms.energy = (tyre.stiffness / 2.0 + tyre.progressive * c.penetration / 3.0) * c.penetration * c.penetration;
-  terms.dissipated = -a.force.dot(disc.velocity) - a.moment.dot(disc.omega) - spring * rate;
+  const double spring = (tyre.stiffness + tyre.progressive * terms.penetration) * terms.penetration;
+  return terms.residual.dot(velocity) - spring * rate;
 }
 
 Eigen::Vector2d settled_rates(const Tyre& tyre, const Road& road, const NodeMotion& node, const Eigen::Vector2d& w) {

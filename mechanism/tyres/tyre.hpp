@@ -74,11 +74,14 @@ struct TyreTerms {
   double camber = 0.0;       ///< inclination, right-handed about x
   double penetration = 0.0;  ///< negative: height of the disc above the road
   double rolling_radius = 0.0;
-  double adhesion = 0.0;    ///< share of the patch that does not slide, or of the friction that is left; 0 in the air
-  double energy = 0.0;      ///< ½ k δ² + ⅓ k₂ δ³
-  double dissipated = 0.0;  ///< power taken from the wheel beyond the energy
+  double adhesion = 0.0;  ///< share of the patch that does not slide, or of the friction that is left; 0 in the air
+  double energy = 0.0;    ///< ½ k δ² + ⅓ k₂ δ³
 };
 void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, const Tread& tread, TyreTerms& terms);
+
+/// Power taken from the wheel beyond the energy, at the motion of these terms: costs as much as they do, since it needs
+/// the rate of the ground under the wheel.
+double dissipated_power(const Tyre& tyre, const Road& road, const NodeMotion& node, const TyreTerms& terms);
 
 /// c_m ∂residual/∂v̇ + c_c ∂residual/∂v + c_k ∂residual/∂q of wheel, u and v, exact but for what only terms at their
 /// limits know. Without relaxation the last two rows and columns are zero.

@@ -227,7 +227,7 @@ TEST(ModalModel, PowerOfTheResidualIsTheRateOfEnergyAndLossesMinusThePowerOfLoad
   State& state = e.run.state();
   state.lambda().setZero();
   const VectorXd r = e.residual(state);
-  const double power = e.run.workspace.now.load_power, loss = e.run.workspace.now.damping_power;
+  const double power = e.run.workspace.now.load_power, loss = e.run.workspace.now.damper_power;
   const auto energy_at = [&](double t) {
     State moved = state;
     retract(e.run.model(), state, VectorXd(t * state.v() + 0.5 * t * t * state.vdot()), moved);

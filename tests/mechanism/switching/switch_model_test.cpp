@@ -109,7 +109,7 @@ TEST(SwitchModel, KeepsLinearAndAngularMomentumForthAndBack) {
   Simulation run(scene, files());
   const State state = bent(run);
   const Momentum before = sum_of_momenta(run.model(), state);
-  const Compliance compliance(body_of(run.model(), 1));
+  const SuperelementCompliance compliance(body_of(run.model(), 1));
   VectorXd load = VectorXd::Zero(15);
   load[5] = -200.0;
   load[11] = 200.0;
@@ -130,7 +130,7 @@ VectorXd bent_by(double angle, const SuperelementBody& body) {
   load[body.node.back().translation_row + 1] = 1.0;
   load[body.node.front().translation_row + 1] = -1.0;
   load[body.node.front().rotation_row + 2] = -2.0;  // its length
-  const VectorXd y = Compliance(body).deformation(load);
+  const VectorXd y = SuperelementCompliance(body).deformation(load);
   return angle / std::abs(y[body.node.front().rotation_row + 2]) * y;
 }
 
@@ -151,7 +151,7 @@ TEST(SwitchModel, MovesBentBodiesAsRigidOnes) {
   run.run(0.05);
   Simulation whole(scene, list);
   const SuperelementBody& body = body_of(whole.model(), 0);
-  const Compliance compliance(body);
+  const SuperelementCompliance compliance(body);
   const VectorXd y = bent_by(1e-3, body);
   const auto after = switch_model(scene, list, {run.model(), run.state()}, {"beam"}, {{"beam", {y, 20.0 * y}}});
   ASSERT_TRUE(after.has_value());
@@ -211,7 +211,7 @@ TEST(SwitchModel, WakesBentWhereOtherEquationsRepeatThanAtTheStart) {
   Evaluation now(after->built.model);
   evaluate(after->built.model, after->built.state, now);
   EXPECT_LT(now.constraint.norm(), 1e-9);
-  const Compliance compliance(body);
+  const SuperelementCompliance compliance(body);
   const auto strain = [&](const VectorXd& of) { return compliance.strain_energy(compliance.without_rigid_motion(of)); };
   EXPECT_LT(strain(deformation_of(after->built.model, 0, now).y - y), 1e-6 * strain(y));
 }
@@ -314,7 +314,7 @@ TEST(Compliance, IsThatOfABeam) {
   formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
   scene.bodies.emplace_back(test_support::superelement_body("beam", "beam"));
   const BuiltModel built = build_model(scene, list);
-  const Compliance compliance(body_of(built.model, 0));
+  const SuperelementCompliance compliance(body_of(built.model, 0));
   const double M = 100.0, L = data.length, EI = data.young * data.Iz;
   VectorXd load = VectorXd::Zero(12);
   load[5] = -M;
@@ -338,7 +338,7 @@ SuperelementBody slender() {
 // Euler's load of hinged ends, π² EI/l²; a beam of eight elements errs by less than 1e-3. Tension buckles nothing.
 TEST(Buckling, IsEulersLoad) {
   const SuperelementBody body = slender();
-  const Compliance compliance(body);
+  const SuperelementCompliance compliance(body);
   const Buckling buckling(body, compliance);
   const double euler = EIGEN_PI * EIGEN_PI * 100.0 / 4.0;
   VectorXd load = VectorXd::Zero(body.boundary_size + body.modes);
@@ -368,7 +368,7 @@ TEST(CarriedInertia, IsThatOfTheClampedBeamAndItsBob) {
   Simulation rigid(scene, list);
   rigid.start();
   const SuperelementBody& body = body_of(whole.model(), 0);
-  const Compliance compliance(body);
+  const SuperelementCompliance compliance(body);
   // As a cantilever: the base rests.
   VectorXd rate = VectorXd::Zero(body.boundary_size + body.modes);
   const int tip = body.node.back().translation_row;

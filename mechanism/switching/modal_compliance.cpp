@@ -1,0 +1,92 @@
+// Mass of the frame and the modes at rest; rows of the nodes.
+#include "mechanism/switching/modal_compliance.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/QR>
+
+#include "common/math/rotation.hpp"
+
+namespace tisserand::mechanism {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+ModalCompliance::ModalCompliance(const Model& model, std::size_t modal_body)
+    : body_(model.modal_bodies[modal_body]), coupling_(6, body_.modes) {
+  const Index m = body_.modes;
+  const VectorXd rest = VectorXd::Zero(m);
+  ModalScratch scratch = make_scratch(body_);
+  update_kinematics(body_, NodeMotion{}, {rest.data(), rest.data(), rest.data()}, Vector3d::Zero(), scratch);
+  const Matrix3d lever = skew<double>(scratch.c);
+  rigid_mass_ << body_.mass * Matrix3d::Identity(), -lever, lever, scratch.J;
+  coupling_ << body_.C1, scratch.N;
+  part_ = rigid_mass_.completeOrthogonalDecomposition().solve(coupling_);
+  std::vector<const ModalNode*> nodes;
+  for (const ModalNode& node : model.modal_nodes)
+    if (static_cast<std::size_t>(node.body) == modal_body) nodes.push_back(&node);
+  move_.resize(3 * static_cast<Index>(nodes.size()), 6 + m);
+  turn_.resizeLike(move_);
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    const auto row = 3 * static_cast<Index>(k);
+    move_.middleRows<3>(row) << Matrix3d::Identity(), -skew<double>(nodes[k]->x), nodes[k]->Xd;
+    turn_.middleRows<3>(row) << Matrix3d::Zero(), Matrix3d::Identity(), nodes[k]->Xt;
+    x_.push_back(nodes[k]->x);
+    if (nodes[k]->active && nodes[k]->turns) held_.push_back(k);
+  }
+}
+
+VectorXd ModalCompliance::deformation(const VectorXd& load) const {
+  VectorXd y = VectorXd::Zero(6 + body_.modes);
+  y.tail(body_.modes) = load.tail(body_.modes).cwiseQuotient(body_.stiffness);
+  return without_rigid_motion(y);
+}
+
+VectorXd ModalCompliance::without_rigid_motion(const VectorXd& y) const {
+  VectorXd bent = y;
+  bent.head<6>() = -part_ * y.tail(body_.modes);
+  return bent;
+}
+
+VectorXd ModalCompliance::stiffness(const VectorXd& y) const {
+  VectorXd f = VectorXd::Zero(y.size());
+  f.tail(body_.modes) = body_.stiffness.cwiseProduct(y.tail(body_.modes));
+  return f;
+}
+
+VectorXd ModalCompliance::mass(const VectorXd& y) const {
+  VectorXd p(y.size());
+  p.head<6>() = rigid_mass_ * y.head<6>() + coupling_ * y.tail(body_.modes);
+  p.tail(body_.modes) = coupling_.transpose() * y.head<6>() + y.tail(body_.modes);
+  return p;
+}
+
+double ModalCompliance::displacement(const VectorXd& y) const {
+  double largest = 2.0 * std::sqrt(std::max(0.0, kinetic_energy(y)) / body_.mass);  // √2 √(yᵀ M y / m)
+  const VectorXd u = move_ * y, theta = turn_ * y;
+  for (std::size_t j = 0; j < x_.size(); ++j) {
+    const Vector3d seen = u.segment<3>(3 * static_cast<Index>(j));
+    largest = std::max(largest, seen.norm());
+    for (const std::size_t from : held_) {
+      const auto row = 3 * static_cast<Index>(from);
+      const Vector3d turn = theta.segment<3>(row), arm = x_[j] - x_[from];
+      largest = std::max(largest, (seen - u.segment<3>(row) - turn.cross(arm)).norm());
+    }
+  }
+  return largest;
+}
+
+double ModalCompliance::force(const VectorXd& y) const {
+  constexpr double least = 1e-9;  // of T where the mass of the body follows its rigid motion alone
+  const double held = 0.5 * y.tail(body_.modes).squaredNorm(), free = kinetic_energy(y);
+  return held > 0.0 ? strain_energy(y) * std::sqrt(2.0 * body_.mass / (free > least * held ? free : held)) : 0.0;
+}
+
+double ModalCompliance::inertia_force(const VectorXd& acceleration) const {
+  return std::sqrt(body_.mass * std::max(0.0, 2.0 * kinetic_energy(without_rigid_motion(acceleration))));
+}
+
+}  // namespace tisserand::mechanism
