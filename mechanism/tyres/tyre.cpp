@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "common/math/rotation.hpp"
-#include "mechanism/tyres/comprehensive_slip.hpp"
+#include "mechanism/tyres/action.hpp"
 #include "mechanism/tyres/contact.hpp"
-#include "mechanism/tyres/magic_formula.hpp"
+#include "mechanism/tyres/in_plane.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -16,127 +16,23 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Penetration, over the radius, at which the damper acts fully.
-constexpr double landing = 0.01;
 /// Share of the vertical stiffness that holds standing tyres along the road in the matrix of statics.
 constexpr double standing_share = 1e-3;
-/// τ v₀/R₀ of Tyre.
-constexpr double lag_share = 1e-6;
-/// Share of slip velocity that damps deflections at standstill, and the speed over v₀ at which it has gone.
-constexpr double rocking_share = 0.01, rocking_speed = 10.0;
-
-template <class T>
-T magnitude(const T& a) {
-  return real_part(a) < 0.0 ? T(-a) : a;
-}
-
-/// 0 below 0, 1 above 1, a cubic without kinks between.
-template <class T>
-T smooth_share(const T& t) {
-  if (!(real_part(t) > 0.0)) return T(0.0);
-  return real_part(t) < 1.0 ? T(t * t * (3.0 - 2.0 * t)) : T(1.0);
-}
-
-/// −1 to 1, in proportion near 0.
-template <class T>
-T smooth_sign(const T& t) {
-  if (real_part(magnitude(t)) >= 1.0) return T(real_part(t) < 0.0 ? -1.0 : 1.0);
-  return t * (1.5 - 0.5 * t * t);
-}
-
-/// Tread deflections with their rates at one instant.
-template <class T>
-struct TreadMotion {
-  T u = T(0.0), v = T(0.0), ud = T(0.0), vd = T(0.0), udd = T(0.0), vdd = T(0.0);
-};
 
 template <class T>
 T load_of(const Tyre& tyre, const DiscContact<T>& c, const DiscMotion<T>& disc) {
   // On the road plane: δ̇ = −n·ċ + R₀ d(cos γ)/dt.
   const T rate = -c.n.dot(disc.velocity) - T(tyre.radius) * c.sine * disc.omega.dot(c.x);
-  const T ramp = smooth_share<T>(c.penetration / (landing * tyre.radius));
-  const T lying = smooth_share<T>((c.cosine - lost_cosine) / (full_cosine - lost_cosine));
-  const T load =
-      lying * ((tyre.stiffness + tyre.progressive * c.penetration) * c.penetration + tyre.damping * ramp * rate);
-  return real_part(load) > 0.0 ? load : T(0.0);
+  return vertical_load(tyre, c.penetration, rate,
+                       smooth_share<T>((c.cosine - lost_cosine) / (full_cosine - lost_cosine)));
 }
-
-/// V below v₀ goes over into v₀/2 at standstill without a kink.
-template <class T>
-T regularised(const T& speed, double low) {
-  return real_part(speed) < low ? T((speed * speed + low * low) / (2.0 * low)) : speed;
-}
-
-/// Effective rolling radius: R₀ − δ/3, or that of the file, R₀ − (F_z0/k)(D atan(B k δ/F_z0) + F k δ/F_z0).
-template <class T>
-T rolling_radius(const Tyre& tyre, const T& penetration) {
-  using std::atan;
-  const auto* law = std::get_if<MagicFormulaLaw>(&tyre.law);
-  if (law == nullptr || (law->p.DREFF == 0.0 && law->p.FREFF == 0.0)) return tyre.radius - penetration / 3.0;
-  const double nominal = law->p.FNOMIN / law->p.VERTICAL_STIFFNESS;
-  const T rho = penetration / nominal;
-  return tyre.radius - nominal * (law->p.DREFF * atan(law->p.BREFF * rho) + law->p.FREFF * rho);
-}
-
-/// How the contact slips, before any law: velocities along and across, and the speed to which they are related.
-template <class T>
-struct ContactSlip {
-  T along, across;         ///< V_x − Ω R, V_y
-  T ahead, turned, speed;  ///< |V_x|, |Ω R|, V of the law
-  T rolling_radius, rolling;
-};
 
 template <class T>
 ContactSlip<T> slip_of(const Tyre& tyre, const DiscContact<T>& c, const DiscMotion<T>& disc) {
   using Vector3 = Eigen::Matrix<T, 3, 1>;
   const T spin = disc.omega.dot(disc.axle);
   const Vector3 velocity = disc.velocity + Vector3(disc.omega - spin * disc.axle).cross(Vector3(c.radius * c.down));
-  ContactSlip<T> s;
-  s.rolling_radius = rolling_radius(tyre, c.penetration);
-  const T Vx = velocity.dot(c.x), roll = spin * s.rolling_radius;
-  s.along = Vx - roll;
-  s.across = velocity.dot(c.y);
-  s.ahead = magnitude(Vx);
-  s.turned = magnitude(roll);
-  s.speed = std::visit([&](const auto& law) { return slip_speed(law, s.ahead, s.turned); }, tyre.law);
-  s.rolling = smooth_sign<T>(roll / tyre.low_speed);
-  return s;
-}
-
-/// σ_x and σ_y, not below their least.
-template <class T>
-RelaxationLengths<T> relaxation_of(const Tyre& tyre, const PatchSlip<T>& slip) {
-  RelaxationLengths<T> sigma{T(tyre.relaxation), T(tyre.relaxation)};
-  if (const auto* law = std::get_if<MagicFormulaLaw>(&tyre.law)) sigma = relaxation_lengths(*law, slip);
-  const double least = least_relaxation * tyre.radius;
-  return {magic_formula::at_least(sigma.along, least), magic_formula::at_least(sigma.across, least)};
-}
-
-/// −u̇ and −v̇ of the first-order equations at the deflections.
-template <class T>
-struct LagRate {
-  T along, across;
-};
-
-/// Slips from the deflections, and their rates.
-template <class T>
-LagRate<T> relax(const Tyre& tyre, const ContactSlip<T>& s, const TreadMotion<T>& tread, PatchSlip<T>& slip) {
-  const RelaxationLengths<T> sigma = relaxation_of(tyre, slip);
-  const T sideways = magnitude(s.across);
-  const T V = real_part(s.speed) < real_part(sideways) ? sideways : s.speed;
-  const T left = T(1.0) - V / (rocking_speed * tyre.low_speed);
-  const T share = real_part(left) > 0.0 ? T((rocking_share / tyre.low_speed) * left * left) : T(0.0);
-  slip.along = tread.u / sigma.along + share * s.along;
-  slip.across = tread.v / sigma.across + share * s.across;
-  return {V / sigma.along * tread.u - s.along, V / sigma.across * tread.v - s.across};
-}
-
-/// In the air deflections die away as if the tyre rolled at v₀ at least.
-template <class T>
-LagRate<T> forget(const Tyre& tyre, const T& spin, const TreadMotion<T>& tread) {
-  const T V = magnitude(spin) * tyre.radius + tyre.low_speed;
-  const T rate = V / (least_relaxation * tyre.radius);
-  return {rate * tread.u, rate * tread.v};
+  return slip_from<T>(tyre, c.penetration, velocity.dot(c.x), velocity.dot(c.y), spin);
 }
 
 /// Factor of the friction of the road under the contact centre; its change along the way is left out of tangents.
@@ -163,7 +59,6 @@ struct TyreAction {
 template <class T>
 TyreAction<T> act(const Tyre& tyre, const Road& road, const DiscMotion<T>& disc, const TreadMotion<T>& tread) {
   using Vector3 = Eigen::Matrix<T, 3, 1>;
-  using std::sqrt;
   TyreAction<T> a;
   a.contact = find_contact(road, tyre.radius, disc);
   const DiscContact<T>& c = a.contact;
@@ -172,39 +67,24 @@ TyreAction<T> act(const Tyre& tyre, const Road& road, const DiscMotion<T>& disc,
     return a;
   }
   const ContactSlip<T> s = slip_of(tyre, c, disc);
-  const T V = regularised<T>(s.speed, tyre.low_speed);
-  const T load = load_of(tyre, c, disc), R = s.rolling_radius;
-  PatchSlip<T> slip{s.along / V, s.across / V, c.sine, load, sqrt(T(8.0 * tyre.radius * c.penetration)),
-                    R,           s.rolling,    s.ahead};
-  slip.friction = road_friction(tyre, road, c);
-  a.slip_angle_tangent = s.across / regularised<T>(s.ahead, tyre.low_speed);
-  if (tyre.relaxes()) {
-    a.lag = relax(tyre, s, tread, slip);
-    a.slip_angle_tangent = slip.across * V / regularised<T>(s.ahead, tyre.low_speed);
-  }
-  const PatchForce<T> patch = std::visit([&](const auto& law) { return patch_force(law, slip); }, tyre.law);
-  const T about_axle = -(R - c.radius) * patch.x - tyre.rolling_resistance * load * R * s.rolling + patch.resistance;
+  const T load = load_of(tyre, c, disc);
+  const PatchAction<T> p =
+      act_in_patch<T>(tyre, s, tread, load, c.penetration, c.radius, c.sine, road_friction(tyre, road, c));
+  const PatchForce<T>& patch = p.force;
   const auto* law = std::get_if<MagicFormulaLaw>(&tyre.law);
   const bool measured = law != nullptr && law->has_overturning();
   const T overturning = measured ? patch.overturning : T(load * (tyre.radius - c.radius) * c.sine);
   a.force_tyre = Vector3(patch.x, patch.y, load);
-  a.moment_tyre = Vector3(overturning, about_axle * c.cosine, patch.moment + about_axle * c.sine);
+  a.moment_tyre = Vector3(overturning, p.about_axle * c.cosine, patch.moment + p.about_axle * c.sine);
   a.force = patch.x * c.x + patch.y * c.y + load * c.n;
   const Vector3 arm = c.radius * c.down;
-  a.moment = overturning * c.x + patch.moment * c.n + about_axle * disc.axle + arm.cross(a.force);
-  a.slip = -slip.along;
-  a.rolling_radius = R;
+  a.moment = overturning * c.x + patch.moment * c.n + p.about_axle * disc.axle + arm.cross(a.force);
+  a.slip = p.slip;
+  a.slip_angle_tangent = p.slip_angle_tangent;
+  a.rolling_radius = s.rolling_radius;
+  a.lag = p.lag;
   a.adhesion = patch.adhesion;
   return a;
-}
-
-TreadMotion<double> tread_motion(const Tread& t) { return {t.w[0], t.w[1], t.wd[0], t.wd[1], t.wdd[0], t.wdd[1]}; }
-
-/// m (ẅ + (ẇ + rate)/τ) of both equations.
-template <class T>
-Eigen::Matrix<T, 2, 1> lag_residual(const Tyre& tyre, const TreadMotion<T>& tread, const LagRate<T>& rate) {
-  const double m = lag_mass(tyre), tau = lag_share * tyre.radius / tyre.low_speed;
-  return {m * tread.udd + m / tau * (tread.ud + rate.along), m * tread.vdd + m / tau * (tread.vd + rate.across)};
 }
 
 DiscMotion<double> disc_motion(const Tyre& tyre, const NodeMotion& node) {
@@ -282,6 +162,7 @@ Vector6d tyre_quantity_gradient(const Tyre& tyre, const Road& road, const NodeMo
 }
 
 void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, const Tread& tread, TyreTerms& terms) {
+  if (tyre.planar) return evaluate_in_plane(tyre, road, node, tread, terms);
   const DiscMotion<double> disc = disc_motion(tyre, node);
   const TreadMotion<double> deflection = tread_motion(tread);
   const TyreAction<double> a = act(tyre, road, disc, deflection);
@@ -302,7 +183,7 @@ void evaluate(const Tyre& tyre, const Road& road, const NodeMotion& node, const 
   terms.adhesion = a.adhesion;
   const Vector3d arm = disc.center - node.x;
   terms.residual << -a.force, -node.R.transpose() * (a.moment + arm.cross(a.force));
-  terms.energy = (tyre.stiffness / 2.0 + tyre.progressive * c.penetration / 3.0) * c.penetration * c.penetration;
+  terms.energy = spring_energy(tyre, c.penetration);
 }
 
 /// Also on bent roads the energy changes by the rate of δ itself.
@@ -310,8 +191,11 @@ double dissipated_power(const Tyre& tyre, const Road& road, const NodeMotion& no
   if (terms.penetration <= 0.0) return 0.0;
   Vector6d velocity;
   velocity << node.xd, node.Omega;
-  const DiscMotion<Dual> moving = disc_motion(tyre, node, velocity, Vector6d::Zero());
-  const double rate = find_contact(road, tyre.radius, moving).penetration.derivative;
+  const auto sinking = [&] {
+    const DiscMotion<Dual> moving = disc_motion(tyre, node, velocity, Vector6d::Zero());
+    return find_contact(road, tyre.radius, moving).penetration.derivative;
+  };
+  const double rate = tyre.planar ? sinking_in_plane(tyre, road, node) : sinking();
   const double spring = (tyre.stiffness + tyre.progressive * terms.penetration) * terms.penetration;
   return terms.residual.dot(velocity) - spring * rate;
 }
@@ -323,6 +207,7 @@ Eigen::Vector2d settled_rates(const Tyre& tyre, const Road& road, const NodeMoti
 
 Matrix8d tangent(const Tyre& tyre, const Road& road, const NodeMotion& node, const Tread& tread,
                  const TangentCoefficients& coefficients) {
+  if (tyre.planar) return tangent_in_plane(tyre, road, node, tread, coefficients);
   Matrix8d A = Matrix8d::Zero();
   const Vector3d arm = node.R * tyre.wheel.p;
   const auto derivative = [](const Eigen::Matrix<Dual, 3, 1>& vector) {
@@ -332,14 +217,10 @@ Matrix8d tangent(const Tyre& tyre, const Road& road, const NodeMotion& node, con
     return Vector3d(vector[0].value, vector[1].value, vector[2].value);
   };
   for (int j = 0; j < (tyre.relaxes() ? 8 : 6); ++j) {
-    if (tyre.planar && j >= 2 && j <= 4) continue;
     const Vector8d unit = Vector8d::Unit(j);
     const Vector6d wheel = unit.head<6>();
-    const auto moved = [&](int k, double at, double coefficient) { return Dual(at, coefficient * unit[6 + k]); };
-    const auto [c_m, c_c, c_k] = coefficients;
-    const TreadMotion<Dual> deflection{moved(0, tread.w[0], c_k),   moved(1, tread.w[1], c_k),
-                                       moved(0, tread.wd[0], c_c),  moved(1, tread.wd[1], c_c),
-                                       moved(0, tread.wdd[0], c_m), moved(1, tread.wdd[1], c_m)};
+    const double c_c = coefficients.damping, c_k = coefficients.stiffness;
+    const TreadMotion<Dual> deflection = tread_motion(tread, coefficients, j - 6);
     const TyreAction<Dual> a = act(tyre, road, disc_motion(tyre, node, c_k * wheel, c_c * wheel), deflection);
     const Vector3d F = value(a.force), M = value(a.moment), dF = derivative(a.force), dM = derivative(a.moment);
     const Vector3d turn = c_k * (node.R * wheel.tail<3>());
@@ -357,6 +238,7 @@ double sideways_share(const Tyre& tyre) {
   const Road plane(formats::RoadSpec{}, Vector3d::Zero());
   Tyre upright = tyre;
   upright.wheel = Marker{};
+  upright.planar = false;
   TyreTerms terms;
   NodeMotion wheel;
   double largest = 0.0;

@@ -51,7 +51,7 @@ struct Tyre {
   double low_speed = 0.0;
   double relaxation = 0.0;  ///< σ of comprehensive slip, both directions
   int lag = -1;             ///< modal coordinate of u, before that of v; −1: no relaxation
-  bool planar = false;      ///< rolls in the x-y plane of a planar model: its tangent has no other columns
+  bool planar = false;      ///< rolls in the x-y plane of a planar model: kernels of in_plane.hpp
 
   bool relaxes() const { return lag >= 0; }
 };
