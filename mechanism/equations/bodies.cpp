@@ -28,15 +28,10 @@ void note_scale(const SuperelementBody& body, const SuperelementScratch& scratch
     internal = std::max({internal, std::abs(body.S_II[k] * motion.y_I[k]), std::abs(motion.acceleration_I[k])});
 }
 
-/// Elastic and inertia forces of the modes one by one: they cancel in the residual of a free vibration.
-void note_scale(const ModalBody& body, const ModalScratch& scratch, Evaluation& evaluation) {
-  const auto note = [&evaluation](std::size_t kind, double value) {
-    evaluation.force_scale[kind] = std::max(evaluation.force_scale[kind], value);
-  };
-  note(0, scratch.r.head<3>().cwiseAbs().maxCoeff());
-  note(1, scratch.r.segment<3>(3).cwiseAbs().maxCoeff());
-  for (Eigen::Index k = 0; k < body.modes; ++k)
-    note(0, std::sqrt(body.mass) * std::max(std::abs(body.stiffness[k] * scratch.w[k]), std::abs(scratch.wdd[k])));
+void note_scale(const ModalScratch& scratch, Evaluation& evaluation) {
+  double &force = evaluation.force_scale[0], &moment = evaluation.force_scale[1];
+  force = std::max(force, scratch.r.head<3>().cwiseAbs().maxCoeff());
+  moment = std::max(moment, scratch.r.segment<3>(3).cwiseAbs().maxCoeff());
 }
 
 template <int N>
@@ -124,7 +119,7 @@ void add_forces(const Model&, const State&, const Pool<ModalBody>& pool, Evaluat
     ModalScratch& scratch = evaluation.modal_bodies[i];
     residual(body, scratch);
     scatter(pool.maps[i], scratch.r, evaluation.residual);
-    note_scale(body, scratch, evaluation);
+    note_scale(scratch, evaluation);
     evaluation.damper_power += body.damping.dot(scratch.wd.cwiseAbs2());
   }
 }
@@ -206,6 +201,18 @@ void add_energy(const Model&, const Pool<ModalBody>& pool, const Evaluation& eva
     sum.kinetic += part.kinetic;
     sum.strain += part.strain;
     sum.potential += part.potential;
+  }
+}
+
+void note_modes(const Model& model, Evaluation& evaluation) {
+  double& force = evaluation.force_scale[0];
+  evaluation.outer_force = force;
+  for (std::size_t i = 0; i < model.modal_bodies.size(); ++i) {
+    const ModalBody& body = model.modal_bodies[i];
+    const ModalScratch& scratch = evaluation.modal_bodies[i];
+    for (Eigen::Index k = 0; k < body.modes; ++k)
+      force = std::max(
+          force, std::sqrt(body.mass) * std::max(std::abs(body.stiffness[k] * scratch.w[k]), std::abs(scratch.wdd[k])));
   }
 }
 

@@ -5,7 +5,7 @@
 
 namespace tisserand::mechanism {
 
-/// G_iner + G_int + G_damp − gravity of all bodies of the pool, with their force scales and dissipated power.
+/// G_iner + G_int + G_damp − gravity of all bodies of the pool, with their force scales and the power of their dampers.
 template <class T>
 void add_forces(const Model& model, const State& state, const Pool<T>& pool, Evaluation& evaluation) = delete;
 void add_forces(const Model& model, const State& state, const Pool<SuperelementUse>& pool, Evaluation& evaluation);
@@ -13,6 +13,11 @@ void add_forces(const Model& model, const State& state, const Pool<BeamElement2>
 void add_forces(const Model& model, const State& state, const Pool<BeamElement3>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<RigidBody>& pool, Evaluation& evaluation);
 void add_forces(const Model& model, const State& state, const Pool<ModalBody>& pool, Evaluation& evaluation);
+
+/// Elastic and inertia forces of modes one by one, which cancel in the residual of a free vibration, as forces of size
+/// √m ω² |w|, after all others, which are the outer forces: of use beside residuals alone, for they grow with the
+/// number of modes and are nobody's load.
+void note_modes(const Model& model, Evaluation& evaluation);
 
 /// Their derivatives; internal coordinates of superelements are condensed.
 template <class T>

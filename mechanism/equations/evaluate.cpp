@@ -18,7 +18,7 @@ void forget_results([[maybe_unused]] Evaluation& evaluation) {
                                   &evaluation.active, &evaluation.residual})
     result->setConstant(unknown);
   evaluation.force_scale.fill(unknown);
-  evaluation.load_power = evaluation.damper_power = evaluation.spring_energy = unknown;
+  evaluation.outer_force = evaluation.load_power = evaluation.damper_power = evaluation.spring_energy = unknown;
 #endif
   evaluation.stage = Stage::nothing;
 }
@@ -61,6 +61,7 @@ void evaluate_in_step(const Model& model, const State& state, Evaluation& evalua
   add_tyres(model, evaluation);
   add_loads(model, state, evaluation);
   add_part_loads(model, evaluation);
+  note_modes(model, evaluation);
   evaluation.stage = Stage::forces;
 }
 
@@ -71,15 +72,9 @@ void evaluate(const Model& model, const State& state, Evaluation& evaluation) {
 
 Energy evaluate_energy(const Model& model, const Evaluation& evaluation) {
   require_stage(evaluation, Stage::forces);
-  Energy sum;
+  Energy sum{.strain = evaluation.spring_energy};
   for_each_body_pool(model, [&](const auto& pool) { add_energy(model, pool, evaluation, sum); });
-  sum.strain += evaluation.spring_energy;
   return sum;
-}
-
-double damping_power(const Model& model, const Evaluation& evaluation) {
-  require_stage(evaluation, Stage::forces);
-  return evaluation.damper_power + tyre_power(model, evaluation);
 }
 
 }  // namespace tisserand::mechanism

@@ -74,6 +74,7 @@ struct Evaluation {
   std::vector<double> part_load_values;  ///< factors
   Eigen::VectorXd residual;              ///< r, boundary coordinates (uncondensed)
   std::array<double, 3> force_scale{};   ///< largest force, moment and internal force of any single term
+  double outer_force = 0.0;              ///< that force without what modes bear inside their bodies
   double load_power = 0.0;
   double damper_power = 0.0;   ///< that is dissipated, but by tyres: damping_power()
   double spring_energy = 0.0;  ///< strain energy of springs, stops and bushings

@@ -1,4 +1,5 @@
 // Force elements between two markers with laws of their own, and friction in joints.
+#include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/terms.hpp"
 
 namespace tisserand::mechanism {
@@ -126,8 +127,9 @@ void add_tyres(const Model& model, Evaluation& evaluation) {
   }
 }
 
-double tyre_power(const Model& model, const Evaluation& evaluation) {
-  double power = 0.0;
+double damping_power(const Model& model, const Evaluation& evaluation) {
+  require_stage(evaluation, Stage::forces);
+  double power = evaluation.damper_power;
   for (std::size_t i = 0; i < model.tyres.size(); ++i) {
     const Tyre& tyre = model.tyres[i];
     power +=

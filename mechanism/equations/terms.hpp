@@ -132,8 +132,6 @@ void add_part_loads(const Model& model, Evaluation& evaluation);
 void add_bushings(const Model& model, Evaluation& evaluation);
 /// Forces of tyres and the energy of their vertical springs.
 void add_tyres(const Model& model, Evaluation& evaluation);
-/// What else they take.
-double tyre_power(const Model& model, const Evaluation& evaluation);
 
 /// Rows, columns and geometric stiffness of joints, of couplings and motions; tangents of springs, friction (also ∂r/∂λ
 /// beside Bᵀ), bushings, tyres, of part loads on rigid bodies, and of loads and spring forces by the channels (of part

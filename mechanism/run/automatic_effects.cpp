@@ -42,6 +42,7 @@ void require_method(const formats::Scene& scene) {
 
 /// Joints whose reactions are unique with all effects on and not with those bodies rigid that `model` has rigid.
 std::vector<std::string> undetermined(const Model& model, const Evaluation& now, const RunReport& whole) {
+  if (model.sizes.constraints == 0) return {};
   std::vector<std::string> names = joints_without_unique_reaction(model, now);
   std::erase_if(names, [&whole](const std::string& name) { return std::ranges::count(whole.not_unique, name) > 0; });
   return names;
@@ -64,9 +65,32 @@ bool rests_inside(const Model& model, std::size_t index, const State& state) {
     return count > 0 && state.y().segment(at, count).isZero(0.0) &&
            state.v().segment(model.sizes.boundary + at, count).isZero(0.0);
   }
-  const ModalBody& body = model.modal_bodies[modal];
-  return state.w().segment(body.offset, body.modes).isZero(0.0) &&
-         state.v().segment(model.sizes.first_modal() + body.offset, body.modes).isZero(0.0);
+  return true;  // bend and rate of a modal body tell
+}
+
+/// Of the nodes that have translations.
+double largest_speed(const Model& model, const State& state) {
+  double largest = 0.0;
+  for (const Node& node : model.nodes)
+    if (node.translation >= 0) largest = std::max(largest, state.v().segment<3>(node.translation).norm());
+  return largest;
+}
+
+/// The part that each body that deforms is a piece of: welded_beams(), and fixed joints with modal bodies.
+std::vector<int> welded_parts(const Model& model) {
+  std::vector<int> part = welded_beams(model), owner(model.nodes.size(), -1);
+  for (std::size_t i = 0; i < model.superelements.size(); ++i)
+    for (const int node : model.superelements[i].nodes) owner[node] = static_cast<int>(i);
+  for (std::size_t i = part.size(); i < deforming_bodies(model); ++i) part.push_back(static_cast<int>(i));
+  const auto before = static_cast<int>(model.superelements.size());
+  for (const ModalNode& node : model.modal_nodes) owner[node.node] = before + node.body;
+  for (const Joint& joint : model.joints) {
+    const int a = joint.a.node < 0 ? -1 : owner[joint.a.node], b = joint.b.node < 0 ? -1 : owner[joint.b.node];
+    if (joint.kind != JointKind::fixed || a < 0 || b < 0) continue;
+    const int from = part[a], to = part[b];
+    std::ranges::replace(part, from, to);
+  }
+  return part;
 }
 
 }  // namespace
@@ -183,14 +207,17 @@ void AutomaticEffects::start_with(const Awake& awake, Run& run) {
 }
 
 /// Of the whole state: with all effects but the flexibility of bodies that have neither deformation nor its rate. Their
-/// internal coordinates rest and their nodes stand as one rigid body, to what poses that were stored leave.
+/// internal coordinates rest and their nodes stand as one rigid body, to what poses that were stored leave; modes of
+/// modal bodies rest to what was left of them where a start put velocities on the joints.
 AutomaticEffects::Awake AutomaticEffects::all_but_undeformed() {
-  constexpr double round_off = 1e-10;  // of the characteristic length
+  constexpr double round_off = 1e-10, left = 1e-8;  // of the characteristic length, of the largest speed
   Awake list(uses_.size(), true);
   evaluate(whole_.model, whole_state_, *whole_now_);
   const Model& model = whole_.model;
+  const double length = round_off * model.length, speed = left * largest_speed(model, whole_state_);
   for (std::size_t i = 0; i < deforming_bodies(model); ++i) {
-    if (!rests_inside(model, i, whole_state_) || demand_->bend(i, *whole_now_) > round_off * model.length) continue;
+    if (!rests_inside(model, i, whole_state_) || demand_->bend(i, *whole_now_) > length) continue;
+    if (modal_body_of(model, i) >= 0 && demand_->bend_rate(i, *whole_now_) > speed) continue;
     for (std::size_t k = 0; k < uses_.size(); ++k)
       if (uses_[k].effect.owner == name_of(model, i)) list[k] = false;
   }
@@ -240,14 +267,15 @@ void AutomaticEffects::restore(Run& run, const std::vector<double>& memory) {
   energy_reference_ = memory[2 * count];
   switched_ = memory[2 * count + 1];
   resumes_ = memory[2 * count + 2] != 0.0;
-  rates_.assign(memory.begin() + static_cast<std::ptrdiff_t>(2 * count + 3), memory.end());
+  force_reference_ = memory[2 * count + 3];
+  rates_.assign(memory.begin() + static_cast<std::ptrdiff_t>(2 * count + 4), memory.end());
 }
 
 std::size_t AutomaticEffects::memory_size(const Model& whole) const {
   std::size_t rates = 0;
   for (std::size_t i = 0; i < deforming_bodies(whole); ++i)
     rates += static_cast<std::size_t>(deformation_size(whole, i));
-  return 2 * uses_.size() + 3 + rates;
+  return 2 * uses_.size() + 4 + rates;
 }
 
 std::vector<double> AutomaticEffects::memory() const {
@@ -257,6 +285,7 @@ std::vector<double> AutomaticEffects::memory() const {
   memory.push_back(energy_reference_);
   memory.push_back(switched_);
   memory.push_back(sampled_ ? 1.0 : 0.0);
+  memory.push_back(force_reference_);
   std::vector<double> rates = demand_->rates();
   if (!sampled_) std::ranges::fill(rates, 0.0);  // of the model before a switch
   memory.insert(memory.end(), rates.begin(), rates.end());
@@ -277,6 +306,11 @@ void AutomaticEffects::fill_row(Run& run, formats::ResultsRow& row) {
   row.balance -= switched_;
 }
 
+/// So far. Beside modal bodies, whose modes count among what an iteration must resolve, that of the samples.
+double AutomaticEffects::largest_force(const Run& run) const {
+  return whole_.model.modal_bodies.empty() ? run.built.state.force_scale(0) : force_reference_;
+}
+
 void AutomaticEffects::sample_here(const Run& run) {
   sampled_ = true;
   const State& state = run.built.state;
@@ -285,7 +319,9 @@ void AutomaticEffects::sample_here(const Run& run) {
   if (!inertia_set_) inertia_->set(state, scene_.integrator.step);
   inertia_set_ = true;
   blind_ = blind_ || !inertia_->knows();
-  demand_->sample(whole_state_, *whole_now_, awake(), state.force_scale(0), *inertia_);
+  force_reference_ = std::max(force_reference_, whole_now_->outer_force);
+  demand_->sample(whole_state_, *whole_now_, awake(), largest_force(run), *inertia_);
+  force_reference_ = std::max(force_reference_, demand_->modal_force());
   const Energy energy = evaluate_energy(whole_.model, *whole_now_);
   energy_reference_ =
       std::max(energy_reference_, std::abs(energy.kinetic) + std::abs(energy.strain) + std::abs(state.work()));
@@ -356,7 +392,7 @@ bool AutomaticEffects::switch_to(const Awake& next, const Deformations& deformat
     if (next[k] != uses_[k].awake) changed.insert(uses_[k].effect.owner);
   auto after = switch_model(scene, files_, {run.built.model, run.built.state}, changed, deformations);
   if (!after) return false;
-  const double tolerance = scene_.automatic.tolerance, force = run.built.state.force_scale(0);
+  const double tolerance = scene_.automatic.tolerance, force = largest_force(run);
   if (!at_any_cost && !(std::abs(after->energy) <= tolerance * energy_reference_ && after->force <= tolerance * force))
     return false;
   const double time = run.built.state.time();
@@ -385,12 +421,12 @@ bool AutomaticEffects::end_window(Run& run) {
 }
 
 std::vector<std::string> AutomaticEffects::slept_in_a_weld() const {
-  const std::vector<int> beam = welded_beams(whole_.model);
+  const std::vector<int> part = welded_parts(whole_.model);
   std::vector<std::string> names;
   for (const Use& use : uses_) {
     if (!is_flexibility(use.effect) || use.changes.size() < (use.was_awake ? 1U : 2U)) continue;
-    const std::size_t index = deforming_body(whole_.model, use.effect.owner);
-    if (index < beam.size() && std::ranges::count(beam, beam[index]) > 1) names.push_back(use.effect.owner);
+    const int own = part[deforming_body(whole_.model, use.effect.owner)];
+    if (std::ranges::count(part, own) > 1) names.push_back(use.effect.owner);
   }
   return names;
 }

@@ -78,11 +78,12 @@ class AutomaticEffects {
   Awake awake() const;
   formats::Scene scene_with(const Awake& awake) const;
   void sample_here(const Run& run);
+  double largest_force(const Run& run) const;
   /// From the poses of the scene, as if it had no other effects.
   void start_with(const Awake& awake, Run& run);
   bool switch_to(const Awake& next, const Deformations& deformations, bool at_any_cost, Run& run);
   void note_reactions(Run& run);
-  /// Bodies that fell asleep at times, of those welded to other superelements.
+  /// Bodies that fell asleep at times, of those welded to others that deform.
   std::vector<std::string> slept_in_a_weld() const;
   static void doubt_undeformed(const Deformations& bent, double time, Run& run);
   void doubt_sleep(const Awake& next, Run& run);
@@ -110,6 +111,7 @@ class AutomaticEffects {
   std::vector<double> rates_;           ///< of the checkpoint, until the first window begins
   bool fresh_ = false;                  ///< the run stands at the poses of the scene
   double energy_reference_ = 0.0;
+  double force_reference_ = 0.0;
   double switched_ = 0.0;
 };
 

@@ -68,8 +68,15 @@ void Demand::extend_window() {
   }
 }
 
+double Demand::modal_force() const {
+  double largest = 0.0;
+  for (std::size_t i = whole_.superelements.size(); i < bodies_.size(); ++i) largest = std::max(largest, bodies_[i].f);
+  return largest;
+}
+
 double Demand::of(std::size_t use) const {
-  return std::max(place_[use], part(force_[use], tolerance_ * largest_force_));
+  if (!(largest_force_ > 0.0)) return place_[use];  // nothing bears anything yet: round-off
+  return std::max(place_[use], force_[use] / (tolerance_ * largest_force_));
 }
 
 void Demand::forget() {
@@ -145,6 +152,12 @@ VectorXd Demand::acceleration_at(std::size_t index, const Evaluation& now) const
 double Demand::bend(std::size_t index, const Evaluation& now) const {
   const Compliance* compliance = bodies_[index].compliance;
   return compliance == nullptr ? 0.0 : compliance->displacement(deformation_at(index, now, true));
+}
+
+double Demand::bend_rate(std::size_t index, const Evaluation& now) const {
+  const Compliance* compliance = bodies_[index].compliance;
+  if (compliance == nullptr) return 0.0;
+  return compliance->displacement(compliance->without_rigid_motion(mechanism::deformation_of(whole_, index, now).rate));
 }
 
 std::vector<double> Demand::rates() const {

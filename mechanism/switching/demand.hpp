@@ -56,6 +56,8 @@ class Demand {
   void sample(const State& state, const Evaluation& now, const std::vector<bool>& awake, double largest_force,
               CarriedInertia& inertia);
 
+  /// Largest force in this window that deforms a modal body: what it bears where nothing holds it.
+  double modal_force() const;
   /// D of a use: the largest of the samples of the window, with F of the latest.
   double of(std::size_t use) const;
   /// D > 1, and not by forces that are large only beside an F that still grows: where it grows faster than in
@@ -68,6 +70,8 @@ class Demand {
   Deformation deformation(std::size_t index) const;
   /// The displacement of that at a state of the whole model, evaluated; 0: it has no automatic effect.
   double bend(std::size_t index, const Evaluation& now) const;
+  /// That of the rate of a modal body [length/time].
+  double bend_rate(std::size_t index, const Evaluation& now) const;
 
  private:
   /// A vector of deformation that changes from sample to sample of a window.

@@ -15,16 +15,22 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
 
-ModalCompliance::ModalCompliance(const Model& model, std::size_t modal_body)
-    : body_(model.modal_bodies[modal_body]), coupling_(6, body_.modes) {
-  const Index m = body_.modes;
-  const VectorXd rest = VectorXd::Zero(m);
-  ModalScratch scratch = make_scratch(body_);
-  update_kinematics(body_, NodeMotion{}, {rest.data(), rest.data(), rest.data()}, Vector3d::Zero(), scratch);
+RigidPart rigid_part(const ModalBody& body) {
+  const VectorXd rest = VectorXd::Zero(body.modes);
+  ModalScratch scratch = make_scratch(body);
+  update_kinematics(body, NodeMotion{}, {rest.data(), rest.data(), rest.data()}, Vector3d::Zero(), scratch);
   const Matrix3d lever = skew<double>(scratch.c);
-  rigid_mass_ << body_.mass * Matrix3d::Identity(), -lever, lever, scratch.J;
-  coupling_ << body_.C1, scratch.N;
-  part_ = rigid_mass_.completeOrthogonalDecomposition().solve(coupling_);
+  RigidPart rigid;
+  rigid.mass << body.mass * Matrix3d::Identity(), -lever, lever, scratch.J;
+  rigid.coupling.resize(6, body.modes);
+  rigid.coupling << body.C1, scratch.N;
+  rigid.part = rigid.mass.completeOrthogonalDecomposition().solve(rigid.coupling);
+  return rigid;
+}
+
+ModalCompliance::ModalCompliance(const Model& model, std::size_t modal_body)
+    : body_(model.modal_bodies[modal_body]), rigid_(rigid_part(body_)) {
+  const Index m = body_.modes;
   std::vector<const ModalNode*> nodes;
   for (const ModalNode& node : model.modal_nodes)
     if (static_cast<std::size_t>(node.body) == modal_body) nodes.push_back(&node);
@@ -47,7 +53,7 @@ VectorXd ModalCompliance::deformation(const VectorXd& load) const {
 
 VectorXd ModalCompliance::without_rigid_motion(const VectorXd& y) const {
   VectorXd bent = y;
-  bent.head<6>() = -part_ * y.tail(body_.modes);
+  bent.head<6>() = -rigid_.part * y.tail(body_.modes);
   return bent;
 }
 
@@ -59,8 +65,8 @@ VectorXd ModalCompliance::stiffness(const VectorXd& y) const {
 
 VectorXd ModalCompliance::mass(const VectorXd& y) const {
   VectorXd p(y.size());
-  p.head<6>() = rigid_mass_ * y.head<6>() + coupling_ * y.tail(body_.modes);
-  p.tail(body_.modes) = coupling_.transpose() * y.head<6>() + y.tail(body_.modes);
+  p.head<6>() = rigid_.mass * y.head<6>() + rigid_.coupling * y.tail(body_.modes);
+  p.tail(body_.modes) = rigid_.coupling.transpose() * y.head<6>() + y.tail(body_.modes);
   return p;
 }
 
@@ -79,14 +85,28 @@ double ModalCompliance::displacement(const VectorXd& y) const {
   return largest;
 }
 
+double ModalCompliance::largest_kinetic(const VectorXd& rate) const {
+  double largest = kinetic_energy(without_rigid_motion(rate));
+  VectorXd seen = rate;
+  for (const std::size_t from : held_) {
+    const auto row = 3 * static_cast<Index>(from);
+    seen.head<6>().setZero();
+    seen.tail(body_.modes) = rate.tail(body_.modes);
+    const Vector3d turn = turn_.middleRows<3>(row) * seen, u = move_.middleRows<3>(row) * seen;
+    seen.head<3>() = -(u - turn.cross(x_[from]));
+    seen.segment<3>(3) = -turn;
+    largest = std::max(largest, kinetic_energy(seen));
+  }
+  return largest;
+}
+
 double ModalCompliance::force(const VectorXd& y) const {
-  constexpr double least = 1e-9;  // of T where the mass of the body follows its rigid motion alone
-  const double held = 0.5 * y.tail(body_.modes).squaredNorm(), free = kinetic_energy(y);
-  return held > 0.0 ? strain_energy(y) * std::sqrt(2.0 * body_.mass / (free > least * held ? free : held)) : 0.0;
+  const double kinetic = largest_kinetic(y);
+  return kinetic > 0.0 ? strain_energy(y) * std::sqrt(2.0 * body_.mass / kinetic) : 0.0;
 }
 
 double ModalCompliance::inertia_force(const VectorXd& acceleration) const {
-  return std::sqrt(body_.mass * std::max(0.0, 2.0 * kinetic_energy(without_rigid_motion(acceleration))));
+  return std::sqrt(2.0 * body_.mass * std::max(0.0, largest_kinetic(acceleration)));
 }
 
 }  // namespace tisserand::mechanism

@@ -32,8 +32,8 @@ struct SwitchedModel {
 
 /// `scene` with all switches carried out, from where `before` stands. Positions: StateTransfer, deformations, then onto
 /// the constraints, rigidly as far as they let the bodies; bodies that deform keep their deformation and its rate while
-/// they are moved. Velocities in the same way; then each group of jointed bodies with one that `changed` moves as one rigid
-/// body until it has the linear and angular momentum of before, wherever its joints to ground leave it free.
+/// they are moved. Velocities in the same way; then each group of jointed bodies with one that `changed` moves as one
+/// rigid body until it has the linear and angular momentum of before, wherever its joints to ground leave it free.
 /// Accelerations, multipliers and what a step needs are solved for; sums and running maxima go on. Nothing: the joints
 /// cannot be closed, or nothing holds a direction.
 std::optional<SwitchedModel> switch_model(const formats::Scene& scene, const BodyFiles& files, const Standing& before,

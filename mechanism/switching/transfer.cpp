@@ -11,6 +11,7 @@
 #include "common/math/rotation.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/model/node_coordinates.hpp"
+#include "mechanism/switching/modal_compliance.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -47,19 +48,32 @@ NodeMotion rigid_motion(const SuperelementBody& body, const SuperelementScratch&
   return result;
 }
 
-/// [Aᵀ ẋ; Ω] with which a body of fewer modes has the momenta of the one that `scratch` knows where it was evaluated:
-/// m v + Ω × c + ċ and c × v + J Ω + N ẇ. `there`: the other one, with its w, that and its rate at rest.
-Eigen::Matrix<double, 6, 1> velocity_of_momenta(const ModalBody& body, const ModalScratch& scratch,
-                                                const ModalScratch& there, const Vector3d& velocity) {
-  const Vector3d p = body.mass * velocity + scratch.om.cross(scratch.c) + scratch.cd - there.cd;
-  const Vector3d h = scratch.c.cross(velocity) + scratch.J * scratch.om + scratch.N * scratch.wd - there.N * there.wd;
-  const Matrix3d lever = skew<double>(there.c), J = there.J + lever * lever / body.mass;  // about the centre of mass
-  const Vector3d turn = h - there.c.cross(p) / body.mass;
-  Eigen::Matrix<double, 6, 1> V;
-  V.tail<3>() =
-      body.planar ? Vector3d(0.0, 0.0, turn.z() / J(2, 2)) : Vector3d(J.completeOrthogonalDecomposition().solve(turn));
-  V.head<3>() = (p - V.tail<3>().cross(there.c)) / body.mass;
-  return V;
+/// Linear momentum, and angular momentum about the centre of mass, of a modal body where it was evaluated; world axes.
+struct CentralMomenta {
+  Vector3d center, linear, angular;
+};
+
+/// `velocity` of the frame, in its axes: p = m v + Ω × c + ċ, about the frame c × v + J Ω + N ẇ.
+CentralMomenta central_momenta(const ModalBody& body, const ModalScratch& s, const Vector3d& x,
+                               const Vector3d& velocity) {
+  const Vector3d center = s.c / body.mass, p = body.mass * velocity + s.om.cross(s.c) + s.cd;
+  const Vector3d h = s.c.cross(velocity) + s.J * s.om + s.N * s.wd - center.cross(p);
+  return {x + s.A * center, s.A * p, s.A * h};
+}
+
+/// Angular velocity, in axes of the frame, with which a body has that angular momentum about its centre of mass.
+Vector3d spin_of(const ModalBody& body, const ModalScratch& s, const Vector3d& angular) {
+  const Matrix3d lever = skew<double>(s.c), J = s.J + lever * lever / body.mass;
+  const Vector3d h = s.A.transpose() * angular - s.N * s.wd + s.c.cross(s.cd) / body.mass;
+  return body.planar ? Vector3d(0.0, 0.0, h.z() / J(2, 2)) : Vector3d(J.completeOrthogonalDecomposition().solve(h));
+}
+
+/// How the modes from `first` on turn the mass.
+Vector3d mean_turn(const ModalBody& body, Eigen::Index first, const Eigen::VectorXd& w) {
+  if (body.planar) return Vector3d::Zero();
+  Eigen::VectorXd gone = w;
+  gone.head(first).setZero();
+  return rigid_part(body).part.bottomRows<3>() * gone;
 }
 
 }  // namespace
@@ -157,19 +171,23 @@ void StateTransfer::set_modal_bodies(const State& state, const Evaluation& now, 
   }
 }
 
-/// The frame stays, and takes the momenta of the modes that are gone.
+/// The body stands where its mass was, and has the momenta of the modes that are gone.
 void StateTransfer::leave_modes_out(const ModalBody& body, const ModalBody& own, const ModalScratch& scratch,
                                     State& result) const {
   const Node& node = to_.nodes[body.node];
-  const double* rates = result.v().data() + to_.sizes.first_modal() + body.offset;
+  const Vector3d x = result.x().col(body.node), velocity = translation_at(to_, result.v(), node.translation);
+  const CentralMomenta momenta = central_momenta(own, scratch, x, scratch.A.transpose() * velocity);
   NodeMotion frame;
-  frame.R = scratch.A;
+  frame.R = scratch.A * exp_so3<double>(mean_turn(own, body.modes, scratch.w));
+  const double* rates = result.v().data() + to_.sizes.first_modal() + body.offset;
   ModalScratch there = make_scratch(body);
   update_kinematics(body, frame, {result.w().data() + body.offset, rates, rates}, Vector3d::Zero(), there);
-  const Vector3d velocity = translation_at(to_, result.v(), node.translation);
-  const auto V = velocity_of_momenta(own, scratch, there, scratch.A.transpose() * velocity);
-  set_translation(to_, scratch.A * V.head<3>(), node.translation, result.v());
-  set_rotation(to_, V.tail<3>(), node.rotation, result.v());
+  result.x().col(body.node) = momenta.center - frame.R * there.c / body.mass;
+  result.Q().col(body.node) = wxyz(Eigen::Quaterniond(frame.R).normalized());
+  const Vector3d spin = spin_of(body, there, momenta.angular);
+  set_translation(to_, (momenta.linear - frame.R * (spin.cross(there.c) + there.cd)) / body.mass, node.translation,
+                  result.v());
+  set_rotation(to_, spin, node.rotation, result.v());
 }
 
 void StateTransfer::set_treads(const State& state, State& result) const {

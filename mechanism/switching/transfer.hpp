@@ -24,8 +24,8 @@ class StateTransfer {
   /// `state`, at which `now` was evaluated, as a state of the other model: nodes of both keep their motion to the bit,
   /// places that become nodes or stop being some move with the rigid body, with accelerations. Bodies that are flexible
   /// in both keep their deformation, one that becomes flexible is undeformed. A body that becomes rigid takes the pose
-  /// of its floating frame and the linear and angular momentum that its mass matrix has in axes of the frame; so does a
-  /// modal body that loses modes.
+  /// of its floating frame and the linear and angular momentum that its mass matrix has in axes of the frame; a modal
+  /// body that loses modes takes the mean pose of its mass, and its momenta.
   /// Multipliers are kept where both models have the same constraints, else they are zero. No heap allocation where no
   /// body becomes rigid.
   void apply(const State& state, const Evaluation& now, State& result) const;

@@ -23,17 +23,20 @@ using test_support::TemporaryFolder;
 const Vector3d z = Vector3d::UnitZ();
 
 /// The same rod, twelve modes each: hinged at its ends, of the mean of its mass, clamped at its first node; and one
-/// that is stout, hinged.
+/// that is stout.
 BodyFiles files() {
   test_support::Rod rod{0.0, 2.0, 4.0e-4, 2.1e11, 8.0e10, 2.0e-8, 7800.0, 8};
   const test_support::LumpedModel slender = test_support::lumped_rod(rod);
   rod.I = 1e-6;
+  const test_support::Conditions at_first_node{{0, 0, 0, 0, 0, 0}, {0, 1, 2, 3, 4, 5}};
   BodyFiles list;
   list.modal_bodies["hinged"].body = test_support::modal_body(slender, test_support::rod_conditions(8), 12);
   list.modal_bodies["mean"].body = test_support::modal_body(slender, {}, 12);
-  list.modal_bodies["clamped"].body = test_support::modal_body(slender, {{0, 0, 0, 0, 0, 0}, {0, 1, 2, 3, 4, 5}}, 12);
-  list.modal_bodies["stout"].body =
-      test_support::modal_body(test_support::lumped_rod(rod), test_support::rod_conditions(8), 12);
+  list.modal_bodies["clamped"].body = test_support::modal_body(slender, at_first_node, 12);
+  const test_support::LumpedModel stout = test_support::lumped_rod(rod);
+  list.modal_bodies["stout"].body = test_support::modal_body(stout, test_support::rod_conditions(8), 12);
+  list.modal_bodies["stout mean"].body = test_support::modal_body(stout, {}, 12);
+  list.modal_bodies["stout clamped"].body = test_support::modal_body(stout, at_first_node, 12);
   return list;
 }
 
@@ -205,6 +208,67 @@ TEST(AutomaticModalBodies, WakeInResonance) {
   TemporaryFolder folder;
   EXPECT_EQ(run(shaken(0.05), folder.file("a.results.h5")).report.automatic[0].part_on, 0.0);
   EXPECT_GT(run(shaken(0.98), folder.file("b.results.h5")).report.automatic[0].part_on, 0.5);
+}
+
+// Nothing holds it, and nothing but its spin bends it: there are no reactions to be asked for.
+TEST(AutomaticModalBodies, FlyWithoutJoints) {
+  TemporaryFolder folder;
+  formats::Scene scene = automatic(test_support::empty_scene(1e-3, 0.3));
+  formats::ModalBodySpec rod = test_support::modal_spec("rod", "clamped");
+  rod.start.velocity = Vector3d(300, 0, 0);
+  rod.start.angular_velocity = Vector3d(0, 0, 1);
+  scene.bodies = {rod};
+  const RunReport report = run(scene, folder.file("a.results.h5")).report;
+  EXPECT_EQ(report.outcome, RunOutcome::completed) << report.reason;
+  EXPECT_EQ(report.automatic[0].part_on, 0.0);
+}
+
+// A stout cantilever that a pulse of 100 bends wakes, and sleeps when that is over: what then shakes it on and on, by 2
+// or 5 at a hundredth of its first frequency, is as small to the body that is awake as to the one that sleeps. (It once
+// woke and slept 88 times in three seconds.)
+TEST(AutomaticModalBodies, DoNotChatter) {
+  for (const char* file : {"stout", "stout mean", "stout clamped"})
+    for (const double force : {2.0, 5.0}) {
+      SCOPED_TRACE(fmt::format("{}, {}", file, force));
+      TemporaryFolder folder;
+      const std::string a = folder.file("a.results.h5"), b = folder.file("b.results.h5");
+      formats::Scene scene = test_support::empty_scene(2.5e-4, 1.6);
+      formats::ModalBodySpec rod = test_support::modal_spec("rod", file);
+      rod.damping.ratio = 0.2;
+      scene.bodies.push_back(rod);
+      scene.joints = {test_support::joint("clamp", JointKind::fixed, "ground", "rod/n0", Vector3d::Zero(), z)};
+      scene.loads = {test_support::constant_load("pulse", formats::LoadKind::force, "rod/n8", Vector3d::Zero()),
+                     test_support::constant_load("shake", formats::LoadKind::force, "rod/n8", Vector3d::Zero())};
+      scene.loads[0].components[2] =
+          formats::TimeTable{{0.0, 0.1, 0.3, 0.5, 0.8, 9.0}, {0.0, 0.0, 100.0, 100.0, 0.0, 0.0}};
+      scene.loads[1].components[1] = formats::TimeExpression{fmt::format("{} * sin(62.8 * t)", force), {}, "here"};
+      formats::Scene own = automatic(scene);
+      own.automatic.tolerance = 0.01;
+      const RunReport report = run(own, a).report;
+      run(scene, b);
+      EXPECT_LE(report.automatic[0].changes.size(), 4U);
+      EXPECT_LT(largest_difference(a, b, {"joints/force"}), 0.02 * largest(b, {"joints/force"}));
+    }
+}
+
+// What falls asleep shakes what is welded to it, which no criterion of it alone sees.
+TEST(AutomaticModalBodies, PiecesOfAWeldThatSleepAreDoubted) {
+  TemporaryFolder folder;
+  formats::Scene scene = automatic(test_support::empty_scene(1e-3, 1.0));
+  scene.automatic.tolerance = 0.03;
+  for (const char* name : {"stout", "hinged"}) {
+    formats::ModalBodySpec piece = test_support::modal_spec(name, name);
+    piece.damping.ratio = 0.1;
+    piece.start.pose.position = {scene.bodies.empty() ? 0.0 : 2.0, 0, 0};
+    scene.bodies.push_back(piece);
+  }
+  scene.joints = {test_support::joint("clamp", JointKind::fixed, "ground", "stout/n0", Vector3d::Zero(), z),
+                  test_support::joint("weld", JointKind::fixed, "stout/n8", "hinged/n0", {2, 0, 0}, z)};
+  scene.loads = {test_support::constant_load("pulse", formats::LoadKind::force, "hinged/n8", Vector3d::Zero())};
+  scene.loads[0].components[1] = formats::TimeTable{{0.0, 0.1, 0.2, 0.3, 0.4, 9.0}, {0.0, 0.0, 30.0, 30.0, 0.0, 0.0}};
+  const RunReport report = run(scene, folder.file("a.results.h5")).report;
+  EXPECT_THAT(fmt::format("{}", fmt::join(report.doubts, " ")),
+              ::testing::HasSubstr("stout fell asleep welded to flexible bodies"));
 }
 
 }  // namespace
