@@ -182,6 +182,12 @@ TEST(AutomaticModalBodies, GoOnFromWhereTheyStood) {
     const RunEnd again = simulate(RunRequest{scene, list, std::nullopt, folder.file("c.results.h5"), results, at}, {});
     EXPECT_EQ(again.report.automatic[0].was_awake, at > 0.1);
     EXPECT_LT((again.state.x() - whole.state.x()).cwiseAbs().maxCoeff(), 4e-3);
+    // And where it sleeps after all that: what the start leaves of its rates is round-off.
+    ASSERT_EQ(whole.report.automatic[0].changes.size() % 2, 0U);
+    const double asleep = whole.report.automatic[0].changes.back() + 0.05;
+    const RunEnd last =
+        simulate(RunRequest{scene, list, std::nullopt, folder.file("d.results.h5"), results, asleep}, {});
+    EXPECT_FALSE(last.report.automatic[0].was_awake);
   }
 }
 
