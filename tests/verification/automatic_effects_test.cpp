@@ -16,6 +16,7 @@
 #include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/scenes/scenes.hpp"
 #include "tests/support/scenes/second_order_scenes.hpp"
+#include "tests/support/stored_motion.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::mechanism::automatic_effects_test {
@@ -24,6 +25,8 @@ namespace {
 using Eigen::Vector3d;
 using formats::Effect;
 using formats::JointKind;
+using test_support::largest_difference;
+using test_support::largest_value;
 using test_support::TemporaryFolder;
 using ::testing::HasSubstr;
 
@@ -83,22 +86,6 @@ RunReport run(const formats::Scene& scene, const std::string& path) {
   return simulate(RunRequest{scene, list, std::nullopt, path, "", std::nullopt}, {}).report;
 }
 
-Eigen::MatrixXd rows(const std::string& file, const std::vector<std::string>& selection) {
-  const formats::ResultsReader reader(file);
-  std::vector<std::string> names;
-  for (const formats::Channel& channel : formats::select_channels(reader.channels(), selection, "test"))
-    names.push_back(channel.name);
-  return reader.read_rows(names, 0, reader.rows());
-}
-
-double largest_difference(const std::string& a, const std::string& b, const std::vector<std::string>& selection) {
-  return (rows(a, selection) - rows(b, selection)).cwiseAbs().maxCoeff();
-}
-
-double largest(const std::string& file, const std::vector<std::string>& selection) {
-  return rows(file, selection).cwiseAbs().maxCoeff();
-}
-
 const std::vector<std::string> motion = {"nodes/position/beam/tip/*",
                                          "nodes/rotation/beam/tip/*",
                                          "nodes/velocity/beam/base/*",
@@ -116,11 +103,11 @@ TEST(AutomaticEffects, ThatSleepThroughoutAreTheRigidSceneToTheBit) {
   EXPECT_FALSE(report.automatic[0].was_awake);
   EXPECT_TRUE(report.automatic[0].changes.empty());
   EXPECT_EQ(report.automatic[0].part_on, 0.0);
-  EXPECT_GT(largest(b, {"joints/rate"}), 1.0);
+  EXPECT_GT(largest_value(b, {"joints/rate"}), 1.0);
   EXPECT_EQ(largest_difference(a, b, motion), 0.0);
   EXPECT_EQ(largest_difference(a, b, {"energy/kinetic", "energy/balance", "energy/work"}), 0.0);
-  EXPECT_EQ(largest(a, {"energy/switched"}), 0.0);
-  EXPECT_EQ(largest(a, {"superelements/y", "superelements/y_rate"}), 0.0);
+  EXPECT_EQ(largest_value(a, {"energy/switched"}), 0.0);
+  EXPECT_EQ(largest_value(a, {"superelements/y", "superelements/y_rate"}), 0.0);
 }
 
 // A moment that bends it from the start on, and a tolerance that never lets it sleep.
@@ -159,13 +146,13 @@ TEST(AutomaticEffects, WakeAndSleepWithinTheTolerance) {
   EXPECT_LT(history.part_on, 0.9);
   const double error = largest_difference(a, b, {"nodes/position"}), rigid = largest_difference(c, b, {"joints/force"});
   EXPECT_LT(error, 4e-3);
-  EXPECT_LT(largest_difference(a, b, {"joints/force"}), 0.02 * largest(b, {"joints/force"}));
-  EXPECT_GT(rigid, 0.02 * largest(b, {"joints/force"}));
+  EXPECT_LT(largest_difference(a, b, {"joints/force"}), 0.02 * largest_value(b, {"joints/force"}));
+  EXPECT_GT(rigid, 0.02 * largest_value(b, {"joints/force"}));
   // What switches cost is told, within the part of the energy that is allowed, and the balance closes with it.
-  const double energy = largest(a, {"energy/kinetic"});
-  EXPECT_GT(largest(a, {"energy/switched"}), 0.0);
-  EXPECT_LT(largest(a, {"energy/switched"}), 1e-3 * energy * static_cast<double>(history.changes.size()));
-  EXPECT_LT(largest(a, {"energy/balance"}), 2.0 * largest(b, {"energy/balance"}) + 1e-4 * energy);
+  const double energy = largest_value(a, {"energy/kinetic"});
+  EXPECT_GT(largest_value(a, {"energy/switched"}), 0.0);
+  EXPECT_LT(largest_value(a, {"energy/switched"}), 1e-3 * energy * static_cast<double>(history.changes.size()));
+  EXPECT_LT(largest_value(a, {"energy/balance"}), 2.0 * largest_value(b, {"energy/balance"}) + 1e-4 * energy);
 }
 
 // A piece that falls asleep shakes what is welded to it, which no criterion of the piece alone sees; alone it is
@@ -207,11 +194,11 @@ TEST(AutomaticEffects, TellWhatNodesOfASleepingBodyReceive) {
   const std::string a = folder.file("a.results.h5");
   run(with(pendulum(), {automatic(Effect::flexibility)}), a);
   // Of the bob, whose mass is 1, and its weight.
-  const double force = largest(a, {"nodes/acceleration/bob/*"});
+  const double force = largest_value(a, {"nodes/acceleration/bob/*"});
   ASSERT_GT(force, 9.0);
-  EXPECT_EQ(largest(a, {"superelements/y"}), 0.0);
-  const Eigen::MatrixXd received = rows(a, {"superelements/boundary_force/beam/tip/force_*"});
-  Eigen::MatrixXd needed = rows(a, {"nodes/acceleration/bob/*"});
+  EXPECT_EQ(largest_value(a, {"superelements/y"}), 0.0);
+  const Eigen::MatrixXd received = test_support::stored_rows(a, {"superelements/boundary_force/beam/tip/force_*"});
+  Eigen::MatrixXd needed = test_support::stored_rows(a, {"nodes/acceleration/bob/*"});
   needed.col(1).array() += 9.81;
   EXPECT_LT((received + needed).cwiseAbs().maxCoeff(), 1e-6 * force);  // Newton's iteration ends at 1e-8
 }
@@ -334,8 +321,8 @@ TEST(AutomaticEffects, SleepWhereForcesGrowFromNothing) {
   run(scene, b);
   EXPECT_FALSE(report.automatic[0].was_awake);
   EXPECT_TRUE(report.automatic[0].changes.empty());
-  EXPECT_GT(largest(b, {"joints/force"}), 10.0);
-  EXPECT_LT(largest_difference(a, b, {"joints/force"}), 1e-3 * largest(b, {"joints/force"}));
+  EXPECT_GT(largest_value(b, {"joints/force"}), 10.0);
+  EXPECT_LT(largest_difference(a, b, {"joints/force"}), 1e-3 * largest_value(b, {"joints/force"}));
 }
 
 // It rests, and no energy is there beside that of its deformation; yet it begins with what the load asks for: its clamp
@@ -351,10 +338,10 @@ TEST(AutomaticEffects, WakeBentWhereNothingMoves) {
   EXPECT_FALSE(report.automatic[0].was_awake);
   ASSERT_EQ(report.automatic[0].changes.size(), 1U);
   EXPECT_NEAR(report.automatic[0].changes[0], 0.375, 0.02);  // 0.4 (1 + 4 t) = 1, at the edge of a window
-  EXPECT_GT(largest(a, {"energy/switched"}), 0.0);
+  EXPECT_GT(largest_value(a, {"energy/switched"}), 0.0);
   const double omega =
       1.8751 * 1.8751 / (beam.length * beam.length) * std::sqrt(beam.young * beam.Iz / (beam.density * beam.area));
-  const Eigen::VectorXd moment = rows(a, {"joints/moment/clamp/z"}).col(0).cwiseAbs();
+  const Eigen::VectorXd moment = test_support::stored_rows(a, {"joints/moment/clamp/z"}).col(0).cwiseAbs();
   const std::vector<double> time = formats::ResultsReader(a).time();
   for (std::size_t i = 0; i < time.size(); ++i)
     EXPECT_NEAR(moment[static_cast<Eigen::Index>(i)], force * (1.0 + 4.0 * time[i]) * beam.length,

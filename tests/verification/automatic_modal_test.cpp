@@ -11,6 +11,7 @@
 #include "tests/support/bodies/lumped_bodies.hpp"
 #include "tests/support/bodies/modal_known_answers.hpp"
 #include "tests/support/scenes/scenes.hpp"
+#include "tests/support/stored_motion.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::mechanism::automatic_modal_test {
@@ -18,6 +19,8 @@ namespace {
 
 using Eigen::Vector3d;
 using formats::JointKind;
+using test_support::largest_difference;
+using test_support::largest_value;
 using test_support::TemporaryFolder;
 
 const Vector3d z = Vector3d::UnitZ();
@@ -80,22 +83,6 @@ RunEnd run(const formats::Scene& scene, const std::string& path) {
   return simulate(RunRequest{scene, list, std::nullopt, path, "", std::nullopt}, {});
 }
 
-Eigen::MatrixXd rows(const std::string& file, const std::vector<std::string>& selection) {
-  const formats::ResultsReader reader(file);
-  std::vector<std::string> names;
-  for (const formats::Channel& channel : formats::select_channels(reader.channels(), selection, "test"))
-    names.push_back(channel.name);
-  return reader.read_rows(names, 0, reader.rows());
-}
-
-double largest_difference(const std::string& a, const std::string& b, const std::vector<std::string>& selection) {
-  return (rows(a, selection) - rows(b, selection)).cwiseAbs().maxCoeff();
-}
-
-double largest(const std::string& file, const std::vector<std::string>& selection) {
-  return rows(file, selection).cwiseAbs().maxCoeff();
-}
-
 // A scene whose rod is too stout to matter is the one without its modes, and its modes are stored as they are: zero.
 TEST(AutomaticModalBodies, ThatSleepThroughoutAreTheRigidSceneToTheBit) {
   TemporaryFolder folder;
@@ -105,13 +92,13 @@ TEST(AutomaticModalBodies, ThatSleepThroughoutAreTheRigidSceneToTheBit) {
   ASSERT_EQ(report.automatic.size(), 1U);
   EXPECT_FALSE(report.automatic[0].was_awake);
   EXPECT_EQ(report.automatic[0].part_on, 0.0);
-  EXPECT_GT(largest(b, {"joints/rate"}), 1.0);
+  EXPECT_GT(largest_value(b, {"joints/rate"}), 1.0);
   for (const char* channels :
        {"nodes/position", "nodes/rotation", "nodes/velocity", "nodes/angular_velocity", "nodes/acceleration",
         "nodes/angular_acceleration", "joints", "energy/kinetic", "energy/balance"})
     EXPECT_EQ(largest_difference(a, b, {channels}), 0.0) << channels;
-  EXPECT_EQ(largest(a, {"modal_bodies"}), 0.0);
-  EXPECT_EQ(largest(a, {"energy/switched"}), 0.0);
+  EXPECT_EQ(largest_value(a, {"modal_bodies"}), 0.0);
+  EXPECT_EQ(largest_value(a, {"energy/switched"}), 0.0);
 }
 
 TEST(AutomaticModalBodies, ThatAreAwakeThroughoutAreTheFlexibleSceneToTheBit) {
@@ -148,13 +135,13 @@ TEST(AutomaticModalBodies, WakeAndSleepWithinTheTolerance) {
     EXPECT_LT(history.changes[0], 0.2);
     EXPECT_GT(history.changes[1], 0.4);
     EXPECT_LT(history.part_on, 0.9);
-    const double force = largest(b, {"joints/force"}), energy = largest(a, {"energy/kinetic"});
+    const double force = largest_value(b, {"joints/force"}), energy = largest_value(a, {"energy/kinetic"});
     EXPECT_LT(largest_difference(a, b, {"nodes/position"}), 4e-3);
     EXPECT_LT(largest_difference(a, b, {"joints/force"}), 0.02 * force);
     EXPECT_GT(largest_difference(c, b, {"joints/force"}), 0.02 * force);
-    EXPECT_GT(largest(a, {"energy/switched"}), 0.0);
-    EXPECT_LT(largest(a, {"energy/switched"}), 1e-3 * energy * static_cast<double>(history.changes.size()));
-    EXPECT_LT(largest(a, {"energy/balance"}), 2.0 * largest(b, {"energy/balance"}) + 1e-4 * energy);
+    EXPECT_GT(largest_value(a, {"energy/switched"}), 0.0);
+    EXPECT_LT(largest_value(a, {"energy/switched"}), 1e-3 * energy * static_cast<double>(history.changes.size()));
+    EXPECT_LT(largest_value(a, {"energy/balance"}), 2.0 * largest_value(b, {"energy/balance"}) + 1e-4 * energy);
   }
 }
 
@@ -253,7 +240,7 @@ TEST(AutomaticModalBodies, DoNotChatter) {
       const RunReport report = run(own, a).report;
       run(scene, b);
       EXPECT_LE(report.automatic[0].changes.size(), 4U);
-      EXPECT_LT(largest_difference(a, b, {"joints/force"}), 0.02 * largest(b, {"joints/force"}));
+      EXPECT_LT(largest_difference(a, b, {"joints/force"}), 0.02 * largest_value(b, {"joints/force"}));
     }
 }
 
