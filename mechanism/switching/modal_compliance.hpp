@@ -8,8 +8,8 @@
 
 namespace tisserand::mechanism {
 
-/// The undeformed body in axes of its frame: 6 x 6 mass of the motion of the frame, its coupling with w, 6 x m, and how
-/// w moves the mass as a rigid body, the one over the other.
+/// The undeformed body in axes of its frame, of the mass matrix [GA00] (8), (16): 6 x 6 mass of the motion of the
+/// frame, its coupling with w, 6 x m, and how w moves the mass as a rigid body, the one over the other.
 struct RigidPart {
   Eigen::Matrix<double, 6, 6> mass;
   Eigen::Matrix<double, 6, Eigen::Dynamic> coupling, part;

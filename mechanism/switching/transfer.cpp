@@ -48,7 +48,8 @@ NodeMotion rigid_motion(const SuperelementBody& body, const SuperelementScratch&
   return result;
 }
 
-/// Linear momentum, and angular momentum about the centre of mass, of a modal body where it was evaluated; world axes.
+/// Linear momentum, and angular momentum about the centre of mass, of a modal body where it was evaluated, by the mass
+/// matrix [GA00] (8), (16); world axes.
 struct CentralMomenta {
   Vector3d center, linear, angular;
 };

@@ -162,8 +162,16 @@ PatchAction<T> act_in_patch(const Tyre& tyre, const ContactSlip<T>& s, const Tre
   return a;
 }
 
+/// As the tread is.
 inline TreadMotion<double> tread_motion(const Tread& t) {
   return {t.w[0], t.w[1], t.wd[0], t.wd[1], t.wdd[0], t.wdd[1]};
+}
+
+/// And its derivative by deflection k (0, 1; others: none) with the coefficients of a tangent.
+inline TreadMotion<Dual> tread_motion(const Tread& t, const TangentCoefficients& c, int k) {
+  const auto moved = [k](int i, double at, double coefficient) { return Dual(at, i == k ? coefficient : 0.0); };
+  return {moved(0, t.w[0], c.stiffness), moved(1, t.w[1], c.stiffness), moved(0, t.wd[0], c.damping),
+          moved(1, t.wd[1], c.damping),  moved(0, t.wdd[0], c.mass),    moved(1, t.wdd[1], c.mass)};
 }
 
 /// m (ẅ + (ẇ + rate)/τ) of both equations.
@@ -171,13 +179,6 @@ template <class T>
 Eigen::Matrix<T, 2, 1> lag_residual(const Tyre& tyre, const TreadMotion<T>& tread, const LagRate<T>& rate) {
   const double m = lag_mass(tyre), tau = lag_share * tyre.radius / tyre.low_speed;
   return {m * tread.udd + m / tau * (tread.ud + rate.along), m * tread.vdd + m / tau * (tread.vd + rate.across)};
-}
-
-/// That of a change of the deflections: coordinate k by one.
-inline TreadMotion<Dual> tread_motion(const Tread& t, const TangentCoefficients& c, int k) {
-  const auto moved = [k](int i, double at, double coefficient) { return Dual(at, i == k ? coefficient : 0.0); };
-  return {moved(0, t.w[0], c.stiffness), moved(1, t.w[1], c.stiffness), moved(0, t.wd[0], c.damping),
-          moved(1, t.wd[1], c.damping),  moved(0, t.wdd[0], c.mass),    moved(1, t.wdd[1], c.mass)};
 }
 
 }  // namespace tisserand::mechanism
