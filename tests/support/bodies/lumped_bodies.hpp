@@ -42,7 +42,9 @@ struct Conditions {
 };
 
 /// Lowest `count` elastic modes of K X = M X Λ on the coordinates that are not held; massless coordinates are
-/// condensed. Rows of all coordinates; XᵀM X = 1; the largest component of each mode is positive.
+/// condensed. Rows of all coordinates; XᵀM X = 1; the largest component of each mode is positive. A count that would
+/// cut a pair of equal frequencies throws: the direction of what is left of it is one of round-off, and a plane motion
+/// leaves its plane.
 void lumped_modes(const LumpedModel& model, const Conditions& conditions, int count, Eigen::VectorXd& omega2,
                   Eigen::MatrixXd& X);
 
