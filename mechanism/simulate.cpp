@@ -29,6 +29,7 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
   formats::ResultsWriter writer(request.path, layout, run.beginning.value_or(formats::ResultsBeginning{}));
   RowWriter out{row, writer, request.path};
   if (run.listener != nullptr) run.listener->begin(layout);
+  run.report.seconds_output = run.seconds() - begin_steps;
   switch (run.scene.analysis) {
     case formats::AnalysisKind::dynamics:
       if (run.scene.integrator.method == formats::Method::bdf)
