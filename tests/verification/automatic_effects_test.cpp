@@ -16,6 +16,7 @@
 #include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/scenes/scenes.hpp"
 #include "tests/support/scenes/second_order_scenes.hpp"
+#include "tests/support/scenes/swing.hpp"
 #include "tests/support/stored_motion.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -53,16 +54,7 @@ formats::Scene swing(double moment) {
   formats::SuperelementBodySpec beam = test_support::superelement_body("beam", "beam");
   beam.damping.ratio = 0.3;
   scene.bodies.emplace_back(beam);
-  formats::RigidBodySpec bob = test_support::rigid_body("bob", 1.0, Vector3d::Zero(), {0.01, 0.01, 0.01});
-  bob.start.pose.position = {2, 0, 0};
-  scene.bodies.emplace_back(bob);
-  scene.joints = {test_support::joint("hinge", JointKind::revolute, "ground", "beam/base", Vector3d::Zero(), z),
-                  test_support::joint("ball", JointKind::spherical, "beam/tip", "bob", {2, 0, 0}, z)};
-  formats::SpringSpec motor;
-  motor.name = "motor";
-  motor.coordinate = formats::CoordinateRef{"hinge", ""};
-  motor.force = formats::TimeTable{{0.0, 0.1, 0.2, 0.3, 0.4, 1.2}, {0.0, 0.0, moment, moment, 0.0, 0.0}};
-  scene.springs = {motor};
+  test_support::hang(scene, "beam/base", "beam/tip", moment);
   return scene;
 }
 

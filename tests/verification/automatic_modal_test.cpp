@@ -11,6 +11,7 @@
 #include "tests/support/bodies/lumped_bodies.hpp"
 #include "tests/support/bodies/modal_known_answers.hpp"
 #include "tests/support/scenes/scenes.hpp"
+#include "tests/support/scenes/swing.hpp"
 #include "tests/support/stored_motion.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -50,16 +51,7 @@ formats::Scene swing(const std::string& file) {
   formats::ModalBodySpec rod = test_support::modal_spec("rod", file);
   rod.damping.ratio = 0.3;
   scene.bodies.push_back(rod);
-  formats::RigidBodySpec bob = test_support::rigid_body("bob", 1.0, Vector3d::Zero(), {0.01, 0.01, 0.01});
-  bob.start.pose.position = {2, 0, 0};
-  scene.bodies.emplace_back(bob);
-  scene.joints = {test_support::joint("hinge", JointKind::revolute, "ground", "rod/n0", Vector3d::Zero(), z),
-                  test_support::joint("ball", JointKind::spherical, "rod/n8", "bob", {2, 0, 0}, z)};
-  formats::SpringSpec motor;
-  motor.name = "motor";
-  motor.coordinate = formats::CoordinateRef{"hinge", ""};
-  motor.force = formats::TimeTable{{0.0, 0.1, 0.2, 0.3, 0.4, 1.2}, {0.0, 0.0, 300.0, 300.0, 0.0, 0.0}};
-  scene.springs = {motor};
+  test_support::hang(scene, "rod/n0", "rod/n8", 300.0);
   return scene;
 }
 
