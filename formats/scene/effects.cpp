@@ -61,7 +61,9 @@ void read_scene_effect(const MapReader& scene, const YamlNode& node, std::vector
   }
   std::vector<std::string> words;
   for (const Choice<Effect>& effect : effect_words) words.emplace_back(effect.word);
-  const auto near = nearest(node.key, words);
+  std::vector<std::string> keys = words;
+  keys.insert(keys.end(), {"tolerance", "window"});
+  const auto near = nearest(node.key, keys);
   context.fail(node.key_place, fmt::format("there is no effect '{}'", node.key),
                fmt::format("{}effects are {}; of a body write {}: {{damping: off}}",
                            near ? fmt::format("did you mean '{}'? ", *near) : "", join(words, ", "), node.key));

@@ -219,9 +219,11 @@ class SwitchCheck {
   }
 
   [[noreturn]] static void throw_part(const formats::EffectSwitch& one, const std::string& body, const char* remedy) {
-    throw Error(fmt::format("effects: {} of body '{}' is no term of its own that could be switched",
-                            formats::effect_word(one.effect), body),
-                one.where, fmt::format("{}{}", remedy, one.owner.empty() ? "; or switch other bodies by name" : ""));
+    throw Error(
+        fmt::format("effects: {} of body '{}' is no term of its own that could be switched",
+                    formats::effect_word(one.effect), body),
+        one.where,
+        fmt::format("{}{}", remedy, one.owner.empty() && !one.automatic ? "; or switch other bodies by name" : ""));
   }
 
   void check_of_body(const formats::EffectSwitch& one) const {
@@ -249,17 +251,22 @@ class SwitchCheck {
                 one.where, attachment.remedy);
   }
 
+  /// Of `auto` too where nothing has a term: it stays off those that have the effect as a part of others.
   void check_of_bodies(const formats::EffectSwitch& one) const {
-    bool has = false;
+    const formats::BodySpec* part = nullptr;
+    bool has_term = false;
     const char* remedy = "";
     for (const formats::BodySpec& body : scene_.bodies) {
       const Share share = this->share(body, one.effect);
-      if (share.kind == Share::Kind::part && !one.on && !is_switched_by_name(one.effect, body_name(body)))
-        throw_part(one, body_name(body), share.remedy);
-      has = has || share.kind != Share::Kind::none;
+      if (share.kind == Share::Kind::term) has_term = true;
       if (share.kind == Share::Kind::none) remedy = share.remedy;
+      if (share.kind != Share::Kind::part) continue;
+      if (part == nullptr) part = &body;
+      if (!one.on && !is_switched_by_name(one.effect, body_name(body))) throw_part(one, body_name(body), share.remedy);
     }
-    if (!has) throw_absent(one, remedy);
+    if (has_term) return;
+    if (part == nullptr) throw_absent(one, remedy);
+    if (one.automatic) throw_part(one, body_name(*part), share(*part, one.effect).remedy);
   }
 
   [[noreturn]] static void throw_absent(const formats::EffectSwitch& one, const char* remedy) {
@@ -318,7 +325,7 @@ std::vector<EffectUse> effects_of(const formats::Scene& scene, const BodyFiles& 
   return uses;
 }
 
-std::string effects_text(const std::vector<EffectUse>& uses) {
+std::string effects_text(const std::vector<EffectUse>& uses, bool planar) {
   std::vector<std::string> on, off;
   for (const Effect effect : formats::all_effects) {
     const std::string word = formats::effect_word(effect);
@@ -333,6 +340,7 @@ std::string effects_text(const std::vector<EffectUse>& uses) {
     if (left_out.empty()) continue;
     off.push_back(left_out.size() == all ? word : fmt::format("{} of {}", word, listed(left_out)));
   }
+  if (planar) on.push_back(formats::effect_word(Effect::planar));
   if (on.empty() && off.empty()) return "none";
   return join(on, ", ") + (off.empty() ? "" : fmt::format("{}off: {}", on.empty() ? "" : "; ", join(off, ", ")));
 }

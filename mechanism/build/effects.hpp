@@ -18,8 +18,8 @@ struct EffectUse {
   bool automatic = false;  ///< with `on`: the run may switch it (mechanism/run/automatic_effects.hpp)
 };
 
-/// All that the scene has, whether on or off, in the order of the effects, then of the bodies, joints or springs; of a body whose
-/// flexibility is off neither stiffening nor damping.
+/// All that the scene has, whether on or off, in the order of the effects, then of the bodies, joints or springs; of a
+/// body whose flexibility is off neither stiffening nor damping.
 std::vector<EffectUse> effects_of(const formats::Scene& scene, const BodyFiles& files);
 
 /// Those that the run may switch.
@@ -28,8 +28,8 @@ std::vector<EffectUse> automatic_effects(const formats::Scene& scene, const Body
 /// The scene with these switched as they say, and nothing automatic.
 formats::Scene with_switches(formats::Scene scene, const std::vector<EffectUse>& uses);
 
-/// "flexibility, gravity of 2 of 3 bodies; off: friction, damping of 'rod'".
-std::string effects_text(const std::vector<EffectUse>& uses);
+/// "flexibility, gravity, planar; off: friction, damping of 'rod'".
+std::string effects_text(const std::vector<EffectUse>& uses, bool planar);
 
 /// The scene with its switches carried out (what is automatic is on) and none left; absent: it has none. Throws Error
 /// (all that are found) for an effect that the scene or one of them does not have, or that is no term of its own there.

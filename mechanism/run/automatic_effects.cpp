@@ -298,6 +298,10 @@ const State& AutomaticEffects::whole_state(const Run& run) {
   return whole_state_;
 }
 
+Mobility AutomaticEffects::mobility(const Run& run) {
+  return count_mobility(whole_.model, whole_state(run), *whole_now_);
+}
+
 void AutomaticEffects::fill_row(Run& run, formats::ResultsRow& row) {
   whole_state(run);
   mechanism::fill_row({run.built.model, run.built.state, run.workspace.now}, {whole_.model, whole_state_, *whole_now_},

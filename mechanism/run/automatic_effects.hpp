@@ -9,6 +9,7 @@
 #include "formats/results/results.hpp"
 #include "mechanism/build/build_model.hpp"
 #include "mechanism/build/effects.hpp"
+#include "mechanism/equations/mobility.hpp"
 #include "mechanism/switching/demand.hpp"
 #include "mechanism/switching/switch_model.hpp"
 #include "mechanism/switching/transfer.hpp"
@@ -44,6 +45,8 @@ class AutomaticEffects {
   BuiltModel& whole() { return whole_; }
   /// The state of the run in coordinates of the whole model.
   const State& whole_state(const Run& run);
+  /// Of the whole model there, as a run from the poses of the scene tells it.
+  Mobility mobility(const Run& run);
   void fill_row(Run& run, formats::ResultsRow& row);
   /// That switches have added so far.
   double switched_energy() const { return switched_; }

@@ -96,7 +96,8 @@ void resume_checkpoint(Run& run, const std::string& file, Joining joining) {
     throw_of_another_scene(run, checkpoint, file);
   require_before_end(run.scene, checkpoint.time, file);
   state.block() = checkpoint.state;
-  run.report.mobility = count_mobility(run.built.model, state, run.workspace.now);
+  run.report.mobility =
+      run.automatic ? run.automatic->mobility(run) : count_mobility(run.built.model, state, run.workspace.now);
   run.workspace.forget();
   run.report.notes.push_back(
       fmt::format("goes on from {} at t = {:.9g}{}", file, checkpoint.time,

@@ -181,7 +181,7 @@ Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunCo
   report.unknowns = built.model.pattern->size();
   report.nonzeros = built.model.pattern->nonzeros();
   report.effects = effects(built.model);
-  report.switches = effects_text(effects_of(scene_to_run, files));
+  report.switches = effects_text(effects_of(scene_to_run, files), !scene.planar_at.empty());
   if (scene.analysis != formats::AnalysisKind::dynamics) return;
   std::vector<EffectUse> uses = automatic_effects(scene_to_run, files);
   if (uses.empty()) return;

@@ -30,9 +30,11 @@ struct StoredRow {
     try {
       return reader.read_rows(names, row, 1).transpose();
     } catch (const Error& error) {
-      throw Error(error.what(), "",
-                  "to go on from an instant, results need nodes, superelements and joints/coordinate among "
-                  "output.channels; and the scene must be that of the file");
+      throw Error(
+          error.what(), "",
+          "to go on from an instant, results need nodes, superelements and joints/coordinate among "
+          "output.channels; and the scene must be that of the file, with its effects (the same bodies flexible, "
+          "planar or not)");
     }
   }
   Vector3d vector(const std::string& dataset, const std::string& item) const {

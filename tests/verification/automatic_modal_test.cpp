@@ -157,6 +157,8 @@ TEST(AutomaticModalBodies, GoOnFromWhereTheyStood) {
         simulate(RunRequest{kept_scene, list, std::nullopt, folder.file("b.results.h5"), kept, std::nullopt}, {});
     EXPECT_GE(rest.report.automatic[0].changes.size(), 1U);
     EXPECT_LT(rest.report.steps, whole.report.steps);
+    EXPECT_EQ(rest.report.mobility.coordinates, whole.report.mobility.coordinates);
+    EXPECT_EQ(rest.report.mobility.degrees_of_freedom, whole.report.mobility.degrees_of_freedom);
     EXPECT_EQ(rest.state.block(), whole.state.block());
     const RunEnd again = simulate(RunRequest{scene, list, std::nullopt, folder.file("c.results.h5"), results, at}, {});
     EXPECT_EQ(again.report.automatic[0].was_awake, at > 0.1);

@@ -88,6 +88,7 @@ TEST(SceneEffects, AreRefusedWithPlaceAndRemedy) {
   EXPECT_THAT(error_of("effects: {gravty: off}\n"),
               AllOf(HasSubstr("a.scene.yaml:4:11: effects: there is no effect 'gravty'"),
                     HasSubstr("did you mean 'gravity'?"), HasSubstr("of a body write gravty: {damping: off}")));
+  EXPECT_THAT(error_of("effects: {tolerence: 0.01}\n"), HasSubstr("did you mean 'tolerance'?"));
   EXPECT_THAT(
       error_of("effects: {gravity: ought}\n"),
       AllOf(HasSubstr("a.scene.yaml:4:20"), HasSubstr("unknown value of 'gravity' 'ought'"), HasSubstr("off, on")));

@@ -47,7 +47,7 @@ BodyFiles rod_files(double length, double young) {
   test_support::add_file("rod", test_support::craig_bampton_beam(beam, 4), files.superelements);
   const test_support::Rod lumped{0.0, length, 4e-4, young, 0.4 * young, 1.3e-8, 7800.0, 8};
   files.modal_bodies["rod"].body =
-      test_support::modal_body(test_support::lumped_rod(lumped), test_support::rod_conditions(8), 6);
+      test_support::modal_body(test_support::lumped_rod(lumped), test_support::rod_conditions(8), 8);
   return files;
 }
 
