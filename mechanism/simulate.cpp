@@ -22,14 +22,14 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
     start(run);
   else
     resume(run, request.restart, request.at, request.joining);
-  const double begin_steps = run.seconds();
+  const double begin_output = run.seconds();
   const formats::ResultsLayout layout = begin_rows(run, request.files);
   formats::ResultsRow row;
   row.resize(layout);
   formats::ResultsWriter writer(request.path, layout, run.beginning.value_or(formats::ResultsBeginning{}));
   RowWriter out{row, writer, request.path};
   if (run.listener != nullptr) run.listener->begin(layout);
-  run.report.seconds_output = run.seconds() - begin_steps;
+  run.report.seconds_output = run.seconds() - begin_output;
   switch (run.scene.analysis) {
     case formats::AnalysisKind::dynamics:
       if (run.scene.integrator.method == formats::Method::bdf)
@@ -56,8 +56,8 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
   tell_doubts(run);
   if (run.scene.analysis != formats::AnalysisKind::dynamics) report.solver_health = run.workspace.matrix.health();
   report.seconds_model = begin_start - begin_model;
-  report.seconds_start = begin_steps - begin_start;
-  report.seconds_steps = run.seconds() - begin_steps - report.seconds_output;
+  report.seconds_start = begin_output - begin_start;
+  report.seconds_steps = run.seconds() - begin_output - report.seconds_output;
   if (run.listener != nullptr) run.listener->end(report);
   writer.finish(report.outcome == RunOutcome::completed, report.reason, report_json(report));
   return {std::move(report), run.automatic ? run.automatic->whole_state(run) : std::move(run.built.state)};

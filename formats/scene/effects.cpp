@@ -116,7 +116,8 @@ std::vector<KeySet> effect_key_sets() {
       {"body_effects",
        {automatic("flexibility",
                   "deformation of superelements and modal bodies. Off: a superelement is a rigid body as with `use: "
-                  "rigid`, and its other keys stay without effect; a modal body keeps no mode"),
+                  "rigid`, and its other keys, and `stiffening` and `damping` here, stay without effect; a modal body "
+                  "keeps no mode"),
         field("rotary_inertia", "of the sections of beams, against turning about their own axes"),
         field("gyroscopic", "Ω × J Ω in the equation of moments of rigid bodies"),
         automatic("stiffening",

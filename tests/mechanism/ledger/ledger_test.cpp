@@ -330,5 +330,32 @@ TEST(Ledger, IsToldInLinesAndInJson) {
   EXPECT_TRUE(json["effects"][0].contains("cost_per_step"));
 }
 
+/// Begins slowly, as a results file that has to be created.
+class SlowToBegin : public RunListener {
+ public:
+  explicit SlowToBegin(double& time) : time_(time) {}
+  void begin(const formats::ResultsLayout&) override { time_ += 100.0; }
+  void row(const formats::ResultsRow&) override { time_ += 1.0; }
+  void end(RunReport&) override {}
+
+ private:
+  double& time_;
+};
+
+// Else steps seem to cost what only the beginning of a run does, and costs of short runs are of nothing else.
+TEST(RunSeconds, CountTheBeginningOfTheResultsAsOutput) {
+  double time = 0.0;
+  RunControl control;
+  control.clock = [&time] { return time; };
+  const BodyFiles files;
+  RunRequest request{thrown(), files, std::nullopt, "", "", std::nullopt};
+  SlowToBegin listener(time);
+  request.listener = &listener;
+  const RunReport report = simulate(request, control).report;
+  EXPECT_EQ(report.seconds_output, 100.0 + static_cast<double>(report.rows));
+  EXPECT_EQ(report.seconds_steps, 0.0);
+  EXPECT_EQ(report.seconds_start, 0.0);
+}
+
 }  // namespace
 }  // namespace tisserand::mechanism::ledger_test
