@@ -202,17 +202,7 @@ void condense(const SuperelementBody& body, const SuperelementScratch& scratch, 
     return;
   }
   work.boundary_1.setZero();
-  switch (body.boundary_size) {
-    case 12:
-      multiply_add<12, double>(body.M_BI, work.internal_1, work.boundary_1);
-      break;
-    case 18:
-      multiply_add<18, double>(body.M_BI, work.internal_1, work.boundary_1);
-      break;
-    default:
-      multiply_add<Eigen::Dynamic, double>(body.M_BI, work.internal_1, work.boundary_1);
-      break;
-  }
+  multiply_add(body.M_BI, work.internal_1, work.boundary_1);
   apply_W(body, tangent, work.boundary_1, work.boundary_2);
   work.r_B_condensed -= work.boundary_2;
 }
@@ -226,7 +216,7 @@ void expand(const SuperelementBody& body, const SuperelementScratch& scratch, co
     work.internal_1.noalias() += tangent.A_IB * Eigen::Map<const Eigen::VectorXd>(dq_B, body.boundary_size);
   } else {
     apply_Z(body, tangent, dq_B, work.boundary_1);
-    multiply_add<Eigen::Dynamic, double>(body.M_IB, work.boundary_1, work.internal_1);
+    multiply_add(body.M_IB, work.boundary_1, work.internal_1);
   }
   Eigen::Map<Eigen::VectorXd> out(dy_I, body.modes);
   if (body.second_order.any()) {

@@ -61,23 +61,7 @@ void update_kinematics(const SuperelementBody& body, const NodeView<NodeMotion>&
 }
 
 void residual(const SuperelementBody& body, SuperelementScratch& scratch, const Eigen::Vector3d& gravity) {
-  switch (body.boundary_size) {
-    case 6:
-      superelement_forces<6>(body, scratch.motion, gravity, scratch.forces);
-      break;
-    case 9:
-      superelement_forces<9>(body, scratch.motion, gravity, scratch.forces);
-      break;
-    case 12:
-      superelement_forces<12>(body, scratch.motion, gravity, scratch.forces);
-      break;
-    case 18:
-      superelement_forces<18>(body, scratch.motion, gravity, scratch.forces);
-      break;
-    default:
-      superelement_forces<Eigen::Dynamic>(body, scratch.motion, gravity, scratch.forces);
-      break;
-  }
+  superelement_forces(body, scratch.motion, gravity, scratch.forces);
 }
 
 double load_power(const SuperelementBody& body, const LocalMotion<double>& motion, const LoadTerms<double>& t) {

@@ -71,7 +71,7 @@ void exact_columns(const SuperelementBody& body, const SuperelementScratch& scra
     }
     motion.R0 = R0.cast<Dual>();
     local_motion<Dual>(body, NodeView<Node>{moved.data(), index.data()}, motion);
-    superelement_forces<Eigen::Dynamic>(body, motion, gravity, forces);
+    superelement_forces(body, motion, gravity, forces);
     for (int i = 0; i < nb; ++i) A(i, column) = forces.r_B[i].derivative;
     for (int k = 0; k < body.modes; ++k) A(nb + k, column) = forces.r_I[k].derivative;
   }

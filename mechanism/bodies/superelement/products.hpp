@@ -9,17 +9,25 @@
 
 namespace tisserand::mechanism {
 
-/// y += A x with constant A (column major) and vectors of any scalar; Rows is the number of rows, or Eigen::Dynamic.
-template <int Rows, class S>
+/// y += A x with constant A (column major) and vectors of any scalar. One or two boundary nodes have 6, 9 or 12 rows,
+/// for which fixed sizes are faster; 18 rows are faster without (docs/PERFORMANCE.md).
+template <class S>
 void multiply_add(const Eigen::MatrixXd& A, const Eigen::Matrix<S, Eigen::Dynamic, 1>& x,
                   Eigen::Matrix<S, Eigen::Dynamic, 1>& y) {
   if constexpr (!std::is_same_v<S, double>) {
     for (Eigen::Index k = 0; k < A.cols(); ++k)
       for (Eigen::Index i = 0; i < A.rows(); ++i) y[i] += A(i, k) * x[k];
-  } else if constexpr (Rows == Eigen::Dynamic) {
-    y.noalias() += A * x;
   } else {
-    column_kernels::multiply_add_fixed<Rows>(A.data(), A.cols(), x.data(), y.data());
+    switch (A.rows()) {
+      case 6:
+        return column_kernels::multiply_add_fixed<6>(A.data(), A.cols(), x.data(), y.data());
+      case 9:
+        return column_kernels::multiply_add_fixed<9>(A.data(), A.cols(), x.data(), y.data());
+      case 12:
+        return column_kernels::multiply_add_fixed<12>(A.data(), A.cols(), x.data(), y.data());
+      default:
+        y.noalias() += A * x;
+    }
   }
 }
 

@@ -39,7 +39,7 @@ SuperelementForces<S> make_forces(const SuperelementBody& body) {
 }
 
 /// D ẏ, without its matrix in proportion to S̄ where stiffening changes that.
-template <int NB, class S>
+template <class S>
 void add_damping_forces(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   if (!body.damping.active) return;
   const double b = body.damping.stiffness;
@@ -49,11 +49,11 @@ void add_damping_forces(const SuperelementBody& body, const LocalMotion<S>& moti
       for (Eigen::Index i = 0; i < body.boundary_size; ++i) out.s_B[i] += b * body.S_BB(i, k) * rate[k];
   for (Eigen::Index k = 0; k < body.modes; ++k) out.r_I[k] += body.damping.internal[k] * motion.rate_I[k];
   if (!body.damping.is_full()) return;
-  multiply_add<NB>(body.damping.BB, rate, out.s_B);
+  multiply_add(body.damping.BB, rate, out.s_B);
   if (body.modes == 0) return;
-  multiply_add<NB>(body.damping.BI, motion.rate_I, out.s_B);
-  multiply_add<Eigen::Dynamic>(body.damping.IB, rate, out.r_I);
-  multiply_add<Eigen::Dynamic>(body.damping.II, motion.rate_I, out.r_I);
+  multiply_add(body.damping.BI, motion.rate_I, out.s_B);
+  multiply_add(body.damping.IB, rate, out.r_I);
+  multiply_add(body.damping.II, motion.rate_I, out.r_I);
 }
 
 /// What stiffening adds to S̄ y and, where the damping is b S̄, to b S̄ ẏ: b [(L + h)ᵀ(L + h) − LᵀL] ẏ.
@@ -69,22 +69,22 @@ void add_stiffening(const SuperelementBody& body, const LocalMotion<S>& motion, 
 }
 
 /// (M̄ ẏ)_B, (M̄ ÿ)_B, (M̄ ÿ)_I, and the elastic and damping forces in local coordinates.
-template <int NB, class S>
+template <class S>
 void local_forces(const SuperelementBody& body, const LocalMotion<S>& motion, SuperelementForces<S>& out) {
   out.p_B.setZero();
   out.f_B.setZero();
   out.s_B.setZero();
-  multiply_add<NB>(body.M_BB, motion.rate_B, out.p_B);
-  multiply_add<NB>(body.M_BB, motion.acceleration_B, out.f_B);
-  multiply_add<NB>(body.S_BB, motion.y_B, out.s_B);
+  multiply_add(body.M_BB, motion.rate_B, out.p_B);
+  multiply_add(body.M_BB, motion.acceleration_B, out.f_B);
+  multiply_add(body.S_BB, motion.y_B, out.s_B);
   if (body.modes > 0) {
-    multiply_add<NB>(body.M_BI, motion.rate_I, out.p_B);
-    multiply_add<NB>(body.M_BI, motion.acceleration_I, out.f_B);
+    multiply_add(body.M_BI, motion.rate_I, out.p_B);
+    multiply_add(body.M_BI, motion.acceleration_I, out.f_B);
     out.r_I = motion.acceleration_I;
     for (Eigen::Index k = 0; k < body.modes; ++k) out.r_I[k] += body.S_II[k] * motion.y_I[k];
-    multiply_add<Eigen::Dynamic>(body.M_IB, motion.acceleration_B, out.r_I);
+    multiply_add(body.M_IB, motion.acceleration_B, out.r_I);
   }
-  add_damping_forces<NB>(body, motion, out);
+  add_damping_forces(body, motion, out);
   add_stiffening(body, motion, out);
 }
 
@@ -158,14 +158,14 @@ void pull_back(const SuperelementBody& body, const LocalMotion<S>& motion, const
 }
 
 /// Inertia option F: Lagrange's equations of [SO] 4 with the elastic forces of [SO] 3.
-template <int NB, class S>
+template <class S>
 void full_inertia_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Eigen::Vector3d& gravity,
                          SuperelementForces<S>& out) {
   out.p_B.setZero();
   out.s_B.setZero();
-  multiply_add<NB>(body.S_BB, motion.y_B, out.s_B);
+  multiply_add(body.S_BB, motion.y_B, out.s_B);
   for (Eigen::Index k = 0; k < body.modes; ++k) out.r_I[k] = body.S_II[k] * motion.y_I[k];
-  add_damping_forces<NB>(body, motion, out);
+  add_damping_forces(body, motion, out);
   add_stiffening(body, motion, out);
   const Vec3<S> g = motion.R0.transpose() * gravity.template cast<S>();
   FrameForces<S> frame = inertia_forces<S>(body, motion, g, out.inertia);
@@ -200,14 +200,14 @@ void planar_forces(const SuperelementBody& body, const LocalMotion<S>& motion, S
 /// with the sign of UᵀVᵀ corrected (the print has +, which contradicts its own derivation and Lagrange's equations).
 /// Option M is B with T = ½ ẏᵀ(M̄ − M̄ Φ_T Φ_TᵀM̄/m) ẏ + ½ m |ẋ_cm|²: the force m J_cmᵀ ẍ_cm of the last term is that of
 /// a gravity −ẍ_cm.
-template <int NB, class S>
+template <class S>
 void superelement_forces(const SuperelementBody& body, const LocalMotion<S>& motion, const Eigen::Vector3d& gravity,
                          SuperelementForces<S>& out) {
   if (body.second_order.inertia) {
-    full_inertia_forces<NB>(body, motion, gravity, out);
+    full_inertia_forces(body, motion, gravity, out);
     return;
   }
-  local_forces<NB>(body, motion, out);
+  local_forces(body, motion, out);
   Vec3<S> moment = Vec3<S>::Zero();  // conjugate to δΘ₀
   Vec3<S> total = Vec3<S>::Zero();   // conjugate to −δx₀, axes of the frame
   const bool exact_center = body.inertia == formats::InertiaOption::M;

@@ -85,7 +85,7 @@ Derivatives complex_step(const SuperelementBody& body, const BodyState& state, c
     motion.acceleration_I = state.ydd + i * c.mass * d.tail(body.modes);
     motion.R0 = R0.cast<Complex>();
     local_motion<Complex>(body, test_support::in_order(nodes), motion);
-    superelement_forces<Eigen::Dynamic>(body, motion, kGravity, forces);
+    superelement_forces(body, motion, kGravity, forces);
     result.residual.col(column) << forces.r_B.imag() / kStep, forces.r_I.imag() / kStep;
     result.y.col(column) = motion.y_B.imag() / kStep;
   }
