@@ -56,7 +56,9 @@ dep_simple(suitesparse klu.h suitesparse klu btf umfpack spqr cholmod amd colamd
 link_archive(dep_suitesparse metis libmetis.so.5)
 link_archive(dep_suitesparse openblas)
 link_archive(dep_suitesparse gfortran libgfortran.so.5)
-link_archive(dep_suitesparse quadmath libquadmath.so.0)
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64") # on 64-bit ARM, long double has 128 bits, and there is no such library
+  link_archive(dep_suitesparse quadmath libquadmath.so.0)
+endif()
 target_link_libraries(dep_suitesparse INTERFACE gomp m)
 
 # Debian's libsundials-dev drags PETSc and MPI in as packages; libsundials_cvode itself links neither.

@@ -10,16 +10,29 @@ target_compile_options(
   tisserand_options
   INTERFACE "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread;-Wno-restrict>")
 target_compile_definitions(tisserand_options INTERFACE TISSERAND_VERSION="${PROJECT_VERSION}")
-if(TISSERAND_NATIVE)
-  # Without AVX-512: headers of GCC 12 raise false alarms there, and matrices of this size gain nothing from it.
-  target_compile_options(tisserand_options INTERFACE -march=native -mno-avx512f)
+if(NOT TISSERAND_PROCESSOR AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  set(processor x86-64-v3)
+else()
+  set(processor ${TISSERAND_PROCESSOR})
+endif()
+if(processor)
+  target_compile_options(tisserand_options INTERFACE -march=${processor})
+  if(processor STREQUAL "native" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+    # Headers of GCC 12 raise false alarms with AVX-512, and matrices of this size gain nothing from it.
+    target_compile_options(tisserand_options INTERFACE -mno-avx512f)
+  endif()
 endif()
 if(TISSERAND_SANITIZE)
   target_compile_options(tisserand_options INTERFACE -fsanitize=${TISSERAND_SANITIZE} -fno-omit-frame-pointer)
   target_link_options(tisserand_options INTERFACE -fsanitize=${TISSERAND_SANITIZE})
+  # As GCC defines it; clang does so from version 21 on.
+  if(TISSERAND_SANITIZE MATCHES address AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    target_compile_definitions(tisserand_options INTERFACE __SANITIZE_ADDRESS__=1)
+  endif()
   # Checks of every pointer double the time to compile Eigen; the address sanitizer and Eigen's assertions see the same.
+  # Alignment is checked: only this finds objects that lie where moves of a whole register fault.
   if(TISSERAND_SANITIZE MATCHES undefined)
-    target_compile_options(tisserand_options INTERFACE -fno-sanitize=null,alignment,object-size,vptr)
+    target_compile_options(tisserand_options INTERFACE -fno-sanitize=null,object-size,vptr)
   endif()
 endif()
 target_include_directories(tisserand_options INTERFACE ${PROJECT_SOURCE_DIR})
@@ -33,13 +46,26 @@ function(tisserand_keep_modules target)
   endif()
 endfunction()
 
-# tisserand_precompile(target header...): Eigen with its instances and what nearly every file includes, parsed once; saves
-# seconds per file. tisserand_precompile_as(target other) takes those of another target. Not with a compiler cache such as
-# ccache: it cannot look behind precompiled headers.
+# Headers that are parsed once. tisserand_precompile(target header...) compiles them; tisserand_precompile_as(target other)
+# takes those of another target. Clang reads of a precompiled header only what a file uses, so that a wide one pays: the
+# standard library, json, headers of the project that many files include, and instances of what Eigen is asked for most.
+# GCC pays in each file for the size of the header: Eigen with its instances and little else. mechanism/model/model.hpp stays
+# out: an edit of a kernel would compile everything. Not with a compiler cache such as ccache, which cannot look into them.
+set(precompiled ${PROJECT_SOURCE_DIR}/common/math/eigen_instances.hpp <Eigen/Geometry> <fmt/format.h> <string> <vector>)
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  list(APPEND precompiled
+       <Eigen/SparseCore> <algorithm> <array> <bit> <cerrno> <charconv> <chrono> <cmath> <complex> <csignal> <cstdint>
+       <cstdio> <cstdlib> <cstring> <filesystem> <fstream> <functional> <iterator> <limits> <map> <memory>
+       <nlohmann/json.hpp> <numbers> <numeric> <optional> <random> <set> <span> <sstream> <string_view> <tuple>
+       <unordered_map> <unordered_set> <utility> <variant>)
+  foreach(header common/error common/text common/units common/math/rotation common/math/eigen_expressions
+                 formats/scene/scene formats/superelement/superelement formats/results/results formats/part/part)
+    list(APPEND precompiled ${PROJECT_SOURCE_DIR}/${header}.hpp)
+  endforeach()
+endif()
 function(tisserand_precompile target)
   if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/common/math/eigen_instances.hpp <Eigen/Geometry>
-                              <fmt/format.h> <string> <vector> ${ARGN})
+    target_precompile_headers(${target} PRIVATE ${precompiled} ${ARGN})
   endif()
 endfunction()
 function(tisserand_precompile_as target other)

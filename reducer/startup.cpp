@@ -1,4 +1,4 @@
-// Environment variables for OpenBLAS and OpenMPI; where the program lies.
+// Environment variables for OpenBLAS and Open MPI; where the program lies.
 #include "reducer/startup.hpp"
 
 #include <dlfcn.h>
@@ -8,6 +8,8 @@
 #include <climits>
 #include <cstdlib>
 #include <string_view>
+
+#include "common/error.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -49,6 +51,22 @@ const char* rank_of_launcher() {
   return nullptr;
 }
 
+/// In a relocatable archive (scripts/archive) the parts of Open MPI and of hwloc lie beside the programs. Without these
+/// variables both libraries search the folders of a Debian system, where another version may be. The user's own
+/// OPAL_PREFIX is replaced: it belongs to another Open MPI.
+void use_parts_of_archive() {
+  const std::string root = program_folder() + "..", libraries = root + "/lib/tisserand";
+  if (access((libraries + "/openmpi3").c_str(), X_OK) != 0) return;
+  if (rank_of_launcher() != nullptr)
+    throw Error("mpirun or srun started this process, but the archive of Tisserand has no parts for several processes",
+                program_folder() + "reducer",
+                "start it without a launcher; for several processes install the Debian packages or build the sources");
+  setenv("OPAL_PREFIX", root.c_str(), replace);
+  setenv("OPAL_LIBDIR", libraries.c_str(), replace);
+  setenv("OPAL_SYSCONFDIR", libraries.c_str(), replace);
+  setenv("HWLOC_PLUGINS_PATH", (libraries + "/hwloc").c_str(), replace);
+}
+
 }  // namespace
 
 bool is_follower() {
@@ -64,6 +82,7 @@ std::string program_folder() {
 }
 
 void prepare_environment() {
+  use_parts_of_archive();
   setenv("OPENBLAS_NUM_THREADS", "1", replace);  // with more the sums, and so the bits of files, are others
   // Matrices in pages of 2 MB, and memory that is freed is kept for the next: a third of the time of 100 000 coordinates.
   setenv("GLIBC_TUNABLES", "glibc.malloc.hugetlb=1:glibc.malloc.trim_threshold=268435456", keep);

@@ -14,7 +14,8 @@ bool is_follower();
 
 /// OpenBLAS 0.3.21 takes processors that it does not know for the oldest (4-5 times slower) and reads OPENBLAS_CORETYPE
 /// only while it is loaded; OpenMPI starts a daemon per process unless told otherwise; malloc takes small pages and gives
-/// memory back at once. Sets the variables for this processor; those that the user has set stay.
+/// memory back at once. Sets the variables for this processor; those that the user has set stay. In a relocatable archive:
+/// also where its Open MPI lies, which serves one process; throws Error if a launcher of MPI started this one.
 void prepare_environment();
 
 /// If OpenBLAS has chosen its oldest kernels on a better processor all the same: starts this program once more in place

@@ -8,8 +8,9 @@ namespace tisserand::mechanism {
 
 namespace column_kernels {
 
-/// Four doubles, the unit of all loops here (one register of AVX, two of SSE).
-using Four = double __attribute__((vector_size(32), aligned(8), may_alias));
+/// Four doubles, the unit of all loops here (one register of AVX, two of SSE). A `typedef`, since clang ignores the
+/// alignment of 8 in an alias declaration and then uses aligned moves.
+typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
 
 inline const Four& load(const double* p) { return *reinterpret_cast<const Four*>(p); }
 inline void store(double* p, const Four& v) { *reinterpret_cast<Four*>(p) = v; }

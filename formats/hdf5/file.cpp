@@ -118,6 +118,24 @@ std::string strip_padding(const char* text, std::size_t size, H5T_str_t padding)
   return std::string(text, length);
 }
 
+/// `count` texts of variable length, each at most `most` bytes, which `read` lets HDF5 allocate. It does so in a child
+/// process: HDF5 1.10 copies as many bytes as a damaged file says, over what lies behind its buffer.
+std::vector<std::string> variable_texts(const std::string& path, std::uint64_t count, std::size_t most,
+                                        const std::string& where, const std::function<bool(void*)>& read) {
+  const std::string bytes = read_apart(path, [&] {
+    std::vector<char*> pointers(count, nullptr);
+    std::string joined;
+    if (!read(pointers.data())) return joined;
+    for (const char* text : pointers) joined.append(text, text == nullptr ? 0 : ::strnlen(text, most)) += '\0';
+    return joined;
+  });
+  std::vector<std::string> texts;
+  for (std::size_t begin = 0, end; (end = bytes.find('\0', begin)) != std::string::npos; begin = end + 1)
+    texts.push_back(bytes.substr(begin, end - begin));
+  if (texts.size() != count) throw Error("cannot be read", where, damaged_values);
+  return texts;
+}
+
 /// Bytes that the values themselves take in the file: Fletcher's checksum adds four to each chunk.
 std::uint64_t without_checksums(Id creation, std::uint64_t stored, std::size_t element) {
   std::vector<hsize_t> chunk(H5S_MAX_RANK);
@@ -326,19 +344,12 @@ std::string InputFile::text_attribute(const std::string& object, const std::stri
     throw Error(fmt::format("has {} values, expected one string", H5Sget_simple_extent_npoints(space.id())), where,
                 "write it as one string");
   const std::size_t size = H5Tget_size(type.id());
-  if (H5Tis_variable_str(type.id()) > 0) {
-    char* text = nullptr;
-    if (H5Aread(attribute.id(), type.id(), &text) < 0)
-      throw last_error("cannot be read", where, "the file is damaged; write it again");
-    std::string value = text == nullptr ? "" : std::string(text, ::strnlen(text, max_text));
-    if (text != nullptr) H5free_memory(text);
-    return value;
-  }
+  const auto read = [&](void* texts) { return H5Aread(attribute.id(), type.id(), texts) >= 0; };
+  if (H5Tis_variable_str(type.id()) > 0) return variable_texts(path_, 1, max_text, where, read).front();
   if (size > max_text)
     throw Error(fmt::format("has {} bytes, at most {} are allowed", size, max_text), where, "shorten it");
   std::vector<char> buffer(size + 1, '\0');
-  if (H5Aread(attribute.id(), type.id(), buffer.data()) < 0)
-    throw last_error("cannot be read", where, "the file is damaged; write it again");
+  if (!read(buffer.data())) throw last_error("cannot be read", where, "the file is damaged; write it again");
   return strip_padding(buffer.data(), size, H5Tget_strpad(type.id()));
 }
 
@@ -421,25 +432,17 @@ void InputFile::read(const std::string& dataset, const Shape& shape, const std::
 
 std::vector<std::string> InputFile::read_all_texts(Id dataset, std::uint64_t count, const std::string& where) const {
   const Handle type(H5Dget_type(dataset), H5Tclose), space(H5Dget_space(dataset), H5Sclose);
-  std::vector<std::string> texts;
-  if (count == 0) return texts;
-  if (H5Tis_variable_str(type.id()) > 0) {
-    std::vector<char*> pointers(count, nullptr);
-    const bool ok = H5Dread(dataset, type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()) >= 0;
-    for (const char* text : pointers)
-      texts.emplace_back(text == nullptr ? "" : std::string(text, ::strnlen(text, max_report)));
-    H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, pointers.data());
-    if (!ok) throw last_error("cannot be read", where, damaged_values);
-    return texts;
-  }
+  if (count == 0) return {};
+  const auto read = [&](void* to) { return H5Dread(dataset, type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, to) >= 0; };
+  if (H5Tis_variable_str(type.id()) > 0) return variable_texts(path_, count, max_report, where, read);
   const std::size_t size = H5Tget_size(type.id());
   if (size > max_report / count)
     throw Error(
         fmt::format("{} strings of {} bytes are too long, at most {} bytes are allowed", count, size, max_report),
         where, "shorten them");
   std::vector<char> buffer(size * count + 1, '\0');
-  if (H5Dread(dataset, type.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, buffer.data()) < 0)
-    throw last_error("cannot be read", where, damaged_values);
+  if (!read(buffer.data())) throw last_error("cannot be read", where, damaged_values);
+  std::vector<std::string> texts;
   for (std::uint64_t i = 0; i < count; ++i)
     texts.push_back(strip_padding(buffer.data() + i * size, size, H5Tget_strpad(type.id())));
   return texts;

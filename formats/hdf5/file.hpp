@@ -111,6 +111,9 @@ class InputFile {
   Handle file_;
 };
 
+/// The bytes that `read` returns in a child process; none if the child died or threw.
+std::string read_apart(const std::string& path, const std::function<std::string()>& read);
+
 /// What reading in a child process may take.
 struct ReadingLimits {
   unsigned processor_seconds = 0;

@@ -29,8 +29,8 @@ ReadingLimits limits_for(const std::vector<std::string>& paths) {
           least_wall_seconds + static_cast<unsigned>(bytes / bytes_per_wall_second)};
 }
 
-/// The alarm ends the child also where it waits and uses no processor time.
-void set_limits(const ReadingLimits& limits) {
+/// Limits of a child, and silence: the alarm ends it also where it waits and uses no processor time.
+void prepare_child(const ReadingLimits& limits) {
   const rlimit time{limits.processor_seconds, limits.processor_seconds}, core{0, 0};
   ::setrlimit(RLIMIT_CPU, &time);
   ::setrlimit(RLIMIT_CORE, &core);
@@ -40,25 +40,48 @@ void set_limits(const ReadingLimits& limits) {
   ::signal(SIGALRM, SIG_DFL);
   ::sigprocmask(SIG_UNBLOCK, &alarm, nullptr);
   ::alarm(limits.wall_seconds);
+  const int silent = ::open("/dev/null", O_WRONLY);
+  ::dup2(silent, STDOUT_FILENO);
+  ::dup2(silent, STDERR_FILENO);
 }
 
 [[noreturn]] void run_child(const std::vector<std::string>& paths, const std::function<void(const std::string&)>& read,
                             const ReadingLimits& limits) {
-  set_limits(limits);
-  const int silent = ::open("/dev/null", O_WRONLY);
-  ::dup2(silent, STDOUT_FILENO);
-  ::dup2(silent, STDERR_FILENO);
+  prepare_child(limits);
   for (const std::string& path : paths) {
     try {
       read(path);
     } catch (...) {
-      // Met again, and told, in the parent.
+      // The parent meets it again and reports it.
     }
   }
   ::_exit(0);
 }
 
-/// How the child ended, as waitpid() says it; 0 without one.
+/// False if `read` throws or nobody takes its bytes.
+bool write_all(int file, const std::function<std::string()>& read) {
+  try {
+    const std::string bytes = read();
+    std::size_t sent = 0;
+    for (ssize_t more; sent < bytes.size(); sent += static_cast<std::size_t>(more)) {
+      more = ::write(file, bytes.data() + sent, bytes.size() - sent);
+      if (more < 0) return false;
+    }
+    return true;
+  } catch (...) {
+    return false;
+  }
+}
+
+/// How a child ended, as waitpid() says it.
+int status_of(pid_t child) {
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+/// The same of a child that reads; 0 without one.
 int status_of_child(const std::vector<std::string>& paths, const std::function<void(const std::string&)>& read,
                     const ReadingLimits& limits) {
   if (paths.empty()) return 0;
@@ -66,13 +89,27 @@ int status_of_child(const std::vector<std::string>& paths, const std::function<v
   const pid_t child = ::fork();
   if (child < 0) return 0;  // no process to spare: the caller reads without rehearsal
   if (child == 0) run_child(paths, read, limits);
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return status;
+  return status_of(child);
 }
 
 }  // namespace
+
+std::string read_apart(const std::string& path, const std::function<std::string()>& read) {
+  int channel[2];
+  if (::pipe(channel) != 0) return "";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    prepare_child(limits_for({path}));
+    ::_exit(write_all(channel[1], read) ? 0 : 1);
+  }
+  ::close(channel[1]);
+  std::string bytes;
+  char some[4096];
+  for (ssize_t size; (size = ::read(channel[0], some, sizeof some)) > 0 || (size < 0 && errno == EINTR);)
+    bytes.append(some, size > 0 ? static_cast<std::size_t>(size) : 0);
+  ::close(channel[0]);
+  return child > 0 && status_of(child) == 0 ? bytes : "";
+}
 
 bool survives(const std::vector<std::string>& paths, const std::function<void(const std::string&)>& read) {
   return status_of_child(paths, read, limits_for(paths)) == 0;

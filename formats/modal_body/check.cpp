@@ -26,7 +26,7 @@ constexpr double normal_tolerance = 1e-9;     // of XᵀM X = 1
 constexpr double singular_tolerance = 1e-8;   // of the matrix of the reference conditions
 constexpr double largest_value = 1e100;
 
-struct Place {
+struct FilePlace {
   const std::string& file;
   [[noreturn]] void fail(const std::string& dataset, const std::string& what, const std::string& remedy) const {
     throw Error(what, file.empty() ? dataset : file + ": " + dataset, remedy);
@@ -43,7 +43,7 @@ double length_of(const ModalBody& body) {
   return length > 0.0 ? length : 1.0;
 }
 
-void check_sizes(const ModalBody& b, const Place& place) {
+void check_sizes(const ModalBody& b, const FilePlace& place) {
   const std::size_t n = b.node_name.size();
   const Index m = b.modes();
   if (n < 1) place.fail("/nodes/name", "there is no node", "name at least one node at which the body can be joined");
@@ -59,7 +59,7 @@ void check_sizes(const ModalBody& b, const Place& place) {
     place.fail("/integrals", "its datasets have other sizes than the modes", "write the sums of formats/MODAL_BODY.md");
 }
 
-void check_names(const ModalBody& b, const Place& place) {
+void check_names(const ModalBody& b, const FilePlace& place) {
   std::set<std::string> seen;
   for (std::size_t i = 0; i < b.node_name.size(); ++i) {
     const std::string& name = b.node_name[i];
@@ -79,7 +79,7 @@ void check_names(const ModalBody& b, const Place& place) {
 }
 
 template <class Matrix>
-void check_finite(const Matrix& values, const std::string& dataset, const Place& place) {
+void check_finite(const Matrix& values, const std::string& dataset, const FilePlace& place) {
   for (Index j = 0; j < values.cols(); ++j)
     for (Index i = 0; i < values.rows(); ++i)
       if (!(std::abs(values(i, j)) < largest_value))
@@ -87,7 +87,7 @@ void check_finite(const Matrix& values, const std::string& dataset, const Place&
                    "write finite numbers");
 }
 
-void check_all_finite(const ModalBody& b, const Place& place) {
+void check_all_finite(const ModalBody& b, const FilePlace& place) {
   check_finite(b.frame_position, "/frame/position", place);
   check_finite(b.frame_orientation, "/frame/orientation", place);
   if (std::abs(b.frame_orientation.norm() - 1.0) > 1e-6)
@@ -120,7 +120,7 @@ bool is_inertia(const Matrix3d& inertia) {
   return Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues()[0] >= -1e-10 * size;
 }
 
-void check_masses(const ModalBody& b, const Place& place) {
+void check_masses(const ModalBody& b, const FilePlace& place) {
   for (std::size_t k = 0; k < b.node_name.size(); ++k) {
     const double mass = b.node_mass[k];
     if (mass < 0.0)
@@ -132,7 +132,7 @@ void check_masses(const ModalBody& b, const Place& place) {
   }
 }
 
-void check_modes(const ModalBody& b, const Place& place) {
+void check_modes(const ModalBody& b, const FilePlace& place) {
   for (Index j = 0; j < b.modes(); ++j) {
     if (!(b.omega2[j] > 0.0))
       place.fail("/modes/omega2", fmt::format("entry {} is {}, expected a positive number", j, b.omega2[j]),
@@ -157,7 +157,7 @@ double reference_condition(const ModalBody& b, double length) {
   return svd.singularValues()[5] / svd.singularValues()[0];
 }
 
-void check_node_reference(const ModalBody& b, const Place& place) {
+void check_node_reference(const ModalBody& b, const FilePlace& place) {
   if (b.reference_node.size() != 6 || b.reference_component.size() != 6)
     place.fail("/reference/node", "there are not six reference conditions", "fix exactly six components of nodes");
   for (std::size_t i = 0; i < 6; ++i) {
@@ -193,7 +193,7 @@ void check_node_reference(const ModalBody& b, const Place& place) {
 }
 
 /// Both sums of a mean axis are zero: Σ m Xd, and Σ m x × Xd + μ Xt.
-void check_mean_axis(const ModalBody& b, const Place& place) {
+void check_mean_axis(const ModalBody& b, const FilePlace& place) {
   const double unit = std::sqrt(b.integrals.mass), length = length_of(b);
   for (Index j = 0; j < b.modes(); ++j) {
     const double translation = b.integrals.C1.col(j).norm();
@@ -206,7 +206,7 @@ void check_mean_axis(const ModalBody& b, const Place& place) {
   }
 }
 
-void check_integrals(const ModalBody& b, const Place& place, std::vector<std::string>& warnings) {
+void check_integrals(const ModalBody& b, const FilePlace& place, std::vector<std::string>& warnings) {
   const ModalIntegrals& s = b.integrals;
   if (!(s.mass > 0.0))
     place.fail("/integrals/mass", fmt::format("is {}, expected a positive mass", s.mass), "give the nodes masses");
@@ -235,7 +235,7 @@ void check_integrals(const ModalBody& b, const Place& place, std::vector<std::st
 }
 
 /// Stored integrals against the sums over the nodes, and modes against the masses.
-void check_against_nodes(const ModalBody& b, const Place& place) {
+void check_against_nodes(const ModalBody& b, const FilePlace& place) {
   const ModalIntegrals sums = integrals_of(b);
   const ModalIntegrals& s = b.integrals;
   const double mass = sums.mass, length = length_of(b), root = std::sqrt(std::max(mass, 0.0));
@@ -297,7 +297,7 @@ ModalIntegrals integrals_of(const ModalBody& b) {
 }
 
 std::vector<std::string> check(const ModalBody& body, const std::string& where) {
-  const Place place{where};
+  const FilePlace place{where};
   hdf5::check_units(body.units, where);
   check_sizes(body, place);
   check_names(body, place);

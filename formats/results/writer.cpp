@@ -2,6 +2,7 @@
 //
 // The file appears as <path>.part when its head is complete, and is then open in HDF5's single-writer mode, whose order
 // of writes keeps the file on disk consistent at every moment. Between writes rows wait in memory taken at the start.
+// Outside this mode a kill between two writes of HDF5 can leave a damaged file, so that the report goes into a copy.
 #include <hdf5.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -14,6 +15,7 @@
 #include <complex>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <random>
@@ -33,8 +35,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds flush_interval{1000};
-constexpr std::size_t buffer_bytes = 4u << 20;  // of all waiting rows together
-constexpr std::size_t chunk_bytes = 64u << 10;  // of one chunk on disk, unless one row is larger
+constexpr std::uintmax_t most_copied = 64 << 20;  ///< bytes: copied in some hundredths of a second
+constexpr std::size_t buffer_bytes = 4u << 20;    // of all waiting rows together
+constexpr std::size_t chunk_bytes = 64u << 10;    // of one chunk on disk, unless one row is larger
 constexpr std::size_t max_chunk_rows = 256;
 constexpr std::uint64_t disk_reserve = 256u << 10;  // left for the report and for closing the file
 
@@ -195,8 +198,10 @@ struct ResultsWriter::Impl {
   void write_waiting();
   void flush();
   void close();
-  void write_end(int completed, const std::string& reason, const std::string& report_json) const;
-  void rename_to_final() const;
+  std::string copied() const;
+  void write_end(const std::string& target, int completed, const std::string& reason,
+                 const std::string& report_json) const;
+  void rename_to_final(const std::string& last) const;
 };
 
 /// Bytes that the next `rows` rows may take, with new chunks and what closing the file takes.
@@ -287,22 +292,38 @@ void ResultsWriter::Impl::close() {
   if (file.reset() < 0) broken = true;
 }
 
-void ResultsWriter::Impl::write_end(int completed, const std::string& reason, const std::string& report_json) const {
-  hdf5::Handle end = open_for_writing(part, 0);
-  hdf5::write_text(end.id(), "/report", report_json, part);
-  if (modes) write_modes(end.id(), *modes, part);
-  if (modes && H5Lexists(end.id(), "/nodes", H5P_DEFAULT) <= 0) write_node_names(end.id(), layout, part);
-  hdf5::write_text_attribute(end.id(), "/", "reason", reason.substr(0, 4096), part);
-  hdf5::write_integer_attribute(end.id(), "/", "completed", completed, part);
-  if (end.reset() < 0)
-    throw hdf5::last_error("cannot write the run report", part, "choose another place for the results");
+/// A copy of the closed file, next to it, for the report. A large file, or one that the disk has no room for twice, is
+/// not copied: then it is the file itself, which a kill in the milliseconds of write_end() can damage.
+std::string ResultsWriter::Impl::copied() const {
+  const std::string copy = part + ".end";
+  std::error_code failure;
+  if (std::filesystem::file_size(part, failure) > most_copied || failure) return part;
+  if (std::filesystem::copy_file(part, copy, std::filesystem::copy_options::overwrite_existing, failure)) return copy;
+  std::filesystem::remove(copy, failure);
+  return part;
 }
 
-void ResultsWriter::Impl::rename_to_final() const {
-  if (::rename(part.c_str(), path.c_str()) == 0) return;
+void ResultsWriter::Impl::write_end(const std::string& target, int completed, const std::string& reason,
+                                    const std::string& report_json) const {
+  hdf5::Handle end = open_for_writing(target, 0);
+  hdf5::write_text(end.id(), "/report", report_json, target);
+  if (modes) write_modes(end.id(), *modes, target);
+  if (modes && H5Lexists(end.id(), "/nodes", H5P_DEFAULT) <= 0) write_node_names(end.id(), layout, target);
+  hdf5::write_text_attribute(end.id(), "/", "reason", reason.substr(0, 4096), target);
+  hdf5::write_integer_attribute(end.id(), "/", "completed", completed, target);
+  if (end.reset() < 0)
+    throw hdf5::last_error("cannot write the run report", target, "choose another place for the results");
+}
+
+/// `last`: the part, or a copy of it, which then replaces it.
+void ResultsWriter::Impl::rename_to_final(const std::string& last) const {
+  if (::rename(last.c_str(), path.c_str()) == 0) {
+    if (last != part) ::unlink(part.c_str());
+    return;
+  }
   const int number = errno;
   throw Error(fmt::format("cannot rename the results to their final name: {}", std::strerror(number)), path,
-              fmt::format("they are complete in {}", part));
+              fmt::format("they are complete in {}", last));
 }
 
 void ResultsWriter::Impl::create() {
@@ -372,7 +393,7 @@ ResultsWriter::ResultsWriter(const std::string& path, const ResultsLayout& layou
   ResultsBeginning old = beginning;
   if (old.file == impl_->part) {
     HeldFile::require_unheld(impl_->part, path);
-    impl_->rename_to_final();
+    impl_->rename_to_final(impl_->part);
     old.file = path;
   }
   impl_->create();
@@ -430,12 +451,15 @@ void ResultsWriter::finish(bool completed, const std::string& reason, const std:
   impl_->close();
   if (problem.empty() && impl_->broken) problem = "some rows could not be written";
   const std::string told = reason.empty() || problem.empty() ? reason + problem : reason + "; " + problem;
+  std::string last = impl_->broken ? impl_->part : impl_->copied();
   try {
-    if (!impl_->broken) impl_->write_end(completed && problem.empty() ? 1 : 0, told, report_json);
+    if (!impl_->broken) impl_->write_end(last, completed && problem.empty() ? 1 : 0, told, report_json);
   } catch (const Error& error) {
     if (problem.empty()) problem = error.what();
+    if (last != impl_->part) ::unlink(last.c_str());
+    last = impl_->part;
   }
-  impl_->rename_to_final();
+  impl_->rename_to_final(last);
   if (completed && !problem.empty()) throw Error(problem, "", "the results until then are in " + impl_->path);
 }
 

@@ -27,12 +27,12 @@ constexpr double collinear_tolerance = 1e-6;     // of the characteristic length
 constexpr double largest_value = 1e100;          // products of three such values and a length stay finite
 constexpr Eigen::Index max_size_for_eigenvectors = 2000;
 
-struct Place {
+struct FilePlace {
   const std::string& file;
   std::string dataset(const std::string& name) const { return file.empty() ? name : file + ": " + name; }
 };
 
-void check_sizes(const Superelement& e, const Place& place) {
+void check_sizes(const Superelement& e, const FilePlace& place) {
   const Eigen::Index n = e.size(), nodes = static_cast<Eigen::Index>(e.node_name.size());
   const auto fail = [&](const std::string& dataset, const std::string& what, const std::string& remedy) {
     throw Error(what, place.dataset(dataset), remedy);
@@ -57,7 +57,7 @@ void check_sizes(const Superelement& e, const Place& place) {
          "write one row and column per entry of /dof/node");
 }
 
-void check_names(const Superelement& e, const Place& place) {
+void check_names(const Superelement& e, const FilePlace& place) {
   std::set<std::string> seen;
   for (std::size_t i = 0; i < e.node_name.size(); ++i) {
     if (!valid_name(e.node_name[i]))
@@ -70,7 +70,7 @@ void check_names(const Superelement& e, const Place& place) {
 }
 
 /// Each row of the table is a coordinate of its own; each node owns three translations, three rotations, or both.
-void check_dof_table(const Superelement& e, const Place& place) {
+void check_dof_table(const Superelement& e, const FilePlace& place) {
   const int nodes = static_cast<int>(e.node_name.size()), n = static_cast<int>(e.size());
   const int internal = static_cast<int>(std::count(e.dof_node.begin(), e.dof_node.end(), -1));
   std::vector<std::array<int, 6>> owner(e.node_name.size(), {-1, -1, -1, -1, -1, -1});
@@ -112,7 +112,7 @@ void check_dof_table(const Superelement& e, const Place& place) {
 }
 
 void check_finite_matrix(const Superelement& e, const Eigen::MatrixXd& matrix, const std::string& name,
-                         const Place& place) {
+                         const FilePlace& place) {
   for (Eigen::Index j = 0; j < matrix.cols(); ++j)
     for (Eigen::Index i = 0; i < matrix.rows(); ++i)
       if (!(std::abs(matrix(i, j)) < largest_value))
@@ -121,7 +121,7 @@ void check_finite_matrix(const Superelement& e, const Eigen::MatrixXd& matrix, c
                     place.dataset(name), "write finite numbers");
 }
 
-void check_finite(const Superelement& e, const Place& place) {
+void check_finite(const Superelement& e, const FilePlace& place) {
   for (Eigen::Index i = 0; i < e.node_position.rows(); ++i)
     for (Eigen::Index k = 0; k < 3; ++k)
       if (!(std::abs(e.node_position(i, k)) < largest_value))
@@ -132,7 +132,8 @@ void check_finite(const Superelement& e, const Place& place) {
   check_finite_matrix(e, e.mass, "/mass", place);
 }
 
-void check_diagonal(const Superelement& e, const Eigen::MatrixXd& matrix, const std::string& name, const Place& place) {
+void check_diagonal(const Superelement& e, const Eigen::MatrixXd& matrix, const std::string& name,
+                    const FilePlace& place) {
   for (Eigen::Index i = 0; i < matrix.rows(); ++i)
     if (matrix(i, i) < 0.0 && e.dof_node[i] < 0)
       throw Error(
@@ -142,7 +143,7 @@ void check_diagonal(const Superelement& e, const Eigen::MatrixXd& matrix, const 
 
 /// `scaled` is D A D / scale.
 void check_symmetry(const Superelement& e, const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& scaled,
-                    const std::string& name, const Place& place) {
+                    const std::string& name, const FilePlace& place) {
   Eigen::Index i = 0, j = 0;
   const double worst = (scaled - scaled.transpose()).cwiseAbs().maxCoeff(&i, &j);
   if (worst <= symmetry_tolerance) return;
@@ -154,7 +155,7 @@ void check_symmetry(const Superelement& e, const Eigen::MatrixXd& matrix, const 
 
 /// Cholesky of A + tolerance 1; only on failure the eigenvector that says where.
 void check_semidefinite(const Superelement& e, const Eigen::MatrixXd& scaled, const std::string& name,
-                        const Place& place) {
+                        const FilePlace& place) {
   const Eigen::Index n = scaled.rows();
   Eigen::MatrixXd shifted = 0.5 * (scaled + scaled.transpose());
   shifted.diagonal().array() += semidefinite_tolerance;
@@ -171,7 +172,7 @@ void check_semidefinite(const Superelement& e, const Eigen::MatrixXd& scaled, co
 }
 
 /// Every rigid motion must move some retained row: always so once a node owns translations and a node owns rotations.
-void check_rigid_rank(const Superelement& e, const Place& place) {
+void check_rigid_rank(const Superelement& e, const FilePlace& place) {
   const std::size_t count = e.node_name.size();
   std::vector<Eigen::Index> translating;
   std::vector<bool> has_translation(count, false);
@@ -216,7 +217,7 @@ void check_rigid_rank(const Superelement& e, const Place& place) {
 /// Throws if rigid motions meet more resistance than projection may remove. `bound` are errors of the entries of
 /// `scaled`.
 void check_rigid_strain(const Superelement& e, const Eigen::MatrixXd& scaled, const Eigen::MatrixXd& R,
-                        const Eigen::MatrixXd& bound, SuperelementReport& report, const Place& place) {
+                        const Eigen::MatrixXd& bound, SuperelementReport& report, const FilePlace& place) {
   static constexpr const char* motions[] = {"moving in x",     "moving in y",     "moving in z",
                                             "turning about x", "turning about y", "turning about z"};
   const std::string positions =
@@ -248,7 +249,7 @@ void check_rigid_strain(const Superelement& e, const Eigen::MatrixXd& scaled, co
               place.dataset("/stiffness"), positions);
 }
 
-void check_rigid_mass(const Superelement& e, double length, const Place& place) {
+void check_rigid_mass(const Superelement& e, double length, const FilePlace& place) {
   Eigen::MatrixXd R = rigid_motions(e, e.node_position.colwise().mean().transpose());
   R.rightCols<3>() /= length;
   const Eigen::Matrix<double, 6, 6> M = R.transpose() * e.mass * R;
@@ -270,7 +271,7 @@ void check_rigid_mass(const Superelement& e, double length, const Place& place) 
 }
 
 /// Principal moments ≥ 0 and the triangle inequality; a zero moment is a warning that names the axis.
-void check_inertia(const Superelement& e, double length, SuperelementReport& report, const Place& place) {
+void check_inertia(const Superelement& e, double length, SuperelementReport& report, const FilePlace& place) {
   const RigidProperties& rigid = report.rigid;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(rigid.inertia);
   const Eigen::Vector3d I = eigen.eigenvalues();
@@ -324,7 +325,7 @@ SuperelementReport check(const Superelement& element, const std::string& where) 
 }
 
 SuperelementReport check(const Superelement& element, const std::string& where, const EntryErrors& errors) {
-  const Place place{where};
+  const FilePlace place{where};
   hdf5::check_units(element.units, where);
   check_sizes(element, place);
   check_names(element, place);

@@ -7,14 +7,14 @@
 
 namespace tisserand::formats {
 
-enum class Dimension { number, length, force, stiffness, damping, speed, pressure };
+enum class Quantity { number, length, force, stiffness, damping, speed, pressure };
 enum class Versions { both, only_5_2, only_6_1 };
 
 struct Coefficient {
   const char* name;
   double MagicFormula::*value;
   Versions versions = Versions::both;
-  Dimension dimension = Dimension::number;
+  Quantity dimension = Quantity::number;
 };
 
 /// Whether files of this version have the coefficient.

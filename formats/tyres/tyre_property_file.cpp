@@ -134,21 +134,21 @@ double unit_of(const PropertyLines& file, const std::string& name,
 struct Conversion {
   double length = 1.0, force = 1.0, time = 1.0, pressure = 1.0;
 
-  double of(Dimension dimension) const {
+  double of(Quantity dimension) const {
     switch (dimension) {
-      case Dimension::number:
+      case Quantity::number:
         return 1.0;
-      case Dimension::length:
+      case Quantity::length:
         return length;
-      case Dimension::force:
+      case Quantity::force:
         return force;
-      case Dimension::stiffness:
+      case Quantity::stiffness:
         return force / length;
-      case Dimension::damping:
+      case Quantity::damping:
         return force * time / length;
-      case Dimension::speed:
+      case Quantity::speed:
         return length / time;
-      case Dimension::pressure:
+      case Quantity::pressure:
         return pressure;
     }
     return 1.0;
@@ -236,8 +236,7 @@ void read_coefficients(const PropertyLines& file, const Conversion& to, TyreProp
   for (const auto& [key, entry] : file.entries) {
     if (key.starts_with("UNITS.") || std::ranges::find(descriptions, key) != std::end(descriptions)) continue;
     const std::optional<double> value = number_of(entry.text);
-    const auto known =
-        std::ranges::find_if(known_coefficients, [&key = key](const Coefficient& c) { return key == c.name; });
+    const auto known = std::ranges::find_if(known_coefficients, [&](const Coefficient& c) { return key == c.name; });
     const bool used = known != known_coefficients.end() && holds(known->versions, p.version);
     if (used && !value)
       throw Error(fmt::format("{} = '{}' is not a finite number", key, printable_line(entry.text, 40)), file.at(key),
@@ -261,10 +260,9 @@ std::map<std::string, double> scaling(const std::map<std::string, double>& scale
 void apply_scale(const PropertyLines& file, const std::map<std::string, double>& scale, MagicFormula& p) {
   const std::span<const Coefficient> known_coefficients = tyre_coefficients();
   for (const auto& [key, value] : scale) {
-    const auto known = std::ranges::find_if(
-        known_coefficients, [&key = key](const Coefficient& c) { return c.name[0] == 'L' && key == c.name; });
-    if (known == known_coefficients.end() || known->dimension != Dimension::number ||
-        !holds(known->versions, p.version))
+    const auto known = std::ranges::find_if(known_coefficients,
+                                            [&](const Coefficient& c) { return c.name[0] == 'L' && key == c.name; });
+    if (known == known_coefficients.end() || known->dimension != Quantity::number || !holds(known->versions, p.version))
       throw Error(fmt::format("'{}' is no scaling factor of this tyre", printable_line(key, 40)), file.path,
                   "scale LMUX, LMUY, LKX, LKY and the others of section [SCALING_COEFFICIENTS]");
     if (!std::isfinite(value)) throw Error(fmt::format("scale {} must be finite", key), file.path, "");

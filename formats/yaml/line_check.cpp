@@ -68,9 +68,9 @@ void check_mass(const MassToCheck& body, MassSign sign, Faults& faults) {
   const Eigen::Matrix3d scaled = body.inertia / scale;
   const Eigen::Vector3d principal =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues();
-  constexpr double slack = 1e-9, typed = 1e-3;
+  constexpr double round_off = 1e-9, typed = 1e-3;
   const Eigen::Vector3d shown = scale * principal;
-  if (principal[0] < -slack) {
+  if (principal[0] < -round_off) {
     faults.add(body.where, "inertia",
                fmt::format("{}: inertia has the negative principal moment {:g}", body.subject, shown[0]), "");
   } else if (principal[2] > principal[0] + principal[1] + typed * principal[2]) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <tuple>
 
+#include "common/stable_sort.hpp"
 #include "common/text.hpp"
 
 namespace tisserand::formats {
@@ -108,7 +109,7 @@ void YamlReader::raise(const Faults& faults) const {
     const std::string text_where = found == nullptr ? fault.entry : where(found->place);
     all.push_back({found == nullptr ? YamlPlace{} : found->place, Error(fault.what, text_where, fault.remedy)});
   }
-  std::ranges::stable_sort(all, {}, [](const Placed& placed) {
+  sort_stably(all, {}, [](const Placed& placed) {
     return std::tuple(placed.place.source, placed.place.line, placed.place.column);
   });
   std::vector<Error> errors;

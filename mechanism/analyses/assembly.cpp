@@ -14,6 +14,7 @@
 #include <Eigen/SparseCore>
 
 #include "common/math/rotation.hpp"
+#include "common/stable_sort.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/model/bodies.hpp"
 #include "mechanism/model/node_coordinates.hpp"
@@ -341,8 +342,8 @@ std::vector<JointGap> open_joints(const Model& model, const AskedRows& asked, co
     if (gap * row_scale(model, row) > tolerance)
       open.push_back({"initial " + row.entry->name, length ? gap : 0.0, length ? 0.0 : gap});
   }
-  std::ranges::stable_sort(open, std::greater<>(),
-                           [&](const JointGap& gap) { return std::max(gap.length / model.length, gap.angle); });
+  sort_stably(open, std::greater<>(),
+              [&](const JointGap& gap) { return std::max(gap.length / model.length, gap.angle); });
   return open;
 }
 

@@ -13,6 +13,7 @@
 
 #include "common/error.hpp"
 #include "common/math/rotation.hpp"
+#include "common/stable_sort.hpp"
 #include "mechanism/model/element_map.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/solver/matrix_rank.hpp"
@@ -265,7 +266,7 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
     normalise(model, mode.shape);
     report.modes.push_back(std::move(mode));
   }
-  std::ranges::stable_sort(report.modes, {}, [](const Mode& mode) { return std::abs(mode.eigenvalue); });
+  sort_stably(report.modes, {}, [](const Mode& mode) { return std::abs(mode.eigenvalue); });
   std::size_t place = 0;
   std::erase_if(report.modes,
                 [&](const Mode& mode) { return place++ >= static_cast<std::size_t>(spec.count) && !mode.unstable; });

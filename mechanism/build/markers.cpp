@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/stable_sort.hpp"
 #include "common/text.hpp"
 
 namespace tisserand::mechanism {
@@ -115,7 +116,7 @@ void add_rigid_arms(const MarkerTable& markers, const formats::JointSpec& spec, 
 
 std::string rigid_arms_text(std::vector<RigidArm> arms, const Units& units) {
   if (arms.empty()) return {};
-  std::ranges::stable_sort(arms, std::greater{}, &RigidArm::length);
+  sort_stably(arms, std::greater{}, &RigidArm::length);
   const std::string unit = after_number(unit_label(units, 1, 0, 0));
   std::vector<std::string> texts;
   for (const RigidArm& arm : arms)

@@ -10,6 +10,7 @@
 #include <Eigen/SparseCore>
 
 #include "common/math/rotation.hpp"
+#include "common/stable_sort.hpp"
 #include "mechanism/equations/carriers.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/solver/matrix_rank.hpp"
@@ -173,7 +174,7 @@ void name_turns(const Model& model, const Parts& parts, const Evaluation& evalua
 void name_bodies(const Parts& parts, OpenMotions& open, std::vector<std::string>& names) {
   std::vector<int> order(static_cast<std::size_t>(parts.count()));
   for (int p = 0; p < parts.count(); ++p) order[p] = p;
-  std::ranges::stable_sort(order, std::greater{}, [&](int p) { return parts.mass[p]; });
+  sort_stably(order, std::greater{}, [&](int p) { return parts.mass[p]; });
   for (const int part : order) {
     int ways = 0;
     for (int j = 0; j < 6; ++j)

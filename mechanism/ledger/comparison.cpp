@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 
+#include "common/stable_sort.hpp"
+
 namespace tisserand::mechanism {
 namespace {
 
@@ -39,7 +41,7 @@ void Comparison::note(const Measured& measured, double size, double difference) 
 std::vector<LedgerChange> Comparison::changes() const {
   std::vector<LedgerChange> list;
   for (const auto& [kind, change] : largest_) list.push_back(change);
-  std::ranges::stable_sort(list, std::greater{}, &LedgerChange::part);
+  sort_stably(list, std::greater{}, &LedgerChange::part);
   return list;
 }
 

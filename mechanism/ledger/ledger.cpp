@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/stable_sort.hpp"
 #include "common/text.hpp"
 #include "mechanism/ledger/activity.hpp"
 #include "mechanism/ledger/comparison.hpp"
@@ -218,7 +219,7 @@ class LedgerMaker {
       ledger_.scatter = least > 0.0 ? most / least - 1.0 : 0.0;
     }
     const auto change = [](const LedgerLine& line) { return line.changes.empty() ? -1.0 : line.changes.front().part; };
-    std::ranges::stable_sort(ledger_.lines, std::greater{}, change);
+    sort_stably(ledger_.lines, std::greater{}, change);
     return std::move(ledger_);
   }
 

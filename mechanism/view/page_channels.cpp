@@ -6,6 +6,7 @@
 #include <set>
 #include <string_view>
 
+#include "common/stable_sort.hpp"
 #include "common/text.hpp"
 
 namespace tisserand::mechanism {
@@ -50,7 +51,7 @@ std::size_t rank_of(const std::string& dataset) {
 std::set<std::string> datasets_that_fit(const std::vector<Dataset>& datasets, std::size_t rows, std::size_t most) {
   std::vector<const Dataset*> order;
   for (const Dataset& dataset : datasets) order.push_back(&dataset);
-  std::ranges::stable_sort(order, {}, [](const Dataset* d) { return rank_of(d->name); });
+  sort_stably(order, {}, [](const Dataset* d) { return rank_of(d->name); });
   std::set<std::string> chosen;
   std::size_t values = 0;
   for (const Dataset* dataset : order) {

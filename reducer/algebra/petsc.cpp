@@ -2,7 +2,6 @@
 #include "reducer/algebra/petsc.hpp"
 
 #include <dlfcn.h>
-#include <omp.h>
 
 #include <array>
 #include <cstdlib>
@@ -12,6 +11,9 @@
 
 #include "common/error.hpp"
 #include "reducer/algebra/ranks.hpp"
+
+/// Of OpenMP. GCC's omp.h, where it stands, does not compile with clang.
+extern "C" void omp_set_max_active_levels(int levels);
 
 namespace tisserand::reducer {
 namespace {

@@ -151,7 +151,12 @@ constexpr Calls harmful{
     SCMP_SYS(fchmodat),  SCMP_SYS(chown),     SCMP_SYS(fchown),    SCMP_SYS(lchown),   SCMP_SYS(fchownat),
     SCMP_SYS(mknod),     SCMP_SYS(mknodat),   SCMP_SYS(ptrace),    SCMP_SYS(kill)};
 
-/// Rules that look at arguments too; the numbers are positions of arguments.
+/// Condition on the argument at a position; SCMP_A0 and the like are compound literals, which C++ does not have.
+constexpr scmp_arg_cmp argument(unsigned position, scmp_compare compare, scmp_datum_t a, scmp_datum_t b = 0) {
+  return {position, compare, a, b};
+}
+
+/// Rules that look at arguments too.
 bool add_conditional(scmp_filter_ctx filter) {
   constexpr scmp_datum_t writing = O_ACCMODE | O_CREAT | O_TRUNC, thread = CLONE_THREAD | CLONE_VM | CLONE_SIGHAND,
                          uncounted = MAP_TYPE | MAP_GROWSDOWN;
@@ -159,20 +164,20 @@ bool add_conditional(scmp_filter_ctx filter) {
   const auto allow = [filter](int call, const scmp_arg_cmp& condition) {
     return seccomp_rule_add(filter, SCMP_ACT_ALLOW, call, 1, condition) == 0;
   };
-  bool done = allow(SCMP_SYS(open), SCMP_A1(SCMP_CMP_MASKED_EQ, writing, O_RDONLY)) &&
-              allow(SCMP_SYS(openat), SCMP_A2(SCMP_CMP_MASKED_EQ, writing, O_RDONLY)) &&
-              allow(SCMP_SYS(clone), SCMP_A0(SCMP_CMP_MASKED_EQ, thread, thread)) &&
-              allow(SCMP_SYS(tgkill), SCMP_A0(SCMP_CMP_EQ, own)) &&
+  bool done = allow(SCMP_SYS(open), argument(1, SCMP_CMP_MASKED_EQ, writing, O_RDONLY)) &&
+              allow(SCMP_SYS(openat), argument(2, SCMP_CMP_MASKED_EQ, writing, O_RDONLY)) &&
+              allow(SCMP_SYS(clone), argument(0, SCMP_CMP_MASKED_EQ, thread, thread)) &&
+              allow(SCMP_SYS(tgkill), argument(0, SCMP_CMP_EQ, own)) &&
               // Nothing shared and no stacks: the limit of memory would not count them.
-              allow(SCMP_SYS(mmap), SCMP_A3(SCMP_CMP_MASKED_EQ, uncounted, MAP_PRIVATE)) &&
-              allow(SCMP_SYS(mmap2), SCMP_A3(SCMP_CMP_MASKED_EQ, uncounted, MAP_PRIVATE)) &&
-              allow(SCMP_SYS(prlimit64), SCMP_A2(SCMP_CMP_EQ, 0));
+              allow(SCMP_SYS(mmap), argument(3, SCMP_CMP_MASKED_EQ, uncounted, MAP_PRIVATE)) &&
+              allow(SCMP_SYS(mmap2), argument(3, SCMP_CMP_MASKED_EQ, uncounted, MAP_PRIVATE)) &&
+              allow(SCMP_SYS(prlimit64), argument(2, SCMP_CMP_EQ, 0));
   for (const int question : {F_GETFD, F_SETFD, F_GETFL})
-    done = done && allow(SCMP_SYS(fcntl), SCMP_A1(SCMP_CMP_EQ, static_cast<scmp_datum_t>(question)));
+    done = done && allow(SCMP_SYS(fcntl), argument(1, SCMP_CMP_EQ, static_cast<scmp_datum_t>(question)));
   // Without CLONE_VM or CLONE_THREAD a clone is a process, as in posix_spawn and system.
   for (const scmp_datum_t flag : {CLONE_THREAD, CLONE_VM, CLONE_SIGHAND})
     done = done && seccomp_rule_add(filter, SCMP_ACT_KILL_PROCESS, SCMP_SYS(clone), 1,
-                                    SCMP_A0(SCMP_CMP_MASKED_EQ, flag, 0)) == 0;
+                                    argument(0, SCMP_CMP_MASKED_EQ, flag, 0)) == 0;
   return done && seccomp_rule_add(filter, SCMP_ACT_ERRNO(ENOTTY), SCMP_SYS(ioctl), 0) == 0;
 }
 

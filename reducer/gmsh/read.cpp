@@ -22,7 +22,7 @@
 namespace tisserand::reducer {
 namespace {
 
-constexpr const char* remedy = "open it with gmsh to see what is wrong";
+constexpr const char* open_with_gmsh = "open it with gmsh to see what is wrong";
 
 /// gmsh's number of an element type, or nothing for kinds that have no element here.
 std::optional<CellShape> shape_of(int gmsh_type) {
@@ -162,7 +162,7 @@ void generate(const GeometryRequest& request, std::vector<std::string>& warnings
   const int dimension = std::min(request.dimension, gmsh::model::getDimension());
   gmsh::vectorpair entities;
   gmsh::model::getEntities(entities, dimension);
-  if (entities.empty() || dimension < 1) throw Error("the geometry has no edges, faces or volumes", file, remedy);
+  if (entities.empty() || dimension < 1) throw Error("the geometry has no edges, faces or volumes", file, open_with_gmsh);
   const bool meshed = std::ranges::all_of(entities, [](const auto& e) { return has_cells(e.first, e.second); });
   if (!meshed) {
     check_size(request, dimension, entities);
@@ -297,7 +297,7 @@ class Reader {
 void open_file(const GeometryRequest& request) {
   gmsh::option::setString("Geometry.OCCTargetUnit", request.target_unit);
   gmsh::open(request.file);
-  check_gmsh_messages(request.file, remedy);
+  check_gmsh_messages(request.file, open_with_gmsh);
 }
 
 /// The tolerances of gmsh are lengths, about 1e-8: below a thousandth it meshes badly, below a tenth of that not at

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "common/stable_sort.hpp"
 #include "common/text.hpp"
 
 namespace tisserand::reducer {
@@ -92,7 +93,7 @@ std::vector<MshEntity> entities_of(const std::vector<Batch>& batches, Groups& gr
     const int group = groups.emplace(std::pair{batch.dimension, batch.name}, next).first->second;
     entities.push_back({&batch, ++count[batch.dimension], group});
   }
-  std::ranges::stable_sort(entities, {}, [](const MshEntity& e) { return e.batch->dimension; });
+  sort_stably(entities, {}, [](const MshEntity& e) { return e.batch->dimension; });
   return entities;
 }
 

@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "common/stable_sort.hpp"
+
 namespace tisserand::reducer {
 namespace {
 
@@ -150,7 +152,7 @@ bool second_order(const Mesh& mesh, int element) {
 void find_sources(const Mesh& mesh, StressPatches& all) {
   std::vector<int> order(all.patch.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return all.patch[a].angle > all.patch[b].angle; });
+  sort_stably(order, [&](int a, int b) { return all.patch[a].angle > all.patch[b].angle; });
   for (const int p : order) {
     StressPatch& patch = all.patch[p];
     const std::vector<int> others = neighbours(all, p);

@@ -17,6 +17,7 @@
 #include <petscblaslapack.h>
 
 #include "common/error.hpp"
+#include "common/stable_sort.hpp"
 #include "reducer/modes/block_lanczos.hpp"
 
 namespace tisserand::reducer {
@@ -123,7 +124,7 @@ void discard_unresolved(double shift, EigenPairs& pairs) {
 void sort_pairs(EigenPairs& pairs) {
   std::vector<int> order(static_cast<std::size_t>(pairs.value.size()));
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return pairs.value[a] < pairs.value[b]; });
+  sort_stably(order, [&](int a, int b) { return pairs.value[a] < pairs.value[b]; });
   if (std::is_sorted(order.begin(), order.end())) return;
   pairs.value = Eigen::VectorXd(pairs.value(order));
   pairs.vector = Eigen::MatrixXd(pairs.vector(Eigen::all, order));

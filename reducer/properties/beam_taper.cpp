@@ -10,7 +10,7 @@ namespace {
 
 using formats::Section;
 
-constexpr std::array<double Section::*, 16> constants{
+constexpr std::array<double Section::*, 16> interpolated{
     &Section::area,           &Section::second_moment_y, &Section::second_moment_z,  &Section::torsion_constant,
     &Section::polar_moment,   &Section::shear_area_y,    &Section::shear_area_z,     &Section::second_moment_yz,
     &Section::centroid_y,     &Section::centroid_z,      &Section::shear_center_y,   &Section::shear_center_z,
@@ -59,7 +59,7 @@ Section constants_at(const std::vector<Section>& stations, double xi) {
     double weight = 1.0;
     for (std::size_t j = 0; j < n; ++j)
       if (j != i) weight *= (place - static_cast<double>(j)) / (static_cast<double>(i) - static_cast<double>(j));
-    for (const auto constant : constants) result.*constant += weight * stations[i].*constant;
+    for (const auto constant : interpolated) result.*constant += weight * stations[i].*constant;
   }
   return result;
 }

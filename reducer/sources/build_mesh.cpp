@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/stable_sort.hpp"
 #include "common/text.hpp"
 #include "reducer/mesh/mesh_file.hpp"
 #include "reducer/sources/mesh_builder.hpp"
@@ -100,7 +101,7 @@ std::vector<FacePlace> face_places(const CellMesh& cells, std::size_t most) {
   std::vector<const Entity*> faces;
   for (const Entity& entity : cells.entities)
     if (entity.dimension == 2 && entity.count > 0) faces.push_back(&entity);
-  std::ranges::stable_sort(faces, std::greater{}, &Entity::count);
+  sort_stably(faces, std::greater{}, &Entity::count);
   if (faces.size() > most) faces.resize(most);
   std::vector<FacePlace> places;
   for (const Entity* face : faces) places.push_back(place_of(cells, *face));

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "common/stable_sort.hpp"
 #include "reducer/faces/outward.hpp"
 #include "reducer/mesh/mesh_file.hpp"
 #include "reducer/sources/mesh_builder.hpp"
@@ -86,7 +87,7 @@ std::vector<Row> entity_rows(const MeshBuilder& builder) {
       rows.push_back(
           row_of(builder, name_of(entity), dimension_word(entity.dimension), {{static_cast<int>(e)}, {}, {}}));
   }
-  std::ranges::stable_sort(rows, {}, &Row::kind);
+  sort_stably(rows, {}, &Row::kind);
   return rows;
 }
 

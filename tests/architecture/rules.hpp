@@ -38,7 +38,8 @@ struct Violation {
 /// Every text file below `root` except build folders, hidden folders (but .ci) and data (references, *.csv, *.h5, ...).
 SourceTree read_tree(const std::filesystem::path& root);
 
-/// common <- formats <- reducer, mechanism; libraries only where they belong; no clock, file or output in numerics.
+/// common <- formats <- reducer, mechanism; libraries only where they belong; no clock, file or output in numerics;
+/// stable sorting by sort_stably.
 std::vector<Violation> check_dependencies(const SourceTree& tree);
 
 /// No cycle of headers inside a folder of the first level, and none between its sub-folders (sources counted).

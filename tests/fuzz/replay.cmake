@@ -1,4 +1,4 @@
-# Every fuzzing target runs over its corpus as a test, with any compiler (label fuzz): written inputs, and those that
+# Every fuzzing target runs over its corpus as a test Fuzz.<target>, with any compiler: written inputs, and those that
 # scripts/fuzz --keep has packed. The targets of the reducer's readers and those of formats alone link different libraries.
 add_library(tisserand_replay OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/fuzz/replay.cpp)
 target_link_libraries(tisserand_replay PRIVATE tisserand_options)
@@ -12,8 +12,7 @@ function(tisserand_replay target library)
     set(kept ${CMAKE_CURRENT_BINARY_DIR}/kept_inputs/${target})
     file(ARCHIVE_EXTRACT INPUT ${corpus}/kept.tar.xz DESTINATION ${kept})
   endif()
-  add_test(NAME Fuzz.${target} COMMAND replay_${target} ${corpus} ${kept})
-  set_tests_properties(Fuzz.${target} PROPERTIES LABELS fuzz TIMEOUT 120)
+  tisserand_test(Fuzz.${target} replay_${target} ${corpus} ${kept})
 endfunction()
 
 foreach(target part scene study table tyre road surface)

@@ -6,13 +6,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include "common/math/rotation.hpp"
 #include "reducer/properties/laminate.hpp"
 #include "tests/preload/preloaded_scenes.hpp"
 #include "tests/support/meshes/buckling.hpp"
 #include "tests/support/meshes/shell_grids.hpp"
+#include "tests/support/meshes/small_model.hpp"
 
 namespace tisserand::preload::rotating_plate_test {
 namespace {
@@ -83,7 +83,7 @@ VectorXd full_frequencies(int along, const Vector3d& Omega, int count) {
   A.topLeftCorner(n, n) = -factor.solve(MatrixXd(gyroscopic(free, free)));
   A.topRightCorner(n, n) = -factor.solve(MatrixXd(M(free, free)));
   A.bottomLeftCorner(n, n).setIdentity();
-  const Eigen::VectorXcd inverse = Eigen::EigenSolver<MatrixXd>(A, false).eigenvalues();
+  const Eigen::VectorXcd inverse = reducer::eigenvalues(A);
   std::vector<double> omega;
   for (const std::complex<double>& mu : inverse)
     if (mu.imag() < 0.0 && std::abs(mu) > 0.0) omega.push_back(1.0 / std::abs(mu));

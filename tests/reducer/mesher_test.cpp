@@ -5,13 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 
 #include "common/error.hpp"
 #include "reducer/mesh/gmsh_file.hpp"
 #include "tests/reducer/parts.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/thrown.hpp"
 
 namespace tisserand::testing::mesher_test {
@@ -104,7 +104,8 @@ TEST(Mesher, PointsOfOneNameAreOneNode) {
 }
 
 TEST(Mesher, GmshFileHasNamesAndAllNodes) {
-  const std::string path = ::testing::TempDir() + "frame.msh";
+  const test_support::TemporaryFolder folder;
+  const std::string path = folder.file("frame.msh");
   const reducer::Mesh mesh = reducer::build_mesh(space_frame(0));
   reducer::write_gmsh_file(mesh, path);
   std::ifstream file(path);
@@ -113,7 +114,6 @@ TEST(Mesher, GmshFileHasNamesAndAllNodes) {
   EXPECT_THAT(text.str(),
               AllOf(HasSubstr("$MeshFormat\n4.1"), HasSubstr("\"bow\""), HasSubstr("\"A\""), HasSubstr("\"lump\"")));
   EXPECT_EQ(mesh.nodes(), 18);
-  std::remove(path.c_str());
 }
 
 TEST(BadParts, SayWhatIsWrong) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -32,7 +33,7 @@ class Program : public ::testing::Test {
  protected:
   std::filesystem::path folder =
       std::filesystem::path(::testing::TempDir()) /
-      ("reducer_" + std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+      ("reducer_" + std::to_string(::getpid()) + "_" + ::testing::UnitTest::GetInstance()->current_test_info()->name());
   std::string part = (folder / "beam.part.yaml").string();
 
   void SetUp() override {
@@ -43,7 +44,7 @@ class Program : public ::testing::Test {
   void TearDown() override { std::filesystem::remove_all(folder); }
 
   Outcome call(const std::string& arguments) const { return call_after("", arguments); }
-  /// After a command of the shell, such as a limit.
+  /// After a command of the shell, such as a limit, or a variable.
   Outcome call_after(const std::string& before, const std::string& arguments) const {
     const std::string log = (folder / "log").string();
     const std::string command = before + TISSERAND_BINARY_DIR "/bin/reducer " + arguments + " > " + log + " 2>&1";
@@ -157,9 +158,7 @@ TEST_F(Program, RunLeavesNoCompanionOfAnEarlierRunBehind) {
 
 TEST_F(Program, ThreadsOfTheBlasLeaveEveryBitAsItIs) {
   const auto content = [&](const std::string& threads) {
-    setenv("OPENBLAS_NUM_THREADS", threads.c_str(), 1);
-    const Outcome run = call("run " + part);
-    unsetenv("OPENBLAS_NUM_THREADS");
+    const Outcome run = call_after("OPENBLAS_NUM_THREADS=" + threads + " ", "run " + part);
     EXPECT_EQ(run.code, 0) << run.text;
     return formats::read_superelement((folder / "beam.superelement.h5").string()).superelement.content_id;
   };

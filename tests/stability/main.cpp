@@ -1,5 +1,5 @@
-// stability <folder of programs> <folder of scenes> <folder to write in> page|expect|check [expected.csv]: the matrix
-// of hard cases.
+// stability <folder of programs> <folder of scenes> <folder to write in> page|expect|check|small [expected.csv]: the
+// matrix of hard cases.
 #include <cstdio>
 #include <fstream>
 #include <map>
@@ -40,9 +40,12 @@ int differences(const std::vector<Judged>& judged, const std::string& path) {
   return wrong;
 }
 
-/// Of quick cases the formulations and integrators; pairs, solvers and scalings are for the page.
-bool is_quick(const Cell& cell) {
-  return cell.impossible.empty() && (cell.factor == "formulation" || cell.factor == "integrator");
+/// All cells for the page; of quick cases the formulations and integrators, or only the default one ("small").
+bool is_asked(const Cell& cell, const std::string& what) {
+  if (what == "page") return true;
+  if (!cell.of->quick || !cell.impossible.empty()) return false;
+  if (what == "small") return cell.factor == "integrator" && cell.level == "default";
+  return cell.factor == "formulation" || cell.factor == "integrator";
 }
 
 int matrix(const Place& place, const std::string& what, const std::string& expected) {
@@ -50,16 +53,15 @@ int matrix(const Place& place, const std::string& what, const std::string& expec
   const std::vector<Case> cases = catalogue();
   std::vector<Judged> judged;
   for (const Case& one : cases) {
-    if (what != "page" && !one.quick) continue;
     for (Cell& cell : cells_of(one)) {
-      if (what != "page" && !is_quick(cell)) continue;
+      if (!is_asked(cell, what)) continue;
       const Outcome outcome = run(cell, place);
       std::fprintf(stderr, "%-5s %6.2f s %8.2g  %s: %s\n", word(outcome.state).c_str(), outcome.seconds, outcome.worst,
                    cell.id().c_str(), outcome.said.c_str());
       judged.push_back({std::move(cell), outcome});
     }
   }
-  if (what == "check") return differences(judged, expected) == 0 ? 0 : 1;
+  if (what == "check" || what == "small") return differences(judged, expected) == 0 ? 0 : 1;
   if (what == "page")
     fmt::print("{}", page_of(cases, judged));
   else
@@ -71,7 +73,7 @@ int matrix(const Place& place, const std::string& what, const std::string& expec
 
 int main(int argc, char** argv) {
   if (argc < 5) {
-    std::fputs("stability <programs> <scenes> <work> page | expect | check <expected.csv>\n", stderr);
+    std::fputs("stability <programs> <scenes> <work> page | expect | check | small <expected.csv>\n", stderr);
     return 2;
   }
   try {

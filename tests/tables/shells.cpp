@@ -89,7 +89,7 @@ std::vector<Problem> straight_beam_problems() {
     for (const auto& [shape, shape_name] : shapes)
       add_rows(problem, n,
                {{fmt::format("{}, {}", load_name, shape_name), target,
-                 [load = load, shape = shape](const ShellMesh& m) { return straight_beam(m, shape, load); }}});
+                 [load, shape](const ShellMesh& m) { return straight_beam(m, shape, load); }}});
   Problem twist{
       "Straight beam, twist",
       "The same under a unit torque: rotation of the tip. Target: Saint-Venant's torsion of the rectangle, TL/(GJ) "

@@ -91,14 +91,14 @@ class Page {
   async open(file) {
     const { href } = pathToFileURL(file);
     await this.send("Page.navigate", { url: href });
-    await this.until(`location.href === ${JSON.stringify(href)} && window.tisserand !== undefined`, 30000);
+    await this.until(`location.href === ${JSON.stringify(href)} && window.tisserand !== undefined`);
   }
   async evaluate(expression) {
     const { result, exceptionDetails } = await this.send("Runtime.evaluate", { expression, awaitPromise: true, returnByValue: true });
     if (exceptionDetails) throw new Error(`${expression}: ${exceptionDetails.exception?.description ?? exceptionDetails.text}`);
     return result.value;
   }
-  async until(expression, limit = 20000) {
+  async until(expression, limit = 300000) {
     const end = Date.now() + limit;
     while (Date.now() < end) {
       if (await this.evaluate(`Boolean(${expression})`).catch(() => false)) return;

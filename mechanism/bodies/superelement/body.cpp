@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/error.hpp"
+#include "common/stable_sort.hpp"
 #include "formats/superelement/canonical.hpp"
 #include "formats/superelement/weights.hpp"
 #include "mechanism/bodies/superelement/load_cases.hpp"
@@ -51,8 +52,8 @@ void order_rows(const formats::Superelement& element, const std::string& where, 
                      component);
     row[node][component] = static_cast<int>(i);
   }
-  std::stable_sort(body.file.internal_row.begin(), body.file.internal_row.end(),
-                   [&](int a, int b) { return element.dof_component[a] < element.dof_component[b]; });
+  sort_stably(body.file.internal_row,
+              [&](int a, int b) { return element.dof_component[a] < element.dof_component[b]; });
   for (std::size_t i = 0; i < nodes; ++i) {
     SuperelementNode node;
     node.name = element.node_name[i];

@@ -10,6 +10,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "common/math/rotation.hpp"
+#include "common/stable_sort.hpp"
 #include "formats/companion/operations.hpp"
 #include "mechanism/bodies/superelement/body.hpp"
 #include "mechanism/bodies/superelement/load_cases.hpp"
@@ -136,7 +137,7 @@ std::vector<int> order_by_entries(const std::vector<MatrixXd>& Gamma, const Vect
   }
   std::vector<int> order(Gamma.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&present](int a, int b) { return present[b] < present[a]; });
+  sort_stably(order, [&present](int a, int b) { return present[b] < present[a]; });
   return order;
 }
 

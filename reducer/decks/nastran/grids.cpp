@@ -85,13 +85,13 @@ void Placement::add_by_points(CardFields& fields, FrameKind kind) {
 void Placement::read_frames() {
   const std::array<std::pair<char, FrameKind>, 3> kinds{
       {{'R', FrameKind::rectangular}, {'C', FrameKind::cylindrical}, {'S', FrameKind::spherical}}};
-  for (const auto& [letter, kind] : kinds) {
-    model_.for_each(fmt::format("CORD1{}", letter), [&, kind = kind](CardFields& fields) {
+  for (const auto& [letter, of_letter] : kinds) {
+    const FrameKind kind = of_letter;
+    model_.for_each(fmt::format("CORD1{}", letter), [&](CardFields& fields) {
       add_by_grids(fields, kind, 0);
       if (fields.ok() && !fields.blank(4)) add_by_grids(fields, kind, 4);
     });
-    model_.for_each(fmt::format("CORD2{}", letter),
-                    [&, kind = kind](CardFields& fields) { add_by_points(fields, kind); });
+    model_.for_each(fmt::format("CORD2{}", letter), [&](CardFields& fields) { add_by_points(fields, kind); });
   }
 }
 

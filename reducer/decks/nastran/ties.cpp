@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "common/stable_sort.hpp"
 #include "reducer/decks/nastran/model.hpp"
 
 namespace tisserand::reducer {
@@ -188,8 +189,7 @@ void add_rbe3(NastranModel& model, CardFields& f) {
 void append_term(const NastranModel& model, int node, int component, double coefficient, TieEquation& equation) {
   const Eigen::Vector3d direction = coefficient * model.displacement_axes(node).col(component % 3);
   std::array<int, 3> order{0, 1, 2};
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int i, int j) { return std::abs(direction(i)) > std::abs(direction(j)); });
+  sort_stably(order, [&](int i, int j) { return std::abs(direction(i)) > std::abs(direction(j)); });
   for (const int i : order)
     if (std::abs(direction(i)) > 1e-14 * std::abs(coefficient))
       equation.terms.push_back({node, component / 3 * 3 + i, direction(i)});

@@ -18,6 +18,7 @@
 #include "tests/support/bodies/second_order_network.hpp"
 #include "tests/support/results_rows.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/trials.hpp"
 
 namespace tisserand::formats::damage_test {
 namespace {
@@ -136,7 +137,8 @@ std::string read_companion_file(const std::string& path) {
 
 class Damage : public ::testing::TestWithParam<Kind> {
  protected:
-  /// How many of 75 damaged copies are errors; the others must read as the sound file does.
+  static int copies() { return test_support::trials(15); }
+  /// How many of the damaged copies are errors; the others must read as the sound file does.
   int errors_after(const std::function<void(std::string& bytes, std::mt19937& random)>& spoil) const {
     const test_support::TemporaryFolder folder;
     const std::string path = folder.file("file.h5");
@@ -145,8 +147,8 @@ class Damage : public ::testing::TestWithParam<Kind> {
     std::ifstream in(path, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(in), {}};
     int errors = 0;
-    for (unsigned seed = 1; seed <= 75; ++seed) {
-      std::mt19937 random(seed);
+    for (int seed = 1; seed <= copies(); ++seed) {
+      std::mt19937 random(static_cast<unsigned>(seed));
       std::string spoilt = bytes;
       spoil(spoilt, random);
       std::ofstream(path, std::ios::binary) << spoilt;
@@ -174,7 +176,7 @@ TEST_P(Damage, ChangedBytesGiveTheSameNumbersOrAnError) {
               for (unsigned flips = 1 + random() % 8; flips > 0; --flips)
                 bytes[random() % bytes.size()] ^= static_cast<char>(1 + random() % 255);
             }),
-            15);
+            copies() / 5);
 }
 
 TEST_P(Damage, LostSectorsGiveTheSameNumbersOrAnError) {
@@ -183,7 +185,7 @@ TEST_P(Damage, LostSectorsGiveTheSameNumbersOrAnError) {
               bytes.replace(first, std::min<std::size_t>(512, bytes.size() - first),
                             std::min<std::size_t>(512, bytes.size() - first), '\0');
             }),
-            5);
+            copies() / 15);
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ thread_local std::size_t allocations = 0;
 }  // namespace
 
 extern "C" void* __libc_malloc(std::size_t size);
-extern "C" void* malloc(std::size_t size) {
+/// Visible to shared libraries too: operator new is in one.
+extern "C" [[gnu::visibility("default")]] void* malloc(std::size_t size) {
   if (counting) ++allocations;
   return __libc_malloc(size);
 }

@@ -369,7 +369,7 @@ JointReaction world_reaction(test_support::Simulation& run) {
 
 // Two moving bodies under gravity and a moment; the joint once from one to the other and once back.
 TEST_P(EveryJoint, SwappingTheBodiesFlipsTheReactions) {
-  const auto reaction = [this](const std::string& a, const std::string& b) {
+  const auto reaction = [](const std::string& a, const std::string& b) {
     formats::Scene scene = test_support::empty_scene(1e-3, 1.0);
     scene.gravity = {0.4, -0.3, -9.81};
     for (const std::string name : {"one", "two"}) {

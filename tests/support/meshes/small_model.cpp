@@ -84,6 +84,10 @@ FreeSystem free_system(const SmallModel& model) {
   return system;
 }
 
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A) {
+  return Eigen::EigenSolver<Eigen::MatrixXd>(A, false).eigenvalues();
+}
+
 Eigen::VectorXd solve_small(const SmallModel& model) {
   const FreeSystem system = free_system(model);
   const Eigen::VectorXd right = model.load - system.whole.S * model.value;

@@ -55,6 +55,9 @@ struct FreeSystem {
 
 FreeSystem free_system(const SmallModel& model);
 
+/// Eigenvalues of a general matrix. Here, since tests are compiled without optimisation.
+Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& A);
+
 /// Displacements [translation; rotation] of all nodes under the loads and the prescribed displacements.
 Eigen::VectorXd solve_small(const SmallModel& model);
 

@@ -1,0 +1,24 @@
+// What the compiler was allowed to use: data of requirements.cpp, read by check.cpp before anything else runs.
+#pragma once
+
+namespace tisserand::processor {
+
+/// Registers of the system that hold a feature's numbers; the kernel must save them (bits of XCR0).
+enum class State : unsigned { none = 0, avx = 0x6, avx512 = 0xe6 };
+
+/// One bit of cpuid that must be set, for example AVX2: leaf 7, subleaf 0, register b, bit 5.
+struct Feature {
+  char name[16];
+  unsigned leaf;
+  unsigned subleaf;
+  char in;  ///< 'a' to 'd': register of the answer
+  unsigned bit;
+  State state;
+};
+
+/// Features that the other units of the program may use; the last one has an empty name.
+extern const Feature required_features[];
+/// -march of the build, for example "x86-64-v3".
+extern const char built_for[];
+
+}  // namespace tisserand::processor
