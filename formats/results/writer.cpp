@@ -198,7 +198,7 @@ struct ResultsWriter::Impl {
   void write_waiting();
   void flush();
   void close();
-  std::string copied() const;
+  std::string write_end_apart(int completed, const std::string& reason, const std::string& report_json) const;
   void write_end(const std::string& target, int completed, const std::string& reason,
                  const std::string& report_json) const;
   void rename_to_final(const std::string& last) const;
@@ -292,14 +292,25 @@ void ResultsWriter::Impl::close() {
   if (file.reset() < 0) broken = true;
 }
 
-/// A copy of the closed file, next to it, for the report. A large file, or one that the disk has no room for twice, is
-/// not copied: then it is the file itself, which a kill in the milliseconds of write_end() can damage.
-std::string ResultsWriter::Impl::copied() const {
+/// Writes the report into a copy of the closed file, next to it, and returns the name of the copy. The report goes into
+/// the file itself, which a kill in the milliseconds of write_end() can damage, where the file is large, the disk has
+/// no room for a copy, or a reader in this process keeps the file open, so that the copy has the mark of a running
+/// writer.
+std::string ResultsWriter::Impl::write_end_apart(int completed, const std::string& reason,
+                                                 const std::string& report_json) const {
   const std::string copy = part + ".end";
   std::error_code failure;
-  if (std::filesystem::file_size(part, failure) > most_copied || failure) return part;
-  if (std::filesystem::copy_file(part, copy, std::filesystem::copy_options::overwrite_existing, failure)) return copy;
-  std::filesystem::remove(copy, failure);
+  const bool is_small = std::filesystem::file_size(part, failure) <= most_copied && !failure;
+  if (is_small && std::filesystem::copy_file(part, copy, std::filesystem::copy_options::overwrite_existing, failure)) {
+    try {
+      write_end(copy, completed, reason, report_json);
+      return copy;
+    } catch (const Error&) {
+      // Met again below, and reported, if it is not a matter of the copy.
+    }
+  }
+  if (is_small) std::filesystem::remove(copy, failure);
+  write_end(part, completed, reason, report_json);
   return part;
 }
 
@@ -451,13 +462,11 @@ void ResultsWriter::finish(bool completed, const std::string& reason, const std:
   impl_->close();
   if (problem.empty() && impl_->broken) problem = "some rows could not be written";
   const std::string told = reason.empty() || problem.empty() ? reason + problem : reason + "; " + problem;
-  std::string last = impl_->broken ? impl_->part : impl_->copied();
+  std::string last = impl_->part;
   try {
-    if (!impl_->broken) impl_->write_end(last, completed && problem.empty() ? 1 : 0, told, report_json);
+    if (!impl_->broken) last = impl_->write_end_apart(completed && problem.empty() ? 1 : 0, told, report_json);
   } catch (const Error& error) {
     if (problem.empty()) problem = error.what();
-    if (last != impl_->part) ::unlink(last.c_str());
-    last = impl_->part;
   }
   impl_->rename_to_final(last);
   if (completed && !problem.empty()) throw Error(problem, "", "the results until then are in " + impl_->path);
