@@ -301,7 +301,8 @@ std::string ResultsWriter::Impl::write_end_apart(int completed, const std::strin
   const std::string copy = part + ".end";
   std::error_code failure;
   const bool is_small = std::filesystem::file_size(part, failure) <= most_copied && !failure;
-  if (is_small && std::filesystem::copy_file(part, copy, std::filesystem::copy_options::overwrite_existing, failure)) {
+  if (is_small) std::filesystem::remove(copy, failure);  // of a killed run; a link is not followed
+  if (is_small && std::filesystem::copy_file(part, copy, failure)) {
     try {
       write_end(copy, completed, reason, report_json);
       return copy;

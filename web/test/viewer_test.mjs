@@ -1,5 +1,6 @@
 // The committed viewer in a real browser, over pages of known motion. Skipped (exit 77) where node or Chromium is missing.
-// Arguments: --small for two of its tests, the viewer (default dist/view.html). Expected values are the formulas of scenes.mjs.
+// Arguments: --small runs only two of the tests; a path names another viewer (default: dist/view.html).
+// Expected values come from the formulas in scenes.mjs.
 import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
