@@ -77,16 +77,10 @@ formats::Scene read(const RunArguments& arguments) {
 }
 
 int exit_code(const mechanism::RunReport& report) {
-  switch (report.outcome) {
-    case mechanism::RunOutcome::completed:
-      return 0;
-    case mechanism::RunOutcome::not_converged:
-      complain("mechanism", fmt::format("did not converge: {}", report.reason));
-      return exit_not_converged;
-    case mechanism::RunOutcome::interrupted:
-      return exit_interrupted;
-  }
-  return exit_error;
+  using enum mechanism::RunOutcome;
+  if (report.outcome == unstable) complain("mechanism", fmt::format("warning: {}", report.reason));
+  if (report.outcome == not_converged) complain("mechanism", fmt::format("did not converge: {}", report.reason));
+  return report.outcome == interrupted ? exit_interrupted : report.outcome == not_converged ? exit_not_converged : 0;
 }
 
 /// Runs one analysis and prints its report; doubts about the scene only where no analysis before has `told` any.

@@ -59,7 +59,7 @@ RunEnd simulate(const RunRequest& request, const RunControl& control) {
   report.seconds_start = begin_output - begin_start;
   report.seconds_steps = run.seconds() - begin_output - report.seconds_output;
   if (run.listener != nullptr) run.listener->end(report);
-  writer.finish(report.outcome == RunOutcome::completed, report.reason, report_json(report));
+  writer.finish(is_finished(report.outcome), is_finished(report.outcome) ? "" : report.reason, report_json(report));
   return {std::move(report), run.automatic ? run.automatic->whole_state(run) : std::move(run.built.state)};
 }
 

@@ -80,6 +80,7 @@ struct StaticsSpec {
   int load_steps = 1;
   double tolerance = 1e-9;
   int max_iterations = 50;
+  bool stable = false;  ///< goes on from an unstable equilibrium to a stable one
 };
 
 struct OutputSpec {

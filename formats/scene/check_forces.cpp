@@ -41,17 +41,13 @@ void check_damper(const LawSpec& law, const std::string& subject, const std::str
     }
 }
 
-bool does_nothing(const LawSpec& law) {
-  const double* factor = std::get_if<double>(&law);
-  return factor != nullptr && *factor == 0.0;
-}
-
 void check_stops(const SpringSpec& spring, const std::string& subject, Faults& faults) {
   if (!(spring.stop_damping >= 0.0 && std::isfinite(spring.stop_damping)))
     faults.add(spring.where, "stop_damping",
                fmt::format("{}: stop_damping {:g} must not be negative", subject, spring.stop_damping), "");
-  if ((spring.lower || spring.upper) && !(spring.stop_stiffness > 0.0 && std::isfinite(spring.stop_stiffness)))
-    faults.add(spring.where, "stop_stiffness", fmt::format("{}: stop_stiffness must be positive", subject), "");
+  if ((spring.lower || spring.upper) && !(spring.stop_stiffness >= 0.0 && std::isfinite(spring.stop_stiffness)))
+    faults.add(spring.where, "stop_stiffness",
+               fmt::format("{}: stop_stiffness {:g} must not be negative", subject, spring.stop_stiffness), "");
   if (spring.lower && spring.upper && !(*spring.lower < *spring.upper))
     faults.add(
         spring.where, "lower",
@@ -142,8 +138,6 @@ void check_spring(const SceneIndex& scene, const SpringSpec& spring, Faults& fau
   check_law(spring.stiffness, subject, spring.where, "stiffness", faults);
   check_damper(spring.damping, subject, spring.where, faults);
   check_stops(spring, subject, faults);
-  if (does_nothing(spring.stiffness) && does_nothing(spring.damping) && !spring.lower && !spring.upper && !spring.force)
-    faults.add(spring.where, "", fmt::format("{}: does nothing", subject), "give stiffness, damping, stops or force");
   if (spring.force) check_time_function(*spring.force, subject, spring.where, "force", faults);
 }
 
@@ -168,8 +162,6 @@ void check_bushing(const SceneIndex& scene, const BushingSpec& bushing, Faults& 
                  fmt::format("{}: the damping matrix has the eigenvalue {:g}", subject, smallest),
                  "its symmetric part must not be negative in any direction");
   }
-  if (bushing.stiffness.isZero(0.0) && bushing.damping.isZero(0.0) && bushing.preload.isZero(0.0))
-    faults.add(bushing.where, "", fmt::format("{}: does nothing", subject), "give stiffness, damping or preload");
 }
 
 void check_load(const SceneIndex& scene, const LoadSpec& load, Faults& faults) {

@@ -155,6 +155,16 @@ std::vector<InitialSpec> read_initial(const MapReader& map) {
   return entries;
 }
 
+namespace {
+
+/// An entry without any of these keys is a slip. Where they are given as zero, as a sweep does, it rests.
+void require_one_of(const MapReader& map, std::initializer_list<const char*> keys, const char* remedy) {
+  if (std::ranges::none_of(keys, [&](const char* key) { return map.find(key) != nullptr; }))
+    map.fail("does nothing", remedy);
+}
+
+}  // namespace
+
 std::vector<SpringSpec> read_springs(const MapReader& map, const SceneDefinitions& definitions) {
   std::vector<SpringSpec> springs;
   for (const YamlNode* node : map.entries("springs", "spring")) {
@@ -165,6 +175,7 @@ std::vector<SpringSpec> read_springs(const MapReader& map, const SceneDefinition
     spring.where = context.entry;
     read_fields(inner, spring);
     read_ends(inner, spring);
+    require_one_of(inner, {"stiffness", "damping", "lower", "upper", "force"}, "give stiffness, damping, stops or force");
     if (const YamlNode* law = inner.find("stiffness"))
       spring.stiffness = read_law(inner, *law, "stiffness", definitions);
     if (const YamlNode* law = inner.find("damping")) spring.damping = read_law(inner, *law, "damping", definitions);
@@ -184,6 +195,7 @@ std::vector<BushingSpec> read_bushings(const MapReader& map) {
     bushing.name = node->key;
     bushing.where = context.entry;
     read_marker_pair(inner, bushing);
+    require_one_of(inner, {"stiffness", "damping", "preload"}, "give stiffness, damping or preload");
     bushing.stiffness = read_six_by_six(inner, "stiffness");
     bushing.damping = read_six_by_six(inner, "damping");
     bushing.free = read_six(inner, "free");
@@ -242,7 +254,7 @@ std::vector<KeySet> force_key_sets() {
         plain<&SpringSpec::free>("free", "number", "value of the coordinate without force", "that at the start"),
         plain<&SpringSpec::lower>("lower", "number", "stops", "none"),
         plain<&SpringSpec::upper>("upper", "number", ditto),
-        {"stop_stiffness", "positive", "a stop passed by g pushes back with k_s g (1 + d ġ), never pulling",
+        {"stop_stiffness", "not_negative", "a stop passed by g pushes back with k_s g (1 + d ġ), never pulling",
          "required with a stop; 0"},
         plain<&SpringSpec::stop_damping>("stop_damping", "not_negative", ditto),
         {"force", "function", "number, expression in t or table as for loads, positive along the positive coordinate",

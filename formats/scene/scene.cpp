@@ -120,6 +120,10 @@ std::vector<KeySet> settings_key_sets() {
        {plain<&StaticsSpec::load_steps>("load_steps", "count", "loads and gravity grow in so many equal steps"),
         plain<&StaticsSpec::tolerance>("tolerance", "positive", "of Newton"),
         plain<&StaticsSpec::max_iterations>("max_iterations", "count", "per load step"),
+        choice<&StaticsSpec::stable, yes_or_no>(
+            "stable",
+            "`yes`: from an unstable equilibrium the analysis goes on, downhill in potential energy, to one that is "
+            "stable. Up to 1000 coordinates"),
         {"rotation", "steady_rotation",
          "`{angular_velocity: [x, y, z], about: [x, y, z]}`: equilibrium while everything turns about the axis through "
          "`about` (default the origin), world axes. Dense matrices: up to 4000 coordinates. Drives of the turn must "

@@ -94,6 +94,12 @@ std::string name_of_motion(const Model& model, const Evaluation& evaluation, con
   return coordinate_name(model, static_cast<int>(at));
 }
 
+std::string name_of_direction(const Model& model, const State& state, const Eigen::VectorXd& xi,
+                              Evaluation& evaluation) {
+  evaluate_coordinates(model, state, evaluation);
+  return name_of_motion(model, evaluation, material_increment(model, evaluation, xi));
+}
+
 void require_determined(const Model& model, const Mobility& mobility, const std::string& where, const State& state,
                         Workspace& workspace) {
   std::string flexible;
@@ -143,12 +149,19 @@ bool solve_multipliers(const Model& model, State& state, Workspace& workspace) {
   evaluate(model, state, workspace.now);
   if (!factor_constraints(model, state, workspace).regular) return false;
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.sizes.constraints);
-  for (int refinement = 0; refinement < 2; ++refinement) {
+  // Friction depends on the multipliers: Newton's iteration, otherwise one refinement.
+  constexpr int most_refinements = 50;
+  const bool rubs = !model.frictions.empty();
+  bool settled = !rubs;
+  for (int refinement = 0; refinement < (rubs ? most_refinements : 2); ++refinement) {
+    if (refinement > 0 && rubs && !factor_constraints(model, state, workspace).regular) return false;
     workspace.matrix.solve_increment(model, none, workspace.now);
     state.lambda() += workspace.matrix.multipliers;
     evaluate(model, state, workspace.now);
+    settled = settled || workspace.matrix.multipliers.norm() <= 1e-12 * state.lambda().norm();
+    if (rubs && settled) break;
   }
-  return state.lambda().allFinite();
+  return settled && state.lambda().allFinite();
 }
 
 StepReport move_along(const Model& model, const formats::IntegratorSpec& options, const StepEnd& end, State& state,

@@ -17,6 +17,10 @@ namespace tisserand::mechanism {
 /// node.
 std::string name_of_motion(const Model& model, const Evaluation& evaluation, const Eigen::VectorXd& d);
 
+/// name_of_motion() of ξ of a linearisation, whose turns have world axes.
+std::string name_of_direction(const Model& model, const State& state, const Eigen::VectorXd& xi,
+                              Evaluation& evaluation);
+
 /// Throws Error that names what is free: flexible bodies, or joint coordinates that nothing drives.
 void require_determined(const Model& model, const Mobility& mobility, const std::string& where, const State& state,
                         Workspace& workspace);

@@ -7,6 +7,7 @@
 
 #include "common/error.hpp"
 #include "common/math/rotation.hpp"
+#include "mechanism/equations/increments.hpp"
 #include "mechanism/equations/terms.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 
@@ -98,8 +99,26 @@ void transform(int column, int count, const Columns& t, Linearisation& l) {
 }
 
 void turn_rows(int row, const Matrix3d& R, Linearisation& l) {
-  for (MatrixXd* A : {&l.M, &l.C, &l.K}) A->middleRows<3>(row) = (R * A->middleRows<3>(row)).eval();
+  for (MatrixXd* A : {&l.M, &l.C, &l.K})
+    if (A->size() > 0) A->middleRows<3>(row) = (R * A->middleRows<3>(row)).eval();
   l.r.segment<3>(row) = (R * l.r.segment<3>(row)).eval();
+}
+
+/// Evaluates the state and fills r.
+Linearisation begin(const Model& model, const State& state, Evaluation& evaluation) {
+  const int n = model.sizes.velocities();
+  if (n > most_linearised)
+    throw Error(
+        fmt::format("the linearised matrices are dense: {} coordinates, at most {} are possible", n, most_linearised),
+        model.name, "use fewer elements, or superelements in place of beams");
+  evaluate(model, state, evaluation);
+  Linearisation l;
+  l.r.setZero(n);
+  l.r.head(model.sizes.boundary) = evaluation.residual;
+  for (std::size_t i = 0; i < model.superelements.size(); ++i)
+    l.r.segment(model.sizes.boundary + model.internal_offset[i], body_of(model, i).modes) =
+        evaluation.superelements[i].forces.r_I;
+  return l;
 }
 
 }  // namespace
@@ -120,18 +139,7 @@ std::vector<int> active_rows(const State& state) {
 }
 
 Linearisation linearise(const Model& model, const State& state, const Vector3d& omega, Evaluation& evaluation) {
-  const int n = model.sizes.velocities();
-  if (n > most_linearised)
-    throw Error(
-        fmt::format("the linearised matrices are dense: {} coordinates, at most {} are possible", n, most_linearised),
-        model.name, "use fewer elements, or superelements in place of beams");
-  evaluate(model, state, evaluation);
-  Linearisation l;
-  l.r.setZero(n);
-  l.r.head(model.sizes.boundary) = evaluation.residual;
-  for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    l.r.segment(model.sizes.boundary + model.internal_offset[i], body_of(model, i).modes) =
-        evaluation.superelements[i].forces.r_I;
+  Linearisation l = begin(model, state, evaluation);
   MatrixValues matrix(model);
   l.M = exact_matrix(model, state, {1.0, 0.0, 0.0}, evaluation, matrix);
   l.C = exact_matrix(model, state, {0.0, 1.0, 0.0}, evaluation, matrix);
@@ -148,6 +156,38 @@ Linearisation linearise(const Model& model, const State& state, const Vector3d& 
     turn_rows(node.rotation, motion.R, l);
   }
   return l;
+}
+
+Linearisation linearise_stiffness(const Model& model, const State& state, Evaluation& evaluation) {
+  Linearisation l = begin(model, state, evaluation);
+  MatrixValues matrix(model);
+  l.K = exact_matrix(model, state, {0.0, 0.0, 1.0}, evaluation, matrix);
+  l.B = jacobian(model, state, matrix);
+  if (model.planar) return l;
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const int row = model.nodes[i].rotation;
+    if (row < 0) continue;
+    const Matrix3d& R = evaluation.motion[i].R;
+    for (MatrixXd* A : {&l.K, &l.B}) A->middleCols<3>(row) = (A->middleCols<3>(row) * R.transpose()).eval();
+    turn_rows(row, R, l);
+  }
+  return l;
+}
+
+Eigen::VectorXd material_increment(const Model& model, const Evaluation& evaluation, Eigen::VectorXd xi) {
+  for (std::size_t i = 0; i < model.nodes.size(); ++i)
+    if (const int row = model.nodes[i].rotation; row >= 0)
+      set_rotation(model, evaluation.motion[i].R.transpose() * rotation_at(model, xi, row), row, xi);
+  return xi;
+}
+
+void move_by(const Model& model, const Eigen::VectorXd& xi, const Eigen::VectorXd& multipliers,
+             const Evaluation& evaluation, State& state) {
+  const State before = state;
+  retract(model, before, material_increment(model, evaluation, xi), state);
+  const std::vector<int> rows = active_rows(state);
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    if (rows[row] >= 0) state.lambda()[static_cast<Eigen::Index>(row)] += multipliers[rows[row]];
 }
 
 }  // namespace tisserand::mechanism

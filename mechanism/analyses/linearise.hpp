@@ -31,6 +31,16 @@ Linearisation linearise(const Model& model, const State& state, const Eigen::Vec
 
 constexpr int most_linearised = 4000;
 
+/// K, B and r alone, of a state at rest (M and C stay empty).
+Linearisation linearise_stiffness(const Model& model, const State& state, Evaluation& evaluation);
+
+/// ξ as an increment of retract(): turns in material axes, at the last evaluate().
+Eigen::VectorXd material_increment(const Model& model, const Evaluation& evaluation, Eigen::VectorXd xi);
+
+/// Moves the state by ξ, and its multipliers by those of the active rows.
+void move_by(const Model& model, const Eigen::VectorXd& xi, const Eigen::VectorXd& multipliers,
+             const Evaluation& evaluation, State& state);
+
 /// B of the active constraints for material rotation increments, at `state`, which it evaluates.
 Eigen::MatrixXd active_jacobian(const Model& model, const State& state, Evaluation& evaluation);
 

@@ -14,9 +14,11 @@
 #include "common/error.hpp"
 #include "common/math/rotation.hpp"
 #include "common/stable_sort.hpp"
+#include "mechanism/equations/round_off.hpp"
 #include "mechanism/model/element_map.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/solver/matrix_rank.hpp"
+#include "mechanism/step/convergence.hpp"
 
 extern "C" void dgeev_(const char* left, const char* right, const int* n, double* A, const int* lda, double* real,
                        double* imaginary, double* VL, const int* ldvl, double* VR, const int* ldvr, double* work,
@@ -177,18 +179,29 @@ void normalise(const Model& model, VectorXcd& shape) {
   if (largest != Complex(0.0)) shape /= largest;
 }
 
-/// Acceleration of the state in axes that turn with ω: ẍ − ω×(2ẋ − ω×x) of what moves, Ω̇ − what a turning axis gives.
-double acceleration_in_axes(const Model& model, const State& state, const Eigen::Vector3d& omega,
-                            const Evaluation& evaluation) {
-  double largest = 0.0;
+/// Acceleration of the state in axes that turn with ω, in the coordinates of a linearisation: ẍ − ω×(2ẋ − ω×x) of what
+/// moves, Ω̇ − what a turning axis gives.
+VectorXd acceleration_in_axes(const Model& model, const State& state, const Eigen::Vector3d& omega,
+                              const Evaluation& evaluation) {
+  VectorXd a = VectorXd::Zero(model.sizes.velocities());
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const NodeMotion& m = evaluation.motion[i];
-    if (model.nodes[i].translation >= 0) largest = std::max(largest, (m.xdd - omega.cross(m.xd)).norm() / model.length);
-    if (model.nodes[i].rotation >= 0) largest = std::max(largest, (m.R * m.Omegad - omega.cross(m.R * m.Omega)).norm());
+    const Node& node = model.nodes[i];
+    if (node.translation >= 0) set_translation(model, m.xdd - omega.cross(m.xd), node.translation, a);
+    if (node.rotation >= 0) set_rotation(model, m.R * m.Omegad - omega.cross(m.R * m.Omega), node.rotation, a);
   }
-  const auto internal = state.vdot().tail(model.sizes.internal);
-  if (internal.size() > 0) largest = std::max(largest, internal.cwiseAbs().maxCoeff());
-  return largest;
+  a.tail(model.sizes.internal) = state.vdot().tail(model.sizes.internal);
+  return a;
+}
+
+/// Whether the inertia forces of these accelerations are more than what statics leaves unbalanced, and round-off.
+bool is_felt(const Model& model, const State& state, const Linearisation& l, const VectorXd& a,
+             const Evaluation& evaluation) {
+  constexpr double share = 1e-6;
+  const int n = model.sizes.boundary;
+  const VectorXd force = (l.M * a).head(n).cwiseProduct(model.equation_scale.head(n).matrix());
+  const double load = std::max(evaluation.force_scale[0], evaluation.force_scale[1] / model.length);
+  return n > 0 && force.cwiseAbs().maxCoeff() > std::max(share * load, force_round_off(model, state));
 }
 
 /// Where the shape is largest, in words.
@@ -236,7 +249,12 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
   const MatrixXd Z = null_space(model, l.B);
   ModesReport report;
   report.degrees_of_freedom = static_cast<int>(Z.cols());
-  report.largest_acceleration = acceleration_in_axes(model, state, omega, evaluation);
+  const VectorXd acceleration = acceleration_in_axes(model, state, omega, evaluation);
+  if (is_felt(model, state, l, acceleration, evaluation)) {
+    report.largest_acceleration = size_of(model, acceleration);
+    for (const double internal : acceleration.tail(model.sizes.internal))
+      report.largest_acceleration = std::max(report.largest_acceleration, std::abs(internal));
+  }
   if (Z.cols() == 0) return report;
   Reduced reduced = in_basis(Z, {l.M, l.C, l.K});
   const double s = choose_shift(reduced);

@@ -26,7 +26,7 @@ struct ModesReport {
   std::vector<Mode> modes;            ///< ascending |λ|; the lowest `count`, and all that are unstable
   int degrees_of_freedom = 0;         ///< coordinates − rank of the constraints
   int rigid = 0;                      ///< modes with λ = 0
-  double largest_acceleration = 0.0;  ///< |v̇| of the state relative to the axes: 0 if it is steady in them
+  double largest_acceleration = 0.0;  ///< |v̇| of the state relative to the axes; 0 if no inertia force of it is felt
 };
 
 /// Orthonormal basis of the null space of B (columns scaled with 1, or 1/length for rotations) by a rank-revealing QR:

@@ -325,6 +325,11 @@ void pass_breakpoint(const Model& model, const formats::Scene& scene, State& sta
   for (TimeFunction& function : workspace.now.part_load_functions) look_at(function);
   for (std::optional<TimeFunction>& function : workspace.now.spring_forces)
     if (function) look_at(*function);
+  for (MotionFunction& motion : workspace.now.motions) {
+    const double before = motion(state.time(), state.time() - side).acceleration,
+                 after = motion(state.time(), state.time() + side).acceleration;
+    jumps = jumps || std::abs(after - before) > 1e-6 * std::max(std::abs(after), std::abs(before));
+  }
   if (!jumps) return;
   workspace.memory.predictor.forget();
   state.load_time() = state.time() + side;

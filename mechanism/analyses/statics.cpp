@@ -57,21 +57,25 @@ std::string free_direction(const Model& model, const State& state, Workspace& wo
   return factors.regular ? workspace.matrix.weakest_equation(model) : std::string("a rigid motion");
 }
 
+/// Whether forces and constraints of the last evaluate() balance.
+bool in_balance(const Model& model, const formats::StaticsSpec& options, const State& state,
+                const Workspace& workspace, StaticsReport& report) {
+  report.residual = largest_residual(model, workspace);
+  report.constraint = largest_of(workspace.now.constraint);
+  const double force = std::max(workspace.now.force_scale[0], workspace.now.force_scale[1] / model.length);
+  const double internal =
+      std::max(options.tolerance * workspace.now.force_scale[2], internal_round_off(model, workspace.now));
+  return report.residual <= std::max(options.tolerance * force, force_round_off(model, state)) &&
+         largest_internal_residual(workspace) <= internal && report.constraint <= options.tolerance * model.length;
+}
+
 /// Newton's iteration for one load factor.
 StepOutcome equilibrate(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
                         State& state, Workspace& workspace, StaticsReport& report) {
   for (int iteration = 0;; ++iteration) {
     evaluate(model, state, workspace.now);
-    report.residual = largest_residual(model, workspace);
-    report.constraint = largest_of(workspace.now.constraint);
-    const double force = std::max(workspace.now.force_scale[0], workspace.now.force_scale[1] / model.length);
-    // Positions are rounded to ε length, which the stiffness turns into forces that no iteration can remove.
-    const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
-    const double internal =
-        std::max(options.tolerance * workspace.now.force_scale[2], internal_round_off(model, workspace.now));
-    const bool forces = report.residual <= std::max(options.tolerance * force, round_off) &&
-                        largest_internal_residual(workspace) <= internal;
-    if (iteration > 0 && forces && report.constraint <= options.tolerance * model.length) return StepOutcome::accepted;
+    const bool balanced = in_balance(model, options, state, workspace, report);
+    if (iteration > 0 && balanced) return StepOutcome::accepted;
     if (!std::isfinite(report.residual)) return StepOutcome::diverged;
     report.interrupted = interrupted && interrupted();
     if (iteration == options.max_iterations || report.interrupted) return StepOutcome::too_many_iterations;
@@ -108,7 +112,44 @@ void explain_statics(double reached, double step, StaticsReport& report) {
         reached, report.residual, step);
 }
 
+/// Counts the negative directions at the end of a load step.
+void judge(const Model& model, const State& state, Evaluation& evaluation, StaticsReport& report) {
+  const double reached = evaluation.load_factor;
+  report.stability = stability_of(model, state, evaluation, reached == 1.0);
+  if (report.unstable_from > 1.0 && report.stability.unstable > 0)
+    report.unstable_from = reached;
+  else if (report.unstable_from > 1.0)
+    report.stable_until = reached;
+}
+
+/// From the present state to an equilibrium without negative directions, under the whole load.
+bool descend(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted, State& state,
+             Workspace& workspace, StaticsReport& report, std::string& direction) {
+  workspace.now.load_factor = 1.0;
+  const DescentReport descent = descend(
+      model, [&] { return in_balance(model, options, state, workspace, report); }, interrupted, state, workspace.now);
+  report.descents += descent.iterations;
+  report.iterations += descent.iterations;
+  direction = descent.direction;
+  return descent.found;
+}
+
 }  // namespace
+
+std::string settle_under_load(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
+                              State& state, Workspace& workspace) {
+  const std::string free = free_motion(model, options, state, workspace);
+  if (free.empty() || options.rotation) return free;
+  const Standing standing(workspace.now);
+  state.v().setZero();
+  state.vdot().setZero();
+  const State begin = state;
+  StaticsReport report;
+  std::string direction;
+  if (descend(model, options, interrupted, state, workspace, report, direction)) return {};
+  state.block() = begin.block();
+  return direction.empty() ? free : direction;
+}
 
 std::string free_motion(const Model& model, const formats::StaticsSpec& options, State state, Workspace& workspace) {
   // Dense matrices: larger scenes are told by the equation at which the sparse factors fail, or while they are solved.
@@ -141,6 +182,7 @@ void ramp_loads(const Model& model, const formats::StaticsSpec& options, State& 
       reached = evaluation.load_factor;
       accept_equilibrium(model, state, evaluation);
       ++report.load_steps;
+      if (!options.rotation) judge(model, state, evaluation, report);
       continue;
     }
     state = before;
@@ -166,6 +208,18 @@ StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& opti
   ramp_loads(model, options, state, workspace.now, report,
              [&] { return equilibrate(model, options, interrupted, state, workspace, report); });
   const bool failed = report.outcome == StepOutcome::diverged || report.outcome == StepOutcome::too_many_iterations;
+  // Where Newton's iteration finds none, as from a slack cable, or the equilibrium is to be stable.
+  if (!report.interrupted && (failed || (options.stable && report.stability.unstable > 0))) {
+    std::string direction;
+    if (descend(model, options, interrupted, state, workspace, report, direction)) {
+      accept_equilibrium(model, state, workspace.now);
+      report.outcome = StepOutcome::accepted;
+      report.load_steps += failed;
+      report.explanation.clear();
+      report.stability = stability_of(model, state, workspace.now, true);
+      return report;
+    }
+  }
   if (failed && !model.tyres.empty())
     report.explanation += "; tyres hold nothing along the road in statics: on a slope a drive or a spring must";
   return report;

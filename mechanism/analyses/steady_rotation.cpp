@@ -6,12 +6,13 @@
 #include <limits>
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/QR>
 
 #include "mechanism/analyses/kinematics.hpp"
 #include "mechanism/analyses/linearise.hpp"
-#include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/iteration_matrix.hpp"
 #include "mechanism/equations/round_off.hpp"
 #include "mechanism/model/node_coordinates.hpp"
@@ -40,7 +41,7 @@ double internal_scale(const Model& model, const Evaluation& evaluation) {
 }
 
 /// What the iteration tests: largest force (moments over the length) and internal force against their scales.
-bool balanced(const Model& model, const formats::StaticsSpec& options, const Linearisation& l,
+bool balanced(const Model& model, const formats::StaticsSpec& options, const State& state, const Linearisation& l,
               const Evaluation& evaluation, StaticsReport& report) {
   const auto boundary = l.r.head(model.sizes.boundary);
   const auto internal = l.r.tail(l.r.size() - model.sizes.boundary);
@@ -49,9 +50,8 @@ bool balanced(const Model& model, const formats::StaticsSpec& options, const Lin
     report.residual = std::max(report.residual, std::abs(boundary[i]) * model.equation_scale[i]);
   report.constraint = evaluation.constraint.size() > 0 ? evaluation.constraint.cwiseAbs().maxCoeff() : 0.0;
   const double force = std::max(evaluation.force_scale[0], evaluation.force_scale[1] / model.length);
-  const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
   const double largest_internal = internal.size() > 0 ? internal.cwiseAbs().maxCoeff() : 0.0;
-  return report.residual <= std::max(options.tolerance * force, round_off) &&
+  return report.residual <= std::max(options.tolerance * force, force_round_off(model, state)) &&
          largest_internal <=
              std::max(options.tolerance * internal_scale(model, evaluation), internal_round_off(model, evaluation)) &&
          report.constraint <= options.tolerance * model.length;
@@ -80,15 +80,6 @@ Saddle saddle(const Model& model, const State& state, const Linearisation& l) {
   return s;
 }
 
-/// name_of_motion() of a motion whose turns have world axes.
-std::string name_of_material(const Model& model, const State& state, VectorXd motion, Evaluation& evaluation) {
-  for (std::size_t i = 0; i < model.nodes.size(); ++i)
-    if (const int row = model.nodes[i].rotation; row >= 0)
-      set_rotation(model, evaluation.motion[i].R.transpose() * rotation_at(model, motion, row), row, motion);
-  evaluate_coordinates(model, state, evaluation);
-  return name_of_motion(model, evaluation, motion);
-}
-
 /// The joint coordinate, or the node, that moves most in a null vector of the system, which inverse iteration finds.
 std::string name_of_null_vector(const Model& model, const State& state, Saddle s, Evaluation& evaluation) {
   const Eigen::Index n = model.sizes.velocities();
@@ -96,7 +87,7 @@ std::string name_of_null_vector(const Model& model, const State& state, Saddle s
   const Eigen::PartialPivLU<MatrixXd> factors(s.A);
   VectorXd d = VectorXd::Ones(s.A.rows());
   for (int iteration = 0; iteration < 3; ++iteration) d = factors.solve(d).normalized();
-  return name_of_material(model, state, s.scale.cwiseProduct(d).head(n), evaluation);
+  return name_of_direction(model, state, s.scale.cwiseProduct(d).head(n), evaluation);
 }
 
 /// Solves [K Bᵀ; B 0][ξ; δλ] = [−r; −Φ]. False, with the name of the direction, if it is singular.
@@ -118,20 +109,6 @@ bool solve(const Model& model, const State& state, const Linearisation& l, Evalu
   xi = d.head(n);
   multipliers = s.stiffness * d.tail(m);
   return true;
-}
-
-/// Rotation increments in world axes to the material ones of retract().
-void apply(const Model& model, const VectorXd& xi, const VectorXd& multipliers, const Evaluation& evaluation,
-           State& state) {
-  VectorXd d = xi;
-  for (std::size_t i = 0; i < model.nodes.size(); ++i)
-    if (const int row = model.nodes[i].rotation; row >= 0)
-      set_rotation(model, evaluation.motion[i].R.transpose() * rotation_at(model, xi, row), row, d);
-  const State before = state;
-  retract(model, before, d, state);
-  const std::vector<int> rows = active_rows(state);
-  for (std::size_t row = 0; row < rows.size(); ++row)
-    if (rows[row] >= 0) state.lambda()[row] += multipliers[rows[row]];
 }
 
 /// The linearisation in the steady rotation. Where no reactions are known, those that balance it best come first: it is
@@ -158,7 +135,7 @@ StepOutcome balance(const Model& model, const formats::StaticsSpec& options, con
   VectorXd xi, multipliers;
   for (int iteration = 0;; ++iteration) {
     const Linearisation l = linearise_turning(model, rotation, state, evaluation);
-    const bool done = balanced(model, options, l, evaluation, report);
+    const bool done = balanced(model, options, state, l, evaluation, report);
     if (iteration > 0 && (done || xi.cwiseAbs().maxCoeff() < turning_floor * model.length))
       return StepOutcome::accepted;
     if (!l.r.allFinite()) return StepOutcome::diverged;
@@ -166,7 +143,7 @@ StepOutcome balance(const Model& model, const formats::StaticsSpec& options, con
     if (iteration == options.max_iterations || report.interrupted) return StepOutcome::too_many_iterations;
     if (!solve(model, state, l, evaluation, xi, multipliers, report.explanation))
       return iteration == 0 ? StepOutcome::singular : StepOutcome::diverged;
-    apply(model, xi, multipliers, evaluation, state);
+    move_by(model, xi, multipliers, evaluation, state);
     ++report.iterations;
   }
 }
@@ -212,7 +189,7 @@ std::string free_turn_name(const Model& model, const formats::RotationSpec& rota
   const double gap = l.B.rows() > 0 ? (l.B * turn).cwiseAbs().maxCoeff() : 0.0;
   const double force = (l.K * turn).cwiseAbs().maxCoeff();
   if (gap > 1e-9 * motion || force > turn_resistance * l.K.cwiseAbs().maxCoeff() * motion) return {};
-  return name_of_material(model, state, std::move(turn), evaluation);
+  return name_of_direction(model, state, std::move(turn), evaluation);
 }
 
 std::string free_motion_name(const Model& model, const formats::RotationSpec& rotation, State state,
@@ -221,6 +198,78 @@ std::string free_motion_name(const Model& model, const formats::RotationSpec& ro
   const Saddle s = saddle(model, state, l);
   if (Eigen::PartialPivLU<MatrixXd>(s.A).rcond() > free_motion_condition) return {};
   return name_of_null_vector(model, state, s, evaluation);
+}
+
+namespace {
+
+/// What is open or has other forces once the scene has turned by a radian, in which `passed` of time passes.
+std::string change_by_turn(const Model& model, const formats::RotationSpec& rotation, double passed,
+                           const VectorXd& before, State& state, Evaluation& evaluation) {
+  constexpr double share = 1e-6;
+  const Vector3d about = to_axes(model, rotation.about - model.origin);
+  const Eigen::Quaterniond turn(Eigen::AngleAxisd(1.0, to_axes(model, rotation.angular_velocity).normalized()));
+  const auto turn_columns = [&](auto quaternions) {
+    for (Eigen::Index i = 0; i < quaternions.cols(); ++i) {
+      const Eigen::Vector4d Q = quaternions.col(i);
+      quaternions.col(i) = wxyz(turn * Eigen::Quaterniond(Q[0], Q[1], Q[2], Q[3]));
+    }
+  };
+  for (Eigen::Index i = 0; i < state.x().cols(); ++i) state.x().col(i) = about + turn * (state.x().col(i) - about);
+  turn_columns(state.Q());
+  turn_columns(state.frames());
+  state.time() += passed;
+  state.load_time() = state.time();
+  turn_steadily(model, rotation, state);
+  evaluate(model, state, evaluation);
+  for (int row = 0; row < model.sizes.constraints; ++row) {
+    const bool drive = std::ranges::any_of(
+        model.couplings, [&](const Coupling& coupling) { return coupling.row == row && coupling.motion >= 0; });
+    const double gap = std::abs(evaluation.constraint[row]) / (model.length_row[row] ? model.length : 1.0);
+    if (!drive && gap > share) return fmt::format("'{}' does not turn with the scene", constraint_name(model, row));
+  }
+  // Moments have material axes and stay, forces turn. What joints and drives take does not move anything.
+  VectorXd change = evaluation.residual - before;
+  for (const Node& node : model.nodes)
+    if (const int row = node.translation; row >= 0)
+      set_translation(model, translation_at(model, evaluation.residual, row) - turn * translation_at(model, before, row), row,
+                      change);
+  const VectorXd scale = model.equation_scale.matrix().head(model.sizes.boundary);
+  change = change.cwiseProduct(scale);
+  const MatrixXd BT = scale.asDiagonal() *
+                      active_jacobian(model, state, evaluation).leftCols(model.sizes.boundary).transpose();
+  if (BT.cols() > 0) change -= BT * BT.colPivHouseholderQr().solve(change);
+  const double force = std::max(evaluation.force_scale[0], evaluation.force_scale[1] / model.length);
+  Eigen::Index at = 0;
+  if (change.size() == 0 ||
+      !(change.cwiseAbs().maxCoeff(&at) > std::max(share * force, 1e3 * force_round_off(model, state))))
+    return {};
+  return fmt::format("Gravity, a load, a spring or a bushing does not turn with the scene: what it does to {} changes",
+                     coordinate_name(model, static_cast<int>(at)));
+}
+
+}  // namespace
+
+std::string what_does_not_turn(const Model& model, const formats::RotationSpec& rotation, State state,
+                               Evaluation& evaluation) {
+  constexpr double round_off = 1e-7;
+  const double rate = rotation.angular_velocity.norm();
+  if (rate == 0.0) return {};
+  turn_steadily(model, rotation, state);
+  evaluate(model, state, evaluation);
+  for (int row = 0; row < model.sizes.constraints; ++row) {
+    const double gap = std::abs(evaluation.constraint_rate[row]) / (model.length_row[row] ? model.length : 1.0);
+    if (gap > round_off * rate)
+      return fmt::format("'{}' forbids the velocities of the turn", constraint_name(model, row));
+  }
+  const VectorXd before = evaluation.residual;
+  const State begin = state;
+  std::string found;
+  for (const double passed : {1.0 / rate, 0.0}) {  // forces may turn by functions of time, or not depend on it
+    state.block() = begin.block();
+    found = change_by_turn(model, rotation, passed, before, state, evaluation);
+    if (found.empty()) break;
+  }
+  return found;
 }
 
 StaticsReport solve_steady_rotation(const Model& model, const formats::StaticsSpec& options,

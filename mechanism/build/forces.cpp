@@ -112,7 +112,7 @@ void JointBuilder::add(const formats::InputSpec& spec) {
   const formats::CurveSpec curve{spec.interpolation, time, spec.table.value};
   model_.scope.inputs.push_back(
       std::make_shared<const Input>(Input{formats::expression_name(spec.name), Curve(curve), time.front(), time.back(),
-                                          linear ? time : std::vector<double>{}}));
+                                          linear ? time : std::vector{time.front(), time.back()}}));
 }
 
 void JointBuilder::add(const formats::ChannelSpec& spec) {

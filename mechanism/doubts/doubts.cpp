@@ -5,12 +5,15 @@
 #include <utility>
 
 #include "mechanism/doubts/damping_reach.hpp"
+#include "mechanism/equations/round_off.hpp"
 
 namespace tisserand::mechanism {
 
 Doubts::Doubts(const formats::Scene& scene, const Model& model)
     : energy_(scene.integrator.start, scene.integrator.end),
       range_(model, scene.integrator.start),
+      beams_(model),
+      bushings_(model),
       inertia_(scene, model),
       torsion_(scene, model),
       spin_(model),
@@ -20,6 +23,8 @@ Doubts::Doubts(const formats::Scene& scene, const Model& model)
 
 void Doubts::after_step(const Model& model, const State& before, const State& state, const Evaluation& evaluation) {
   range_.observe(model, state, evaluation);
+  beams_.observe(state, evaluation);
+  bushings_.observe(state, evaluation);
   inertia_.observe(model, state, evaluation);
   torsion_.observe(model, state, evaluation);
   spin_.observe(model, state, evaluation);
@@ -30,19 +35,22 @@ void Doubts::after_step(const Model& model, const State& before, const State& st
 
 void Doubts::at_state(const Model& model, const State& state, const Evaluation& evaluation) {
   range_.observe(model, state, evaluation);
+  beams_.observe(state, evaluation);
+  bushings_.observe(state, evaluation);
   inertia_.observe(model, state, evaluation);
   torsion_.observe(model, state, evaluation);
   spin_.observe(model, state, evaluation);
   tyres_.observe(model, state, evaluation);
 }
 
-void Doubts::at_row(const Model& model, const State& state, const formats::ResultsRow& row) {
-  energy_.observe(row, state.force_scale(0) * model.length);
+void Doubts::at_row(const Model& model, const State& state, const Evaluation& evaluation,
+                    const formats::ResultsRow& row) {
+  energy_.observe(row, std::max(evaluation.force_scale[0], force_round_off(model, state)) * model.length);
 }
 
 std::vector<std::string> Doubts::of_model(const Model& model) const {
   std::vector<std::string> all = told_;
-  for (auto&& some : {swing_.doubts(), resolution_.doubts(model), range_.doubts(model), inertia_.doubts(model),
+  for (auto&& some : {swing_.doubts(), resolution_.doubts(model), range_.doubts(model), beams_.doubts(model), bushings_.doubts(model), inertia_.doubts(model),
                       torsion_.doubts(model), spin_.doubts(model), tyres_.doubts(model), damping_doubts(model)})
     for (const std::string& doubt : some)
       if (std::ranges::find(all, doubt) == all.end()) all.push_back(doubt);

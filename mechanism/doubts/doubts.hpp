@@ -7,6 +7,7 @@
 #include "mechanism/doubts/axial_spin.hpp"
 #include "mechanism/doubts/energy_balance.hpp"
 #include "mechanism/doubts/inertia_choice.hpp"
+#include "mechanism/doubts/law_range.hpp"
 #include "mechanism/doubts/linear_range.hpp"
 #include "mechanism/doubts/multiplier_swing.hpp"
 #include "mechanism/doubts/step_resolution.hpp"
@@ -23,7 +24,8 @@ class Doubts {
   void after_step(const Model& model, const State& before, const State& state, const Evaluation& evaluation);
   /// At an evaluated state that no step of generalised alpha ends at: statics, rows of bdf.
   void at_state(const Model& model, const State& state, const Evaluation& evaluation);
-  void at_row(const Model& model, const State& state, const formats::ResultsRow& row);
+  void at_row(const Model& model, const State& state, const Evaluation& evaluation, const formats::ResultsRow& row);
+  double energy_moved() const { return energy_.moved(); }
 
   /// The run goes on with another model of the scene: what there was to tell of this one is kept, and observing begins
   /// anew, but of the energy.
@@ -41,6 +43,8 @@ class Doubts {
  private:
   EnergyBalance energy_;
   LinearRange range_;
+  BeamRange beams_;
+  BushingRange bushings_;
   InertiaChoice inertia_;
   Torsion torsion_;
   AxialSpin spin_;

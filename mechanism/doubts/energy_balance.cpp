@@ -25,7 +25,9 @@ void EnergyBalance::observe(const formats::ResultsRow& row, double possible) {
     largest_ = row.balance;
     at_ = row.time;
   }
-  moved_ = std::max(moved_, row.kinetic + std::abs(row.strain) + std::abs(row.work));
+  if (!potential_) potential_ = row.potential;
+  moved_ = std::max(moved_, row.kinetic + std::abs(row.strain) + std::abs(row.potential - *potential_) + std::abs(row.work) +
+                                std::abs(row.dissipated));
   level_ = std::max({level_, std::abs(row.total), possible});
   const double share = end_ > start_ ? (row.time - start_) / (end_ - start_) : 0.0;
   Part& part = part_[std::clamp(static_cast<int>(parts * share), 0, parts - 1)];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,12 @@ class EnergyBalance {
  public:
   EnergyBalance(double start, double end) : start_(start), end_(end) {}
 
-  /// possible: work of the largest force so far over the characteristic length. What stands still balances round-off of
-  /// that.
+  /// possible: work of the largest force of this row over the characteristic length. What stands still balances round-off
+  /// of that.
   void observe(const formats::ResultsRow& row, double possible);
+
+  /// Largest kinetic + |strain| + |change of potential| + |work| + |dissipated| of the rows.
+  double moved() const { return moved_; }
 
   /// At most one: that the largest balance exceeds a hundredth of the energy that moved, or that it drifts there.
   std::vector<std::string> doubts() const;
@@ -34,7 +38,8 @@ class EnergyBalance {
   std::array<Part, parts> part_{};  ///< balances of equal stretches of the run's time
   double largest_ = 0.0;            ///< with its sign
   double at_ = 0.0;
-  double moved_ = 0.0;  ///< largest kinetic + |strain| + |work|
+  double moved_ = 0.0;
+  std::optional<double> potential_;  ///< of the first row
   double level_ = 0.0;  ///< largest |total| or work that was possible, whose round-off is no balance
 };
 

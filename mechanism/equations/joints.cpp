@@ -166,7 +166,7 @@ void update_couplings(const Model& model, const State& state, Evaluation& evalua
     double value = -coupling.constant, rate = 0.0;
     if (coupling.motion >= 0) {
       MotionFunction::Value& motion = evaluation.motion_values[coupling.motion];
-      motion = evaluation.motions[coupling.motion](state.time());
+      motion = evaluation.motions[coupling.motion](state.time(), state.load_time());
       value -= motion.value;
       rate -= motion.rate;
     }

@@ -96,16 +96,37 @@ Eigen::SparseMatrix<double> rigid_jacobian(const Model& model, const Parts& part
   return compressed(6 * parts.count(), columns, entries);
 }
 
+/// By Gram and Schmidt. The next column is the first of those whose part across the ones before is longer than 0.9 of the
+/// longest such part: among equals the order of the file decides, not the last bit.
+ColumnRank dense_rank(Eigen::MatrixXd A) {
+  constexpr double equal = 0.9;
+  ColumnRank rank;
+  std::vector<bool> taken(static_cast<std::size_t>(A.cols()), false);
+  double first = 0.0;
+  for (;; ++rank.rank) {
+    Eigen::VectorXd across = A.colwise().norm();
+    for (Eigen::Index j = 0; j < A.cols(); ++j)
+      if (taken[j]) across[j] = 0.0;
+    const double longest = across.maxCoeff();
+    first = std::max(first, longest);
+    if (!(longest > rank_tolerance * first)) break;
+    Eigen::Index next = 0;
+    while (!(across[next] >= equal * longest)) ++next;
+    taken[next] = true;
+    const Eigen::VectorXd q = A.col(next) / across[next];
+    for (Eigen::Index j = 0; j < A.cols(); ++j)
+      if (!taken[j]) A.col(j) -= q * q.dot(A.col(j));
+  }
+  for (int j = 0; j < static_cast<int>(taken.size()); ++j)
+    if (!taken[j]) rank.dependent.push_back(j);
+  return rank;
+}
+
 ColumnRank rank_of(const Eigen::SparseMatrix<double>& A) {
   ColumnRank rank;
   if (A.cols() == 0) return rank;
   if (A.cols() <= dense_rank_limit) {
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-    qr.setThreshold(rank_tolerance);
-    qr.compute(Eigen::MatrixXd(A));
-    rank.rank = static_cast<int>(qr.rank());
-    for (Eigen::Index k = qr.rank(); k < A.cols(); ++k)
-      rank.dependent.push_back(static_cast<int>(qr.colsPermutation().indices()[k]));
+    rank = dense_rank(Eigen::MatrixXd(A));
   } else {
     const double largest = A.nonZeros() > 0 ? A.coeffs().cwiseAbs().maxCoeff() : 0.0;
     rank = column_rank(A, rank_tolerance * std::max(1.0, largest));

@@ -7,16 +7,28 @@
 
 namespace tisserand::mechanism {
 
+namespace {
+constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+}  // namespace
+
+double reach_of(const Model& model, const State& state) {
+  return state.x().cols() > 0 ? std::max(model.length, state.x().cwiseAbs().maxCoeff()) : model.length;
+}
+
+double force_round_off(const Model& model, const State& state) {
+  return rounding * model.stiffness_scale * reach_of(model, state);
+}
+
 double internal_round_off(const Model& model, std::size_t superelement, const Evaluation& evaluation) {
-  constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
   const SuperelementBody& body = body_of(model, superelement);
   if (!body.second_order.stiffening) return 0.0;
   const auto& reach = body.second_order.stiffening->reach;
   const auto& h = evaluation.superelements[superelement].forces.strain.h;
   double largest = 0.0;
+  const double reach_of_body = std::max(model.length, nodes_of(model, superelement, evaluation)[0].x.cwiseAbs().maxCoeff());
   for (Eigen::Index k = body.boundary_size; k < h.cols(); ++k) {
     double force = 0.0;
-    for (Eigen::Index a = 0; a < h.rows(); ++a) force += std::abs(h(a, k)) * (model.length * reach(a, 0) + reach(a, 1));
+    for (Eigen::Index a = 0; a < h.rows(); ++a) force += std::abs(h(a, k)) * (reach_of_body * reach(a, 0) + reach(a, 1));
     largest = std::max(largest, force);
   }
   return rounding * largest;

@@ -1,10 +1,17 @@
-// What rounding leaves of internal forces: below it no iteration brings them.
+// What rounding leaves of forces: below it no iteration brings them.
 #pragma once
 
 #include "mechanism/equations/evaluation.hpp"
 #include "mechanism/model/model.hpp"
+#include "mechanism/model/state.hpp"
 
 namespace tisserand::mechanism {
+
+/// Largest distance of a node from the origin of the model, or its length if that is more: positions are rounded to ε of it.
+double reach_of(const Model& model, const State& state);
+
+/// Forces on nodes that no iteration removes: the rounding of positions times the largest stiffness.
+double force_round_off(const Model& model, const State& state);
 
 /// Internal forces of one superelement that no iteration removes: positions are rounded to ε length and turns to ε,
 /// which changes the generalised strains of stiffening by up to Σ_k |l_ak| δ_k, and their forces on internal

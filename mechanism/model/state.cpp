@@ -4,7 +4,7 @@
 namespace tisserand::mechanism {
 
 State::State(const Sizes& sizes) : sizes_(sizes) {
-  scalars_ = add("scalars", 12);
+  scalars_ = add("scalars", 13);
   x_ = add("x", 3 * sizes.nodes);
   Q_ = add("Q", 4 * sizes.nodes);
   w_ = add("w", sizes.modal);

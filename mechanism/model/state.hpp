@@ -34,7 +34,7 @@ struct StateField {
 /// then ẏ. x and Q of nodes that follow a modal body are those of the start.
 class State {
  public:
-  static constexpr int version = 5;
+  static constexpr int version = 6;
 
   explicit State(const Sizes& sizes);
 
@@ -68,6 +68,9 @@ class State {
   /// Running maximum of accelerations, of translations relative to the characteristic length [1/time²].
   double& acceleration_scale() { return block_[scalars_ + 11]; }
   double acceleration_scale() const { return block_[scalars_ + 11]; }
+  /// Radians by which bodies in loops have turned since the constraint rows were examined (step/redundancy.hpp).
+  double& turned() { return block_[scalars_ + 12]; }
+  double turned() const { return block_[scalars_ + 12]; }
 
   using Map = Eigen::Map<Eigen::VectorXd>;
   using ConstMap = Eigen::Map<const Eigen::VectorXd>;

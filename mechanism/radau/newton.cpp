@@ -8,6 +8,7 @@
 #include "common/math/rotation.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/round_off.hpp"
 #include "mechanism/model/bodies.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/step/step_control.hpp"
@@ -50,8 +51,7 @@ double measure_multipliers(const Model& model, const State& begin, const Evaluat
     force = std::max(force, lambda.row(row).cwiseAbs().maxCoeff() / unit);
     worst = std::max(worst, increments.row(row).cwiseAbs().maxCoeff() / unit);
   }
-  const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
-  return worst / (std::max(share * force, round_off) + 1e-300);
+  return worst / (std::max(share * force, force_round_off(model, begin)) + 1e-300);
 }
 
 /// Turns the translations of a node from `row` on; of planar models about the normal.

@@ -152,6 +152,7 @@ void Radau::accept(State& state, Workspace& workspace, StepReport& report) {
   state.dissipated() += integral(stages_, stages_.damping_power, 1.0);
   state.load_power() = now.load_power;
   state.damping_power() = damping_power(model_, now);
+  workspace.memory.rows.note_turn(model_, stages_.step, state);
   std::swap(stages_, last_);
   ++parts_age_;
 }
@@ -188,15 +189,18 @@ StepReport Radau::take_step(const StepEnd& end, State& state, Workspace& workspa
 }
 
 StepReport Radau::advance(const StepEnd& end, State& state, Workspace& workspace) {
-  const StepReport report = take_step(end, state, workspace);
-  if (!rows_are_doubtful(model_, report, state, workspace.now) || !choose_rows_again(model_, state, workspace))
-    return report;
-  forget();
-  StepReport again = take_step(end, state, workspace);
-  again.iterations += report.iterations;
-  again.factorisations += report.factorisations;
-  again.row_choices = 1;
-  return again;
+  bool chosen = renew_rows(model_, state, workspace);
+  if (chosen) forget();
+  StepReport report = take_step(end, state, workspace);
+  if (rows_are_doubtful(model_, report, state, workspace.now) && choose_rows_again(model_, state, workspace)) {
+    forget();
+    const StepReport first = report;
+    report = take_step(end, state, workspace);
+    report.count(first);
+    chosen = true;
+  }
+  report.row_choices = chosen;
+  return report;
 }
 
 void Radau::interpolate(double time, State& state, Workspace& workspace) {

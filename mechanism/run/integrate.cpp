@@ -9,6 +9,7 @@
 #include "mechanism/doubts/failure_cause.hpp"
 #include "mechanism/run/effect_windows.hpp"
 #include "mechanism/run/off_road.hpp"
+#include "mechanism/run/output.hpp"
 #include "mechanism/run/run.hpp"
 #include "mechanism/step/step.hpp"
 
@@ -51,9 +52,23 @@ std::string failure_of(Run& run, const StepReport& step, const StepEnd& target, 
                                    run.built.state, run.workspace));
 }
 
+/// Bodies without mass stand where forces put them. If the start is elsewhere, they jump there in the first step, and what
+/// energy that takes is told and no longer counted as lost.
+void settle_start(Run& run, formats::ResultsRow row) {
+  constexpr double felt = 1e-3;
+  fill_row(run.built.model, run.built.state, run.workspace.now, row);
+  const double energy = row.kinetic + std::abs(row.strain) + std::abs(row.work) + std::abs(row.dissipated);
+  if (!(std::abs(row.balance) > felt * energy)) return;
+  run.built.state.initial_energy() += row.balance;
+  run.report.notes.push_back(fmt::format(
+      "the start is out of balance: what has no mass jumps to its balance in the first step, in which {:.3g} of the energy "
+      "is {}. Start from an analysis `statics`, or give bodies without mass the poses in which their forces balance",
+      std::abs(row.balance) / (energy + std::abs(row.balance)), row.balance < 0.0 ? "lost" : "gained"));
+}
+
 /// What an accepted step to the present state leaves in report and loop, and its rows.
 void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, Stepper& stepper,
-               EffectWindows& windows) {
+               EffectWindows& windows, const formats::ResultsRow& row) {
   RunReport& report = run.report;
   State& state = run.built.state;
   ++report.steps;
@@ -66,6 +81,7 @@ void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, St
   report.largest_constraint = std::max(report.largest_constraint, step.constraint);
   store_rows_between(run, loop, stepper, windows);
   const Schedule::Event event = loop.schedule.accept(state.time());
+  if (report.steps == 1 && run.massless && !run.automatic) settle_start(run, row);
   if (event.output) windows.store(step, size);
   if (!event.breakpoint) return;
   pass_breakpoint(run.built.model, run.scene, state, run.workspace);
@@ -115,7 +131,7 @@ void integrate(Run& run, RowWriter& out) {
       stop(RunOutcome::not_converged, std::move(failure));
       break;
     }
-    take_note(run, step, state.time() - before, loop, stepper, windows);
+    take_note(run, step, state.time() - before, loop, stepper, windows, out.row);
     std::string end = loop.angles.observe(model, state, run.workspace.now);
     if (end.empty()) end = off_road(model, state, run.workspace.now);
     const bool again = windows.after_step();
@@ -132,6 +148,32 @@ void integrate(Run& run, RowWriter& out) {
   if (run.automatic) run.automatic->tell(run.scene.integrator.start, report.time, report);
   if (report.outcome != RunOutcome::completed) write_last_row(run, loop.last, loop.last_size, out);
 }
+
+namespace {
+
+/// What the stiffness says of the equilibrium that was found.
+void tell_stability(const StaticsReport& statics, RunReport& report) {
+  const Stability& stability = statics.stability;
+  if (statics.descents > 0)
+    report.notes.push_back(fmt::format("the equilibrium was found in {} steps downhill in potential energy", statics.descents));
+  if (statics.load_steps > 1 && statics.unstable_from <= 1.0)
+    report.notes.push_back(fmt::format("the equilibrium loses its stability between {:.4g} and {:.4g} of the load",
+                                       statics.stable_until, statics.unstable_from));
+  if (!stability.counted || stability.unstable == 0) return;
+  const std::string count = fmt::format("{} direction{}{}", stability.unstable, stability.unstable == 1 ? "" : "s",
+                                        stability.direction.empty() ? "" : fmt::format(", first {}", stability.direction));
+  if (!stability.symmetric) {
+    report.notes.push_back(
+        fmt::format("the stiffness is negative in {}; it is not symmetric (follower forces, unsymmetric bushings), so that "
+                    "this does not decide whether the equilibrium is stable: run `modes` from it",
+                    count));
+    return;
+  }
+  report.outcome = RunOutcome::unstable;
+  report.reason = fmt::format("the equilibrium is unstable in {}: `statics: {{stable: yes}}` goes on to a stable one", count);
+}
+
+}  // namespace
 
 void equilibrate(Run& run, RowWriter& out) {
   const StaticsReport statics =
@@ -155,6 +197,7 @@ void equilibrate(Run& run, RowWriter& out) {
   if (run.report.reason.empty()) run.report.reason = off_road(run.built.model, run.built.state, run.workspace.now);
   if (!run.report.reason.empty()) run.report.outcome = RunOutcome::not_converged;
   angles.tell(run.built.model, run.report);
+  if (run.report.outcome == RunOutcome::completed && !run.scene.statics.rotation) tell_stability(statics, run.report);
   write_row(run, step, 0.0, out);
 }
 

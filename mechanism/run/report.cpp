@@ -15,6 +15,8 @@ const char* outcome_name(RunOutcome outcome) {
   switch (outcome) {
     case RunOutcome::completed:
       return "completed";
+    case RunOutcome::unstable:
+      return "unstable";
     case RunOutcome::not_converged:
       return "not converged";
     case RunOutcome::interrupted:

@@ -20,7 +20,12 @@ struct SwitchHistory {
   double part_on = 0.0;  ///< of the time of the run
 };
 
-enum class RunOutcome { completed, not_converged, interrupted };
+/// unstable: statics found an equilibrium in which some direction is unstable.
+enum class RunOutcome { completed, unstable, not_converged, interrupted };
+/// Whether the analysis went to its end.
+inline bool is_finished(RunOutcome outcome) {
+  return outcome == RunOutcome::completed || outcome == RunOutcome::unstable;
+}
 
 struct RunReport {
   formats::AnalysisKind analysis = formats::AnalysisKind::dynamics;
@@ -41,7 +46,7 @@ struct RunReport {
   long rows = 0;                        ///< stored instants
   double balance = 0.0;                 ///< energy balance at the last stored instant
   double largest_balance = 0.0;         ///< over the stored instants
-  double energy_reference = 0.0;        ///< largest kinetic + strain + |work|
+  double energy_reference = 0.0;        ///< largest energy that moved: EnergyBalance::moved()
   Mobility mobility;
   Preflight preflight;
   std::vector<std::string> not_unique;  ///< joints whose reactions are not unique: those of least norm are stored

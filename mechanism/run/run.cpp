@@ -10,6 +10,7 @@
 #include "common/text.hpp"
 #include "mechanism/analyses/kinematics.hpp"
 #include "mechanism/analyses/statics.hpp"
+#include "mechanism/analyses/steady_rotation.hpp"
 #include "mechanism/build/effects.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/model/bodies.hpp"
@@ -92,6 +93,32 @@ void require_method_fits(const Run& run) {
       run.scene.file, "write 'second_order: off' at these bodies, or use method: generalised_alpha");
 }
 
+/// Notes "body 'a': text" of the same text as one, with the names.
+std::vector<std::string> merged(const std::vector<std::string>& notes) {
+  constexpr std::string_view head = "body '", middle = "': ";
+  std::vector<std::pair<std::string, std::vector<std::string>>> texts;  // and the names; none: a note of something else
+  for (const std::string& note : notes) {
+    const std::size_t end = note.find(middle);
+    if (!note.starts_with(head) || end == std::string::npos) {
+      texts.push_back({note, {}});
+      continue;
+    }
+    const std::string text = note.substr(end + middle.size());
+    const auto same = std::ranges::find_if(texts, [&](const auto& one) { return one.first == text && !one.second.empty(); });
+    const std::string name = note.substr(head.size() - 1, end + 2 - head.size());
+    if (same == texts.end())
+      texts.push_back({text, {name}});
+    else
+      same->second.push_back(name);
+  }
+  std::vector<std::string> result;
+  for (const auto& [text, names] : texts)
+    result.push_back(names.empty()       ? text
+                     : names.size() == 1 ? fmt::format("body {}: {}", names.front(), text)
+                                         : fmt::format("{} bodies ({}): {}", names.size(), listed(names), text));
+  return result;
+}
+
 /// Which equations repeat what others demand, and whose reactions are not unique for that reason.
 void note_redundancy(Run& run) {
   const Mobility& mobility = run.report.mobility;
@@ -111,6 +138,29 @@ void note_redundancy(Run& run) {
           "the friction of joint '{}' follows from a reaction that is not unique: another choice of it moves otherwise",
           name));
   }
+}
+
+/// Whether all of it is given as zero.
+bool rests(const formats::SpringSpec& spring) {
+  const auto zero = [](const formats::LawSpec& law) {
+    const double* factor = std::get_if<double>(&law);
+    return factor != nullptr && *factor == 0.0;
+  };
+  const bool stops = spring.lower || spring.upper;
+  return zero(spring.stiffness) && zero(spring.damping) && !spring.force && (!stops || spring.stop_stiffness == 0.0);
+}
+bool rests(const formats::BushingSpec& bushing) {
+  return bushing.stiffness.isZero(0.0) && bushing.damping.isZero(0.0) && bushing.preload.isZero(0.0);
+}
+
+/// Springs, stops and bushings whose values are zero, as a sweep passes through them.
+void note_resting(Run& run) {
+  std::vector<std::string> names;
+  for (const formats::SpringSpec& spring : run.scene.springs)
+    if (rests(spring)) names.push_back(fmt::format("spring '{}'", spring.name));
+  for (const formats::BushingSpec& bushing : run.scene.bushings)
+    if (rests(bushing)) names.push_back(fmt::format("bushing '{}'", bushing.name));
+  if (!names.empty()) run.report.notes.push_back(fmt::format("without force, since all values are zero: {}", listed(names)));
 }
 
 /// A suspension whose axes are not parallel stands still without any other sign.
@@ -176,7 +226,7 @@ Run::Run(const formats::Scene& scene_to_run, const BodyFiles& files, const RunCo
       doubts(scene, built.model),
       at_start(built.state) {
   report.analysis = scene.analysis;
-  report.notes = built.notes;
+  report.notes = merged(built.notes);
   report.solver = describe(built.model.solver);
   report.unknowns = built.model.pattern->size();
   report.nonzeros = built.model.pattern->nonzeros();
@@ -231,7 +281,14 @@ void prepare(Run& run) {
     case formats::AnalysisKind::assembly:
       break;
     case formats::AnalysisKind::statics: {
-      const std::string free = free_motion(run.built.model, run.scene.statics, run.built.state, run.workspace);
+      if (const auto& rotation = run.scene.statics.rotation) {
+        const std::string fixed = what_does_not_turn(run.built.model, *rotation, run.built.state, run.workspace.now);
+        if (!fixed.empty())
+          throw Error(fmt::format("statics: there is no steady turn. {}", fixed), run.scene.file,
+                      "let it act along the axis or turn with the scene, or use `analysis: dynamics`");
+      }
+      const std::string free = settle_under_load(run.built.model, run.scene.statics, run.control.interrupted,
+                                                 run.built.state, run.workspace);
       if (!free.empty())
         throw Error(fmt::format("statics: the scene can move freely: nothing holds {}", free), run.scene.file,
                     run.scene.statics.rotation
@@ -275,7 +332,9 @@ void start(Run& run) {
   note_start(report, run);
   find_freedoms(run.built.model, run.built.state, run.workspace.now, run.report.mobility);
   note_redundancy(run);
+  note_resting(run);
   note_locked(run);
+  run.massless = report.massless;
   if (report.massless)
     run.report.notes.push_back(
         "the mass matrix is singular: accelerations of its massless directions come from statics");
@@ -294,9 +353,6 @@ formats::ResultsLayout begin_rows(Run& run, const BodyFiles& files) {
 void tell_doubts(Run& run) {
   std::vector<std::string>& doubts = run.report.doubts;
   for (std::string& doubt : run.doubts.tell(run.built.model)) doubts.push_back(std::move(doubt));
-  if (!run.report.not_unique.empty())
-    doubts.push_back(fmt::format("the reactions of {} are not unique: those of least norm are stored",
-                                 listed(run.report.not_unique)));
 }
 
 void write_row(Run& run, const StepReport& step, double size, RowWriter& out) { write_row(run, step, size, out, {}); }
@@ -321,12 +377,11 @@ void write_row(Run& run, const StepReport& step, double size, RowWriter& out, co
     run.listener->state(run.automatic ? run.automatic->whole_state(run) : run.built.state);
   }
   RunReport& report = run.report;
-  if (report.analysis == formats::AnalysisKind::dynamics) run.doubts.at_row(run.built.model, run.built.state, row);
+  if (report.analysis == formats::AnalysisKind::dynamics) run.doubts.at_row(run.built.model, run.built.state, run.workspace.now, row);
   ++report.rows;
   report.balance = row.balance;
   report.largest_balance = std::max(report.largest_balance, std::abs(row.balance));
-  report.energy_reference =
-      std::max(report.energy_reference, std::abs(row.kinetic) + std::abs(row.strain) + std::abs(row.work));
+  report.energy_reference = run.doubts.energy_moved();
   report.seconds_output += run.seconds() - before;
 }
 

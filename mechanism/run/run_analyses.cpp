@@ -199,7 +199,8 @@ void find_modes(Run& run, RowWriter& out) {
   if (modes.largest_acceleration > 1e-6 * lowest * lowest)
     report.notes.push_back(
         fmt::format("the state is not steady in the axes of the linearisation (it accelerates by {:.3g} characteristic "
-                    "lengths or radians per time squared): modes of frozen coefficients",
+                    "lengths or radians per time squared): modes of frozen coefficients. Of a scene that turns steadily, "
+                    "begin with `statics: {{rotation: ..}}`, or give `modes: {{rotation: [x, y, z]}}`",
                     modes.largest_acceleration));
   if (const auto unstable = std::ranges::count_if(modes.modes, &Mode::unstable); unstable > 0)
     report.notes.push_back(fmt::format("{} modes grow: the state is unstable", unstable));

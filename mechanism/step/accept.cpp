@@ -68,12 +68,19 @@ void finish(const Model& model, const formats::IntegratorSpec& options, const St
     age_projection(model, memory.tuning, workspace.now, memory.projection);
   }
   accept(model, scheme.step, workspace.now, state);
+  memory.rows.note_turn(model, scheme.step, state);
 }
 
 bool rows_are_doubtful(const Model& model, const StepReport& report, const State& state, const Evaluation& evaluation) {
   if (report.outcome == StepOutcome::inaccurate) return false;
   if (report.outcome == StepOutcome::accepted) return largest_violation_left_out(model, evaluation) > largest_left_out;
   return is_overconstrained(state) || report.outcome == StepOutcome::singular;
+}
+
+bool renew_rows(const Model& model, State& state, Workspace& workspace) {
+  if (!workspace.memory.rows.renew(model, state, workspace.now)) return false;
+  workspace.forget();
+  return true;
 }
 
 bool choose_rows_again(const Model& model, State& state, Workspace& workspace) {

@@ -23,6 +23,10 @@ void finish(const Model& model, const formats::IntegratorSpec& options, const St
 /// overconstrained or singular step failed.
 bool rows_are_doubtful(const Model& model, const StepReport& report, const State& state, const Evaluation& evaluation);
 
+/// Before a step: other constraint rows to solve for, where those of the state come near to being dependent (RowWatch).
+/// Returns whether they changed.
+bool renew_rows(const Model& model, State& state, Workspace& workspace);
+
 /// After a doubtful step: back to where it began, with other rows to solve for. Those that are independent there, for
 /// the old ones may have become dependent on the way and the end of the step satisfies nothing; if that says no more
 /// than was known (the step left a position of lower rank), those that are independent where it ended. False, and the

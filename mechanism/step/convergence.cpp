@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "mechanism/equations/round_off.hpp"
+
 namespace tisserand::mechanism {
 namespace {
 
@@ -44,9 +46,9 @@ struct Closed {
 Closed closed_constraints(const Model& model, const IntegratorSpec& options, double step, const State& state) {
   const double acceleration = std::max(state.acceleration_scale(), size_of(model, state.algorithmic()));
   const double motion = share_of_motion * options.tolerance * step * step * acceleration;
-  const double reach = state.x().cols() > 0 ? state.x().cwiseAbs().maxCoeff() / model.length : 0.0;
+  const double reach = reach_of(model, state) / model.length;
   const double round_off = 4.0 * std::numeric_limits<double>::epsilon();
-  return {std::max(std::min(options.constraint_tolerance, motion), round_off * (1.0 + reach)),
+  return {std::max(std::min(options.constraint_tolerance, motion), round_off * reach),
           std::min(options.constraint_tolerance, std::max(motion, round_off)) / step};
 }
 
@@ -67,9 +69,7 @@ Norms measure(const Model& model, const IntegratorSpec& options, double step, co
   // Forces and moments measure each other through the length, so that a scale of zero in one does not stall the test.
   const double force = std::max(scale[0], scale[1] / model.length);
   const double internal_ratio = 1.0 / (options.tolerance * std::max(scale[2], 1e-250));
-  // Positions are rounded to ε length, which the stiffness turns into forces that no iteration can remove.
-  const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * model.stiffness_scale * model.length;
-  const double allowed = std::max(options.tolerance * force, round_off) + 1e-300;
+  const double allowed = std::max(options.tolerance * force, force_round_off(model, state)) + 1e-300;
   if (model.sizes.boundary > 0)
     norms.residual = largest(evaluation.residual.array().abs() * model.equation_scale.head(model.sizes.boundary),
                              norms.worst_coordinate);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include <Eigen/Cholesky>
@@ -12,7 +13,9 @@
 
 #include "mechanism/equations/carriers.hpp"
 #include "mechanism/equations/evaluate.hpp"
+#include "mechanism/equations/increments.hpp"
 #include "mechanism/equations/mobility.hpp"
+#include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/solver/matrix_rank.hpp"
 
 namespace tisserand::mechanism {
@@ -120,6 +123,99 @@ bool choose_active_rows(const Model& model, State& state, Evaluation& evaluation
   if (chosen == state.active()) return false;
   state.active() = chosen;
   return true;
+}
+
+namespace {
+
+/// Parts that are no branch of a tree: what is left when parts with one joint or none are taken away again and again. The
+/// ground is no part. Parts of couplings stay.
+std::vector<bool> parts_in_loops(const Model& model, const Parts& parts) {
+  const auto part = [&](const Marker& marker) { return marker.node < 0 ? parts.count() : parts.of_node[marker.node]; };
+  std::vector<int> joints(static_cast<std::size_t>(parts.count()) + 1, 0);
+  constexpr int always = 1 << 20;
+  joints.back() = always;
+  for (const Joint& joint : model.joints) ++joints[part(joint.a)], ++joints[part(joint.b)];
+  for (const Coupling& coupling : model.couplings)
+    for (const CouplingTerm& term : coupling.terms) {
+      const Coordinate& coordinate = model.coordinates[static_cast<std::size_t>(term.coordinate)];
+      joints[part(coordinate.a)] = joints[part(coordinate.b)] = always;
+    }
+  std::vector<bool> taken(model.joints.size(), false);
+  for (bool again = true; again;) {
+    again = false;
+    for (std::size_t i = 0; i < model.joints.size(); ++i) {
+      const int a = part(model.joints[i].a), b = part(model.joints[i].b);
+      if (taken[i] || (joints[a] > 1 && joints[b] > 1)) continue;
+      taken[i] = again = true;
+      --joints[a], --joints[b];
+    }
+  }
+  std::vector<bool> in_loop(static_cast<std::size_t>(parts.count()));
+  for (int p = 0; p < parts.count(); ++p) in_loop[p] = joints[p] > 1;
+  return in_loop;
+}
+
+}  // namespace
+
+RowWatch::RowWatch(const Model& model) {
+  const Parts parts = find_parts(model);
+  const std::vector<bool> in_loop = parts_in_loops(model, parts);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i)
+    if (model.nodes[i].rotation >= 0 && in_loop[parts.of_node[i]]) rotations_.push_back(model.nodes[i].rotation);
+}
+
+void RowWatch::note_turn(const Model& model, double step, State& state) const {
+  if (!is_overconstrained(state)) return;
+  double fastest = 0.0;
+  for (const int rotation : rotations_)
+    fastest = std::max(fastest, rotation_at(model, state.v(), rotation).squaredNorm());
+  state.turned() += step * std::sqrt(fastest);
+}
+
+bool RowWatch::renew(const Model& model, State& state, Evaluation& evaluation) {
+  if (!(state.turned() > examined_turn)) return false;
+  state.turned() = 0.0;
+  return largest_factor(model, state, evaluation) > most_factor && choose_active_rows(model, state, evaluation);
+}
+
+/// Of [M Bₐᵀ; Bₐ 0][x; c] = [b; 0] for each row b that is left out: b = Bₐᵀ c, with x = 0 if b depends on the rows Bₐ that
+/// are solved for. Infinite if it does not.
+double RowWatch::largest_factor(const Model& model, const State& state, Evaluation& evaluation) {
+  constexpr double independent = 1e-6;  // of the row
+  if (!system_) {
+    system_.emplace(model);
+    factors_.setZero(model.sizes.constraints);
+    row_.setZero(model.sizes.boundary);
+    rest_ = row_;
+  }
+  const int n = model.sizes.boundary;
+  const auto scale = [&](int row) { return model.length_row[row] ? 1.0 : model.length; };
+  evaluate(model, state, evaluation);
+  evaluate_weight(model, state, {1.0, 0.0, model.mass_scale / model.stiffness_scale}, evaluation, system_->matrix);
+  for (int i = 0; i < n; ++i)  // for coordinates without mass and stiffness
+    system_->matrix.values[model.pattern->slot(i, i)] += 1e-9 / (model.equation_scale[i] * model.equation_scale[i]);
+  system_->forget();
+  if (!system_->factor(model).regular) return std::numeric_limits<double>::infinity();
+  double largest = 0.0;
+  for (int left_out = 0; left_out < model.sizes.constraints; ++left_out) {
+    if (state.active()[left_out] != 0.0) continue;
+    factors_ = Eigen::VectorXd::Unit(model.sizes.constraints, left_out);
+    apply_transposed_jacobian(model, evaluation, factors_, row_);
+    system_->unknowns.setZero();
+    system_->unknowns.head(n) = row_;
+    system_->solve(model);
+    factors_ = system_->unknowns.tail(model.sizes.constraints);
+    for (int row = 0; row < model.sizes.constraints; ++row)
+      largest = std::max(largest, std::abs(factors_[row]) * scale(left_out) / scale(row));
+    apply_transposed_jacobian(model, evaluation, factors_, rest_);
+    rest_ -= row_;
+    const auto size = [&](const Eigen::VectorXd& b) {
+      return b.cwiseProduct(model.equation_scale.head(n).matrix()).norm();
+    };
+    if (size(rest_) > independent * size(row_))
+      return std::numeric_limits<double>::infinity();
+  }
+  return largest;
 }
 
 Eigen::VectorXd least_norm_multipliers(const Model& model, const Evaluation& evaluation,

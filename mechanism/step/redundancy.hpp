@@ -1,12 +1,13 @@
 // Reactions of overconstrained mechanisms: of all multipliers that cause the same motion, those of least norm.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "mechanism/equations/evaluation.hpp"
+#include "mechanism/equations/saddle_system.hpp"
 #include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
 
@@ -24,6 +25,32 @@ double largest_violation_left_out(const Model& model, const Evaluation& evaluati
 /// Multipliers keep their values, also those of rows that are left out from now on: what these exert is made up for by
 /// the others in the next solution.
 bool choose_active_rows(const Model& model, State& state, Evaluation& evaluation);
+
+/// Examines the rows of overconstrained scenes while bodies turn. A row that is left out is a sum of those that are solved
+/// for; where its factors grow, these become dependent. They are chosen again as soon as a factor exceeds `most_factor`, long
+/// before Newton's iteration meets the loss of rank. When that is, the state alone decides: it holds by how much bodies in
+/// loops have turned since the last examination.
+class RowWatch {
+ public:
+  explicit RowWatch(const Model& model);
+
+  /// Adds the turn of an accepted step to state.turned(). Does nothing where all rows are solved for.
+  void note_turn(const Model& model, double step, State& state) const;
+
+  /// Examines the rows at the state if bodies have turned by `examined_turn`, and chooses others if that is due. Returns
+  /// whether they changed; the caller then forgets factors. Evaluates the state where it examines.
+  bool renew(const Model& model, State& state, Evaluation& evaluation);
+
+  static constexpr double examined_turn = 0.25;  ///< [rad]
+  static constexpr double most_factor = 3.0;     ///< at about 1/3 rad from a position where rows become dependent
+
+ private:
+  double largest_factor(const Model& model, const State& state, Evaluation& evaluation);
+
+  std::vector<int> rotations_;  ///< first rotation coordinate of each node of bodies in loops
+  std::optional<SaddleSystem> system_;
+  Eigen::VectorXd factors_, row_, rest_;
+};
 
 /// λ with the same Bᵀλ and least Σ |f|² + |m|²/L² over all joints and couplings: f, m the wrench that each exerts on
 /// its body B at the origin of its marker, L the characteristic length of the scene. At the state of the last

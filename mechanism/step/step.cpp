@@ -65,14 +65,16 @@ StepReport take_step(const Model& model, const formats::IntegratorSpec& options,
 
 StepReport advance(const Model& model, const formats::IntegratorSpec& options, const StepEnd& end, State& state,
                    Workspace& workspace) {
-  const StepReport report = take_step(model, options, end, state, workspace);
-  if (!rows_are_doubtful(model, report, state, workspace.now) || !choose_rows_again(model, state, workspace))
-    return report;
-  StepReport again = take_step(model, options, end, state, workspace);
-  again.iterations += report.iterations;
-  again.factorisations += report.factorisations;
-  again.row_choices = 1;
-  return again;
+  bool chosen = renew_rows(model, state, workspace);
+  StepReport report = take_step(model, options, end, state, workspace);
+  if (rows_are_doubtful(model, report, state, workspace.now) && choose_rows_again(model, state, workspace)) {
+    const StepReport first = report;
+    report = take_step(model, options, end, state, workspace);
+    report.count(first);
+    chosen = true;
+  }
+  report.row_choices = chosen;
+  return report;
 }
 
 }  // namespace tisserand::mechanism

@@ -23,6 +23,11 @@ struct StepReport {
   int worst_coordinate = -1;  ///< of the largest residual, when not accepted
   int worst_constraint = -1;  ///< of the largest violation, when not accepted and larger in ratio
   int singular_column = -1;
+  /// Adds the work of an attempt before this one.
+  void count(const StepReport& before) {
+    iterations += before.iterations;
+    factorisations += before.factorisations;
+  }
   int row_choices = 0;  ///< how often the constraint rows that are solved for were chosen anew
 };
 

@@ -5,13 +5,14 @@
 #include "mechanism/step/factor_reuse.hpp"
 #include "mechanism/step/position_projection.hpp"
 #include "mechanism/step/predictor.hpp"
+#include "mechanism/step/redundancy.hpp"
 
 namespace tisserand::mechanism {
 
 /// All that a step remembers of the steps before it, besides the factors of the iteration matrix. None of it decides
 /// what a step converges to, all of it how.
 struct StepMemory {
-  explicit StepMemory(const Model& model) : previous(model.sizes), predictor(model.sizes) {}
+  explicit StepMemory(const Model& model) : previous(model.sizes), predictor(model.sizes), rows(model) {}
   void forget() {
     reuse = {};
     predictor.forget();
@@ -22,6 +23,7 @@ struct StepMemory {
   Predictor predictor;
   FactorReuse reuse;
   PositionProjection projection;
+  RowWatch rows;
   StepTuning tuning;
 };
 

@@ -187,6 +187,17 @@ class Search {
   double room_ = 0.0;                      ///< for it
 };
 
+namespace {
+
+/// What `output.channels` must name for this channel: nodes alone, of other things the dataset ("joints/force").
+std::string dataset_of(const std::string& channel) {
+  if (channel.starts_with("nodes/")) return channel;
+  const std::size_t group = channel.find('/');
+  return group == std::string::npos ? channel : channel.substr(0, channel.find('/', group + 1));
+}
+
+}  // namespace
+
 formats::Scene Search::scene_with(double tolerance, const Modes& modes) const {
   formats::Scene scene = request_.scene;
   formats::IntegratorSpec& integrator = scene.integrator;
@@ -197,7 +208,7 @@ formats::Scene Search::scene_with(double tolerance, const Modes& modes) const {
   if (!scene.output.interval) scene.output.interval = (integrator.end - integrator.start) / instants;
   scene.output.every = 1;
   scene.checkpoint = {};
-  if (!scene.output.channels.empty()) scene.output.channels.push_back(accuracy_.of);
+  if (!scene.output.channels.empty()) scene.output.channels.push_back(dataset_of(accuracy_.of));
   for (formats::BodySpec& body : scene.bodies)
     if (auto* spec = std::get_if<formats::SuperelementBodySpec>(&body); spec != nullptr)
       if (const auto found = modes.find(spec->name); found != modes.end()) spec->modes = found->second;

@@ -39,13 +39,14 @@ QuadraticPattern make_green_strain() {
 
 QuadraticPattern make_beam_point() {
   constexpr int du = 0, psi = 3, dpsi = 6;
-  QuadraticPattern pattern{6, 9, {}};
+  QuadraticPattern pattern{7, 9, {}};
   add_cross(0, 1.0, du, psi, pattern);
   pattern.terms.push_back({0, psi + 1, psi + 1, -0.5});
   pattern.terms.push_back({0, psi + 2, psi + 2, -0.5});
   pattern.terms.push_back({1, psi, psi + 1, 0.5});
   pattern.terms.push_back({2, psi, psi + 2, 0.5});
   add_cross(3, 0.5, dpsi, psi, pattern);
+  pattern.terms.push_back({6, dpsi, dpsi, 0.5});
   return pattern;
 }
 

@@ -57,12 +57,16 @@ void check_data(const formats::Section& section, const formats::Material& materi
 }
 
 /// One quadrature point sees the bending moment of the middle alone. What its linear part, V s, adds to the energy is
-/// put into the shear flexibility: 1/GA + L²/(12 E I) ([Mac78]), I of the plane in which the shear force bends.
+/// put into the shear flexibility: 1/GA + L²/(12 E I) ([Mac78]), I of the plane in which the shear force bends. β: its share of
+/// the whole.
 void add_residual_bending(BeamElement2& element) {
   const double share = element.length * element.length / 12.0;
-  for (const auto& [force, moment] : {std::pair(1, 2), std::pair(2, 1)})
-    element.force_stiffness[force] =
-        1.0 / (1.0 / element.force_stiffness[force] + share / element.moment_stiffness[moment]);
+  for (const auto& [force, moment] : {std::pair(1, 2), std::pair(2, 1)}) {
+    const double bending = share / element.moment_stiffness[moment];
+    const double flexibility = 1.0 / element.force_stiffness[force] + bending;
+    element.force_stiffness[force] = 1.0 / flexibility;
+    element.bending_share[force] = bending / flexibility;
+  }
 }
 
 void set_initial_strains(BeamElement2& element, const beam::Configuration<double, 2>& q) {
@@ -92,6 +96,7 @@ BeamElement<N> make_beam_element(const BeamReference<N>& reference, const format
   element.section = reference.section;
   element.force_stiffness = {E * section.area, G * section.shear_area_y, G * section.shear_area_z};
   element.moment_stiffness = {G * section.torsion_constant, E * section.second_moment_y, E * section.second_moment_z};
+  element.polar_radius_squared = (section.second_moment_y + section.second_moment_z) / section.area;
   if constexpr (N == 2) add_residual_bending(element);
   const formats::SectionInertia rotary = formats::section_inertia(section, material);
   element.mass = rotary.mass * reference.length;

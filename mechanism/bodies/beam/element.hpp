@@ -7,10 +7,16 @@
 //   Γ = Λᵀ x' − Γ₀   axial and shear strains,   κ = axial(Λᵀ Λ') − κ₀   torsion and bending, both in section axes;
 //   ' is the derivative by arc length of the reference curve; Γ₀, κ₀ are the values of the same interpolation there,
 //   so that the reference configuration is free of stress, whatever its curvature.
+// Axial strain: ε = Γ₁ + e(Γ) + ½ ρ² κ₁², ρ² = (E I_y + E I_z)/E A. The last term is the mean elongation of fibres that
+//   twist about the axis (Wagner): a torsional stiffness N ρ² of the normal force N. e is zero for three nodes.
 // Two nodes: ψ = log(Λ₁ᵀΛ₂), Λ(s) = Λ₁ exp(s ψ), κ = ψ/L; strains at the middle only (free of shear and membrane
-//   locking), with three corrections that make the nodes of straight beams exact for loads at nodes and weight, and the
+//   locking), with four corrections that make the nodes of straight beams exact for loads at nodes and weight, and the
 //   element of order 4 as long as bending stays in one plane:
 //   - shear stiffness 1/(1/GA + L²/(12 EI)): residual bending flexibility [Mac78], of the linear part of the moment;
+//   - e = Σ (2β_k − β_k²) Γ_k²/(|v| + v₁) + β_k² Γ_k²/10, v = Γ + Γ₀, with the share β = (L²/12EI)/(1/GA + L²/12EI) of
+//     bending in the shear strain. That share bends the axis by a cubic: the elongation of the axis is |v| − 1 then, not
+//     v₁ − 1, and its curve is longer than its chord by a tenth of Γ_k². N gives it the stiffness N/5, where shear of the
+//     section has −N. Without e the element becomes unstable at a tension of 12 EI/L²;
 //   - Γ = A(ψ) Λᵀ Δx/L − Γ₀ with A = 1 − ψ~²/24: the element is the arc of its curvature, not the chord Δx;
 //   - mass and weight along a parabola through the nodes that follows their sections (kernels.hpp, Parabola).
 //   What is left of order 2: the change of curvature κ × C_m κ along elements of bent and twisted beams (zero in a plane),
@@ -40,6 +46,8 @@ struct BeamElement {
   std::array<int, N> nodes{};                           ///< indices of nodes, along the beam
   double length = 0.0;                                  ///< L, arc length of the reference curve
   std::array<Eigen::Matrix3d, N> section{};             ///< D_i: section triad in node axes
+  Eigen::Vector3d bending_share = {0, 0, 0};            ///< (0, β_y, β_z) of two nodes
+  double polar_radius_squared = 0.0;                    ///< ρ²
   Eigen::Vector3d force_stiffness = {0, 0, 0};          ///< C_n = (E A, G A_y, G A_z), of two nodes less residual bending
   Eigen::Vector3d moment_stiffness = {0, 0, 0};         ///< C_m = (G J, E I_y, E I_z)
   std::array<Eigen::Vector3d, points> initial_gamma{};  ///< Γ₀ (including the 1 of the axis)
@@ -94,7 +102,7 @@ template <int N>
 BeamEnergy energy(const BeamElement<N>& element, std::span<const NodeMotion> nodes, const Eigen::Vector3d& gravity);
 
 /// Strains and stress resultants at one quadrature point, in section axes; resultants act on the side that the negative
-/// axis points to (tension positive). The shear strains of two nodes hold the residual bending too; their forces do not.
+/// axis points to (tension positive). The shear strains of two nodes contain the residual bending; their forces do not.
 struct BeamSectionForces {
   double arc_length = 0.0;       ///< of the point, from the first node of the element
   Eigen::Matrix3d axes;          ///< Λ: section triad in world axes

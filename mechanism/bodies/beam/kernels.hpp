@@ -6,6 +6,7 @@
 
 #include "common/math/rotation.hpp"
 #include "mechanism/bodies/beam/element.hpp"
+#include "mechanism/bodies/beam/resultants.hpp"
 #include "mechanism/bodies/beam/rotation.hpp"
 
 namespace tisserand::mechanism::beam {
@@ -44,6 +45,8 @@ struct State2 {
   Logarithm<S> log;
   Mat3<S> axes;
   Vec3<S> g, gamma, kappa, force, moment, on_g, on_psi;
+  S energy, normal;  ///< W/L, N
+  BentLength<S> bent;
 
   State2(const BeamElement2& e, const Configuration<S, 2>& q)
       : State2(e, q, q.R[0] * e.section[0].template cast<S>()) {}
@@ -57,8 +60,12 @@ struct State2 {
     g = axes.transpose() * (q.x[1] - q.x[0]) * S(1.0 / e.length);
     gamma = chord_to_arc(log.psi, log.u, g) - e.initial_gamma[0].template cast<S>();
     kappa = log.psi * S(1.0 / e.length) - e.initial_kappa[0].template cast<S>();
-    force = e.force_stiffness.template cast<S>().cwiseProduct(gamma);
-    moment = e.moment_stiffness.template cast<S>().cwiseProduct(kappa);
+    bent = BentLength<S>(e, gamma);
+    const Resultants<S> of(e, gamma, kappa, gamma[0] + bent.value, Vec3<S>::UnitX() + bent.gradient);
+    force = of.force;
+    moment = of.moment;
+    energy = of.energy;
+    normal = of.normal;
     on_g = chord_to_arc(log.psi, log.u, force);
     on_psi = moment + chord_gradient_transposed(log.psi, g, force) * S(e.length);
   }
@@ -73,6 +80,7 @@ struct Point3 {
   Mat3<S> turn;  ///< exp(φ)
   Mat3<S> axes;  ///< Λ = Λ₂ exp(φ)
   Vec3<S> g, gamma, kappa, force, moment;
+  S energy;  ///< W/L
 
   Point3(const BeamElement3& e, const Configuration<S, 3>& q, const Mat3<S>& middle, const Vec3<S>& Phi1,
          const Vec3<S>& Phi3, int point)
@@ -88,8 +96,10 @@ struct Point3 {
     g = axes.transpose() * slope_x;
     gamma = g - e.initial_gamma[point].template cast<S>();
     kappa = tangent_times(phi, f, a) - e.initial_kappa[point].template cast<S>();
-    force = e.force_stiffness.template cast<S>().cwiseProduct(gamma);
-    moment = e.moment_stiffness.template cast<S>().cwiseProduct(kappa);
+    const Resultants<S> of(e, gamma, kappa, gamma[0], Vec3<S>::UnitX());
+    force = of.force;
+    moment = of.moment;
+    energy = of.energy;
   }
 };
 
@@ -106,18 +116,16 @@ struct State3 {
         point{Point3<S>(e, q, middle, log1.psi, log3.psi, 0), Point3<S>(e, q, middle, log1.psi, log3.psi, 1)} {}
 };
 
-/// W = Σ w_g (Γ·C_n Γ + κ·C_m κ)/2.
+/// W of an element.
 template <class S>
 S strain_energy(const BeamElement2& e, const Configuration<S, 2>& q) {
   const State2<S> state(e, q);
-  return 0.5 * e.length * (dot3(state.gamma, state.force) + dot3(state.kappa, state.moment));
+  return e.length * state.energy;
 }
 template <class S>
 S strain_energy(const BeamElement3& e, const Configuration<S, 3>& q) {
   const State3<S> state(e, q);
-  S sum(0.0);
-  for (const Point3<S>& p : state.point) sum += dot3(p.gamma, p.force) + dot3(p.kappa, p.moment);
-  return 0.25 * e.length * sum;
+  return 0.5 * e.length * (state.point[0].energy + state.point[1].energy);
 }
 
 /// G_int of two nodes: ∂W/∂x_i and ∂W/∂Θ_i. With σ = δθ₁ + δθ₂, δ = δθ₂ − δθ₁ (section axes):

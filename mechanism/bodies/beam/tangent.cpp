@@ -120,8 +120,9 @@ Matrix3d chord_gradient(const Vector3d& psi, const Vector3d& v) {
   return B;
 }
 
-/// Second derivatives of the strain energy by g and ψ, times c: by_g = c A C_n A, mixed = c ∂(on_g)/∂ψ,
-/// by_psi = c ∂(on_psi)/∂ψ.
+/// Second derivatives of the strain energy by g and ψ, times c: by_g = c A D A, mixed = c ∂(on_g)/∂ψ,
+/// by_psi = c ∂(on_psi)/∂ψ. D: of W/L by Γ, E A J Jᵀ + N e'' + C of the shear strains, J = ∂ε/∂Γ. With ε also by κ₁:
+/// E A (ρ² κ₁) of J and κ₁, N ρ² + E A (ρ² κ₁)² of κ₁ twice.
 struct Stiffness2 {
   Matrix3d by_g, mixed, by_psi;
 
@@ -130,12 +131,21 @@ struct Stiffness2 {
     Matrix3d A = psi * psi.transpose() / -24.0;
     A.diagonal().array() += 1.0 + state.log.u / 24.0;
     const Matrix3d B = chord_gradient(psi, g);
-    const Matrix3d CA = (c * e.force_stiffness).asDiagonal() * A, CB = (c * e.force_stiffness).asDiagonal() * B;
-    by_g.noalias() = A * CA;
+    const Vector3d J = Vector3d::UnitX() + state.bent.gradient;
+    const double axial = c * e.force_stiffness[0], twist = e.polar_radius_squared * state.kappa[0];
+    Matrix3d D = (axial * J) * J.transpose() + (c * state.normal) * state.bent.hessian();
+    D.diagonal().tail<2>() += c * e.force_stiffness.tail<2>();
+    const Matrix3d DA = D * A, DB = D * B;
+    by_g.noalias() = A * DA;
     mixed = c * chord_gradient(psi, n);
-    mixed.noalias() += A * CB;
+    mixed.noalias() += A * DB;
+    mixed.col(0) += (axial * twist / e.length) * (A * J);
     by_psi = (c * e.length / -24.0) * (n * g.transpose() + g * n.transpose());
-    by_psi.noalias() += e.length * (B.transpose() * CB);
+    by_psi.noalias() += e.length * (B.transpose() * DB);
+    const Vector3d with_twist = (axial * twist) * (B.transpose() * J);
+    by_psi.col(0) += with_twist;
+    by_psi.row(0) += with_twist.transpose();
+    by_psi(0, 0) += (c * e.polar_radius_squared * state.normal + axial * twist * twist) / e.length;
     by_psi.diagonal() += c / e.length * e.moment_stiffness;
     by_psi.diagonal().array() += c * e.length / 12.0 * n.dot(g);
   }
@@ -224,27 +234,40 @@ void add_point(const BeamElement3& e, const beam::Point3<double>& p, int point, 
   const Matrix3d Xi = tangent_derivative(p.phi, p.f, p.a);
   const Vector3d h = weight * p.force.cross(p.g), m = weight * p.moment;
   const Matrix3d H = weight * (skew(p.force) - skew_g * e.force_stiffness.asDiagonal());
+  const double twist = e.polar_radius_squared * p.kappa[0], axial = weight * e.force_stiffness[0];
+  Vector3d by_kappa = weight * e.moment_stiffness;
+  by_kappa[0] += weight * e.polar_radius_squared * p.force[0] + axial * twist * twist;
   const Matrix3d J = H * skew_g, JT = J * T, JE = J * p.turn.transpose();
-  const Matrix3d CT = (weight * e.moment_stiffness).asDiagonal() * T;
-  const Matrix3d CX = (weight * e.moment_stiffness).asDiagonal() * Xi;
-  const Matrix3d by_phi =
+  const Matrix3d CT = by_kappa.asDiagonal() * T, CX = by_kappa.asDiagonal() * Xi;
+  // ε holds κ₁: E A (ρ² κ₁) of δΓ₁ = g~₁ᵀ δθ + (Λᵀ δx')₁ and δκ₁, both ways.
+  const Vector3d turned = (axial * twist) * skew_g.row(0).transpose();
+  const Vector3d by_phi_1 = T.transpose() * turned;
+  const Vector3d kappa_by_phi = Xi.row(0).transpose(), kappa_by_a = T.row(0).transpose();
+  Matrix3d by_phi =
       T.transpose() * JT + Xi.transpose() * CX - tangent_derivative(-p.phi, p.f, h) + weight * tangent_hessian(p);
-  const Matrix3d mixed = Xi.transpose() * CT - tangent_derivative(-p.phi, p.f, m).transpose();
+  by_phi += by_phi_1 * kappa_by_phi.transpose() + kappa_by_phi * by_phi_1.transpose();
+  Matrix3d mixed = Xi.transpose() * CT - tangent_derivative(-p.phi, p.f, m).transpose();
+  mixed += by_phi_1 * kappa_by_a.transpose();
   const Matrix3d by_a = T.transpose() * CT;
-  const Matrix3d down = p.turn * (JT - skew(h) * T), across = T.transpose() * JE;
+  const Vector3d direct = p.turn * turned;
+  const Matrix3d down = p.turn * (JT - skew(h) * T) + direct * kappa_by_phi.transpose();
+  const Matrix3d down_a = direct * kappa_by_a.transpose();
+  const Matrix3d across = T.transpose() * JE + kappa_by_phi * direct.transpose();
   for (int i = 0; i < 2; ++i) {
     for (int j = 0; j < 2; ++j)
       K.block<3, 3>(3 * i, 3 * j) +=
           n[i] * n[j] * by_phi + n[i] * dn[j] * mixed + dn[i] * n[j] * mixed.transpose() + dn[i] * dn[j] * by_a;
-    K.block<3, 3>(6, 3 * i) += n[i] * down;
-    K.block<3, 3>(3 * i, 6) += n[i] * across;
+    K.block<3, 3>(6, 3 * i) += n[i] * down + dn[i] * down_a;
+    K.block<3, 3>(3 * i, 6) += n[i] * across + dn[i] * down_a.transpose();
   }
   K.block<3, 3>(6, 6) += p.turn * JE;
-  const Matrix3d HL = H * p.axes.transpose(), THL = T.transpose() * HL, EHL = p.turn * HL;
+  const Matrix3d HL = H * p.axes.transpose(), EHL = p.turn * HL;
+  const Eigen::RowVector3d normal = (axial * twist) * p.axes.col(0).transpose();
+  const Matrix3d THL = T.transpose() * HL + kappa_by_phi * normal, by_a_x = kappa_by_a * normal;
   const Matrix3d C = p.axes * (weight * e.force_stiffness).asDiagonal() * p.axes.transpose();
   for (int i = 0; i < 3; ++i) {
     const double di = beam::slope[point][i] / e.length;
-    for (int k = 0; k < 2; ++k) Kx.block<3, 3>(3 * k, 3 * i) += n[k] * di * THL;
+    for (int k = 0; k < 2; ++k) Kx.block<3, 3>(3 * k, 3 * i) += di * (n[k] * THL + dn[k] * by_a_x);
     Kx.block<3, 3>(6, 3 * i) += di * EHL;
     for (int j = 0; j < 3; ++j) A.block<3, 3>(6 * i, 6 * j) += di * beam::slope[point][j] / e.length * C;
   }

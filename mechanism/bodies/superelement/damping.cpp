@@ -38,16 +38,12 @@ double ratio_of(const std::vector<double>& ratios, double others, Eigen::Index k
   return k < static_cast<Eigen::Index>(ratios.size()) ? ratios[k] : others;
 }
 
-/// a M̄ without the force on a translation of the whole, Pᵀ M̄ P with P = 1 − [1; 0] αᵀ: the same on deformation rates,
-/// whose mean with the weights α is zero, and rigid translations drop out as they do in S̄.
+/// a (M̄ − M̄R (RᵀM̄R)⁻¹ RᵀM̄), R the rigid motions: a M̄ on what is M̄-orthogonal to them. Rates of deformation count from a
+/// frame, whose choice adds a rigid motion to them; this makes no difference here, and every elastic mode of the free body
+/// has the ratio a/2ω.
 Eigen::MatrixXd mass_damping(const SuperelementBody& body, double factor) {
-  const int n = body.boundary_size + body.modes;
-  Eigen::MatrixXd P = Eigen::MatrixXd::Identity(n, n);
-  for (const int i : body.translation_nodes)
-    for (const int j : body.translation_nodes)
-      P.block<3, 3>(body.node[i].translation_row, body.node[j].translation_row).diagonal().array() -=
-          body.node[j].alpha;
-  return factor * (P.transpose() * whole_matrices(body).M * P);
+  const Eigen::MatrixXd M = whole_matrices(body).M, R = rigid_columns(body), MR = M * R;
+  return factor * (M - MR * (R.transpose() * MR).completeOrthogonalDecomposition().pseudoInverse() * MR.transpose());
 }
 
 }  // namespace

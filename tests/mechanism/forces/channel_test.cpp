@@ -239,7 +239,9 @@ TEST(Inputs, MayBeCubicAndMixWithChannels) {
   scene.inputs[0].interpolation = formats::Interpolation::cubic;
   scene.channels = {of_marker("v", ChannelKind::velocity, "mass", 0)};
   test_support::Simulation run(scene, {});
-  EXPECT_TRUE(run.model().breakpoints.empty());
+  // Inside, the slope is continuous; before the first and after the last instant it is zero.
+  EXPECT_EQ(run.model().breakpoints,
+            (std::vector<double>{scene.inputs[0].table.time.front(), scene.inputs[0].table.time.back()}));
   TimeFunction& f = run.workspace.now.load_functions[0][0];
   f.set_channels(Eigen::VectorXd::Constant(1, 0.5));
   EXPECT_DOUBLE_EQ(f(0.0), -1.0);

@@ -225,7 +225,7 @@ TEST(SecondOrder, GeometricStiffnessIsSymmetricAndRigidMotionsHaveNoStress) {
 }
 
 // Stiffness, mass and geometric stiffness of one beam, with every stress and with the axial force alone (which the
-// full one contains): computed by an independent prototype with four Gauss points.
+// full one contains): computed by an independent prototype with four Gauss points, of a section without polar moment.
 TEST(SecondOrder, BeamHasTheKnownAnswer) {
   std::ifstream file(std::string(TISSERAND_REFERENCES) + "/second_order_known_answers.json");
   const nlohmann::json entry = nlohmann::json::parse(file).at("element"), section = entry["section"];
@@ -245,8 +245,8 @@ TEST(SecondOrder, BeamHasTheKnownAnswer) {
   const Case c = make_case("known", mesh, mesh.beams[0], 6);
   const MatrixXd K = test_support::to_matrix(entry["K"]), K_G = test_support::to_matrix(entry["KG"]);
   EXPECT_LE((c.S - K).cwiseAbs().maxCoeff(), 1e-11 * K.cwiseAbs().maxCoeff());
-  const MatrixXd found = geometric_stiffness(c.rows, test_support::to_vector(entry["w"]));
-  EXPECT_LE((found - K_G).cwiseAbs().maxCoeff(), 1e-11 * K_G.cwiseAbs().maxCoeff());
+  const VectorXd w = test_support::to_vector(entry["w"]);
+  EXPECT_LE((geometric_stiffness(c.rows, w) - K_G).cwiseAbs().maxCoeff(), 1e-11 * K_G.cwiseAbs().maxCoeff());
   ElementMatrices matrices;
   element_matrices(mesh, mesh.beams[0], matrices);
   const MatrixXd M = test_support::to_matrix(entry["M"]);
@@ -256,6 +256,14 @@ TEST(SecondOrder, BeamHasTheKnownAnswer) {
   stretch[6] = entry["w"][6].get<double>() - entry["w"][0].get<double>();
   const MatrixXd axial = test_support::to_matrix(entry["KG_N_only"]);
   EXPECT_LE((geometric_stiffness(c.rows, stretch) - axial).cwiseAbs().maxCoeff(), 1e-11 * axial.cwiseAbs().maxCoeff());
+  // With a polar moment I_p: N (I_p/A)/L [1 −1; −1 1] on the twist, and nothing else (Wagner).
+  mesh.beam_properties[0].data.section.polar_moment = 3.0;
+  const Case twisted = make_case("with Wagner's term", mesh, mesh.beams[0], 6);
+  const double wagner = (w[6] - w[0]) / entry["length"].get<double>() * 3.0 / entry["length"].get<double>();
+  MatrixXd expected = K_G;
+  expected(3, 3) += wagner, expected(9, 9) += wagner;
+  expected(3, 9) -= wagner, expected(9, 3) -= wagner;
+  EXPECT_LE((geometric_stiffness(twisted.rows, w) - expected).cwiseAbs().maxCoeff(), 1e-11 * K_G.cwiseAbs().maxCoeff());
 }
 
 /// ½ fᵀ S f of what is left of d when the rotation exp(ω), ω = turn d, is taken out exactly.

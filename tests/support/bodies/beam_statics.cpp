@@ -26,6 +26,12 @@ void assemble(const std::vector<Element>& elements, const std::vector<NodeMotion
 
 }  // namespace
 
+BeamMesh without_twist_elongation(BeamMesh mesh) {
+  for (auto& element : mesh.elements2) element.polar_radius_squared = 0.0;
+  for (auto& element : mesh.elements3) element.polar_radius_squared = 0.0;
+  return mesh;
+}
+
 std::vector<NodeMotion> reference_nodes(const BeamMesh& mesh) {
   std::vector<NodeMotion> nodes(mesh.position.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) nodes[i].x = mesh.position[i];

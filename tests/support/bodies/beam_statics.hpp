@@ -22,6 +22,9 @@ struct Cantilever {
   bool converged = false;
 };
 
+/// The mesh as a rod of Simo and Reissner, whose twist does not lengthen its fibres: what published numbers belong to.
+BeamMesh without_twist_elongation(BeamMesh mesh);
+
 /// Nodes of a mesh at rest in its reference configuration.
 std::vector<NodeMotion> reference_nodes(const BeamMesh& mesh);
 

@@ -1,0 +1,299 @@
+// Inertia of the saddle matrix, and an iteration of Newton's type that goes downhill where the stiffness is negative.
+#include "mechanism/analyses/stability.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include "mechanism/analyses/kinematics.hpp"
+#include "mechanism/analyses/linearise.hpp"
+#include "mechanism/analyses/modes.hpp"
+#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/step/accept.hpp"
+
+extern "C" void dsytrf_(const char* uplo, const int* n, double* A, const int* lda, int* pivots, double* work,
+                        const int* lwork, int* info);
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Pivots below this part of the largest entry are zero.
+constexpr double zero_pivot = 1e-13;
+/// Asymmetry of the stiffness relative to load/length beyond which the count does not decide.
+constexpr double most_asymmetry = 1e-6;
+/// Coordinates up to which a direction is found by all eigenvectors.
+constexpr int most_resolved = 1000;
+
+/// LDLᵀ with its inertia.
+class SymmetricFactors {
+ public:
+  explicit SymmetricFactors(MatrixXd A) : A_(std::move(A)), pivots_(static_cast<std::size_t>(A_.rows())) {
+    const int n = static_cast<int>(A_.rows());
+    const double largest = n > 0 ? A_.cwiseAbs().maxCoeff() : 0.0;
+    int size = -1, info = 0;
+    double best = 1.0;
+    if (n == 0) return;
+    dsytrf_("L", &n, A_.data(), &n, pivots_.data(), &best, &size, &info);
+    size = static_cast<int>(best);
+    std::vector<double> work(static_cast<std::size_t>(size));
+    dsytrf_("L", &n, A_.data(), &n, pivots_.data(), work.data(), &size, &info);
+    const auto count = [&](double pivot) {
+      if (!(std::abs(pivot) > zero_pivot * largest))
+        ++zero_;
+      else if (pivot < 0.0)
+        ++negative_;
+    };
+    for (int k = 0; k < n; ++k) {
+      if (pivots_[k] > 0) {
+        count(A_(k, k));
+        continue;
+      }
+      const double a = A_(k, k), b = A_(k + 1, k), c = A_(k + 1, k + 1), mean = 0.5 * (a + c), half = 0.5 * (a - c);
+      const double radius = std::sqrt(half * half + b * b);
+      count(mean - radius);
+      count(mean + radius);
+      ++k;
+    }
+  }
+
+  int negative() const { return negative_; }
+  int zero() const { return zero_; }
+
+ private:
+  MatrixXd A_;
+  std::vector<int> pivots_;
+  int negative_ = 0, zero_ = 0;
+};
+
+double load_of(const Evaluation& evaluation, double length) {
+  return std::max(evaluation.force_scale[0], evaluation.force_scale[1] / length);
+}
+
+/// The symmetric part of K and B in scaled coordinates: rotations times the characteristic length, K over its largest entry.
+struct Scaled {
+  MatrixXd K, B;
+  VectorXd scale;          ///< of coordinates
+  VectorXd row_scale;      ///< of the active constraint rows
+  double stiffness = 1.0;  ///< by which K was divided
+  double asymmetry = 0.0;  ///< largest entry of (K − Kᵀ)/2
+
+  /// `load`: of the state, whose ratio to the length is the stiffness where bodies have none.
+  Scaled(const Model& model, const State& state, const Linearisation& l, double load) : scale(VectorXd::Ones(l.K.rows())) {
+    const Eigen::Index boundary = model.sizes.boundary;
+    scale.head(boundary) = model.equation_scale.head(boundary).matrix();
+    row_scale.setOnes(l.B.rows());
+    const std::vector<int> rows = active_rows(state);
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      if (rows[row] >= 0) row_scale[rows[row]] = model.equation_scale[boundary + static_cast<Eigen::Index>(row)];
+    K = scale.asDiagonal() * l.K * scale.asDiagonal();
+    B = row_scale.asDiagonal() * l.B * scale.asDiagonal();
+    stiffness = std::max(K.size() > 0 ? K.cwiseAbs().maxCoeff() : 0.0, load / model.length);
+    if (!(stiffness > 0.0)) stiffness = 1.0;
+    const MatrixXd odd = 0.5 / stiffness * (K - K.transpose());
+    K = K / stiffness - odd;
+    asymmetry = odd.size() > 0 ? odd.cwiseAbs().maxCoeff() : 0.0;
+  }
+
+  MatrixXd saddle() const {
+    const Eigen::Index n = K.rows(), m = B.rows();
+    MatrixXd A = MatrixXd::Zero(n + m, n + m);
+    A.topLeftCorner(n, n) = K;
+    A.bottomLeftCorner(m, n) = B;
+    A.topRightCorner(n, m) = B.transpose();
+    return A;
+  }
+};
+
+/// The eigenvector of the least eigenvalue of ZᵀKZ, in coordinates of a linearisation.
+VectorXd lowest_direction(const Model& model, const Linearisation& l, const Scaled& s) {
+  const MatrixXd Z = s.scale.cwiseInverse().asDiagonal() * null_space(model, l.B);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(Z.transpose() * s.K * Z);
+  return s.scale.asDiagonal() * (Z * eigen.eigenvectors().col(0));
+}
+
+Stability count(const Model& model, const Scaled& s, const Evaluation& evaluation) {
+  Stability result;
+  const SymmetricFactors factors(s.saddle());
+  result.counted = true;
+  result.unstable = std::max(0, factors.negative() - static_cast<int>(s.B.rows()));
+  result.neutral = factors.zero();
+  const double load = load_of(evaluation, model.length) / model.length;
+  result.symmetric = s.asymmetry * s.stiffness <= most_asymmetry * load + zero_pivot * s.stiffness;
+  return result;
+}
+
+/// Largest translation over the characteristic length, and turn, of ξ.
+double size_of_move(const Model& model, const Scaled& s, const VectorXd& xi) {
+  const Eigen::Index n = model.sizes.boundary;
+  return n > 0 ? xi.head(n).cwiseQuotient(s.scale.head(n)).cwiseAbs().maxCoeff() / model.length : 0.0;
+}
+
+VectorXd violations(const State& state, const Evaluation& evaluation, Eigen::Index count) {
+  VectorXd open(count);
+  const std::vector<int> rows = active_rows(state);
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    if (rows[row] >= 0) open[rows[row]] = evaluation.constraint[static_cast<Eigen::Index>(row)];
+  return open;
+}
+
+constexpr double farthest_move = 0.1;    ///< of the characteristic length, or radians
+constexpr double first_push = 0.01;      ///< out of an unstable equilibrium
+constexpr double zero_stiffness = 32.0 * std::numeric_limits<double>::epsilon();  ///< of the largest: round-off of eigenvalues
+constexpr double least_damping = 1e-13;  ///< of the largest stiffness
+constexpr int most_descents = 500;       ///< of each way to go
+
+/// The constraints at a state and the eigenvalues of the stiffness on them: [Y Z] orthogonal, Y of the rows, V of ZᵀKZ.
+struct StiffnessSpectrum {
+  Eigen::HouseholderQR<MatrixXd> rows;
+  MatrixXd Y, R, V;  ///< Bᵀ = Y R
+  VectorXd lambda;
+
+  explicit StiffnessSpectrum(const Scaled& s) : rows(s.B.transpose()) {
+    const Eigen::Index n = s.K.rows(), m = s.B.rows();
+    const MatrixXd Q = rows.householderQ() * MatrixXd::Identity(n, n);
+    Y = Q.leftCols(m);
+    R = rows.matrixQR().topRows(m);
+    const MatrixXd Z = Q.rightCols(n - m);
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(Z.transpose() * s.K * Z);
+    lambda = eigen.eigenvalues();
+    V = Z * eigen.eigenvectors();
+  }
+  bool has_negative() const { return lambda.size() > 0 && lambda[0] < -zero_stiffness; }
+  bool has_neutral() const { return lambda.size() > 0 && lambda.cwiseAbs().minCoeff() <= zero_stiffness; }
+};
+
+/// ξ and multipliers of a step (scaled): closes the constraints, and moves along each eigenvector v by −v·r/(|λ| + μ), with
+/// the least μ from `damping` on that keeps the step short: Newton's step where the stiffness is positive, downhill where
+/// it is negative.
+struct DownhillStep {
+  VectorXd xi, multipliers;
+  double damping, decrease;  ///< μ, and Σ (v·r)²/(|λ| + μ)
+
+  DownhillStep(const Model& model, const Scaled& s, const StiffnessSpectrum& spectrum, const VectorXd& r,
+               const VectorXd& open, double least)
+      : damping(least) {
+    const VectorXd closing = -(spectrum.Y * spectrum.R.transpose().triangularView<Eigen::Lower>().solve(open));
+    const VectorXd force = spectrum.V.transpose() * (r + s.K * closing);
+    for (;; damping *= 4.0) {
+      const VectorXd q = force.cwiseQuotient((spectrum.lambda.cwiseAbs().array() + damping).matrix());
+      xi = closing - spectrum.V * q;
+      decrease = force.dot(q);
+      if (damping > most_damping || !(size_of_move(model, s, s.scale.cwiseProduct(xi)) > farthest_move)) break;
+    }
+    multipliers = spectrum.R.triangularView<Eigen::Upper>().solve(VectorXd(-(spectrum.Y.transpose() * (r + s.K * xi))));
+  }
+
+  static constexpr double most_damping = 1e6;
+};
+
+/// r·ξ at the last evaluate(), with turns of ξ in world axes.
+double work_along(const Model& model, const Evaluation& evaluation, const VectorXd& xi) {
+  const VectorXd d = material_increment(model, evaluation, xi);
+  double work = evaluation.residual.dot(d.head(model.sizes.boundary));
+  for (std::size_t i = 0; i < model.superelements.size(); ++i)
+    work += evaluation.superelements[i].forces.r_I.dot(
+        d.segment(model.sizes.boundary + model.internal_offset[i], body_of(model, i).modes));
+  return work;
+}
+
+/// The eigenvector of the most negative eigenvalue, as long as the first push, downhill.
+VectorXd push(const Model& model, const Scaled& s, const StiffnessSpectrum& spectrum, const VectorXd& r) {
+  VectorXd xi = s.scale.cwiseProduct(spectrum.V.col(0));
+  xi *= first_push / size_of_move(model, s, xi);
+  Eigen::Index most = 0;
+  xi.cwiseAbs().maxCoeff(&most);
+  const double work = r.dot(xi.cwiseQuotient(s.scale));
+  if (work > 0.0 || (work == 0.0 && xi[most] < 0.0)) xi = -xi;
+  return xi;
+}
+
+/// Steps with Newton's corrections in stiff directions, however far they overshoot: they follow curved valleys quickly. Or
+/// `cautious`: a step is shorter where the forces along it change sign.
+DescentReport descend(const Model& model, const Balanced& balanced, const Balanced& interrupted, bool cautious,
+                      State& state, Evaluation& evaluation) {
+  DescentReport report;
+  VectorXd moved;
+  double damping = least_damping;
+  for (; report.iterations < most_descents; ++report.iterations) {
+    if (interrupted && interrupted()) return report;
+    const Linearisation l = linearise_stiffness(model, state, evaluation);
+    if (!l.r.allFinite()) return report;
+    const bool done = balanced();
+    settle(model, evaluation, state);
+    const Scaled s(model, state, l, load_of(evaluation, model.length));
+    const StiffnessSpectrum spectrum(s);
+    if (done && !spectrum.has_negative()) {
+      report.found = !spectrum.has_neutral();
+      if (report.found) return report;
+      Eigen::Index least = 0;
+      spectrum.lambda.cwiseAbs().minCoeff(&least);
+      report.direction = name_of_direction(model, state, s.scale.cwiseProduct(spectrum.V.col(least)), evaluation);
+      return report;
+    }
+    const VectorXd r = s.scale.cwiseProduct(l.r) / s.stiffness, none = VectorXd::Zero(l.B.rows());
+    if (done) {
+      moved = push(model, s, spectrum, r);
+      move_by(model, moved, none, evaluation, state);
+      continue;
+    }
+    const State before = state;
+    const VectorXd open = s.row_scale.cwiseProduct(violations(state, evaluation, l.B.rows()));
+    for (;;) {
+      const DownhillStep step(model, s, spectrum, r, open, damping);
+      if (!step.xi.allFinite()) return report;
+      moved = s.scale.cwiseProduct(step.xi);
+      move_by(model, moved, s.stiffness * s.row_scale.cwiseProduct(step.multipliers), evaluation, state);
+      if (!cautious) break;
+      evaluate(model, state, evaluation);
+      damping = step.damping;
+      if (!(work_along(model, evaluation, moved) > 0.5 * s.stiffness * step.decrease)) break;
+      if (damping > DownhillStep::most_damping) return report;
+      state.block() = before.block();
+      evaluate(model, state, evaluation);
+      damping *= 10.0;
+    }
+    damping = std::max(least_damping, 0.1 * damping);
+  }
+  evaluate(model, state, evaluation);
+  report.direction = name_of_direction(model, state, moved, evaluation);
+  return report;
+}
+
+}  // namespace
+
+Stability stability_of(const Model& model, const State& state, Evaluation& evaluation, bool name) {
+  if (model.sizes.velocities() > most_linearised) return {};
+  const Linearisation l = linearise_stiffness(model, state, evaluation);
+  const Scaled s(model, state, l, load_of(evaluation, model.length));
+  Stability result = count(model, s, evaluation);
+  if (name && result.unstable + result.neutral > 0 && l.K.rows() <= most_resolved)
+    result.direction = name_of_direction(model, state, lowest_direction(model, l, s), evaluation);
+  return result;
+}
+
+DescentReport descend(const Model& model, const Balanced& balanced, const Balanced& interrupted, State& state,
+                      Evaluation& evaluation) {
+  if (model.sizes.velocities() > most_resolved) return {};
+  const State begin = state;
+  DescentReport report;
+  int iterations = 0;
+  for (const bool cautious : {false, true}) {
+    state.block() = begin.block();
+    report = descend(model, balanced, interrupted, cautious, state, evaluation);
+    iterations += report.iterations;
+    if (report.found || (interrupted && interrupted())) break;
+  }
+  report.iterations = iterations;
+  return report;
+}
+
+}  // namespace tisserand::mechanism

@@ -1,0 +1,251 @@
+// Scenes on which a former version was wrong or silent, against closed forms (tests/verification/references/trials).
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/error.hpp"
+#include "tests/support/scenes/trial.hpp"
+#include "tests/support/thrown.hpp"
+
+namespace tisserand::mechanism::trials_test {
+namespace {
+
+using std::numbers::pi;
+using test_support::Trial;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+// A physical pendulum hangs below its hinge. It starts `angle` degrees off; the joint coordinate counts from there.
+TEST(HangingStatics, PendulumFromAnyStart) {
+  for (const double angle : {1.0, 30.0, 89.0, 90.0, 120.0, 170.0}) {
+    const Trial trial("fail2_hanging_statics", {fmt::format("bodies.arm.pose.orientation.angle_deg={}", angle)});
+    EXPECT_EQ(trial.report().outcome, RunOutcome::completed);
+    EXPECT_NEAR(trial.last("joints/coordinate/hinge"), -angle * pi / 180.0, 1e-8) << angle;
+  }
+}
+
+// Weight 294.3 N on three springs of 4000 N/m: each lengthens by 0.024525 m.
+TEST(HangingStatics, PlateOnThreeRopes) {
+  const Trial trial("fail2b_plate_on_ropes");
+  EXPECT_EQ(trial.report().outcome, RunOutcome::completed);
+  EXPECT_NEAR(trial.last("nodes/position/plate/z"), -2.024525, 1e-6);
+}
+
+// m g = k (x - 0.01 m): the body falls freely onto its stop.
+TEST(HangingStatics, BodyFallsOntoAStop) {
+  EXPECT_NEAR(Trial("stop_statics").last("nodes/position/b/z"), -0.011962, 1e-6);
+}
+
+// Without gravity nothing holds the pendulum, and the message names its hinge.
+TEST(HangingStatics, WhatNothingHoldsIsAnError) {
+  EXPECT_THAT(test_support::error_of([] { Trial("fail2_hanging_statics", {"gravity=[0, 0, 0]"}); }),
+              HasSubstr("nothing holds coordinate 'hinge'"));
+}
+
+// From 60 degrees Newton's iteration ends upright, at 180 degrees: one unstable direction, as `modes` has it. `stable`
+// ends where m g l sin q = -k (q - 60°): 0.005 degrees.
+TEST(UnstableStatics, IsAnOutcomeAndCanBeLeft) {
+  const Trial upright("fail3_unstable_equilibrium");
+  EXPECT_EQ(upright.report("rest").outcome, RunOutcome::unstable);
+  EXPECT_THAT(upright.report("rest").reason, HasSubstr("unstable in 1 direction, first coordinate 'hinge'"));
+  EXPECT_THAT(upright.report("tones").notes, ::testing::Contains(HasSubstr("1 modes grow")));
+  const Trial hanging("fail3_unstable_equilibrium", {"analyses.rest.statics.stable=yes"});
+  EXPECT_EQ(hanging.report("rest").outcome, RunOutcome::completed);
+  EXPECT_NEAR(hanging.last("joints/coordinate/hinge", "rest") + pi / 3.0, 8.9e-5, 2e-6);
+  for (const std::string& note : hanging.report("tones").notes) EXPECT_THAT(note, ::testing::Not(HasSubstr("grow")));
+}
+
+TEST(UnstableStatics, NegativeSpring) {
+  EXPECT_EQ(Trial("negative_spring").report("rest").outcome, RunOutcome::unstable);
+}
+
+// Clamped column under P along its axis and 0.01 N across: elastica with shear and axial strain (elliptic integrals, README
+// of the trials: EI = 103.0835 N m², Euler load 254.348 N).
+TEST(UnstableStatics, ColumnLeavesForTheElastica) {
+  struct Case {
+    double load, x, z, tolerance;
+    int elements;
+  };
+  for (const Case& c : {Case{258, 0.213371, 0.971390, 1e-3, 8}, Case{300, 0.627349, 0.701562, 1e-4, 8},
+                        Case{2000, 0.453514, -0.543989, 1e-4, 16}}) {
+    const std::vector<std::string> settings = {fmt::format("loads.p.value.2={}", -c.load),
+                                               fmt::format("bodies.rod.elements={}", c.elements)};
+    const Trial straight("buckled_column", settings);
+    EXPECT_EQ(straight.report("rest").outcome, RunOutcome::unstable);
+    EXPECT_THAT(straight.report("rest").reason, HasSubstr("2 directions"));
+    std::vector<std::string> stable = settings;
+    stable.push_back("analyses.rest.statics.stable=yes");
+    const Trial bent("buckled_column", stable);
+    EXPECT_EQ(bent.report("rest").outcome, RunOutcome::completed);
+    EXPECT_NEAR(bent.last("nodes/position/rod/end/x", "rest"), c.x, c.tolerance) << c.load;
+    EXPECT_NEAR(bent.last("nodes/position/rod/end/z", "rest"), c.z, c.tolerance) << c.load;
+    EXPECT_THAT(bent.report("tones").notes, IsEmpty()) << c.load;
+  }
+  const Trial below("buckled_column", {"loads.p.value.2=-200"});
+  EXPECT_EQ(below.report("rest").outcome, RunOutcome::completed);
+  EXPECT_NEAR(below.last("nodes/position/rod/end/x", "rest"), 1.4967e-4, 1e-7);
+}
+
+// With load steps the report says where the stability is lost: at 254.348 of 300 N.
+TEST(UnstableStatics, LoadFactorOfTheLossIsReported) {
+  const Trial trial("buckled_column", {"analyses.rest.statics.load_steps=20"});
+  EXPECT_THAT(trial.report("rest").notes, ::testing::Contains(HasSubstr("between 0.8 and 0.85 of the load")));
+}
+
+TEST(SteadyTurn, RefusesWhatDoesNotTurn) {
+  EXPECT_THAT(test_support::error_of([] { Trial("turning_statics_guide"); }),
+              HasSubstr("'guide, translation along x of A' forbids the velocities of the turn"));
+  EXPECT_THAT(test_support::error_of([] { Trial("turning_gravity"); }), HasSubstr("does not turn with the scene: what it does to"));
+  // A spring about the axis of a driven turn: the drive takes its moment, and the turn is steady.
+  EXPECT_THAT(test_support::error_of([] { Trial("steady_spring_on_the_drive"); }), "no error");
+}
+
+// Bennett's linkage is regular everywhere, with one degree of freedom. The rows chosen at the start become dependent at 1.504 s.
+// j1 at 3 s is 1.10440 rad by index 3, Radau of tolerance 1e-9 and bdf; the kinetic energy stays below 5.6 J.
+TEST(RowsOfConstraints, BennettsLinkageWithEveryMethod) {
+  const std::vector<std::pair<std::string, double>> runs = {
+      {"integrator.step=1e-3", 1e-5},
+      {"integrator.step=1.1e-3", 1e-5},
+      {"integrator.formulation=index3", 1e-5},
+      {"integrator.method=hht", 1e-5},
+      {"integrator.error_control={tolerance: 1e-3}", 1e-3},
+      {"integrator.error_control={tolerance: 1e-4}", 1e-4},
+      {"integrator={method: radau, step: auto, end: 3, error_control: {tolerance: 1e-9}}", 1e-5},
+      {"integrator={method: bdf, end: 3}", 1e-4}};
+  for (const auto& [setting, tolerance] : runs) {
+    const Trial trial("bennett", {setting});
+    EXPECT_EQ(trial.report().outcome, RunOutcome::completed) << setting << ": " << trial.report().reason;
+    EXPECT_NEAR(trial.last("joints/coordinate/j1"), 1.10440, tolerance) << setting;
+    EXPECT_LT(trial.report().largest_balance, 1e-3 * 5.6) << setting;
+    EXPECT_THAT(trial.report().doubts, IsEmpty()) << setting;
+  }
+}
+
+// The balance is 4e-7 J, against 0.02 J that went from weight into friction.
+TEST(EnergyReport, ABlockThatSticksIsRight) {
+  const Trial trial("fail5_false_energy_doubt");
+  EXPECT_THAT(trial.report().doubts, IsEmpty());
+  EXPECT_LT(trial.report().largest_balance / trial.report().energy_reference, 1e-4);
+}
+
+// A platform at rest with energies of 1e-30 J.
+TEST(EnergyReport, RoundOffOfRestIsNoBalance) { EXPECT_THAT(Trial("bushing_tilted").report().doubts, IsEmpty()); }
+
+// A massless knot that starts 0.47 J away from its balance: told once, and not counted as lost.
+TEST(EnergyReport, AMasslessStartOutOfBalanceIsNamed) {
+  const Trial trial("fail6_massless_start");
+  EXPECT_THAT(trial.report().notes, ::testing::Contains(HasSubstr("the start is out of balance")));
+  EXPECT_THAT(trial.report().doubts, IsEmpty());
+}
+
+// A bushing that is wound to 5 rad: its moment changes sign at half a turn, which the run reports with its instant.
+TEST(BushingRange, HalfATurnIsReported) {
+  const Trial trial("fail4_bushing_half_turn");
+  EXPECT_THAT(trial.report().doubts, ::testing::Contains(HasSubstr("beyond half a turn")));
+}
+
+// `accuracy.of` takes a channel of joints also where `output.channels` is given.
+TEST(Accuracy, OfAJointBesideChosenChannels) {
+  const Trial trial("accuracy_channel");
+  EXPECT_EQ(trial.report().outcome, RunOutcome::completed);
+  EXPECT_GT(trial.channel("joints/coordinate/hinge").size(), 100u);
+}
+
+// Springs, stops and bushings of zero stiffness rest, with one note.
+TEST(ZeroValues, RestWithANote) {
+  const Trial trial("fail7_zero_values");
+  EXPECT_EQ(trial.report().outcome, RunOutcome::completed);
+  EXPECT_THAT(trial.report().notes,
+              ::testing::Contains("without force, since all values are zero: spring 's', spring 't', bushing 'b'"));
+}
+
+/// Reduces <part>.part.yaml into the folder; the path of its superelement.
+std::string reduce(const std::string& part, const test_support::TemporaryFolder& folder) {
+  const std::string path = folder.file(part + ".superelement.h5");
+  const std::string command = TISSERAND_BINARY_DIR "/bin/reducer run " TISSERAND_SOURCE_DIR
+                                                   "/tests/verification/references/trials/" +
+                              part + ".part.yaml -o " + path + " > " + folder.file("log") + " 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;
+  return path;
+}
+
+bool has_reducer() { return std::filesystem::exists(TISSERAND_BINARY_DIR "/bin/reducer"); }
+
+// A cruciform column of beams buckles in torsion at G (t/b)² A = 51.7 kN (shells: 53.2 kN), far below its Euler load.
+TEST(TorsionalBuckling, CruciformColumn) {
+  if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the superelements";
+  const test_support::TemporaryFolder folder;
+  const std::string file = "bodies.c.file=" + reduce("cruciform_beams", folder);
+  const auto modes_that_grow = [&](double load) {
+    const Trial trial("cruciform", {file, fmt::format("loads.p.value.0={}", -load)});
+    return ::testing::PrintToString(trial.report().notes);
+  };
+  EXPECT_THAT(modes_that_grow(50.5e3), ::testing::Not(HasSubstr("grow")));
+  EXPECT_THAT(modes_that_grow(53.0e3), HasSubstr("grow"));
+}
+
+// A channel of 2 m, hinged: weak axis at 125.3 kN, flexural-torsional at 203.3 kN (without warping, which beams do not have).
+TEST(TorsionalBuckling, ChannelColumn) {
+  if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the superelements";
+  const test_support::TemporaryFolder folder;
+  const std::string file = "bodies.c.file=" + reduce("channel_column", folder);
+  const auto notes = [&](double load) {
+    const Trial trial("channel_column", {file, fmt::format("loads.p.value.0={}", -load)});
+    return ::testing::PrintToString(trial.report().notes);
+  };
+  EXPECT_THAT(notes(124e3), ::testing::Not(HasSubstr("grow")));
+  EXPECT_THAT(notes(200e3), HasSubstr("1 modes grow"));
+  EXPECT_THAT(notes(207e3), HasSubstr("2 modes grow"));
+}
+
+// Every elastic mode of a free body has the ratio a/(2ω) of `damping: {mass: a}`, whatever its frame: 0.003077 at 51.7 Hz.
+TEST(MassDamping, DoesNotDependOnTheFrame) {
+  if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the superelements";
+  const test_support::TemporaryFolder folder;
+  const std::string file = "bodies.s.file=" + reduce("bar", folder);
+  for (const std::string& frame : {"frame=karcher", "frame={node: base}", "frame={node: tip}"}) {
+    const Trial trial("mass_damping", {file, "bodies.s." + frame});
+    const std::vector<double> f = trial.frequencies(), ratio = trial.channel("modes/damping_ratio");
+    for (std::size_t k = 0; k < f.size(); ++k)
+      if (f[k] > 1.0) {
+        EXPECT_NEAR(ratio[k] * 2.0 * 2.0 * pi * f[k] / 2.0, 1.0, 1e-6) << frame << ' ' << f[k];
+      }
+  }
+}
+
+// A drive whose acceleration jumps: a rigid body, I = 0.18, I α = 0.960 N m from the jump on.
+TEST(Drives, MomentOfAJumpOfAcceleration) {
+  for (const char* step : {"1e-3", "1e-4"}) {
+    const Trial trial("drive_jumps", {std::string("integrator.step=") + step});
+    const std::vector<double> t = trial.time(), moment = trial.channel("motions/force/m");
+    for (std::size_t i = 0; i < t.size(); ++i)
+      if (t[i] > 0.1001 && t[i] < 0.3) {
+        EXPECT_NEAR(std::abs(moment[i]), 0.960, 1e-3) << t[i];
+      }
+  }
+  // A drive that begins with the run: I π²/2 = 0.4935 in row 0.
+  for (const char* method : {"integrator.method=generalised_alpha", "integrator.method=radau", "analysis=inverse_dynamics"})
+    EXPECT_NEAR(std::abs(Trial("drive_starts", {method}).channel("motions/force/m").front()), 0.4935, 1e-3) << method;
+}
+
+// Slider-crank with friction 0.6: drive 3.98782 N m at the start (closed form; row 0 of dynamics gives it).
+TEST(InverseDynamics, FrictionOfTheFirstRow) {
+  EXPECT_NEAR(std::abs(Trial("inverse_friction").channel("motions/force/d").front()), 3.98782, 1e-4);
+}
+
+// A free beam moves as well 200 m away as at the origin.
+TEST(FarScenes, NewtonEndsAtTheRoundingOfPositions) {
+  const Trial trial("far_beam", {"bodies.b.velocity.0=10"});
+  EXPECT_EQ(trial.report().rejected, 0);
+  EXPECT_LT(trial.report().iterations, 1.75 * trial.report().steps);
+}
+
+}  // namespace
+}  // namespace tisserand::mechanism::trials_test
