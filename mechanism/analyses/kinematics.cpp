@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -103,12 +104,15 @@ std::string name_of_direction(const Model& model, const State& state, const Eige
 void require_determined(const Model& model, const Mobility& mobility, const std::string& where, const State& state,
                         Workspace& workspace) {
   std::string flexible;
-  for_each_body(model, [&](const auto& body) {
-    if (flexible.empty() && is_flexible(body)) flexible = fmt::format("body '{}'", name_of(model, body));
+  for_each_body(model, [&]<class Body>(const Body& body) {
+    bool deforms = is_flexible(body);
+    if constexpr (std::is_same_v<Body, ModalBody>) deforms = body.modes > 0;
+    if (flexible.empty() && deforms) flexible = fmt::format("body '{}'", name_of(model, body));
   });
   if (!flexible.empty())
     throw Error(fmt::format("{} is flexible: its deformation is no matter of kinematics", flexible), where,
-                "take superelements with `use: rigid` and rigid bodies in place of beams, or run dynamics");
+                "write `effects: {flexibility: off}`, take superelements with `use: rigid`, modal bodies with `modes: 0` and rigid "
+                "bodies in place of beams, or run dynamics");
   if (mobility.degrees_of_freedom == 0) return;
   std::vector<std::string> names;
   if (model.sizes.velocities() <= most_linearised) {

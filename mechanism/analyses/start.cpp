@@ -209,6 +209,20 @@ double project_initial_velocities(const Model& model, double tolerance, double s
   return corrected;
 }
 
+namespace {
+
+/// Norm of the multipliers of joints with friction: those that forces depend on.
+double rubbing_part(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& multipliers) {
+  double square = 0.0;
+  for (const Friction& friction : model.frictions) {
+    const Joint& joint = model.joints[friction.joint];
+    square += multipliers.segment(joint.row, joint.size()).squaredNorm();
+  }
+  return std::sqrt(square);
+}
+
+}  // namespace
+
 bool solve_accelerations(const Model& model, double step, const std::string& where, State& state,
                          Workspace& workspace) {
   state.vdot().setZero();
@@ -237,7 +251,9 @@ bool solve_accelerations(const Model& model, double step, const std::string& whe
     workspace.matrix.solve_increment(model, workspace.matrix.rows, workspace.now);
     state.vdot() += workspace.matrix.increment;
     state.lambda() += workspace.matrix.multipliers;
-    settled = settled || workspace.matrix.multipliers.norm() <= 1e-12 * state.lambda().norm();
+    // Directions without mass go on with each refinement, and with them the multipliers of what holds them.
+    settled = settled || (massless ? rubbing_part(model, workspace.matrix.multipliers) <= 1e-12 * rubbing_part(model, state.lambda())
+                                   : workspace.matrix.multipliers.norm() <= 1e-12 * state.lambda().norm());
     if (rubs && settled) break;
   }
   if (!settled)

@@ -2,6 +2,7 @@
 #include "mechanism/equations/mobility.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -98,7 +99,7 @@ Eigen::SparseMatrix<double> rigid_jacobian(const Model& model, const Parts& part
 
 /// By Gram and Schmidt. The next column is the first of those whose part across the ones before is longer than 0.9 of the
 /// longest such part: among equals the order of the file decides, not the last bit.
-ColumnRank dense_rank(Eigen::MatrixXd A) {
+ColumnRank dense_rank(Eigen::MatrixXd A, double tolerance) {
   constexpr double equal = 0.9;
   ColumnRank rank;
   std::vector<bool> taken(static_cast<std::size_t>(A.cols()), false);
@@ -109,7 +110,7 @@ ColumnRank dense_rank(Eigen::MatrixXd A) {
       if (taken[j]) across[j] = 0.0;
     const double longest = across.maxCoeff();
     first = std::max(first, longest);
-    if (!(longest > rank_tolerance * first)) break;
+    if (!(longest > tolerance * first)) break;
     Eigen::Index next = 0;
     while (!(across[next] >= equal * longest)) ++next;
     taken[next] = true;
@@ -122,14 +123,24 @@ ColumnRank dense_rank(Eigen::MatrixXd A) {
   return rank;
 }
 
-ColumnRank rank_of(const Eigen::SparseMatrix<double>& A) {
+/// Rows that repeat others do so where the constraints hold. Where these are open by Φ (relative), what is left of a repeated row is of
+/// the size of Φ, and no rank: rows that are left out stand open by what their integration leaves.
+double tolerance_at(const Model& model, const Evaluation& evaluation) {
+  constexpr double per_violation = 100.0, most = 1e-6;
+  double open = 0.0;
+  for (int row = 0; row < model.sizes.constraints; ++row)
+    open = std::max(open, std::abs(evaluation.constraint[row]) / (model.length_row[row] ? model.length : 1.0));
+  return std::clamp(per_violation * open, rank_tolerance, most);
+}
+
+ColumnRank rank_of(const Eigen::SparseMatrix<double>& A, double tolerance) {
   ColumnRank rank;
   if (A.cols() == 0) return rank;
   if (A.cols() <= dense_rank_limit) {
-    rank = dense_rank(Eigen::MatrixXd(A));
+    rank = dense_rank(Eigen::MatrixXd(A), tolerance);
   } else {
     const double largest = A.nonZeros() > 0 ? A.coeffs().cwiseAbs().maxCoeff() : 0.0;
-    rank = column_rank(A, rank_tolerance * std::max(1.0, largest));
+    rank = column_rank(A, tolerance * std::max(1.0, largest));
   }
   std::sort(rank.dependent.begin(), rank.dependent.end());
   return rank;
@@ -288,13 +299,14 @@ Mobility count_mobility(const Model& model, const State& state, Evaluation& eval
     if (tyre.relaxes()) mobility.coordinates -= 2;  // deflections of treads follow their wheels
   mobility.constraints = model.sizes.constraints;
   mobility.parts = parts.count();
-  ColumnRank rank = rank_of(scaled_jacobian(model, evaluation));
+  const double tolerance = tolerance_at(model, evaluation);
+  ColumnRank rank = rank_of(scaled_jacobian(model, evaluation), tolerance);
   mobility.rank = rank.rank;
   mobility.redundant = std::move(rank.dependent);
   mobility.degrees_of_freedom = mobility.coordinates - mobility.rank;
   mobility.freedoms = model.planar ? 3 : 6;
   const bool all_rigid = !model.planar && 6 * mobility.parts == mobility.coordinates;
-  const int rigid_rank = all_rigid ? mobility.rank : rank_of(rigid_jacobian(model, parts, evaluation)).rank;
+  const int rigid_rank = all_rigid ? mobility.rank : rank_of(rigid_jacobian(model, parts, evaluation), tolerance).rank;
   mobility.rigid_mobility = 6 * mobility.parts - rigid_rank;
   return mobility;
 }

@@ -235,6 +235,26 @@ TEST(Drives, MomentOfAJumpOfAcceleration) {
     EXPECT_NEAR(std::abs(Trial("drive_starts", {method}).channel("motions/force/m").front()), 0.4935, 1e-3) << method;
 }
 
+// A modal body whose flexibility is off is rigid: inverse dynamics takes it. Drive at the start: m g L/2 = 7.6518 N m.
+TEST(InverseDynamics, OfAModalBodyWithoutModes) {
+  if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the modal body";
+  const test_support::TemporaryFolder folder;
+  reduce("bar", folder);
+  const Trial trial("modal_rigid_inverse", {"bodies.mf.file=" + folder.file("bar.modal.h5")});
+  EXPECT_EQ(trial.report().outcome, RunOutcome::completed);
+  EXPECT_NEAR(trial.channel("motions/force/dm").front(), -7.6518, 1e-4);
+}
+
+// A hinge with friction, and a beam without rotary inertia that nothing connects with it: each alone ran. The weight of 9.81 N
+// acts 0.1 m from the hinge, which holds by friction (coefficient 0.2, radius 0.02 m) 0.04 N m of 0.981: it starts with
+// (0.981 - 0)/(0.01 + 0.01) rad/s².
+TEST(Friction, BesideABodyWithoutInertia) {
+  const Trial trial("friction_massless");
+  EXPECT_EQ(trial.report().outcome, RunOutcome::completed);
+  EXPECT_NEAR(trial.channel("nodes/acceleration/p/z").front(), 0.0, 1e-9);
+  EXPECT_NEAR(trial.channel("nodes/angular_acceleration/p/y").front(), 0.981 / 0.02, 1e-6);
+}
+
 // Slider-crank with friction 0.6: drive 3.98782 N m at the start (closed form; row 0 of dynamics gives it).
 TEST(InverseDynamics, FrictionOfTheFirstRow) {
   EXPECT_NEAR(std::abs(Trial("inverse_friction").channel("motions/force/d").front()), 3.98782, 1e-4);
