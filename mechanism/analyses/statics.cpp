@@ -26,13 +26,14 @@ double largest_residual(const Model& model, const Workspace& workspace) {
   return largest_of(workspace.now.residual.cwiseProduct(model.equation_scale.matrix().head(model.sizes.boundary)));
 }
 
-double largest_internal_residual(const Workspace& workspace) {
-  double largest = 0.0;
-  for (const SuperelementScratch& scratch : workspace.now.superelements) {
-    const double r = largest_of(scratch.forces.r_I);
-    if (!(r <= largest)) largest = r;
+/// Whether forces on internal coordinates are below `least`, or below `force` on a mode of its body, whose shape has the
+/// size 1/√mass: where a load does not excite the modes, their own forces are round-off.
+bool internal_balance(const Model& model, const Workspace& workspace, double least, double force) {
+  for (std::size_t i = 0; i < model.superelements.size(); ++i) {
+    const double r = largest_of(workspace.now.superelements[i].forces.r_I);
+    if (!(r <= std::max(least, force / std::sqrt(body_of(model, i).mass)))) return false;
   }
-  return largest;
+  return true;
 }
 
 /// While it lives tangents hold tyres where they stand.
@@ -66,7 +67,7 @@ bool in_balance(const Model& model, const formats::StaticsSpec& options, const S
   const double internal =
       std::max(options.tolerance * workspace.now.force_scale[2], internal_round_off(model, workspace.now));
   return report.residual <= std::max(options.tolerance * force, force_round_off(model, state)) &&
-         largest_internal_residual(workspace) <= internal && report.constraint <= options.tolerance * model.length;
+         internal_balance(model, workspace, internal, options.tolerance * force) && report.constraint <= options.tolerance * model.length;
 }
 
 /// Newton's iteration for one load factor.
@@ -209,12 +210,14 @@ StaticsReport solve_statics(const Model& model, const formats::StaticsSpec& opti
              [&] { return equilibrate(model, options, interrupted, state, workspace, report); });
   const bool failed = report.outcome == StepOutcome::diverged || report.outcome == StepOutcome::too_many_iterations;
   // Where Newton's iteration finds none, as from a slack cable, or the equilibrium is to be stable.
-  if (!report.interrupted && (failed || (options.stable && report.stability.unstable > 0))) {
+  // Singular on the way: load steps were halved until no load was left that holds the scene.
+  const bool lost = failed || (report.outcome == StepOutcome::singular && report.iterations > 0);
+  if (!report.interrupted && (lost || (options.stable && report.stability.unstable > 0))) {
     std::string direction;
     if (descend(model, options, interrupted, state, workspace, report, direction)) {
       accept_equilibrium(model, state, workspace.now);
       report.outcome = StepOutcome::accepted;
-      report.load_steps += failed;
+      report.load_steps += lost;
       report.explanation.clear();
       report.stability = stability_of(model, state, workspace.now, true);
       return report;

@@ -27,7 +27,7 @@ std::vector<double> frequencies(double T, int elements) {
   return trial.frequencies();
 }
 
-/// Of the n-th pair: EI = 1 N m², m = 1 kg/m, L = 2 m, f = (n/2L) sqrt((T + EI (nπ/L)²)/m).
+/// Frequency [Hz] of the n-th pair of modes: (n/2L) sqrt((T + EI (nπ/L)²)/m) with EI = 1 N m², m = 1 kg/m and L = 2 m.
 double string_frequency(double T, int n) { return n / 4.0 * std::sqrt(T + std::pow(n * pi / 2.0, 2)); }
 
 // Two elements per half wave: 1.1 % at T = 0 (docs of the element), less under tension. At 12 EI/h² = 12 N the element was

@@ -22,12 +22,39 @@ using test_support::Trial;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
+/// Reduces <part>.part.yaml into the folder; the path of its superelement.
+std::string reduce(const std::string& part, const test_support::TemporaryFolder& folder) {
+  const std::string path = folder.file(part + ".superelement.h5");
+  const std::string command = TISSERAND_BINARY_DIR "/bin/reducer run " TISSERAND_SOURCE_DIR
+                                                   "/tests/verification/references/trials/" +
+                              part + ".part.yaml -o " + path + " > " + folder.file("log") + " 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0) << command;
+  return path;
+}
+
+bool has_reducer() { return std::filesystem::exists(TISSERAND_BINARY_DIR "/bin/reducer"); }
+
 // A physical pendulum hangs below its hinge. It starts `angle` degrees off; the joint coordinate counts from there.
 TEST(HangingStatics, PendulumFromAnyStart) {
   for (const double angle : {1.0, 30.0, 89.0, 90.0, 120.0, 170.0}) {
     const Trial trial("fail2_hanging_statics", {fmt::format("bodies.arm.pose.orientation.angle_deg={}", angle)});
     EXPECT_EQ(trial.report().outcome, RunOutcome::completed);
     EXPECT_NEAR(trial.last("joints/coordinate/hinge"), -angle * pi / 180.0, 1e-8) << angle;
+  }
+}
+
+// A uniform bar of 1 m that hangs on a hinge, a superelement with internal modes: f = sqrt(3 g/2L)/2π = 0.61051 Hz, from any
+// start and with any frame.
+TEST(HangingStatics, SuperelementOnAHinge) {
+  if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the superelements";
+  const test_support::TemporaryFolder folder;
+  const std::string file = "bodies.s.file=" + reduce("bar", folder);
+  for (const char* setting : {"bodies.s.second_order=on", "bodies.s.second_order=off", "bodies.s.frame={node: base}",
+                              "bodies.s.pose={orientation: {axis: [0, 1, 0], angle_deg: 60}}",
+                              "bodies.s.pose={orientation: {axis: [0, 1, 0], angle_deg: -100}}"}) {
+    const Trial trial("hanging_superelement", {file, setting});
+    EXPECT_EQ(trial.report("rest").outcome, RunOutcome::completed) << setting;
+    EXPECT_NEAR(trial.frequencies("tones").front(), 0.61051, 1e-4) << setting;
   }
 }
 
@@ -165,18 +192,6 @@ TEST(ZeroValues, RestWithANote) {
   EXPECT_THAT(trial.report().notes,
               ::testing::Contains("without force, since all values are zero: spring 's', spring 't', bushing 'b'"));
 }
-
-/// Reduces <part>.part.yaml into the folder; the path of its superelement.
-std::string reduce(const std::string& part, const test_support::TemporaryFolder& folder) {
-  const std::string path = folder.file(part + ".superelement.h5");
-  const std::string command = TISSERAND_BINARY_DIR "/bin/reducer run " TISSERAND_SOURCE_DIR
-                                                   "/tests/verification/references/trials/" +
-                              part + ".part.yaml -o " + path + " > " + folder.file("log") + " 2>&1";
-  EXPECT_EQ(std::system(command.c_str()), 0) << command;
-  return path;
-}
-
-bool has_reducer() { return std::filesystem::exists(TISSERAND_BINARY_DIR "/bin/reducer"); }
 
 // A cruciform column of beams buckles in torsion at G (t/b)² A = 51.7 kN (shells: 53.2 kN), far below its Euler load.
 TEST(TorsionalBuckling, CruciformColumn) {
