@@ -1,4 +1,4 @@
-// Quadratic eigenvalue problem of a linearised mechanism by a shifted inverse in first-order form (LAPACK).
+// Modes of a linearised mechanism: the eigenproblem on its constraints, what is rigid, what grows, shapes for people.
 #include "mechanism/analyses/modes.hpp"
 
 #include <algorithm>
@@ -6,148 +6,25 @@
 #include <limits>
 
 #include <fmt/format.h>
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <Eigen/QR>
 
-#include "common/error.hpp"
 #include "common/math/rotation.hpp"
 #include "common/stable_sort.hpp"
+#include "mechanism/analyses/quadratic_eigenproblem.hpp"
+#include "mechanism/analyses/steady_axes.hpp"
 #include "mechanism/equations/round_off.hpp"
 #include "mechanism/model/element_map.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/solver/matrix_rank.hpp"
 #include "mechanism/step/convergence.hpp"
 
-extern "C" void dgeev_(const char* left, const char* right, const int* n, double* A, const int* lda, double* real,
-                       double* imaginary, double* VL, const int* ldvl, double* VR, const int* ldvr, double* work,
-                       const int* lwork, int* info);
-
 namespace tisserand::mechanism {
 namespace {
 
-using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
-
-/// |λ| below this times the shift is a rigid motion: a double eigenvalue 0 comes out as about the root of round-off.
-constexpr double rigid_tolerance = 1e-5;
-/// Growth below this times |λ| is round-off.
-constexpr double growth_tolerance = 1e-7;
-
-enum class Vectors { none, right };
-
-struct Spectrum {
-  VectorXcd values;
-  MatrixXcd vectors;
-};
-
-Spectrum eigen(MatrixXd A, Vectors kind) {
-  if (!A.allFinite())  // LAPACK would not return
-    throw Error(
-        "the linearised scene has no finite shifted inverse: its inertia, damping and stiffness are singular together",
-        "modes", "fix or remove bodies that neither mass nor stiffness holds");
-  const int n = static_cast<int>(A.rows()), one = 1;
-  const char* right = kind == Vectors::right ? "V" : "N";
-  VectorXd real(n), imaginary(n), work(1);
-  MatrixXd V(kind == Vectors::right ? n : 1, kind == Vectors::right ? n : 1);
-  const int ldv = static_cast<int>(V.rows());
-  int info = 0, size = -1;
-  dgeev_("N", right, &n, A.data(), &n, real.data(), imaginary.data(), nullptr, &one, V.data(), &ldv, work.data(), &size,
-         &info);
-  size = static_cast<int>(work[0]);
-  work.resize(size);
-  dgeev_("N", right, &n, A.data(), &n, real.data(), imaginary.data(), nullptr, &one, V.data(), &ldv, work.data(), &size,
-         &info);
-  if (info != 0)
-    throw Error("the eigenvalues of the linearised scene were not found", "modes", "change the state a little");
-  Spectrum spectrum{real.cast<Complex>() + Complex(0, 1) * imaginary.cast<Complex>(), {}};
-  if (kind == Vectors::none) return spectrum;
-  spectrum.vectors = V.cast<Complex>();
-  for (int k = 0; k + 1 < n; ++k) {
-    if (!(imaginary[k] > 0.0)) continue;  // columns k, k + 1: real and imaginary part of a pair
-    spectrum.vectors.col(k) = V.col(k).cast<Complex>() + Complex(0, 1) * V.col(k + 1).cast<Complex>();
-    spectrum.vectors.col(k + 1) = spectrum.vectors.col(k).conjugate();
-  }
-  return spectrum;
-}
-
-/// The projected problem.
-struct Reduced {
-  MatrixXd M, C, K;
-};
-
-/// T with TᵀHT = 1 and TᵀMT diagonal, H the symmetric part of P(σ) = σ²M + σC + K with the first σ = s, 10 s, … that
-/// makes it definite: modes, as far as damping and what is not symmetric leave them. The matrices of frequencies that
-/// are decades apart are graded in it, and the balancing of LAPACK keeps each to its own size; in any other basis
-/// round-off of the largest is in all. The unit matrix, where nothing makes H definite.
-MatrixXd graded_basis(const Reduced& m, double s) {
-  for (int attempt = 0; attempt < 6; ++attempt, s *= 10.0) {
-    const MatrixXd P = s * s * m.M + s * m.C + m.K;
-    const Eigen::LLT<MatrixXd> factors(0.5 * (P + P.transpose()));
-    if (factors.info() != Eigen::Success) continue;
-    const auto L = factors.matrixL();
-    const MatrixXd half = L.solve(m.M);
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> modes(L.solve(half.transpose()));
-    if (modes.info() == Eigen::Success) return L.transpose().solve(modes.eigenvectors());
-  }
-  return MatrixXd::Identity(m.M.rows(), m.M.rows());
-}
-
-Reduced in_basis(const MatrixXd& T, const Reduced& m) {
-  return {T.transpose() * m.M * T, T.transpose() * m.C * T, T.transpose() * m.K * T};
-}
-
-/// G = (A − sE)⁻¹E of A = [0 1; −K −C], E = [1 0; 0 M]: G [p; r] = [a; p + s a], P(s) a = −(M r + (C + sM) p).
-MatrixXd shifted_inverse(const Reduced& m, double s) {
-  const Eigen::Index k = m.M.rows();
-  const MatrixXd P = s * s * m.M + s * m.C + m.K;
-  const Eigen::PartialPivLU<MatrixXd> factors(P);
-  MatrixXd G(2 * k, 2 * k);
-  G.topLeftCorner(k, k) = -factors.solve(m.C + s * m.M);
-  G.topRightCorner(k, k) = -factors.solve(m.M);
-  G.bottomRows(k) = s * G.topRows(k);
-  G.bottomLeftCorner(k, k).diagonal().array() += 1.0;
-  return G;
-}
-
-/// The shift among s, 1.37 s, 1.37² s… at which P(s) is regular: it is singular at real eigenvalues (divergence,
-/// creep).
-double away_from_eigenvalues(const Reduced& m, double s) {
-  double best = s, largest = -1.0;
-  for (int attempt = 0; attempt < 6; ++attempt, s *= 1.3717) {
-    const double regular = Eigen::PartialPivLU<MatrixXd>(s * s * m.M + s * m.C + m.K).rcond();
-    if (!(regular > largest)) continue;
-    best = s, largest = regular;
-    if (largest > 1e-10) break;
-  }
-  return best;
-}
-
-/// Of the size of the lowest frequency that is none of a rigid motion.
-double choose_shift(const Reduced& m) {
-  const double mass = m.M.norm(), stiffness = m.K.norm(), damping = m.C.norm();
-  double s = mass > 0.0 && stiffness > 0.0 ? std::sqrt(stiffness / mass) : 0.0;
-  if (mass > 0.0) s = std::max(s, damping / mass);
-  s = away_from_eigenvalues(m, s > 0.0 ? s : 1.0);
-  for (int pass = 0; pass < 2; ++pass) {
-    const VectorXcd mu = eigen(shifted_inverse(m, s), Vectors::none).values;
-    double lowest = 0.0;
-    for (const Complex value : mu) {
-      if (value == Complex(0.0)) continue;
-      const double size = std::abs(s + 1.0 / value);
-      if (size > rigid_tolerance * s && (lowest == 0.0 || size < lowest)) lowest = size;
-    }
-    if (lowest == 0.0) return s;
-    const double before = s;
-    s = away_from_eigenvalues(m, 1.3717 * lowest);
-    if (s > 1e-2 * before) break;
-  }
-  return s;
-}
 
 /// Whether forces of inertia and damping of the shape Z q with |λ| = `size` are below the round-off of those of
 /// stiffness and of loads that turn with it: nothing tells it from a rigid motion. `spread`: |Z||q|. Componentwise,
@@ -242,42 +119,82 @@ MatrixXd null_space(const Model& model, const MatrixXd& B) {
   return scale.asDiagonal() * Z;
 }
 
-ModesReport solve_modes(const Model& model, const State& state, const formats::ModesSpec& spec,
-                        Evaluation& evaluation) {
-  const Eigen::Vector3d omega = to_axes(model, spec.rotation.value_or(Eigen::Vector3d::Zero()));
-  const Linearisation l = linearise(model, state, omega, evaluation);
-  const MatrixXd Z = null_space(model, l.B);
-  ModesReport report;
-  report.degrees_of_freedom = static_cast<int>(Z.cols());
-  const VectorXd acceleration = acceleration_in_axes(model, state, omega, evaluation);
-  if (is_felt(model, state, l, acceleration, evaluation)) {
-    report.largest_acceleration = size_of(model, acceleration);
-    for (const double internal : acceleration.tail(model.sizes.internal))
-      report.largest_acceleration = std::max(report.largest_acceleration, std::abs(internal));
+namespace {
+
+/// The linearised scene, its coordinates ξ = Z T q, and the problem of q.
+struct Problem {
+  Linearisation l;
+  MatrixXd Z, T;
+  QuadraticProblem reduced;
+  double shift = 0.0;
+
+  VectorXcd shape(const VectorXcd& q) const { return Z.cast<Complex>() * (T.cast<Complex>() * q); }
+  VectorXd spread(const VectorXcd& q) const { return Z.cwiseAbs() * (T.cast<Complex>() * q).cwiseAbs(); }
+};
+
+/// Whether a mode grows by more than round-off. What the shifted inverse says of modes above the shift has lost digits:
+/// those that seem to grow slowly are found again by inverse iteration. Round-off of yᴴP(λ)x is that of its products
+/// with the matrices of the scene, componentwise as in drowns().
+bool grows(const Problem& problem, Complex& value, const VectorXcd& q) {
+  const double size = std::abs(value);
+  if (!(value.real() > growth_tolerance * size)) return false;
+  constexpr double slow = 1e-2;
+  if (value.real() > slow * size) return true;
+  const RefinedPair pair = refined(problem.reduced, value, q);
+  if (!(std::abs(pair.value - value) < slow * size) || !(pair.slope > 0.0)) return true;
+  const VectorXd x = problem.spread(pair.x), y = problem.spread(pair.y);
+  const double products = y.dot(size * size * (problem.l.M.cwiseAbs() * x) + size * (problem.l.C.cwiseAbs() * x) +
+                                problem.l.K.cwiseAbs() * x);
+  const double round_off =
+      2.0 * std::sqrt(static_cast<double>(x.size())) * std::numeric_limits<double>::epsilon() * products / pair.slope;
+  value = pair.value;
+  if (value.real() > std::max(growth_tolerance * size, round_off)) return true;
+  value.real(std::min(value.real(), 0.0));
+  return false;
+}
+
+/// How a mode looks from axes that turn with `turn` in those of the linearisation: |λ|/2π there. NaN of a mode that is
+/// neither a circle of one sense about `turn` nor a motion along and about it: it has two frequencies there.
+double frequency_seen_from(const Model& model, const Eigen::Vector3d& turn, const Mode& mode) {
+  const Eigen::Vector3d axis = turn.normalized();
+  const Eigen::Vector3d e1 = axis.unitOrthogonal(), e2 = axis.cross(e1);
+  double with = 0.0, against = 0.0, along = 0.0;  // with: e^{iωt} of u·e1 + i u·e2
+  const auto add = [&](const Eigen::Vector3cd& u) {
+    const Complex a = u.dot(e1.cast<Complex>()), b = u.dot(e2.cast<Complex>()), i(0.0, 1.0);
+    with += std::norm(std::conj(a) + i * std::conj(b));
+    against += std::norm(std::conj(a) - i * std::conj(b));
+    along += 2.0 * std::norm(u.dot(axis.cast<Complex>()));
+  };
+  for (const Node& node : model.nodes) {
+    Eigen::Vector3cd x = Eigen::Vector3cd::Zero(), turned = Eigen::Vector3cd::Zero();
+    for (int k = 0; k < 6; ++k)
+      if (const int row = coordinate_of(model, node, k); row >= 0) (k < 3 ? x : turned)[k % 3] = mode.shape[row];
+    add(x / model.length);
+    add(turned);
   }
-  if (Z.cols() == 0) return report;
-  Reduced reduced = in_basis(Z, {l.M, l.C, l.K});
-  const double s = choose_shift(reduced);
-  const MatrixXd T = graded_basis(reduced, s);
-  reduced = in_basis(T, reduced);
-  const Spectrum spectrum = eigen(shifted_inverse(reduced, s), Vectors::right);
-  const double infinite = 1e-13 * spectrum.values.cwiseAbs().maxCoeff();
+  constexpr double other = 1e-6;  // share of the square of the motion
+  const double all = with + against + along, rate = std::abs(mode.eigenvalue.imag());
+  if (along > (1.0 - other) * all) return mode.frequency();
+  if (with > (1.0 - other) * all) return std::abs(rate - turn.norm()) / (2.0 * EIGEN_PI);
+  if (against > (1.0 - other) * all) return (rate + turn.norm()) / (2.0 * EIGEN_PI);
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Of eigenvalues with their vectors: one mode of each pair, the rigid ones once.
+void collect(const Model& model, const Evaluation& evaluation, const Problem& problem, const Spectrum& spectrum,
+             ModesReport& report) {
   int zeros = 0;
   for (Eigen::Index k = 0; k < spectrum.values.size(); ++k) {
-    const Complex mu = spectrum.values[k];
-    if (!(std::abs(mu) > infinite)) continue;  // a direction without mass
-    Mode mode;
-    mode.eigenvalue = s + 1.0 / mu;
+    const VectorXcd q = spectrum.vectors.col(k);
+    Mode mode{spectrum.values[k], problem.shape(q)};
     const double size = std::abs(mode.eigenvalue);
-    const VectorXcd q = T.cast<Complex>() * spectrum.vectors.col(k).head(Z.cols());
-    mode.shape = Z.cast<Complex>() * q;
-    const bool rigid =
-        size < rigid_tolerance * s || drowns(model, l, evaluation, size, mode.shape, Z.cwiseAbs() * q.cwiseAbs());
+    const bool rigid = size < rigid_tolerance * problem.shift ||
+                       drowns(model, problem.l, evaluation, size, mode.shape, problem.spread(q));
     if (rigid && ++zeros % 2 == 0) continue;  // position and velocity of one rigid motion
     if (!rigid && mode.eigenvalue.imag() < 0.0) continue;
     if (rigid) mode.eigenvalue = 0.0;
     report.rigid += rigid ? 1 : 0;
-    mode.unstable = mode.eigenvalue.real() > growth_tolerance * size;
+    mode.unstable = grows(problem, mode.eigenvalue, q);
     if (rigid)
       mode.shape = mode.shape.real().norm() >= mode.shape.imag().norm() ? mode.shape.real().cast<Complex>().eval()
                                                                         : mode.shape.imag().cast<Complex>().eval();
@@ -285,9 +202,47 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
     report.modes.push_back(std::move(mode));
   }
   sort_stably(report.modes, {}, [](const Mode& mode) { return std::abs(mode.eigenvalue); });
+}
+
+}  // namespace
+
+ModesReport solve_modes(const Model& model, const State& state, const formats::ModesSpec& spec,
+                        Evaluation& evaluation) {
+  const Eigen::Vector3d omega = to_axes(model, spec.rotation.value_or(Eigen::Vector3d::Zero()));
+  SteadyLinearisation steady = linearise_steady(model, state, omega, evaluation);
+  Problem problem;
+  problem.l = std::move(steady.now);
+  problem.Z = null_space(model, problem.l.B);
+  ModesReport report;
+  report.degrees_of_freedom = static_cast<int>(problem.Z.cols());
+  const VectorXd acceleration = acceleration_in_axes(model, state, omega, evaluation);
+  if (is_felt(model, state, problem.l, acceleration, evaluation)) {
+    report.largest_acceleration = size_of(model, acceleration);
+    for (const double internal : acceleration.tail(model.sizes.internal))
+      report.largest_acceleration = std::max(report.largest_acceleration, std::abs(internal));
+  }
+  if (problem.Z.cols() == 0) return report;
+  const QuadraticProblem free = in_basis(problem.Z, {problem.l.M, problem.l.C, problem.l.K});
+  problem.shift = choose_shift(free);
+  problem.T = graded_basis(free, problem.shift);
+  problem.reduced = in_basis(problem.T, free);
+  collect(model, evaluation, problem, eigenpairs(problem.reduced, problem.shift, 2 * spec.count), report);
   std::size_t place = 0;
   std::erase_if(report.modes,
                 [&](const Mode& mode) { return place++ >= static_cast<std::size_t>(spec.count) && !mode.unstable; });
+  report.axes = to_world(model, omega);
+  report.spin = to_world(model, steady.spin);
+  if (steady.spinning >= 0) report.spins = model.nodes[steady.spinning].name;
+  report.undecided = steady.undecided;
+  if (steady.later)
+    report.change = largest_change(problem.reduced,
+                                   in_basis(problem.Z * problem.T, {steady.later->M, steady.later->C, steady.later->K}),
+                                   problem.shift, spec.count);
+  const Eigen::Vector3d turn = omega.norm() > 0.0 ? Eigen::Vector3d(-omega) : steady.spin;
+  for (Mode& mode : report.modes)
+    mode.seen_from_other_axes = turn.norm() > 0.0 && std::abs(mode.eigenvalue) > 0.0
+                                    ? frequency_seen_from(model, turn, mode)
+                                    : std::numeric_limits<double>::quiet_NaN();
   return report;
 }
 
@@ -341,15 +296,21 @@ formats::ModesTable modes_table(const Model& model, const Evaluation& evaluation
 
 std::vector<std::string> modes_lines(const Model& model, const ModesReport& report) {
   const std::string label = unit_label(model.units, 0, 0, -1);
-  const std::string unit = label == "s^-1" ? "Hz" : label;
-  std::vector<std::string> lines{fmt::format("{:>4} {:>14} {:>12}  {}", "no.",
-                                             unit.empty() ? "frequency" : fmt::format("frequency {}", unit), "damping",
-                                             "moves most")};
+  const std::string unit = label == "s^-1" ? " Hz" : label.empty() ? "" : " " + label;
+  const bool both = report.axes.norm() > 0.0 || report.spin.norm() > 0.0;
+  const std::string other =
+      !both ? "" : fmt::format(" {:>18}", (report.axes.norm() > 0.0 ? "in axes at rest" : "in turning axes") + unit);
+  std::vector<std::string> lines{
+      fmt::format("{:>4} {:>14}{} {:>12}  {}", "no.", "frequency" + unit, other, "damping", "moves most")};
   int number = 0;
-  for (const Mode& mode : report.modes)
-    lines.push_back(fmt::format("{:>4} {:>14.6g} {:>12.4g}  {}{}", ++number, mode.frequency(),
+  for (const Mode& mode : report.modes) {
+    const std::string seen = !both                                     ? ""
+                             : std::isnan(mode.seen_from_other_axes) ? fmt::format(" {:>18}", "-")
+                                                                       : fmt::format(" {:>18.6g}", mode.seen_from_other_axes);
+    lines.push_back(fmt::format("{:>4} {:>14.6g}{} {:>12.4g}  {}{}", ++number, mode.frequency(), seen,
                                 std::abs(mode.damping_ratio()) < 1e-9 ? 0.0 : mode.damping_ratio(),
                                 moves_most(model, mode.shape), mode.unstable ? "  UNSTABLE" : ""));
+  }
   return lines;
 }
 

@@ -137,19 +137,19 @@ bool descend(const Model& model, const formats::StaticsSpec& options, const Inte
 
 }  // namespace
 
-std::string settle_under_load(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
+Settled settle_under_load(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
                               State& state, Workspace& workspace) {
   const std::string free = free_motion(model, options, state, workspace);
-  if (free.empty() || options.rotation) return free;
+  if (free.empty() || options.rotation) return {free};
   const Standing standing(workspace.now);
   state.v().setZero();
   state.vdot().setZero();
   const State begin = state;
   StaticsReport report;
   std::string direction;
-  if (descend(model, options, interrupted, state, workspace, report, direction)) return {};
+  if (descend(model, options, interrupted, state, workspace, report, direction)) return {{}, report.descents};
   state.block() = begin.block();
-  return direction.empty() ? free : direction;
+  return {direction.empty() ? free : direction};
 }
 
 std::string free_motion(const Model& model, const formats::StaticsSpec& options, State state, Workspace& workspace) {

@@ -40,8 +40,12 @@ struct StaticsReport {
 std::string free_motion(const Model& model, const formats::StaticsSpec& options, State state, Workspace& workspace);
 
 /// From a state that can move freely to the equilibrium in which the whole of loads and gravity holds it, as a pendulum
-/// hangs. Returns what nothing holds even there; empty: it was found.
-std::string settle_under_load(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
+/// hangs.
+struct Settled {
+  std::string free;   ///< what nothing holds even there; empty: it was found
+  int descents = 0;   ///< iterations of the search; 0: the state was held as it stood
+};
+Settled settle_under_load(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
                               State& state, Workspace& workspace);
 
 /// Equilibrium under loads (at the state's time) and gravity, from `state` with all velocities zero, in load steps that

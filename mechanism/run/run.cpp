@@ -287,10 +287,14 @@ void prepare(Run& run) {
           throw Error(fmt::format("statics: there is no steady turn. {}", fixed), run.scene.file,
                       "let it act along the axis or turn with the scene, or use `analysis: dynamics`");
       }
-      const std::string free = settle_under_load(run.built.model, run.scene.statics, run.control.interrupted,
-                                                 run.built.state, run.workspace);
-      if (!free.empty())
-        throw Error(fmt::format("statics: the scene can move freely: nothing holds {}", free), run.scene.file,
+      const Settled settled = settle_under_load(run.built.model, run.scene.statics, run.control.interrupted,
+                                                run.built.state, run.workspace);
+      if (settled.descents > 0)
+        run.report.notes.push_back(fmt::format("nothing held the scene where it began; the equilibrium was found in {} "
+                                               "steps downhill in potential energy",
+                                               settled.descents));
+      if (!settled.free.empty())
+        throw Error(fmt::format("statics: the scene can move freely: nothing holds {}", settled.free), run.scene.file,
                     run.scene.statics.rotation
                         ? "drive it under `motions:` if it turns with the scene, or hold it with a joint"
                         : "hold it with a joint, or use `analysis: dynamics`");
