@@ -304,9 +304,10 @@ std::vector<std::string> modes_lines(const Model& model, const ModesReport& repo
       fmt::format("{:>4} {:>14}{} {:>12}  {}", "no.", "frequency" + unit, other, "damping", "moves most")};
   int number = 0;
   for (const Mode& mode : report.modes) {
-    const std::string seen = !both                                     ? ""
-                             : std::isnan(mode.seen_from_other_axes) ? fmt::format(" {:>18}", "-")
-                                                                       : fmt::format(" {:>18.6g}", mode.seen_from_other_axes);
+    const std::string seen = !both ? ""
+                             : std::isnan(mode.seen_from_other_axes)
+                                 ? fmt::format(" {:>18}", "-")
+                                 : fmt::format(" {:>18.6g}", mode.seen_from_other_axes);
     lines.push_back(fmt::format("{:>4} {:>14.6g}{} {:>12.4g}  {}{}", ++number, mode.frequency(), seen,
                                 std::abs(mode.damping_ratio()) < 1e-9 ? 0.0 : mode.damping_ratio(),
                                 moves_most(model, mode.shape), mode.unstable ? "  UNSTABLE" : ""));

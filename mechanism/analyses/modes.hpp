@@ -34,7 +34,7 @@ struct ModesReport {
   Eigen::Vector3d spin = Eigen::Vector3d::Zero();  ///< of `spins` in these axes; with axes at rest, the other axes' own
   std::string spins;                               ///< the node that spins fastest in the axes; empty if none does
   std::string undecided;  ///< a body that spins whose internal coordinates are not in the axes (steady_axes.hpp)
-  double change = 0.0;  ///< largest_change() of the coefficients (steady_axes.hpp); above 1e-3 modes are in doubt
+  double change = 0.0;    ///< largest_change() of the coefficients (steady_axes.hpp); above 1e-3 modes are in doubt
 };
 
 /// Orthonormal basis of the null space of B (columns scaled with 1, or 1/length for rotations) by a rank-revealing QR:

@@ -268,7 +268,9 @@ void start_algorithmic_acceleration(const Model& model, double shift, double ste
   state.algorithmic() = state.vdot();
   state.step() = step;
   if (shift == 0.0) return;
-  const double epsilon = 1e-3 * step;
+  double epsilon = 1e-3 * step;  // on this side of the next jump
+  if (const auto next = std::ranges::upper_bound(model.breakpoints, state.load_time()); next != model.breakpoints.end())
+    epsilon = std::min(epsilon, 0.5 * (*next - state.load_time()));
   State ahead = state;
   ahead.time() += epsilon;
   ahead.load_time() += epsilon;

@@ -44,8 +44,8 @@ Vector3d spin_of(const Evaluation& evaluation, int node, const Vector3d& omega) 
 std::vector<Internal> internal_coordinates(const Model& model, const Evaluation& evaluation, const Vector3d& omega) {
   std::vector<Internal> list;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
-    Internal body{model.superelements[i].name, model.sizes.boundary + model.internal_offset[i],
-                  body_of(model, i).S_II, Vector3d::Zero(), static_cast<int>(i)};
+    Internal body{model.superelements[i].name, model.sizes.boundary + model.internal_offset[i], body_of(model, i).S_II,
+                  Vector3d::Zero(), static_cast<int>(i)};
     for (const int node : model.superelements[i].nodes)
       if (const Vector3d spin = spin_of(evaluation, node, omega);
           model.nodes[node].rotation >= 0 && spin.norm() > body.spin.norm())
@@ -97,8 +97,7 @@ State moved_on(const Model& model, const State& state, const Vector3d& omega, do
     const Eigen::Vector4d q = later.frames().col(body.superelement);
     const Eigen::Quaterniond before(q[0], q[1], q[2], q[3]);
     const Vector3d own = body.spin * time;
-    later.frames().col(body.superelement) =
-        wxyz((Eigen::Quaterniond(Q * exp_so3(own)) * before).normalized());
+    later.frames().col(body.superelement) = wxyz((Eigen::Quaterniond(Q * exp_so3(own)) * before).normalized());
   }
   return later;
 }
@@ -130,7 +129,8 @@ MatrixXd logarithm(const MatrixXd& E) {
   const MatrixXd one = MatrixXd::Identity(E.rows(), E.cols());
   const MatrixXd cayley = (E + one).partialPivLu().solve(E - one);
   const std::complex<double> i(0.0, 1.0);
-  const Eigen::SelfAdjointEigenSolver<MatrixXcd> eigen(-0.5 * i * (cayley - cayley.transpose()).cast<std::complex<double>>());
+  const Eigen::SelfAdjointEigenSolver<MatrixXcd> eigen(-0.5 * i *
+                                                       (cayley - cayley.transpose()).cast<std::complex<double>>());
   const VectorXd angle = 2.0 * eigen.eigenvalues().array().atan();
   return (eigen.eigenvectors() * (i * angle).asDiagonal() * eigen.eigenvectors().adjoint()).real();
 }
@@ -178,8 +178,7 @@ std::optional<MatrixXd> turn_of(const Internal& body, const MatrixXd& now, const
   MatrixXd E = MatrixXd::Identity(m, m);
   for (Eigen::Index from = 0, to = 0; from < m; from = to) {
     for (to = from + 1; to < m && body.frequency_squared[to] <= (1.0 + alike) * body.frequency_squared[to - 1];) ++to;
-    const auto block =
-        procrustes(later.middleCols(from, to - from), now.middleCols(from, to - from), least * largest);
+    const auto block = procrustes(later.middleCols(from, to - from), now.middleCols(from, to - from), least * largest);
     if (!block) return {};
     E.block(from, from, to - from, to - from) = *block;
   }
@@ -239,13 +238,16 @@ SteadyLinearisation linearise_steady(const Model& model, const State& state, con
 
 double largest_change(const QuadraticProblem& now, const QuadraticProblem& later, double s, int count) {
   const Eigen::Index n = now.M.rows(), first = std::max<Eigen::Index>(0, n - count);
-  const auto difference = [&](const MatrixXd& a, const MatrixXd& b) { return (b - a).bottomRightCorner(n - first, n - first).cwiseAbs().array().eval(); };
+  const auto difference = [&](const MatrixXd& a, const MatrixXd& b) {
+    return (b - a).bottomRightCorner(n - first, n - first).cwiseAbs().array().eval();
+  };
   const Eigen::ArrayXd mass = now.M.diagonal().tail(n - first).array().abs().max(1e-300).sqrt();
   const Eigen::ArrayXd stiffness = now.K.diagonal().tail(n - first).array().abs().sqrt().max(s * mass);
   const Eigen::ArrayXd damping = (mass * stiffness).sqrt();
   double largest = 0.0;
   const auto compare = [&](const MatrixXd& a, const MatrixXd& b, const Eigen::ArrayXd& size) {
-    if (n > first) largest = std::max(largest, (difference(a, b) / (size.matrix() * size.matrix().transpose()).array()).maxCoeff());
+    if (n > first)
+      largest = std::max(largest, (difference(a, b) / (size.matrix() * size.matrix().transpose()).array()).maxCoeff());
   };
   compare(now.M, later.M, mass);
   compare(now.C, later.C, damping);

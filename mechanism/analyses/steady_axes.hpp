@@ -17,8 +17,9 @@ namespace tisserand::mechanism {
 ///   δq = η,   δq̇ = η' − Γη,   δq̈ = η'' − 2Γη' + Γ²η.
 /// Γ couples coordinates of one frequency (the two bending planes of a shaft) and follows from M between internal
 /// coordinates and nodes, which is constant in these axes: M_NI(t) exp(−Γt) = M_NI(0), solved for orthogonal matrices
-/// (Procrustes) a moment later; of modal bodies also from the motion that they give to nodes on the axis. What `later` differs in from `now` is not constant in these axes: then no axes were
-/// found in which modes of constant coefficients exist.
+/// (Procrustes) a moment later; of modal bodies also from the motion that they give to nodes on the axis. What `later`
+/// differs in from `now` is not constant in these axes: then no axes were found in which modes of constant coefficients
+/// exist.
 struct SteadyLinearisation {
   Linearisation now;
   /// Of the state that follows when what turns fastest, in the axes or with them, has turned by `turned_by`, in axes

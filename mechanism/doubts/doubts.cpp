@@ -19,6 +19,7 @@ Doubts::Doubts(const formats::Scene& scene, const Model& model)
       spin_(model),
       tyres_(model),
       resolution_(scene, model),
+      touches_(scene, model),
       swing_(scene) {}
 
 void Doubts::after_step(const Model& model, const State& before, const State& state, const Evaluation& evaluation) {
@@ -30,6 +31,7 @@ void Doubts::after_step(const Model& model, const State& before, const State& st
   spin_.observe(model, state, evaluation);
   tyres_.observe(model, state, evaluation);
   resolution_.observe(model, before, state);
+  touches_.observe(model, state, evaluation);
   swing_.observe(before, state);
 }
 
@@ -50,7 +52,7 @@ void Doubts::at_row(const Model& model, const State& state, const Evaluation& ev
 
 std::vector<std::string> Doubts::of_model(const Model& model) const {
   std::vector<std::string> all = told_;
-  for (auto&& some : {swing_.doubts(), resolution_.doubts(model), range_.doubts(model), beams_.doubts(model), bushings_.doubts(model), inertia_.doubts(model),
+  for (auto&& some : {swing_.doubts(), resolution_.doubts(model), touches_.doubts(model), range_.doubts(model), beams_.doubts(model), bushings_.doubts(model), inertia_.doubts(model),
                       torsion_.doubts(model), spin_.doubts(model), tyres_.doubts(model), damping_doubts(model)})
     for (const std::string& doubt : some)
       if (std::ranges::find(all, doubt) == all.end()) all.push_back(doubt);

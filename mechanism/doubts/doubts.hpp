@@ -50,6 +50,7 @@ class Doubts {
   AxialSpin spin_;
   TyreRange tyres_;
   StepResolution resolution_;
+  TouchResolution touches_;
   MultiplierSwing swing_;
   std::vector<std::string> told_;  ///< of models that were left
 

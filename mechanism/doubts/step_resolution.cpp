@@ -19,6 +19,8 @@ constexpr int stretch = 16;
 /// Ten steps per period: the trapezoidal rule then stretches periods by (ωh)²/12 = 3 % (Hughes, The Finite Element
 /// Method, 1987, section 9.3).
 constexpr double coarse = 2.0 * std::numbers::pi / 10.0;
+/// A touch is half a period of the body on its stop.
+constexpr int least_touch = 5;
 /// A quarter of a revolution, half of where angles of joints cannot be unwrapped any more.
 constexpr double largest_turn = std::numbers::pi / 2.0;
 /// Binary exponents below the largest energy that count: a tenth of it, about.
@@ -52,13 +54,17 @@ Eigen::ArrayXd masses(const Model& model, const State& state) {
   return mass;
 }
 
+/// Whether the scene says how long steps are, and no error does.
+bool steps_are_given(const formats::Scene& scene) {
+  return scene.analysis == formats::AnalysisKind::dynamics && !scene.integrator.error_control.active &&
+         (scene.integrator.method == formats::Method::generalised_alpha ||
+          scene.integrator.method == formats::Method::hht);
+}
+
 }  // namespace
 
 StepResolution::StepResolution(const formats::Scene& scene, const Model& model)
-    : active_(scene.analysis == formats::AnalysisKind::dynamics && !scene.integrator.error_control.active &&
-              (scene.integrator.method == formats::Method::generalised_alpha ||
-               scene.integrator.method == formats::Method::hht) &&
-              model.sizes.velocities() > 0) {}
+    : active_(steps_are_given(scene) && model.sizes.velocities() > 0) {}
 
 void StepResolution::observe(const Model& model, const State& before, const State& state) {
   if (!active_) return;
@@ -110,6 +116,46 @@ std::vector<std::string> StepResolution::doubts(const Model& model) const {
                   "fewer than 10 (most at {}); 'integrator: {{step: {:.1g}}}' does",
                   worst.step, 2.0 * std::numbers::pi / worst.rate, worst.time, coordinate_name(model, worst.coordinate),
                   worst.step * coarse / worst.rate / 2.0)};
+}
+
+TouchResolution::TouchResolution(const formats::Scene& scene, const Model& model) {
+  if (!steps_are_given(scene)) return;
+  for (std::size_t i = 0; i < model.springs.size(); ++i)
+    if ((model.springs[i].lower || model.springs[i].upper) && model.springs[i].stop_stiffness > 0.0)
+      stops_.push_back({static_cast<int>(i), {}, 0.0, {}});
+}
+
+void TouchResolution::observe(const Model& model, const State& state, const Evaluation& evaluation) {
+  for (Seen& stop : stops_) {
+    const Spring& spring = model.springs[stop.spring];
+    const double q = evaluation.coordinates[spring.coordinate].value;
+    const double over = std::max(spring.upper ? q - *spring.upper : 0.0, spring.lower ? *spring.lower - q : 0.0);
+    if (over > 0.0) {
+      if (stop.now.steps++ == 0) stop.now.time = state.time();
+      stop.now.depth = std::max(stop.now.depth, over);
+      continue;
+    }
+    if (stop.now.steps > 0 && stop.now.steps < least_touch) {
+      Touch& shortest = stop.shortest[std::ilogb(stop.now.depth)];
+      if (shortest.steps == 0 || stop.now.steps < shortest.steps) shortest = stop.now;
+    }
+    stop.deepest = std::max(stop.deepest, stop.now.depth);
+    stop.now = {};
+  }
+}
+
+std::vector<std::string> TouchResolution::doubts(const Model& model) const {
+  const Seen* worst = nullptr;
+  Touch shortest;
+  for (const Seen& stop : stops_)
+    for (const auto& [exponent, touch] : stop.shortest)
+      if (touch.depth > 0.1 * stop.deepest && (worst == nullptr || touch.steps < shortest.steps))
+        worst = &stop, shortest = touch;
+  if (worst == nullptr) return {};
+  return {fmt::format(
+      "the stop of '{}' is touched for {} step{} (at t = {:.6g}), fewer than {}: the steps do not resolve the "
+      "impact; take shorter ones, or `error_control`",
+      model.springs[worst->spring].name, shortest.steps, shortest.steps == 1 ? "" : "s", shortest.time, least_touch)};
 }
 
 }  // namespace tisserand::mechanism

@@ -52,4 +52,29 @@ class StepResolution {
   std::map<int, Stretch> coarsest_;  ///< by the binary exponent of the energy of the stretch
 };
 
+/// Steps in which a stop is touched, from one side, until it is left. Of the same runs as StepResolution.
+class TouchResolution {
+ public:
+  TouchResolution(const formats::Scene& scene, const Model& model);
+
+  /// After a step to the evaluated `state`.
+  void observe(const Model& model, const State& state, const Evaluation& evaluation);
+
+  /// At most one: the touch of fewest steps among those that press at least a tenth as hard as the hardest.
+  std::vector<std::string> doubts(const Model& model) const;
+
+ private:
+  struct Touch {
+    int steps = 0;
+    double depth = 0.0, time = 0.0;
+  };
+  struct Seen {
+    int spring = -1;
+    Touch now;
+    double deepest = 0.0;
+    std::map<int, Touch> shortest;  ///< by the binary exponent of the depth
+  };
+  std::vector<Seen> stops_;
+};
+
 }  // namespace tisserand::mechanism

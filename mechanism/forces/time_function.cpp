@@ -66,7 +66,7 @@ void TimeFunction::compile(const formats::TimeExpression& text, const Expression
     throw Error(fmt::format("expression '{}': {}", text.text, error.GetMsg()), text.where, what_may_stand(scope));
   }
   breakpoints_ = text.breakpoints;
-  for (const double instant : formats::step_instants(text.text)) breakpoints_.push_back(instant);
+  for (const double instant : formats::corner_instants(text.text)) breakpoints_.push_back(instant);
   for (const Expression::UsedInput& used : e.inputs)
     breakpoints_.insert(breakpoints_.end(), used.input->breakpoints.begin(), used.input->breakpoints.end());
 }

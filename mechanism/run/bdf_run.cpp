@@ -10,6 +10,7 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/run/frame_angles.hpp"
 #include "mechanism/run/off_road.hpp"
+#include "mechanism/step/road_ahead.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -74,6 +75,14 @@ std::string observe(Run& run, FrameAngles& angles) {
   return end.empty() ? off_road(model, run.built.state, run.workspace.now) : end;
 }
 
+/// The end of the next step at the latest: where loads may jump, or the next mark of a road.
+StepEnd bounded(Run& run, const RoadAhead& ahead, const StepEnd& stop, double step) {
+  if (!ahead.has_marks()) return stop;
+  evaluate(run.built.model, run.built.state, run.workspace.now);
+  const double time = run.built.state.time() + ahead.time_to_next(run.built.model, run.workspace.now, step);
+  return time < stop.load_time ? StepEnd{time, time} : stop;
+}
+
 void note_counts(Run& run, const BdfCounts& counts) {
   RunReport& report = run.report;
   report.steps = counts.steps;
@@ -93,6 +102,7 @@ void integrate_bdf(Run& run, RowWriter& out) {
   Instants instants{run.scene, run.built.model.breakpoints, same_instant * (options.end - options.start)};
   instants.pass(options.start);
   FrameAngles angles(run.built.model);
+  const RoadAhead ahead(run.scene, run.built.model);
   StepReport none;
   store(run, bdf, none, 0.0, out);
   while (state.time() < options.end - instants.round_off) {
@@ -102,7 +112,7 @@ void integrate_bdf(Run& run, RowWriter& out) {
       break;
     }
     const double before = state.time();
-    report.reason = bdf.step(instants.stop());
+    report.reason = bdf.step(bounded(run, ahead, instants.stop(), report.greatest_step));
     if (!report.reason.empty()) {
       report.outcome = RunOutcome::not_converged;
       const std::string load = nonfinite_load(run, before);

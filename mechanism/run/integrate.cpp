@@ -7,10 +7,12 @@
 
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/doubts/failure_cause.hpp"
+#include "mechanism/equations/evaluate.hpp"
 #include "mechanism/run/effect_windows.hpp"
 #include "mechanism/run/off_road.hpp"
 #include "mechanism/run/output.hpp"
 #include "mechanism/run/run.hpp"
+#include "mechanism/step/road_ahead.hpp"
 #include "mechanism/step/step.hpp"
 
 namespace tisserand::mechanism {
@@ -52,8 +54,8 @@ std::string failure_of(Run& run, const StepReport& step, const StepEnd& target, 
                                    run.built.state, run.workspace));
 }
 
-/// Bodies without mass stand where forces put them. If the start is elsewhere, they jump there in the first step, and what
-/// energy that takes is told and no longer counted as lost.
+/// Bodies without mass stand where forces put them. If the start is elsewhere, they jump there in the first step, and
+/// what energy that takes is told and no longer counted as lost.
 void settle_start(Run& run, formats::ResultsRow row) {
   constexpr double felt = 1e-3;
   fill_row(run.built.model, run.built.state, run.workspace.now, row);
@@ -61,14 +63,24 @@ void settle_start(Run& run, formats::ResultsRow row) {
   if (!(std::abs(row.balance) > felt * energy)) return;
   run.built.state.initial_energy() += row.balance;
   run.report.notes.push_back(fmt::format(
-      "the start is out of balance: what has no mass jumps to its balance in the first step, in which {:.3g} of the energy "
+      "the start is out of balance: what has no mass jumps to its balance in the first step, in which {:.3g} of the "
+      "energy "
       "is {}. Start from an analysis `statics`, or give bodies without mass the poses in which their forces balance",
       std::abs(row.balance) / (energy + std::abs(row.balance)), row.balance < 0.0 ? "lost" : "gained"));
 }
 
+/// Bounds the next step by the road ahead.
+void look_ahead(Run& run, const RoadAhead& ahead, Schedule& schedule) {
+  if (!run.scene.integrator.error_control.active || !ahead.has_marks()) return;
+  // Rows between the ends of steps have left their own evaluation.
+  if (run.scene.integrator.method == formats::Method::radau)
+    evaluate(run.built.model, run.built.state, run.workspace.now);
+  schedule.bound(ahead.time_to_next(run.built.model, run.workspace.now, schedule.proposal()));
+}
+
 /// What an accepted step to the present state leaves in report and loop, and its rows.
-void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, Stepper& stepper,
-               EffectWindows& windows, const formats::ResultsRow& row) {
+void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, Stepper& stepper, EffectWindows& windows,
+               const formats::ResultsRow& row) {
   RunReport& report = run.report;
   State& state = run.built.state;
   ++report.steps;
@@ -103,6 +115,7 @@ void integrate(Run& run, RowWriter& out) {
                 std::numeric_limits<double>::quiet_NaN()};
   if (!run.schedule_memory.empty()) loop.schedule.restore(run.schedule_memory);
   EffectWindows windows(run, loop, stepper, out);
+  const RoadAhead ahead(run.scene, model);
   const auto stop = [&](RunOutcome outcome, std::string reason) {
     report.outcome = outcome;
     report.reason = std::move(reason);
@@ -116,6 +129,7 @@ void integrate(Run& run, RowWriter& out) {
       break;
     }
     const double before = state.time();
+    if (loop.tried_at != before) look_ahead(run, ahead, loop.schedule);
     const StepEnd target = loop.schedule.next(before);
     if (loop.tried_at != before) {
       loop.tried_at = before;
@@ -155,22 +169,25 @@ namespace {
 void tell_stability(const StaticsReport& statics, RunReport& report) {
   const Stability& stability = statics.stability;
   if (statics.descents > 0)
-    report.notes.push_back(fmt::format("the equilibrium was found in {} steps downhill in potential energy", statics.descents));
+    report.notes.push_back(
+        fmt::format("the equilibrium was found in {} steps downhill in potential energy", statics.descents));
   if (statics.load_steps > 1 && statics.unstable_from <= 1.0)
     report.notes.push_back(fmt::format("the equilibrium loses its stability between {:.4g} and {:.4g} of the load",
                                        statics.stable_until, statics.unstable_from));
   if (!stability.counted || stability.unstable == 0) return;
-  const std::string count = fmt::format("{} direction{}{}", stability.unstable, stability.unstable == 1 ? "" : "s",
-                                        stability.direction.empty() ? "" : fmt::format(", first {}", stability.direction));
+  const std::string count =
+      fmt::format("{} direction{}{}", stability.unstable, stability.unstable == 1 ? "" : "s",
+                  stability.direction.empty() ? "" : fmt::format(", first {}", stability.direction));
   if (!stability.symmetric) {
-    report.notes.push_back(
-        fmt::format("the stiffness is negative in {}; it is not symmetric (follower forces, unsymmetric bushings), so that "
-                    "this does not decide whether the equilibrium is stable: run `modes` from it",
-                    count));
+    report.notes.push_back(fmt::format(
+        "the stiffness is negative in {}; it is not symmetric (follower forces, unsymmetric bushings), so that "
+        "this does not decide whether the equilibrium is stable: run `modes` from it",
+        count));
     return;
   }
   report.outcome = RunOutcome::unstable;
-  report.reason = fmt::format("the equilibrium is unstable in {}: `statics: {{stable: yes}}` goes on to a stable one", count);
+  report.reason =
+      fmt::format("the equilibrium is unstable in {}: `statics: {{stable: yes}}` goes on to a stable one", count);
 }
 
 }  // namespace

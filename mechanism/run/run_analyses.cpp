@@ -186,16 +186,18 @@ void add_body_coordinates(const Run& run, const ModesReport& modes, Evaluation& 
 constexpr double steady_change = 1e-3;
 
 std::string changing_coefficients(const ModesReport& modes) {
-  const std::string what =
-      fmt::format("the coefficients of the linearisation are not constant in its axes: they change by {:.2g} of their "
-                  "size in a turn of {} rad",
-                  modes.change, turned_by);
+  const std::string what = fmt::format(
+      "the coefficients of the linearisation are not constant in its axes: they change by {:.2g} of their "
+      "size in a turn of {} rad",
+      modes.change, turned_by);
   if (modes.axes.norm() > 0.0)
-    return what + ". What does not turn with the axes is not the same on all sides: take axes at rest, `modes: "
-                  "{rotation: [0, 0, 0]}`, if what turns is";
-  return fmt::format("{} of '{}', which is not the same on all sides: take axes that turn with it, `modes: {{rotation: "
-                     "[{:.6g}, {:.6g}, {:.6g}]}}`, if what stands still is",
-                     what, modes.spins, modes.spin.x(), modes.spin.y(), modes.spin.z());
+    return what +
+           ". What does not turn with the axes is not the same on all sides: take axes at rest, `modes: "
+           "{rotation: [0, 0, 0]}`, if what turns is";
+  return fmt::format(
+      "{} of '{}', which is not the same on all sides: take axes that turn with it, `modes: {{rotation: "
+      "[{:.6g}, {:.6g}, {:.6g}]}}`, if what stands still is",
+      what, modes.spins, modes.spin.x(), modes.spin.y(), modes.spin.z());
 }
 
 }  // namespace
@@ -214,18 +216,21 @@ void find_modes(Run& run, RowWriter& out) {
   for (const Mode& mode : modes.modes)
     if (lowest == 0.0) lowest = std::abs(mode.eigenvalue);
   if (modes.largest_acceleration > 1e-6 * lowest * lowest)
-    report.notes.push_back(
-        fmt::format("the state is not steady in the axes of the linearisation (it accelerates by {:.3g} characteristic "
-                    "lengths or radians per time squared): modes of frozen coefficients. Of a scene that turns steadily, "
-                    "begin with `statics: {{rotation: ..}}`, or give `modes: {{rotation: [x, y, z]}}`",
-                    modes.largest_acceleration));
+    report.notes.push_back(fmt::format(
+        "the state is not steady in the axes of the linearisation (it accelerates by {:.3g} characteristic "
+        "lengths or radians per time squared): modes of frozen coefficients. Of a scene that turns steadily, "
+        "begin with `statics: {{rotation: ..}}`, or give `modes: {{rotation: [x, y, z]}}`",
+        modes.largest_acceleration));
   else if (modes.change > steady_change)
     report.doubts.push_back(changing_coefficients(modes));
   if (!modes.undecided.empty())
-    report.doubts.push_back(fmt::format(
-        "the frequencies of '{}' are those in axes that turn with it: its modes move no node of the scene on its axis, so "
-        "they cannot be taken in other axes. Take axes that turn with it, `modes: {{rotation: [{:.6g}, {:.6g}, {:.6g}]}}`",
-        modes.undecided, modes.axes.x() + modes.spin.x(), modes.axes.y() + modes.spin.y(), modes.axes.z() + modes.spin.z()));
+    report.doubts.push_back(
+        fmt::format("the frequencies of '{}' are those in axes that turn with it: its modes move no node of the scene "
+                    "on its axis, so "
+                    "they cannot be taken in other axes. Take axes that turn with it, `modes: {{rotation: [{:.6g}, "
+                    "{:.6g}, {:.6g}]}}`",
+                    modes.undecided, modes.axes.x() + modes.spin.x(), modes.axes.y() + modes.spin.y(),
+                    modes.axes.z() + modes.spin.z()));
   if (const auto unstable = std::ranges::count_if(modes.modes, &Mode::unstable); unstable > 0)
     report.notes.push_back(fmt::format("{} modes grow: the state is unstable", unstable));
   write_row(run, {}, 0.0, out, [](formats::ResultsRow& row) { row.work = row.dissipated = row.balance = none; });

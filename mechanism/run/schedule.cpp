@@ -34,9 +34,9 @@ double Schedule::controlled_end(double time) const {
   if (integrator_.end - t < round_off_) t = integrator_.end;
   if (breakpoint_ < breakpoints_.size()) t = std::min(t, breakpoints_[breakpoint_]);
   // The last two steps before an instant share what is left, so that none is tiny.
-  const double left = t - time;
-  if (left <= proposal_ * (1.0 + 1e-9)) return t;
-  return time + (left < 2.0 * proposal_ ? 0.5 * left : proposal_);
+  const double left = t - time, size = std::min(proposal_, bound_);
+  if (left <= size * (1.0 + 1e-9)) return t;
+  return time + (left < 2.0 * size ? 0.5 * left : size);
 }
 
 double Schedule::target() const {

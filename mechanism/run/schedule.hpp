@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ class Schedule {
 
   bool output_at_start() const;
   bool finished(double time) const;
+  /// With error control: the next step is no longer than this, and the one after it as if it had not been cut.
+  void bound(double step) { bound_ = step; }
+  double proposal() const { return proposal_; }
   /// End of the step that starts at `time`.
   StepEnd next(double time) const;
   /// The step from `time` failed: a shorter one is next (without error control half of it); false if there is none:
@@ -69,6 +73,7 @@ class Schedule {
   double fraction_ = 0.0;  ///< step after halving, 0: to the target
   long rows_ = 1;          ///< output instants passed (interval)
   double proposal_ = 0.0;  ///< next step (error control)
+  double bound_ = std::numeric_limits<double>::infinity();  ///< of the next step (error control)
   bool retried_ = false;   ///< the present step was shortened: the next one is no longer
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -60,10 +61,11 @@ struct StepCall {
   std::vector<std::pair<std::string, double>> arguments;  ///< text and value; NaN: not constant
 };
 
-/// The value of a formula without variables, or NaN.
-double constant_value(const std::string& formula) {
+/// The value of a formula of `t` alone, or NaN.
+double value_at(const std::string& formula, double t) {
   mu::Parser parser;
   parser.DefineConst("pi", steps::pi);
+  parser.DefineConst("t", t);
   steps::define(parser);
   try {
     parser.SetExpr(formula);
@@ -71,6 +73,12 @@ double constant_value(const std::string& formula) {
   } catch (const mu::Parser::exception_type&) {
     return std::numeric_limits<double>::quiet_NaN();
   }
+}
+
+/// The value of a formula without variables, or NaN.
+double constant_value(const std::string& formula) {
+  const double value = value_at(formula, 0.0);
+  return value == value_at(formula, 1.0) ? value : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string without_blanks(std::string text) {
@@ -105,6 +113,57 @@ std::vector<StepCall> step_calls(const std::string& formula) {
   return calls;
 }
 
+/// The instant at which a − b passes zero, if it is linear in `t` and of nothing else.
+std::optional<double> crossing(const std::string& a, const std::string& b) {
+  const std::string difference = "(" + a + ")-(" + b + ")";
+  const double at_0 = value_at(difference, 0.0), slope = value_at(difference, 1.0) - at_0;
+  if (!std::isfinite(at_0) || !std::isfinite(slope) || slope == 0.0) return {};
+  for (const double t : {-3.0, 2.0, 17.0})
+    if (!(std::abs(value_at(difference, t) - at_0 - slope * t) <= 1e-9 * (std::abs(at_0) + std::abs(slope * t))))
+      return {};
+  return -at_0 / slope;
+}
+
+/// The operand that ends before `at` (backwards) or begins there: up to a bracket that it does not open, or to an
+/// operator that binds less than a comparison.
+std::string operand(const std::string& formula, std::size_t at, bool backwards) {
+  const char opens = backwards ? ')' : '(', closes = backwards ? '(' : ')';
+  int depth = 0;
+  std::string text;
+  for (std::size_t i = at; i < formula.size(); i += backwards ? std::size_t(-1) : 1U) {
+    const char c = formula[i];
+    depth += c == opens ? 1 : c == closes ? -1 : 0;
+    if (depth < 0 || (depth == 0 && std::string(",?:&|<>=!").find(c) != std::string::npos)) break;
+    text.insert(backwards ? text.begin() : text.end(), c);
+  }
+  return text;
+}
+
+/// Instants at which comparisons of `t` change, and arguments of abs, sign, min and max cross.
+std::vector<double> comparison_instants(const std::string& formula) {
+  std::vector<double> instants;
+  const auto note = [&instants](const std::optional<double>& instant) {
+    if (instant) instants.push_back(*instant);
+  };
+  for (std::size_t i = 1; i + 1 < formula.size(); ++i) {
+    const bool pair = formula[i + 1] == '=';  // <=, >=, ==, !=
+    if (formula[i] != '<' && formula[i] != '>' && !(pair && (formula[i] == '=' || formula[i] == '!'))) continue;
+    note(crossing(operand(formula, i - 1, true), operand(formula, i + (pair ? 2 : 1), false)));
+    i += pair ? 1 : 0;
+  }
+  for_each_word(formula, [&](std::size_t begin, std::size_t end) {
+    const std::string name = formula.substr(begin, end - begin);
+    const std::size_t open = formula.find_first_not_of(' ', end);
+    if (open == std::string::npos || formula[open] != '(') return;
+    const std::string first = operand(formula, open + 1, false);
+    if (name == "abs" || name == "sign") note(crossing(first, "0"));
+    const std::size_t comma = open + 1 + first.size();
+    if ((name == "min" || name == "max") && comma < formula.size() && formula[comma] == ',')
+      note(crossing(first, operand(formula, comma + 1, false)));
+  });
+  return instants;
+}
+
 /// Of the first smooth step whose constant times or share are out of range.
 std::string step_fault(const std::string& formula) {
   if (formula.find("step") == std::string::npos) return {};
@@ -124,8 +183,8 @@ std::string step_fault(const std::string& formula) {
 
 }  // namespace
 
-std::vector<double> step_instants(const std::string& formula) {
-  std::vector<double> instants;
+std::vector<double> corner_instants(const std::string& formula) {
+  std::vector<double> instants = comparison_instants(formula);
   if (formula.find("step") == std::string::npos) return instants;
   for (const StepCall& call : step_calls(formula)) {
     const double t0 = call.arguments[1].second, t1 = call.arguments[3].second;

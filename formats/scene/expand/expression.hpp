@@ -23,9 +23,10 @@ std::set<std::string> names_of(const std::string& formula);
 /// the remedy.
 std::string formula_fault(const std::string& formula);
 
-/// Instants at which smooth steps in `t` with constant times begin, end, or change between acceleration and constant
-/// rate. The formula has no fault.
-std::vector<double> step_instants(const std::string& formula);
+/// Instants at which a formula of time jumps or has a corner: where smooth steps in `t` with constant times begin, end, or
+/// change between acceleration and constant rate, where a comparison of what is linear in `t` changes (t > 1, t - 2 <= 0.5),
+/// and where arguments of abs, sign, min and max cross so. The formula has no fault.
+std::vector<double> corner_instants(const std::string& formula);
 
 /// The formula with every name that no bracket follows replaced by what `replacement` makes of it.
 std::string with_names(const std::string& formula, const std::function<std::string(const std::string&)>& replacement);

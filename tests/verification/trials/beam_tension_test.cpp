@@ -30,8 +30,8 @@ std::vector<double> frequencies(double T, int elements) {
 /// Frequency [Hz] of the n-th pair of modes: (n/2L) sqrt((T + EI (nπ/L)²)/m) with EI = 1 N m², m = 1 kg/m and L = 2 m.
 double string_frequency(double T, int n) { return n / 4.0 * std::sqrt(T + std::pow(n * pi / 2.0, 2)); }
 
-// Two elements per half wave: 1.1 % at T = 0 (docs of the element), less under tension. At 12 EI/h² = 12 N the element was
-// unstable once.
+// Two elements per half wave: 1.1 % at T = 0 (docs of the element), less under tension. At 12 EI/h² = 12 N the element
+// was unstable once.
 TEST(BeamTension, AStringOfTwoElementsIsStableAtAnyTension) {
   for (const double T : {0.0, 11.0, 12.0, 13.0, 1e2, 1e3, 1e5}) {
     const std::vector<double> f = frequencies(T, 2);

@@ -19,15 +19,15 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-/// From the axis of one joint to the next: a turn θ about z, then a link of length a along x that twists by α (Denavit and
-/// Hartenberg).
+/// From the axis of one joint to the next: a turn θ about z, then a link of length a along x that twists by α (Denavit
+/// and Hartenberg).
 Isometry3d link(double theta, double length, double twist) {
   return Eigen::AngleAxisd(theta, Vector3d::UnitZ()) * Eigen::Translation3d(length, 0, 0) *
          Eigen::AngleAxisd(twist, Vector3d::UnitX());
 }
 
-/// Places of the four axes of a linkage with sin α/a = sin β/b, closed by tan(θ₁/2) tan(θ₂/2) = sin((β + α)/2)/sin((β − α)/2)
-/// (Bennett, Engineering 76, 1903, 777).
+/// Places of the four axes of a linkage with sin α/a = sin β/b, closed by tan(θ₁/2) tan(θ₂/2) = sin((β + α)/2)/sin((β −
+/// α)/2) (Bennett, Engineering 76, 1903, 777).
 std::vector<Isometry3d> random_linkage(std::mt19937& random) {
   const auto between = [&](double low, double high) {
     return low + (high - low) * static_cast<double>(random()) / static_cast<double>(std::mt19937::max());

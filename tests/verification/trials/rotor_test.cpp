@@ -1,5 +1,6 @@
 // Modes of rotors in axes at rest and in axes that turn with them. Frequencies of the beams are those of an independent
-// finite element rotor, which they meet to 3e-5: second forward whirl 137.35, 150.82, 160.26 Hz at 300, 600, 1000 rad/s.
+// finite element rotor, which they meet to 3e-5: second forward whirl 137.35, 150.82, 160.26 Hz at 300, 600, 1000
+// rad/s.
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -21,7 +22,9 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 
 /// The rotor of 24 beams with the given changes of its section, as the scene gives them.
-std::vector<double> beams(const std::vector<std::string>& settings) { return Trial("rotor_beams", settings).frequencies(); }
+std::vector<double> beams(const std::vector<std::string>& settings) {
+  return Trial("rotor_beams", settings).frequencies();
+}
 
 class Rotor : public ::testing::Test {
  protected:
@@ -63,11 +66,12 @@ TEST_F(Rotor, SuperelementInAxesAtRestIsTheBeams) {
 // The same whirls seen from axes that turn: |f ± Ω/2π|.
 TEST_F(Rotor, TurningAxesShiftTheFrequencies) {
   const double spin = 1000.0, turns = spin / (2.0 * std::numbers::pi);
-  const std::vector<double> rest = superelement(spin, 0.0).frequencies(), turning = superelement(spin, spin).frequencies();
+  const std::vector<double> rest = superelement(spin, 0.0).frequencies(),
+                            turning = superelement(spin, spin).frequencies();
   for (std::size_t k = 1; k < 6; ++k)
-    EXPECT_THAT(turning, ::testing::Contains(::testing::AnyOf(
-                             ::testing::DoubleNear(std::abs(rest.at(k) - turns), 1e-6 * turns),
-                             ::testing::DoubleNear(rest.at(k) + turns, 1e-6 * turns))))
+    EXPECT_THAT(turning,
+                ::testing::Contains(::testing::AnyOf(::testing::DoubleNear(std::abs(rest.at(k) - turns), 1e-6 * turns),
+                                                     ::testing::DoubleNear(rest.at(k) + turns, 1e-6 * turns))))
         << rest.at(k);
 }
 

@@ -43,8 +43,8 @@ TEST(HangingStatics, PendulumFromAnyStart) {
   }
 }
 
-// A uniform bar of 1 m that hangs on a hinge, a superelement with internal modes: f = sqrt(3 g/2L)/2π = 0.61051 Hz, from any
-// start and with any frame.
+// A uniform bar of 1 m that hangs on a hinge, a superelement with internal modes: f = sqrt(3 g/2L)/2π = 0.61051 Hz,
+// from any start and with any frame.
 TEST(HangingStatics, SuperelementOnAHinge) {
   if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the superelements";
   const test_support::TemporaryFolder folder;
@@ -93,8 +93,8 @@ TEST(UnstableStatics, NegativeSpring) {
   EXPECT_EQ(Trial("negative_spring").report("rest").outcome, RunOutcome::unstable);
 }
 
-// Clamped column under P along its axis and 0.01 N across: elastica with shear and axial strain (elliptic integrals, README
-// of the trials: EI = 103.0835 N m², Euler load 254.348 N).
+// Clamped column under P along its axis and 0.01 N across: elastica with shear and axial strain (elliptic integrals,
+// README of the trials: EI = 103.0835 N m², Euler load 254.348 N).
 TEST(UnstableStatics, ColumnLeavesForTheElastica) {
   struct Case {
     double load, x, z, tolerance;
@@ -129,13 +129,15 @@ TEST(UnstableStatics, LoadFactorOfTheLossIsReported) {
 TEST(SteadyTurn, RefusesWhatDoesNotTurn) {
   EXPECT_THAT(test_support::error_of([] { Trial("turning_statics_guide"); }),
               HasSubstr("'guide, translation along x of A' forbids the velocities of the turn"));
-  EXPECT_THAT(test_support::error_of([] { Trial("turning_gravity"); }), HasSubstr("does not turn with the scene: what it does to"));
+  EXPECT_THAT(test_support::error_of([] { Trial("turning_gravity"); }),
+              HasSubstr("does not turn with the scene: what it does to"));
   // A spring about the axis of a driven turn: the drive takes its moment, and the turn is steady.
   EXPECT_THAT(test_support::error_of([] { Trial("steady_spring_on_the_drive"); }), "no error");
 }
 
-// Bennett's linkage is regular everywhere, with one degree of freedom. The rows chosen at the start become dependent at 1.504 s.
-// j1 at 3 s is 1.10440 rad by index 3, Radau of tolerance 1e-9 and bdf; the kinetic energy stays below 5.6 J.
+// Bennett's linkage is regular everywhere, with one degree of freedom. The rows chosen at the start become dependent
+// at 1.504 s. j1 at 3 s is 1.10440 rad by index 3, Radau of tolerance 1e-9 and bdf; the kinetic energy stays below 5.6
+// J.
 TEST(RowsOfConstraints, BennettsLinkageWithEveryMethod) {
   const std::vector<std::pair<std::string, double>> runs = {
       {"integrator.step=1e-3", 1e-5},
@@ -206,7 +208,8 @@ TEST(TorsionalBuckling, CruciformColumn) {
   EXPECT_THAT(modes_that_grow(53.0e3), HasSubstr("grow"));
 }
 
-// A channel of 2 m, hinged: weak axis at 125.3 kN, flexural-torsional at 203.3 kN (without warping, which beams do not have).
+// A channel of 2 m, hinged: weak axis at 125.3 kN, flexural-torsional at 203.3 kN (without warping, which beams do not
+// have).
 TEST(TorsionalBuckling, ChannelColumn) {
   if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the superelements";
   const test_support::TemporaryFolder folder;
@@ -220,7 +223,8 @@ TEST(TorsionalBuckling, ChannelColumn) {
   EXPECT_THAT(notes(207e3), HasSubstr("2 modes grow"));
 }
 
-// Every elastic mode of a free body has the ratio a/(2ω) of `damping: {mass: a}`, whatever its frame: 0.003077 at 51.7 Hz.
+// Every elastic mode of a free body has the ratio a/(2ω) of `damping: {mass: a}`, whatever its frame: 0.003077 at 51.7
+// Hz.
 TEST(MassDamping, DoesNotDependOnTheFrame) {
   if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the superelements";
   const test_support::TemporaryFolder folder;
@@ -246,7 +250,8 @@ TEST(Drives, MomentOfAJumpOfAcceleration) {
       }
   }
   // A drive that begins with the run: I π²/2 = 0.4935 in row 0.
-  for (const char* method : {"integrator.method=generalised_alpha", "integrator.method=radau", "analysis=inverse_dynamics"})
+  for (const char* method :
+       {"integrator.method=generalised_alpha", "integrator.method=radau", "analysis=inverse_dynamics"})
     EXPECT_NEAR(std::abs(Trial("drive_starts", {method}).channel("motions/force/m").front()), 0.4935, 1e-3) << method;
 }
 
@@ -260,9 +265,9 @@ TEST(InverseDynamics, OfAModalBodyWithoutModes) {
   EXPECT_NEAR(trial.channel("motions/force/dm").front(), -7.6518, 1e-4);
 }
 
-// A hinge with friction, and a beam without rotary inertia that nothing connects with it: each alone ran. The weight of 9.81 N
-// acts 0.1 m from the hinge, which holds by friction (coefficient 0.2, radius 0.02 m) 0.04 N m of 0.981: it starts with
-// (0.981 - 0)/(0.01 + 0.01) rad/s².
+// A hinge with friction, and a beam without rotary inertia that nothing connects with it: each alone ran. The weight
+// of 9.81 N acts 0.1 m from the hinge, which holds by friction (coefficient 0.2, radius 0.02 m) 0.04 N m of 0.981: it
+// starts with (0.981 - 0)/(0.01 + 0.01) rad/s².
 TEST(Friction, BesideABodyWithoutInertia) {
   const Trial trial("friction_massless");
   EXPECT_EQ(trial.report().outcome, RunOutcome::completed);
