@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
@@ -201,7 +203,19 @@ void collect(const Model& model, const Evaluation& evaluation, const Problem& pr
     normalise(model, mode.shape);
     report.modes.push_back(std::move(mode));
   }
+  // Of equal size, what grows is first: digits that round-off leaves do not decide.
   sort_stably(report.modes, {}, [](const Mode& mode) { return std::abs(mode.eigenvalue); });
+  const auto tied = [](const Mode& a, const Mode& b) {
+    return std::abs(b.eigenvalue) <= (1.0 + 1e-9) * std::abs(a.eigenvalue);
+  };
+  for (std::size_t from = 0, to = 0; from < report.modes.size(); from = to) {
+    for (to = from + 1; to < report.modes.size() && tied(report.modes[to - 1], report.modes[to]);) ++to;
+    std::vector<Mode> group(std::make_move_iterator(report.modes.begin() + static_cast<long>(from)),
+                            std::make_move_iterator(report.modes.begin() + static_cast<long>(to)));
+    const double step = 1e-6 * std::abs(group.front().eigenvalue);
+    sort_stably(group, std::greater{}, [step](const Mode& mode) { return std::round(mode.eigenvalue.real() / step); });
+    std::ranges::move(group, report.modes.begin() + static_cast<long>(from));
+  }
 }
 
 }  // namespace

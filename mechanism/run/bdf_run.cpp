@@ -16,7 +16,7 @@ namespace tisserand::mechanism {
 namespace {
 
 /// Relative to the whole time: instants closer than this are the same.
-constexpr double same_instant = 1e-12;
+constexpr double same_instant = 1e-11;
 
 /// Where rows are due and where loads may jump.
 struct Instants {

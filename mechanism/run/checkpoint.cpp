@@ -12,6 +12,7 @@
 #include "common/error.hpp"
 #include "common/sha256.hpp"
 #include "mechanism/run/stored_state.hpp"
+#include "mechanism/step/step_control.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -153,7 +154,7 @@ Checkpoints::Checkpoints(const formats::Scene& scene, const std::string& results
       path_(checkpoint_path(results)),
       results_(fs::path(results).filename().string()),
       start_(scene.integrator.start),
-      round_off_(1e-9 * scene.integrator.step) {
+      round_off_(instant_tolerance(scene.integrator.step, scene.integrator.end)) {
   set_next(time);
 }
 

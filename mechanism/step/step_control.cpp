@@ -67,7 +67,8 @@ double shorter_step(double step, double ratio) {
 }
 
 double instant_tolerance(double step, double time) {
-  return std::max(1e-9 * step, 8.0 * std::numeric_limits<double>::epsilon() * std::abs(time));
+  const double written = std::min(1e-11 * std::abs(time), 1e-3 * step);  // numbers of a scene, given to twelve digits
+  return std::max({1e-9 * step, written, 8.0 * std::numeric_limits<double>::epsilon() * std::abs(time)});
 }
 
 double least_step(const formats::IntegratorSpec& options) {

@@ -33,7 +33,8 @@ double next_step(const formats::IntegratorSpec& options, double step, double rat
 /// Step to take instead of one that was too inaccurate, or did not converge (ratio 0).
 double shorter_step(double step, double ratio);
 
-/// Instants closer than this are the same: a small part of the step, but no less than rounding of the time itself.
+/// Instants closer than this are the same: a small part of the step, but no less than rounding of the time itself, and than
+/// what a grid of steps and one of rows differ by where the scene gives their spacings to twelve digits.
 double instant_tolerance(double step, double time);
 
 /// Limits of `error_control`, or their defaults.
