@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double most_apart = 1e4;         ///< of the lowest factor: near μ = 0 lies what the stress hardly reaches
+constexpr double most_apart = 1e3;         ///< of the lowest factor: near μ = 0 lies what the stress hardly reaches
 constexpr double largest_residual = 1e-6;  ///< λ errs by its square
 
 /// The load (sign 1) or the reversed load (−1): (S + sign λ K_g) φ = 0.

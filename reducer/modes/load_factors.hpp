@@ -25,7 +25,7 @@ struct LoadFactors {
   Eigen::MatrixXd shape;   ///< φ in columns, φᵀ S φ = 1
   /// The lowest factor of the reversed load, as a positive number; none below `limit`.
   std::optional<double> reversed;
-  double limit = 0.0;     ///< factors above it count as none: 1e4 times the lowest of either sign; 0: K_g vanishes
+  double limit = 0.0;     ///< factors above it count as none: 1e3 times the lowest of either sign; 0: K_g vanishes
   int more_equal = 0;     ///< factors behind the last one that equal it, where these are many
   double residual = 0.0;  ///< largest ‖φ + λ S⁻¹ K_g φ‖_S / ‖φ‖_S
 };

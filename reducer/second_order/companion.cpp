@@ -15,6 +15,7 @@
 #include "reducer/elements/element_matrices.hpp"
 #include "reducer/loads/load_vectors.hpp"
 #include "reducer/second_order/double_curvature.hpp"
+#include "reducer/second_order/geometric_stiffness.hpp"
 #include "reducer/second_order/inertia.hpp"
 #include "reducer/second_order/quadratic_forms.hpp"
 #include "reducer/second_order/tie_strain.hpp"
@@ -265,6 +266,7 @@ void describe_companion(const Mesh& mesh, const formats::Part& part, const forma
         fmt::format("The second order of {} is left out of the companion file: what they mean for "
                     "finite rotations is not known.",
                     listed(names)));
+  if (const std::string text = monosymmetry_note(mesh); !text.empty()) model.notes.push_back(text);
   if (mesh.shells.empty() || part.double_curvature > 0) return;
   double thickness = std::numeric_limits<double>::infinity();
   for (const ShellElement& shell : mesh.shells)

@@ -10,6 +10,8 @@
 #include "common/error.hpp"
 #include "common/math/rotation.hpp"
 #include "common/parallel.hpp"
+#include "common/text.hpp"
+#include "formats/sections/monosymmetry.hpp"
 #include "reducer/elements/each_element.hpp"
 #include "reducer/elements/element_matrices.hpp"
 #include "reducer/elements/second_order.hpp"
@@ -196,6 +198,28 @@ SymmetricPair stiffness_pair(const StressedPart& part, const LoadedState& state,
   add_elements(part, free, w, share, pair);
   for (const FreeBlock& block : blocks) add_block(block, pair);
   return pair;
+}
+
+std::string monosymmetry_note(const Mesh& mesh) {
+  std::vector<std::string> names;
+  for (const BeamProperty& property : mesh.beam_properties) {
+    const BeamElementData& data = property.data;
+    formats::Section section = data.section;
+    if (!data.stations.empty()) {
+      section = data.stations.front();
+      section.shape.clear();  // along a taper the constants alone are joined
+    }
+    if (!formats::lacks_monosymmetry(section)) continue;
+    const std::string name =
+        fmt::format("section '{}'{}", data.section.name, data.stations.empty() ? "" : " (tapered)");
+    if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+  }
+  if (names.empty()) return "";
+  return fmt::format(
+      "Wagner's beta of {} is taken from the shear centre alone, for the outline is not known: in bending they turn "
+      "over "
+      "at other loads. Give the section as a named shape, polygon or walls, without taper.",
+      listed(names));
 }
 
 MatrixXd mesh_weights(const Mesh& mesh, const System& system) {

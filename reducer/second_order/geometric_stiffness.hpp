@@ -37,6 +37,10 @@ struct StressedPart {
 SymmetricPair stiffness_pair(const StressedPart& part, const LoadedState& state, const SymmetricRows& S,
                              const std::function<void(double)>& share);
 
+/// Note that names the sections of beams whose Wagner's β is not known, though their shear centre or axes show that it
+/// counts; empty if there are none.
+std::string monosymmetry_note(const Mesh& mesh);
+
 /// Weights of all masses, before ties: M times the rigid translations (coordinates of the mesh x 3), force per
 /// acceleration.
 Eigen::MatrixXd mesh_weights(const Mesh& mesh, const System& system);

@@ -80,11 +80,14 @@ void require_buckling_load(const formats::Part& part) {
                 "give it supports: loads that keep their direction turn a free part over");
 }
 
-std::string buckling_warning(const Mesh& mesh) {
-  const std::vector<std::string> names = without_second_order(mesh);
-  if (names.empty()) return "";
-  return fmt::format("Buckling leaves out the second order of {}: what they mean for finite rotations is not known.",
-                     listed(names));
+std::vector<std::string> buckling_warnings(const Mesh& mesh) {
+  std::vector<std::string> warnings;
+  if (const std::vector<std::string> names = without_second_order(mesh); !names.empty())
+    warnings.push_back(
+        fmt::format("Buckling leaves out the second order of {}: what they mean for finite rotations is not known.",
+                    listed(names)));
+  if (const std::string text = monosymmetry_note(mesh); !text.empty()) warnings.push_back(text);
+  return warnings;
 }
 
 std::vector<CaseBuckling> buckling(const BucklingProblem& problem, int count, const PhaseListener& begin) {

@@ -39,8 +39,8 @@ struct BucklingProblem {
 /// Throws Error if the part has no load case, or no supports: loads that keep their direction turn a free part over.
 void require_buckling_load(const formats::Part& part);
 
-/// Warning that names the ties whose second order is left out; empty if there are none.
-std::string buckling_warning(const Mesh& mesh);
+/// Warnings that name ties whose second order is left out, and sections whose β is not known.
+std::vector<std::string> buckling_warnings(const Mesh& mesh);
 
 /// The `count` lowest factors (fewer if fewer exist) of each load case: (S + λ K_g) φ = 0 with the stress of the linear
 /// statics and with loads that keep their size and direction. Throws Error for a load case without stress.

@@ -1,6 +1,8 @@
 // The story of solving: part -> mesh -> S, M -> supports and loads -> displacements, modes -> stresses.
 #include "reducer/solve/solve.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "common/error.hpp"
@@ -42,8 +44,7 @@ Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& re
   if (request.modes > 0) require_mass(s.system, part.file);
   s.loads = load_vectors(s.mesh, s.system);
 
-  if (const std::string text = buckling_warning(s.mesh); request.buckling > 0 && !text.empty())
-    s.warnings.push_back(text);
+  if (request.buckling > 0) std::ranges::copy(buckling_warnings(s.mesh), std::back_inserter(s.warnings));
   const Supported supported = support(s.mesh, s.system, held, request.modes + request.buckling, part.file, begin);
   s.partition = supported.partition;
   s.is_free = supported.is_free;
