@@ -77,7 +77,7 @@ constexpr const char* about_solve =
 
 Tells the largest displacements and stresses, reactions, equilibrium, frequencies and effective masses, and load factors
 of buckling. Writes name.solution.csv (displacements of named points), name.solution.CASE.vtu for each load case and
-name.solution-modes.vtu, for ParaView; for buckling name.solution-buckling.csv, name.solution.CASE-buckling.vtu, and
+name.solution-modes.vtu, for ParaView; for buckling name.solution-buckling.csv, name.solution-buckling.CASE.vtu, and
 name.solution-buckling.html with the shapes, for any browser. formats/PART.md has all loads and supports.
 Exit codes: 0 done, 1 error, 2 wrong usage.)help";
 

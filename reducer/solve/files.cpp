@@ -63,7 +63,7 @@ void write_cases(const Solution& s, const std::string& stem, const formats::VtuC
 }
 
 std::string buckling_file(const std::string& stem, const std::string& name) {
-  return case_file(stem, name + "-buckling");
+  return case_file(stem + "-buckling", name);
 }
 
 /// Motions of the nodes in the shapes of a load case, and its name.

@@ -9,7 +9,7 @@
 namespace tisserand::reducer {
 
 /// stem.csv, stem.CASE.vtu for each load case, stem-modes.vtu if modes are asked for; for buckling stem-buckling.csv,
-/// stem-buckling.html, and stem.CASE-buckling.vtu for each load case.
+/// stem-buckling.html, and stem-buckling.CASE.vtu for each load case.
 std::vector<std::string> solution_files(const std::string& stem, const formats::Part& part,
                                         const SolveRequest& request);
 

@@ -86,6 +86,17 @@ TEST(SolvedBuckling, EqualFactorsAreAllFound) {
   EXPECT_LT(b.residual, 1e-8);
 }
 
+/// k of k c tan kL = 1: a column of length 1 that is clamped at its base, with a rigid arm of length c beyond its tip
+/// that carries the load: EI v'' = P (δ − v), δ = v(1) + c v'(1).
+double load_of_arm(double c) {
+  double low = 1e-6, high = 0.5 * std::numbers::pi - 1e-9;
+  for (int k = 0; k < 200; ++k) {
+    const double middle = 0.5 * (low + high);
+    (middle * c * std::tan(middle) < 1.0 ? low : high) = middle;
+  }
+  return low * low;
+}
+
 // A column buckles under its own weight at qL = 7.8373 EI/L² (Timoshenko and Gere, section 2.12): the zero 1.86635 of
 // J_{-1/3}, qL³/EI = 9/4 · 1.86635². The axial force of an element is constant, so the error falls with the square of
 // the length of the elements, and what is extrapolated from two meshes is two orders better.
@@ -102,6 +113,16 @@ TEST(SolvedBuckling, OwnWeight) {
   EXPECT_LT(std::abs(4.0 * fine - coarse) / 3.0, 2e-6);
 }
 
+// A mass on a rigid arm of 0.3 above the tip, which gravity pulls down: as a load on that arm.
+TEST(SolvedBuckling, WeightOnAnArm) {
+  std::string text = column(R"(supports: {base: all}
+point_masses: {top: {at: tip, mass: 1, offset: [0.3, 0, 0]}}
+load_cases: {weight: {gravity: [-1, 0, 0]}}
+)");
+  text.replace(text.find("density: 8000"), 13, "density: 1e-6");
+  EXPECT_NEAR(first_case(text, 1).factor[0] / (load_of_arm(0.3) * EI_weak), 1.0, 2e-6);
+}
+
 // Under tension nothing buckles, and the reversed load is Euler's.
 TEST(SolvedBuckling, TensionBucklesReversed) {
   const formats::Part part =
@@ -112,17 +133,6 @@ TEST(SolvedBuckling, TensionBucklesReversed) {
   EXPECT_NEAR(*s.buckling[0].reversed / (0.25 * pi2 * EI_weak), 1.0, 2e-6);
   EXPECT_THAT(reducer::solution_text(s, part),
               AllOf(HasSubstr("this load does not buckle the part"), HasSubstr("buckles at a load factor of -822.4")));
-}
-
-/// k of k c tan kL = 1: a column of length 1 that is clamped at its base, with a rigid arm of length c beyond its tip
-/// that carries the load: EI v'' = P (δ − v), δ = v(1) + c v'(1).
-double load_of_arm(double c) {
-  double low = 1e-6, high = 0.5 * std::numbers::pi - 1e-9;
-  for (int k = 0; k < 200; ++k) {
-    const double middle = 0.5 * (low + high);
-    (middle * c * std::tan(middle) < 1.0 ? low : high) = middle;
-  }
-  return low * low;
 }
 
 /// Puts a spider of that kind on `nodes`, its own node at `place`, loads it by −1 along x, and holds what is at x = 0.
