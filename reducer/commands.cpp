@@ -303,7 +303,10 @@ int section(const Arguments& arguments) {
 /// Of several processes those beside the first, which alone serves commands that share no work.
 int follow(const Arguments& arguments) {
   if (arguments.command != Command::run && arguments.command != Command::solve) return 0;
-  std::packaged_task<Mesh()> mesh([&] { return build_mesh(part_of(arguments)); });
+  std::packaged_task<Mesh()> mesh([&] {
+    const formats::Part part = part_of(arguments);
+    return arguments.command == Command::solve ? build_mesh_to_solve(part) : build_mesh(part);
+  });
   mesh();  // what fails here fails for the first process too, which tells it; if not, it is told when the mesh is
            // needed
   const SolverSession session;

@@ -26,6 +26,7 @@ Examples:
   reducer run beam.part.yaml -o out/arm.superelement.h5
   reducer run beam.part.yaml --set modes=4       any value of the part can be set from here
   reducer solve beam.part.yaml --modes 10        statics and modes of the part itself, with its load_cases and supports
+  reducer solve beam.part.yaml --buckling 5      load factors of buckling
   reducer show beam.superelement.h5              the certificate: mass, frequencies, checks
   reducer mesh beam.part.yaml                    writes beam.msh, to look at with gmsh
   reducer view bracket.part.yaml                 bracket.html: the mesh, in any browser; of a recovery file also its modes
@@ -64,18 +65,20 @@ Writes name.superelement.h5 and name.certificate.json, whole or not at all.
 Exit codes: 0 done, 1 error, 2 wrong usage.)help";
 
 constexpr const char* about_solve =
-    R"help(Linear statics and modes of the unreduced part, with the supports and load cases of its file.
+    R"help(Linear statics, modes and buckling of the unreduced part, with the supports and load cases of its file.
 
   reducer solve beam.part.yaml                      every load case
   reducer solve beam.part.yaml --modes 10           also the ten lowest modes of the supported part
+  reducer solve beam.part.yaml --buckling 5         also the five lowest loads of buckling, as multiples of each load case
   reducer solve beam.part.yaml -o out/beam --set load_cases.tip.forces.tip.2=-100 --point 0.5,0,0
 
   supports: {wall: all, mid_plane: {on: cut, symmetry: x}}
   load_cases: {tip: {forces: {tip: [0, 0, -10]}}, weight: {gravity: [0, 0, -9.81]}, wind: {pressures: {skin: 200}}}
 
-Tells the largest displacements and stresses, reactions, equilibrium, frequencies and effective masses. Writes
-name.solution.csv (displacements of named points), name.solution.CASE.vtu for each load case and
-name.solution-modes.vtu, for ParaView. formats/PART.md has all loads and supports.
+Tells the largest displacements and stresses, reactions, equilibrium, frequencies and effective masses, and load factors
+of buckling. Writes name.solution.csv (displacements of named points), name.solution.CASE.vtu for each load case and
+name.solution-modes.vtu, for ParaView; for buckling name.solution-buckling.csv, name.solution-buckling.CASE.vtu, and
+name.solution-buckling.html with the shapes, for any browser. formats/PART.md has all loads and supports.
 Exit codes: 0 done, 1 error, 2 wrong usage.)help";
 
 constexpr const char* about_show = R"help(Prints the certificate of a superelement file: mass, frequencies, checks.
@@ -203,6 +206,10 @@ CLI::App* add_solve(CLI::App& app, const std::string& asked, tisserand::reducer:
   CLI::App* const command = add_command(app, "solve", about_solve, asked);
   command->add_option("part", arguments.input, "part.yaml")->required();
   command->add_option("--modes", arguments.solve_request.modes, "number of modes, lowest first (default: none)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--buckling", arguments.solve_request.buckling,
+                   "number of load factors of buckling of each load case, lowest first (default: none)")
       ->check(CLI::NonNegativeNumber);
   command->add_option("-o,--output", arguments.output,
                       "first part of the names of the files (default: name.solution beside the part)");

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "formats/sections/monosymmetry.hpp"
+
 namespace tisserand::formats {
 
 namespace {
@@ -28,6 +30,14 @@ std::string section_by_stiffness(const Section& s, const Units& units) {
   return text + line("rotary inertia per length, about z", "", s.rotary_inertia_z, unit_label(units, 1, 1, 0));
 }
 
+/// Wagner's β, or why there is none.
+std::string monosymmetry_lines(const Section& s, const std::string& unit) {
+  if (!third_moments(s)) return "  Wagner's beta: not known of a section that is given by constants\n";
+  const Monosymmetry beta = known_monosymmetry(s);
+  return line("Wagner's beta of moments about y", "beta_y", beta.beta_y, unit) +
+         line("Wagner's beta of moments about z", "beta_z", beta.beta_z, unit);
+}
+
 std::string one_section(const Section& s, const Units& units) {
   if (s.by_stiffness) return section_by_stiffness(s, units);
   const auto unit = [&units](int power) { return unit_label(units, power, 0, 0); };
@@ -49,6 +59,7 @@ std::string one_section(const Section& s, const Units& units) {
   text += line("", "z", s.centroid_z, unit(1));
   text += line("shear centre from the centroid", "y", s.shear_center_y, unit(1));
   text += line("", "z", s.shear_center_z, unit(1));
+  text += monosymmetry_lines(s, unit(1));
   if (s.warping_constant > 0.0) text += line("warping constant (not used)", "Cw", s.warping_constant, unit(6));
   return text;
 }

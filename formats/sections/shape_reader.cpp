@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "formats/sections/monosymmetry.hpp"
 #include "formats/sections/profiles.hpp"
 #include "formats/sections/shapes.hpp"
 #include "formats/sections/walls.hpp"
@@ -173,6 +174,7 @@ Section read_polygon(const MapReader& map) {
   }
   Section section = polygon_section(polygon);
   if (!resolved(map, section)) return {};
+  remember_outline(polygon, section);
   move_axis(axis, area_moments(polygon).centroid, section);
   return section;
 }
@@ -206,6 +208,7 @@ Section read_walls(const MapReader& map, const Units& units) {
     return {};
   }
   Section section = walls_section(lines);
+  remember_outline(lines, section);
   move_axis(axis, walls_centroid(lines), section);
   return section;
 }

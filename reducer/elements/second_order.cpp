@@ -131,21 +131,27 @@ void second_order(const Mesh& mesh, const Spring& spring, SecondOrderRows& out) 
   add_corotated(spring.stiffness, X, turn_of_pair(arm), out);
 }
 
-Eigen::MatrixXd geometric_stiffness(const SecondOrderRows& rows, const Eigen::VectorXd& w) {
-  const Eigen::VectorXd sigma = rows.stress * w;
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(w.size(), w.size());
+Eigen::MatrixXd geometric_stiffness(const std::vector<StrainSection>& sections, const Eigen::MatrixXd& gradient,
+                                    const Eigen::VectorXd& sigma) {
+  const Eigen::MatrixXd G = gradient.transpose();  // products take columns
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(G.rows(), G.cols());
   Eigen::Index s = 0, g = 0;
-  for (const StrainSection& section : rows.sections)
+  for (const StrainSection& section : sections)
     for (int r = 0; r < section.repeat; ++r) {
       for (const QuadraticTerm& term : section.pattern->terms) {
-        const auto a = rows.gradient.row(g + term.first), b = rows.gradient.row(g + term.second);
         const double factor = sigma[s + term.stress] * term.coefficient;
-        K += factor * (a.transpose() * b + b.transpose() * a);
+        sum.col(g + term.first) += factor * G.col(g + term.second);
+        sum.col(g + term.second) += factor * G.col(g + term.first);
       }
       s += section.pattern->stresses;
       g += section.pattern->gradients;
     }
-  return K;
+  const Eigen::MatrixXd K = G * sum.transpose();
+  return 0.5 * (K + K.transpose());
+}
+
+Eigen::MatrixXd geometric_stiffness(const SecondOrderRows& rows, const Eigen::VectorXd& w) {
+  return geometric_stiffness(rows.sections, rows.gradient, rows.stress * w);
 }
 
 }  // namespace tisserand::reducer

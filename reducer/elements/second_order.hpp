@@ -85,6 +85,10 @@ void add_corotated(const Eigen::MatrixXd& S, const Eigen::Matrix3Xd& X,
 /// ones with the mean rotation.
 Eigen::Matrix<double, 3, Eigen::Dynamic> turn_of_pair(const Eigen::Vector3d& first_to_second);
 
+/// K_G of stresses σ (rows of the sections' stresses) on the columns of `gradient`, symmetric.
+Eigen::MatrixXd geometric_stiffness(const std::vector<StrainSection>& sections, const Eigen::MatrixXd& gradient,
+                                    const Eigen::VectorXd& sigma);
+
 /// K_G[w], symmetric.
 Eigen::MatrixXd geometric_stiffness(const SecondOrderRows& rows, const Eigen::VectorXd& w);
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <slepceps.h>
+#include <slepcsys.h>
 #include <Eigen/Cholesky>
 
 // Does not compile before the others, so it has a block of its own.
@@ -19,87 +19,10 @@
 #include "common/error.hpp"
 #include "common/stable_sort.hpp"
 #include "reducer/modes/block_lanczos.hpp"
+#include "reducer/modes/krylov_schur.hpp"
 
 namespace tisserand::reducer {
 namespace {
-
-PetscErrorCode apply_factor(PC preconditioner, Vec b, Vec x) {
-  void* context = nullptr;
-  PetscErrorCode code = PCShellGetContext(preconditioner, &context);
-  const PetscScalar* in = nullptr;
-  PetscScalar* out = nullptr;
-  PetscInt n = 0;
-  if (code == 0) code = VecGetSize(b, &n);
-  if (code == 0) code = VecGetArrayRead(b, &in);
-  if (code == 0) code = VecGetArrayWrite(x, &out);
-  if (code != 0) return code;
-  try {
-    const Factor& factor = *static_cast<const Factor*>(context);
-    Eigen::Map<Eigen::VectorXd>(out, n) = factor.solve(Eigen::Map<const Eigen::VectorXd>(in, n));
-  } catch (const std::exception&) {
-    return PETSC_ERR_LIB;
-  }
-  code = VecRestoreArrayWrite(x, &out);
-  return code == 0 ? VecRestoreArrayRead(b, &in) : code;
-}
-
-/// Owner of a SLEPc solver set up for shift-invert with the pencil's factor.
-class KrylovSchur {
- public:
-  explicit KrylovSchur(const Pencil& pencil) {
-    petsc_check(EPSCreate(PETSC_COMM_SELF, &eps_));
-    petsc_check(EPSSetOperators(eps_, pencil.S.get(), pencil.M.get()));
-    petsc_check(EPSSetProblemType(eps_, EPS_GHEP));
-    petsc_check(EPSSetType(eps_, EPSKRYLOVSCHUR));
-    petsc_check(EPSSetTarget(eps_, pencil.shift));
-    petsc_check(EPSSetWhichEigenpairs(eps_, EPS_TARGET_MAGNITUDE));
-    petsc_check(EPSSetTolerances(eps_, 1e-12, 500));
-    ST transformation = nullptr;
-    petsc_check(EPSGetST(eps_, &transformation));
-    petsc_check(STSetType(transformation, STSINVERT));
-    petsc_check(STSetMatMode(transformation, ST_MATMODE_SHELL));
-    KSP solver = nullptr;
-    petsc_check(STGetKSP(transformation, &solver));
-    petsc_check(KSPSetType(solver, KSPPREONLY));
-    PC preconditioner = nullptr;
-    petsc_check(KSPGetPC(solver, &preconditioner));
-    petsc_check(PCSetType(preconditioner, PCSHELL));
-    petsc_check(PCShellSetContext(preconditioner, const_cast<Factor*>(&pencil.factor)));
-    petsc_check(PCShellSetApply(preconditioner, apply_factor));
-  }
-  ~KrylovSchur() { EPSDestroy(&eps_); }
-  KrylovSchur(const KrylovSchur&) = delete;
-  KrylovSchur& operator=(const KrylovSchur&) = delete;
-
-  /// Searches beside the pairs already known.
-  void deflate(const Eigen::MatrixXd& known) {
-    std::vector<Vec> vectors(static_cast<std::size_t>(known.cols()));
-    for (Eigen::Index k = 0; k < known.cols(); ++k)
-      petsc_check(VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(known.rows()), known.col(k).data(),
-                                        &vectors[k]));
-    petsc_check(EPSSetDeflationSpace(eps_, static_cast<PetscInt>(known.cols()), vectors.data()));
-    for (Vec& v : vectors) VecDestroy(&v);
-  }
-
-  EigenPairs solve(int count, Eigen::Index size) {
-    petsc_check(EPSSetDimensions(eps_, count, PETSC_DEFAULT, PETSC_DEFAULT));
-    petsc_check(EPSSolve(eps_));
-    PetscInt converged = 0;
-    petsc_check(EPSGetConverged(eps_, &converged));
-    EigenPairs pairs{Eigen::VectorXd(converged), Eigen::MatrixXd(size, converged)};
-    for (PetscInt k = 0; k < converged; ++k) {
-      Vec x = nullptr;
-      petsc_check(
-          VecCreateSeqWithArray(PETSC_COMM_SELF, 1, static_cast<PetscInt>(size), pairs.vector.col(k).data(), &x));
-      petsc_check(EPSGetEigenpair(eps_, k, &pairs.value[k], nullptr, x, nullptr));
-      VecDestroy(&x);
-    }
-    return pairs;
-  }
-
- private:
-  EPS eps_ = nullptr;
-};
 
 void append(const EigenPairs& more, EigenPairs& pairs) {
   const Eigen::Index old = pairs.value.size(), added = more.value.size();
@@ -223,7 +146,7 @@ EigenPairs first_search(const Pencil& pencil, int wanted, Spectrum& s) {
     if (std::optional<EigenPairs> pairs = block_lanczos(pencil, wanted)) return std::move(*pairs);
     s.solver = EigenSolver::krylov_schur;
   }
-  return KrylovSchur(pencil).solve(wanted, pencil.S.size());
+  return KrylovSchur(pencil.S, pencil.M, {pencil.shift, pencil.factor, 1.0}).solve(wanted);
 }
 
 Spectrum iterated_spectrum(const Pencil& pencil, int count, int available, EigenSolver solver, Count verify) {
@@ -246,9 +169,10 @@ Spectrum iterated_spectrum(const Pencil& pencil, int count, int available, Eigen
       if (s.kept < available) s.counted = count_kept(pencil, s.pairs, s.kept);
       if (s.counted == s.kept) return s;
     }
-    KrylovSchur again(pencil);  // repeated eigenvalues hide from one Krylov sequence: look for what is orthogonal
+    // Repeated eigenvalues hide from one Krylov sequence: look for what is orthogonal.
+    KrylovSchur again(pencil.S, pencil.M, {pencil.shift, pencil.factor, 1.0});
     again.deflate(s.pairs.vector);
-    append(again.solve(std::max(4, s.counted.value_or(0) - s.kept), pencil.S.size()), s.pairs);
+    append(again.solve(std::max(4, s.counted.value_or(0) - s.kept)), s.pairs);
   }
   fail_missing(static_cast<int>(s.pairs.value.size()), std::max(count, s.counted.value_or(0)));
 }

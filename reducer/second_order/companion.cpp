@@ -15,6 +15,7 @@
 #include "reducer/elements/element_matrices.hpp"
 #include "reducer/loads/load_vectors.hpp"
 #include "reducer/second_order/double_curvature.hpp"
+#include "reducer/second_order/geometric_stiffness.hpp"
 #include "reducer/second_order/inertia.hpp"
 #include "reducer/second_order/quadratic_forms.hpp"
 #include "reducer/second_order/tie_strain.hpp"
@@ -167,33 +168,6 @@ class ElementBatches {
   std::vector<Scratch> scratch_;
 };
 
-/// g − S w on the coordinates that ties make dependent: forces on x, by the elements at them.
-MatrixXd tie_residual(const Mesh& mesh, const Coordinates& coordinates, const TieForces& forces,
-                      const MatrixXd& displacements, const MatrixXd& g) {
-  MatrixXd residual = MatrixXd::Zero(static_cast<Index>(forces.dependent.size()), displacements.cols());
-  for (std::size_t i = 0; i < forces.dependent.size(); ++i)
-    if (forces.dependent[i] < g.rows())
-      residual.row(static_cast<Index>(i)).tail(g.cols()) += g.row(forces.dependent[i]);
-  ElementMatrices matrices;
-  for (int e = 0; e < mesh.elements(); ++e) {
-    const ElementNodes nodes = element_nodes(mesh, e);
-    bool tied = false;
-    for (int i = 0; i < nodes.count; ++i)
-      for (int x = coordinates.first[nodes.node[i]]; x < coordinates.first[nodes.node[i] + 1]; ++x)
-        tied = tied || forces.row_of[x] >= 0;
-    if (!tied) continue;
-    with_element(mesh, e, [&](const auto& kind) { element_matrices(mesh, kind, matrices); });
-    const ElementRows rows = element_rows(mesh, coordinates, e, matrices.S.rows());
-    MatrixXd d(matrices.S.rows(), displacements.cols());
-    gather(rows, displacements, d);
-    const MatrixXd f = matrices.S * d;
-    for (int i = 0; i < rows.nodes; ++i)
-      for (int c = 0; c < rows.size; ++c)
-        if (const int row = forces.row_of[rows.first[i] + c]; row >= 0) residual.row(row) -= f.row(rows.size * i + c);
-  }
-  return residual;
-}
-
 /// MD g for the gravity of each load case.
 MatrixXd weights_of(const Mesh& mesh, const MatrixXd& MD) {
   MatrixXd weight(MD.rows(), static_cast<Index>(mesh.load_cases.size()));
@@ -292,6 +266,7 @@ void describe_companion(const Mesh& mesh, const formats::Part& part, const forma
         fmt::format("The second order of {} is left out of the companion file: what they mean for "
                     "finite rotations is not known.",
                     listed(names)));
+  if (const std::string text = monosymmetry_note(mesh); !text.empty()) model.notes.push_back(text);
   if (mesh.shells.empty() || part.double_curvature > 0) return;
   double thickness = std::numeric_limits<double>::infinity();
   for (const ShellElement& shell : mesh.shells)

@@ -2,16 +2,22 @@
 #include "reducer/second_order/tie_strain.hpp"
 
 #include <bit>
+#include <functional>
+#include <map>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SparseLU>
 
 #include "common/error.hpp"
 #include "common/math/rotation.hpp"
+#include "reducer/elements/each_element.hpp"
+#include "reducer/elements/element_matrices.hpp"
+#include "reducer/second_order/inertia.hpp"
 
 namespace tisserand::reducer {
 namespace {
 
+using Eigen::Index;
 using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
@@ -48,10 +54,14 @@ std::vector<std::vector<int>> equations_of_ties(const TieSystem& ties) {
   return equations;
 }
 
-/// Rows of displacements (part 0) or rotations (1) of a node; zero where it has none.
-MatrixXd node_rows(const Coordinates& coordinates, int node, int part, const MatrixXd& x) {
-  if (part == 1 && !coordinates.rotates(node)) return MatrixXd::Zero(3, x.cols());
-  return x.middleRows(coordinates.of(node, 3 * part), 3);
+/// Displacements (part 0) or rotations (1) of a node for each column; zero where it has none.
+using NodeMotion = std::function<MatrixXd(int node, int part)>;
+
+NodeMotion motion_of(const Coordinates& coordinates, const MatrixXd& x) {
+  return [&coordinates, &x](int node, int part) -> MatrixXd {
+    if (part == 1 && !coordinates.rotates(node)) return MatrixXd::Zero(3, x.cols());
+    return x.middleRows(coordinates.of(node, 3 * part), 3);
+  };
 }
 
 StrainBatch start_batch(const QuadraticPattern& pattern, Eigen::Index displacements, Eigen::Index coordinates) {
@@ -70,27 +80,28 @@ struct SpiderContext {
   const Spider& spider;
   const std::vector<int>& equations;
   const MatrixXd& lambda;
-  const MatrixXd& Phi;
 };
 
-void append_rigid_batches(const SpiderContext& at, std::vector<StrainBatch>& batches) {
+/// Columns of gradients, and what moves the nodes for each.
+struct Motions {
+  Eigen::Index columns = 0;
+  NodeMotion of;
+};
+
+/// The leg to node n, whose equations begin at `equation`; moves it behind them.
+StrainBatch rigid_leg(const SpiderContext& at, const Motions& motions, int n,
+                      std::vector<int>::const_iterator& equation) {
   const Spider& spider = at.spider;
-  const MatrixXd u_ref = node_rows(at.coordinates, spider.reference, 0, at.Phi);
-  const MatrixXd theta = node_rows(at.coordinates, spider.reference, 1, at.Phi);
-  auto equation = at.equations.begin();
-  for (const int n : spider.nodes) {
-    if (n == spider.reference) continue;
-    StrainBatch batch = start_batch(turned_point(), at.lambda.cols(), at.Phi.cols());
-    for (int c = 0; c < (at.coordinates.rotates(n) ? 6 : 3); ++c)
-      if (((spider.node_components >> c) & 1) != 0)
-        batch.stress.middleRows(c < 3 ? 0 : 3, 3) += spider.axes.col(c % 3) * at.lambda.row(*equation++);
-    const Vector3d r = at.mesh.position.col(n) - at.mesh.position.col(spider.reference);
-    batch.gradient.topRows(3) = theta;
-    batch.gradient.middleRows(3, 3) = node_rows(at.coordinates, n, 0, at.Phi) - u_ref + 0.5 * skew<double>(r) * theta;
-    if (at.coordinates.rotates(n))
-      batch.gradient.bottomRows(3) = 0.5 * (node_rows(at.coordinates, n, 1, at.Phi) - theta);
-    batches.push_back(std::move(batch));
-  }
+  const MatrixXd theta = motions.of(spider.reference, 1);
+  StrainBatch batch = start_batch(turned_point(), at.lambda.cols(), motions.columns);
+  for (int c = 0; c < (at.coordinates.rotates(n) ? 6 : 3); ++c)
+    if (((spider.node_components >> c) & 1) != 0)
+      batch.stress.middleRows(c < 3 ? 0 : 3, 3) += spider.axes.col(c % 3) * at.lambda.row(*equation++);
+  const Vector3d r = at.mesh.position.col(n) - at.mesh.position.col(spider.reference);
+  batch.gradient.topRows(3) = theta;
+  batch.gradient.middleRows(3, 3) = motions.of(n, 0) - motions.of(spider.reference, 0) + 0.5 * skew<double>(r) * theta;
+  if (at.coordinates.rotates(n)) batch.gradient.bottomRows(3) = 0.5 * (motions.of(n, 1) - theta);
+  return batch;
 }
 
 /// J⁺ of a symmetric matrix: directions that the nodes do not define are left out.
@@ -109,17 +120,16 @@ bool averages_all_translations(const Spider& spider) {
          (rotations == 0 || rotations == rotations_only);
 }
 
-void append_mean_batch(const SpiderContext& at, std::vector<StrainBatch>& batches) {
+StrainBatch mean_batch(const SpiderContext& at, const Motions& motions) {
   const Spider& spider = at.spider;
-  if (!averages_all_translations(spider)) return;
-  const Eigen::Index n = at.Phi.cols();
+  const Eigen::Index n = motions.columns;
   double total = 0.0, length = 0.0;
   Vector3d centre = Vector3d::Zero();
   MatrixXd mean = MatrixXd::Zero(3, n);
   for (std::size_t i = 0; i < spider.nodes.size(); ++i) {
     total += spider.weight[i];
     centre += spider.weight[i] * at.mesh.position.col(spider.nodes[i]);
-    mean += spider.weight[i] * node_rows(at.coordinates, spider.nodes[i], 0, at.Phi);
+    mean += spider.weight[i] * motions.of(spider.nodes[i], 0);
     length += (at.mesh.position.col(spider.nodes[i]) - at.mesh.position.col(spider.reference)).norm();
   }
   centre /= total;
@@ -134,13 +144,13 @@ void append_mean_batch(const SpiderContext& at, std::vector<StrainBatch>& batche
     const int node = spider.nodes[i];
     const double w = spider.weight[i];
     const Vector3d r = at.mesh.position.col(node) - centre;
-    const MatrixXd v = node_rows(at.coordinates, node, 0, at.Phi) - mean;
+    const MatrixXd v = motions.of(node, 0) - mean;
     W += w * r * r.transpose();
     moment += w * skew<double>(r) * v;
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) batch.gradient.row(9 + 3 * a + b) += w * r[b] * v.row(a);
     if ((spider.node_components & rotations_only) == 0 || !at.coordinates.rotates(node)) continue;
-    turns += w * length * length * node_rows(at.coordinates, node, 1, at.Phi);
+    turns += w * length * length * motions.of(node, 1);
     turning_weight += w * length * length;
   }
   const Matrix3d J_inverse = pseudo_inverse((W.trace() + turning_weight) * Matrix3d::Identity() - W);
@@ -158,22 +168,79 @@ void append_mean_batch(const SpiderContext& at, std::vector<StrainBatch>& batche
       (c < 3 ? force : torque) += spider.axes.col(c % 3) * at.lambda.row(*equation++);
   batch.stress.topRows(3) = force;
   batch.stress.bottomRows(3) = J_inverse * (torque + skew<double>(r0) * force);
-  batches.push_back(std::move(batch));
+  return batch;
 }
+
+/// Unit displacements of the coordinates of some nodes, in the order of the nodes.
+class UnitMotions {
+ public:
+  UnitMotions(const Coordinates& coordinates, const std::vector<int>& nodes) : coordinates_(coordinates) {
+    for (const int node : nodes) {
+      if (!first_.try_emplace(node, static_cast<int>(x_.size())).second) continue;
+      for (int c = 0; c < (coordinates.rotates(node) ? 6 : 3); ++c) x_.push_back(coordinates.of(node, c));
+    }
+  }
+  const std::vector<int>& coordinates() const { return x_; }
+  Motions motions() const {
+    const auto columns = static_cast<Eigen::Index>(x_.size());
+    return {columns, [this, columns](int node, int part) {
+              MatrixXd rows = MatrixXd::Zero(3, columns);
+              if (part == 0 || coordinates_.rotates(node))
+                rows.middleCols<3>(first_.at(node) + 3 * part) = Matrix3d::Identity();
+              return rows;
+            }};
+  }
+
+ private:
+  const Coordinates& coordinates_;
+  std::map<int, int> first_;
+  std::vector<int> x_;
+};
 
 }  // namespace
 
-TieForces find_tie_forces(const Mesh& mesh, const System& system, const std::string& where) {
+TieForces find_tie_forces(const Mesh& mesh, const System& system, const std::vector<int>& independent,
+                          const std::string& where) {
   TieForces forces;
   if (mesh.spiders.empty() && mesh.equations.empty()) return forces;
   forces.ties = collect_ties(mesh, system.coordinates, where);
   const auto name = [&](int x) { return coordinate_text(mesh, system.coordinates, forces.ties, x); };
-  Elimination elimination = eliminate(forces.ties, boundary_coordinates(mesh, system.coordinates), name, where);
+  Elimination elimination = eliminate(forces.ties, independent, name, where);
   forces.equation = std::move(elimination.equation);
   forces.dependent = std::move(elimination.dependent);
   forces.row_of.assign(static_cast<std::size_t>(forces.ties.coordinates), -1);
   for (std::size_t i = 0; i < forces.dependent.size(); ++i) forces.row_of[forces.dependent[i]] = static_cast<int>(i);
   return forces;
+}
+
+TieForces find_tie_forces(const Mesh& mesh, const System& system, const std::string& where) {
+  return find_tie_forces(mesh, system, boundary_coordinates(mesh, system.coordinates), where);
+}
+
+MatrixXd tie_residual(const Mesh& mesh, const Coordinates& coordinates, const TieForces& forces,
+                      const MatrixXd& displacements, const MatrixXd& g) {
+  MatrixXd residual = MatrixXd::Zero(static_cast<Index>(forces.dependent.size()), displacements.cols());
+  for (std::size_t i = 0; i < forces.dependent.size(); ++i)
+    if (forces.dependent[i] < g.rows())
+      residual.row(static_cast<Index>(i)).tail(g.cols()) += g.row(forces.dependent[i]);
+  ElementMatrices matrices;
+  for (int e = 0; e < mesh.elements(); ++e) {
+    const ElementNodes nodes = element_nodes(mesh, e);
+    bool tied = false;
+    for (int i = 0; i < nodes.count; ++i)
+      for (int x = coordinates.first[nodes.node[i]]; x < coordinates.first[nodes.node[i] + 1]; ++x)
+        tied = tied || forces.row_of[x] >= 0;
+    if (!tied) continue;
+    with_element(mesh, e, [&](const auto& kind) { element_matrices(mesh, kind, matrices); });
+    const ElementRows rows = element_rows(mesh, coordinates, e, matrices.S.rows());
+    MatrixXd d(matrices.S.rows(), displacements.cols());
+    gather(rows, displacements, d);
+    const MatrixXd f = matrices.S * d;
+    for (int i = 0; i < rows.nodes; ++i)
+      for (int c = 0; c < rows.size; ++c)
+        if (const int row = forces.row_of[rows.first[i] + c]; row >= 0) residual.row(row) -= f.row(rows.size * i + c);
+  }
+  return residual;
 }
 
 namespace {
@@ -220,15 +287,43 @@ MatrixXd dependents(const TieForces& forces, const MatrixXd& constant) {
 std::vector<StrainBatch> tie_batches(const Mesh& mesh, const System& system, const TieForces& forces,
                                      const MatrixXd& lambda, const MatrixXd& Phi) {
   const std::vector<std::vector<int>> equations = equations_of_ties(forces.ties);
+  const Motions motions{Phi.cols(), motion_of(system.coordinates, Phi)};
   std::vector<StrainBatch> batches;
   for (std::size_t s = 0; s < mesh.spiders.size(); ++s) {
-    const SpiderContext at{mesh, system.coordinates, mesh.spiders[s], equations[s], lambda, Phi};
-    if (mesh.spiders[s].kind == SpiderKind::rigid)
-      append_rigid_batches(at, batches);
-    else
-      append_mean_batch(at, batches);
+    const Spider& spider = mesh.spiders[s];
+    const SpiderContext at{mesh, system.coordinates, spider, equations[s], lambda};
+    if (spider.kind == SpiderKind::averaging) {
+      if (averages_all_translations(spider)) batches.push_back(mean_batch(at, motions));
+      continue;
+    }
+    auto equation = equations[s].begin();
+    for (const int node : spider.nodes)
+      if (node != spider.reference) batches.push_back(rigid_leg(at, motions, node, equation));
   }
   return batches;
+}
+
+std::vector<TieForm> tie_forms(const Mesh& mesh, const System& system, const TieForces& forces,
+                               const MatrixXd& lambda) {
+  const std::vector<std::vector<int>> equations = equations_of_ties(forces.ties);
+  std::vector<TieForm> forms;
+  for (std::size_t s = 0; s < mesh.spiders.size(); ++s) {
+    const Spider& spider = mesh.spiders[s];
+    const SpiderContext at{mesh, system.coordinates, spider, equations[s], lambda};
+    if (spider.kind == SpiderKind::averaging) {
+      if (!averages_all_translations(spider)) continue;
+      const UnitMotions unit(system.coordinates, spider.nodes);
+      forms.push_back({static_cast<int>(s), unit.coordinates(), mean_batch(at, unit.motions())});
+      continue;
+    }
+    auto equation = equations[s].begin();
+    for (const int node : spider.nodes) {
+      if (node == spider.reference) continue;
+      const UnitMotions unit(system.coordinates, {spider.reference, node});
+      forms.push_back({static_cast<int>(s), unit.coordinates(), rigid_leg(at, unit.motions(), node, equation)});
+    }
+  }
+  return forms;
 }
 
 std::vector<std::string> without_second_order(const Mesh& mesh) {

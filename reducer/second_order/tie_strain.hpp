@@ -32,7 +32,16 @@ struct TieForces {
   bool empty() const { return equation.empty(); }
 };
 
+/// `independent`: coordinates x that ties leave independent, those with which `system` was built.
+TieForces find_tie_forces(const Mesh& mesh, const System& system, const std::vector<int>& independent,
+                          const std::string& where);
+/// The same of a system that is built with its boundary independent.
 TieForces find_tie_forces(const Mesh& mesh, const System& system, const std::string& where);
+
+/// Residual g − S w of the elements at the coordinates that ties make dependent (rows of TieForces::dependent; a column
+/// per displacement). `displacements`: w on all x; `g`: loads on x of the last columns, the others have none.
+Eigen::MatrixXd tie_residual(const Mesh& mesh, const Coordinates& coordinates, const TieForces& forces,
+                             const Eigen::MatrixXd& displacements, const Eigen::MatrixXd& g);
 
 /// λ of every equation (rows; redundant ones zero) for residuals g − S w at the dependent coordinates (rows of
 /// TieForces::dependent): C_Dᵀ λ = g − S w.
@@ -45,6 +54,17 @@ Eigen::MatrixXd dependents(const TieForces& forces, const Eigen::MatrixXd& const
 /// Stresses and gradients of all spiders. `lambda`: multipliers(); `Phi`: displacements of all x for the coordinates.
 std::vector<StrainBatch> tie_batches(const Mesh& mesh, const System& system, const TieForces& forces,
                                      const Eigen::MatrixXd& lambda, const Eigen::MatrixXd& Phi);
+
+/// Second order of one leg of a rigid spider, or of one average, on the coordinates of its own nodes.
+struct TieForm {
+  int spider = 0;      ///< row of Mesh::spiders
+  std::vector<int> x;  ///< coordinates of the mesh: columns of the gradients
+  StrainBatch batch;   ///< a column of stress per column of `lambda`
+};
+
+/// The terms of tie_batches() for unit displacements of the mesh's coordinates.
+std::vector<TieForm> tie_forms(const Mesh& mesh, const System& system, const TieForces& forces,
+                               const Eigen::MatrixXd& lambda);
 
 /// Names of ties that have no second order: equations, and spiders that average some directions only.
 std::vector<std::string> without_second_order(const Mesh& mesh);

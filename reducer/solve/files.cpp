@@ -11,6 +11,7 @@
 #include "reducer/recover/places.hpp"
 #include "reducer/recover/vtu_data.hpp"
 #include "reducer/report/certificate.hpp"
+#include "reducer/view/part_page.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -61,6 +62,36 @@ void write_cases(const Solution& s, const std::string& stem, const formats::VtuC
   }
 }
 
+std::string buckling_file(const std::string& stem, const std::string& name) {
+  return case_file(stem + "-buckling", name);
+}
+
+/// Motions of the nodes in the shapes of a load case, and its name.
+struct CaseShapes {
+  const std::string& name;
+  const CaseBuckling& buckling;
+  Eigen::MatrixXd motion;
+};
+
+std::vector<CaseShapes> shapes_of(const Solution& s) {
+  std::vector<CaseShapes> shapes;
+  for (std::size_t c = 0; c < s.buckling.size(); ++c)
+    shapes.push_back({s.mesh.load_cases[c].name, s.buckling[c], node_motions(s.system, s.buckling[c].q)});
+  return shapes;
+}
+
+void write_buckling(const Solution& s, const std::string& stem, const formats::VtuCells& cells) {
+  for (const CaseShapes& shapes : shapes_of(s)) {
+    std::vector<formats::VtuArray> arrays;
+    for (Index k = 0; k < shapes.motion.cols(); ++k) {
+      const std::string name = fmt::format("buckling_{:03} {:.6g}", k + 1, shapes.buckling.factor[k]);
+      arrays.push_back(vectors(name, shapes.motion, k, 0, 1.0));
+      arrays.push_back(vectors(name + " rotation", shapes.motion, k, 3, 1.0));
+    }
+    formats::write_vtu(buckling_file(stem, shapes.name), s.mesh.position.cast<float>(), cells, arrays, {});
+  }
+}
+
 void write_modes(const Solution& s, const std::string& path, const formats::VtuCells& cells) {
   const Eigen::MatrixXd motion = node_motions(s.system, s.modes->q);
   std::vector<formats::VtuArray> shapes;
@@ -80,6 +111,10 @@ std::vector<std::string> solution_files(const std::string& stem, const formats::
   std::vector<std::string> files{stem + ".csv"};
   for (const formats::PartLoadCase& load : part.load_cases) files.push_back(case_file(stem, load.name));
   if (request.modes > 0) files.push_back(stem + "-modes.vtu");
+  if (request.buckling == 0) return files;
+  for (const formats::PartLoadCase& load : part.load_cases) files.push_back(buckling_file(stem, load.name));
+  files.push_back(stem + "-buckling.csv");
+  files.push_back(stem + "-buckling.html");
   return files;
 }
 
@@ -101,10 +136,39 @@ std::string solution_table(const Solution& s, const formats::Part& part, const S
   };
   const Eigen::MatrixXd motion = node_motions(s.system, s.statics.q);
   for (Index c = 0; c < motion.cols(); ++c) add(s.mesh.load_cases[static_cast<std::size_t>(c)].name, motion, c);
-  if (!s.modes) return text;
-  const Eigen::MatrixXd shapes = node_motions(s.system, s.modes->q);
-  for (Index k = 0; k < shapes.cols(); ++k) add(fmt::format("mode_{}", k + 1), shapes, k);
+  if (s.modes) {
+    const Eigen::MatrixXd shapes = node_motions(s.system, s.modes->q);
+    for (Index k = 0; k < shapes.cols(); ++k) add(fmt::format("mode_{}", k + 1), shapes, k);
+  }
+  for (const CaseShapes& shapes : shapes_of(s))
+    for (Index k = 0; k < shapes.motion.cols(); ++k)
+      add(fmt::format("{}-buckling_{}", shapes.name, k + 1), shapes.motion, k);
   return text;
+}
+
+std::string buckling_table(const Solution& s) {
+  std::string text = "case,mode,load_factor\n";
+  for (const CaseShapes& shapes : shapes_of(s)) {
+    for (Index k = 0; k < shapes.buckling.factor.size(); ++k)
+      text += fmt::format("{},{},{:.17g}\n", shapes.name, k + 1, shapes.buckling.factor[k]);
+    if (shapes.buckling.reversed) text += fmt::format("{},reversed,{:.17g}\n", shapes.name, -*shapes.buckling.reversed);
+  }
+  return text;
+}
+
+std::string buckling_page(const Solution& s, const formats::Part& part) {
+  ViewedPart viewed;
+  viewed.title = part.name + ", buckling";
+  viewed.file = part.file;
+  viewed.units = part.units;
+  viewed.tables = s.tables;
+  viewed.spiders = s.mesh.spiders;
+  viewed.notes = s.warnings;
+  for (const CaseShapes& shapes : shapes_of(s))
+    for (Index k = 0; k < shapes.motion.cols(); ++k)
+      viewed.shapes.push_back({fmt::format("{} {}: load factor {:.5g}", shapes.name, k + 1, shapes.buckling.factor[k]),
+                               shapes.motion.col(k)});
+  return part_page(viewed);
 }
 
 void write_solution(const Solution& s, const formats::Part& part, const SolveRequest& request,
@@ -114,6 +178,10 @@ void write_solution(const Solution& s, const formats::Part& part, const SolveReq
   write_text_file(stem + ".csv", table);
   write_cases(s, stem, cells);
   if (s.modes) write_modes(s, stem + "-modes.vtu", cells);
+  if (s.buckling.empty()) return;
+  write_buckling(s, stem, cells);
+  write_text_file(stem + "-buckling.csv", buckling_table(s));
+  write_text_file(stem + "-buckling.html", buckling_page(s, part));
 }
 
 }  // namespace tisserand::reducer

@@ -8,13 +8,21 @@
 
 namespace tisserand::reducer {
 
-/// stem.csv, stem.CASE.vtu for each load case, stem-modes.vtu if modes are asked for.
+/// stem.csv, stem.CASE.vtu for each load case, stem-modes.vtu if modes are asked for; for buckling stem-buckling.csv,
+/// stem-buckling.html, and stem-buckling.CASE.vtu for each load case.
 std::vector<std::string> solution_files(const std::string& stem, const formats::Part& part,
                                         const SolveRequest& request);
 
-/// Lines `case,point,ux,uy,uz,rx,ry,rz` for every load case and mode (mode_1, ...), part axes: boundary nodes, points
+/// Lines `case,point,ux,uy,uz,rx,ry,rz` for every load case, mode (mode_1, ...) and shape of
+/// buckling (CASE-buckling_1, ...), part axes: boundary nodes, points
 /// and spiders that are nodes, and the points asked for. Throws Error for points that are none.
 std::string solution_table(const Solution& solution, const formats::Part& part, const SolveRequest& request);
+
+/// Lines `case,mode,load_factor` of every load case; the factor of the reversed load is negative, its mode `reversed`.
+std::string buckling_table(const Solution& solution);
+
+/// Page with the part moving in every shape of buckling, for any browser.
+std::string buckling_page(const Solution& solution, const formats::Part& part);
 
 /// Writes the files of solution_files(). Shapes of modes are scaled to a largest displacement of 1.
 void write_solution(const Solution& solution, const formats::Part& part, const SolveRequest& request,

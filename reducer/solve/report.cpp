@@ -162,6 +162,46 @@ std::string modes_text(const Solution& s, const Units& units) {
   return text;
 }
 
+/// Where a shape of buckling moves or turns most, and along which axes.
+std::string shape_text(const Solution& s, const Eigen::MatrixXd& motion, Index k) {
+  const Eigen::Map<const Eigen::Matrix<double, 6, Eigen::Dynamic>> nodes(motion.col(k).data(), 6, s.mesh.nodes());
+  constexpr double round_off = 1e-6;
+  const Index moved = longest(nodes.topRows<3>()), turned = longest(nodes.bottomRows<3>());
+  const auto flat = [](const Vector3d& v) {
+    return vector_text(v.unaryExpr([](double x) { return std::abs(x) < round_off ? 0.0 : x; }), 1.0);
+  };
+  if (nodes.col(moved).head<3>().norm() > 0.5)
+    return fmt::format("moves {} at {}", flat(nodes.col(moved).head<3>()), node_text(s, moved));
+  return fmt::format("turns {} at {}", flat(nodes.col(turned).tail<3>()), node_text(s, turned));
+}
+
+/// How many load factors exist, by inertia.
+std::string count_text(const CaseBuckling& b) {
+  const auto found = static_cast<int>(b.factor.size());
+  if (found == 0) return fmt::format("no load factor up to {:.3g}: this load does not buckle the part", b.limit);
+  if (found < b.asked)
+    return fmt::format("only {} of the {} load factors exist: no other up to {:.3g}", found, b.asked, b.limit);
+  if (b.more_equal > 0)
+    return fmt::format("none below the last is missing, by inertia; {} more equal the last one", b.more_equal);
+  return "none below the last is missing, by inertia";
+}
+
+std::string buckling_text(const Solution& s, Index c) {
+  const CaseBuckling& b = s.buckling[static_cast<std::size_t>(c)];
+  const Eigen::MatrixXd motion = node_motions(s.system, b.q);
+  std::string text = fmt::format("\nbuckling, load case '{}'\n", s.mesh.load_cases[static_cast<std::size_t>(c)].name);
+  if (b.factor.size() > 0) text += fmt::format("  {:>4} {:>16}   shape, largest 1\n", "mode", "load factor");
+  for (Index k = 0; k < b.factor.size(); ++k)
+    text += fmt::format("  {:>4} {:>16.8g}   {}\n", k + 1, b.factor[k], shape_text(s, motion, k));
+  text += fmt::format(line_form, "count", count_text(b));
+  if (b.reversed)
+    text += fmt::format(line_form, "reversed load", fmt::format("buckles at a load factor of {:.8g}", -*b.reversed));
+  if (b.factor.size() > 0)
+    text += fmt::format(line_form, "residual",
+                        fmt::format("{:.1e} of the shape, in the norm of the stiffness", b.residual));
+  return text;
+}
+
 }  // namespace
 
 Vector6 reaction_of(const Solution& s, int support, Index load_case, const Vector3d& point) {
@@ -186,6 +226,7 @@ std::string solution_text(const Solution& s, const formats::Part& part) {
   std::string text = head_text(s, part);
   for (Index c = 0; c < s.statics.q.cols(); ++c) text += case_text(s, c, labels);
   if (s.modes) text += modes_text(s, part.units);
+  for (Index c = 0; c < static_cast<Index>(s.buckling.size()); ++c) text += buckling_text(s, c);
   return text;
 }
 

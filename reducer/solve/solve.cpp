@@ -1,6 +1,8 @@
 // The story of solving: part -> mesh -> S, M -> supports and loads -> displacements, modes -> stresses.
 #include "reducer/solve/solve.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "common/error.hpp"
@@ -23,6 +25,7 @@ Solution solve(const formats::Part& part, const SolveRequest& request, const Pha
   if (part.load_cases.empty() && request.modes == 0)
     throw Error("there is nothing to solve: the part has no load cases", part.file,
                 "give it load_cases, or ask for modes: --modes 10");
+  if (request.buckling > 0) require_buckling_load(part);
   begin("mesh");
   return solve_mesh(build_mesh_to_solve(part), part, request, begin);
 }
@@ -41,7 +44,8 @@ Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& re
   if (request.modes > 0) require_mass(s.system, part.file);
   s.loads = load_vectors(s.mesh, s.system);
 
-  const Supported supported = support(s.mesh, s.system, held, request.modes, part.file, begin);
+  if (request.buckling > 0) std::ranges::copy(buckling_warnings(s.mesh), std::back_inserter(s.warnings));
+  const Supported supported = support(s.mesh, s.system, held, request.modes + request.buckling, part.file, begin);
   s.partition = supported.partition;
   s.is_free = supported.is_free;
   begin("statics");
@@ -50,6 +54,9 @@ Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& re
     begin("modes");
     s.modes = supported_modes(s.mesh, s.system, supported, request.modes, part.file, begin.share);
   }
+  if (request.buckling > 0)
+    s.buckling =
+        buckling({s.mesh, s.system, supported, s.loads, s.statics, held_x, part.file}, request.buckling, begin);
   begin("stresses");
   s.tables = solved_tables(s.mesh, s.system.coordinates);
   s.tables.name = part.name;

@@ -8,6 +8,7 @@
 #include "formats/part/part.hpp"
 #include "reducer/recover/stresses.hpp"
 #include "reducer/report/phase_listener.hpp"
+#include "reducer/solve/buckling.hpp"
 #include "reducer/solve/request.hpp"
 #include "reducer/solve/statics.hpp"
 #include "reducer/solve/supported_modes.hpp"
@@ -25,12 +26,13 @@ struct Solution {
   LoadVectors loads;
   Statics statics;
   std::optional<SupportedModes> modes;
-  formats::Recovery tables;  ///< mesh and sections, without a superelement
-  RecoveredFields fields;    ///< of the load cases
+  std::vector<CaseBuckling> buckling;  ///< of the load cases in order; empty unless asked for
+  formats::Recovery tables;            ///< mesh and sections, without a superelement
+  RecoveredFields fields;              ///< of the load cases
 };
 
 /// Needs a SolverSession; `begin` hears the phases. Throws Error for whatever is wrong with the part, and if it has
-/// neither load cases nor modes are asked for.
+/// neither load cases nor modes are asked for, and for buckling without load cases or supports.
 Solution solve(const formats::Part& part, const SolveRequest& request, const PhaseListener& begin);
 
 /// The same from a mesh on, with its supports and load cases; `part` gives name, units and the file for messages.

@@ -134,13 +134,28 @@ void thin(int most, Piece& piece) {
   piece.carriers = std::move(carriers);
 }
 
+/// u + θ x arm of the carriers, 3 V x shapes.
+MatrixXd motions_at(const std::vector<ViewedShape>& shapes, const std::vector<formats::SkinCarrier>& carriers) {
+  MatrixXd motions(3 * static_cast<Index>(carriers.size()), static_cast<Index>(shapes.size()));
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    for (std::size_t v = 0; v < carriers.size(); ++v) {
+      const auto node = shapes[k].motion.segment<6>(6 * carriers[v].node);
+      motions.block<3, 1>(3 * static_cast<Index>(v), static_cast<Index>(k)) =
+          node.head<3>() + Vector3d(node.tail<3>()).cross(carriers[v].arm);
+    }
+  return motions;
+}
+
 std::vector<Piece> pieces_of(const ViewedPart& part) {
   std::vector<Piece> pieces = groups_of(part);
   for (const Spider& spider : part.spiders) pieces.push_back(spider_of(part.tables, spider));
   std::erase_if(pieces, [](const Piece& piece) { return piece.surface.vertices.empty(); });
   for (Piece& piece : pieces) {
     thin(part.vertices, piece);
-    if (part.recovery != nullptr) piece.shapes = formats::shapes_at(*part.recovery, piece.carriers);
+    if (!part.shapes.empty())
+      piece.shapes = motions_at(part.shapes, piece.carriers);
+    else if (part.recovery != nullptr)
+      piece.shapes = formats::shapes_at(*part.recovery, piece.carriers);
   }
   return pieces;
 }
@@ -199,8 +214,12 @@ void add_piece(const Piece& piece, const Eigen::VectorXd& largest, PageBlocks& b
 
 void add_modes(const ViewedPart& part, Json& json) {
   json["modes"] = nullptr;
-  if (part.recovery == nullptr) return;
+  if (part.recovery == nullptr && part.shapes.empty()) return;
   json["modes"] = Json::array();
+  for (const ViewedShape& shape : part.shapes)
+    json["modes"].push_back(
+        {{"name", shape.name}, {"frequency", nullptr}, {"damping", nullptr}, {"bodies", Json::array()}});
+  if (!part.shapes.empty()) return;
   for (int k = 0; k < part.tables.coordinates(); ++k) {
     const double frequency = k < static_cast<int>(part.frequency.size()) ? part.frequency[k] : 0.0;
     json["modes"].push_back({{"name", mode_name(part.tables, k)},
@@ -259,7 +278,8 @@ std::string part_page(const ViewedPart& part) {
   json["box"] = {list_of(r.position.rowwise().minCoeff()), list_of(r.position.rowwise().maxCoeff())};
   add_modes(part, json);
   const std::vector<Piece> pieces = pieces_of(part);
-  const Eigen::VectorXd largest = largest_displacements(pieces, r.coordinates());
+  const Eigen::VectorXd largest =
+      largest_displacements(pieces, part.shapes.empty() ? r.coordinates() : static_cast<Index>(part.shapes.size()));
   for (const Piece& piece : pieces) add_piece(piece, largest, blocks, json);
   add_nodes(part, blocks, json);
   json["report"] = {{"notes", part.notes}, {"lines", report_lines(part)}};

@@ -17,6 +17,12 @@ struct GroupLook {
   std::string colour;  ///< "#rrggbb"
 };
 
+/// One motion of the mesh that the page shows as a mode.
+struct ViewedShape {
+  std::string name;
+  Eigen::VectorXd motion;  ///< [translation; rotation] of every node, part axes
+};
+
 struct ViewedPart {
   std::string title;
   std::string file;          ///< as the page names it
@@ -29,11 +35,13 @@ struct ViewedPart {
   std::vector<std::string> notes;
   const formats::RecoveryReader* recovery = nullptr;  ///< its modes move; null: none
   std::vector<double> frequency;                      ///< per coordinate, 1/time; 0: of a boundary coordinate
+  std::vector<ViewedShape> shapes;                    ///< modes of the page, in place of those of a recovery file
   int vertices = 20'000;                              ///< the most of one group
 };
 
 /// Groups as bodies of one colour each, faulty elements in red, spiders as lines, boundary nodes by name. Each
-/// coordinate of a recovery file is a mode: one node moved along one component, or an internal mode with its frequency.
+/// coordinate of a recovery file is a mode: one node moved along one component, or an internal mode with its frequency;
+/// or each of the shapes is one, by its name.
 std::string part_page(const ViewedPart& part);
 
 /// Frequencies of the coordinates of a recovery file [1/time], by the superelement or modal body that lies beside it;

@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 
 #include "common/math/rotation.hpp"
+#include "formats/sections/monosymmetry.hpp"
 #include "reducer/properties/beam_taper.hpp"
 
 namespace tisserand::reducer {
@@ -235,14 +236,14 @@ BeamMatrices general_beam(const BeamElementData& beam) {
 
 namespace {
 
-/// ∫σ |r − s|² dA of the section forces F about the axis: N (I_p/A + |e|²) + 2 (e_z M_y − e_y M_z), moments about the centroid,
-/// e from the shear centre to the centroid.
-Eigen::Matrix<double, 1, 6> wagner_row(const Section& s) {
-  const double y = -s.shear_center_y, z = -s.shear_center_z;
+/// ∫σ |r − s|² dA of the section forces F about the axis: N (I_p/A + |s|²) + β_y M_y − β_z M_z, moments about the
+/// centroid, s the shear centre from it (formats/sections/monosymmetry.hpp).
+Eigen::Matrix<double, 1, 6> wagner_row(const Section& s, const formats::Monosymmetry& beta) {
+  const double y = s.shear_center_y, z = s.shear_center_z;
   Eigen::Matrix<double, 1, 6> row = Eigen::Matrix<double, 1, 6>::Zero();
-  row[0] = s.polar_moment / s.area + y * y + z * z - 2.0 * (z * s.centroid_z + y * s.centroid_y);
-  row[4] = 2.0 * z;
-  row[5] = -2.0 * y;
+  row[0] = s.polar_moment / s.area + y * y + z * z - beta.beta_y * s.centroid_z - beta.beta_z * s.centroid_y;
+  row[4] = beta.beta_y;
+  row[5] = -beta.beta_z;
   return row;
 }
 
@@ -254,17 +255,21 @@ std::vector<BeamField> beam_fields(const BeamElementData& beam) {
   Matrix6x12 T;
   T << -transfer(L), Matrix6::Identity();
   const Matrix6x12 forces = inverse(along.flexibility) * T;
+  const Eigen::Vector2d third = beam.stations.empty()
+                                    ? formats::third_moments(beam.section).value_or(Eigen::Vector2d::Zero())
+                                    : Eigen::Vector2d(Eigen::Vector2d::Zero());
   std::vector<BeamField> fields;
   for (const Point& point : along.points) {
+    const Section section = section_at(beam, point.x);
     BeamField field;
     field.weight = point.weight;
     field.motion = point.motion * forces;
     field.motion.leftCols<6>() += transfer(point.x);
     field.force = transfer(L - point.x).transpose() * forces;
-    field.gradient = compliance(beam, section_at(beam, point.x)) * field.force;  // strains; u' = γ + θ × e_x
+    field.gradient = compliance(beam, section) * field.force;  // strains; u' = γ + θ × e_x
     field.gradient.row(1) += field.motion.row(5);
     field.gradient.row(2) -= field.motion.row(4);
-    field.wagner = wagner_row(section_at(beam, point.x)) * field.force;
+    field.wagner = wagner_row(section, formats::monosymmetry(section, third)) * field.force;
     fields.push_back(field);
   }
   return fields;

@@ -35,7 +35,7 @@ struct BeamField {
   double weight = 0.0;                    ///< of the integral along the beam
   Eigen::Matrix<double, 6, 12> motion;    ///< [u; θ] of the axis
   Eigen::Matrix<double, 6, 12> gradient;  ///< its derivative along the axis
-  /// ∫σ |r − s|² dA, s the shear centre: the normal stress that twist stretches, without Wagner's β of unsymmetric sections.
+  /// ∫σ |r − s|² dA, s the shear centre: the normal stress that twist stretches (Wagner).
   Eigen::Matrix<double, 1, 12> wagner;
   Eigen::Matrix<double, 6, 12> force;     ///< F = [N Qy Qz Mx My Mz] about the axis, in equilibrium with the ends
 };
