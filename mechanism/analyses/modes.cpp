@@ -232,8 +232,9 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
   const VectorXd acceleration = acceleration_in_axes(model, state, omega, evaluation);
   if (is_felt(model, state, problem.l, acceleration, evaluation)) {
     report.largest_acceleration = size_of(model, acceleration);
+    const double unit = std::sqrt(model.mass_scale) * model.length;
     for (const double internal : acceleration.tail(model.sizes.internal))
-      report.largest_acceleration = std::max(report.largest_acceleration, std::abs(internal));
+      report.largest_acceleration = std::max(report.largest_acceleration, std::abs(internal) / unit);
   }
   if (problem.Z.cols() == 0) return report;
   const QuadraticProblem free = in_basis(problem.Z, {problem.l.M, problem.l.C, problem.l.K});

@@ -15,17 +15,37 @@ namespace {
 constexpr double least_share = 0.1;
 
 struct Ratios {
-  double lowest = 0.0;    ///< of the lowest vibration of the held body
-  double internal = 0.0;  ///< the largest of the internal modes
+  double lowest = 0.0;  ///< of the lowest vibration of the held body
+  double omega = 0.0;   ///< its frequency [rad/time]; 0: none
+  double asked = 0.0;   ///< what the scene asks for: the largest of the internal modes, or that of the free body's lowest
 };
 
-/// ζ = φᵀDφ/(2 ω) with φᵀMφ = 1 and D of the internal coordinates.
+/// ζ = φᵀDφ/(2 ω) of a vibration with φᵀMφ = 1.
+double ratio_of(const SuperelementBody& body, const HeldMode& mode) {
+  const SuperelementDamping& D = body.damping;
+  const Eigen::VectorXd b = mode.shape.head(body.boundary_size), i = mode.shape.tail(body.modes);
+  double form = (D.internal.array() * i.array().square()).sum();
+  if (D.is_full()) form += b.dot(D.BB * b) + 2.0 * b.dot(D.BI * i) + i.dot(D.II * i);
+  return form / (2.0 * mode.omega);
+}
+
 Ratios ratios_of(const SuperelementBody& body, const std::vector<bool>& held) {
-  const Eigen::ArrayXd d = body.damping.internal.array(), S = body.S_II.array();
-  const double internal = (d / (2.0 * S.sqrt())).maxCoeff();
-  const HeldMode mode = first_mode(body, held, 0.1 * std::sqrt(S.minCoeff()));
-  if (mode.omega == 0.0) return {internal, internal};
-  return {(d * mode.internal.array().square()).sum() / (2.0 * mode.omega), internal};
+  const double from = 0.1 * std::sqrt(body.S_II.minCoeff());
+  const HeldMode mode = first_mode(body, held, from);
+  if (mode.omega == 0.0) return {};
+  Ratios ratios{ratio_of(body, mode), mode.omega, 0.0};
+  if (!body.damping.is_full()) {
+    ratios.asked = (body.damping.internal.array() / (2.0 * body.S_II.array().sqrt())).maxCoeff();
+  } else if (const HeldMode free = first_mode(body, std::vector<bool>(held.size(), false), from); free.omega > 0.0) {
+    ratios.asked = ratio_of(body, free);
+  }
+  return ratios;
+}
+
+/// Damping in proportion to stiffness, which any way of holding the body leaves, with the ratio at ω.
+std::string remedy(const Ratios& ratios) {
+  return fmt::format("'damping: {{stiffness: {:.2g}}}' gives it {:.2g}, and other modes in proportion to their frequency",
+                     2.0 * ratios.asked / ratios.omega, ratios.asked);
 }
 
 }  // namespace
@@ -37,15 +57,18 @@ std::vector<std::string> damping_doubts(const Model& model) {
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const SuperelementBody& body = body_of(model, i);
     const SuperelementDamping& damping = body.damping;
-    if (!damping.active || damping.is_full() || damping.stiffness > 0.0 || body.modes == 0) continue;
+    if (!damping.active || damping.stiffness > 0.0 || body.modes == 0) continue;
     if (held.empty()) held = held_coordinates(model);
     if (!told.try_emplace({model.superelements[i].body, held[i]}, true).second) continue;
     const Ratios ratios = ratios_of(body, held[i]);
-    if (!(ratios.lowest < least_share * ratios.internal)) continue;
-    doubts.push_back(
-        fmt::format("damping of '{}' does not reach its lowest mode: ratio {:.2g} there, {:.2g} in the internal modes, "
-                    "whose boundary rests; 'damping: {{ratio: {:.2g}}}' damps all",
-                    model.superelements[i].name, ratios.lowest, ratios.internal, ratios.internal));
+    if (!(ratios.lowest < least_share * ratios.asked)) continue;
+    const std::string where = fmt::format("damping of '{}' does not reach its lowest mode: ratio {:.2g} there, {:.2g} in ",
+                                          model.superelements[i].name, ratios.lowest, ratios.asked);
+    doubts.push_back(damping.is_full()
+                         ? fmt::format("{}the modes of the body without joints, to which `ratio` belongs; {}", where,
+                                       remedy(ratios))
+                         : fmt::format("{}the internal modes, whose boundary rests; 'damping: {{ratio: {:.2g}}}' damps all",
+                                       where, ratios.asked));
   }
   return doubts;
 }

@@ -112,10 +112,8 @@ HeldMode first_mode(const SuperelementBody& body, const std::vector<bool>& held,
     if (!(square > 1e-6 * shift)) continue;
     const Eigen::VectorXd z = eigen.eigenvectors().col(k) / std::sqrt(mu);
     const Eigen::VectorXd shape = factor.matrixU().solve(z);
-    HeldMode mode{std::sqrt(square), Eigen::VectorXd::Zero(body.modes)};
-    for (Eigen::Index a = 0; a < n; ++a)
-      if (part.free[a] >= body.boundary_size)
-        mode.internal[part.free[a] - body.boundary_size] = part.unit[a] * shape[a];
+    HeldMode mode{std::sqrt(square), Eigen::VectorXd::Zero(body.boundary_size + body.modes)};
+    for (Eigen::Index a = 0; a < n; ++a) mode.shape[part.free[a]] = part.unit[a] * shape[a];
     return mode;
   }
   return {};

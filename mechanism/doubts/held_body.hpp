@@ -30,8 +30,8 @@ const char* letter(formats::InertiaOption option);
 
 /// A vibration φ with φᵀMφ = 1.
 struct HeldMode {
-  double omega = 0.0;        ///< [rad/time]; 0: there is none
-  Eigen::VectorXd internal;  ///< internal coordinates of φ
+  double omega = 0.0;     ///< [rad/time]; 0: there is none
+  Eigen::VectorXd shape;  ///< φ: boundary coordinates, then internal ones
 };
 
 /// Lowest vibration above `from`/1000 of the reduced body whose marked coordinates are held. None where the body is not

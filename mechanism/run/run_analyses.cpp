@@ -217,10 +217,10 @@ void find_modes(Run& run, RowWriter& out) {
     if (lowest == 0.0) lowest = std::abs(mode.eigenvalue);
   if (modes.largest_acceleration > 1e-6 * lowest * lowest)
     report.notes.push_back(fmt::format(
-        "the state is not steady in the axes of the linearisation (it accelerates by {:.3g} characteristic "
-        "lengths or radians per time squared): modes of frozen coefficients. Of a scene that turns steadily, "
-        "begin with `statics: {{rotation: ..}}`, or give `modes: {{rotation: [x, y, z]}}`",
-        modes.largest_acceleration));
+        "the state is not steady in the axes of the linearisation (in the time in which the lowest mode turns by a radian "
+        "it moves by {:.2g} of its length, or radians): modes of frozen coefficients. Of a scene that turns steadily, begin "
+        "with `statics: {{rotation: ..}}`, or give `modes: {{rotation: [x, y, z]}}`",
+        0.5 * modes.largest_acceleration / (lowest * lowest)));
   else if (modes.change > steady_change)
     report.doubts.push_back(changing_coefficients(modes));
   if (!modes.undecided.empty())

@@ -32,7 +32,9 @@ TEST(StableSort, KeepsTheOrderOfEqualElementsAndTheirAlignment) {
   sort_stably(list, std::greater{}, &Wide::key);
   for (std::size_t i = 1; i < list.size(); ++i) {
     ASSERT_GE(list[i - 1].key, list[i].key);
-    if (list[i - 1].key == list[i].key) ASSERT_LT(list[i - 1].order, list[i].order);
+    if (list[i - 1].key == list[i].key) {
+      ASSERT_LT(list[i - 1].order, list[i].order);
+    }
   }
   EXPECT_EQ(Wide::misplaced, 0);
 }
