@@ -52,8 +52,8 @@ std::string failure_of(Run& run, const StepReport& step, const StepEnd& target, 
                                    run.built.state, run.workspace));
 }
 
-/// Bodies without mass stand where forces put them. If the start is elsewhere, they jump there in the first step, and what
-/// energy that takes is told and no longer counted as lost.
+/// Bodies without mass stand where forces put them. If the start is elsewhere, they jump there in the first step, and
+/// what energy that takes is told and no longer counted as lost.
 void settle_start(Run& run, formats::ResultsRow row) {
   constexpr double felt = 1e-3;
   fill_row(run.built.model, run.built.state, run.workspace.now, row);
@@ -61,14 +61,15 @@ void settle_start(Run& run, formats::ResultsRow row) {
   if (!(std::abs(row.balance) > felt * energy)) return;
   run.built.state.initial_energy() += row.balance;
   run.report.notes.push_back(fmt::format(
-      "the start is out of balance: what has no mass jumps to its balance in the first step, in which {:.3g} of the energy "
+      "the start is out of balance: what has no mass jumps to its balance in the first step, in which {:.3g} of the "
+      "energy "
       "is {}. Start from an analysis `statics`, or give bodies without mass the poses in which their forces balance",
       std::abs(row.balance) / (energy + std::abs(row.balance)), row.balance < 0.0 ? "lost" : "gained"));
 }
 
 /// What an accepted step to the present state leaves in report and loop, and its rows.
-void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, Stepper& stepper,
-               EffectWindows& windows, const formats::ResultsRow& row) {
+void take_note(Run& run, const StepReport& step, double size, StepLoop& loop, Stepper& stepper, EffectWindows& windows,
+               const formats::ResultsRow& row) {
   RunReport& report = run.report;
   State& state = run.built.state;
   ++report.steps;
@@ -155,22 +156,26 @@ namespace {
 void tell_stability(const StaticsReport& statics, RunReport& report) {
   const Stability& stability = statics.stability;
   if (statics.descents > 0)
-    report.notes.push_back(fmt::format("the equilibrium was found in {} steps downhill in potential energy", statics.descents));
+    report.notes.push_back(
+        fmt::format("the equilibrium was found in {} steps downhill in potential energy", statics.descents));
   if (statics.load_steps > 1 && statics.unstable_from <= 1.0)
     report.notes.push_back(fmt::format("the equilibrium loses its stability between {:.4g} and {:.4g} of the load",
                                        statics.stable_until, statics.unstable_from));
-  if (!stability.counted || stability.unstable == 0) return;
-  const std::string count = fmt::format("{} direction{}{}", stability.unstable, stability.unstable == 1 ? "" : "s",
-                                        stability.direction.empty() ? "" : fmt::format(", first {}", stability.direction));
+  if (!stability.counted) return;
+  const std::string count =
+      fmt::format("{} direction{}{}", stability.unstable, stability.unstable == 1 ? "" : "s",
+                  stability.direction.empty() ? "" : fmt::format(", first {}", stability.direction));
   if (!stability.symmetric) {
-    report.notes.push_back(
-        fmt::format("the stiffness is negative in {}; it is not symmetric (follower forces, unsymmetric bushings), so that "
-                    "this does not decide whether the equilibrium is stable: run `modes` from it",
-                    count));
+    report.notes.push_back(fmt::format(
+        "the stiffness is not symmetric (follower forces, unsymmetric bushings), so that the count of its negative "
+        "directions ({}) does not decide whether the equilibrium is stable: run `modes` from it",
+        stability.unstable == 0 ? "none" : count));
     return;
   }
+  if (stability.unstable == 0) return;
   report.outcome = RunOutcome::unstable;
-  report.reason = fmt::format("the equilibrium is unstable in {}: `statics: {{stable: yes}}` goes on to a stable one", count);
+  report.reason =
+      fmt::format("the equilibrium is unstable in {}: `statics: {{stable: yes}}` goes on to a stable one", count);
 }
 
 }  // namespace

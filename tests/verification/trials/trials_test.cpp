@@ -43,8 +43,8 @@ TEST(HangingStatics, PendulumFromAnyStart) {
   }
 }
 
-// A uniform bar of 1 m that hangs on a hinge, a superelement with internal modes: f = sqrt(3 g/2L)/2π = 0.61051 Hz, from any
-// start and with any frame.
+// A uniform bar of 1 m that hangs on a hinge, a superelement with internal modes: f = sqrt(3 g/2L)/2π = 0.61051 Hz,
+// from any start and with any frame.
 TEST(HangingStatics, SuperelementOnAHinge) {
   if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the superelements";
   const test_support::TemporaryFolder folder;
@@ -56,6 +56,43 @@ TEST(HangingStatics, SuperelementOnAHinge) {
     EXPECT_EQ(trial.report("rest").outcome, RunOutcome::completed) << setting;
     EXPECT_NEAR(trial.frequencies("tones").front(), 0.61051, 1e-4) << setting;
   }
+}
+
+// In its plane the same pendulum falls from 170 degrees.
+TEST(HangingStatics, PlanarPendulum) {
+  const Trial trial("fail2_hanging_statics", {"effects={planar: on}", "bodies.arm.pose.orientation.angle_deg=170"});
+  EXPECT_EQ(trial.report().outcome, RunOutcome::completed);
+  EXPECT_NEAR(std::abs(trial.last("joints/coordinate/hinge")), 170.0 * pi / 180.0, 1e-8);
+}
+
+// The bar of SuperelementOnAHinge as a modal body: masses lumped at the nodes of ten elements have 1 + 1/200 of its
+// inertia about the hinge.
+TEST(HangingStatics, ModalBodyOnAHinge) {
+  if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the modal body";
+  const test_support::TemporaryFolder folder;
+  reduce("bar", folder);
+  for (const double angle : {0.0, 60.0, -80.0, -100.0}) {
+    const Trial trial("hanging_modal",
+                      {"bodies.m.file=" + folder.file("bar.modal.h5"), fmt::format("parameters.angle={}", angle)});
+    EXPECT_EQ(trial.report("rest").outcome, RunOutcome::completed) << angle;
+    EXPECT_NEAR(trial.last("nodes/position/m/tip/z", "rest"), -1.0, 1e-5) << angle;
+    EXPECT_NEAR(trial.frequencies("tones").front(), 0.61051 / std::sqrt(1.005), 5e-5) << angle;
+  }
+}
+
+// A hook of 10 kg on two cables that are shorter than their distance: 2 k (l - l0) v/l = m g with l = sqrt(0.9^2 +
+// v^2), v the depth of its eyes. Its centre of mass hangs below the middle.
+TEST(HangingStatics, HookOnTwoCables) {
+  double low = 0.0, high = 2.0;
+  for (int i = 0; i < 60; ++i) {
+    const double v = 0.5 * (low + high), l = std::hypot(0.9, v);
+    (2.0 * 2000.0 * (l - 1.1) * v / l < 98.1 ? low : high) = v;
+  }
+  const Trial trial("hook_on_cables");
+  EXPECT_EQ(trial.report().outcome, RunOutcome::completed);
+  EXPECT_NEAR(trial.last("nodes/position/hook/z"), -low, 1e-8);
+  EXPECT_NEAR(trial.last("nodes/position/hook/x"), 0.0, 1e-8);
+  EXPECT_NEAR(trial.last("nodes/position/hook/y"), 0.0, 1e-8);
 }
 
 // Weight 294.3 N on three springs of 4000 N/m: each lengthens by 0.024525 m.
@@ -89,12 +126,25 @@ TEST(UnstableStatics, IsAnOutcomeAndCanBeLeft) {
   for (const std::string& note : hanging.report("tones").notes) EXPECT_THAT(note, ::testing::Not(HasSubstr("grow")));
 }
 
+// Beck's column flutters beyond 20.05 EI/L² and loses no stiffness before: statics cannot see it, and says so at any
+// load.
+TEST(UnstableStatics, FollowerForceIsNotDecided) {
+  for (const double P : {1.0, 19.9, 20.2}) {
+    const Trial trial("follower_column", {fmt::format("parameters.P={}", P)});
+    EXPECT_EQ(trial.report("rest").outcome, RunOutcome::completed) << P;
+    EXPECT_THAT(trial.report("rest").notes,
+                ::testing::Contains(::testing::AllOf(HasSubstr("not symmetric"), HasSubstr("does not decide"))))
+        << P;
+    EXPECT_EQ(::testing::PrintToString(trial.report("tones").notes).find("grow") != std::string::npos, P > 20.05) << P;
+  }
+}
+
 TEST(UnstableStatics, NegativeSpring) {
   EXPECT_EQ(Trial("negative_spring").report("rest").outcome, RunOutcome::unstable);
 }
 
-// Clamped column under P along its axis and 0.01 N across: elastica with shear and axial strain (elliptic integrals, README
-// of the trials: EI = 103.0835 N m², Euler load 254.348 N).
+// Clamped column under P along its axis and 0.01 N across: elastica with shear and axial strain (elliptic integrals,
+// README of the trials: EI = 103.0835 N m², Euler load 254.348 N).
 TEST(UnstableStatics, ColumnLeavesForTheElastica) {
   struct Case {
     double load, x, z, tolerance;
@@ -129,13 +179,15 @@ TEST(UnstableStatics, LoadFactorOfTheLossIsReported) {
 TEST(SteadyTurn, RefusesWhatDoesNotTurn) {
   EXPECT_THAT(test_support::error_of([] { Trial("turning_statics_guide"); }),
               HasSubstr("'guide, translation along x of A' forbids the velocities of the turn"));
-  EXPECT_THAT(test_support::error_of([] { Trial("turning_gravity"); }), HasSubstr("does not turn with the scene: what it does to"));
+  EXPECT_THAT(test_support::error_of([] { Trial("turning_gravity"); }),
+              HasSubstr("does not turn with the scene: what it does to"));
   // A spring about the axis of a driven turn: the drive takes its moment, and the turn is steady.
   EXPECT_THAT(test_support::error_of([] { Trial("steady_spring_on_the_drive"); }), "no error");
 }
 
-// Bennett's linkage is regular everywhere, with one degree of freedom. The rows chosen at the start become dependent at 1.504 s.
-// j1 at 3 s is 1.10440 rad by index 3, Radau of tolerance 1e-9 and bdf; the kinetic energy stays below 5.6 J.
+// Bennett's linkage is regular everywhere, with one degree of freedom. The rows chosen at the start become dependent
+// at 1.504 s. j1 at 3 s is 1.10440 rad by index 3, Radau of tolerance 1e-9 and bdf; the kinetic energy stays below 5.6
+// J.
 TEST(RowsOfConstraints, BennettsLinkageWithEveryMethod) {
   const std::vector<std::pair<std::string, double>> runs = {
       {"integrator.step=1e-3", 1e-5},
@@ -206,7 +258,8 @@ TEST(TorsionalBuckling, CruciformColumn) {
   EXPECT_THAT(modes_that_grow(53.0e3), HasSubstr("grow"));
 }
 
-// A channel of 2 m, hinged: weak axis at 125.3 kN, flexural-torsional at 203.3 kN (without warping, which beams do not have).
+// A channel of 2 m, hinged: weak axis at 125.3 kN, flexural-torsional at 203.3 kN (without warping, which beams do not
+// have).
 TEST(TorsionalBuckling, ChannelColumn) {
   if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the superelements";
   const test_support::TemporaryFolder folder;
@@ -220,7 +273,8 @@ TEST(TorsionalBuckling, ChannelColumn) {
   EXPECT_THAT(notes(207e3), HasSubstr("2 modes grow"));
 }
 
-// Every elastic mode of a free body has the ratio a/(2ω) of `damping: {mass: a}`, whatever its frame: 0.003077 at 51.7 Hz.
+// Every elastic mode of a free body has the ratio a/(2ω) of `damping: {mass: a}`, whatever its frame: 0.003077 at 51.7
+// Hz.
 TEST(MassDamping, DoesNotDependOnTheFrame) {
   if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the superelements";
   const test_support::TemporaryFolder folder;
@@ -246,7 +300,8 @@ TEST(Drives, MomentOfAJumpOfAcceleration) {
       }
   }
   // A drive that begins with the run: I π²/2 = 0.4935 in row 0.
-  for (const char* method : {"integrator.method=generalised_alpha", "integrator.method=radau", "analysis=inverse_dynamics"})
+  for (const char* method :
+       {"integrator.method=generalised_alpha", "integrator.method=radau", "analysis=inverse_dynamics"})
     EXPECT_NEAR(std::abs(Trial("drive_starts", {method}).channel("motions/force/m").front()), 0.4935, 1e-3) << method;
 }
 
@@ -260,9 +315,9 @@ TEST(InverseDynamics, OfAModalBodyWithoutModes) {
   EXPECT_NEAR(trial.channel("motions/force/dm").front(), -7.6518, 1e-4);
 }
 
-// A hinge with friction, and a beam without rotary inertia that nothing connects with it: each alone ran. The weight of 9.81 N
-// acts 0.1 m from the hinge, which holds by friction (coefficient 0.2, radius 0.02 m) 0.04 N m of 0.981: it starts with
-// (0.981 - 0)/(0.01 + 0.01) rad/s².
+// A hinge with friction, and a beam without rotary inertia that nothing connects with it: each alone ran. The weight
+// of 9.81 N acts 0.1 m from the hinge, which holds by friction (coefficient 0.2, radius 0.02 m) 0.04 N m of 0.981: it
+// starts with (0.981 - 0)/(0.01 + 0.01) rad/s².
 TEST(Friction, BesideABodyWithoutInertia) {
   const Trial trial("friction_massless");
   EXPECT_EQ(trial.report().outcome, RunOutcome::completed);
