@@ -248,6 +248,8 @@ TEST(RollUp, TakesItsTenLoadSteps) {
     const Trial trial("roll_up", {fmt::format("parameters.n={}", n)});
     EXPECT_EQ(trial.report().outcome, RunOutcome::completed) << n;
     EXPECT_LE(trial.report().steps, n == 8 ? 11 : 10) << n;
+    // A moment makes the stiffness unsymmetric: no loss of stability is claimed.
+    EXPECT_THAT(trial.report().notes, ::testing::Each(::testing::HasSubstr("does not decide")));
     for (const char* axis : {"x", "y", "z"})
       EXPECT_NEAR(trial.last(std::string("nodes/position/rod/end/") + axis), 0.0, 1e-7) << n << axis;
   }
