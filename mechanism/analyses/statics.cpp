@@ -26,8 +26,8 @@ double largest_residual(const Model& model, const Workspace& workspace) {
   return largest_of(workspace.now.residual.cwiseProduct(model.equation_scale.matrix().head(model.sizes.boundary)));
 }
 
-/// Whether forces on internal coordinates are below `least`, or below `force` on a mode of its body, whose shape has the
-/// size 1/√mass: where a load does not excite the modes, their own forces are round-off.
+/// Whether forces on internal coordinates are below `least`, or below `force` on a mode of its body, whose shape has
+/// the size 1/√mass: where a load does not excite the modes, their own forces are round-off.
 bool internal_balance(const Model& model, const Workspace& workspace, double least, double force) {
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const double r = largest_of(workspace.now.superelements[i].forces.r_I);
@@ -59,15 +59,16 @@ std::string free_direction(const Model& model, const State& state, Workspace& wo
 }
 
 /// Whether forces and constraints of the last evaluate() balance.
-bool in_balance(const Model& model, const formats::StaticsSpec& options, const State& state,
-                const Workspace& workspace, StaticsReport& report) {
+bool in_balance(const Model& model, const formats::StaticsSpec& options, const State& state, const Workspace& workspace,
+                StaticsReport& report) {
   report.residual = largest_residual(model, workspace);
   report.constraint = largest_of(workspace.now.constraint);
   const double force = std::max(workspace.now.force_scale[0], workspace.now.force_scale[1] / model.length);
   const double internal =
       std::max(options.tolerance * workspace.now.force_scale[2], internal_round_off(model, workspace.now));
   return report.residual <= std::max(options.tolerance * force, force_round_off(model, state)) &&
-         internal_balance(model, workspace, internal, options.tolerance * force) && report.constraint <= options.tolerance * model.length;
+         internal_balance(model, workspace, internal, options.tolerance * force) &&
+         report.constraint <= options.tolerance * model.length;
 }
 
 /// Newton's iteration for one load factor.
@@ -175,9 +176,10 @@ void ramp_loads(const Model& model, const formats::StaticsSpec& options, State& 
   double reached = 0.0;
   double size = 1.0 / std::max(1, options.load_steps);
   int halvings = 0;
+  constexpr double round_off = 1e-12;  // of a sum of load steps: ten of 0.1 are less than 1
   while (reached < 1.0) {
     const State before = state;
-    evaluation.load_factor = std::min(1.0, reached + size);
+    evaluation.load_factor = reached + size < 1.0 - round_off ? reached + size : 1.0;
     report.outcome = solve();
     if (report.outcome == StepOutcome::accepted) {
       reached = evaluation.load_factor;

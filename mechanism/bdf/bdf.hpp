@@ -22,7 +22,8 @@ struct BdfCounts {
   long factorisations = 0;  ///< of [M Bᵀ; B 0]: one per evaluation, and those of the projection
   long error_failures = 0;  ///< steps taken again because of the error
   long convergence_failures = 0;
-  int order = 0;  ///< of the last step, 1 to 5
+  long row_choices = 0;  ///< how often the constraint rows that are solved for were chosen anew
+  int order = 0;         ///< of the last step, 1 to 5
 };
 
 /// y = [x, p, internal coordinates, v, work, dissipated] with ẋ, ṗ = ½ L(p)ᵀ Ω and [M Bᵀ; B 0][v̇; λ] = [F − G; −Ḃ v]

@@ -17,6 +17,7 @@
 #include "mechanism/bdf/bdf.hpp"
 #include "mechanism/bdf/index1.hpp"
 #include "mechanism/equations/evaluate.hpp"
+#include "mechanism/step/accept.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -41,6 +42,7 @@ struct Bdf::Data {
   std::exception_ptr failure;  ///< of a callback: C code must not see it
   std::string message;         ///< the last of CVODE
   double constraint = 0.0;
+  long row_choices = 0;
   BdfCounts past;  ///< before the last restart, where CVODE counts from zero
   SUNContext context = nullptr;
   N_Vector y = nullptr, tolerance = nullptr;
@@ -76,6 +78,14 @@ struct Bdf::Data {
     equations.accelerate();
     equations.settle();
     constraint = equations.violation();
+  }
+  /// After a step of this size: other constraint rows, where those that are solved for come near to being dependent.
+  /// The motion does not depend on the choice, so that CVODE goes on.
+  void renew_rows(double step) {
+    workspace.memory.rows.note_turn(model, step, state);
+    if (!mechanism::renew_rows(model, state, workspace)) return;
+    ++row_choices;
+    complete();
   }
   /// Runs an action of a callback; 0, or −1 (give up) with the exception kept.
   template <class Action>
@@ -180,9 +190,10 @@ std::string Bdf::step(const StepEnd& stop) {
   const int flag = CVode(data_->cvode, stop.time, data_->y, &reached, CV_ONE_STEP);
   if (data_->failure) std::rethrow_exception(std::exchange(data_->failure, nullptr));
   if (flag < 0) return fmt::format("CVODE gives up: {}", data_->message);
-  data_->now = reached;
+  const double size = reached - std::exchange(data_->now, reached);
   data_->unpack(reached, values_of(data_->y));
   data_->complete();
+  data_->renew_rows(size);
   return {};
 }
 
@@ -221,6 +232,7 @@ BdfCounts Bdf::counts() const {
   counts.convergence_failures += data_->count(CVodeGetNumNonlinSolvConvFails);
   counts.evaluations = data_->equations.evaluations();
   counts.factorisations = data_->equations.factorisations();
+  counts.row_choices = data_->row_choices;
   CVodeGetLastOrder(data_->cvode, &counts.order);
   return counts;
 }

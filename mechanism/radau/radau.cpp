@@ -23,6 +23,15 @@ constexpr int most_projections = 4;
 /// A violation that projections do not lessen is round-off up to this times what is allowed.
 constexpr double stuck = 1e3;
 
+/// Of the rows that are solved for at the last evaluate(), lengths relative to the characteristic one.
+double largest_violation(const Model& model, const Evaluation& evaluation) {
+  double largest = 0.0;
+  for (int row = 0; row < model.sizes.constraints; ++row)
+    if (evaluation.active[row] != 0.0)
+      largest = std::max(largest, std::abs(evaluation.constraint[row]) / (model.length_row[row] ? model.length : 1.0));
+  return largest;
+}
+
 }  // namespace
 
 Radau::Radau(const Model& model, const formats::IntegratorSpec& options)
@@ -212,8 +221,12 @@ void Radau::interpolate(double time, State& state, Workspace& workspace) {
   state.hinges() = begin.hinges();
   state.frames() = begin.frames();
   evaluate(model_, state, workspace.now);
-  newton_.project(model_, workspace.now.constraint, workspace.now);
-  retract(model_, state, newton_.correction, state);
+  for (int count = 0; count < most_projections; ++count) {
+    if (!(largest_violation(model_, workspace.now) > options_.constraint_tolerance)) break;
+    newton_.project(model_, workspace.now.constraint, workspace.now);
+    retract(model_, state, newton_.correction, state);
+    evaluate(model_, state, workspace.now);
+  }
   newton_.project(model_, workspace.now.constraint_rate, workspace.now);
   state.v() += newton_.correction;
   settle(model_, workspace.now, state);

@@ -90,6 +90,7 @@ void note_counts(Run& run, const BdfCounts& counts) {
   report.factorisations = counts.factorisations;
   report.inaccurate = counts.error_failures;
   report.rejected = counts.error_failures + counts.convergence_failures;
+  report.row_choices = counts.row_choices;
 }
 
 }  // namespace

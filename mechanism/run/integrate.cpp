@@ -171,20 +171,22 @@ void tell_stability(const StaticsReport& statics, RunReport& report) {
   if (statics.descents > 0)
     report.notes.push_back(
         fmt::format("the equilibrium was found in {} steps downhill in potential energy", statics.descents));
-  if (statics.load_steps > 1 && statics.unstable_from <= 1.0)
+  if (statics.load_steps > 1 && statics.unstable_from <= 1.0 && stability.symmetric)
     report.notes.push_back(fmt::format("the equilibrium loses its stability between {:.4g} and {:.4g} of the load",
                                        statics.stable_until, statics.unstable_from));
-  if (!stability.counted || stability.unstable == 0) return;
+  if (!stability.counted) return;
   const std::string count =
       fmt::format("{} direction{}{}", stability.unstable, stability.unstable == 1 ? "" : "s",
                   stability.direction.empty() ? "" : fmt::format(", first {}", stability.direction));
   if (!stability.symmetric) {
-    report.notes.push_back(fmt::format(
-        "the stiffness is negative in {}; it is not symmetric (follower forces, unsymmetric bushings), so that "
-        "this does not decide whether the equilibrium is stable: run `modes` from it",
-        count));
+    report.notes.push_back(
+        fmt::format("the stiffness is not symmetric (follower forces, moments, tyres, unsymmetric bushings), so that "
+                    "the count of its negative directions ({}) does not decide whether the equilibrium is stable: run "
+                    "`modes` from it",
+                    stability.unstable == 0 ? "none" : count));
     return;
   }
+  if (stability.unstable == 0) return;
   report.outcome = RunOutcome::unstable;
   report.reason =
       fmt::format("the equilibrium is unstable in {}: `statics: {{stable: yes}}` goes on to a stable one", count);

@@ -57,8 +57,8 @@ void check_data(const formats::Section& section, const formats::Material& materi
 }
 
 /// One quadrature point sees the bending moment of the middle alone. What its linear part, V s, adds to the energy is
-/// put into the shear flexibility: 1/GA + L²/(12 E I) ([Mac78]), I of the plane in which the shear force bends. β: its share of
-/// the whole.
+/// put into the shear flexibility: 1/GA + L²/(12 E I) ([Mac78]), I of the plane in which the shear force bends. β: its
+/// share of the whole.
 void add_residual_bending(BeamElement2& element) {
   const double share = element.length * element.length / 12.0;
   for (const auto& [force, moment] : {std::pair(1, 2), std::pair(2, 1)}) {
@@ -143,15 +143,11 @@ BeamEnergy energy(const BeamElement<N>& element, std::span<const NodeMotion> nod
   }
   if constexpr (N == 2) {
     using beam::Parabola;
-    Eigen::Vector3d d = Eigen::Vector3d::Zero(), rate = Eigen::Vector3d::Zero();
-    for (int i = 0; i < 2; ++i) {
-      const Eigen::Vector3d arm = Parabola::sign[i] * element.length * beam::along(element, i);
-      d += motion[i]->R * arm;
-      rate += motion[i]->R * motion[i]->Omega.cross(arm);
-    }
+    const beam::Bow<double> bow(element, motion);
+    const Eigen::Vector3d rate = bow.rate();
     sum.kinetic +=
         element.mass * rate.dot(Parabola::by_node * (motion[0]->xd + motion[1]->xd) + 0.5 * Parabola::by_itself * rate);
-    sum.potential -= element.mass * Parabola::whole * gravity.dot(d);
+    sum.potential -= element.mass * Parabola::whole * gravity.dot(bow.value());
   }
   sum.strain = beam::strain_energy(element, gather(element, nodes));
   return sum;

@@ -197,39 +197,70 @@ struct Shares<3> {
 template <class Motion, int N>
 using NodePointers = std::array<const Motion*, static_cast<std::size_t>(N)>;
 
-/// The parabola between two nodes, x(ξ) = (1 − ξ) x₁ + ξ x₂ + ξ(1 − ξ) d with d = L (t₁ − t₂)/2 of the unit vectors t_i
-/// along the beam: the cubic through both without its odd part. Mass is spread along it, m ∫ of products of 1 − ξ, ξ
-/// and ξ(1 − ξ). d vanishes in every rigid motion of a straight element and is that of an arc to O(L⁴).
+/// The parabola between two nodes, x(ξ) = (1 − ξ) x₁ + ξ x₂ + ξ(1 − ξ) b: the cubic through both without its odd part.
+/// Mass is spread along it, m ∫ of products of 1 − ξ, ξ and ξ(1 − ξ).
+///   b = d − 0.6 (d·c) c/L²,   d = L (t₁ − t₂)/2,   c = x₂ − x₁,
+/// with the unit vectors t_i along the beam. d vanishes in every rigid motion of a straight element and is that of an
+/// arc to O(L⁴). It stands across the mean of the tangents, b nearly across the chord: 0.4 of the angle φ between both
+/// turns it. The tension changes along an element by its weight q L: with a slope κ s + φ (6 s² − ½), s from −½ to ½
+/// along L, that is the energy −q L² κ φ/30 (κ: difference of the slopes at the ends), as b has it. With d alone it is
+/// −q L² κ φ/12, and the free end of a chain turns over where q L³ is above 130 EI.
 struct Parabola {
-  static constexpr double by_node = 1.0 / 12, by_itself = 1.0 / 30, whole = 1.0 / 6;
+  static constexpr double by_node = 1.0 / 12, by_itself = 1.0 / 30, whole = 1.0 / 6, across = 0.6;
   static constexpr std::array<double, 2> sign = {0.5, -0.5};  ///< d = L Σ sign_i R_i a_i
 };
 
 /// a_i: unit vector along the beam in the axes of node i.
 inline Eigen::Vector3d along(const BeamElement2& e, int i) { return e.section[i].col(0); }
 
-/// d̈ and F_d, the inertia force less weight that works on δd.
+/// d and c with their rates, and b from them. B = ∂b/∂d = 1 − k c cᵀ, H = ∂b/∂c = −k (c dᵀ + (d·c) 1), k = 0.6/L².
 template <class S>
-struct ParabolaForce {
-  Vec3<S> acceleration, force;
+struct Bow {
+  Vec3<S> d, d_rate, d_acceleration, c, c_rate, c_acceleration;
+  S k;
 
   template <class Motion>
-  ParabolaForce(const BeamElement2& e, const std::array<const Motion*, 2>& node, const Eigen::Vector3d& gravity) {
-    acceleration = Vec3<S>::Zero();
-    for (int i = 0; i < 2; ++i) acceleration += node[i]->R * (turned(*node[i], e, i) * S(Parabola::sign[i] * e.length));
-    force = ((node[0]->xdd + node[1]->xdd) * S(Parabola::by_node) + acceleration * S(Parabola::by_itself) -
-             gravity.template cast<S>() * S(Parabola::whole)) *
-            S(e.mass);
+  Bow(const BeamElement2& e, const std::array<const Motion*, 2>& node)
+      : d(Vec3<S>::Zero()),
+        d_rate(Vec3<S>::Zero()),
+        d_acceleration(Vec3<S>::Zero()),
+        c(node[1]->x - node[0]->x),
+        c_rate(node[1]->xd - node[0]->xd),
+        c_acceleration(node[1]->xdd - node[0]->xdd),
+        k(Parabola::across / (e.length * e.length)) {
+    for (int i = 0; i < 2; ++i) {
+      const Vec3<S> a = along(e, i).template cast<S>() * S(Parabola::sign[i] * e.length);
+      const Vec3<S> rate = cross<S>(node[i]->Omega, a);
+      const Vec3<S> turned = cross<S>(node[i]->Omegad, a) + cross<S>(node[i]->Omega, rate);
+      d += node[i]->R * a;
+      d_rate += node[i]->R * rate;
+      d_acceleration += node[i]->R * turned;
+    }
   }
 
-  /// Rᵀ d²(R a)/dt² = Ω̇ × a + Ω × (Ω × a).
-  template <class Motion>
-  static Vec3<S> turned(const Motion& node, const BeamElement2& e, int i) {
-    const Vec3<S> a = along(e, i).template cast<S>();
-    const Vec3<S> rate = cross<S>(node.Omega, a);
-    return cross<S>(node.Omegad, a) + cross<S>(node.Omega, rate);
+  Vec3<S> value() const { return on_d(d); }
+  Vec3<S> rate() const { return on_d(d_rate) + by_chord(c_rate); }
+  /// b̈ = B d̈ + H c̈ − 2k [(c·ḋ + d·ċ) ċ + (ḋ·ċ) c].
+  Vec3<S> acceleration() const {
+    const Vec3<S> rates = c_rate * (dot3(c, d_rate) + dot3(d, c_rate)) + c * dot3(d_rate, c_rate);
+    return on_d(d_acceleration) + by_chord(c_acceleration) - rates * (k + k);
   }
+  /// B f = Bᵀ f: the force on d of a force f on b.
+  Vec3<S> on_d(const Vec3<S>& f) const { return f - c * (k * dot3(c, f)); }
+  /// Hᵀ f: the force on c.
+  Vec3<S> on_chord(const Vec3<S>& f) const { return (d * dot3(c, f) + f * dot3(d, c)) * (-k); }
+  /// H u.
+  Vec3<S> by_chord(const Vec3<S>& u) const { return (c * dot3(d, u) + u * dot3(d, c)) * (-k); }
 };
+
+/// The inertia force less weight that works on δb.
+template <class S, class Motion>
+Vec3<S> force_on_bow(const BeamElement2& e, const std::array<const Motion*, 2>& node, const Eigen::Vector3d& gravity,
+                     const Vec3<S>& acceleration) {
+  return ((node[0]->xdd + node[1]->xdd) * S(Parabola::by_node) + acceleration * S(Parabola::by_itself) -
+          gravity.template cast<S>() * S(Parabola::whole)) *
+         S(e.mass);
+}
 
 /// r += M ẍ − m_i g and J Ω̇ + Ω × J Ω; with two nodes also what the parabola adds. Motion: NodeMotion or the same with
 /// another scalar.
@@ -247,11 +278,13 @@ void add_inertia(const BeamElement<N>& e, const NodePointers<Motion, N>& node, c
     r.template segment<3>(6 * i + 3) += J * node[i]->Omegad + cross<S>(node[i]->Omega, spin);
   }
   if constexpr (N == 2) {
-    const ParabolaForce<S> bow(e, node, gravity);
+    const Bow<S> bow(e, node);
+    const Vec3<S> acceleration = bow.acceleration(), f = force_on_bow<S>(e, node, gravity, acceleration);
+    const Vec3<S> on_d = bow.on_d(f), on_chord = bow.on_chord(f);
     for (int i = 0; i < 2; ++i) {
-      r.template segment<3>(6 * i) += bow.acceleration * S(e.mass * Parabola::by_node);
+      r.template segment<3>(6 * i) += acceleration * S(e.mass * Parabola::by_node) + on_chord * S(i == 0 ? -1.0 : 1.0);
       const Vec3<S> arm = along(e, i).template cast<S>() * S(Parabola::sign[i] * e.length);
-      const Vec3<S> force = node[i]->R.transpose() * bow.force;
+      const Vec3<S> force = node[i]->R.transpose() * on_d;
       r.template segment<3>(6 * i + 3) += cross(arm, force);
     }
   }

@@ -87,13 +87,41 @@ void set_inertia(const BeamElement<N>& e, std::span<const NodeMotion> nodes, con
   }
 }
 
-/// What the parabola of two nodes adds to A. Q_i = change of d̈ with node i: −s_i R_i [c_m a~ + c_c ((Ω×a)~ + Ω~ a~) +
-/// c_k (Ω̇×a + Ω×(Ω×a))~], s_i = ±L/2.
+/// Derivatives of b̈ by c and ċ of a bow, weighted with the coefficients of their changes and of that of c̈.
+Matrix3d by_chord(const beam::Bow<double>& b, const TangentCoefficients& c) {
+  const Vector3d on_c = c.stiffness * b.d_acceleration + 2.0 * c.damping * b.d_rate + c.mass * b.d;
+  const Vector3d on_d = c.stiffness * b.c_acceleration + 2.0 * c.damping * b.c_rate + c.mass * b.c;
+  Matrix3d D = -b.k * (b.c * on_c.transpose());
+  D.noalias() -= b.k * (c.stiffness * b.c_acceleration + 2.0 * c.damping * b.c_rate) * b.d.transpose();
+  D.noalias() -= (2.0 * c.stiffness * b.k) * b.c_rate * b.d_rate.transpose();
+  D.diagonal().array() -= b.k * (b.c.dot(c.stiffness * b.d_acceleration + 2.0 * c.damping * b.d_rate) + b.d.dot(on_d) +
+                                 2.0 * c.stiffness * b.d_rate.dot(b.c_rate));
+  return D;
+}
+
+/// B X for the columns of X.
+template <class Columns>
+Columns on_d(const beam::Bow<double>& b, const Columns& X) {
+  return X - (b.k * b.c) * (b.c.transpose() * X);
+}
+
+/// What the parabola of two nodes adds to A. With node i change, weighted with the coefficients, d by c_k D_i, D_i =
+/// −s_i R_i a~, ḋ by −s_i R_i [c_c a~ + c_k (Ω×a)~], d̈ by −s_i R_i [c_m a~ + c_c ((Ω×a)~ + Ω~ a~) + c_k (Ω̇×a +
+/// Ω×(Ω×a))~], s_i = ±L/2, and c, ċ, c̈ by ∓c_k, ∓c_c, ∓c_m.
 void add_parabola(const BeamElement2& e, const beam::NodePointers<NodeMotion, 2>& node, const Vector3d& gravity,
                   const TangentCoefficients& c, Square<2>& A) {
   using beam::Parabola;
-  const beam::ParabolaForce<double> bow(e, node, gravity);
-  std::array<Matrix3d, 2> Q, arm;  // arm: s_i a_i~ R_iᵀ, of forces on d
+  using Wide = Eigen::Matrix<double, 3, 12>;
+  const beam::Bow<double> bow(e, node);
+  const Vector3d f = beam::force_on_bow<double>(e, node, gravity, bow.acceleration()), f_d = bow.on_d(f);
+  const double cf = bow.c.dot(f), cd = bow.c.dot(bow.d);
+  // Changes of b̈, and of the forces on d and on c by f itself.
+  Wide acceleration, at_d, at_chord;
+  std::array<Matrix3d, 2> arm;  // s_i a_i~ R_iᵀ, of forces on d
+  Matrix3d d_by_c = (-c.stiffness * bow.k) * bow.c * f.transpose();
+  d_by_c.diagonal().array() -= c.stiffness * bow.k * cf;
+  const Matrix3d c_by_c = (-c.stiffness * bow.k) * (bow.d * f.transpose() + f * bow.d.transpose());
+  const Matrix3d chord = by_chord(bow, c);
   for (int i = 0; i < 2; ++i) {
     const Vector3d a = Parabola::sign[i] * e.length * beam::along(e, i);
     const Vector3d& Omega = node[i]->Omega;
@@ -101,16 +129,34 @@ void add_parabola(const BeamElement2& e, const beam::NodePointers<NodeMotion, 2>
     const Vector3d rate = Omega.cross(a), turned = node[i]->Omegad.cross(a) + Omega.cross(rate);
     Matrix3d change = c.mass * skew_a + skew(Vector3d(c.damping * rate + c.stiffness * turned));
     change.noalias() += c.damping * (skew(Omega) * skew_a);
-    Q[i].noalias() = -(node[i]->R * change);
     arm[i].noalias() = skew_a * node[i]->R.transpose();
-    A.block<3, 3>(6 * i + 3, 6 * i + 3) += c.stiffness * (skew_a * skew(Vector3d(node[i]->R.transpose() * bow.force)));
+    const Matrix3d D = c.stiffness * arm[i].transpose();  // −R a~ = (a~ Rᵀ)ᵀ
+    const Matrix3d D_rate = c.damping * arm[i].transpose() - c.stiffness * (node[i]->R * skew(rate));
+    const double end = i == 0 ? -1.0 : 1.0;
+    acceleration.block<3, 3>(0, 6 * i) = end * chord;
+    Matrix3d turn = on_d(bow, Matrix3d(-(node[i]->R * change)));
+    turn.noalias() -= (2.0 * bow.k * bow.c_rate) * (bow.c.transpose() * D_rate);
+    turn.noalias() -= (bow.k * bow.c) * (bow.c_acceleration.transpose() * D + 2.0 * (bow.c_rate.transpose() * D_rate));
+    turn.noalias() -= (bow.k * bow.c_acceleration) * (bow.c.transpose() * D);
+    turn.noalias() -= (2.0 * bow.k * bow.c_rate) * (bow.c_rate.transpose() * D);
+    acceleration.block<3, 3>(0, 6 * i + 3) = turn;
+    at_d.block<3, 3>(0, 6 * i) = end * d_by_c;
+    at_d.block<3, 3>(0, 6 * i + 3).setZero();
+    at_chord.block<3, 3>(0, 6 * i) = end * c_by_c;
+    at_chord.block<3, 3>(0, 6 * i + 3) = (-bow.k * cf) * D - (bow.k * f) * (bow.c.transpose() * D);
+    A.block<3, 3>(6 * i + 3, 6 * i + 3) += c.stiffness * (skew_a * skew(Vector3d(node[i]->R.transpose() * f_d)));
   }
-  for (int i = 0; i < 2; ++i)
-    for (int j = 0; j < 2; ++j) {
-      A.block<3, 3>(6 * i, 6 * j + 3) += e.mass * Parabola::by_node * Q[j];
-      A.block<3, 3>(6 * i + 3, 6 * j) += c.mass * e.mass * Parabola::by_node * arm[i];
-      A.block<3, 3>(6 * i + 3, 6 * j + 3) += e.mass * Parabola::by_itself * (arm[i] * Q[j]);
-    }
+  Wide force = e.mass * Parabola::by_itself * acceleration;
+  for (int i = 0; i < 2; ++i) force.block<3, 3>(0, 6 * i).diagonal().array() += c.mass * e.mass * Parabola::by_node;
+  const Eigen::Matrix<double, 1, 12> along_chord = bow.c.transpose() * force;
+  at_d += force;
+  at_d.noalias() -= (bow.k * bow.c) * along_chord;
+  at_chord -= (bow.k * cd) * force;
+  at_chord.noalias() -= (bow.k * bow.d) * along_chord;
+  acceleration *= e.mass * Parabola::by_node;
+  A.middleRows<3>(0) += acceleration - at_chord;
+  A.middleRows<3>(6) += acceleration + at_chord;
+  for (int i = 0; i < 2; ++i) A.middleRows<3>(6 * i + 3).noalias() += arm[i] * at_d;
 }
 
 /// ∂(A(ψ) v)/∂ψ of chord_to_arc.

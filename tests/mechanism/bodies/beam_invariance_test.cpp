@@ -165,6 +165,11 @@ TYPED_TEST(BeamReversal, InertiaForcesAreTheRatesOfMomentum) {
         d += R * arm;
         rate += R * (n.Omega + t * n.Omegad).cross(arm);
       }
+      // b = d - 0.6 (d.c) c/L^2 and its rate
+      const Vector3d c = x[1] - x[0], c_rate = v[1] - v[0];
+      const double k = 0.6 / (element.length * element.length);
+      rate -= k * ((rate.dot(c) + d.dot(c_rate)) * c + d.dot(c) * c_rate);
+      d -= k * d.dot(c) * c;
       sum.head<3>() += element.mass / 6.0 * rate;
       sum.tail<3>() +=
           element.mass * ((x[0] + x[1]).cross(rate) / 12.0 + d.cross(v[0] + v[1]) / 12.0 + d.cross(rate) / 30.0);
@@ -173,7 +178,7 @@ TYPED_TEST(BeamReversal, InertiaForcesAreTheRatesOfMomentum) {
   };
   Eigen::Matrix<double, 6 * N, 1> r, internal;
   std::vector<NodeMotion> at_rest = nodes;
-  for (NodeMotion& n : at_rest) n.Omega = n.xdd = n.Omegad = Vector3d::Zero();
+  for (NodeMotion& n : at_rest) n.xd = n.Omega = n.xdd = n.Omegad = Vector3d::Zero();
   residual(element, nodes, Vector3d::Zero(), r);
   residual(element, at_rest, Vector3d::Zero(), internal);
   r -= internal;

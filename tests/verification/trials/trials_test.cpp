@@ -58,6 +58,43 @@ TEST(HangingStatics, SuperelementOnAHinge) {
   }
 }
 
+// In its plane the same pendulum falls from 170 degrees.
+TEST(HangingStatics, PlanarPendulum) {
+  const Trial trial("fail2_hanging_statics", {"effects={planar: on}", "bodies.arm.pose.orientation.angle_deg=170"});
+  EXPECT_EQ(trial.report().outcome, RunOutcome::completed);
+  EXPECT_NEAR(std::abs(trial.last("joints/coordinate/hinge")), 170.0 * pi / 180.0, 1e-8);
+}
+
+// The bar of SuperelementOnAHinge as a modal body: masses lumped at the nodes of ten elements have 1 + 1/200 of its
+// inertia about the hinge.
+TEST(HangingStatics, ModalBodyOnAHinge) {
+  if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the modal body";
+  const test_support::TemporaryFolder folder;
+  reduce("bar", folder);
+  for (const double angle : {0.0, 60.0, -80.0, -100.0}) {
+    const Trial trial("hanging_modal",
+                      {"bodies.m.file=" + folder.file("bar.modal.h5"), fmt::format("parameters.angle={}", angle)});
+    EXPECT_EQ(trial.report("rest").outcome, RunOutcome::completed) << angle;
+    EXPECT_NEAR(trial.last("nodes/position/m/tip/z", "rest"), -1.0, 1e-5) << angle;
+    EXPECT_NEAR(trial.frequencies("tones").front(), 0.61051 / std::sqrt(1.005), 5e-5) << angle;
+  }
+}
+
+// A hook of 10 kg on two cables that are shorter than their distance: 2 k (l - l0) v/l = m g with l = sqrt(0.9^2 +
+// v^2), v the depth of its eyes. Its centre of mass hangs below the middle.
+TEST(HangingStatics, HookOnTwoCables) {
+  double low = 0.0, high = 2.0;
+  for (int i = 0; i < 60; ++i) {
+    const double v = 0.5 * (low + high), l = std::hypot(0.9, v);
+    (2.0 * 2000.0 * (l - 1.1) * v / l < 98.1 ? low : high) = v;
+  }
+  const Trial trial("hook_on_cables");
+  EXPECT_EQ(trial.report().outcome, RunOutcome::completed);
+  EXPECT_NEAR(trial.last("nodes/position/hook/z"), -low, 1e-8);
+  EXPECT_NEAR(trial.last("nodes/position/hook/x"), 0.0, 1e-8);
+  EXPECT_NEAR(trial.last("nodes/position/hook/y"), 0.0, 1e-8);
+}
+
 // Weight 294.3 N on three springs of 4000 N/m: each lengthens by 0.024525 m.
 TEST(HangingStatics, PlateOnThreeRopes) {
   const Trial trial("fail2b_plate_on_ropes");
@@ -87,6 +124,19 @@ TEST(UnstableStatics, IsAnOutcomeAndCanBeLeft) {
   EXPECT_EQ(hanging.report("rest").outcome, RunOutcome::completed);
   EXPECT_NEAR(hanging.last("joints/coordinate/hinge", "rest") + pi / 3.0, 8.9e-5, 2e-6);
   for (const std::string& note : hanging.report("tones").notes) EXPECT_THAT(note, ::testing::Not(HasSubstr("grow")));
+}
+
+// Beck's column flutters beyond 20.05 EI/L² and loses no stiffness before: statics cannot see it, and says so at any
+// load.
+TEST(UnstableStatics, FollowerForceIsNotDecided) {
+  for (const double P : {1.0, 19.9, 20.2}) {
+    const Trial trial("follower_column", {fmt::format("parameters.P={}", P)});
+    EXPECT_EQ(trial.report("rest").outcome, RunOutcome::completed) << P;
+    EXPECT_THAT(trial.report("rest").notes,
+                ::testing::Contains(::testing::AllOf(HasSubstr("not symmetric"), HasSubstr("does not decide"))))
+        << P;
+    EXPECT_EQ(::testing::PrintToString(trial.report("tones").notes).find("grow") != std::string::npos, P > 20.05) << P;
+  }
 }
 
 TEST(UnstableStatics, NegativeSpring) {
