@@ -223,9 +223,10 @@ void collect(const Model& model, const Evaluation& evaluation, const Problem& pr
 ModesReport solve_modes(const Model& model, const State& state, const formats::ModesSpec& spec,
                         Evaluation& evaluation) {
   const Eigen::Vector3d omega = to_axes(model, spec.rotation.value_or(Eigen::Vector3d::Zero()));
-  SteadyLinearisation steady = linearise_steady(model, state, omega, evaluation);
+  constexpr double slow = 1e-6;  // of the lowest mode: a spin that turns nothing before it has swung
   Problem problem;
-  problem.l = std::move(steady.now);
+  problem.l = linearise(model, state, omega, evaluation);
+  FastestSpin fastest = fastest_spin(model, omega, evaluation);
   problem.Z = null_space(model, problem.l.B);
   ModesReport report;
   report.degrees_of_freedom = static_cast<int>(problem.Z.cols());
@@ -237,8 +238,16 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
       report.largest_acceleration = std::max(report.largest_acceleration, std::abs(internal) / unit);
   }
   if (problem.Z.cols() == 0) return report;
-  const QuadraticProblem free = in_basis(problem.Z, {problem.l.M, problem.l.C, problem.l.K});
+  QuadraticProblem free = in_basis(problem.Z, {problem.l.M, problem.l.C, problem.l.K});
   problem.shift = choose_shift(free);
+  SteadyLinearisation steady;
+  if (!(fastest.spin.norm() > slow * problem.shift)) fastest = {};
+  if (std::max(omega.norm(), fastest.spin.norm()) > slow * problem.shift) {
+    steady = linearise_steady(model, state, omega, fastest, std::move(problem.l), evaluation);
+    problem.l = std::move(steady.now);
+    free = in_basis(problem.Z, {problem.l.M, problem.l.C, problem.l.K});
+    problem.shift = choose_shift(free);
+  }
   problem.T = graded_basis(free, problem.shift);
   problem.reduced = in_basis(problem.T, free);
   collect(model, evaluation, problem, eigenpairs(problem.reduced, problem.shift, 2 * spec.count), report);
@@ -246,14 +255,14 @@ ModesReport solve_modes(const Model& model, const State& state, const formats::M
   std::erase_if(report.modes,
                 [&](const Mode& mode) { return place++ >= static_cast<std::size_t>(spec.count) && !mode.unstable; });
   report.axes = to_world(model, omega);
-  report.spin = to_world(model, steady.spin);
-  if (steady.spinning >= 0) report.spins = model.nodes[steady.spinning].name;
+  report.spin = to_world(model, fastest.spin);
+  if (fastest.node >= 0) report.spins = model.nodes[fastest.node].name;
   report.undecided = steady.undecided;
   if (steady.later)
     report.change = largest_change(problem.reduced,
                                    in_basis(problem.Z * problem.T, {steady.later->M, steady.later->C, steady.later->K}),
                                    problem.shift, spec.count);
-  const Eigen::Vector3d turn = omega.norm() > 0.0 ? Eigen::Vector3d(-omega) : steady.spin;
+  const Eigen::Vector3d turn = omega.norm() > 0.0 ? Eigen::Vector3d(-omega) : fastest.spin;
   for (Mode& mode : report.modes)
     mode.seen_from_other_axes = turn.norm() > 0.0 && std::abs(mode.eigenvalue) > 0.0
                                     ? frequency_seen_from(model, turn, mode)

@@ -78,7 +78,8 @@ double load_of(const Evaluation& evaluation, double length) {
   return std::max(evaluation.force_scale[0], evaluation.force_scale[1] / length);
 }
 
-/// The symmetric part of K and B in scaled coordinates: rotations times the characteristic length, K over its largest entry.
+/// The symmetric part of K and B in scaled coordinates: rotations times the characteristic length, K over its largest
+/// entry.
 struct Scaled {
   MatrixXd K, B;
   VectorXd scale;          ///< of coordinates
@@ -87,7 +88,8 @@ struct Scaled {
   double asymmetry = 0.0;  ///< largest entry of (K − Kᵀ)/2
 
   /// `load`: of the state, whose ratio to the length is the stiffness where bodies have none.
-  Scaled(const Model& model, const State& state, const Linearisation& l, double load) : scale(VectorXd::Ones(l.K.rows())) {
+  Scaled(const Model& model, const State& state, const Linearisation& l, double load)
+      : scale(VectorXd::Ones(l.K.rows())) {
     const Eigen::Index boundary = model.sizes.boundary;
     scale.head(boundary) = model.equation_scale.head(boundary).matrix();
     row_scale.setOnes(l.B.rows());
@@ -145,11 +147,12 @@ VectorXd violations(const State& state, const Evaluation& evaluation, Eigen::Ind
   return open;
 }
 
-constexpr double farthest_move = 0.1;    ///< of the characteristic length, or radians
-constexpr double first_push = 0.01;      ///< out of an unstable equilibrium
-constexpr double zero_stiffness = 32.0 * std::numeric_limits<double>::epsilon();  ///< of the largest: round-off of eigenvalues
-constexpr double least_damping = 1e-13;  ///< of the largest stiffness
-constexpr int most_descents = 500;       ///< of each way to go
+constexpr double farthest_move = 0.1;  ///< of the characteristic length, or radians
+constexpr double first_push = 0.01;    ///< out of an unstable equilibrium
+constexpr double zero_stiffness =
+    32.0 * std::numeric_limits<double>::epsilon();  ///< of the largest: round-off of eigenvalues
+constexpr double least_damping = 1e-13;             ///< of the largest stiffness
+constexpr int most_descents = 500;                  ///< of each way to go
 
 /// The constraints at a state and the eigenvalues of the stiffness on them: [Y Z] orthogonal, Y of the rows, V of ZᵀKZ.
 struct StiffnessSpectrum {
@@ -171,9 +174,9 @@ struct StiffnessSpectrum {
   bool has_neutral() const { return lambda.size() > 0 && lambda.cwiseAbs().minCoeff() <= zero_stiffness; }
 };
 
-/// ξ and multipliers of a step (scaled): closes the constraints, and moves along each eigenvector v by −v·r/(|λ| + μ), with
-/// the least μ from `damping` on that keeps the step short: Newton's step where the stiffness is positive, downhill where
-/// it is negative.
+/// ξ and multipliers of a step (scaled): closes the constraints, and moves along each eigenvector v by −v·r/(|λ| + μ),
+/// with the least μ from `damping` on that keeps the step short: Newton's step where the stiffness is positive,
+/// downhill where it is negative.
 struct DownhillStep {
   VectorXd xi, multipliers;
   double damping, decrease;  ///< μ, and Σ (v·r)²/(|λ| + μ)
@@ -216,8 +219,8 @@ VectorXd push(const Model& model, const Scaled& s, const StiffnessSpectrum& spec
   return xi;
 }
 
-/// Steps with Newton's corrections in stiff directions, however far they overshoot: they follow curved valleys quickly. Or
-/// `cautious`: a step is shorter where the forces along it change sign.
+/// Steps with Newton's corrections in stiff directions, however far they overshoot: they follow curved valleys quickly.
+/// Or `cautious`: a step is shorter where the forces along it change sign.
 DescentReport descend(const Model& model, const Balanced& balanced, const Balanced& interrupted, bool cautious,
                       State& state, Evaluation& evaluation) {
   DescentReport report;

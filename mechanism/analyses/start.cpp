@@ -252,7 +252,8 @@ bool solve_accelerations(const Model& model, double step, const std::string& whe
     state.vdot() += workspace.matrix.increment;
     state.lambda() += workspace.matrix.multipliers;
     // Directions without mass go on with each refinement, and with them the multipliers of what holds them.
-    settled = settled || (massless ? rubbing_part(model, workspace.matrix.multipliers) <= 1e-12 * rubbing_part(model, state.lambda())
+    settled = settled || (massless ? rubbing_part(model, workspace.matrix.multipliers) <=
+                                         1e-12 * rubbing_part(model, state.lambda())
                                    : workspace.matrix.multipliers.norm() <= 1e-12 * state.lambda().norm());
     if (rubs && settled) break;
   }

@@ -139,7 +139,7 @@ bool descend(const Model& model, const formats::StaticsSpec& options, const Inte
 }  // namespace
 
 Settled settle_under_load(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
-                              State& state, Workspace& workspace) {
+                          State& state, Workspace& workspace) {
   const std::string free = free_motion(model, options, state, workspace);
   if (free.empty() || options.rotation) return {free};
   const Standing standing(workspace.now);

@@ -28,11 +28,11 @@ struct StaticsReport {
   double residual = 0.0;  ///< largest force, largest moment / length
   double constraint = 0.0;
   bool interrupted = false;
-  Stability stability;           ///< of the end
-  double stable_until = 0.0;     ///< load factor of the last stable load step before the first unstable one
-  double unstable_from = 2.0;    ///< load factor of the first unstable load step; above 1: none
-  int descents = 0;              ///< iterations of the search for a stable equilibrium
-  std::string explanation;  ///< of a failure: equation and likely cause
+  Stability stability;         ///< of the end
+  double stable_until = 0.0;   ///< load factor of the last stable load step before the first unstable one
+  double unstable_from = 2.0;  ///< load factor of the first unstable load step; above 1: none
+  int descents = 0;            ///< iterations of the search for a stable equilibrium
+  std::string explanation;     ///< of a failure: equation and likely cause
 };
 
 /// The joint coordinate, or the node, that moves most in a motion of the state that nothing holds, or empty: of the
@@ -42,11 +42,11 @@ std::string free_motion(const Model& model, const formats::StaticsSpec& options,
 /// From a state that can move freely to the equilibrium in which the whole of loads and gravity holds it, as a pendulum
 /// hangs.
 struct Settled {
-  std::string free;   ///< what nothing holds even there; empty: it was found
-  int descents = 0;   ///< iterations of the search; 0: the state was held as it stood
+  std::string free;  ///< what nothing holds even there; empty: it was found
+  int descents = 0;  ///< iterations of the search; 0: the state was held as it stood
 };
 Settled settle_under_load(const Model& model, const formats::StaticsSpec& options, const Interrupt& interrupted,
-                              State& state, Workspace& workspace);
+                          State& state, Workspace& workspace);
 
 /// Equilibrium under loads (at the state's time) and gravity, from `state` with all velocities zero, in load steps that
 /// are halved where the iteration fails; in the steady rotation of the options, if there is one. A scene that can move

@@ -199,18 +199,20 @@ void take_in_axes(const Internal& body, const MatrixXd& E, const MatrixXd& Gamma
 
 }  // namespace
 
-SteadyLinearisation linearise_steady(const Model& model, const State& state, const Vector3d& omega,
-                                     Evaluation& evaluation) {
-  SteadyLinearisation steady;
-  steady.now = linearise(model, state, omega, evaluation);
+FastestSpin fastest_spin(const Model& model, const Vector3d& omega, const Evaluation& evaluation) {
+  FastestSpin fastest;
   for (std::size_t i = 0; i < model.nodes.size(); ++i)
     if (const Vector3d spin = spin_of(evaluation, static_cast<int>(i), omega);
-        model.nodes[i].rotation >= 0 && spin.norm() > (1.0 + 1e-9) * steady.spin.norm()) {
-      steady.spin = spin;
-      steady.spinning = static_cast<int>(i);
-    }
-  const double fastest = std::max(omega.norm(), steady.spin.norm());
-  if (!(fastest > 0.0)) return steady;
+        model.nodes[i].rotation >= 0 && spin.norm() > (1.0 + 1e-9) * fastest.spin.norm())
+      fastest = {spin, static_cast<int>(i)};
+  return fastest;
+}
+
+SteadyLinearisation linearise_steady(const Model& model, const State& state, const Vector3d& omega,
+                                     const FastestSpin& of_nodes, Linearisation now, Evaluation& evaluation) {
+  SteadyLinearisation steady;
+  steady.now = std::move(now);
+  const double fastest = std::max(omega.norm(), of_nodes.spin.norm());
   const double time = turned_by / fastest;
   const std::vector<Internal> internal = internal_coordinates(model, evaluation, omega);
   State moved = moved_on(model, state, omega, time, internal, evaluation);

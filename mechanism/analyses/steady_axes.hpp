@@ -25,17 +25,22 @@ struct SteadyLinearisation {
   /// Of the state that follows when what turns fastest, in the axes or with them, has turned by `turned_by`, in axes
   /// that turned with ω; absent if nothing turns.
   std::optional<Linearisation> later;
-  Eigen::Vector3d spin = Eigen::Vector3d::Zero();  ///< ν of the node that spins fastest in the axes, world axes
-  int spinning = -1;                               ///< this node, −1 if none does
   /// A body that spins in the axes, whose internal coordinates stayed in its own: nothing that they move tells Γ.
   std::string undecided;
 };
 
 constexpr double turned_by = 0.1;  ///< [rad]
 
-/// At `state` with its v̇ and λ, in axes that turn with ω. Throws Error as linearise does.
+/// What spins fastest in axes that turn with ω.
+struct FastestSpin {
+  Eigen::Vector3d spin = Eigen::Vector3d::Zero();  ///< ν, world axes
+  int node = -1;                                   ///< −1: nothing does
+};
+FastestSpin fastest_spin(const Model& model, const Eigen::Vector3d& omega, const Evaluation& evaluation);
+
+/// Of `now`, which linearise() gave at `state` in axes that turn with ω and in which something spins or turns with ω.
 SteadyLinearisation linearise_steady(const Model& model, const State& state, const Eigen::Vector3d& omega,
-                                     Evaluation& evaluation);
+                                     const FastestSpin& fastest, Linearisation now, Evaluation& evaluation);
 
 /// Largest change of an entry of `later` against `now`, relative to the mode of its row and that of its column. Both in
 /// the basis of graded_basis for the shift `s`; its `count` columns of most mass, the low modes, are compared.

@@ -231,12 +231,13 @@ std::string change_by_turn(const Model& model, const formats::RotationSpec& rota
   VectorXd change = evaluation.residual - before;
   for (const Node& node : model.nodes)
     if (const int row = node.translation; row >= 0)
-      set_translation(model, translation_at(model, evaluation.residual, row) - turn * translation_at(model, before, row), row,
+      set_translation(model,
+                      translation_at(model, evaluation.residual, row) - turn * translation_at(model, before, row), row,
                       change);
   const VectorXd scale = model.equation_scale.matrix().head(model.sizes.boundary);
   change = change.cwiseProduct(scale);
-  const MatrixXd BT = scale.asDiagonal() *
-                      active_jacobian(model, state, evaluation).leftCols(model.sizes.boundary).transpose();
+  const MatrixXd BT =
+      scale.asDiagonal() * active_jacobian(model, state, evaluation).leftCols(model.sizes.boundary).transpose();
   if (BT.cols() > 0) change -= BT * BT.colPivHouseholderQr().solve(change);
   const double force = std::max(evaluation.force_scale[0], evaluation.force_scale[1] / model.length);
   Eigen::Index at = 0;

@@ -25,9 +25,9 @@ std::string free_turn_name(const Model& model, const formats::RotationSpec& rota
 std::string free_motion_name(const Model& model, const formats::RotationSpec& rotation, State state,
                              Evaluation& evaluation);
 
-/// What does not turn with the scene, or empty: a joint or drive that forbids the velocities of the turn, or forces on a node
-/// that are others once the scene has turned by a radian (gravity across the axis, loads, springs and bushings of the
-/// ground). There is no steady state then.
+/// What does not turn with the scene, or empty: a joint or drive that forbids the velocities of the turn, or forces on
+/// a node that are others once the scene has turned by a radian (gravity across the axis, loads, springs and bushings
+/// of the ground). There is no steady state then.
 std::string what_does_not_turn(const Model& model, const formats::RotationSpec& rotation, State state,
                                Evaluation& evaluation);
 

@@ -17,7 +17,8 @@ constexpr double least_share = 0.1;
 struct Ratios {
   double lowest = 0.0;  ///< of the lowest vibration of the held body
   double omega = 0.0;   ///< its frequency [rad/time]; 0: none
-  double asked = 0.0;   ///< what the scene asks for: the largest of the internal modes, or that of the free body's lowest
+  double asked =
+      0.0;  ///< what the scene asks for: the largest of the internal modes, or that of the free body's lowest
 };
 
 /// ζ = φᵀDφ/(2 ω) of a vibration with φᵀMφ = 1.
@@ -44,33 +45,40 @@ Ratios ratios_of(const SuperelementBody& body, const std::vector<bool>& held) {
 
 /// Damping in proportion to stiffness, which any way of holding the body leaves, with the ratio at ω.
 std::string remedy(const Ratios& ratios) {
-  return fmt::format("'damping: {{stiffness: {:.2g}}}' gives it {:.2g}, and other modes in proportion to their frequency",
-                     2.0 * ratios.asked / ratios.omega, ratios.asked);
+  return fmt::format(
+      "'damping: {{stiffness: {:.2g}}}' gives it {:.2g}, and other modes in proportion to their frequency",
+      2.0 * ratios.asked / ratios.omega, ratios.asked);
 }
 
-}  // namespace
-
-std::vector<std::string> damping_doubts(const Model& model) {
-  std::vector<std::string> doubts;
+/// Of bodies with a full matrix of damping, or of those without.
+std::vector<std::string> of_bodies(const Model& model, bool full) {
+  std::vector<std::string> told_of;
   std::map<std::pair<int, std::vector<bool>>, bool> told;
   std::vector<std::vector<bool>> held;
   for (std::size_t i = 0; i < model.superelements.size(); ++i) {
     const SuperelementBody& body = body_of(model, i);
     const SuperelementDamping& damping = body.damping;
-    if (!damping.active || damping.stiffness > 0.0 || body.modes == 0) continue;
+    if (!damping.active || damping.is_full() != full || damping.stiffness > 0.0 || body.modes == 0) continue;
     if (held.empty()) held = held_coordinates(model);
     if (!told.try_emplace({model.superelements[i].body, held[i]}, true).second) continue;
     const Ratios ratios = ratios_of(body, held[i]);
     if (!(ratios.lowest < least_share * ratios.asked)) continue;
-    const std::string where = fmt::format("damping of '{}' does not reach its lowest mode: ratio {:.2g} there, {:.2g} in ",
-                                          model.superelements[i].name, ratios.lowest, ratios.asked);
-    doubts.push_back(damping.is_full()
-                         ? fmt::format("{}the modes of the body without joints, to which `ratio` belongs; {}", where,
-                                       remedy(ratios))
-                         : fmt::format("{}the internal modes, whose boundary rests; 'damping: {{ratio: {:.2g}}}' damps all",
-                                       where, ratios.asked));
+    const std::string where =
+        fmt::format("damping of '{}' does not reach its lowest mode: ratio {:.2g} there, {:.2g} in ",
+                    model.superelements[i].name, ratios.lowest, ratios.asked);
+    told_of.push_back(
+        full
+            ? fmt::format("{}the modes of the body without joints, to which `ratio` belongs; {}", where, remedy(ratios))
+            : fmt::format("{}the internal modes, whose boundary rests; 'damping: {{ratio: {:.2g}}}' damps all", where,
+                          ratios.asked));
   }
-  return doubts;
+  return told_of;
 }
+
+}  // namespace
+
+std::vector<std::string> damping_doubts(const Model& model) { return of_bodies(model, false); }
+
+std::vector<std::string> damping_notes(const Model& model) { return of_bodies(model, true); }
 
 }  // namespace tisserand::mechanism

@@ -9,8 +9,11 @@
 namespace tisserand::mechanism {
 
 /// One per superelement, alike ones once, whose lowest vibration, held as others hold it (held_coordinates()), has less
-/// than a tenth of the damping ratio that the scene asks for: `ratio_internal` damps shapes whose boundary rests, and
-/// `ratio` those of the body without joints, which a joint changes.
+/// than a tenth of the damping ratio of its internal modes: `ratio_internal` damps shapes whose boundary rests, and no
+/// others.
 std::vector<std::string> damping_doubts(const Model& model);
+
+/// The same of `ratio`, which is that of the modes of the body without joints.
+std::vector<std::string> damping_notes(const Model& model);
 
 }  // namespace tisserand::mechanism

@@ -12,6 +12,7 @@
 #include "mechanism/analyses/statics.hpp"
 #include "mechanism/analyses/steady_rotation.hpp"
 #include "mechanism/build/effects.hpp"
+#include "mechanism/doubts/damping_reach.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/model/bodies.hpp"
 #include "mechanism/run/output.hpp"
@@ -357,6 +358,7 @@ formats::ResultsLayout begin_rows(Run& run, const BodyFiles& files) {
 void tell_doubts(Run& run) {
   std::vector<std::string>& doubts = run.report.doubts;
   for (std::string& doubt : run.doubts.tell(run.built.model)) doubts.push_back(std::move(doubt));
+  for (std::string& note : damping_notes(run.built.model)) run.report.notes.push_back(std::move(note));
 }
 
 void write_row(Run& run, const StepReport& step, double size, RowWriter& out) { write_row(run, step, size, out, {}); }

@@ -82,6 +82,13 @@ TEST_F(Rotor, NothingGrowsInTurningAxes) {
   EXPECT_THAT(trial.report().doubts, ::testing::IsEmpty());
 }
 
+// A spin that turns nothing before the lowest mode has swung is none: a drive that begins at rest leaves 1e-9 rad/s.
+TEST_F(Rotor, RoundOffDoesNotSpin) {
+  const Trial trial = superelement(1e-7, 0.0, {"bushings.bl.stiffness=[0, 5e6, 1e6, 0, 0, 0]"});
+  EXPECT_THAT(trial.report().doubts, ::testing::IsEmpty());
+  EXPECT_THAT(trial.report().table.front(), Not(HasSubstr("turning axes")));
+}
+
 // Bearings that are softer to one side leave axes at rest as the only ones with constant coefficients; a shaft that is
 // softer to one side, those that turn with it. The other axes are told as doubts.
 TEST_F(Rotor, UnevenBearingsOrShaft) {
