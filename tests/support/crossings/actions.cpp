@@ -5,7 +5,7 @@
 
 #include "tests/support/scenes/scenes.hpp"
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
 using Eigen::Vector3d;
 using formats::CoordinateRef;
@@ -197,6 +197,39 @@ void add_tables(const Ingredients& in, Scene& scene) {
   scene.springs.push_back(spring);
 }
 
+void add_tether(Scene& scene) {
+  formats::JointSpec tether = joint("tether", JointKind::distance, "ground", "bob/hook", Vector3d::Zero(), {0, 0, 1});
+  tether.position.reset();
+  tether.axis.reset();
+  tether.a.position = Vector3d(2.5, -1.0, 0.5);
+  scene.joints.push_back(tether);
+}
+
+/// The hinge once more at the same place, or the wrist where there is none. Both take half of the force then; elsewhere
+/// their shares would depend on the size of the scene, which is that of its box along the axes of the world.
+void add_second_hinge(Scene& scene) {
+  formats::JointSpec second = scene.joints.front().name == "weld" ? scene.joints[1] : scene.joints.front();
+  second.name += "_2";
+  scene.joints.push_back(second);
+}
+
+/// All coordinates have values: where bodies stand is then no matter of the nearest place, which depends on the size of
+/// the scene.
+void add_initial_value(const Ingredients& in, Scene& scene) {
+  std::vector<std::string> names = coordinates_of(in.hinge);
+  if (in.hinge == Hinge::screw) names.pop_back();
+  names.push_back("wrist");
+  double value = 0.15;
+  for (const std::string& name : names) {
+    formats::InitialSpec initial;
+    initial.coordinate.name = name;
+    initial.value = value;
+    if (name == names.front()) initial.rate = 0.7;
+    scene.initial.push_back(initial);
+    value -= 0.06;
+  }
+}
+
 void add_part_load(Scene& scene) {
   formats::PartLoadSpec spec;
   spec.name = "pressure";
@@ -242,9 +275,15 @@ void add_action(const Ingredients& in, Scene& scene) {
       return add_own_gravity(scene);
     case Action::tables:
       return add_tables(in, scene);
+    case Action::tether:
+      return add_tether(scene);
+    case Action::second_hinge:
+      return add_second_hinge(scene);
+    case Action::initial_value:
+      return add_initial_value(in, scene);
     case Action::part_load:
       return add_part_load(scene);
   }
 }
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

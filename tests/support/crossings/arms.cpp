@@ -9,7 +9,7 @@
 #include "tests/support/scenes/scenes.hpp"
 #include "tests/support/scenes/second_order_scenes.hpp"
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -54,12 +54,15 @@ formats::BeamBodySpec beam_arm(int nodes) {
 
 formats::SuperelementBodySpec reduced_arm(Arm arm) {
   formats::SuperelementBodySpec body =
-      superelement_body("arm", arm == Arm::second_order ? "second_order" : "frame");
+      superelement_body("arm", arm == Arm::second_order ? "second_order"
+                               : arm == Arm::mixed      ? "mixed"
+                                                        : "frame");
   switch (arm) {
     case Arm::use_rigid:
       body.rigid = true;
       break;
     case Arm::karcher_B:
+    case Arm::automatic:
       body.damping.ratio = 0.02;
       break;
     case Arm::node_A:
@@ -126,6 +129,7 @@ LumpedModel lumped_frame() {
 mechanism::BodyFiles made_files() {
   mechanism::BodyFiles files;
   add_file("frame", test_superelement("frame"), files.superelements);
+  add_file("mixed", test_superelement("mixed"), files.superelements);
   const BernoulliBeam beam = bernoulli_beam(slender_section(1e4), 1.0, 4);
   SecondOrderBody second = second_order_beam(beam, {0, 2, 4}, 4);
   add_file("second_order", second.element, files.superelements);
@@ -167,6 +171,11 @@ void add_arm(Arm arm, formats::Scene& scene) {
   const formats::Pose pose{root_place(), arm_orientation()};
   std::visit([&](auto& spec) { spec.start.pose = pose; }, body);
   scene.bodies.push_back(std::move(body));
+  if (arm == Arm::automatic) {
+    scene.effects.push_back({formats::Effect::flexibility, "arm", true, "", true});
+    scene.automatic.tolerance = 1e-2;
+    scene.automatic.window = 0.02;
+  }
   if (arm != Arm::welded) return;
   formats::VirtualBodySpec hub;
   hub.name = "hub";
@@ -214,4 +223,4 @@ const mechanism::BodyFiles& arm_files() {
   return files;
 }
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

@@ -5,7 +5,7 @@
 
 #include "tests/support/crossings/ingredients.hpp"
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
 /// The pose of the arm at the start.
 Eigen::Quaterniond arm_orientation();
@@ -19,4 +19,4 @@ Eigen::Vector3d tip_in_part(Arm arm);
 /// A symmetric matrix of these principal values in axes that are none of the part.
 Eigen::Matrix3d turned_inertia(const Eigen::Vector3d& principal);
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

@@ -8,7 +8,7 @@
 
 #include "tests/support/scenes/scenes.hpp"
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
 using Eigen::Vector3d;
 
@@ -169,4 +169,4 @@ formats::Scene changed(const formats::Scene& before, Change change) {
   return scene;
 }
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

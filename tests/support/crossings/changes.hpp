@@ -5,7 +5,7 @@
 
 #include "tests/support/crossings/similarity.hpp"
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
 enum class Change {
   turned,     ///< about an axis that is none of the scene
@@ -29,4 +29,4 @@ std::string name_of(Change change);
 Similarity similarity_of(Change change);
 formats::Scene changed(const formats::Scene& scene, Change change);
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
 using formats::TimeFunctionSpec;
 
@@ -109,4 +109,4 @@ std::array<TimeFunctionSpec, 3> combined(const std::array<TimeFunctionSpec, 3>& 
   return result;
 }
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

@@ -6,7 +6,7 @@
 #include "formats/tables/function_spec.hpp"
 #include "tests/support/crossings/similarity.hpp"
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
 /// y'(x') with x' = x_factor x and y' = y_factor y.
 formats::LawSpec law(const formats::LawSpec& law, double x_factor, double y_factor);
@@ -20,4 +20,4 @@ std::array<formats::TimeFunctionSpec, 3> combined(const std::array<formats::Time
                                                   const Eigen::Matrix3d& matrix, const formats::Scene& scene,
                                                   const Similarity& s);
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

@@ -11,7 +11,7 @@
 #include "common/error.hpp"
 #include "mechanism/simulate.hpp"
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -281,4 +281,4 @@ std::string disagreement(const History& a, const History& b, const Limits& limit
   return text;
 }
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

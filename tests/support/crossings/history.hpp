@@ -13,7 +13,7 @@
 #include "mechanism/run/run.hpp"
 #include "tests/support/crossings/similarity.hpp"
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
 /// Families of quantities that are compared with one size. Lengths of a scene are of the order of 1 m, so that forces
 /// and moments, velocities and angular velocities have one size each.
@@ -74,4 +74,4 @@ class HistoryListener : public mechanism::RunListener {
   std::vector<formats::ResultsRow> rows_;
 };
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

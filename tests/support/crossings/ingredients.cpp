@@ -4,11 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "mechanism/bdf/bdf.hpp"
 #include "tests/support/crossings/actions.hpp"
 #include "tests/support/crossings/arms.hpp"
 #include "tests/support/scenes/scenes.hpp"
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
 using Eigen::Vector3d;
 using formats::JointKind;
@@ -138,6 +139,12 @@ void hold(const Ingredients& in, Scene& scene) {
   scene.springs.push_back(spring);
 }
 
+/// Whether velocities at the start follow from what acts.
+bool follows(Action action) {
+  return action == Action::drive || action == Action::gear || action == Action::tether ||
+         action == Action::initial_value;
+}
+
 template <std::size_t n>
 std::string listed(const std::array<const char*, n>& names, int k) {
   return names[k];
@@ -147,7 +154,7 @@ std::string listed(const std::array<const char*, n>& names, int k) {
 
 Scene dynamics_scene(const Ingredients& in) {
   Scene scene = bare_scene(in);
-  if (in.action != Action::drive && in.action != Action::gear) {
+  if (!follows(in.action)) {
     const FreeMotion motion = free_motion(in.hinge);
     Eigen::Matrix3d axes;
     axes.col(2) = hinge_axis();
@@ -165,6 +172,30 @@ Scene dynamics_scene(const Ingredients& in) {
   }
   add_action(in, scene);
   return scene;
+}
+
+std::string refusal_of(const Ingredients& in) {
+  const bool radau = in.scheme == Scheme::radau || in.scheme == Scheme::controlled_radau;
+  if (in.arm == Arm::second_order && radau) return "method radau takes linear superelements only";
+  if (in.arm == Arm::automatic && (radau || in.scheme == Scheme::bdf)) return "not of bdf and radau";
+  if (in.scheme == Scheme::bdf && !mechanism::bdf_available()) return "this build has no CVODE";
+  return "";
+}
+
+bool is_sensible(const Ingredients& in) {
+  if (in.action == Action::initial_value)
+    switch (in.hinge) {
+      case Hinge::none:
+      case Hinge::spherical:
+      case Hinge::constant_velocity:
+      case Hinge::point_on_line:
+      case Hinge::point_on_plane:
+      case Hinge::distance:
+        return false;
+      default:
+        break;
+    }
+  return in.action != Action::part_load || in.arm == Arm::second_order;
 }
 
 Scene held_scene(const Ingredients& in) {
@@ -194,14 +225,14 @@ std::vector<std::string> coordinates_of(Hinge hinge) {
 
 std::string name_of(Arm arm) {
   return listed<arms>({"rigid", "use_rigid", "welded", "beam_2", "beam_3", "karcher_B", "node_A", "paper_B",
-                       "weighted_M", "second_order", "modal"},
+                       "weighted_M", "second_order", "modal", "mixed", "automatic"},
                       static_cast<int>(arm));
 }
 std::string name_of(Hinge hinge) { return hinge == Hinge::none ? "none" : formats::joint_word(kind_of(hinge)); }
 std::string name_of(Action action) {
   return listed<actions>({"nothing", "world_loads", "following_loads", "line_spring", "torsion_spring", "bushing",
                           "unsymmetric_bushing", "channels", "drive", "stop", "friction", "gear", "own_gravity",
-                          "tables", "part_load"},
+                          "tables", "tether", "second_hinge", "initial_value", "part_load"},
                          static_cast<int>(action));
 }
 std::string name_of(Scheme scheme) {
@@ -210,4 +241,4 @@ std::string name_of(Scheme scheme) {
                          static_cast<int>(scheme));
 }
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

@@ -7,10 +7,25 @@
 #include "formats/scene/scene.hpp"
 #include "mechanism/build/build_model.hpp"
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
-/// The body "arm". Of superelements the name says frame and inertia.
-enum class Arm { rigid, use_rigid, welded, beam_2, beam_3, karcher_B, node_A, paper_B, weighted_M, second_order, modal };
+/// The body "arm". Of superelements the name says frame and inertia; `mixed`: some of its nodes have translations or
+/// rotations alone; `automatic`: its flexibility is switched by the run.
+enum class Arm {
+  rigid,
+  use_rigid,
+  welded,
+  beam_2,
+  beam_3,
+  karcher_B,
+  node_A,
+  paper_B,
+  weighted_M,
+  second_order,
+  modal,
+  mixed,
+  automatic
+};
 /// How the arm hangs on the ground: `none` not at all, else every kind of joint.
 enum class Hinge {
   none,
@@ -46,11 +61,14 @@ enum class Action {
   gear,
   own_gravity,
   tables,
+  tether,         ///< closes a loop
+  second_hinge,   ///< repeats the first, so that reactions are not unique
+  initial_value,  ///< the hinge starts elsewhere than written
   part_load
 };
 enum class Scheme { index_2, index_3, damped, hht, radau, bdf, controlled, controlled_index_3, controlled_radau };
 
-inline constexpr int arms = 11, hinges = 16, actions = 15, schemes = 9;
+inline constexpr int arms = 13, hinges = 16, actions = 18, schemes = 9;
 
 std::string name_of(Arm arm);
 std::string name_of(Hinge hinge);
@@ -67,6 +85,12 @@ struct Ingredients {
 /// Dynamics of the combination: the arm on its hinge, the body "bob" on its tip by the hinge "wrist", 60 steps of
 /// 2e-3 s from a start in motion. Nothing in it lies along an axis of the world or in a plane of symmetry.
 formats::Scene dynamics_scene(const Ingredients& ingredients);
+
+/// What the error says with which dynamics refuses the combination; empty: it is taken.
+std::string refusal_of(const Ingredients& ingredients);
+
+/// Load cases need a companion file; initial values, a hinge whose coordinates are all that it lets move.
+bool is_sensible(const Ingredients& ingredients);
 
 /// The same at rest, held by soft bushings in all directions, for statics and modes.
 formats::Scene held_scene(const Ingredients& ingredients);
@@ -85,4 +109,4 @@ Eigen::Vector3d hinge_x_axis();
 /// The coordinates of the joint, as scenes call them.
 std::vector<std::string> coordinates_of(Hinge hinge);
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

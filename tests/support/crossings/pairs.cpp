@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 namespace {
 
 /// Axis, value, later axis, value.
@@ -71,4 +71,4 @@ std::vector<Choice> pairwise(const std::vector<int>& sizes, const std::function<
   return choices;
 }
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
 /// A value of each axis, from 0.
 using Choice = std::vector<int>;
@@ -13,4 +13,4 @@ using Choice = std::vector<int>;
 /// choice is in one of them at least. Always the same; the first ones hold the most new pairs.
 std::vector<Choice> pairwise(const std::vector<int>& sizes, const std::function<bool(const Choice&)>& sensible);
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

@@ -8,7 +8,7 @@
 
 #include "tests/support/crossings/functions.hpp"
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -167,6 +167,7 @@ void settings(Scene& scene, const Similarity& s) {
   i.error_control.max_step *= s.time;
   if (scene.output.interval) *scene.output.interval *= s.time;
   scene.output.from = i.start;
+  if (scene.automatic.window) *scene.automatic.window *= s.time;
   if (scene.statics.rotation) {
     formats::RotationSpec& turn = *scene.statics.rotation;
     turn.angular_velocity = s.sign() * (s.Q * turn.angular_velocity) / s.time;
@@ -241,4 +242,4 @@ Scene described(const Scene& before, const Similarity& s) {
   return scene;
 }
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

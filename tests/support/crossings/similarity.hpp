@@ -8,7 +8,7 @@
 
 #include "formats/scene/scene.hpp"
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
 /// x' = length Q x + shift, t' = time t + delay; masses are multiplied by `mass`. What is given in part axes follows
 /// parts(): a mirrored world holds mirrored parts.
@@ -48,4 +48,4 @@ Eigen::Matrix3d body_axes_of(const formats::LoadSpec& load, const Similarity& s)
 /// matter; the components of loads with axes of the world are numbers or expressions.
 formats::Scene described(const formats::Scene& scene, const Similarity& similarity);
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

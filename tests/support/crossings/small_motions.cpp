@@ -10,7 +10,7 @@
 #include "mechanism/simulate.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
 using std::complex;
 
@@ -46,4 +46,4 @@ double mode_difference(const std::vector<complex<double>>& a, const std::vector<
   return largest;
 }
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

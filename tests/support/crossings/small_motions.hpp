@@ -7,7 +7,7 @@
 #include "formats/scene/scene.hpp"
 #include "mechanism/build/build_model.hpp"
 
-namespace tisserand::test_support {
+namespace tisserand::test_support::crossings {
 
 /// Of the analysis `modes` from this state (null: the start of the scene), those with Im >= 0, in ascending order of
 /// their size. Throws Error.
@@ -18,4 +18,4 @@ std::vector<std::complex<double>> eigenvalues(const formats::Scene& scene, const
 double mode_difference(const std::vector<std::complex<double>>& a, const std::vector<std::complex<double>>& b,
                        double time);
 
-}  // namespace tisserand::test_support
+}  // namespace tisserand::test_support::crossings

@@ -15,7 +15,7 @@
 #include "tests/support/crossings/pairs.hpp"
 #include "tests/support/crossings/small_motions.hpp"
 
-namespace tisserand::test_support::crossing_statics_test {
+namespace tisserand::test_support::crossings::statics_test {
 namespace {
 
 struct Cell {
@@ -31,15 +31,14 @@ Cell cell_of(const Choice& c) {
           static_cast<Change>(c[3])};
 }
 
-bool is_sensible(const Choice& choice) {
+bool is_choice(const Choice& choice) {
   const Cell cell = cell_of(choice);
-  if (cell.change == Change::kept && cell.in.arm != Arm::welded) return false;
-  return cell.in.action != Action::part_load || cell.in.arm == Arm::second_order;
+  return is_sensible(cell.in) && (cell.change != Change::kept || cell.in.arm == Arm::welded);
 }
 
 std::vector<Cell> cells() {
   std::vector<Cell> result;
-  for (const Choice& choice : pairwise({arms, hinges, actions, changes}, is_sensible)) result.push_back(cell_of(choice));
+  for (const Choice& choice : pairwise({arms, hinges, actions, changes}, is_choice)) result.push_back(cell_of(choice));
   return result;
 }
 
@@ -129,4 +128,4 @@ TEST(CrossingStatics, ModesAtRestKnowNoFloatingFrame) {
 }
 
 }  // namespace
-}  // namespace tisserand::test_support::crossing_statics_test
+}  // namespace tisserand::test_support::crossings::statics_test
