@@ -53,10 +53,9 @@ formats::BeamBodySpec beam_arm(int nodes) {
 }
 
 formats::SuperelementBodySpec reduced_arm(Arm arm) {
-  formats::SuperelementBodySpec body =
-      superelement_body("arm", arm == Arm::second_order ? "second_order"
-                               : arm == Arm::mixed      ? "mixed"
-                                                        : "frame");
+  formats::SuperelementBodySpec body = superelement_body("arm", arm == Arm::second_order ? "second_order"
+                                                                : arm == Arm::mixed      ? "mixed"
+                                                                                         : "frame");
   switch (arm) {
     case Arm::use_rigid:
       body.rigid = true;
@@ -184,8 +183,7 @@ void add_arm(Arm arm, formats::Scene& scene) {
   const Vector3d tip = hub.start.pose.orientation.conjugate() * (tip_place(arm) - hub.start.pose.position);
   hub.nodes = {{"tip", {tip, Eigen::Quaterniond::Identity()}}};
   scene.bodies.emplace_back(hub);
-  scene.joints.push_back(
-      joint("weld", formats::JointKind::fixed, "arm", "hub", hub.start.pose.position, hinge_axis()));
+  scene.joints.push_back(joint("weld", formats::JointKind::fixed, "arm", "hub", hub.start.pose.position, hinge_axis()));
   scene.joints.back().x_axis = hinge_x_axis();
 }
 

@@ -14,9 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-Eigen::Matrix3d turn() {
-  return Eigen::AngleAxisd(2.1, Vector3d(0.3, -0.7, 0.5).normalized()).toRotationMatrix();
-}
+Eigen::Matrix3d turn() { return Eigen::AngleAxisd(2.1, Vector3d(0.3, -0.7, 0.5).normalized()).toRotationMatrix(); }
 Eigen::Matrix3d mirror() {
   const Vector3d n = Vector3d(0.5, 0.2, -0.9).normalized();
   return Eigen::Matrix3d::Identity() - 2.0 * n * n.transpose();
@@ -45,8 +43,8 @@ void add_bystander(formats::Scene& scene) {
     body.start.velocity = Vector3d(0.1, 0, 0.2);
     body.start.angular_velocity = Vector3d(1, 0.5, 0);
   } else {
-    formats::JointSpec held = joint("held", formats::JointKind::fixed, "ground", "bystander",
-                                    body.start.pose.position, Vector3d::UnitZ());
+    formats::JointSpec held =
+        joint("held", formats::JointKind::fixed, "ground", "bystander", body.start.pose.position, Vector3d::UnitZ());
     held.x_axis = Vector3d::UnitX();
     scene.joints.push_back(held);
   }
@@ -118,8 +116,9 @@ void move_part_frames(formats::Scene& scene) {
 }  // namespace
 
 std::string name_of(Change change) {
-  static constexpr std::array<const char*, changes> names{
-      "turned", "mirrored", "units", "far", "delayed", "together", "reordered", "bystander", "dense", "umfpack", "kept", "part_frame"};
+  static constexpr std::array<const char*, changes> names{"turned",  "mirrored", "units",     "far",
+                                                          "delayed", "together", "reordered", "bystander",
+                                                          "dense",   "umfpack",  "kept",      "part_frame"};
   return names[static_cast<int>(change)];
 }
 

@@ -66,8 +66,7 @@ formats::LawSpec law(const formats::LawSpec& law, double x_factor, double y_fact
   return curve;
 }
 
-TimeFunctionSpec rewritten(const TimeFunctionSpec& f, double factor, const formats::Scene& scene,
-                           const Similarity& s) {
+TimeFunctionSpec rewritten(const TimeFunctionSpec& f, double factor, const formats::Scene& scene, const Similarity& s) {
   if (const double* constant = std::get_if<double>(&f)) return factor * *constant;
   if (const formats::TimeTable* given = std::get_if<formats::TimeTable>(&f)) {
     formats::TimeTable table = *given;

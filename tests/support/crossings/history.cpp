@@ -109,7 +109,8 @@ void put_joints(const ResultsRow& row, const formats::ResultsLayout& layout, con
   };
   for (std::size_t i = 0; i < layout.couplings.size(); ++i) {
     const std::string& name = layout.couplings[i].name;
-    const auto gear = std::find_if(before.gears.begin(), before.gears.end(), [&](const auto& g) { return g.name == name; });
+    const auto gear =
+        std::find_if(before.gears.begin(), before.gears.end(), [&](const auto& g) { return g.name == name; });
     to.put("couplings/first_force/" + name, Family::force, row.coupling_first_force[i] / along(gear->first.name));
     to.put("couplings/second_force/" + name, Family::force, row.coupling_second_force[i] / along(gear->second.name));
   }
@@ -131,7 +132,8 @@ void put_forces(const ResultsRow& row, const formats::ResultsLayout& layout, con
     return f.sign * s.energy() / f.scale;
   };
   for (std::size_t i = 0; i < layout.springs.size(); ++i)
-    to.put("forces/spring/" + layout.springs[i].name, Family::force, row.spring_force[i] / along(layout.springs[i].name));
+    to.put("forces/spring/" + layout.springs[i].name, Family::force,
+           row.spring_force[i] / along(layout.springs[i].name));
   for (std::size_t i = 0; i < layout.stops.size(); ++i)
     to.put("forces/stop/" + layout.stops[i].name, Family::force, row.stop_force[i] / along(layout.stops[i].name));
   for (std::size_t i = 0; i < layout.bushings.size(); ++i) {
@@ -146,7 +148,8 @@ void put_forces(const ResultsRow& row, const formats::ResultsLayout& layout, con
   }
   for (std::size_t i = 0; i < layout.loads.size(); ++i) {
     const std::string& name = layout.loads[i].name;
-    const auto load = std::find_if(before.loads.begin(), before.loads.end(), [&](const auto& l) { return l.name == name; });
+    const auto load =
+        std::find_if(before.loads.begin(), before.loads.end(), [&](const auto& l) { return l.name == name; });
     const double unit = layout.loads[i].length ? s.force() : s.sign() * s.energy();
     Matrix3d back = s.parts();  // of load cases
     if (load != before.loads.end())
@@ -219,7 +222,8 @@ History History::every(int factor) const {
 }
 
 History run_history(const Scene& scene, const Scene& before, const Similarity& similarity,
-                    const mechanism::BodyFiles& files, const mechanism::State* begin, std::optional<mechanism::State>* end) {
+                    const mechanism::BodyFiles& files, const mechanism::State* begin,
+                    std::optional<mechanism::State>* end) {
   HistoryListener listener(before, similarity);
   try {
     mechanism::RunRequest request{scene, files, std::nullopt, "", "", std::nullopt};

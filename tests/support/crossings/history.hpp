@@ -41,8 +41,8 @@ History run_history(const formats::Scene& scene, const formats::Scene& before, c
                     const mechanism::BodyFiles& files, const mechanism::State* begin = nullptr,
                     std::optional<mechanism::State>* end = nullptr);
 
-/// The largest difference of quantities of `a` from those of the same name in `b`, over the largest value of their family
-/// in `a`, at least 1 of SI; `families`: only these, empty: all.
+/// The largest difference of quantities of `a` from those of the same name in `b`, over the largest value of their
+/// family in `a`, at least 1 of SI; `families`: only these, empty: all.
 struct Difference {
   double largest = 0.0;
   std::string of;  ///< the quantity
@@ -54,8 +54,8 @@ struct Limits {
   double place = 1e-6, rate = 1e-6, acceleration = 1e-6, force = 1e-6, energy = 1e-6;
 };
 
-/// What of two histories differs by more than the limits, a line each; also two outcomes or refusals that differ. Empty:
-/// nothing. Two refusals must differ by their numbers alone.
+/// What of two histories differs by more than the limits, a line each; also two outcomes or refusals that differ.
+/// Empty: nothing. Two refusals must differ by their numbers alone.
 std::string disagreement(const History& a, const History& b, const Limits& limits);
 
 /// Listens to the rows of a run and stores them as a history.

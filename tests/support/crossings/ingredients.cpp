@@ -183,8 +183,7 @@ std::string refusal_of(const Ingredients& in) {
 }
 
 bool is_sensible(const Ingredients& in) {
-  if (in.action == Action::initial_value)
-    switch (in.hinge) {
+  if (in.action == Action::initial_value) switch (in.hinge) {
       case Hinge::none:
       case Hinge::spherical:
       case Hinge::constant_velocity:
@@ -236,9 +235,9 @@ std::string name_of(Action action) {
                          static_cast<int>(action));
 }
 std::string name_of(Scheme scheme) {
-  return listed<schemes>({"index_2", "index_3", "damped", "hht", "radau", "bdf", "controlled", "controlled_index_3",
-                          "controlled_radau"},
-                         static_cast<int>(scheme));
+  return listed<schemes>(
+      {"index_2", "index_3", "damped", "hht", "radau", "bdf", "controlled", "controlled_index_3", "controlled_radau"},
+      static_cast<int>(scheme));
 }
 
 }  // namespace tisserand::test_support::crossings

@@ -73,8 +73,8 @@ struct Describer {
     formats::Section& section = b.section;
     if (!section.by_stiffness) throw std::logic_error("sections by stiffness alone");
     for (double* force : {&section.area, &section.shear_area_y, &section.shear_area_z}) *force *= s.force();
-    for (double* bending : {&section.second_moment_y, &section.second_moment_z, &section.torsion_constant,
-                            &section.polar_moment})
+    for (double* bending :
+         {&section.second_moment_y, &section.second_moment_z, &section.torsion_constant, &section.polar_moment})
       *bending *= s.force() * s.length * s.length;
     section.mass_per_length *= s.mass / s.length;
     section.rotary_inertia_y *= s.mass * s.length;
@@ -87,8 +87,7 @@ struct Describer {
     if (m.position) m.position = ground ? s.point(*m.position) : Vector3d(s.length * (s.parts() * *m.position));
     if (!m.orientation) return;
     const Matrix3d R = m.orientation->toRotationMatrix();
-    m.orientation =
-        Eigen::Quaterniond(Matrix3d((ground ? s.Q : s.parts()) * R * s.markers())).normalized();
+    m.orientation = Eigen::Quaterniond(Matrix3d((ground ? s.Q : s.parts()) * R * s.markers())).normalized();
   }
   void pair(formats::MarkerPairSpec& p) const {
     marker(p.a);
@@ -220,8 +219,8 @@ Scene described(const Scene& before, const Similarity& s) {
         body);
   for (formats::JointSpec& joint : scene.joints) d.joint(joint);
   for (formats::GearSpec& gear : scene.gears)
-    gear.ratio *= coordinate_factor(before, gear.second.name, s).whole() /
-                  coordinate_factor(before, gear.first.name, s).whole();
+    gear.ratio *=
+        coordinate_factor(before, gear.second.name, s).whole() / coordinate_factor(before, gear.first.name, s).whole();
   for (formats::InputSpec& input : scene.inputs)
     for (double& t : input.table.time) t = s.time * t + s.delay;
   for (formats::ChannelSpec& channel : scene.channels) d.channel(channel);

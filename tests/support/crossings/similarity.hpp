@@ -37,7 +37,8 @@ struct Factor {
   double whole() const { return sign * scale; }
 };
 
-/// A joint coordinate "hinge" or "slide/z": displacements along y and turns about x and z change their sign in a mirror.
+/// A joint coordinate "hinge" or "slide/z": displacements along y and turns about x and z change their sign in a
+/// mirror.
 Factor coordinate_factor(const formats::Scene& scene, const std::string& coordinate, const Similarity& s);
 Factor spring_factor(const formats::Scene& scene, const formats::SpringSpec& spring, const Similarity& s);
 

@@ -24,7 +24,8 @@ std::vector<complex<double>> eigenvalues(const formats::Scene& given, const mech
   if (begin != nullptr) request.begin = *begin;
   const mechanism::RunEnd end = mechanism::simulate(request, {});
   const formats::ResultsReader reader(end.report.results);
-  const std::vector<double> real = reader.read("modes/eigenvalue/real"), imaginary = reader.read("modes/eigenvalue/imaginary");
+  const std::vector<double> real = reader.read("modes/eigenvalue/real"),
+                            imaginary = reader.read("modes/eigenvalue/imaginary");
   std::vector<complex<double>> values;
   for (std::size_t i = 0; i < real.size(); ++i)
     if (imaginary[i] >= 0.0) values.emplace_back(real[i], imaginary[i]);

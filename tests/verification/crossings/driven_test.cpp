@@ -1,5 +1,5 @@
-// Motions that drives prescribe: kinematics, inverse dynamics and dynamics of combined capabilities, in two descriptions
-// and against each other.
+// Motions that drives prescribe: kinematics, inverse dynamics and dynamics of combined capabilities, in two
+// descriptions and against each other.
 #include <cmath>
 #include <limits>
 #include <string>
@@ -22,14 +22,15 @@ constexpr double never = std::numeric_limits<double>::infinity();
 
 const std::vector<Arm> driven_arms = {Arm::rigid, Arm::use_rigid, Arm::welded};
 /// Those whose coordinates are all that they let move.
-const std::vector<Hinge> driven_hinges = {Hinge::fixed,     Hinge::revolute, Hinge::universal,
-                                          Hinge::cylindrical, Hinge::screw,    Hinge::prismatic,
-                                          Hinge::planar,    Hinge::constant_orientation,
-                                          Hinge::parallel_axes, Hinge::generic};
-const std::vector<Action> driven_actions = {
-    Action::nothing,     Action::world_loads, Action::following_loads, Action::line_spring, Action::torsion_spring,
-    Action::bushing,     Action::channels,    Action::stop,            Action::friction,    Action::gear,
-    Action::own_gravity, Action::tables, Action::second_hinge};
+const std::vector<Hinge> driven_hinges = {
+    Hinge::fixed,         Hinge::revolute,  Hinge::universal, Hinge::cylindrical,
+    Hinge::screw,         Hinge::prismatic, Hinge::planar,    Hinge::constant_orientation,
+    Hinge::parallel_axes, Hinge::generic};
+const std::vector<Action> driven_actions = {Action::nothing,     Action::world_loads,    Action::following_loads,
+                                            Action::line_spring, Action::torsion_spring, Action::bushing,
+                                            Action::channels,    Action::stop,           Action::friction,
+                                            Action::gear,        Action::own_gravity,    Action::tables,
+                                            Action::second_hinge};
 
 struct Cell {
   Ingredients in;
@@ -80,7 +81,8 @@ History run_as(formats::AnalysisKind kind, formats::Scene scene, const formats::
 void expect_alike(const Cell& cell) {
   const formats::Scene scene = driven_scene(cell.in), other = changed(scene, cell.change);
   const Similarity same, s = similarity_of(cell.change);
-  for (const formats::AnalysisKind kind : {formats::AnalysisKind::kinematics, formats::AnalysisKind::inverse_dynamics}) {
+  for (const formats::AnalysisKind kind :
+       {formats::AnalysisKind::kinematics, formats::AnalysisKind::inverse_dynamics}) {
     const History before = run_as(kind, scene, scene, same), after = run_as(kind, other, scene, s);
     EXPECT_EQ(before.refusal, "");
     EXPECT_EQ(before.report.outcome, mechanism::RunOutcome::completed) << before.report.reason;

@@ -47,8 +47,7 @@ TEST(CrossingGenerator, EveryActionActs) {
 // Read without its similarity, a changed scene is another one.
 TEST(CrossingGenerator, EveryDescriptionDiffers) {
   const Similarity same;
-  const formats::Scene scene =
-      dynamics_scene({Arm::rigid, Hinge::universal, Action::following_loads, Scheme::index_2});
+  const formats::Scene scene = dynamics_scene({Arm::rigid, Hinge::universal, Action::following_loads, Scheme::index_2});
   const History before = run_history(scene, scene, same, arm_files());
   for (const Change change : {Change::turned, Change::mirrored, Change::units, Change::far, Change::together})
     EXPECT_GT(compare_histories(before, run_history(changed(scene, change), scene, same, arm_files())).largest, 1e-2)

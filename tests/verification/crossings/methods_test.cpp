@@ -97,13 +97,13 @@ formats::RigidBodySpec rigid_body_of(const formats::Superelement& element) {
   body.mass = M(0, 0);
   body.center_of_mass = Eigen::Vector3d(M(1, 5), M(2, 3), M(0, 4)) / body.mass;
   const Eigen::Vector3d& c = body.center_of_mass;
-  body.inertia = M.bottomRightCorner<3, 3>() -
-                 body.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
+  body.inertia =
+      M.bottomRightCorner<3, 3>() - body.mass * (c.squaredNorm() * Eigen::Matrix3d::Identity() - c * c.transpose());
   body.inertia = (0.5 * (body.inertia + body.inertia.transpose())).eval();
   for (std::size_t k = 0; k < element.node_name.size(); ++k)
-    body.nodes.push_back({element.node_name[k],
-                          {element.node_position.row(static_cast<Eigen::Index>(k)).transpose(),
-                           Eigen::Quaterniond::Identity()}});
+    body.nodes.push_back(
+        {element.node_name[k],
+         {element.node_position.row(static_cast<Eigen::Index>(k)).transpose(), Eigen::Quaterniond::Identity()}});
   return body;
 }
 

@@ -1,5 +1,5 @@
-// Motion of combined capabilities: the same mechanism in another description moves alike. Any two of an arm, a hinge, an
-// action, a scheme and a change of the description meet in one cell at least.
+// Motion of combined capabilities: the same mechanism in another description moves alike. Any two of an arm, a hinge,
+// an action, a scheme and a change of the description meet in one cell at least.
 #include <cmath>
 #include <limits>
 #include <string>
