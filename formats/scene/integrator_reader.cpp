@@ -137,7 +137,7 @@ std::vector<KeySet> integrator_key_sets() {
                                            "of each coordinate and velocity per step"),
        plain<&BdfSpec::absolute_tolerance>("absolute_tolerance", "positive",
                                            "of positions relative to the extent of the scene, of Euler parameters; of "
-                                           "velocities the same per unit of time"),
+                                           "velocities the same per second (of scenes without named units: per unit of time)"),
        choice<&BdfSpec::stabilisation, stabilisations>(
            "stabilisation", "`projection`: after each step onto the constraints, in the mass norm; or `baumgarte`"),
        {"baumgarte", "baumgarte", "`{alpha: 5, beta: 5}` [1/time]: Φ̈ + 2 α Φ̇ + β² Φ = 0", "5, 5"}});

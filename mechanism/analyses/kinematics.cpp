@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/equations/iteration_matrix.hpp"
+#include "mechanism/equations/round_off.hpp"
 #include "mechanism/model/bodies.hpp"
 
 namespace tisserand::mechanism {
@@ -49,13 +51,15 @@ FactorReport factor_constraints(const Model& model, const State& state, Workspac
 
 StepOutcome close_gaps(const Model& model, const formats::IntegratorSpec& options, State& state, Workspace& workspace,
                        StepReport& report) {
+  const double round_off = 4.0 * std::numeric_limits<double>::epsilon() * reach_of(model, state);  // of positions
+  const double allowed = std::max(options.constraint_tolerance, round_off / model.length);
+  const double floor = std::max(increment_floor * model.length, round_off);
   for (;; ++report.iterations) {
     evaluate(model, state, workspace.now);
     report.constraint = largest_gap(model, workspace, 1.0);
     if (!std::isfinite(report.constraint)) return StepOutcome::diverged;
-    const bool met = report.constraint <= options.constraint_tolerance;
-    const bool still =
-        report.iterations > 0 && workspace.matrix.correction.cwiseAbs().maxCoeff() < increment_floor * model.length;
+    const bool met = report.constraint <= allowed;
+    const bool still = report.iterations > 0 && workspace.matrix.correction.cwiseAbs().maxCoeff() < floor;
     if (met && (report.iterations > 1 || report.constraint < 1e-15 || still)) return StepOutcome::accepted;
     if (report.iterations >= options.max_iterations || still) return StepOutcome::too_many_iterations;
     const FactorReport factors = factor_constraints(model, state, workspace);

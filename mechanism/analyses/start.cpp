@@ -13,6 +13,7 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/equations/iteration_matrix.hpp"
+#include "mechanism/equations/round_off.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/solver/matrix_rank.hpp"
 #include "mechanism/step/step.hpp"
@@ -252,8 +253,8 @@ bool solve_accelerations(const Model& model, double step, const std::string& whe
     state.vdot() += workspace.matrix.increment;
     state.lambda() += workspace.matrix.multipliers;
     // Directions without mass go on with each refinement, and with them the multipliers of what holds them.
-    settled = settled || (massless ? rubbing_part(model, workspace.matrix.multipliers) <=
-                                         1e-12 * rubbing_part(model, state.lambda())
+    settled = settled || is_round_off(model, state, workspace.now, workspace.matrix.multipliers) ||
+              (massless ? rubbing_part(model, workspace.matrix.multipliers) <= 1e-12 * rubbing_part(model, state.lambda())
                                    : workspace.matrix.multipliers.norm() <= 1e-12 * state.lambda().norm());
     if (rubs && settled) break;
   }

@@ -81,7 +81,8 @@ void add_block(const StartMatrix& A, const std::vector<int>& row_at, const std::
 struct StartSystem {
   int nd = 0, nw = 0, rows = 0;
   Eigen::VectorXd unit_d;  ///< velocity coordinates per unknown
-  StartMatrix H;           ///< [A 0 Bᵀ; 0 0 Jᵀ; B J 0]
+  StartMatrix M;           ///< of the free components of w, scaled
+  StartMatrix H;           ///< [A 0 Bᵀ; 0 0 Jᵀ; B J 0]; of rigid bodies alone [M Jᵀ; J 0]
   StartMatrix K;           ///< H and the proximal terms: δM, −μ, and what keeps massless directions
   int size() const { return nd + nw + rows; }
 };
@@ -93,6 +94,7 @@ StartSystem start_system(const StartProblem& problem, const std::vector<int>& fr
                      static_cast<int>(free.size()),
                      rows,
                      model.length * model.equation_scale.head(model.sizes.boundary).matrix(),
+                     {},
                      {},
                      {}};
   std::vector<int> at_d(static_cast<std::size_t>(model.sizes.boundary), -1), at_w(problem.w.size(), -1),
@@ -114,10 +116,16 @@ StartSystem start_system(const StartProblem& problem, const std::vector<int>& fr
     entries.push_back(entry);
     entries.emplace_back(entry.col(), entry.row(), entry.value());
   }
+  StartTriplets masses;
+  add_block(problem.M, at_w, at_w, (system.nd > 0 ? rigid_share : 1.0) / largest, masses);
+  system.M.resize(system.size(), system.size());
+  system.M.setFromTriplets(masses.begin(), masses.end());
+  // In H the mass of rigid motions takes away what rounding leaves in directions that no row determines.
+  if (system.nd == 0) entries.insert(entries.end(), masses.begin(), masses.end());
   system.H.resize(system.size(), system.size());
   system.H.setFromTriplets(entries.begin(), entries.end());
 
-  add_block(problem.M, at_w, at_w, (system.nd > 0 ? rigid_share : 1.0) / largest, entries);
+  if (system.nd > 0) entries.insert(entries.end(), masses.begin(), masses.end());
   for (int k = 0; k < system.nd; ++k) entries.emplace_back(k, k, massless_share);
   for (int k = 0; k < system.nw; ++k) {
     const double own = mass.segment<6>(6 * static_cast<Eigen::Index>(free[k] / 6)).maxCoeff() / largest;
@@ -141,6 +149,7 @@ StartSolution solve_start(const StartProblem& problem, const std::vector<int>& f
     x[system.nd + k] = problem.w[free[k]];
     fixed[free[k]] = 0.0;
   }
+  if (system.nd == 0) right = system.M * x;
   right.tail(rows) = (problem.c - problem.J * fixed).head(rows);
   const double scale = std::max({largest_entry(problem.w), largest_entry(problem.c), 1e-300});
   double least = std::numeric_limits<double>::infinity();

@@ -8,6 +8,7 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/equations/increments.hpp"
 #include "mechanism/equations/iteration_matrix.hpp"
+#include "mechanism/equations/round_off.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 #include "mechanism/step/accept.hpp"
 
@@ -93,6 +94,7 @@ bool Index1::try_accelerate() {
     if (!rubs) return true;
     if (!state_.lambda().allFinite()) break;
     if (workspace_.matrix.multipliers.norm() <= settled * state_.lambda().norm()) return true;
+    if (is_round_off(model_, state_, workspace_.now, workspace_.matrix.multipliers)) return true;
   }
   state_.lambda().setZero();
   return false;
@@ -199,6 +201,9 @@ void Index1::tolerances(double* absolute) const {
     std::fill_n(absolute + layout_.positions + at, count, unit);
     std::fill_n(absolute + layout_.size() + at, count, unit);
   }
+  // Velocities move that much in a second, so that other units of the scene choose the same steps.
+  const double second = model_.units.named() ? model_.units.time.factor : 1.0;
+  for (int i = layout_.positions; i < layout_.size(); ++i) absolute[i] *= second;
 }
 
 }  // namespace tisserand::mechanism

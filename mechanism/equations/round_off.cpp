@@ -9,6 +9,8 @@ namespace tisserand::mechanism {
 
 namespace {
 constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+/// Of the forces of the scene, in the reactions that they have: condition 1e3 of the mass matrix.
+constexpr double reaction_round_off = 1e-12;
 }  // namespace
 
 double reach_of(const Model& model, const State& state) {
@@ -17,6 +19,15 @@ double reach_of(const Model& model, const State& state) {
 
 double force_round_off(const Model& model, const State& state) {
   return rounding * model.stiffness_scale * reach_of(model, state);
+}
+
+bool is_round_off(const Model& model, const State& state, const Evaluation& evaluation,
+                  const Eigen::Ref<const Eigen::VectorXd>& multipliers) {
+  if (multipliers.size() == 0) return true;
+  const double forces = std::max(evaluation.force_scale[0], evaluation.force_scale[1] / model.length);
+  const auto in_length = model.equation_scale.segment(model.sizes.boundary, multipliers.size());
+  const double largest = (multipliers.array().abs() / in_length).maxCoeff<Eigen::PropagateNaN>();
+  return largest <= std::max(reaction_round_off * forces, force_round_off(model, state));
 }
 
 double internal_round_off(const Model& model, std::size_t superelement, const Evaluation& evaluation) {

@@ -13,6 +13,11 @@ double reach_of(const Model& model, const State& state);
 /// Forces on nodes that no iteration removes: the rounding of positions times the largest stiffness.
 double force_round_off(const Model& model, const State& state);
 
+/// Whether these multipliers, as forces, are no more than rounding leaves of the forces of the scene: where nothing
+/// presses, as in free fall, reactions are never less. After evaluate().
+bool is_round_off(const Model& model, const State& state, const Evaluation& evaluation,
+                  const Eigen::Ref<const Eigen::VectorXd>& multipliers);
+
 /// Internal forces of one superelement that no iteration removes: positions are rounded to ε length and turns to ε,
 /// which changes the generalised strains of stiffening by up to Σ_k |l_ak| δ_k, and their forces on internal
 /// coordinates by as much times |h_a| ([SO] 3). After evaluate(). Zero for linear bodies, whose internal coordinates

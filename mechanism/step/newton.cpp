@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mechanism/equations/increments.hpp"
+#include "mechanism/equations/round_off.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -25,10 +27,17 @@ bool contracts_slowly(const Iteration& it) {
   return it.increment > it.workspace.memory.tuning.slow_rate * it.last_increment;
 }
 
+/// `increment_floor`, or what closing the rounding of positions takes if that is more: at 1 km from the origin it is.
+double floor_of(const Iteration& it) {
+  constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+  return std::max(increment_floor, rounding * reach_of(it.model, it.state) / it.model.length);
+}
+
 /// Whether the last increment was as small as round-off lets it become.
 bool round_off(const Iteration& it) {
-  if (size_of(it.model, it.workspace.matrix.correction) >= increment_floor) return false;
-  return it.increment < least_increment || (it.increment < increment_floor && contracts_slowly(it));
+  const double floor = floor_of(it);
+  if (size_of(it.model, it.workspace.matrix.correction) >= floor) return false;
+  return it.increment < least_increment || (it.increment < floor && contracts_slowly(it));
 }
 
 void note(const Norms& norms, StepReport& report) {

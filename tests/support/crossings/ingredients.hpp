@@ -1,0 +1,112 @@
+// Capabilities that cells combine: a body, the joint that hangs it on the ground, what acts, a scheme.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "formats/scene/scene.hpp"
+#include "mechanism/build/build_model.hpp"
+
+namespace tisserand::test_support::crossings {
+
+/// The body "arm". Of superelements the name says frame and inertia; `mixed`: some of its nodes have translations or
+/// rotations alone; `automatic`: its flexibility is switched by the run.
+enum class Arm {
+  rigid,
+  use_rigid,
+  welded,
+  beam_2,
+  beam_3,
+  karcher_B,
+  node_A,
+  paper_B,
+  weighted_M,
+  second_order,
+  modal,
+  mixed,
+  automatic
+};
+/// How the arm hangs on the ground: `none` not at all, else every kind of joint.
+enum class Hinge {
+  none,
+  fixed,
+  revolute,
+  spherical,
+  universal,
+  constant_velocity,
+  cylindrical,
+  screw,
+  prismatic,
+  planar,
+  point_on_line,
+  point_on_plane,
+  distance,
+  constant_orientation,
+  parallel_axes,
+  generic
+};
+/// What acts beside gravity.
+enum class Action {
+  nothing,
+  world_loads,
+  following_loads,
+  line_spring,
+  torsion_spring,
+  bushing,
+  unsymmetric_bushing,
+  channels,
+  drive,
+  stop,
+  friction,
+  gear,
+  own_gravity,
+  tables,
+  tether,         ///< closes a loop
+  second_hinge,   ///< repeats the first, so that reactions are not unique
+  initial_value,  ///< the hinge starts elsewhere than written
+  part_load
+};
+enum class Scheme { index_2, index_3, damped, hht, radau, bdf, controlled, controlled_index_3, controlled_radau };
+
+inline constexpr int arms = 13, hinges = 16, actions = 18, schemes = 9;
+
+std::string name_of(Arm arm);
+std::string name_of(Hinge hinge);
+std::string name_of(Action action);
+std::string name_of(Scheme scheme);
+
+struct Ingredients {
+  Arm arm = Arm::rigid;
+  Hinge hinge = Hinge::revolute;
+  Action action = Action::nothing;
+  Scheme scheme = Scheme::index_2;
+};
+
+/// Dynamics of the combination: the arm on its hinge, the body "bob" on its tip by the hinge "wrist", 60 steps of
+/// 2e-3 s from a start in motion. Nothing in it lies along an axis of the world or in a plane of symmetry.
+formats::Scene dynamics_scene(const Ingredients& ingredients);
+
+/// What the error says with which dynamics refuses the combination; empty: it is taken.
+std::string refusal_of(const Ingredients& ingredients);
+
+/// Load cases need a companion file; initial values, a hinge whose coordinates are all that it lets move.
+bool is_sensible(const Ingredients& ingredients);
+
+/// The same at rest, held by soft bushings in all directions, for statics and modes.
+formats::Scene held_scene(const Ingredients& ingredients);
+
+/// The files of all arms.
+const mechanism::BodyFiles& arm_files();
+
+/// Where the arm hangs and where its tip is, world axes; z and x axes of the hinge.
+Eigen::Vector3d root_place();
+Eigen::Vector3d tip_place(Arm arm);
+std::string root_node(Arm arm);
+std::string tip_node(Arm arm);
+Eigen::Vector3d hinge_axis();
+Eigen::Vector3d hinge_x_axis();
+
+/// The coordinates of the joint, as scenes call them.
+std::vector<std::string> coordinates_of(Hinge hinge);
+
+}  // namespace tisserand::test_support::crossings

@@ -1,0 +1,52 @@
+// Other descriptions of one scene: turned, mirrored, moved, in other units, at another time.
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "formats/scene/scene.hpp"
+
+namespace tisserand::test_support::crossings {
+
+/// x' = length Q x + shift, t' = time t + delay; masses are multiplied by `mass`. What is given in part axes follows
+/// parts(): a mirrored world holds mirrored parts.
+struct Similarity {
+  Eigen::Matrix3d Q = Eigen::Matrix3d::Identity();  ///< orthogonal; of determinant -1 it mirrors
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  double length = 1.0, mass = 1.0, time = 1.0;  ///< numbers now over numbers then
+  double delay = 0.0;                           ///< of the new time
+  Units units = Units::si();
+
+  double sign() const { return Q.determinant() < 0.0 ? -1.0 : 1.0; }
+  /// Reflection of part axes, x to -x in a mirrored world.
+  Eigen::Matrix3d parts() const { return Eigen::Vector3d(sign(), 1.0, 1.0).asDiagonal(); }
+  /// Axes of markers follow as Q R markers(): x and z as vectors, y so that they stay right-handed.
+  Eigen::Matrix3d markers() const { return Eigen::Vector3d(1.0, sign(), 1.0).asDiagonal(); }
+  double force() const { return mass * length / (time * time); }
+  double energy() const { return force() * length; }
+  Eigen::Vector3d point(const Eigen::Vector3d& p) const { return length * (Q * p) + shift; }
+  Eigen::Matrix3d rotation(const Eigen::Matrix3d& R) const { return Q * R * parts(); }
+};
+
+/// Sign and factor of the number that a coordinate or a spring is given by.
+struct Factor {
+  double sign = 1.0;
+  double scale = 1.0;  ///< length, or 1 of angles
+  double whole() const { return sign * scale; }
+};
+
+/// A joint coordinate "hinge" or "slide/z": displacements along y and turns about x and z change their sign in a
+/// mirror.
+Factor coordinate_factor(const formats::Scene& scene, const std::string& coordinate, const Similarity& s);
+Factor spring_factor(const formats::Scene& scene, const formats::SpringSpec& spring, const Similarity& s);
+
+/// Signs of the components of a load with axes of the body: those of the part, or of a marker with axes of its own.
+Eigen::Matrix3d body_axes_of(const formats::LoadSpec& load, const Similarity& s);
+
+/// The same mechanism in the other description. Markers need `axis` and `x_axis`, or an orientation, where their axes
+/// matter; the components of loads with axes of the world are numbers or expressions.
+formats::Scene described(const formats::Scene& scene, const Similarity& similarity);
+
+}  // namespace tisserand::test_support::crossings
