@@ -20,6 +20,12 @@ if(processor)
   if(processor STREQUAL "native" AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
     # Headers of GCC 12 raise false alarms with AVX-512, and matrices of this size gain nothing from it.
     target_compile_options(tisserand_options INTERFACE -mno-avx512f)
+    # Clang 19 takes some processors for ones with AVX10, which brings half of AVX-512 back.
+    include(CheckCXXCompilerFlag)
+    check_cxx_compiler_flag(-mno-avx10.1-256 TISSERAND_KNOWS_AVX10)
+    if(TISSERAND_KNOWS_AVX10)
+      target_compile_options(tisserand_options INTERFACE -mno-avx10.1-256)
+    endif()
   endif()
 endif()
 if(TISSERAND_SANITIZE)

@@ -23,6 +23,7 @@ Index groups_of(Index columns) { return (columns + Line::width - 1) / Line::widt
 /// Rows `first` ... `first + count − 1` of columns of B, group g from line `g · stride` on; zero beyond the last
 /// column.
 void load_rows(const Tall& B, Index first, Index count, Index stride, double* lines) {
+  if (count == 0) return;  // there may be no lines to point at
   for (Index g = 0; g < groups_of(B.cols()); ++g)
     for (Index c = 0; c < Line::width; ++c) {
       const Index column = Line::width * g + c;
@@ -33,6 +34,7 @@ void load_rows(const Tall& B, Index first, Index count, Index stride, double* li
 
 /// The way back.
 void store_rows(const double* lines, Index first, Index count, Index stride, Eigen::Ref<MatrixXd> B) {
+  if (count == 0) return;
   for (Index column = 0; column < B.cols(); ++column) {
     const double* const from = lines + Line::at(column / Line::width * stride) + column % Line::width;
     for (Index i = 0; i < count; ++i) B(first + i, column) = from[Line::at(i)];

@@ -279,7 +279,7 @@ TEST(MassDamping, DoesNotDependOnTheFrame) {
   if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the superelements";
   const test_support::TemporaryFolder folder;
   const std::string file = "bodies.s.file=" + reduce("bar", folder);
-  for (const std::string& frame : {"frame=karcher", "frame={node: base}", "frame={node: tip}"}) {
+  for (const std::string frame : {"frame=karcher", "frame={node: base}", "frame={node: tip}"}) {
     const Trial trial("mass_damping", {file, "bodies.s." + frame});
     const std::vector<double> f = trial.frequencies(), ratio = trial.channel("modes/damping_ratio");
     for (std::size_t k = 0; k < f.size(); ++k)
