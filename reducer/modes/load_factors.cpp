@@ -174,6 +174,7 @@ void finish(const StressPencil& pencil, const EigenPairs& pairs, LoadFactors& re
 
 LoadFactors load_factors(const StressPencil& pencil, int count) {
   LoadFactors result;
+  result.shape.resize(pencil.S.size(), 0);
   const double stress = largest_stress(pencil);
   if (!(stress > 0.0)) return result;
   pencil.share(0.2);
