@@ -151,9 +151,13 @@ void check_bushing(const SceneIndex& scene, const BushingSpec& bushing, Faults& 
   finite(bushing.stiffness, "stiffness");
   finite(bushing.preload, "preload");
   if (bushing.free) finite(*bushing.free, "free");
-  if (bushing.free && !(bushing.free->tail<3>().norm() < EIGEN_PI))
-    faults.add(bushing.where, "free", fmt::format("{}: the rotation vector of free is half a turn or more", subject),
-               "turn the orientation of one marker instead");
+  if (bushing.free) {
+    Eigen::Vector3d turn = bushing.free->tail<3>();
+    if (const std::optional<int> axis = bushing.turning_axis()) turn[*axis] = 0.0;
+    if (!(turn.norm() < EIGEN_PI))
+      faults.add(bushing.where, "free", fmt::format("{}: the rotation vector of free is half a turn or more", subject),
+                 "turn the orientation of one marker instead");
+  }
   if (finite(bushing.damping, "damping")) {
     const Eigen::MatrixXd symmetric = 0.5 * (bushing.damping + bushing.damping.transpose());
     const double smallest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues()[0];

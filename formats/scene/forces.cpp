@@ -9,6 +9,7 @@ namespace tisserand::formats {
 namespace {
 
 constexpr Choice<SpringKind> spring_kinds[] = {{"line", SpringKind::line}, {"torsion", SpringKind::torsion}};
+constexpr Choice<MarkerAxis> marker_axes[] = {{"x", MarkerAxis::x}, {"y", MarkerAxis::y}, {"z", MarkerAxis::z}};
 constexpr Choice<LoadKind> load_kinds[] = {{"force", LoadKind::force}, {"moment", LoadKind::moment}};
 constexpr Choice<LoadAxes> load_axes[] = {{"world", LoadAxes::world}, {"body", LoadAxes::body}};
 
@@ -194,6 +195,7 @@ std::vector<BushingSpec> read_bushings(const MapReader& map) {
     BushingSpec bushing;
     bushing.name = node->key;
     bushing.where = context.entry;
+    read_fields(inner, bushing);
     read_marker_pair(inner, bushing);
     require_one_of(inner, {"stiffness", "damping", "preload"}, "give stiffness, damping or preload");
     bushing.stiffness = read_six_by_six(inner, "stiffness");
@@ -272,7 +274,10 @@ std::vector<KeySet> force_key_sets() {
          "0"},
         {"damping", "six_by_six", "D in the same forms; its symmetric part must not be negative", "0"},
         {"free", "six", "deflection without force, six numbers", "that at the start"},
-        {"preload", "six", "what acts on b at the deflection `free` besides, six numbers [force, moment]", "0"}}},
+        {"preload", "six", "what acts on b at the deflection `free` besides, six numbers [force, moment]", "0"},
+        choice<&BushingSpec::turns, marker_axes>(
+            "turns", "axis of the markers about which it turns far: whole turns are counted",
+            "the only one about which it acts, or the only one about which it does not; else none")}},
       {"load",
        {choice<&LoadSpec::kind, load_kinds>("type", "`force` [mass length/time²] or `moment` [mass length²/time²]",
                                             "required"),

@@ -231,4 +231,21 @@ Scene read_scene(const std::string& path, const std::vector<Override>& overrides
   return scene;
 }
 
+bool BushingSpec::takes_turns(int k) const {
+  const auto any = [k](const Eigen::Matrix<double, 6, 6>& m) {
+    return !m.row(3 + k).isZero(0.0) || !m.col(3 + k).isZero(0.0);
+  };
+  return any(stiffness) || any(damping) || preload[3 + k] != 0.0;
+}
+
+std::optional<int> BushingSpec::turning_axis() const {
+  std::vector<int> with, without;
+  for (int k = 0; k < 3; ++k) (takes_turns(k) ? with : without).push_back(k);
+  if (with.empty()) return std::nullopt;
+  if (turns) return static_cast<int>(*turns);
+  if (with.size() == 1) return with.front();
+  if (without.size() == 1) return without.front();
+  return std::nullopt;
+}
+
 }  // namespace tisserand::formats

@@ -136,6 +136,8 @@ struct SpringSpec : MarkerPairSpec {
   std::string where;
 };
 
+enum class MarkerAxis { x, y, z };
+
 /// Linear elastic and damped connection of two markers in all six directions (a field if the matrices are full).
 struct BushingSpec : MarkerPairSpec {
   std::string name;
@@ -143,7 +145,13 @@ struct BushingSpec : MarkerPairSpec {
   Eigen::Matrix<double, 6, 6> damping = Eigen::Matrix<double, 6, 6>::Zero();
   std::optional<Eigen::Matrix<double, 6, 1>> free;  ///< deflection without force; absent: that at the start
   Eigen::Matrix<double, 6, 1> preload = Eigen::Matrix<double, 6, 1>::Zero();  ///< on b at the deflection `free`
+  std::optional<MarkerAxis> turns;                                            ///< axis about which it turns far
   std::string where;
+
+  /// Whether turns about marker axis k, 0 to 2, deflect it or make forces of it.
+  bool takes_turns(int k) const;
+  /// The axis `turns`; without it the only one about which it takes turns, or the only one about which it takes none.
+  std::optional<int> turning_axis() const;
 };
 
 /// A quantity of the mechanism that expressions may use by its name.

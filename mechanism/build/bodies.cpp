@@ -96,21 +96,19 @@ class BodyBuilder {
 
   void note_units(const std::string& name, const Units& from, const UnitConversion& units) {
     if (from.named() && (units.length != 1.0 || units.mass != 1.0 || units.time != 1.0))
-      c_.notes.push_back(fmt::format("body '{}': converted from {}, {}, {} to {}, {}, {}", name, from.length.label,
-                                     from.mass.label, from.time.label, c_.scene.units.length.label,
-                                     c_.scene.units.mass.label, c_.scene.units.time.label));
+      c_.note_body(name, fmt::format("converted from {}, {}, {} to {}, {}, {}", from.length.label, from.mass.label,
+                                     from.time.label, c_.scene.units.length.label, c_.scene.units.mass.label,
+                                     c_.scene.units.time.label));
   }
 
   void add_body(const formats::ModalBodySpec& spec) {
     const formats::LoadedModalBody& file = modal_bodies_.at(spec.file, spec.mirror);
     const UnitConversion units = convert_units(file.body.units, c_.scene.units, spec.file);
     note_units(spec.name, file.body.units, units);
-    for (const std::string& warning : file.warnings)
-      c_.notes.push_back(fmt::format("body '{}': {}", spec.name, warning));
+    for (const std::string& warning : file.warnings) c_.note_body(spec.name, warning);
     BuiltModalBody built = build_modal_body(file.body, spec, units);
     if (built.body.modes < static_cast<int>(file.body.modes()))
-      c_.notes.push_back(
-          fmt::format("body '{}': {} of {} modes are used", spec.name, built.body.modes, file.body.modes()));
+      c_.note_body(spec.name, fmt::format("{} of {} modes are used", built.body.modes, file.body.modes()));
     formats::InitialMotion start = spec.start;
     const Matrix3d turn = start.pose.orientation.normalized().toRotationMatrix();
     const Vector3d arm = turn * built.frame_position;
@@ -140,8 +138,7 @@ class BodyBuilder {
     const formats::Superelement& element = file.superelement;
     const UnitConversion units = convert_units(element.units, c_.scene.units, spec.file);
     note_units(spec.name, element.units, units);
-    for (const std::string& warning : file.report.warnings)
-      c_.notes.push_back(fmt::format("body '{}': {}", spec.name, warning));
+    for (const std::string& warning : file.report.warnings) c_.note_body(spec.name, warning);
     if (spec.rigid) {
       add_rigid_superelement(spec, file, units);
       return;
@@ -152,12 +149,11 @@ class BodyBuilder {
     use.body = find_or_build(spec, file, companion, units, built_superelements_, c_.model.superelement_bodies);
     use.gravity = spec.gravity.value_or(c_.scene.gravity);
     const SuperelementBody& body = c_.model.superelement_bodies[use.body];
-    for (const std::string& note : body.notes) c_.notes.push_back(fmt::format("body '{}': {}", spec.name, note));
+    for (const std::string& note : body.notes) c_.note_body(spec.name, note);
     if (!body.load_cases.empty()) use.companion_id = companion.file->companion_id;
     if (const SecondOrderChoice choice = choose_second_order(spec, companion.terms); choice.any()) {
       use.companion_id = companion.file->companion_id;
-      c_.notes.push_back(
-          fmt::format("body '{}': {}, by {}", spec.name, describe(choice), formats::companion_path(spec.file)));
+      c_.note_body(spec.name, describe(choice) + ", by the companion file");
     }
     for (const SuperelementNode& node : body.node) {
       const std::string name = spec.name + "/" + node.name;
@@ -335,6 +331,9 @@ Construction with_bodies(const formats::Scene& scene, const BodyFiles& files, co
   c.model.origin = c.markers.origin = origin;
   add_bodies(files, c);
   c.throw_errors();
+  for (const BodyNote& note : c.body_notes)
+    c.notes.push_back(
+        fmt::format("{} {}: {}", note.bodies.size() > 1 ? "bodies" : "body", listed(note.bodies), note.text));
   measure_length(c);
   return c;
 }

@@ -1,6 +1,7 @@
 // From the bodies of a scene to nodes, places and pools; virtual bodies are kept or eliminated.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <string>
@@ -14,6 +15,12 @@
 #include "mechanism/build/superelements.hpp"
 
 namespace tisserand::mechanism {
+
+/// What is said of some bodies in one line.
+struct BodyNote {
+  std::string text;
+  std::vector<std::string> bodies;  ///< quoted names
+};
 
 /// What grows while a model is built; errors are collected and thrown together.
 struct Construction {
@@ -29,7 +36,14 @@ struct Construction {
   std::vector<RigidArm> arms;
   std::set<double> breakpoints;
   std::vector<std::string> notes;
+  std::vector<BodyNote> body_notes;
   std::vector<Error> errors;
+
+  void note_body(const std::string& name, const std::string& text) {
+    auto same = std::ranges::find(body_notes, text, &BodyNote::text);
+    if (same == body_notes.end()) same = body_notes.insert(same, {text, {}});
+    same->bodies.push_back("'" + name + "'");
+  }
 
   template <class Action>
   void collect(Action action) {

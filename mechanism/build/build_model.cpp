@@ -63,6 +63,7 @@ BuiltModel build_model(const formats::Scene& scene, const BodyFiles& files) {
     });
   for (const formats::SpringSpec& spring : scene.springs) c.collect([&] { joints.add(spring); });
   for (const formats::BushingSpec& bushing : scene.bushings) c.collect([&] { joints.add(bushing); });
+  if (std::string turned = joints.turned_at_start(scene.bushings); !turned.empty()) c.notes.push_back(std::move(turned));
   for (const formats::LoadSpec& load : scene.loads) c.collect([&] { add_load(load, c); });
   for (const formats::PartLoadSpec& load : scene.part_loads) c.collect([&] { add_part_load(load, c); });
   c.throw_errors();

@@ -4,21 +4,11 @@
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/text.hpp"
 #include "formats/scene/expand/expression.hpp"
 #include "mechanism/build/joints.hpp"
 
 namespace tisserand::mechanism {
-namespace {
-
-/// Whether turns deflect the bushing, or make forces of it.
-bool takes_rotations(const formats::BushingSpec& spec) {
-  const auto any = [](const Eigen::Matrix<double, 6, 6>& m) {
-    return !m.rightCols<3>().isZero(0.0) || !m.bottomRows<3>().isZero(0.0);
-  };
-  return any(spec.stiffness) || any(spec.damping) || !spec.preload.tail<3>().isZero(0.0);
-}
-
-}  // namespace
 
 void JointBuilder::add(const formats::SpringSpec& spec) {
   Spring spring;
@@ -86,7 +76,7 @@ void JointBuilder::add(const formats::BushingSpec& spec) {
   require_two_nodes(subject, spec, spec.where, bushing.a, bushing.b);
   place_markers(markers_, spec, bushing.a, bushing.b);
   // Translations act along the axes of A: B needs an orientation only where rotations take part.
-  const bool rotations = takes_rotations(spec);
+  const bool rotations = spec.takes_turns(0) || spec.takes_turns(1) || spec.takes_turns(2);
   const bool b_has_axes = bushing.b.node < 0 || has_rotation(model_, bushing.b.node);
   check_marker(model_, subject, {true, true, !rotations && b_has_axes}, spec.a, bushing.a);
   check_marker(model_, subject, rotations ? use_position_and_axes : use_position, spec.b, bushing.b);
@@ -95,7 +85,35 @@ void JointBuilder::add(const formats::BushingSpec& spec) {
   bushing.free = spec.free.value_or(bushing.free);
   bushing.free_at_start = !spec.free;
   bushing.preload = spec.preload;
+  bushing.rotations = rotations;
+  if (const std::optional<int> axis = spec.turning_axis()) {
+    bushing.axis = *axis;
+    bushing.coordinate = static_cast<int>(model_.coordinates.size());
+    Coordinate turn{
+        spec.name + "/turn", bushing.a, bushing.b, {RelationKind::angle, static_cast<std::uint8_t>(*axis), 0}};
+    turn.active = true;
+    model_.coordinates.push_back(turn);
+  }
   model_.bushings.push_back(std::move(bushing));
+}
+
+std::string JointBuilder::turned_at_start(const std::vector<formats::BushingSpec>& bushings) const {
+  constexpr double visible = 1e-3;  // rad
+  std::vector<std::string> names;
+  for (const formats::BushingSpec& spec : bushings) {
+    const bool turns = spec.takes_turns(0) || spec.takes_turns(1) || spec.takes_turns(2);
+    if (!turns || !spec.free || spec.axis || (spec.a.orientation && spec.b.orientation)) continue;
+    const Eigen::Matrix3d R =
+        markers_.motion(markers_.find(spec.a).node).R.transpose() * markers_.motion(markers_.find(spec.b).node).R;
+    const double angle = Eigen::AngleAxisd(R).angle();
+    if (angle > visible) names.push_back(fmt::format("bushing '{}' ({:.3g} rad)", spec.name, angle));
+  }
+  if (names.empty()) return "";
+  return fmt::format(
+      "{}: the bodies start turned against each other, and 'free' counts turns from there, since the markers have the "
+      "same "
+      "axes at the start. Give both markers an orientation if it counts from the axes of the bodies",
+      listed(names));
 }
 
 void JointBuilder::require_two_nodes(const std::string& subject, const formats::MarkerPairSpec& spec,

@@ -29,6 +29,8 @@ class JointBuilder {
   void add(const formats::InputSpec& spec);
   void add(const formats::ChannelSpec& spec);
   CoordinateStart initial(const formats::InitialSpec& spec) const;
+  /// A note on bushings whose turns count from the start, although `free` is given and the bodies start turned; else empty.
+  std::string turned_at_start(const std::vector<formats::BushingSpec>& bushings) const;
 
  private:
   /// Throws Error where the nodes of the joint lack what it holds.

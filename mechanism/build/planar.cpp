@@ -247,9 +247,9 @@ void PlanarCheck::bushing(const Bushing& one) const {
   const MarkerPair pair = markers(one.a, one.b);
   Bushing bushing = one;
   BushingTerms terms;
-  evaluate(bushing, pair, terms);
+  evaluate(bushing, pair, 0.0, terms);
   if (bushing.free_at_start) bushing.free = terms.deflection;
-  evaluate(bushing, pair, terms);
+  evaluate(bushing, pair, 0.0, terms);
   const std::string name = fmt::format("bushing '{}'", one.name);
   const Parts parts = parts_of(terms.force.transpose(), one.a, one.b);
   if (!parts.stays() && parts.out > 0.0)

@@ -14,6 +14,7 @@ Doubts::Doubts(const formats::Scene& scene, const Model& model)
       range_(model, scene.integrator.start),
       beams_(model),
       bushings_(model),
+      tables_(model),
       inertia_(scene, model),
       torsion_(scene, model),
       spin_(model),
@@ -26,6 +27,7 @@ void Doubts::after_step(const Model& model, const State& before, const State& st
   range_.observe(model, state, evaluation);
   beams_.observe(state, evaluation);
   bushings_.observe(state, evaluation);
+  tables_.observe(model, state, evaluation);
   inertia_.observe(model, state, evaluation);
   torsion_.observe(model, state, evaluation);
   spin_.observe(model, state, evaluation);
@@ -39,6 +41,7 @@ void Doubts::at_state(const Model& model, const State& state, const Evaluation& 
   range_.observe(model, state, evaluation);
   beams_.observe(state, evaluation);
   bushings_.observe(state, evaluation);
+  tables_.observe(model, state, evaluation);
   inertia_.observe(model, state, evaluation);
   torsion_.observe(model, state, evaluation);
   spin_.observe(model, state, evaluation);
@@ -52,7 +55,7 @@ void Doubts::at_row(const Model& model, const State& state, const Evaluation& ev
 
 std::vector<std::string> Doubts::of_model(const Model& model) const {
   std::vector<std::string> all = told_;
-  for (auto&& some : {swing_.doubts(), resolution_.doubts(model), touches_.doubts(model), range_.doubts(model), beams_.doubts(model), bushings_.doubts(model), inertia_.doubts(model),
+  for (auto&& some : {swing_.doubts(), resolution_.doubts(model), touches_.doubts(model), range_.doubts(model), beams_.doubts(model), bushings_.doubts(model), tables_.doubts(model), inertia_.doubts(model),
                       torsion_.doubts(model), spin_.doubts(model), tyres_.doubts(model), damping_doubts(model)})
     for (const std::string& doubt : some)
       if (std::ranges::find(all, doubt) == all.end()) all.push_back(doubt);

@@ -45,6 +45,7 @@ class Doubts {
   LinearRange range_;
   BeamRange beams_;
   BushingRange bushings_;
+  TableRange tables_;
   InertiaChoice inertia_;
   Torsion torsion_;
   AxialSpin spin_;

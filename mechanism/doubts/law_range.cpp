@@ -1,4 +1,4 @@
-// Limits of nonlinear beam elements and of bushings.
+// Limits of nonlinear beam elements, of bushings, and of tables.
 #include "mechanism/doubts/law_range.hpp"
 
 #include <algorithm>
@@ -7,15 +7,19 @@
 
 #include <fmt/format.h>
 
+#include "mechanism/equations/terms.hpp"
+#include "mechanism/forces/motion_table.hpp"
+
 namespace tisserand::mechanism {
 namespace {
 
 using Eigen::Matrix3d;
 
-/// Relative rotation between neighbouring nodes [rad]. Arcs of it are too short by 7 ψ⁴/5760 (remainder of the series of
-/// (ψ/2)/sin(ψ/2) behind 1 + ψ²/24): 1.2e-3 at 1 rad.
+/// Relative rotation between neighbouring nodes [rad]. Arcs of it are too short by 7 ψ⁴/5760 (remainder of the series
+/// of (ψ/2)/sin(ψ/2) behind 1 + ψ²/24): 1.2e-3 at 1 rad.
 constexpr double most_turn = 1.0;
-/// A constant E A means a constant cross-section, but an area shrinks by 2 ν ε in tension (Poisson): 3 % at 0.05 with ν = 0.3.
+/// A constant E A means a constant cross-section, but an area shrinks by 2 ν ε in tension (Poisson): 3 % at 0.05 with ν
+/// = 0.3.
 constexpr double most_stretch = 0.05;
 
 /// 2 (1 − cos ψ) = 3 − trace; ψ² of it to 1e-3 below 1 rad.
@@ -25,6 +29,8 @@ double angle(double versine) { return std::acos(std::clamp(1.0 - 0.5 * versine, 
 
 /// The logarithm of a rotation ends at π (bushing.hpp). A tenth before it a step of 18 degrees may pass it.
 constexpr double farthest = 0.9 * std::numbers::pi;
+/// Of the width of a table: a law that goes on straight for less says the same.
+constexpr double beyond_table = 0.01;
 
 }  // namespace
 
@@ -60,38 +66,122 @@ std::vector<std::string> BeamRange::doubts(const Model& model) const {
   };
   std::vector<std::string> doubts;
   if (turn_.span >= 0 && angle(turn_.value) > most_turn)
-    doubts.push_back(fmt::format("a beam bends or twists by {:.2g} rad {}, beyond {:g} rad from node to node: use more elements",
-                                 angle(turn_.value), place(turn_), most_turn));
+    doubts.push_back(
+        fmt::format("a beam bends or twists by {:.2g} rad {}, beyond {:g} rad from node to node: use more elements",
+                    angle(turn_.value), place(turn_), most_turn));
   if (stretch_.span >= 0 && stretch_.value > most_stretch)
-    doubts.push_back(fmt::format("a beam has an axial strain of {:.2g} {}, beyond {:g}: its axial force is linear in the strain, "
-                                 "and its section does not shrink",
-                                 stretch_.value, place(stretch_), most_stretch));
+    doubts.push_back(
+        fmt::format("a beam has an axial strain of {:.2g} {}, beyond {:g}: its axial force is linear in the strain, "
+                    "and its section does not shrink",
+                    stretch_.value, place(stretch_), most_stretch));
   return doubts;
 }
 
+BushingRange::BushingRange(const Model& model) {
+  for (int i = 0; i < static_cast<int>(model.bushings.size()); ++i)
+    if (model.bushings[i].rotations) seen_.push_back({i, model.bushings[i].axis});
+}
+
 void BushingRange::observe(const State& state, const Evaluation& evaluation) {
-  for (std::size_t i = 0; i < seen_.size(); ++i) {
-    Seen& seen = seen_[i];
-    const Eigen::Vector3d turn = evaluation.bushings[i].deflection.tail<3>();
+  for (Seen& seen : seen_) {
+    Eigen::Vector3d turn = evaluation.bushings[seen.bushing].deflection.tail<3>();
+    if (seen.axis >= 0) turn[seen.axis] = 0.0;
     const bool passed = (turn - seen.before).norm() > std::numbers::pi;
     if (seen.angle == 0.0 && (turn.norm() > farthest || passed)) {
       seen.angle = turn.norm();
       seen.time = state.time();
+      turn.cwiseAbs().maxCoeff(&seen.about);
     }
     seen.before = turn;
   }
 }
 
 std::vector<std::string> BushingRange::doubts(const Model& model) const {
-  int count = 0;
-  std::size_t first = 0;
-  for (std::size_t i = 0; i < seen_.size(); ++i)
-    if (seen_[i].angle > 0.0 && count++ == 0) first = i;
-  if (count == 0) return {};
-  return {fmt::format("bushing '{}'{} turns by {:.3g} rad (at t = {:.6g}): beyond half a turn its moment is that of the other way "
-                      "round. Use a spring on a joint coordinate, which counts turns",
-                      model.bushings[first].name, count > 1 ? fmt::format(" (and {} more)", count - 1) : "",
-                      seen_[first].angle, seen_[first].time)};
+  const auto far = [](const Seen& seen) { return seen.angle > 0.0; };
+  const auto first = std::ranges::find_if(seen_, far);
+  if (first == seen_.end()) return {};
+  const auto count = std::ranges::count_if(seen_, far);
+  const std::string remedy = first->axis < 0
+                                 ? fmt::format("Give 'turns: {}': it counts turns about this axis", "xyz"[first->about])
+                                 : fmt::format("It counts turns about its {} axis alone", "xyz"[first->axis]);
+  return {fmt::format(
+      "bushing '{}'{} turns by {:.3g} rad (at t = {:.6g}): beyond half a turn its moment is that of the other way "
+      "round. {}",
+      model.bushings[first->bushing].name, count > 1 ? fmt::format(" (and {} more)", count - 1) : "", first->angle,
+      first->time, remedy)};
+}
+
+TableRange::TableRange(const Model& model) {
+  const auto watch = [this](Kind kind, int index, const Curve& law) {
+    if (const auto range = law.range()) {
+      const auto [low, high] = *range;
+      const double width = beyond_table * (high - low);
+      laws_.push_back({kind, index, low, high, low - width, high + width});
+    }
+  };
+  for (int i = 0; i < static_cast<int>(model.springs.size()); ++i) {
+    watch(Kind::stiffness, i, model.springs[i].stiffness);
+    watch(Kind::damping, i, model.springs[i].damping);
+  }
+  for (int i = 0; i < static_cast<int>(model.motions.size()); ++i)
+    if (const auto* table = std::get_if<formats::TimeTable>(&model.motions[i])) {
+      const auto [least, most] = std::ranges::minmax(table->value);
+      const MotionTable motion(*table);
+      const double low = table->time.front(), high = table->time.back(), visible = beyond_table * (most - least);
+      laws_.push_back({Kind::drive, i, low, high, low - visible / std::abs(motion(low).rate),
+                       high + visible / std::abs(motion(high).rate)});  // infinite where it rests
+    }
+  for (int i = 0; i < static_cast<int>(model.coordinates.size()); ++i)
+    if (const Coordinate& c = model.coordinates[i]; c.active && c.relation.kind == RelationKind::angle)
+      laws_.push_back({Kind::angle, i, 0.0, farthest});
+}
+
+double TableRange::value_of(const Watched& law, const Model& model, const State& state, const Evaluation& evaluation) {
+  if (law.kind == Kind::drive) return state.time();
+  if (law.kind == Kind::angle) {
+    const Coordinate& c = model.coordinates[law.index];
+    const MarkerPair pair = markers_of(c, evaluation);
+    const int k = c.relation.i;
+    return std::acos(std::clamp(marker_rotation(c.a, pair.node_a).col(k).dot(marker_rotation(c.b, pair.node_b).col(k)), -1.0, 1.0));
+  }
+  const Spring& spring = model.springs[law.index];
+  const CoordinateTerms& terms = evaluation.coordinates[spring.coordinate];
+  return law.kind == Kind::stiffness ? terms.value - spring.free : terms.rate;
+}
+
+void TableRange::observe(const Model& model, const State& state, const Evaluation& evaluation) {
+  for (Watched& law : laws_) {
+    if (law.left) continue;
+    law.value = value_of(law, model, state, evaluation);
+    law.time = state.time();
+    law.left = law.value < law.lowest || law.value > law.highest;
+  }
+}
+
+std::vector<std::string> TableRange::doubts(const Model& model) const {
+  std::vector<std::string> doubts;
+  for (const Kind kind : {Kind::stiffness, Kind::damping, Kind::drive, Kind::angle}) {
+    const auto left = [kind](const Watched& law) { return law.left && law.kind == kind; };
+    const auto first = std::ranges::find_if(laws_, left);
+    if (first == laws_.end()) continue;
+    const auto more = std::ranges::count_if(laws_, left) - 1;
+    const std::string others = more > 0 ? fmt::format(" (and {} more)", more) : "";
+    const Watched& law = *first;
+    if (kind == Kind::stiffness || kind == Kind::damping)
+      doubts.push_back(fmt::format("spring '{}'{} has {} {:.4g} (at t = {:.6g}), outside the table of its {} from {:.4g} to {:.4g}: the "
+                                   "law goes on straight",
+                                   model.springs[law.index].name, others, kind == Kind::stiffness ? "the deflection" : "the rate",
+                                   law.value, law.time, kind == Kind::stiffness ? "stiffness" : "damping", law.low, law.high));
+    else if (kind == Kind::drive)
+      doubts.push_back(fmt::format("{}{} goes on with the last rate outside its table, which covers t = {:.6g} to {:.6g}: give the "
+                                   "table for the whole run, or let it end at rest",
+                                   std::ranges::find(model.couplings, law.index, &Coupling::motion)->name, others, law.low, law.high));
+    else
+      doubts.push_back(fmt::format("coordinate '{}'{} is the angle about axes that are {:.3g} rad apart (at t = {:.6g}): near half a "
+                                   "turn there is no such angle",
+                                   model.coordinates[law.index].name, others, law.value, law.time));
+  }
+  return doubts;
 }
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,4 @@
-// Whether nonlinear beams and bushings stay within what their laws represent.
+// Whether nonlinear beams, bushings, springs, drives and angles stay within what their laws represent.
 #pragma once
 
 #include <string>
@@ -11,7 +11,8 @@
 
 namespace tisserand::mechanism {
 
-/// Largest relative rotation between neighbouring nodes of a beam element, and largest stretch of an element, over the run.
+/// Largest relative rotation between neighbouring nodes of a beam element, and largest stretch of an element, over the
+/// run.
 class BeamRange {
  public:
   explicit BeamRange(const Model& model);
@@ -39,11 +40,11 @@ class BeamRange {
   Extreme stretch_;  ///< |ε| of the arc through both nodes
 };
 
-/// Largest rotation vector of each bushing. Beyond half a turn it is that of the other way round, and the moment changes its
-/// sign.
+/// Largest rotation vector of each bushing that acts on rotations. Beyond half a turn it is that of the other way
+/// round, and the moment changes its sign. With an axis whose turns are counted, the swing across it.
 class BushingRange {
  public:
-  explicit BushingRange(const Model& model) : seen_(model.bushings.size()) {}
+  explicit BushingRange(const Model& model);
 
   /// At an evaluated state.
   void observe(const State& state, const Evaluation& evaluation);
@@ -53,10 +54,41 @@ class BushingRange {
 
  private:
   struct Seen {
+    int bushing = 0;
+    int axis = -1;  ///< Bushing::axis
     Eigen::Vector3d before = Eigen::Vector3d::Zero();
     double angle = 0.0, time = 0.0;  ///< where it first came near half a turn or passed it; 0: never
+    int about = 0;                   ///< marker axis about which it turned most then
   };
   std::vector<Seen> seen_;
+};
+
+/// Springs beyond the tables of their laws, drives that go on behind their tables, and angles about axes that come near
+/// opposite directions, where they are not defined.
+class TableRange {
+ public:
+  explicit TableRange(const Model& model);
+
+  /// At an evaluated state.
+  void observe(const Model& model, const State& state, const Evaluation& evaluation);
+
+  /// At most one line per kind: the first that left its range, and how many others did.
+  std::vector<std::string> doubts(const Model& model) const;
+
+ private:
+  enum class Kind { stiffness, damping, drive, angle };
+  /// One law: its range of deflections, rates, times or angles between axes, what is told about, and where it left it first.
+  struct Watched {
+    Kind kind;
+    int index;
+    double low, high;
+    double lowest = low, highest = high;
+    double value = 0.0, time = 0.0;
+    bool left = false;
+  };
+  static double value_of(const Watched& law, const Model& model, const State& state, const Evaluation& evaluation);
+
+  std::vector<Watched> laws_;
 };
 
 }  // namespace tisserand::mechanism

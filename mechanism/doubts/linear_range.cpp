@@ -32,6 +32,13 @@ constexpr double most_axial = 0.1;
 /// A spin Ω raises the square of a cantilever's first frequency by 1.193 Ω² (Southwell, Gough, ARC R&M 766, 1921): 10 %
 /// of its stiffness at 0.29.
 constexpr double most_spin = 0.29;
+/// Equilibrium of a linear body holds in its undeformed shape. In the deformed one forces F and moments m on nodes that
+/// are displaced by u and turned by θ have the moment Σ u × F + ½ θ × m besides (½: m works on rotation vectors). A
+/// cantilever under an axial force P and a force across has P/P_cr·π²/12 of its largest moment there: the limit of
+/// most_axial.
+constexpr double most_displaced = 0.1;
+/// Of span or rad: below it nothing is displaced.
+constexpr double least_displacement = 1e-3;
 constexpr const char* superelement_remedy = "cut it into several, or use second_order with its companion file";
 constexpr const char* modal_remedy = "cut it into several, or take superelements with second_order, or beams";
 
@@ -124,6 +131,35 @@ void LinearRange::observe_modal(const Model& model, const State& state, const Ev
   }
 }
 
+void LinearRange::observe_displaced(const SuperelementBody& body, const Eigen::VectorXd& y_B, double span,
+                                    Seen& seen) const {
+  double largest = 0.0;
+  for (const SuperelementNode& node : body.node) {
+    if (node.has_translation())
+      largest = std::max(largest, y_B.segment(node.translation_row, body.translations()).norm() / span);
+    if (node.has_rotation()) largest = std::max(largest, y_B.segment(node.rotation_row, body.rotations()).norm());
+  }
+  if (largest < least_displacement) return;
+  const auto translation = [&](const SuperelementNode& node, const Eigen::VectorXd& of) -> Vector3d {
+    if (!node.has_translation()) return Vector3d::Zero();
+    const int row = node.translation_row;
+    return {of[row], of[row + 1], body.planar ? 0.0 : of[row + 2]};
+  };
+  const auto rotation = [&](const SuperelementNode& node, const Eigen::VectorXd& of) -> Vector3d {
+    if (!node.has_rotation()) return Vector3d::Zero();
+    const int row = node.rotation_row;
+    return body.planar ? Vector3d(0.0, 0.0, of[row]) : Vector3d(of.segment<3>(row));
+  };
+  const Eigen::VectorXd force = body.S_BB * y_B;
+  Vector3d displaced = Vector3d::Zero();
+  for (const SuperelementNode& node : body.node) {
+    const Vector3d F = translation(node, force), m = rotation(node, force);
+    displaced += translation(node, y_B).cross(F) + 0.5 * rotation(node, y_B).cross(m);
+    seen.moment = std::max(seen.moment, (m + node.X.cross(F)).norm());
+  }
+  raise(seen.displaced, displaced.norm());
+}
+
 void LinearRange::observe(const Model& model, const State& state, const Evaluation& evaluation) {
   const double passed = state.time() - time_;
   time_ = state.time();
@@ -136,14 +172,15 @@ void LinearRange::observe(const Model& model, const State& state, const Evaluati
     for (const int j : body.translation_nodes)
       raise(seen_[i].deflection, motion.y_B.segment(body.node[j].translation_row, body.translations()).norm());
     raise(seen_[i].spin, motion.Omega0.norm());
+    if (limits.span > 0.0) observe_displaced(body, motion.y_B, limits.span, seen_[i]);
     if (limits.axial.size() > 0) raise_axial(seen_[i], limits.axial.dot(motion.y_B), limits.lag, passed);
   }
 }
 
 std::vector<std::string> LinearRange::doubts(const Model& model) const {
-  std::vector<Excess> bent, pressed, spun;
+  std::vector<Excess> bent, pressed, displaced, spun;
   const auto judge = [&](const Judged& body, const Seen& seen, auto first_frequency) {
-    const auto& [force, deflection, axial, spin] = seen;
+    const auto& [force, deflection, axial, spin, moved, moment] = seen;
     if (const double ratio = deflection.value / body.span; body.span > 0.0 && ratio > most_deflection)
       bent.push_back({ratio, fmt::format("'{}' deflects by {:.2g} of its length (at t = {:.6g}), beyond {:g}, with a "
                                          "linear strain: {}",
@@ -156,6 +193,12 @@ std::vector<std::string> LinearRange::doubts(const Model& model) const {
                        "not its linear strain (beyond {:g} of the stiffness): {}",
                        body.name, axial.value < 0.0 ? "compression" : "tension", ratio, axial.time,
                        axial.value < 0.0 ? "softens" : "stiffens", most_axial, body.remedy)});
+    if (const double ratio = moment > 0.0 ? moved.value / moment : 0.0; ratio > most_displaced)
+      displaced.push_back(
+          {ratio, fmt::format("the forces on '{}' have {:.2g} of its largest moment more where its nodes are than "
+                              "where they were undeformed (at t = {:.6g}, beyond {:g}), which its linear strain "
+                              "leaves out: {}",
+                              body.name, ratio, moved.time, most_displaced, body.remedy)});
     if (spin.value == 0.0) return;
     const double frequency = first_frequency(spin.value);
     const double ratio = frequency > 0.0 ? spin.value / frequency : 0.0;
@@ -183,7 +226,7 @@ std::vector<std::string> LinearRange::doubts(const Model& model) const {
     judge({model.modal_bodies[i].name, modal_[i].span(), modal_[i].buckling(), 1, modal_remedy}, modal_seen_[i],
           [&](double spin) { return modal_[i].first_frequency(model, spin); });
   std::vector<std::string> doubts;
-  for (const auto* kind : {&bent, &pressed, &spun})
+  for (const auto* kind : {&bent, &pressed, &displaced, &spun})
     for (std::string& text : worst_of(*kind)) doubts.push_back(std::move(text));
   return doubts;
 }

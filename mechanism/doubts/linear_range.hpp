@@ -1,4 +1,5 @@
-// Whether superelements and modal bodies stay where their linear strain serves: deflection, axial force, spin.
+// Whether superelements and modal bodies stay where their linear strain serves: deflection, axial force, displaced forces,
+// spin.
 #pragma once
 
 #include <string>
@@ -39,6 +40,8 @@ class LinearRange {
   struct Seen {
     double force = 0.0;  ///< axial, its mean over `lag`; tension is positive
     Extreme deflection, axial, spin;
+    Extreme displaced;    ///< moment of the elastic forces on the nodes in their displaced places, in the frame
+    double moment = 0.0;  ///< largest moment of the elastic forces on one node about the origin of the part
   };
   /// A body as its limits are judged.
   struct Judged {
@@ -53,6 +56,7 @@ class LinearRange {
   };
   static Limits limits_of(const SuperelementBody& body);
   void observe_modal(const Model& model, const State& state, const Evaluation& evaluation, double passed);
+  void observe_displaced(const SuperelementBody& body, const Eigen::VectorXd& y_B, double span, Seen& seen) const;
   void raise(Extreme& extreme, double value) const;
   void raise_axial(Seen& seen, double force, double lag, double passed) const;
 

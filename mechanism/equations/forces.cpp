@@ -95,8 +95,10 @@ void add_loads(const Model& model, const State& state, Evaluation& evaluation) {
 
 void add_bushings(const Model& model, Evaluation& evaluation) {
   for (std::size_t i = 0; i < model.bushings.size(); ++i) {
+    const Bushing& bushing = model.bushings[i];
     BushingTerms& terms = evaluation.bushings[i];
-    evaluate(model.bushings[i], markers_of(model.bushings[i], evaluation), terms);
+    const double turned = bushing.axis < 0 ? 0.0 : evaluation.coordinates[bushing.coordinate].value;
+    evaluate(bushing, markers_of(bushing, evaluation), turned, terms);
     add_force(model, model.bushings.maps[i], terms.force, evaluation);
     note_scale(terms.force, evaluation);
     evaluation.spring_energy += terms.energy;

@@ -1,4 +1,4 @@
-// Bushing: elastic and damped connection of two markers in all directions, for rotations of any size below half a turn.
+// Bushing: elastic and damped connection of two markers in all directions, for rotations of any size.
 #pragma once
 
 #include <string>
@@ -13,9 +13,9 @@ using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector12d = Eigen::Matrix<double, 12, 1>;
 
-/// Deflection d = [p; ψ]: p = R_Aᵀ(x_B − x_A), ψ = log(R_AᵀR_B), with the origins and axes of the markers. The law is
-/// w = K (d − free) + D ḋ − preload, and the virtual work of what acts on the bodies is −w·δd: a moment of T(ψ)⁻ᵀ w_ψ
-/// about the axes of B, since δψ = T(ψ)⁻¹ δΘ_AB. With K = Kᵀ it derives from V = ½(d − free)ᵀK(d − free) −
+/// Deflection d = [p; ψ]: p = R_Aᵀ(x_B − x_A), ψ of R_AᵀR_B (relative_turn.hpp), with the origins and axes of the
+/// markers. The law is w = K (d − free) + D ḋ − preload, and the virtual work of what acts on the bodies is −w·δd: a
+/// moment of Bᵀ w_ψ about the axes of B, since δψ = B δΘ_AB. With K = Kᵀ it derives from V = ½(d − free)ᵀK(d − free) −
 /// preload·(d − free). Translations are in A's axes: swapping the bodies is the same law only for small rotations.
 struct Bushing {
   std::string name;
@@ -26,6 +26,9 @@ struct Bushing {
   Vector6d free = Vector6d::Zero();
   bool free_at_start = false;  ///< `free` is the deflection at the start
   Vector6d preload = Vector6d::Zero();
+  int axis = -1;          ///< marker axis about which its turns are counted; −1: none, ψ ends at half a turn
+  int coordinate = -1;    ///< with an axis: the coordinate that counts them, row of Model::coordinates
+  bool rotations = true;  ///< whether ψ matters
 };
 
 /// Values at one instant. Columns of J and rows of force: [x_A Θ_A x_B Θ_B], world translations, material rotations.
@@ -38,7 +41,8 @@ struct BushingTerms {
   double dissipated = 0.0;  ///< power ḋᵀD ḋ
   double supplied = 0.0;    ///< power of the antisymmetric part of K: −ḋᵀ ½(K − Kᵀ)(d − free)
 };
-void evaluate(const Bushing& bushing, const MarkerPair& pair, BushingTerms& terms);
+/// `near`: with an axis, an angle from which the turn about it differs by less than half a turn.
+void evaluate(const Bushing& bushing, const MarkerPair& pair, double near, BushingTerms& terms);
 
 /// c_c ∂(Jᵀw)/∂v + c_k ∂(Jᵀw)/∂q, exact, from the terms at the same state.
 void tangent(const Bushing& bushing, const MarkerPair& pair, const BushingTerms& terms,

@@ -1,6 +1,8 @@
 // A law between two quantities: proportional, or a table with its slope and integral.
 #pragma once
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "formats/scene/scene.hpp"
@@ -21,6 +23,12 @@ class Curve {
     double integral = 0.0;  ///< ∫₀ˣ y dx
   };
   Value operator()(double x) const;
+
+  /// First and last x of a table, beyond which the law goes on straight; a proportional law has none.
+  std::optional<std::pair<double, double>> range() const {
+    if (pieces_.empty()) return std::nullopt;
+    return std::pair(pieces_[1].start, pieces_.back().start);
+  }
 
  private:
   /// value + c1 t + c2 t² + c3 t³ with t = x − start; integral: ∫ y dx from the first point to start.

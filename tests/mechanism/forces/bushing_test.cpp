@@ -8,6 +8,7 @@
 
 #include "common/math/rotation.hpp"
 #include "mechanism/analyses/statics.hpp"
+#include "mechanism/forces/relative_turn.hpp"
 #include "tests/support/scenes/model_tangent.hpp"
 
 namespace tisserand::mechanism::bushing_test {
@@ -30,9 +31,12 @@ NodeMotion random_motion(std::mt19937& random) {
 struct Pair {
   Bushing bushing;
   NodeMotion a, b;
+  double wound = 0.0;  ///< angle near which turns are counted
 
+  /// With seeds of 4 and more, turns about axis seed % 3 are counted, and the bodies are wound up by some.
   explicit Pair(unsigned seed) {
     std::mt19937 random(seed);
+    if (seed >= 4) bushing.axis = static_cast<int>(seed % 3);
     bushing.a = {0, random_vector(random, 1.0), exp_so3<double>(random_vector(random, 0.5))};
     bushing.b = {1, random_vector(random, 1.0), exp_so3<double>(random_vector(random, 0.5))};
     const Matrix6d any = Matrix6d::Random();
@@ -42,11 +46,15 @@ struct Pair {
     bushing.preload = random_vector_n(random, 6, 1.0);
     a = random_motion(random);
     b = random_motion(random);
+    if (bushing.axis < 0) return;
+    wound = 2.0 * seed;
+    const Vector3d axis = bushing.b.R.col(bushing.axis);  // in axes of the node
+    b.R = (b.R * exp_so3<double>(Vector3d(wound * axis))).eval();
   }
   MarkerPair markers() const { return {bushing.a, bushing.b, a, b}; }
   BushingTerms terms() const {
     BushingTerms terms;
-    evaluate(bushing, markers(), terms);
+    evaluate(bushing, markers(), wound, terms);
     return terms;
   }
   Vector12d velocity() const {
@@ -144,19 +152,22 @@ TEST(Bushing, IsInvariantUnderRigidMotion) {
 // With isotropic stiffnesses (k in all translations, c in all rotations) the energy ½k|p|² + ½c|ψ|² does not know which
 // body is called a: the forces on the bodies are the same.
 TEST(Bushing, IsotropicOnesMayBeSwapped) {
-  Pair pair(4), swapped(4);
-  for (Pair* p : {&pair, &swapped}) {
-    p->bushing.stiffness.setZero();
-    p->bushing.stiffness.diagonal() << 5, 5, 5, 3, 3, 3;
-    p->bushing.damping.setZero();
-    p->bushing.free.setZero();
-    p->bushing.preload.setZero();
+  for (const unsigned seed : {3u, 4u, 5u, 6u}) {
+    Pair pair(seed), swapped(seed);
+    for (Pair* p : {&pair, &swapped}) {
+      p->bushing.stiffness.setZero();
+      p->bushing.stiffness.diagonal() << 5, 5, 5, 3, 3, 3;
+      p->bushing.damping.setZero();
+      p->bushing.free.setZero();
+      p->bushing.preload.setZero();
+    }
+    std::swap(swapped.bushing.a, swapped.bushing.b);
+    std::swap(swapped.a, swapped.b);
+    swapped.wound = -pair.wound;
+    const Vector12d f = pair.terms().force, g = swapped.terms().force;
+    EXPECT_LT((f.head<6>() - g.tail<6>()).norm(), 1e-12) << seed;
+    EXPECT_LT((f.tail<6>() - g.head<6>()).norm(), 1e-12) << seed;
   }
-  std::swap(swapped.bushing.a, swapped.bushing.b);
-  std::swap(swapped.a, swapped.b);
-  const Vector12d f = pair.terms().force, g = swapped.terms().force;
-  EXPECT_LT((f.head<6>() - g.tail<6>()).norm(), 1e-13);
-  EXPECT_LT((f.tail<6>() - g.head<6>()).norm(), 1e-13);
 }
 
 formats::Scene mounted_body(double step, double end) {
@@ -218,6 +229,21 @@ TEST(Bushing, LargeTurnsVibrateHarmonically) {
   const double coarse = error(0.01), fine = error(0.005);
   EXPECT_LT(fine, 2e-3);
   EXPECT_NEAR(coarse / fine, 4.0, 0.4);
+}
+
+// Symmetric swing and twist: R = exp(τ/2 e) exp(σ) exp(τ/2 e), over several turns.
+TEST(Bushing, SwingAndTwistComposeTheRotation) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (double twist = -14.0; twist < 14.0; twist += 0.7)
+      for (const double swing : {0.0, 1e-9, 0.05, 0.21, 1.3, 2.8}) {
+        Vector3d sigma(0.6, -0.3, 0.4);
+        sigma[axis] = 0.0;
+        sigma *= swing / sigma.norm();
+        const Matrix3d half = exp_so3<double>(Vector3d(0.5 * twist * Vector3d::Unit(axis)));
+        const RelativeTurn turn(half * exp_so3<double>(sigma) * half, axis, twist + 1.0);
+        EXPECT_LT((turn.psi() - sigma - twist * Vector3d::Unit(axis)).norm(), 1e-13)
+            << axis << ' ' << twist << ' ' << swing;
+      }
 }
 
 // A body thrown about in a field with damping in space: the balance of energy is of second order in the step.
