@@ -395,6 +395,12 @@ TEST(Choice, FollowsTheCountedWork) {
   EXPECT_EQ(choose_solver(band(700), LinearSolver::dense).kind, SolverKind::lapack);
   EXPECT_EQ(choose_solver(band(20), LinearSolver::umfpack).kind, SolverKind::umfpack);
   EXPECT_EQ(choose_solver(band(20), LinearSolver::qr).kind, SolverKind::qr);
+  // A car: a chassis of 57 coordinates beside 177 unknowns of its suspension. KLU takes half the time of the dense code.
+  std::vector<Position> car;
+  for (int i = 0; i < 234; ++i)
+    for (int j = 0; j < 234; ++j)
+      if ((i < 57 && j < 57) || std::abs(i - j) < 4) car.push_back({i, j});
+  EXPECT_EQ(choose_solver(SparsePattern(234, car, Storage::sparse), LinearSolver::automatic).kind, SolverKind::klu);
   const SolverChoice choice = choose_solver(full(20), LinearSolver::klu);
   EXPECT_NEAR(choice.fill, 1.0, 0.1);
   EXPECT_NEAR(choice.flops, 2.0 / 3.0 * 8000, 0.15 * 2.0 / 3.0 * 8000);
