@@ -48,9 +48,10 @@ void JointBuilder::add(const formats::JointSpec& spec) {
 void JointBuilder::set_length(const formats::JointSpec& spec, Joint& joint) const {
   const double start = distance_at_start(joint.a, joint.b);
   joint.constant = spec.length.value_or(start);
-  if (!(start > 1e-9 * model_.length))
+  // A length that is given can be assembled from there.
+  if (!spec.length && !(start > 1e-9 * model_.length))
     throw Error(fmt::format("joint '{}' holds the distance of two markers at the same place", spec.name), spec.where,
-                "use a spherical joint, or give the markers different positions");
+                "use a spherical joint, give the markers different positions, or give its length");
 }
 
 double JointBuilder::distance_at_start(const Marker& a, const Marker& b) const {

@@ -105,10 +105,11 @@ PlanarCheck::Parts PlanarCheck::parts_of(const Row12& row, const Marker& a, cons
 }
 
 void PlanarCheck::require_apart(const MatrixXd& A, const std::vector<bool>& in_plane, const std::string& what) const {
+  const double round_off = 1e-12 * A.cwiseAbs().maxCoeff();  // of matrices turned into the axes of the plane
   for (Eigen::Index i = 0; i < A.rows(); ++i)
     for (Eigen::Index j = 0; j < A.cols(); ++j) {
       const double size = std::sqrt(std::abs(A(i, i) * A(j, j)));
-      if (in_plane[i] != in_plane[j] && !(std::abs(A(i, j)) <= planar_share * size))
+      if (in_plane[i] != in_plane[j] && !(std::abs(A(i, j)) <= std::max(planar_share * size, round_off)))
         leave(fmt::format("{} couples motion in it with motion out of it: entry {:.3g} beside diagonals of {:.3g} and "
                           "{:.3g}",
                           what, A(i, j), A(i, i), A(j, j)),
@@ -260,6 +261,11 @@ void PlanarCheck::bushing(const Bushing& one) const {
   Square12 A;
   for (const TangentCoefficients& c : {TangentCoefficients{0.0, 1.0, 0.0}, TangentCoefficients{0.0, 0.0, 1.0}}) {
     tangent(bushing, pair, terms, c, A);
+    for (const auto& [node, first] : {std::pair(one.a.node, 0), std::pair(one.b.node, 6)})
+      if (node < 0) {  // what acts on the ground moves nothing
+        A.middleRows<6>(first).setZero();
+        A.middleCols<6>(first).setZero();
+      }
     require_apart(A, in_plane, name);
   }
 }

@@ -57,7 +57,7 @@ RelationTerms planar_distance(const MarkerPair& p) {
   const Vector2d d = (p.node_b.x - p.node_a.x).head<2>() + arm_B - arm_A;
   RelationTerms terms;
   terms.value = d.norm();
-  const Vector2d n = d / terms.value;
+  const Vector2d n = terms.value > 0.0 ? Vector2d(d / terms.value) : Vector2d::Zero();
   assign(terms.G, n, arm_A, arm_B);
   add_height(terms.G.segment<2>(3), p.node_a.R, p.a.p.z(), -n);
   add_height(terms.G.segment<2>(9), p.node_b.R, p.b.p.z(), n);
@@ -150,6 +150,7 @@ void add_stiffness_in_plane(const Relation& r, const MarkerPair& p, double weigh
       const Vector2d arm_A = in_plane(p.node_a.R, p.a.p), arm_B = in_plane(p.node_b.R, p.b.p);
       const Vector2d d = (p.node_b.x - p.node_a.x).head<2>() + arm_B - arm_A;
       const double length = d.norm();
+      if (length == 0.0) return;
       const Vector2d n = d / length;
       Row12 across = Row12::Zero();
       assign(across, Vector2d(-n.y(), n.x()), arm_A, arm_B);

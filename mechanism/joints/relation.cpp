@@ -163,12 +163,14 @@ void add_stiffness_along(const Relation& r, const MarkerPair& p, double weight, 
 
 // ---- distance ----------------------------------------------------------------------------------------------------
 
+/// Markers at one place, as in a start that is to be assembled, have no direction: n = 0, and nothing is divided by it.
 struct Distance {
   Vector3d d, n;
-  double length;
+  double length, inverse;
   explicit Distance(const MarkerPair& p)
       : d(marker_position(p.b, p.node_b) - marker_position(p.a, p.node_a)), length(d.norm()) {
-    n = d / length;
+    inverse = length > 0.0 ? 1.0 / length : 0.0;
+    n = d * inverse;
   }
 };
 
@@ -186,13 +188,13 @@ double bias_distance(const MarkerPair& p) {
     return Vector3d(node.R * node.Omega.cross(node.Omega.cross(m.p)));
   };
   const double rate = q.n.dot(V);
-  return (V.squaredNorm() - rate * rate) / q.length + q.n.dot(centripetal(p.b, p.node_b) - centripetal(p.a, p.node_a));
+  return (V.squaredNorm() - rate * rate) * q.inverse + q.n.dot(centripetal(p.b, p.node_b) - centripetal(p.a, p.node_a));
 }
 
 Row12 rate_gradient_distance(const MarkerPair& p) {
   const Distance q(p);
   const Vector3d V = marker_velocity(p.b, p.node_b) - marker_velocity(p.a, p.node_a);
-  Row12 N = pulled_back((V - q.n.dot(V) * q.n) / q.length, p);
+  Row12 N = pulled_back((V - q.n.dot(V) * q.n) * q.inverse, p);
   N.segment<3>(3) -= p.node_a.Omega.cross(p.a.p).cross(p.node_a.R.transpose() * q.n).transpose();
   N.segment<3>(9) += p.node_b.Omega.cross(p.b.p).cross(p.node_b.R.transpose() * q.n).transpose();
   return N;
@@ -202,7 +204,7 @@ void add_stiffness_distance(const MarkerPair& p, double weight, Square12& K) {
   const Distance q(p);
   Eigen::Matrix<double, 3, 12> J;
   J << -Matrix3d::Identity(), p.node_a.R * skew<double>(p.a.p), Matrix3d::Identity(), -p.node_b.R * skew<double>(p.b.p);
-  const Eigen::Matrix<double, 3, 12> PJ = (J - q.n * (q.n.transpose() * J)) / q.length;
+  const Eigen::Matrix<double, 3, 12> PJ = (J - q.n * (q.n.transpose() * J)) * q.inverse;
   K.noalias() += weight * J.transpose() * PJ;
   K.block<3, 3>(3, 3) -= weight * skew<double>(p.a.p) * skew<double>(p.node_a.R.transpose() * q.n);
   K.block<3, 3>(9, 9) += weight * skew<double>(p.b.p) * skew<double>(p.node_b.R.transpose() * q.n);

@@ -243,6 +243,33 @@ TEST(Accuracy, OfAJointBesideChosenChannels) {
   EXPECT_GT(trial.channel("joints/coordinate/hinge").size(), 100u);
 }
 
+// A bushing whose stiffness is diagonal in axes of the plane, 0.5 m from the ground's origin along the normal; likewise one
+// of no stiffness out of an oblique plane. In the plane it moves as in space.
+TEST(PlanarBushing, OffTheOrigin) {
+  const std::vector<std::vector<std::string>> cases{
+      {},
+      {"joints.h.axis=[1, 2, 3]", "bushings.bu.axis=[1, 2, 3]", "bushings.bu.x_axis=[3, 0, -1]", "loads.m.value=[1, 2, 3]",
+       "bushings.bu.stiffness=[1000, 1500, 0, 0, 0, 3]"}};
+  for (std::vector<std::string> settings : cases) {
+    const Trial plane("planar_bushing_off_origin", settings);
+    settings.push_back("effects={planar: off}");
+    const Trial space("planar_bushing_off_origin", settings);
+    const double turned = space.last("joints/coordinate/h/angle");
+    EXPECT_GT(std::abs(turned), 1e-4);
+    EXPECT_NEAR(plane.last("joints/coordinate/h/angle"), turned, 1e-10);
+  }
+}
+
+// A folded guess with a length that is given: the triangle of 0.5, 0.5 and 0.4 m closes one way or the other, 47.156
+// degrees from folded. In its plane, too.
+TEST(Assembly, AFoldedGuessCloses) {
+  for (const std::vector<std::string>& settings : {std::vector<std::string>{}, {"effects={planar: on}"}}) {
+    const Trial trial("assembly_folded", settings);
+    EXPECT_EQ(trial.report().outcome, RunOutcome::completed);
+    EXPECT_NEAR(std::abs(trial.last("joints/coordinate/elbow")) * 180.0 / pi, 2.0 * std::asin(0.4) * 180.0 / pi, 1e-6);
+  }
+}
+
 // Springs, stops and bushings of zero stiffness rest, with one note.
 TEST(ZeroValues, RestWithANote) {
   const Trial trial("fail7_zero_values");
