@@ -7,8 +7,6 @@
 #include <random>
 
 #include <Eigen/Cholesky>
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/QR>
 #include <Eigen/SparseCore>
 
 #include "mechanism/equations/carriers.hpp"
@@ -20,10 +18,6 @@
 
 namespace tisserand::mechanism {
 namespace {
-
-/// Constraints up to which a dense decomposition is taken: a QR of 400 x 400 takes 15 ms, above conjugate gradients are
-/// faster.
-constexpr int dense_limit = 400;
 
 /// μ = U λ with |μ|² = Σ |f|² + |m|²/L²: one upper triangle per joint (its wrenches are independent), a number per
 /// coupling; and A = Bᵀ U⁻¹, rotations scaled with 1/L.
@@ -88,21 +82,6 @@ WeightedJacobian weighted_jacobian(const Model& model, const Evaluation& evaluat
   result.A.resize(model.sizes.boundary, model.sizes.constraints);
   result.A.setFromTriplets(entries.begin(), entries.end());
   return result;
-}
-
-/// A⁺ A μ: μ without its part in the null space of A.
-Eigen::VectorXd without_null_space(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& mu) {
-  const Eigen::VectorXd f = A * mu;
-  if (A.cols() <= dense_limit) {
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-    decomposition.setThreshold(rank_tolerance);
-    decomposition.compute(Eigen::MatrixXd(A));
-    return decomposition.solve(f);
-  }
-  Eigen::LeastSquaresConjugateGradient<Eigen::SparseMatrix<double>> solver(A);
-  solver.setTolerance(1e-12);
-  solver.setMaxIterations(10 * A.cols());
-  return solver.solve(f);
 }
 
 }  // namespace
@@ -227,7 +206,7 @@ Eigen::VectorXd least_norm_multipliers(const Model& model, const Evaluation& eva
     part = (weighted.triangle[i].triangularView<Eigen::Upper>() * part).eval();
   }
   for (std::size_t i = 0; i < model.couplings.size(); ++i) mu[model.couplings[i].row] *= weighted.coupling_weight[i];
-  mu = without_null_space(weighted.A, mu);
+  mu = without_null_space(weighted.A, mu, rank_tolerance);
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     auto part = mu.segment(model.joints[i].row, model.joints[i].size());
     part = weighted.triangle[i].triangularView<Eigen::Upper>().solve(part).eval();
@@ -242,7 +221,7 @@ std::vector<std::string> joints_without_unique_reaction(const Model& model, cons
   std::normal_distribution<double> normal;
   const Eigen::VectorXd probe =
       Eigen::VectorXd::NullaryExpr(model.sizes.constraints, [&](Eigen::Index) { return normal(random); });
-  const Eigen::VectorXd null = probe - without_null_space(weighted_jacobian(model, evaluation).A, probe);
+  const Eigen::VectorXd null = probe - without_null_space(weighted_jacobian(model, evaluation).A, probe, rank_tolerance);
   std::vector<std::string> names;
   for (const Joint& joint : model.joints)
     if (null.segment(joint.row, joint.size()).norm() > 1e-7) names.push_back(joint.name);  // of planar ones maybe none
