@@ -324,6 +324,7 @@ void AutomaticEffects::begin_window(const Run& run) {
 }
 
 AutomaticEffects::Verdict AutomaticEffects::sample(const Run& run) {
+  if (std::ranges::all_of(uses_, &Use::held)) return Verdict::sleeps_well;
   sample_here(run);
   Verdict verdict = Verdict::sleeps_well;
   for (std::size_t k = 0; k < uses_.size() && !blocked_; ++k) {
@@ -475,13 +476,11 @@ void AutomaticEffects::tell(Run& run) const {
   if (blind_)
     report.doubts.push_back(
         "auto: what sleeping bodies move along with their joints could not be counted at times, so that resonances "
-        "with "
-        "it are not seen; give flexibility: on to bodies that may resonate");
+        "with it are not seen; give flexibility: on to bodies that may resonate");
   if (const std::vector<std::string> names = slept_in_a_weld(); !names.empty())
     report.doubts.push_back(
         fmt::format("auto: {} fell asleep welded to flexible bodies, which may vibrate since then by more than "
-                    "tolerance allows; give "
-                    "the pieces of one part flexibility: on, or a smaller tolerance",
+                    "tolerance allows; give the pieces of one part flexibility: on, or a smaller tolerance",
                     listed(names)));
   for (const Use& use : uses_) {
     SwitchHistory history{formats::effect_word(use.effect.effect), use.effect.owner, use.was_awake, use.changes, 0.0};

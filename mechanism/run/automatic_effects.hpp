@@ -21,8 +21,8 @@ struct RunReport;
 /// The model of the run is that of the effects that are awake. Beside it stands the whole model, with all effects on:
 /// its layout is that of the results, and in its coordinates is told what a sleeping effect would do (demand.hpp). An
 /// effect that matters wakes at the beginning of the window in which that was seen; one that has taken less than a
-/// quarter of what is allowed for ten windows sleeps, if the energy that this costs is allowed too. Effects of bodies that
-/// loops of joints can stress stay on.
+/// quarter of what is allowed for ten windows sleeps, if the energy that this costs is allowed too. Effects of bodies
+/// that loops of joints can stress stay on.
 class AutomaticEffects {
  public:
   /// `uses`: automatic_effects() of the scene. Throws Error for a method that cannot be switched.
@@ -124,14 +124,14 @@ class AutomaticEffects {
   std::optional<StateTransfer> lift_;          ///< from the model of the run to the whole one
   std::optional<Demand> demand_;
   std::optional<CarriedInertia> inertia_;
-  bool blind_ = false;                  ///< there was a window without carried inertia
-  bool doubted_ = false;                ///< that something could not wake was told
-  bool inertia_set_ = false;            ///< in this window
-  bool sampled_ = false;                ///< where the run stands, with its present model
-  bool blocked_ = false;                ///< what matters could not be woken in this window
-  bool resumes_ = false;                ///< from a checkpoint that was sampled where it stands
-  std::vector<double> rates_;           ///< of the checkpoint, until the first window begins
-  bool fresh_ = false;                  ///< the run stands at the poses of the scene
+  bool blind_ = false;         ///< there was a window without carried inertia
+  bool doubted_ = false;       ///< that something could not wake was told
+  bool inertia_set_ = false;   ///< in this window
+  bool sampled_ = false;       ///< where the run stands, with its present model
+  bool blocked_ = false;       ///< what matters could not be woken in this window
+  bool resumes_ = false;       ///< from a checkpoint that was sampled where it stands
+  std::vector<double> rates_;  ///< of the checkpoint, until the first window begins
+  bool fresh_ = false;         ///< the run stands at the poses of the scene
   double energy_reference_ = 0.0;
   double force_reference_ = 0.0;
   double switched_ = 0.0;

@@ -106,8 +106,8 @@ bool choose_active_rows(const Model& model, State& state, Evaluation& evaluation
 
 namespace {
 
-/// Parts that are no branch of a tree: what is left when parts with one joint or none are taken away again and again. The
-/// ground is no part. Parts of couplings stay.
+/// Parts that are no branch of a tree: what is left when parts with one joint or none are taken away again and again.
+/// The ground is no part. Parts of couplings stay.
 std::vector<bool> parts_in_loops(const Model& model, const Parts& parts) {
   const auto part = [&](const Marker& marker) { return marker.node < 0 ? parts.count() : parts.of_node[marker.node]; };
   std::vector<int> joints(static_cast<std::size_t>(parts.count()) + 1, 0);
@@ -157,8 +157,8 @@ bool RowWatch::renew(const Model& model, State& state, Evaluation& evaluation) {
   return largest_factor(model, state, evaluation) > most_factor && choose_active_rows(model, state, evaluation);
 }
 
-/// Of [M Bₐᵀ; Bₐ 0][x; c] = [b; 0] for each row b that is left out: b = Bₐᵀ c, with x = 0 if b depends on the rows Bₐ that
-/// are solved for. Infinite if it does not.
+/// Of [M Bₐᵀ; Bₐ 0][x; c] = [b; 0] for each row b that is left out: b = Bₐᵀ c, with x = 0 if b depends on the rows Bₐ
+/// that are solved for. Infinite if it does not.
 double RowWatch::largest_factor(const Model& model, const State& state, Evaluation& evaluation) {
   constexpr double independent = 1e-6;  // of the row
   if (!system_) {
@@ -191,8 +191,7 @@ double RowWatch::largest_factor(const Model& model, const State& state, Evaluati
     const auto size = [&](const Eigen::VectorXd& b) {
       return b.cwiseProduct(model.equation_scale.head(n).matrix()).norm();
     };
-    if (size(rest_) > independent * size(row_))
-      return std::numeric_limits<double>::infinity();
+    if (size(rest_) > independent * size(row_)) return std::numeric_limits<double>::infinity();
   }
   return largest;
 }
@@ -221,7 +220,8 @@ std::vector<std::string> joints_without_unique_reaction(const Model& model, cons
   std::normal_distribution<double> normal;
   const Eigen::VectorXd probe =
       Eigen::VectorXd::NullaryExpr(model.sizes.constraints, [&](Eigen::Index) { return normal(random); });
-  const Eigen::VectorXd null = probe - without_null_space(weighted_jacobian(model, evaluation).A, probe, rank_tolerance);
+  const Eigen::VectorXd null =
+      probe - without_null_space(weighted_jacobian(model, evaluation).A, probe, rank_tolerance);
   std::vector<std::string> names;
   for (const Joint& joint : model.joints)
     if (null.segment(joint.row, joint.size()).norm() > 1e-7) names.push_back(joint.name);  // of planar ones maybe none

@@ -51,7 +51,8 @@ Matrix transposed_jacobian(const Model& model, const Evaluation& now) {
   return B;
 }
 
-/// T, six motions of each part about the first node that owns coordinates, rotations times the characteristic length; modes rest.
+/// T, six motions of each part about the first node that owns coordinates, rotations times the characteristic length;
+/// modes rest.
 Matrix rigid_motions(const Model& model, const Parts& parts, const Evaluation& now) {
   Entries entries;
   const auto add = [&](int row, int column, const Matrix3d& block) {

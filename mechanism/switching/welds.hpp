@@ -7,8 +7,8 @@
 
 namespace tisserand::mechanism {
 
-/// Number of the part that each body that deforms (deformation.hpp) is a piece of: welded_beams(), and fixed joints with
-/// modal bodies.
+/// Number of the part that each body that deforms (deformation.hpp) is a piece of: welded_beams(), and fixed joints
+/// with modal bodies.
 std::vector<int> welded_parts(const Model& model);
 
 }  // namespace tisserand::mechanism

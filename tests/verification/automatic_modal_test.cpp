@@ -172,8 +172,9 @@ TEST(AutomaticModalBodies, GoOnFromWhereTheyStood) {
   }
 }
 
-/// A stout rod that two joints hold, neither of which stresses it alone, with a force across its middle by which it bends at rest, as seen from its ends, 3
-/// F L³/(48 EI), by 0.3 of the tolerance 0.01; a tenth of it swings at `part` of its first frequency.
+/// A stout rod that two joints hold, neither of which stresses it alone, with a force across its middle by which it
+/// bends at rest, as seen from its ends, 3 F L³/(48 EI), by 0.3 of the tolerance 0.01; a tenth of it swings at `part`
+/// of its first frequency.
 formats::Scene shaken(double part) {
   formats::Scene scene = automatic(test_support::empty_scene(2.5e-4, 1.0));
   scene.automatic.tolerance = 0.01;

@@ -39,13 +39,14 @@ class AutomaticLoops : public ::testing::Test {
   std::string path(const std::string& part) const { return folder_.file(part + ".superelement.h5"); }
 
   Trial four_bar(const std::string& effects) const {
-    return Trial("four_bar_misaligned",
-                 {"bodies.crank.file=" + path("crank"), "bodies.coupler.file=" + path("coupler"),
-                  "bodies.rocker.file=" + path("rocker"), "effects=" + effects});
+    return Trial("four_bar_misaligned", {"bodies.crank.file=" + path("crank"), "bodies.coupler.file=" + path("coupler"),
+                                         "bodies.rocker.file=" + path("rocker"), "effects=" + effects});
   }
-  Trial parallelogram(const std::string& effects) const {
-    return Trial("parallelogram_damped", {"bodies.left.file=" + path("crank"), "bodies.top.file=" + path("coupler"),
-                                          "bodies.right.file=" + path("crank"), "effects=" + effects});
+  Trial parallelogram(const std::string& effects, double step = 1e-3, double end = 1.0) const {
+    return Trial("parallelogram_damped",
+                 {"bodies.left.file=" + path("crank"), "bodies.top.file=" + path("coupler"),
+                  "bodies.right.file=" + path("crank"), "effects=" + effects, fmt::format("integrator.step={}", step),
+                  fmt::format("integrator.end={}", end)});
   }
 
   test_support::TemporaryFolder folder_;
@@ -105,6 +106,22 @@ TEST_F(AutomaticLoops, ADampedParallelogramSaysWhichForcesAreLeftOut) {
   EXPECT_THAT(own.report("swing").notes,
               Contains(::testing::AllOf(HasSubstr("left, top, right bear loads at the start"), HasSubstr("up to 0.4"),
                                         HasSubstr("beyond the tolerance 0.001"))));
+}
+
+// With the tolerance 1e-4 bars try to sleep about every ten windows, and matter in the next one. They go on as if they
+// had stayed awake: two tolerances, one for what sleeps and one for its switch. (They woke anew at the same instant,
+// and trembled by fifty.)
+TEST_F(AutomaticLoops, ASleepInVainIsNotFelt) {
+  const Trial on = parallelogram("{}", 2e-4, 0.4);
+  const Trial own = parallelogram("{flexibility: auto, stiffening: auto, tolerance: 1e-4}", 2e-4, 0.4);
+  double most = 0.0, apart = 0.0;
+  for (const char* name : {"joints/force/A/x", "joints/force/A/y", "joints/force/B/x", "joints/force/C/x"}) {
+    most = std::max(most, largest(on.channel(name, "settled")));
+    apart = std::max(apart, largest_difference(on.channel(name, "settled"), own.channel(name, "settled")));
+  }
+  EXPECT_LT(apart, 2e-4 * most);
+  EXPECT_GT(own.report("settled").repeated, 0);  // of the window after it
+  for (const SwitchHistory& history : own.report("settled").automatic) EXPECT_EQ(history.changes.size(), 1U);
 }
 
 }  // namespace
