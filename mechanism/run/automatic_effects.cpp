@@ -21,6 +21,8 @@ namespace {
 /// An effect that takes less than this part of what is allowed, for so many windows, sleeps.
 constexpr double quiet_demand = 0.25;
 constexpr int quiet_windows = 10;
+/// The least tolerance that forces keep too where vibrations are no matter (docs/EFFECTS.md, "Forces and tolerance").
+constexpr double least_held = 1e-3;
 /// In the memory of a checkpoint, of an effect that stays on; 1: it is awake.
 constexpr double held_value = 2.0;
 /// Steps of a window where the scene gives no length, and its part of the run where steps have no fixed size; three
@@ -43,25 +45,6 @@ void require_method(const formats::Scene& scene) {
 }
 
 bool is_flexibility(const EffectUse& use) { return use.effect == formats::Effect::flexibility; }
-
-/// Whether what no node shows rests: internal coordinates of superelements, if there are any, and modes.
-bool rests_inside(const Model& model, std::size_t index, const State& state) {
-  const int modal = modal_body_of(model, index);
-  if (modal < 0) {
-    const int at = model.internal_offset[index], count = body_of(model, index).modes;
-    return count > 0 && state.y().segment(at, count).isZero(0.0) &&
-           state.v().segment(model.sizes.boundary + at, count).isZero(0.0);
-  }
-  return true;  // bend and rate of a modal body tell
-}
-
-/// Of the nodes that have translations.
-double largest_speed(const Model& model, const State& state) {
-  double largest = 0.0;
-  for (const Node& node : model.nodes)
-    if (node.translation >= 0) largest = std::max(largest, state.v().segment<3>(node.translation).norm());
-  return largest;
-}
 
 }  // namespace
 
@@ -461,6 +444,12 @@ void AutomaticEffects::tell_forces(Run& run) const {
                     "vibrations of up to {:.2g} of the largest force, which is beyond the tolerance {:g}. auto omits "
                     "them while bodies sleep: begin from an analysis `statics`, or give flexibility: on",
                     listed(names), names.size() == 1 ? "s" : "", names.size() == 1 ? "is" : "are", part, tolerance));
+  const bool switches = std::ranges::any_of(uses_, [](const Use& use) { return !use.changes.empty(); });
+  if (switches && tolerance < least_held)
+    run.report.notes.push_back(
+        fmt::format("auto: positions keep the tolerance {:g}. Forces may err by ten times that, or more, after effects "
+                    "switch, since a body that sleeps keeps no vibration. They keep tolerances of {:g} and more",
+                    tolerance, least_held));
   if (jump_.force > tolerance * largest)
     run.report.doubts.push_back(
         fmt::format("auto: a force of a joint jumps by {:.2g} of the largest force where effects of {} switch (at t = "

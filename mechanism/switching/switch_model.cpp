@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "common/error.hpp"
@@ -58,7 +59,8 @@ class KeptDeformations {
   /// steps of S⁺, with what stiffening adds to the force, s (0 where it is off or the body was rigid). At the same
   /// places a body that is bent would begin with the axial force of its whole shortening, and vibrate by it.
   void keep_loads(const Standing& before, const Evaluation& then, State& state, Evaluation& now) {
-    constexpr int steps = 3;  // each leaves the part of the stiffness that stiffening adds
+    constexpr int most_steps = 50;    // each leaves the part of the stiffness that stiffening adds
+    constexpr double enough = 1e-12;  // of the strain energy
     for (std::size_t i = 0; i < model_.superelements.size(); ++i) {
       const std::size_t j = deforming_body(before.model, model_.superelements[i].name);
       const bool stiffened = j < before.model.superelements.size() && stiffens(before.model, j);
@@ -69,11 +71,19 @@ class KeptDeformations {
       Eigen::VectorXd& y = list_[i].y;
       Eigen::VectorXd load = compliance.stiffness(y);
       if (stiffened) load += added_force(before.model, j, then);
-      for (int step = 0; step < steps; ++step) {
-        y += compliance.deformation(load - compliance.stiffness(y) - added_force(model_, i, now));
+      const Eigen::VectorXd at_first = y;
+      double left = std::numeric_limits<double>::infinity();
+      for (int step = 0; step < most_steps && left > enough * compliance.strain_energy(y); ++step) {
+        const Eigen::VectorXd more =
+            compliance.deformation(load - compliance.stiffness(y) - added_force(model_, i, now));
+        left = compliance.strain_energy(more);
+        y += more;
         place_deformed(model_, i, list_[i], frame, state);
         evaluate(model_, state, now);
       }
+      if (left <= enough * compliance.strain_energy(y)) continue;
+      y = at_first;  // near buckling: at its places
+      place_deformed(model_, i, list_[i], frame, state);
     }
     placed_.block() = state.block();
   }
