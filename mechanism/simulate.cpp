@@ -73,7 +73,7 @@ RunReport inspect(const formats::Scene& scene, const RunControl& control) {
   Run run(scene, files, control);
   start(run);
   keep_chosen_places(run.scene, run.built.model);
-  if (run.automatic) run.automatic->look_ahead(run);
+  if (run.automatic) run.automatic->hold_stressed(run);
   return run.report;
 }
 

@@ -7,11 +7,28 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
 namespace tisserand::mechanism {
 namespace {
 
 constexpr int most_coordinates = 80;
+
+/// Rigid motions that the held coordinates leave: rank Φ − rank Φ_held.
+Eigen::Index rigid_motions(const SuperelementBody& body, const std::vector<bool>& held) {
+  constexpr double independent = 1e-6;  // six digits of a place in a file
+  const auto rank = [&](const Eigen::MatrixXd& A) -> Eigen::Index {
+    if (A.rows() == 0) return 0;
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
+    qr.setThreshold(independent);
+    return qr.compute(A).rank();
+  };
+  const Eigen::MatrixXd Phi = coordinate_units(body).cwiseInverse().asDiagonal() * rigid_columns(body);
+  std::vector<int> rows;
+  for (int k = 0; k < static_cast<int>(held.size()); ++k)
+    if (held[k]) rows.push_back(k);
+  return rank(Phi) - rank(Phi(rows, Eigen::all));
+}
 
 }  // namespace
 
@@ -98,14 +115,15 @@ HeldMode first_mode(const SuperelementBody& body, const std::vector<bool>& held,
   Eigen::MatrixXd& M = part.M;
   const Eigen::Index n = M.rows();
   if (n == 0) return {};
-  // M x = μ (S + from² M) x, ω² = 1/μ − from²: rigid motions that are left have ω = 0.
+  // M x = μ (S + from² M) x, ω² = 1/μ − from². Rigid motions that are left have the largest μ. They are counted, since
+  // round-off gives them a frequency that no bound separates from that of a soft body.
   const double shift = from * from;
   const Eigen::LLT<Eigen::MatrixXd> factor(part.S + shift * M);
   if (factor.info() != Eigen::Success) return {};
   factor.matrixL().solveInPlace(M);
   M = factor.matrixL().solve(M.transpose()).eval();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(M);
-  for (Eigen::Index k = n - 1; k >= 0; --k) {
+  for (Eigen::Index k = n - 1 - rigid_motions(body, held); k >= 0; --k) {
     const double mu = eigen.eigenvalues()[k];
     if (!(mu > 0.0)) return {};
     const double square = 1.0 / mu - shift;

@@ -34,8 +34,8 @@ struct HeldMode {
   Eigen::VectorXd shape;  ///< φ: boundary coordinates, then internal ones
 };
 
-/// Lowest vibration above `from`/1000 of the reduced body whose marked coordinates are held. None where the body is not
-/// positive definite or has more than 80 coordinates.
+/// Lowest vibration above `from`/1000 of the reduced body whose marked coordinates are held, without its rigid motions.
+/// None where the body is not positive definite or has more than 80 coordinates.
 HeldMode first_mode(const SuperelementBody& body, const std::vector<bool>& held, double from);
 
 }  // namespace tisserand::mechanism

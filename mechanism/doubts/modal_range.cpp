@@ -7,6 +7,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include "mechanism/equations/terms.hpp"
 
@@ -171,8 +172,13 @@ double ModalRange::first_frequency(const Model& model, double from) const {
   const MatrixXd M = free.transpose() * scratch.tangent * free, K = free.transpose() * S.asDiagonal() * free;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(K, M, Eigen::EigenvaluesOnly);
   if (eigen.info() != Eigen::Success) return 0.0;
-  for (const double square : eigen.eigenvalues())
-    if (square > 1e-6 * from * from) return std::sqrt(square);
+  // Rigid motions that the nodes leave are counted: round-off gives them a frequency.
+  MatrixXd Phi = G.leftCols<6>();
+  Phi.rightCols<3>() /= span_ > 0.0 ? span_ : 1.0;
+  Eigen::ColPivHouseholderQR<MatrixXd> qr;
+  qr.setThreshold(1e-6);  // six digits of a place in a file
+  for (Eigen::Index k = 6 - qr.compute(Phi).rank(); k < K.rows(); ++k)
+    if (const double square = eigen.eigenvalues()[k]; square > 1e-6 * from * from) return std::sqrt(square);
   return 0.0;
 }
 

@@ -9,11 +9,11 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
-#include "mechanism/doubts/held_body.hpp"
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/run/output.hpp"
 #include "mechanism/run/run.hpp"
-#include "mechanism/step/redundancy.hpp"
+#include "mechanism/switching/constraint_stress.hpp"
+#include "mechanism/switching/welds.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -21,6 +21,10 @@ namespace {
 /// An effect that takes less than this part of what is allowed, for so many windows, sleeps.
 constexpr double quiet_demand = 0.25;
 constexpr int quiet_windows = 10;
+/// The least tolerance that forces keep too where vibrations are no matter (docs/EFFECTS.md, "Forces and tolerance").
+constexpr double least_held = 1e-3;
+/// In the memory of a checkpoint, of an effect that stays on; 1: it is awake.
+constexpr double held_value = 2.0;
 /// Steps of a window where the scene gives no length, and its part of the run where steps have no fixed size; three
 /// steps have second differences.
 constexpr double window_steps = 20.0, window_part = 0.01, least_steps = 3.0;
@@ -40,58 +44,7 @@ void require_method(const formats::Scene& scene) {
               "give another method, or 'on' and 'off' in place of 'auto'");
 }
 
-/// Joints whose reactions are unique with all effects on and not with those bodies rigid that `model` has rigid.
-std::vector<std::string> undetermined(const Model& model, const Evaluation& now, const RunReport& whole) {
-  if (model.sizes.constraints == 0) return {};
-  std::vector<std::string> names = joints_without_unique_reaction(model, now);
-  std::erase_if(names, [&whole](const std::string& name) { return std::ranges::count(whole.not_unique, name) > 0; });
-  return names;
-}
-
-std::string undetermined_text(const std::vector<std::string>& names) {
-  return fmt::format(
-      "auto: while bodies sleep the reactions of {} are not unique, which only flexibility decides: those "
-      "of least norm are stored; give flexibility: on where they or their friction matter",
-      listed(names));
-}
-
 bool is_flexibility(const EffectUse& use) { return use.effect == formats::Effect::flexibility; }
-
-/// Whether what no node shows rests: internal coordinates of superelements, if there are any, and modes.
-bool rests_inside(const Model& model, std::size_t index, const State& state) {
-  const int modal = modal_body_of(model, index);
-  if (modal < 0) {
-    const int at = model.internal_offset[index], count = body_of(model, index).modes;
-    return count > 0 && state.y().segment(at, count).isZero(0.0) &&
-           state.v().segment(model.sizes.boundary + at, count).isZero(0.0);
-  }
-  return true;  // bend and rate of a modal body tell
-}
-
-/// Of the nodes that have translations.
-double largest_speed(const Model& model, const State& state) {
-  double largest = 0.0;
-  for (const Node& node : model.nodes)
-    if (node.translation >= 0) largest = std::max(largest, state.v().segment<3>(node.translation).norm());
-  return largest;
-}
-
-/// The part that each body that deforms is a piece of: welded_beams(), and fixed joints with modal bodies.
-std::vector<int> welded_parts(const Model& model) {
-  std::vector<int> part = welded_beams(model), owner(model.nodes.size(), -1);
-  for (std::size_t i = 0; i < model.superelements.size(); ++i)
-    for (const int node : model.superelements[i].nodes) owner[node] = static_cast<int>(i);
-  for (std::size_t i = part.size(); i < deforming_bodies(model); ++i) part.push_back(static_cast<int>(i));
-  const auto before = static_cast<int>(model.superelements.size());
-  for (const ModalNode& node : model.modal_nodes) owner[node.node] = before + node.body;
-  for (const Joint& joint : model.joints) {
-    const int a = joint.a.node < 0 ? -1 : owner[joint.a.node], b = joint.b.node < 0 ? -1 : owner[joint.b.node];
-    if (joint.kind != JointKind::fixed || a < 0 || b < 0) continue;
-    const int from = part[a], to = part[b];
-    std::ranges::replace(part, from, to);
-  }
-  return part;
-}
 
 }  // namespace
 
@@ -102,7 +55,7 @@ AutomaticEffects::AutomaticEffects(const formats::Scene& scene, const BodyFiles&
       whole_{{}, State(Sizes{}), {}, {}, {}},
       whole_state_(Sizes{}) {
   require_method(scene);
-  for (EffectUse& use : uses) uses_.push_back({std::move(use), -1, true, true, 0, {}});
+  for (EffectUse& use : uses) uses_.push_back({std::move(use), -1, false, true, true, 0.0, 0, {}});
   for (Use& use : uses_)
     for (std::size_t k = 0; k < uses_.size(); ++k)
       if (!is_flexibility(use.effect) && is_flexibility(uses_[k].effect) && uses_[k].effect.owner == use.effect.owner)
@@ -119,21 +72,27 @@ std::string AutomaticEffects::rule() const {
                      after_number(unit_label(scene_.units, 0, 0, 1)));
 }
 
-void AutomaticEffects::look_ahead(Run& run) const {
-  const formats::Scene scene = scene_with(Awake(uses_.size(), false));
-  BuiltModel built = build_model(scene, files_);
-  Workspace workspace(built.model);
-  start(scene, StartFrom::poses, built, workspace);
-  const std::vector<std::string> names = undetermined(built.model, workspace.now, run.report);
-  if (!names.empty()) run.report.notes.push_back(undetermined_text(names));
+void AutomaticEffects::hold_stressed(Run& run) {
+  const Model& model = run.built.model;
+  evaluate(model, run.built.state, run.workspace.now);
+  const std::vector<bool> stressed = stressed_by_constraints(model, run.workspace.now);
+  std::vector<std::string> names;
+  for (Use& use : uses_) {
+    use.held = stressed[deforming_body(model, use.effect.owner)];
+    if (use.held && std::ranges::count(names, use.effect.owner) == 0) names.push_back(use.effect.owner);
+  }
+  if (!names.empty())
+    run.report.notes.push_back(
+        fmt::format("auto: effects of {} stay on, since loops of joints can stress {}: what these bear, and whether "
+                    "the loops move at all, depends on them. Joints that leave more free (spherical, cylindrical) take "
+                    "that stress away",
+                    listed(names), names.size() == 1 ? "this body" : "these bodies"));
 }
 
-/// Once per joint.
-void AutomaticEffects::note_reactions(Run& run) {
-  evaluate(run.built.model, run.built.state, *now_);
-  std::vector<std::string> names = undetermined(run.built.model, *now_, run.report);
-  std::erase_if(names, [this](const std::string& name) { return !undetermined_.insert(name).second; });
-  if (!names.empty()) run.report.notes.push_back(undetermined_text(names));
+AutomaticEffects::Awake AutomaticEffects::held() const {
+  Awake list;
+  for (const Use& use : uses_) list.push_back(use.held);
+  return list;
 }
 
 /// Once.
@@ -227,30 +186,34 @@ AutomaticEffects::Awake AutomaticEffects::all_but_undeformed() {
 }
 
 void AutomaticEffects::begin(Run& run) {
+  hold_stressed(run);
   give_whole(run);
   fresh_ = run.from == StartFrom::poses;
   if (fresh_) {
-    start_with(Awake(uses_.size(), false), run);
+    start_with(held(), run);
     sample_here(run);
-    Awake needed;
+    Awake needed = held();
     for (std::size_t k = 0; k < uses_.size(); ++k) {
       const int flexibility = uses_[k].flexibility;
-      needed.push_back(demand_->of(k) > 1.0 || (flexibility >= 0 && demand_->of(flexibility) > 1.0));
+      needed[k] = needed[k] || demand_->of(k) > 1.0 || (flexibility >= 0 && demand_->of(flexibility) > 1.0);
     }
+    note_start_forces();
     if (needed != awake()) start_with(needed, run);
   } else {
-    const Awake all(uses_.size(), true), some = all_but_undeformed();
+    const Awake all(uses_.size(), true);
+    Awake some = all_but_undeformed();
+    for (std::size_t k = 0; k < uses_.size(); ++k) some[k] = some[k] || uses_[k].held;
     BuiltModel built = build_model(scene_with(all), files_);
     built.state.block() = whole_.state.block();
     take_over(std::move(built), all, scene_with(all), run);
     if (some != all) switch_to(some, {}, true, run);
     switched_ = 0.0;
+    jump_ = {};
   }
   for (Use& use : uses_) {
     use.was_awake = use.awake;
     use.changes.clear();
   }
-  note_reactions(run);
 }
 
 void AutomaticEffects::restore(Run& run, const std::vector<double>& memory) {
@@ -262,6 +225,7 @@ void AutomaticEffects::restore(Run& run, const std::vector<double>& memory) {
   take_over(build_model(scene, files_), list, scene, run);
   for (std::size_t k = 0; k < count; ++k) {
     uses_[k].was_awake = uses_[k].awake;
+    uses_[k].held = memory[k] == held_value;
     uses_[k].quiet = static_cast<int>(memory[count + k]);
   }
   energy_reference_ = memory[2 * count];
@@ -280,7 +244,7 @@ std::size_t AutomaticEffects::memory_size(const Model& whole) const {
 
 std::vector<double> AutomaticEffects::memory() const {
   std::vector<double> memory;
-  for (const Use& use : uses_) memory.push_back(use.awake ? 1.0 : 0.0);
+  for (const Use& use : uses_) memory.push_back(use.held ? held_value : use.awake ? 1.0 : 0.0);
   for (const Use& use : uses_) memory.push_back(use.quiet);
   memory.push_back(energy_reference_);
   memory.push_back(switched_);
@@ -343,6 +307,7 @@ void AutomaticEffects::begin_window(const Run& run) {
 }
 
 AutomaticEffects::Verdict AutomaticEffects::sample(const Run& run) {
+  if (std::ranges::all_of(uses_, &Use::held)) return Verdict::sleeps_well;
   sample_here(run);
   Verdict verdict = Verdict::sleeps_well;
   for (std::size_t k = 0; k < uses_.size() && !blocked_; ++k) {
@@ -366,9 +331,9 @@ bool AutomaticEffects::wake(Run& run) {
     start_with(next, run);
     for (Use& use : uses_) use.was_awake = use.awake;
     begin_window(run);
-    note_reactions(run);
     return true;
   }
+  if (undo_sleep(next, run)) return true;
   sample_here(run);
   Deformations bent;
   for (std::size_t k = 0; k < uses_.size(); ++k) {
@@ -400,20 +365,42 @@ bool AutomaticEffects::switch_to(const Awake& next, const Deformations& deformat
   if (!at_any_cost && !(std::abs(after->energy) <= tolerance * energy_reference_ && after->force <= tolerance * force))
     return false;
   const double time = run.built.state.time();
+  run.doubts.leave(run.built.model);
+  undo_.reset();
+  if (!at_any_cost) undo_.emplace(Undo{std::move(run.built), awake(), switched_, jump_});
   for (std::size_t k = 0; k < uses_.size(); ++k)
     if (next[k] != uses_[k].awake) uses_[k].changes.push_back(time);
-  run.doubts.leave(run.built.model);
   take_over(std::move(after->built), next, scene, run);
   switched_ += after->energy;
-  note_reactions(run);
+  if (after->force > jump_.force) jump_ = {after->force, time, {changed.begin(), changed.end()}};
+  return true;
+}
+
+/// Where what matters fell asleep at the beginning of the window: the run goes on with the state that it had there, so
+/// that nothing of its deformation and no rate is lost.
+bool AutomaticEffects::undo_sleep(const Awake& next, Run& run) {
+  if (!undo_) return false;
+  Undo before = std::move(*undo_);
+  undo_.reset();
+  bool in_vain = false;
+  for (std::size_t k = 0; k < uses_.size(); ++k) in_vain = in_vain || (next[k] && before.awake[k] && !uses_[k].awake);
+  if (!in_vain) return false;
+  for (std::size_t k = 0; k < uses_.size(); ++k)
+    if (before.awake[k] != uses_[k].awake) uses_[k].changes.pop_back();
+  run.doubts.leave(run.built.model);
+  take_over(std::move(before.built), before.awake, scene_with(before.awake), run);
+  switched_ = before.switched;
+  jump_ = before.jump;
+  begin_window(run);
   return true;
 }
 
 bool AutomaticEffects::end_window(Run& run) {
+  undo_.reset();
   Awake next = awake();
   for (std::size_t k = 0; k < uses_.size(); ++k) {
     uses_[k].quiet = uses_[k].awake && demand_->of(k) < quiet_demand ? uses_[k].quiet + 1 : 0;
-    if (uses_[k].quiet >= quiet_windows) next[k] = false;
+    if (uses_[k].quiet >= quiet_windows && !uses_[k].held) next[k] = false;
   }
   for (std::size_t k = 0; k < uses_.size(); ++k)
     if (uses_[k].flexibility >= 0 && !next[uses_[k].flexibility]) next[k] = false;
@@ -435,17 +422,54 @@ std::vector<std::string> AutomaticEffects::slept_in_a_weld() const {
   return names;
 }
 
-void AutomaticEffects::tell(double start, double end, RunReport& report) const {
+/// Elastic forces of bodies that sleep where the run starts: with flexibility on, an undeformed body bears nothing yet.
+void AutomaticEffects::note_start_forces() {
+  for (Use& use : uses_)
+    use.start_force = use.awake ? 0.0 : demand_->force(deforming_body(whole_.model, use.effect.owner));
+}
+
+/// Of what the tolerance does not hold for.
+void AutomaticEffects::tell_forces(Run& run) const {
+  const double tolerance = scene_.automatic.tolerance, largest = largest_force(run);
+  std::vector<std::string> names;
+  double part = 0.0;
+  for (const Use& use : uses_) {
+    if (!is_flexibility(use.effect) || use.was_awake || !(use.start_force > tolerance * largest)) continue;
+    names.push_back(use.effect.owner);
+    part = std::max(part, use.start_force / largest);
+  }
+  if (!names.empty())
+    run.report.notes.push_back(
+        fmt::format("auto: {} bear{} loads at the start and {} not yet deformed. With flexibility on that excites "
+                    "vibrations of up to {:.2g} of the largest force, which is beyond the tolerance {:g}. auto omits "
+                    "them while bodies sleep: begin from an analysis `statics`, or give flexibility: on",
+                    listed(names), names.size() == 1 ? "s" : "", names.size() == 1 ? "is" : "are", part, tolerance));
+  const bool switches = std::ranges::any_of(uses_, [](const Use& use) { return !use.changes.empty(); });
+  if (switches && tolerance < least_held)
+    run.report.notes.push_back(
+        fmt::format("auto: positions keep the tolerance {:g}. Forces may err by ten times that, or more, after effects "
+                    "switch, since a body that sleeps keeps no vibration. They keep tolerances of {:g} and more",
+                    tolerance, least_held));
+  if (jump_.force > tolerance * largest)
+    run.report.doubts.push_back(
+        fmt::format("auto: a force of a joint jumps by {:.2g} of the largest force where effects of {} switch (at t = "
+                    "{:.6g}), beyond the tolerance {:g}, so that forces near this instant do not keep it: give 'on' in "
+                    "place of 'auto' where they matter",
+                    jump_.force / largest, listed(jump_.bodies), jump_.time, tolerance));
+}
+
+void AutomaticEffects::tell(Run& run) const {
+  RunReport& report = run.report;
+  const double start = run.scene.integrator.start, end = report.time;
+  tell_forces(run);
   if (blind_)
     report.doubts.push_back(
         "auto: what sleeping bodies move along with their joints could not be counted at times, so that resonances "
-        "with "
-        "it are not seen; give flexibility: on to bodies that may resonate");
+        "with it are not seen; give flexibility: on to bodies that may resonate");
   if (const std::vector<std::string> names = slept_in_a_weld(); !names.empty())
     report.doubts.push_back(
         fmt::format("auto: {} fell asleep welded to flexible bodies, which may vibrate since then by more than "
-                    "tolerance allows; give "
-                    "the pieces of one part flexibility: on, or a smaller tolerance",
+                    "tolerance allows; give the pieces of one part flexibility: on, or a smaller tolerance",
                     listed(names)));
   for (const Use& use : uses_) {
     SwitchHistory history{formats::effect_word(use.effect.effect), use.effect.owner, use.was_awake, use.changes, 0.0};

@@ -23,7 +23,7 @@ EffectWindows::EffectWindows(Run& run, StepLoop& loop, Stepper& stepper, RowWrit
 
 void EffectWindows::mark_beginning() {
   const State& state = run_.built.state;
-  beginning_.emplace(Beginning{state, loop_, run_.report, run_.doubts});
+  beginning_.emplace(Beginning{state, loop_, run_.report, run_.doubts, checkpoint_due_});
   next_sample_ = state.time() + run_.automatic->window() / samples;
   end_ = state.time() + run_.automatic->window();
 }
@@ -75,7 +75,7 @@ void EffectWindows::repeat() {
   std::optional<Waiting> first;  // of the instant at which the window begins, at the beginning of the run
   if (!waiting_.empty() && waiting_.front().state.time() == run_.built.state.time()) first = waiting_.front();
   waiting_.clear();
-  checkpoint_due_ = false;
+  checkpoint_due_ = beginning_->checkpoint_due;
   stepper_.forget(run_.workspace);
   tell_angles_if([this] { return run_.automatic->wake(run_); });
   if (first) waiting_.push_back({run_.built.state, first->step, first->size});
@@ -84,10 +84,12 @@ void EffectWindows::repeat() {
 
 void EffectWindows::end_window() {
   flush();
+  bool switched = false;
   if (!loop_.schedule.finished(run_.built.state.time()))
-    tell_angles_if([this] { return run_.automatic->end_window(run_); });
-  if (checkpoint_due_) loop_.checkpoints.write(run_, loop_.schedule, stepper_, out_.writer);
-  checkpoint_due_ = false;
+    tell_angles_if([&] { return switched = run_.automatic->end_window(run_); });
+  // A sleep may still be undone, to a state that no checkpoint knows: one that is due waits for the next window.
+  if (checkpoint_due_ && !switched) loop_.checkpoints.write(run_, loop_.schedule, stepper_, out_.writer);
+  checkpoint_due_ = checkpoint_due_ && switched;
   begin_window();
 }
 

@@ -47,6 +47,7 @@ class EffectWindows {
     StepLoop loop;
     RunReport report;
     Doubts doubts;
+    bool checkpoint_due = false;
   };
   void begin_window();
   void mark_beginning();

@@ -159,7 +159,7 @@ void integrate(Run& run, RowWriter& out) {
   report.time = state.time();
   loop.angles.tell(model, report);
   report.solver_health = stepper.health(run.workspace);
-  if (run.automatic) run.automatic->tell(run.scene.integrator.start, report.time, report);
+  if (run.automatic) run.automatic->tell(run);
   if (report.outcome != RunOutcome::completed) write_last_row(run, loop.last, loop.last_size, out);
 }
 

@@ -1,13 +1,23 @@
-// Rank-revealing sparse QR.
+// Rank-revealing sparse QR; pseudo-inverse by a complete orthogonal decomposition or conjugate gradients.
 #include "mechanism/solver/matrix_rank.hpp"
 
 #include <SuiteSparseQR.hpp>
 
 #include <algorithm>
 
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/QR>
+
 #include "common/error.hpp"
 
 namespace tisserand::mechanism {
+namespace {
+
+/// Columns up to which a dense decomposition is taken: a QR of 400 x 400 takes 15 ms, above conjugate gradients are
+/// faster.
+constexpr int dense_columns = 400;
+
+}  // namespace
 
 ColumnRank column_rank(const Eigen::SparseMatrix<double>& A, double tolerance) {
   const Eigen::Index entries = A.nonZeros();
@@ -39,6 +49,20 @@ ColumnRank column_rank(const Eigen::SparseMatrix<double>& A, double tolerance) {
   SuiteSparseQR_free(&qr, &common);
   cholmod_l_finish(&common);
   return result;
+}
+
+Eigen::VectorXd without_null_space(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& x, double tolerance) {
+  const Eigen::VectorXd f = A * x;
+  if (A.cols() <= dense_columns) {
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+    decomposition.setThreshold(tolerance);
+    decomposition.compute(Eigen::MatrixXd(A));
+    return decomposition.solve(f);
+  }
+  Eigen::LeastSquaresConjugateGradient<Eigen::SparseMatrix<double>> solver(A);
+  solver.setTolerance(1e-12);
+  solver.setMaxIterations(10 * A.cols());
+  return solver.solve(f);
 }
 
 }  // namespace tisserand::mechanism

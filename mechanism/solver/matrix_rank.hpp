@@ -1,4 +1,4 @@
-// Rank of a sparse matrix, and columns that depend on the others.
+// Rank of a sparse matrix, columns that depend on the others, and vectors without their part in its null space.
 #pragma once
 
 #include <vector>
@@ -19,5 +19,9 @@ struct ColumnRank {
 /// By SuiteSparseQR, whose cost grows with the fill, for chains and trees linearly. A column counts as dependent if
 /// what is left of it, after the parts along those before it, is shorter than `tolerance`.
 ColumnRank column_rank(const Eigen::SparseMatrix<double>& A, double tolerance);
+
+/// A⁺ A x: x without its part in the null space of A, with pivots below this part of the largest taken for zero. Up to
+/// 400 columns by a complete orthogonal decomposition, above by conjugate gradients on the normal equations.
+Eigen::VectorXd without_null_space(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& x, double tolerance);
 
 }  // namespace tisserand::mechanism

@@ -7,8 +7,6 @@
 #include <random>
 
 #include <Eigen/Cholesky>
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/QR>
 #include <Eigen/SparseCore>
 
 #include "mechanism/equations/carriers.hpp"
@@ -20,10 +18,6 @@
 
 namespace tisserand::mechanism {
 namespace {
-
-/// Constraints up to which a dense decomposition is taken: a QR of 400 x 400 takes 15 ms, above conjugate gradients are
-/// faster.
-constexpr int dense_limit = 400;
 
 /// μ = U λ with |μ|² = Σ |f|² + |m|²/L²: one upper triangle per joint (its wrenches are independent), a number per
 /// coupling; and A = Bᵀ U⁻¹, rotations scaled with 1/L.
@@ -90,21 +84,6 @@ WeightedJacobian weighted_jacobian(const Model& model, const Evaluation& evaluat
   return result;
 }
 
-/// A⁺ A μ: μ without its part in the null space of A.
-Eigen::VectorXd without_null_space(const Eigen::SparseMatrix<double>& A, const Eigen::VectorXd& mu) {
-  const Eigen::VectorXd f = A * mu;
-  if (A.cols() <= dense_limit) {
-    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-    decomposition.setThreshold(rank_tolerance);
-    decomposition.compute(Eigen::MatrixXd(A));
-    return decomposition.solve(f);
-  }
-  Eigen::LeastSquaresConjugateGradient<Eigen::SparseMatrix<double>> solver(A);
-  solver.setTolerance(1e-12);
-  solver.setMaxIterations(10 * A.cols());
-  return solver.solve(f);
-}
-
 }  // namespace
 
 bool is_overconstrained(const State& state) { return state.active().size() > 0 && state.active().minCoeff() == 0.0; }
@@ -127,8 +106,8 @@ bool choose_active_rows(const Model& model, State& state, Evaluation& evaluation
 
 namespace {
 
-/// Parts that are no branch of a tree: what is left when parts with one joint or none are taken away again and again. The
-/// ground is no part. Parts of couplings stay.
+/// Parts that are no branch of a tree: what is left when parts with one joint or none are taken away again and again.
+/// The ground is no part. Parts of couplings stay.
 std::vector<bool> parts_in_loops(const Model& model, const Parts& parts) {
   const auto part = [&](const Marker& marker) { return marker.node < 0 ? parts.count() : parts.of_node[marker.node]; };
   std::vector<int> joints(static_cast<std::size_t>(parts.count()) + 1, 0);
@@ -178,8 +157,8 @@ bool RowWatch::renew(const Model& model, State& state, Evaluation& evaluation) {
   return largest_factor(model, state, evaluation) > most_factor && choose_active_rows(model, state, evaluation);
 }
 
-/// Of [M Bₐᵀ; Bₐ 0][x; c] = [b; 0] for each row b that is left out: b = Bₐᵀ c, with x = 0 if b depends on the rows Bₐ that
-/// are solved for. Infinite if it does not.
+/// Of [M Bₐᵀ; Bₐ 0][x; c] = [b; 0] for each row b that is left out: b = Bₐᵀ c, with x = 0 if b depends on the rows Bₐ
+/// that are solved for. Infinite if it does not.
 double RowWatch::largest_factor(const Model& model, const State& state, Evaluation& evaluation) {
   constexpr double independent = 1e-6;  // of the row
   if (!system_) {
@@ -212,8 +191,7 @@ double RowWatch::largest_factor(const Model& model, const State& state, Evaluati
     const auto size = [&](const Eigen::VectorXd& b) {
       return b.cwiseProduct(model.equation_scale.head(n).matrix()).norm();
     };
-    if (size(rest_) > independent * size(row_))
-      return std::numeric_limits<double>::infinity();
+    if (size(rest_) > independent * size(row_)) return std::numeric_limits<double>::infinity();
   }
   return largest;
 }
@@ -227,7 +205,7 @@ Eigen::VectorXd least_norm_multipliers(const Model& model, const Evaluation& eva
     part = (weighted.triangle[i].triangularView<Eigen::Upper>() * part).eval();
   }
   for (std::size_t i = 0; i < model.couplings.size(); ++i) mu[model.couplings[i].row] *= weighted.coupling_weight[i];
-  mu = without_null_space(weighted.A, mu);
+  mu = without_null_space(weighted.A, mu, rank_tolerance);
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     auto part = mu.segment(model.joints[i].row, model.joints[i].size());
     part = weighted.triangle[i].triangularView<Eigen::Upper>().solve(part).eval();
@@ -242,7 +220,8 @@ std::vector<std::string> joints_without_unique_reaction(const Model& model, cons
   std::normal_distribution<double> normal;
   const Eigen::VectorXd probe =
       Eigen::VectorXd::NullaryExpr(model.sizes.constraints, [&](Eigen::Index) { return normal(random); });
-  const Eigen::VectorXd null = probe - without_null_space(weighted_jacobian(model, evaluation).A, probe);
+  const Eigen::VectorXd null =
+      probe - without_null_space(weighted_jacobian(model, evaluation).A, probe, rank_tolerance);
   std::vector<std::string> names;
   for (const Joint& joint : model.joints)
     if (null.segment(joint.row, joint.size()).norm() > 1e-7) names.push_back(joint.name);  // of planar ones maybe none

@@ -147,4 +147,21 @@ void place_deformed(const Model& model, std::size_t index, const Deformation& de
   state.v().segment(model.sizes.boundary + at, body.modes) = deformation.rate.tail(body.modes);
 }
 
+bool rests_inside(const Model& model, std::size_t index, const State& state) {
+  const int modal = modal_body_of(model, index);
+  if (modal < 0) {
+    const int at = model.internal_offset[index], count = body_of(model, index).modes;
+    return count > 0 && state.y().segment(at, count).isZero(0.0) &&
+           state.v().segment(model.sizes.boundary + at, count).isZero(0.0);
+  }
+  return true;  // bend and rate of a modal body tell
+}
+
+double largest_speed(const Model& model, const State& state) {
+  double largest = 0.0;
+  for (const Node& node : model.nodes)
+    if (node.translation >= 0) largest = std::max(largest, state.v().segment<3>(node.translation).norm());
+  return largest;
+}
+
 }  // namespace tisserand::mechanism

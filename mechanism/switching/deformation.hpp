@@ -52,6 +52,11 @@ FrameMotion frame_motion_of(const Model& model, std::size_t index, const Evaluat
 /// frame as it is; displacements with a part that turns would stretch the body by half the square of the angle.
 FrameMotion move_frame(const Model& model, std::size_t index, const Evaluation& undeformed, Deformation& deformation);
 
+/// Whether what no node shows rests: internal coordinates of superelements, if there are any, and modes.
+bool rests_inside(const Model& model, std::size_t index, const State& state);
+/// Largest speed of a node that has translations.
+double largest_speed(const Model& model, const State& state);
+
 /// Sets nodes, internal and modal coordinates; what is left of the motion of a frame in a deformation is not used.
 void place_deformed(const Model& model, std::size_t index, const Deformation& deformation, const FrameMotion& frame,
                     State& state);

@@ -58,6 +58,8 @@ class Demand {
 
   /// Largest force in this window that deforms a modal body: what it bears where nothing holds it.
   double modal_force() const;
+  /// Largest elastic force of a body in this window.
+  double force(std::size_t index) const { return bodies_[index].f; }
   /// D of a use: the largest of the samples of the window, with F of the latest.
   double of(std::size_t use) const;
   /// D > 1, and not by forces that are large only beside an F that still grows: where it grows faster than in

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "common/error.hpp"
@@ -10,6 +11,7 @@
 #include "mechanism/equations/evaluate.hpp"
 #include "mechanism/step/generalised_alpha.hpp"
 #include "mechanism/step/redundancy.hpp"
+#include "mechanism/switching/compliance.hpp"
 #include "mechanism/switching/momentum.hpp"
 #include "mechanism/switching/rigid_projection.hpp"
 #include "mechanism/switching/transfer.hpp"
@@ -25,6 +27,16 @@ constexpr double left_out_tolerance = 1e-6;
 /// Steps of the time of RigidProjection: of a vibration of a thousand steps per period T² K is still forty times M.
 constexpr double rigid_steps = 1e3;
 
+bool stiffens(const Model& model, std::size_t index) {
+  return body_of(model, index).second_order.stiffening.has_value();
+}
+
+/// Of stiffening.
+Eigen::VectorXd added_force(const Model& model, std::size_t index, const Evaluation& now) {
+  if (!stiffens(model, index)) return Eigen::VectorXd::Zero(deformation_size(model, index));
+  return now.superelements[index].forces.strain.force;
+}
+
 /// Deformations of all bodies that deform, of which some begin with a given one, and their coordinates as they were
 /// placed.
 class KeptDeformations {
@@ -39,6 +51,39 @@ class KeptDeformations {
       list_[i] = found->second;
       const FrameMotion frame = move_frame(model, i, now, list_[i]);
       place_deformed(model, i, list_[i], frame, state);
+    }
+    placed_.block() = state.block();
+  }
+
+  /// Where stiffening switches, the body keeps the load that deforms it, not its places: S y' + s'(y') = S y + s(y), by
+  /// steps of S⁺, with what stiffening adds to the force, s (0 where it is off or the body was rigid). At the same
+  /// places a body that is bent would begin with the axial force of its whole shortening, and vibrate by it.
+  void keep_loads(const Standing& before, const Evaluation& then, State& state, Evaluation& now) {
+    constexpr int most_steps = 50;    // each leaves the part of the stiffness that stiffening adds
+    constexpr double enough = 1e-12;  // of the strain energy
+    for (std::size_t i = 0; i < model_.superelements.size(); ++i) {
+      const std::size_t j = deforming_body(before.model, model_.superelements[i].name);
+      const bool stiffened = j < before.model.superelements.size() && stiffens(before.model, j);
+      if (stiffened == stiffens(model_, i)) continue;
+      const SuperelementCompliance compliance(body_of(model_, i));
+      evaluate(model_, state, now);
+      const FrameMotion frame = frame_motion_of(model_, i, now);
+      Eigen::VectorXd& y = list_[i].y;
+      Eigen::VectorXd load = compliance.stiffness(y);
+      if (stiffened) load += added_force(before.model, j, then);
+      const Eigen::VectorXd at_first = y;
+      double left = std::numeric_limits<double>::infinity();
+      for (int step = 0; step < most_steps && left > enough * compliance.strain_energy(y); ++step) {
+        const Eigen::VectorXd more =
+            compliance.deformation(load - compliance.stiffness(y) - added_force(model_, i, now));
+        left = compliance.strain_energy(more);
+        y += more;
+        place_deformed(model_, i, list_[i], frame, state);
+        evaluate(model_, state, now);
+      }
+      if (left <= enough * compliance.strain_energy(y)) continue;
+      y = at_first;  // near buckling: at its places
+      place_deformed(model_, i, list_[i], frame, state);
     }
     placed_.block() = state.block();
   }
@@ -161,8 +206,9 @@ std::optional<SwitchedModel> switch_model(const formats::Scene& scene, const Bod
   state.lambda().setZero();
   state.active().setOnes();
   for (const int row : mobility.redundant) state.active()[row] = 0.0;
-  const KeptDeformations kept(model, deformations, state, workspace.now);
+  KeptDeformations kept(model, deformations, state, workspace.now);
   try {
+    kept.keep_loads(before, then, state, workspace.now);
     put_on_constraints(scene, model, kept, state, workspace.now);
     keep_momenta(before, changed, model, state, then, workspace.now);
     make_ready(scene, model, state, workspace);

@@ -1,0 +1,118 @@
+// The Jacobian on motions of rigid bodies, and reactions that do no work on them.
+#include "mechanism/switching/constraint_stress.hpp"
+
+#include <cmath>
+#include <random>
+
+#include <Eigen/SparseCore>
+
+#include "common/math/rotation.hpp"
+#include "mechanism/equations/carriers.hpp"
+#include "mechanism/model/connected_bodies.hpp"
+#include "mechanism/solver/matrix_rank.hpp"
+#include "mechanism/switching/deformation.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+using Matrix = Eigen::SparseMatrix<double>;
+using Entries = std::vector<Eigen::Triplet<double>>;
+
+/// Rows that depend on the others to this part count as dependent: places and axes may have six digits in a file. A
+/// loop that only that keeps from being stressed has reactions of 1e6 times its loads.
+constexpr double dependent = 1e-6;
+/// Reactions on a body that deform it, relative to their random sizes of one each: far above the part of `dependent`
+/// that is left out of balance, far below what two joints of a loop exert.
+constexpr double deforming = 1e-4;
+
+/// Bᵀ, boundary coordinates x constraint rows, rows of angles times the characteristic length.
+Matrix transposed_jacobian(const Model& model, const Evaluation& now) {
+  Entries entries;
+  const auto add = [&](const ElementMap& map, int row, const Row12& values) {
+    const Eigen::MatrixXd columns = model_rows(model, map, local_view(values), now);
+    const double scale = model.length_row[row] ? 1.0 : model.length;
+    for (std::size_t j = 0; j < map.coordinates.size(); ++j)
+      if (map.coordinates[j] >= 0)
+        entries.emplace_back(map.coordinates[j], row, scale * columns(0, static_cast<Eigen::Index>(j)));
+  };
+  for (std::size_t i = 0; i < model.joints.size(); ++i)
+    for (int k = 0; k < model.joints[i].size(); ++k)
+      add(model.joints.maps[i], model.joints[i].row + k, now.joints[i].B.row(k));
+  for (const Coupling& coupling : model.couplings)
+    for (const CouplingTerm& term : coupling.terms) {
+      const auto at = static_cast<std::size_t>(term.coordinate);
+      add(model.coordinates.maps[at], coupling.row, term.factor * now.coordinates[at].G);
+    }
+  Matrix B(model.sizes.boundary, model.sizes.constraints);
+  B.setFromTriplets(entries.begin(), entries.end());
+  return B;
+}
+
+/// T, six motions of each part about the first node that owns coordinates, rotations times the characteristic length;
+/// modes rest.
+Matrix rigid_motions(const Model& model, const Parts& parts, const Evaluation& now) {
+  Entries entries;
+  const auto add = [&](int row, int column, const Matrix3d& block) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        if (block(i, j) != 0.0) entries.emplace_back(row + i, column + j, block(i, j));
+  };
+  std::vector<int> first(static_cast<std::size_t>(parts.count()), -1);
+  for (int i = 0; i < static_cast<int>(model.nodes.size()); ++i) {
+    const Node& node = model.nodes[i];
+    if (node.translation < 0 && node.rotation < 0) continue;
+    const int part = parts.of_node[i], column = 6 * part;
+    if (first[part] < 0) first[part] = i;
+    const Vector3d arm = now.motion[i].x - now.motion[first[part]].x;
+    if (node.translation >= 0) {
+      add(node.translation, column, Matrix3d::Identity());
+      add(node.translation, column + 3, -skew<double>(arm) / model.length);
+    }
+    if (node.rotation >= 0) add(node.rotation, column + 3, now.motion[i].R.transpose() / model.length);
+  }
+  Matrix T(model.sizes.boundary, 6 * parts.count());
+  T.setFromTriplets(entries.begin(), entries.end());
+  return T;
+}
+
+/// Forces, moments over the characteristic length and loads of modes over the root of the mass, squared: of each part
+/// on the nodes that own coordinates.
+std::vector<double> on_parts(const Model& model, const Parts& parts, const VectorXd& load) {
+  std::vector<double> square(static_cast<std::size_t>(parts.count()), 0.0);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const Node& node = model.nodes[i];
+    if (node.translation >= 0) square[parts.of_node[i]] += load.segment<3>(node.translation).squaredNorm();
+    if (node.rotation >= 0) square[parts.of_node[i]] += load.segment<3>(node.rotation).squaredNorm();
+  }
+  return square;
+}
+
+}  // namespace
+
+std::vector<bool> stressed_by_constraints(const Model& model, const Evaluation& now) {
+  std::vector<bool> stressed(deforming_bodies(model), false);
+  if (model.sizes.constraints == 0) return stressed;
+  const Matrix B = transposed_jacobian(model, now);
+  const Parts parts = find_parts(model);
+  const Matrix A = rigid_motions(model, parts, now).transpose() * B;
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  const VectorXd probe = VectorXd::NullaryExpr(model.sizes.constraints, [&](Eigen::Index) { return normal(random); });
+  const VectorXd load = (B * (probe - without_null_space(A, probe, dependent)))
+                            .cwiseProduct(model.equation_scale.head(B.rows()).matrix());
+  const std::vector<double> square = on_parts(model, parts, load);
+  for (std::size_t i = 0; i < stressed.size(); ++i) {
+    if (const int modal = modal_body_of(model, i); modal >= 0) {
+      const ModalBody& body = model.modal_bodies[modal];
+      stressed[i] = load.segment(model.sizes.first_modal() + body.offset, body.modes).norm() > deforming;
+    } else {
+      stressed[i] = std::sqrt(square[parts.of_node[model.superelements[i].nodes.front()]]) > deforming;
+    }
+  }
+  return stressed;
+}
+
+}  // namespace tisserand::mechanism
