@@ -53,16 +53,16 @@ void Doubts::at_row(const Model& model, const State& state, const Evaluation& ev
   energy_.observe(row, std::max(evaluation.force_scale[0], force_round_off(model, state)) * model.length);
 }
 
-std::vector<std::string> Doubts::of_model(const Model& model) const {
+std::vector<std::string> Doubts::of_model(const Model& model, const StressedBodies& stressed) const {
   std::vector<std::string> all = told_;
-  for (auto&& some : {swing_.doubts(), resolution_.doubts(model), touches_.doubts(model), range_.doubts(model), beams_.doubts(model), bushings_.doubts(model), tables_.doubts(model), inertia_.doubts(model),
+  for (auto&& some : {swing_.doubts(), resolution_.doubts(model), touches_.doubts(model), range_.doubts(model, stressed), beams_.doubts(model), bushings_.doubts(model), tables_.doubts(model), inertia_.doubts(model),
                       torsion_.doubts(model), spin_.doubts(model), tyres_.doubts(model), damping_doubts(model)})
     for (const std::string& doubt : some)
       if (std::ranges::find(all, doubt) == all.end()) all.push_back(doubt);
   return all;
 }
 
-void Doubts::leave(const Model& model) { told_ = of_model(model); }
+void Doubts::leave(const Model& model) { told_ = of_model(model, {}); }
 
 void Doubts::enter(const formats::Scene& scene, const Model& model) {
   Doubts anew(scene, model);
@@ -71,9 +71,9 @@ void Doubts::enter(const formats::Scene& scene, const Model& model) {
   *this = std::move(anew);
 }
 
-std::vector<std::string> Doubts::tell(const Model& model) const {
+std::vector<std::string> Doubts::tell(const Model& model, const StressedBodies& stressed) const {
   std::vector<std::string> all = energy_.doubts();
-  for (std::string& doubt : of_model(model)) all.push_back(std::move(doubt));
+  for (std::string& doubt : of_model(model, stressed)) all.push_back(std::move(doubt));
   return all;
 }
 

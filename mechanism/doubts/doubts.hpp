@@ -33,7 +33,7 @@ class Doubts {
   void enter(const formats::Scene& scene, const Model& model);
 
   /// Costs nothing while there is nothing to tell; eigenvalues of bodies that spin.
-  std::vector<std::string> tell(const Model& model) const;
+  std::vector<std::string> tell(const Model& model, const StressedBodies& stressed) const;
 
   /// See MultiplierSwing::latest(), StepResolution::latest() and Torsion::doubts().
   std::string latest_swing() const { return swing_.latest(); }
@@ -55,7 +55,7 @@ class Doubts {
   MultiplierSwing swing_;
   std::vector<std::string> told_;  ///< of models that were left
 
-  std::vector<std::string> of_model(const Model& model) const;
+  std::vector<std::string> of_model(const Model& model, const StressedBodies& stressed) const;
 };
 
 }  // namespace tisserand::mechanism

@@ -2,6 +2,7 @@
 // spin.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "mechanism/doubts/modal_range.hpp"
 
 namespace tisserand::mechanism {
+
+/// Per superelement, whether joints can stress it though no load acts (switching/constraint_stress.hpp); empty: not known.
+using StressedBodies = std::function<std::vector<bool>()>;
 
 /// Largest values over the accepted states of a run, of superelements without stiffening and of modal bodies. The turn
 /// of their nodes is FrameAngles' (mechanism/run).
@@ -20,8 +24,8 @@ class LinearRange {
   /// After an evaluation of an accepted state.
   void observe(const Model& model, const State& state, const Evaluation& evaluation);
 
-  /// One per quantity: its largest excess, and the number of others.
-  std::vector<std::string> doubts(const Model& model) const;
+  /// One per quantity: its largest excess, and the number of others. `stressed`: asked only where it matters.
+  std::vector<std::string> doubts(const Model& model, const StressedBodies& stressed) const;
 
  private:
   /// Constants of a body. Axial force N = axial · y_B and Euler's load of a body whose nodes lie on a line, the ends
@@ -49,7 +53,9 @@ class LinearRange {
     double span = 0.0, buckling = 0.0;  ///< 0: not known
     int pieces = 1;                     ///< welded in a row
     std::string remedy;
+    double most_displaced = 0.0;
   };
+  double displaced_share(const Seen& seen) const { return seen.moment > 0.0 ? seen.displaced.value / seen.moment : 0.0; }
   struct Excess {
     double ratio = 0.0;
     std::string text;

@@ -18,6 +18,7 @@
 #include "mechanism/run/output.hpp"
 #include "mechanism/run/simulated_scene.hpp"
 #include "mechanism/step/redundancy.hpp"
+#include "mechanism/switching/constraint_stress.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -357,7 +358,11 @@ formats::ResultsLayout begin_rows(Run& run, const BodyFiles& files) {
 
 void tell_doubts(Run& run) {
   std::vector<std::string>& doubts = run.report.doubts;
-  for (std::string& doubt : run.doubts.tell(run.built.model)) doubts.push_back(std::move(doubt));
+  const auto stressed = [&run] {
+    evaluate(run.built.model, run.built.state, run.workspace.now);
+    return stressed_by_constraints(run.built.model, run.workspace.now);
+  };
+  for (std::string& doubt : run.doubts.tell(run.built.model, stressed)) doubts.push_back(std::move(doubt));
   for (std::string& note : damping_notes(run.built.model)) run.report.notes.push_back(std::move(note));
 }
 
