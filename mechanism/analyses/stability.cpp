@@ -115,11 +115,20 @@ struct Scaled {
   }
 };
 
-/// The eigenvector of the least eigenvalue of ZᵀKZ, in coordinates of a linearisation.
+/// The eigenvector of the least eigenvalue of ZᵀKZ, in coordinates of a linearisation. Of several of this eigenvalue,
+/// the one that moves the coordinate most that they move most: their own basis is round-off.
 VectorXd lowest_direction(const Model& model, const Linearisation& l, const Scaled& s) {
+  constexpr double equal = 1e-6, as_large = 0.9;
   const MatrixXd Z = s.scale.cwiseInverse().asDiagonal() * null_space(model, l.B);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(Z.transpose() * s.K * Z);
-  return s.scale.asDiagonal() * (Z * eigen.eigenvectors().col(0));
+  const VectorXd& lambda = eigen.eigenvalues();
+  const double close = equal * std::abs(lambda[0]) + zero_pivot * lambda.cwiseAbs().maxCoeff();
+  const auto count = (lambda.array() <= lambda[0] + close).count();
+  const MatrixXd V = Z * eigen.eigenvectors().leftCols(count);
+  const VectorXd size = V.rowwise().norm();
+  Eigen::Index most = 0;
+  while (size[most] < as_large * size.maxCoeff()) ++most;
+  return s.scale.asDiagonal() * (V * V.row(most).transpose());
 }
 
 Stability count(const Model& model, const Scaled& s, const Evaluation& evaluation) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace tisserand::mechanism {
 
@@ -24,8 +26,7 @@ std::array<std::array<double, points>, 3> weights_at(double s) {
       const double apart = n - k;
       own *= apart;
       if (k == n - 1)
-        for (int m = 2; m >= 0; --m)
-          w[m][n] = product / own * ((m > 0 ? m * w[m - 1][k] : 0.0) - before * w[m][k]);
+        for (int m = 2; m >= 0; --m) w[m][n] = product / own * ((m > 0 ? m * w[m - 1][k] : 0.0) - before * w[m][k]);
       for (int m = 2; m >= 0; --m) w[m][k] = (distance * w[m][k] - (m > 0 ? m * w[m - 1][k] : 0.0)) / apart;
     }
     product = own;
@@ -54,24 +55,32 @@ MotionFunction::Value MotionFunction::operator()(double t, double side) {
 }
 
 MotionFunction::Value MotionFunction::differences(double t, double side) {
-  double d = spacing_, center = t;
+  // Round-off of t must not carry a point into the next piece, whose value at the breakpoint may be another one.
+  constexpr double ulps = 4.0 * std::numeric_limits<double>::epsilon();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double d = spacing_, center = t, first = -infinity, last = infinity;
   const auto next = std::ranges::upper_bound(breakpoints_, side);
   const bool begins = next != breakpoints_.begin(), ends = next != breakpoints_.end();
-  if (begins && ends) d = std::min(d, (*next - *(next - 1)) / (points - 1));
-  if (begins) center = std::max(center, *(next - 1) + 3.0 * d);
-  if (ends) center = std::min(center, *next - 3.0 * d);
+  if (begins) first = *(next - 1) + ulps * std::abs(*(next - 1));
+  if (ends) last = *next - ulps * std::abs(*next);
+  if (begins && ends) d = std::min(d, (last - first) / (points - 1));
+  if (begins) center = std::max(center, first + 3.0 * d);
+  if (ends) center = std::min(center, last - 3.0 * d);
   std::array<double, points> f{};
   for (int k = 0; k < points; ++k) f[k] = function_(center + (k - 3) * d);
   Value v;
   if (center == t) {  // central differences of order six
     v.value = f[3];
     v.rate = (45.0 * (f[4] - f[2]) - 9.0 * (f[5] - f[1]) + (f[6] - f[0])) / (60.0 * d);
-    v.acceleration = (270.0 * (f[4] + f[2]) - 27.0 * (f[5] + f[1]) + 2.0 * (f[6] + f[0]) - 490.0 * f[3]) / (180.0 * d * d);
+    v.acceleration =
+        (270.0 * (f[4] + f[2]) - 27.0 * (f[5] + f[1]) + 2.0 * (f[6] + f[0]) - 490.0 * f[3]) / (180.0 * d * d);
     return v;
   }
-  v.value = function_(t);
   const auto w = weights_at((t - center) / d);
+  const bool inside = first <= t && t <= last;
+  if (inside) v.value = function_(t);
   for (int k = 0; k < points; ++k) {
+    if (!inside) v.value += w[0][k] * f[k];
     v.rate += w[1][k] * f[k] / d;
     v.acceleration += w[2][k] * f[k] / (d * d);
   }

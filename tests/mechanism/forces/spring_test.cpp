@@ -51,6 +51,23 @@ TEST(MotionFunction, DifferentiatesExpressions) {
   EXPECT_NEAR(v.acceleration, -9 * std::sin(2.1), 2e-11);
 }
 
+// A formula whose pieces miss each other by 1e-8 at 0.7, which belongs to the second one. Each side is its own
+// polynomial, also at the breakpoint and where round-off of t lies beyond it: 1e-8/d^2 = 1e-2 of acceleration
+// otherwise.
+TEST(MotionFunction, EndsOfPiecesAreTheirOwn) {
+  const double at = 0.7, d = 1e-3;
+  MotionFunction f(formats::TimeExpression{"t < 0.7 ? 3*t : 3*t + 1e-8", {}, ""}, d);
+  for (const double t : {std::nextafter(at, 0.0), at, at + 1e-13}) {
+    const MotionFunction::Value before = f(t, at - 1e-12), after = f(t, at + 1e-12);
+    EXPECT_NEAR(before.value, 3 * t, 1e-14);
+    EXPECT_NEAR(after.value, 3 * t + 1e-8, 1e-14);
+    for (const auto& v : {before, after}) {
+      EXPECT_NEAR(v.rate, 3.0, 1e-11);
+      EXPECT_NEAR(v.acceleration, 0.0, 1e-7);  // 4e-16 * 100/d^2
+    }
+  }
+}
+
 // A force along a guide that is switched on at 0.5: v = F (t - 0.5)/m to round-off, as the start after the jump is
 // exact.
 TEST(SpringForce, JumpsAreMetAtTheirInstant) {
