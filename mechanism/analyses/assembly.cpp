@@ -16,6 +16,7 @@
 #include "common/math/rotation.hpp"
 #include "common/stable_sort.hpp"
 #include "mechanism/equations/evaluate.hpp"
+#include "mechanism/equations/terms.hpp"
 #include "mechanism/model/bodies.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 
@@ -267,6 +268,17 @@ void disturb(const Model& model, int attempt, Bodies& bodies, State& state) {
   move(model, d, bodies, state);
 }
 
+/// Whether a joint keeps a distance of markers that stand at one place: the direction in which they part is round-off.
+bool is_folded(const Model& model, const State& state, Evaluation& evaluation) {
+  constexpr double same_place = 1e-9;  // of the characteristic length
+  evaluate(model, state, evaluation);
+  return std::ranges::any_of(model.joints, [&](const Joint& joint) {
+    return keeps_distance(joint) && (marker_position(joint.b, markers_of(joint, evaluation).node_b) -
+                                     marker_position(joint.a, markers_of(joint, evaluation).node_a))
+                                            .norm() < same_place * model.length;
+  });
+}
+
 /// The rigid motion [ẋ_c/L; ω] of each body that its nodes have, as far as they have one.
 VectorXd rigid_velocities(const Model& model, const Bodies& bodies, const State& state) {
   VectorXd w = VectorXd::Zero(6 * static_cast<Eigen::Index>(bodies.center.size()));
@@ -370,6 +382,7 @@ AssemblyReport assemble(const Model& model, const std::vector<CoordinateStart>& 
   state.v().setZero();
   state.vdot().setZero();
   state.lambda().setZero();
+  if (is_folded(model, state, evaluation)) disturb(model, most_fresh_starts, bodies, state);
   State best = state;
   double best_gap = std::numeric_limits<double>::infinity();
   for (int attempt = 0; attempt < most_fresh_starts && !report.interrupted; ++attempt) {
