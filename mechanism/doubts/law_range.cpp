@@ -29,7 +29,7 @@ double angle(double versine) { return std::acos(std::clamp(1.0 - 0.5 * versine, 
 
 /// The logarithm of a rotation ends at π (bushing.hpp). A tenth before it a step of 18 degrees may pass it.
 constexpr double farthest = 0.9 * std::numbers::pi;
-/// Of the width of a table: a law that goes on straight for less says the same.
+/// A value may lie outside a table by this share of its width: the straight continuation differs little there.
 constexpr double beyond_table = 0.01;
 
 }  // namespace

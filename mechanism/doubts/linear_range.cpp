@@ -37,11 +37,14 @@ constexpr double most_spin = 0.29;
 /// cantilever under an axial force P and a force across has P/P_cr·π²/12 of its largest moment there: the limit of
 /// most_axial.
 constexpr double most_displaced = 0.1;
-/// Of bodies that joints stress though no load acts. Their reactions are stiffness times small differences: where a
-/// misaligned four-bar has 0.066 its largest force errs by a quarter (tests/verification/trials/law_range_test.cpp).
+/// The limit for bodies that joints stress though no load acts. Their reactions are a stiffness times small differences. The
+/// bars of a misaligned four-bar have 0.066, and its largest force errs by a quarter
+/// (tests/verification/trials/automatic_loops_test.cpp).
 constexpr double most_displaced_stressed = 0.03;
-/// Of span or rad: below it nothing is displaced.
+/// A body counts as undeformed while displacements over its span and turns [rad] are smaller.
 constexpr double least_displacement = 1e-3;
+/// Of the span: bodies between hinges bear forces without moments, which count with this arm.
+constexpr double least_arm = 0.1;
 constexpr const char* superelement_remedy = "cut it into several, or use second_order with its companion file";
 constexpr const char* modal_remedy = "cut it into several, or take superelements with second_order, or beams";
 
@@ -153,12 +156,18 @@ void LinearRange::observe_displaced(const SuperelementBody& body, const Eigen::V
     const int row = node.rotation_row;
     return body.planar ? Vector3d(0.0, 0.0, of[row]) : Vector3d(of.segment<3>(row));
   };
-  const Eigen::VectorXd force = body.S_BB * y_B;
+  // Rows of S y, one by one: nothing is allocated in a step.
+  const auto elastic = [&](bool exists, int row, int count, int first) -> Vector3d {
+    Vector3d value = Vector3d::Zero();
+    for (int k = 0; exists && k < count; ++k) value[first + k] = body.S_BB.col(row + k).dot(y_B);
+    return value;
+  };
   Vector3d displaced = Vector3d::Zero();
   for (const SuperelementNode& node : body.node) {
-    const Vector3d F = translation(node, force), m = rotation(node, force);
+    const Vector3d F = elastic(node.has_translation(), node.translation_row, body.translations(), 0);
+    const Vector3d m = elastic(node.has_rotation(), node.rotation_row, body.rotations(), 3 - body.rotations());
     displaced += translation(node, y_B).cross(F) + 0.5 * rotation(node, y_B).cross(m);
-    seen.moment = std::max(seen.moment, (m + node.X.cross(F)).norm());
+    seen.moment = std::max({seen.moment, m.norm(), least_arm * span * F.norm()});
   }
   raise(seen.displaced, displaced.norm());
 }

@@ -45,7 +45,7 @@ class LinearRange {
     double force = 0.0;  ///< axial, its mean over `lag`; tension is positive
     Extreme deflection, axial, spin;
     Extreme displaced;    ///< moment of the elastic forces on the nodes in their displaced places, in the frame
-    double moment = 0.0;  ///< largest moment of the elastic forces on one node about the origin of the part
+    double moment = 0.0;  ///< largest moment on one node, or a tenth of the span times the force on it
   };
   /// A body as its limits are judged.
   struct Judged {

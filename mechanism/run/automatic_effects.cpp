@@ -428,7 +428,7 @@ void AutomaticEffects::note_start_forces() {
     use.start_force = use.awake ? 0.0 : demand_->force(deforming_body(whole_.model, use.effect.owner));
 }
 
-/// Of what the tolerance does not hold for.
+/// Notes on forces that do not keep the tolerance.
 void AutomaticEffects::tell_forces(Run& run) const {
   const double tolerance = scene_.automatic.tolerance, largest = largest_force(run);
   std::vector<std::string> names;

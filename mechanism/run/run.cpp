@@ -358,7 +358,8 @@ formats::ResultsLayout begin_rows(Run& run, const BodyFiles& files) {
 
 void tell_doubts(Run& run) {
   std::vector<std::string>& doubts = run.report.doubts;
-  const auto stressed = [&run] {
+  const auto stressed = [&run]() -> std::vector<bool> {
+    if (run.built.model.planar) return {};  // coordinates out of the plane, which such stress needs, are not there
     evaluate(run.built.model, run.built.state, run.workspace.now);
     return stressed_by_constraints(run.built.model, run.workspace.now);
   };

@@ -31,7 +31,7 @@ bool stiffens(const Model& model, std::size_t index) {
   return body_of(model, index).second_order.stiffening.has_value();
 }
 
-/// Of stiffening.
+/// The force that stiffening adds; zero where the body has none.
 Eigen::VectorXd added_force(const Model& model, std::size_t index, const Evaluation& now) {
   if (!stiffens(model, index)) return Eigen::VectorXd::Zero(deformation_size(model, index));
   return now.superelements[index].forces.strain.force;

@@ -92,7 +92,7 @@ TEST(BushingTurns, ASpinningTopPrecesses) {
   EXPECT_NEAR(coarse / fine, 4.0, 0.6);
 }
 
-// A wheel wound up by three turns goes on from a stored instant, and from a checkpoint, with its turns.
+// A wheel wound up by several turns goes on from a stored instant with its turns.
 TEST(BushingTurns, SurviveARestart) {
   const test_support::TemporaryFolder folder;
   formats::Scene scene = test_support::empty_scene(0.002, 2.0);
