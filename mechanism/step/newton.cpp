@@ -23,6 +23,23 @@ bool refactor(Iteration& it) {
   return false;
 }
 
+/// Whether corrections with the kept factors of the position projection do not close the constraints.
+bool projection_fails(const Iteration& it) {
+  return it.scheme.projects && it.count > 1 && it.report.constraint_ratio > 1.0 &&
+         it.report.constraint_ratio > it.last_constraint_ratio;
+}
+
+/// Factors of the position projection at the state of the last evaluation. False: singular.
+bool renew_projection(Iteration& it) {
+  const FactorReport factors =
+      renew_projection(it.model, it.state, it.scheme, it.workspace.now, it.workspace.memory.projection);
+  ++it.report.factorisations;
+  if (factors.regular && factors.reciprocal_condition >= singular_condition) return true;
+  it.report.outcome = StepOutcome::singular;
+  it.report.singular_column = factors.singular_column;
+  return false;
+}
+
 bool contracts_slowly(const Iteration& it) {
   return it.increment > it.workspace.memory.tuning.slow_rate * it.last_increment;
 }
@@ -91,6 +108,7 @@ bool ready_factors(Iteration& it) {
   const double quick_rate = it.workspace.memory.tuning.quick_rate;
   const bool quick = it.count > 0 && it.report.residual <= quick_rate * it.last_residual &&
                      it.report.constraint_ratio <= std::max(1.0, quick_rate * it.last_constraint_ratio);
+  if (projection_fails(it) && !renew_projection(it)) return false;
   it.last_residual = it.report.residual;
   it.last_constraint_ratio = it.report.constraint_ratio;
   return quick || refactor(it);

@@ -21,7 +21,7 @@ constexpr double least_weight = 1e-12;
 constexpr double most_give = 1e4;
 
 bool serves(const PositionProjection& projection, double step) {
-  return projection.has_factors() && projection.age < 1.0 && step <= 2.0 * projection.step &&
+  return projection.has_factors() && !projection.renewed && projection.age < 1.0 && step <= 2.0 * projection.step &&
          projection.step <= 2.0 * step;
 }
 
@@ -99,12 +99,28 @@ double turn_of_step(const Model& model, const Evaluation& evaluation, const Posi
   return evaluation.displacement.head(model.sizes.boundary).cwiseProduct(projection.turns).lpNorm<Eigen::Infinity>();
 }
 
+FactorReport make_factors(const Model& model, const State& state, const StepScheme& scheme, Evaluation& evaluation,
+                          PositionProjection& projection) {
+  const TangentCoefficients& c = scheme.request.coefficients;
+  evaluate_weight(model, state, {c.mass, 0.0, c.stiffness}, evaluation, projection.system->matrix);
+  weigh(model, projection);
+  const FactorReport report = projection.system->factor(model);
+  projection.step = report.regular ? scheme.step : 0.0;
+  projection.age = 0.0;
+  projection.elapsed = 0.0;
+  if (!report.regular) return report;
+  keep_rows(model, projection);
+  find_held(model, projection);
+  return report;
+}
+
 }  // namespace
 
 void PositionProjection::forget() {
   if (system) system->forget();
   step = 0.0;
   expected_step = 0.0;
+  renewed = false;
 }
 
 FactorReport prepare_projection(const Model& model, const State& state, const StepScheme& scheme,
@@ -123,17 +139,17 @@ FactorReport prepare_projection(const Model& model, const State& state, const St
     projection.old = projection.turned = projection.upper = projection.held = projection.turns;
   }
   evaluate(model, state, evaluation);
-  const TangentCoefficients& c = scheme.request.coefficients;
-  evaluate_weight(model, state, {c.mass, 0.0, c.stiffness}, evaluation, projection.system->matrix);
-  weigh(model, projection);
-  const FactorReport report = projection.system->factor(model);
-  projection.step = report.regular ? scheme.step : 0.0;
-  projection.age = 0.0;
-  projection.elapsed = 0.0;
-  if (!report.regular) return report;
-  keep_rows(model, projection);
-  find_held(model, projection);
-  expect(scheme.step, projection);
+  const FactorReport report = make_factors(model, state, scheme, evaluation, projection);
+  if (report.regular) expect(scheme.step, projection);
+  return report;
+}
+
+FactorReport renew_projection(const Model& model, const State& state, const StepScheme& scheme, Evaluation& evaluation,
+                              PositionProjection& projection) {
+  const FactorReport report = make_factors(model, state, scheme, evaluation, projection);
+  projection.expected_step = 0.0;
+  projection.renewed = true;
+  start_projection(projection);
   return report;
 }
 
@@ -168,6 +184,7 @@ void project_positions(const Model& model, const StepTuning& tuning, const Evalu
 void age_projection(const Model& model, const StepTuning& tuning, const Evaluation& evaluation,
                     PositionProjection& projection) {
   if (!projection.has_factors()) return;
+  if (projection.renewed) return projection.forget();
   projection.age +=
       std::max(turn_of_step(model, evaluation, projection) / tuning.farthest_turn, 1.0 / tuning.most_steps);
   projection.elapsed += projection.taken;

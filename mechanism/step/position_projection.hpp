@@ -44,6 +44,7 @@ struct PositionProjection {
   double elapsed = 0.0;         ///< from B₀ to the start of the step
   double step = 0.0;            ///< with which W was made; zero: there are no factors
   double age = 0.0;             ///< share of what the factors may serve that is used up
+  bool renewed = false;         ///< factors are those of an iterate of this step, and end with it
 };
 
 /// Readies μ₁ and [W Bᵀ; B 0] for a step from `state`, W = c_m M + c_k K of the bodies alone: made anew, at `state`,
@@ -52,6 +53,12 @@ struct PositionProjection {
 /// iterations.
 [[nodiscard]] FactorReport prepare_projection(const Model& model, const State& state, const StepScheme& scheme,
                                               Evaluation& evaluation, PositionProjection& projection);
+
+/// [W Bᵀ; B 0] at the iterate of the last evaluation, for the rest of this step. Between B₀ and B of the end of a step
+/// there may be a singular position: a direction in which rows are nearly dependent then has the other sign, and
+/// corrections with B₀ open what they should close, whatever the length of the step. The next step makes its own.
+[[nodiscard]] FactorReport renew_projection(const Model& model, const State& state, const StepScheme& scheme,
+                                            Evaluation& evaluation, PositionProjection& projection);
 
 /// Before the first iteration of a step: nothing is corrected yet.
 void start_projection(PositionProjection& projection);
