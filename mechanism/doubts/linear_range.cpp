@@ -37,10 +37,10 @@ constexpr double most_spin = 0.29;
 /// cantilever under an axial force P and a force across has P/P_cr·π²/12 of its largest moment there: the limit of
 /// most_axial.
 constexpr double most_displaced = 0.1;
-/// The limit for bodies that joints stress though no load acts. Their reactions are a stiffness times small differences. The
-/// bars of a misaligned four-bar have 0.066, and its largest force errs by a quarter
-/// (tests/verification/trials/automatic_loops_test.cpp).
-constexpr double most_displaced_stressed = 0.03;
+/// The limit for bodies that joints stress though no load acts. Their reactions are a stiffness times small differences:
+/// of a misaligned four-bar, bars of one piece have 0.038, and the largest force errs by 25 %; bars of two have 0.015,
+/// and it errs by 7 %; of four 0.0034, and 2 % (tests/verification/trials/automatic_loops_test.cpp).
+constexpr double most_displaced_stressed = 0.005;
 /// A body counts as undeformed while displacements over its span and turns [rad] are smaller.
 constexpr double least_displacement = 1e-3;
 /// Of the span: bodies between hinges bear forces without moments, which count with this arm.
@@ -70,6 +70,10 @@ double transverse_stiffness(const SuperelementBody& body, const Axis& axis) {
   return Eigen::SelfAdjointEigenSolver<MatrixXd>(across * S * across, Eigen::EigenvaluesOnly).eigenvalues()[1];
 }
 
+/// What the geometric stiffness of a body without internal modes errs by, whose shapes are the cubics of its ends: they
+/// buckle at 12 EI/L² between pins, where π² EI/L² is right. Tension stiffens the body by r beside its own.
+double cubic_share(double r) { return (12.0 / (pi * pi) - 1.0) * std::abs(r) / (1.0 + std::max(0.0, r)); }
+
 /// What an axial force of r times the buckling load of a piece (tension positive) leaves out of the stiffness of a beam
 /// of n of them. All of it for one; the turning chords of n pieces carry it but for the part (π/n)²/12 that bends
 /// within the pieces, and tension stiffens the beam by n² r beside its own.
@@ -92,7 +96,8 @@ std::vector<std::string> worst_of(const Excesses& excesses) {
 LinearRange::Limits LinearRange::limits_of(const SuperelementBody& body) {
   Limits limits;
   limits.linear = !body.second_order.stiffening;
-  if (!limits.linear) return limits;
+  limits.bare = !limits.linear && body.S_II.size() == 0 && body.node.size() == 2;
+  if (!limits.linear && !limits.bare) return limits;
   for (const int a : body.translation_nodes)
     for (const int b : body.translation_nodes)
       limits.span = std::max(limits.span, (body.node[b].X - body.node[a].X).norm());
@@ -102,9 +107,11 @@ LinearRange::Limits LinearRange::limits_of(const SuperelementBody& body) {
   limits.buckling = pi * pi / 12.0 * limits.span * transverse_stiffness(body, *axis);
   if (!(limits.buckling > 0.0)) return limits;
   // N̄ = Σ sⱼ fⱼ/L of the elastic forces f along the axis at distances s: between two nodes the force itself.
-  limits.axial = Eigen::VectorXd::Zero(body.boundary_size);
+  limits.axial = limits.along = Eigen::VectorXd::Zero(body.boundary_size);
   for (const int j : body.translation_nodes) {
     const double share = (body.node[j].X - body.node[axis->first].X).dot(axis->direction) / limits.span;
+    limits.along.segment(body.node[j].translation_row, body.translations()) =
+        share * axis->direction.head(body.translations());
     limits.axial += share * (body.S_BB.middleCols(body.node[j].translation_row, body.translations()) *
                              axis->direction.head(body.translations()));
   }
@@ -178,9 +185,14 @@ void LinearRange::observe(const Model& model, const State& state, const Evaluati
   observe_modal(model, state, evaluation, passed);
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     const Limits& limits = limits_[model.superelements[i].body];
+    const LocalMotion<double>& motion = evaluation.superelements[i].motion;
+    if (limits.bare && limits.axial.size() > 0) {
+      const Eigen::VectorXd& second_order = evaluation.superelements[i].forces.strain.force;
+      const double force = limits.axial.dot(motion.y_B) + limits.along.dot(second_order.head(limits.along.size()));
+      raise_axial(seen_[i], force, limits.lag, passed);
+    }
     if (!limits.linear) continue;
     const SuperelementBody& body = body_of(model, i);
-    const LocalMotion<double>& motion = evaluation.superelements[i].motion;
     for (const int j : body.translation_nodes)
       raise(seen_[i].deflection, motion.y_B.segment(body.node[j].translation_row, body.translations()).norm());
     raise(seen_[i].spin, motion.Omega0.norm());
@@ -190,9 +202,18 @@ void LinearRange::observe(const Model& model, const State& state, const Evaluati
 }
 
 std::vector<std::string> LinearRange::doubts(const Model& model, const StressedBodies& stressed) const {
-  std::vector<Excess> bent, pressed, displaced, spun;
+  std::vector<Excess> bent, pressed, displaced, spun, coarse;
   const auto judge = [&](const Judged& body, const Seen& seen, auto first_frequency) {
     const auto& [force, deflection, axial, spin, moved, moment] = seen;
+    if (body.bare) {
+      if (const double r = axial.value / body.buckling; body.buckling > 0.0 && body.pieces == 1 && cubic_share(r) > most_axial)
+        coarse.push_back({std::abs(r), fmt::format("'{}' bears {} of {:.2g} of its buckling load between pins (at t = {:.6g}) without "
+                                                   "internal modes: its stiffness errs by up to {:.2g} (beyond {:g}); reduce it with "
+                                                   "'modes: 4' or more, or cut it into several",
+                                                   body.name, axial.value < 0.0 ? "compression" : "tension", std::abs(r), axial.time,
+                                                   cubic_share(r), most_axial)});
+      return;
+    }
     if (const double ratio = deflection.value / body.span; body.span > 0.0 && ratio > most_deflection)
       bent.push_back({ratio, fmt::format("'{}' deflects by {:.2g} of its length (at t = {:.6g}), beyond {:g}, with a "
                                          "linear strain: {}",
@@ -228,9 +249,9 @@ std::vector<std::string> LinearRange::doubts(const Model& model, const StressedB
     in_loop = stressed();
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     const Limits& limits = limits_[model.superelements[i].body];
-    if (!limits.linear) continue;
+    if (!limits.linear && !limits.bare) continue;
     const int pieces = static_cast<int>(std::ranges::count(beams, beams[i]));
-    judge({model.superelements[i].name, limits.span, limits.axial.size() > 0 ? limits.buckling : 0.0, pieces,
+    judge({model.superelements[i].name, limits.span, limits.axial.size() > 0 ? limits.buckling : 0.0, pieces, limits.bare,
            superelement_remedy, !in_loop.empty() && in_loop[i] ? most_displaced_stressed : most_displaced},
           seen_[i], [&](double spin) {
             const auto [known, fresh] = frequencies.try_emplace({model.superelements[i].body, held[i]}, 0.0);
@@ -239,10 +260,10 @@ std::vector<std::string> LinearRange::doubts(const Model& model, const StressedB
           });
   }
   for (std::size_t i = 0; i < modal_.size(); ++i)
-    judge({model.modal_bodies[i].name, modal_[i].span(), modal_[i].buckling(), 1, modal_remedy}, modal_seen_[i],
+    judge({model.modal_bodies[i].name, modal_[i].span(), modal_[i].buckling(), 1, false, modal_remedy}, modal_seen_[i],
           [&](double spin) { return modal_[i].first_frequency(model, spin); });
   std::vector<std::string> doubts;
-  for (const auto* kind : {&bent, &pressed, &displaced, &spun})
+  for (const auto* kind : {&bent, &pressed, &displaced, &spun, &coarse})
     for (std::string& text : worst_of(*kind)) doubts.push_back(std::move(text));
   return doubts;
 }

@@ -15,8 +15,8 @@ namespace tisserand::mechanism {
 /// Per superelement, whether joints can stress it though no load acts (switching/constraint_stress.hpp); empty: not known.
 using StressedBodies = std::function<std::vector<bool>()>;
 
-/// Largest values over the accepted states of a run, of superelements without stiffening and of modal bodies. The turn
-/// of their nodes is FrameAngles' (mechanism/run).
+/// Largest values over the accepted states of a run, of superelements without stiffening or without internal modes and
+/// of modal bodies. The turn of their nodes is FrameAngles' (mechanism/run).
 class LinearRange {
  public:
   LinearRange(const Model& model, double start);
@@ -28,12 +28,14 @@ class LinearRange {
   std::vector<std::string> doubts(const Model& model, const StressedBodies& stressed) const;
 
  private:
-  /// Constants of a body. Axial force N = axial · y_B and Euler's load of a body whose nodes lie on a line, the ends
-  /// with rotations.
+  /// Constants of a body. Axial force N = axial · y_B = along · S̄ y_B and Euler's load of a body whose nodes lie on a
+  /// line, the ends with rotations.
   struct Limits {
     bool linear = false;
+    bool bare = false;      ///< stiffens by its companion file, has two nodes and no internal modes
     double span = 0.0;      ///< largest distance of its nodes
     Eigen::VectorXd axial;  ///< empty: not known from S and M alone
+    Eigen::VectorXd along;  ///< N of forces on nodes, boundary
     double buckling = 0.0;  ///< π² EI/span², between pins
     double lag = 0.0;       ///< half the period of the first bending vibration between pins
   };
@@ -52,6 +54,7 @@ class LinearRange {
     std::string name;
     double span = 0.0, buckling = 0.0;  ///< 0: not known
     int pieces = 1;                     ///< welded in a row
+    bool bare = false;
     std::string remedy;
     double most_displaced = 0.0;
   };

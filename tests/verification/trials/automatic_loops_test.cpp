@@ -26,14 +26,16 @@ class AutomaticLoops : public ::testing::Test {
   void SetUp() override {
     if (!std::filesystem::exists(TISSERAND_BINARY_DIR "/bin/reducer"))
       GTEST_SKIP() << "built without the reducer, which makes the superelements";
-    for (const char* part : {"crank", "coupler", "rocker"}) {
-      const std::string command =
-          fmt::format(TISSERAND_BINARY_DIR "/bin/reducer run " TISSERAND_SOURCE_DIR
-                                           "/tests/verification/references/trials/four_bar_{0}.part.yaml -o {1} > {2} "
-                                           "2>&1",
-                      part, path(part), folder_.file("log"));
-      ASSERT_EQ(std::system(command.c_str()), 0) << command;
-    }
+    for (const char* part : {"crank", "coupler", "rocker"}) reduce(part, path(part));
+  }
+
+  void reduce(const std::string& part, const std::string& file, const std::string& changes = "") const {
+    const std::string command = fmt::format(
+        TISSERAND_BINARY_DIR "/bin/reducer run " TISSERAND_SOURCE_DIR
+                             "/tests/verification/references/trials/four_bar_{0}.part.yaml {1} -o {2} > {3} "
+                             "2>&1",
+        part, changes, file, folder_.file("log"));
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
   }
 
   std::string path(const std::string& part) const { return folder_.file(part + ".superelement.h5"); }
@@ -46,6 +48,18 @@ class AutomaticLoops : public ::testing::Test {
     return Trial("four_bar_misaligned", {"bodies.crank.file=" + path("crank"), "bodies.coupler.file=" + path("coupler"),
                                          "bodies.rocker.file=" + path("rocker"), "bodies.crank.second_order=off",
                                          "bodies.coupler.second_order=off", "bodies.rocker.second_order=off"});
+  }
+  Trial linear_four_bar_of_pieces() const {
+    std::vector<std::string> changes;
+    for (const auto& [bar, half] : {std::pair("crank", 0.06), std::pair("coupler", 0.12), std::pair("rocker", 0.06)}) {
+      const std::string file = path(fmt::format("{}_half", bar));
+      reduce(bar, file, fmt::format("--set 'points.tip=[{}, 0, 0]'", half));
+      for (const char* piece : {"a", "b"}) {
+        changes.push_back(fmt::format("bodies.{}_{}.file={}", bar, piece, file));
+        changes.push_back(fmt::format("bodies.{}_{}.second_order=off", bar, piece));
+      }
+    }
+    return Trial("four_bar_pieces", changes);
   }
   Trial parallelogram(const std::string& effects, double step = 1e-3, double end = 1.0) const {
     return Trial("parallelogram_damped",
@@ -60,6 +74,11 @@ class AutomaticLoops : public ::testing::Test {
 // With linear superelements the largest force errs by a quarter and the moment of the drive by half: the run says so.
 TEST_F(AutomaticLoops, LinearBarsOutOfLineAreDoubted) {
   EXPECT_THAT(linear_four_bar().report().doubts, Contains(HasSubstr("for a body that joints stress")));
+}
+
+// Cut into two, as the advice goes, the bars still err: the largest force by 7 %, the moment of the drive by 20 %.
+TEST_F(AutomaticLoops, LinearBarsOfTwoPiecesOutOfLineAreDoubted) {
+  EXPECT_THAT(linear_four_bar_of_pieces().report().doubts, Contains(HasSubstr("for a body that joints stress")));
 }
 
 double largest(const std::vector<double>& values) {

@@ -180,7 +180,7 @@ INSTANTIATE_TEST_SUITE_P(Families, RandomLinkages,
                                            Family{"BricardOfALine", LinkageFamily::bricard_line, 1, 10},
                                            Family{"BricardOfAPlane", LinkageFamily::bricard_plane, 1, 10},
                                            Family{"BricardTrihedral", LinkageFamily::bricard_trihedral, 1, 10}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& one) { return std::string(one.param.name); });
 
 // The families move: their Jacobian has one rank less than joints along the whole path, which random_linkage()
 // examines.
