@@ -26,7 +26,7 @@ formats::ResultsLayout example_layout() {
   layout.bushings = {"mount", "pad"};
   layout.frictions = {"slide"};
   layout.tyres = {"front", "rear"};
-  layout.treads = true;
+  layout.treads = layout.strained = true;
   layout.superelement_content_ids = {std::string(64, 'a'), std::string(64, 'b')};
   return layout;
 }
@@ -73,6 +73,10 @@ void fill_row(int t, formats::ResultsRow& row) {
   for (double* value : {&row.kinetic, &row.strain, &row.potential, &row.work, &row.dissipated, &row.total, &row.balance,
                         &row.step, &row.iterations, &row.residual, &row.constraint})
     *value = row_value(t, k++);
+  for (Eigen::Matrix3Xd* block :
+       {&row.frame_acceleration, &row.frame_angular_velocity, &row.frame_angular_acceleration})
+    fill(*block);
+  fill(row.y_strain);
   if (row.joint_coordinate.size() > 1) row.joint_coordinate[1] = std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -18,6 +18,7 @@ namespace tisserand::testing {
 struct Recovered {
   formats::Recovery tables;
   std::array<Eigen::MatrixXd, 5> field;  ///< by RecoveryField
+  std::array<Eigen::MatrixXd, 5> loads;  ///< the same of the inertia loads; without columns where there are none
   formats::Superelement superelement;
 
   const Eigen::MatrixXd& of(formats::RecoveryField which) const { return field[static_cast<std::size_t>(which)]; }
