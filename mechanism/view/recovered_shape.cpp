@@ -136,7 +136,16 @@ void add_strain_and_loads(ViewedRun& run, const ViewedBody& body, const Found& f
     stress = formats::load_stresses_at(*found.reader, carriers);
     convert_tensors(to_scene, found.axes, stress);
   }
-  add_columns(modes, stress, loads.factor.transpose(), shape);
+  // Amplitudes up to 1: a page keeps what is large beside the largest column (formats/page/deformation.hpp).
+  MatrixXd factor = loads.factor.transpose();
+  for (Index a = 0; a < factor.cols(); ++a) {
+    const double reach = factor.col(a).cwiseAbs().maxCoeff();
+    if (!(reach > 0.0)) continue;
+    factor.col(a) /= reach;
+    modes.col(a) *= reach;
+    if (stress.size() > 0) stress.col(a) *= reach;
+  }
+  add_columns(modes, stress, factor, shape);
 }
 
 }  // namespace

@@ -127,6 +127,17 @@ TEST_F(RecoveredStress, TrappedStressOfAHingedSheetIsNoRoundOff) {
   }
 }
 
+// Files of versions 1.0 and 1.9 (tests/compatibility): the stress of before, 192.6 MPa, and what it lacks.
+TEST_F(RecoveredStress, FilesOfBeforeAreReadWithNotes) {
+  const std::string before = TISSERAND_SOURCE_DIR "/tests/compatibility/";
+  const Outcome outcome = call({program("reducer"), "recover", before + "bar_1.0.recovery.h5",
+                                before + "bar_1.9.results.h5", "-o", "out", "--frame", "part"},
+                               where);
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_NEAR(told(outcome.out, "largest stress of beams"), 192.604e6, 1e3);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("written before version 1.10"), HasSubstr("no answers to inertia loads")));
+}
+
 // A failure leaves the superelement of before, which refuses the companion of the new one.
 TEST_F(RecoveredStress, FilesOfAReductionTakeTheirNamesTogether) {
   ASSERT_EQ(reduce("stress_cantilever").code, 0);

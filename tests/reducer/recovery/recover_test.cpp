@@ -51,7 +51,10 @@ formats::Part cantilever() {
 
 void write(const Recovered& r, const std::string& path) {
   formats::RecoveryWriter writer(path, r.tables);
-  for (const formats::RecoveryField field : formats::recovery_fields) writer.append(field, r.of(field));
+  for (const formats::RecoveryField field : formats::recovery_fields) {
+    writer.append(field, r.of(field));
+    if (r.tables.loads) writer.append_loads(field, r.loads[static_cast<std::size_t>(field)]);
+  }
   writer.finish();
 }
 
