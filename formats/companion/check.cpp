@@ -15,14 +15,14 @@
 namespace tisserand::formats {
 namespace {
 
-constexpr double symmetry_accepted = 1e-9;  // of scaled entries, as of S̄ and M̄
-constexpr double rigid_accepted = 1e-8;     // stress of rigid motions: round-off of a stress of the size E
+constexpr double symmetry_accepted = 1e-9;     // of scaled entries, as of S̄ and M̄
+constexpr double rigid_accepted = 1e-8;        // stress of rigid motions: round-off of a stress of the size E
 constexpr double largest_of_stiffness = 1e14;  // H and Λ² in scaled coordinates beside s/l, s/l²: above, no numbers
-constexpr double trapped_accepted = 1e-6;   // of Λ on rigid motions: round-off of products with S̄
-constexpr double gram_accepted = 1e-9;      // of scaled eigenvalues
-constexpr double integral_accepted = 1e-6;  // of mass, S0, S1 against M̄, as of the rigid mass of superelements
-constexpr double weight_accepted = 1e-9;    // of sums of weights
-constexpr double largest_usable = 1e100;    // products of three such values stay finite
+constexpr double trapped_accepted = 1e-6;      // of Λ on rigid motions: round-off of products with S̄
+constexpr double gram_accepted = 1e-9;         // of scaled eigenvalues
+constexpr double integral_accepted = 1e-6;     // of mass, S0, S1 against M̄, as of the rigid mass of superelements
+constexpr double weight_accepted = 1e-9;       // of sums of weights
+constexpr double largest_usable = 1e100;       // products of three such values stay finite
 constexpr const char* other_program = "let the program that made the superelement write the companion again";
 
 /// One companion under check, with what its messages and its scales need.
@@ -162,10 +162,11 @@ void check_trapped(const Inspection& at) {
     const double residual = (scaled * R).cwiseAbs().maxCoeff(), largest = scaled.cwiseAbs().maxCoeff();
     const double of_stiffness = largest * at.scales.length / std::sqrt(at.scales.stiffness_scale);
     if (!(of_stiffness * of_stiffness <= largest_of_stiffness))
-      throw Error(fmt::format("its largest entry traps {:.3e} times the energy of the stiffness in a deformation by the "
-                              "length of the body (at most {:g})",
-                              of_stiffness * of_stiffness, largest_of_stiffness),
-                  at.dataset(dataset), "reduce the part again; if it comes again, without `double_curvature`");
+      throw Error(
+          fmt::format("its largest entry traps {:.3e} times the energy of the stiffness in a deformation by the "
+                      "length of the body (at most {:g})",
+                      of_stiffness * of_stiffness, largest_of_stiffness),
+          at.dataset(dataset), "reduce the part again; if it comes again, without `double_curvature`");
     if (!(residual <= trapped_accepted * largest))
       throw Error(fmt::format("a rigid motion bends: Lambda R is {:.3e} of the largest entry (at most {:g})",
                               residual / largest, trapped_accepted),

@@ -172,9 +172,8 @@ RecoveryLoads read_loads_table(const Tables& tables, std::uint64_t coordinates) 
   RecoveryLoads loads;
   loads.reference_point = Eigen::Map<const Eigen::Vector3d>(tables.numbers("/loads/reference_point", {3}).data());
   const Numbers share = tables.numbers("/loads/share", {coordinates, static_cast<std::uint64_t>(inertia_loads)});
-  loads.share =
-      Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-          share.data(), static_cast<Eigen::Index>(coordinates), inertia_loads);
+  loads.share = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+      share.data(), static_cast<Eigen::Index>(coordinates), inertia_loads);
   const Numbers stiffness = tables.numbers("/loads/stiffness", {coordinates});
   loads.stiffness = Eigen::Map<const Eigen::VectorXd>(stiffness.data(), static_cast<Eigen::Index>(coordinates));
   loads.left_out = tables.numbers("/loads/left_out", {1})[0];
@@ -357,7 +356,8 @@ struct RecoveryWriter::Impl {
   };
 
   Impl(const std::string& path, const Recovery& recovery) : file(path) {
-    for (const RecoveryField field : recovery_fields) fields.push_back(grow(recovery, field, of_coordinates(recovery, field)));
+    for (const RecoveryField field : recovery_fields)
+      fields.push_back(grow(recovery, field, of_coordinates(recovery, field)));
     for (const RecoveryField field : recovery_fields)
       if (recovery.loads) fields.push_back(grow(recovery, field, of_loads(field)));
   }
@@ -366,7 +366,11 @@ struct RecoveryWriter::Impl {
     const int chunk = chunk_items(recovery, field);
     return {hdf5::create_packed(file.id(), set.dataset, shape_of_field(recovery, field, set),
                                 static_cast<std::uint64_t>(chunk), file.path()),
-            set, width(field), items(recovery, field), chunk, 0};
+            set,
+            width(field),
+            items(recovery, field),
+            chunk,
+            0};
   }
 
   void append(Growing& growing, const Eigen::Ref<const Eigen::MatrixXd>& rows) const {

@@ -52,10 +52,10 @@ struct RecoveryElements {
 
 inline constexpr int inertia_loads = 12;  ///< six rigid accelerations, six products of angular velocities
 
-/// Static answers of the part to the inertia loads of its floating frame, with the boundary held, less what the internal
-/// coordinates hold of them: what the basis leaves out of displacement and stress. Loads: M D_a of the accelerations of
-/// the reference point (3) and of the angular accelerations (3), then those of products of angular velocities
-/// ω_j ω_k, jk = xx yy zz yz xz xy (COMPANION.md: g_a, g_jk).
+/// Static answers of the part to the inertia loads of its floating frame, with the boundary held, less what the
+/// internal coordinates hold of them: what the basis leaves out of displacement and stress. Loads: M D_a of the
+/// accelerations of the reference point (3) and of the angular accelerations (3), then those of products of angular
+/// velocities ω_j ω_k, jk = xx yy zz yz xz xy (COMPANION.md: g_a, g_jk).
 struct RecoveryLoads {
   Eigen::Vector3d reference_point = Eigen::Vector3d::Zero();  ///< part frame
   Eigen::MatrixXd share;      ///< n x 12: Φᵀ g of internal coordinates, zero for those of the boundary

@@ -62,7 +62,8 @@ void fill_superelements(const Model& model, Evaluation& evaluation, formats::Res
     file_coordinates(body, scratch, row.y.segment(y, count));
     file_rates(body, scratch, nodes, row.y_rate.segment(y, count));
     if (row.y_strain.size() > 0) strain_coordinates(body, scratch, row.y_strain.segment(y, count));
-    const FrameAcceleration frame = frame_acceleration_of(body, scratch, nodes, evaluation.load_factor * model.superelements[i].gravity);
+    const FrameAcceleration frame =
+        frame_acceleration_of(body, scratch, nodes, evaluation.load_factor * model.superelements[i].gravity);
     row.frame_acceleration.col(column) = frame.felt;
     row.frame_angular_velocity.col(column) = frame.angular_velocity;
     row.frame_angular_acceleration.col(column) = frame.angular_acceleration;

@@ -116,14 +116,13 @@ void add_strain_and_loads(ViewedRun& run, const ViewedBody& body, const Found& f
   const int first = run.layout().modes_offset[body.superelement], count = recovery.coordinates();
   formats::Deformation& d = shape.deformation;
   const MatrixXd strain = run.reader->read_dataset("superelements/y_strain", run.rows);
-  const formats::LoadFactors loads = formats::load_factors(
-      recovery, *run.reader, run.rows,
-      {static_cast<std::size_t>(body.superelement), found.axes, body.origin, to_scene});
+  const formats::LoadFactors loads =
+      formats::load_factors(recovery, *run.reader, run.rows,
+                            {static_cast<std::size_t>(body.superelement), found.axes, body.origin, to_scene});
   const MatrixXd y = d.amplitudes;
   if (loads.known())
     for (const Index k : formats::dropped_modes(recovery, y.transpose()))
-      d.amplitudes.col(k) =
-          (recovery.loads->share.row(k) * loads.factor / recovery.loads->stiffness[k]).transpose();
+      d.amplitudes.col(k) = (recovery.loads->share.row(k) * loads.factor / recovery.loads->stiffness[k]).transpose();
   if (shape.stress.size() > 0 && strain.cols() >= first + count)
     add_columns(MatrixXd::Zero(d.modes.rows(), count), MatrixXd(shape.stress), strain.middleCols(first, count) - y,
                 shape);

@@ -13,6 +13,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr double no_share = 1e-9;  ///< of loads in a mode: round-off
+
 /// d²f/dt² by three instants that follow one another, not evenly perhaps; zero of fewer.
 MatrixXd second_rates(const MatrixXd& f, const std::vector<double>& time) {
   MatrixXd rates = MatrixXd::Zero(f.rows(), f.cols());
@@ -69,10 +71,13 @@ void add_inertia_loads(const formats::Recovery& recovery, const formats::Results
   }
   motion.load_factor = loads.factor;
   motion.spin_squared = loads.spin_squared;
-  motion.dropped = formats::dropped_modes(recovery, motion.y);
-  for (const Index k : motion.dropped)
+  const MatrixXd reach = recovery.loads->share.cwiseAbs() * motion.load_factor.cwiseAbs();  // n x T
+  for (const Index k : formats::dropped_modes(recovery, motion.y)) {
     motion.y.row(k) = motion.y_strain.row(k) =
         recovery.loads->share.row(k) * motion.load_factor / recovery.loads->stiffness[k];
+    // Modes out of the plane of a planar scene have no share in its loads but round-off.
+    if (reach.row(k).maxCoeff() > no_share * reach.maxCoeff()) motion.dropped.push_back(k);
+  }
 }
 
 LeftOutStress left_out_stress(const formats::RecoveryReader& file, const BodyMotion& motion) {

@@ -82,9 +82,10 @@ std::string middle_text(const Recovery& r, const BodyMotion& motion, int element
 std::string left_out_line(const LeftOutStress& stress, const BodyMotion& motion) {
   if (motion.load_factor.cols() == 0) return "";
   const std::string unit = unit_label(motion.scene_units, -1, 1, -2), after = unit.empty() ? "" : " " + unit;
-  return fmt::format("{:<29}at most {:.3g}{} added by static answers to inertia and weight; what is still missing is "
-                     "estimated at {:.2g}{}\n",
-                     "stress left out by modes", stress.added, after, stress.remaining, after);
+  return fmt::format(
+      "{:<29}at most {:.3g}{} added by static answers to inertia and weight; what is still missing is "
+      "estimated at {:.2g}{}\n",
+      "stress left out by modes", stress.added, after, stress.remaining, after);
 }
 
 std::string report(const Recovery& r, const BodyMotion& motion, const Envelope& envelope, const std::string& left_out,
@@ -96,9 +97,11 @@ std::string report(const Recovery& r, const BodyMotion& motion, const Envelope& 
   text += "displacements count from the floating frame of the body\n";
   text += peak_line("largest displacement", envelope.moved, length, time, node(envelope.moved.at));
   if (envelope.beam.at >= 0)
-    text += peak_line("largest stress of beams", envelope.beam, stress, time, element_text(r, envelope.beam.at) + middle_text(r, motion, envelope.beam.at));
+    text += peak_line("largest stress of beams", envelope.beam, stress, time,
+                      element_text(r, envelope.beam.at) + middle_text(r, motion, envelope.beam.at));
   if (envelope.shell.at >= 0)
-    text += peak_line("largest von Mises of shells", envelope.shell, stress, time, element_text(r, envelope.shell.at) + middle_text(r, motion, envelope.shell.at));
+    text += peak_line("largest von Mises of shells", envelope.shell, stress, time,
+                      element_text(r, envelope.shell.at) + middle_text(r, motion, envelope.shell.at));
   if (envelope.solid.at >= 0)
     text += peak_line("largest von Mises of solids", envelope.solid, stress, time, node(envelope.solid.at));
   text += left_out;

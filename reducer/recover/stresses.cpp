@@ -27,8 +27,7 @@ MatrixXf product(const formats::RecoveryReader& file, RecoveryField field, const
     const int count = std::min(block, items - first);
     const MatrixXd rows = file.read(field, first, count).cast<double>();
     MatrixXd values = scale * (rows * y);
-    if (factor.cols() > 0)
-      values.noalias() += scale * (file.read_loads(field, first, count).cast<double>() * factor);
+    if (factor.cols() > 0) values.noalias() += scale * (file.read_loads(field, first, count).cast<double>() * factor);
     out.middleRows(static_cast<Index>(first) * width, static_cast<Index>(count) * width) = values.cast<float>();
   }
   return out;

@@ -174,9 +174,11 @@ void recovery_fields(const RecoverySource& source, const formats::Recovery& tabl
                      const std::function<void(double)>& share, const FieldSink& sink, const FieldSink& loads) {
   const double columns = static_cast<double>(source.motion.columns + source.loads.columns),
                own = static_cast<double>(source.motion.columns) / columns;
-  motion_fields(source.mesh, source.motion, tables, [&](double done) { share(own * done); }, sink);
+  motion_fields(
+      source.mesh, source.motion, tables, [&](double done) { share(own * done); }, sink);
   if (source.loads.columns > 0)
-    motion_fields(source.mesh, source.loads, tables, [&](double done) { share(own + (1.0 - own) * done); }, loads);
+    motion_fields(
+        source.mesh, source.loads, tables, [&](double done) { share(own + (1.0 - own) * done); }, loads);
 }
 
 }  // namespace tisserand::reducer

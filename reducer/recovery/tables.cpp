@@ -166,8 +166,8 @@ MotionSource motions_of(std::shared_ptr<const Eigen::MatrixXd> x, const Coordina
   return {motions, columns};
 }
 
-void add_loads(const InternalProblem& problem, const InternalModes& internal,
-               const formats::Superelement& superelement, RecoverySource& source) {
+void add_loads(const InternalProblem& problem, const InternalModes& internal, const formats::Superelement& superelement,
+               RecoverySource& source) {
   const formats::RigidProperties rigid = formats::rigid_properties(superelement);
   InertiaAnswers answers = inertia_answers(problem, internal, rigid.center_of_mass);
   formats::RecoveryLoads loads;

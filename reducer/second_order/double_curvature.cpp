@@ -25,13 +25,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Solver = Eigen::SelfAdjointEigenSolver<MatrixXd>;
 
-constexpr double no_strain = 1e-9;  ///< of scaled eigenvalues of S̄, as in mechanisms
-constexpr double no_force = 1e-12;  ///< of eigenvalues of an element's stiffness: rigid motions
+constexpr double no_strain = 1e-9;        ///< of scaled eigenvalues of S̄, as in mechanisms
+constexpr double no_force = 1e-12;        ///< of eigenvalues of an element's stiffness: rigid motions
 constexpr double shared_accepted = 1e-5;  ///< what shared displacements relax is part of what the elements have
 constexpr double round_off = 1e-8;  ///< of eigenvalues of the Gram matrix, in what elements on their own would relax
 constexpr double no_stiffness = 1e-13;  ///< of diagonal entries, in the largest of their kind: round-off
 constexpr double only_rigid = 1e-10;    ///< of the square of a unit motion that rigid motions do not hold
-constexpr double small_row = 1e-3;  ///< of eigenvalues of the Gram matrix, in the largest
+constexpr double small_row = 1e-3;      ///< of eigenvalues of the Gram matrix, in the largest
 
 /// z = P y, y = Z z: shapes with the strain energy ½ zᵀz.
 struct Shapes {
@@ -103,7 +103,8 @@ VectorXd unit_of(const MatrixXd& K, const std::vector<bool>& turns) {
   }
   VectorXd unit(K.rows());
   for (Index k = 0; k < K.rows(); ++k)
-    unit[k] = K(k, k) > no_stiffness * largest[turns[static_cast<std::size_t>(k)] ? 1 : 0] ? 1.0 / std::sqrt(K(k, k)) : 0.0;
+    unit[k] =
+        K(k, k) > no_stiffness * largest[turns[static_cast<std::size_t>(k)] ? 1 : 0] ? 1.0 / std::sqrt(K(k, k)) : 0.0;
   return unit;
 }
 
@@ -118,8 +119,8 @@ MatrixXd inverse_root(const MatrixXd& K, const VectorXd& unit, double none) {
          unit.asDiagonal();
 }
 
-/// Rigid motions of the boundary coordinates about the mean of its nodes, and a unit for each: 1 for translations, 1/l for
-/// rotations.
+/// Rigid motions of the boundary coordinates about the mean of its nodes, and a unit for each: 1 for translations, 1/l
+/// for rotations.
 struct BoundaryMotions {
   MatrixXd R;  ///< n_B x 6, in these units
   VectorXd unit;
@@ -143,18 +144,18 @@ BoundaryMotions boundary_motions(const InternalProblem& problem) {
   return motions;
 }
 
-/// inverse_root() of S of the boundary, whose rigid motions have no force exactly: what they alone move (a turn about the
-/// line through all nodes) has a diagonal of round-off, which is no scale.
+/// inverse_root() of S of the boundary, whose rigid motions have no force exactly: what they alone move (a turn about
+/// the line through all nodes) has a diagonal of round-off, which is no scale.
 MatrixXd boundary_root(const InternalProblem& problem, const MatrixXd& S) {
   const Index n = S.rows();
   const BoundaryMotions rigid = boundary_motions(problem);
-  const MatrixXd P =
-      MatrixXd::Identity(n, n) - rigid.R * rigid.R.completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd P = MatrixXd::Identity(n, n) - rigid.R * rigid.R.completeOrthogonalDecomposition().pseudoInverse();
   const MatrixXd strained = P * (rigid.unit.asDiagonal() * S * rigid.unit.asDiagonal()) * P;
   const double largest = strained.diagonal().maxCoeff();
   VectorXd unit(n);
   for (Index k = 0; k < n; ++k)
-    unit[k] = P(k, k) > only_rigid && largest > 0.0 ? 1.0 / std::sqrt(std::max(strained(k, k), no_stiffness * largest)) : 0.0;
+    unit[k] =
+        P(k, k) > only_rigid && largest > 0.0 ? 1.0 / std::sqrt(std::max(strained(k, k), no_stiffness * largest)) : 0.0;
   return inverse_root(strained, unit, no_strain) * P * rigid.unit.asDiagonal();
 }
 
@@ -284,10 +285,11 @@ TrappedEnergy trapped_energy(const InternalProblem& problem, const BoundaryModes
   const MatrixXd shared = shared_energy(problem, boundary, pairs.force);
   for (Index pair = 0; pair < shared.rows(); ++pair)
     if (!(shared(pair, pair) <= (1.0 + shared_accepted) * energy.own[pair] + round_off * energy.own.sum()))
-      throw Error(fmt::format("double_curvature: displacements take up {:.3g} of the energy of a pair of shapes, of which "
-                              "the elements have {:.3g}: round-off",
-                              shared(pair, pair), energy.own[pair]),
-                  problem.where, "leave out `double_curvature`, or ask for fewer shapes");
+      throw Error(
+          fmt::format("double_curvature: displacements take up {:.3g} of the energy of a pair of shapes, of which "
+                      "the elements have {:.3g}: round-off",
+                      shared(pair, pair), energy.own[pair]),
+          problem.where, "leave out `double_curvature`, or ask for fewer shapes");
   energy.gram -= shared;
   return energy;
 }

@@ -164,7 +164,8 @@ void file_coordinates(const SuperelementBody& body, const SuperelementScratch& s
 void strain_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
                         Eigen::Ref<Eigen::VectorXd> out) {
   if (!body.second_order.stiffening) return file_coordinates(body, scratch, out);
-  const Eigen::VectorXd strained = scratch.forces.strain.y + body.second_order.stiffening->inverse * scratch.forces.strain.g;
+  const Eigen::VectorXd strained =
+      scratch.forces.strain.y + body.second_order.stiffening->inverse * scratch.forces.strain.g;
   to_file_rows(body, strained.head(body.boundary_size), strained.tail(body.modes), out);
 }
 

@@ -155,8 +155,8 @@ SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratc
 void file_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
                       Eigen::Ref<Eigen::VectorXd> out);
 
-/// y + L⁺ g in the same coordinates and order, with g the second-order part of the generalised strains L y + g: what has
-/// the strain of the body linearly, so that stress follows from it (formats/RESULTS.md, /superelements/y_strain). y
+/// y + L⁺ g in the same coordinates and order, with g the second-order part of the generalised strains L y + g: what
+/// has the strain of the body linearly, so that stress follows from it (formats/RESULTS.md, /superelements/y_strain). y
 /// itself without stiffening. After residual().
 void strain_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
                         Eigen::Ref<Eigen::VectorXd> out);

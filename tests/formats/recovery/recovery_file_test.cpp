@@ -122,7 +122,8 @@ TEST(RecoveryFile, LoadsAreChecked) {
     return error_of([&] { check(r, "a.recovery.h5"); });
   };
   EXPECT_EQ(fault([](RecoveryLoads&) {}), "no error");
-  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.stiffness[0] = 1.0; }), HasSubstr("/loads/stiffness: entry 0 is 1"));
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.stiffness[0] = 1.0; }),
+              HasSubstr("/loads/stiffness: entry 0 is 1"));
   EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.stiffness.tail<1>()[0] = 0.0; }), HasSubstr("/loads/stiffness"));
   EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.share(0, 3) = std::numeric_limits<double>::quiet_NaN(); }),
               HasSubstr("/loads/share"));

@@ -54,9 +54,9 @@ TEST(Results, EveryChannelComesBackBitEqual) {
   EXPECT_EQ(reader.rows(), 700u);
   std::map<std::string, std::string> unit;
   for (const Channel& channel : reader.channels()) unit[channel.name] = channel.unit;
-  // 1 time, 3 nodes x (5 x 3 + 4), 2 frames x (7 + 9), 5 coordinates y with rates and strains, 2 of a modal body with rates, 3 boundary
-  // nodes x 6, 2 joints x 8, 2 couplings x 2, 2 drives, 2 springs, 1 stop, 2 bushings x 6, friction x 6, 2 tyres x 18,
-  // 7 energies, 4 of solver.
+  // 1 time, 3 nodes x (5 x 3 + 4), 2 frames x (7 + 9), 5 coordinates y with rates and strains, 2 of a modal body with
+  // rates, 3 boundary nodes x 6, 2 joints x 8, 2 couplings x 2, 2 drives, 2 springs, 1 stop, 2 bushings x 6, friction x
+  // 6, 2 tyres x 18, 7 energies, 4 of solver.
   EXPECT_EQ(unit.size(), 1u + 57 + 14 + 18 + 10 + 5 + 4 + 18 + 16 + 4 + 2 + 21 + 44 + 7 + 4);
   ResultsRow row;
   row.resize(layout);
