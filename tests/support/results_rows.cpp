@@ -47,8 +47,12 @@ void fill_row(int t, formats::ResultsRow& row) {
   fill(row.node_angular_acceleration);
   fill(row.frame_position);
   fill(row.frame_rotation);
+  for (Eigen::Matrix3Xd* block :
+       {&row.frame_acceleration, &row.frame_angular_velocity, &row.frame_angular_acceleration})
+    fill(*block);
   fill(row.y);
   fill(row.y_rate);
+  fill(row.y_strain);
   fill(row.boundary_force);
   fill(row.w);
   fill(row.w_rate);
@@ -73,10 +77,6 @@ void fill_row(int t, formats::ResultsRow& row) {
   for (double* value : {&row.kinetic, &row.strain, &row.potential, &row.work, &row.dissipated, &row.total, &row.balance,
                         &row.step, &row.iterations, &row.residual, &row.constraint})
     *value = row_value(t, k++);
-  for (Eigen::Matrix3Xd* block :
-       {&row.frame_acceleration, &row.frame_angular_velocity, &row.frame_angular_acceleration})
-    fill(*block);
-  fill(row.y_strain);
   if (row.joint_coordinate.size() > 1) row.joint_coordinate[1] = std::numeric_limits<double>::quiet_NaN();
 }
 
