@@ -60,6 +60,15 @@ std::pair<Recovered, formats::ModalBody> recovered_modal_body(formats::Part part
   return {std::move(result), std::move(*reduction.modal_body)};
 }
 
+void write(const Recovered& r, const std::string& path) {
+  formats::RecoveryWriter writer(path, r.tables);
+  for (const formats::RecoveryField field : formats::recovery_fields) {
+    writer.append(field, r.of(field));
+    if (r.tables.loads) writer.append_loads(field, r.loads[static_cast<std::size_t>(field)]);
+  }
+  writer.finish();
+}
+
 void set_boundary(reducer::Mesh& mesh, const std::vector<int>& nodes, bool rotations) {
   for (std::size_t k = 0; k < nodes.size(); ++k)
     mesh.boundary.push_back({"b" + std::to_string(k), nodes[k], true, rotations});

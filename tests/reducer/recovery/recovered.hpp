@@ -30,6 +30,9 @@ Recovered recovered(const reducer::Mesh& mesh, int modes);
 /// What the part's modal body has for recovery, and that body.
 std::pair<Recovered, formats::ModalBody> recovered_modal_body(formats::Part part);
 
+/// The recovery file.
+void write(const Recovered& r, const std::string& path);
+
 /// Boundary nodes of six coordinates, or of translations, at these nodes, named b0, b1, ...
 void set_boundary(reducer::Mesh& mesh, const std::vector<int>& nodes, bool rotations);
 
