@@ -243,6 +243,13 @@ void TextFile::publish() {
   file_ = -1;
 }
 
+std::string TextFile::stage() {
+  if (::fsync(file_) != 0 && errno != EINVAL && errno != EROFS) fail("cannot write the file", path_, errno);
+  ::close(file_);
+  file_ = -1;
+  return temporary_;
+}
+
 void publish_file(const std::string& from, const std::string& to) {
   const int file = ::open(from.c_str(), O_RDONLY | O_CLOEXEC);
   int number = file < 0 ? errno : 0;

@@ -50,6 +50,8 @@ class TextFile {
 
   void write(const std::string& text);
   void publish();
+  /// Closes the complete file under its temporary name, which is returned for publish_file(); empty for a stream.
+  std::string stage();
 
  private:
   std::string path_;

@@ -14,6 +14,7 @@
 #include "common/console.hpp"
 #include "common/error.hpp"
 #include "common/output_path.hpp"
+#include "common/staged_files.hpp"
 #include "common/text.hpp"
 #include "formats/companion/companion.hpp"
 #include "formats/companion/owner.hpp"
@@ -73,13 +74,15 @@ std::string beside(const std::string& input, const std::string& ending) {
   return input + ending;
 }
 
-/// Tables and fields; the file takes its name when its superelement is there.
+/// Tables and fields; the file takes its name with those of the superelement.
 std::unique_ptr<formats::RecoveryWriter> write_recovery(const RecoverySource& source, const std::string& path,
                                                         const PhaseListener& listener) {
   const formats::Recovery tables = recovery_tables(source);
   auto writer = std::make_unique<formats::RecoveryWriter>(path, tables);
-  recovery_fields(source, tables, listener.share,
-                  [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) { writer->append(field, rows); });
+  recovery_fields(
+      source, tables, listener.share,
+      [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) { writer->append(field, rows); },
+      [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) { writer->append_loads(field, rows); });
   return writer;
 }
 
@@ -155,12 +158,17 @@ int run(const Arguments& arguments) {
     recoveries[path] = write_recovery(source, path, listener);
   });
   phases.begin("write");
-  formats::write_superelement(output, reduction.superelement);
-  for (const auto& [path, recovery] : recoveries) recovery->finish();
-  write_certificate(output, reduction.superelement, reduction.file, reduction.model);
-  if (reduction.companion) formats::write_companion(companion, *reduction.companion, reduction.superelement);
+  // All are complete before the first takes its name; the superelement, whose identity the others quote, is the last.
+  StagedFiles files;
+  const std::string superelement = formats::superelement_image(output, reduction.superelement);
+  if (reduction.companion)
+    files.add(companion, formats::companion_image(companion, *reduction.companion, reduction.superelement));
+  for (const auto& [path, recovery] : recoveries) files.adopt(recovery->stage(), path);
+  files.add(certificate_path(output), certificate_json(reduction.superelement, reduction.file, reduction.model));
+  if (reduction.modal_body) files.add(modal_body, formats::modal_body_image(modal_body, *reduction.modal_body));
+  files.add(output, superelement);
   const std::string cleared = reduction.companion ? "" : clear_companion(companion, reduction.superelement.content_id);
-  if (reduction.modal_body) formats::write_modal_body(modal_body, *reduction.modal_body);
+  files.publish();
   phases.end();
   say(certificate_text(reduction.superelement, reduction.file, reduction.model));
   if (!part.supports.empty())

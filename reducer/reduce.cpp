@@ -47,7 +47,7 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
 
   if (part.recovery && recover) {
     begin("recovery");
-    recover(recovery_source(mesh, system, coordinates, boundary, internal, result.superelement));
+    recover(recovery_source(problem, boundary, internal, result.superelement));
   }
   begin("second order");
   result.companion = companion_if_asked(part, problem, boundary, internal, result.superelement, result.model);

@@ -7,6 +7,7 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "formats/companion/companion.hpp"
+#include "formats/companion/rigid_stress.hpp"
 #include "formats/hdf5/head.hpp"
 #include "formats/superelement/names.hpp"
 #include "formats/superelement/scaling.hpp"
@@ -14,13 +15,14 @@
 namespace tisserand::formats {
 namespace {
 
-constexpr double symmetry_accepted = 1e-9;  // of scaled entries, as of S̄ and M̄
-constexpr double rigid_accepted = 1e-8;     // stress of rigid motions: round-off of a stress of the size E
-constexpr double trapped_accepted = 1e-6;   // of Λ on rigid motions: round-off of products with S̄
-constexpr double gram_accepted = 1e-9;      // of scaled eigenvalues
-constexpr double integral_accepted = 1e-6;  // of mass, S0, S1 against M̄, as of the rigid mass of superelements
-constexpr double weight_accepted = 1e-9;    // of sums of weights
-constexpr double largest_usable = 1e100;    // products of three such values stay finite
+constexpr double symmetry_accepted = 1e-9;     // of scaled entries, as of S̄ and M̄
+constexpr double rigid_accepted = 1e-8;        // stress of rigid motions: round-off of a stress of the size E
+constexpr double largest_of_stiffness = 1e14;  // H and Λ² in scaled coordinates beside s/l, s/l²: above, no numbers
+constexpr double trapped_accepted = 1e-6;      // of Λ on rigid motions: round-off of products with S̄
+constexpr double gram_accepted = 1e-9;         // of scaled eigenvalues
+constexpr double integral_accepted = 1e-6;     // of mass, S0, S1 against M̄, as of the rigid mass of superelements
+constexpr double weight_accepted = 1e-9;       // of sums of weights
+constexpr double largest_usable = 1e100;       // products of three such values stay finite
 constexpr const char* other_program = "let the program that made the superelement write the companion again";
 
 /// One companion under check, with what its messages and its scales need.
@@ -136,26 +138,18 @@ void check_integrals(const Inspection& at) {
 
 /// H R = Σ_j R_ja H_j = 0: rigid motions have no stress.
 void check_rigid_stress(const Inspection& at) {
-  static constexpr const char* motions[] = {"moving in x",     "moving in y",     "moving in z",
-                                            "turning about x", "turning about y", "turning about z"};
-  const Eigen::MatrixXd R = scaled_rigid_motions(at.superelement, at.force_row, at.scales.length);
-  std::array<Eigen::MatrixXd, 6> sum;
-  sum.fill(Eigen::MatrixXd::Zero(at.size(), at.size()));
-  double largest = 0.0;
-  for (Eigen::Index j = 0; j < at.size(); ++j) {
-    const Eigen::MatrixXd scaled =
-        at.force_row[j] * (at.force_row.asDiagonal() * at.companion.H[j] * at.force_row.asDiagonal());
-    largest = std::max(largest, scaled.cwiseAbs().maxCoeff());
-    for (int a = 0; a < 6; ++a)
-      if (R(j, a) != 0.0) sum[a] += R(j, a) * scaled;
-  }
-  for (int a = 0; a < 6; ++a) {
-    const double residual = sum[a].cwiseAbs().maxCoeff();
-    if (residual <= rigid_accepted * largest) continue;
-    throw Error(fmt::format("a rigid motion has stress: {} gives {:.3e} of the largest entry (at most {:g})",
-                            motions[a], residual / largest, rigid_accepted),
+  const RigidStress stress = rigid_stress(at.companion, at.superelement);
+  if (!(stress.largest <= largest_of_stiffness * stress.stiffness))
+    throw Error(fmt::format("its largest entry is {:.3e} of the stiffness over the length (at most {:g}): no stress "
+                            "stiffens a body so much",
+                            stress.largest / stress.stiffness, largest_of_stiffness),
                 at.dataset("/H"), other_program);
-  }
+  if (stress.residual <= rigid_accepted * stress.scale()) return;
+  throw Error(fmt::format("a rigid motion has stress: {} gives {:.3e} of the largest entry and {:.3e} of the stiffness "
+                          "over the length (at most {:g} of the larger one)",
+                          motion_text(stress.motion), stress.residual / stress.largest,
+                          stress.residual / stress.stiffness, rigid_accepted),
+              at.dataset("/H"), other_program);
 }
 
 /// Λ_b R = 0: a body that turns traps nothing.
@@ -166,6 +160,13 @@ void check_trapped(const Inspection& at) {
     check_symmetric(at, dataset, at.companion.Lambda[b], at.force_row);
     const Eigen::MatrixXd scaled = at.force_row.asDiagonal() * at.companion.Lambda[b] * at.force_row.asDiagonal();
     const double residual = (scaled * R).cwiseAbs().maxCoeff(), largest = scaled.cwiseAbs().maxCoeff();
+    const double of_stiffness = largest * at.scales.length / std::sqrt(at.scales.stiffness_scale);
+    if (!(of_stiffness * of_stiffness <= largest_of_stiffness))
+      throw Error(
+          fmt::format("its largest entry traps {:.3e} times the energy of the stiffness in a deformation by the "
+                      "length of the body (at most {:g})",
+                      of_stiffness * of_stiffness, largest_of_stiffness),
+          at.dataset(dataset), "reduce the part again; if it comes again, without `double_curvature`");
     if (!(residual <= trapped_accepted * largest))
       throw Error(fmt::format("a rigid motion bends: Lambda R is {:.3e} of the largest entry (at most {:g})",
                               residual / largest, trapped_accepted),

@@ -245,14 +245,18 @@ Companion read_rehearsed_companion(const std::string& path, const Superelement& 
   return std::move(file.companion);
 }
 
-void write_companion(const std::string& path, Companion& companion, const Superelement& superelement) {
+std::string companion_image(const std::string& path, Companion& companion, const Superelement& superelement) {
   check(companion, superelement, path);
   companion.companion_id = companion_id(companion);
   hdf5::Handle file = hdf5::create_in_memory(path);
   write_companion_head(file.id(), companion, path);
   if (companion.has_second_order()) write_second_order(file.id(), companion, path);
   write_load_cases(file.id(), companion, path);
-  write_text_file(path, hdf5::file_image(std::move(file), path));
+  return hdf5::file_image(std::move(file), path);
+}
+
+void write_companion(const std::string& path, Companion& companion, const Superelement& superelement) {
+  write_text_file(path, companion_image(path, companion, superelement));
 }
 
 }  // namespace tisserand::formats

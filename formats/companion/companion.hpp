@@ -79,7 +79,10 @@ Companion read_companion(const std::string& path, const Superelement& supereleme
 void try_companion(const std::string& path);
 Companion read_rehearsed_companion(const std::string& path, const Superelement& superelement);
 
-/// Checks, then writes beside and renames; arrays compressed and with checksums. Fills companion_id.
+/// Checks, fills companion_id and returns the bytes of the file; arrays compressed and with checksums.
+std::string companion_image(const std::string& path, Companion& companion, const Superelement& superelement);
+
+/// The same, written beside and renamed.
 void write_companion(const std::string& path, Companion& companion, const Superelement& superelement);
 
 }  // namespace tisserand::formats

@@ -85,13 +85,15 @@ OutputFile::~OutputFile() {
   ::unlink(temporary_.c_str());
 }
 
-void OutputFile::publish() {
+std::string OutputFile::stage() {
   if (file_.reset() < 0) {
     ::unlink(temporary_.c_str());
     throw last_error("cannot be written to its end", path_, packed_remedy);
   }
-  publish_file(temporary_, path_);
+  return temporary_;
 }
+
+void OutputFile::publish() { publish_file(stage(), path_); }
 
 Handle create_packed(Id file, const std::string& dataset, const Shape& shape, std::uint64_t chunk,
                      const std::string& where) {

@@ -18,6 +18,8 @@ class OutputFile {
 
   Id id() const { return file_.id(); }
   const std::string& path() const { return path_; }
+  /// Closes the complete file under its temporary name, which is returned; the caller renames or removes it.
+  std::string stage();
   void publish();
 
  private:

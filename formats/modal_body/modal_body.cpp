@@ -222,13 +222,17 @@ LoadedModalBody read_rehearsed_modal_body(const std::string& path) {
   return loaded;
 }
 
-void write_modal_body(const std::string& path, const ModalBody& body) {
+std::string modal_body_image(const std::string& path, const ModalBody& body) {
   static_cast<void>(check(body, path));
   hdf5::Handle file = hdf5::create_in_memory(path);
   write_head(file.id(), body, path);
   write_nodes(file.id(), body, path);
   write_integrals(file.id(), body.integrals, path);
-  write_text_file(path, hdf5::file_image(std::move(file), path));
+  return hdf5::file_image(std::move(file), path);
+}
+
+void write_modal_body(const std::string& path, const ModalBody& body) {
+  write_text_file(path, modal_body_image(path, body));
 }
 
 }  // namespace tisserand::formats

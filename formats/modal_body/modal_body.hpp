@@ -71,7 +71,10 @@ LoadedModalBody read_modal_body(const std::string& path);
 void try_modal_body(const std::string& path);
 LoadedModalBody read_rehearsed_modal_body(const std::string& path);
 
-/// Checks, then writes beside and renames.
+/// Checks and returns the bytes of the file.
+std::string modal_body_image(const std::string& path, const ModalBody& body);
+
+/// The same, written beside and renamed.
 void write_modal_body(const std::string& path, const ModalBody& body);
 
 }  // namespace tisserand::formats

@@ -76,9 +76,26 @@ Skin skin_of(const Recovery& recovery) {
   return skin;
 }
 
-MatrixXd shapes_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers) {
-  const Recovery& recovery = reader.recovery();
-  MatrixXd shapes = MatrixXd::Zero(3 * carriers.size(), recovery.coordinates());
+namespace {
+
+/// Fields of coordinates or of loads.
+struct FieldSource {
+  const RecoveryReader& reader;
+  bool loads = false;
+
+  Index columns() const {
+    const Recovery& recovery = reader.recovery();
+    return !loads ? recovery.coordinates() : recovery.loads ? inertia_loads : 0;
+  }
+  FieldRows read(RecoveryField field, int first, int count) const {
+    return loads ? reader.read_loads(field, first, count) : reader.read(field, first, count);
+  }
+};
+
+MatrixXd shapes_of(const FieldSource& source, const std::vector<SkinCarrier>& carriers) {
+  const Recovery& recovery = source.reader.recovery();
+  MatrixXd shapes = MatrixXd::Zero(3 * carriers.size(), source.columns());
+  if (shapes.cols() == 0) return shapes;
   std::multimap<int, Index> at;  // by node
   bool turns = false;
   for (std::size_t v = 0; v < carriers.size(); ++v) {
@@ -92,7 +109,7 @@ MatrixXd shapes_at(const RecoveryReader& reader, const std::vector<SkinCarrier>&
       const int count = std::min(chunk, recovery.nodes() - first);
       const auto begin = at.lower_bound(first), end = at.lower_bound(first + count);
       if (begin == end) continue;
-      const FieldRows rows = reader.read(field, first, count);
+      const FieldRows rows = source.read(field, first, count);
       for (auto one = begin; one != end; ++one) {
         const auto values = rows.middleRows(3 * (one->first - first), 3).cast<double>();
         auto shape = shapes.middleRows(3 * one->second, 3);
@@ -106,8 +123,6 @@ MatrixXd shapes_at(const RecoveryReader& reader, const std::vector<SkinCarrier>&
   }
   return shapes;
 }
-
-namespace {
 
 /// xx yy zz xy yz zx of s a aᵀ.
 Vector6 uniaxial(const Vector3d& a) {
@@ -136,18 +151,17 @@ Eigen::Matrix<double, 1, 6> normal_stress(const RecoverySection& section, const 
 
 /// Items of a field, in whole chunks: visit(first, rows).
 template <class Visit>
-void each_chunk(const RecoveryReader& reader, RecoveryField field, Visit visit) {
-  const Recovery& recovery = reader.recovery();
+void each_chunk(const FieldSource& source, RecoveryField field, Visit visit) {
+  const Recovery& recovery = source.reader.recovery();
   const int chunk = chunk_items(recovery, field), all = items(recovery, field);
   for (int first = 0; first < all; first += chunk)
-    visit(first, MatrixXd(reader.read(field, first, std::min(chunk, all - first)).cast<double>()));
+    visit(first, MatrixXd(source.read(field, first, std::min(chunk, all - first)).cast<double>()));
 }
 
-}  // namespace
-
-MatrixXd stresses_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers) {
-  const Recovery& recovery = reader.recovery();
-  MatrixXd stress = MatrixXd::Zero(6 * carriers.size(), recovery.coordinates());
+MatrixXd stresses_of(const FieldSource& source, const std::vector<SkinCarrier>& carriers) {
+  const Recovery& recovery = source.reader.recovery();
+  MatrixXd stress = MatrixXd::Zero(6 * carriers.size(), source.columns());
+  if (stress.cols() == 0) return stress;
   std::vector<int> vertex(recovery.nodes(), -1), count(carriers.size(), 0);
   std::multimap<int, Index> of_beam;
   for (std::size_t v = 0; v < carriers.size(); ++v)
@@ -155,14 +169,14 @@ MatrixXd stresses_at(const RecoveryReader& reader, const std::vector<SkinCarrier
       of_beam.emplace(carriers[v].beam, static_cast<Index>(v));
     else
       vertex[carriers[v].node] = static_cast<int>(v);
-  each_chunk(reader, RecoveryField::solid_stress, [&](int first, const MatrixXd& rows) {
+  each_chunk(source, RecoveryField::solid_stress, [&](int first, const MatrixXd& rows) {
     for (Index p = 0; p < rows.rows() / 6; ++p)
       if (const int v = vertex[recovery.stress_node[first + p]]; v >= 0) {
         stress.middleRows<6>(6 * v) += rows.middleRows<6>(6 * p);
         ++count[v];
       }
   });
-  each_chunk(reader, RecoveryField::shell_stress, [&](int first, const MatrixXd& rows) {
+  each_chunk(source, RecoveryField::shell_stress, [&](int first, const MatrixXd& rows) {
     for (Index s = 0; s < rows.rows() / 6; ++s) {
       const int e = recovery.beams() + first + static_cast<int>(s);
       const Eigen::Matrix3d& axes = recovery.shell_axes[first + s];
@@ -177,7 +191,7 @@ MatrixXd stresses_at(const RecoveryReader& reader, const std::vector<SkinCarrier
   });
   for (std::size_t v = 0; v < carriers.size(); ++v)
     if (count[v] > 1) stress.middleRows<6>(6 * v) /= count[v];
-  each_chunk(reader, RecoveryField::beam_force, [&](int first, const MatrixXd& rows) {
+  each_chunk(source, RecoveryField::beam_force, [&](int first, const MatrixXd& rows) {
     const auto begin = of_beam.lower_bound(first),
                end = of_beam.lower_bound(first + static_cast<int>(rows.rows()) / 12);
     for (auto one = begin; one != end; ++one) {
@@ -189,6 +203,24 @@ MatrixXd stresses_at(const RecoveryReader& reader, const std::vector<SkinCarrier
     }
   });
   return stress;
+}
+
+}  // namespace
+
+MatrixXd shapes_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers) {
+  return shapes_of({reader, false}, carriers);
+}
+
+MatrixXd stresses_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers) {
+  return stresses_of({reader, false}, carriers);
+}
+
+MatrixXd load_shapes_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers) {
+  return shapes_of({reader, true}, carriers);
+}
+
+MatrixXd load_stresses_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers) {
+  return stresses_of({reader, true}, carriers);
 }
 
 }  // namespace tisserand::formats

@@ -36,4 +36,8 @@ Eigen::MatrixXd shapes_at(const RecoveryReader& reader, const std::vector<SkinCa
 /// the corner, 0 where the section is given by its stiffness (RECOVERY.md).
 Eigen::MatrixXd stresses_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers);
 
+/// The same of the answers to inertia loads: 3 V x 12, 6 V x 12; without columns where the file has none.
+Eigen::MatrixXd load_shapes_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers);
+Eigen::MatrixXd load_stresses_at(const RecoveryReader& reader, const std::vector<SkinCarrier>& carriers);
+
 }  // namespace tisserand::formats

@@ -138,6 +138,28 @@ void check_beams_and_shells(const Recovery& r, const Inspector& inspect) {
   }
 }
 
+void check_loads(const Recovery& r, const Inspector& inspect) {
+  if (!r.loads) return;
+  const RecoveryLoads& loads = *r.loads;
+  const auto n = static_cast<std::size_t>(r.coordinates());
+  inspect.finite("/loads/reference_point", loads.reference_point.data(), 3);
+  inspect.size("/loads/share", static_cast<std::size_t>(loads.share.size()), n * inertia_loads,
+               "coordinates times loads");
+  inspect.finite("/loads/share", loads.share.data(), n * inertia_loads);
+  inspect.size("/loads/stiffness", static_cast<std::size_t>(loads.stiffness.size()), n, "coordinates");
+  inspect.finite("/loads/stiffness", loads.stiffness.data(), n);
+  for (std::size_t k = 0; k < n; ++k)
+    if (const double value = loads.stiffness[static_cast<Eigen::Index>(k)];
+        r.dof_node[k] < 0 ? value <= 0.0 : value != 0.0)
+      inspect.fail("/loads/stiffness",
+                   fmt::format("entry {} is {}, expected a positive number for internal coordinates "
+                               "and 0 for others",
+                               k, value));
+  inspect.finite("/loads/left_out", &loads.left_out, 1);
+  if (loads.left_out < 0.0)
+    inspect.fail("/loads/left_out", fmt::format("is {}, expected no negative number", loads.left_out));
+}
+
 }  // namespace
 
 void check(const Recovery& r, const std::string& where) {
@@ -152,6 +174,7 @@ void check(const Recovery& r, const std::string& where) {
   check_coordinates(r, inspect);
   check_elements(r, inspect);
   check_beams_and_shells(r, inspect);
+  check_loads(r, inspect);
   inspect.size("/stress_points/group", r.stress_group.size(), r.stress_node.size(), "points");
   inspect.range("/stress_points/node", r.stress_node, 0, r.nodes() - 1);
   inspect.range("/stress_points/group", r.stress_group, 0, static_cast<int>(r.group_name.size()) - 1);

@@ -35,9 +35,42 @@ const char* dataset_of(RecoveryField field) {
   TISSERAND_ENSURE(false, "recovery field {}", static_cast<int>(field));
 }
 
-hdf5::Shape shape_of_field(const Recovery& recovery, RecoveryField field) {
+const char* loads_dataset_of(RecoveryField field) {
+  switch (field) {
+    case RecoveryField::translation:
+      return "/loads/translation";
+    case RecoveryField::rotation:
+      return "/loads/rotation";
+    case RecoveryField::beam_force:
+      return "/loads/beam_force";
+    case RecoveryField::shell_stress:
+      return "/loads/shell";
+    case RecoveryField::solid_stress:
+      return "/loads/solid";
+  }
+  TISSERAND_ENSURE(false, "recovery field {}", static_cast<int>(field));
+}
+
+/// A field per coordinate, or per load: a dataset of the file.
+struct FieldSet {
+  const char* dataset;
+  int columns;
+};
+FieldSet of_coordinates(const Recovery& recovery, RecoveryField field) {
+  return {dataset_of(field), recovery.coordinates()};
+}
+FieldSet of_loads(RecoveryField field) { return {loads_dataset_of(field), inertia_loads}; }
+
+/// The first without loads, then both.
+std::vector<FieldSet> sets_of(const Recovery& recovery, RecoveryField field) {
+  std::vector<FieldSet> sets{of_coordinates(recovery, field)};
+  if (recovery.loads) sets.push_back(of_loads(field));
+  return sets;
+}
+
+hdf5::Shape shape_of_field(const Recovery& recovery, RecoveryField field, const FieldSet& set) {
   return {static_cast<std::uint64_t>(items(recovery, field)), static_cast<std::uint64_t>(width(field)),
-          static_cast<std::uint64_t>(recovery.coordinates())};
+          static_cast<std::uint64_t>(set.columns)};
 }
 
 /// Tables of a file; every length is looked at before memory is taken.
@@ -135,6 +168,18 @@ void read_mesh(const Tables& tables, Recovery& r) {
   r.triangle_element = tables.integers("/surface/element");
 }
 
+RecoveryLoads read_loads_table(const Tables& tables, std::uint64_t coordinates) {
+  RecoveryLoads loads;
+  loads.reference_point = Eigen::Map<const Eigen::Vector3d>(tables.numbers("/loads/reference_point", {3}).data());
+  const Numbers share = tables.numbers("/loads/share", {coordinates, static_cast<std::uint64_t>(inertia_loads)});
+  loads.share = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+      share.data(), static_cast<Eigen::Index>(coordinates), inertia_loads);
+  const Numbers stiffness = tables.numbers("/loads/stiffness", {coordinates});
+  loads.stiffness = Eigen::Map<const Eigen::VectorXd>(stiffness.data(), static_cast<Eigen::Index>(coordinates));
+  loads.left_out = tables.numbers("/loads/left_out", {1})[0];
+  return loads;
+}
+
 Recovery read_tables(const hdf5::InputFile& file) {
   const Tables tables(file);
   Recovery r;
@@ -160,28 +205,30 @@ Recovery read_tables(const hdf5::InputFile& file) {
   r.shell_offset = tables.numbers("/shells/offset", {shells});
   r.stress_node = tables.integers("/stress_points/node");
   r.stress_group = tables.integers("/stress_points/group");
+  if (file.has("/loads")) r.loads = read_loads_table(tables, r.dof_node.size());
   return r;
 }
 
 void check_field_shapes(const hdf5::InputFile& file, const Recovery& recovery) {
-  for (const RecoveryField field : recovery_fields) {
-    const hdf5::DatasetInfo info = file.info(dataset_of(field));
-    const hdf5::Shape expected = shape_of_field(recovery, field);
-    if (info.kind != hdf5::ElementKind::float32 || info.shape != expected || !info.written)
-      throw Error(fmt::format("holds {} of shape {}{}, expected 32-bit floating numbers of shape {}", info.type_text,
-                              hdf5::shape_text(info.shape), info.written ? "" : ", not all of them written",
-                              hdf5::shape_text(expected)),
-                  fmt::format("{}: {}", file.path(), dataset_of(field)), "reduce the part again with `recovery: yes`");
-  }
+  for (const RecoveryField field : recovery_fields)
+    for (const FieldSet& set : sets_of(recovery, field)) {
+      const hdf5::DatasetInfo info = file.info(set.dataset);
+      const hdf5::Shape expected = shape_of_field(recovery, field, set);
+      if (info.kind != hdf5::ElementKind::float32 || info.shape != expected || !info.written)
+        throw Error(fmt::format("holds {} of shape {}{}, expected 32-bit floating numbers of shape {}", info.type_text,
+                                hdf5::shape_text(info.shape), info.written ? "" : ", not all of them written",
+                                hdf5::shape_text(expected)),
+                    fmt::format("{}: {}", file.path(), set.dataset), "reduce the part again with `recovery: yes`");
+    }
 }
 
-FieldRows read_field(const hdf5::InputFile& file, const Recovery& recovery, RecoveryField field, int first, int count) {
-  FieldRows rows(static_cast<Eigen::Index>(width(field)) * count, recovery.coordinates());
+FieldRows read_field(const hdf5::InputFile& file, const FieldSet& set, int width_of_items, int first, int count) {
+  FieldRows rows(static_cast<Eigen::Index>(width_of_items) * count, set.columns);
   if (count == 0) return rows;
-  file.read_rows(dataset_of(field), static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(count), rows.data());
+  file.read_rows(set.dataset, static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(count), rows.data());
   if (!rows.allFinite())
     throw Error(fmt::format("items {} to {} hold values that are not finite", first, first + count - 1),
-                fmt::format("{}: {}", file.path(), dataset_of(field)), "reduce the part again");
+                fmt::format("{}: {}", file.path(), set.dataset), "reduce the part again");
   return rows;
 }
 
@@ -192,14 +239,15 @@ void try_recovery(const std::string& path) {
   const Recovery recovery = read_tables(file);
   check(recovery, path);
   check_field_shapes(file, recovery);
-  for (const RecoveryField field : recovery_fields) {
-    const int count = items(recovery, field);
-    const auto item =
-        static_cast<std::uint64_t>(width(field)) * static_cast<std::uint64_t>(recovery.coordinates()) * sizeof(float);
-    const int block = static_cast<int>(std::clamp<std::uint64_t>(block_bytes / item, 1, 1u << 20));
-    for (int first = 0; first < count; first += block)
-      static_cast<void>(read_field(file, recovery, field, first, std::min(block, count - first)));
-  }
+  for (const RecoveryField field : recovery_fields)
+    for (const FieldSet& set : sets_of(recovery, field)) {
+      const int count = items(recovery, field);
+      const auto item =
+          static_cast<std::uint64_t>(width(field)) * static_cast<std::uint64_t>(set.columns) * sizeof(float);
+      const int block = static_cast<int>(std::clamp<std::uint64_t>(block_bytes / item, 1, 1u << 20));
+      for (int first = 0; first < count; first += block)
+        static_cast<void>(read_field(file, set, width(field), first, std::min(block, count - first)));
+    }
 }
 
 std::vector<double> rows_of(const std::vector<Eigen::Matrix3d>& axes) {
@@ -212,7 +260,7 @@ std::vector<double> rows_of(const std::vector<Eigen::Matrix3d>& axes) {
 
 void write_head(hdf5::Id file, const Recovery& r, const std::string& where) {
   hdf5::write_text_attribute(file, "/", "format", recovery_kind.format, where);
-  hdf5::write_text_attribute(file, "/", "version", "1.0", where);
+  hdf5::write_text_attribute(file, "/", "version", r.loads ? "1.1" : "1.0", where);
   hdf5::write_text_attribute(file, "/", "name", r.name, where);
   hdf5::write_text_attribute(file, "/", "producer", r.producer, where);
   hdf5::write_text_attribute(file, "/", "content_id", r.content_id, where);
@@ -266,6 +314,15 @@ void write_mesh(const TableWriter& table, const Recovery& r) {
   table.integers("/stress_points/group", r.stress_group);
 }
 
+void write_loads(const TableWriter& table, const RecoveryLoads& loads) {
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> share = loads.share;
+  const auto n = static_cast<std::uint64_t>(loads.stiffness.size());
+  table.numbers("/loads/reference_point", {3}, loads.reference_point.data());
+  table.numbers("/loads/share", {n, static_cast<std::uint64_t>(inertia_loads)}, share.data());
+  table.numbers("/loads/stiffness", {n}, loads.stiffness.data());
+  table.numbers("/loads/left_out", {1}, &loads.left_out);
+}
+
 void write_properties(const TableWriter& table, const Recovery& r) {
   const auto beams = static_cast<std::uint64_t>(r.beams()), shells = static_cast<std::uint64_t>(r.shells());
   table.numbers("/beams/axes", {beams, 3, 3}, rows_of(r.beam_axes).data());
@@ -294,21 +351,54 @@ void write_properties(const TableWriter& table, const Recovery& r) {
 struct RecoveryWriter::Impl {
   struct Growing {
     hdf5::Handle dataset;
-    int items = 0, chunk = 0, written = 0;
+    FieldSet set;
+    int width = 0, items = 0, chunk = 0, written = 0;
   };
 
-  Impl(const std::string& path, const Recovery& recovery) : file(path), coordinates(recovery.coordinates()) {
-    for (const RecoveryField field : recovery_fields) {
-      const int chunk = chunk_items(recovery, field);
-      fields.push_back({hdf5::create_packed(file.id(), dataset_of(field), shape_of_field(recovery, field),
-                                            static_cast<std::uint64_t>(chunk), path),
-                        items(recovery, field), chunk, 0});
+  Impl(const std::string& path, const Recovery& recovery) : file(path) {
+    for (const RecoveryField field : recovery_fields)
+      fields.push_back(grow(recovery, field, of_coordinates(recovery, field)));
+    for (const RecoveryField field : recovery_fields)
+      if (recovery.loads) fields.push_back(grow(recovery, field, of_loads(field)));
+  }
+
+  Growing grow(const Recovery& recovery, RecoveryField field, const FieldSet& set) const {
+    const int chunk = chunk_items(recovery, field);
+    return {hdf5::create_packed(file.id(), set.dataset, shape_of_field(recovery, field, set),
+                                static_cast<std::uint64_t>(chunk), file.path()),
+            set,
+            width(field),
+            items(recovery, field),
+            chunk,
+            0};
+  }
+
+  void append(Growing& growing, const Eigen::Ref<const Eigen::MatrixXd>& rows) const {
+    const int count = static_cast<int>(rows.rows()) / growing.width, end = growing.written + count;
+    TISSERAND_ENSURE(rows.rows() == count * growing.width && rows.cols() == growing.set.columns &&
+                         end <= growing.items && (end == growing.items || count % growing.chunk == 0),
+                     "{} x {} values for {} after {} of {}", rows.rows(), rows.cols(), growing.set.dataset,
+                     growing.written, growing.items);
+    const FieldRows values = rows.cast<float>();
+    if (!values.allFinite())
+      throw Error(fmt::format("a value for {} is {:.3g}, beyond 32-bit numbers", growing.set.dataset,
+                              rows.cwiseAbs().maxCoeff()),
+                  file.path(), "use units in which the numbers of the part are of ordinary size");
+    if (count > 0)
+      hdf5::write_packed_rows(growing.dataset, static_cast<std::uint64_t>(growing.written),
+                              static_cast<std::uint64_t>(count), values.data(), file.path());
+    growing.written = end;
+  }
+
+  void close_fields() {
+    for (Growing& growing : fields) {
+      TISSERAND_ENSURE(growing.written == growing.items, "{} of {} items", growing.written, growing.items);
+      growing.dataset.reset();
     }
   }
 
   hdf5::OutputFile file;
-  int coordinates;
-  std::vector<Growing> fields;
+  std::vector<Growing> fields;  ///< of coordinates by RecoveryField, then of loads
 };
 
 RecoveryWriter::RecoveryWriter(const std::string& path, const Recovery& recovery) {
@@ -318,38 +408,37 @@ RecoveryWriter::RecoveryWriter(const std::string& path, const Recovery& recovery
   const TableWriter table(impl_->file.id(), path);
   write_mesh(table, recovery);
   write_properties(table, recovery);
+  if (recovery.loads) write_loads(table, *recovery.loads);
 }
 
 RecoveryWriter::~RecoveryWriter() = default;
 
 void RecoveryWriter::append(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
-  Impl::Growing& growing = impl_->fields[static_cast<std::size_t>(field)];
-  const int count = static_cast<int>(rows.rows()) / width(field), end = growing.written + count;
-  TISSERAND_ENSURE(rows.rows() == count * width(field) && rows.cols() == impl_->coordinates && end <= growing.items &&
-                       (end == growing.items || count % growing.chunk == 0),
-                   "{} x {} values for {} after {} of {}", rows.rows(), rows.cols(), dataset_of(field), growing.written,
-                   growing.items);
-  const FieldRows values = rows.cast<float>();
-  if (!values.allFinite())
-    throw Error(
-        fmt::format("a value for {} is {:.3g}, beyond 32-bit numbers", dataset_of(field), rows.cwiseAbs().maxCoeff()),
-        impl_->file.path(), "use units in which the numbers of the part are of ordinary size");
-  if (count > 0)
-    hdf5::write_packed_rows(growing.dataset, static_cast<std::uint64_t>(growing.written),
-                            static_cast<std::uint64_t>(count), values.data(), impl_->file.path());
-  growing.written = end;
+  impl_->append(impl_->fields[static_cast<std::size_t>(field)], rows);
+}
+
+void RecoveryWriter::append_loads(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
+  impl_->append(impl_->fields.at(recovery_fields.size() + static_cast<std::size_t>(field)), rows);
+}
+
+std::string RecoveryWriter::stage() {
+  impl_->close_fields();
+  return impl_->file.stage();
 }
 
 void RecoveryWriter::finish() {
-  for (Impl::Growing& growing : impl_->fields) {
-    TISSERAND_ENSURE(growing.written == growing.items, "{} of {} items", growing.written, growing.items);
-    growing.dataset.reset();
-  }
+  impl_->close_fields();
   impl_->file.publish();
 }
 
 struct RecoveryReader::Impl {
   explicit Impl(const std::string& path) : file(path, hdf5::Completeness::closed) {}
+
+  FieldRows read(RecoveryField field, const FieldSet& set, int first, int count) const {
+    TISSERAND_ENSURE(first >= 0 && count >= 0 && first + count <= items(recovery, field), "items {} + {} of {}", first,
+                     count, set.dataset);
+    return read_field(file, set, width(field), first, count);
+  }
 
   hdf5::InputFile file;
   Recovery recovery;
@@ -371,9 +460,12 @@ const std::string& RecoveryReader::path() const { return impl_->file.path(); }
 const Recovery& RecoveryReader::recovery() const { return impl_->recovery; }
 
 FieldRows RecoveryReader::read(RecoveryField field, int first, int count) const {
-  TISSERAND_ENSURE(first >= 0 && count >= 0 && first + count <= items(impl_->recovery, field), "items {} + {} of {}",
-                   first, count, dataset_of(field));
-  return read_field(impl_->file, impl_->recovery, field, first, count);
+  return impl_->read(field, of_coordinates(impl_->recovery, field), first, count);
+}
+
+FieldRows RecoveryReader::read_loads(RecoveryField field, int first, int count) const {
+  TISSERAND_ENSURE(impl_->recovery.loads, "{} has no loads", path());
+  return impl_->read(field, of_loads(field), first, count);
 }
 
 }  // namespace tisserand::formats

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,19 @@ struct RecoveryElements {
   int count() const { return static_cast<int>(shape.size()); }
 };
 
+inline constexpr int inertia_loads = 12;  ///< six rigid accelerations, six products of angular velocities
+
+/// Static answers of the part to the inertia loads of its floating frame, with the boundary held, less what the
+/// internal coordinates hold of them: what the basis leaves out of displacement and stress. Loads: M D_a of the
+/// accelerations of the reference point (3) and of the angular accelerations (3), then those of products of angular
+/// velocities ω_j ω_k, jk = xx yy zz yz xz xy (COMPANION.md: g_a, g_jk).
+struct RecoveryLoads {
+  Eigen::Vector3d reference_point = Eigen::Vector3d::Zero();  ///< part frame
+  Eigen::MatrixXd share;      ///< n x 12: Φᵀ g of internal coordinates, zero for those of the boundary
+  Eigen::VectorXd stiffness;  ///< n: ω² of internal coordinates, zero for those of the boundary
+  double left_out = 0.0;      ///< no mode that is left out has an ω² below this; 0: none is left out
+};
+
 /// All but the fields, which are as long as nodes times coordinates. n coordinates, those of the superelement in its
 /// order.
 struct Recovery {
@@ -79,6 +93,8 @@ struct Recovery {
   std::vector<double> shell_offset;  ///< of the middle surface from the nodes along the normal
 
   std::vector<int> stress_node, stress_group;  ///< points of solids: one per node and group of elements around it
+
+  std::optional<RecoveryLoads> loads;  ///< since version 1.1
 
   Eigen::Matrix3Xi triangle;  ///< surface: nodes, counter-clockwise seen from outside (shells: from the normal's tip)
   std::vector<int> triangle_element;  ///< shell or solid of each
@@ -130,7 +146,11 @@ class RecoveryWriter {
   /// The next items of a field: whole chunks, or to the last item. Throws Error (values beyond 32-bit numbers, disk
   /// full).
   void append(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows);
-  /// All items must have been appended.
+  /// The same of the loads' answers: 12 columns. Only of a file with loads.
+  void append_loads(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows);
+  /// Closes the file, of which all items must have been appended, under a temporary name, which is returned.
+  std::string stage();
+  /// The same, and gives it its name.
   void finish();
 
  private:
@@ -148,6 +168,8 @@ class RecoveryReader {
   const Recovery& recovery() const;
   /// Items [first, first + count) of a field: (width · count) x n, finite.
   FieldRows read(RecoveryField field, int first, int count) const;
+  /// The same of the loads' answers: (width · count) x 12. Only of a file with loads.
+  FieldRows read_loads(RecoveryField field, int first, int count) const;
 
  private:
   struct Impl;

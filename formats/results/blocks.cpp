@@ -80,10 +80,21 @@ void add_superelements(const ResultsLayout& layout, std::vector<Block>& blocks) 
                            [](Row r) { return r.frame_position.data(); }));
   blocks.push_back(vectors("/superelements/frame_rotation", layout.superelements, wxyz, "1",
                            [](Row r) { return r.frame_rotation.data(); }));
+  blocks.push_back(vectors("/superelements/frame_acceleration", layout.superelements, xyz, unit_label(u, 1, 0, -2),
+                           [](Row r) { return r.frame_acceleration.data(); }));
+  blocks.push_back(vectors("/superelements/frame_angular_velocity", layout.superelements, xyz,
+                           with_radian(unit_label(u, 0, 0, -1)),
+                           [](Row r) { return r.frame_angular_velocity.data(); }));
+  blocks.push_back(vectors("/superelements/frame_angular_acceleration", layout.superelements, xyz,
+                           with_radian(unit_label(u, 0, 0, -2)),
+                           [](Row r) { return r.frame_angular_acceleration.data(); }));
   blocks.push_back(scalars("/superelements/y", numbered(layout.superelements, layout.modes_offset), "",
                            [](Row r) { return r.y.data(); }));
   blocks.push_back(scalars("/superelements/y_rate", numbered(layout.superelements, layout.modes_offset), "",
                            [](Row r) { return r.y_rate.data(); }));
+  if (layout.strained)
+    blocks.push_back(scalars("/superelements/y_strain", numbered(layout.superelements, layout.modes_offset), "",
+                             [](Row r) { return r.y_strain.data(); }));
   Block boundary = vectors("/superelements/boundary_force", boundary_names(layout), wrench,
                            force.empty() ? "" : force + ", " + moment, [](Row r) { return r.boundary_force.data(); });
   for (std::size_t column = 0; column < boundary.width(); ++column)
@@ -225,6 +236,11 @@ bool chooses(const std::string& entry, const std::string& dataset) {
   return dataset == wanted || dataset.starts_with(wanted + "/") || matches_wildcard(dataset, wanted);
 }
 
+/// y without the strain that it stands for would give stresses that are wrong.
+bool belongs_to(const std::string& entry, const std::string& dataset) {
+  return dataset == "/superelements/y_strain" && chooses(entry, "/superelements/y");
+}
+
 std::string bare(const std::string& entry) { return entry.starts_with("/") ? entry.substr(1) : entry; }
 
 /// "nodes/position/arm/tip", also with more behind it: up to the second slash, and the rest; no rest: no node is named.
@@ -271,6 +287,9 @@ void ResultsRow::resize(const ResultsLayout& layout) {
   frame_rotation = no_rotation.replicate(1, superelements);
   y.setZero(last(layout.modes_offset));
   y_rate.setZero(last(layout.modes_offset));
+  y_strain.setZero(layout.strained ? last(layout.modes_offset) : 0);
+  for (Eigen::Matrix3Xd* block : {&frame_acceleration, &frame_angular_velocity, &frame_angular_acceleration})
+    block->setZero(3, superelements);
   boundary_force.setZero(6, last(layout.boundary_offset));
   w.setZero(last(layout.modal_offset));
   w_rate.setZero(last(layout.modal_offset));
@@ -386,7 +405,7 @@ std::optional<std::pair<std::string, std::string>> fault_of_selection(const std:
   ResultsLayout full;
   full.nodes = full.superelements = full.modal_bodies = full.joints = full.bushings = full.frictions =
       full.tyres = {"a"};
-  full.treads = true;
+  full.treads = full.strained = true;
   full.switched = true;
   full.coordinates = full.motions = full.springs = full.stops = full.loads = {{"a", false}};
   full.couplings = {{"a", false, false}};
@@ -416,7 +435,8 @@ std::vector<Block> chosen_blocks(const ResultsLayout& layout, const std::string&
   for (const std::string& entry : layout.channels) {
     if (const auto fault = fault_of_selection(entry)) throw Error(fault->first, where, fault->second);
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (chooses(entry, all[i].dataset) || names_nodes(entry, all[i].dataset)) chosen[i] = true;
+      if (chooses(entry, all[i].dataset) || names_nodes(entry, all[i].dataset) || belongs_to(entry, all[i].dataset))
+        chosen[i] = true;
   }
   std::vector<Block> blocks;
   for (std::size_t i = 0; i < all.size(); ++i)

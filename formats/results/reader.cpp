@@ -102,6 +102,7 @@ ResultsLayout read_layout(const hdf5::InputFile& file) {
   l.bushings = names(file, "/forces/bushing_name");
   l.frictions = names(file, "/forces/friction_name");
   l.tyres = names(file, "/tyres/name");
+  l.strained = file.has("/superelements/y_strain");
   l.treads = file.has("/tyres/deflection");
   l.switched = file.has("/energy/switched");
   l.loads = read_coordinates(file, "/forces/load_");
@@ -271,6 +272,7 @@ std::string ResultsReader::report_json() const {
 
 std::string ResultsReader::scene() const { return impl_->layout.scene; }
 const ResultsLayout& ResultsReader::layout() const { return impl_->layout; }
+std::string ResultsReader::version() const { return impl_->file.text_attribute("/", "version"); }
 std::string ResultsReader::run() const {
   return impl_->file.has_attribute("/", "run") ? impl_->file.text_attribute("/", "run") : "";
 }

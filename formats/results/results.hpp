@@ -48,6 +48,7 @@ struct ResultsLayout {
   std::vector<std::string> bushings;
   std::vector<std::string> frictions;  ///< joints with friction
   std::vector<std::string> tyres;
+  bool strained = false;              ///< some superelements have second-order strain: y_strain
   bool treads = false;                ///< some tyres relax: deflections of their treads
   std::vector<Coordinate> loads;      ///< forces (length) and moments (angle)
   std::vector<std::string> channels;  ///< selection, as in OutputSpec; empty: all
@@ -67,6 +68,9 @@ struct ResultsRow {
   Eigen::Matrix4Xd frame_rotation;
   Eigen::VectorXd y;                                        ///< all superelements, file coordinates, modes_offset
   Eigen::VectorXd y_rate;                                   ///< of y
+  Eigen::VectorXd y_strain;  ///< y with the second-order strain: what stress follows from; empty unless strained
+  /// Of floating frames, in axes of the part: acceleration of the origin less gravity, angular velocity, its rate.
+  Eigen::Matrix3Xd frame_acceleration, frame_angular_velocity, frame_angular_acceleration;
   Eigen::Matrix<double, 6, Eigen::Dynamic> boundary_force;  ///< [force; moment]
   Eigen::VectorXd w;                                        ///< all modal bodies, modal_offset
   Eigen::VectorXd w_rate;                                   ///< of w
@@ -170,6 +174,7 @@ class ResultsReader {
   std::string report_json() const;
   std::string scene() const;
   const ResultsLayout& layout() const;  ///< what is stored; `simulated` is empty before version 1.5
+  std::string version() const;          ///< of the format, "1.10"
   std::string run() const;              ///< ResultsWriter::run(); empty before version 1.4
   std::size_t rows() const;
   std::size_t modes() const;  ///< 0: the file holds none

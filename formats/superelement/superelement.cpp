@@ -209,13 +209,17 @@ LoadedSuperelement read_rehearsed_superelement(const std::string& path) {
   return loaded;
 }
 
-void write_superelement(const std::string& path, Superelement& element) {
+std::string superelement_image(const std::string& path, Superelement& element) {
   check_labels(element, path);
   static_cast<void>(check(element, path));
   element.content_id = content_id(element);
   hdf5::Handle file = hdf5::create_in_memory(path);
   write_fields(file.id(), element, path);
-  write_text_file(path, hdf5::file_image(std::move(file), path));
+  return hdf5::file_image(std::move(file), path);
+}
+
+void write_superelement(const std::string& path, Superelement& element) {
+  write_text_file(path, superelement_image(path, element));
 }
 
 }  // namespace tisserand::formats

@@ -87,7 +87,10 @@ LoadedSuperelement read_superelement(const std::string& path);
 void try_superelement(const std::string& path);
 LoadedSuperelement read_rehearsed_superelement(const std::string& path);
 
-/// Checks, then writes beside and renames. Fills element.content_id.
+/// Checks, fills element.content_id and returns the bytes of the file.
+std::string superelement_image(const std::string& path, Superelement& element);
+
+/// The same, written beside and renamed.
 void write_superelement(const std::string& path, Superelement& element);
 
 }  // namespace tisserand::formats

@@ -61,6 +61,12 @@ void fill_superelements(const Model& model, Evaluation& evaluation, formats::Res
     const Eigen::Index count = file_coordinate_count(body);
     file_coordinates(body, scratch, row.y.segment(y, count));
     file_rates(body, scratch, nodes, row.y_rate.segment(y, count));
+    if (row.y_strain.size() > 0) strain_coordinates(body, scratch, row.y_strain.segment(y, count));
+    const FrameAcceleration frame =
+        frame_acceleration_of(body, scratch, nodes, evaluation.load_factor * model.superelements[i].gravity);
+    row.frame_acceleration.col(column) = frame.felt;
+    row.frame_angular_velocity.col(column) = frame.angular_velocity;
+    row.frame_angular_acceleration.col(column) = frame.angular_acceleration;
     y += count;
     for (std::size_t j = 0; j < body.node.size(); ++j, ++boundary) {
       const SuperelementNode& node = body.node[j];
@@ -238,6 +244,7 @@ formats::ResultsLayout results_layout(const Model& model, const formats::Scene& 
     layout.modes_offset.push_back(layout.modes_offset.back() + static_cast<int>(file_coordinate_count(body)));
     layout.boundary_offset.push_back(layout.boundary_offset.back() + static_cast<int>(body.node.size()));
     for (const SuperelementNode& node : body.node) layout.boundary_nodes.push_back(node.name);
+    layout.strained = layout.strained || body.second_order.stiffening;
   }
   layout.modal_offset = {0};
   for (const ModalBody& body : model.modal_bodies) {
@@ -322,6 +329,10 @@ void fill_rigid_superelement(const Model& model, std::size_t i, const Evaluation
   const SuperelementBody& body = body_of(model, i);
   row.y.segment(y, file_coordinate_count(body)).setZero();
   row.y_rate.segment(y, file_coordinate_count(body)).setZero();
+  if (row.y_strain.size() > 0) row.y_strain.segment(y, file_coordinate_count(body)).setZero();
+  for (Eigen::Matrix3Xd* block :
+       {&row.frame_acceleration, &row.frame_angular_velocity, &row.frame_angular_acceleration})
+    block->col(static_cast<Eigen::Index>(i)).setZero();
   for (std::size_t j = 0; j < body.node.size(); ++j, ++boundary) {
     const Node& node = model.nodes[model.superelements[i].nodes[j]];
     const NodeMotion& motion = motion_of(evaluation, model.superelements[i].nodes[j]);
@@ -341,10 +352,18 @@ void fill_row(const Model& model, const State& state, Evaluation& evaluation, fo
 
 void fill_row(const RowSource& running, const RowSource& whole, formats::ResultsRow& row) {
   fill_bodies(whole.model, whole.state, whole.evaluation, row);
-  for (std::size_t i = 0; i < whole.model.superelements.size(); ++i)
-    if (std::ranges::find(running.model.superelements, whole.model.superelements[i].name, &SuperelementUse::name) ==
-        running.model.superelements.end())
+  Eigen::Index y = 0;
+  for (std::size_t i = 0; i < whole.model.superelements.size(); ++i) {
+    const auto& running_ones = running.model.superelements;
+    const auto found = std::ranges::find(running_ones, whole.model.superelements[i].name, &SuperelementUse::name);
+    const Eigen::Index count = file_coordinate_count(body_of(whole.model, i));
+    if (found == running_ones.end())
       fill_rigid_superelement(whole.model, i, whole.evaluation, row);
+    else if (row.y_strain.size() > 0 &&
+             !body_of(running.model, static_cast<std::size_t>(found - running_ones.begin())).second_order.stiffening)
+      row.y_strain.segment(y, count) = row.y.segment(y, count);  // strain is linear there
+    y += count;
+  }
   evaluate(running.model, running.state, running.evaluation);
   update_modal_nodes(running.model, running.evaluation);
   fill_actions(running.model, running.state, running.evaluation, row);

@@ -36,6 +36,8 @@ void blank(formats::AnalysisKind kind, formats::ResultsRow& row) {
   if (kind == formats::AnalysisKind::kinematics) return;
   row.node_acceleration.setConstant(none);
   row.node_angular_acceleration.setConstant(none);
+  row.frame_acceleration.setConstant(none);
+  row.frame_angular_acceleration.setConstant(none);
 }
 
 /// Work of drives, loads and dampers by the trapezoidal rule over the step that has ended.

@@ -23,6 +23,8 @@ struct BodyShape {
   /// Of shapes from recovery files: node (−1: internal) and component (0 to 2 translations, 3 to 5 rotations) of each
   /// column.
   std::vector<int> coordinate_node, coordinate_component;
+  /// Node of columns that are no coordinates: second-order strain, answers to inertia loads.
+  static constexpr int beyond = -2;
   std::vector<Eigen::Matrix3d> station_axes;  ///< of swept sections: at rest, in axes of the node
 };
 

@@ -7,6 +7,7 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "formats/page/skin.hpp"
+#include "formats/recovery/load_factors.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -74,17 +75,76 @@ void convert_columns(const Recovery& recovery, double length, const Vector3d& ax
     shapes.middleRows(v, 3) = (axes.asDiagonal() * shapes.middleRows(v, 3)).eval();
 }
 
-/// The same of stresses, [xx yy zz xy yz zx] per vertex.
+/// Stresses [xx yy zz xy yz zx] per vertex in units of the scene and axes of the image.
+void convert_tensors(const UnitConversion& to_scene, const Vector3d& axes, MatrixXd& stresses) {
+  stresses *= to_scene.force() / (to_scene.length * to_scene.length);
+  const double sign[] = {1.0, 1.0, 1.0, axes.x() * axes.y(), axes.y() * axes.z(), axes.z() * axes.x()};
+  for (Index row = 0; row < stresses.rows(); ++row) stresses.row(row) *= sign[row % 6];
+}
+
+/// The same, for coordinates as convert_columns().
 void convert_stresses(const Recovery& recovery, const UnitConversion& to_scene, const Vector3d& axes,
                       MatrixXd& stresses) {
-  stresses *= to_scene.force() / (to_scene.length * to_scene.length);
+  convert_tensors(to_scene, axes, stresses);
   for (Index k = 0; k < stresses.cols(); ++k) {
     if (recovery.dof_node[k] < 0) continue;
     const int component = recovery.dof_component[k];
     stresses.col(k) *= axes[component % 3] * (component < 3 ? 1.0 / to_scene.length : axes.prod());
   }
-  const double sign[] = {1.0, 1.0, 1.0, axes.x() * axes.y(), axes.y() * axes.z(), axes.z() * axes.x()};
-  for (Index row = 0; row < stresses.rows(); ++row) stresses.row(row) *= sign[row % 6];
+}
+
+MatrixXd beside(const MatrixXd& A, const MatrixXd& B) {
+  MatrixXd both(A.rows(), A.cols() + B.cols());
+  both << A, B;
+  return both;
+}
+
+/// Columns behind those of the coordinates, each with its displacement, stress and amplitudes.
+void add_columns(const MatrixXd& modes, const MatrixXd& stress, const MatrixXd& amplitudes, BodyShape& shape) {
+  formats::Deformation& d = shape.deformation;
+  d.modes = beside(d.modes, modes);
+  if (shape.stress.size() > 0) shape.stress = beside(shape.stress, stress);
+  d.amplitudes = beside(d.amplitudes, amplitudes);
+  shape.coordinate_node.resize(static_cast<std::size_t>(d.modes.cols()), BodyShape::beyond);
+  shape.coordinate_component.resize(static_cast<std::size_t>(d.modes.cols()), 0);
+}
+
+/// What stress has beyond y: the second-order strain, and the answers to inertia loads, which move vertices too.
+void add_strain_and_loads(ViewedRun& run, const ViewedBody& body, const Found& found, const UnitConversion& to_scene,
+                          const std::vector<formats::SkinCarrier>& carriers, BodyShape& shape) {
+  const Recovery& recovery = found.reader->recovery();
+  const int first = run.layout().modes_offset[body.superelement], count = recovery.coordinates();
+  formats::Deformation& d = shape.deformation;
+  const MatrixXd strain = run.reader->read_dataset("superelements/y_strain", run.rows);
+  const formats::LoadFactors loads =
+      formats::load_factors(recovery, *run.reader, run.rows,
+                            {static_cast<std::size_t>(body.superelement), found.axes, body.origin, to_scene});
+  const MatrixXd y = d.amplitudes;
+  if (loads.known())
+    for (const Index k : formats::dropped_modes(recovery, y.transpose()))
+      d.amplitudes.col(k) = (recovery.loads->share.row(k) * loads.factor / recovery.loads->stiffness[k]).transpose();
+  if (shape.stress.size() > 0 && strain.cols() >= first + count)
+    add_columns(MatrixXd::Zero(d.modes.rows(), count), MatrixXd(shape.stress), strain.middleCols(first, count) - y,
+                shape);
+  if (!loads.known()) return;
+  MatrixXd modes = to_scene.length * formats::load_shapes_at(*found.reader, carriers);
+  for (Index v = 0; v < modes.rows(); v += 3)
+    modes.middleRows(v, 3) = (found.axes.asDiagonal() * modes.middleRows(v, 3)).eval();
+  MatrixXd stress;
+  if (shape.stress.size() > 0) {
+    stress = formats::load_stresses_at(*found.reader, carriers);
+    convert_tensors(to_scene, found.axes, stress);
+  }
+  // Amplitudes up to 1: a page keeps what is large beside the largest column (formats/page/deformation.hpp).
+  MatrixXd factor = loads.factor.transpose();
+  for (Index a = 0; a < factor.cols(); ++a) {
+    const double reach = factor.col(a).cwiseAbs().maxCoeff();
+    if (!(reach > 0.0)) continue;
+    factor.col(a) /= reach;
+    modes.col(a) *= reach;
+    if (stress.size() > 0) stress.col(a) *= reach;
+  }
+  add_columns(modes, stress, factor, shape);
 }
 
 }  // namespace
@@ -136,6 +196,7 @@ std::optional<BodyShape> recovered_shape(ViewedRun& run, const ViewedBody& body,
     shape.coordinate_node.push_back(node == nodes.end() ? -1 : static_cast<int>(node - nodes.begin()));
     shape.coordinate_component.push_back(recovery.dof_component[k]);
   }
+  add_strain_and_loads(run, body, *found, to_scene, carriers, shape);
   return shape;
 }
 

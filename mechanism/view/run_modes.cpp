@@ -108,6 +108,7 @@ Eigen::VectorXd ModesOfBodies::coordinates_motion(const ViewedRun& run, int body
   Eigen::VectorXd motion = Eigen::VectorXd::Zero(shape.deformation.modes.cols());
   for (Index k = 0; k < motion.size(); ++k) {
     const int node = shape.coordinate_node[k], component = shape.coordinate_component[k];
+    if (node == BodyShape::beyond) continue;
     if (node < 0) {
       if (y_.cols() > 0) motion[k] = y_(mode, 2 * (first + k) + part);
       continue;

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
+#include "reducer/recover/inertia_loads.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -96,9 +98,8 @@ std::string content_id_of(const ResultsLayout& layout, const Found& found) {
 }
 
 /// The stored coordinates of the body, in the units of the scene: those that the file has and the body has not are 0.
-MatrixXd coordinates(const ResultsLayout& layout, const formats::ResultsReader& results, const Found& found, Index n,
-                     const std::vector<std::size_t>& rows) {
-  const std::string dataset = found.is_modal ? "modal_bodies/w" : "superelements/y";
+MatrixXd coordinates(const ResultsLayout& layout, const formats::ResultsReader& results, const std::string& dataset,
+                     const Found& found, Index n, const std::vector<std::size_t>& rows) {
   const std::vector<int>& offset = found.is_modal ? layout.modal_offset : layout.modes_offset;
   const MatrixXd all = results.read_dataset(dataset, rows);
   if (all.cols() == 0)
@@ -134,6 +135,12 @@ void add_frame(const ResultsLayout& layout, const formats::ResultsReader& result
   motion.rotation = rotation.middleCols(4 * row, 4).transpose();
 }
 
+/// Whether files of this version hold the strain of superelements with stiffening.
+bool knows_strain(const std::string& version) {
+  const std::size_t dot = version.find('.');
+  return dot == std::string::npos || std::atoi(version.c_str() + dot + 1) >= 10;
+}
+
 }  // namespace
 
 BodyMotion body_motion(const formats::Recovery& recovery, const formats::ResultsReader& results,
@@ -149,10 +156,20 @@ BodyMotion body_motion(const formats::Recovery& recovery, const formats::Results
   const std::vector<double> time = results.time();
   const std::vector<std::size_t> rows = chosen_rows(time, request, results.path());
   for (const std::size_t r : rows) motion.time.push_back(time[r]);
-  motion.y = coordinates(layout, results, found, recovery.coordinates(), rows);
+  const std::string dataset = found.is_modal ? "modal_bodies/w" : "superelements/y";
+  motion.y = motion.y_strain = coordinates(layout, results, dataset, found, recovery.coordinates(), rows);
+  if (!found.is_modal && layout.strained)
+    motion.y_strain = coordinates(layout, results, "superelements/y_strain", found, recovery.coordinates(), rows);
+  else if (!found.is_modal && !knows_strain(results.version()))
+    motion.notes.push_back(
+        "the results were written before version 1.10: of a body with its companion file, stress holds the strain of "
+        "foreshortening, which is none; run the scene again");
   to_file(recovery, motion, motion.y);
+  to_file(recovery, motion, motion.y_strain);
   if (found.is_modal) motion.y /= std::sqrt(motion.to_scene.mass) * motion.to_scene.length;
+  if (found.is_modal) motion.y_strain = motion.y;
   add_frame(layout, results, found, rows, motion);
+  if (!found.is_modal) add_inertia_loads(recovery, results, rows, found.row, motion);
   if (request.frame == RecoverFrame::world && (motion.position.cols() == 0 || !motion.origin.allFinite() ||
                                                !motion.position.allFinite() || !motion.rotation.allFinite()))
     throw Error(

@@ -19,11 +19,16 @@ struct BodyMotion {
   std::string body;
   std::vector<double> time;  ///< T
   Eigen::MatrixXd y;  ///< n x T: coordinates of the part (of a modal body w), not of the image, units of the file
-  Eigen::Matrix3Xd position;  ///< of the floating frame, units of the scene; empty: not stored
-  Eigen::Matrix4Xd rotation;  ///< w x y z
-  Eigen::Vector3d origin;     ///< of the undeformed floating frame in the part frame of the image, units of the scene
-  Eigen::Vector3d mirror;     ///< signs of the axes, 1 or −1
-  UnitConversion to_scene;    ///< factors from the recovery file to the scene
+  Eigen::MatrixXd y_strain;           ///< the same of what stress follows from: y with the second-order strain
+  Eigen::MatrixXd load_factor;        ///< 12 x T: of the loads of the recovery file; without columns: not known
+  Eigen::VectorXd spin_squared;       ///< T: of the frame, with load_factor
+  std::vector<Eigen::Index> dropped;  ///< modes that the body of the scene does not have and its loads move
+  std::vector<std::string> notes;     ///< what the user should know, without a full stop
+  Eigen::Matrix3Xd position;          ///< of the floating frame, units of the scene; empty: not stored
+  Eigen::Matrix4Xd rotation;          ///< w x y z
+  Eigen::Vector3d origin;   ///< of the undeformed floating frame in the part frame of the image, units of the scene
+  Eigen::Vector3d mirror;   ///< signs of the axes, 1 or −1
+  UnitConversion to_scene;  ///< factors from the recovery file to the scene
   Units scene_units;
 
   Eigen::Index instants() const { return y.cols(); }

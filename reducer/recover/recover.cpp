@@ -8,6 +8,7 @@
 #include "common/text.hpp"
 #include "formats/vtk/vtu.hpp"
 #include "reducer/recover/history.hpp"
+#include "reducer/recover/inertia_loads.hpp"
 #include "reducer/recover/vtu_data.hpp"
 
 namespace tisserand::reducer {
@@ -68,7 +69,27 @@ std::string peak_line(const char* what, const Peak& peak, const std::string& uni
                      peak.time, time_unit.empty() ? "" : " ", time_unit, place);
 }
 
-std::string report(const Recovery& r, const BodyMotion& motion, const Envelope& envelope, const Files& files) {
+/// " (0.025, 0, 0)": the middle of an element of the undeformed body, part frame, units of the scene.
+std::string middle_text(const Recovery& r, const BodyMotion& motion, int element) {
+  const auto e = static_cast<std::size_t>(element);
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  const int first = r.elements.first[e], end = r.elements.first[e + 1];
+  for (int k = first; k < end; ++k) middle += r.position.col(r.elements.node[static_cast<std::size_t>(k)]);
+  middle = motion.to_scene.length / (end - first) * motion.mirror.cwiseProduct(middle);
+  return fmt::format(" ({:.4g}, {:.4g}, {:.4g})", middle.x(), middle.y(), middle.z());
+}
+
+std::string left_out_line(const LeftOutStress& stress, const BodyMotion& motion) {
+  if (motion.load_factor.cols() == 0) return "";
+  const std::string unit = unit_label(motion.scene_units, -1, 1, -2), after = unit.empty() ? "" : " " + unit;
+  return fmt::format(
+      "{:<29}at most {:.3g}{} added by static answers to inertia and weight; what is still missing is "
+      "estimated at {:.2g}{}\n",
+      "stress left out by modes", stress.added, after, stress.remaining, after);
+}
+
+std::string report(const Recovery& r, const BodyMotion& motion, const Envelope& envelope, const std::string& left_out,
+                   const Files& files) {
   const std::string length = unit_label(motion.scene_units, 1, 0, 0), time = unit_label(motion.scene_units, 0, 0, 1);
   const std::string stress = unit_label(motion.scene_units, -1, 1, -2);
   const auto node = [&r](int n) { return printable_line(r.node_label[static_cast<std::size_t>(n)], 60); };
@@ -76,11 +97,15 @@ std::string report(const Recovery& r, const BodyMotion& motion, const Envelope& 
   text += "displacements count from the floating frame of the body\n";
   text += peak_line("largest displacement", envelope.moved, length, time, node(envelope.moved.at));
   if (envelope.beam.at >= 0)
-    text += peak_line("largest stress of beams", envelope.beam, stress, time, element_text(r, envelope.beam.at));
+    text += peak_line("largest stress of beams", envelope.beam, stress, time,
+                      element_text(r, envelope.beam.at) + middle_text(r, motion, envelope.beam.at));
   if (envelope.shell.at >= 0)
-    text += peak_line("largest von Mises of shells", envelope.shell, stress, time, element_text(r, envelope.shell.at));
+    text += peak_line("largest von Mises of shells", envelope.shell, stress, time,
+                      element_text(r, envelope.shell.at) + middle_text(r, motion, envelope.shell.at));
   if (envelope.solid.at >= 0)
     text += peak_line("largest von Mises of solids", envelope.solid, stress, time, node(envelope.solid.at));
+  text += left_out;
+  for (const std::string& note : motion.notes) text += fmt::format("{:<29}{}\n", "note", note);
   return text + fmt::format("written {} (open it with ParaView)\n        {}\n", files.path(files.stem + ".pvd"),
                             files.path(files.stem + "_envelope.vtu"));
 }
@@ -114,7 +139,7 @@ std::string recover(const RecoverRequest& request) {
   }
   formats::write_pvd(files.path(files.stem + ".pvd"), files.series);
   write_envelope(r, motion, cells, envelope, files);
-  std::string text = report(r, motion, envelope, files);
+  std::string text = report(r, motion, envelope, left_out_line(left_out_stress(file, motion), motion), files);
   if (history.empty()) return text;
   write_text_file(files.path(files.stem + "_points.csv"), history.text());
   return text + fmt::format("        {}\n", files.path(files.stem + "_points.csv"));

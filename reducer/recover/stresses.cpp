@@ -16,8 +16,9 @@ using Eigen::Vector3d;
 using formats::RecoveryField;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// scale · field · y, in blocks of some chunks.
-MatrixXf product(const formats::RecoveryReader& file, RecoveryField field, const MatrixXd& y, double scale) {
+/// scale · (field · y + answers to loads · factor), in blocks of some chunks; no columns of factors: no loads.
+MatrixXf product(const formats::RecoveryReader& file, RecoveryField field, const MatrixXd& y, const MatrixXd& factor,
+                 double scale) {
   constexpr int chunks = 8;
   const int items = formats::items(file.recovery(), field), width = formats::width(field);
   const int block = chunks * formats::chunk_items(file.recovery(), field);
@@ -25,7 +26,8 @@ MatrixXf product(const formats::RecoveryReader& file, RecoveryField field, const
   for (int first = 0; first < items; first += block) {
     const int count = std::min(block, items - first);
     const MatrixXd rows = file.read(field, first, count).cast<double>();
-    const MatrixXd values = scale * (rows * y);
+    MatrixXd values = scale * (rows * y);
+    if (factor.cols() > 0) values.noalias() += scale * (file.read_loads(field, first, count).cast<double>() * factor);
     out.middleRows(static_cast<Index>(first) * width, static_cast<Index>(count) * width) = values.cast<float>();
   }
   return out;
@@ -115,12 +117,14 @@ void derive_stresses(const formats::Recovery& recovery, const UnitConversion& to
 
 RecoveredFields recover_fields(const formats::RecoveryReader& file, const BodyMotion& motion, Index first,
                                Index count) {
-  const MatrixXd y = motion.y.middleCols(first, count);
+  const MatrixXd y = motion.y.middleCols(first, count), strain = motion.y_strain.middleCols(first, count);
+  const MatrixXd factor =
+      motion.load_factor.cols() > 0 ? MatrixXd(motion.load_factor.middleCols(first, count)) : MatrixXd();
   RecoveredFields out;
-  out.displacement = product(file, RecoveryField::translation, y, motion.to_scene.length);
-  out.beam_force = product(file, RecoveryField::beam_force, y, 1.0);
-  out.shell_stress = product(file, RecoveryField::shell_stress, y, motion.stress_factor());
-  out.solid_stress = product(file, RecoveryField::solid_stress, y, motion.stress_factor());
+  out.displacement = product(file, RecoveryField::translation, y, factor, motion.to_scene.length);
+  out.beam_force = product(file, RecoveryField::beam_force, strain, factor, 1.0);
+  out.shell_stress = product(file, RecoveryField::shell_stress, strain, factor, motion.stress_factor());
+  out.solid_stress = product(file, RecoveryField::solid_stress, strain, factor, motion.stress_factor());
   derive_stresses(file.recovery(), motion.to_scene, out);
   mirror_vectors(motion.mirror, out.displacement);
   mirror_tensors(motion.mirror, out.solid_stress);

@@ -171,8 +171,14 @@ void motion_fields(const Mesh& mesh, const MotionSource& source, const formats::
 }
 
 void recovery_fields(const RecoverySource& source, const formats::Recovery& tables,
-                     const std::function<void(double)>& share, const FieldSink& sink) {
-  motion_fields(source.mesh, source.motion, tables, share, sink);
+                     const std::function<void(double)>& share, const FieldSink& sink, const FieldSink& loads) {
+  const double columns = static_cast<double>(source.motion.columns + source.loads.columns),
+               own = static_cast<double>(source.motion.columns) / columns;
+  motion_fields(
+      source.mesh, source.motion, tables, [&](double done) { share(own * done); }, sink);
+  if (source.loads.columns > 0)
+    motion_fields(
+        source.mesh, source.loads, tables, [&](double done) { share(own + (1.0 - own) * done); }, loads);
 }
 
 }  // namespace tisserand::reducer

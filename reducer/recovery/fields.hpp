@@ -21,6 +21,7 @@ struct RecoverySource {
   const Mesh& mesh;
   const Coordinates& coordinates;
   MotionSource motion;     ///< of each coordinate of the file
+  MotionSource loads;      ///< static answers to the inertia loads of head.loads; no columns where there are none
   formats::Recovery head;  ///< names, units, identity, coordinates: what is not of the mesh
   bool is_modal = false;   ///< of the modal body, not of the superelement
 };
@@ -28,10 +29,10 @@ struct RecoverySource {
 /// Hears of it (phase "recovery").
 using RecoveryListener = std::function<void(const RecoverySource& source)>;
 
-/// The arguments live as long as the result.
-RecoverySource recovery_source(const Mesh& mesh, const System& system, const Partition& partition,
-                               const BoundaryModes& boundary, const InternalModes& internal,
-                               const formats::Superelement& superelement);
+/// With the static answers to inertia loads, but of MacNeal's method, whose coordinates move masses of their own. The
+/// arguments live as long as the result.
+RecoverySource recovery_source(const InternalProblem& problem, const BoundaryModes& boundary,
+                               const InternalModes& internal, const formats::Superelement& superelement);
 /// `q`: its modes in the system's coordinates.
 RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eigen::MatrixXd& q,
                                const formats::ModalBody& body);
@@ -54,8 +55,9 @@ formats::Recovery solved_tables(const Mesh& mesh, const Coordinates& coordinates
 void motion_fields(const Mesh& mesh, const MotionSource& source, const formats::Recovery& tables,
                    const std::function<void(double)>& share, const FieldSink& sink);
 
-/// All fields in blocks of some megabytes, whole chunks each. `tables` are recovery_tables() of the same source.
+/// All fields in blocks of some megabytes, whole chunks each: those of coordinates, then those of loads. `tables` are
+/// recovery_tables() of the same source.
 void recovery_fields(const RecoverySource& source, const formats::Recovery& tables,
-                     const std::function<void(double)>& share, const FieldSink& sink);
+                     const std::function<void(double)>& share, const FieldSink& sink, const FieldSink& loads);
 
 }  // namespace tisserand::reducer

@@ -8,6 +8,7 @@
 #include "reducer/elements/shell/geometry.hpp"
 #include "reducer/recovery/fields.hpp"
 #include "reducer/recovery/surface.hpp"
+#include "reducer/second_order/inertia_loads.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -150,32 +151,60 @@ Recovery solved_tables(const Mesh& mesh, const Coordinates& coordinates) {
   return r;
 }
 
-RecoverySource recovery_source(const Mesh& mesh, const System& system, const Partition& partition,
-                               const BoundaryModes& boundary, const InternalModes& internal,
-                               const formats::Superelement& superelement) {
-  const auto shapes = std::make_shared<const FullShapes>(system, partition, boundary, internal);
-  Recovery head = head_of(superelement, [&](const Eigen::Vector3d& axes) {
-    return formats::mirrored(formats::LoadedSuperelement{superelement, {}}, axes).superelement;
-  });
-  head.dof_node = superelement.dof_node;
-  head.dof_component = superelement.dof_component;
-  return {mesh,
-          system.coordinates,
-          {[shapes](const auto& nodes) { return shapes->motions(nodes); }, shapes->coordinates()},
-          std::move(head),
-          false};
-}
+namespace {
 
-RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eigen::MatrixXd& q,
-                               const formats::ModalBody& body) {
-  const auto x = std::make_shared<const Eigen::MatrixXd>(expand(system.T, q));
-  const auto motions = [x, &numbers = system.coordinates](const std::vector<int>& nodes) {
+/// Motions of nodes of displacements of all coordinates of the mesh.
+MotionSource motions_of(std::shared_ptr<const Eigen::MatrixXd> x, const Coordinates& numbers) {
+  const Eigen::Index columns = x->cols();
+  const auto motions = [x = std::move(x), &numbers](const std::vector<int>& nodes) {
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(nodes.size()), x->cols());
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (int k = numbers.first[nodes[i]]; k < numbers.first[nodes[i] + 1]; ++k)
         out.row(6 * static_cast<Eigen::Index>(i) + numbers.component[k]) = x->row(k);
     return out;
   };
+  return {motions, columns};
+}
+
+void add_loads(const InternalProblem& problem, const InternalModes& internal, const formats::Superelement& superelement,
+               RecoverySource& source) {
+  const formats::RigidProperties rigid = formats::rigid_properties(superelement);
+  InertiaAnswers answers = inertia_answers(problem, internal, rigid.center_of_mass);
+  formats::RecoveryLoads loads;
+  loads.reference_point = answers.reference_point;
+  const Eigen::Index n = superelement.size(), m = internal.lambda.size();
+  loads.share = Eigen::MatrixXd::Zero(n, inertial);
+  loads.share.bottomRows(m) = answers.share;
+  loads.stiffness = Eigen::VectorXd::Zero(n);
+  loads.stiffness.tail(m) = internal.lambda;
+  loads.left_out = internal.first_dropped.value_or(m > 0 && m < internal.available ? internal.lambda.maxCoeff() : 0.0);
+  source.head.loads = std::move(loads);
+  source.loads = motions_of(std::make_shared<const Eigen::MatrixXd>(std::move(answers.x)), problem.system.coordinates);
+}
+
+}  // namespace
+
+RecoverySource recovery_source(const InternalProblem& problem, const BoundaryModes& boundary,
+                               const InternalModes& internal, const formats::Superelement& superelement) {
+  const System& system = problem.system;
+  const auto shapes = std::make_shared<const FullShapes>(system, problem.partition, boundary, internal);
+  Recovery head = head_of(superelement, [&](const Eigen::Vector3d& axes) {
+    return formats::mirrored(formats::LoadedSuperelement{superelement, {}}, axes).superelement;
+  });
+  head.dof_node = superelement.dof_node;
+  head.dof_component = superelement.dof_component;
+  RecoverySource source{problem.mesh,
+                        system.coordinates,
+                        {[shapes](const auto& nodes) { return shapes->motions(nodes); }, shapes->coordinates()},
+                        {},
+                        std::move(head),
+                        false};
+  if (internal.boundary_mass.size() == 0) add_loads(problem, internal, superelement, source);
+  return source;
+}
+
+RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eigen::MatrixXd& q,
+                               const formats::ModalBody& body) {
   Recovery head = head_of(body, [&](const Eigen::Vector3d& axes) {
     return formats::mirrored(formats::LoadedModalBody{body, {}}, axes).body;
   });
@@ -183,7 +212,12 @@ RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eig
     head.dof_node.push_back(-1);
     head.dof_component.push_back(k);
   }
-  return {mesh, system.coordinates, {motions, q.cols()}, std::move(head), true};
+  return {mesh,
+          system.coordinates,
+          motions_of(std::make_shared<const Eigen::MatrixXd>(expand(system.T, q)), system.coordinates),
+          {},
+          std::move(head),
+          true};
 }
 
 Recovery recovery_tables(const RecoverySource& source) {
@@ -196,6 +230,7 @@ Recovery recovery_tables(const RecoverySource& source) {
   r.mirror_content_id = head.mirror_content_id;
   r.dof_node = head.dof_node;
   r.dof_component = head.dof_component;
+  r.loads = head.loads;
   return r;
 }
 

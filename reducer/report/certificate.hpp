@@ -104,10 +104,11 @@ FileCertificate certify(const formats::Superelement& element, const formats::Sup
 /// name.superelement.h5 -> name.superelement.certificate.json.
 std::string certificate_path(const std::string& superelement_path);
 
-/// JSON beside the file, whole or not at all.
-void write_certificate(const std::string& superelement_path, const formats::Superelement& element,
-                       const FileCertificate& file, const ModelCertificate& model);
+/// The certificate of a reduction as JSON.
+std::string certificate_json(const formats::Superelement& element, const FileCertificate& file,
+                             const ModelCertificate& model);
 
+/// That of an import as JSON beside the file, whole or not at all.
 void write_certificate(const std::string& superelement_path, const formats::Superelement& element,
                        const FileCertificate& file, const ImportCertificate& import);
 

@@ -373,12 +373,11 @@ std::string model_text(const ModelCertificate& c) {
 
 }  // namespace
 
-void write_certificate(const std::string& superelement_path, const formats::Superelement& element,
-                       const FileCertificate& file, const ModelCertificate& model) {
+std::string certificate_json(const formats::Superelement& element, const FileCertificate& file,
+                             const ModelCertificate& model) {
   json j = base_json(element, file);
   j["model"] = model_json(model);
-  write_text_file(certificate_path(superelement_path),
-                  j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+  return j.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 void write_certificate(const std::string& superelement_path, const formats::Superelement& element,

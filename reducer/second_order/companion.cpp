@@ -10,6 +10,7 @@
 #include "common/math/rotation.hpp"
 #include "common/parallel.hpp"
 #include "common/text.hpp"
+#include "formats/companion/rigid_stress.hpp"
 #include "formats/superelement/weights.hpp"
 #include "reducer/elements/each_element.hpp"
 #include "reducer/elements/element_matrices.hpp"
@@ -17,6 +18,7 @@
 #include "reducer/second_order/double_curvature.hpp"
 #include "reducer/second_order/geometric_stiffness.hpp"
 #include "reducer/second_order/inertia.hpp"
+#include "reducer/second_order/inertia_loads.hpp"
 #include "reducer/second_order/quadratic_forms.hpp"
 #include "reducer/second_order/tie_strain.hpp"
 
@@ -28,7 +30,6 @@ using Eigen::MatrixXd;
 
 constexpr int batch_rows = 1024;  ///< stresses of a batch of elements, about; a multiple of eight elements
 constexpr int largest_batch = 64;
-constexpr int inertial = 12;  ///< loads: six rigid accelerations, six centrifugal ones
 
 constexpr double large_file = 20e6;  ///< bytes of a companion that is not written unasked
 
@@ -49,30 +50,6 @@ MatrixXd reduced_displacements(const InternalProblem& problem, const BoundaryMod
     Phi.row(p.internal[i]).tail(internal.lambda.size()) = internal.Phi.row(i);
   }
   return Phi;
-}
-
-/// g_a = M D_a and g_jk = −½ ([e_k x] M D_3+j + [e_j x] M D_3+k), on x.
-MatrixXd inertia_loads(const MatrixXd& MD) {
-  MatrixXd g(MD.rows(), inertial);
-  g.leftCols<6>() = MD;
-  const MatrixXd turning = MD.rightCols<3>();
-  for (int pair = 0; pair < 6; ++pair) {
-    const auto [j, k] = formats::axis_pairs[pair];
-    g.col(6 + pair) = -0.5 * (crossed(k, turning.col(j)) + crossed(j, turning.col(k)));
-  }
-  return g;
-}
-
-/// Displacements of q under forces on q with the boundary held, less the share of the modes that are kept.
-MatrixXd residual_displacements(const InternalProblem& problem, const InternalModes& internal, const MatrixXd& force) {
-  MatrixXd w = MatrixXd::Zero(force.rows(), force.cols());
-  if (problem.partition.n_I() == 0) return w;
-  const MatrixXd f_I = rows(force, problem.partition.internal);
-  MatrixXd w_I = problem.S_II.solve(f_I);
-  w_I -= internal.Phi * (internal.lambda.cwiseInverse().asDiagonal() * (internal.Phi.transpose() * f_I));
-  for (std::size_t i = 0; i < problem.partition.internal.size(); ++i)
-    w.row(problem.partition.internal[i]) = w_I.row(static_cast<Index>(i));
-  return w;
 }
 
 /// Stresses and gradients of the elements, in batches of one layout each, a block of elements at a time.
@@ -344,6 +321,7 @@ formats::Companion make_companion(const InternalProblem& problem, const Boundary
     forms.add(tie_batches(mesh, system, ties, multipliers(ties, residual), Phi));
   }
   for (int j = 0; j < n; ++j) c.H.push_back(forms.matrix(j));
+  formats::remove_rigid_stress(c, element, problem.where);
   if (shapes > 0) c.Lambda = trapped_stress(problem, boundary, element, ties, Phi, shapes);
   for (int a = 0; a < 6; ++a) {
     c.N[a] = -forms.matrix(n + a);

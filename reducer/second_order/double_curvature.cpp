@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
+#include "common/error.hpp"
 #include "common/parallel.hpp"
 #include "formats/superelement/scaling.hpp"
 #include "formats/superelement/superelement.hpp"
@@ -24,10 +25,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Solver = Eigen::SelfAdjointEigenSolver<MatrixXd>;
 
-constexpr double no_strain = 1e-9;  ///< of scaled eigenvalues of S̄, as in mechanisms
-constexpr double no_force = 1e-12;  ///< of eigenvalues of an element's stiffness: rigid motions
+constexpr double no_strain = 1e-9;        ///< of scaled eigenvalues of S̄, as in mechanisms
+constexpr double no_force = 1e-12;        ///< of eigenvalues of an element's stiffness: rigid motions
+constexpr double shared_accepted = 1e-5;  ///< what shared displacements relax is part of what the elements have
 constexpr double round_off = 1e-8;  ///< of eigenvalues of the Gram matrix, in what elements on their own would relax
-constexpr double small_row = 1e-3;  ///< of eigenvalues of the Gram matrix, in the largest
+constexpr double no_stiffness = 1e-13;  ///< of diagonal entries, in the largest of their kind: round-off
+constexpr double only_rigid = 1e-10;    ///< of the square of a unit motion that rigid motions do not hold
+constexpr double small_row = 1e-3;      ///< of eigenvalues of the Gram matrix, in the largest
 
 /// z = P y, y = Z z: shapes with the strain energy ½ zᵀz.
 struct Shapes {
@@ -81,14 +85,31 @@ MatrixXd following(const Mesh& mesh, const System& system, const TieForces& ties
   return dependents(ties, c2);
 }
 
-/// 1/√K_kk: rotations and displacements alike.
-VectorXd unit_of(const MatrixXd& K) {
-  return K.diagonal().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+/// Which coordinates turn: their stiffness is of another unit than that of translations.
+std::vector<bool> turns_of(const ElementRows& at) {
+  std::vector<bool> turns;
+  for (int i = 0; i < at.nodes; ++i)
+    for (int c = 0; c < at.size; ++c) turns.push_back(c >= 3);
+  return turns;
 }
 
-/// A with |A f|² = fᵀ K⁺ f for forces f in equilibrium: K scaled, without the motions that have no force.
-MatrixXd inverse_root(const MatrixXd& K, double none) {
-  const VectorXd unit = unit_of(K);
+/// 1/√K_kk: rotations and displacements alike. Zero for coordinates whose K_kk is nothing beside the largest of their
+/// kind, such as those of a rod across its axis: round-off, by which no force may be divided.
+VectorXd unit_of(const MatrixXd& K, const std::vector<bool>& turns) {
+  double largest[2] = {0.0, 0.0};
+  for (Index k = 0; k < K.rows(); ++k) {
+    double& of_kind = largest[turns[static_cast<std::size_t>(k)] ? 1 : 0];
+    of_kind = std::max(of_kind, K(k, k));
+  }
+  VectorXd unit(K.rows());
+  for (Index k = 0; k < K.rows(); ++k)
+    unit[k] =
+        K(k, k) > no_stiffness * largest[turns[static_cast<std::size_t>(k)] ? 1 : 0] ? 1.0 / std::sqrt(K(k, k)) : 0.0;
+  return unit;
+}
+
+/// A with |A f|² = fᵀ K⁺ f for forces f in equilibrium: K scaled by `unit`, without the motions that have no force.
+MatrixXd inverse_root(const MatrixXd& K, const VectorXd& unit, double none) {
   const Solver solver(unit.asDiagonal() * K * unit.asDiagonal());
   const VectorXd& lambda = solver.eigenvalues();
   Index first = 0;
@@ -96,6 +117,46 @@ MatrixXd inverse_root(const MatrixXd& K, double none) {
   const Index rank = lambda.size() - first;
   return lambda.tail(rank).cwiseSqrt().cwiseInverse().asDiagonal() * solver.eigenvectors().rightCols(rank).transpose() *
          unit.asDiagonal();
+}
+
+/// Rigid motions of the boundary coordinates about the mean of its nodes, and a unit for each: 1 for translations, 1/l
+/// for rotations.
+struct BoundaryMotions {
+  MatrixXd R;  ///< n_B x 6, in these units
+  VectorXd unit;
+};
+
+BoundaryMotions boundary_motions(const InternalProblem& problem) {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (const MeshBoundary& node : problem.mesh.boundary) center += problem.mesh.position.col(node.node);
+  center /= static_cast<double>(problem.mesh.boundary.size());
+  BoundaryMotions motions{rows(rigid_motions_about(problem.system, center), problem.partition.boundary), {}};
+  const auto turns = [&motions](Index k) { return motions.R.row(k).head<3>().isZero(0.0); };
+  double length = 0.0;
+  for (Index k = 0; k < motions.R.rows(); ++k)
+    if (!turns(k)) length = std::max(length, motions.R.row(k).tail<3>().norm());
+  if (!(length > 0.0)) length = 1.0;
+  motions.unit.setOnes(motions.R.rows());
+  for (Index k = 0; k < motions.R.rows(); ++k)
+    if (turns(k)) motions.unit[k] = 1.0 / length;
+  motions.R = motions.unit.cwiseInverse().asDiagonal() * motions.R;
+  motions.R.rightCols<3>() /= length;
+  return motions;
+}
+
+/// inverse_root() of S of the boundary, whose rigid motions have no force exactly: what they alone move (a turn about
+/// the line through all nodes) has a diagonal of round-off, which is no scale.
+MatrixXd boundary_root(const InternalProblem& problem, const MatrixXd& S) {
+  const Index n = S.rows();
+  const BoundaryMotions rigid = boundary_motions(problem);
+  const MatrixXd P = MatrixXd::Identity(n, n) - rigid.R * rigid.R.completeOrthogonalDecomposition().pseudoInverse();
+  const MatrixXd strained = P * (rigid.unit.asDiagonal() * S * rigid.unit.asDiagonal()) * P;
+  const double largest = strained.diagonal().maxCoeff();
+  VectorXd unit(n);
+  for (Index k = 0; k < n; ++k)
+    unit[k] =
+        P(k, k) > only_rigid && largest > 0.0 ? 1.0 / std::sqrt(std::max(strained(k, k), no_stiffness * largest)) : 0.0;
+  return inverse_root(strained, unit, no_strain) * P * rigid.unit.asDiagonal();
 }
 
 /// Forces of all pairs on x, and Σ f_eᵀ K_e⁺ f_e.
@@ -163,7 +224,7 @@ class PairAssembly {
       for (int c = 0; c < out.at.size; ++c)
         if (const int x = out.at.first[i] + c; !ties_.empty() && ties_.row_of[x] >= 0)
           out.f.noalias() += K.col(out.at.size * i + c) * moved_.row(ties_.row_of[x]);
-    out.root.noalias() = inverse_root(K, no_force) * out.f;
+    out.root.noalias() = inverse_root(K, unit_of(K, turns_of(out.at)), no_force) * out.f;
   }
 
   void add(int count) {
@@ -209,7 +270,7 @@ MatrixXd shared_energy(const InternalProblem& problem, const BoundaryModes& boun
     energy.noalias() += f_I.transpose() * problem.S_II.solve(f_I);
     h.noalias() += boundary.Psi.transpose() * f_I;
   }
-  const MatrixXd root = inverse_root(boundary.S, no_strain) * h;
+  const MatrixXd root = boundary_root(problem, boundary.S) * h;
   energy.noalias() += root.transpose() * root;
   return energy;
 }
@@ -221,7 +282,15 @@ TrappedEnergy trapped_energy(const InternalProblem& problem, const BoundaryModes
   PairForces pairs = PairAssembly(problem, ties, shapes).run();
   TrappedEnergy energy{std::move(pairs.gram), {}};
   energy.own = energy.gram.diagonal();
-  energy.gram -= shared_energy(problem, boundary, pairs.force);
+  const MatrixXd shared = shared_energy(problem, boundary, pairs.force);
+  for (Index pair = 0; pair < shared.rows(); ++pair)
+    if (!(shared(pair, pair) <= (1.0 + shared_accepted) * energy.own[pair] + round_off * energy.own.sum()))
+      throw Error(
+          fmt::format("double_curvature: displacements take up {:.3g} of the energy of a pair of shapes, of which "
+                      "the elements have {:.3g}: round-off",
+                      shared(pair, pair), energy.own[pair]),
+          problem.where, "leave out `double_curvature`, or ask for fewer shapes");
+  energy.gram -= shared;
   return energy;
 }
 

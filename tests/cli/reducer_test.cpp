@@ -120,8 +120,9 @@ TEST_F(Reducer, OutputsAreLookedAtBeforeTheWork) {
   full.standard_output = "/dev/full";
   expect_error(call({program("reducer"), "show", "se.superelement.h5"}, full), {"standard output", "No space left"});
   where.file_size = 2000;
-  expect_error(reducer({"run", "beam.part.yaml"}), {"beam.superelement.h5"});
-  EXPECT_FALSE(std::filesystem::exists(file("beam.superelement.h5")));
+  expect_error(reducer({"run", "beam.part.yaml"}), {"beam.companion.h5", "cannot write the file"});
+  for (const char* name : {"beam.superelement.h5", "beam.companion.h5", "beam.superelement.certificate.json"})
+    EXPECT_FALSE(std::filesystem::exists(file(name))) << name;
 }
 
 // A circle of radius 0.03: area pi 0.0009.

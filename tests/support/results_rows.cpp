@@ -26,7 +26,7 @@ formats::ResultsLayout example_layout() {
   layout.bushings = {"mount", "pad"};
   layout.frictions = {"slide"};
   layout.tyres = {"front", "rear"};
-  layout.treads = true;
+  layout.treads = layout.strained = true;
   layout.superelement_content_ids = {std::string(64, 'a'), std::string(64, 'b')};
   return layout;
 }
@@ -47,8 +47,12 @@ void fill_row(int t, formats::ResultsRow& row) {
   fill(row.node_angular_acceleration);
   fill(row.frame_position);
   fill(row.frame_rotation);
+  for (Eigen::Matrix3Xd* block :
+       {&row.frame_acceleration, &row.frame_angular_velocity, &row.frame_angular_acceleration})
+    fill(*block);
   fill(row.y);
   fill(row.y_rate);
+  fill(row.y_strain);
   fill(row.boundary_force);
   fill(row.w);
   fill(row.w_rate);

@@ -222,7 +222,11 @@ Stiffening planar_stiffening(const Stiffening& from, const Split& whole, const S
   to.Gamma = quadratic_forms(kept, unit,
                              VectorXd::Constant(static_cast<Eigen::Index>(kept.size()), largest_entry(kept, unit)));
   to.L = MatrixXd::Zero(to.Gamma.count, whole.in.cols());
-  for (std::size_t a = 0; a < rows.size(); ++a) to.L.row(static_cast<Eigen::Index>(a)) = from.L.row(rows[a]) * whole.in;
+  to.inverse = MatrixXd::Zero(whole.in.cols(), to.Gamma.count);
+  for (std::size_t a = 0; a < rows.size(); ++a) {
+    to.L.row(static_cast<Eigen::Index>(a)) = from.L.row(rows[a]) * whole.in;
+    to.inverse.col(static_cast<Eigen::Index>(a)) = whole.in.transpose() * from.inverse.col(rows[a]);
+  }
   to.L_blocks = block_columns(to.L, 0.0);
   to.reach.setZero(to.L.rows(), 2);
   for (const SuperelementNode& node : planar.node) {

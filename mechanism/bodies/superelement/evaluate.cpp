@@ -168,16 +168,48 @@ Eigen::Index file_coordinate_count(const SuperelementBody& body) {
   return static_cast<Eigen::Index>(body.file.boundary_row.size() + body.file.internal_row.size());
 }
 
-void file_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
-                      Eigen::Ref<Eigen::VectorXd> out) {
-  const LocalMotion<double>& motion = scratch.motion;
+namespace {
+
+/// Coordinates of the body, or their rates, in those of the file.
+void to_file_rows(const SuperelementBody& body, const Eigen::VectorXd& boundary, const Eigen::VectorXd& internal,
+                  Eigen::Ref<Eigen::VectorXd> out) {
   for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i)
-    out[body.file.boundary_row[i]] = boundary_of_file(body, motion.y_B, i);
+    out[body.file.boundary_row[i]] = boundary_of_file(body, boundary, i);
   for (std::size_t k = 0; k < body.file.internal_row.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
     out[body.file.internal_row[k]] =
-        body.file.static_part.row(row).dot(motion.y_B) + body.file.modal_part.row(row).dot(motion.y_I);
+        body.file.static_part.row(row).dot(boundary) + body.file.modal_part.row(row).dot(internal);
   }
+}
+
+}  // namespace
+
+void file_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
+                      Eigen::Ref<Eigen::VectorXd> out) {
+  to_file_rows(body, scratch.motion.y_B, scratch.motion.y_I, out);
+}
+
+void strain_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
+                        Eigen::Ref<Eigen::VectorXd> out) {
+  if (!body.second_order.stiffening) return file_coordinates(body, scratch, out);
+  const Eigen::VectorXd strained =
+      scratch.forces.strain.y + body.second_order.stiffening->inverse * scratch.forces.strain.g;
+  to_file_rows(body, strained.head(body.boundary_size), strained.tail(body.modes), out);
+}
+
+FrameAcceleration frame_acceleration_of(const SuperelementBody& body, SuperelementScratch& scratch,
+                                        const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity) {
+  LocalMotion<double>& motion = scratch.motion;
+  if (body.inertia != formats::InertiaOption::M && !body.second_order.inertia) {  // otherwise update_kinematics() has
+    deformation_rates(body, nodes, motion);
+    if (body.planar)
+      planar::deformation_accelerations(body, nodes, motion);
+    else
+      deformation_accelerations(body, nodes, motion);
+  }
+  const Eigen::Matrix3d axes = body.planar ? body.axes : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+  return {axes * (motion.origin_acceleration - motion.R0.transpose() * gravity), axes * motion.Omega0,
+          axes * motion.Omega0d};
 }
 
 void file_rates(const SuperelementBody& body, SuperelementScratch& scratch, const NodeView<NodeMotion>& nodes,
@@ -185,13 +217,7 @@ void file_rates(const SuperelementBody& body, SuperelementScratch& scratch, cons
   LocalMotion<double>& motion = scratch.motion;
   if (!body.damping.active)  // otherwise update_kinematics() has done it
     deformation_rates(body, nodes, motion);
-  for (std::size_t i = 0; i < body.file.boundary_row.size(); ++i)
-    out[body.file.boundary_row[i]] = boundary_of_file(body, motion.deformation_rate_B, i);
-  for (std::size_t k = 0; k < body.file.internal_row.size(); ++k) {
-    const auto row = static_cast<Eigen::Index>(k);
-    out[body.file.internal_row[k]] = body.file.static_part.row(row).dot(motion.deformation_rate_B) +
-                                     body.file.modal_part.row(row).dot(motion.rate_I);
-  }
+  to_file_rows(body, motion.deformation_rate_B, motion.rate_I, out);
 }
 
 void boundary_weight(const SuperelementBody& body, const TangentCoefficients& coefficients,

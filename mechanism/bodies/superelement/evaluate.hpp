@@ -171,6 +171,21 @@ SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratc
 void file_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
                       Eigen::Ref<Eigen::VectorXd> out);
 
+/// y + L⁺ g in the same coordinates and order, with g the second-order part of the generalised strains L y + g: what
+/// has the strain of the body linearly, so that stress follows from it (formats/RESULTS.md, /superelements/y_strain). y
+/// itself without stiffening. After residual().
+void strain_coordinates(const SuperelementBody& body, const SuperelementScratch& scratch,
+                        Eigen::Ref<Eigen::VectorXd> out);
+
+/// Acceleration of the origin of the floating frame less gravity (world axes), its angular velocity and angular
+/// acceleration: axes of the part.
+struct FrameAcceleration {
+  Eigen::Vector3d felt, angular_velocity, angular_acceleration;
+};
+/// After update_kinematics() with the same nodes.
+FrameAcceleration frame_acceleration_of(const SuperelementBody& body, SuperelementScratch& scratch,
+                                        const NodeView<NodeMotion>& nodes, const Eigen::Vector3d& gravity);
+
 /// Rates of file_coordinates(). After update_kinematics() with the same nodes.
 void file_rates(const SuperelementBody& body, SuperelementScratch& scratch, const NodeView<NodeMotion>& nodes,
                 Eigen::Ref<Eigen::VectorXd> out);

@@ -143,6 +143,21 @@ std::vector<int> order_by_entries(const std::vector<MatrixXd>& Gamma, const Vect
 
 }  // namespace
 
+namespace {
+
+/// N x rows of the triangular L of the boundary and the diagonal one of the internal coordinates; zero for rows Λ.
+MatrixXd inverse_rows(const MatrixXd& L, const std::vector<int>& pivot, int modes) {
+  const auto strained = static_cast<Eigen::Index>(pivot.size()), nb = L.cols() - modes;
+  MatrixXd inverse = MatrixXd::Zero(L.cols(), L.rows());
+  const MatrixXd at_pivots = L.topRows(strained)(Eigen::all, pivot);
+  const MatrixXd solved = at_pivots.triangularView<Eigen::Upper>().solve(MatrixXd::Identity(strained, strained));
+  for (Eigen::Index a = 0; a < strained; ++a) inverse.row(pivot[a]).head(strained) = solved.row(a);
+  for (Eigen::Index i = 0; i < modes; ++i) inverse(nb + i, strained + i) = 1.0 / L(strained + i, nb + i);
+  return inverse;
+}
+
+}  // namespace
+
 Stiffening make_stiffening(const SuperelementBody& body, const formats::Companion& companion) {
   const int nb = body.boundary_size, m = body.modes;
   const VectorXd unit = coordinate_units(body);
@@ -166,6 +181,7 @@ Stiffening make_stiffening(const SuperelementBody& body, const formats::Companio
   Gamma.insert(Gamma.end(), companion.Lambda.begin(), companion.Lambda.end());
   const auto trapped = static_cast<int>(companion.Lambda.size());  // rows that no coordinate stretches
   L.conservativeResizeLike(MatrixXd::Zero(strained + m + trapped, nb + m));
+  const MatrixXd inverse = inverse_rows(L, boundary.pivot, m);
   const double largest = largest_entry(Gamma, unit);
   const std::vector<int> order = order_by_entries(Gamma, unit, QuadraticForms::round_off * largest);
   std::vector<MatrixXd> ordered;
@@ -174,6 +190,8 @@ Stiffening make_stiffening(const SuperelementBody& body, const formats::Companio
   out.Gamma = quadratic_forms(ordered, unit, VectorXd::Constant(L.rows(), largest));
   out.L = MatrixXd::Zero(out.Gamma.count, nb + m);
   out.L.topRows(L.rows()) = L(order, Eigen::all);
+  out.inverse = MatrixXd::Zero(nb + m, out.Gamma.count);
+  out.inverse.leftCols(L.rows()) = inverse(Eigen::all, order);
   out.L_blocks = block_columns(out.L, 0.0);
   out.reach.setZero(out.L.rows(), 2);
   for (const SuperelementNode& node : body.node) {

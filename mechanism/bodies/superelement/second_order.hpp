@@ -24,6 +24,7 @@ struct Stiffening {
   BlockColumns L_blocks;                           ///< the same
   QuadraticForms Gamma;                            ///< rows
   Eigen::Matrix<double, Eigen::Dynamic, 2> reach;  ///< rows x 2: Σ_k |l_ak| over translations of nodes, over rotations
+  Eigen::MatrixXd inverse;  ///< N x rows: L · inverse = 1 on the rows in which L is not zero; the other columns are 0
 };
 
 /// T = ½ ‖Φ ξ + Ω × Φ y‖²_M with ξ = R (ν + J₀⁻¹ n₂) + ẏ, ν = (v₀, Ω).

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "common/error.hpp"
+#include "formats/recovery/load_factors.hpp"
 #include "tests/support/bodies/small_recovery.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/thrown.hpp"
@@ -74,6 +75,71 @@ TEST(RecoveryFile, RoundTripKeepsTablesAndRoundsFieldsToFloats) {
     EXPECT_EQ(reader.read(field, 0, count), all);
     EXPECT_EQ(reader.read(field, count - 1, 1), all.bottomRows(width(field)));
   }
+}
+
+/// small_recovery() with loads, whose fields are those of the coordinates times 1, 2, ...
+Recovery loaded_recovery() {
+  Recovery r = small_recovery();
+  RecoveryLoads loads;
+  loads.reference_point = {0.1, 0.2, 0.3};
+  const Eigen::Index n = r.coordinates();
+  loads.share = Eigen::MatrixXd::Random(n, inertia_loads);
+  loads.stiffness = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index k = 0; k < n; ++k)
+    if (r.dof_node[static_cast<std::size_t>(k)] < 0) loads.stiffness[k] = 4.0;
+  loads.left_out = 9.0;
+  r.loads = loads;
+  return r;
+}
+
+TEST(RecoveryFile, HoldsAnswersToInertiaLoads) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.recovery.h5");
+  const Recovery expected = loaded_recovery();
+  RecoveryWriter writer(path, expected);
+  for (const RecoveryField field : recovery_fields) {
+    const Eigen::MatrixXd of_coordinates = small_field(expected, field);
+    writer.append(field, of_coordinates);
+    writer.append_loads(field, of_coordinates.leftCols<inertia_loads>() * 2.0);
+  }
+  writer.finish();
+  const RecoveryReader reader(path);
+  ASSERT_TRUE(reader.recovery().loads);
+  EXPECT_EQ(reader.recovery().loads->share, expected.loads->share);
+  EXPECT_EQ(reader.recovery().loads->stiffness, expected.loads->stiffness);
+  EXPECT_EQ(reader.recovery().loads->reference_point, expected.loads->reference_point);
+  EXPECT_EQ(reader.recovery().loads->left_out, 9.0);
+  for (const RecoveryField field : recovery_fields) {
+    const FieldRows answers = (small_field(expected, field).leftCols<inertia_loads>() * 2.0).cast<float>();
+    EXPECT_EQ(reader.read_loads(field, 0, items(expected, field)), answers);
+  }
+}
+
+TEST(RecoveryFile, LoadsAreChecked) {
+  const auto fault = [](const auto& change) {
+    Recovery r = loaded_recovery();
+    change(*r.loads);
+    return error_of([&] { check(r, "a.recovery.h5"); });
+  };
+  EXPECT_EQ(fault([](RecoveryLoads&) {}), "no error");
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.stiffness[0] = 1.0; }),
+              HasSubstr("/loads/stiffness: entry 0 is 1"));
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.stiffness.tail<1>()[0] = 0.0; }), HasSubstr("/loads/stiffness"));
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.share(0, 3) = std::numeric_limits<double>::quiet_NaN(); }),
+              HasSubstr("/loads/share"));
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.share.conservativeResize(2, 12); }), HasSubstr("/loads/share"));
+  EXPECT_THAT(fault([](RecoveryLoads& loads) { loads.left_out = -1.0; }), HasSubstr("/loads/left_out"));
+}
+
+// The acceleration of a point at d from another one: a + ω' x d + ω x (ω x d), on a turntable and while it speeds up.
+TEST(LoadFactors, AreThoseOfTheReferencePoint) {
+  const Eigen::Vector3d d(0.5, 0.0, 0.0), spin(0.0, 0.0, 3.0), rate(0.0, 0.0, 2.0);
+  const auto f = inertia_factors({0.0, 0.0, 9.81}, spin, rate, d);
+  Eigen::Matrix<double, inertia_loads, 1> expected;
+  expected << 0.5 * 9.0, -0.5 * 2.0, -9.81, 0.0, 0.0, -2.0, 0.0, 0.0, 9.0, 0.0, 0.0, 0.0;
+  EXPECT_LT((f - expected).norm(), 1e-12);
+  const auto tilted = inertia_factors(Eigen::Vector3d::Zero(), {1.0, 2.0, 3.0}, Eigen::Vector3d::Zero(), d);
+  EXPECT_EQ(tilted.tail<3>(), Eigen::Vector3d(12.0, 6.0, 4.0));
 }
 
 // Whenever they are written: HDF5 stamps what it creates with the second.

@@ -54,10 +54,10 @@ TEST(Results, EveryChannelComesBackBitEqual) {
   EXPECT_EQ(reader.rows(), 700u);
   std::map<std::string, std::string> unit;
   for (const Channel& channel : reader.channels()) unit[channel.name] = channel.unit;
-  // 1 time, 3 nodes x (5 x 3 + 4), 2 frames x 7, 5 coordinates y with rates, 2 of a modal body with rates, 3 boundary
-  // nodes x 6, 2 joints x 8, 2 couplings x 2, 2 drives, 2 springs, 1 stop, 2 bushings x 6, friction x 6, 2 tyres x 18,
-  // 7 energies, 4 of solver.
-  EXPECT_EQ(unit.size(), 1u + 57 + 14 + 10 + 4 + 18 + 16 + 4 + 2 + 21 + 44 + 7 + 4);
+  // 1 time, 3 nodes x (5 x 3 + 4), 2 frames x (7 + 9), 5 coordinates y with rates and strains, 2 of a modal body with
+  // rates, 3 boundary nodes x 6, 2 joints x 8, 2 couplings x 2, 2 drives, 2 springs, 1 stop, 2 bushings x 6, friction x
+  // 6, 2 tyres x 18, 7 energies, 4 of solver.
+  EXPECT_EQ(unit.size(), 1u + 57 + 14 + 18 + 10 + 5 + 4 + 18 + 16 + 4 + 2 + 21 + 44 + 7 + 4);
   ResultsRow row;
   row.resize(layout);
   const std::map<std::string, std::function<double()>> expected{
@@ -71,6 +71,10 @@ TEST(Results, EveryChannelComesBackBitEqual) {
       {"nodes/angular_acceleration/hub/y", [&] { return row.node_angular_acceleration(1, 2); }},
       {"superelements/frame_position/frame/x", [&] { return row.frame_position(0, 1); }},
       {"superelements/frame_rotation/beam/y", [&] { return row.frame_rotation(2, 0); }},
+      {"superelements/frame_acceleration/frame/z", [&] { return row.frame_acceleration(2, 1); }},
+      {"superelements/frame_angular_velocity/beam/x", [&] { return row.frame_angular_velocity(0, 0); }},
+      {"superelements/frame_angular_acceleration/frame/y", [&] { return row.frame_angular_acceleration(1, 1); }},
+      {"superelements/y_strain/frame/0", [&] { return row.y_strain[3]; }},
       {"superelements/y/beam/1", [&] { return row.y[1]; }},
       {"superelements/y/frame/0", [&] { return row.y[3]; }},
       {"superelements/boundary_force/beam/tip/moment_z", [&] { return row.boundary_force(5, 1); }},
@@ -152,12 +156,27 @@ TEST(Results, OnlyChosenChannelsAreStored) {
   std::map<std::string, int> groups;
   for (const Channel& channel : reader.channels())
     ++groups[channel.name.substr(0, channel.name.rfind('/', channel.name.find('/') + 15))];
-  EXPECT_EQ(reader.channels().size(), 1u + 9 + 7 + 14);
+  EXPECT_EQ(reader.channels().size(), 1u + 9 + 7 + 14 + 18);
   EXPECT_THAT(error_of([&] { static_cast<void>(reader.read("nodes/velocity/hub/x")); }), HasSubstr("has no channel"));
   const hdf5::InputFile file(folder.file("a.h5"), hdf5::Completeness::closed);
   EXPECT_THAT(file.members("/nodes"), ElementsAre("name", "position"));
   EXPECT_FALSE(file.has("/joints"));
   EXPECT_FALSE(file.has("/solver"));
+}
+
+// Stress that follows from y alone would hold the foreshortening of deflected bodies.
+TEST(Results, CoordinatesAreStoredWithTheirStrain) {
+  const TemporaryFolder folder;
+  ResultsLayout layout = example_layout();
+  layout.channels = {"superelements/y"};
+  write_rows(folder.file("a.h5"), layout, 3);
+  const ResultsReader reader(folder.file("a.h5"));
+  EXPECT_TRUE(reader.layout().strained);
+  EXPECT_EQ(reader.version(), "1.10");
+  EXPECT_EQ(reader.channels().size(), 1u + 5 + 5);
+  layout.strained = false;
+  write_rows(folder.file("b.h5"), layout, 3);
+  EXPECT_FALSE(ResultsReader(folder.file("b.h5")).layout().strained);
 }
 
 TEST(Results, SingleNodesAreChosenWithTheirDatasets) {

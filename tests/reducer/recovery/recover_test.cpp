@@ -49,12 +49,6 @@ formats::Part cantilever() {
   return part;
 }
 
-void write(const Recovered& r, const std::string& path) {
-  formats::RecoveryWriter writer(path, r.tables);
-  for (const formats::RecoveryField field : formats::recovery_fields) writer.append(field, r.of(field));
-  writer.finish();
-}
-
 /// Results with superelements of the same coordinates, all frames at `position` turned by `rotation`.
 struct StoredRun {
   std::vector<std::string> bodies{"arm"};

@@ -9,20 +9,24 @@ namespace tisserand::testing {
 namespace {
 
 void keep(const reducer::RecoverySource& source, Recovered& result) {
-  std::array<Eigen::Index, 5> filled{};
+  std::array<Eigen::Index, 5> filled{}, answered{};
   result.tables = reducer::recovery_tables(source);
   formats::check(result.tables, "part.recovery.h5");
   for (const formats::RecoveryField field : formats::recovery_fields)
     result.field[static_cast<std::size_t>(field)].resize(
         static_cast<Eigen::Index>(formats::width(field)) * formats::items(result.tables, field),
         result.tables.coordinates());
+  for (std::size_t f = 0; f < 5; ++f)
+    result.loads[f].resize(result.field[f].rows(), result.tables.loads ? formats::inertia_loads : 0);
   const auto unheard = [](double /*done*/) {};
-  reducer::recovery_fields(source, result.tables, unheard,
-                           [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) {
-                             const auto f = static_cast<std::size_t>(field);
-                             result.field[f].middleRows(filled[f], rows.rows()) = rows;
-                             filled[f] += rows.rows();
-                           });
+  const auto fill = [](std::array<Eigen::MatrixXd, 5>& fields, std::array<Eigen::Index, 5>& rows_of) {
+    return [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) {
+      const auto f = static_cast<std::size_t>(field);
+      fields[f].middleRows(rows_of[f], rows.rows()) = rows;
+      rows_of[f] += rows.rows();
+    };
+  };
+  reducer::recovery_fields(source, result.tables, unheard, fill(result.field, filled), fill(result.loads, answered));
   for (std::size_t f = 0; f < filled.size(); ++f) TISSERAND_ENSURE(filled[f] == result.field[f].rows(), "field {}", f);
 }
 
@@ -54,6 +58,15 @@ std::pair<Recovered, formats::ModalBody> recovered_modal_body(formats::Part part
         if (source.is_modal) keep(source, result);
       });
   return {std::move(result), std::move(*reduction.modal_body)};
+}
+
+void write(const Recovered& r, const std::string& path) {
+  formats::RecoveryWriter writer(path, r.tables);
+  for (const formats::RecoveryField field : formats::recovery_fields) {
+    writer.append(field, r.of(field));
+    if (r.tables.loads) writer.append_loads(field, r.loads[static_cast<std::size_t>(field)]);
+  }
+  writer.finish();
 }
 
 void set_boundary(reducer::Mesh& mesh, const std::vector<int>& nodes, bool rotations) {

@@ -18,6 +18,7 @@ namespace tisserand::testing {
 struct Recovered {
   formats::Recovery tables;
   std::array<Eigen::MatrixXd, 5> field;  ///< by RecoveryField
+  std::array<Eigen::MatrixXd, 5> loads;  ///< the same of the inertia loads; without columns where there are none
   formats::Superelement superelement;
 
   const Eigen::MatrixXd& of(formats::RecoveryField which) const { return field[static_cast<std::size_t>(which)]; }
@@ -28,6 +29,9 @@ Recovered recovered(const reducer::Mesh& mesh, int modes);
 
 /// What the part's modal body has for recovery, and that body.
 std::pair<Recovered, formats::ModalBody> recovered_modal_body(formats::Part part);
+
+/// The recovery file.
+void write(const Recovered& r, const std::string& path);
 
 /// Boundary nodes of six coordinates, or of translations, at these nodes, named b0, b1, ...
 void set_boundary(reducer::Mesh& mesh, const std::vector<int>& nodes, bool rotations);

@@ -1,0 +1,30 @@
+// The twelve inertia loads of a floating frame, and what the part answers to them beyond its internal coordinates.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "reducer/modes/internal_modes.hpp"
+
+namespace tisserand::reducer {
+
+inline constexpr int inertial = 12;  ///< loads: six rigid accelerations, six centrifugal ones
+
+/// g_a = M D_a and g_jk = −½ ([e_k x] M D_3+j + [e_j x] M D_3+k), on the rows of MD.
+Eigen::MatrixXd inertia_loads(const Eigen::MatrixXd& MD);
+
+/// Displacements of q under forces on q with the boundary held, less the share of the modes that are kept:
+/// w = K_II⁻¹ g − Φ_I Λ⁻¹ Φ_Iᵀ g.
+Eigen::MatrixXd residual_displacements(const InternalProblem& problem, const InternalModes& internal,
+                                       const Eigen::MatrixXd& force);
+
+/// Static answers to the twelve loads about a point of the part frame.
+struct InertiaAnswers {
+  Eigen::Vector3d reference_point = Eigen::Vector3d::Zero();
+  Eigen::MatrixXd x;      ///< displacements of all coordinates of the mesh x 12
+  Eigen::MatrixXd share;  ///< m x 12: Φ_Iᵀ g
+};
+
+InertiaAnswers inertia_answers(const InternalProblem& problem, const InternalModes& internal,
+                               const Eigen::Vector3d& reference_point);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,160 @@
+// Stress recovered from runs with second order and from bases that lack the shapes of their load, end to end: reduced,
+// run, recovered, against closed forms (tests/verification/references/trials, table B of the trials of November 2026).
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+
+#include "formats/results/results.hpp"
+#include "tests/cli/scenes.hpp"
+
+namespace tisserand::cli::recovered_stress_test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+namespace fs = std::filesystem;
+
+class RecoveredStress : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!fs::exists(program("reducer"))) GTEST_SKIP() << "built without the reducer";
+    where.folder = folder.path().string();
+  }
+
+  void take(const std::string& name) const {
+    fs::copy_file(fs::path(TISSERAND_SOURCE_DIR "/tests/verification/references/trials") / name, folder.file(name),
+                  fs::copy_options::overwrite_existing);
+  }
+  Outcome reduce(const std::string& part, std::vector<std::string> more = {}) const {
+    take(part + ".part.yaml");
+    std::vector<std::string> words{program("reducer"), "run", part + ".part.yaml"};
+    words.insert(words.end(), more.begin(), more.end());
+    return call(words, where);
+  }
+  void run(const std::string& scene, const std::vector<std::string>& settings) const {
+    take(scene + ".scene.yaml");
+    std::vector<std::string> words{program("mechanism"), "run", scene + ".scene.yaml", "-o", "run.results.h5"};
+    for (const std::string& setting : settings) words.insert(words.end(), {"--set", setting});
+    const Outcome outcome = call(words, where);
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+  }
+  std::string recover(const std::string& part) const {
+    const Outcome outcome =
+        call({program("reducer"), "recover", part + ".recovery.h5", "run.results.h5", "-o", "out"}, where);
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    return outcome.out;
+  }
+  /// The number behind `what` in the lines of recover.
+  static double told(const std::string& text, const std::string& what) {
+    const std::size_t at = text.find(what);
+    return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + what.size()));
+  }
+  double beam_stress(const std::string& part, const std::string& scene,
+                     const std::vector<std::string>& settings) const {
+    run(scene, settings);
+    return told(recover(part), "largest stress of beams");
+  }
+
+  test_support::TemporaryFolder folder;
+  Surroundings where;
+};
+
+// 17.5 N m on a square bar of 10 mm: M/W = 105 MPa, whatever the frame; the deflection is five thicknesses.
+TEST_F(RecoveredStress, OfABentCantileverIsThatOfItsMoment) {
+  ASSERT_EQ(reduce("stress_cantilever").code, 0);
+  for (const char* setting : {"bodies.bar.frame=karcher", "bodies.bar.frame={node: base}",
+                              "bodies.bar.frame={node: tip}", "bodies.bar.second_order=off", "bodies.bar.modes=4"}) {
+    run("stress_cantilever", {setting});
+    const std::string text = recover("stress_cantilever");
+    EXPECT_NEAR(told(text, "largest stress of beams"), 105e6, 0.002 * 105e6) << setting;
+    EXPECT_THAT(text, AllOf(HasSubstr("stress left out by modes"), Not(HasSubstr("note")))) << setting;
+  }
+}
+
+// M(x) = M cos(k(L - x)) / cos(kL), k² = P/EI [Timoshenko and Gere, Theory of elastic stability, 1.12]: P/A + M(0)/W.
+TEST_F(RecoveredStress, OfACompressedColumnGrowsWithItsDeflection) {
+  ASSERT_EQ(reduce("stress_cantilever").code, 0);
+  const double EI = 2.1e11 * 1e-8 / 12.0, P = 215.8977, k = std::sqrt(P / EI);
+  const double exact = P / 1e-4 + 5.0 / std::cos(k) / (1e-6 / 6.0);
+  EXPECT_NEAR(k, std::numbers::pi / 2.0 * std::sqrt(0.5), 1e-5);
+  for (const char* setting : {"bodies.bar.frame=karcher", "bodies.bar.frame={node: base}"})
+    EXPECT_NEAR(beam_stress("stress_cantilever", "stress_column", {setting}), exact, 0.005 * exact) << setting;
+}
+
+// 6 P (L - x)/(b t²), membrane stress about nothing: as the linear run has it, also at the free tip.
+TEST_F(RecoveredStress, OfABentStripOfShellsIsThatOfTheLinearRun) {
+  ASSERT_EQ(reduce("stress_strip").code, 0);
+  const auto stress = [&](const std::string& second_order) {
+    run("stress_strip", {"bodies.c.second_order=" + second_order});
+    return told(recover("stress_strip"), "largest von Mises of shells");
+  };
+  const double linear = stress("off");
+  EXPECT_NEAR(linear, 145.8e6, 0.005 * 145.8e6);
+  EXPECT_NEAR(stress("on"), linear, 0.01 * linear);
+}
+
+// N/A = ρ Ω² L²/2 = 39.0 MPa at the hub, less the share of the first node: 1 - h²/(3 L²) of 20 elements.
+TEST_F(RecoveredStress, OfASpinningBarDoesNotDependOnItsModes) {
+  const double exact = 39.0e6 * (1.0 - 0.05 * 0.05 / 3.0);
+  for (const std::vector<std::string>& basis :
+       {std::vector<std::string>{}, {"--set", "modes=20"}, {"--set", "moments=6"}, {"--set", "moments=12"}}) {
+    ASSERT_EQ(reduce("spinning_bar", basis).code, 0);
+    for (const char* setting :
+         {"bodies.c.modes=3", "bodies.c.mirror=yz", "bodies.c.frame={node: b}", "bodies.c.frame=karcher"})
+      EXPECT_NEAR(beam_stress("spinning_bar", "spinning_bar", {setting}), exact, 0.002 * exact) << setting;
+  }
+}
+
+// A flat plate that a spider holds has modes that only bend; a cylinder of R/t = 1e4 has stresses a million times those
+// that bend it. Both had refused the companion file that the program itself had made.
+TEST_F(RecoveredStress, ThinPartsReduceWithTheirCompanion) {
+  for (const char* part : {"thin_plate_companion", "thin_cylinder_companion"}) {
+    const Outcome outcome = reduce(part);
+    EXPECT_EQ(outcome.code, 0) << outcome.error;
+    EXPECT_TRUE(fs::exists(folder.file(std::string(part) + ".companion.h5"))) << part;
+  }
+}
+
+// Nodes on a line turn about it without stress: a diagonal of round-off, by which rows had entries up to 1e67.
+TEST_F(RecoveredStress, TrappedStressOfAHingedSheetIsNoRoundOff) {
+  fs::copy_file(TISSERAND_SOURCE_DIR "/meshes/square.step", folder.file("square.step"));
+  for (const char* size : {"mesh.size=50", "mesh.size=40", "mesh.size=25"}) {
+    const Outcome outcome = reduce(
+        "double_curvature", {"--set", "double_curvature=20", "--set", size, "-o", "double_curvature.superelement.h5"});
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    run("double_curvature", {"analyses.open.type=statics"});
+  }
+}
+
+// Files of versions 1.0 and 1.9 (tests/compatibility): the stress of before, 192.6 MPa, and what it lacks.
+TEST_F(RecoveredStress, FilesOfBeforeAreReadWithNotes) {
+  const std::string before = TISSERAND_SOURCE_DIR "/tests/compatibility/";
+  const Outcome outcome = call({program("reducer"), "recover", before + "bar_1.0.recovery.h5",
+                                before + "bar_1.9.results.h5", "-o", "out", "--frame", "part"},
+                               where);
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_NEAR(told(outcome.out, "largest stress of beams"), 192.604e6, 1e3);
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("written before version 1.10"), HasSubstr("no answers to inertia loads")));
+}
+
+// A failure leaves the superelement of before, which refuses the companion of the new one.
+TEST_F(RecoveredStress, FilesOfAReductionTakeTheirNamesTogether) {
+  ASSERT_EQ(reduce("stress_cantilever").code, 0);
+  const auto superelement = read_text(folder.file("stress_cantilever.superelement.h5"));
+  const auto companion = read_text(folder.file("stress_cantilever.companion.h5"));
+  fs::remove(folder.file("stress_cantilever.superelement.certificate.json"));
+  fs::create_directory(folder.file("stress_cantilever.superelement.certificate.json"));
+  const Outcome outcome = reduce("stress_cantilever", {"--set", "modes=4"});
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_EQ(read_text(folder.file("stress_cantilever.superelement.h5")), superelement);
+  for (const auto& entry : fs::directory_iterator(folder.path()))
+    EXPECT_THAT(entry.path().string(), Not(HasSubstr(".tmp-")));
+  if (read_text(folder.file("stress_cantilever.companion.h5")) == companion) return;
+  take("stress_cantilever.scene.yaml");
+  expect_error(call({program("mechanism"), "run", "stress_cantilever.scene.yaml"}, where),
+               {"belongs to the superelement"});
+}
+
+}  // namespace
+}  // namespace tisserand::cli::recovered_stress_test
