@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "reducer/algebra/shared_factor.hpp"
-#include "reducer/modes/block_lanczos.hpp"
+#include "reducer/modes/search.hpp"
 #include "reducer/system/assembly.hpp"
 
 namespace tisserand::reducer {
@@ -21,7 +21,7 @@ void follow_leader(std::future<Mesh> made) {
           help_to_assemble(*mesh, call.count);
           break;
         case Task::search:
-          help_to_search(*parts.at(call.factor).mumps, call.count);
+          help_to_search(*parts.at(call.factor).mumps);
           break;
         default:
           take_part(call, parts);

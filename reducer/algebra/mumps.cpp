@@ -11,16 +11,6 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Columns as a dense matrix of PETSc.
-Matrix dense_view(MPI_Comm ranks, int rows, int local_rows, Eigen::Index columns, const double* values) {
-  Matrix view;
-  petsc_check(MatCreateDense(ranks, local_rows, PETSC_DECIDE, rows, static_cast<PetscInt>(columns),
-                             const_cast<double*>(values), view.out()));
-  petsc_check(MatAssemblyBegin(view.get(), MAT_FINAL_ASSEMBLY));
-  petsc_check(MatAssemblyEnd(view.get(), MAT_FINAL_ASSEMBLY));
-  return view;
-}
-
 double in_millions_if_negative(PetscInt count) { return count < 0 ? -1e6 * count : static_cast<double>(count); }
 
 }  // namespace
@@ -70,11 +60,10 @@ void Mumps::require_factored() const {
 Eigen::MatrixXd Mumps::solve(const Eigen::MatrixXd& B) const {
   constexpr Eigen::Index block = 32;
   Eigen::MatrixXd X(B.rows(), B.cols());
-  const MPI_Comm ranks = PetscObjectComm(reinterpret_cast<PetscObject>(factor_.get()));
   for (Eigen::Index first = 0; first < B.cols(); first += block) {
     const Eigen::Index count = std::min(block, B.cols() - first);
-    const Matrix b = dense_view(ranks, rows_, local_rows_, count, B.data() + first * B.rows());
-    const Matrix x = dense_view(ranks, rows_, local_rows_, count, X.data() + first * B.rows());
+    const Matrix b = dense_view(factor_.get(), count, B.data() + first * B.rows());
+    const Matrix x = dense_view(factor_.get(), count, X.data() + first * B.rows());
     petsc_check(MatMatSolve(factor_.get(), b.get(), x.get()));
   }
   return X;

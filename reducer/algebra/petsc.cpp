@@ -89,6 +89,18 @@ SymmetricRows symmetric_rows(const Matrix& A) {
   return rows;
 }
 
+Matrix dense_view(_p_Mat* A, Eigen::Index columns, const double* values) {
+  PetscInt rows = 0, local_rows = 0;
+  petsc_check(MatGetSize(A, &rows, nullptr));
+  petsc_check(MatGetLocalSize(A, &local_rows, nullptr));
+  Matrix view;
+  petsc_check(MatCreateDense(PetscObjectComm(reinterpret_cast<PetscObject>(A)), local_rows, PETSC_DECIDE, rows,
+                             static_cast<PetscInt>(columns), const_cast<double*>(values), view.out()));
+  petsc_check(MatAssemblyBegin(view.get(), MAT_FINAL_ASSEMBLY));
+  petsc_check(MatAssemblyEnd(view.get(), MAT_FINAL_ASSEMBLY));
+  return view;
+}
+
 Eigen::MatrixXd multiply(const Matrix& A, const Eigen::MatrixXd& X) {
   return X.size() == 0 ? Eigen::MatrixXd(X.rows(), X.cols()) : multiply(symmetric_rows(A), X);
 }

@@ -56,6 +56,9 @@ class Matrix {
 /// A view of A while it lives.
 SymmetricRows symmetric_rows(const Matrix& A);
 
+/// Columns as a dense matrix of PETSc, spread by rows as the square matrix `A` is. The values must outlive it.
+Matrix dense_view(_p_Mat* A, Eigen::Index columns, const double* values);
+
 /// A X for symmetric A (n x n) and dense X (n x k).
 Eigen::MatrixXd multiply(const Matrix& A, const Eigen::MatrixXd& X);
 

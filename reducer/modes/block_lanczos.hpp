@@ -1,10 +1,10 @@
-// Lowest eigenpairs of large pencils: eight or sixteen right-hand sides at a time, so that the factor is read once for
-// all of them.
+// Block Lanczos iteration for the lowest eigenpairs of large pencils: eight or sixteen right-hand sides at a time, so
+// that the factor is read once for all of them. eps_block_lanczos.cpp makes a type of SLEPc's EPS of it.
 #pragma once
 
-#include <optional>
+#include <functional>
 
-#include "reducer/modes/spectrum.hpp"
+#include "reducer/modes/inverse_iteration.hpp"
 
 namespace tisserand::reducer {
 
@@ -13,15 +13,38 @@ namespace tisserand::reducer {
 /// as often.
 int lanczos_block(int wanted);
 
-/// The `wanted` lowest pairs and those that converged with them, ascending, Xᵀ M X = 1, by block Lanczos iteration with
-/// (S − shift M)⁻¹ M, which is symmetric in the inner product of M: three-term recurrence, one pass of
-/// orthogonalisation against all earlier vectors, thick restart [WS00]. Converged: ‖OP x − μ x‖_M ≤ 1e-9 μ, μ = 1/(λ −
-/// shift). Starts from the same random numbers always. Empty if the basis cannot grow (an invariant subspace, hardly
-/// any mass) or does not converge. Memory: about 2.5 `wanted` + 80 vectors. If the factor lies on several ranks, so do
-/// the vectors while it runs, and sums over rows are sums over ranks.
-std::optional<EigenPairs> block_lanczos(const Pencil& pencil, int wanted);
+/// Columns of the basis for `wanted` pairs.
+int lanczos_columns(int wanted, int block);
 
-/// What the followers do meanwhile.
-void help_to_search(const Mumps& factor, int wanted);
+/// The array that the iteration works in, rows of this process.
+struct LanczosBasis {
+  Eigen::Ref<Eigen::MatrixXd> array;  ///< constraints, then the basis
+  int constraints = 0;                ///< leading columns, orthonormal by M, to which all vectors stay orthogonal
+  int initial = 0;                    ///< columns behind them that hold vectors to begin with
+};
+
+/// What whoever calls the iteration decides.
+struct LanczosControl {
+  int wanted = 0;
+  int block = 0;
+  double tolerance = 0.0;
+  int most_steps = 0;  ///< blocks at which Ritz pairs are looked at in any case
+  /// Error estimates of Ritz values μ = 1/(λ − shift) with residuals ‖OP x − μ x‖_M; converged up to `tolerance`.
+  std::function<Eigen::VectorXd(const Eigen::VectorXd& mu, const Eigen::VectorXd& residual)> errors;
+  /// Receives the steps, the number of converged pairs, μ and the estimates; whether to end.
+  std::function<bool(int steps, int converged, const Eigen::VectorXd& mu, const Eigen::VectorXd& error)> ends;
+};
+
+/// What the iteration found; the vectors are in the basis behind its constraints.
+struct LanczosPairs {
+  Eigen::VectorXd mu;      ///< of the converged pairs, largest first
+  int steps = 0;           ///< blocks that were solved for
+  bool broke_down = true;  ///< the basis cannot grow: an invariant subspace, or hardly any mass
+};
+
+/// Block Lanczos iteration with OP = (S − shift M)⁻¹ M, which is symmetric in the inner product of M: three-term
+/// recurrence, one pass of orthogonalisation against all earlier vectors, thick restart [WS00]. Starts from the same
+/// random numbers always. If several processes share the rows, sums over rows are sums over processes.
+LanczosPairs block_lanczos(const ShiftedOperator& op, const LanczosControl& control, LanczosBasis basis);
 
 }  // namespace tisserand::reducer

@@ -126,18 +126,6 @@ int wanted_modes(const InternalProblem& problem, const formats::ModeSelection& s
                           available < problem.partition.n_I() ? " or masses with rotary inertia" : ""));
 }
 
-std::string solver_text(EigenSolver solver) {
-  switch (solver) {
-    case EigenSolver::dense:
-      return "LAPACK dsygvx";
-    case EigenSolver::block_lanczos:
-      return "block Lanczos, shift-invert";
-    case EigenSolver::krylov_schur:
-      return "SLEPc Krylov-Schur, shift-invert";
-  }
-  return "";
-}
-
 }  // namespace
 
 Count count_of(formats::Verification verify) {
@@ -374,7 +362,7 @@ InternalModes internal_modes(const InternalProblem& problem, const BoundaryModes
     if (selection.cutoff && modes.requested == 0) fail_low_cutoff(selection, "internal", spectrum.pairs.value[0]);
     kept = modes.requested == 0 ? 0 : spectrum.kept;
   }
-  modes.solver = solver_text(spectrum.solver);
+  modes.solver = solver_text(spectrum.runs);
   modes.residual = spectrum.residual;
   if (spectrum.counted) modes.counted = std::min(*spectrum.counted, kept);
   if (kept < spectrum.pairs.value.size()) modes.first_dropped = spectrum.pairs.value[kept];

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "common/error.hpp"
-#include "reducer/modes/krylov_schur.hpp"
 #include "reducer/modes/spectrum.hpp"
 
 namespace tisserand::reducer {
@@ -126,9 +126,9 @@ std::pair<EigenPairs, int> lowest_factors(const Side& side, int count) {
   EigenPairs pairs{VectorXd(0), MatrixXd(pencil.S.size(), 0)};
   for (int attempt = 0, missing = wanted; attempt < attempts; ++attempt) {
     // K_g − μ S = (S + shift K_g)/shift at μ = −1/shift.
-    KrylovSchur solver(pencil.K_g, pencil.S, {-1.0 / shift, factor, shift});
-    if (pairs.value.size() > 0) solver.deflate(pairs.vector);  // equal ones hide from one Krylov sequence
-    merge(solver.solve(missing), side, pairs);
+    Eps eps(pencil.K_g, pencil.S, {-1.0 / shift, [&](const MatrixXd& X) { return MatrixXd(shift * factor.solve(X)); }});
+    eps.solve(EigenSolver::krylov_schur, missing, pairs.vector);  // equal ones hide from one Krylov sequence
+    merge(eps.pairs(std::numeric_limits<int>::max()), side, pairs);
     pencil.share(0.3 + 0.5 * (attempt + 1) / attempts);
     const auto found = static_cast<int>(pairs.value.size());
     missing = wanted - std::min(found, wanted - 1);

@@ -1,25 +1,22 @@
-// Eigenpairs by LAPACK (small) or block Lanczos iteration, SLEPc's Krylov-Schur where that does not end; counted by
-// Sylvester's law of inertia.
+// Eigenpairs by SLEPc, searched again where some are missing; counted by Sylvester's law of inertia.
 #include "reducer/modes/spectrum.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <slepcsys.h>
-#include <Eigen/Cholesky>
+#include <petscsys.h>
 
 // Does not compile before the others, so it has a block of its own.
 #include <petscblaslapack.h>
 
 #include "common/error.hpp"
-#include "common/stable_sort.hpp"
+#include "common/text.hpp"
 #include "reducer/modes/block_lanczos.hpp"
-#include "reducer/modes/krylov_schur.hpp"
+#include "reducer/modes/eps_block_lanczos.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -30,69 +27,6 @@ void append(const EigenPairs& more, EigenPairs& pairs) {
   pairs.value.tail(added) = more.value;
   pairs.vector.conservativeResize(more.vector.rows(), old + added);
   pairs.vector.rightCols(added) = more.vector;
-}
-
-/// Drops pairs whose 1/(λ − shift) is round-off beside that of the first: nearly massless coordinates have such.
-/// Expects and leaves ascending order.
-void discard_unresolved(double shift, EigenPairs& pairs) {
-  constexpr double resolved = 1e-13;
-  const Eigen::ArrayXd mu = (pairs.value.array() - shift).inverse();
-  std::vector<int> good;
-  for (int k = 0; k < mu.size(); ++k)
-    if (mu[k] > resolved * mu.maxCoeff()) good.push_back(k);
-  pairs.value = Eigen::VectorXd(pairs.value(good));
-  pairs.vector = Eigen::MatrixXd(pairs.vector(Eigen::all, good));
-}
-
-void sort_pairs(EigenPairs& pairs) {
-  std::vector<int> order(static_cast<std::size_t>(pairs.value.size()));
-  std::iota(order.begin(), order.end(), 0);
-  sort_stably(order, [&](int a, int b) { return pairs.value[a] < pairs.value[b]; });
-  if (std::is_sorted(order.begin(), order.end())) return;
-  pairs.value = Eigen::VectorXd(pairs.value(order));
-  pairs.vector = Eigen::MatrixXd(pairs.vector(Eigen::all, order));
-}
-
-/// X := X R⁻¹ with the upper triangle of Xᵀ M X = Rᵀ R: what a column has of earlier ones goes.
-void orthonormalise(const Eigen::MatrixXd& G, Eigen::MatrixXd& X) {
-  const Eigen::LLT<Eigen::MatrixXd, Eigen::Upper> factor(G);
-  if (factor.info() == Eigen::Success) factor.matrixU().solveInPlace<Eigen::OnTheRight>(X);
-}
-
-/// One step of inverse iteration, y = (λ − shift) (S − shift M)⁻¹ M x: removes from x what nearly massless coordinates
-/// hide from the solver, whose inner product is that of M. As S y − λ M y = (λ − shift) M (x − y), it tells the
-/// residual of y without the cancellation of S y. λ becomes Rayleigh's quotient. Pairs far above the first keep x,
-/// since the step amplifies the round-off along the first. Then sorted, Xᵀ M X = 1; returns the residuals, relative to
-/// (λ − shift) ‖M y‖, of far ones also to λ/λ₁. A few columns at a time: vectors take the memory here.
-Eigen::VectorXd purify(const Pencil& pencil, EigenPairs& pairs) {
-  constexpr double far = 1e4;
-  constexpr Eigen::Index at_once = 64;
-  sort_pairs(pairs);
-  discard_unresolved(pencil.shift, pairs);
-  const Eigen::VectorXd lambda = pairs.value.array() - pencil.shift;
-  Eigen::VectorXd residual(lambda.size());
-  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(lambda.size(), lambda.size());
-  for (Eigen::Index first = 0; first < lambda.size(); first += at_once) {
-    const Eigen::Index count = std::min(at_once, lambda.size() - first), end = first + count;
-    const Eigen::MatrixXd MX = multiply(pencil.M, pairs.vector.middleCols(first, count));
-    const Eigen::MatrixXd Y = pencil.factor.solve(MX * lambda.segment(first, count).asDiagonal());
-    Eigen::MatrixXd MY = multiply(pencil.M, Y);
-    residual.segment(first, count) = (MX - MY).colwise().norm().cwiseQuotient(MY.colwise().norm());
-    for (Eigen::Index c = 0; c < count; ++c) {
-      const Eigen::Index k = first + c;
-      if (lambda[k] < far * lambda[0]) {
-        pairs.value[k] = pencil.shift + lambda[k] * Y.col(c).dot(MX.col(c)) / Y.col(c).dot(MY.col(c));
-        pairs.vector.col(k) = Y.col(c);
-      } else {
-        residual[k] /= 1.0 + lambda[k] / lambda[0];
-        MY.col(c) = MX.col(c);
-      }
-    }
-    G.block(0, first, end, count).noalias() = pairs.vector.leftCols(end).transpose() * MY;
-  }
-  orthonormalise(G, pairs.vector);
-  sort_pairs(pairs);
-  return residual;
 }
 
 [[noreturn]] void fail_missing(int found, int exist) {
@@ -107,19 +41,17 @@ double value_in_gap(const EigenPairs& pairs, int kept, double shift) {
   return shift + std::sqrt(below * (pairs.value[kept] - shift));
 }
 
-Spectrum dense_spectrum(const Pencil& pencil, int count, int available) {
+Spectrum lapack_spectrum(const Pencil& pencil, int count, int available) {
   Spectrum s;
-  s.solver = EigenSolver::dense;
-  const Eigen::MatrixXd S = dense(pencil.S), M = dense(pencil.M);
-  for (int wanted = std::min(available, count + 8);; wanted = std::min(available, 2 * wanted)) {
-    s.pairs = dense_lowest(S, M, pencil.shift, wanted);
-    discard_unresolved(pencil.shift, s.pairs);
-    if (s.pairs.value.size() < count) fail_missing(static_cast<int>(s.pairs.value.size()), count);
-    s.kept = cluster_end(s.pairs.value, count, pencil.shift);
-    if (s.kept < s.pairs.value.size() || s.pairs.value.size() < wanted || wanted == available) break;
-  }
+  SearchResult all = search_all(pencil);
+  const auto found = std::min(available, static_cast<int>(all.pairs.value.size()));
+  if (found < count) fail_missing(found, count);
+  s.runs = std::move(all.runs);
+  s.kept = cluster_end(all.pairs.value.head(found), count, pencil.shift);
+  const int behind = std::min(found, std::max(s.kept + 1, count + 8));
+  s.pairs = {all.pairs.value.head(behind), all.pairs.vector.leftCols(behind)};
   s.counted = s.kept;
-  s.residual = purify(pencil, s.pairs).head(s.kept).maxCoeff();
+  s.residual = iterate_once(shifted_operator(pencil), s.pairs).head(s.kept).maxCoeff();
   return s;
 }
 
@@ -141,43 +73,48 @@ int largest_cluster(const Eigen::VectorXd& value, double shift) {
   return largest;
 }
 
-EigenPairs first_search(const Pencil& pencil, int wanted, Spectrum& s) {
-  if (s.solver == EigenSolver::block_lanczos) {
-    if (std::optional<EigenPairs> pairs = block_lanczos(pencil, wanted)) return std::move(*pairs);
-    s.solver = EigenSolver::krylov_schur;
-  }
-  return KrylovSchur(pencil.S, pencil.M, {pencil.shift, pencil.factor, 1.0}).solve(wanted);
-}
-
 Spectrum iterated_spectrum(const Pencil& pencil, int count, int available, EigenSolver solver, Count verify) {
   constexpr int attempts = 6;
-  Spectrum s;
-  s.solver = solver;
+  const ShiftedOperator op = shifted_operator(pencil);
   const int wanted = std::min(available, count + 2);
-  s.pairs = first_search(pencil, wanted, s);
+  SearchResult first = search(pencil, solver, wanted, {});
+  Spectrum s;
+  s.pairs = std::move(first.pairs);
+  s.runs = std::move(first.runs);
+  Eigen::VectorXd residual = first.residual ? *first.residual : iterate_once(op, s.pairs);
   for (int attempt = 0; attempt < attempts; ++attempt) {
-    const Eigen::VectorXd residual = purify(pencil, s.pairs);
     const auto found = static_cast<int>(s.pairs.value.size());
     if (found >= count) {
       s.kept = cluster_end(s.pairs.value, count, pencil.shift);
       s.residual = residual.head(s.kept).maxCoeff();
       if (s.kept == available) s.counted = available;
+      const int block = s.solver() == EigenSolver::block_lanczos ? lanczos_block(wanted) : 1;
       const bool needed = verify == Count::always ||
                           (verify == Count::if_cheap && counting_is_cheap(pencil.factor, count)) ||
-                          largest_cluster(s.pairs.value.head(s.kept), pencil.shift) >= lanczos_block(wanted);
+                          largest_cluster(s.pairs.value.head(s.kept), pencil.shift) >= block;
       if (s.kept < found && !needed) return s;
       if (s.kept < available) s.counted = count_kept(pencil, s.pairs, s.kept);
       if (s.counted == s.kept) return s;
     }
     // Repeated eigenvalues hide from one Krylov sequence: look for what is orthogonal.
-    KrylovSchur again(pencil.S, pencil.M, {pencil.shift, pencil.factor, 1.0});
-    again.deflate(s.pairs.vector);
-    append(again.solve(std::max(4, s.counted.value_or(0) - s.kept)), s.pairs);
+    SearchResult more = search(pencil, solver, std::max(4, s.counted.value_or(0) - s.kept), s.pairs.vector);
+    append(more.pairs, s.pairs);
+    s.runs.insert(s.runs.end(), more.runs.begin(), more.runs.end());
+    residual = iterate_once(op, s.pairs);
   }
   fail_missing(static_cast<int>(s.pairs.value.size()), std::max(count, s.counted.value_or(0)));
 }
 
 }  // namespace
+
+std::string solver_text(const std::vector<EigenRun>& runs) {
+  std::vector<std::string> texts;
+  for (const EigenRun& run : runs)
+    texts.push_back(run.type == EigenSolver::lapack
+                        ? std::string(eps_type(run.type))
+                        : fmt::format("{} ({} iterations)", eps_type(run.type), run.iterations));
+  return slepc_version() + ", " + join(texts, ", ");
+}
 
 int cluster_end(const Eigen::VectorXd& value, int count, double shift) {
   int end = count;
@@ -203,12 +140,13 @@ int count_kept(const Pencil& pencil, const EigenPairs& pairs, int kept) {
 
 EigenSolver choose_solver(Eigen::Index size, int count) {
   const bool small = size <= 200 || (size <= 4000 && 5 * (count + 8) > size);
-  return small ? EigenSolver::dense : EigenSolver::block_lanczos;
+  if (small) return EigenSolver::lapack;
+  return has_block_lanczos() ? EigenSolver::block_lanczos : EigenSolver::krylov_schur;
 }
 
 Spectrum lowest_pairs(const Pencil& pencil, int count, int available, EigenSolver solver, Count verify) {
-  Spectrum s = solver == EigenSolver::dense ? dense_spectrum(pencil, count, available)
-                                            : iterated_spectrum(pencil, count, available, solver, verify);
+  Spectrum s = solver == EigenSolver::lapack ? lapack_spectrum(pencil, count, available)
+                                             : iterated_spectrum(pencil, count, available, solver, verify);
   if (!(s.residual < 1e-8))
     throw Error(fmt::format("internal modes have a relative residual of {:.1e}, above 1e-8", s.residual),
                 "eigenvalue solver",

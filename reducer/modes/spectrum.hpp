@@ -1,47 +1,32 @@
 // Lowest eigenpairs of S x = λ M x, S positive definite after a shift, M positive semidefinite; none missed.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
-#include "reducer/algebra/factor.hpp"
-#include "reducer/algebra/petsc.hpp"
+#include "reducer/modes/search.hpp"
 
 namespace tisserand::reducer {
-
-/// λ ascending; vectors with xᵀ M x = 1.
-struct EigenPairs {
-  Eigen::VectorXd value;
-  Eigen::MatrixXd vector;
-};
-
-/// S, M and the factor of S − shift M, shift below the spectrum.
-struct Pencil {
-  const Matrix& S;
-  const Matrix& M;
-  const Factor& factor;
-  double shift = 0.0;
-  std::function<void(double)> share = [](double /*done*/) {};  ///< hears how much of a search is done, about
-  /// Hears "count" before eigenvalues are counted, "internal modes" after it.
-  std::function<void(const std::string&)> begin = [](const std::string& /*phase*/) {};
-};
-
-enum class EigenSolver { dense, block_lanczos, krylov_schur };
 
 /// Whether eigenvalues are counted by one more factorisation.
 enum class Count { always, if_cheap, never };
 
 /// Lowest pairs with what was checked about them.
 struct Spectrum {
-  EigenPairs pairs;  ///< at least `kept`, with the pairs behind the cut that were found
-  int kept = 0;      ///< the requested number, raised to the end of the cluster that it would cut
-  EigenSolver solver = EigenSolver::dense;
+  EigenPairs pairs;            ///< at least `kept`, with the pairs behind the cut that were found
+  int kept = 0;                ///< the requested number, raised to the end of the cluster that it would cut
+  std::vector<EigenRun> runs;  ///< one after the other; the last found the last pairs
   double residual = 0.0;       ///< largest ‖S x − λ M x‖/((λ − shift) ‖M x‖) of those kept
   std::optional<int> counted;  ///< eigenvalues below the cut by Sylvester's law of inertia; equals `kept`
+
+  EigenSolver solver() const { return runs.back().type; }
 };
+
+/// "SLEPc 3.18.2, block_lanczos (9 iterations)".
+std::string solver_text(const std::vector<EigenRun>& runs);
 
 /// Eigenvalues closer than 1e-6 relative form one cluster.
 inline constexpr double cluster_tolerance = 1e-6;

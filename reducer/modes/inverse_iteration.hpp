@@ -1,0 +1,46 @@
+// A step of inverse iteration on eigenpairs of S x = λ M x, by one process or by several that share the rows.
+#pragma once
+
+#include <functional>
+
+#include <Eigen/Core>
+
+namespace tisserand::reducer {
+
+/// λ ascending; vectors with xᵀ M x = 1.
+struct EigenPairs {
+  Eigen::VectorXd value;
+  Eigen::MatrixXd vector;
+};
+
+/// What iterations apply to the rows that this process has.
+struct ShiftedOperator {
+  double shift = 0.0;
+  Eigen::Index size = 0;                                         ///< rows of all processes
+  Eigen::Index first = 0;                                        ///< the first row of this process
+  Eigen::Index rows = 0;                                         ///< how many it has
+  bool shared = false;                                           ///< several processes share the rows
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> mass;   ///< M X
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> solve;  ///< (S − shift M)⁻¹ X
+
+  /// Sums over the rows of all processes.
+  void sum(double* values, Eigen::Index count) const;
+  /// The numbers of the first process for all, so that no process decides otherwise than the others.
+  void agree(double* values, Eigen::Index count) const;
+  bool agree(bool value) const;
+};
+
+/// One step of inverse iteration, y = (λ − shift) (S − shift M)⁻¹ M x: removes from x what nearly massless coordinates
+/// hide from a solver whose inner product is that of M. As S y − λ M y = (λ − shift) M (x − y), it measures the
+/// residual of y without the cancellation of S y. λ becomes Rayleigh's quotient. Pairs far above the first keep x,
+/// since the step amplifies the round-off along the first. Then sorted, Xᵀ M X = 1. Pairs whose 1/(λ − shift) is
+/// round-off beside that of the first are dropped: `value` becomes shorter, and X holds its vectors in its leading
+/// columns. Returns the residuals relative to (λ − shift) ‖M y‖, of far pairs also to λ/λ₁. Works on a few columns at a
+/// time: vectors take the memory.
+Eigen::VectorXd iterate_once(const ShiftedOperator& op, Eigen::VectorXd& value, Eigen::Ref<Eigen::MatrixXd> X);
+Eigen::VectorXd iterate_once(const ShiftedOperator& op, EigenPairs& pairs);
+
+/// X := X R⁻¹ with the upper triangle of G = Xᵀ M X = Rᵀ R: removes from a column what it has of earlier ones.
+void orthonormalise(const ShiftedOperator& op, const Eigen::MatrixXd& G, Eigen::Ref<Eigen::MatrixXd> X);
+
+}  // namespace tisserand::reducer
