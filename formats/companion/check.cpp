@@ -85,6 +85,26 @@ void check_symmetric(const Inspection& at, const std::string& dataset, const Eig
               at.dataset(dataset), other_program);
 }
 
+/// W_k + W_kᵀ = 0.
+void check_relative_turns(const Inspection& at) {
+  const Companion& c = at.companion;
+  if (!c.has_relative_turns()) return;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::MatrixXd& W = c.W[k];
+    const std::string dataset = fmt::format("/W[{}]", k);
+    check_square(at, dataset, W);
+    const Eigen::MatrixXd scaled = at.mass_row.asDiagonal() * W * at.mass_row.asDiagonal();
+    Eigen::Index row = 0, column = 0;
+    if ((scaled + scaled.transpose()).cwiseAbs().maxCoeff(&row, &column) <=
+        symmetry_accepted * scaled.cwiseAbs().maxCoeff())
+      continue;
+    throw Error(fmt::format("is not antisymmetric: [{}, {}] = {}, but [{}, {}] = {}; {} and {}", row, column,
+                            W(row, column), column, row, W(column, row), row_text(at.superelement, row),
+                            row_text(at.superelement, column)),
+                at.dataset(dataset), other_program);
+  }
+}
+
 /// α of nodes with translations, sum 1, and the point that they give.
 void check_weights(const Inspection& at) {
   const Companion& c = at.companion;
@@ -224,6 +244,7 @@ void check_second_order(const Inspection& at) {
     check_symmetric(at, fmt::format("/N[{}]", jk), c.N[jk], at.mass_row);
     check_symmetric(at, fmt::format("/T[{}] ({})", jk, pairs[jk]), c.T[jk], at.mass_row);
   }
+  check_relative_turns(at);
   check_rigid_stress(at);
   check_trapped(at);
   check_gram(at);

@@ -80,6 +80,7 @@ void read_second_order(const hdf5::InputFile& file, Companion& c) {
   read_symmetric(file, "/E", n, c.E.data(), 6);
   read_symmetric(file, "/N", n, c.N.data(), 6);
   read_symmetric(file, "/T", n, c.T.data(), 6);
+  if (file.has("/W")) read_general(file, "/W", n, c.W.data(), 3);
   if (file.has("/Lambda")) read_trapped(file, n, c);
 }
 
@@ -118,6 +119,7 @@ UncheckedCompanion read_unchecked_companion(const std::string& path) {
   hdf5::check_format(file, companion_kind);
   UncheckedCompanion result;
   Companion& c = result.companion;
+  c.minor_version = hdf5::minor_version(file);
   c.content_id = file.text_attribute("/", "superelement");
   c.producer = file.text_attribute("/", "producer");
   c.units = hdf5::read_units(file);
@@ -134,7 +136,7 @@ UncheckedCompanion read_unchecked_companion(const std::string& path) {
 
 void write_companion_head(hdf5::Id file, const Companion& c, const std::string& where) {
   hdf5::write_text_attribute(file, "/", "format", companion_kind.format, where);
-  hdf5::write_text_attribute(file, "/", "version", c.Lambda.empty() ? "1.0" : "1.1", where);
+  hdf5::write_text_attribute(file, "/", "version", fmt::format("1.{}", c.minor_version), where);
   hdf5::write_text_attribute(file, "/", "producer", c.producer, where);
   hdf5::write_text_attribute(file, "/", "superelement", c.content_id, where);
   hdf5::write_text_attribute(file, "/", "content_id", c.companion_id, where);
@@ -154,12 +156,16 @@ void write_second_order(hdf5::Id file, const Companion& c, const std::string& wh
                                    upper_triangles(matrices, count).data(), where);
   };
   write_triangles("/H", c.H.data(), static_cast<int>(c.H.size()));
-  std::vector<double> C;
-  for (const RowMajorX matrix : c.C) C.insert(C.end(), matrix.data(), matrix.data() + matrix.size());
-  hdf5::write_compressed_dataset(file, "/C", {3, n, n}, C.data(), where);
+  const auto write_general = [&](const char* name, const std::array<Eigen::MatrixXd, 3>& matrices) {
+    std::vector<double> values;
+    for (const RowMajorX matrix : matrices) values.insert(values.end(), matrix.data(), matrix.data() + matrix.size());
+    hdf5::write_compressed_dataset(file, name, {3, n, n}, values.data(), where);
+  };
+  write_general("/C", c.C);
   write_triangles("/E", c.E.data(), 6);
   write_triangles("/N", c.N.data(), 6);
   write_triangles("/T", c.T.data(), 6);
+  if (c.has_relative_turns()) write_general("/W", c.W);
   if (!c.Lambda.empty()) write_triangles("/Lambda", c.Lambda.data(), static_cast<int>(c.Lambda.size()));
 }
 
@@ -215,6 +221,8 @@ std::string companion_id(const Companion& c) {
     identity.add_symmetric(c.H.data(), static_cast<int>(c.H.size()));
     for (const RowMajorX C : c.C) identity.add(C.data(), static_cast<std::size_t>(C.size()));
     for (const auto* arrays : {&c.E, &c.N, &c.T}) identity.add_symmetric(arrays->data(), 6);
+    if (c.has_relative_turns())
+      for (const RowMajorX W : c.W) identity.add(W.data(), static_cast<std::size_t>(W.size()));
     if (!c.Lambda.empty()) identity.add_symmetric(c.Lambda.data(), static_cast<int>(c.Lambda.size()));
   }
   for (const LoadCase& load : c.load_cases) {

@@ -40,6 +40,8 @@ void for_each_matrix(Companion& c, const Change& change) {
     for (MatrixXd& C : c.C) change(C);
     for (auto* arrays : {&c.E, &c.N, &c.T})
       for (MatrixXd& matrix : *arrays) change(matrix);
+    if (c.has_relative_turns())
+      for (MatrixXd& W : c.W) change(W);
     for (MatrixXd& Lambda : c.Lambda) change(Lambda);
   }
   for (LoadCase& load : c.load_cases)
@@ -158,6 +160,7 @@ void mirror(Companion& c, const Vector3d& axes, const Superelement& image) {
     c.C[k] *= axial[k];
     c.N[k] *= axes[k];
     c.N[3 + k] *= axial[k];
+    c.W[k] *= axial[k];
   }
   for (int pair = 0; pair < 6; ++pair) {
     const auto [j, k] = axis_pairs[pair];
@@ -183,6 +186,7 @@ void convert(Companion& c, const UnitConversion& units, const std::vector<bool>&
   for (MatrixXd& H : c.H) H *= energy;
   for (MatrixXd& Lambda : c.Lambda) Lambda *= std::sqrt(energy);
   for (MatrixXd& C : c.C) C *= inertia;
+  for (MatrixXd& W : c.W) W *= inertia;
   for (int i = 0; i < 6; ++i) {
     c.E[i] *= inertia;
     c.N[i] *= i < 3 ? moment : inertia;

@@ -50,6 +50,24 @@ void check_unit(const Units& units, const Unit& unit, const std::string& name, U
 
 }  // namespace
 
+namespace {
+
+struct Version {
+  int major = -1, minor = -1;
+};
+
+/// Negative numbers: not major.minor.
+Version parse_version(const std::string& text) {
+  Version version;
+  const char* end = text.data() + text.size();
+  const auto [after, error] = std::from_chars(text.data(), end, version.major);
+  const bool dot = error == std::errc() && after != end && *after == '.' && after + 1 != end;
+  if (!dot || std::from_chars(after + 1, end, version.minor).ptr != end || version.minor < 0) return {};
+  return version;
+}
+
+}  // namespace
+
 void check_format(const InputFile& file, const FileKind& kind) {
   const std::string format = file.has_attribute("/", "format") ? file.text_attribute("/", "format") : "";
   if (format != kind.format)
@@ -58,18 +76,16 @@ void check_format(const InputFile& file, const FileKind& kind) {
                     : fmt::format("is a file of the kind '{}', expected '{}'", format.substr(0, 60), kind.format),
                 file.path(), kind.source);
   const std::string version = file.text_attribute("/", "version");
-  int major = -1, minor = -1;
-  const char* end = version.data() + version.size();
-  const auto [after, error] = std::from_chars(version.data(), end, major);
-  const bool dot = error == std::errc() && after != end && *after == '.';
-  const bool valid = dot && std::from_chars(after + 1, end, minor).ptr == end && minor >= 0 && after + 1 != end;
-  if (!valid)
+  const auto [major, minor] = parse_version(version);
+  if (minor < 0)
     throw Error(fmt::format("is '{}', expected major.minor such as '1.0'", version.substr(0, 20)),
                 file.path() + ": attribute 'version'", "correct the version");
   if (major != 1)
     throw Error(fmt::format("is {}, this program reads versions 1.x", version.substr(0, 20)),
                 file.path() + ": attribute 'version'", kind.other_version);
 }
+
+int minor_version(const InputFile& file) { return parse_version(file.text_attribute("/", "version")).minor; }
 
 Units read_units(const InputFile& file) {
   return {read_unit(file, "length_unit"), read_unit(file, "mass_unit"), read_unit(file, "time_unit")};

@@ -19,6 +19,9 @@ struct FileKind {
 /// Throws Error unless attributes 'format' and 'version' (1.x) are those of `kind`.
 void check_format(const InputFile& file, const FileKind& kind);
 
+/// y of the version 1.y of a file that check_format() accepts.
+int minor_version(const InputFile& file);
+
 /// Attributes length_unit, mass_unit, time_unit and their labels.
 Units read_units(const InputFile& file);
 void write_units(Id file, const Units& units, const std::string& where);

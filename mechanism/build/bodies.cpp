@@ -70,6 +70,19 @@ std::vector<const formats::VirtualBodySpec*> eliminated_bodies(const formats::Sc
   return list;
 }
 
+/// What a companion file before version 1.2 lacks; empty: nothing that counts.
+std::string missing_turns_text(const formats::Companion& companion, const formats::Superelement& element) {
+  constexpr double counts = 1e-4;  // of the inertia about an axis; shapes of beams leave 1e-6 and less
+  if (companion.minor_version >= formats::companion_version) return "";
+  const Vector3d share = formats::missing_turns(companion, element).share.cwiseAbs();
+  Eigen::Index axis = 0;
+  if (!(share.maxCoeff(&axis) > counts)) return "";
+  return fmt::format(
+      "its companion file has version 1.{}, which lacks the second order of rotary inertia ({:.2g} % of the inertia "
+      "about {}): frequencies and motion at speed may be wrong. Reduce the part again",
+      companion.minor_version, 100.0 * std::min(1.0, share[axis]), "xyz"[axis]);
+}
+
 class BodyBuilder {
  public:
   BodyBuilder(const BodyFiles& files, Construction& c)
@@ -154,6 +167,15 @@ class BodyBuilder {
     if (const SecondOrderChoice choice = choose_second_order(spec, companion.terms); choice.any()) {
       use.companion_id = companion.file->companion_id;
       c_.note_body(spec.name, describe(choice) + ", by the companion file");
+      if (const std::string text = missing_turns_text(*companion.terms, element); !text.empty())
+        c_.note_body(spec.name, text);
+    } else if (may_use_companion(spec) && (body.modes > 0 || body.node.size() > 1)) {
+      c_.note_body(spec.name,
+                   companion.terms == nullptr
+                       ? "there is no companion file, so it is linear: no stiffening, no exact inertia "
+                         "(`second_order: off` at the body asks for that)"
+                       : "its companion file has load cases only, so it is linear: no stiffening, no exact inertia "
+                         "(`second_order: off` at the body asks for that)");
     }
     for (const SuperelementNode& node : body.node) {
       const std::string name = spec.name + "/" + node.name;

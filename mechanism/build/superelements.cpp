@@ -57,8 +57,8 @@ void refuse_wrong_combinations(const formats::SuperelementBodySpec& spec, const 
   const std::string what = companion == nullptr ? "a companion file, and there is no " + path
                                                 : fmt::format("H, C, E, N and T, and {} has load cases only", path);
   throw Error(fmt::format("{} needs {}", describe(choice), what), spec.where,
-              "the program that made the superelement can write one: `second_order: yes` in the part file; or give "
-              "second_order: off");
+              "the program that made the superelement can write one: `second_order: yes` in the part file "
+              "(with method craig_bampton or rubin, macneal cannot); or give second_order: off");
 }
 
 }  // namespace

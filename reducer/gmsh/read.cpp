@@ -305,7 +305,7 @@ void open_file(const GeometryRequest& request) {
 void open_geometry(GeometryRequest& request) {
   open_file(request);
   static const std::map<std::string, double> millimetres{
-      {"M", 1e3}, {"CM", 10.0}, {"KM", 1e6}, {"IN", 25.4}, {"FT", 304.8}};
+      {"M", 1e3}, {"CM", 10.0}, {"KM", 1e6}, {"INCH", 25.4}, {"FT", 304.8}};
   const auto unit = millimetres.find(request.target_unit);
   const bool has_units = request.kind == MeshFileKind::step || request.kind == MeshFileKind::iges;
   if (has_units && unit != millimetres.end() && size_of_model() < 1e-3) {

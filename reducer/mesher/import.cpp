@@ -21,7 +21,7 @@ constexpr double gigabyte = 1e9;
 /// The unit into which OpenCASCADE converts STEP and IGES; files without named units stay in millimetres.
 std::string target_unit(const Units& units) {
   static const std::map<std::string, std::string> known{{"m", "M"},   {"mm", "MM"}, {"cm", "CM"},
-                                                        {"km", "KM"}, {"in", "IN"}, {"ft", "FT"}};
+                                                        {"km", "KM"}, {"in", "INCH"}, {"ft", "FT"}};
   const auto found = known.find(units.length.label);
   return found == known.end() ? "MM" : found->second;
 }

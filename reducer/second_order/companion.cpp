@@ -7,7 +7,6 @@
 #include <span>
 
 #include "common/error.hpp"
-#include "common/math/rotation.hpp"
 #include "common/parallel.hpp"
 #include "common/text.hpp"
 #include "formats/companion/rigid_stress.hpp"
@@ -21,6 +20,7 @@
 #include "reducer/second_order/inertia_loads.hpp"
 #include "reducer/second_order/quadratic_forms.hpp"
 #include "reducer/second_order/tie_strain.hpp"
+#include "reducer/ties/spring_turns.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -145,18 +145,12 @@ class ElementBatches {
   std::vector<Scratch> scratch_;
 };
 
-/// MD g for the gravity of each load case.
-MatrixXd weights_of(const Mesh& mesh, const MatrixXd& MD) {
-  MatrixXd weight(MD.rows(), static_cast<Index>(mesh.load_cases.size()));
-  for (Index c = 0; c < weight.cols(); ++c)
-    weight.col(c) = MD.leftCols<3>() * mesh.load_cases[static_cast<std::size_t>(c)].gravity;
-  return weight;
-}
-
-/// Inertial loads and load cases, on x.
-MatrixXd all_loads(const Mesh& mesh, const LoadVectors& cases, const MatrixXd& MD) {
-  MatrixXd g(MD.rows(), inertial + cases.x.cols());
-  g << inertia_loads(MD), weights_of(mesh, MD);
+/// Inertial loads and load cases, on x; the weight of a load case is that of translations.
+MatrixXd all_loads(const Mesh& mesh, const LoadVectors& cases, const MatrixXd& inertial) {
+  MatrixXd g(inertial.rows(), inertial_loads + cases.x.cols());
+  g.leftCols<inertial_loads>() = inertial;
+  for (Index c = 0; c < cases.x.cols(); ++c)
+    g.col(inertial_loads + c) = inertial.leftCols<3>() * mesh.load_cases[static_cast<std::size_t>(c)].gravity;
   g.rightCols(cases.x.cols()).topRows(cases.x.rows()) += cases.x;
   return g;
 }
@@ -175,23 +169,16 @@ std::vector<formats::LoadCase> reduced_cases(const InternalProblem& problem, con
 
 void sort_by_name(std::vector<formats::LoadCase>& cases) { std::ranges::sort(cases, {}, &formats::LoadCase::name); }
 
-/// Masses beside their nodes swing on rigid arms: their loads (the last columns) on ½ θ × (θ × c).
-void add_offset_masses(const Mesh& mesh, const Coordinates& coordinates, const MatrixXd& Phi, const MatrixXd& D,
-                       QuadraticForms& forms) {
+/// Second order of the weights of masses beside their nodes, on ½ θ × (θ × c).
+MatrixXd weight_on_arms(const Mesh& mesh, const Coordinates& coordinates, const Eigen::Vector3d& gravity,
+                        const MatrixXd& Phi) {
+  MatrixXd sum = MatrixXd::Zero(Phi.cols(), Phi.cols());
   for (const NodalMass& mass : mesh.masses) {
-    if (mass.offset.isZero(0.0) || !coordinates.rotates(mass.node)) continue;
-    const int x = coordinates.of(mass.node, 0);
-    const MatrixXd MD = nodal_mass_matrix(mass) * D.middleRows<6>(x);
-    MatrixXd g(6, inertial + static_cast<Index>(mesh.load_cases.size()));
-    g << inertia_loads(MD), weights_of(mesh, MD);
-    StrainBatch batch{{{&turned_point(), 1}}, 1, {}, {}};
-    batch.stress.setZero(6, Phi.cols() + g.cols());
-    batch.stress.topRightCorner(3, g.cols()) = g.topRows<3>();
-    batch.gradient.setZero(9, Phi.cols());
-    batch.gradient.topRows<3>() = Phi.middleRows<3>(x + 3);
-    batch.gradient.middleRows<3>(3) = -0.5 * skew<double>(mass.offset) * Phi.middleRows<3>(x + 3);
-    forms.add({&batch, 1});
+    if (mass.offset.isZero(0.0) || gravity.isZero(0.0) || !coordinates.rotates(mass.node)) continue;
+    const auto theta = Phi.middleRows<3>(coordinates.of(mass.node, 3));
+    sum += theta.transpose() * (arm_form(mass.mass * gravity, mass.offset) * theta);
   }
+  return sum;
 }
 
 /// mass, S0, S1 of M̄.
@@ -242,6 +229,12 @@ void describe_companion(const Mesh& mesh, const formats::Part& part, const forma
     model.warnings.push_back(
         fmt::format("The second order of {} is left out of the companion file: what they mean for "
                     "finite rotations is not known.",
+                    listed(names)));
+  if (const std::vector<std::string> names = springs_that_do_not_turn(mesh); !names.empty())
+    model.warnings.push_back(
+        fmt::format("The axes of {} stay as they are when the part turns, because nothing defines a rotation of their "
+                    "nodes: at large motion the companion file is wrong there. Tie these nodes to a node with rotations "
+                    "by a rigid spider.",
                     listed(names)));
   if (const std::string text = monosymmetry_note(mesh); !text.empty()) model.notes.push_back(text);
   if (mesh.shells.empty() || part.double_curvature > 0) return;
@@ -299,22 +292,20 @@ formats::Companion make_companion(const InternalProblem& problem, const Boundary
   set_integrals(element, c);
 
   const MatrixXd Phi = expand(system.T, reduced_displacements(problem, boundary, internal));
-  MatrixXd D = MatrixXd::Zero(Phi.rows(), 6);
-  D.topRows(system.coordinates.count()) = rigid_motions(mesh, system.coordinates, c.reference_point);
-  const FrameInertia inertia = frame_inertia(mesh, system.coordinates, Phi, D, threads);
+  const FrameInertia inertia = frame_inertia(mesh, system.coordinates, Phi, c.reference_point, threads);
   c.C = inertia.C;
   c.E = inertia.E;
+  if (inertia.turns) c.W = inertia.W;
 
   const LoadVectors cases = load_vectors(mesh, system);
   c.load_cases = reduced_cases(problem, boundary, internal, cases);
-  const MatrixXd g = all_loads(mesh, cases, inertia.MD);
+  const MatrixXd g = all_loads(mesh, cases, inertia.load);
   const int all = n + static_cast<int>(g.cols());
   MatrixXd displacements(Phi.rows(), all);
   displacements << Phi, expand(system.T, residual_displacements(problem, internal, gather(system.T, g)));
   QuadraticForms forms(n, all, threads);
   ElementBatches(mesh, system.coordinates, displacements, n, threads)
       .for_each([&](std::span<const StrainBatch> batches) { forms.add(batches); }, problem.share);
-  add_offset_masses(mesh, system.coordinates, Phi, D, forms);
   const TieForces ties = find_tie_forces(mesh, system, problem.where);
   if (!ties.empty()) {
     const MatrixXd residual = tie_residual(mesh, system.coordinates, ties, displacements, g);
@@ -324,11 +315,12 @@ formats::Companion make_companion(const InternalProblem& problem, const Boundary
   formats::remove_rigid_stress(c, element, problem.where);
   if (shapes > 0) c.Lambda = trapped_stress(problem, boundary, element, ties, Phi, shapes);
   for (int a = 0; a < 6; ++a) {
-    c.N[a] = -forms.matrix(n + a);
-    c.T[a] = -forms.matrix(n + 6 + a);
+    c.N[a] = inertia.N[a] - forms.matrix(n + a);
+    c.T[a] = inertia.T[a] - forms.matrix(n + 6 + a);
   }
   for (std::size_t k = 0; k < c.load_cases.size(); ++k)
-    c.load_cases[k].stiffness = -forms.matrix(n + inertial + static_cast<int>(k));
+    c.load_cases[k].stiffness = -forms.matrix(n + inertial_loads + static_cast<int>(k)) +
+                                weight_on_arms(mesh, system.coordinates, mesh.load_cases[k].gravity, Phi);
   sort_by_name(c.load_cases);
   return c;
 }

@@ -223,9 +223,7 @@ std::string monosymmetry_note(const Mesh& mesh) {
 }
 
 MatrixXd mesh_weights(const Mesh& mesh, const System& system) {
-  const Index count = system.coordinates.count();
-  const MatrixXd D = rigid_motions(mesh, system.coordinates, Eigen::Vector3d::Zero());
-  return frame_inertia(mesh, system.coordinates, MatrixXd(count, 0), D, core_count()).MD.leftCols<3>();
+  return translation_loads(mesh, system.coordinates);
 }
 
 }  // namespace tisserand::reducer

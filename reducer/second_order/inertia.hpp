@@ -1,28 +1,34 @@
-// Inertia of the part in a turning frame: from masses of elements to C, E and the loads of rigid accelerations.
+// Inertia of the part in a turning frame: from masses of elements to C, E, W, what their insides add to N and T, and
+// the loads of rigid accelerations.
 #pragma once
 
 #include <array>
 
 #include <Eigen/Core>
 
+#include "reducer/elements/turning_mass.hpp"
 #include "reducer/mesh/coordinates.hpp"
 
 namespace tisserand::reducer {
 
-/// Integrals over the finite elements; [e_k x] acts on the translations and on the rotations of every node.
+/// Sums over the finite elements of ΦᵀAΦ, A the forms of TurningMass.
 struct FrameInertia {
-  std::array<Eigen::MatrixXd, 3> C;  ///< Φᵀ M [e_k x] Φ
-  std::array<Eigen::MatrixXd, 6> E;  ///< ½ ([e_j x]Φ)ᵀ M [e_k x]Φ + transpose, pairs xx yy zz yz xz xy
-  Eigen::MatrixXd MD;                ///< x 6: M D, forces of unit accelerations of the rigid part
+  std::array<Eigen::MatrixXd, 3> C;
+  std::array<Eigen::MatrixXd, 6> E;  ///< pairs xx yy zz yz xz xy
+  std::array<Eigen::MatrixXd, 6> N;  ///< nodes held at second order
+  std::array<Eigen::MatrixXd, 6> T;
+  std::array<Eigen::MatrixXd, 3> W;
+  bool turns = false;    ///< whether any mass has rotary inertia
+  Eigen::MatrixXd load;  ///< x 12: the loads of TurningMass
 };
 
 /// `Phi`: displacements of the mesh's coordinates (rows; auxiliary ones behind them are without mass) for each reduced
-/// coordinate, D: for the six rigid motions. Elements in blocks: memory for about 4096 rows of each product.
+/// coordinate. Elements in blocks.
 FrameInertia frame_inertia(const Mesh& mesh, const Coordinates& coordinates, const Eigen::MatrixXd& Phi,
-                           const Eigen::MatrixXd& D, int threads);
+                           const Eigen::Vector3d& reference, int threads);
 
-/// [e_k x] on translations and rotations: rows in groups of three.
-Eigen::MatrixXd crossed(int k, const Eigen::MatrixXd& rows);
+/// M times the rigid translations (coordinates of the mesh x 3), force per acceleration.
+Eigen::MatrixXd translation_loads(const Mesh& mesh, const Coordinates& coordinates);
 
 /// The first coordinate of each node of an element, `size` coordinates (3 or 6) per node.
 struct ElementRows {

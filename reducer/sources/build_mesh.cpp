@@ -13,6 +13,7 @@
 #include "common/text.hpp"
 #include "reducer/mesh/mesh_file.hpp"
 #include "reducer/sources/mesh_builder.hpp"
+#include "reducer/ties/spring_turns.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -78,6 +79,7 @@ void finish(MeshBuilder& builder) {
     mesh.node_label[row[n]] = std::move(builder.label[n]);
   }
   for_nodes(mesh, [&row](int& node) { node = row[node]; });
+  turn_springs(mesh);
 }
 
 namespace {

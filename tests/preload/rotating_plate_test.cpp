@@ -2,12 +2,14 @@
 // in turning axes, with geometric stiffness, centrifugal and gyroscopic terms.
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>
 
-#include "common/math/rotation.hpp"
+#include "formats/companion/companion.hpp"
+#include "reducer/elements/turning_mass.hpp"
 #include "reducer/properties/laminate.hpp"
 #include "tests/preload/preloaded_scenes.hpp"
 #include "tests/support/meshes/buckling.hpp"
@@ -33,46 +35,43 @@ reducer::Mesh plate(int along) {
 
 bool at_root(const Vector3d& X) { return X.x() < 1e-9; }
 
-/// [v ×] on the translations and rotations of every node, columns one by one.
-MatrixXd crossed(const Vector3d& v, const MatrixXd& A) {
-  MatrixXd result(A.rows(), A.cols());
-  for (Index first = 0; first < A.rows(); first += 3)
-    for (Index c = 0; c < A.cols(); ++c) result.block<3, 1>(first, c) = v.cross(Vector3d(A.block<3, 1>(first, c)));
-  return result;
-}
-
-/// M Ω̂ and Ω̂ᵀ M Ω̂ of the full model, Ω̂ = [Ω ×], after the step that makes the momentum of a turned shape that of its
-/// first moment turned (docs/SECOND_ORDER.md, section 2): P = RᵀMΩ̂ and Q = Ω~ RᵀM, R the translations, agree up to
-/// O(h²).
-struct TurningMass {
+/// Of the full model at the angular velocity Ω: forms of C and W, and of E and T, with their factors; the centrifugal
+/// load.
+struct TurningModel {
   MatrixXd coupling, softening;
+  VectorXd load;
 };
 
-TurningMass turning_mass(const MatrixXd& M, const Vector3d& Omega) {
-  MatrixXd R = MatrixXd::Zero(M.rows(), 3);
-  for (Index first = 0; first < M.rows(); first += 6) R.middleRows<3>(first).setIdentity();
-  TurningMass turning;
-  turning.coupling = -crossed(Omega, M).transpose();
-  turning.softening = -crossed(Omega, turning.coupling);
-  const MatrixXd MR = M * R, P = R.transpose() * turning.coupling, Q = skew<double>(Omega) * MR.transpose();
-  const double mass = R.col(0).dot(MR.col(0));
-  turning.coupling += MR * (Q - P) / mass;
-  turning.softening += (Q.transpose() * Q - P.transpose() * P) / mass;
+TurningModel turning_model(const reducer::Mesh& mesh, const Vector3d& Omega) {
+  const Index n = 6 * mesh.nodes();
+  TurningModel turning{MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), VectorXd::Zero(n)};
+  reducer::TurningMass element;
+  for (const reducer::ShellElement& shell : mesh.shells) {
+    reducer::turning_mass(reducer::moving_mass(mesh, shell), Vector3d::Zero(), element);
+    std::vector<int> row;
+    for (int i = 0; i < shell.corners(); ++i)
+      for (int c = 0; c < 6; ++c) row.push_back(6 * shell.nodes[i] + c);
+    for (int k = 0; k < 3; ++k) turning.coupling(row, row) += Omega[k] * (element.C[k] + element.W[k]);
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k) {
+        const int pair = formats::axis_pair(j, k);
+        turning.softening(row, row) += Omega[j] * Omega[k] * (element.E[pair] + element.T[pair]);
+        turning.load(row) += Omega[j] * Omega[k] * element.load.col(6 + pair);
+      }
+  }
   return turning;
 }
 
-/// ω of the full model that turns with Ω, clamped at the root, ascending: (K + K_G[w] − Ω̂ᵀMΩ̂) x + λ (MΩ̂ − Ω̂ᵀM) x +
-/// λ² M x = 0, K w = −Ω̂ M (Ω × X, Ω); by the eigenvalues 1/λ, since M is singular.
+/// ω of the full model that turns with Ω, clamped at the root, ascending: (K + K_G[w] − B) x + λ (A − Aᵀ) x + λ² M x =
+/// 0, K w the centrifugal load, A and B the coupling and the softening of turning_model(); by the eigenvalues 1/λ,
+/// since M is singular.
 VectorXd full_frequencies(int along, const Vector3d& Omega, int count) {
   reducer::SmallModel model(plate(along));
   reducer::hold_where(model, reducer::all_components, at_root);
   const reducer::FreeSystem system = reducer::free_system(model);
   const MatrixXd M = system.whole.M;
-  VectorXd turn(M.rows());
-  for (int i = 0; i < model.mesh.nodes(); ++i)
-    turn.segment<6>(6 * i) << Omega.cross(Vector3d(model.mesh.position.col(i))), Omega;
-  model.load = -crossed(Omega, M * turn);
-  const TurningMass turning = turning_mass(M, Omega);
+  const TurningModel turning = turning_model(model.mesh, Omega);
+  model.load = turning.load;
   const MatrixXd K =
       MatrixXd(system.whole.S) + MatrixXd(reducer::geometric_small(model.mesh, solve_small(model))) - turning.softening;
   const MatrixXd gyroscopic = turning.coupling - turning.coupling.transpose();

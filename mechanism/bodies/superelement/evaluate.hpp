@@ -19,7 +19,8 @@ struct SecondOrderWork {
   Eigen::MatrixXd K;       ///< (6 + N)², lower triangle
   Eigen::MatrixXd bent;    ///< rows x N: L + h
   Eigen::MatrixXd X;       ///< N x 6
-  Eigen::MatrixXd D;       ///< 6 x N: J₀⁻¹ [yᵀ N_a]
+  Eigen::MatrixXd D;       ///< 6 x N: J₀⁻¹ `momentum`
+  Eigen::MatrixXd momentum;  ///< 6 x N: ∂n₂/∂ẏ, yᵀ N_a and of rotations yᵀ W_jᵀ too
   Eigen::MatrixXd K_bb;    ///< (6 + nb)²: boundary part, internal coordinates eliminated
   Eigen::MatrixXd K_Ib;    ///< m x (6 + nb)
   Eigen::MatrixXd half;    ///< (6 + nb) x nb: K_bb Z

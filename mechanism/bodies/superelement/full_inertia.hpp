@@ -34,6 +34,7 @@ struct InertiaTerms {
   Vector y, yd, ydd;
   FormRows<S> forms_y;  ///< [N_a y], [T_jk y], [E_jk y], or the last alone: rows in the order of FullInertia::forms
   Vector Cy, Cyd;       ///< 3N, padded: C_x y, C_y y, C_z y
+  Vector Wy, Wyd;       ///< the same of W; zero without it
   Vector xi, p, xid, pd;
   Vector quadratic;  ///< 12: ẏᵀ N_a ẏ, ẏᵀ T_jk ẏ
   Vector G_y;        ///< inertia and weight without the elastic force
@@ -50,7 +51,7 @@ InertiaTerms<S> make_inertia_terms(const FullInertia& inertia) {
   const Eigen::Index n = inertia.M.rows();
   InertiaTerms<S> t;
   t.y = t.yd = t.ydd = t.xi = t.p = t.xid = t.pd = t.G_y = Vector::Zero(n);
-  t.Cy = t.Cyd = t.turned = Vector::Zero(inertia.C.rows);
+  t.Cy = t.Cyd = t.Wy = t.Wyd = t.turned = Vector::Zero(inertia.C.rows);
   t.forms_y = FormRows<S>::Zero(inertia.forms.count, n);
   t.quadratic = Vector::Zero(12);
   return t;
@@ -122,9 +123,11 @@ void true_motion(const FullInertia& inertia, const Eigen::Matrix<S, 6, 1>& a,
   }
 }
 
-/// Second-order displacement and its rates: σ, ν, TT and the same of ẏ, ÿ; zero without N and T.
+/// Second-order displacement and its rates: σ, ν, TT and the same of ẏ, ÿ; zero without N and T. `turn`: [ẏᵀ W_j y],
+/// the momentum of relative angular velocities of second order, and its rate [ÿᵀ W_j y].
 template <class S>
 struct Foreshortened {
+  Vec3<S> turn = Vec3<S>::Zero(), turn_d = Vec3<S>::Zero();
   Vec3<S> sigma = Vec3<S>::Zero(), nu = Vec3<S>::Zero(), sigma_d = Vec3<S>::Zero(), nu_d = Vec3<S>::Zero(),
           sigma_dd = Vec3<S>::Zero(), nu_dd = Vec3<S>::Zero();
   Mat3<S> T = Mat3<S>::Zero(), Td = Mat3<S>::Zero();
@@ -156,7 +159,10 @@ Foreshortened<S> set_form_products(const FullInertia& inertia, InertiaTerms<S>& 
   return w;
 }
 
-/// y, ẏ, ÿ and the products that need them alone: E y, C y, C ẏ, N y, T y.
+/// Whether W is on.
+inline bool turns_nodes(const FullInertia& inertia) { return !inertia.W.runs.empty(); }
+
+/// y, ẏ, ÿ and the products that need them alone: E y, C y, C ẏ, N y, T y, W y, W ẏ.
 template <class S>
 Foreshortened<S> set_products(const FullInertia& inertia, const LocalMotion<S>& motion, InertiaTerms<S>& t) {
   t.y << motion.y_B, motion.y_I;
@@ -165,24 +171,31 @@ Foreshortened<S> set_products(const FullInertia& inertia, const LocalMotion<S>& 
   t.Cy.setZero();
   t.Cyd.setZero();
   multiply_add(inertia.C, t.y, t.Cy, t.yd, t.Cyd);
-  const Foreshortened<S> w = inertia.foreshortening ? set_form_products<FullInertia::all, S>(inertia, t)
+  Foreshortened<S> w = inertia.foreshortening ? set_form_products<FullInertia::all, S>(inertia, t)
                                                     : set_form_products<FullInertia::E_alone, S>(inertia, t);
+  if (turns_nodes(inertia)) {
+    t.Wy.setZero();
+    t.Wyd.setZero();
+    multiply_add(inertia.W, t.y, t.Wy, t.yd, t.Wyd);
+    w.turn = turning_part<S>(t.yd, t.Wy);
+    w.turn_d = turning_part<S>(t.ydd, t.Wy);
+  }
   t.sigma = w.sigma;
   t.nu = w.nu;
   t.TT = w.T;
   return w;
 }
 
-/// ξ, p and their rates, ½ ξᵀM̄ξ: with n₂ = D_Rᵀ M (ẇ₂ + Ω × w₂), ξ = R (ν + J₀⁻¹ n₂) + ẏ, p = M̄ ξ + Ω_k C_k y.
+/// ξ, p and their rates, ½ ξᵀM̄ξ: with n₂ = D_Rᵀ M (ẇ₂ + Ω × w₂) and what W adds, ξ = R (ν + J₀⁻¹ n₂) + ẏ, p = M̄ ξ + Ω_k C_k y.
 template <class S>
 void set_momenta(const FullInertia& inertia, const LocalMotion<S>& motion, const Foreshortened<S>& w,
                  InertiaTerms<S>& t) {
   using Six = Eigen::Matrix<S, 6, 1>;
   const Vec3<S>&Om = motion.Omega0, &Omd = motion.Omega0d, &v = motion.origin_velocity;
   Six n2, n2d, nu, nud;
-  n2 << w.sigma_d + cross<S>(Om, w.sigma), w.nu_d + 0.5 * cross<S>(Om, w.nu) + w.T * Om;
+  n2 << w.sigma_d + cross<S>(Om, w.sigma), w.nu_d + w.turn + 0.5 * cross<S>(Om, w.nu) + w.T * Om;
   n2d << w.sigma_dd + cross<S>(Omd, w.sigma) + cross<S>(Om, w.sigma_d),
-      w.nu_dd + 0.5 * cross<S>(Omd, w.nu) + 0.5 * cross<S>(Om, w.nu_d) + w.Td * Om + w.T * Omd;
+      w.nu_dd + w.turn_d + 0.5 * cross<S>(Omd, w.nu) + 0.5 * cross<S>(Om, w.nu_d) + w.Td * Om + w.T * Omd;
   nu << v, Om;
   nud << motion.origin_acceleration - cross<S>(Om, v), Omd;
   true_motion<S>(inertia, nu + solve_rigid<S>(inertia, n2), t.yd, t.xi, t.p);
@@ -214,6 +227,10 @@ void set_shape_forces(const SuperelementBody& body, const RigidVelocity<S>& r, c
     factor << r.vd - cross<S>(r.v, Om) - g, r.Od - 0.5 * cross<S>(r.O, Om), -pair_factors<S>(r.O, Om), centrifugal,
         S(0.0), S(0.0);
     add_transposed<FullInertia::all, S>(t.forms_y, factor, t.G_y);
+    if (turns_nodes(inertia)) {
+      add_turned<S>(r.Od, t.Wy, t.G_y);
+      add_turned<S>(2.0 * r.O, t.Wyd, t.G_y);
+    }
   } else {
     Eigen::Matrix<S, FullInertia::E_alone, 1> factor;
     factor << centrifugal, S(0.0), S(0.0);

@@ -204,11 +204,10 @@ Stiffening make_stiffening(const SuperelementBody& body, const formats::Companio
 
 namespace {
 
-/// C_x, C_y, C_z one above the other, without what is nothing in the units of the coordinates.
-BlockColumns turning_blocks(const std::array<MatrixXd, 3>& C, const VectorXd& unit) {
+/// C_x, C_y, C_z (or W) one above the other, without entries below `nothing` in the units of the coordinates.
+BlockColumns turning_blocks(const std::array<MatrixXd, 3>& C, const VectorXd& unit, double nothing) {
   const Eigen::Index n = unit.size();
   MatrixXd stack(3 * n, n);
-  const double nothing = QuadraticForms::round_off * largest_entry({C.begin(), C.end()}, unit);
   for (int k = 0; k < 3; ++k) {
     const MatrixXd scaled = unit.asDiagonal() * C[k] * unit.asDiagonal();
     stack.middleRows(k * n, n) = (scaled.array().abs() <= nothing).select(0.0, C[k]);
@@ -229,7 +228,9 @@ FullInertia make_full_inertia(const SuperelementBody& body, const formats::Compa
   for (const SuperelementNode& node : body.node) length = std::max(length, node.X.norm());
   inertia.J0_inverse = invert_inertia(inertia.R.transpose() * inertia.MR, length > 0.0 ? length : 1.0);
   const VectorXd unit = coordinate_units(body);
-  inertia.C = turning_blocks(companion.C, unit);
+  const double nothing =
+      QuadraticForms::round_off * largest_entry({companion.C.begin(), companion.C.end()}, unit);
+  inertia.C = turning_blocks(companion.C, unit, nothing);
   const std::vector<MatrixXd> E(companion.E.begin(), companion.E.end());
   const VectorXd E_scale = VectorXd::Constant(6, largest_entry(E, unit));
   switch (foreshortening) {
@@ -244,6 +245,7 @@ FullInertia make_full_inertia(const SuperelementBody& body, const formats::Compa
           VectorXd::Constant(9, largest_entry({forms.begin() + 3, forms.end()}, unit)), E_scale;
       forms.insert(forms.end(), E.begin(), E.end());
       inertia.foreshortening = true;
+      if (companion.has_relative_turns()) inertia.W = turning_blocks(companion.W, unit, nothing);
       inertia.forms = paired_forms(forms, unit, scale);
       break;
     }

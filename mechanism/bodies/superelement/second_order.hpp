@@ -35,7 +35,8 @@ struct FullInertia {
   Eigen::Matrix<double, Eigen::Dynamic, 6> MR;  ///< M̄ R
   Eigen::Matrix<double, 6, 6> J0_inverse;       ///< of RᵀM̄R; pseudo-inverse where an axis has no inertia
   BlockColumns C;                               ///< 3N x N: C_x, C_y, C_z, after the Galilean step
-  bool foreshortening = false;                  ///< whether N and T are on
+  bool foreshortening = false;                  ///< whether N, T and W are on
+  BlockColumns W;                               ///< 3N x N: W_x, W_y, W_z; without entries: no rotary inertia
   PairedForms forms;                            ///< N (6), T (6), E (6), or E alone
 
   static constexpr int all = 20, E_alone = 8;  ///< counts of `forms`, with the zeros that fill blocks

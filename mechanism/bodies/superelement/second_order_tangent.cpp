@@ -109,11 +109,14 @@ void add_inertia(const SuperelementBody& body, const InertiaTerms<double>& t, do
     Eigen::Matrix<double, 6, 3> turn;
     turn << -skew<double>(t.sigma), -0.5 * skew<double>(t.nu) + t.TT;
     W.rightCols<3>() += inertia.J0_inverse * turn;
-    work.D.noalias() = inertia.J0_inverse.lazyProduct(t.forms_y.topRows(6));
-    work.X += 0.5 * t.forms_y.topRows(6).transpose();
+    work.momentum = t.forms_y.topRows(6);  // ∂n₂/∂ẏ
+    if (turns_nodes(inertia))
+      work.momentum.bottomRows<3>() += Eigen::Map<const MatrixXd>(t.Wy.data(), n, 3).transpose();
+    work.D.noalias() = inertia.J0_inverse.lazyProduct(work.momentum);
+    work.X += 0.5 * work.momentum.transpose();
     yy.triangularView<Lower>() += factor * work.X * work.D;
     yy.triangularView<Lower>() += factor * work.D.transpose() * work.X.transpose();
-    work.X += 0.5 * t.forms_y.topRows(6).transpose();
+    work.X += 0.5 * work.momentum.transpose();
     rigid.rightCols<3>().noalias() += factor * work.D.transpose().lazyProduct(rigid_Cy);
   }
   rigid.noalias() += factor * work.X.lazyProduct(W);
@@ -198,6 +201,7 @@ SecondOrderWork make_second_order_work(const SuperelementBody& body) {
   if (body.second_order.stiffening) w.bent.setZero(body.second_order.stiffening->L.rows(), n);
   w.X.setZero(n, 6);
   w.D.setZero(6, n);
+  w.momentum.setZero(6, n);
   w.K_bb.setZero(6 + nb, 6 + nb);
   w.K_Ib.setZero(m, 6 + nb);
   w.half.setZero(6 + nb, nb);

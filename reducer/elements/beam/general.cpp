@@ -236,6 +236,73 @@ BeamMatrices general_beam(const BeamElementData& beam) {
 
 namespace {
 
+/// Ends of the pieces that lumping moves to one end each: each half of the beam.
+std::vector<BeamMassPoint> lumped_points(const BeamElementData& beam) {
+  const Matrix12 M = lumped(beam, {0.0, 0.5 * beam.length, beam.length});
+  std::vector<BeamMassPoint> points(2);
+  for (int end = 0; end < 2; ++end) {
+    points[end].x = end * beam.length;
+    points[end].motion.setZero();
+    points[end].motion.middleCols<6>(6 * end).setIdentity();
+    points[end].mass = M.block<6, 6>(6 * end, 6 * end);
+  }
+  return points;
+}
+
+std::vector<BeamMassPoint> consistent_points(const BeamElementData& beam) {
+  const Integration along = integrate(beam);
+  Matrix6x12 T;
+  T << -transfer(beam.length), Matrix6::Identity();
+  const Matrix6x12 forces = inverse(along.flexibility) * T;
+  std::vector<BeamMassPoint> points;
+  for (const Point& at : along.points) {
+    BeamMassPoint point{at.x, at.motion * forces, at.weight * section_mass(beam, section_at(beam, at.x), at.x)};
+    point.motion.leftCols<6>() += transfer(at.x);
+    points.push_back(point);
+  }
+  return points;
+}
+
+/// Displacements and twist linear, bending rotations of the line; the mass on the axis, with its inertia about it.
+std::vector<BeamMassPoint> rod_points(const BeamElementData& beam) {
+  const double L = beam.length;
+  std::vector<BeamMassPoint> points;
+  if (beam.mass_matrix == formats::MassMatrix::lumped) {
+    points = lumped_points(beam);
+  } else {
+    const int pieces = pieces_of(beam);
+    for (int p = 0; p < pieces; ++p)
+      for (std::size_t g = 0; g < gauss_point.size(); ++g) {
+        const double x = L / pieces * (p + 0.5 * (1.0 + gauss_point[g]));
+        BeamMassPoint point{x, Matrix6x12::Zero(),
+                            0.5 * L / pieces * gauss_weight[g] * section_mass(beam, section_at(beam, x), x)};
+        for (int i = 0; i < 4; ++i) {
+          point.motion(i, i) = 1.0 - x / L;
+          point.motion(i, 6 + i) = x / L;
+        }
+        points.push_back(point);
+      }
+  }
+  for (BeamMassPoint& point : points) {
+    point.motion.bottomRows<2>().setZero();
+    point.motion(4, 2) = point.motion(5, 7) = 1.0 / L;
+    point.motion(4, 8) = point.motion(5, 1) = -1.0 / L;
+    const double mass = point.mass(0, 0), twist = point.mass(3, 3);
+    point.mass.setZero();
+    point.mass.diagonal() << mass, mass, mass, twist, 0.0, 0.0;
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<BeamMassPoint> beam_mass_points(const BeamElementData& beam) {
+  if (is_rod(beam)) return rod_points(beam);
+  return beam.mass_matrix == formats::MassMatrix::lumped ? lumped_points(beam) : consistent_points(beam);
+}
+
+namespace {
+
 /// ∫σ |r − s|² dA of the section forces F about the axis: N (I_p/A + |s|²) + β_y M_y − β_z M_z, moments about the
 /// centroid, s the shear centre from it (formats/sections/monosymmetry.hpp).
 Eigen::Matrix<double, 1, 6> wagner_row(const Section& s, const formats::Monosymmetry& beta) {

@@ -30,6 +30,16 @@ std::optional<std::string> general_beam_fault(const BeamElementData& beam);
 /// torsional stiffness, and the mass of linear displacements without bending rotations. general_beam_fault() is empty.
 BeamMatrices general_beam(const BeamElementData& beam);
 
+/// Mass at a place of the beam, and how that place moves with the twelve coordinates of the ends, in element axes:
+/// ΣNᵀ μ N is the mass matrix of at_the_ends() (mesh_beam.hpp). The bending rotations of a rod are those of its line,
+/// without inertia.
+struct BeamMassPoint {
+  double x = 0.0;
+  Eigen::Matrix<double, 6, 12> motion;  ///< [u; θ] of the axis
+  Eigen::Matrix<double, 6, 6> mass;     ///< μ about the axis, [translation; rotation]
+};
+std::vector<BeamMassPoint> beam_mass_points(const BeamElementData& beam);
+
 /// The exact solution at a Gauss point of the beam, for the twelve coordinates of its ends, in element axes.
 struct BeamField {
   double weight = 0.0;                    ///< of the integral along the beam

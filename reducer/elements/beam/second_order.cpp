@@ -10,8 +10,7 @@
 // Rods (no bending stiffness) are corotated: (N/l)(1 − e eᵀ), and a torque that turns with the line of the nodes.
 // W = N (I_p/A + |s|²) + β_y M_y − β_z M_z is Wagner's term, by which columns of open sections buckle in torsion and
 // beams of unsymmetric sections turn over earlier under one sign of the moment than under the other. Where the outline
-// is not known (constants, tapers), β holds the shear centre alone. Inertia loads that stand on rigid arms of beams are
-// neglected.
+// is not known (constants, tapers), β holds the shear centre alone.
 #include "reducer/elements/second_order.hpp"
 #include "common/math/rotation.hpp"
 #include "reducer/elements/beam/ends.hpp"

@@ -12,17 +12,9 @@
 namespace tisserand::reducer {
 namespace {
 
-/// Interpolation at a point: displacement Σ N_i u_i + bulge_i × θ_i, on dA of the true (warped) surface.
-template <int Corners>
-struct MassPoint {
-  Eigen::Matrix<double, Corners, 1> N;
-  Eigen::Matrix<double, 3, Corners> bulge = Eigen::Matrix<double, 3, Corners>::Zero();
-  double dA = 0.0;
-};
-
 /// Adds the bulge ½ b d × (θ_j − θ_i) of edge i → j, d = x_j − x_i; b is s(1−s) on the edge and zero on the others.
 template <int Corners>
-void add_bulge(const ShellGeometry<Corners>& geometry, int i, double b, MassPoint<Corners>& point) {
+void add_bulge(const ShellGeometry<Corners>& geometry, int i, double b, ShellMassPoint<Corners>& point) {
   const int j = (i + 1) % Corners;
   Eigen::Vector3d d;
   d << geometry.corner.col(j) - geometry.corner.col(i), geometry.height[j] - geometry.height[i];
@@ -30,15 +22,17 @@ void add_bulge(const ShellGeometry<Corners>& geometry, int i, double b, MassPoin
   point.bulge.col(j) += 0.5 * b * d;
 }
 
+}  // namespace
+
 /// 3 x 3 points: degree 5 in either direction.
-std::array<MassPoint<4>, 9> mass_points(const ShellGeometry<4>& geometry) {
-  std::array<MassPoint<4>, 9> points;
+std::array<ShellMassPoint<4>, 9> shell_mass_points(const ShellGeometry<4>& geometry) {
+  std::array<ShellMassPoint<4>, 9> points;
   Eigen::Matrix<double, 3, 4> X;
   X << geometry.corner, geometry.height.transpose();
   std::size_t k = 0;
   for (const GaussPoint& a : gauss3)
     for (const GaussPoint& b : gauss3) {
-      MassPoint<4>& point = points[k++];
+      ShellMassPoint<4>& point = points[k++];
       const BilinearShape shape = bilinear_shape(a.at, b.at);
       const Eigen::Matrix<double, 2, 3> tangent = shape.slope * X.transpose();
       point.N = shape.N;
@@ -53,17 +47,17 @@ std::array<MassPoint<4>, 9> mass_points(const ShellGeometry<4>& geometry) {
 }
 
 /// Six points, exact to degree 4 ([Cow73]).
-std::array<MassPoint<3>, 6> mass_points(const ShellGeometry<3>& geometry) {
+std::array<ShellMassPoint<3>, 6> shell_mass_points(const ShellGeometry<3>& geometry) {
   struct Orbit {
     double weight, near, far;
   };
   constexpr std::array<Orbit, 2> orbits{{{0.223381589678011, 0.445948490915965, 0.108103018168070},
                                          {0.109951743655322, 0.091576213509771, 0.816847572980459}}};
-  std::array<MassPoint<3>, 6> points;
+  std::array<ShellMassPoint<3>, 6> points;
   std::size_t k = 0;
   for (const Orbit& orbit : orbits)
     for (int corner = 0; corner < 3; ++corner) {
-      MassPoint<3>& point = points[k++];
+      ShellMassPoint<3>& point = points[k++];
       point.N.setConstant(orbit.near);
       point.N[corner] = orbit.far;
       point.dA = orbit.weight * geometry.area;
@@ -71,8 +65,6 @@ std::array<MassPoint<3>, 6> mass_points(const ShellGeometry<3>& geometry) {
     }
   return points;
 }
-
-}  // namespace
 
 /// v = Σ N_i u_i + a_i × θ_i with the arm a_i = g_i − z N_i ẑ, so the blocks of corners i, j are
 /// ∫ρ [N_i N_j, N_i a_j×; (N_j a_i×)ᵀ, (a_i·a_j) 1 − a_j a_iᵀ].
@@ -85,7 +77,7 @@ Eigen::Matrix<double, 6 * Corners, 6 * Corners> consistent_shell_mass(const Shel
   Eigen::Matrix<double, Corners, Corners> NN = Eigen::Matrix<double, Corners, Corners>::Zero();
   Eigen::Matrix<double, Corners, 3 * Corners> Ng = Eigen::Matrix<double, Corners, 3 * Corners>::Zero();
   Eigen::Matrix<double, 3 * Corners, 3 * Corners> gg = Eigen::Matrix<double, 3 * Corners, 3 * Corners>::Zero();
-  for (const MassPoint<Corners>& point : mass_points(geometry)) {
+  for (const ShellMassPoint<Corners>& point : shell_mass_points(geometry)) {
     const Row g = Eigen::Map<const Row>(point.bulge.data());
     NN.noalias() += (point.dA * point.N) * point.N.transpose();
     Ng.noalias() += (point.dA * point.N) * g;
@@ -111,7 +103,7 @@ template <int Corners>
 Eigen::Matrix<double, 6 * Corners, 6 * Corners> lumped_shell_mass(const ShellGeometry<Corners>& geometry,
                                                                   const ShellSection& section) {
   Eigen::Matrix<double, Corners, 1> share = Eigen::Matrix<double, Corners, 1>::Zero();
-  for (const MassPoint<Corners>& point : mass_points(geometry)) share += point.dA * point.N;
+  for (const ShellMassPoint<Corners>& point : shell_mass_points(geometry)) share += point.dA * point.N;
   Eigen::Matrix<double, 6 * Corners, 6 * Corners> M = Eigen::Matrix<double, 6 * Corners, 6 * Corners>::Zero();
   for (int i = 0; i < Corners; ++i) {
     auto block = M.template block<6, 6>(6 * i, 6 * i);

@@ -1,6 +1,8 @@
 // Mass of shell elements in their own axes: from projected geometry and section to the matrix about the middle surface.
 #pragma once
 
+#include <array>
+
 #include <Eigen/Core>
 
 #include "reducer/elements/shell/geometry.hpp"
@@ -23,5 +25,16 @@ Eigen::Matrix<double, 6 * Corners, 6 * Corners> consistent_shell_mass(const Shel
 template <int Corners>
 Eigen::Matrix<double, 6 * Corners, 6 * Corners> lumped_shell_mass(const ShellGeometry<Corners>& geometry,
                                                                   const ShellSection& section);
+
+/// Where consistent_shell_mass() integrates: displacement Σ N_i u_i + bulge_i × θ_i, rotation Σ N_i θ_i, on dA of the
+/// true (warped) surface.
+template <int Corners>
+struct ShellMassPoint {
+  Eigen::Matrix<double, Corners, 1> N;
+  Eigen::Matrix<double, 3, Corners> bulge = Eigen::Matrix<double, 3, Corners>::Zero();
+  double dA = 0.0;
+};
+std::array<ShellMassPoint<4>, 9> shell_mass_points(const ShellGeometry<4>& geometry);
+std::array<ShellMassPoint<3>, 6> shell_mass_points(const ShellGeometry<3>& geometry);
 
 }  // namespace tisserand::reducer

@@ -9,52 +9,19 @@
 // motions, so it leaves the invariance as it is, and makes long elements as good as their bending is.
 #include <array>
 #include <cmath>
+#include <vector>
 
+#include "common/math/rotation.hpp"
 #include "reducer/elements/element_matrices.hpp"
 #include "reducer/elements/gauss.hpp"
 #include "reducer/elements/second_order.hpp"
 #include "reducer/elements/shell/geometry.hpp"
+#include "reducer/elements/shell/turn.hpp"
 
 namespace tisserand::reducer {
 namespace {
 
-using Turn = Eigen::Matrix<double, 3, Eigen::Dynamic>;
-
-/// ∂/∂x, ∂/∂y (rows) of interpolated values of the corners: mean over the element.
-Eigen::Matrix<double, 2, 3> mean_slope(const ShellGeometry<3>& geometry) {
-  Eigen::Matrix<double, 2, 3> slope;
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector2d d = geometry.corner.col((i + 2) % 3) - geometry.corner.col((i + 1) % 3);
-    slope.col(i) = Eigen::Vector2d(-d.y(), d.x()) / (2.0 * geometry.area);
-  }
-  return slope;
-}
-Eigen::Matrix<double, 2, 4> mean_slope(const ShellGeometry<4>& geometry) {
-  Eigen::Matrix<double, 2, 4> slope;
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector2d d = geometry.corner.col((i + 3) % 4) - geometry.corner.col((i + 1) % 4);
-    slope.col(i) = Eigen::Vector2d(-d.y(), d.x()) / (2.0 * geometry.area);
-  }
-  return slope;
-}
-
-/// ω = [w,y; −w,x; ½ (v,x − u,y)] of the middle surface, in element axes [u v w θx θy θz]: a rigid rotation gives
-/// itself for nodes at heights h, since ψ × h ẑ of their arms is taken off.
-template <int Corners>
-Turn turn_of_plane(const ShellGeometry<Corners>& geometry) {
-  const Eigen::Matrix<double, 2, Corners> slope = mean_slope(geometry);
-  Turn turn = Turn::Zero(3, 6 * Corners);
-  for (int i = 0; i < Corners; ++i) {
-    turn(0, 6 * i + 2) = slope(1, i);
-    turn(1, 6 * i + 2) = -slope(0, i);
-    turn(2, 6 * i) = -0.5 * slope(1, i);
-    turn(2, 6 * i + 1) = 0.5 * slope(0, i);
-    // In-plane displacement of the middle surface below a corner at height h: u − θ × h ẑ.
-    turn(2, 6 * i + 3) = 0.5 * slope(0, i) * geometry.height[i];
-    turn(2, 6 * i + 4) = 0.5 * slope(1, i) * geometry.height[i];
-  }
-  return turn;
-}
+using Turn = ShellTurn;
 
 /// Values of the corners' shape functions at the points, and the root of their share of the area.
 template <int Corners>
@@ -85,29 +52,23 @@ std::array<SheetPoint<4>, 4> sheet_points(const ShellGeometry<4>& geometry) {
   return points;
 }
 
-/// Coordinates of the mesh in element axes: left factor for rows that are in element axes.
-Eigen::MatrixXd turned_columns(const Eigen::MatrixXd& rows, const Eigen::Matrix3d& R_PE) {
-  Eigen::MatrixXd result(rows.rows(), rows.cols());
-  for (Eigen::Index k = 0; k < rows.cols(); k += 3)
-    result.middleCols<3>(k).noalias() = rows.middleCols<3>(k) * R_PE.transpose();
-  return result;
-}
-
 template <int Corners>
 void corotate(const Mesh& mesh, const ShellElement& shell, SecondOrderRows& out) {
   const ShellGeometry<Corners> geometry = shell_geometry<Corners>(mesh, shell);
   const Eigen::Matrix3d& R_PE = geometry.R_PE;
-  out.start({{&turned_point(), Corners}, {&turning_sheet(Corners), 1}}, 6 * Corners);
+  std::vector<StrainSection> sections{{&turned_point(), Corners}, {&turning_sheet(Corners), 1}};
+  if (shell.offset != 0.0) sections.push_back({&turned_point(), Corners});
+  out.start(sections, 6 * Corners);
   static thread_local ElementMatrices matrices;
   element_matrices(mesh, shell, matrices);
   Eigen::Matrix3Xd X(3, Corners);
   for (int i = 0; i < Corners; ++i) X.col(i) = mesh.position.col(shell.nodes[i]);
   X.colwise() -= Eigen::Vector3d(X.rowwise().mean());
-  const Turn turn = R_PE * turned_columns(turn_of_plane<Corners>(geometry), R_PE);
+  const Turn turn = shell_turn<Corners>(geometry, shell.offset);
   add_corotated(matrices.S, X, turn, out);
   // ∫N dA = sym Σ f xᵀ for nodal forces f at x: their work on a constant strain.
   const Eigen::Matrix<double, 3, 2> axes = R_PE.leftCols<2>();
-  auto N = out.stress.bottomRows<3>();
+  auto N = out.stress.middleRows<3>(6 * Corners);
   for (int i = 0; i < Corners; ++i) {
     const Eigen::MatrixXd f = axes.transpose() * matrices.S.middleRows<3>(6 * i);
     N.row(0) += geometry.corner(0, i) * f.row(0);
@@ -119,6 +80,18 @@ void corotate(const Mesh& mesh, const ShellElement& shell, SecondOrderRows& out)
     for (int i = 0; i < Corners; ++i)
       out.gradient.template block<3, 3>(row, 6 * i + 3) = point.root * (point.N[i] - 1.0 / Corners) * R_PE.transpose();
     row += 3;
+  }
+  if (shell.offset == 0.0) return;
+  // Arms r from the nodes to the middle surface: what they turn beside the element, φ = ψ − ω, moves their ends by
+  // ½ φ × (φ × r).
+  for (int i = 0; i < Corners; ++i) {
+    out.stress.template middleRows<3>(6 * Corners + 3 + 6 * i) = matrices.S.middleRows<3>(6 * i);
+    Turn beside = -turn;
+    beside.template middleCols<3>(6 * i + 3) += Eigen::Matrix3d::Identity();
+    out.gradient.template middleRows<3>(row) = beside;
+    out.gradient.template middleRows<3>(row + 3) =
+        0.5 * skew<double>(Eigen::Vector3d(shell.offset * R_PE.col(2))) * beside;
+    row += 9;
   }
 }
 

@@ -48,6 +48,8 @@ void expect_equal(const Companion& a, const Companion& b) {
   EXPECT_EQ(a.E, b.E);
   EXPECT_EQ(a.N, b.N);
   EXPECT_EQ(a.T, b.T);
+  EXPECT_EQ(a.W, b.W);
+  EXPECT_EQ(a.minor_version, b.minor_version);
   EXPECT_EQ(a.Lambda, b.Lambda);
   ASSERT_EQ(a.load_cases.size(), b.load_cases.size());
   for (std::size_t i = 0; i < a.load_cases.size(); ++i) {
@@ -92,6 +94,55 @@ TEST(CompanionFile, MayHoldTrappedStress) {
   });
   EXPECT_THAT(error_of([&] { static_cast<void>(read_companion(path, network().element)); }),
               HasSubstr("/Lambda: has shape 2001 x 105, expected 1 to 2000 matrices of n = 14 coordinates"));
+}
+
+/// Antisymmetric matrices, as rotary inertia has them.
+Companion with_relative_turns() {
+  Companion c = network().companion;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(
+        14, 14, [k](Eigen::Index i, Eigen::Index j) { return std::sin(1.0 + k + 3.0 * i + 7.0 * j * j); });
+    c.W[k] = A - A.transpose();
+  }
+  return c;
+}
+
+TEST(CompanionFile, MayHoldRelativeTurns) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("net.companion.h5");
+  Companion written = with_relative_turns();
+  write_companion(path, written, network().element);
+  const Companion loaded = read_companion(path, network().element);
+  expect_equal(loaded, written);
+  EXPECT_TRUE(loaded.has_relative_turns());
+  EXPECT_EQ(loaded.minor_version, 2);
+  Companion other = written;
+  other.W[2](3, 4) += 1.0;
+  other.W[2](4, 3) -= 1.0;
+  EXPECT_NE(companion_id(other), written.companion_id);
+  for (Eigen::MatrixXd& W : other.W) W.resize(0, 0);
+  EXPECT_NE(companion_id(other), written.companion_id);
+}
+
+// A file of version 1.1 is read with its number, by which a reader knows that W may be missing.
+TEST(CompanionFile, FormerVersionsAreKnown) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("net.companion.h5");
+  for (const int minor : {0, 1}) {
+    Companion written = network().companion;
+    written.minor_version = minor;
+    write_companion(path, written, network().element);
+    EXPECT_EQ(read_companion(path, network().element).minor_version, minor);
+  }
+}
+
+// Masses of the network have no rotary inertia: files of any version are complete. A sphere's E without its T is not.
+TEST(CompanionFile, MissingTurnsAreThoseOfRotaryInertia) {
+  const SecondOrderBody& body = network();
+  EXPECT_LT(missing_turns(body.companion, body.element).share.cwiseAbs().maxCoeff(), 1e-12);
+  Companion c = body.companion;
+  for (Eigen::MatrixXd& T : c.T) T *= 0.9;
+  EXPECT_GT(missing_turns(c, body.element).share.cwiseAbs().maxCoeff(), 1e-4);
 }
 
 TEST(CompanionFile, MayHoldLoadCasesAlone) {
@@ -180,6 +231,16 @@ TEST(CompanionFile, EveryRuleIsChecked) {
       {"/E[3] (yz): is not symmetric", [](Companion& c) { c.E[3](1, 2) += 1.0; }},
       {"/N[5]: is not symmetric", [](Companion& c) { c.N[5](1, 2) += 1.0; }},
       {"/T[0] (xx): [0, 13] = inf", [](Companion& c) { c.T[0](0, 13) = std::numeric_limits<double>::infinity(); }},
+      {"/W[1]: has 14 x 3",
+       [](Companion& c) {
+         c.W = with_relative_turns().W;
+         c.W[1].conservativeResize(14, 3);
+       }},
+      {"/W[2]: is not antisymmetric",
+       [](Companion& c) {
+         c.W = with_relative_turns().W;
+         c.W[2](3, 5) += 0.1;
+       }},
       {"kinetic energy is not positive: spinning about (", [](Companion& c) { c.E[0] *= 0.999; }},
       {"kinetic energy is not positive: spinning about (0, 0.707, 0.707)",
        [](Companion& c) {

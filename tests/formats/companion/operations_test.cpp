@@ -130,6 +130,60 @@ TEST(CompanionOperations, CongruenceIsThatOfTheBasis) {
   EXPECT_NEAR(form(turned.load_cases[0].stiffness, y) / form(body.companion.load_cases[0].stiffness, Ay), 1.0, 1e-11);
 }
 
+// [ẏᵀ W_k y] is an angular momentum: the same in all coordinates, an axial vector in a mirror, and dropped modes take
+// their rows alone.
+TEST(CompanionOperations, RelativeTurnsAreAnAngularMomentum) {
+  SecondOrderBody body = test_support::second_order_network(3, weights);
+  body.companion.load_cases.clear();
+  const Eigen::Index n = body.element.size();
+  for (int k = 0; k < 3; ++k) {
+    const MatrixXd A = MatrixXd::NullaryExpr(
+        n, n, [k](Eigen::Index i, Eigen::Index j) { return std::sin(1.0 + k + 3.0 * i + 7.0 * j * j); });
+    body.companion.W[k] = A - A.transpose();
+  }
+  const auto momentum = [](const Companion& c, const Eigen::VectorXd& yd, const Eigen::VectorXd& y) {
+    return Vector3d(yd.dot(c.W[0] * y), yd.dot(c.W[1] * y), yd.dot(c.W[2] * y));
+  };
+  const Eigen::VectorXd y = Eigen::VectorXd::NullaryExpr(n, [](Eigen::Index i) { return std::sin(1.0 + 3.0 * i); }),
+                        yd = y.reverse();
+  const Vector3d expected = momentum(body.companion, yd, y);
+
+  Companion turned = body.companion;
+  const MatrixXd A = MatrixXd::Identity(n, n) + 0.1 * y * y.reverse().transpose();
+  congruence(turned, A);
+  const Eigen::PartialPivLU<MatrixXd> inverse(A);
+  EXPECT_LT((momentum(turned, inverse.solve(yd), inverse.solve(y)) - expected).norm(), 1e-11 * expected.norm());
+
+  Companion cut = body.companion;
+  drop_modes(cut, body.element.mass, rigid(body), {boundary_rows + 2}, body.omega_squared.tail(1));
+  EXPECT_EQ(cut.W[1], body.companion.W[1].topLeftCorner(n - 1, n - 1));
+
+  Companion image = body.companion;
+  const Vector3d axes(1, -1, 1), axial = axes.prod() * axes;
+  mirror(image, axes, mirrored(LoadedSuperelement{body.element, {}}, axes).superelement);
+  Eigen::VectorXd seen = y, seen_rate = yd;
+  for (Eigen::Index row = 0; row < boundary_rows; ++row) {
+    seen[row] *= axes[body.element.dof_component[row]];
+    seen_rate[row] *= axes[body.element.dof_component[row]];
+  }
+  EXPECT_LT((momentum(image, seen_rate, seen) - expected.cwiseProduct(axial)).norm(), 1e-12 * expected.norm());
+
+  const UnitConversion units{1000.0, 0.001, 500.0};
+  Companion converted = body.companion;
+  std::vector<bool> translation;
+  for (const int node : body.element.dof_node) translation.push_back(node >= 0);
+  convert(converted, units, translation);
+  Eigen::VectorXd other = y, other_rate = yd;
+  other.head(boundary_rows) *= units.length;
+  other_rate.head(boundary_rows) *= units.length;
+  EXPECT_LT((momentum(converted, other_rate, other) - 1e3 * expected).norm(), 1e-9 * expected.norm());
+
+  Companion moved = body.companion;
+  move_reference(moved, Vector3d(0.3, -0.2, 0.7));
+  galilean_step_keeping_gram(moved, body.element.mass, rigid(body));
+  EXPECT_EQ(moved.W, body.companion.W);
+}
+
 // ½ Σ (½ yᵀΛy)² is an energy of the motion: the same in all coordinates, units, and in a mirror, and dropped modes do
 // not change that of the others.
 TEST(CompanionOperations, TrappedStressHasTheSameEnergyInAllCoordinates) {

@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "mechanism/bodies/superelement/full_inertia.hpp"
+#include "mechanism/bodies/superelement/second_order_tangent.hpp"
 #include "tests/support/bodies/reduced_frames.hpp"
+#include "tests/support/bodies/second_order_known_answers.hpp"
 #include "tests/support/bodies/superelement_cases.hpp"
 
 namespace tisserand::mechanism::superelement_lagrange_test {
@@ -112,6 +115,11 @@ Energies energies(const SuperelementBody& body, const ComplexState& state, const
     e.kinetic +=
         0.5 * body.mass * (dot3<Complex>(motion.center_velocity, motion.center_velocity) - dot3<Complex>(mean, mean));
   }
+  if (body.second_order.inertia) {
+    auto terms = make_inertia_terms<Complex>(*body.second_order.inertia);
+    static_cast<void>(inertia_forces<Complex>(body, motion, Vec3<Complex>::Zero(), terms));
+    e.kinetic = terms.kinetic;
+  }
   const Vec3<Complex> center = motion.x0 + motion.R0 * deformed_center_of_mass<Complex>(body, motion);
   e.potential -= body.mass * dot3<Complex>(gravity.cast<Complex>(), center);
   return e;
@@ -155,6 +163,44 @@ Eigen::VectorXd lagrange(const SuperelementBody& body, const BodyState& state, c
       result.segment<3>(row) += state.nodes[i].Omega.cross(momentum.segment<3>(row));
     }
   return result;
+}
+
+/// Forces of the body at the state, boundary then internal.
+Eigen::VectorXd forces_of(const SuperelementBody& body, const BodyState& state, SuperelementScratch& scratch) {
+  test_support::evaluate(body, state, kGravity, scratch);
+  Eigen::VectorXd r(body.boundary_size + body.modes);
+  r << scratch.forces.r_B, scratch.forces.r_I;
+  return r;
+}
+
+// What any antisymmetric W adds to the forces is what it adds to Lagrange's equations of the kinetic energy, and the
+// mass of the step tangent stays exact.
+TEST(SuperelementForces, RelativeTurnsMeetLagrangesEquations) {
+  for (const char* name : {"beam2", "lframe3"}) {
+    test_support::SecondOrderAnswer answer = test_support::second_order_answer(name);
+    const SuperelementBody without =
+        second_order_body(answer, InertiaOption::F, formats::StiffeningOption::full);
+    const Eigen::Index n = answer.element.size();
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::MatrixXd A = Eigen::MatrixXd::NullaryExpr(
+          n, n, [k](Eigen::Index i, Eigen::Index j) { return 0.02 * std::sin(1.0 + k + 3.0 * i + 7.0 * j * j); });
+      answer.companion.W[k] = A - A.transpose();
+    }
+    const SuperelementBody with = second_order_body(answer, InertiaOption::F, formats::StiffeningOption::full);
+    const BodyState state = second_order_state(answer, with);
+    SuperelementScratch scratch = make_scratch(with), other = make_scratch(without);
+    const Eigen::VectorXd all = forces_of(with, state, scratch), added = all - forces_of(without, state, other);
+    const Eigen::Matrix3d R0 = scratch.motion.R0;
+    EXPECT_GT(added.norm(), 1e-3 * all.norm()) << name;
+    EXPECT_LT((added - (lagrange(with, state, R0) - lagrange(without, state, R0))).norm(), 1e-11 * all.norm()) << name;
+    const auto tangent = [&](TangentKind kind) {
+      Eigen::MatrixXd A;
+      uncondensed_tangent(with, scratch, test_support::in_order(state.nodes), kGravity, {1.0, 0.0, 0.0}, kind, A);
+      return A;
+    };
+    const Eigen::MatrixXd exact = tangent(TangentKind::exact);
+    EXPECT_LT((tangent(TangentKind::step) - exact).norm(), 1e-12 * exact.norm()) << name;
+  }
 }
 
 class SuperelementForcesOf : public ::testing::TestWithParam<Case> {
