@@ -66,8 +66,8 @@ struct ResultsRow {
   Eigen::Matrix4Xd node_rotation;  ///< w x y z, Q_WN
   Eigen::Matrix3Xd frame_position;
   Eigen::Matrix4Xd frame_rotation;
-  Eigen::VectorXd y;                                        ///< all superelements, file coordinates, modes_offset
-  Eigen::VectorXd y_rate;                                   ///< of y
+  Eigen::VectorXd y;         ///< all superelements, file coordinates, modes_offset
+  Eigen::VectorXd y_rate;    ///< of y
   Eigen::VectorXd y_strain;  ///< y with the second-order strain: what stress follows from; empty unless strained
   /// Of floating frames, in axes of the part: acceleration of the origin less gravity, angular velocity, its rate.
   Eigen::Matrix3Xd frame_acceleration, frame_angular_velocity, frame_angular_acceleration;

@@ -6,6 +6,7 @@
 #include "common/error.hpp"
 #include "formats/superelement/mirror.hpp"
 #include "reducer/elements/shell/geometry.hpp"
+#include "reducer/elements/turning_mass.hpp"
 #include "reducer/recovery/fields.hpp"
 #include "reducer/recovery/surface.hpp"
 #include "reducer/second_order/inertia_loads.hpp"
@@ -173,7 +174,7 @@ void add_loads(const InternalProblem& problem, const InternalModes& internal, co
   formats::RecoveryLoads loads;
   loads.reference_point = answers.reference_point;
   const Eigen::Index n = superelement.size(), m = internal.lambda.size();
-  loads.share = Eigen::MatrixXd::Zero(n, inertial);
+  loads.share = Eigen::MatrixXd::Zero(n, inertial_loads);
   loads.share.bottomRows(m) = answers.share;
   loads.stiffness = Eigen::VectorXd::Zero(n);
   loads.stiffness.tail(m) = internal.lambda;

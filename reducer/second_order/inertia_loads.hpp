@@ -7,11 +7,6 @@
 
 namespace tisserand::reducer {
 
-inline constexpr int inertial = 12;  ///< loads: six rigid accelerations, six centrifugal ones
-
-/// g_a = M D_a and g_jk = −½ ([e_k x] M D_3+j + [e_j x] M D_3+k), on the rows of MD.
-Eigen::MatrixXd inertia_loads(const Eigen::MatrixXd& MD);
-
 /// Displacements of q under forces on q with the boundary held, less the share of the modes that are kept:
 /// w = K_II⁻¹ g − Φ_I Λ⁻¹ Φ_Iᵀ g.
 Eigen::MatrixXd residual_displacements(const InternalProblem& problem, const InternalModes& internal,

@@ -10,7 +10,8 @@
 namespace tisserand::stability {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+/// Statics without a choice of bodies.
+std::vector<Formulation> as_it_is() { return {{"as it is", {}, ""}}; }
 
 /// A beam of so many elements in place of the scene's.
 Formulation elements(const std::string& parameters, int count, int nodes) {
@@ -41,6 +42,7 @@ std::vector<Case> beams_under_load() {
                      .criteria = {at_end("joints/coordinate/turn/angle", 1e-3 / (G * J * (1 - share)),
                                          2e-2 * 1e-3 / (G * J * (1 - share)))},
                      .source = "Wagner: T L/(G J - N I_p/A)",
+                     .formulations = as_it_is(),
                      .takes_steps = false,
                      .scales = false});
   }
@@ -53,8 +55,9 @@ std::vector<Case> equilibria() {
     cases.push_back({.name = fmt::format("hanging pendulum, {:g} degrees off", angle),
                      .scene = "fail2_hanging_statics",
                      .settings = {fmt::format("bodies.arm.pose.orientation.angle_deg={:g}", angle)},
-                     .criteria = {at_end("joints/coordinate/hinge", -angle * pi / 180, 1e-6)},
+                     .criteria = {at_end("joints/coordinate/hinge", -angle * std::numbers::pi / 180, 1e-6)},
                      .source = "it hangs straight down",
+                     .formulations = as_it_is(),
                      .takes_steps = false,
                      .scales = false});
   // The elastica with shear and axial strain, 0.01 N across: where the straight column is unstable.
@@ -65,6 +68,7 @@ std::vector<Case> equilibria() {
          .settings = {fmt::format("parameters.weight={:g}", load)},
          .criteria = {at_end("nodes/position/rod/40/x", x, 1e-4), at_end("nodes/position/rod/40/z", z, 1e-4)},
          .source = "elliptic integrals",
+         .formulations = as_it_is(),
          .takes_steps = false,
          .scales = false});
   // A block of 1 kg on a guide that turns with the scene: r = k r₀/(k − m Ω²).
@@ -74,6 +78,7 @@ std::vector<Case> equilibria() {
                      .settings = {fmt::format("parameters.rate={:g}", rate)},
                      .criteria = {at_end("joints/coordinate/guide", rate * rate / (1e3 - rate * rate), 1e-6)},
                      .source = "a spring of 1000 N/m against m r W^2",
+                     .formulations = as_it_is(),
                      .takes_steps = false,
                      .scales = false});
   return cases;
@@ -81,7 +86,7 @@ std::vector<Case> equilibria() {
 
 std::vector<Case> loops() {
   // A parallelogram: the coupler keeps its direction. The hinge that is out of line asks for 1e-4 m of deformation.
-  const double angle = pi / 2 - 0.6 * 11.75;
+  const double angle = std::numbers::pi / 2 - 0.6 * 11.75;
   const auto effects = [](const std::string& which) { return std::vector<std::string>{"effects=" + which}; };
   return {{.name = "Bennett's linkage",
            .scene = "bennett",
