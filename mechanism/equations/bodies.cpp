@@ -81,7 +81,11 @@ void add_forces(const Model& model, const State& state, const Pool<SuperelementU
     residual(body, scratch, gravity);
     scatter(pool.maps[i], scratch.forces.r_B, evaluation.residual);
     note_scale(body, scratch, evaluation);
-    if (body.damping.active) evaluation.damper_power += energy(body, scratch, gravity).damping_power;
+    if (body.damping.active) {
+      const double power = damping_power(body, scratch);
+      evaluation.body_power += power;
+      evaluation.damper_power += power;
+    }
     if (!body.load_cases.empty()) evaluation.load_power += load_power(body, scratch.motion, scratch.forces.loads);
   }
 }

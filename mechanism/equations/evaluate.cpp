@@ -18,7 +18,7 @@ void forget_results([[maybe_unused]] Evaluation& evaluation) {
                                   &evaluation.active, &evaluation.residual})
     result->setConstant(unknown);
   evaluation.force_scale.fill(unknown);
-  evaluation.outer_force = evaluation.load_power = evaluation.damper_power = evaluation.spring_energy = unknown;
+  evaluation.outer_force = evaluation.load_power = evaluation.damper_power = evaluation.body_power = evaluation.spring_energy = unknown;
 #endif
   evaluation.stage = Stage::nothing;
 }
@@ -26,7 +26,7 @@ void forget_results([[maybe_unused]] Evaluation& evaluation) {
 void clear_forces(Evaluation& evaluation) {
   evaluation.residual.setZero();
   evaluation.force_scale.fill(0.0);
-  evaluation.load_power = evaluation.damper_power = evaluation.spring_energy = 0.0;
+  evaluation.load_power = evaluation.damper_power = evaluation.body_power = evaluation.spring_energy = 0.0;
 }
 
 }  // namespace

@@ -77,6 +77,7 @@ struct Evaluation {
   double outer_force = 0.0;              ///< that force without what modes bear inside their bodies
   double load_power = 0.0;
   double damper_power = 0.0;   ///< that is dissipated, but by tyres: damping_power()
+  double body_power = 0.0;     ///< of that, by damping of superelements
   double spring_energy = 0.0;  ///< strain energy of springs, stops and bushings
 
   // On request.

@@ -11,13 +11,13 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// What all methods keep, and the powers integrated by the trapezoidal rule.
-void accept(const Model& model, double step, const Evaluation& now, State& state) {
+/// What all methods keep, and the powers integrated by the trapezoidal rule, but those of damped superelements.
+void accept(const Model& model, double step, const Evaluation& now, Dissipation& dissipation, State& state) {
   settle(model, now, state);
   state.acceleration_scale() = std::max(state.acceleration_scale(), size_of(model, state.algorithmic()));
   state.work() += 0.5 * step * (state.load_power() + now.load_power);
   const double damping = damping_power(model, now);
-  state.dissipated() += 0.5 * step * (state.damping_power() + damping);
+  state.dissipated() += 0.5 * step * (state.damping_power() + damping) + dissipation.beyond_trapezoid(model, step, now);
   state.load_power() = now.load_power;
   state.damping_power() = damping;
 }
@@ -67,7 +67,7 @@ void finish(const Model& model, const formats::IntegratorSpec& options, const St
     learn(model, scheme.step, memory.tuning.smooth_rate, memory.previous, state, memory.predictor);
     age_projection(model, memory.tuning, workspace.now, memory.projection);
   }
-  accept(model, scheme.step, workspace.now, state);
+  accept(model, scheme.step, workspace.now, memory.dissipation, state);
   memory.rows.note_turn(model, scheme.step, state);
 }
 

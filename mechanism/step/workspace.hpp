@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mechanism/equations/iteration_matrix.hpp"
+#include "mechanism/step/dissipation.hpp"
 #include "mechanism/step/factor_reuse.hpp"
 #include "mechanism/step/position_projection.hpp"
 #include "mechanism/step/predictor.hpp"
@@ -17,12 +18,14 @@ struct StepMemory {
     reuse = {};
     predictor.forget();
     projection.forget();
+    dissipation.forget();
   }
 
   State previous;  ///< the state where the step begins: the last accepted one
   Predictor predictor;
   FactorReuse reuse;
   PositionProjection projection;
+  Dissipation dissipation;
   RowWatch rows;
   StepTuning tuning;
 };

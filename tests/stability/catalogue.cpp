@@ -33,10 +33,6 @@ double swing(double k, double angle, double rate, double time) {
   return angle;
 }
 
-Criterion balance(double tolerance) { return {Kind::balance, {}, 0.0, tolerance, false}; }
-Criterion at_end(const std::string& channel, double expected, double tolerance) {
-  return {Kind::end, {{1.0, channel}}, expected, tolerance, false};
-}
 Criterion length_at_end(const std::string& channel, double expected, double tolerance) {
   return {Kind::end, {{1.0, channel}}, expected, tolerance, true};
 }
@@ -383,10 +379,15 @@ std::vector<Case> beyond_the_linear_range() {
 
 }  // namespace
 
+Criterion balance(double tolerance) { return {Kind::balance, {}, 0.0, tolerance, false}; }
+Criterion at_end(const std::string& channel, double expected, double tolerance) {
+  return {Kind::end, {{1.0, channel}}, expected, tolerance, false};
+}
+
 std::vector<Case> catalogue() {
   std::vector<Case> all;
   for (auto&& some : {four_bars(), slider_cranks(), pendulums(), free_flights(), springs_and_contacts(),
-                      rods_in_motion(), beyond_the_linear_range()})
+                      rods_in_motion(), beyond_the_linear_range(), states_and_loops()})
     all.insert(all.end(), some.begin(), some.end());
   return all;
 }
@@ -400,7 +401,10 @@ std::vector<Part> parts() {
           {"gate", "gate", {}},
           {"gate_points", "gate", {"boundary={a: translations, b: translations, c: translations, d: translations}"}},
           {"gate_apart", "gate", {"boundary={a: translations, b: translations, c: rotations, d: translations}"}},
-          {"soft_half", "soft_half", {}}};
+          {"soft_half", "soft_half", {}},
+          {"four_bar_crank", "four_bar_crank", {}},
+          {"four_bar_coupler", "four_bar_coupler", {}},
+          {"four_bar_rocker", "four_bar_rocker", {}}};
 }
 
 void write_modal_rod(const std::string& path) {

@@ -33,7 +33,7 @@ struct Formulation {
 
 struct Case {
   std::string name;
-  std::string scene;  ///< of scenes/, without .scene.yaml
+  std::string scene;  ///< of scenes/ or of the trials' inputs, without .scene.yaml
   std::vector<std::string> settings;
   std::vector<Criterion> criteria;
   std::string source;                          ///< where what is expected comes from
@@ -46,10 +46,15 @@ struct Case {
 /// A part that `reducer` reduces for the scenes.
 struct Part {
   std::string file;    ///< <file>.superelement.h5
-  std::string source;  ///< of scenes/, without .part.yaml
+  std::string source;  ///< of scenes/ or of the trials' inputs, without .part.yaml
   std::vector<std::string> settings;
 };
 
+Criterion balance(double tolerance);
+Criterion at_end(const std::string& channel, double expected, double tolerance);
+
+/// Beams in tension, changes of rows, equilibria, steady turns, effects that are `auto`, torsional buckling.
+std::vector<Case> states_and_loops();
 std::vector<Case> catalogue();
 std::vector<Part> parts();
 /// Writes the rod as a modal body, clamped at its start, beside the superelements.

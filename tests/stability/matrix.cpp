@@ -141,7 +141,7 @@ std::string without(std::string text, const std::string& part) {
 
 void reduce(const Part& part, const Place& place) {
   ChildRequest request;
-  request.words = {place.reducer, "run", fmt::format("{}/{}.part.yaml", place.scenes, part.source), "-o",
+  request.words = {place.reducer, "run", fmt::format("{}/{}.part.yaml", place.work, part.source), "-o",
                    fmt::format("{}/{}.superelement.h5", place.work, part.file)};
   request.seconds = 120.0;
   for (const std::string& setting : part.settings) {
@@ -199,8 +199,10 @@ std::vector<Cell> cells_of(const Case& one) {
 void prepare(const Place& place) {
   namespace fs = std::filesystem;
   fs::create_directories(place.work);
-  for (const fs::directory_entry& file : fs::directory_iterator(place.scenes))
-    fs::copy_file(file.path(), fs::path(place.work) / file.path().filename(), fs::copy_options::overwrite_existing);
+  const std::string trials = place.scenes + "/../../verification/references/trials";
+  for (const std::string& folder : {trials, place.scenes})
+    for (const fs::directory_entry& file : fs::directory_iterator(folder))
+      fs::copy_file(file.path(), fs::path(place.work) / file.path().filename(), fs::copy_options::overwrite_existing);
   for (const Part& part : parts()) reduce(part, place);
   write_modal_rod(place.work + "/rod.modal.h5");
 }

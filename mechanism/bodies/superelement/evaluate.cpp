@@ -100,6 +100,16 @@ double coupling_form(const Eigen::MatrixXd& A, const Eigen::VectorXd& row, const
   return sum;
 }
 
+/// ẏᵀ D ẏ of D = b S̄ + diag(…) + a full matrix.
+double power_at(const SuperelementBody& body, const Eigen::VectorXd& rate_B, const Eigen::VectorXd& rate_I) {
+  const SuperelementDamping& damping = body.damping;
+  double power = damping.stiffness * quadratic_form(body.S_BB, rate_B) + rate_I.cwiseAbs2().dot(damping.internal);
+  if (damping.is_full())
+    power += quadratic_form(damping.BB, rate_B) + 2.0 * coupling_form(damping.BI, rate_B, rate_I) +
+             quadratic_form(damping.II, rate_I);
+  return power;
+}
+
 }  // namespace
 
 SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratch& scratch,
@@ -122,18 +132,36 @@ SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratc
     const Eigen::Vector3d center = motion.x0 + motion.R0 * arm;
     result.gravity_potential = -body.mass * gravity.dot(center);
   }
-  if (body.damping.active) {
-    const SuperelementDamping& damping = body.damping;
-    const Eigen::VectorXd& rate = motion.deformation_rate_B;
-    result.damping_power =
-        damping.stiffness * quadratic_form(body.S_BB, rate) + motion.rate_I.cwiseAbs2().dot(damping.internal);
-    if (body.second_order.stiffening && damping.stiffness > 0.0)
-      result.damping_power += scratch.forces.strain.damping_power;
-    if (damping.is_full())
-      result.damping_power += quadratic_form(damping.BB, rate) + 2.0 * coupling_form(damping.BI, rate, motion.rate_I) +
-                              quadratic_form(damping.II, motion.rate_I);
-  }
   return result;
+}
+
+double damping_power(const SuperelementBody& body, const SuperelementScratch& scratch) {
+  const LocalMotion<double>& motion = scratch.motion;
+  const bool strained = body.second_order.stiffening && body.damping.stiffness > 0.0;
+  return power_at(body, motion.deformation_rate_B, motion.rate_I) + (strained ? scratch.forces.strain.damping_power : 0.0);
+}
+
+double mean_damping_power(const SuperelementBody& body, const SuperelementScratch& scratch, double step,
+                          StepDeformation& before) {
+  before.rate_B = (scratch.motion.y_B - before.y_B) / step;
+  before.rate_I = (scratch.motion.y_I - before.y_I) / step;
+  const double power = power_at(body, before.rate_B, before.rate_I);
+  if (!body.second_order.stiffening || body.damping.stiffness == 0.0) return power;
+  const StrainTerms<double>& strain = scratch.forces.strain;
+  double sum = 0.0;
+  for (Eigen::Index a = 0; a < strain.g.size(); ++a) {
+    const double bent = (strain.g[a] - before.quadratic[a]) / step;
+    sum += (2.0 * (strain.linear[a] - before.linear[a]) / step + bent) * bent;
+  }
+  return power + body.damping.stiffness * sum;
+}
+
+void keep_deformation(const SuperelementBody& body, const SuperelementScratch& scratch, StepDeformation& kept) {
+  kept.y_B = scratch.motion.y_B;
+  kept.y_I = scratch.motion.y_I;
+  if (!body.second_order.stiffening) return;
+  kept.linear = scratch.forces.strain.linear;
+  kept.quadratic = scratch.forces.strain.g;
 }
 
 Eigen::Index file_coordinate_count(const SuperelementBody& body) {

@@ -143,8 +143,24 @@ struct SuperelementEnergy {
   double kinetic = 0.0;            ///< ½ ẏᵀ M̄ ẏ
   double strain = 0.0;             ///< ½ yᵀ S̄ y
   double gravity_potential = 0.0;  ///< −m g · x_cm
-  double damping_power = 0.0;      ///< dissipated, ≥ 0
 };
+
+/// What a body has at one state, for the mean power of damping over a step that begins there.
+struct StepDeformation {
+  Eigen::VectorXd y_B, y_I;
+  Eigen::VectorXd linear, quadratic;  ///< rows: l_a·y and g_a of the generalised strains; empty without stiffening
+  Eigen::VectorXd rate_B, rate_I;     ///< buffers: Δy/step
+};
+
+/// ẏᵀ D ẏ ≥ 0, dissipated, at the rates of the nodes. After residual().
+double damping_power(const SuperelementBody& body, const SuperelementScratch& scratch);
+
+/// The same at the mean rates of a step, Δy/step. After residual().
+double mean_damping_power(const SuperelementBody& body, const SuperelementScratch& scratch, double step,
+                          StepDeformation& before);
+
+/// After residual().
+void keep_deformation(const SuperelementBody& body, const SuperelementScratch& scratch, StepDeformation& kept);
 
 /// After residual().
 SuperelementEnergy energy(const SuperelementBody& body, const SuperelementScratch& scratch,

@@ -340,13 +340,13 @@ TEST_P(SuperelementForcesOf, DampingLeavesRigidMotionAlone) {
   if (body_.modes > 0) damping.ratios_internal = {0.2};
   const SuperelementBody damped = make_body(GetParam(), damping);
   SuperelementScratch scratch = make_scratch(damped);
-  // Deformed: the damping force is there, and its power is that of energy().
+  // Deformed: the damping force is there, and its power is that of damping_power().
   test_support::evaluate(damped, state_, kGravity, scratch);
   test_support::evaluate(body_, state_, kGravity, scratch_);
   const Eigen::VectorXd v = pack(body_, state_, &NodeMotion::xd, &NodeMotion::Omega, state_.yd);
   Eigen::VectorXd difference(v.size());
   difference << scratch.forces.r_B - scratch_.forces.r_B, scratch.forces.r_I - scratch_.forces.r_I;
-  const double power = energy(damped, scratch, kGravity).damping_power;
+  const double power = damping_power(damped, scratch);
   EXPECT_GT(power, 0.1);
   EXPECT_NEAR(difference.dot(v), power, 1e-12 * difference.norm() * v.norm());
   // Rigid rates on the deformed body: nothing.
@@ -360,7 +360,7 @@ TEST_P(SuperelementForcesOf, DampingLeavesRigidMotionAlone) {
   test_support::evaluate(body_, state_, kGravity, scratch_);
   if (GetParam().frame == FrameKind::paper) return;  // its frame does not turn with the body exactly
   EXPECT_LT((scratch.forces.r_B - scratch_.forces.r_B).norm(), 1e-12 * scratch.forces.r_B.norm());
-  EXPECT_LT(energy(damped, scratch, kGravity).damping_power, 1e-22);
+  EXPECT_LT(damping_power(damped, scratch), 1e-22);
 }
 
 std::vector<Case> cases() {
