@@ -43,7 +43,7 @@ constexpr double most_displaced = 0.1;
 constexpr double most_displaced_stressed = 0.005;
 /// A body counts as undeformed while displacements over its span and turns [rad] are smaller.
 constexpr double least_displacement = 1e-3;
-/// Of the span: bodies between hinges bear forces without moments, which count with this arm.
+/// The arm of a force, over the span, where it is compared with moments. Bodies between hinges bear no moments.
 constexpr double least_arm = 0.1;
 constexpr const char* superelement_remedy = "cut it into several, or use second_order with its companion file";
 constexpr const char* modal_remedy = "cut it into several, or take superelements with second_order, or beams";

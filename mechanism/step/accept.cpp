@@ -34,8 +34,11 @@ void settle(const Model& model, const Evaluation& now, State& state) {
   for (int k = 0; k < 3; ++k) state.force_scale(k) = std::max(state.force_scale(k), now.force_scale[k]);
 }
 
-bool ready_projection(const Model& model, const StepScheme& scheme, const State& state, Workspace& workspace,
-                      StepReport& report) {
+bool begin(const Model& model, const StepScheme& scheme, const State& state, Workspace& workspace, StepReport& report) {
+  if (Dissipation& dissipation = workspace.memory.dissipation; dissipation.begins()) {
+    evaluate(model, state, workspace.now);
+    dissipation.begin(model, workspace.now);
+  }
   if (!scheme.projects) return true;
   const FactorReport factors = prepare_projection(model, state, scheme, workspace.now, workspace.memory.projection);
   if (factors.regular && factors.reciprocal_condition >= singular_condition) return true;

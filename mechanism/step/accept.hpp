@@ -10,9 +10,9 @@ namespace tisserand::mechanism {
 /// What an accepted state keeps of its evaluation: unit quaternions, frames, unwrapped angles and scales of forces.
 void settle(const Model& model, const Evaluation& now, State& state);
 
-/// Factors of the position projection for this step, if it has one. False, with the outcome: singular.
-bool ready_projection(const Model& model, const StepScheme& scheme, const State& state, Workspace& workspace,
-                      StepReport& report);
+/// What a step takes from the state where it begins: the deformation of damped bodies, and factors of the position
+/// projection, if it has one. False, with the outcome: singular.
+bool begin(const Model& model, const StepScheme& scheme, const State& state, Workspace& workspace, StepReport& report);
 
 /// The solution of a step becomes the state and is learnt from, unless its error is too large: `inaccurate`, and the
 /// state as before.

@@ -3,20 +3,26 @@
 
 namespace tisserand::mechanism {
 
-double Dissipation::beyond_trapezoid(const Model& model, double step, const Evaluation& now) {
-  before_.resize(model.superelements.size());
-  double mean = 0.0;
-  for (std::size_t i = 0; i < before_.size(); ++i) {
-    const SuperelementBody& body = body_of(model, i);
-    if (!body.damping.active) continue;
-    const SuperelementScratch& scratch = now.superelements[i];
-    if (known_) mean += mean_damping_power(body, scratch, step, before_[i]);
-    keep_deformation(body, scratch, before_[i]);
-  }
-  const double energy = known_ ? step * (mean - 0.5 * (power_ + now.body_power)) : 0.0;
+Dissipation::Dissipation(const Model& model) : before_(model.superelements.size()) {
+  for (std::size_t i = 0; i < before_.size(); ++i) damped_ = damped_ || body_of(model, i).damping.active;
+}
+
+void Dissipation::begin(const Model& model, const Evaluation& now) {
+  for (std::size_t i = 0; i < before_.size(); ++i)
+    if (const SuperelementBody& body = body_of(model, i); body.damping.active)
+      keep_deformation(body, now.superelements[i], before_[i]);
   power_ = now.body_power;
   known_ = true;
-  return energy;
+}
+
+double Dissipation::beyond_trapezoid(const Model& model, double step, const Evaluation& now) {
+  if (!damped_) return 0.0;
+  double power = -0.5 * (power_ + now.body_power);
+  for (std::size_t i = 0; i < before_.size(); ++i)
+    if (const SuperelementBody& body = body_of(model, i); body.damping.active)
+      power += mean_damping_power(body, now.superelements[i], step, before_[i]);
+  begin(model, now);
+  return step * power;
 }
 
 }  // namespace tisserand::mechanism

@@ -1,8 +1,8 @@
 // Energy that the damping of superelements takes in a step, by the mean rates of the step.
 //
-// Positions turn with Ω while velocities of nodes follow Newmark's rule: between both are O(h²) of a turning body's
-// speed, which are rates of deformation though nothing deforms, and times a stiff D a power that nothing loses. Δy has
-// none.
+// Orientations of nodes advance by Ω h, velocities by Newmark's rule. In a body that turns steadily they differ by
+// O(h²). The rates of deformation are then not zero, though nothing deforms, and a stiff D makes a power of them that
+// nothing loses. Δy is zero.
 #pragma once
 
 #include <vector>
@@ -14,15 +14,22 @@ namespace tisserand::mechanism {
 
 class Dissipation {
  public:
-  void forget() { known_ = false; }
+  explicit Dissipation(const Model& model);
 
-  /// Energy of the step that ends at the last evaluation beyond that of the trapezoidal rule for evaluation.body_power:
-  /// zero for the first step after forget(). Keeps what the next step begins with.
+  void forget() { known_ = false; }
+  /// Whether begin() is due before the next step: after forget(), where a superelement is damped.
+  bool begins() const { return damped_ && !known_; }
+  /// Keeps the deformation at the last evaluation, where a step begins.
+  void begin(const Model& model, const Evaluation& now);
+
+  /// Energy of the step that ends at the last evaluation, less that of the trapezoidal rule for evaluation.body_power.
+  /// Keeps what the next step begins with.
   double beyond_trapezoid(const Model& model, double step, const Evaluation& now);
 
  private:
+  bool damped_ = false;
   bool known_ = false;
-  double power_ = 0.0;               ///< body_power where the step begins
+  double power_ = 0.0;                   ///< body_power where the step begins
   std::vector<StepDeformation> before_;  ///< per use; empty where the body is not damped
 };
 

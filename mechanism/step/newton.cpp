@@ -13,14 +13,18 @@ namespace {
 
 using formats::Formulation;
 
-/// Factors anew at the state of the last evaluation. False: singular.
-bool refactor(Iteration& it) {
-  const FactorReport factors = it.workspace.matrix.factor(it.model, it.state, it.scheme.request, it.workspace.now);
+/// Counts new factors. False: singular, which is the outcome.
+bool are_regular(const FactorReport& factors, Iteration& it) {
   ++it.report.factorisations;
   if (factors.regular && factors.reciprocal_condition >= singular_condition) return true;
   it.report.outcome = StepOutcome::singular;
   it.report.singular_column = factors.singular_column;
   return false;
+}
+
+/// Factors anew at the state of the last evaluation. False: singular.
+bool refactor(Iteration& it) {
+  return are_regular(it.workspace.matrix.factor(it.model, it.state, it.scheme.request, it.workspace.now), it);
 }
 
 /// Whether corrections with the kept factors of the position projection do not close the constraints.
@@ -31,13 +35,8 @@ bool projection_fails(const Iteration& it) {
 
 /// Factors of the position projection at the state of the last evaluation. False: singular.
 bool renew_projection(Iteration& it) {
-  const FactorReport factors =
-      renew_projection(it.model, it.state, it.scheme, it.workspace.now, it.workspace.memory.projection);
-  ++it.report.factorisations;
-  if (factors.regular && factors.reciprocal_condition >= singular_condition) return true;
-  it.report.outcome = StepOutcome::singular;
-  it.report.singular_column = factors.singular_column;
-  return false;
+  return are_regular(renew_projection(it.model, it.state, it.scheme, it.workspace.now, it.workspace.memory.projection),
+                     it);
 }
 
 bool contracts_slowly(const Iteration& it) {

@@ -40,7 +40,7 @@ StepReport take_step(const Model& model, const formats::IntegratorSpec& options,
   StepMemory& memory = workspace.memory;
   StepReport report;
   memory.previous.block() = state.block();
-  if (!ready_projection(model, scheme, state, workspace, report)) return report;
+  if (!begin(model, scheme, state, workspace, report)) return report;
   const auto succeeds_with = [&](Factors factors) {
     Iteration iteration{model, options, scheme, state, workspace, report, factors};
     if (!iterate(iteration, end)) return false;

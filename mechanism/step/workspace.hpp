@@ -13,7 +13,8 @@ namespace tisserand::mechanism {
 /// All that a step remembers of the steps before it, besides the factors of the iteration matrix. None of it decides
 /// what a step converges to, all of it how.
 struct StepMemory {
-  explicit StepMemory(const Model& model) : previous(model.sizes), predictor(model.sizes), rows(model) {}
+  explicit StepMemory(const Model& model)
+      : previous(model.sizes), predictor(model.sizes), dissipation(model), rows(model) {}
   void forget() {
     reuse = {};
     predictor.forget();
