@@ -61,7 +61,7 @@ struct Eps::Calls {
 
   static Eigen::MatrixXd solution(Eps& eps, const Eigen::MatrixXd& X) {
     eps.columns_ += static_cast<int>(X.cols());
-    eps.share_(std::min(eps.columns_ / (3.0 * eps.wanted_ + 60.0), 0.95));
+    eps.tell(std::min(eps.columns_ / (3.0 * eps.wanted_ + 60.0), 0.95));
     return eps.inverse_.solve(X);
   }
 
@@ -101,9 +101,14 @@ struct Eps::Calls {
   static PetscErrorCode monitor(EPS, PetscInt, PetscInt converged, PetscScalar*, PetscScalar*, PetscReal*, PetscInt,
                                 void* context) {
     Eps& eps = *static_cast<Eps*>(context);
-    return guarded(eps, [&] { eps.share_(static_cast<double>(converged) / eps.wanted_); });
+    return guarded(eps, [&] { eps.tell(static_cast<double>(converged) / eps.wanted_); });
   }
 };
+
+void Eps::tell(double done) {
+  done_ = std::clamp(done, done_, 1.0);
+  share_(done_);
+}
 
 void Eps::create(const Matrix& A, const Matrix& B) {
   PetscInt rows = 0;
@@ -169,6 +174,7 @@ bool Eps::solve(EigenSolver type, int count, const Eigen::MatrixXd& known) {
   const bool in_blocks = type == EigenSolver::block_lanczos;
   wanted_ = count;
   columns_ = 0;
+  done_ = 0.0;
   failure_ = nullptr;
   petsc_check(EPSSetType(eps_, eps_type(type)));
   petsc_check(EPSSetPurify(eps_, in_blocks || inverse_.purify ? PETSC_TRUE : PETSC_FALSE));

@@ -43,7 +43,7 @@ class Eps {
   Eps(const Eps&) = delete;
   Eps& operator=(const Eps&) = delete;
 
-  /// Hears how much of a solve() is done, about.
+  /// Hears how much of a solve() is done, about; never less than before.
   void share(std::function<void(double)> done) { share_ = std::move(done); }
   /// Whether `count` pairs were found, orthogonal to those that are known (xᵀ B x = 1; there may be none).
   bool solve(EigenSolver type, int count, const Eigen::MatrixXd& known);
@@ -56,6 +56,7 @@ class Eps {
  private:
   struct Calls;  ///< from SLEPc back to here
   void create(const Matrix& A, const Matrix& B);
+  void tell(double done);
   void deflate(const Eigen::MatrixXd& known);
 
   ShiftInvert inverse_;
@@ -64,6 +65,7 @@ class Eps {
   Eigen::Index rows_ = 0;
   int wanted_ = 1;
   int columns_ = 0;             ///< solved for by solve()
+  double done_ = 0.0;           ///< of solve(), as told
   std::exception_ptr failure_;  ///< of a function that SLEPc called
 };
 

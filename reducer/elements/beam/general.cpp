@@ -50,10 +50,10 @@ Matrix6 compliance(const BeamElementData& beam, const Section& s) {
   H(5, 0) = s.centroid_y;
   Matrix6 D = Matrix6::Zero();
   D(0, 0) = 1.0 / (E * s.area);
-  if (beam.theory == formats::BeamTheory::timoshenko && s.shear_area_y > 0.0 && s.shear_area_z > 0.0) {
-    D(1, 1) = 1.0 / (G * s.shear_area_y);
-    D(2, 2) = 1.0 / (G * s.shear_area_z);
-    D(1, 2) = D(2, 1) = s.shear_coupling / G;
+  if (beam.theory == formats::BeamTheory::timoshenko) {  // an area of zero: rigid in shear
+    if (s.shear_area_y > 0.0) D(1, 1) = 1.0 / (G * s.shear_area_y);
+    if (s.shear_area_z > 0.0) D(2, 2) = 1.0 / (G * s.shear_area_z);
+    if (s.shear_area_y > 0.0 && s.shear_area_z > 0.0) D(1, 2) = D(2, 1) = s.shear_coupling / G;
   }
   D(3, 3) = 1.0 / (G * s.torsion_constant);
   // [My; Mz] = E [Iy −Iyz; −Iyz Iz] [κy; κz].

@@ -163,7 +163,9 @@ formats::Scene block_and_beam(const formats::JointSpec& spec) {
 }
 
 std::vector<std::string> notes_of(const formats::JointSpec& spec) {
-  return build_model(block_and_beam(spec), files_of("beam")).notes;
+  formats::Scene scene = block_and_beam(spec);
+  std::get<formats::SuperelementBodySpec>(scene.bodies.front()).second_order = false;  // it has no companion file
+  return build_model(scene, files_of("beam")).notes;
 }
 
 formats::JointSpec at(const Vector3d& position, formats::JointSpec spec) {

@@ -73,8 +73,9 @@ Case beam_case(const std::string& name, const BeamElementData& data, std::uint16
 
 std::vector<Case> beam_cases() {
   const BeamElementData plain = beam_data();
-  BeamElementData bernoulli = plain, odd = plain, tapered = plain, rod = plain, lumped = plain, without = plain;
+  BeamElementData bernoulli = plain, stiff = plain, odd = plain, tapered = plain, rod = plain, lumped = plain, without = plain;
   bernoulli.theory = formats::BeamTheory::euler_bernoulli;
+  stiff.section.shear_area_y = 0.0;
   odd.section.second_moment_yz = -2e-6;
   odd.section.centroid_y = 0.01;
   odd.section.shear_center_z = 0.015;
@@ -92,6 +93,7 @@ std::vector<Case> beam_cases() {
   const Vector3d arm(0.1, -0.05, 0.2);
   return {beam_case("Timoshenko", plain),
           beam_case("Euler-Bernoulli", bernoulli),
+          beam_case("rigid in shear across y", stiff),
           beam_case("odd section, added mass", odd),
           beam_case("tapered", tapered),
           beam_case("lumped", lumped),
