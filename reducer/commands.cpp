@@ -1,6 +1,8 @@
 // The commands of stage 1: read, work, write, tell.
 #include "reducer/commands.hpp"
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <future>
 #include <map>
@@ -135,7 +137,8 @@ PhaseListener listener_of(Phases& phases) {
   return listener;
 }
 
-int run(const Arguments& arguments) {
+/// `session` begins when the input is read, and outlives what this function opens; so of solve().
+int run(const Arguments& arguments, std::optional<SolverSession>& session) {
   Phases phases;
   phases.begin("read");
   const formats::Part part = part_of(arguments);
@@ -150,7 +153,7 @@ int run(const Arguments& arguments) {
   if (part.modal_body && part.recovery)
     require_output(formats::recovery_path(modal_body), {arguments.input, output}, Replaces::hdf5_only);
   phases.begin("start solvers");
-  const SolverSession session;
+  session.emplace();
   std::map<std::string, std::unique_ptr<formats::RecoveryWriter>> recoveries;
   const PhaseListener listener = listener_of(phases);
   Reduction reduction = reduce(part, listener, [&](const RecoverySource& source) {
@@ -183,7 +186,7 @@ int run(const Arguments& arguments) {
   return 0;
 }
 
-int solve(const Arguments& arguments) {
+int solve(const Arguments& arguments, std::optional<SolverSession>& session) {
   Phases phases;
   phases.begin("read");
   const formats::Part part = part_of(arguments);
@@ -192,7 +195,7 @@ int solve(const Arguments& arguments) {
   const std::vector<std::string> files = solution_files(stem, part, arguments.solve_request);
   for (const std::string& file : files) require_output(file, inputs_of(part, arguments), Replaces::anything);
   phases.begin("start solvers");
-  const SolverSession session;
+  session.emplace();
   const Solution solution = solve(part, arguments.solve_request, listener_of(phases));
   phases.begin("write");
   write_solution(solution, part, arguments.solve_request, stem);
@@ -328,11 +331,16 @@ int perform(const Arguments& arguments, char** argv) {
   prepare_environment();
   restart_if_blas_is_slow(argv);
   if (is_follower()) return follow(arguments);
+  std::optional<SolverSession> session;
+  const auto leave = [](int code) {
+    if (may_leave_at_once()) _exit(code);
+    return code;
+  };
   switch (arguments.command) {
     case Command::run:
-      return run(arguments);
+      return leave(run(arguments, session));
     case Command::solve:
-      return solve(arguments);
+      return leave(solve(arguments, session));
     case Command::show:
       return show(arguments);
     case Command::mesh:

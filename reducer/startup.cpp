@@ -17,6 +17,7 @@ namespace {
 constexpr int keep = 0;  ///< setenv: what the user has set stays
 constexpr int replace = 1;
 constexpr const char* core_type = "OPENBLAS_CORETYPE";
+constexpr const char* session_folders = "OMPI_MCA_orte_create_session_dirs";
 constexpr const char* restarted = "TISSERAND_REDUCER_RESTARTED";
 
 /// The kernels of OpenBLAS for this processor's instructions; null: let it choose.
@@ -89,12 +90,25 @@ void prepare_environment() {
   if (rank_of_launcher() == nullptr) {
     setenv("OMPI_MCA_ess_singleton_isolated", "1", keep);
     // Programs that start and end together race for one folder of sessions.
-    setenv("OMPI_MCA_orte_create_session_dirs", "0", keep);
+    setenv(session_folders, "0", keep);
     setenv("OMPI_MCA_pml", "ob1", keep);
     setenv("OMPI_MCA_btl", "self", keep);
     setenv("OMPI_MCA_opal_signal", "", keep);
+    setenv("HWLOC_COMPONENTS", "-pci,-linuxio,-opencl,-gl", keep);
   }
   if (const char* const core = core_of_processor(); core != nullptr && is_intel()) setenv(core_type, core, keep);
+}
+
+bool may_leave_at_once() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return false;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(undefined_behavior_sanitizer)
+  return false;
+#endif
+#endif
+  const char* const folders = std::getenv(session_folders);
+  return rank_of_launcher() == nullptr && folders != nullptr && std::string_view(folders) == "0";
 }
 
 void restart_if_blas_is_slow(char** argv) {

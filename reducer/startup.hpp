@@ -18,6 +18,11 @@ bool is_follower();
 /// also where its Open MPI lies, which serves one process; throws Error if a launcher of MPI started this one.
 void prepare_environment();
 
+/// Whether a process whose files are closed and whose words are written may end by _exit: MPI and PETSc then end without
+/// their clean-up, which takes 12 ms and has nothing to clean. Not if a launcher of MPI waits for it, if Open MPI made a
+/// folder for its session, or in a build with sanitizers, which report at the end.
+bool may_leave_at_once();
+
 /// If OpenBLAS has chosen its oldest kernels on a better processor all the same: starts this program once more in place
 /// of itself with the right choice.
 void restart_if_blas_is_slow(char** argv);

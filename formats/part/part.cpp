@@ -26,6 +26,11 @@ constexpr Choice<ReductionMethod> method_words[] = {{"craig_bampton", ReductionM
 constexpr Choice<Verification> verification_words[] = {{"inertia", Verification::inertia},
                                                        {"none", Verification::none}};
 
+constexpr Choice<EigenSolverChoice> eigensolver_words[] = {{"auto", EigenSolverChoice::automatic},
+                                                           {"block_lanczos", EigenSolverChoice::block_lanczos},
+                                                           {"krylov_schur", EigenSolverChoice::krylov_schur},
+                                                           {"lapack", EigenSolverChoice::lapack}};
+
 /// One of these says how many modes there are.
 constexpr const char* how_many[] = {"modes", "cutoff", "accuracy"};
 
@@ -55,6 +60,8 @@ ModeSelection read_modes(const MapReader& map) {
   }
   modes.where = map.context().entry;
   read_fields(map, modes);
+  if (const YamlNode* node = map.find("eigensolver"))
+    modes.eigensolver_where = map.context().reader.where(node->key_place);
   if (const YamlNode* node = map.find("accuracy")) {
     YamlReader& reader = map.context().reader;
     const Context context{reader, "accuracy", reader.where(node->key_place)};
@@ -144,6 +151,11 @@ std::vector<Field> part_fields() {
           "verify",
           "`inertia`: one more factorisation counts the internal modes below the cut, and none can be missing; `none`",
           "`inertia` where that takes less than a tenth of the time, or where `cutoff` or `accuracy` asks how many"),
+      choice<&ModeSelection::eigensolver, eigensolver_words>(
+          "eigensolver",
+          "the type of SLEPc's eigenvalue solver that finds modes: `block_lanczos`, our own, in blocks of columns; "
+          "`krylov_schur`, one column at a time; `lapack`, all modes of dense matrices, up to 6000 coordinates; see "
+          "[what each costs](../docs/REDUCTION.md#eigenvalue-solvers)"),
       {"recovery", "'yes' | 'no' | true | false",
        "`yes`: also a [recovery file](RECOVERY.md) beside the superelement, by which displacements and stresses of "
        "the whole part come back from results",

@@ -136,6 +136,9 @@ struct Accuracy {
 /// Whether internal modes are counted by the inertia of one more factorisation.
 enum class Verification { if_cheap, inertia, none };
 
+/// Which type of SLEPc's eigenvalue solver finds modes; automatic: by the size of the problem.
+enum class EigenSolverChoice { automatic, block_lanczos, krylov_schur, lapack };
+
 /// Which vectors the inside moves by beside the static modes of the boundary.
 enum class ReductionMethod { craig_bampton, rubin, macneal };
 
@@ -149,6 +152,8 @@ struct ModeSelection {
   Verification verify = Verification::if_cheap;
   ReductionMethod method = ReductionMethod::craig_bampton;
   std::optional<int> moments = std::nullopt;  ///< moment vectors; absent: as `accuracy` takes, else none
+  EigenSolverChoice eigensolver = EigenSolverChoice::automatic;
+  std::string eigensolver_where = {};
 };
 
 /// Whether a companion file is written (COMPANION.md): by default while it stays small.

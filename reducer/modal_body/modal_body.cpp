@@ -98,7 +98,8 @@ Partition held_partition(const Mesh& mesh, const System& system) {
               "ask for fewer, or use more elements or masses with rotary inertia");
 }
 
-LumpedModes held_modes(const Mesh& mesh, const System& system, const formats::ModalBodyRequest& body) {
+LumpedModes held_modes(const Mesh& mesh, const System& system, const formats::ModalBodyRequest& body,
+                       const formats::ModeSelection& asked) {
   const Partition p = held_partition(mesh, system);
   const Eigen::JacobiSVD<Eigen::MatrixXd> held(rows(system.R, p.boundary));
   if (const auto& value = held.singularValues(); !(value[5] > 1e-8 * value[0]))
@@ -110,7 +111,7 @@ LumpedModes held_modes(const Mesh& mesh, const System& system, const formats::Mo
   const int available = finite_mode_count(blocks.M_II);
   if (body.modes > available) fail_for_modes(body.modes, available, body.where);
   const Spectrum spectrum = lowest_pairs({blocks.S_II, blocks.M_II, S_II, 0.0}, body.modes, available,
-                                         choose_solver(p.n_I(), body.modes), Count::if_cheap);
+                                         choose_solver(p.n_I(), body.modes, asked), Count::if_cheap);
   LumpedModes modes{spectrum.pairs.value.head(spectrum.kept), {}};
   Eigen::MatrixXd Phi = spectrum.pairs.vector.leftCols(spectrum.kept);
   fix_basis({mesh, system, p, blocks, S_II, body.where}, modes.lambda, Phi);
@@ -127,11 +128,12 @@ void make_orthogonal_to_rigid_motions(const System& system, Eigen::MatrixXd& q) 
   q = gram.llt().matrixU().solve<Eigen::OnTheRight>(q).eval();
 }
 
-LumpedModes free_modes(const Mesh& mesh, const System& system, const formats::ModalBodyRequest& body, double lowest) {
+LumpedModes free_modes(const Mesh& mesh, const System& system, const formats::ModalBodyRequest& body,
+                       const formats::ModeSelection& asked, double lowest) {
   if (!(lowest > 0.0))
     throw Error("modal_body: the part has no free frequencies, and so no mean axis", body.where,
                 "hold six components: reference: tip");
-  const std::optional<FreeModes> pairs = full_free_modes(system, lowest, body.modes);
+  const std::optional<FreeModes> pairs = full_free_modes(system, lowest, body.modes, asked);
   if (!pairs)
     throw Error("modal_body: some rigid motion of the lumped masses moves no mass, which leaves the mean axis open",
                 body.where, "hold six components, or give the part inertia about every axis");
@@ -245,7 +247,8 @@ formats::ModalBody lumped_modal_body(const Mesh& mesh, const formats::Part& part
   const Mesh lumped = lumped_mesh(mesh);
   const System system = build_system(lumped, part.file);
   const LumpedModes modes =
-      mesh.held.empty() ? free_modes(lumped, system, request, lowest) : held_modes(lumped, system, request);
+      mesh.held.empty() ? free_modes(lumped, system, request, part.modes, lowest)
+                        : held_modes(lumped, system, request, part.modes);
   std::vector<LumpedNode> nodes = lumped_nodes(mesh, lumped, system, request);
   formats::ModalBody body;
   body.name = part.name;

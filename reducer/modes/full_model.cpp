@@ -37,7 +37,8 @@ formats::RigidProperties full_rigid_properties(const System& system) {
   return rigid;
 }
 
-std::optional<FreeModes> full_free_modes(const System& system, double scale, int count, Count verify,
+std::optional<FreeModes> full_free_modes(const System& system, double scale, int count,
+                                         const formats::ModeSelection& asked, Count verify,
                                          const std::function<void(double)>& share) {
   const Eigen::Matrix<double, 6, 6> rigid = rigid_mass_about(system, system.middle);
   Eigen::Matrix<double, 6, 1> unit = rigid.diagonal().cwiseMax(0.0).cwiseSqrt().cwiseInverse();
@@ -54,17 +55,20 @@ std::optional<FreeModes> full_free_modes(const System& system, double scale, int
   const double shift = -scale;
   const Factor factor(combine(matrices.stiffness, -shift, matrices.mass));
   const Spectrum spectrum = lowest_pairs({matrices.stiffness, matrices.mass, factor, shift, share}, wanted, available,
-                                         choose_solver(system.size(), wanted), verify);
+                                         choose_solver(system.size(), wanted, asked), verify);
   const int kept = spectrum.kept - 6;
-  FreeModes modes{{spectrum.pairs.value.segment(6, kept), spectrum.pairs.vector.middleCols(6, kept)}, {}};
+  FreeModes modes{{spectrum.pairs.value.segment(6, kept), spectrum.pairs.vector.middleCols(6, kept)},
+                  {},
+                  report_of(spectrum)};
   if (spectrum.counted) modes.counted = *spectrum.counted - 6;
   return modes;
 }
 
-ModeComparison compare_free_modes(const System& system, double scale, int count, const Eigen::MatrixXd& u) {
+ModeComparison compare_free_modes(const System& system, double scale, int count, const formats::ModeSelection& asked,
+                                  const Eigen::MatrixXd& u) {
   ModeComparison result;
   try {
-    const std::optional<FreeModes> pairs = full_free_modes(system, scale, count);
+    const std::optional<FreeModes> pairs = full_free_modes(system, scale, count, asked);
     if (!pairs) return result;
     const Eigen::Index kept = std::min<Eigen::Index>(count, pairs->value.size());
     for (Eigen::Index k = 0; k < kept; ++k)

@@ -25,13 +25,14 @@ formats::RigidProperties full_rigid_properties(const System& system);
 
 struct FreeModes : EigenPairs {
   std::optional<int> counted;  ///< elastic modes below the cut by inertia, which are as many
+  SolverReport solver;
 };
 
 /// Elastic modes of the free part, vᵀ M v = 1: the `count` lowest, fewer if there are no more; a group of equal ones is
-/// completed. `scale`: some eigenvalue ω² of the size of the lowest. `share` hears how much of the search is done.
+/// completed. `scale`: some eigenvalue ω² of the size of the lowest. `asked`: by which solver. `share` hears how much of the search is done.
 /// Empty if a rigid motion moves no mass. Throws Error if round-off hides the frequencies.
 std::optional<FreeModes> full_free_modes(
-    const System& system, double scale, int count, Count verify = Count::if_cheap,
+    const System& system, double scale, int count, const formats::ModeSelection& asked, Count verify = Count::if_cheap,
     const std::function<void(double)>& share = [](double /*done*/) {});
 
 /// Elastic modes of the free part beside others.
@@ -43,6 +44,7 @@ struct ModeComparison {
 /// Up to `count` lowest modes v of the full part beside the modes `u` (coordinates q, uᵀ M u = 1): modal assurance
 /// criterion weighted with the mass, 1 where they agree. `scale` as above. Empty if a rigid motion moves no mass or
 /// round-off hides the frequencies.
-ModeComparison compare_free_modes(const System& system, double scale, int count, const Eigen::MatrixXd& u);
+ModeComparison compare_free_modes(const System& system, double scale, int count, const formats::ModeSelection& asked,
+                                  const Eigen::MatrixXd& u);
 
 }  // namespace tisserand::reducer

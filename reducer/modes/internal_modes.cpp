@@ -291,7 +291,7 @@ Candidates candidates_for(const InternalProblem& problem, const BoundaryModes& b
     problem.seek(sought);
     Candidates c;
     c.available = available;
-    c.spectrum = lowest_pairs(pencil, sought, available, choose_solver(n_I, sought), verify);
+    c.spectrum = lowest_pairs(pencil, sought, available, choose_solver(n_I, sought, selection), verify);
     c.coupling = mass_coupling(problem.blocks, boundary, c.spectrum.pairs.vector);
     if (meets_accuracy(problem, boundary, selection, least, c)) {
       if (none_missing(pencil, selection, below, c)) return c;
@@ -325,7 +325,7 @@ void add_moment_vectors(const InternalProblem& problem, const BoundaryModes& bou
 /// A cut-off asks how many: that count also verifies the search, unless it found too few.
 Spectrum spectrum_for(const Pencil& pencil, const formats::ModeSelection& selection, Eigen::Index n_I, int sought,
                       int available) {
-  const EigenSolver solver = choose_solver(n_I, sought);
+  const EigenSolver solver = choose_solver(n_I, sought, selection);
   if (!selection.cutoff) return lowest_pairs(pencil, sought, available, solver, count_of(selection.verify));
   Spectrum spectrum = lowest_pairs(pencil, sought, available, solver, Count::never);
   if (spectrum.pairs.value[sought - 1] >= eigenvalue_of(*selection.cutoff))
@@ -362,8 +362,7 @@ InternalModes internal_modes(const InternalProblem& problem, const BoundaryModes
     if (selection.cutoff && modes.requested == 0) fail_low_cutoff(selection, "internal", spectrum.pairs.value[0]);
     kept = modes.requested == 0 ? 0 : spectrum.kept;
   }
-  modes.solver = solver_text(spectrum.runs);
-  modes.residual = spectrum.residual;
+  modes.solver = report_of(spectrum);
   if (spectrum.counted) modes.counted = std::min(*spectrum.counted, kept);
   if (kept < spectrum.pairs.value.size()) modes.first_dropped = spectrum.pairs.value[kept];
   modes.lambda = spectrum.pairs.value.head(kept);

@@ -25,8 +25,7 @@ struct InternalModes {
   int requested = 0;
   int available = 0;                    ///< finite eigenvalues of (S_II, M_II)
   std::optional<double> first_dropped;  ///< ω² of the lowest mode left out
-  std::string solver;
-  double residual = 0.0;       ///< Spectrum::residual
+  SolverReport solver;
   std::optional<int> counted;  ///< of the modes kept, by inertia: all of them, or not counted
 };
 

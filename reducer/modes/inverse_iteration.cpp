@@ -2,6 +2,7 @@
 #include "reducer/modes/inverse_iteration.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -118,6 +119,30 @@ VectorXd iterate_once(const ShiftedOperator& op, EigenPairs& pairs) {
   VectorXd residual = iterate_once(op, pairs.value, pairs.vector);
   if (pairs.value.size() < pairs.vector.cols()) pairs.vector.conservativeResize(Eigen::NoChange, pairs.value.size());
   return residual;
+}
+
+VectorXd refine(const ShiftedOperator& op, const std::vector<Index>& columns, EigenPairs& pairs, VectorXd& residual) {
+  const MatrixXd X = pairs.vector(Eigen::all, columns), MX = op.mass(X);
+  const VectorXd lambda = pairs.value(columns).array() - op.shift;
+  MatrixXd Y = op.solve(MX * lambda.asDiagonal());
+  for (int pass = 0; pass < 2; ++pass) {
+    MatrixXd shares = pairs.vector.transpose() * op.mass(Y);
+    for (const Index k : columns) shares.row(k).setZero();
+    Y -= pairs.vector * shares;
+  }
+  const Eigen::LLT<MatrixXd> factor(Y.transpose() * op.mass(Y));
+  if (factor.info() != Eigen::Success) return VectorXd::Constant(lambda.size(), 1.0);
+  factor.matrixU().solveInPlace<Eigen::OnTheRight>(Y);
+  const MatrixXd MY = op.mass(Y), change = MX - MY;
+  VectorXd bound(lambda.size());
+  for (Index c = 0; c < lambda.size(); ++c) {
+    const Index k = columns[static_cast<std::size_t>(c)];
+    pairs.value[k] = op.shift + lambda[c] * Y.col(c).dot(MX.col(c)) / factor.matrixLLT()(c, c);
+    pairs.vector.col(k) = Y.col(c);
+    residual[k] = change.col(c).norm() / MY.col(c).norm();
+    bound[c] = std::sqrt(std::max(0.0, (X.col(c) - Y.col(c)).dot(change.col(c))));
+  }
+  return bound;
 }
 
 }  // namespace tisserand::reducer

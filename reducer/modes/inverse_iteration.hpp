@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -39,6 +40,12 @@ struct ShiftedOperator {
 /// time: vectors take the memory.
 Eigen::VectorXd iterate_once(const ShiftedOperator& op, Eigen::VectorXd& value, Eigen::Ref<Eigen::MatrixXd> X);
 Eigen::VectorXd iterate_once(const ShiftedOperator& op, EigenPairs& pairs);
+
+/// One more step on the pairs `columns`, ascending, whose vectors then leave out their share of the other pairs, so that
+/// round-off along lower ones is not amplified; by one process alone. Replaces their values, vectors and residuals, and gives the bounds
+/// |λ' − λ| ≤ (λ − shift) ‖x − y‖_M/‖y‖_M of the distance to an eigenvalue λ', relative to λ − shift.
+Eigen::VectorXd refine(const ShiftedOperator& op, const std::vector<Eigen::Index>& columns, EigenPairs& pairs,
+                       Eigen::VectorXd& residual);
 
 /// X := X R⁻¹ with the upper triangle of G = Xᵀ M X = Rᵀ R: removes from a column what it has of earlier ones.
 void orthonormalise(const ShiftedOperator& op, const Eigen::MatrixXd& G, Eigen::Ref<Eigen::MatrixXd> X);

@@ -66,8 +66,8 @@ FreeModes chosen_free_modes(const InternalProblem& problem, const formats::ModeS
     constexpr int rigid = 6;
     count = std::max(0, count_below(all.stiffness, all.mass, std::pow(2.0 * EIGEN_PI * *selection.cutoff, 2)) - rigid);
   }
-  if (count == 0 && !selection.cutoff) return {{VectorXd(), MatrixXd(problem.system.size(), 0)}, {}};
-  std::optional<FreeModes> pairs = full_free_modes(problem.system, lambda_1, std::max(1, count), verify, problem.share);
+  if (count == 0 && !selection.cutoff) return {{VectorXd(), MatrixXd(problem.system.size(), 0)}, {}, {}};
+  std::optional<FreeModes> pairs = full_free_modes(problem.system, lambda_1, std::max(1, count), selection, verify, problem.share);
   if (!pairs) fail_without_mass(problem);
   if (count == 0 && pairs->value.size() > 0) fail_low_cutoff(selection, "free", pairs->value[0]);
   if (pairs->value.size() < count)
@@ -174,7 +174,7 @@ InternalModes free_boundary_vectors(const InternalProblem& problem, const Bounda
   modes.available = n_I > 0 ? finite_mode_count(problem.blocks.M_II) : 0;
   if (modes.available == 0) return modes;
   const Pencil pencil{problem.blocks.S_II, problem.blocks.M_II, problem.S_II, 0.0};
-  const Spectrum held = lowest_pairs(pencil, 1, modes.available, choose_solver(n_I, 1), Count::never);
+  const Spectrum held = lowest_pairs(pencil, 1, modes.available, choose_solver(n_I, 1, selection), Count::never);
   modes.first_dropped = held.pairs.value[0];
   const FreeModes free = chosen_free_modes(problem, selection, held.pairs.value[0]);
   const RitzSpace space(problem, boundary, modes.Phi, inside_of(problem, boundary, free.vector));
@@ -186,7 +186,7 @@ InternalModes free_boundary_vectors(const InternalProblem& problem, const Bounda
   modes.requested = static_cast<int>(free.value.size());
   modes.free_modes = modes.requested;
   modes.counted = free.counted;
-  modes.solver = "free modes and inertia relief";
+  modes.solver = free.solver;
   if (selection.method == formats::ReductionMethod::macneal) take_macneal_mass(boundary, free.value.size(), modes);
   const MatrixXd before = modes.Phi;
   const VectorXd lambda = modes.lambda;

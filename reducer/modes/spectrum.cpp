@@ -21,6 +21,9 @@
 namespace tisserand::reducer {
 namespace {
 
+constexpr double usual_residual = 1e-8;
+constexpr double most_residual = 1e-6;
+
 void append(const EigenPairs& more, EigenPairs& pairs) {
   const Eigen::Index old = pairs.value.size(), added = more.value.size();
   pairs.value.conservativeResize(old + added);
@@ -51,7 +54,7 @@ Spectrum lapack_spectrum(const Pencil& pencil, int count, int available) {
   const int behind = std::min(found, std::max(s.kept + 1, count + 8));
   s.pairs = {all.pairs.value.head(behind), all.pairs.vector.leftCols(behind)};
   s.counted = s.kept;
-  s.residual = iterate_once(shifted_operator(pencil), s.pairs).head(s.kept).maxCoeff();
+  s.residual = iterate_once(shifted_operator(pencil), s.pairs);
   return s;
 }
 
@@ -81,12 +84,11 @@ Spectrum iterated_spectrum(const Pencil& pencil, int count, int available, Eigen
   Spectrum s;
   s.pairs = std::move(first.pairs);
   s.runs = std::move(first.runs);
-  Eigen::VectorXd residual = first.residual ? *first.residual : iterate_once(op, s.pairs);
+  s.residual = first.residual ? *first.residual : iterate_once(op, s.pairs);
   for (int attempt = 0; attempt < attempts; ++attempt) {
     const auto found = static_cast<int>(s.pairs.value.size());
     if (found >= count) {
       s.kept = cluster_end(s.pairs.value, count, pencil.shift);
-      s.residual = residual.head(s.kept).maxCoeff();
       if (s.kept == available) s.counted = available;
       const int block = s.solver() == EigenSolver::block_lanczos ? lanczos_block(wanted) : 1;
       const bool needed = verify == Count::always ||
@@ -100,20 +102,55 @@ Spectrum iterated_spectrum(const Pencil& pencil, int count, int available, Eigen
     SearchResult more = search(pencil, solver, std::max(4, s.counted.value_or(0) - s.kept), s.pairs.vector);
     append(more.pairs, s.pairs);
     s.runs.insert(s.runs.end(), more.runs.begin(), more.runs.end());
-    residual = iterate_once(op, s.pairs);
+    s.residual = iterate_once(op, s.pairs);
   }
   fail_missing(static_cast<int>(s.pairs.value.size()), std::max(count, s.counted.value_or(0)));
 }
 
+/// The kept pairs whose residual is above the usual one.
+std::vector<Eigen::Index> unsharp_columns(const Spectrum& s) {
+  std::vector<Eigen::Index> columns;
+  for (Eigen::Index k = 0; k < s.kept; ++k)
+    if (!(s.residual[k] < usual_residual)) columns.push_back(k);
+  return columns;
+}
+
+void refine_unsharp(const Pencil& pencil, Spectrum& s) {
+  constexpr int most_steps = 3;
+  const ShiftedOperator op = shifted_operator(pencil);
+  std::vector<Eigen::Index> columns = unsharp_columns(s);
+  s.refined = static_cast<int>(columns.size());
+  for (int step = 0; step < most_steps && !columns.empty(); ++step) {
+    const Eigen::VectorXd bound = refine(op, columns, s.pairs, s.residual);
+    s.unsharp.clear();
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const Eigen::Index k = columns[c];
+      const double lambda = s.pairs.value[k];
+      if (!(s.residual[k] < usual_residual))
+        s.unsharp.push_back({lambda, 0.5 * bound[static_cast<Eigen::Index>(c)] * (lambda - pencil.shift) / lambda});
+    }
+    columns = unsharp_columns(s);
+  }
+}
+
 }  // namespace
 
-std::string solver_text(const std::vector<EigenRun>& runs) {
-  std::vector<std::string> texts;
-  for (const EigenRun& run : runs)
-    texts.push_back(run.type == EigenSolver::lapack
-                        ? std::string(eps_type(run.type))
-                        : fmt::format("{} ({} iterations)", eps_type(run.type), run.iterations));
-  return slepc_version() + ", " + join(texts, ", ");
+SolverReport report_of(const Spectrum& s) {
+  std::vector<std::string> runs;
+  for (const EigenRun& run : s.runs)
+    runs.push_back(run.type == EigenSolver::lapack
+                       ? std::string(eps_type(run.type))
+                       : fmt::format("{} ({} iterations)", eps_type(run.type), run.iterations));
+  SolverReport report{slepc_version() + ", " + join(runs, ", "), s.residual.head(s.kept).maxCoeff(), {}};
+  if (s.refined > 0) report.text += fmt::format(", {} pairs refined", s.refined);
+  if (s.unsharp.empty()) return report;
+  double error = 0.0;
+  for (const UnsharpPair& pair : s.unsharp) error = std::max(error, pair.error);
+  report.notes.push_back(fmt::format(
+      "{} modes keep a residual above {:.0e}, from {:.6g} on: their frequencies are within {:.1e}, relatively, of those "
+      "of the mesh.",
+      s.unsharp.size(), usual_residual, std::sqrt(std::max(0.0, s.unsharp.front().lambda)) / (2.0 * EIGEN_PI), error));
+  return report;
 }
 
 int cluster_end(const Eigen::VectorXd& value, int count, double shift) {
@@ -138,7 +175,27 @@ int count_kept(const Pencil& pencil, const EigenPairs& pairs, int kept) {
   return count_below(pencil, value_in_gap(pairs, kept, pencil.shift));
 }
 
-EigenSolver choose_solver(Eigen::Index size, int count) {
+EigenSolver choose_solver(Eigen::Index size, int count, const formats::ModeSelection& asked) {
+  constexpr Eigen::Index most_dense = 6000;
+  switch (asked.eigensolver) {
+    case formats::EigenSolverChoice::krylov_schur:
+      return EigenSolver::krylov_schur;
+    case formats::EigenSolverChoice::block_lanczos:
+      if (!has_block_lanczos())
+        throw Error("this reducer has no block_lanczos: SLEPc's header slepc/private/epsimpl.h was missing when it was "
+                    "configured",
+                    asked.eigensolver_where, "write eigensolver: krylov_schur, or auto");
+      return EigenSolver::block_lanczos;
+    case formats::EigenSolverChoice::lapack:
+      if (size > most_dense)
+        throw Error(fmt::format("eigensolver: lapack computes all modes of dense matrices, {} coordinates are more than "
+                                "{}",
+                                size, most_dense),
+                    asked.eigensolver_where, "write eigensolver: auto, or use fewer elements");
+      return EigenSolver::lapack;
+    case formats::EigenSolverChoice::automatic:
+      break;
+  }
   const bool small = size <= 200 || (size <= 4000 && 5 * (count + 8) > size);
   if (small) return EigenSolver::lapack;
   return has_block_lanczos() ? EigenSolver::block_lanczos : EigenSolver::krylov_schur;
@@ -147,8 +204,10 @@ EigenSolver choose_solver(Eigen::Index size, int count) {
 Spectrum lowest_pairs(const Pencil& pencil, int count, int available, EigenSolver solver, Count verify) {
   Spectrum s = solver == EigenSolver::lapack ? lapack_spectrum(pencil, count, available)
                                              : iterated_spectrum(pencil, count, available, solver, verify);
-  if (!(s.residual < 1e-8))
-    throw Error(fmt::format("internal modes have a relative residual of {:.1e}, above 1e-8", s.residual),
+  refine_unsharp(pencil, s);
+  const double residual = s.residual.head(s.kept).maxCoeff();
+  if (!(residual <= most_residual))
+    throw Error(fmt::format("internal modes have a relative residual of {:.1e}, above {:.0e}", residual, most_residual),
                 "eigenvalue solver",
                 "the part is badly conditioned: avoid very short beside very long elements, and very stiff beside very "
                 "soft ones");

@@ -78,11 +78,11 @@ void describe_mesh_errors(const formats::Part& part, const MeshErrors& errors, M
   warn_of_mesh(part, errors, c);
 }
 
-void describe_comparison(const System& system, const InternalModes& internal, const FreeMotions& modes,
-                         ModelCertificate& c) {
+void describe_comparison(const formats::ModeSelection& asked, const System& system, const InternalModes& internal,
+                         const FreeMotions& modes, ModelCertificate& c) {
   if (system.size() > most_compared_coordinates || internal.available == 0) return;
   const double scale = internal.lambda.size() > 0 ? internal.lambda[0] : internal.first_dropped.value_or(0.0);
-  const ModeComparison full = compare_free_modes(system, scale, most_compared, modes.q);
+  const ModeComparison full = compare_free_modes(system, scale, most_compared, asked, modes.q);
   c.free_frequency = full.frequency;
   if (modes.boundary_held) return;
   for (const auto& row : full.assurance.rowwise()) c.assurance.emplace_back(row.begin(), row.end());
@@ -117,8 +117,9 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
   c.cutoff = part.modes.cutoff;
   c.accuracy = part.modes.accuracy;
   if (internal.first_dropped) c.first_dropped_frequency = frequency(*internal.first_dropped);
-  c.eigenvalue_solver = internal.solver;
-  c.mode_residual = internal.residual;
+  c.eigenvalue_solver = internal.solver.text;
+  c.mode_residual = internal.solver.residual;
+  c.notes = internal.solver.notes;
   c.modes_counted = internal.counted;
   c.boundary_rigid_defect = boundary.rigid_defect;
   c.rigid_residual_before_projection = defects.rigid_residual;
@@ -138,7 +139,7 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
 void describe_lowest_modes(const formats::Part& part, const InternalProblem& problem, const BoundaryModes& boundary,
                            const InternalModes& internal, const formats::Superelement& element, ModelCertificate& c) {
   const FreeMotions modes = free_motions(problem, boundary, internal, element, most_compared);
-  describe_comparison(problem.system, internal, modes, c);
+  describe_comparison(part.modes, problem.system, internal, modes, c);
   describe_mesh_errors(part, mesh_errors(problem.mesh, problem.system, modes, most_on_mesh), c);
 }
 

@@ -159,6 +159,8 @@ std::string modes_text(const Solution& s, const Units& units) {
                         s.is_free ? "" : "  " + percent(modes.effective.col(k)));
   }
   if (!s.is_free) text += fmt::format("  {:>4} {:>16}  {}\n", "all", "", percent(sum));
+  text += fmt::format("eigenvalues by {}, largest residual {:.1e}\n", modes.solver.text, modes.solver.residual);
+  for (const std::string& note : modes.solver.notes) text += note + "\n";
   return text;
 }
 

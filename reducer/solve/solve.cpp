@@ -52,7 +52,7 @@ Solution solve_mesh(Mesh mesh, const formats::Part& part, const SolveRequest& re
   s.statics = statics(s.mesh, s.system, supported, s.loads, part.file);
   if (request.modes > 0) {
     begin("modes");
-    s.modes = supported_modes(s.mesh, s.system, supported, request.modes, part.file, begin.share);
+    s.modes = supported_modes(s.mesh, s.system, supported, request.modes, part.modes, part.file, begin.share);
   }
   if (request.buckling > 0)
     s.buckling =

@@ -18,11 +18,13 @@ struct SupportedModes {
   /// axis k sets into each mode; all modes together less than those of the part by what the supports carry themselves.
   Eigen::MatrixXd effective;
   std::optional<int> counted;
+  SolverReport solver;
 };
 
-/// The `count` lowest; a group of equal frequencies is completed. `share` hears how much of the search is done. Throws
+/// The `count` lowest; a group of equal frequencies is completed. `asked`: by which solver. `share` hears how much of the search is done. Throws
 /// Error if fewer exist.
 SupportedModes supported_modes(const Mesh& mesh, const System& system, const Supported& s, int count,
-                               const std::string& where, const std::function<void(double)>& share);
+                               const formats::ModeSelection& asked, const std::string& where,
+                               const std::function<void(double)>& share);
 
 }  // namespace tisserand::reducer

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <regex>
 #include <sstream>
+#include <vector>
 
 #include "formats/superelement/superelement.hpp"
 #include "tests/reducer/parts.hpp"
@@ -127,6 +128,27 @@ TEST_F(Ranks, ThreeReduceSolidsAsOneDoes) {
 
 // 400 elements in a row are ill-conditioned: by one process (4 + φ)EI/(1 + φ)L of the beam is 4.6e-10 off.
 TEST_F(Ranks, TwoReduceBeamsWithPairsOfEqualModesAsOneDoes) { expect_same(reduced(1, beam), reduced(2, beam), 1e-10); }
+
+TEST_F(Ranks, KrylovSchurIsShared) {
+  const std::string part = plate + " --set eigensolver=krylov_schur --set modes=6";
+  expect_same(reduced(1, part), reduced(2, part), 1e-12);
+}
+
+// One process without a launcher ends without the clean-up of MPI: nothing may be left, in the output either.
+TEST_F(Ranks, OneLeavesNoFilesBehind) {
+  const std::filesystem::path temporary = folder / "tmp";
+  std::filesystem::create_directory(temporary);
+  ASSERT_EQ(::setenv("TMPDIR", temporary.c_str(), 1), 0);
+  const Outcome run = call(1, "run " + beam + " -o " + (folder / "one.superelement.h5").string());
+  ::unsetenv("TMPDIR");
+  EXPECT_EQ(run.code, 0);
+  EXPECT_THAT(run.text, HasSubstr("one.companion.h5 ("));
+  EXPECT_TRUE(std::filesystem::is_empty(temporary));
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) files.push_back(entry.path().filename());
+  EXPECT_THAT(files, ::testing::UnorderedElementsAre("tmp", "log", "one.superelement.h5", "one.companion.h5",
+                                                     "one.superelement.certificate.json"));
+}
 
 TEST_F(Ranks, FreeModesAreShared) {
   const std::string part = plate + " --set method=rubin --set modes=6";
