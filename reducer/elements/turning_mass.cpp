@@ -15,174 +15,189 @@ using Loads = Eigen::Matrix<double, 3, inertial_loads>;
 
 Matrix3d axis_skew(int k) { return skew<double>(Vector3d(Vector3d::Unit(k))); }
 
-/// Forces on the centre of mass, and moments about it.
-struct PointLoads {
-  Loads force, moment;
-};
+/// −½ ([e_k ×] a_3+j + [e_j ×] a_3+k) for the pairs, of columns 3 to 5.
+void add_centrifugal(Eigen::Ref<MatrixXd> loads) {
+  for (int pair = 0; pair < 6; ++pair) {
+    const auto [j, k] = formats::axis_pairs[pair];
+    for (Index row = 0; row < loads.rows(); row += 3)
+      loads.block<3, 1>(row, 6 + pair) = -0.5 * (Vector3d::Unit(k).cross(Vector3d(loads.block<3, 1>(row, 3 + j))) +
+                                                 Vector3d::Unit(j).cross(Vector3d(loads.block<3, 1>(row, 3 + k))));
+  }
+}
+
+/// Force on the centre of mass (rows 0 to 2) and moment about it.
+using PointLoads = Eigen::Matrix<double, 6, inertial_loads>;
 
 PointLoads loads_on(const MassPoint& point, const Vector3d& X) {
   PointLoads loads;
-  loads.force << point.mass * Matrix3d::Identity(), -point.mass * skew<double>(X), Eigen::Matrix<double, 3, 6>::Zero();
-  loads.moment << Matrix3d::Zero(), point.inertia, Eigen::Matrix<double, 3, 6>::Zero();
-  for (int pair = 0; pair < 6; ++pair) {
-    const auto [j, k] = formats::axis_pairs[pair];
-    for (Loads* on : {&loads.force, &loads.moment})
-      on->col(6 + pair) = -0.5 * (axis_skew(k) * on->col(3 + j) + axis_skew(j) * on->col(3 + k));
-  }
+  loads.setZero();
+  loads.topLeftCorner<3, 3>() = point.mass * Matrix3d::Identity();
+  loads.block<3, 3>(0, 3) = -point.mass * skew<double>(X);
+  loads.block<3, 3>(3, 3) = point.inertia;
+  add_centrifugal(loads);
   return loads;
 }
 
-/// C and E of masses that move with `U` (three rows for each mass, x of all masses first).
-void add_translation(const MatrixXd& U, const Eigen::VectorXd& mass, TurningMass& out) {
-  const Index count = mass.size();
-  std::array<std::array<MatrixXd, 3>, 3> P;  // Σ m u_a u_b
-  for (int a = 0; a < 3; ++a)
-    for (int b = a; b < 3; ++b) {
-      P[a][b].noalias() =
-          U.middleRows(a * count, count).transpose() * (mass.asDiagonal() * U.middleRows(b * count, count)).eval();
-      if (b > a) P[b][a] = P[a][b].transpose();
-    }
+TurningPivot rotary_pivot(const RotaryMass& mass) {
+  const Matrix3d& J = mass.inertia;
+  TurningPivot pivot;
+  pivot.rotation = mass.rotation;
   for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    out.C[k] = P[j][i] - P[i][j];
-    out.E[k] = P[i][i] + P[j][j];
-    out.E[formats::axis_pair(i, j)] = -0.5 * (P[i][j] + P[j][i]);
-  }
-}
-
-/// out += Θᵀ K Θ.
-void add_form(const RotaryMass& part, const Matrix3d& K, MatrixXd& out) {
-  if (part.weight.size() == 0) {
-    out.noalias() += part.rotation.transpose() * (K * part.rotation).eval();
-    return;
-  }
-  for (Index i = 0; i < part.weight.rows(); ++i)
-    for (Index j = 0; j < part.weight.cols(); ++j) out.block<3, 3>(6 * i + 3, 6 * j + 3) += part.weight(i, j) * K;
-}
-
-void add_rotary(const RotaryMass& part, TurningMass& out) {
-  const Matrix3d& J = part.inertia;
-  for (int k = 0; k < 3; ++k) {
-    add_form(part, J * axis_skew(k), out.C[k]);
-    add_form(part, -0.5 * skew<double>(Vector3d(J.col(k))), out.W[k]);
+    pivot.add(TurningPivot::C + k, J * axis_skew(k));
+    pivot.add(TurningPivot::W + k, -0.5 * skew<double>(Vector3d(J.col(k))));
   }
   for (int pair = 0; pair < 6; ++pair) {
     const auto [j, k] = formats::axis_pairs[pair];
     const Matrix3d E = -axis_skew(j) * J * axis_skew(k);
-    add_form(part, 0.5 * (E + E.transpose()), out.E[pair]);
+    pivot.add(TurningPivot::E + pair, 0.5 * (E + E.transpose()));
     // ½ θᵀ K θ = ¼ [(J e_j)·(θ × (θ × e_k)) + (J e_k)·(θ × (θ × e_j))]
-    add_form(part, 0.5 * (arm_form(J.col(j), Vector3d::Unit(k)) + arm_form(J.col(k), Vector3d::Unit(j))), out.T[pair]);
+    pivot.add(TurningPivot::work + 6 + pair,
+              0.5 * (arm_form(J.col(j), Vector3d::Unit(k)) + arm_form(J.col(k), Vector3d::Unit(j))));
+  }
+  return pivot;
+}
+
+/// Arms that turn by `rotation` under forces at their ends (columns of `loads`).
+TurningPivot arm_pivot(const ElementRows3& rotation, const Eigen::Ref<const Loads>& force, const Vector3d& arm) {
+  TurningPivot pivot;
+  pivot.rotation = rotation;
+  for (int l = 0; l < inertial_loads; ++l) pivot.add(TurningPivot::work + l, arm_form(force.col(l), arm));
+  return pivot;
+}
+
+/// Z −= f~ u + ½ m~ θ for each load: f·(ω × u) + m·½ (ω × θ) = ω·(−f~ u − ½ m~ θ).
+void add_turned(const PointLoads& loads, const ElementRows3& u, const ElementRows3& rotation,
+                std::array<ElementRows3, inertial_loads>& Z) {
+  for (int l = 0; l < inertial_loads; ++l) {
+    const Vector3d f = loads.block<3, 1>(0, l), m = 0.5 * loads.block<3, 1>(3, l);
+    for (Index c = 0; c < u.cols(); ++c) {
+      const Vector3d at_u = u.col(c), at_r = rotation.col(c);
+      Z[l].col(c) -= f.cross(at_u) + m.cross(at_r);
+    }
   }
 }
 
-/// What ω × multiplies, for each load: Z of ω·Z d = Σ load·(ω × ...).
-using TurnedLoads = std::array<ElementRows3, inertial_loads>;
-
-void add_turned(const Vector3d& f, const Vector3d& m, const ElementRows3& u, const ElementRows3& rotation, double sign,
-                ElementRows3& Z) {
-  Z.noalias() -= (sign * skew<double>(f)) * u;
-  Z.noalias() -= (0.5 * sign * skew<double>(m)) * rotation;
-}
-
-/// The motion of the points with the element, less what their nodes have of it.
-void add_turn(const MovingMass& mass, const std::vector<PointLoads>& loads, const Vector3d& reference, TurningMass& out,
-              std::array<MatrixXd*, inertial_loads> form) {
+/// The motion of the points with the element, less what their nodes have of it; arms.
+void add_turn(const MovingMass& mass, const std::vector<PointLoads>& loads, const Vector3d& reference,
+              TurningMass& out) {
   const Index n = mass.coordinates;
-  TurnedLoads Z;
-  for (ElementRows3& one : Z) one.setZero(3, n);
+  out.turn = mass.turn;
+  for (ElementRows3& one : out.turned) one.setZero(3, n);
   for (std::size_t p = 0; p < mass.points.size(); ++p) {
     const MassPoint& point = mass.points[p];
     const ElementRows3 u = point.displacement + 0.5 * skew<double>(Vector3d(point.at - reference)) * mass.turn;
-    for (int l = 0; l < inertial_loads; ++l) {
-      const Vector3d f = loads[p].force.col(l), m = loads[p].moment.col(l) + point.centre.cross(f);
-      add_turned(f, m, u, point.rotation, 1.0, Z[l]);
-    }
+    PointLoads about_point = loads[p];
+    if (!point.centre.isZero(0.0)) about_point.bottomRows<3>() += skew<double>(point.centre) * loads[p].topRows<3>();
+    add_turned(about_point, u, point.rotation, out.turned);
   }
   for (Index i = 0; i < mass.nodes.cols(); ++i) {
     ElementRows3 u = 0.5 * skew<double>(Vector3d(mass.nodes.col(i) - reference)) * mass.turn;
     ElementRows3 psi = ElementRows3::Zero(3, n);
     u.middleCols<3>(6 * i) += Matrix3d::Identity();
     psi.middleCols<3>(6 * i + 3) = Matrix3d::Identity();
-    const ElementRows3 beside = psi - mass.turn;
+    const PointLoads on_node = out.load.middleRows<6>(6 * i);
+    add_turned(-on_node, u, psi, out.turned);
     const Vector3d r = mass.arms.col(i);
-    for (int l = 0; l < inertial_loads; ++l) {
-      const Vector3d f = out.load.block<3, 1>(6 * i, l), m = out.load.block<3, 1>(6 * i + 3, l);
-      add_turned(f, m, u, psi, -1.0, Z[l]);
-      if (!r.isZero(0.0)) form[l]->noalias() += beside.transpose() * (arm_form(f, r) * beside).eval();
-    }
-  }
-  for (int l = 0; l < inertial_loads; ++l) {
-    const MatrixXd half = mass.turn.transpose() * Z[l];
-    *form[l] += half + half.transpose();
+    if (!r.isZero(0.0)) out.pivots.push_back(arm_pivot(psi - mass.turn, on_node.topRows<3>(), r));
   }
 }
 
 }  // namespace
 
+void TurningPivot::add(int item, const Matrix3d& matrix) {
+  if (matrix.isZero(0.0)) return;
+  form[static_cast<std::size_t>(item)] = matrix;
+  present |= 1U << static_cast<unsigned>(item);
+}
+
+TurningForms::TurningForms(Index n) {
+  for (int item = 0; item < TurningPivot::items; ++item) of(item).setZero(n, n);
+}
+
+MatrixXd& TurningForms::of(int item) {
+  if (item < TurningPivot::E) return C[item];
+  if (item < TurningPivot::work) return E[item - TurningPivot::E];
+  if (item < TurningPivot::work + 6) return N[item - TurningPivot::work];
+  return item < TurningPivot::W ? T[item - TurningPivot::work - 6] : W[item - TurningPivot::W];
+}
+
+void add_translations(const std::array<MatrixXd, 6>& product, TurningForms& forms) {
+  constexpr int at[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  const auto P = [&](int a, int b) -> MatrixXd {
+    return a <= b ? product[at[a][b]] : MatrixXd(product[at[a][b]].transpose());
+  };
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    forms.C[k] += P(j, i) - P(i, j);
+    forms.E[k] += P(i, i) + P(j, j);
+    forms.E[formats::axis_pair(i, j)] -= 0.5 * (P(i, j) + P(j, i));
+  }
+}
+
+TurningForms turning_forms(const TurningMass& mass) {
+  TurningForms forms(mass.load.rows());
+  const Index count = mass.translation.rows() / 3;
+  std::array<MatrixXd, 6> product;
+  for (int a = 0, at = 0; a < 3; ++a)
+    for (int b = a; b < 3; ++b, ++at)
+      product[at] =
+          mass.translation.middleRows(a * count, count).transpose() * mass.momentum.middleRows(b * count, count);
+  add_translations(product, forms);
+  for (int l = 0; l < inertial_loads && mass.turn.cols() > 0; ++l) {
+    const MatrixXd half = mass.turn.transpose() * mass.turned[l];
+    forms.of(TurningPivot::work + l) += half + half.transpose();
+  }
+  for (const TurningPivot& pivot : mass.pivots)
+    for (int item = 0; item < TurningPivot::items; ++item)
+      if ((pivot.present >> static_cast<unsigned>(item) & 1U) != 0)
+        forms.of(item) += pivot.rotation.transpose() * (pivot.form[item] * pivot.rotation);
+  return forms;
+}
+
 Matrix3d arm_form(const Vector3d& f, const Vector3d& c) {
   return 0.5 * (f * c.transpose() + c * f.transpose()) - f.dot(c) * Matrix3d::Identity();
 }
 
-MatrixXd crossed(int k, const MatrixXd& rows) {
-  MatrixXd result(rows.rows(), rows.cols());
-  const int i = (k + 1) % 3, j = (k + 2) % 3;
-  for (Index first = 0; first + 2 < rows.rows(); first += 3) {
-    result.row(first + k).setZero();
-    result.row(first + i) = -rows.row(first + j);
-    result.row(first + j) = rows.row(first + i);
-  }
-  return result;
-}
-
 void turning_mass(const MovingMass& mass, const Vector3d& reference, TurningMass& out) {
   const Index n = mass.coordinates, count = static_cast<Index>(mass.points.size());
-  std::array<MatrixXd*, inertial_loads> form;
-  for (int a = 0; a < 6; ++a) {
-    form[a] = &out.N[a];
-    form[6 + a] = &out.T[a];
-  }
-  for (MatrixXd* one : form) one->setZero(n, n);
-  for (MatrixXd& W : out.W) W.setZero(n, n);
+  out.translation.resize(3 * count, n);
+  out.momentum.resize(3 * count, n);
+  out.turn.resize(3, 0);
+  out.pivots.clear();
   out.load.setZero(n, inertial_loads);
-  MatrixXd U(3 * count, n);
-  Eigen::VectorXd masses(count);
   std::vector<PointLoads> loads;
   for (Index p = 0; p < count; ++p) {
     const MassPoint& point = mass.points[static_cast<std::size_t>(p)];
     const ElementRows3 centre = point.displacement - skew<double>(point.centre) * point.rotation;
-    for (int a = 0; a < 3; ++a) U.row(a * count + p) = centre.row(a);
-    masses[p] = point.mass;
+    for (int a = 0; a < 3; ++a) {
+      out.translation.row(a * count + p) = centre.row(a);
+      out.momentum.row(a * count + p) = point.mass * centre.row(a);
+    }
     loads.push_back(loads_on(point, point.at + point.centre - reference));
-    out.load.noalias() += centre.transpose() * loads.back().force;
-    out.load.noalias() += point.rotation.transpose() * loads.back().moment;
-    if (point.centre.isZero(0.0)) continue;
-    for (int l = 0; l < inertial_loads; ++l)
-      form[l]->noalias() +=
-          point.rotation.transpose() * (arm_form(loads.back().force.col(l), point.centre) * point.rotation).eval();
+    out.load.noalias() += centre.transpose() * loads.back().topRows<3>();
+    out.load.noalias() += point.rotation.transpose() * loads.back().bottomRows<3>();
+    if (!point.centre.isZero(0.0))
+      out.pivots.push_back(arm_pivot(point.rotation, loads.back().topRows<3>(), point.centre));
   }
-  add_translation(U, masses, out);
-  if (mass.turn.cols() > 0) add_turn(mass, loads, reference, out, form);
-  for (const RotaryMass& part : mass.rotary) add_rotary(part, out);
+  if (mass.turn.cols() > 0) add_turn(mass, loads, reference, out);
+  for (const RotaryMass& part : mass.rotary)
+    if (!part.inertia.isZero(0.0)) out.pivots.push_back(rotary_pivot(part));
 }
 
 void turning_mass(const MatrixXd& M, const MatrixXd& D, TurningMass& out) {
-  const Index n = M.rows();
-  std::array<MatrixXd, 3> MX;  // M [e_k ×]
-  for (int k = 0; k < 3; ++k) {
-    MX[k] = -crossed(k, M).transpose();
-    out.C[k] = MX[k];
-  }
-  for (int pair = 0; pair < 6; ++pair) {
-    const auto [j, k] = formats::axis_pairs[pair];
-    const MatrixXd E = -crossed(j, MX[k]);
-    out.E[pair] = 0.5 * (E + E.transpose());
-  }
+  const Index n = M.rows(), count = n / 3;
+  out.translation.setZero(n, n);
+  out.momentum.setZero(n, n);
+  out.turn.resize(3, 0);
+  out.pivots.clear();
+  for (int a = 0; a < 3; ++a)
+    for (Index i = 0; i < count; ++i) {
+      out.translation(a * count + i, 3 * i + a) = 1.0;
+      for (Index j = 0; j < count; ++j) out.momentum(a * count + i, 3 * j + a) = M(3 * i + a, 3 * j + a);
+    }
   out.load.resize(n, inertial_loads);
   out.load.leftCols<6>().noalias() = M * D;
-  for (int pair = 0; pair < 6; ++pair) {
-    const auto [j, k] = formats::axis_pairs[pair];
-    out.load.col(6 + pair) = -0.5 * (crossed(k, out.load.col(3 + j)) + crossed(j, out.load.col(3 + k)));
-  }
+  add_centrifugal(out.load);
 }
 
 MovingMass moving_mass(const Mesh& mesh, const NodalMass& mass) {
@@ -197,7 +212,7 @@ MovingMass moving_mass(const Mesh& mesh, const NodalMass& mass) {
   point.mass = mass.mass;
   point.centre = mass.offset;
   point.inertia = 0.5 * (mass.inertia + mass.inertia.transpose());
-  moving.rotary = {{point.inertia, point.rotation, {}}};
+  moving.rotary = {{point.inertia, point.rotation}};
   moving.points = {point};
   return moving;
 }

@@ -35,19 +35,17 @@ struct MassPoint {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre of mass
 };
 
-/// Rotary inertia that turns by Θ d; or, with `weight` (nodes x nodes), one inertia with Σ weight_ij θ_i θ_jᵀ of the
-/// rotations of the nodes.
+/// Rotary inertia that turns by Θ d.
 struct RotaryMass {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
   ElementRows3 rotation;
-  Eigen::MatrixXd weight;
 };
 
 /// The mass of one element or point mass with six coordinates per node.
 struct MovingMass {
   int coordinates = 0;
   std::vector<MassPoint> points;
-  std::vector<RotaryMass> rotary;  ///< the inertia of all points once more
+  std::vector<RotaryMass> rotary;  ///< Σ ΘᵀJΘ of all points once more, by as few as there are
   ElementRows3 turn;               ///< ω; no columns: a point mass, which is all rigid
   Eigen::Matrix3Xd nodes;          ///< X_i
   Eigen::Matrix3Xd arms;           ///< r_i
@@ -61,27 +59,50 @@ MovingMass moving_mass(const Mesh& mesh, const NodalMass& mass);
 /// −½ ([e_k ×] M D_3+j + [e_j ×] M D_3+k).
 inline constexpr int inertial_loads = 12;
 
-/// Forms over the coordinates of an element.
+/// Forms of a rotation θ = Θ d: θ̇ᵀ C_k θ, ½ θᵀ E_jk θ ..., as of TurningForms.
+struct TurningPivot {
+  enum Item { C = 0, E = 3, work = 9, W = 21, items = 24 };  ///< where each begins in `form`
+  ElementRows3 rotation;
+  std::array<Eigen::Matrix3d, items> form;
+  unsigned present = 0;  ///< bit i: form[i] is there, the others are not set
+
+  void add(int item, const Eigen::Matrix3d& matrix);
+};
+
+/// What an element adds, over its n coordinates.
 struct TurningMass {
+  Eigen::MatrixXd translation;                      ///< 3 r x n: x of r masses, then y and z
+  Eigen::MatrixXd momentum;                         ///< the same times their masses
+  ElementRows3 turn;                                ///< ω; without columns: none
+  std::array<ElementRows3, inertial_loads> turned;  ///< work of each load on its second order: ω·(turned d)
+  std::vector<TurningPivot> pivots;
+  Eigen::MatrixXd load;  ///< n x 12: of the loads, on the nodes
+};
+
+/// The same as whole matrices.
+struct TurningForms {
   std::array<Eigen::MatrixXd, 3> C;  ///< ḋᵀ C_k d: Σ m u̇·(e_k × u) + θ̇·J (e_k × θ)
   std::array<Eigen::MatrixXd, 6> E;  ///< symmetric
   std::array<Eigen::MatrixXd, 6> N;  ///< ½ dᵀ N_a d: work of the load a on the second-order motion, nodes held
   std::array<Eigen::MatrixXd, 6> T;  ///< the same of centrifugal loads, and the second order of rotary inertia
   std::array<Eigen::MatrixXd, 3> W;  ///< antisymmetric: ḋᵀ W_k d = −½ Σ (J e_k)·(θ × θ̇)
-  Eigen::MatrixXd load;              ///< coordinates x 12: of the loads, on the nodes
+
+  explicit TurningForms(Eigen::Index n);
+  Eigen::MatrixXd& of(int item);  ///< TurningPivot::Item
 };
+TurningForms turning_forms(const TurningMass& mass);
+
+/// C and E of translations: Σ m u_a u_bᵀ as product(a, b), a ≤ b in the order xx xy xz yy yz zz, added to `forms`.
+void add_translations(const std::array<Eigen::MatrixXd, 6>& product, TurningForms& forms);
 
 /// `reference`: the point about which D turns.
 void turning_mass(const MovingMass& mass, const Eigen::Vector3d& reference, TurningMass& out);
 
-/// C, E and load of an element whose mass moves alike in all directions, from its mass matrix (three coordinates per
-/// node); `D`: rows of its coordinates. N, T and W stay as they are: the mass moves with the nodes.
+/// Of an element whose mass moves alike in all directions, from its mass matrix (three coordinates per node); `D`: rows
+/// of its coordinates. Nothing moves while the nodes are held.
 void turning_mass(const Eigen::MatrixXd& M, const Eigen::MatrixXd& D, TurningMass& out);
 
 /// Second derivative by θ of f·½ θ × (θ × c).
 Eigen::Matrix3d arm_form(const Eigen::Vector3d& f, const Eigen::Vector3d& c);
-
-/// [e_k x] on translations and rotations: rows in groups of three.
-Eigen::MatrixXd crossed(int k, const Eigen::MatrixXd& rows);
 
 }  // namespace tisserand::reducer

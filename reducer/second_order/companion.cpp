@@ -293,9 +293,9 @@ formats::Companion make_companion(const InternalProblem& problem, const Boundary
 
   const MatrixXd Phi = expand(system.T, reduced_displacements(problem, boundary, internal));
   const FrameInertia inertia = frame_inertia(mesh, system.coordinates, Phi, c.reference_point, threads);
-  c.C = inertia.C;
-  c.E = inertia.E;
-  if (inertia.turns) c.W = inertia.W;
+  c.C = inertia.forms.C;
+  c.E = inertia.forms.E;
+  if (inertia.turns) c.W = inertia.forms.W;
 
   const LoadVectors cases = load_vectors(mesh, system);
   c.load_cases = reduced_cases(problem, boundary, internal, cases);
@@ -315,8 +315,8 @@ formats::Companion make_companion(const InternalProblem& problem, const Boundary
   formats::remove_rigid_stress(c, element, problem.where);
   if (shapes > 0) c.Lambda = trapped_stress(problem, boundary, element, ties, Phi, shapes);
   for (int a = 0; a < 6; ++a) {
-    c.N[a] = inertia.N[a] - forms.matrix(n + a);
-    c.T[a] = inertia.T[a] - forms.matrix(n + 6 + a);
+    c.N[a] = inertia.forms.N[a] - forms.matrix(n + a);
+    c.T[a] = inertia.forms.T[a] - forms.matrix(n + 6 + a);
   }
   for (std::size_t k = 0; k < c.load_cases.size(); ++k)
     c.load_cases[k].stiffness = -forms.matrix(n + inertial_loads + static_cast<int>(k)) +

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "common/parallel.hpp"
@@ -15,37 +16,23 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr int block_elements = 64;
-constexpr int linear_items = 9, items = 24;  ///< C and E; then N, T and W, of elements with six coordinates per node
+constexpr int block_elements = 128;
 
-/// What one element adds.
+/// What one element adds, and where its rows of translations, turns and pivots begin in the block.
 struct ElementInertia {
   ElementRows rows;
   TurningMass mass;
-  bool turns = false;  ///< six coordinates per node: N, T and W are there
-  Index first_row = 0;
+  Index masses = 0, turn = 0, pivot = 0;
+  MatrixXd motion;
 
-  const MatrixXd& form(int item) const {
-    if (item < 3) return mass.C[item];
-    if (item < 9) return mass.E[item - 3];
-    if (item < 15) return mass.N[item - 9];
-    return item < 21 ? mass.T[item - 15] : mass.W[item - 21];
-  }
+  Index coordinates() const { return static_cast<Index>(rows.nodes) * rows.size; }
 };
-
-MatrixXd& form_of(FrameInertia& sum, int item) {
-  if (item < 3) return sum.C[item];
-  if (item < 9) return sum.E[item - 3];
-  if (item < 15) return sum.N[item - 9];
-  return item < 21 ? sum.T[item - 15] : sum.W[item - 21];
-}
 
 /// Of elements whose mass moves alike in all directions.
 void compute_alike(const MatrixXd& M, const MatrixXd& D, ElementInertia& out) {
   MatrixXd D_e(M.rows(), 6);
   gather(out.rows, D, D_e);
   turning_mass(M, D_e, out.mass);
-  out.turns = false;
 }
 
 /// Elements first, then the masses of nodes. D: rigid motions about `reference`.
@@ -55,9 +42,7 @@ void compute_inertia(const Mesh& mesh, const Coordinates& coordinates, const Mat
     const NodalMass& mass = mesh.masses[item - mesh.elements()];
     out.rows = {{coordinates.of(mass.node, 0)}, 1, coordinates.rotates(mass.node) ? 6 : 3};
     if (out.rows.size == 3) return compute_alike(nodal_mass_matrix(mass).topLeftCorner<3, 3>(), D, out);
-    turning_mass(moving_mass(mesh, mass), reference, out.mass);
-    out.turns = true;
-    return;
+    return turning_mass(moving_mass(mesh, mass), reference, out.mass);
   }
   with_element(mesh, item, [&](const auto& kind) {
     using Kind = std::decay_t<decltype(kind)>;
@@ -65,7 +50,6 @@ void compute_inertia(const Mesh& mesh, const Coordinates& coordinates, const Mat
       const MovingMass moving = moving_mass(mesh, kind);
       out.rows = element_rows(mesh, coordinates, item, moving.coordinates);
       turning_mass(moving, reference, out.mass);
-      out.turns = true;
     } else {
       thread_local ElementMatrices matrices;
       element_matrices(mesh, kind, matrices);
@@ -75,29 +59,108 @@ void compute_inertia(const Mesh& mesh, const Coordinates& coordinates, const Mat
   });
 }
 
-/// Displacements of the elements of a block, one below the other.
+/// Rows of all elements of a block, times Φ.
 struct InertiaBlock {
   std::vector<ElementInertia> elements = std::vector<ElementInertia>(block_elements);
   int count = 0;
-  Index rows = 0;
-  MatrixXd motion;
-  std::vector<MatrixXd> product;  ///< of each thread
+  Index masses = 0, turns = 0, pivots = 0;
+  std::array<MatrixXd, 3> translation, momentum;
+  MatrixXd turn, rotation;
+  std::array<MatrixXd, inertial_loads> turned;
+  std::vector<MatrixXd> product;  ///< of each thread: forms of pivots times their rotations
 };
 
-/// Adds the block to C, E, N, T or W; nothing where all elements have none of it.
-void add_product(InertiaBlock& block, int item, MatrixXd& product, FrameInertia& sum) {
+void grow(Index rows, Index columns, MatrixXd& matrix) {
+  if (matrix.rows() < rows) matrix.resize(rows, columns);
+}
+
+/// Places of the elements' rows, and room for them.
+void start_block(Index n, InertiaBlock& block) {
+  block.masses = block.turns = block.pivots = 0;
+  for (int e = 0; e < block.count; ++e) {
+    ElementInertia& element = block.elements[e];
+    element.masses = block.masses;
+    element.turn = block.turns;
+    element.pivot = block.pivots;
+    block.masses += element.mass.translation.rows() / 3;
+    block.turns += element.mass.turn.cols() > 0 ? 3 : 0;
+    block.pivots += 3 * static_cast<Index>(element.mass.pivots.size());
+  }
+  for (auto* sets : {&block.translation, &block.momentum})
+    for (MatrixXd& matrix : *sets) grow(block.masses, n, matrix);
+  grow(block.turns, n, block.turn);
+  for (MatrixXd& matrix : block.turned) grow(block.turns, n, matrix);
+  grow(block.pivots, n, block.rotation);
+  for (MatrixXd& matrix : block.product) grow(block.pivots, n, matrix);
+}
+
+/// The rows of one element.
+void fill(const MatrixXd& Phi, ElementInertia& element, InertiaBlock& block) {
+  const TurningMass& mass = element.mass;
+  element.motion.resize(element.coordinates(), Phi.cols());
+  gather(element.rows, Phi, element.motion);
+  const Index masses = mass.translation.rows() / 3;
+  for (int a = 0; a < 3; ++a) {
+    block.translation[a].middleRows(element.masses, masses).noalias() =
+        mass.translation.middleRows(a * masses, masses) * element.motion;
+    block.momentum[a].middleRows(element.masses, masses).noalias() =
+        mass.momentum.middleRows(a * masses, masses) * element.motion;
+  }
+  if (mass.turn.cols() > 0) {
+    block.turn.middleRows<3>(element.turn).noalias() = mass.turn * element.motion;
+    for (int l = 0; l < inertial_loads; ++l)
+      block.turned[l].middleRows<3>(element.turn).noalias() = mass.turned[l] * element.motion;
+  }
+  for (std::size_t p = 0; p < mass.pivots.size(); ++p)
+    block.rotation.middleRows<3>(element.pivot + 3 * static_cast<Index>(p)).noalias() =
+        mass.pivots[p].rotation * element.motion;
+}
+
+/// Sums over all blocks: products of translations, of turns with each load, forms of pivots.
+struct Sums {
+  explicit Sums(Index n) : pivots(n) {
+    for (MatrixXd& matrix : translations) matrix.setZero(n, n);
+    for (MatrixXd& matrix : turned) matrix.setZero(n, n);
+  }
+  static constexpr int items = 6 + inertial_loads + TurningPivot::items;
+  std::array<MatrixXd, 6> translations;
+  std::array<MatrixXd, inertial_loads> turned;
+  TurningForms pivots;
+};
+
+/// Form `item` of the pivots of the block; nothing where all have none.
+void add_pivots(const InertiaBlock& block, int item, MatrixXd& product, Sums& sums) {
   bool any = false;
   for (int e = 0; e < block.count; ++e) {
     const ElementInertia& element = block.elements[e];
-    auto rows = product.middleRows(element.first_row, static_cast<Index>(element.rows.nodes) * element.rows.size);
-    if ((item >= linear_items && !element.turns) || element.form(item).isZero(0.0)) {
-      rows.setZero();
-      continue;
+    for (std::size_t p = 0; p < element.mass.pivots.size(); ++p) {
+      const TurningPivot& pivot = element.mass.pivots[p];
+      const Index row = element.pivot + 3 * static_cast<Index>(p);
+      const bool present = (pivot.present >> static_cast<unsigned>(item) & 1U) != 0;
+      any = any || present;
+      if (present)
+        product.middleRows<3>(row).noalias() = pivot.form[item] * block.rotation.middleRows<3>(row);
+      else
+        product.middleRows<3>(row).setZero();
     }
-    rows.noalias() = element.form(item) * block.motion.middleRows(element.first_row, rows.rows());
-    any = true;
   }
-  if (any) form_of(sum, item).noalias() += block.motion.topRows(block.rows).transpose() * product.topRows(block.rows);
+  if (any)
+    sums.pivots.of(item).noalias() += block.rotation.topRows(block.pivots).transpose() * product.topRows(block.pivots);
+}
+
+void add_item(const InertiaBlock& block, int item, MatrixXd& product, Sums& sums) {
+  constexpr std::array<std::pair<int, int>, 6> pairs{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
+  if (item < 6) {
+    const auto [a, b] = pairs[item];
+    sums.translations[item].noalias() +=
+        block.translation[a].topRows(block.masses).transpose() * block.momentum[b].topRows(block.masses);
+  } else if (item < 6 + inertial_loads) {
+    if (block.turns > 0)
+      sums.turned[item - 6].noalias() +=
+          block.turn.topRows(block.turns).transpose() * block.turned[item - 6].topRows(block.turns);
+  } else if (block.pivots > 0) {
+    add_pivots(block, item - 6 - inertial_loads, product, sums);
+  }
 }
 
 void scatter_loads(const ElementInertia& element, MatrixXd& load) {
@@ -106,27 +169,19 @@ void scatter_loads(const ElementInertia& element, MatrixXd& load) {
         element.mass.load.middleRows(static_cast<Index>(element.rows.size) * i, element.rows.size);
 }
 
-/// Rows of the block's elements, and their displacements.
-void start_block(const MatrixXd& Phi, InertiaBlock& block) {
-  block.rows = 0;
-  for (int e = 0; e < block.count; ++e) {
-    ElementInertia& element = block.elements[e];
-    element.first_row = block.rows;
-    block.rows += static_cast<Index>(element.rows.nodes) * element.rows.size;
-  }
-  if (block.motion.rows() < block.rows) {
-    block.motion.resize(block.rows, Phi.cols());
-    for (MatrixXd& product : block.product) product.resize(block.rows, Phi.cols());
-  }
-}
-
-void finish(FrameInertia& sum) {
-  for (auto* forms : {&sum.E, &sum.N, &sum.T})
-    for (MatrixXd& form : *forms) form = (0.5 * (form + form.transpose())).eval();
-  for (MatrixXd& W : sum.W) {
+FrameInertia finish(Sums& sums) {
+  TurningForms& forms = sums.pivots;
+  add_translations(sums.translations, forms);
+  for (int l = 0; l < inertial_loads; ++l)
+    forms.of(TurningPivot::work + l) += sums.turned[l] + sums.turned[l].transpose();
+  for (auto* symmetric : {&forms.E, &forms.N, &forms.T})
+    for (MatrixXd& form : *symmetric) form = (0.5 * (form + form.transpose())).eval();
+  FrameInertia out{std::move(forms), false, {}};
+  for (MatrixXd& W : out.forms.W) {
     W = (0.5 * (W - W.transpose())).eval();
-    sum.turns = sum.turns || !W.isZero(0.0);
+    out.turns = out.turns || !W.isZero(0.0);
   }
+  return out;
 }
 
 }  // namespace
@@ -148,9 +203,8 @@ void gather(const ElementRows& rows, const MatrixXd& all, Eigen::Ref<MatrixXd> o
 FrameInertia frame_inertia(const Mesh& mesh, const Coordinates& coordinates, const MatrixXd& Phi,
                            const Eigen::Vector3d& reference, int threads) {
   const Index n = Phi.cols();
-  FrameInertia sum;
-  for (int item = 0; item < items; ++item) form_of(sum, item).setZero(n, n);
-  sum.load.setZero(Phi.rows(), inertial_loads);
+  Sums sums(n);
+  MatrixXd load = MatrixXd::Zero(Phi.rows(), inertial_loads);
   const MatrixXd D = rigid_motions(mesh, coordinates, reference);
   const int all = mesh.elements() + static_cast<int>(mesh.masses.size());
   InertiaBlock block;
@@ -162,22 +216,19 @@ FrameInertia frame_inertia(const Mesh& mesh, const Coordinates& coordinates, con
       for (int e = share.first; e < share.end; ++e)
         compute_inertia(mesh, coordinates, D, reference, first + e, block.elements[e]);
     });
-    start_block(Phi, block);
+    start_block(n, block);
     on_threads(threads, [&](int t) {
       const Share share = share_of(block.count, t, threads);
-      for (int e = share.first; e < share.end; ++e) {
-        const ElementInertia& element = block.elements[e];
-        gather(element.rows, Phi,
-               block.motion.middleRows(element.first_row, static_cast<Index>(element.rows.nodes) * element.rows.size));
-      }
+      for (int e = share.first; e < share.end; ++e) fill(Phi, block.elements[e], block);
     });
-    for (int e = 0; e < block.count; ++e) scatter_loads(block.elements[e], sum.load);
+    for (int e = 0; e < block.count; ++e) scatter_loads(block.elements[e], load);
     on_threads(threads, [&](int t) {
-      for (int item = t; item < items; item += threads) add_product(block, item, block.product[t], sum);
+      for (int item = t; item < Sums::items; item += threads) add_item(block, item, block.product[t], sums);
     });
   }
-  finish(sum);
-  return sum;
+  FrameInertia inertia = finish(sums);
+  inertia.load = std::move(load);
+  return inertia;
 }
 
 MatrixXd translation_loads(const Mesh& mesh, const Coordinates& coordinates) {

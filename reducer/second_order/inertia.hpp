@@ -11,13 +11,9 @@
 
 namespace tisserand::reducer {
 
-/// Sums over the finite elements of ΦᵀAΦ, A the forms of TurningMass.
+/// Sums over the finite elements.
 struct FrameInertia {
-  std::array<Eigen::MatrixXd, 3> C;
-  std::array<Eigen::MatrixXd, 6> E;  ///< pairs xx yy zz yz xz xy
-  std::array<Eigen::MatrixXd, 6> N;  ///< nodes held at second order
-  std::array<Eigen::MatrixXd, 6> T;
-  std::array<Eigen::MatrixXd, 3> W;
+  TurningForms forms;    ///< ΦᵀAΦ of each
   bool turns = false;    ///< whether any mass has rotary inertia
   Eigen::MatrixXd load;  ///< x 12: the loads of TurningMass
 };

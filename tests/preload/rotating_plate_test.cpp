@@ -51,11 +51,12 @@ TurningModel turning_model(const reducer::Mesh& mesh, const Vector3d& Omega) {
     std::vector<int> row;
     for (int i = 0; i < shell.corners(); ++i)
       for (int c = 0; c < 6; ++c) row.push_back(6 * shell.nodes[i] + c);
-    for (int k = 0; k < 3; ++k) turning.coupling(row, row) += Omega[k] * (element.C[k] + element.W[k]);
+    const reducer::TurningForms forms = reducer::turning_forms(element);
+    for (int k = 0; k < 3; ++k) turning.coupling(row, row) += Omega[k] * (forms.C[k] + forms.W[k]);
     for (int j = 0; j < 3; ++j)
       for (int k = 0; k < 3; ++k) {
         const int pair = formats::axis_pair(j, k);
-        turning.softening(row, row) += Omega[j] * Omega[k] * (element.E[pair] + element.T[pair]);
+        turning.softening(row, row) += Omega[j] * Omega[k] * (forms.E[pair] + forms.T[pair]);
         turning.load(row) += Omega[j] * Omega[k] * element.load.col(6 + pair);
       }
   }
@@ -63,8 +64,8 @@ TurningModel turning_model(const reducer::Mesh& mesh, const Vector3d& Omega) {
 }
 
 /// ω of the full model that turns with Ω, clamped at the root, ascending: (K + K_G[w] − B) x + λ (A − Aᵀ) x + λ² M x =
-/// 0, K w the centrifugal load, A and B the coupling and the softening of turning_model(); by the eigenvalues 1/λ,
-/// since M is singular.
+/// 0, K w the centrifugal load, A and B the coupling and the softening of turning_model(); by the eigenvalues 1/λ, since
+/// M is singular.
 VectorXd full_frequencies(int along, const Vector3d& Omega, int count) {
   reducer::SmallModel model(plate(along));
   reducer::hold_where(model, reducer::all_components, at_root);

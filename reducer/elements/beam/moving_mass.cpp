@@ -34,7 +34,7 @@ MovingMass moving_mass(const Mesh& mesh, const BeamElement& beam) {
       inertia += point.mass * skew<double>(c) * skew<double>(c);
     }
     point.inertia = beam.R_PE * (0.5 * (inertia + inertia.transpose())) * beam.R_PE.transpose();
-    moving.rotary.push_back({point.inertia, point.rotation, {}});
+    moving.rotary.push_back({point.inertia, point.rotation});
     moving.points.push_back(point);
   }
   return moving;

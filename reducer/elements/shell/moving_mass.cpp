@@ -1,6 +1,8 @@
 // Where the mass of a shell is, and how it moves with the nodes.
 #include <vector>
 
+#include <Eigen/Cholesky>
+
 #include "common/math/rotation.hpp"
 #include "reducer/elements/shell/geometry.hpp"
 #include "reducer/elements/shell/mass.hpp"
@@ -49,12 +51,24 @@ MassPoint point_of(const ShellFrame<Corners>& shell, const Eigen::Matrix<double,
   return point;
 }
 
+/// J with Σ weight_ij θ_i θ_jᵀ of the corners, as a sum of Corners squares.
+template <int Corners>
+void add_rotary(const Eigen::Matrix3d& J, const Eigen::Matrix<double, Corners, Corners>& weight, MovingMass& moving) {
+  const Eigen::Matrix<double, Corners, Corners> L = weight.llt().matrixL();
+  for (int q = 0; q < Corners; ++q) {
+    ElementRows3 rotation = ElementRows3::Zero(3, 6 * Corners);
+    for (int i = q; i < Corners; ++i)
+      rotation.template middleCols<3>(6 * i + 3) = L(i, q) * Eigen::Matrix3d::Identity();
+    moving.rotary.push_back({J, rotation});
+  }
+}
+
 template <int Corners>
 void add_consistent(const ShellFrame<Corners>& shell, const ShellSection& section, MovingMass& moving) {
   const SectionMass mass = section_mass(section);
   const Eigen::Vector3d z = shell.normal();
   const Eigen::Matrix3d J = mass.inertia * (Eigen::Matrix3d::Identity() - z * z.transpose());
-  Eigen::MatrixXd NN = Eigen::MatrixXd::Zero(Corners, Corners);
+  Eigen::Matrix<double, Corners, Corners> NN = Eigen::Matrix<double, Corners, Corners>::Zero();
   for (const ShellMassPoint<Corners>& from : shell_mass_points(shell.geometry)) {
     MassPoint point = point_of<Corners>(shell, from.N, shell.geometry.R_PE * from.bulge);
     point.mass = from.dA * mass.mass;
@@ -63,7 +77,7 @@ void add_consistent(const ShellFrame<Corners>& shell, const ShellSection& sectio
     NN += from.dA * from.N * from.N.transpose();
     moving.points.push_back(point);
   }
-  moving.rotary = {{J, {}, NN}};
+  add_rotary<Corners>(J, NN, moving);
 }
 
 /// Rotary inertia of the nodes alike about all axes (lumped_shell_mass()).
@@ -83,7 +97,7 @@ void add_lumped(const ShellFrame<Corners>& shell, const ShellSection& section, M
     point.inertia = share[i] * J;
     moving.points.push_back(point);
   }
-  moving.rotary = {{J, {}, Eigen::MatrixXd(share.asDiagonal())}};
+  add_rotary<Corners>(J, share.asDiagonal(), moving);
 }
 
 template <int Corners>
