@@ -239,10 +239,9 @@ bool BushingSpec::takes_turns(int k) const {
 }
 
 std::optional<int> BushingSpec::turning_axis() const {
+  if (turns) return static_cast<int>(*turns);
   std::vector<int> with, without;
   for (int k = 0; k < 3; ++k) (takes_turns(k) ? with : without).push_back(k);
-  if (with.empty()) return std::nullopt;
-  if (turns) return static_cast<int>(*turns);
   if (with.size() == 1) return with.front();
   if (without.size() == 1) return without.front();
   return std::nullopt;

@@ -150,7 +150,7 @@ struct BushingSpec : MarkerPairSpec {
 
   /// Whether turns about marker axis k, 0 to 2, deflect it or make forces of it.
   bool takes_turns(int k) const;
-  /// The axis `turns`; without it the only one about which it takes turns, or the only one about which it takes none.
+  /// The axis `turns`, also where nothing acts on rotations; without it the only one about which it takes turns, or the only one about which it takes none.
   std::optional<int> turning_axis() const;
 };
 

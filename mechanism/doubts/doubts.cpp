@@ -55,8 +55,10 @@ void Doubts::at_row(const Model& model, const State& state, const Evaluation& ev
 
 std::vector<std::string> Doubts::of_model(const Model& model, const StressedBodies& stressed) const {
   std::vector<std::string> all = told_;
-  for (auto&& some : {swing_.doubts(), resolution_.doubts(model), touches_.doubts(model), range_.doubts(model, stressed), beams_.doubts(model), bushings_.doubts(model), tables_.doubts(model), inertia_.doubts(model),
-                      torsion_.doubts(model), spin_.doubts(model), tyres_.doubts(model), damping_doubts(model)})
+  for (auto&& some :
+       {swing_.doubts(), resolution_.doubts(model), touches_.doubts(model), range_.doubts(model, stressed),
+        beams_.doubts(model), bushings_.doubts(model), tables_.doubts(model), inertia_.doubts(model),
+        torsion_.doubts(model), spin_.doubts(model), tyres_.doubts(model), damping_doubts(model)})
     for (const std::string& doubt : some)
       if (std::ranges::find(all, doubt) == all.end()) all.push_back(doubt);
   return all;
@@ -72,7 +74,7 @@ void Doubts::enter(const formats::Scene& scene, const Model& model) {
 }
 
 std::vector<std::string> Doubts::tell(const Model& model, const StressedBodies& stressed) const {
-  std::vector<std::string> all = energy_.doubts();
+  std::vector<std::string> all = energy_.doubts(bushings_.cause_of_jumps(model));
   for (std::string& doubt : of_model(model, stressed)) all.push_back(std::move(doubt));
   return all;
 }

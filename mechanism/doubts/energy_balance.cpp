@@ -26,8 +26,8 @@ void EnergyBalance::observe(const formats::ResultsRow& row, double possible) {
     at_ = row.time;
   }
   if (!potential_) potential_ = row.potential;
-  moved_ = std::max(moved_, row.kinetic + std::abs(row.strain) + std::abs(row.potential - *potential_) + std::abs(row.work) +
-                                std::abs(row.dissipated));
+  moved_ = std::max(moved_, row.kinetic + std::abs(row.strain) + std::abs(row.potential - *potential_) +
+                                std::abs(row.work) + std::abs(row.dissipated));
   level_ = std::max({level_, std::abs(row.total), possible});
   const double share = end_ > start_ ? (row.time - start_) / (end_ - start_) : 0.0;
   Part& part = part_[std::clamp(static_cast<int>(parts * share), 0, parts - 1)];
@@ -47,15 +47,18 @@ bool EnergyBalance::drifts() const {
   return std::abs(second_half) > 0.3 * std::abs(whole);
 }
 
-std::vector<std::string> EnergyBalance::doubts() const {
+std::vector<std::string> EnergyBalance::doubts(const std::string& cause) const {
   const double largest = std::abs(largest_);
   if (!(largest > round_off * level_) || !(largest > foreseen * moved_)) return {};
   const char* way = largest_ > 0.0 ? "gained" : "lost";
   if (largest > tolerance * moved_)
-    return {
-        fmt::format("{:.2g} of the energy that moved was {} without a cause (balance at t = {:.6g}, beyond {:g}): a "
-                    "shorter step or a smaller tolerance keeps it",
-                    largest / moved_, way, at_, tolerance)};
+    return {cause.empty()
+                ? fmt::format(
+                      "{:.2g} of the energy that moved was {} without a cause (balance at t = {:.6g}, beyond {:g}): a "
+                      "shorter step or a smaller tolerance keeps it",
+                      largest / moved_, way, at_, tolerance)
+                : fmt::format("{:.2g} of the energy that moved was {} (balance at t = {:.6g}, beyond {:g}): {}",
+                              largest / moved_, way, at_, tolerance, cause)};
   if (!drifts()) return {};
   return {
       fmt::format("energy is steadily {}: {:.2g} of what moved by t = {:.6g}, beyond {:g} in a run ten times as long; "

@@ -15,15 +15,16 @@ class EnergyBalance {
  public:
   EnergyBalance(double start, double end) : start_(start), end_(end) {}
 
-  /// possible: work of the largest force of this row over the characteristic length. What stands still balances round-off
-  /// of that.
+  /// possible: work of the largest force of this row over the characteristic length. What stands still balances
+  /// round-off of that.
   void observe(const formats::ResultsRow& row, double possible);
 
   /// Largest kinetic + |strain| + |change of potential| + |work| + |dissipated| of the rows.
   double moved() const { return moved_; }
 
   /// At most one: that the largest balance exceeds a hundredth of the energy that moved, or that it drifts there.
-  std::vector<std::string> doubts() const;
+  /// `cause`: what explains it, in place of the advice to take shorter steps; empty: nothing known.
+  std::vector<std::string> doubts(const std::string& cause) const;
 
  private:
   static constexpr int parts = 8;
@@ -40,7 +41,7 @@ class EnergyBalance {
   double at_ = 0.0;
   double moved_ = 0.0;
   std::optional<double> potential_;  ///< of the first row
-  double level_ = 0.0;  ///< largest |total| or work that was possible, whose round-off is no balance
+  double level_ = 0.0;               ///< largest |total| or work that was possible, whose round-off is no balance
 };
 
 }  // namespace tisserand::mechanism

@@ -92,8 +92,16 @@ void BushingRange::observe(const State& state, const Evaluation& evaluation) {
       seen.time = state.time();
       turn.cwiseAbs().maxCoeff(&seen.about);
     }
+    seen.passed = seen.passed || passed;
     seen.before = turn;
   }
+}
+
+std::string BushingRange::cause_of_jumps(const Model& model) const {
+  const auto first = std::ranges::find_if(seen_, &Seen::passed);
+  return first == seen_.end() ? ""
+                              : fmt::format("bushing '{}' passed half a turn, where its moment jumps",
+                                            model.bushings[first->bushing].name);
 }
 
 std::vector<std::string> BushingRange::doubts(const Model& model) const {
@@ -142,7 +150,8 @@ double TableRange::value_of(const Watched& law, const Model& model, const State&
     const Coordinate& c = model.coordinates[law.index];
     const MarkerPair pair = markers_of(c, evaluation);
     const int k = c.relation.i;
-    return std::acos(std::clamp(marker_rotation(c.a, pair.node_a).col(k).dot(marker_rotation(c.b, pair.node_b).col(k)), -1.0, 1.0));
+    return std::acos(
+        std::clamp(marker_rotation(c.a, pair.node_a).col(k).dot(marker_rotation(c.b, pair.node_b).col(k)), -1.0, 1.0));
   }
   const Spring& spring = model.springs[law.index];
   const CoordinateTerms& terms = evaluation.coordinates[spring.coordinate];
@@ -168,18 +177,21 @@ std::vector<std::string> TableRange::doubts(const Model& model) const {
     const std::string others = more > 0 ? fmt::format(" (and {} more)", more) : "";
     const Watched& law = *first;
     if (kind == Kind::stiffness || kind == Kind::damping)
-      doubts.push_back(fmt::format("spring '{}'{} has {} {:.4g} (at t = {:.6g}), outside the table of its {} from {:.4g} to {:.4g}: the "
-                                   "law goes on straight",
-                                   model.springs[law.index].name, others, kind == Kind::stiffness ? "the deflection" : "the rate",
-                                   law.value, law.time, kind == Kind::stiffness ? "stiffness" : "damping", law.low, law.high));
+      doubts.push_back(fmt::format(
+          "spring '{}'{} has {} {:.4g} (at t = {:.6g}), outside the table of its {} from {:.4g} to {:.4g}: the "
+          "law goes on straight",
+          model.springs[law.index].name, others, kind == Kind::stiffness ? "the deflection" : "the rate", law.value,
+          law.time, kind == Kind::stiffness ? "stiffness" : "damping", law.low, law.high));
     else if (kind == Kind::drive)
-      doubts.push_back(fmt::format("{}{} goes on with the last rate outside its table, which covers t = {:.6g} to {:.6g}: give the "
-                                   "table for the whole run, or let it end at rest",
-                                   std::ranges::find(model.couplings, law.index, &Coupling::motion)->name, others, law.low, law.high));
+      doubts.push_back(fmt::format(
+          "{}{} goes on with the last rate outside its table, which covers t = {:.6g} to {:.6g}: give the "
+          "table for the whole run, or let it end at rest",
+          std::ranges::find(model.couplings, law.index, &Coupling::motion)->name, others, law.low, law.high));
     else
-      doubts.push_back(fmt::format("coordinate '{}'{} is the angle about axes that are {:.3g} rad apart (at t = {:.6g}): near half a "
-                                   "turn there is no such angle",
-                                   model.coordinates[law.index].name, others, law.value, law.time));
+      doubts.push_back(fmt::format(
+          "coordinate '{}'{} is the angle about axes that are {:.3g} rad apart (at t = {:.6g}): near half a "
+          "turn there is no such angle",
+          model.coordinates[law.index].name, others, law.value, law.time));
   }
   return doubts;
 }

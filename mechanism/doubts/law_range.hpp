@@ -51,6 +51,8 @@ class BushingRange {
 
   /// At most one line, with the number of bushings and the name of the first.
   std::vector<std::string> doubts(const Model& model) const;
+  /// "bushing 'mount' passed half a turn", which energy does not survive; empty: none did.
+  std::string cause_of_jumps(const Model& model) const;
 
  private:
   struct Seen {
@@ -59,6 +61,7 @@ class BushingRange {
     Eigen::Vector3d before = Eigen::Vector3d::Zero();
     double angle = 0.0, time = 0.0;  ///< where it first came near half a turn or passed it; 0: never
     int about = 0;                   ///< marker axis about which it turned most then
+    bool passed = false;             ///< half a turn
   };
   std::vector<Seen> seen_;
 };

@@ -21,8 +21,8 @@ struct SupportedModes {
   SolverReport solver;
 };
 
-/// The `count` lowest; a group of equal frequencies is completed. `asked`: by which solver. `share` hears how much of the search is done. Throws
-/// Error if fewer exist.
+/// The `count` lowest; a group of equal frequencies is completed. `asked`: by which solver. `share` hears how much of
+/// the search is done. Throws Error if fewer exist.
 SupportedModes supported_modes(const Mesh& mesh, const System& system, const Supported& s, int count,
                                const formats::ModeSelection& asked, const std::string& where,
                                const std::function<void(double)>& share);

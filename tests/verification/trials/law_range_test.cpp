@@ -51,6 +51,35 @@ TEST(BushingTurns, AllAxesWithTheKey) {
   EXPECT_THAT(trial.report().doubts, IsEmpty());
 }
 
+// A wheel that spins past half a turn of such a bushing: no step is short enough for its energy.
+TEST(BushingTurns, TheEnergyReportNamesTheBushing) {
+  const Trial trial("fail4_bushing_half_turn",
+                    {"bushings.torsion.stiffness=[0, 0, 0, 20, 30, 10]", "motions={}",
+                     "bodies.wheel.angular_velocity=[0, 0, 400]", "integrator={step: 1e-3, end: 0.5}"});
+  EXPECT_THAT(trial.report().doubts, Contains(HasSubstr("bushing 'torsion' passed half a turn, where its moment jumps")));
+  EXPECT_THAT(trial.report().doubts, ::testing::Not(Contains(HasSubstr("shorter step"))));
+}
+
+// Turns are counted by every method, in the plane, and where checkpoints begin the memory of steps anew.
+TEST(BushingTurns, ByEveryMethod) {
+  for (const char* setting :
+       {"integrator={method: radau, step: 0.005, end: 2.5}", "integrator={method: bdf, end: 2.5}",
+        "integrator={method: hht, step: 0.005, end: 2.5}", "integrator.formulation=index3", "integrator.formulation=index1",
+        "effects={planar: on}", "checkpoint={every: 37}"}) {
+    const Trial trial("fail4_bushing_half_turn", {setting});
+    expect_proportional(trial, setting);
+    EXPECT_THAT(trial.report().doubts, IsEmpty()) << setting;
+  }
+}
+
+// A bushing that acts on translations alone counts turns where it is asked.
+TEST(BushingTurns, WithoutMoments) {
+  const Trial trial("fail4_bushing_half_turn",
+                    {"bushings.torsion.stiffness=[1e3, 1e3, 1e3, 0, 0, 0]", "bushings.torsion.turns=z"});
+  EXPECT_NEAR(trial.last("joints/coordinate/torsion/turn"), 5.0, 1e-9);
+  EXPECT_NEAR(trial.last("motions/force/turn"), 0.0, 1e-2);
+}
+
 formats::BushingSpec between_ground_and(const std::string& body) {
   formats::BushingSpec mount;
   mount.name = "mount";
