@@ -11,6 +11,7 @@ namespace tisserand::mechanism {
 
 Doubts::Doubts(const formats::Scene& scene, const Model& model)
     : energy_(scene.integrator.start, scene.integrator.end),
+      momentum_(scene, model),
       range_(model, scene.integrator.start),
       beams_(model),
       bushings_(model),
@@ -35,6 +36,7 @@ void Doubts::after_step(const Model& model, const State& before, const State& st
   resolution_.observe(model, before, state);
   touches_.observe(model, state, evaluation);
   swing_.observe(before, state);
+  momentum_.after_step(evaluation);
 }
 
 void Doubts::at_state(const Model& model, const State& state, const Evaluation& evaluation) {
@@ -50,15 +52,17 @@ void Doubts::at_state(const Model& model, const State& state, const Evaluation& 
 
 void Doubts::at_row(const Model& model, const State& state, const Evaluation& evaluation,
                     const formats::ResultsRow& row) {
-  energy_.observe(row, std::max(evaluation.force_scale[0], force_round_off(model, state)) * model.length);
+  const double possible = std::max(evaluation.force_scale[0], force_round_off(model, state)) * model.length;
+  energy_.observe(row, possible);
+  momentum_.at_row(model, state, possible);
 }
 
 std::vector<std::string> Doubts::of_model(const Model& model, const StressedBodies& stressed) const {
   std::vector<std::string> all = told_;
-  for (auto&& some :
-       {swing_.doubts(), resolution_.doubts(model), touches_.doubts(model), range_.doubts(model, stressed),
-        beams_.doubts(model), bushings_.doubts(model), tables_.doubts(model), inertia_.doubts(model),
-        torsion_.doubts(model), spin_.doubts(model), tyres_.doubts(model), damping_doubts(model)})
+  for (auto&& some : {momentum_.doubts(), swing_.doubts(), resolution_.doubts(model), touches_.doubts(model),
+                      range_.doubts(model, stressed), beams_.doubts(model), bushings_.doubts(model),
+                      tables_.doubts(model), inertia_.doubts(model), torsion_.doubts(model), spin_.doubts(model),
+                      tyres_.doubts(model), damping_doubts(model)})
     for (const std::string& doubt : some)
       if (std::ranges::find(all, doubt) == all.end()) all.push_back(doubt);
   return all;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "mechanism/doubts/axial_spin.hpp"
-#include "mechanism/doubts/energy_balance.hpp"
+#include "mechanism/doubts/balances.hpp"
 #include "mechanism/doubts/inertia_choice.hpp"
 #include "mechanism/doubts/law_range.hpp"
 #include "mechanism/doubts/linear_range.hpp"
@@ -42,6 +42,7 @@ class Doubts {
 
  private:
   EnergyBalance energy_;
+  MomentumBalance momentum_;
   LinearRange range_;
   BeamRange beams_;
   BushingRange bushings_;

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "mechanism/doubts/energy_balance.hpp"
+#include "mechanism/doubts/balances.hpp"
 #include "mechanism/doubts/linear_range.hpp"
 #include "mechanism/simulate.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"

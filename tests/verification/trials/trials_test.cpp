@@ -19,6 +19,7 @@ namespace {
 
 using std::numbers::pi;
 using test_support::Trial;
+using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
@@ -403,6 +404,20 @@ TEST(FreeFlight, DampingTakesWhatTheEnergyLoses) {
   const Trial stopped("satellite", {"bodies.p.file=" + panel, "bodies.q.file=" + panel, "integrator.end=80",
                                     "checkpoint={every: 400}"});
   EXPECT_NEAR(stopped.last("energy/dissipated"), dissipated, 0.01 * dissipated);
+}
+
+// What no load acts on keeps its angular momentum; steps of index 2 lose some of that of a turning flexible body.
+TEST(FreeFlight, LostAngularMomentumIsTold) {
+  if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the superelements";
+  const test_support::TemporaryFolder folder;
+  const std::string panel = reduce("satellite", folder);
+  const auto doubts = [&](const std::string& integrator) {
+    return Trial("satellite", {"bodies.p.file=" + panel, "bodies.q.file=" + panel, "integrator=" + integrator})
+        .report()
+        .doubts;
+  };
+  EXPECT_THAT(doubts("{step: 0.03, end: 400}"), Contains(HasSubstr("angular momentum changes by")));
+  EXPECT_THAT(doubts("{step: 0.03, end: 400, formulation: index3}"), IsEmpty());
 }
 
 }  // namespace

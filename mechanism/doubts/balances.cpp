@@ -1,0 +1,169 @@
+// Largest balances, and trends.
+#include "mechanism/doubts/balances.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "mechanism/equations/evaluate.hpp"
+#include "mechanism/model/connected_bodies.hpp"
+#include "mechanism/model/node_coordinates.hpp"
+
+namespace tisserand::mechanism {
+namespace {
+
+/// Of the largest energy: "a small tolerance, generally on the order of 10^-2" (Belytschko, Liu, Moran, Nonlinear
+/// Finite Elements for Continua and Structures, 2000, energy balance in section 6.2.3).
+constexpr double tolerance = 1e-2;
+/// A drift is told when a run ten times as long would pass the tolerance.
+constexpr double foreseen = tolerance / 10.0;
+/// Round-off of sums of energies.
+constexpr double round_off = 1e-12;
+/// Energy goes with the square of momentum: half of `foreseen`.
+constexpr double most_momentum = foreseen / 2.0;
+constexpr double instants = 100.0;
+
+/// Whether the ground is a group of its own, and bodies are there.
+bool flies(const Model& model) {
+  const auto groups = connected_groups(model, find_parts(model));
+  return groups.size() > 1 && std::ranges::find(groups, std::vector<std::string>{"ground"}) != groups.end();
+}
+
+/// Rates of all coordinates while everything turns about the axis k of the origin.
+void turn(const Model& model, const Evaluation& evaluation, int k, Eigen::Ref<Eigen::VectorXd> rates) {
+  const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
+  rates.setZero();
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const Node& node = model.nodes[i];
+    const NodeMotion& motion = evaluation.motion[i];
+    if (node.translation >= 0) set_translation(model, axis.cross(motion.x), node.translation, rates);
+    if (node.rotation >= 0) set_rotation(model, motion.R.transpose() * axis, node.rotation, rates);
+  }
+}
+
+}  // namespace
+
+void EnergyBalance::observe(const formats::ResultsRow& row, double possible) {
+  if (!std::isfinite(row.balance)) return;
+  if (std::abs(row.balance) > std::abs(largest_)) {
+    largest_ = row.balance;
+    at_ = row.time;
+  }
+  if (!potential_) potential_ = row.potential;
+  moved_ = std::max(moved_, row.kinetic + std::abs(row.strain) + std::abs(row.potential - *potential_) +
+                                std::abs(row.work) + std::abs(row.dissipated));
+  level_ = std::max({level_, std::abs(row.total), possible});
+  const double share = end_ > start_ ? (row.time - start_) / (end_ - start_) : 0.0;
+  Part& part = part_[std::clamp(static_cast<int>(parts * share), 0, parts - 1)];
+  part.sum += row.balance;
+  ++part.rows;
+}
+
+/// Whether the means of the stretches go one way throughout, in the second half of the time not much less than in the
+/// first: a start that settles is no drift.
+bool EnergyBalance::drifts() const {
+  const bool thin = std::ranges::any_of(part_, [](const Part& part) { return part.rows < 2; });
+  if (thin) return false;
+  const double whole = part_.back().mean() - part_.front().mean();
+  for (int k = 1; k < parts; ++k)
+    if (!((part_[k].mean() - part_[k - 1].mean()) * whole > 0.0)) return false;
+  const double second_half = part_.back().mean() - part_[parts / 2].mean();
+  return std::abs(second_half) > 0.3 * std::abs(whole);
+}
+
+std::vector<std::string> EnergyBalance::doubts(const std::string& cause) const {
+  const double largest = std::abs(largest_);
+  if (!(largest > round_off * level_) || !(largest > foreseen * moved_)) return {};
+  const char* way = largest_ > 0.0 ? "gained" : "lost";
+  if (largest > tolerance * moved_)
+    return {cause.empty()
+                ? fmt::format(
+                      "{:.2g} of the energy that moved was {} without a cause (balance at t = {:.6g}, beyond {:g}): a "
+                      "shorter step or a smaller tolerance keeps it",
+                      largest / moved_, way, at_, tolerance)
+                : fmt::format("{:.2g} of the energy that moved was {} (balance at t = {:.6g}, beyond {:g}): {}",
+                              largest / moved_, way, at_, tolerance, cause)};
+  if (!drifts()) return {};
+  return {
+      fmt::format("energy is steadily {}: {:.2g} of what moved by t = {:.6g}, beyond {:g} in a run ten times as long; "
+                  "a shorter step drifts less",
+                  way, largest / moved_, at_, tolerance)};
+}
+
+MomentumBalance::MomentumBalance(const formats::Scene& scene, const Model& model)
+    : pause_((scene.integrator.end - scene.integrator.start) / instants),
+      next_(scene.integrator.start),
+      remedy_(scene.integrator.formulation == formats::Formulation::stabilised_index2 && model.sizes.constraints > 0
+                  ? "a shorter step or 'formulation: index3' keeps it better"
+                  : "a shorter step or a smaller tolerance keeps it better") {
+  if (scene.analysis == formats::AnalysisKind::dynamics && flies(model))
+    scratch_ = std::make_shared<Scratch>(State(model.sizes), Evaluation(model));
+}
+
+void MomentumBalance::after_step(const Evaluation& evaluation) {
+  if (!scratch_ || !begin_) return;
+  const auto acts = [](const Eigen::Vector3d& load) { return !load.isZero(0.0); };
+  const auto works = [](double factor) { return factor != 0.0; };
+  if (std::ranges::any_of(evaluation.load_values, acts) || std::ranges::any_of(evaluation.part_load_values, works))
+    begin_.reset();
+}
+
+MomentumBalance::Momentum MomentumBalance::momentum_of(const Model& model, const State& state, double possible) {
+  auto& [other, evaluation] = *scratch_;
+  other.block() = state.block();
+  const auto kinetic = [&] {
+    evaluate(model, other, evaluation);
+    return evaluate_energy(model, evaluation).kinetic;
+  };
+  Momentum momentum;
+  momentum.time = state.time();
+  const double T = kinetic();
+  if (!(T > round_off * possible)) return momentum;
+  Eigen::VectorXd rates(other.v().size());
+  for (int k = model.planar ? 2 : 0; k < 3; ++k) {
+    other.v() = state.v();
+    kinetic();  // the motion of nodes, for their arms
+    turn(model, evaluation, k, rates);
+    other.v() = rates;
+    const double turning = kinetic();
+    if (!(turning > 0.0)) continue;
+    const double factor = std::sqrt(T / turning);
+    other.v() = state.v() + factor * rates;
+    const double more = kinetic();
+    other.v() = state.v() - factor * rates;
+    momentum.value[k] = (more - kinetic()) / (2.0 * factor);
+    momentum.most = std::max(momentum.most, 2.0 * std::sqrt(T * turning));
+  }
+  return momentum;
+}
+
+void MomentumBalance::at_row(const Model& model, const State& state, double possible) {
+  if (!scratch_ || state.time() < next_) return;
+  next_ = state.time() + pause_;
+  const Momentum now = momentum_of(model, state, possible);
+  if (evaluate_energy(model, scratch_->evaluation).potential != 0.0) {
+    scratch_ = nullptr;
+    return;
+  }
+  if (!begin_) {
+    begin_ = now;
+    return;
+  }
+  const double most = std::max(begin_->most, now.most), change = (now.value - begin_->value).norm();
+  if (most > 0.0 && change > worst_ * most) {
+    worst_ = change / most;
+    from_ = begin_->time;
+    to_ = now.time;
+  }
+}
+
+std::vector<std::string> MomentumBalance::doubts() const {
+  if (!(worst_ > most_momentum)) return {};
+  return {fmt::format(
+      "angular momentum changes by {:.2g} of its size from t = {:.6g} to {:.6g} (beyond {:g}), though nothing "
+      "acts on the bodies from outside: {}",
+      worst_, from_, to_, most_momentum, remedy_)};
+}
+
+}  // namespace tisserand::mechanism

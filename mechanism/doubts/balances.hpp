@@ -1,0 +1,89 @@
+// Whether the energy of a run adds up, and the angular momentum of what flies freely, at the rows that it stores.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "formats/results/results.hpp"
+#include "formats/scene/scene.hpp"
+#include "mechanism/equations/evaluation.hpp"
+#include "mechanism/model/model.hpp"
+#include "mechanism/model/state.hpp"
+
+namespace tisserand::mechanism {
+
+/// Energy balance over the stored rows of dynamics: total − initial − work + dissipated, zero in exact arithmetic.
+class EnergyBalance {
+ public:
+  EnergyBalance(double start, double end) : start_(start), end_(end) {}
+
+  /// possible: work of the largest force of this row over the characteristic length. What stands still balances
+  /// round-off of that.
+  void observe(const formats::ResultsRow& row, double possible);
+
+  /// Largest kinetic + |strain| + |change of potential| + |work| + |dissipated| of the rows.
+  double moved() const { return moved_; }
+
+  /// At most one: that the largest balance exceeds a hundredth of the energy that moved, or that it drifts there.
+  /// `cause`: what explains it, in place of the advice to take shorter steps; empty: nothing known.
+  std::vector<std::string> doubts(const std::string& cause) const;
+
+ private:
+  static constexpr int parts = 8;
+  struct Part {
+    double sum = 0.0;
+    int rows = 0;
+    double mean() const { return sum / rows; }
+  };
+  bool drifts() const;
+
+  double start_, end_;
+  std::array<Part, parts> part_{};  ///< balances of equal stretches of the run's time
+  double largest_ = 0.0;            ///< with its sign
+  double at_ = 0.0;
+  double moved_ = 0.0;
+  std::optional<double> potential_;  ///< of the first row
+  double level_ = 0.0;               ///< largest |total| or work that was possible, whose round-off is no balance
+};
+
+/// Angular momentum about the origin while nothing connects the bodies with the ground, no weight and no load acts. It
+/// is vᵀ M w for the rates w of a turn of everything about an axis: by differences of the kinetic energy, for every
+/// kind of body.
+class MomentumBalance {
+ public:
+  MomentumBalance(const formats::Scene& scene, const Model& model);
+
+  /// After an accepted step. Loads begin the balance anew.
+  void after_step(const Evaluation& evaluation);
+  /// At some hundred rows of a run: ten evaluations. `possible` as of EnergyBalance.
+  void at_row(const Model& model, const State& state, double possible);
+
+  /// At most one: that it changes by more than a two-thousandth of what the speeds could have.
+  std::vector<std::string> doubts() const;
+
+ private:
+  struct Momentum {
+    Eigen::Vector3d value = Eigen::Vector3d::Zero();
+    double most = 0.0;  ///< √(vᵀMv wᵀMw), of the axis where it is largest
+    double time = 0.0;
+  };
+  struct Scratch {
+    State state;
+    Evaluation evaluation;
+  };
+  Momentum momentum_of(const Model& model, const State& state, double possible);
+
+  std::shared_ptr<Scratch> scratch_;  ///< none: something acts from outside
+  double pause_, next_;
+  std::string remedy_;
+  std::optional<Momentum> begin_;
+  double worst_ = 0.0;  ///< change by `most`
+  double from_ = 0.0, to_ = 0.0;
+};
+
+}  // namespace tisserand::mechanism
