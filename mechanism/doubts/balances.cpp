@@ -92,11 +92,7 @@ std::vector<std::string> EnergyBalance::doubts(const std::string& cause) const {
 }
 
 MomentumBalance::MomentumBalance(const formats::Scene& scene, const Model& model)
-    : pause_((scene.integrator.end - scene.integrator.start) / instants),
-      next_(scene.integrator.start),
-      remedy_(scene.integrator.formulation == formats::Formulation::stabilised_index2 && model.sizes.constraints > 0
-                  ? "a shorter step or 'formulation: index3' keeps it better"
-                  : "a shorter step or a smaller tolerance keeps it better") {
+    : pause_((scene.integrator.end - scene.integrator.start) / instants), next_(scene.integrator.start) {
   if (scene.analysis == formats::AnalysisKind::dynamics && flies(model))
     scratch_ = std::make_shared<Scratch>(State(model.sizes), Evaluation(model));
 }
@@ -162,8 +158,8 @@ std::vector<std::string> MomentumBalance::doubts() const {
   if (!(worst_ > most_momentum)) return {};
   return {fmt::format(
       "angular momentum changes by {:.2g} of its size from t = {:.6g} to {:.6g} (beyond {:g}), though nothing "
-      "acts on the bodies from outside: {}",
-      worst_, from_, to_, most_momentum, remedy_)};
+      "acts on the bodies from outside: a shorter step or a smaller tolerance keeps it better",
+      worst_, from_, to_, most_momentum)};
 }
 
 }  // namespace tisserand::mechanism

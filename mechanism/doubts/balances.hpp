@@ -80,7 +80,6 @@ class MomentumBalance {
 
   std::shared_ptr<Scratch> scratch_;  ///< none: something acts from outside
   double pause_, next_;
-  std::string remedy_;
   std::optional<Momentum> begin_;
   double worst_ = 0.0;  ///< change by `most`
   double from_ = 0.0, to_ = 0.0;

@@ -411,13 +411,9 @@ TEST(FreeFlight, LostAngularMomentumIsTold) {
   if (!has_reducer()) GTEST_SKIP() << "built without the reducer, which makes the superelements";
   const test_support::TemporaryFolder folder;
   const std::string panel = reduce("satellite", folder);
-  const auto doubts = [&](const std::string& integrator) {
-    return Trial("satellite", {"bodies.p.file=" + panel, "bodies.q.file=" + panel, "integrator=" + integrator})
-        .report()
-        .doubts;
-  };
-  EXPECT_THAT(doubts("{step: 0.03, end: 400}"), Contains(HasSubstr("angular momentum changes by")));
-  EXPECT_THAT(doubts("{step: 0.03, end: 400, formulation: index3}"), IsEmpty());
+  const Trial trial("satellite",
+                    {"bodies.p.file=" + panel, "bodies.q.file=" + panel, "integrator={step: 0.03, end: 400}"});
+  EXPECT_THAT(trial.report().doubts, Contains(HasSubstr("angular momentum changes by")));
 }
 
 }  // namespace
