@@ -31,7 +31,7 @@ bool flies(const Model& model) {
 }
 
 /// Rates of all coordinates while everything turns about the axis k of the origin.
-void turn(const Model& model, const Evaluation& evaluation, int k, Eigen::Ref<Eigen::VectorXd> rates) {
+void turn_all(const Model& model, const Evaluation& evaluation, int k, Eigen::Ref<Eigen::VectorXd> rates) {
   const Eigen::Vector3d axis = Eigen::Vector3d::Unit(k);
   rates.setZero();
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
@@ -120,7 +120,7 @@ MomentumBalance::Momentum MomentumBalance::momentum_of(const Model& model, const
   for (int k = model.planar ? 2 : 0; k < 3; ++k) {
     other.v() = state.v();
     kinetic();  // the motion of nodes, for their arms
-    turn(model, evaluation, k, rates);
+    turn_all(model, evaluation, k, rates);
     other.v() = rates;
     const double turning = kinetic();
     if (!(turning > 0.0)) continue;
