@@ -88,7 +88,9 @@ void expect_alike(const Cell& cell) {
   if (!end || !other_end) return;
   const std::vector<std::complex<double>> modes = eigenvalues(scene, arm_files(), &*end),
                                           others = eigenvalues(other, arm_files(), &*other_end);
-  if (cell.change != Change::bystander) EXPECT_LT(mode_difference(modes, others, s.time), 1e-6);
+  if (cell.change != Change::bystander) {
+    EXPECT_LT(mode_difference(modes, others, s.time), 1e-6);
+  }
   expect_rest(cell, scene, *end);
 }
 
