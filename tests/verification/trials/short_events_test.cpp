@@ -15,6 +15,7 @@ namespace {
 
 using test_support::Trial;
 using ::testing::Contains;
+using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -57,7 +58,8 @@ TEST(ShortEvents, PulsesOfFormulasEndSteps) {
 
 // Impacts of half periods of 1.7 ms: with steps of 1 ms the slider is 0.67 mm off, more than its clearance of 0.5 mm.
 TEST(ShortEvents, StopsThatAreTouchedForFewStepsAreDoubted) {
-  EXPECT_THAT(Trial("clearance").report().doubts, Contains(HasSubstr("the stop of 'pin' is touched for 2 steps")));
+  EXPECT_THAT(Trial("clearance").report().doubts,
+              Contains(ContainsRegex("the stop of 'pin' is touched for [1-4] steps")));
   EXPECT_THAT(Trial("clearance", {"integrator.step=1e-4"}).report().doubts, Not(Contains(HasSubstr("touched"))));
 }
 
