@@ -22,7 +22,8 @@ Doubts::Doubts(const formats::Scene& scene, const Model& model)
       tyres_(model),
       resolution_(scene, model),
       touches_(scene, model),
-      swing_(scene) {}
+      swing_(scene),
+      vibration_(scene, model) {}
 
 void Doubts::after_step(const Model& model, const State& before, const State& state, const Evaluation& evaluation) {
   range_.observe(model, state, evaluation);
@@ -36,6 +37,7 @@ void Doubts::after_step(const Model& model, const State& before, const State& st
   resolution_.observe(model, before, state);
   touches_.observe(model, state, evaluation);
   swing_.observe(before, state);
+  vibration_.observe(state);
   momentum_.after_step(evaluation);
 }
 
@@ -59,10 +61,10 @@ void Doubts::at_row(const Model& model, const State& state, const Evaluation& ev
 
 std::vector<std::string> Doubts::of_model(const Model& model, const StressedBodies& stressed) const {
   std::vector<std::string> all = told_;
-  for (auto&& some : {momentum_.doubts(), swing_.doubts(), resolution_.doubts(model), touches_.doubts(model),
-                      range_.doubts(model, stressed), beams_.doubts(model), bushings_.doubts(model),
-                      tables_.doubts(model), inertia_.doubts(model), torsion_.doubts(model), spin_.doubts(model),
-                      tyres_.doubts(model), damping_doubts(model)})
+  for (auto&& some : {momentum_.doubts(), swing_.doubts(), vibration_.doubts(), resolution_.doubts(model),
+                      touches_.doubts(model), range_.doubts(model, stressed), beams_.doubts(model),
+                      bushings_.doubts(model), tables_.doubts(model), inertia_.doubts(model), torsion_.doubts(model),
+                      spin_.doubts(model), tyres_.doubts(model), damping_doubts(model)})
     for (const std::string& doubt : some)
       if (std::ranges::find(all, doubt) == all.end()) all.push_back(doubt);
   return all;

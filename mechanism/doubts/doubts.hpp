@@ -54,6 +54,7 @@ class Doubts {
   StepResolution resolution_;
   TouchResolution touches_;
   MultiplierSwing swing_;
+  ReactionVibration vibration_;
   std::vector<std::string> told_;  ///< of models that were left
 
   std::vector<std::string> of_model(const Model& model, const StressedBodies& stressed) const;

@@ -1,12 +1,15 @@
-// Whether the multipliers of index 3 swing from step to step.
+// Whether reactions can be told by the steps of a run: multipliers that swing from step to step, and vibrations that
+// nothing damps.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "formats/scene/scene.hpp"
+#include "mechanism/model/model.hpp"
 #include "mechanism/model/state.hpp"
 
 namespace tisserand::mechanism {
@@ -40,6 +43,29 @@ class MultiplierSwing {
   double turned_ = 0.0, changed_ = 0.0, size_ = 0.0;
   int steps_ = 0;
   Swing worst_, latest_;
+};
+
+/// Reactions that vibrate with flexible bodies which nothing damps. Where vibrations of few steps per period make the
+/// largest reactions, peaks depend on the step: its numerical damping and the phases of what excites them anew.
+class ReactionVibration {
+ public:
+  ReactionVibration(const formats::Scene& scene, const Model& model);
+
+  /// After a step.
+  void observe(const State& state);
+  /// At most one.
+  std::vector<std::string> doubts() const;
+
+ private:
+  static constexpr int stretch = 16;  ///< steps
+
+  std::string body_;                        ///< one of those that nothing damps; empty: none, or one is damped
+  std::array<double, stretch + 1> size_{};  ///< |λ| of the last steps
+  int steps_ = 0;
+  double largest_ = 0.0;  ///< of the run
+  double fast_ = 0.0;     ///< of a stretch that vibrates
+  double time_ = 0.0;     ///< of that
+  int count_ = 0;         ///< stretches that vibrate
 };
 
 }  // namespace tisserand::mechanism
