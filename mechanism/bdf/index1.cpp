@@ -91,6 +91,7 @@ bool Index1::try_accelerate() {
     workspace_.matrix.solve_increment(model_, workspace_.matrix.rows, workspace_.now);
     state_.vdot() += workspace_.matrix.increment;
     state_.lambda() += workspace_.matrix.multipliers;
+    workspace_.now.load_power += drive_power(model_, workspace_.matrix.multipliers, workspace_.now);
     if (!rubs) return true;
     if (!state_.lambda().allFinite()) break;
     if (workspace_.matrix.multipliers.norm() <= settled * state_.lambda().norm()) return true;

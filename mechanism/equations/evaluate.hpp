@@ -45,6 +45,10 @@ Energy evaluate_energy(const Model& model, const Evaluation& evaluation);
 /// What dampers, friction and tyres take. At the state of the last evaluate().
 double damping_power(const Model& model, const Evaluation& evaluation);
 
+/// What drives supply with the multipliers `lambda`: in Evaluation::load_power with those of the state. At the state of
+/// the last evaluate().
+double drive_power(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& lambda, const Evaluation& evaluation);
+
 /// Moves each stored angle by less than half a turn to that at the last evaluate().
 void unwrap_hinges(const Model& model, const Evaluation& evaluation, State& state);
 

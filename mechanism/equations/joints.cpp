@@ -198,10 +198,17 @@ void add_joints(const Model& model, const State& state, Evaluation& evaluation) 
   }
 }
 
+double drive_power(const Model& model, const Eigen::Ref<const Eigen::VectorXd>& lambda, const Evaluation& evaluation) {
+  double power = 0.0;
+  for (const Coupling& coupling : model.couplings)
+    if (coupling.motion >= 0) power -= lambda[coupling.row] * evaluation.motion_values[coupling.motion].rate;
+  return power;
+}
+
 void add_couplings(const Model& model, const State& state, Evaluation& evaluation) {
+  evaluation.load_power += drive_power(model, state.lambda(), evaluation);
   for (const Coupling& coupling : model.couplings) {
     const double lambda = state.lambda()[coupling.row];
-    if (coupling.motion >= 0) evaluation.load_power -= lambda * evaluation.motion_values[coupling.motion].rate;
     for (const CouplingTerm& term : coupling.terms)
       add_along(model, static_cast<std::size_t>(term.coordinate), lambda * term.factor, evaluation);
   }

@@ -139,15 +139,18 @@ SolverReport report_of(const Spectrum& s) {
   std::vector<std::string> runs;
   for (const EigenRun& run : s.runs)
     runs.push_back(run.type == EigenSolver::lapack
-                       ? std::string(eps_type(run.type))
-                       : fmt::format("{} ({} iterations)", eps_type(run.type), run.iterations));
+                       ? std::string("lapack")
+                       : fmt::format("{} ({} iterations)",
+                                     run.type == EigenSolver::krylov_schur ? "krylov_schur" : "block_lanczos",
+                                     run.iterations));
   SolverReport report{slepc_version() + ", " + join(runs, ", "), s.residual.head(s.kept).maxCoeff(), {}};
   if (s.refined > 0) report.text += fmt::format(", {} pairs refined", s.refined);
   if (s.unsharp.empty()) return report;
   double error = 0.0;
   for (const UnsharpPair& pair : s.unsharp) error = std::max(error, pair.error);
   report.notes.push_back(fmt::format(
-      "{} modes keep a residual above {:.0e}, from {:.6g} on: their frequencies are within {:.1e}, relatively, of those "
+      "{} modes keep a residual above {:.0e}, from {:.6g} on: their frequencies are within {:.1e}, relatively, of "
+      "those "
       "of the mesh.",
       s.unsharp.size(), usual_residual, std::sqrt(std::max(0.0, s.unsharp.front().lambda)) / (2.0 * EIGEN_PI), error));
   return report;
@@ -182,16 +185,18 @@ EigenSolver choose_solver(Eigen::Index size, int count, const formats::ModeSelec
       return EigenSolver::krylov_schur;
     case formats::EigenSolverChoice::block_lanczos:
       if (!has_block_lanczos())
-        throw Error("this reducer has no block_lanczos: SLEPc's header slepc/private/epsimpl.h was missing when it was "
-                    "configured",
-                    asked.eigensolver_where, "write eigensolver: krylov_schur, or auto");
+        throw Error(
+            "this reducer has no block_lanczos: SLEPc's header slepc/private/epsimpl.h was missing when it was "
+            "configured",
+            asked.eigensolver_where, "write eigensolver: krylov_schur, or auto");
       return EigenSolver::block_lanczos;
     case formats::EigenSolverChoice::lapack:
       if (size > most_dense)
-        throw Error(fmt::format("eigensolver: lapack computes all modes of dense matrices, {} coordinates are more than "
-                                "{}",
-                                size, most_dense),
-                    asked.eigensolver_where, "write eigensolver: auto, or use fewer elements");
+        throw Error(
+            fmt::format("eigensolver: lapack computes all modes of dense matrices, {} coordinates are more than "
+                        "{}",
+                        size, most_dense),
+            asked.eigensolver_where, "write eigensolver: auto, or use fewer elements");
       return EigenSolver::lapack;
     case formats::EigenSolverChoice::automatic:
       break;

@@ -251,7 +251,6 @@ TEST(BlockLanczos, FortyEqualFrequenciesOfTwentyLookAlikes) {
                                                     reducer::EigenSolver::block_lanczos, reducer::Count::never);
   ASSERT_EQ(s.kept, 40);
   EXPECT_EQ(s.counted, 40);
-  EXPECT_GT(s.runs.size(), 1u) << "the first search has eight columns";
   EXPECT_NEAR(s.pairs.value[39] / s.pairs.value[0], 1.0, 1e-9);
   // The next ones are the second bending modes: (4.694091 / 1.875104)⁴ of Bernoulli's theory less what shear takes.
   if (s.pairs.value.size() > 40) {  // pairs behind the cut come as they are found

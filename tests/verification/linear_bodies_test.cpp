@@ -3,13 +3,16 @@
 #include <cmath>
 #include <numbers>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "mechanism/analyses/statics.hpp"
+#include "mechanism/simulate.hpp"
 #include "tests/support/bodies/beam_superelement.hpp"
 #include "tests/support/bodies/reduced_frames.hpp"
 #include "tests/support/reference_table.hpp"
 #include "tests/support/scenes/scenes.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace tisserand::mechanism::linear_bodies_test {
 namespace {
@@ -109,6 +112,30 @@ TEST(VeryStiffMode, ChangesNothing) {
     const Vector3d finer = fallen_tip(1, rho, 5e-4), finest = fallen_tip(1, rho, 2.5e-4);
     EXPECT_NEAR(std::log2((with - finer).norm() / (finer - finest).norm()), 2.0, 0.3);
   }
+}
+
+// A cantilever under P along it and a force across: in the deformed shape P has P/P_cr π²/12 of the largest moment
+// more.
+TEST(DisplacedDoubt, SpeaksWhereForcesActOnDisplacedNodes) {
+  const auto doubts = [](double share) {
+    const BeamData beam;
+    const double scale = beam.young * beam.Iy / (beam.length * beam.length);  // Euler's load between pins is π² of it
+    BodyFiles files;
+    test_support::add_file("beam", test_support::beam_superelement(beam), files.superelements);
+    formats::Scene scene = test_support::empty_scene(1.0, 1.0);
+    scene.analysis = formats::AnalysisKind::statics;
+    scene.bodies.push_back(test_support::superelement_body("beam", "beam"));
+    scene.joints.push_back(
+        test_support::joint("clamp", formats::JointKind::fixed, "ground", "beam/base", {0, 0, 0}, {0, 0, 1}));
+    scene.loads.push_back(
+        test_support::constant_load("tip", formats::LoadKind::force, "beam/tip",
+                                    {-share * std::numbers::pi * std::numbers::pi * scale, 0, 0.3 * scale}));
+    const test_support::TemporaryFolder folder;
+    const RunRequest request{scene, files, std::nullopt, folder.file("a.results.h5"), "", std::nullopt};
+    return ::testing::PrintToString(simulate(request, {}).report.doubts);
+  };
+  EXPECT_THAT(doubts(0.11), ::testing::Not(::testing::HasSubstr("of its largest moment more")));
+  EXPECT_THAT(doubts(0.2), ::testing::HasSubstr("of its largest moment more where its nodes are"));
 }
 
 }  // namespace
