@@ -26,6 +26,9 @@ struct NamedPoint {
 
 enum class UnknownContent { refuse, ignore };
 
+/// What to do with nodes of a mesh file at one place that no element, tie or spring connects.
+enum class CoincidentNodes { report, merge };
+
 /// The mesh, geometry or deck of another program.
 struct MeshFile {
   std::string file;       ///< as the part file gives it, resolved from its folder; empty: none
@@ -42,6 +45,7 @@ struct MeshFile {
   std::optional<Cells> cells;
   double scale = 1.0;  ///< multiplies all coordinates
   UnknownContent unknown = UnknownContent::refuse;
+  CoincidentNodes coincident = CoincidentNodes::report;
   std::vector<std::string> ignore;  ///< groups that need no property
   std::string where;
   /// What reading the file may do and take. From the command line only: a part file may be as strange as its geometry.

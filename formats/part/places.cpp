@@ -14,6 +14,8 @@ namespace {
 
 constexpr Choice<Dimension> dimensions[] = {
     {"nodes", Dimension::node}, {"edges", Dimension::edge}, {"faces", Dimension::face}, {"volumes", Dimension::volume}};
+constexpr Choice<CoincidentNodes> coincident_ways[] = {{"report", CoincidentNodes::report},
+                                                       {"merge", CoincidentNodes::merge}};
 constexpr Choice<UnknownContent> unknown_ways[] = {{"refuse", UnknownContent::refuse},
                                                    {"ignore", UnknownContent::ignore}};
 
@@ -175,6 +177,8 @@ std::vector<KeySet> place_key_sets() {
         plain<&MeshFile::scale>("scale", "positive", "multiplies all coordinates (not of decks)"),
         choice<&MeshFile::unknown, unknown_ways>(
             "unknown", "decks: `refuse` or `ignore` cards that are not understood; ignored ones are listed"),
+        choice<&MeshFile::coincident, coincident_ways>(
+            "coincident", "nodes at one place that nothing connects: `report`, or `merge` into one"),
         {"ignore", "text_list", "groups that need no property", "none"}}},
       {"group",
        {{"faces", "numbers", "numbers of a geometry, one of these keys", "-"},

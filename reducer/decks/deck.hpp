@@ -14,6 +14,7 @@ enum class UnknownCards { refuse, ignore };
 
 struct DeckOptions {
   UnknownCards unknown = UnknownCards::refuse;
+  bool boundary = true;  ///< false: the part names its boundary, and ASET and its like are not read
 };
 
 /// The elements of a named set: rows of Mesh::beams, ::shells, ::solids and ::springs.

@@ -13,39 +13,11 @@
 #include "common/text.hpp"
 #include "reducer/mesh/mesh_file.hpp"
 #include "reducer/sources/mesh_builder.hpp"
+#include "reducer/sources/node_references.hpp"
 #include "reducer/ties/spring_turns.hpp"
 
 namespace tisserand::reducer {
 namespace {
-
-/// Calls visit(int&) for every reference of the mesh to a node.
-template <class Visit>
-void for_nodes(Mesh& mesh, Visit visit) {
-  for (BeamElement& e : mesh.beams) visit(e.first), visit(e.second);
-  for (ShellElement& e : mesh.shells)
-    for (int k = 0; k < e.corners(); ++k) visit(e.nodes[k]);
-  for (SolidElement& e : mesh.solids)
-    for (int k = 0; k < node_count(e.shape); ++k) visit(e.nodes[k]);
-  for (Spring& e : mesh.springs) visit(e.first), visit(e.second);
-  for (NodalMass& e : mesh.masses) visit(e.node);
-  for (Spider& e : mesh.spiders) {
-    visit(e.reference);
-    for (int& node : e.nodes) visit(node);
-  }
-  for (TieEquation& e : mesh.equations)
-    for (TieTerm& term : e.terms) visit(term.node);
-  for (MeshBoundary& e : mesh.boundary) visit(e.node);
-  for (FrameNode& e : mesh.held) visit(e.node);
-  for (MeshSupport& e : mesh.supports)
-    for (int& node : e.nodes) visit(node);
-  for (MeshLoadCase& e : mesh.load_cases) {
-    for (NodeLoad& load : e.forces) visit(load.node);
-    for (FacePressure& load : e.faces)
-      for (int k = 0; k < load.count; ++k) visit(load.nodes[k]);
-    for (EdgeLineLoad& load : e.edges)
-      for (int k = 0; k < load.count; ++k) visit(load.nodes[k]);
-  }
-}
 
 /// A deck may hold nodes by mistake, a geometry always holds points.
 void tell_left_out(MeshBuilder& builder, const std::vector<int>& row) {
@@ -53,7 +25,7 @@ void tell_left_out(MeshBuilder& builder, const std::vector<int>& row) {
   std::vector<std::string> told;
   int count = 0;
   for (int n = builder.first_file_node; n < builder.last_file_node; ++n)
-    if (row[n] < 0 && count++ < most_told) told.push_back(builder.label[n]);
+    if (row[n] < 0 && !builder.merged.contains(n) && count++ < most_told) told.push_back(builder.label[n]);
   if (count > 0)
     builder.mesh.warnings.push_back(fmt::format("{} nodes of {} without elements, masses and ties are left out: {}",
                                                 count, builder.part.mesh.file,
@@ -147,6 +119,7 @@ void build(MeshBuilder& builder) {
                 "say what the groups of the mesh file are: under shells, solids or beams");
   add_loads(builder);
   tell_unjoined_beams(builder);
+  join_coincident_nodes(builder);
 }
 
 }  // namespace

@@ -155,7 +155,8 @@ void add_deck(MeshBuilder& builder, MeshFileKind kind) {
     throw Error("mesh: 'scale' has no effect on a deck: its properties and materials are in its own units",
                 settings.where, "give the units of the deck under units");
   const DeckOptions options{settings.unknown == formats::UnknownContent::ignore ? UnknownCards::ignore
-                                                                                : UnknownCards::refuse};
+                                                                                : UnknownCards::refuse,
+                            builder.part.boundary.empty()};
   Deck deck =
       kind == MeshFileKind::nastran ? read_nastran(settings.file, options) : read_abaqus(settings.file, options);
   if (deck.mesh.elements() == 0 && deck.mesh.masses.empty())

@@ -155,7 +155,34 @@ void add_pressure_on_cells(const MeshBuilder& builder, const std::vector<Cell>& 
   }
 }
 
-void add_pressure(const MeshBuilder& builder, const formats::PressureLoad& line, const User& user, MeshLoadCase& load) {
+/// Warns of neighbours among the loaded shells whose normals point to different sides: both run along their common edge
+/// the same way. Edges of three and more shells say nothing.
+void judge_normals(MeshBuilder& builder, const std::vector<ShellPressure>& loaded, const User& user) {
+  struct Edge {
+    int forward = 0, backward = 0;
+  };
+  std::map<std::pair<int, int>, Edge> edges;
+  for (const ShellPressure& pressure : loaded) {
+    const ShellElement& shell = builder.mesh.shells[pressure.shell];
+    for (int k = 0; k < shell.corners(); ++k) {
+      const int a = shell.nodes[k], b = shell.nodes[(k + 1) % shell.corners()];
+      ++(a < b ? edges[{a, b}].forward : edges[{b, a}].backward);
+    }
+  }
+  const auto turned = [](const auto& edge) { return edge.second.forward == 2 || edge.second.backward == 2; };
+  const auto is_pair = [&](const auto& edge) {
+    return turned(edge) && edge.second.forward + edge.second.backward == 2;
+  };
+  const auto count = std::ranges::count_if(edges, is_pair);
+  if (count == 0) return;
+  const auto first = std::ranges::find_if(edges, is_pair);
+  builder.mesh.warnings.push_back(fmt::format(
+      "{}: {} pairs of neighbouring shells have normals to opposite sides, first at {} and {}. Pressure acts "
+      "along each normal, so that it cancels there: turn the elements to one side",
+      user.name, count, builder.label[first->first.first], builder.label[first->first.second]));
+}
+
+void add_pressure(MeshBuilder& builder, const formats::PressureLoad& line, const User& user, MeshLoadCase& load) {
   const Selection selection = select(builder, line.on, 2, user);
   const ElementSet& set = selection.elements;
   if (!set.beams.empty() || !set.solids.empty() || !set.springs.empty())
@@ -244,8 +271,12 @@ void add_load_case(MeshBuilder& builder, const NodeSet& connected, const formats
     added.value << force.force, force.moment;
     added.name = force.name;
   }
-  for (const formats::PressureLoad& pressure : line.pressures)
-    add_pressure(builder, pressure, {name + ": pressure", pressure.where}, load);
+  for (const formats::PressureLoad& pressure : line.pressures) {
+    const User user{name + ": pressure", pressure.where};
+    const auto before = static_cast<std::ptrdiff_t>(load.shells.size());
+    add_pressure(builder, pressure, user, load);
+    judge_normals(builder, {load.shells.begin() + before, load.shells.end()}, user);
+  }
   for (const formats::LineLoad& along : line.line_loads)
     add_line_load(builder, along, {name + ": line load", along.where}, load);
   builder.mesh.load_cases.push_back(std::move(load));

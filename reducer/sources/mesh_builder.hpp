@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -36,6 +37,7 @@ struct MeshBuilder {
   std::unordered_map<std::string, int> spider_node;
   std::vector<std::vector<int>> beam_nodes;  ///< along each line of part.beams; empty for beams on groups
   std::vector<int> used;                     ///< by elements: 1
+  std::set<int> merged;                      ///< nodes that others have taken the place of
 
   int add_node(const Eigen::Vector3d& x, std::string name);
   const Eigen::Vector3d& position(int node) const { return cells.position[node]; }
@@ -51,6 +53,8 @@ void add_beams(MeshBuilder& builder);            ///< sources/own_geometry.cpp
 void add_attachments(MeshBuilder& builder);      ///< springs, masses, spiders, boundary
 void add_loads(MeshBuilder& builder);            ///< sources/loads.cpp: supports and load cases
 void tell_unjoined_beams(MeshBuilder& builder);  ///< sources/unjoined.cpp: warnings
+/// Nodes of the mesh file at one place that nothing ties: a warning, or one of them takes the elements of the others.
+void join_coincident_nodes(MeshBuilder& builder);
 void finish(MeshBuilder& builder);               ///< positions; nodes that nothing uses leave
 
 /// Marks the nodes of all elements in builder.used.

@@ -1,12 +1,15 @@
-// Drawn beams that touch without a node in common: told, because a frame drawn so is not joined there.
+// What touches without a node in common: told, because it is not joined there.
 #include <algorithm>
+#include <limits>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "reducer/sources/mesh_builder.hpp"
 #include "reducer/sources/node_grid.hpp"
+#include "reducer/sources/node_references.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -95,6 +98,95 @@ void tell_unjoined_beams(MeshBuilder& builder) {
   if (told < texts.size())
     builder.mesh.warnings.push_back(
         fmt::format("... and {} more nodes on beams to which they are not joined", texts.size() - told));
+}
+
+namespace {
+
+/// Nodes of the mesh file that carry elements: 1.
+std::vector<char> carrying_nodes(const MeshBuilder& builder) {
+  const Mesh& mesh = builder.mesh;
+  std::vector<char> carries(builder.cells.position.size(), 0);
+  const auto add = [&](int node) {
+    if (node >= builder.first_file_node && node < builder.last_file_node) carries[node] = 1;
+  };
+  for (const BeamElement& beam : mesh.beams) add(beam.first), add(beam.second);
+  for (const ShellElement& shell : mesh.shells) std::for_each_n(shell.nodes.begin(), shell.corners(), add);
+  for (const SolidElement& solid : mesh.solids) std::for_each_n(solid.nodes.begin(), node_count(solid.shape), add);
+  return carries;
+}
+
+/// Of some nodes, the diagonal of the box around them.
+double extent(const MeshBuilder& builder, const std::vector<char>& counts) {
+  Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (std::size_t n = 0; n < counts.size(); ++n)
+    if (counts[n] != 0) {
+      low = low.cwiseMin(builder.cells.position[n]);
+      high = high.cwiseMax(builder.cells.position[n]);
+    }
+  return (high - low).norm();
+}
+
+/// Pairs of tied_pairs(), of one spider or equation, and of nodes that stay, which joints may connect.
+Pairs separate_pairs(const Mesh& mesh) {
+  Pairs pairs = tied_pairs(mesh);
+  const auto add_all = [&pairs](const std::vector<int>& nodes) {
+    constexpr std::size_t few = 50;  // of large spiders all followers move alike
+    for (std::size_t i = 0; i < std::min(nodes.size(), few); ++i)
+      for (std::size_t k = 0; k < i; ++k) pairs.insert(std::minmax(nodes[i], nodes[k]));
+  };
+  for (const TieEquation& equation : mesh.equations) {
+    std::vector<int> nodes;
+    for (const TieTerm& term : equation.terms) nodes.push_back(term.node);
+    add_all(nodes);
+  }
+  std::vector<int> boundary;
+  for (const MeshBoundary& node : mesh.boundary) boundary.push_back(node.node);
+  add_all(boundary);
+  return pairs;
+}
+
+}  // namespace
+
+void join_coincident_nodes(MeshBuilder& builder) {
+  if (builder.last_file_node <= builder.first_file_node) return;
+  const std::vector<char> carries = carrying_nodes(builder);
+  const double tolerance = touching * extent(builder, carries);
+  if (!(tolerance > 0.0)) return;
+  const Pairs separate = separate_pairs(builder.mesh);
+  NodeGrid grid(tolerance);
+  std::vector<int> twin(carries.size(), -1);
+  int count = 0, first = -1;
+  for (int node = builder.first_file_node; node < builder.last_file_node; ++node) {
+    if (carries[node] == 0) continue;
+    const Vector3d& x = builder.position(node);
+    grid.near(x, [&](int other) {
+      if (twin[node] < 0 && (builder.position(other) - x).norm() < tolerance &&
+          !separate.contains(std::minmax(other, node)))
+        twin[node] = other;
+    });
+    if (twin[node] < 0) {
+      grid.add(x, node);
+    } else if (count++ == 0) {
+      first = node;
+    }
+  }
+  if (count == 0) return;
+  const Vector3d& x = builder.position(first);
+  const std::string place = fmt::format("first {} and {} at ({:.6g}, {:.6g}, {:.6g})", builder.label[twin[first]],
+                                        builder.label[first], x.x(), x.y(), x.z());
+  if (builder.part.mesh.coincident == formats::CoincidentNodes::merge) {
+    for (std::size_t n = 0; n < twin.size(); ++n)
+      if (twin[n] >= 0) builder.merged.insert(static_cast<int>(n));
+    for_nodes(builder.mesh, [&twin](int& node) {
+      if (twin[node] >= 0) node = twin[node];
+    });
+    builder.mesh.warnings.push_back(fmt::format("{} nodes were merged with others at their places, {}", count, place));
+  } else {
+    builder.mesh.warnings.push_back(
+        fmt::format("{} nodes lie where others do and are not connected to them, {}. If the part is whole there, write "
+                    "`coincident: merge` under mesh",
+                    count, place));
+  }
 }
 
 }  // namespace tisserand::reducer

@@ -24,7 +24,7 @@ struct OffsetFrames {
 OffsetFrames read_offt(CardFields& f, const BeamDefaults& defaults) {
   std::string word = capitals(f.text(7));
   if (word.empty() && defaults.card) word = capitals(defaults.card->text(7));
-  if (word.empty()) return {};
+  if (word.empty() || word == "0" || word == "1" || word == "2") return {};  // numbers: F of old decks, X or G0
   const auto either = [](char c, char a, char b) { return c == a || c == b; };
   if (word.size() != 3 || !either(word[0], 'G', 'B') || !either(word[1], 'G', 'O') || !either(word[2], 'G', 'O')) {
     f.fault(fmt::format("OFFT '{}' is not understood", word), "give three letters: G or B, G or O, G or O");
@@ -134,14 +134,17 @@ std::vector<Rod> read_rods(NastranModel& model) {
   std::vector<Rod> rods;
   for (const char* name : {"CROD", "CTUBE"})
     model.for_each(name, [&](CardFields& f) {
-      Rod rod;
-      rod.beam.id = model.element_id(f);
-      rod.pid = f.blank(1) ? rod.beam.id : f.id(1, "PID");
-      rod.beam.first = model.node(f, 2, "G1");
-      rod.beam.second = model.node(f, 3, "G2");
-      if (!set_rod_axes(model, f, rod.beam)) return;
-      rod.beam.property = rod_property(model, f, rod.pid);
-      if (rod.beam.property >= 0) rods.push_back(rod);
+      for (const int at : {0, 4}) {  // a card has one or two
+        if (at > 0 && f.blank(at) && f.blank(at + 1) && f.blank(at + 2) && f.blank(at + 3)) break;
+        Rod rod;
+        rod.beam.id = model.element_id(f, at);
+        rod.pid = f.blank(at + 1) ? rod.beam.id : f.id(at + 1, "PID");
+        rod.beam.first = model.node(f, at + 2, "G1");
+        rod.beam.second = model.node(f, at + 3, "G2");
+        if (!set_rod_axes(model, f, rod.beam)) return;
+        rod.beam.property = rod_property(model, f, rod.pid);
+        if (rod.beam.property >= 0) rods.push_back(rod);
+      }
     });
   model.for_each("CONROD", [&](CardFields& f) {
     Rod rod;

@@ -132,6 +132,7 @@ void drop_idle(const NastranModel& model, const std::vector<Components>& attache
 
 void read_held(NastranModel& model) {
   model.for_each("SPC", [&](CardFields& f) {
+    if (!model.holds(f, "SPC")) return;
     for (int i = 1; i < 7 && f.ok(); i += 3) {
       if (f.blank(i)) continue;
       const int node = model.node(f, i, "G");
@@ -140,6 +141,7 @@ void read_held(NastranModel& model) {
     }
   });
   model.for_each("SPC1", [&](CardFields& f) {
+    if (!model.holds(f, "SPC")) return;
     const Components components = f.components(1, "C", 0);
     for (const long id : f.id_list(2, "G", KnownGrids{model.grid_rows})) {
       const int node = model.node_of(f, id, "G");

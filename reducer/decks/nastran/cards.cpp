@@ -5,8 +5,12 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include "reducer/decks/nastran/fields.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -17,6 +21,7 @@ constexpr std::size_t most_levels = 20;
 constexpr std::size_t most_files = 2000;
 constexpr std::uintmax_t most_bytes = std::uintmax_t{4} << 30;
 constexpr std::size_t columns = 80;
+constexpr long most_repeated = 100000;  ///< cards of one replication
 
 char capital(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
@@ -49,6 +54,10 @@ class CardReader {
   bool split_free(std::string_view line, Line& out);
   void split_fixed(std::string_view line, Line& out);
   void append(const Line& line);
+  void read_case_control(std::string_view text);
+  bool replicate(const Line& line);
+  void repeat(const std::array<std::string_view, 8>& pattern);
+  std::string_view keep(std::string text);
   std::string here() const { return fmt::format("{}:{}", cards_.files[file_], line_); }
 
   NastranCards& cards_;
@@ -57,10 +66,11 @@ class CardReader {
   std::uintmax_t bytes_ = 0;
   std::uint32_t file_ = 0;
   std::uint32_t line_ = 0;
-  std::string_view text_;     ///< of the present file from the next line on
-  std::size_t position_ = 0;  ///< fields of the last card, blank ones included
-  bool has_card_ = false;     ///< a continuation may follow
-  std::string_view mark_;     ///< of the last line
+  std::string_view text_;                      ///< of the present file from the next line on
+  std::size_t position_ = 0;                   ///< fields of the last card, blank ones included
+  bool has_card_ = false;                      ///< a continuation may follow
+  std::string_view mark_;                      ///< of the last line
+  std::array<std::string_view, 8> pattern_{};  ///< of the last replication
   bool ended_ = false;
 };
 
@@ -117,6 +127,7 @@ void CardReader::read_file(const std::string& path, const std::string& from) {
   const std::size_t start = bulk_start(text, first_line);
   if (open_.size() == 1) cards_.complete = first_line == 0;
   read_lines(text.substr(start), first_line);
+  if (open_.size() == 1) read_case_control(text.substr(0, start));  // behind the bulk data, which it overrides
   file_ = outer_file;
   line_ = outer_line;
   text_ = outer_text;
@@ -139,10 +150,10 @@ void CardReader::read_line(std::string_view raw) {
   std::string_view line = raw.substr(0, std::min(raw.find('$'), raw.size()));
   while (!line.empty() && (line.back() == ' ' || line.back() == '\r' || line.back() == '\t')) line.remove_suffix(1);
   if (line.empty()) return;
-  if (capital(line[0]) == 'I' && starts_with_word(line, "INCLUDE") && line.size() > 7 &&
-      (line[7] == ' ' || line[7] == '\'' || line[7] == '"' || line[7] == '\t'))
-    return include(raw.substr(7));
-  if (capital(line[0]) == 'E' && starts_with_word(trimmed(line), "ENDDATA")) {
+  if (const std::string_view words = trimmed(line); words.size() > 7 && starts_with_word(words, "INCLUDE") &&
+                                                    std::string_view(" '\"\t").find(words[7]) != std::string_view::npos)
+    return include(trimmed(raw).substr(7));
+  if (starts_with_word(trimmed(line), "ENDDATA")) {
     ended_ = cards_.complete = true;
     return;
   }
@@ -173,8 +184,12 @@ void CardReader::include(std::string_view rest) {
   if (name.empty() || name.find('\0') != std::string::npos)
     return faults_.add("INCLUDE without the name of a file", from, "give the name of a file");
   has_card_ = false;
-  const fs::path path(name);
-  read_file((path.is_absolute() ? path : fs::path(cards_.files[file_]).parent_path() / path).string(), from);
+  const auto place = [this](const fs::path& path) {
+    return path.is_absolute() ? path : fs::path(cards_.files[file_]).parent_path() / path;
+  };
+  std::error_code code;
+  if (!fs::exists(place(name), code)) std::replace(name.begin(), name.end(), '\\', '/');  // of another system
+  read_file(place(name).string(), from);
   has_card_ = false;
 }
 
@@ -256,7 +271,99 @@ void CardReader::split_fixed(std::string_view line, Line& out) {
   if (!mark.empty()) out.mark = mark.substr(1);
 }
 
+std::string_view CardReader::keep(std::string text) {
+  cards_.texts.push_back(std::make_unique<std::string>(std::move(text)));
+  return *cards_.texts.back();
+}
+
+/// `value` and `step` as numbers of the deck, added; nothing if one is none.
+std::optional<std::string> incremented(std::string_view value, std::string_view step) {
+  if (const auto a = parse_integer(value), b = parse_integer(step); a && b) return std::to_string(*a + *b);
+  const auto a = parse_real(value), b = parse_real(step);
+  if (!a || !b) return std::nullopt;
+  std::string text = fmt::format("{}", *a + *b);
+  if (text.find_first_of(".e") == std::string::npos) text += '.';
+  return text;
+}
+
+/// One more card like the last: = keeps its field, == also those behind, *x and *(x) add x to it.
+void CardReader::repeat(const std::array<std::string_view, 8>& pattern) {
+  const NastranCard last = cards_.cards.back();
+  Line line;
+  line.name = last.name;
+  line.count = 8;
+  bool rest = false;
+  for (std::size_t i = 0; i < pattern.size(); ++i) {
+    std::string_view field = pattern[i];
+    const std::string_view before = cards_.field(last, static_cast<int>(i));
+    rest = rest || field == "==";
+    if (rest || field == "=") {
+      line.fields[i] = before;
+    } else if (!field.empty() && field[0] == '*') {
+      field.remove_prefix(1);
+      if (field.size() > 2 && field.front() == '(' && field.back() == ')') field = field.substr(1, field.size() - 2);
+      const std::optional<std::string> sum = incremented(before, field);
+      if (!sum)
+        return faults_.add(fmt::format("replication: '{}' cannot be added to '{}'", field, before), here(),
+                           "give numbers");
+      line.fields[i] = keep(*sum);
+    } else {
+      line.fields[i] = field;
+    }
+  }
+  append(line);
+}
+
+/// Lines that begin with =: the last card again, with changes; =n and =(n) the last of these n times. False: another
+/// line.
+bool CardReader::replicate(const Line& line) {
+  if (line.name.empty() || line.name[0] != '=') return false;
+  if (!has_card_ || cards_.cards.back().count > 8) {
+    faults_.add(fmt::format("'{}' repeats no card of one line", line.name), here(), "write the cards out");
+    return true;
+  }
+  std::string_view count = line.name.substr(1);
+  if (count.empty() || count == "=") {
+    pattern_ = line.fields;
+    if (!count.empty()) pattern_.fill("=");
+    repeat(pattern_);
+    return true;
+  }
+  if (count.size() > 2 && count.front() == '(' && count.back() == ')') count = count.substr(1, count.size() - 2);
+  const std::optional<long> times = parse_integer(count);
+  if (!times || *times < 1 || *times > most_repeated)
+    faults_.add(fmt::format("replication '{}' is not understood", line.name), here(),
+                fmt::format("give = and a number from 1 to {}", most_repeated));
+  else
+    for (long k = 0; k < *times; ++k) repeat(pattern_);
+  return true;
+}
+
+/// PARAM counts as in the bulk data; SPC and MPC say which sets hold, in any subcase.
+void CardReader::read_case_control(std::string_view text) {
+  line_ = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string_view raw = text.substr(0, end),
+                           line = trimmed(raw.substr(0, std::min(raw.find('$'), raw.size())));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    ++line_;
+    if (line.empty() || starts_with_word(line, "BEGIN")) continue;
+    cards_.has_case_control = true;
+    if (starts_with_word(line, "PARAM")) {
+      Line fields;
+      if (split(line, fields) && !fields.continuation) append(fields);
+      has_card_ = false;
+    }
+    const std::size_t equals = line.find('=');
+    if (equals == std::string_view::npos) continue;
+    const std::string word = capitals(trimmed(line.substr(0, equals)));
+    if (word == "SPC" || word == "MPC") cards_.selected[word].insert(std::string(trimmed(line.substr(equals + 1))));
+  }
+}
+
 void CardReader::append(const Line& line) {
+  if (replicate(line)) return;
   if (line.continuation) {
     const std::string_view mark = line.name.empty() ? line.name : line.name.substr(1);
     if (!has_card_)

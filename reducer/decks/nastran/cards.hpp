@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +30,8 @@ struct NastranCards {
   std::vector<NastranCard> cards;
   std::vector<std::string_view> fields;
   bool complete = true;  ///< false: BEGIN BULK without ENDDATA
+  bool has_case_control = false;
+  std::map<std::string, std::set<std::string>> selected;  ///< by case control: sets of SPC and MPC
 
   std::string_view field(const NastranCard& card, int index) const {
     return static_cast<std::uint32_t>(index) < card.count ? fields[card.first + static_cast<std::uint32_t>(index)]
@@ -36,7 +40,8 @@ struct NastranCards {
   std::string where(const NastranCard& card) const;
 };
 
-/// Reads `path` and what it includes. With BEGIN BULK only what follows it in the same file counts; ENDDATA ends it.
+/// Reads `path` and what it includes. With BEGIN BULK the cards are what follows it in the same file, and PARAM before it;
+/// ENDDATA ends it.
 /// Faults of single lines go to `faults`; a file that cannot be read, INCLUDE in a circle (or deeper than 20 levels,
 /// more than 2000 files) and more than 4 GiB of text throw Error.
 NastranCards read_nastran_cards(const std::string& path, NastranFaults& faults);

@@ -41,6 +41,14 @@ std::optional<long> parse_integer(std::string_view text) {
 std::optional<double> parse_real(std::string_view text) {
   text = without_plus(text);
   if (text.empty() || text.size() > longest_number) return std::nullopt;
+  if (const std::size_t blank = text.find(' '); blank != std::string_view::npos) {
+    std::string without(text.substr(0, blank));
+    const std::string_view exponent = text.substr(text.find_first_not_of(' ', blank));
+    if (std::string_view("EeDd+-").find(exponent[0]) == std::string_view::npos) return std::nullopt;
+    for (const char c : exponent)
+      if (c != ' ') without += c;
+    return parse_real(without);
+  }
   const std::size_t mantissa_end = text.find_first_not_of("0123456789.", text[0] == '-' ? 1 : 0);
   if (mantissa_end == std::string_view::npos || text[mantissa_end] == 'E' || text[mantissa_end] == 'e')
     return plain_real(text);
@@ -60,6 +68,7 @@ std::optional<Components> parse_components(std::string_view text) {
   if (text == "0") return Components{0};
   Components result = 0;
   for (const char c : text) {
+    if (c == ' ') continue;
     if (c < '1' || c > '6') return std::nullopt;
     const auto bit = static_cast<Components>(1u << (c - '1'));
     if ((result & bit) != 0) return std::nullopt;

@@ -15,13 +15,14 @@ namespace tisserand::reducer {
 /// A whole number of up to 18 digits. Nothing for any other text.
 std::optional<long> parse_integer(std::string_view text);
 
-/// A finite number: 7.0, .7, 7., 0.7E1, 70.-1, 7.+2, 7D3; also 7 without a point. Nothing for any other text.
+/// A finite number: 7.0, .7, 7., 0.7E1, 70.-1, 7.+2, 7D3; also 7 without a point, and blanks before and in the exponent.
+/// Nothing for any other text.
 std::optional<double> parse_real(std::string_view text);
 
 /// Whether the text is meant as a real number: it has a point or an exponent.
 bool is_real(std::string_view text);
 
-/// Digits 1 to 6, each at most once, as bits 0 to 5; 0 alone is none. Nothing for any other text.
+/// Digits 1 to 6, each at most once, blanks between them, as bits 0 to 5; 0 alone is none. Nothing for any other text.
 std::optional<Components> parse_components(std::string_view text);
 
 /// A card whose fields are asked for one by one; a fault is told once and clears ok(). Positions as in NastranCards.

@@ -235,8 +235,8 @@ int NastranModel::node(CardFields& fields, int index, std::string_view name) {
   return id > 0 ? node_of(fields, id, name) : -1;
 }
 
-int NastranModel::element_id(CardFields& fields) {
-  const long id = fields.id(0, "EID");
+int NastranModel::element_id(CardFields& fields, int index) {
+  const long id = fields.id(index, "EID");
   if (id > 0) element_card.emplace_back(id, row(fields));
   return static_cast<int>(id);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +48,7 @@ struct NastranModel {
   std::map<long, ElementSet> of_property;                  ///< elements by PID
   std::vector<std::pair<long, std::size_t>> element_card;  ///< element id and card, to find ids that stand twice
   std::vector<HeldNode> held;
+  std::set<std::string> told;  ///< sets that case control does not select
   Deck deck;
 
   /// Calls action(CardFields&) for every card of that name.
@@ -74,8 +76,12 @@ struct NastranModel {
   /// Axes of the displacements of a node (columns, part axes): CD of its GRID.
   Eigen::Matrix3d displacement_axes(int node) const;
 
-  /// Element id of field 0, noted to find ids that stand twice.
-  int element_id(CardFields& fields);
+  /// Element id of that field, noted to find ids that stand twice.
+  int element_id(CardFields& fields, int index = 0);
+
+  /// Whether the card's set of SPC or MPC (field 0) holds: all do without case control, else those that it selects, also by
+  /// SPCADD or MPCADD. A remark names the others.
+  bool holds(CardFields& fields, const std::string& kind);
 
   /// Row of `frames` of the coordinate system in that field (blank: 0, basic); −1 after a fault.
   int frame(CardFields& fields, int index, std::string_view name);

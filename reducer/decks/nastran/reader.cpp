@@ -1,5 +1,8 @@
 // A Nastran deck becomes a mesh: the order of the steps.
 #include <algorithm>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -8,16 +11,28 @@
 namespace tisserand::reducer {
 namespace {
 
+/// Rigid elements and masses have numbers of their own.
+enum class IdClass { element, rigid, mass };
+
+IdClass id_class(const NastranCard& card) {
+  const std::string name = capitals(card.name);
+  if (name == "CONM2") return IdClass::mass;
+  return name.starts_with("RB") ? IdClass::rigid : IdClass::element;
+}
+
 void judge_ids(NastranModel& model) {
-  auto& ids = model.element_card;
+  const auto card_of = [&](std::size_t row) -> const NastranCard& { return model.cards.cards[row]; };
+  std::vector<std::tuple<IdClass, long, std::size_t>> ids;
+  for (const auto& [id, row] : model.element_card) ids.emplace_back(id_class(card_of(row)), id, row);
   std::sort(ids.begin(), ids.end());
-  for (std::size_t i = 1; i < ids.size(); ++i)
-    if (ids[i].first == ids[i - 1].first) {
-      CardFields f(model.cards, model.cards.cards[ids[i].second], model.faults);
-      f.fault(fmt::format("element {} is given twice, first at {}", ids[i].first,
-                          model.cards.where(model.cards.cards[ids[i - 1].second])),
-              "give elements different numbers");
-    }
+  for (std::size_t i = 1; i < ids.size(); ++i) {
+    const auto& [kind, id, row] = ids[i];
+    const auto& [kind_before, id_before, row_before] = ids[i - 1];
+    if (kind != kind_before || id != id_before) continue;
+    CardFields f(model.cards, card_of(row), model.faults);
+    f.fault(fmt::format("element {} is given twice, first at {}", id, model.cards.where(card_of(row_before))),
+            "give elements different numbers");
+  }
 }
 
 /// Another kind of file would be told in as many faults as it has lines.
@@ -49,7 +64,7 @@ Deck read_nastran(const std::string& path, const DeckOptions& options) {
   add_masses(model);
   add_ties(model);
   add_rods(model);
-  add_boundary(model);
+  if (options.boundary) add_boundary(model);
   judge_supports(model);
   judge_ids(model);
   model.faults.raise();

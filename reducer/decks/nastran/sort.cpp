@@ -21,7 +21,8 @@ const std::set<std::string>& understood() {
       "CONROD", "CTUBE",  "CQUAD4", "CQUADR", "CTRIA3", "CTRIAR",  "CTETRA", "CHEXA",  "CPENTA", "PBAR",  "PBARL",
       "PBEAM",  "PBEAML", "PROD",   "PTUBE",  "PSHELL", "PCOMP",   "PSOLID", "MAT1",   "MAT2",   "MAT8",  "MAT9",
       "CONM2",  "CELAS1", "CELAS2", "PELAS",  "CBUSH",  "PBUSH",   "RBE1",   "RBE2",   "RBE3",   "RBAR",  "MPC",
-      "ASET",   "ASET1",  "BSET",   "BSET1",  "BNDFIX", "BNDFIX1", "SPC",    "SPC1",   "PARAM",  "BAROR", "BEAMOR"};
+      "ASET",   "ASET1",  "BSET",   "BSET1",  "BNDFIX", "BNDFIX1", "SPC",    "SPC1",   "PARAM",  "BAROR", "BEAMOR",
+      "SPCADD", "MPCADD"};
   return names;
 }
 
@@ -33,7 +34,7 @@ const std::set<std::string>& left_out() {
       "ACCEL1",  "RFORCE",  "LOAD",   "TEMP",   "TEMPD",  "TEMPP1",  "TEMPRB",  "DLOAD",   "DAREA",
       "LSEQ",    "RLOAD1",  "RLOAD2", "TLOAD1", "TLOAD2", "TABLED1", "TABLED2", "TABLED3", "TABDMP1",
       "FREQ",    "FREQ1",   "FREQ2",  "FREQ3",  "FREQ4",  "TSTEP",   "QSET",    "QSET1",   "SPOINT",
-      "SET1",    "SET3",    "PLOTEL", "SPCADD", "MPCADD", "DTI",     "SUPORT",  "SUPORT1"};
+      "SET1",    "SET3",    "PLOTEL", "DTI",    "SUPORT", "SUPORT1"};
   return names;
 }
 
@@ -50,6 +51,25 @@ void read_mass_parameters(NastranModel& model) {
       model.remarks.add("PARAM without effect here", capitals(f.text(0)));
     }
   });
+}
+
+/// Fields of cards without more behind them, by the manuals.
+const std::map<std::string, int>& field_count() {
+  static const std::map<std::string, int> counts{
+      {"GRID", 8},    {"CBAR", 16}, {"CROD", 8},    {"CONROD", 8}, {"CELAS1", 6}, {"CELAS2", 8},  {"CONM2", 14},
+      {"PROD", 6},    {"PBAR", 19}, {"PSHELL", 11}, {"MAT1", 12},  {"RBAR", 8},   {"CORD2R", 11}, {"CORD2C", 11},
+      {"CORD2S", 11}};
+  return counts;
+}
+
+void tell_extra_fields(NastranModel& model) {
+  for (const auto& [name, count] : field_count())
+    model.for_each(name, [&, most = count](CardFields& f) {
+      for (int i = most; i < f.size(); ++i)
+        if (!f.blank(i))
+          model.remarks.add("values in fields that the card does not have",
+                            fmt::format("{} (line {}, field {}: '{}')", f.label(), i / 8 + 1, i % 8 + 2, f.text(i)));
+    });
 }
 
 void judge_unknown(const std::map<std::string, std::size_t>& unknown, const std::string& where,
@@ -92,6 +112,21 @@ void sort_cards(const DeckOptions& options, NastranModel& model) {
     model.remarks.add("cards that do not belong to a superelement are left out", fmt::format("{} ({})", name, count));
   judge_unknown(unknown, where, options, model);
   read_mass_parameters(model);
+  tell_extra_fields(model);
+}
+
+bool NastranModel::holds(CardFields& fields, const std::string& kind) {
+  if (!cards.has_case_control) return true;
+  const std::set<std::string>& selected = cards.selected[kind];
+  const std::string set(fields.text(0));
+  bool found = selected.contains(set);
+  for_each(kind + "ADD", [&](CardFields& f) {
+    if (!selected.contains(std::string(f.text(0)))) return;
+    for (int i = 1; i < f.size(); ++i) found = found || f.text(i) == set;
+  });
+  if (!found && told.insert(kind + set).second)
+    remarks.add(fmt::format("sets of {} that case control does not select are left out", kind), set);
+  return found;
 }
 
 }  // namespace tisserand::reducer

@@ -198,6 +198,7 @@ void append_term(const NastranModel& model, int node, int component, double coef
 /// SID, then G, C, A twice per line; the later lines leave the first field blank. The first term is the dependent one.
 void add_mpc(NastranModel& model, CardFields& f) {
   f.id(0, "SID");
+  if (!model.holds(f, "MPC")) return;
   TieEquation equation;
   for (int line = 0; line < f.size(); line += 8)
     for (const int i : {line + 1, line + 4}) {
@@ -215,10 +216,11 @@ void add_mpc(NastranModel& model, CardFields& f) {
   model.deck.mesh.equations.push_back(equation);
 }
 
-/// Which set of MPC counts is said by case control, which is not read.
+/// Without case control nothing says which set of MPC counts.
 void judge_sets(NastranModel& model) {
   std::string first;
   bool told = false;
+  if (model.cards.has_case_control) return;
   model.for_each("MPC", [&](CardFields& f) {
     if (first.empty()) first = std::string(f.text(0));
     if (f.text(0) != first && !told) {

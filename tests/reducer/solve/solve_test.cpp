@@ -14,6 +14,7 @@
 #include "reducer/report/certificate.hpp"
 #include "reducer/solve/files.hpp"
 #include "reducer/solve/report.hpp"
+#include "reducer/sources/build_mesh.hpp"
 #include "tests/reducer/solve/solving.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/thrown.hpp"
@@ -215,6 +216,72 @@ TEST(Solve, SetsOfDecksCarryLoads) {
   EXPECT_THAT(deck_error(folder, "line_loads: {SKIN: [0, 0, 1]}", s), HasSubstr("'SKIN' holds no edges and no beams"));
   EXPECT_THAT(deck_error(folder, "pressures: {LEFT: 5}", s), HasSubstr("no face of an element lies between the nodes"));
   EXPECT_THAT(deck_error(folder, "forces: {LEFT: [0, 0, 1]}", s), HasSubstr("'LEFT'"));
+}
+
+// Two shells, the second turned over: their pressures cancel, and the part says so. On one side they add.
+TEST(Solve, PressureOnMixedNormalsIsTold) {
+  const test_support::TemporaryFolder folder;
+  const auto solution = [&](const std::string& second) {
+    std::ofstream(folder.file("two.inp")) << "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 2, 0, 0\n4, 0, 1, 0\n5, 1, 1, 0\n"
+                                             "6, 2, 1, 0\n*ELEMENT, TYPE=S4, ELSET=SKIN\n1, 1, 2, 5, 4\n2, "
+                                          << second
+                                          << "\n*NSET, NSET=LEFT\n1, 4\n*MATERIAL, NAME=STEEL\n*ELASTIC\n2.1e11, 0.3\n"
+                                             "*DENSITY\n7800\n*SHELL SECTION, ELSET=SKIN, MATERIAL=STEEL\n0.01\n";
+    std::ofstream(folder.file("two.part.yaml"))
+        << "part: two\nmesh: {file: two.inp}\nsupports: {LEFT: all}\nload_cases: {w: {pressures: {SKIN: 5}}}\n";
+    return solved(formats::read_part(folder.file("two.part.yaml"), {}), 0);
+  };
+  const Solution same = solution("2, 3, 6, 5"), turned = solution("5, 6, 3, 2");
+  EXPECT_NEAR(same.loads.applied(2, 0), -10.0, 1e-12);
+  EXPECT_THAT(same.warnings, ::testing::Not(::testing::Contains(HasSubstr("normals to opposite sides"))));
+  EXPECT_NEAR(turned.loads.applied(2, 0), 0.0, 1e-12);
+  EXPECT_THAT(turned.warnings,
+              ::testing::Contains(HasSubstr("load case 'w': pressure: 1 pairs of neighbouring shells have normals to "
+                                            "opposite sides, first at node 2 and node 5")));
+}
+
+// Two shells side by side, each with nodes of its own: told with count and place, or joined.
+TEST(Solve, CoincidentNodesAreToldOrMerged) {
+  const test_support::TemporaryFolder folder;
+  std::ofstream(folder.file("crack.inp")) << R"(*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 2, 0, 0
+4, 0, 1, 0
+5, 1, 1, 0
+6, 2, 1, 0
+7, 1, 0, 0
+8, 1, 1, 1e-9
+*ELEMENT, TYPE=S4, ELSET=SKIN
+1, 1, 2, 5, 4
+2, 7, 3, 6, 8
+*NSET, NSET=LEFT
+1, 4
+*MATERIAL, NAME=STEEL
+*ELASTIC
+2.1e11, 0.3
+*DENSITY
+7800
+*SHELL SECTION, ELSET=SKIN, MATERIAL=STEEL
+0.01
+)";
+  const auto part = [&](const std::string& more) {
+    std::ofstream(folder.file("crack.part.yaml"))
+        << "part: crack\nmesh: {file: crack.inp" << more << "}\nsupports: {LEFT: all}\n"
+        << "load_cases: {w: {pressures: {SKIN: 5}}}\n";
+    return formats::read_part(folder.file("crack.part.yaml"), {});
+  };
+  const reducer::Mesh cracked = reducer::build_mesh_to_solve(part(""));
+  EXPECT_EQ(cracked.nodes(), 8);
+  EXPECT_THAT(cracked.warnings,
+              ::testing::ElementsAre(
+                  HasSubstr("2 nodes lie where others do and are not connected to them, first node 2 and node 7 "
+                            "at (1, 0, 0)")));
+  const Solution joined = solved(part(", coincident: merge"), 0);
+  EXPECT_EQ(joined.mesh.nodes(), 6);
+  EXPECT_THAT(joined.warnings, ::testing::Contains(HasSubstr("2 nodes were merged with others at their places")));
+  EXPECT_NEAR(joined.loads.applied(2, 0), -10.0, 1e-12);
+  EXPECT_LT(reducer::imbalance(joined, 0), 1e-9);
 }
 
 /// A plate with a spider on its edge; groups of faces and edges.
