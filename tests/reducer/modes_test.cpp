@@ -336,15 +336,23 @@ TEST(EigenvalueSolver, IsTheOneThatThePartAsksFor) {
   }
 }
 
+TEST(EigenvalueSolver, RefinesPairsThatOneStepLeavesUnsharp) {
+  const reducer::Reduction r = reduce(formats::read_part(
+      std::string(TISSERAND_SOURCE_DIR) + "/tests/verification/references/trials/stiff_beside_soft.part.yaml", {}));
+  EXPECT_THAT(r.model.eigenvalue_solver, HasSubstr("pairs refined"));
+  EXPECT_LT(r.model.mode_residual, 1e-8);
+}
+
 TEST(EigenvalueSolver, OfDenseMatricesIsRefusedForLargeParts) {
   formats::ModeSelection asked;
   asked.eigensolver = formats::EigenSolverChoice::lapack;
   asked.eigensolver_where = "part.yaml:9:1";
   EXPECT_EQ(reducer::choose_solver(6000, 10, asked), reducer::EigenSolver::lapack);
-  EXPECT_THAT(test_support::error_of([&] { reducer::choose_solver(6001, 10, asked); }),
-              AllOf(HasSubstr("part.yaml:9:1: eigensolver: lapack computes all modes of dense matrices, 6001 coordinates "
-                              "are more than 6000"),
-                    HasSubstr("write eigensolver: auto")));
+  EXPECT_THAT(
+      test_support::error_of([&] { reducer::choose_solver(6001, 10, asked); }),
+      AllOf(HasSubstr("part.yaml:9:1: eigensolver: lapack computes all modes of dense matrices, 6001 coordinates "
+                      "are more than 6000"),
+            HasSubstr("write eigensolver: auto")));
 }
 
 TEST(Memory, PartsThatDoNotFitAreRefusedBeforeTheyAreFactored) {
@@ -468,7 +476,8 @@ TEST(BlockLanczos, FiveThousandCoordinatesNoneMissed) {
                             reducer::choose_solver(p.partition.n_I(), 40, {}), reducer::Count::always);
   EXPECT_EQ(s.solver(), reducer::EigenSolver::block_lanczos);
   EXPECT_EQ(s.counted, s.kept);
-  EXPECT_LT(s.residual.head(s.kept).maxCoeff(), 1e-8);  // the limit that the iteration works to: eigenvalues are good to its square
+  EXPECT_LT(s.residual.head(s.kept).maxCoeff(),
+            1e-8);  // the limit that the iteration works to: eigenvalues are good to its square
   // An independent count in the middle of the spectrum.
   const double middle = 0.5 * (s.pairs.value[20] + s.pairs.value[21]);
   const int below = static_cast<int>((s.pairs.value.array() < middle).count());
