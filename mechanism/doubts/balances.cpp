@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "mechanism/equations/evaluate.hpp"
+#include "mechanism/equations/round_off.hpp"
 #include "mechanism/model/connected_bodies.hpp"
 #include "mechanism/model/node_coordinates.hpp"
 
@@ -97,12 +98,10 @@ MomentumBalance::MomentumBalance(const formats::Scene& scene, const Model& model
     scratch_ = std::make_shared<Scratch>(State(model.sizes), Evaluation(model));
 }
 
-void MomentumBalance::after_step(const Evaluation& evaluation) {
-  if (!scratch_ || !begin_) return;
+bool MomentumBalance::is_loaded(const Evaluation& evaluation) {
   const auto acts = [](const Eigen::Vector3d& load) { return !load.isZero(0.0); };
   const auto works = [](double factor) { return factor != 0.0; };
-  if (std::ranges::any_of(evaluation.load_values, acts) || std::ranges::any_of(evaluation.part_load_values, works))
-    begin_.reset();
+  return std::ranges::any_of(evaluation.load_values, acts) || std::ranges::any_of(evaluation.part_load_values, works);
 }
 
 MomentumBalance::Momentum MomentumBalance::momentum_of(const Model& model, const State& state, double possible) {
@@ -134,9 +133,12 @@ MomentumBalance::Momentum MomentumBalance::momentum_of(const Model& model, const
   return momentum;
 }
 
-void MomentumBalance::at_row(const Model& model, const State& state, double possible) {
-  if (!scratch_ || state.time() < next_) return;
+void MomentumBalance::after_step(const Model& model, const State& state, const Evaluation& at_end) {
+  if (!scratch_) return;
+  if (is_loaded(at_end)) begin_.reset();
+  if (is_loaded(at_end) || (begin_ && state.time() < next_)) return;
   next_ = state.time() + pause_;
+  const double possible = std::max(at_end.force_scale[0], force_round_off(model, state)) * model.length;
   const Momentum now = momentum_of(model, state, possible);
   if (evaluate_energy(model, scratch_->evaluation).potential != 0.0) {
     scratch_ = nullptr;

@@ -1,4 +1,4 @@
-// Whether the energy of a run adds up, and the angular momentum of what flies freely, at the rows that it stores.
+// Whether the energy of a run adds up, at the rows that it stores, and the angular momentum of what flies freely.
 #pragma once
 
 #include <array>
@@ -58,10 +58,9 @@ class MomentumBalance {
  public:
   MomentumBalance(const formats::Scene& scene, const Model& model);
 
-  /// After an accepted step. Loads begin the balance anew.
-  void after_step(const Evaluation& evaluation);
-  /// At some hundred rows of a run: ten evaluations. `possible` as of EnergyBalance.
-  void at_row(const Model& model, const State& state, double possible);
+  /// After a step to the accepted `state`, evaluated there. Loads begin the balance anew. Compares at about a hundred
+  /// steps of a run, each of which costs 13 evaluations.
+  void after_step(const Model& model, const State& state, const Evaluation& at_end);
 
   /// At most one: that it changes by more than a two-thousandth of what the speeds could have.
   std::vector<std::string> doubts() const;
@@ -76,6 +75,7 @@ class MomentumBalance {
     State state;
     Evaluation evaluation;
   };
+  static bool is_loaded(const Evaluation& evaluation);
   Momentum momentum_of(const Model& model, const State& state, double possible);
 
   std::shared_ptr<Scratch> scratch_;  ///< none: something acts from outside

@@ -38,7 +38,7 @@ void Doubts::after_step(const Model& model, const State& before, const State& st
   touches_.observe(model, state, evaluation);
   swing_.observe(before, state);
   vibration_.observe(state);
-  momentum_.after_step(evaluation);
+  momentum_.after_step(model, state, evaluation);
 }
 
 void Doubts::at_state(const Model& model, const State& state, const Evaluation& evaluation) {
@@ -54,9 +54,7 @@ void Doubts::at_state(const Model& model, const State& state, const Evaluation& 
 
 void Doubts::at_row(const Model& model, const State& state, const Evaluation& evaluation,
                     const formats::ResultsRow& row) {
-  const double possible = std::max(evaluation.force_scale[0], force_round_off(model, state)) * model.length;
-  energy_.observe(row, possible);
-  momentum_.at_row(model, state, possible);
+  energy_.observe(row, std::max(evaluation.force_scale[0], force_round_off(model, state)) * model.length);
 }
 
 std::vector<std::string> Doubts::of_model(const Model& model, const StressedBodies& stressed) const {

@@ -96,8 +96,7 @@ std::vector<std::string> ReactionVibration::doubts() const {
   if (count_ < fast_stretches || !(fast_ > large * largest_)) return {};
   return {fmt::format(
       "reactions vibrate with '{}', which nothing damps: in most steps around t = {:.6g} they change by more than a "
-      "quarter "
-      "of their largest, so that peaks depend on the step. Give it 'damping', or compare with shorter steps",
+      "quarter of their largest, so that peaks depend on the step. Give it 'damping', or compare with shorter steps",
       body_, time_)};
 }
 
