@@ -349,7 +349,7 @@ void CardReader::read_case_control(std::string_view text) {
     text.remove_prefix(std::min(end + 1, text.size()));
     ++line_;
     if (line.empty() || starts_with_word(line, "BEGIN")) continue;
-    cards_.has_case_control = true;
+    cards_.has_case_control = cards_.has_case_control || same_word(line, "CEND");
     if (starts_with_word(line, "PARAM")) {
       Line fields;
       if (split(line, fields) && !fields.continuation) append(fields);
@@ -358,7 +358,9 @@ void CardReader::read_case_control(std::string_view text) {
     const std::size_t equals = line.find('=');
     if (equals == std::string_view::npos) continue;
     const std::string word = capitals(trimmed(line.substr(0, equals)));
-    if (word == "SPC" || word == "MPC") cards_.selected[word].insert(std::string(trimmed(line.substr(equals + 1))));
+    if (word != "SPC" && word != "MPC") continue;
+    cards_.selected[word].insert(std::string(trimmed(line.substr(equals + 1))));
+    cards_.has_case_control = true;
   }
 }
 

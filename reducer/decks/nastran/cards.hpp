@@ -30,7 +30,7 @@ struct NastranCards {
   std::vector<NastranCard> cards;
   std::vector<std::string_view> fields;
   bool complete = true;  ///< false: BEGIN BULK without ENDDATA
-  bool has_case_control = false;
+  bool has_case_control = false;  ///< there is CEND, or a set is selected
   std::map<std::string, std::set<std::string>> selected;  ///< by case control: sets of SPC and MPC
 
   std::string_view field(const NastranCard& card, int index) const {

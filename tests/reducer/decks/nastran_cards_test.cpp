@@ -87,6 +87,7 @@ TEST(NastranCards, CaseControlHoldsParametersAndSets) {
   EXPECT_EQ(mass("SOL 103\nCEND\n", "PARAM,WTMASS,.25\n"), 1.25);
   const std::string equations = "MPC,7,1,1,1.,3,1,-1.\nMPC,8,1,2,1.,3,2,-1.\nMPCADD,9,8\nSPC1,4,1,2\n";
   const auto deck = [&](const std::string& before) { return read_deck(before + bulk + equations + "ENDDATA\n"); };
+  EXPECT_THAT(fault_of("SOL 103\n" + bulk + equations + "ENDDATA\n"), HasSubstr("sets 7 and 8 of MPC in one deck"));
   const Deck none = deck("SOL 103\nCEND\n");
   EXPECT_EQ(none.mesh.equations.size(), 0u);
   EXPECT_TRUE(warns(none, "sets of MPC that case control does not select are left out: 7, 8"));
