@@ -14,14 +14,14 @@
 namespace tisserand::mechanism {
 namespace {
 
-/// Of the largest energy: "a small tolerance, generally on the order of 10^-2" (Belytschko, Liu, Moran, Nonlinear
-/// Finite Elements for Continua and Structures, 2000, energy balance in section 6.2.3).
+/// The largest error of the balance, as a share of the largest energy: "a small tolerance, generally on the order of
+/// 10^-2" (Belytschko, Liu, Moran, Nonlinear Finite Elements for Continua and Structures, 2000, section 6.2.3).
 constexpr double tolerance = 1e-2;
 /// A drift is told when a run ten times as long would pass the tolerance.
 constexpr double foreseen = tolerance / 10.0;
 /// Round-off of sums of energies.
 constexpr double round_off = 1e-12;
-/// Energy goes with the square of momentum: half of `foreseen`.
+/// Energy goes with the square of momentum, so the limit of momentum is half of that of energy.
 constexpr double most_momentum = foreseen / 2.0;
 constexpr double instants = 100.0;
 

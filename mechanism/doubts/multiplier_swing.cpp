@@ -12,8 +12,8 @@ namespace {
 constexpr int swing_stretch = 16;
 /// Reactions that swing by a tenth of themselves are wrong by a twentieth.
 constexpr double visible = 0.1;
-/// Of the largest size in a stretch. A size that swings between it and zero with fewer than 16 steps per period changes
-/// by so much in half of the steps. The trapezoidal rule stretches such a period by (ωh)²/12 = 1.3 %, and is wrong by 1
+/// A change is fast if it is more than this share of the largest size in its stretch. A size that swings between that
+/// and zero with fewer than 16 steps per period changes so fast in half of the steps. The trapezoidal rule stretches such a period by (ωh)²/12 = 1.3 %, and is wrong by 1
 /// rad after 12 of them.
 constexpr double fast_change = 0.25;
 constexpr int fast_changes = 8;    ///< of 16 steps

@@ -47,7 +47,7 @@ class Eps {
   void share(std::function<void(double)> done) { share_ = std::move(done); }
   /// Whether `count` pairs were found, orthogonal to those that are known (xᵀ B x = 1; there may be none).
   bool solve(EigenSolver type, int count, const Eigen::MatrixXd& known);
-  /// Of the last solve(): all pairs that converged, nearest first, at most `most`.
+  /// The pairs that converged in the last solve(), nearest to the target first; at most `most` of them.
   EigenPairs pairs(int most) const;
   /// Their residuals: of block_lanczos as iterate_once() gives them.
   Eigen::VectorXd residuals() const;
