@@ -13,8 +13,8 @@ constexpr int swing_stretch = 16;
 /// Reactions that swing by a tenth of themselves are wrong by a twentieth.
 constexpr double visible = 0.1;
 /// A change is fast if it is more than this share of the largest size in its stretch. A size that swings between that
-/// and zero with fewer than 16 steps per period changes so fast in half of the steps. The trapezoidal rule stretches such a period by (ωh)²/12 = 1.3 %, and is wrong by 1
-/// rad after 12 of them.
+/// and zero with fewer than 16 steps per period changes so fast in half of the steps. The trapezoidal rule stretches
+/// such a period by (ωh)²/12 = 1.3 %, and is wrong by 1 rad after 12 of them.
 constexpr double fast_change = 0.25;
 constexpr int fast_changes = 8;    ///< of 16 steps
 constexpr int fast_stretches = 4;  ///< what jumps or settles has fewer
