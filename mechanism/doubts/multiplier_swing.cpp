@@ -21,7 +21,7 @@ constexpr int fast_stretches = 4;  ///< what jumps or settles has fewer
 constexpr double large = 0.3;      ///< of the largest reaction of the run
 
 bool is_damped(const SuperelementBody& body) { return body.damping.active; }
-bool bends(const SuperelementBody& body) { return body.boundary_size + body.modes > 6; }
+bool bends(const SuperelementBody& body) { return body.boundary_size + body.modes > (body.planar ? 3 : 6); }
 
 }  // namespace
 
@@ -95,7 +95,7 @@ void ReactionVibration::observe(const State& state) {
 std::vector<std::string> ReactionVibration::doubts() const {
   if (count_ < fast_stretches || !(fast_ > large * largest_)) return {};
   return {fmt::format(
-      "reactions vibrate with '{}', which nothing damps: in most steps around t = {:.6g} they change by more than a "
+      "reactions vibrate with '{}', which has no damping: in most steps around t = {:.6g} they change by more than a "
       "quarter of their largest, so that peaks depend on the step. Give it 'damping', or compare with shorter steps",
       body_, time_)};
 }

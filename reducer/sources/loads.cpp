@@ -177,7 +177,7 @@ void judge_normals(MeshBuilder& builder, const std::vector<ShellPressure>& loade
   if (count == 0) return;
   const auto first = std::ranges::find_if(edges, is_pair);
   builder.mesh.warnings.push_back(fmt::format(
-      "{}: {} pairs of neighbouring shells have normals to opposite sides, first at {} and {}. Pressure acts "
+      "{}: pairs of neighbouring shells with normals to opposite sides: {}, first at {} and {}. Pressure acts "
       "along each normal, so that it cancels there: turn the elements to one side",
       user.name, count, builder.label[first->first.first], builder.label[first->first.second]));
 }

@@ -18,11 +18,16 @@ class NodeGrid {
   /// Calls visit(number) for every point that can be within `step` of x.
   template <class Visit>
   void near(const Eigen::Vector3d& x, Visit visit) const {
-    const Cube c = cube(x);
-    for (std::int64_t i = -1; i <= 1; ++i)
-      for (std::int64_t j = -1; j <= 1; ++j)
-        for (std::int64_t k = -1; k <= 1; ++k) {
-          const auto found = cubes_.find({c.i + i, c.j + j, c.k + k});
+    near(x, step_, visit);
+  }
+  /// The same within `distance`: of a distance much smaller than the step mostly one cube is looked at.
+  template <class Visit>
+  void near(const Eigen::Vector3d& x, double distance, Visit visit) const {
+    const Cube low = cube(x.array() - distance), high = cube(x.array() + distance);
+    for (std::int64_t i = low.i; i <= high.i; ++i)
+      for (std::int64_t j = low.j; j <= high.j; ++j)
+        for (std::int64_t k = low.k; k <= high.k; ++k) {
+          const auto found = cubes_.find({i, j, k});
           if (found == cubes_.end()) continue;
           for (const int number : found->second) visit(number);
         }

@@ -1,6 +1,7 @@
 // What touches without a node in common: told, because it is not joined there.
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -126,24 +127,35 @@ double extent(const MeshBuilder& builder, const std::vector<char>& counts) {
   return (high - low).norm();
 }
 
-/// Pairs of tied_pairs(), of one spider or equation, and of nodes that stay, which joints may connect.
-Pairs separate_pairs(const Mesh& mesh) {
-  Pairs pairs = tied_pairs(mesh);
-  const auto add_all = [&pairs](const std::vector<int>& nodes) {
-    constexpr std::size_t few = 50;  // of large spiders all followers move alike
-    for (std::size_t i = 0; i < std::min(nodes.size(), few); ++i)
-      for (std::size_t k = 0; k < i; ++k) pairs.insert(std::minmax(nodes[i], nodes[k]));
-  };
-  for (const TieEquation& equation : mesh.equations) {
-    std::vector<int> nodes;
-    for (const TieTerm& term : equation.terms) nodes.push_back(term.node);
-    add_all(nodes);
+/// Whether nodes at one place are apart on purpose: a spring or an equation has both, they follow one rigid spider, or
+/// both stay, so that a joint may connect them.
+class ApartOnPurpose {
+ public:
+  explicit ApartOnPurpose(const Mesh& mesh) : tied_(tied_pairs(mesh)) {
+    for (const TieEquation& equation : mesh.equations)
+      for (const TieTerm& one : equation.terms)
+        for (const TieTerm& other : equation.terms) tied_.insert(std::minmax(one.node, other.node));
+    for (const Spider& spider : mesh.spiders)
+      if (spider.kind == SpiderKind::rigid)
+        for (const int node : spider.nodes) leads_[node].insert(spider.reference);
+    for (const MeshBoundary& node : mesh.boundary) stays_.insert(node.node);
   }
-  std::vector<int> boundary;
-  for (const MeshBoundary& node : mesh.boundary) boundary.push_back(node.node);
-  add_all(boundary);
-  return pairs;
-}
+
+  bool operator()(int a, int b) const {
+    return tied_.contains(std::minmax(a, b)) || (stays_.contains(a) && stays_.contains(b)) || have_one_leader(a, b);
+  }
+
+ private:
+  bool have_one_leader(int a, int b) const {
+    const auto of_a = leads_.find(a), of_b = leads_.find(b);
+    return of_a != leads_.end() && of_b != leads_.end() &&
+           std::ranges::any_of(of_a->second, [&](int leader) { return of_b->second.contains(leader); });
+  }
+
+  Pairs tied_;
+  std::map<int, std::set<int>> leads_;  ///< references of the rigid spiders that a node follows
+  std::set<int> stays_;
+};
 
 }  // namespace
 
@@ -152,17 +164,15 @@ void join_coincident_nodes(MeshBuilder& builder) {
   const std::vector<char> carries = carrying_nodes(builder);
   const double tolerance = touching * extent(builder, carries);
   if (!(tolerance > 0.0)) return;
-  const Pairs separate = separate_pairs(builder.mesh);
-  NodeGrid grid(tolerance);
+  const ApartOnPurpose apart(builder.mesh);
+  NodeGrid grid(1e3 * tolerance);  // below most elements
   std::vector<int> twin(carries.size(), -1);
   int count = 0, first = -1;
   for (int node = builder.first_file_node; node < builder.last_file_node; ++node) {
     if (carries[node] == 0) continue;
     const Vector3d& x = builder.position(node);
-    grid.near(x, [&](int other) {
-      if (twin[node] < 0 && (builder.position(other) - x).norm() < tolerance &&
-          !separate.contains(std::minmax(other, node)))
-        twin[node] = other;
+    grid.near(x, tolerance, [&](int other) {
+      if (twin[node] < 0 && (builder.position(other) - x).norm() < tolerance && !apart(other, node)) twin[node] = other;
     });
     if (twin[node] < 0) {
       grid.add(x, node);
@@ -180,11 +190,12 @@ void join_coincident_nodes(MeshBuilder& builder) {
     for_nodes(builder.mesh, [&twin](int& node) {
       if (twin[node] >= 0) node = twin[node];
     });
-    builder.mesh.warnings.push_back(fmt::format("{} nodes were merged with others at their places, {}", count, place));
+    builder.mesh.warnings.push_back(
+        fmt::format("nodes that were merged with others at their places: {}, {}", count, place));
   } else {
     builder.mesh.warnings.push_back(
-        fmt::format("{} nodes lie where others do and are not connected to them, {}. If the part is whole there, write "
-                    "`coincident: merge` under mesh",
+        fmt::format("nodes that lie where others do and are not connected to them: {}, {}. If the part is whole there, "
+                    "write `coincident: merge` under mesh",
                     count, place));
   }
 }

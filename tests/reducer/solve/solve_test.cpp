@@ -236,8 +236,8 @@ TEST(Solve, PressureOnMixedNormalsIsTold) {
   EXPECT_THAT(same.warnings, ::testing::Not(::testing::Contains(HasSubstr("normals to opposite sides"))));
   EXPECT_NEAR(turned.loads.applied(2, 0), 0.0, 1e-12);
   EXPECT_THAT(turned.warnings,
-              ::testing::Contains(HasSubstr("load case 'w': pressure: 1 pairs of neighbouring shells have normals to "
-                                            "opposite sides, first at node 2 and node 5")));
+              ::testing::Contains(HasSubstr("load case 'w': pressure: pairs of neighbouring shells with normals to "
+                                            "opposite sides: 1, first at node 2 and node 5")));
 }
 
 // Two shells side by side, each with nodes of its own: told with count and place, or joined.
@@ -275,11 +275,11 @@ TEST(Solve, CoincidentNodesAreToldOrMerged) {
   EXPECT_EQ(cracked.nodes(), 8);
   EXPECT_THAT(cracked.warnings,
               ::testing::ElementsAre(
-                  HasSubstr("2 nodes lie where others do and are not connected to them, first node 2 and node 7 "
+                  HasSubstr("nodes that lie where others do and are not connected to them: 2, first node 2 and node 7 "
                             "at (1, 0, 0)")));
   const Solution joined = solved(part(", coincident: merge"), 0);
   EXPECT_EQ(joined.mesh.nodes(), 6);
-  EXPECT_THAT(joined.warnings, ::testing::Contains(HasSubstr("2 nodes were merged with others at their places")));
+  EXPECT_THAT(joined.warnings, ::testing::Contains(HasSubstr("nodes that were merged with others at their places: 2")));
   EXPECT_NEAR(joined.loads.applied(2, 0), -10.0, 1e-12);
   EXPECT_LT(reducer::imbalance(joined, 0), 1e-9);
 }
