@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include "mechanism/equations/evaluate.hpp"
@@ -24,6 +26,28 @@ constexpr double round_off = 1e-12;
 /// Energy goes with the square of momentum, so the limit of momentum is half of that of energy.
 constexpr double most_momentum = foreseen / 2.0;
 constexpr double instants = 100.0;
+/// Turns of the tumbling by which it may be off: bodies then point to other sides.
+constexpr double most_turns = 0.1;
+constexpr double looks = 1000.0;
+
+/// Whether loads act, of any body.
+bool is_loaded(const Evaluation& evaluation) {
+  const auto acts = [](const Eigen::Vector3d& load) { return !load.isZero(0.0); };
+  const auto works = [](double factor) { return factor != 0.0; };
+  return std::ranges::any_of(evaluation.load_values, acts) || std::ranges::any_of(evaluation.part_load_values, works);
+}
+
+/// Turns per time of ω around the axis of least or largest inertia, in axes of a body that nothing acts on:
+/// p/(4 K(m)) with p² = (I₃ − I₂)(h² − 2 I₁ T)/(I₁ I₂ I₃), m = (I₂ − I₁)(2 I₃ T − h²)/((I₃ − I₂)(h² − 2 I₁ T)) where
+/// h² > 2 I₂ T, else with 1 and 3 exchanged (Landau, Lifshitz, Mechanics, 1976, equations 37.8 to 37.12).
+double tumbling_frequency(const Eigen::Vector3d& I, double h2, double T2) {
+  const bool about_largest = h2 > I[1] * T2;
+  const double a = about_largest ? I[0] : I[2], c = about_largest ? I[2] : I[0];
+  const double numerator = (I[1] - a) * (c * T2 - h2), denominator = (c - I[1]) * (h2 - a * T2);
+  if (!(denominator > 0.0) || !(numerator < denominator)) return 0.0;
+  const double p = std::sqrt(denominator / I.prod());
+  return p / (4.0 * std::comp_ellint_1(std::sqrt(std::max(numerator, 0.0) / denominator)));
+}
 
 /// Whether the ground is a group of its own, and bodies are there.
 bool flies(const Model& model) {
@@ -98,12 +122,6 @@ MomentumBalance::MomentumBalance(const formats::Scene& scene, const Model& model
     scratch_ = std::make_shared<Scratch>(State(model.sizes), Evaluation(model));
 }
 
-bool MomentumBalance::is_loaded(const Evaluation& evaluation) {
-  const auto acts = [](const Eigen::Vector3d& load) { return !load.isZero(0.0); };
-  const auto works = [](double factor) { return factor != 0.0; };
-  return std::ranges::any_of(evaluation.load_values, acts) || std::ranges::any_of(evaluation.part_load_values, works);
-}
-
 MomentumBalance::Momentum MomentumBalance::momentum_of(const Model& model, const State& state, double possible) {
   auto& [other, evaluation] = *scratch_;
   other.block() = state.block();
@@ -162,6 +180,55 @@ std::vector<std::string> MomentumBalance::doubts() const {
       "angular momentum changes by {:.2g} of its size from t = {:.6g} to {:.6g} (beyond {:g}), though nothing "
       "acts on the bodies from outside: a shorter step or a smaller tolerance keeps it better",
       worst_, from_, to_, most_momentum)};
+}
+
+TumblingBalance::TumblingBalance(const formats::Scene& scene, const Model& model)
+    : pause_((scene.integrator.end - scene.integrator.start) / looks), next_(scene.integrator.start) {
+  if (scene.analysis != formats::AnalysisKind::dynamics || model.planar) return;
+  const auto groups = connected_groups(model, find_parts(model));
+  for (std::size_t i = 0; i < model.rigid_bodies.size(); ++i) {
+    const RigidBody& body = model.rigid_bodies[i];
+    if (!body.gyroscopic || std::ranges::find(groups, std::vector<std::string>{body.name}) == groups.end()) continue;
+    Seen seen{.body = static_cast<int>(i),
+              .inertia = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(body.inertia).eigenvalues()};
+    const Eigen::Vector3d& I = seen.inertia;
+    // Alike about two axes: no middle axis.
+    if (I[0] > 0.0 && std::min(I[1] - I[0], I[2] - I[1]) > 1e-6 * I[2]) seen_.push_back(seen);
+  }
+}
+
+void TumblingBalance::after_step(const Model& model, double time, const Evaluation& at_end) {
+  if (seen_.empty()) return;
+  const bool loaded = is_loaded(at_end);
+  if (!loaded && time < next_) return;
+  next_ = time + pause_;
+  const double passed = time - std::exchange(time_, time);
+  for (Seen& seen : seen_) {
+    const RigidBody& body = model.rigid_bodies[static_cast<std::size_t>(seen.body)];
+    const Eigen::Vector3d& Omega = at_end.motion[static_cast<std::size_t>(body.node)].Omega;
+    const Eigen::Vector3d h = body.inertia * Omega;
+    const double before = std::exchange(seen.now, tumbling_frequency(seen.inertia, h.squaredNorm(), Omega.dot(h)));
+    if (loaded || seen.start < 0.0) {
+      seen.start = loaded ? -1.0 : seen.now;
+      seen.turns = seen.shift = 0.0;
+      continue;
+    }
+    seen.turns += passed * 0.5 * (before + seen.now);
+    seen.shift += passed * (0.5 * (before + seen.now) - seen.start);
+    if (seen.turns > 1.0 && std::abs(seen.shift) > seen.worst) {
+      seen.worst = std::abs(seen.shift);
+      seen.time = time;
+    }
+  }
+}
+
+std::vector<std::string> TumblingBalance::doubts(const Model& model) const {
+  const auto worst = std::ranges::max_element(seen_, {}, &Seen::worst);
+  if (worst == seen_.end() || !(worst->worst > most_turns)) return {};
+  return {fmt::format(
+      "the tumbling of '{}' is off by about {:.2g} of a turn at t = {:.6g} (beyond {:g}): its energy and its angular "
+      "momentum change in free flight, and its period with them; a shorter step or a smaller tolerance keeps it better",
+      model.rigid_bodies[static_cast<std::size_t>(worst->body)].name, worst->worst, worst->time, most_turns)};
 }
 
 }  // namespace tisserand::mechanism

@@ -1,4 +1,5 @@
-// Whether the energy of a run adds up, at the rows that it stores, and the angular momentum of what flies freely.
+// Whether the energy of a run adds up, at the rows that it stores, the angular momentum of what flies freely, and the
+// tumbling of what energy and angular momentum tell.
 #pragma once
 
 #include <array>
@@ -75,7 +76,6 @@ class MomentumBalance {
     State state;
     Evaluation evaluation;
   };
-  static bool is_loaded(const Evaluation& evaluation);
   Momentum momentum_of(const Model& model, const State& state, double possible);
 
   std::shared_ptr<Scratch> scratch_;  ///< none: something acts from outside
@@ -83,6 +83,35 @@ class MomentumBalance {
   std::optional<Momentum> begin_;
   double worst_ = 0.0;  ///< change by `most`
   double from_ = 0.0, to_ = 0.0;
+};
+
+/// Tumbling of rigid bodies that nothing is connected to. Its period follows from the energy of rotation T and the
+/// angular momentum h (Landau, Lifshitz, Mechanics, 1976, section 37), and near the middle axis from ln |h² − 2 I₂ T|,
+/// so that small losses of both shift it by whole turns. Measured is ∫ (ν − ν(start)) dt for the frequency ν of T and h.
+class TumblingBalance {
+ public:
+  TumblingBalance(const formats::Scene& scene, const Model& model);
+
+  /// After a step to an accepted state, evaluated there. Loads begin the balance anew. Looks at about a thousand steps.
+  void after_step(const Model& model, double time, const Evaluation& at_end);
+
+  /// At most one: the body whose tumbling is off by the largest share of a turn.
+  std::vector<std::string> doubts(const Model& model) const;
+
+ private:
+  struct Seen {
+    int body = 0;
+    Eigen::Vector3d inertia;  ///< principal, ascending
+    double start = -1.0;      ///< ν there; negative: not begun
+    double now = 0.0;         ///< ν
+    double turns = 0.0;       ///< ∫ ν dt
+    double shift = 0.0;       ///< ∫ (ν − ν(start)) dt
+    double worst = 0.0;       ///< largest |shift|
+    double time = 0.0;        ///< of it
+  };
+  std::vector<Seen> seen_;
+  double pause_, next_;
+  double time_ = 0.0;  ///< of the latest look
 };
 
 }  // namespace tisserand::mechanism

@@ -12,6 +12,7 @@ namespace tisserand::mechanism {
 Doubts::Doubts(const formats::Scene& scene, const Model& model)
     : energy_(scene.integrator.start, scene.integrator.end),
       momentum_(scene, model),
+      tumbling_(scene, model),
       range_(model, scene.integrator.start),
       beams_(model),
       bushings_(model),
@@ -39,6 +40,7 @@ void Doubts::after_step(const Model& model, const State& before, const State& st
   swing_.observe(before, state);
   vibration_.observe(state);
   momentum_.after_step(model, state, evaluation);
+  tumbling_.after_step(model, state.time(), evaluation);
 }
 
 void Doubts::at_state(const Model& model, const State& state, const Evaluation& evaluation) {
@@ -59,7 +61,7 @@ void Doubts::at_row(const Model& model, const State& state, const Evaluation& ev
 
 std::vector<std::string> Doubts::of_model(const Model& model, const StressedBodies& stressed) const {
   std::vector<std::string> all = told_;
-  for (auto&& some : {momentum_.doubts(), swing_.doubts(), vibration_.doubts(), resolution_.doubts(model),
+  for (auto&& some : {momentum_.doubts(), tumbling_.doubts(model), swing_.doubts(), vibration_.doubts(), resolution_.doubts(model),
                       touches_.doubts(model), range_.doubts(model, stressed), beams_.doubts(model),
                       bushings_.doubts(model), tables_.doubts(model), inertia_.doubts(model), torsion_.doubts(model),
                       spin_.doubts(model), tyres_.doubts(model), damping_doubts(model)})

@@ -43,6 +43,7 @@ class Doubts {
  private:
   EnergyBalance energy_;
   MomentumBalance momentum_;
+  TumblingBalance tumbling_;
   LinearRange range_;
   BeamRange beams_;
   BushingRange bushings_;
