@@ -28,16 +28,21 @@ export class Modes {
     player.onChange(() => this.follow());
   }
 
+  /** Of buckling, shapes have a load factor in their name, and neither frequency nor damping. */
   private table(run: Run): HTMLElement {
-    const rows = run.entry.modes!.map((mode, index) => {
+    const modes = run.entry.modes!;
+    const damping = (mode: ModeEntry): string => (mode.damping === null ? "-" : number(Math.abs(mode.damping) < ROUNDING ? 0 : 100 * mode.damping, 3));
+    const columns: { title: string; text: (mode: ModeEntry, index: number) => string }[] = [{ title: "mode", text: (mode, index) => mode.name ?? String(index + 1) }];
+    if (modes.some((mode) => mode.frequency !== null)) columns.push({ title: "frequency [Hz]", text: (mode) => number(mode.frequency, 5) });
+    if (modes.some((mode) => mode.damping !== null)) columns.push({ title: "damping [%]", text: damping });
+    const rows = modes.map((mode, index) => {
       const choose = button("Show", `Move in mode ${index + 1}`, () => this.player.choose({ run: run.index, index }), { class: "link" });
-      const row = h("tr", {}, h("td", { class: "figure" }, mode.name ?? String(index + 1)), h("td", { class: "figure" }, number(mode.frequency, 5)),
-        h("td", { class: "figure" }, mode.damping === null ? "-" : number(Math.abs(mode.damping) < ROUNDING ? 0 : 100 * mode.damping, 3)), h("td", {}, choose));
+      const row = h("tr", {}, ...columns.map(({ text }) => h("td", { class: "figure" }, text(mode, index))), h("td", {}, choose));
       this.rows.push({ run: run.index, index, row, choose });
       return row;
     });
     return h("table", {}, h("caption", {}, run.name), h("thead", {}, h("tr", {},
-      ...["mode", "frequency [Hz]", "damping [%]", ""].map((title) => h("th", { scope: "col", class: title ? "figure" : "" }, title)))), h("tbody", {}, ...rows));
+      ...[...columns.map(({ title }) => title), ""].map((title) => h("th", { scope: "col", class: title ? "figure" : "" }, title)))), h("tbody", {}, ...rows));
   }
 
   /** Factor on the stored shape that makes its largest displacement `share` of the size of the run. */

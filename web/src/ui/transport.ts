@@ -50,7 +50,8 @@ export class Transport {
     const { player } = this, run = this.runs[player.mode?.run ?? 0]!;
     if (player.mode) {
       const mode = run.entry.modes![player.mode.index]!;
-      return `mode ${player.mode.index + 1}, ${number(mode.frequency)} Hz, phase ${((player.phase * 180) / Math.PI).toFixed(0)}°`;
+      const name = mode.frequency === null ? (mode.name ?? `mode ${player.mode.index + 1}`) : `mode ${player.mode.index + 1}, ${number(mode.frequency)} Hz`;
+      return `${name}, phase ${((player.phase * 180) / Math.PI).toFixed(0)}°`;
     }
     const span = player.end - player.begin;
     return withUnit(steady(player.time, span > 0 ? span / 2000 : 1e-3), run.unit("time"));
