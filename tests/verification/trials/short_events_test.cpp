@@ -63,5 +63,14 @@ TEST(ShortEvents, StopsThatAreTouchedForFewStepsAreDoubted) {
   EXPECT_THAT(Trial("clearance", {"integrator.step=1e-4"}).report().doubts, Not(Contains(HasSubstr("touched"))));
 }
 
+// u = t from the first instant of a file that a drive follows: rate 1 and moment 0, as the same points as a table give.
+TEST(ShortEvents, InputThatMovesAtItsFirstInstant) {
+  for (const char* analysis : {"analysis=dynamics", "analysis=inverse_dynamics"}) {
+    const Trial trial("ramp_input", {analysis});
+    for (const double rate : trial.channel("joints/rate/j")) EXPECT_NEAR(rate, 1.0, 1e-9) << analysis;
+    for (const double moment : trial.channel("motions/force/m")) EXPECT_NEAR(moment, 0.0, 1e-9) << analysis;
+  }
+}
+
 }  // namespace
 }  // namespace tisserand::mechanism::short_events_test
