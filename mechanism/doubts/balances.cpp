@@ -197,15 +197,15 @@ TumblingBalance::TumblingBalance(const formats::Scene& scene, const Model& model
   }
 }
 
-void TumblingBalance::after_step(const Model& model, double time, const Evaluation& at_end) {
+void TumblingBalance::observe(const Model& model, double time, const Evaluation& evaluation) {
   if (seen_.empty()) return;
-  const bool loaded = is_loaded(at_end);
+  const bool loaded = is_loaded(evaluation);
   if (!loaded && time < next_) return;
   next_ = time + pause_;
   const double passed = time - std::exchange(time_, time);
   for (Seen& seen : seen_) {
     const RigidBody& body = model.rigid_bodies[static_cast<std::size_t>(seen.body)];
-    const Eigen::Vector3d& Omega = at_end.motion[static_cast<std::size_t>(body.node)].Omega;
+    const Eigen::Vector3d& Omega = evaluation.motion[static_cast<std::size_t>(body.node)].Omega;
     const Eigen::Vector3d h = body.inertia * Omega;
     const double before = std::exchange(seen.now, tumbling_frequency(seen.inertia, h.squaredNorm(), Omega.dot(h)));
     if (loaded || seen.start < 0.0) {

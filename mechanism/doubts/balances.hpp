@@ -92,8 +92,8 @@ class TumblingBalance {
  public:
   TumblingBalance(const formats::Scene& scene, const Model& model);
 
-  /// After a step to an accepted state, evaluated there. Loads begin the balance anew. Looks at about a thousand steps.
-  void after_step(const Model& model, double time, const Evaluation& at_end);
+  /// At an accepted, evaluated state. Loads begin the balance anew. Looks at about a thousand states.
+  void observe(const Model& model, double time, const Evaluation& evaluation);
 
   /// At most one: the body whose tumbling is off by the largest share of a turn.
   std::vector<std::string> doubts(const Model& model) const;

@@ -40,7 +40,7 @@ void Doubts::after_step(const Model& model, const State& before, const State& st
   swing_.observe(before, state);
   vibration_.observe(state);
   momentum_.after_step(model, state, evaluation);
-  tumbling_.after_step(model, state.time(), evaluation);
+  tumbling_.observe(model, state.time(), evaluation);
 }
 
 void Doubts::at_state(const Model& model, const State& state, const Evaluation& evaluation) {
@@ -52,6 +52,7 @@ void Doubts::at_state(const Model& model, const State& state, const Evaluation& 
   torsion_.observe(model, state, evaluation);
   spin_.observe(model, state, evaluation);
   tyres_.observe(model, state, evaluation);
+  tumbling_.observe(model, state.time(), evaluation);
 }
 
 void Doubts::at_row(const Model& model, const State& state, const Evaluation& evaluation,
