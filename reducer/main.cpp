@@ -127,9 +127,12 @@ constexpr const char* about_recover = R"help(Displacement and stress of a part f
 
   reducer recover arm.recovery.h5 run.results.h5 --body arm -o out
   reducer recover arm.recovery.h5 run.results.h5 --times 0.1,0.2 --point tip --point 0.5,0,0
+  reducer recover arm.recovery.h5 run.results.h5 --envelope --element 12 --element skin/7 --group flange
 
 The recovery file is written by `reducer run` if part.yaml says `recovery: yes`. Writes a series of VTU files with index
-arm.pvd (open it with ParaView), the envelope over time, and histories of points as CSV; prints the largest values.
+arm.pvd (open it with ParaView), the envelope over time of every element (VTU and CSV: largest von Mises stress, largest and
+smallest principal stress, each with place and time), and histories of chosen nodes, elements and groups as CSV. Prints the
+largest values. With --envelope there is no series; the memory does not depend on the length of the run.
 Exit codes: 0 done, 1 error, 2 wrong usage.)help";
 
 constexpr const char* about_import =
@@ -196,6 +199,12 @@ CLI::App* add_recover(CLI::App& app, const std::string& asked, tisserand::reduce
   command->add_option("--every", request.every, "only every n-th instant")->check(CLI::PositiveNumber);
   command->add_option("--point", request.points, "history of a node: boundary node, label, or x,y,z of the part frame")
       ->allow_extra_args(false);
+  command->add_option("--element", request.elements, "history of an element: its number, or group/number")
+      ->allow_extra_args(false);
+  command->add_option("--group", request.groups, "history of the largest stresses of a group")->allow_extra_args(false);
+  command->add_option("--points", request.points_file,
+                      "text file of more histories: lines `point ...`, `element ...`, `group ...`");
+  command->add_flag("--envelope", request.envelope_only, "no series: the envelope and histories only");
   command->add_option("--frame", request.frame, "world, or part: at rest in its own frame")
       ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, RecoverFrame>>{
           {"world", RecoverFrame::world}, {"part", RecoverFrame::part}}));
