@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
@@ -11,6 +12,7 @@
 #include "reducer/recover/histories.hpp"
 #include "reducer/recover/inertia_loads.hpp"
 #include "reducer/recover/instant_values.hpp"
+#include "reducer/recover/load_files.hpp"
 #include "reducer/recover/vtu_data.hpp"
 
 namespace tisserand::reducer {
@@ -135,6 +137,54 @@ Index batch_of(const Recovery& r, const MotionReader& motion, const RecoverReque
   return std::min(motion.batch(), static_cast<Index>(std::max(batch_bytes / bytes_per_instant(r), 1.0)));
 }
 
+constexpr Index most_load_cases = 100;
+
+void require_few_load_cases(const MotionReader& motion) {
+  if (motion.instants() <= most_load_cases) return;
+  throw Error(
+      fmt::format("{} instants are chosen, and every one of them becomes a load case on all nodes", motion.instants()),
+      "--loads", fmt::format("choose at most {} with --times 0.1,0.2 or --every", most_load_cases));
+}
+
+/// An instant without any load is one at which nothing acts, or at which the run took the body for rigid.
+void require_some_load(const LoadInstant& instant, const MotionReader& motion) {
+  const NodalLoads& loads = instant.loads;
+  const bool is_zero = loads.boundary.isZero(0.0) && loads.frame.isZero(0.0) && loads.deformation.isZero(0.0);
+  if (!is_zero || (instant.balance.compared && instant.balance.largest == 0.0)) return;
+  throw Error(
+      fmt::format("body '{}' does not deform at time {:g}: the run took it for rigid there (`flexibility: auto`), "
+                  "or nothing acts on it",
+                  motion.body().name, instant.time),
+      "--loads", "choose other instants with --times, or run the scene with `flexibility: on`");
+}
+
+/// Load cases of all chosen instants. What is said of them, and the files.
+std::string write_loads(const formats::RecoveryReader& file, const formats::ResultsReader& results,
+                        const MotionReader& motion, const RecoverRequest& request, const Files& files,
+                        std::vector<std::string>& written) {
+  if (request.loads.empty()) return "";
+  const Recovery& r = file.recovery();
+  const NodeNumbers numbers = node_numbers(r);
+  const LoadHead head{r, motion.still(), request, numbers};
+  std::vector<std::unique_ptr<LoadFile>> outputs;
+  for (const LoadFormat format : request.loads)
+    outputs.push_back(std::make_unique<LoadFile>(
+        format, files.path(files.stem + (format == LoadFormat::nastran ? "_loads.bdf" : "_loads.inp")), head,
+        motion.instants()));
+  std::string text;
+  for (Index k = 0; k < motion.instants(); ++k) {
+    const BodyMotion now = motion.read(k, 1);
+    LoadInstant instant{now.time[0], nodal_loads(file, now, 0), {}};
+    instant.balance = load_balance(r, instant.loads);
+    compare_with_run(results, motion, now, 0, k, instant.loads, instant.balance);
+    require_some_load(instant, motion);
+    for (const auto& output : outputs) output->add(instant);
+    text += balance_text(r, instant, motion.still());
+  }
+  for (const auto& output : outputs) written.push_back(output->publish());
+  return text;
+}
+
 }  // namespace
 
 std::string recover(const RecoverRequest& request) {
@@ -142,6 +192,8 @@ std::string recover(const RecoverRequest& request) {
   const Recovery& r = file.recovery();
   const formats::ResultsReader results(request.results);
   const MotionReader motion(r, results, request);
+  if (!request.loads.empty()) require_nodal_loads(file, motion);
+  if (!request.loads.empty()) require_few_load_cases(motion);
   ChosenHistories chosen = chosen_histories(r, motion.still(), request);
   Files files = make_folder(request, motion.body().name);
   Histories histories(std::move(chosen), motion.still(), files.path(files.stem));
@@ -172,6 +224,7 @@ std::string recover(const RecoverRequest& request) {
   std::string text = fmt::format("body '{}', {} instants\n", motion.body().name, motion.instants());
   text += "displacements count from the floating frame of the body\n" + peaks_text(r, motion, envelope);
   text += left_out_line(left_out_stress(file, motion), motion.still());
+  text += write_loads(file, results, motion, request, files, written);
   for (const std::string& note : motion.notes()) text += fmt::format("{:<29}{}\n", "note", note);
   return text + written_text(written, request);
 }

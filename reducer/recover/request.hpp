@@ -9,6 +9,9 @@ namespace tisserand::reducer {
 /// Axes and origin of displacements and positions: those of the world, or of the part at rest in its own frame.
 enum class RecoverFrame { world, part };
 
+/// Programs for which loads are written.
+enum class LoadFormat { nastran, calculix };
+
 struct RecoverRequest {
   std::string recovery;               ///< part.recovery.h5
   std::string results;                ///< run.results.h5
@@ -21,6 +24,7 @@ struct RecoverRequest {
   std::vector<std::string> elements;  ///< "12", or "group/12"
   std::vector<std::string> groups;    ///< names of groups
   std::string points_file;            ///< lines "point ...", "element ...", "group ..."; empty: none
+  std::vector<LoadFormat> loads;      ///< load cases of the chosen instants for these programs
   RecoverFrame frame = RecoverFrame::world;
 };
 
