@@ -83,8 +83,9 @@ std::unique_ptr<formats::RecoveryWriter> write_recovery(const RecoverySource& so
   auto writer = std::make_unique<formats::RecoveryWriter>(path, tables);
   recovery_fields(
       source, tables, listener.share,
-      [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) { writer->append(field, rows); },
-      [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) { writer->append_loads(field, rows); });
+      {[&](formats::RecoveryField field, const Eigen::MatrixXd& rows) { writer->append(field, rows); },
+       [&](formats::RecoveryField field, const Eigen::MatrixXd& rows) { writer->append_loads(field, rows); },
+       [&](formats::NodalForce force, const Eigen::MatrixXd& rows) { writer->append_forces(force, rows); }});
   return writer;
 }
 

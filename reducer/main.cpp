@@ -127,9 +127,14 @@ constexpr const char* about_recover = R"help(Displacement and stress of a part f
 
   reducer recover arm.recovery.h5 run.results.h5 --body arm -o out
   reducer recover arm.recovery.h5 run.results.h5 --times 0.1,0.2 --point tip --point 0.5,0,0
+  reducer recover arm.recovery.h5 run.results.h5 --envelope --element 12 --element skin/7 --group flange
+  reducer recover arm.recovery.h5 run.results.h5 --times 0.1,0.2 --loads nastran,calculix
 
 The recovery file is written by `reducer run` if part.yaml says `recovery: yes`. Writes a series of VTU files with index
-arm.pvd (open it with ParaView), the envelope over time, and histories of points as CSV; prints the largest values.
+arm.pvd (open it with ParaView), the envelope over time of every element (VTU and CSV: largest von Mises stress, largest and
+smallest principal stress, each with place and time), and histories of chosen nodes, elements and groups as CSV. Prints the
+largest values. With --envelope there is no series; the memory does not depend on the length of the run. --loads writes forces
+at all nodes for Nastran or CalculiX, whose static answer on the part's own mesh has the same stress (formats/RECOVERY.md).
 Exit codes: 0 done, 1 error, 2 wrong usage.)help";
 
 constexpr const char* about_import =
@@ -185,6 +190,7 @@ CLI::App* add_export(CLI::App& app, const std::string& asked, tisserand::reducer
 }
 
 CLI::App* add_recover(CLI::App& app, const std::string& asked, tisserand::reducer::RecoverRequest& request) {
+  using tisserand::reducer::LoadFormat;
   using tisserand::reducer::RecoverFrame;
   CLI::App* const command = add_command(app, "recover", about_recover, asked);
   command->add_option("recovery", request.recovery, "name.recovery.h5")->required();
@@ -196,6 +202,17 @@ CLI::App* add_recover(CLI::App& app, const std::string& asked, tisserand::reduce
   command->add_option("--every", request.every, "only every n-th instant")->check(CLI::PositiveNumber);
   command->add_option("--point", request.points, "history of a node: boundary node, label, or x,y,z of the part frame")
       ->allow_extra_args(false);
+  command->add_option("--element", request.elements, "history of an element: its number, or group/number")
+      ->allow_extra_args(false);
+  command->add_option("--group", request.groups, "history of the largest stresses of a group")->allow_extra_args(false);
+  command->add_option("--points", request.points_file,
+                      "text file of more histories: lines `point ...`, `element ...`, `group ...`");
+  command->add_flag("--envelope", request.envelope_only, "no series: the envelope and histories only");
+  command->add_option("--loads", request.loads,
+                      "nastran, calculix: load cases of the chosen instants for the part's own mesh, in balance")
+      ->delimiter(',')
+      ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, LoadFormat>>{
+          {"nastran", LoadFormat::nastran}, {"calculix", LoadFormat::calculix}}));
   command->add_option("--frame", request.frame, "world, or part: at rest in its own frame")
       ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, RecoverFrame>>{
           {"world", RecoverFrame::world}, {"part", RecoverFrame::part}}));

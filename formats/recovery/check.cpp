@@ -1,5 +1,6 @@
 // Rules of RECOVERY.md: every index points to something, every number is finite.
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include <Eigen/LU>
@@ -158,6 +159,14 @@ void check_loads(const Recovery& r, const Inspector& inspect) {
   inspect.finite("/loads/left_out", &loads.left_out, 1);
   if (loads.left_out < 0.0)
     inspect.fail("/loads/left_out", fmt::format("is {}, expected no negative number", loads.left_out));
+  if (!loads.has_forces()) return;
+  const auto boundary = n - static_cast<std::size_t>(r.internal());
+  inspect.size("/loads/boundary_stiffness", static_cast<std::size_t>(loads.boundary_stiffness.size()),
+               boundary * boundary, "coordinates of the boundary, squared");
+  inspect.finite("/loads/boundary_stiffness", loads.boundary_stiffness.data(), boundary * boundary);
+  // Readers take the first coordinates for those of the boundary.
+  for (std::size_t k = 0; k < boundary; ++k)
+    if (r.dof_node[k] < 0) inspect.fail("/dof/node", fmt::format("entry {} is internal before one of the boundary", k));
 }
 
 }  // namespace
@@ -171,6 +180,10 @@ void check(const Recovery& r, const std::string& where) {
   inspect.size("/nodes/label", r.node_label.size(), static_cast<std::size_t>(r.nodes()), "nodes");
   inspect.size("/nodes/rotates", r.rotates.size(), static_cast<std::size_t>(r.nodes()), "nodes");
   inspect.range("/nodes/rotates", r.rotates, 0, 1);
+  if (!r.node_number.empty()) {
+    inspect.size("/nodes/number", r.node_number.size(), static_cast<std::size_t>(r.nodes()), "nodes");
+    inspect.range("/nodes/number", r.node_number, 0, std::numeric_limits<int>::max());
+  }
   check_coordinates(r, inspect);
   check_elements(r, inspect);
   check_beams_and_shells(r, inspect);

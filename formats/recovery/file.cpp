@@ -5,7 +5,7 @@
 #include "common/error.hpp"
 #include "formats/hdf5/head.hpp"
 #include "formats/hdf5/packed.hpp"
-#include "formats/recovery/recovery.hpp"
+#include "formats/recovery/field_sets.hpp"
 
 namespace tisserand::formats {
 
@@ -19,65 +19,12 @@ constexpr hdf5::FileKind recovery_kind{"tisserand-recovery", "recovery file",
 constexpr std::uint64_t most_entries = 200'000'000;  // of a table; bounds memory before it is taken
 constexpr std::uint64_t block_bytes = 8u << 20;      // of what a rehearsal holds at once
 
-const char* dataset_of(RecoveryField field) {
-  switch (field) {
-    case RecoveryField::translation:
-      return "/shapes/translation";
-    case RecoveryField::rotation:
-      return "/shapes/rotation";
-    case RecoveryField::beam_force:
-      return "/stress/beam_force";
-    case RecoveryField::shell_stress:
-      return "/stress/shell";
-    case RecoveryField::solid_stress:
-      return "/stress/solid";
-  }
-  TISSERAND_ENSURE(false, "recovery field {}", static_cast<int>(field));
-}
-
-const char* loads_dataset_of(RecoveryField field) {
-  switch (field) {
-    case RecoveryField::translation:
-      return "/loads/translation";
-    case RecoveryField::rotation:
-      return "/loads/rotation";
-    case RecoveryField::beam_force:
-      return "/loads/beam_force";
-    case RecoveryField::shell_stress:
-      return "/loads/shell";
-    case RecoveryField::solid_stress:
-      return "/loads/solid";
-  }
-  TISSERAND_ENSURE(false, "recovery field {}", static_cast<int>(field));
-}
-
-/// A field per coordinate, or per load: a dataset of the file.
-struct FieldSet {
-  const char* dataset;
-  int columns;
-};
-FieldSet of_coordinates(const Recovery& recovery, RecoveryField field) {
-  return {dataset_of(field), recovery.coordinates()};
-}
-FieldSet of_loads(RecoveryField field) { return {loads_dataset_of(field), inertia_loads}; }
-
-/// The first without loads, then both.
-std::vector<FieldSet> sets_of(const Recovery& recovery, RecoveryField field) {
-  std::vector<FieldSet> sets{of_coordinates(recovery, field)};
-  if (recovery.loads) sets.push_back(of_loads(field));
-  return sets;
-}
-
-hdf5::Shape shape_of_field(const Recovery& recovery, RecoveryField field, const FieldSet& set) {
-  return {static_cast<std::uint64_t>(items(recovery, field)), static_cast<std::uint64_t>(width(field)),
-          static_cast<std::uint64_t>(set.columns)};
-}
-
 /// Tables of a file; every length is looked at before memory is taken.
 class Tables {
  public:
   explicit Tables(const hdf5::InputFile& file) : file_(file) {}
 
+  bool has(const std::string& dataset) const { return file_.has(dataset); }
   std::uint64_t length(const std::string& dataset) const {
     const hdf5::Shape shape = file_.info(dataset).shape;
     if (shape.empty() || shape[0] > most_entries)
@@ -155,6 +102,7 @@ void read_mesh(const Tables& tables, Recovery& r) {
                                                   static_cast<Eigen::Index>(nodes));
   r.node_label = tables.texts("/nodes/label");
   r.rotates = tables.integers("/nodes/rotates");
+  if (tables.has("/nodes/number")) r.node_number = tables.integers("/nodes/number");
   r.group_name = tables.texts("/groups/name");
   for (const int shape : tables.integers("/elements/shape"))
     r.elements.shape.push_back(static_cast<ElementShape>(shape));
@@ -177,6 +125,11 @@ RecoveryLoads read_loads_table(const Tables& tables, std::uint64_t coordinates) 
   const Numbers stiffness = tables.numbers("/loads/stiffness", {coordinates});
   loads.stiffness = Eigen::Map<const Eigen::VectorXd>(stiffness.data(), static_cast<Eigen::Index>(coordinates));
   loads.left_out = tables.numbers("/loads/left_out", {1})[0];
+  if (!tables.has("/loads/boundary_stiffness")) return loads;
+  const std::uint64_t boundary = tables.length("/loads/boundary_stiffness");
+  const Numbers S = tables.numbers("/loads/boundary_stiffness", {boundary, boundary});
+  loads.boundary_stiffness = Eigen::Map<const Eigen::MatrixXd>(S.data(), static_cast<Eigen::Index>(boundary),
+                                                               static_cast<Eigen::Index>(boundary));
   return loads;
 }
 
@@ -210,21 +163,19 @@ Recovery read_tables(const hdf5::InputFile& file) {
 }
 
 void check_field_shapes(const hdf5::InputFile& file, const Recovery& recovery) {
-  for (const RecoveryField field : recovery_fields)
-    for (const FieldSet& set : sets_of(recovery, field)) {
-      const hdf5::DatasetInfo info = file.info(set.dataset);
-      const hdf5::Shape expected = shape_of_field(recovery, field, set);
-      if (info.kind != hdf5::ElementKind::float32 || info.shape != expected || !info.written)
-        throw Error(fmt::format("holds {} of shape {}{}, expected 32-bit floating numbers of shape {}", info.type_text,
-                                hdf5::shape_text(info.shape), info.written ? "" : ", not all of them written",
-                                hdf5::shape_text(expected)),
-                    fmt::format("{}: {}", file.path(), set.dataset), "reduce the part again with `recovery: yes`");
-    }
+  for (const FieldSet& set : field_sets(recovery)) {
+    const hdf5::DatasetInfo info = file.info(set.dataset);
+    if (info.kind != hdf5::ElementKind::float32 || info.shape != set.shape() || !info.written)
+      throw Error(fmt::format("holds {} of shape {}{}, expected 32-bit floating numbers of shape {}", info.type_text,
+                              hdf5::shape_text(info.shape), info.written ? "" : ", not all of them written",
+                              hdf5::shape_text(set.shape())),
+                  fmt::format("{}: {}", file.path(), set.dataset), "reduce the part again with `recovery: yes`");
+  }
 }
 
-FieldRows read_field(const hdf5::InputFile& file, const FieldSet& set, int width_of_items, int first, int count) {
-  FieldRows rows(static_cast<Eigen::Index>(width_of_items) * count, set.columns);
-  if (count == 0) return rows;
+FieldRows read_field(const hdf5::InputFile& file, const FieldSet& set, int first, int count) {
+  FieldRows rows(static_cast<Eigen::Index>(set.width) * count, set.columns);
+  if (count == 0 || set.columns == 0) return rows;
   file.read_rows(set.dataset, static_cast<std::uint64_t>(first), static_cast<std::uint64_t>(count), rows.data());
   if (!rows.allFinite())
     throw Error(fmt::format("items {} to {} hold values that are not finite", first, first + count - 1),
@@ -239,15 +190,12 @@ void try_recovery(const std::string& path) {
   const Recovery recovery = read_tables(file);
   check(recovery, path);
   check_field_shapes(file, recovery);
-  for (const RecoveryField field : recovery_fields)
-    for (const FieldSet& set : sets_of(recovery, field)) {
-      const int count = items(recovery, field);
-      const auto item =
-          static_cast<std::uint64_t>(width(field)) * static_cast<std::uint64_t>(set.columns) * sizeof(float);
-      const int block = static_cast<int>(std::clamp<std::uint64_t>(block_bytes / item, 1, 1u << 20));
-      for (int first = 0; first < count; first += block)
-        static_cast<void>(read_field(file, set, width(field), first, std::min(block, count - first)));
-    }
+  for (const FieldSet& set : field_sets(recovery)) {
+    const auto item = static_cast<std::uint64_t>(set.width) * static_cast<std::uint64_t>(set.columns) * sizeof(float);
+    const int block = static_cast<int>(std::clamp<std::uint64_t>(block_bytes / item, 1, 1u << 20));
+    for (int first = 0; first < set.items; first += block)
+      static_cast<void>(read_field(file, set, first, std::min(block, set.items - first)));
+  }
 }
 
 std::vector<double> rows_of(const std::vector<Eigen::Matrix3d>& axes) {
@@ -258,9 +206,15 @@ std::vector<double> rows_of(const std::vector<Eigen::Matrix3d>& axes) {
   return values;
 }
 
+/// The oldest version that knows all that is in the file.
+const char* version_of(const Recovery& r) {
+  if (!r.node_number.empty() || (r.loads && r.loads->has_forces())) return "1.2";
+  return r.loads ? "1.1" : "1.0";
+}
+
 void write_head(hdf5::Id file, const Recovery& r, const std::string& where) {
   hdf5::write_text_attribute(file, "/", "format", recovery_kind.format, where);
-  hdf5::write_text_attribute(file, "/", "version", r.loads ? "1.1" : "1.0", where);
+  hdf5::write_text_attribute(file, "/", "version", version_of(r), where);
   hdf5::write_text_attribute(file, "/", "name", r.name, where);
   hdf5::write_text_attribute(file, "/", "producer", r.producer, where);
   hdf5::write_text_attribute(file, "/", "content_id", r.content_id, where);
@@ -300,6 +254,7 @@ void write_mesh(const TableWriter& table, const Recovery& r) {
   table.numbers("/nodes/position", {nodes, 3}, r.position.data());
   table.texts("/nodes/label", r.node_label);
   table.integers("/nodes/rotates", r.rotates);
+  if (!r.node_number.empty()) table.integers("/nodes/number", r.node_number);
   table.texts("/groups/name", r.group_name);
   std::vector<int> shapes;
   for (const ElementShape shape : r.elements.shape) shapes.push_back(static_cast<int>(shape));
@@ -321,6 +276,9 @@ void write_loads(const TableWriter& table, const RecoveryLoads& loads) {
   table.numbers("/loads/share", {n, static_cast<std::uint64_t>(inertia_loads)}, share.data());
   table.numbers("/loads/stiffness", {n}, loads.stiffness.data());
   table.numbers("/loads/left_out", {1}, &loads.left_out);
+  const auto boundary = static_cast<std::uint64_t>(loads.boundary_stiffness.rows());
+  if (loads.has_forces())
+    table.numbers("/loads/boundary_stiffness", {boundary, boundary}, loads.boundary_stiffness.data());
 }
 
 void write_properties(const TableWriter& table, const Recovery& r) {
@@ -352,38 +310,28 @@ struct RecoveryWriter::Impl {
   struct Growing {
     hdf5::Handle dataset;
     FieldSet set;
-    int width = 0, items = 0, chunk = 0, written = 0;
+    int written = 0;
   };
 
   Impl(const std::string& path, const Recovery& recovery) : file(path) {
-    for (const RecoveryField field : recovery_fields)
-      fields.push_back(grow(recovery, field, of_coordinates(recovery, field)));
-    for (const RecoveryField field : recovery_fields)
-      if (recovery.loads) fields.push_back(grow(recovery, field, of_loads(field)));
-  }
-
-  Growing grow(const Recovery& recovery, RecoveryField field, const FieldSet& set) const {
-    const int chunk = chunk_items(recovery, field);
-    return {hdf5::create_packed(file.id(), set.dataset, shape_of_field(recovery, field, set),
-                                static_cast<std::uint64_t>(chunk), file.path()),
-            set,
-            width(field),
-            items(recovery, field),
-            chunk,
-            0};
+    for (const FieldSet& set : field_sets(recovery))
+      fields.push_back(
+          {hdf5::create_packed(file.id(), set.dataset, set.shape(), static_cast<std::uint64_t>(set.chunk), file.path()),
+           set, 0});
   }
 
   void append(Growing& growing, const Eigen::Ref<const Eigen::MatrixXd>& rows) const {
-    const int count = static_cast<int>(rows.rows()) / growing.width, end = growing.written + count;
-    TISSERAND_ENSURE(rows.rows() == count * growing.width && rows.cols() == growing.set.columns &&
-                         end <= growing.items && (end == growing.items || count % growing.chunk == 0),
-                     "{} x {} values for {} after {} of {}", rows.rows(), rows.cols(), growing.set.dataset,
-                     growing.written, growing.items);
+    const FieldSet& set = growing.set;
+    const int count = static_cast<int>(rows.rows()) / set.width, end = growing.written + count;
+    TISSERAND_ENSURE(rows.rows() == count * set.width && rows.cols() == set.columns && end <= set.items &&
+                         (end == set.items || count % set.chunk == 0),
+                     "{} x {} values for {} after {} of {}", rows.rows(), rows.cols(), set.dataset, growing.written,
+                     set.items);
     const FieldRows values = rows.cast<float>();
     if (!values.allFinite())
-      throw Error(fmt::format("a value for {} is {:.3g}, beyond 32-bit numbers", growing.set.dataset,
-                              rows.cwiseAbs().maxCoeff()),
-                  file.path(), "use units in which the numbers of the part are of ordinary size");
+      throw Error(
+          fmt::format("a value for {} is {:.3g}, beyond 32-bit numbers", set.dataset, rows.cwiseAbs().maxCoeff()),
+          file.path(), "use units in which the numbers of the part are of ordinary size");
     if (count > 0)
       hdf5::write_packed_rows(growing.dataset, static_cast<std::uint64_t>(growing.written),
                               static_cast<std::uint64_t>(count), values.data(), file.path());
@@ -392,13 +340,13 @@ struct RecoveryWriter::Impl {
 
   void close_fields() {
     for (Growing& growing : fields) {
-      TISSERAND_ENSURE(growing.written == growing.items, "{} of {} items", growing.written, growing.items);
+      TISSERAND_ENSURE(growing.written == growing.set.items, "{} of {} items", growing.written, growing.set.items);
       growing.dataset.reset();
     }
   }
 
   hdf5::OutputFile file;
-  std::vector<Growing> fields;  ///< of coordinates by RecoveryField, then of loads
+  std::vector<Growing> fields;  ///< of field_sets()
 };
 
 RecoveryWriter::RecoveryWriter(const std::string& path, const Recovery& recovery) {
@@ -421,6 +369,11 @@ void RecoveryWriter::append_loads(RecoveryField field, const Eigen::Ref<const Ei
   impl_->append(impl_->fields.at(recovery_fields.size() + static_cast<std::size_t>(field)), rows);
 }
 
+void RecoveryWriter::append_forces(NodalForce force, const Eigen::Ref<const Eigen::MatrixXd>& rows) {
+  if (rows.cols() == 0) return;  // of no modes
+  impl_->append(impl_->fields.at(2 * recovery_fields.size() + static_cast<std::size_t>(force)), rows);
+}
+
 std::string RecoveryWriter::stage() {
   impl_->close_fields();
   return impl_->file.stage();
@@ -434,10 +387,10 @@ void RecoveryWriter::finish() {
 struct RecoveryReader::Impl {
   explicit Impl(const std::string& path) : file(path, hdf5::Completeness::closed) {}
 
-  FieldRows read(RecoveryField field, const FieldSet& set, int first, int count) const {
-    TISSERAND_ENSURE(first >= 0 && count >= 0 && first + count <= items(recovery, field), "items {} + {} of {}", first,
-                     count, set.dataset);
-    return read_field(file, set, width(field), first, count);
+  FieldRows read(const FieldSet& set, int first, int count) const {
+    TISSERAND_ENSURE(first >= 0 && count >= 0 && first + count <= set.items, "items {} + {} of {}", first, count,
+                     set.dataset);
+    return read_field(file, set, first, count);
   }
 
   hdf5::InputFile file;
@@ -460,12 +413,17 @@ const std::string& RecoveryReader::path() const { return impl_->file.path(); }
 const Recovery& RecoveryReader::recovery() const { return impl_->recovery; }
 
 FieldRows RecoveryReader::read(RecoveryField field, int first, int count) const {
-  return impl_->read(field, of_coordinates(impl_->recovery, field), first, count);
+  return impl_->read(of_coordinates(impl_->recovery, field), first, count);
 }
 
 FieldRows RecoveryReader::read_loads(RecoveryField field, int first, int count) const {
   TISSERAND_ENSURE(impl_->recovery.loads, "{} has no loads", path());
-  return impl_->read(field, of_loads(field), first, count);
+  return impl_->read(of_loads(impl_->recovery, field), first, count);
+}
+
+FieldRows RecoveryReader::read_forces(NodalForce force, int first, int count) const {
+  TISSERAND_ENSURE(impl_->recovery.loads && impl_->recovery.loads->has_forces(), "{} has no nodal forces", path());
+  return impl_->read(of_forces(impl_->recovery, force), first, count);
 }
 
 }  // namespace tisserand::formats

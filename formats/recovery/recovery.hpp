@@ -2,6 +2,7 @@
 // becomes displacement and stress everywhere (formats/RECOVERY.md). Equations of motion never need it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -61,7 +62,18 @@ struct RecoveryLoads {
   Eigen::MatrixXd share;      ///< n x 12: Φᵀ g of internal coordinates, zero for those of the boundary
   Eigen::VectorXd stiffness;  ///< n: ω² of internal coordinates, zero for those of the boundary
   double left_out = 0.0;      ///< no mode that is left out has an ω² below this; 0: none is left out
+  /// n_B x n_B: S̄ of the coordinates of the boundary; without entries: the file has no nodal forces (before version 1.2).
+  Eigen::MatrixXd boundary_stiffness;
+
+  bool has_forces() const { return boundary_stiffness.size() > 0; }
 };
+
+/// Forces of the inside on the nodes, by which the static answer of the unreduced part is what recovery gives
+/// (RECOVERY.md, nodal forces): those of the twelve loads, and S_II φ of each internal coordinate; part axes, on
+/// coordinates that ties leave independent. 3 per node.
+enum class NodalForce { load_force, load_moment, mode_force, mode_moment };
+inline constexpr std::array<NodalForce, 4> nodal_forces{NodalForce::load_force, NodalForce::load_moment,
+                                                        NodalForce::mode_force, NodalForce::mode_moment};
 
 /// All but the fields, which are as long as nodes times coordinates. n coordinates, those of the superelement in its
 /// order.
@@ -79,6 +91,7 @@ struct Recovery {
 
   Eigen::Matrix3Xd position;            ///< 3 x nodes, part frame
   std::vector<std::string> node_label;  ///< "tip", "spar[3]", "node 4711"
+  std::vector<int> node_number;         ///< in the mesh file, 0: it has none; empty before version 1.2
   std::vector<int> rotates;             ///< 1: the node has rotations; 0: its rows of `rotation` are zero
   std::vector<std::string> group_name;  ///< lines, groups or property cards
   RecoveryElements elements;
@@ -104,6 +117,7 @@ struct Recovery {
   int beams() const { return static_cast<int>(beam_axes.size()); }
   int shells() const { return static_cast<int>(shell_axes.size()); }
   int stress_points() const { return static_cast<int>(stress_node.size()); }
+  int internal() const { return static_cast<int>(std::count(dof_node.begin(), dof_node.end(), -1)); }
 };
 
 /// Axes of the seven mirror images: (−1, 1, 1), (1, −1, 1), (−1, −1, 1), (1, 1, −1), ...
@@ -148,6 +162,8 @@ class RecoveryWriter {
   void append(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows);
   /// The same of the loads' answers: 12 columns. Only of a file with loads.
   void append_loads(RecoveryField field, const Eigen::Ref<const Eigen::MatrixXd>& rows);
+  /// The same of forces on nodes: 12 columns, or one for each internal coordinate. Only of a file with nodal forces.
+  void append_forces(NodalForce force, const Eigen::Ref<const Eigen::MatrixXd>& rows);
   /// Closes the file, of which all items must have been appended, under a temporary name, which is returned.
   std::string stage();
   /// The same, and gives it its name.
@@ -170,6 +186,8 @@ class RecoveryReader {
   FieldRows read(RecoveryField field, int first, int count) const;
   /// The same of the loads' answers: (width · count) x 12. Only of a file with loads.
   FieldRows read_loads(RecoveryField field, int first, int count) const;
+  /// Nodes [first, first + count): 3 count x 12, or x internal coordinates. Only of a file with nodal forces.
+  FieldRows read_forces(NodalForce force, int first, int count) const;
 
  private:
   struct Impl;

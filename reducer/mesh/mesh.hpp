@@ -135,6 +135,7 @@ struct FrameNode {
 struct Mesh {
   Eigen::Matrix3Xd position;            ///< 3 x nodes, part frame
   std::vector<std::string> node_label;  ///< for messages: "tip", "spar[3]" or "node 4711"
+  std::vector<int> node_number;         ///< in the mesh file, 0: it has none; empty: no node has one
   std::vector<BeamProperty> beam_properties;
   std::vector<BeamElement> beams;
   std::vector<ShellProperty> shell_properties;

@@ -1,75 +1,93 @@
 // Maxima, first come first kept.
 #include "reducer/recover/envelope.hpp"
 
-#include <algorithm>
-
 namespace tisserand::reducer {
+
+using Eigen::Index;
+using formats::RecoveryField;
+
 namespace {
 
-void raise(const std::vector<float>& values, double time, std::vector<float>& largest, std::vector<float>& when) {
-  if (largest.empty()) {
-    largest = values;
-    when.assign(values.size(), static_cast<float>(time));
-    return;
-  }
-  for (std::size_t i = 0; i < values.size(); ++i)
-    if (values[i] > largest[i]) {
-      largest[i] = values[i];
-      when[i] = static_cast<float>(time);
-    }
-}
+bool is_larger(float value, float than) { return value > than + equal_by_symmetry * std::abs(than); }
 
-/// Of values that symmetry makes equal the first one is named, not the one that round-off of floats makes larger.
-constexpr float as_large = 2e-6f;
-
-void raise(const std::vector<float>& values, int first, int end, double time, Peak& peak) {
-  for (int i = first; i < end; ++i)
-    if (const float value = values[static_cast<std::size_t>(i)]; peak.at < 0 || value > (1.0f + as_large) * peak.value)
-      peak = {value, time, i};
+/// The value of an item of the points, as one of an element whose node `place` it is.
+void take(const LargestOverTime& points, int point, int element, int place, LargestOverTime& elements) {
+  if (points.instant(point) >= 0) elements.raise(element, {points.value(point), place}, points.instant(point));
 }
 
 }  // namespace
 
-InstantValues instant_values(const formats::Recovery& r, const SolidPoints& points, const RecoveredFields& fields,
-                             Eigen::Index t) {
-  const auto nodes = static_cast<std::size_t>(r.nodes());
-  InstantValues values;
-  for (Eigen::Index n = 0; n < r.nodes(); ++n)
-    values.displacement.push_back(fields.displacement.col(t).segment<3>(3 * n).norm());
-  values.solid_von_mises.assign(nodes, 0.0f);
-  values.solid_stress.assign(6 * nodes, 0.0f);
-  for (std::size_t p = 0; p < r.stress_node.size(); ++p) {
-    const auto node = static_cast<std::size_t>(r.stress_node[p]);
-    const float found = fields.solid_von_mises(static_cast<Eigen::Index>(p), t);
-    if (found < values.solid_von_mises[node]) continue;
-    values.solid_von_mises[node] = found;
-    for (std::size_t k = 0; k < 6; ++k)
-      values.solid_stress[6 * node + k] = fields.solid_stress(static_cast<Eigen::Index>(6 * p + k), t);
-  }
-  for (int e = 0; e < r.elements.count(); ++e) {
-    float value = 0.0f;
-    if (e < r.beams()) {
-      value = fields.beam_stress(e, t);
-    } else if (const Eigen::Index s = e - r.beams(); s < r.shells()) {
-      value = std::max(fields.shell_von_mises(2 * s, t), fields.shell_von_mises(2 * s + 1, t));
-    } else {
-      for (int k = points.first[static_cast<std::size_t>(e)]; k < points.first[static_cast<std::size_t>(e) + 1]; ++k)
-        value = std::max(value, fields.solid_von_mises(points.point[static_cast<std::size_t>(k)], t));
-    }
-    values.von_mises.push_back(value);
-  }
-  return values;
+LargestOverTime::LargestOverTime(int items)
+    : value_(static_cast<std::size_t>(items), 0.0f),
+      instant_(static_cast<std::size_t>(items), -1),
+      place_(static_cast<std::size_t>(items), 0) {}
+
+void LargestOverTime::raise(int item, const Placed& found, int instant) {
+  const auto i = static_cast<std::size_t>(item);
+  if (instant_[i] >= 0 && !is_larger(found.value, value_[i])) return;
+  value_[i] = found.value;
+  instant_[i] = instant;
+  place_[i] = found.place;
 }
 
-void extend(const formats::Recovery& r, const InstantValues& values, double time, Envelope& envelope) {
-  std::vector<float> unused = envelope.displacement_time;
-  raise(values.displacement, time, envelope.displacement, envelope.displacement_time);
-  raise(values.solid_von_mises, time, envelope.solid_von_mises, unused);
-  raise(values.von_mises, time, envelope.von_mises, envelope.von_mises_time);
-  raise(values.displacement, 0, r.nodes(), time, envelope.moved);
-  raise(values.von_mises, 0, r.beams(), time, envelope.beam);
-  raise(values.von_mises, r.beams(), r.beams() + r.shells(), time, envelope.shell);
-  if (r.stress_points() > 0) raise(values.solid_von_mises, 0, r.nodes(), time, envelope.solid);
+int LargestOverTime::largest(int first, int end) const {
+  int found = -1;
+  for (int i = first; i < end; ++i) {
+    if (instant(i) < 0) continue;
+    const bool larger = found < 0 || is_larger(value(i), value(found));
+    const bool equal = found >= 0 && !larger && !is_larger(value(found), value(i));
+    if (larger || (equal && instant(i) < instant(found))) found = i;
+  }
+  return found;
+}
+
+void StressEnvelope::raise(int item, const Measures& measures, int instant) {
+  von_mises.raise(item, measures.von_mises, instant);
+  largest.raise(item, measures.largest, instant);
+  negated_smallest.raise(item, {-measures.smallest.value, measures.smallest.place}, instant);
+}
+
+Envelope::Envelope(const formats::Recovery& recovery)
+    : displacement(recovery.nodes()),
+      point(recovery.stress_points()),
+      element(recovery.elements.count()),
+      recovery_(recovery) {}
+
+void Envelope::add(const FieldBlock& block, const BodyMotion& motion, Index first) {
+  const double factor = motion.stress_factor();
+  for (Index t = 0; t < block.values.cols(); ++t)
+    for (int i = 0; i < block.count; ++i) {
+      const int item = block.first + i, instant = static_cast<int>(first + t);
+      switch (block.field) {
+        case RecoveryField::translation:
+          displacement.raise(item, {block.item<3>(i, t).norm(), 0}, instant);
+          break;
+        case RecoveryField::beam_force:
+          if (has_stress(recovery_, item))
+            element.raise(item, beam_measures(recovery_, item, block.item<12>(i, t), factor), instant);
+          break;
+        case RecoveryField::shell_stress:
+          element.raise(recovery_.beams() + item, shell_measures(block.item<6>(i, t)), instant);
+          break;
+        case RecoveryField::solid_stress:
+          point.raise(item, solid_measures(block.item<6>(i, t)), instant);
+          break;
+        case RecoveryField::rotation:
+          break;
+      }
+    }
+}
+
+void Envelope::finish(const SolidPoints& points) {
+  for (int e = recovery_.beams() + recovery_.shells(); e < recovery_.elements.count(); ++e) {
+    const int begin = points.first[static_cast<std::size_t>(e)], end = points.first[static_cast<std::size_t>(e) + 1];
+    for (int k = begin; k < end; ++k) {
+      const int p = points.point[static_cast<std::size_t>(k)], place = k - begin + 1;
+      take(point.von_mises, p, e, place, element.von_mises);
+      take(point.largest, p, e, place, element.largest);
+      take(point.negated_smallest, p, e, place, element.negated_smallest);
+    }
+  }
 }
 
 }  // namespace tisserand::reducer

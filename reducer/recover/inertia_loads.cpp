@@ -30,68 +30,101 @@ MatrixXd second_rates(const MatrixXd& f, const std::vector<double>& time) {
   return rates;
 }
 
+/// Von Mises stresses (beams: normal) of a block; its instants are the loads.
+void raise_largest(const formats::Recovery& r, const BodyMotion& unit, const FieldBlock& block, VectorXd& largest) {
+  for (Index i = 0; i < block.count; ++i)
+    for (Index t = 0; t < block.values.cols(); ++t) {
+      Measures measures;
+      if (block.field == formats::RecoveryField::beam_force)
+        measures = beam_measures(r, block.first + static_cast<int>(i), block.item<12>(i, t), unit.stress_factor());
+      else if (block.field == formats::RecoveryField::shell_stress)
+        measures = shell_measures(block.item<6>(i, t));
+      else if (block.field == formats::RecoveryField::solid_stress)
+        measures.von_mises.value = static_cast<float>(von_mises(block.item<6>(i, t).cast<double>()));
+      largest[t] = std::max(largest[t], static_cast<double>(measures.von_mises.value));
+    }
+}
+
 /// The largest stress of the mesh under each load with the factor 1.
-VectorXd stress_of_loads(const formats::RecoveryReader& file, const BodyMotion& motion) {
-  BodyMotion unit = motion;
-  unit.y = unit.y_strain = MatrixXd::Zero(motion.y.rows(), formats::inertia_loads);
+VectorXd stress_of_loads(const formats::RecoveryReader& file, const BodyMotion& still) {
+  BodyMotion unit = still;
+  unit.y = unit.y_strain = MatrixXd::Zero(file.recovery().coordinates(), formats::inertia_loads);
   unit.load_factor = MatrixXd::Identity(formats::inertia_loads, formats::inertia_loads);
-  const RecoveredFields fields = recover_fields(file, unit, 0, formats::inertia_loads);
+  unit.mirror.setOnes();
   VectorXd largest = VectorXd::Zero(formats::inertia_loads);
-  for (const Eigen::MatrixXf* values : {&fields.beam_stress, &fields.shell_von_mises, &fields.solid_von_mises})
-    if (values->rows() > 0) largest = largest.cwiseMax(values->cast<double>().colwise().maxCoeff().transpose());
+  for_field_blocks(file, unit, [&](const FieldBlock& block) { raise_largest(file.recovery(), unit, block, largest); });
   return largest;
 }
 
 /// ω² below which no mode is left out of the motion: of the file, or of the modes that the body of the scene dropped.
-double lowest_left_out(const formats::Recovery& recovery, const BodyMotion& motion) {
+double lowest_left_out(const formats::Recovery& recovery, const MotionReader& motion) {
   double lowest = recovery.loads->left_out;
-  for (const Index k : motion.dropped)
+  for (const Index k : motion.dropped())
     if (const double stiffness = recovery.loads->stiffness[k]; lowest == 0.0 || stiffness < lowest) lowest = stiffness;
   return lowest;
 }
 
 }  // namespace
 
-void add_inertia_loads(const formats::Recovery& recovery, const formats::ResultsReader& results,
-                       const std::vector<std::size_t>& rows, std::size_t row, BodyMotion& motion) {
-  if (!recovery.loads) {
-    motion.notes.push_back(
-        "the recovery file has no answers to inertia loads: stress that the modes leave out is not added; reduce the "
-        "part again with `recovery: yes` (method macneal has none)");
-    return;
-  }
-  const formats::LoadFactors loads =
-      formats::load_factors(recovery, results, rows, {row, motion.mirror, motion.origin, motion.to_scene});
-  if (!loads.known()) {
-    motion.notes.push_back(
-        "the results do not hold the acceleration of the floating frame (written before version 1.10, or of an "
-        "analysis "
-        "without accelerations): stress that the modes leave out is not added; run the scene again");
-    return;
-  }
-  motion.load_factor = loads.factor;
-  motion.spin_squared = loads.spin_squared;
-  const MatrixXd reach = recovery.loads->share.cwiseAbs() * motion.load_factor.cwiseAbs();  // n x T
-  for (const Index k : formats::dropped_modes(recovery, motion.y)) {
-    motion.y.row(k) = motion.y_strain.row(k) =
-        recovery.loads->share.row(k) * motion.load_factor / recovery.loads->stiffness[k];
-    // Modes out of the plane of a planar scene have no share in its loads but round-off.
-    if (reach.row(k).maxCoeff() > no_share * reach.maxCoeff()) motion.dropped.push_back(k);
-  }
+bool may_have_loads(const formats::Recovery& recovery, std::vector<std::string>& notes) {
+  if (recovery.loads) return true;
+  notes.push_back(
+      "the recovery file has no answers to inertia loads: stress that the modes leave out is not added; reduce the "
+      "part again with `recovery: yes` (method macneal has none)");
+  return false;
 }
 
-LeftOutStress left_out_stress(const formats::RecoveryReader& file, const BodyMotion& motion) {
+std::string unknown_loads_note() {
+  return "the results do not hold the acceleration of the floating frame (written before version 1.10, or of an "
+         "analysis without accelerations): stress that the modes leave out is not added; run the scene again";
+}
+
+void add_load_factors(const formats::Recovery& recovery, const formats::ResultsReader& results,
+                      const std::vector<std::size_t>& rows, std::size_t row, BodyMotion& motion) {
+  const formats::LoadFactors loads =
+      formats::load_factors(recovery, results, rows, {row, motion.mirror, motion.origin, motion.to_scene});
+  if (!loads.known()) return;
+  motion.load_factor = loads.factor;
+  motion.spin_squared = loads.spin_squared;
+}
+
+VectorXd reach_of_loads(const formats::Recovery& recovery, const BodyMotion& motion) {
+  return (recovery.loads->share.cwiseAbs() * motion.load_factor.cwiseAbs()).rowwise().maxCoeff();
+}
+
+std::vector<Index> moved_by_loads(const VectorXd& reach, const std::vector<Index>& zero) {
+  std::vector<Index> moved;
+  for (const Index k : zero)
+    if (reach[k] > no_share * reach.maxCoeff()) moved.push_back(k);
+  return moved;
+}
+
+void add_static_modes(const formats::Recovery& recovery, const std::vector<Index>& zero, BodyMotion& motion) {
+  for (const Index k : zero)
+    motion.y.row(k) = motion.y_strain.row(k) =
+        recovery.loads->share.row(k) * motion.load_factor / recovery.loads->stiffness[k];
+}
+
+LeftOutStress left_out_stress(const formats::RecoveryReader& file, const MotionReader& reader) {
+  constexpr Index around = 2;  // second differences at an end of the run are those of the instant beside it
   LeftOutStress stress;
-  if (motion.load_factor.cols() == 0) return stress;
-  const VectorXd of_load = stress_of_loads(file, motion);
-  stress.added = (of_load.transpose() * motion.load_factor.cwiseAbs()).maxCoeff();
-  const double lowest = lowest_left_out(file.recovery(), motion);
-  if (!(lowest > 0.0)) return stress;
-  std::vector<double> time = motion.time;
-  for (double& t : time) t /= motion.to_scene.time;
-  const MatrixXd missing = second_rates(motion.load_factor, time).cwiseAbs() / lowest +
-                           motion.load_factor.cwiseAbs() * (motion.spin_squared / lowest).asDiagonal();
-  stress.remaining = (of_load.transpose() * missing).maxCoeff();
+  if (reader.read(0, 1).load_factor.cols() == 0) return stress;
+  stress.known = true;
+  const VectorXd of_load = stress_of_loads(file, reader.still());
+  const double lowest = lowest_left_out(file.recovery(), reader);
+  for (Index first = 0; first < reader.instants(); first += reader.batch()) {
+    const Index begin = std::max<Index>(first - around, 0), end = std::min(first + reader.batch(), reader.instants());
+    const BodyMotion motion = reader.read(begin, std::min(end + around, reader.instants()) - begin);
+    const auto own = [&](const MatrixXd& all) { return all.middleCols(first - begin, end - first); };
+    const MatrixXd size = own(motion.load_factor).cwiseAbs();
+    stress.added = std::max(stress.added, (of_load.transpose() * size).maxCoeff());
+    if (!(lowest > 0.0)) continue;
+    std::vector<double> time = motion.time;
+    for (double& t : time) t /= motion.to_scene.time;
+    const MatrixXd missing = own(second_rates(motion.load_factor, time)).cwiseAbs() / lowest +
+                             size * (motion.spin_squared.segment(first - begin, end - first) / lowest).asDiagonal();
+    stress.remaining = std::max(stress.remaining, (of_load.transpose() * missing).maxCoeff());
+  }
   return stress;
 }
 

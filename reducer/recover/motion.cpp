@@ -17,19 +17,15 @@ using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using formats::ResultsLayout;
 
-/// Row of /superelements or of /modal_bodies.
-struct Found {
-  std::size_t row = 0;
-  bool is_modal = false;
-  std::string name;
-};
+constexpr double batch_doubles = 4e6;  // of a dataset of the results
+constexpr Index largest_batch = 256;   // of instants: fields of the file are read once for each batch
 
-Found find_body(const ResultsLayout& layout, const formats::ResultsReader& results, const std::string& body) {
+BodyRow find_body(const ResultsLayout& layout, const formats::ResultsReader& results, const std::string& body) {
   std::vector<std::string> names = layout.superelements;
   names.insert(names.end(), layout.modal_bodies.begin(), layout.modal_bodies.end());
   const auto at = [&](std::size_t k) {
     const bool is_modal = k >= layout.superelements.size();
-    return Found{is_modal ? k - layout.superelements.size() : k, is_modal, names[k]};
+    return BodyRow{is_modal ? k - layout.superelements.size() : k, is_modal, names[k]};
   };
   if (body.empty() && names.size() == 1) return at(0);
   const std::string remedy = names.empty() ? "give results of a scene with a flexible superelement, and store its "
@@ -89,7 +85,7 @@ const formats::SimulatedBody* simulated_body(const ResultsLayout& layout, const 
   return nullptr;
 }
 
-std::string content_id_of(const ResultsLayout& layout, const Found& found) {
+std::string content_id_of(const ResultsLayout& layout, const BodyRow& found) {
   if (found.is_modal) {
     const formats::SimulatedBody* body = simulated_body(layout, found.name);
     return body ? body->content_id : "";
@@ -99,7 +95,7 @@ std::string content_id_of(const ResultsLayout& layout, const Found& found) {
 
 /// The stored coordinates of the body, in the units of the scene: those that the file has and the body has not are 0.
 MatrixXd coordinates(const ResultsLayout& layout, const formats::ResultsReader& results, const std::string& dataset,
-                     const Found& found, Index n, const std::vector<std::size_t>& rows) {
+                     const BodyRow& found, Index n, const std::vector<std::size_t>& rows) {
   const std::vector<int>& offset = found.is_modal ? layout.modal_offset : layout.modes_offset;
   const MatrixXd all = results.read_dataset(dataset, rows);
   if (all.cols() == 0)
@@ -118,7 +114,7 @@ MatrixXd coordinates(const ResultsLayout& layout, const formats::ResultsReader& 
 }
 
 /// Motion of the floating frame and its origin, as far as they are stored.
-void add_frame(const ResultsLayout& layout, const formats::ResultsReader& results, const Found& found,
+void add_frame(const ResultsLayout& layout, const formats::ResultsReader& results, const BodyRow& found,
                const std::vector<std::size_t>& rows, BodyMotion& motion) {
   const auto node = std::ranges::find(layout.nodes, found.name) - layout.nodes.begin();
   const Index row = found.is_modal ? node : static_cast<Index>(found.row);
@@ -141,41 +137,87 @@ bool knows_strain(const std::string& version) {
   return dot == std::string::npos || std::atoi(version.c_str() + dot + 1) >= 10;
 }
 
+/// Of the widest dataset over the coordinates of all bodies.
+Index batch_of(const ResultsLayout& layout) {
+  const auto last = [](const std::vector<int>& offset) { return offset.empty() ? 0 : offset.back(); };
+  const double width =
+      std::max({last(layout.modes_offset), last(layout.modal_offset), static_cast<int>(7 * layout.nodes.size()), 1});
+  return static_cast<Index>(std::clamp(batch_doubles / width, 1.0, static_cast<double>(largest_batch)));
+}
+
 }  // namespace
 
-BodyMotion body_motion(const formats::Recovery& recovery, const formats::ResultsReader& results,
-                       const RecoverRequest& request) {
+MotionReader::MotionReader(const formats::Recovery& recovery, const formats::ResultsReader& results,
+                           const RecoverRequest& request)
+    : recovery_(recovery), results_(results), body_(find_body(results.layout(), results, request.body)) {
   const ResultsLayout& layout = results.layout();
-  const Found found = find_body(layout, results, request.body);
-  BodyMotion motion;
-  motion.body = found.name;
-  motion.mirror =
-      formats::require_same_superelement(recovery, content_id_of(layout, found), request.recovery, found.name);
-  motion.to_scene = convert_units(recovery.units, layout.units, request.recovery);
-  motion.scene_units = layout.units;
+  still_.body = body_.name;
+  still_.mirror =
+      formats::require_same_superelement(recovery, content_id_of(layout, body_), request.recovery, body_.name);
+  still_.to_scene = convert_units(recovery.units, layout.units, request.recovery);
+  still_.scene_units = layout.units;
   const std::vector<double> time = results.time();
-  const std::vector<std::size_t> rows = chosen_rows(time, request, results.path());
-  for (const std::size_t r : rows) motion.time.push_back(time[r]);
-  const std::string dataset = found.is_modal ? "modal_bodies/w" : "superelements/y";
-  motion.y = motion.y_strain = coordinates(layout, results, dataset, found, recovery.coordinates(), rows);
-  if (!found.is_modal && layout.strained)
-    motion.y_strain = coordinates(layout, results, "superelements/y_strain", found, recovery.coordinates(), rows);
-  else if (!found.is_modal && !knows_strain(results.version()))
-    motion.notes.push_back(
+  rows_ = chosen_rows(time, request, results.path());
+  for (const std::size_t r : rows_) time_.push_back(time[r]);
+  batch_ = batch_of(layout);
+  has_strain_ = !body_.is_modal && layout.strained;
+  if (!body_.is_modal && !layout.strained && !knows_strain(results.version()))
+    notes_.push_back(
         "the results were written before version 1.10: of a body with its companion file, stress holds the strain of "
         "foreshortening, which is none; run the scene again");
-  to_file(recovery, motion, motion.y);
-  to_file(recovery, motion, motion.y_strain);
-  if (found.is_modal) motion.y /= std::sqrt(motion.to_scene.mass) * motion.to_scene.length;
-  if (found.is_modal) motion.y_strain = motion.y;
-  add_frame(layout, results, found, rows, motion);
-  if (!found.is_modal) add_inertia_loads(recovery, results, rows, found.row, motion);
-  if (request.frame == RecoverFrame::world && (motion.position.cols() == 0 || !motion.origin.allFinite() ||
-                                               !motion.position.allFinite() || !motion.rotation.allFinite()))
-    throw Error(
-        fmt::format("where body '{}' is in the world is not stored", motion.body), results.path(),
-        "give --frame part, or run the scene again with all channels of superelements, or of nodes for a modal body");
+  if (!body_.is_modal) has_loads_ = may_have_loads(recovery, notes_);
+  look_at_all(request);
+}
+
+/// As the results have it: modes that the body has not are zero.
+BodyMotion MotionReader::stored(Index first, Index count) const {
+  const auto begin = rows_.begin() + first;
+  const std::vector<std::size_t> rows(begin, begin + count);
+  BodyMotion motion = still_;
+  motion.time.assign(time_.begin() + first, time_.begin() + first + count);
+  const ResultsLayout& layout = results_.layout();
+  const Index n = recovery_.coordinates();
+  motion.y = coordinates(layout, results_, body_.is_modal ? "modal_bodies/w" : "superelements/y", body_, n, rows);
+  motion.y_strain = has_strain_ ? coordinates(layout, results_, "superelements/y_strain", body_, n, rows) : motion.y;
+  to_file(recovery_, motion, motion.y);
+  to_file(recovery_, motion, motion.y_strain);
+  if (body_.is_modal) motion.y /= std::sqrt(motion.to_scene.mass) * motion.to_scene.length;
+  if (body_.is_modal) motion.y_strain = motion.y;
+  add_frame(layout, results_, body_, rows, motion);
+  if (has_loads_) add_load_factors(recovery_, results_, rows, body_.row, motion);
   return motion;
+}
+
+BodyMotion MotionReader::read(Index first, Index count) const {
+  BodyMotion motion = stored(first, count);
+  if (has_loads_) add_static_modes(recovery_, zero_, motion);
+  return motion;
+}
+
+void MotionReader::look_at_all(const RecoverRequest& request) {
+  const Index n = recovery_.coordinates();
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(n), reach = Eigen::VectorXd::Zero(n);
+  bool loads_known = has_loads_, place_known = true;
+  for (Index first = 0; first < instants(); first += batch_) {
+    const BodyMotion motion = stored(first, std::min(batch_, instants() - first));
+    largest = largest.cwiseMax(motion.y.cwiseAbs().rowwise().maxCoeff());
+    loads_known = loads_known && motion.load_factor.cols() > 0;
+    if (loads_known) reach = reach.cwiseMax(reach_of_loads(recovery_, motion));
+    place_known = place_known && motion.position.cols() > 0 && motion.origin.allFinite() &&
+                  motion.position.allFinite() && motion.rotation.allFinite();
+    still_.origin = motion.origin;
+  }
+  if (has_loads_ && !loads_known) notes_.push_back(unknown_loads_note());
+  has_loads_ = loads_known;
+  if (has_loads_) {
+    for (Index k = 0; k < n; ++k)
+      if (recovery_.dof_node[static_cast<std::size_t>(k)] < 0 && largest[k] == 0.0) zero_.push_back(k);
+    dropped_ = moved_by_loads(reach, zero_);
+  }
+  if (request.frame == RecoverFrame::world && !place_known)
+    throw Error(
+        fmt::format("where body '{}' is in the world is not stored", body_.name), results_.path(),
+        "give --frame part, or run the scene again with all channels of superelements, or of nodes for a modal body");
 }
 
 }  // namespace tisserand::reducer

@@ -32,6 +32,14 @@ std::string element_text(const formats::Recovery& r, int element) {
                      printable_line(r.group_name[static_cast<std::size_t>(r.elements.group[e])], 60));
 }
 
+Eigen::Vector3d element_middle(const formats::Recovery& r, int element) {
+  const auto e = static_cast<std::size_t>(element);
+  const int first = r.elements.first[e], end = r.elements.first[e + 1];
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (int k = first; k < end; ++k) middle += r.position.col(r.elements.node[static_cast<std::size_t>(k)]);
+  return middle / (end - first);
+}
+
 SolidPoints solid_points(const formats::Recovery& r) {
   std::vector<int> order(r.stress_node.size());
   for (std::size_t p = 0; p < order.size(); ++p) order[p] = static_cast<int>(p);

@@ -8,8 +8,14 @@
 
 namespace tisserand::reducer {
 
+/// Of values that symmetry makes equal the first one is named, not the one that round-off of floats makes larger.
+inline constexpr float equal_by_symmetry = 2e-6f;
+
 /// "shell 17 of 'skin'".
 std::string element_text(const formats::Recovery& recovery, int element);
+
+/// Mean of the nodes of an element, part frame, units of the recovery file.
+Eigen::Vector3d element_middle(const formats::Recovery& recovery, int element);
 
 /// Stress points of the nodes of each solid, in its order: (elements + 1) offsets and points; nothing for others.
 struct SolidPoints {

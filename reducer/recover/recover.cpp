@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "formats/vtk/vtu.hpp"
-#include "reducer/recover/history.hpp"
+#include "reducer/recover/envelope.hpp"
+#include "reducer/recover/histories.hpp"
 #include "reducer/recover/inertia_loads.hpp"
+#include "reducer/recover/instant_values.hpp"
+#include "reducer/recover/load_files.hpp"
 #include "reducer/recover/vtu_data.hpp"
 
 namespace tisserand::reducer {
@@ -21,15 +25,6 @@ using formats::VtuArray;
 using formats::VtuCells;
 
 constexpr double batch_bytes = 256e6;
-
-/// Places of the nodes without deformation: in the part frame of the body, or carried by its floating frame.
-Eigen::Matrix3Xd rest_positions(const Recovery& r, const BodyMotion& motion, RecoverFrame frame, Index instant) {
-  Eigen::Matrix3Xd X = motion.to_scene.length * (motion.mirror.asDiagonal() * r.position);
-  if (frame == RecoverFrame::part) return X;
-  X.colwise() -= motion.origin;
-  const Eigen::Matrix3Xd turned = frame_axes(motion, frame, instant) * X;
-  return turned.colwise() + motion.position.col(instant);
-}
 
 /// All files of one request, named after the body.
 struct Files {
@@ -53,61 +48,141 @@ Files make_folder(const RecoverRequest& request, const std::string& body) {
   return files;
 }
 
-void write_envelope(const Recovery& r, const BodyMotion& motion, const VtuCells& cells, const Envelope& envelope,
-                    const Files& files) {
-  const Eigen::Matrix3Xf X = rest_positions(r, motion, RecoverFrame::part, 0).cast<float>();
-  std::vector<VtuArray> points{{"displacement", 1, envelope.displacement},
-                               {"displacement_time", 1, envelope.displacement_time}};
-  if (r.stress_points() > 0) points.push_back({"solid_von_mises", 1, envelope.solid_von_mises});
-  formats::write_vtu(files.path(files.stem + "_envelope.vtu"), X, cells, points,
-                     {{"von_mises", 1, envelope.von_mises}, {"von_mises_time", 1, envelope.von_mises_time}});
+/// Texts of the lines that are printed.
+struct Labels {
+  std::string length, time, stress;
+};
+
+Labels labels_of(const Units& units) {
+  return {unit_label(units, 1, 0, 0), unit_label(units, 0, 0, 1), unit_label(units, -1, 1, -2)};
 }
 
-std::string peak_line(const char* what, const Peak& peak, const std::string& unit, const std::string& time_unit,
-                      const std::string& place) {
-  return fmt::format("{:<29}{:.6g}{}{} at {:.6g}{}{} at {}\n", what, peak.value, unit.empty() ? "" : " ", unit,
-                     peak.time, time_unit.empty() ? "" : " ", time_unit, place);
+/// "largest ...   12 Pa at 0.1 s at " of the item of an envelope that is largest within [first, end), and where; empty
+/// without one.
+template <class Place>
+std::string peak_line(const char* what, const LargestOverTime& over_time, double sign, int first, int end,
+                      const std::string& unit, const MotionReader& motion, const Place& place) {
+  const int at = over_time.largest(first, end);
+  if (at < 0) return "";
+  const double value = sign * static_cast<double>(over_time.value(at));
+  const double time = motion.time()[static_cast<std::size_t>(over_time.instant(at))];
+  return fmt::format("{:<29}{:.6g}{} at {:.6g}{} at {}\n", what, value, after_number(unit), time,
+                     after_number(labels_of(motion.still().scene_units).time), place(at));
 }
 
-/// " (0.025, 0, 0)": the middle of an element of the undeformed body, part frame, units of the scene.
-std::string middle_text(const Recovery& r, const BodyMotion& motion, int element) {
-  const auto e = static_cast<std::size_t>(element);
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  const int first = r.elements.first[e], end = r.elements.first[e + 1];
-  for (int k = first; k < end; ++k) middle += r.position.col(r.elements.node[static_cast<std::size_t>(k)]);
-  middle = motion.to_scene.length / (end - first) * motion.mirror.cwiseProduct(middle);
-  return fmt::format(" ({:.4g}, {:.4g}, {:.4g})", middle.x(), middle.y(), middle.z());
+/// "shell 17 of 'skin' (0.025, 0, 0)": the middle of an element of the undeformed body, part frame, units of the scene.
+std::string element_place(const Recovery& r, const BodyMotion& still, int element) {
+  const Eigen::Vector3d middle = still.to_scene.length * still.mirror.cwiseProduct(element_middle(r, element));
+  return element_text(r, element) + fmt::format(" ({:.4g}, {:.4g}, {:.4g})", middle.x(), middle.y(), middle.z());
 }
 
-std::string left_out_line(const LeftOutStress& stress, const BodyMotion& motion) {
-  if (motion.load_factor.cols() == 0) return "";
-  const std::string unit = unit_label(motion.scene_units, -1, 1, -2), after = unit.empty() ? "" : " " + unit;
+std::string left_out_line(const LeftOutStress& stress, const BodyMotion& still) {
+  if (!stress.known) return "";
+  const std::string after = after_number(labels_of(still.scene_units).stress);
   return fmt::format(
       "{:<29}at most {:.3g}{} added by static answers to inertia and weight; what is still missing is "
       "estimated at {:.2g}{}\n",
       "stress left out by modes", stress.added, after, stress.remaining, after);
 }
 
-std::string report(const Recovery& r, const BodyMotion& motion, const Envelope& envelope, const std::string& left_out,
-                   const Files& files) {
-  const std::string length = unit_label(motion.scene_units, 1, 0, 0), time = unit_label(motion.scene_units, 0, 0, 1);
-  const std::string stress = unit_label(motion.scene_units, -1, 1, -2);
+/// The largest of everything over time.
+std::string peaks_text(const Recovery& r, const MotionReader& motion, const Envelope& envelope) {
+  const Labels labels = labels_of(motion.still().scene_units);
+  const int beams = r.beams(), shells = beams + r.shells(), all = r.elements.count();
   const auto node = [&r](int n) { return printable_line(r.node_label[static_cast<std::size_t>(n)], 60); };
-  std::string text = fmt::format("body '{}', {} instants\n", motion.body, motion.instants());
-  text += "displacements count from the floating frame of the body\n";
-  text += peak_line("largest displacement", envelope.moved, length, time, node(envelope.moved.at));
-  if (envelope.beam.at >= 0)
-    text += peak_line("largest stress of beams", envelope.beam, stress, time,
-                      element_text(r, envelope.beam.at) + middle_text(r, motion, envelope.beam.at));
-  if (envelope.shell.at >= 0)
-    text += peak_line("largest von Mises of shells", envelope.shell, stress, time,
-                      element_text(r, envelope.shell.at) + middle_text(r, motion, envelope.shell.at));
-  if (envelope.solid.at >= 0)
-    text += peak_line("largest von Mises of solids", envelope.solid, stress, time, node(envelope.solid.at));
-  text += left_out;
-  for (const std::string& note : motion.notes) text += fmt::format("{:<29}{}\n", "note", note);
-  return text + fmt::format("written {} (open it with ParaView)\n        {}\n", files.path(files.stem + ".pvd"),
-                            files.path(files.stem + "_envelope.vtu"));
+  const auto element = [&](int e) { return element_place(r, motion.still(), e); };
+  const auto point = [&](int p) { return node(r.stress_node[static_cast<std::size_t>(p)]); };
+  const auto placed = [&](const LargestOverTime& over_time) {
+    return [&](int e) {
+      return element(e) + ", " +
+             printable_line(place_text(r, e, over_time.place(e), motion.still().to_scene.length), 60);
+    };
+  };
+  const StressEnvelope& of = envelope.element;
+  return peak_line("largest displacement", envelope.displacement, 1.0, 0, r.nodes(), labels.length, motion, node) +
+         peak_line("largest stress of beams", of.von_mises, 1.0, 0, beams, labels.stress, motion, element) +
+         peak_line("largest von Mises of shells", of.von_mises, 1.0, beams, shells, labels.stress, motion, element) +
+         peak_line("largest von Mises of solids", envelope.point.von_mises, 1.0, 0, r.stress_points(), labels.stress,
+                   motion, point) +
+         peak_line("largest principal stress", of.largest, 1.0, 0, all, labels.stress, motion, placed(of.largest)) +
+         peak_line("smallest principal stress", of.negated_smallest, -1.0, 0, all, labels.stress, motion,
+                   placed(of.negated_smallest));
+}
+
+std::string written_text(std::vector<std::string> paths, const RecoverRequest& request) {
+  if (!request.envelope_only) paths[0] += " (open it with ParaView)";
+  std::string text;
+  for (std::size_t k = 0; k < paths.size(); ++k) text += (k == 0 ? "written " : "        ") + paths[k] + '\n';
+  return text;
+}
+
+/// Whole fields of a batch, an instant after the other.
+void write_series(const Recovery& r, const RecoveredFields& fields, const BodyMotion& motion, Index first,
+                  const RecoverRequest& request, const VtuCells& cells, const SolidPoints& points, Files& files) {
+  const Eigen::Matrix3Xd places = motion.to_scene.length * (motion.mirror.asDiagonal() * r.position);
+  for (Index t = 0; t < motion.instants(); ++t) {
+    const InstantValues values = instant_values(r, points, fields, t);
+    const Eigen::Matrix3Xd rest = rest_positions(places, motion, request.frame, t);
+    const Eigen::Matrix3d axes = frame_axes(motion, request.frame, t);
+    files.series.emplace_back(motion.time[static_cast<std::size_t>(t)],
+                              fmt::format("{}_{:05}.vtu", files.stem, first + t));
+    formats::write_vtu(files.path(files.series.back().second), rest.cast<float>(), cells,
+                       vtu_point_data(r, fields, values, axes, t), vtu_cell_data(r, fields, values, t));
+  }
+}
+
+/// Instants of a batch: whole fields are held of a series only.
+Index batch_of(const Recovery& r, const MotionReader& motion, const RecoverRequest& request) {
+  if (request.envelope_only) return motion.batch();
+  return std::min(motion.batch(), static_cast<Index>(std::max(batch_bytes / bytes_per_instant(r), 1.0)));
+}
+
+constexpr Index most_load_cases = 100;
+
+void require_few_load_cases(const MotionReader& motion) {
+  if (motion.instants() <= most_load_cases) return;
+  throw Error(
+      fmt::format("{} instants are chosen, and every one of them becomes a load case on all nodes", motion.instants()),
+      "--loads", fmt::format("choose at most {} with --times 0.1,0.2 or --every", most_load_cases));
+}
+
+/// An instant without any load is one at which nothing acts, or at which the run took the body for rigid.
+void require_some_load(const LoadInstant& instant, const MotionReader& motion) {
+  const NodalLoads& loads = instant.loads;
+  const bool is_zero = loads.boundary.isZero(0.0) && loads.frame.isZero(0.0) && loads.deformation.isZero(0.0);
+  if (!is_zero || (instant.balance.compared && instant.balance.largest == 0.0)) return;
+  throw Error(
+      fmt::format("body '{}' does not deform at time {:g}: the run took it for rigid there (`flexibility: auto`), "
+                  "or nothing acts on it",
+                  motion.body().name, instant.time),
+      "--loads", "choose other instants with --times, or run the scene with `flexibility: on`");
+}
+
+/// Load cases of all chosen instants. What is said of them, and the files.
+std::string write_loads(const formats::RecoveryReader& file, const formats::ResultsReader& results,
+                        const MotionReader& motion, const RecoverRequest& request, const Files& files,
+                        std::vector<std::string>& written) {
+  if (request.loads.empty()) return "";
+  const Recovery& r = file.recovery();
+  const NodeNumbers numbers = node_numbers(r);
+  const LoadHead head{r, motion.still(), request, numbers};
+  std::vector<std::unique_ptr<LoadFile>> outputs;
+  for (const LoadFormat format : request.loads)
+    outputs.push_back(std::make_unique<LoadFile>(
+        format, files.path(files.stem + (format == LoadFormat::nastran ? "_loads.bdf" : "_loads.inp")), head,
+        motion.instants()));
+  std::string text;
+  for (Index k = 0; k < motion.instants(); ++k) {
+    const BodyMotion now = motion.read(k, 1);
+    LoadInstant instant{now.time[0], nodal_loads(file, now, 0), {}};
+    instant.balance = load_balance(r, instant.loads);
+    compare_with_run(results, motion, now, 0, k, instant.loads, instant.balance);
+    require_some_load(instant, motion);
+    for (const auto& output : outputs) output->add(instant);
+    text += balance_text(r, instant, motion.still());
+  }
+  for (const auto& output : outputs) written.push_back(output->publish());
+  return text;
 }
 
 }  // namespace
@@ -115,34 +190,43 @@ std::string report(const Recovery& r, const BodyMotion& motion, const Envelope& 
 std::string recover(const RecoverRequest& request) {
   const formats::RecoveryReader file(request.recovery);
   const Recovery& r = file.recovery();
-  const BodyMotion motion = body_motion(r, formats::ResultsReader(request.results), request);
-  PointHistory history(r, motion, request);
-  Files files = make_folder(request, motion.body);
+  const formats::ResultsReader results(request.results);
+  const MotionReader motion(r, results, request);
+  if (!request.loads.empty()) require_nodal_loads(file, motion);
+  if (!request.loads.empty()) require_few_load_cases(motion);
+  ChosenHistories chosen = chosen_histories(r, motion.still(), request);
+  Files files = make_folder(request, motion.body().name);
+  Histories histories(std::move(chosen), motion.still(), files.path(files.stem));
   const VtuCells cells = formats::vtu_cells(r.elements);
   const SolidPoints points = solid_points(r);
-  const auto batch = static_cast<Index>(std::max(batch_bytes / bytes_per_instant(r), 1.0));
-  Envelope envelope;
+  Envelope envelope(r);
+  const Index batch = batch_of(r, motion, request);
   for (Index first = 0; first < motion.instants(); first += batch) {
-    const Index count = std::min(batch, motion.instants() - first);
-    const RecoveredFields fields = recover_fields(file, motion, first, count);
-    for (Index t = 0; t < count; ++t) {
-      const double time = motion.time[static_cast<std::size_t>(first + t)];
-      const InstantValues values = instant_values(r, points, fields, t);
-      const Eigen::Matrix3Xd rest = rest_positions(r, motion, request.frame, first + t);
-      const Eigen::Matrix3d axes = frame_axes(motion, request.frame, first + t);
-      extend(r, values, time, envelope);
-      history.add(fields, values, rest, axes, t, time);
-      files.series.emplace_back(time, fmt::format("{}_{:05}.vtu", files.stem, first + t));
-      formats::write_vtu(files.path(files.series.back().second), rest.cast<float>(), cells,
-                         vtu_point_data(r, fields, values, axes, t), vtu_cell_data(r, fields, values, t));
-    }
+    const BodyMotion now = motion.read(first, std::min(batch, motion.instants() - first));
+    histories.begin(now.instants());
+    const auto take = [&](const FieldBlock& block) {
+      envelope.add(block, now, first);
+      histories.take(block);
+    };
+    if (request.envelope_only)
+      for_field_blocks(file, now, take);
+    else
+      write_series(r, recover_fields(file, now, take), now, first, request, cells, points, files);
+    histories.end(now);
   }
-  formats::write_pvd(files.path(files.stem + ".pvd"), files.series);
-  write_envelope(r, motion, cells, envelope, files);
-  std::string text = report(r, motion, envelope, left_out_line(left_out_stress(file, motion), motion), files);
-  if (history.empty()) return text;
-  write_text_file(files.path(files.stem + "_points.csv"), history.text());
-  return text + fmt::format("        {}\n", files.path(files.stem + "_points.csv"));
+  envelope.finish(points);
+  std::vector<std::string> written;
+  const auto add = [&](const std::string& ending) { return written.emplace_back(files.path(files.stem + ending)); };
+  if (!request.envelope_only) formats::write_pvd(add(".pvd"), files.series);
+  write_envelope_vtu(add("_envelope.vtu"), r, motion, cells, envelope);
+  write_envelope_csv(add("_envelope.csv"), r, motion, envelope);
+  for (const std::string& path : histories.publish()) written.push_back(path);
+  std::string text = fmt::format("body '{}', {} instants\n", motion.body().name, motion.instants());
+  text += "displacements count from the floating frame of the body\n" + peaks_text(r, motion, envelope);
+  text += left_out_line(left_out_stress(file, motion), motion.still());
+  text += write_loads(file, results, motion, request, files, written);
+  for (const std::string& note : motion.notes()) text += fmt::format("{:<29}{}\n", "note", note);
+  return text + written_text(written, request);
 }
 
 }  // namespace tisserand::reducer

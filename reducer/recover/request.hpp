@@ -6,17 +6,25 @@
 
 namespace tisserand::reducer {
 
-/// Where displacements and positions are told: in the world, or on the part at rest in its own frame.
+/// Axes and origin of displacements and positions: those of the world, or of the part at rest in its own frame.
 enum class RecoverFrame { world, part };
 
+/// Programs for which loads are written.
+enum class LoadFormat { nastran, calculix };
+
 struct RecoverRequest {
-  std::string recovery;             ///< part.recovery.h5
-  std::string results;              ///< run.results.h5
-  std::string body;                 ///< empty: the only superelement of the results
-  std::string output;               ///< folder of the series; empty: body.recovered beside the results
-  std::vector<double> times;        ///< the nearest stored instants; empty: all
-  int every = 1;                    ///< only every n-th of them
-  std::vector<std::string> points;  ///< labels of nodes, or "x,y,z" of the part frame
+  std::string recovery;               ///< part.recovery.h5
+  std::string results;                ///< run.results.h5
+  std::string body;                   ///< empty: the only superelement of the results
+  std::string output;                 ///< folder of the files; empty: body.recovered beside the results
+  std::vector<double> times;          ///< the nearest stored instants; empty: all
+  int every = 1;                      ///< only every n-th of them
+  bool envelope_only = false;         ///< no series
+  std::vector<std::string> points;    ///< labels of nodes, or "x,y,z" of the part frame
+  std::vector<std::string> elements;  ///< "12", or "group/12"
+  std::vector<std::string> groups;    ///< names of groups
+  std::string points_file;            ///< lines "point ...", "element ...", "group ..."; empty: none
+  std::vector<LoadFormat> loads;      ///< load cases of the chosen instants for these programs
   RecoverFrame frame = RecoverFrame::world;
 };
 

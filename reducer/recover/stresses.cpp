@@ -2,9 +2,6 @@
 #include "reducer/recover/stresses.hpp"
 
 #include <algorithm>
-#include <cmath>
-
-#include <Eigen/LU>
 
 namespace tisserand::reducer {
 namespace {
@@ -16,21 +13,14 @@ using Eigen::Vector3d;
 using formats::RecoveryField;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-/// scale · (field · y + answers to loads · factor), in blocks of some chunks; no columns of factors: no loads.
-MatrixXf product(const formats::RecoveryReader& file, RecoveryField field, const MatrixXd& y, const MatrixXd& factor,
-                 double scale) {
-  constexpr int chunks = 8;
-  const int items = formats::items(file.recovery(), field), width = formats::width(field);
-  const int block = chunks * formats::chunk_items(file.recovery(), field);
-  MatrixXf out(static_cast<Index>(items) * width, y.cols());
-  for (int first = 0; first < items; first += block) {
-    const int count = std::min(block, items - first);
-    const MatrixXd rows = file.read(field, first, count).cast<double>();
-    MatrixXd values = scale * (rows * y);
-    if (factor.cols() > 0) values.noalias() += scale * (file.read_loads(field, first, count).cast<double>() * factor);
-    out.middleRows(static_cast<Index>(first) * width, static_cast<Index>(count) * width) = values.cast<float>();
-  }
-  return out;
+constexpr double block_doubles = 4e6;  // of the values of a block
+
+/// scale · (field · y + answers to loads · factor) of some items; no columns of factors: no loads.
+MatrixXf product(const formats::RecoveryReader& file, RecoveryField field, int first, int count, const MatrixXd& y,
+                 const MatrixXd& factor, double scale) {
+  MatrixXd values = scale * (file.read(field, first, count).cast<double>() * y);
+  if (factor.cols() > 0) values.noalias() += scale * (file.read_loads(field, first, count).cast<double>() * factor);
+  return values.cast<float>();
 }
 
 /// Of the image: vectors and axes of tensors follow `mirror`, so that xy turns its sign with x or y.
@@ -42,10 +32,6 @@ void mirror_tensors(const Vector3d& mirror, MatrixXf& tensors) {
   const double sign[] = {1.0, 1.0, 1.0, mirror.x() * mirror.y(), mirror.y() * mirror.z(), mirror.z() * mirror.x()};
   for (Index i = 0; i < tensors.rows(); ++i)
     if (sign[i % 6] < 0.0) tensors.row(i) *= -1.0f;
-}
-
-double plane_von_mises(const Vector3d& s) {
-  return std::sqrt(std::max(s[0] * s[0] - s[0] * s[1] + s[1] * s[1] + 3.0 * s[2] * s[2], 0.0));
 }
 
 void add_shells(RecoveredFields& out) {
@@ -90,23 +76,9 @@ void add_beams(const formats::Recovery& recovery, const UnitConversion& to, Reco
 
 }  // namespace
 
-double von_mises(const Vector6& s) {
-  const double xy = s[0] - s[1], yz = s[1] - s[2], zx = s[2] - s[0];
-  return std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3.0 * s.tail<3>().squaredNorm());
-}
-
 double normal_stress(const formats::RecoverySection& section, const Vector6& force) {
-  if (!(section.area > 0.0)) return 0.0;
-  const double My = force[4] - force[0] * section.centroid_z, Mz = force[5] + force[0] * section.centroid_y;
-  Eigen::Matrix2d moments;
-  moments << section.second_moment_z, section.second_moment_yz, section.second_moment_yz, section.second_moment_y;
-  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
-  if (moments.determinant() > 0.0) slope = moments.inverse() * Eigen::Vector2d(-Mz, My);
-  const Eigen::Vector2d centroid(section.centroid_y, section.centroid_z);
-  double largest = std::abs(force[0] / section.area);
-  for (const Eigen::Vector2d& corner : section.outline)
-    largest = std::max(largest, std::abs(force[0] / section.area + slope.dot(corner - centroid)));
-  return largest;
+  const NormalStresses stresses = normal_stresses(section, force);
+  return std::max(stresses.largest, -stresses.smallest);
 }
 
 void derive_stresses(const formats::Recovery& recovery, const UnitConversion& to, RecoveredFields& fields) {
@@ -115,19 +87,55 @@ void derive_stresses(const formats::Recovery& recovery, const UnitConversion& to
   add_solids(fields);
 }
 
-RecoveredFields recover_fields(const formats::RecoveryReader& file, const BodyMotion& motion, Index first,
-                               Index count) {
-  const MatrixXd y = motion.y.middleCols(first, count), strain = motion.y_strain.middleCols(first, count);
-  const MatrixXd factor =
-      motion.load_factor.cols() > 0 ? MatrixXd(motion.load_factor.middleCols(first, count)) : MatrixXd();
+void for_field_blocks(const formats::RecoveryReader& file, const BodyMotion& motion, const BlockListener& listener) {
+  for (const RecoveryField field : {RecoveryField::translation, RecoveryField::beam_force, RecoveryField::shell_stress,
+                                    RecoveryField::solid_stress}) {
+    const bool moves = field == RecoveryField::translation;
+    const double scale = moves                                ? motion.to_scene.length
+                         : field == RecoveryField::beam_force ? 1.0
+                                                              : motion.stress_factor();
+    const int items = formats::items(file.recovery(), field), chunk = formats::chunk_items(file.recovery(), field);
+    const double per_chunk =
+        static_cast<double>(formats::width(field)) * chunk * static_cast<double>(motion.instants() + motion.y.rows());
+    const int block = chunk * static_cast<int>(std::max(block_doubles / per_chunk, 1.0));
+    for (int first = 0; first < items; first += block) {
+      const int count = std::min(block, items - first);
+      FieldBlock out{field, first, count,
+                     product(file, field, first, count, moves ? motion.y : motion.y_strain, motion.load_factor, scale)};
+      if (moves) mirror_vectors(motion.mirror, out.values);
+      if (field == RecoveryField::solid_stress) mirror_tensors(motion.mirror, out.values);
+      listener(out);
+    }
+  }
+}
+
+RecoveredFields recover_fields(const formats::RecoveryReader& file, const BodyMotion& motion,
+                               const BlockListener& listener) {
   RecoveredFields out;
-  out.displacement = product(file, RecoveryField::translation, y, factor, motion.to_scene.length);
-  out.beam_force = product(file, RecoveryField::beam_force, strain, factor, 1.0);
-  out.shell_stress = product(file, RecoveryField::shell_stress, strain, factor, motion.stress_factor());
-  out.solid_stress = product(file, RecoveryField::solid_stress, strain, factor, motion.stress_factor());
-  derive_stresses(file.recovery(), motion.to_scene, out);
-  mirror_vectors(motion.mirror, out.displacement);
-  mirror_tensors(motion.mirror, out.solid_stress);
+  const auto all = [&out](RecoveryField field) -> MatrixXf& {
+    switch (field) {
+      case RecoveryField::beam_force:
+        return out.beam_force;
+      case RecoveryField::shell_stress:
+        return out.shell_stress;
+      case RecoveryField::solid_stress:
+        return out.solid_stress;
+      case RecoveryField::translation:
+      case RecoveryField::rotation:
+        break;
+    }
+    return out.displacement;
+  };
+  const formats::Recovery& r = file.recovery();
+  for (const RecoveryField field : formats::recovery_fields)
+    if (field != RecoveryField::rotation)
+      all(field).resize(static_cast<Index>(formats::width(field)) * formats::items(r, field), motion.instants());
+  for_field_blocks(file, motion, [&](const FieldBlock& block) {
+    const Index width = formats::width(block.field);
+    all(block.field).middleRows(width * block.first, block.values.rows()) = block.values;
+    listener(block);
+  });
+  derive_stresses(r, motion.to_scene, out);
   return out;
 }
 

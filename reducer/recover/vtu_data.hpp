@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "formats/vtk/vtu.hpp"
-#include "reducer/recover/envelope.hpp"
+#include "reducer/recover/instant_values.hpp"
 
 namespace tisserand::reducer {
 

@@ -171,14 +171,23 @@ void motion_fields(const Mesh& mesh, const MotionSource& source, const formats::
 }
 
 void recovery_fields(const RecoverySource& source, const formats::Recovery& tables,
-                     const std::function<void(double)>& share, const FieldSink& sink, const FieldSink& loads) {
+                     const std::function<void(double)>& share, const RecoverySinks& sinks) {
   const double columns = static_cast<double>(source.motion.columns + source.loads.columns),
                own = static_cast<double>(source.motion.columns) / columns;
   motion_fields(
-      source.mesh, source.motion, tables, [&](double done) { share(own * done); }, sink);
+      source.mesh, source.motion, tables, [&](double done) { share(own * done); }, sinks.coordinates);
   if (source.loads.columns > 0)
     motion_fields(
-        source.mesh, source.loads, tables, [&](double done) { share(own + (1.0 - own) * done); }, loads);
+        source.mesh, source.loads, tables, [&](double done) { share(own + (1.0 - own) * done); }, sinks.loads);
+  if (!tables.loads || !tables.loads->has_forces()) return;
+  using formats::NodalForce;
+  const auto forces = [&](const MotionSource& of, NodalForce force, NodalForce moment) {
+    displacements(of, tables, [&](RecoveryField field, const MatrixXd& rows) {
+      sinks.forces(field == RecoveryField::translation ? force : moment, rows);
+    });
+  };
+  forces(source.load_forces, NodalForce::load_force, NodalForce::load_moment);
+  forces(source.mode_forces, NodalForce::mode_force, NodalForce::mode_moment);
 }
 
 }  // namespace tisserand::reducer

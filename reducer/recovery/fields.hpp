@@ -22,6 +22,7 @@ struct RecoverySource {
   const Coordinates& coordinates;
   MotionSource motion;     ///< of each coordinate of the file
   MotionSource loads;      ///< static answers to the inertia loads of head.loads; no columns where there are none
+  MotionSource load_forces, mode_forces;  ///< on the nodes, as motions are; without `motions` where there are none
   formats::Recovery head;  ///< names, units, identity, coordinates: what is not of the mesh
   bool is_modal = false;   ///< of the modal body, not of the superelement
 };
@@ -55,9 +56,14 @@ formats::Recovery solved_tables(const Mesh& mesh, const Coordinates& coordinates
 void motion_fields(const Mesh& mesh, const MotionSource& source, const formats::Recovery& tables,
                    const std::function<void(double)>& share, const FieldSink& sink);
 
-/// All fields in blocks of some megabytes, whole chunks each: those of coordinates, then those of loads. `tables` are
-/// recovery_tables() of the same source.
+/// Take the next rows of fields of coordinates, of loads, and of forces on nodes.
+struct RecoverySinks {
+  FieldSink coordinates, loads;
+  std::function<void(formats::NodalForce force, const Eigen::MatrixXd& rows)> forces;
+};
+
+/// All fields in blocks of some megabytes, whole chunks each. `tables` are recovery_tables() of the same source.
 void recovery_fields(const RecoverySource& source, const formats::Recovery& tables,
-                     const std::function<void(double)>& share, const FieldSink& sink, const FieldSink& loads);
+                     const std::function<void(double)>& share, const RecoverySinks& sinks);
 
 }  // namespace tisserand::reducer

@@ -1,11 +1,13 @@
 // Mesh and properties as the recovery file has them.
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include "common/error.hpp"
 #include "formats/superelement/mirror.hpp"
 #include "reducer/elements/shell/geometry.hpp"
+#include "reducer/algebra/petsc.hpp"
 #include "reducer/elements/turning_mass.hpp"
 #include "reducer/recovery/fields.hpp"
 #include "reducer/recovery/surface.hpp"
@@ -128,6 +130,8 @@ Recovery mesh_tables(const Mesh& mesh) {
   }
   r.position = mesh.position;
   r.node_label = mesh.node_label;
+  r.node_number = mesh.node_number;
+  r.node_number.resize(r.node_label.size(), 0);
   for (const BeamProperty& property : mesh.beam_properties) r.group_name.push_back(property.name);
   for (const ShellProperty& property : mesh.shell_properties) r.group_name.push_back(property.name);
   for (const SolidProperty& property : mesh.solid_properties) r.group_name.push_back(property.name);
@@ -167,6 +171,62 @@ MotionSource motions_of(std::shared_ptr<const Eigen::MatrixXd> x, const Coordina
   return {motions, columns};
 }
 
+/// Forces on some coordinates q.
+struct CoordinateForces {
+  Eigen::MatrixXd rows;
+  std::vector<int> row_of;  ///< of each q; −1: it bears none
+};
+
+/// The same as forces on the nodes: on coordinates that ties leave independent, which do the same work. Nothing where an
+/// auxiliary coordinate, which no node has, bears one.
+MotionSource nodal_forces_of(const System& system, CoordinateForces forces) {
+  constexpr double round_off = 1e-12;
+  const Coordinates& numbers = system.coordinates;
+  const double largest = forces.rows.size() > 0 ? forces.rows.cwiseAbs().maxCoeff() : 0.0;
+  for (int q = 0; q < system.size(); ++q)
+    if (const int row = forces.row_of[static_cast<std::size_t>(q)];
+        row >= 0 && system.T.source[static_cast<std::size_t>(q)] >= numbers.count() &&
+        forces.rows.row(row).cwiseAbs().sum() > round_off * largest)
+      return {};
+  const Eigen::Index columns = forces.rows.cols();
+  const auto shared = std::make_shared<const CoordinateForces>(std::move(forces));
+  const auto motions = [shared, &system, &numbers](const std::vector<int>& nodes) {
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(6 * static_cast<Eigen::Index>(nodes.size()), shared->rows.cols());
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (int x = numbers.first[nodes[i]]; x < numbers.first[nodes[i] + 1]; ++x) {
+        const int q = system.T.row[x], row = q < 0 ? -1 : shared->row_of[static_cast<std::size_t>(q)];
+        if (row >= 0) out.row(6 * static_cast<Eigen::Index>(i) + numbers.component[x]) = shared->rows.row(row);
+      }
+    return out;
+  };
+  return {motions, columns};
+}
+
+/// S_II φ of each internal coordinate; of modes by their eigenvalue, without the round-off of S.
+CoordinateForces mode_forces(const InternalProblem& problem, const InternalModes& internal) {
+  const Eigen::Index m = internal.Phi.cols(), vectors = internal.free_modes ? m : internal.moments;
+  CoordinateForces forces{Eigen::MatrixXd(internal.Phi.rows(), m),
+                          std::vector<int>(static_cast<std::size_t>(problem.system.size()), -1)};
+  if (vectors < m)
+    forces.rows.leftCols(m - vectors) = multiply(problem.blocks.M_II, internal.Phi.leftCols(m - vectors)) *
+                                        internal.lambda.head(m - vectors).asDiagonal();
+  if (vectors > 0) forces.rows.rightCols(vectors) = multiply(problem.blocks.S_II, internal.Phi.rightCols(vectors));
+  for (std::size_t i = 0; i < problem.partition.internal.size(); ++i)
+    forces.row_of[static_cast<std::size_t>(problem.partition.internal[i])] = static_cast<int>(i);
+  return forces;
+}
+
+void add_forces(const InternalProblem& problem, const InternalModes& internal, Eigen::MatrixXd load_force,
+                const formats::Superelement& superelement, RecoverySource& source) {
+  std::vector<int> all(static_cast<std::size_t>(problem.system.size()));
+  std::iota(all.begin(), all.end(), 0);
+  source.load_forces = nodal_forces_of(problem.system, {std::move(load_force), std::move(all)});
+  source.mode_forces = nodal_forces_of(problem.system, mode_forces(problem, internal));
+  const Eigen::Index n_B = problem.partition.n_B();
+  if (source.load_forces.motions && source.mode_forces.motions)
+    source.head.loads->boundary_stiffness = superelement.stiffness.topLeftCorner(n_B, n_B);
+}
+
 void add_loads(const InternalProblem& problem, const InternalModes& internal, const formats::Superelement& superelement,
                RecoverySource& source) {
   const formats::RigidProperties rigid = formats::rigid_properties(superelement);
@@ -180,6 +240,7 @@ void add_loads(const InternalProblem& problem, const InternalModes& internal, co
   loads.stiffness.tail(m) = internal.lambda;
   loads.left_out = internal.first_dropped.value_or(m > 0 && m < internal.available ? internal.lambda.maxCoeff() : 0.0);
   source.head.loads = std::move(loads);
+  add_forces(problem, internal, std::move(answers.force), superelement, source);
   source.loads = motions_of(std::make_shared<const Eigen::MatrixXd>(std::move(answers.x)), problem.system.coordinates);
 }
 
@@ -197,6 +258,8 @@ RecoverySource recovery_source(const InternalProblem& problem, const BoundaryMod
   RecoverySource source{problem.mesh,
                         system.coordinates,
                         {[shapes](const auto& nodes) { return shapes->motions(nodes); }, shapes->coordinates()},
+                        {},
+                        {},
                         {},
                         std::move(head),
                         false};
@@ -216,6 +279,8 @@ RecoverySource recovery_source(const Mesh& mesh, const System& system, const Eig
   return {mesh,
           system.coordinates,
           motions_of(std::make_shared<const Eigen::MatrixXd>(expand(system.T, q)), system.coordinates),
+          {},
+          {},
           {},
           std::move(head),
           true};

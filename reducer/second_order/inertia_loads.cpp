@@ -23,13 +23,14 @@ MatrixXd residual_displacements(const InternalProblem& problem, const InternalMo
 InertiaAnswers inertia_answers(const InternalProblem& problem, const InternalModes& internal,
                                const Eigen::Vector3d& reference_point) {
   const System& system = problem.system;
-  InertiaAnswers answers{reference_point, {}, MatrixXd::Zero(internal.lambda.size(), inertial_loads)};
+  InertiaAnswers answers{reference_point, {}, MatrixXd::Zero(internal.lambda.size(), inertial_loads), {}};
   const Index rows_of_all = expand(system.T, MatrixXd::Zero(system.size(), 1)).rows();
   const FrameInertia inertia =
       frame_inertia(problem.mesh, system.coordinates, MatrixXd(rows_of_all, 0), reference_point, core_count());
   const MatrixXd g = gather(system.T, inertia.load);
   answers.x = expand(system.T, residual_displacements(problem, internal, g));
   if (problem.partition.n_I() > 0) answers.share = internal.Phi.transpose() * rows(g, problem.partition.internal);
+  answers.force = g;
   return answers;
 }
 

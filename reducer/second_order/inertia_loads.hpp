@@ -17,6 +17,7 @@ struct InertiaAnswers {
   Eigen::Vector3d reference_point = Eigen::Vector3d::Zero();
   Eigen::MatrixXd x;      ///< displacements of all coordinates of the mesh x 12
   Eigen::MatrixXd share;  ///< m x 12: Φ_Iᵀ g
+  Eigen::MatrixXd force;  ///< q x 12: g
 };
 
 InertiaAnswers inertia_answers(const InternalProblem& problem, const InternalModes& internal,

@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "common/text.hpp"
-#include "reducer/recover/envelope.hpp"
+#include "reducer/recover/instant_values.hpp"
 #include "reducer/report/certificate.hpp"
 
 namespace tisserand::reducer {
@@ -92,25 +92,19 @@ std::string peaks_text(const Solution& s, Index c, const Labels& labels) {
                         fmt::format("largest {:.6g} rad, {}, at {}", turn,
                                     vector_text(nodes.col(turned).tail<3>(), turn), node_text(s, turned)));
   const formats::Recovery& r = s.tables;
-  Envelope envelope;
-  extend(r, instant_values(r, solid_points(r), s.fields, c), 0.0, envelope);
-  const auto element = [&](const char* what, const Peak& peak) {
+  const InstantPeaks peaks = instant_peaks(r, instant_values(r, solid_points(r), s.fields, c));
+  const auto element = [&](const char* what, const LargestAt& peak) {
     if (peak.at < 0) return;
-    const auto e = static_cast<std::size_t>(peak.at);
-    Vector3d middle = Vector3d::Zero();
-    for (int k = r.elements.first[e]; k < r.elements.first[e + 1]; ++k)
-      middle += r.position.col(r.elements.node[static_cast<std::size_t>(k)]);
-    middle /= r.elements.first[e + 1] - r.elements.first[e];
     text += fmt::format(line_form, what,
                         fmt::format("largest {:.6g}{} at {} {}", peak.value, labels.stress, element_text(r, peak.at),
-                                    vector_text(middle, s.system.length)));
+                                    vector_text(element_middle(r, peak.at), s.system.length)));
   };
-  element("normal, beams", envelope.beam);
-  element("von Mises, shells", envelope.shell);
-  if (envelope.solid.at >= 0)
+  element("normal, beams", peaks.beam);
+  element("von Mises, shells", peaks.shell);
+  if (peaks.solid.at >= 0)
     text += fmt::format(
         line_form, "von Mises, solids",
-        fmt::format("largest {:.6g}{} at {}", envelope.solid.value, labels.stress, node_text(s, envelope.solid.at)));
+        fmt::format("largest {:.6g}{} at {}", peaks.solid.value, labels.stress, node_text(s, peaks.solid.at)));
   return text;
 }
 

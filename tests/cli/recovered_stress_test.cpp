@@ -138,6 +138,65 @@ TEST_F(RecoveredStress, FilesOfBeforeAreReadWithNotes) {
   EXPECT_THAT(outcome.out, AllOf(HasSubstr("written before version 1.10"), HasSubstr("no answers to inertia loads")));
 }
 
+/// Peak memory of a program in MB.
+double peak_memory(const std::vector<std::string>& words, const Surroundings& where) {
+  const pid_t child = start(words, where);
+  int status = 0;
+  struct rusage usage {};
+  ::wait4(child, &status, 0, &usage);
+  EXPECT_EQ(status, 0) << read_text(where.folder + "/.err");
+  return 1e-3 * static_cast<double>(usage.ru_maxrss);
+}
+
+// 300 instants are more than the program holds at once. Of 9000 more it keeps the time and the row, 24 bytes each: less
+// than what the allocator differs by.
+TEST_F(RecoveredStress, MemoryOfAnEnvelopeDoesNotGrowWithTheRun) {
+  ASSERT_EQ(reduce("spinning_bar").code, 0);
+  write_text(folder.file("turning.scene.yaml"), R"yaml(scene: turning bar
+bodies: {c: {type: superelement, file: spinning_bar.superelement.h5}}
+joints: {hub: {type: revolute, a: ground, b: c/a, axis: [0, 0, 1]}}
+loads: {push: {type: force, at: c/b, value: [0, 10, 0]}}
+integrator: {step: 0.001, end: 9.3}
+)yaml");
+  std::vector<double> peaks;
+  for (const char* end : {"integrator.end=0.3", "integrator.end=9.3"}) {
+    const Outcome outcome =
+        call({program("mechanism"), "run", "turning.scene.yaml", "-o", "run.results.h5", "--set", end}, where);
+    ASSERT_EQ(outcome.code, 0) << outcome.error;
+    peaks.push_back(peak_memory({program("reducer"), "recover", "spinning_bar.recovery.h5", "run.results.h5", "-o",
+                                 "out", "--envelope", "--point", "b", "--element", "1", "--group", "x"},
+                                where));
+  }
+  EXPECT_LT(peaks[1], peaks[0] + 3.0);
+  EXPECT_FALSE(fs::exists(folder.file("out/c.pvd")));
+  for (const char* ending : {"_envelope.csv", "_envelope.vtu", "_points.csv", "_elements.csv", "_groups.csv"})
+    EXPECT_TRUE(fs::exists(folder.file(std::string("out/c") + ending))) << ending;
+}
+
+// Without space on the disk (here: files of 256 bytes at most) there is an error, and no file that is cut short.
+TEST_F(RecoveredStress, FullDisksLeaveNoPartOfAFile) {
+  const std::string before = TISSERAND_SOURCE_DIR "/tests/compatibility/";
+  Surroundings full = where;
+  full.file_size = 256;
+  for (const bool series : {true, false}) {
+    std::vector<std::string> words{program("reducer"),
+                                   "recover",
+                                   before + "bar_1.0.recovery.h5",
+                                   before + "bar_1.9.results.h5",
+                                   "-o",
+                                   "out",
+                                   "--frame",
+                                   "part",
+                                   "--group",
+                                   "axis"};
+    if (!series) words.emplace_back("--envelope");
+    const Outcome outcome = call(words, full);
+    EXPECT_EQ(outcome.code, 1) << outcome.out;
+    EXPECT_THAT(outcome.error, HasSubstr("out/"));
+    for (const auto& entry : fs::directory_iterator(folder.file("out"))) ADD_FAILURE() << entry.path();
+  }
+}
+
 // A failure leaves the superelement of before, which refuses the companion of the new one.
 TEST_F(RecoveredStress, FilesOfAReductionTakeTheirNamesTogether) {
   ASSERT_EQ(reduce("stress_cantilever").code, 0);

@@ -115,6 +115,54 @@ TEST(RecoveryFile, HoldsAnswersToInertiaLoads) {
   }
 }
 
+/// loaded_recovery() with forces on nodes and numbers of nodes.
+Recovery forced_recovery() {
+  Recovery r = loaded_recovery();
+  const Eigen::Index boundary = r.coordinates() - r.internal();
+  r.loads->boundary_stiffness = Eigen::MatrixXd::Random(boundary, boundary);
+  for (int n = 0; n < r.nodes(); ++n) r.node_number.push_back(10 * n);
+  return r;
+}
+
+TEST(RecoveryFile, HoldsForcesOnNodes) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.recovery.h5");
+  const Recovery expected = forced_recovery();
+  const auto forces = [&](NodalForce force) {
+    const bool of_load = force == NodalForce::load_force || force == NodalForce::load_moment;
+    std::srand(static_cast<unsigned>(force) + 1u);
+    return Eigen::MatrixXd::Random(3 * expected.nodes(), of_load ? inertia_loads : expected.internal()).eval();
+  };
+  RecoveryWriter writer(path, expected);
+  for (const RecoveryField field : recovery_fields) {
+    const Eigen::MatrixXd of_coordinates = small_field(expected, field);
+    writer.append(field, of_coordinates);
+    writer.append_loads(field, of_coordinates.leftCols<inertia_loads>());
+  }
+  for (const NodalForce force : nodal_forces) writer.append_forces(force, forces(force));
+  writer.finish();
+  const RecoveryReader reader(path);
+  EXPECT_EQ(reader.recovery().loads->boundary_stiffness, expected.loads->boundary_stiffness);
+  EXPECT_EQ(reader.recovery().node_number, expected.node_number);
+  for (const NodalForce force : nodal_forces)
+    EXPECT_EQ(reader.read_forces(force, 0, expected.nodes()), FieldRows(forces(force).cast<float>()));
+}
+
+TEST(RecoveryFile, ForcesOnNodesAreChecked) {
+  const auto fault = [](const auto& change) {
+    Recovery r = forced_recovery();
+    change(r);
+    return error_of([&] { check(r, "a.recovery.h5"); });
+  };
+  EXPECT_EQ(fault([](Recovery&) {}), "no error");
+  EXPECT_THAT(fault([](Recovery& r) { r.loads->boundary_stiffness.conservativeResize(1, 1); }),
+              HasSubstr("/loads/boundary_stiffness: has 1 entries"));
+  EXPECT_THAT(fault([](Recovery& r) { r.loads->boundary_stiffness(0, 0) = std::numeric_limits<double>::infinity(); }),
+              HasSubstr("/loads/boundary_stiffness: entry 0 is inf"));
+  EXPECT_THAT(fault([](Recovery& r) { r.node_number[0] = -1; }), HasSubstr("/nodes/number: entry 0 is -1"));
+  EXPECT_THAT(fault([](Recovery& r) { r.node_number.pop_back(); }), HasSubstr("/nodes/number"));
+}
+
 TEST(RecoveryFile, LoadsAreChecked) {
   const auto fault = [](const auto& change) {
     Recovery r = loaded_recovery();

@@ -26,7 +26,13 @@ void keep(const reducer::RecoverySource& source, Recovered& result) {
       rows_of[f] += rows.rows();
     };
   };
-  reducer::recovery_fields(source, result.tables, unheard, fill(result.field, filled), fill(result.loads, answered));
+  const auto forces = [&](formats::NodalForce force, const Eigen::MatrixXd& rows) {
+    Eigen::MatrixXd& all = result.forces[static_cast<std::size_t>(force)];
+    all.conservativeResize(all.rows() + rows.rows(), rows.cols());
+    all.bottomRows(rows.rows()) = rows;
+  };
+  reducer::recovery_fields(source, result.tables, unheard,
+                           {fill(result.field, filled), fill(result.loads, answered), forces});
   for (std::size_t f = 0; f < filled.size(); ++f) TISSERAND_ENSURE(filled[f] == result.field[f].rows(), "field {}", f);
 }
 
@@ -39,6 +45,11 @@ Recovered recovered(const reducer::Mesh& mesh, int modes) {
   part.file = "part.yaml";
   part.units = Units::si();
   part.modes.count = modes;
+  return recovered(mesh, std::move(part));
+}
+
+Recovered recovered(const reducer::Mesh& mesh, formats::Part part) {
+  start_solvers();
   part.recovery = true;
   Recovered result;
   result.superelement =
@@ -66,6 +77,9 @@ void write(const Recovered& r, const std::string& path) {
     writer.append(field, r.of(field));
     if (r.tables.loads) writer.append_loads(field, r.loads[static_cast<std::size_t>(field)]);
   }
+  for (const formats::NodalForce force : formats::nodal_forces)
+    if (r.tables.loads && r.tables.loads->has_forces())
+      writer.append_forces(force, r.forces[static_cast<std::size_t>(force)]);
   writer.finish();
 }
 

@@ -19,13 +19,15 @@ struct Recovered {
   formats::Recovery tables;
   std::array<Eigen::MatrixXd, 5> field;  ///< by RecoveryField
   std::array<Eigen::MatrixXd, 5> loads;  ///< the same of the inertia loads; without columns where there are none
+  std::array<Eigen::MatrixXd, 4> forces;  ///< by NodalForce; without rows where there are none
   formats::Superelement superelement;
 
   const Eigen::MatrixXd& of(formats::RecoveryField which) const { return field[static_cast<std::size_t>(which)]; }
 };
 
-/// Reduces the mesh with `modes` internal modes.
+/// Reduces the mesh with `modes` internal modes, or as the part says.
 Recovered recovered(const reducer::Mesh& mesh, int modes);
+Recovered recovered(const reducer::Mesh& mesh, formats::Part part);
 
 /// What the part's modal body has for recovery, and that body.
 std::pair<Recovered, formats::ModalBody> recovered_modal_body(formats::Part part);

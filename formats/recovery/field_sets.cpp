@@ -1,0 +1,85 @@
+// Names and shapes.
+#include "formats/recovery/field_sets.hpp"
+
+#include <algorithm>
+
+#include "common/error.hpp"
+
+namespace tisserand::formats {
+namespace {
+
+const char* dataset_of(RecoveryField field) {
+  switch (field) {
+    case RecoveryField::translation:
+      return "/shapes/translation";
+    case RecoveryField::rotation:
+      return "/shapes/rotation";
+    case RecoveryField::beam_force:
+      return "/stress/beam_force";
+    case RecoveryField::shell_stress:
+      return "/stress/shell";
+    case RecoveryField::solid_stress:
+      return "/stress/solid";
+  }
+  TISSERAND_ENSURE(false, "recovery field {}", static_cast<int>(field));
+}
+
+const char* loads_dataset_of(RecoveryField field) {
+  switch (field) {
+    case RecoveryField::translation:
+      return "/loads/translation";
+    case RecoveryField::rotation:
+      return "/loads/rotation";
+    case RecoveryField::beam_force:
+      return "/loads/beam_force";
+    case RecoveryField::shell_stress:
+      return "/loads/shell";
+    case RecoveryField::solid_stress:
+      return "/loads/solid";
+  }
+  TISSERAND_ENSURE(false, "recovery field {}", static_cast<int>(field));
+}
+
+const char* forces_dataset_of(NodalForce force) {
+  switch (force) {
+    case NodalForce::load_force:
+      return "/loads/force";
+    case NodalForce::load_moment:
+      return "/loads/moment";
+    case NodalForce::mode_force:
+      return "/loads/mode_force";
+    case NodalForce::mode_moment:
+      return "/loads/mode_moment";
+  }
+  TISSERAND_ENSURE(false, "nodal force {}", static_cast<int>(force));
+}
+
+}  // namespace
+
+FieldSet of_coordinates(const Recovery& recovery, RecoveryField field) {
+  return {dataset_of(field), items(recovery, field), width(field), recovery.coordinates(),
+          chunk_items(recovery, field)};
+}
+
+FieldSet of_loads(const Recovery& recovery, RecoveryField field) {
+  return {loads_dataset_of(field), items(recovery, field), width(field), inertia_loads, chunk_items(recovery, field)};
+}
+
+FieldSet of_forces(const Recovery& recovery, NodalForce force) {
+  const bool of_load = force == NodalForce::load_force || force == NodalForce::load_moment;
+  return {forces_dataset_of(force), recovery.nodes(), 3, of_load ? inertia_loads : recovery.internal(),
+          chunk_items(recovery, RecoveryField::translation)};
+}
+
+std::vector<FieldSet> field_sets(const Recovery& recovery) {
+  std::vector<FieldSet> sets;
+  for (const RecoveryField field : recovery_fields) sets.push_back(of_coordinates(recovery, field));
+  if (!recovery.loads) return sets;
+  for (const RecoveryField field : recovery_fields) sets.push_back(of_loads(recovery, field));
+  if (!recovery.loads->has_forces()) return sets;
+  for (const NodalForce force : nodal_forces)
+    if (const FieldSet set = of_forces(recovery, force); set.columns > 0) sets.push_back(set);
+  return sets;
+}
+
+}  // namespace tisserand::formats

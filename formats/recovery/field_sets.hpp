@@ -1,0 +1,28 @@
+// The datasets of a recovery file that are as long as the mesh: names, shapes, chunks.
+#pragma once
+
+#include <vector>
+
+#include "formats/hdf5/file.hpp"
+#include "formats/recovery/recovery.hpp"
+
+namespace tisserand::formats {
+
+/// A field per coordinate, or per load: items x width x columns.
+struct FieldSet {
+  const char* dataset;
+  int items, width, columns;
+  int chunk;  ///< items that are written together
+
+  hdf5::Shape shape() const {
+    return {static_cast<std::uint64_t>(items), static_cast<std::uint64_t>(width), static_cast<std::uint64_t>(columns)};
+  }
+};
+FieldSet of_coordinates(const Recovery& recovery, RecoveryField field);
+FieldSet of_loads(const Recovery& recovery, RecoveryField field);
+FieldSet of_forces(const Recovery& recovery, NodalForce force);
+
+/// All of a file: of coordinates, of loads, of forces on nodes.
+std::vector<FieldSet> field_sets(const Recovery& recovery);
+
+}  // namespace tisserand::formats

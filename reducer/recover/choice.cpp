@@ -1,0 +1,111 @@
+// From words of the command line to nodes, elements and groups.
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "common/error.hpp"
+#include "common/text.hpp"
+#include "reducer/recover/history_tables.hpp"
+#include "reducer/recover/places.hpp"
+
+namespace tisserand::reducer {
+namespace {
+
+using formats::Recovery;
+
+struct Words {
+  std::vector<std::string> points, elements, groups;
+};
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r");
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// Adds the lines "point tip", "element 12", "group flange"; # begins a comment at the start of a line.
+void add_lines(const std::string& path, Words& words) {
+  std::ifstream file(path);
+  if (!file) throw Error("cannot be read", path, "give a text file with lines `point ...`, `element ...`, `group ...`");
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    line = trimmed(line);
+    if (line.empty() || line[0] == '#') continue;
+    const std::size_t space = line.find_first_of(" \t");
+    const std::string kind = line.substr(0, space),
+                      rest = space == std::string::npos ? "" : trimmed(line.substr(space));
+    std::vector<std::string>* list = kind == "point"     ? &words.points
+                                     : kind == "element" ? &words.elements
+                                     : kind == "group"   ? &words.groups
+                                                         : nullptr;
+    if (list == nullptr || rest.empty())
+      throw Error(fmt::format("is '{}'", printable_line(line, 60)), fmt::format("{}:{}", path, number),
+                  "write `point tip`, `point 0.5,0,0`, `element 12`, `element skin/12` or `group skin`");
+    list->push_back(rest);
+  }
+}
+
+int find_group(const Recovery& r, const std::string& name, const std::string& where) {
+  const auto found = std::find(r.group_name.begin(), r.group_name.end(), name);
+  if (found != r.group_name.end()) return static_cast<int>(found - r.group_name.begin());
+  throw Error(
+      fmt::format("has no group '{}'", printable_line(name, 60)), where,
+      r.group_name.empty() ? "choose nodes with --point" : "give one of " + listed(nearest_names(name, r.group_name)));
+}
+
+/// "12", or "group/12".
+int find_element(const Recovery& r, const std::string& word, const std::string& where) {
+  const std::size_t slash = word.rfind('/');
+  const std::string digits = slash == std::string::npos ? word : word.substr(slash + 1);
+  int number = 0;
+  const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+  if (fault != std::errc() || end != digits.data() + digits.size())
+    throw Error(fmt::format("'{}' is no number of an element", printable_line(word, 60)), "--element",
+                "give a number, such as 12, or group and number, such as skin/12");
+  const int group = slash == std::string::npos ? -1 : find_group(r, word.substr(0, slash), where);
+  std::vector<int> found;
+  for (int e = 0; e < r.elements.count(); ++e)
+    if (r.elements.id[static_cast<std::size_t>(e)] == number &&
+        (group < 0 || r.elements.group[static_cast<std::size_t>(e)] == group))
+      found.push_back(e);
+  if (found.empty())
+    throw Error(
+        fmt::format("has no element '{}'", printable_line(word, 60)), where,
+        "give the number in the deck, or the number within its group; `reducer recover` without --element writes "
+        "all of them into the envelope");
+  if (found.size() == 1) return found[0];
+  std::vector<std::string> names;
+  for (const int e : found) names.push_back(element_text(r, e));
+  const auto other = static_cast<std::size_t>(r.elements.group[static_cast<std::size_t>(found[0])]);
+  throw Error(fmt::format("has {} elements '{}': {}", found.size(), word, listed(names)), where,
+              group < 0 ? fmt::format("give the group too, such as --element {}/{}", r.group_name[other], number)
+                        : "choose their nodes with --point");
+}
+
+}  // namespace
+
+ChosenHistories chosen_histories(const Recovery& r, const BodyMotion& still, const RecoverRequest& request) {
+  Words words{request.points, request.elements, request.groups};
+  if (!request.points_file.empty()) add_lines(request.points_file, words);
+  std::vector<ChosenItem> nodes, elements, groups;
+  for (const std::string& word : words.points) nodes.push_back({word, find_node(r, word, request.recovery)});
+  for (const std::string& word : words.elements) elements.push_back({word, find_element(r, word, request.recovery)});
+  for (const std::string& word : words.groups) {
+    const int group = find_group(r, word, request.recovery);
+    const auto is_it = [group](const ChosenItem& item) { return item.index == group; };
+    if (std::none_of(groups.begin(), groups.end(), is_it)) groups.push_back({word, group});
+  }
+  ChosenHistories chosen;
+  const auto add = [&chosen](std::unique_ptr<HistoryTable> table, const char* ending) {
+    chosen.tables.push_back(std::move(table));
+    chosen.endings.emplace_back(ending);
+  };
+  if (!nodes.empty()) add(std::make_unique<NodeTable>(r, still, request.frame, std::move(nodes)), "points");
+  if (!elements.empty()) add(std::make_unique<StressTable>(r, still, std::move(elements)), "elements");
+  if (!groups.empty()) add(std::make_unique<GroupTable>(r, still, std::move(groups)), "groups");
+  return chosen;
+}
+
+}  // namespace tisserand::reducer

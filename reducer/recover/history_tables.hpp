@@ -1,0 +1,108 @@
+// The tables of histories: of nodes, of elements, of groups.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "reducer/recover/histories.hpp"
+#include "reducer/recover/measures.hpp"
+
+namespace tisserand::reducer {
+
+/// Something chosen, with the words by which it was.
+struct ChosenItem {
+  std::string label;
+  int index = 0;  ///< node, element or group
+};
+
+/// Rows of items of a field at the instants of a batch, kept as blocks pass.
+class KeptItems {
+ public:
+  explicit KeptItems(formats::RecoveryField field) : field_(field) {}
+  void want(int item) { rows_.try_emplace(item); }
+  void take(const FieldBlock& block);
+  /// width x instants
+  const Eigen::MatrixXf& of(int item) const { return rows_.at(item); }
+
+ private:
+  formats::RecoveryField field_;
+  std::map<int, Eigen::MatrixXf> rows_;
+};
+
+/// Displacement x, y, z (axes of the frame asked for), position, and the largest von Mises stress (beams: |normal
+/// stress|) of the elements at the node.
+class NodeTable : public HistoryTable {
+ public:
+  NodeTable(const formats::Recovery& recovery, const BodyMotion& still, RecoverFrame frame,
+            std::vector<ChosenItem> nodes);
+  std::string header() const override;
+  void begin(Eigen::Index /*instants*/) override {}
+  void take(const FieldBlock& block) override;
+  std::string cells(const BodyMotion& motion, Eigen::Index instant) const override;
+
+ private:
+  struct Around {
+    std::vector<int> beams, shells, points;
+  };
+  double stress_at(const Around& around, const BodyMotion& motion, Eigen::Index instant) const;
+
+  const formats::Recovery& recovery_;
+  const BodyMotion& still_;
+  RecoverFrame frame_;
+  std::vector<ChosenItem> nodes_;
+  std::vector<Around> around_;
+  KeptItems translation_{formats::RecoveryField::translation}, beam_{formats::RecoveryField::beam_force},
+      shell_{formats::RecoveryField::shell_stress}, solid_{formats::RecoveryField::solid_stress};
+};
+
+/// Of beams forces and moments at both ends and the largest and smallest normal stress; of shells von Mises stress of
+/// both faces, principal stresses, membrane and bending; of solids von Mises and principal stresses, the worst of its
+/// nodes, and the mean of its nodes.
+class StressTable : public HistoryTable {
+ public:
+  StressTable(const formats::Recovery& recovery, const BodyMotion& still, std::vector<ChosenItem> elements);
+  std::string header() const override;
+  void begin(Eigen::Index /*instants*/) override {}
+  void take(const FieldBlock& block) override;
+  std::string cells(const BodyMotion& motion, Eigen::Index instant) const override;
+
+ private:
+  std::string beam_cells(int beam, const BodyMotion& motion, Eigen::Index instant) const;
+  std::string shell_cells(int shell, Eigen::Index instant) const;
+  std::string solid_cells(int element, Eigen::Index instant) const;
+
+  const formats::Recovery& recovery_;
+  const BodyMotion& still_;
+  std::vector<ChosenItem> elements_;
+  std::map<int, std::vector<int>> points_;  ///< of each solid
+  KeptItems beam_{formats::RecoveryField::beam_force}, shell_{formats::RecoveryField::shell_stress},
+      solid_{formats::RecoveryField::solid_stress};
+};
+
+/// The largest von Mises stress of a group's elements and the number of that element (of solids: the label of the
+/// node), the largest and the smallest principal stress.
+class GroupTable : public HistoryTable {
+ public:
+  GroupTable(const formats::Recovery& recovery, const BodyMotion& still, std::vector<ChosenItem> groups);
+  std::string header() const override;
+  void begin(Eigen::Index instants) override;
+  void take(const FieldBlock& block) override;
+  std::string cells(const BodyMotion& motion, Eigen::Index instant) const override;
+
+ private:
+  struct Worst {
+    float von_mises = 0.0f, largest = 0.0f, smallest = 0.0f;
+    int at = -1;  ///< element, or of solids the stress point
+    bool is_point = false;
+  };
+  void raise(int group, const FieldBlock& block, Eigen::Index i);
+
+  const formats::Recovery& recovery_;
+  const BodyMotion& still_;
+  std::vector<ChosenItem> groups_;
+  std::vector<int> row_;                   ///< of each group of the file; −1: not chosen
+  std::vector<std::vector<Worst>> worst_;  ///< by row, then by instant of the batch
+};
+
+}  // namespace tisserand::reducer

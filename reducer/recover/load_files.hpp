@@ -1,0 +1,53 @@
+// Load cases for the part's own mesh in another finite element program.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/text.hpp"
+#include "reducer/recover/nodal_loads.hpp"
+
+namespace tisserand::reducer {
+
+/// Number of each node in the load files: that of the mesh file; nodes without one are numbered behind the largest.
+struct NodeNumbers {
+  std::vector<int> number;
+  std::vector<int> unknown;  ///< nodes without a number in the mesh file
+};
+NodeNumbers node_numbers(const formats::Recovery& recovery);
+
+/// Loads of one instant and what the file says of them.
+struct LoadInstant {
+  double time = 0.0;
+  NodalLoads loads;
+  LoadBalance balance;
+};
+
+/// What stands at the head of a file, in its comments.
+struct LoadHead {
+  const formats::Recovery& recovery;
+  const BodyMotion& still;
+  const RecoverRequest& request;
+  const NodeNumbers& numbers;
+};
+
+/// `NAME_loads.bdf` (Nastran bulk data) or `NAME_loads.inp` (CalculiX, Abaqus), instant by instant.
+class LoadFile {
+ public:
+  LoadFile(LoadFormat format, const std::string& path, const LoadHead& head, Eigen::Index instants);
+  void add(const LoadInstant& instant);
+  /// Gives the file its name, which is returned.
+  std::string publish();
+
+ private:
+  LoadFormat format_;
+  std::string path_;
+  const LoadHead& head_;  ///< lives longer
+  TextFile file_;
+  int count_ = 0;
+};
+
+/// "loads at 0.1 s   cancel to ...": a line for the terminal.
+std::string balance_text(const formats::Recovery& recovery, const LoadInstant& instant, const BodyMotion& still);
+
+}  // namespace tisserand::reducer
