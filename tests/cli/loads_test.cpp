@@ -11,6 +11,7 @@
 #include <Eigen/Dense>
 
 #include "formats/recovery/recovery.hpp"
+#include "tests/cli/bar_mesh.hpp"
 #include "tests/cli/scenes.hpp"
 #include "tests/support/vtk/vtu_reader.hpp"
 
@@ -23,64 +24,6 @@ using Eigen::Vector3d;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
-
-/// Straight tetrahedra of ten nodes in a bar of 0.4 x 0.05 x 0.04 m, numbers from 101.
-struct BarMesh {
-  std::map<std::array<int, 3>, int> number;  ///< by place on a grid of half cells
-  std::vector<std::array<int, 10>> tetrahedra;
-  std::map<int, Vector3d> position;
-
-  static constexpr std::array<int, 3> cells{6, 1, 1};
-
-  int node(const std::array<int, 3>& at) {
-    const auto [found, is_new] = number.try_emplace(at, 101 + static_cast<int>(number.size()));
-    if (is_new)
-      position[found->second] = {0.4 * at[0] / (2.0 * cells[0]), 0.05 * at[1] / (2.0 * cells[1]),
-                                 0.04 * at[2] / (2.0 * cells[2])};
-    return found->second;
-  }
-  BarMesh() {
-    // Six tetrahedra around the diagonal of a cell: along the axes in each order.
-    for (int i = 0; i < cells[0]; ++i)
-      for (std::array<int, 3> order : {std::array{0, 1, 2}, std::array{0, 2, 1}, std::array{1, 0, 2},
-                                       std::array{1, 2, 0}, std::array{2, 0, 1}, std::array{2, 1, 0}}) {
-        std::array<std::array<int, 3>, 4> corner{};
-        corner[0] = {2 * i, 0, 0};
-        for (std::size_t k = 0; k < 3; ++k) {
-          corner[k + 1] = corner[k];
-          corner[k + 1][static_cast<std::size_t>(order[k])] += 2;
-        }
-        const bool left = order == std::array{0, 2, 1} || order == std::array{1, 0, 2} || order == std::array{2, 1, 0};
-        if (left) std::swap(corner[1], corner[2]);
-        constexpr std::array<std::array<std::size_t, 2>, 6> edges{{{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}}};
-        std::array<int, 10> nodes{};
-        for (std::size_t k = 0; k < 4; ++k) nodes[k] = node(corner[k]);
-        for (std::size_t k = 0; k < 6; ++k) {
-          std::array<int, 3> middle{};
-          for (std::size_t c = 0; c < 3; ++c) middle[c] = (corner[edges[k][0]][c] + corner[edges[k][1]][c]) / 2;
-          nodes[k + 4] = node(middle);
-        }
-        tetrahedra.push_back(nodes);
-      }
-  }
-
-  /// Nodes, elements, material and section, for both programs; in m, kg, s or in mm, t, s.
-  std::string deck(bool is_mm) const {
-    std::string text = "*NODE\n";
-    for (const auto& [id, at] : position) {
-      const Vector3d x = (is_mm ? 1e3 : 1.0) * at;
-      text += fmt::format("{}, {:.17g}, {:.17g}, {:.17g}\n", id, x.x(), x.y(), x.z());
-    }
-    text += "*ELEMENT, TYPE=C3D10, ELSET=body\n";
-    for (std::size_t e = 0; e < tetrahedra.size(); ++e)
-      text += fmt::format("{}, {}\n", e + 1, fmt::join(tetrahedra[e], ", "));
-    return text + fmt::format(
-                      "*MATERIAL, NAME=steel\n*ELASTIC\n{}, 0.3\n*DENSITY\n{}\n*SOLID SECTION, ELSET=body, "
-                      "MATERIAL=steel\n",
-                      is_mm ? "2.1e5" : "2.1e11", is_mm ? "7.85e-9" : "7850");
-  }
-  int at(int i, int j, int k) const { return number.at({i, j, k}); }
-};
 
 /// Numbers of the blocks of a .dat file: rows of a table "displacements" or "stresses".
 using Rows = std::vector<std::vector<double>>;
@@ -445,6 +388,26 @@ integrator: {{step: 1e-4, end: 0.005}}
               AllOf(HasSubstr("have no number"), HasSubstr("  b  at 1 0 0")));
 }
 
+// Weight that is off in the run is off in the loads: at rest the forces are those of the run.
+TEST_F(Loads, KnowWhichEffectsAreOff) {
+  reduce({}, false);
+  run(scene_of("second_order: off", std::string("effects: {bar: {gravity: off}}\n") + at_rest));
+  const Outcome outcome = recover({"--body", "bar"});
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_LT(difference_from_run(outcome.out), 1e-4);
+}
+
+// A disk without space for the loads (files of 4 kB at most): an error, and neither file.
+TEST_F(Loads, FullDisksLeaveNoPartOfAFile) {
+  reduce({}, false);
+  run(scene_of("second_order: off", at_rest));
+  where.file_size = 4096;
+  const Outcome outcome = recover({"--body", "bar", "--envelope"});
+  EXPECT_EQ(outcome.code, 1) << outcome.out;
+  for (const char* ending : {"bdf", "inp"})
+    EXPECT_FALSE(fs::exists(folder.file(std::string("out/bar_loads.") + ending))) << ending;
+}
+
 TEST_F(Loads, WhatHasNoneIsRefusedByName) {
   reduce({}, false);
   run(scene_of("second_order: off", speeding));
@@ -474,6 +437,17 @@ loads: {push: {type: force, at: bar/tip, value: [0, 0, 0.01]}}
 integrator: {step: 1e-4, end: 0.01}
 )yaml");
   refused(recover({"--body", "bar", "--times", "0.0001"}), {"'bar' does not deform at time 0.0001", "flexibility: on"});
+  reduce({"modal_body={reference: mean_axis, modes: 4}"}, false);
+  run(R"yaml(scene: modal
+units: {length: m, mass: kg, time: s}
+gravity: [0, 0, -9.81]
+bodies: {bar: {type: modal, file: bar.modal.h5}}
+integrator: {step: 1e-4, end: 0.001}
+)yaml");
+  refused(call({program("reducer"), "recover", "bar.modal.recovery.h5", "run.results.h5", "--loads", "calculix", "-o",
+                "out", "--times", "0.001"},
+               where),
+          {"'bar' is modal", "superelement"});
   const Outcome usage = call({program("reducer"), "recover", "a", "b", "--loads", "ansys"}, where);
   EXPECT_EQ(usage.code, 2);
   EXPECT_THAT(usage.error, HasSubstr("nastran"));

@@ -318,10 +318,11 @@ TEST(Histories, OfElementsAndGroupsAreThoseOfEveryInstant) {
       const std::string kind = is_beam ? "_normal [Pa]" : "_principal [Pa]";
       EXPECT_NEAR(one.number(t, element + "/largest" + kind), worst.largest, size);
       EXPECT_NEAR(one.number(t, element + "/smallest" + kind), worst.smallest, size);
-      if (is_shell)
+      if (is_shell) {
         EXPECT_NEAR(
             std::max(one.number(t, element + "/von_mises_top [Pa]"), one.number(t, element + "/von_mises_bottom [Pa]")),
             worst.von_mises, size);
+      }
       EXPECT_NEAR(all.number(t, group + "/von_mises [Pa]"), of_group.von_mises, size);
       EXPECT_NEAR(all.number(t, group + "/largest_principal [Pa]"), of_group.largest, size);
       EXPECT_NEAR(all.number(t, group + "/smallest_principal [Pa]"), of_group.smallest, size);
@@ -356,6 +357,14 @@ TEST(Histories, WordsThatMeanNothingAreErrors) {
   std::ofstream(body.request.points_file) << "point 0,0,0\nnode 12\n";
   EXPECT_THAT(error_of(body.request), AllOf(HasSubstr("list.txt:2"), HasSubstr("'node 12'"), HasSubstr("point tip")));
   EXPECT_FALSE(std::ifstream(body.file("_envelope.csv")).good()) << "nothing is written after a fault";
+}
+
+// The results of this test hold no acceleration of the frame, as those before version 1.10.
+TEST(Histories, LoadsNeedTheMotionOfTheFrame) {
+  Random body(solids());
+  body.request.loads = {reducer::LoadFormat::nastran};
+  EXPECT_THAT(error_of(body.request), AllOf(HasSubstr("do not hold the acceleration"), HasSubstr("1.10")));
+  EXPECT_FALSE(std::ifstream(body.file("_envelope.csv")).good());
 }
 
 }  // namespace
