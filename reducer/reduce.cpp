@@ -6,11 +6,10 @@
 #include "common/error.hpp"
 #include "common/text.hpp"
 #include "reducer/elements/checks.hpp"
+#include "reducer/inside/inside.hpp"
 #include "reducer/modal_body/modal_body.hpp"
-#include "reducer/modes/full_model.hpp"
 #include "reducer/modes/project.hpp"
 #include "reducer/report/describe.hpp"
-#include "reducer/report/memory.hpp"
 #include "reducer/second_order/companion.hpp"
 #include "reducer/sources/build_mesh.hpp"
 
@@ -22,16 +21,10 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   begin("assembly");
   System system = build_system(mesh, part.file, begin.share);
   const formats::RigidProperties rigid = require_mass(system, part.file);
-  const Partition coordinates = partition(mesh, system);
-  const Blocks blocks = take_apart(system, coordinates, part.modes.method);
-  const Factor S_II = factor_inside(blocks, coordinates, part, begin);
-  check_no_mechanism(S_II, mesh, system, coordinates, part.file);
-  begin("boundary modes");
-  const BoundaryModes boundary = boundary_modes(S_II, blocks, system, coordinates, begin.share);
-  begin("internal modes");
-  const auto seek = [&](int modes) { require_memory_of_modes(modes, coordinates, part.file); };
-  const InternalProblem problem{mesh, system, coordinates, blocks, S_II, part.file, begin.share, begin.begin, seek};
-  const InternalModes internal = internal_modes(problem, boundary, part.modes);
+  const Inside inside = reduce_inside(mesh, system, part, begin);
+  const BoundaryModes& boundary = inside.boundary;
+  const InternalModes& internal = inside.internal;
+  const InternalProblem problem = problem_of(mesh, system, inside, part, begin);
   begin("projection");
   Projection projection = project(part, problem, boundary, internal);
 
@@ -42,6 +35,8 @@ Reduction reduce_checked(const Mesh& mesh, const formats::Part& part, const Phas
   result.model = describe(part, boundary, internal, projection.defects, result.superelement);
   describe_mesh(mesh, system, result.model);
   result.model.rigid = rigid;
+  result.model.notes.insert(result.model.notes.begin(), inside.notes.begin(), inside.notes.end());
+  result.model.warnings.insert(result.model.warnings.begin(), inside.warnings.begin(), inside.warnings.end());
   begin("lowest modes");
   describe_lowest_modes(part, problem, boundary, internal, result.superelement, result.model);
 

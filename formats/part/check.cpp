@@ -128,6 +128,12 @@ void check_modes(const Part& part, Faults& faults) {
     faults.add(modes.where, modes.accuracy ? "accuracy" : "moments",
                fmt::format("'{}' needs modes with the boundary held", modes.accuracy ? "accuracy" : "moments"),
                "remove it, or write method: craig_bampton");
+  const bool free_modes = modes.method != ReductionMethod::craig_bampton;
+  if (modes.mechanism == Mechanisms::allow && (free_modes || part.modal_body))
+    faults.add(modes.where, "mechanism",
+               free_modes ? "mechanism: allow needs modes with the boundary held"
+                          : "mechanism: allow has no modal body: its modes have stiffness",
+               free_modes ? "write method: craig_bampton" : "remove `modal_body`, or `mechanism`");
   if (!modes.accuracy) return;
   if (modes.moments.value_or(0) > 0)
     faults.add(modes.where, "moments", "'accuracy' chooses how many moment vectors there are",

@@ -31,6 +31,8 @@ constexpr Choice<EigenSolverChoice> eigensolver_words[] = {{"auto", EigenSolverC
                                                            {"krylov_schur", EigenSolverChoice::krylov_schur},
                                                            {"lapack", EigenSolverChoice::lapack}};
 
+constexpr Choice<Mechanisms> mechanism_words[] = {{"refuse", Mechanisms::refuse}, {"allow", Mechanisms::allow}};
+
 /// One of these says how many modes there are.
 constexpr const char* how_many[] = {"modes", "cutoff", "accuracy"};
 
@@ -156,6 +158,10 @@ std::vector<Field> part_fields() {
           "the type of SLEPc's eigenvalue solver that finds modes: `block_lanczos`, our own, in blocks of columns; "
           "`krylov_schur`, one column at a time; `lapack`, all modes of dense matrices, up to 6000 coordinates; see "
           "[what each costs](../docs/REDUCTION.md#eigenvalue-solvers)"),
+      choice<&ModeSelection::mechanism, mechanism_words>(
+          "mechanism",
+          "`refuse`: an error if something inside moves without stiffness while the boundary is held; `allow`: such "
+          "motions stay, see [mechanism](#mechanism)"),
       {"recovery", "'yes' | 'no' | true | false",
        "`yes`: also a [recovery file](RECOVERY.md) beside the superelement, by which displacements and stresses of "
        "the whole part come back from results",

@@ -146,6 +146,9 @@ enum class EigenSolverChoice { automatic, block_lanczos, krylov_schur, lapack };
 /// Which vectors the inside moves by beside the static modes of the boundary.
 enum class ReductionMethod { craig_bampton, rubin, macneal };
 
+/// What becomes of motions inside a part that meet no stiffness while its boundary is held.
+enum class Mechanisms { refuse, allow };
+
 /// Internal modes: `count` lowest ones (0: Guyan), all below `cutoff` [1/time], or as many as `accuracy` takes. Of
 /// Rubin's and MacNeal's method: modes of the free part.
 struct ModeSelection {
@@ -158,6 +161,7 @@ struct ModeSelection {
   std::optional<int> moments = std::nullopt;  ///< moment vectors; absent: as `accuracy` takes, else none
   EigenSolverChoice eigensolver = EigenSolverChoice::automatic;
   std::string eigensolver_where = {};
+  Mechanisms mechanism = Mechanisms::refuse;
 };
 
 /// Whether a companion file is written (COMPANION.md): by default while it stays small.

@@ -34,6 +34,60 @@ void check_internal_stiffness(const Eigen::MatrixXd& S_II, const std::string& wh
       where, "remove the dependent or rigid internal coordinates from the file");
 }
 
+/// Internal coordinates whose rows of S are zero, and the others.
+struct LooseRows {
+  std::vector<Eigen::Index> loose, elastic;
+};
+
+LooseRows loose_rows(const Eigen::MatrixXd& S, Eigen::Index nb) {
+  LooseRows rows;
+  for (Eigen::Index i = nb; i < S.rows(); ++i) (S.row(i).isZero(0.0) ? rows.loose : rows.elastic).push_back(i);
+  return rows;
+}
+
+/// With coordinates L without stiffness: y_L = M_LL^(-1/2) η_L − G y_E, G = M_LL⁻¹ M_LE, takes the mass between them and
+/// the others out, and S has no part in it.
+CanonicalMatrices with_loose(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LooseRows& rows, Eigen::Index nb,
+                             const std::string& where) {
+  const auto k = static_cast<Eigen::Index>(rows.loose.size()), e = static_cast<Eigen::Index>(rows.elastic.size());
+  const Eigen::MatrixXd M_LL = M(rows.loose, rows.loose);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(M_LL);
+  if (!(solver.eigenvalues()[0] > 1e-12 * solver.eigenvalues()[k - 1]))
+    throw Error(fmt::format("internal coordinate {} has neither stiffness nor mass", rows.loose[0] - nb + 1), where,
+                "remove it from the file");
+  const Eigen::MatrixXd Z = solver.operatorInverseSqrt(), G = Z * Z * M(rows.loose, rows.elastic);
+  std::vector<Eigen::Index> rest;
+  for (Eigen::Index i = 0; i < nb; ++i) rest.push_back(i);
+  rest.insert(rest.end(), rows.elastic.begin(), rows.elastic.end());
+  PartitionedMatrices others{S(rest, rest), M(rest, rest), nb};
+  const Eigen::MatrixXd M_BL = M.topRows(nb)(Eigen::all, rows.loose);
+  others.mass.topRightCorner(nb, e) -= M_BL * G;
+  others.mass.bottomLeftCorner(e, nb) = others.mass.topRightCorner(nb, e).transpose();
+  others.mass.bottomRightCorner(e, e) -= M(rows.elastic, rows.loose) * G;
+  const CanonicalMatrices inner = canonical_form(others, where);
+  const Eigen::Index kept = inner.S_II.size();
+  CanonicalMatrices out = inner;
+  out.S_II = Eigen::VectorXd::Zero(k + kept);
+  out.S_II.tail(kept) = inner.S_II;
+  out.M_BI.resize(nb, k + kept);
+  out.M_BI << M_BL * Z, inner.M_BI;
+  out.static_part = Eigen::MatrixXd::Zero(k + e, nb);
+  out.modal_part = Eigen::MatrixXd::Zero(k + e, k + kept);
+  for (Eigen::Index i = 0; i < e; ++i) {
+    const Eigen::Index row = rows.elastic[static_cast<std::size_t>(i)] - nb;
+    out.static_part.row(row) = inner.static_part.row(i);
+    out.modal_part.row(row).tail(kept) = inner.modal_part.row(i);
+  }
+  const Eigen::MatrixXd by_boundary = G * inner.static_part, by_modes = G * inner.modal_part;
+  for (Eigen::Index i = 0; i < k; ++i) {
+    const Eigen::Index row = rows.loose[static_cast<std::size_t>(i)] - nb;
+    out.static_part.row(row) = -by_boundary.row(i);
+    out.modal_part.row(row).head(k) = Z.row(i);
+    out.modal_part.row(row).tail(kept) = -by_modes.row(i);
+  }
+  return out;
+}
+
 }  // namespace
 
 CanonicalMatrices canonical_form(const PartitionedMatrices& matrices, const std::string& where) {
@@ -50,6 +104,7 @@ CanonicalMatrices canonical_form(const PartitionedMatrices& matrices, const std:
     out.modal_part.resize(0, 0);
     return out;
   }
+  if (const LooseRows rows = loose_rows(S, nb); !rows.loose.empty()) return with_loose(S, M, rows, nb, where);
   const Eigen::MatrixXd S_II = S.bottomRightCorner(m, m), M_II = M.bottomRightCorner(m, m);
   check_internal_stiffness(S_II, where);
   // M_II q = μ S_II q with S_II = L Lᵀ; ω² = 1/μ, so that massless directions are μ = 0 and do no harm.
@@ -84,7 +139,7 @@ CanonicalMatrices canonical_form(const PartitionedMatrices& matrices, const std:
 
 Eigen::Index complete_cluster(const Eigen::VectorXd& eigenvalue, Eigen::Index wanted) {
   Eigen::Index kept = wanted;
-  while (kept > 0 && kept < eigenvalue.size() && eigenvalue[kept] - eigenvalue[kept - 1] < 1e-6 * eigenvalue[kept])
+  while (kept > 0 && kept < eigenvalue.size() && eigenvalue[kept] - eigenvalue[kept - 1] <= 1e-6 * eigenvalue[kept])
     ++kept;
   return kept;
 }

@@ -27,7 +27,8 @@ struct CanonicalMatrices {
       0;  ///< internal directions without mass: they carry no inertia and no weight and are left out
 };
 
-/// Congruence with y_I = −S_II⁻¹ S_IB y_B + Q η, where S_II Q = M_II Q Λ and QᵀM_II Q = 1. Nothing is zeroed. Throws
+/// Coordinates without stiffness, whose rows of S are zero (mechanisms of a part), come first with the eigenvalue 0; the
+/// others are made orthogonal to them in M. Else congruence with y_I = −S_II⁻¹ S_IB y_B + Q η, where S_II Q = M_II Q Λ and QᵀM_II Q = 1. Nothing is zeroed. Throws
 /// Error (at `where`) if S_II is not safely positive definite or M_II is indefinite.
 CanonicalMatrices canonical_form(const PartitionedMatrices& matrices, const std::string& where);
 

@@ -31,12 +31,15 @@ double ratio_of(const SuperelementBody& body, const HeldMode& mode) {
 }
 
 Ratios ratios_of(const SuperelementBody& body, const std::vector<bool>& held) {
-  const double from = 0.1 * std::sqrt(body.S_II.minCoeff());
+  const Eigen::Index loose = (body.S_II.array() <= 0.0).count(), elastic = body.S_II.size() - loose;
+  if (elastic == 0) return {};
+  const auto stiffness = body.S_II.tail(elastic).array();
+  const double from = 0.1 * std::sqrt(stiffness.minCoeff());
   const HeldMode mode = first_mode(body, held, from);
   if (mode.omega == 0.0) return {};
   Ratios ratios{ratio_of(body, mode), mode.omega, 0.0};
   if (!body.damping.is_full()) {
-    ratios.asked = (body.damping.internal.array() / (2.0 * body.S_II.array().sqrt())).maxCoeff();
+    ratios.asked = (body.damping.internal.tail(elastic).array() / (2.0 * stiffness.sqrt())).maxCoeff();
   } else if (const HeldMode free = first_mode(body, std::vector<bool>(held.size(), false), from); free.omega > 0.0) {
     ratios.asked = ratio_of(body, free);
   }

@@ -45,6 +45,8 @@ constexpr double most_displaced_stressed = 0.005;
 constexpr double least_displacement = 1e-3;
 /// The arm of a force, over the span, where it is compared with moments. Bodies between hinges bear no moments.
 constexpr double least_arm = 0.1;
+/// Displacements of a turn by θ are θ × r in a linear body, and err by θ²/2 of it: 2 % here.
+constexpr double most_inner_turn = 0.2;
 constexpr const char* superelement_remedy = "cut it into several, or use second_order with its companion file";
 constexpr const char* modal_remedy = "cut it into several, or take superelements with second_order, or beams";
 
@@ -97,6 +99,12 @@ LinearRange::Limits LinearRange::limits_of(const SuperelementBody& body) {
   Limits limits;
   limits.linear = !body.second_order.stiffening;
   limits.bare = !limits.linear && body.S_II.size() == 0 && body.node.size() == 2;
+  limits.loose = static_cast<int>((body.S_II.array() <= 0.0).count());
+  if (limits.loose > 0) {
+    const MatrixXd R = rigid_columns(body).topRows(body.boundary_size), M = R.transpose() * body.M_BB * R;
+    const MatrixXd about_center = M.bottomRightCorner<3, 3>() - M.bottomLeftCorner<3, 3>() * M.topRightCorner<3, 3>() / body.mass;
+    limits.inertia = about_center.diagonal().maxCoeff();
+  }
   if (!limits.linear && !limits.bare) return limits;
   for (const int a : body.translation_nodes)
     for (const int b : body.translation_nodes)
@@ -191,6 +199,8 @@ void LinearRange::observe(const Model& model, const State& state, const Evaluati
       const double force = limits.axial.dot(motion.y_B) + limits.along.dot(second_order.head(limits.along.size()));
       raise_axial(seen_[i], force, limits.lag, passed);
     }
+    if (limits.loose > 0 && limits.inertia > 0.0)
+      raise(seen_[i].loose, motion.y_I.head(limits.loose).norm() / std::sqrt(limits.inertia));
     if (!limits.linear) continue;
     const SuperelementBody& body = body_of(model, i);
     for (const int j : body.translation_nodes)
@@ -202,9 +212,13 @@ void LinearRange::observe(const Model& model, const State& state, const Evaluati
 }
 
 std::vector<std::string> LinearRange::doubts(const Model& model, const StressedBodies& stressed) const {
-  std::vector<Excess> bent, pressed, displaced, spun, coarse;
+  std::vector<Excess> bent, pressed, displaced, spun, coarse, swung;
   const auto judge = [&](const Judged& body, const Seen& seen, auto first_frequency) {
-    const auto& [force, deflection, axial, spin, moved, moment] = seen;
+    const auto& [force, deflection, axial, spin, moved, loose, moment] = seen;
+    if (loose.value > most_inner_turn)
+      swung.push_back({loose.value, fmt::format("a mechanism inside '{}' turns by about {:.2g} rad (at t = {:.6g}), beyond {:g}: displacements "
+                                                "are linear in it; reduce two parts and join them in the scene",
+                                                body.name, loose.value, loose.time, most_inner_turn)});
     if (body.bare) {
       if (const double r = axial.value / body.buckling; body.buckling > 0.0 && body.pieces == 1 && cubic_share(r) > most_axial)
         coarse.push_back({std::abs(r), fmt::format("'{}' bears {} of {:.2g} of its buckling load between pins (at t = {:.6g}) without "
@@ -263,7 +277,7 @@ std::vector<std::string> LinearRange::doubts(const Model& model, const StressedB
     judge({model.modal_bodies[i].name, modal_[i].span(), modal_[i].buckling(), 1, false, modal_remedy}, modal_seen_[i],
           [&](double spin) { return modal_[i].first_frequency(model, spin); });
   std::vector<std::string> doubts;
-  for (const auto* kind : {&bent, &pressed, &displaced, &spun, &coarse})
+  for (const auto* kind : {&bent, &pressed, &displaced, &spun, &coarse, &swung})
     for (std::string& text : worst_of(*kind)) doubts.push_back(std::move(text));
   return doubts;
 }

@@ -38,6 +38,8 @@ class LinearRange {
     Eigen::VectorXd along;  ///< N of forces on nodes, boundary
     double buckling = 0.0;  ///< π² EI/span², between pins
     double lag = 0.0;       ///< half the period of the first bending vibration between pins
+    int loose = 0;          ///< internal coordinates without stiffness: mechanisms inside the part
+    double inertia = 0.0;   ///< largest about x, y or z through the centre of mass
   };
   struct Extreme {
     double value = 0.0;
@@ -47,6 +49,7 @@ class LinearRange {
     double force = 0.0;  ///< axial, its mean over `lag`; tension is positive
     Extreme deflection, axial, spin;
     Extreme displaced;    ///< moment of the elastic forces on the nodes in their displaced places, in the frame
+    Extreme loose;        ///< turn of a mechanism inside [rad], if it moves all of the inertia
     double moment = 0.0;  ///< largest moment on one node, or a tenth of the span times the force on it
   };
   /// A body as its limits are judged.

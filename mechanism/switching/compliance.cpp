@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+
+#include "common/error.hpp"
 
 namespace tisserand::mechanism {
 namespace {
@@ -26,10 +29,19 @@ MatrixXd strained_shapes(const MatrixXd& S, const VectorXd& units) {
   return units.asDiagonal() * modes.eigenvectors().rightCols(count) * sizes.asDiagonal();
 }
 
+/// The body, if its internal coordinates have stiffness.
+const SuperelementBody& stiff(const SuperelementBody& body) {
+  if (body.modes > 0 && !(body.S_II.minCoeff() > 0.0))
+    throw Error(fmt::format("'{}' has a mechanism inside, which no effect that is switched while the scene runs can hold",
+                            body.name),
+                "effects", "leave out `auto`, or reduce the part as two and join them in the scene");
+  return body;
+}
+
 }  // namespace
 
 SuperelementCompliance::SuperelementCompliance(const SuperelementBody& body)
-    : body_(body),
+    : body_(stiff(body)),
       strained_(strained_shapes(body.S_BB, coordinate_units(body).head(body.boundary_size))),
       inverse_(strained_ * strained_.transpose()),
       rigid_(rigid_columns(body)) {

@@ -4,14 +4,15 @@
 namespace tisserand::reducer {
 
 Factor::Factor(const Matrix& A, const std::function<void(const FactorCost&)>& accept) : size_(A.size()) {
-  constexpr double clearly_definite = 1e-12, null_pivot = 1e-14;
+  constexpr double clearly_definite = 1e-12, null_pivot = 1e-18;
   if (rank_count() > 1 && size_ >= fewest_shared_rows) {
     factor_indefinite(A, null_pivot, accept);
     return;
   }
   auto definite = std::make_unique<Cholesky>(symmetric_rows(A));
   if (accept) accept(definite->cost());
-  if (definite->factor() > clearly_definite) {
+  least_pivot_ = definite->factor();
+  if (least_pivot_ > clearly_definite) {
     cost_ = definite->cost();
     definite_ = std::move(definite);
     return;

@@ -19,7 +19,8 @@ class Factor {
  public:
   Factor() = default;  ///< of a matrix without rows
   /// Factors A, expected to be positive definite. If a pivot is below 1e-12 of the diagonal entry that it comes from,
-  /// MUMPS judges: pivots below 1e-14 of the largest (after scaling) count as null and do not fail.
+  /// MUMPS factors, and pivots below 1e-18 of the largest (after scaling) count as null and do not fail. What has no
+  /// stiffness is found by null_space(), not by pivots.
   explicit Factor(const Matrix& A) : Factor(A, nullptr) {}
   /// `accept` hears what the factorisation will cost, and may throw.
   Factor(const Matrix& A, const std::function<void(const FactorCost&)>& accept);
@@ -30,6 +31,8 @@ class Factor {
 
   int negative() const;
   int null() const;
+  /// The least pivot over the diagonal entry that it comes from, where all are clearly positive; else 0: not known.
+  double least_pivot() const { return definite_ == nullptr ? 0.0 : least_pivot_; }
   /// Entries and operations of L; of MUMPS by its own estimate.
   const FactorCost& cost() const { return cost_; }
 
@@ -53,6 +56,7 @@ class Factor {
   std::function<void(int)> heard_;
   FactorCost cost_;
   int size_ = 0;
+  double least_pivot_ = 0.0;
 };
 
 }  // namespace tisserand::reducer

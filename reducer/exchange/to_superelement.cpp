@@ -146,6 +146,9 @@ double share(const Eigen::MatrixXd& part, const Eigen::MatrixXd& whole) {
 void make_canonical(formats::Superelement& e, Eigen::Index nb, const std::string& where, ImportCertificate& c) {
   const formats::CanonicalMatrices form = formats::canonical_form({e.stiffness, e.mass, nb}, where);
   const Eigen::Index m = form.S_II.size(), n = nb + m;
+  if (m > 0 && !(form.S_II[0] > 0.0))
+    throw Error("an internal coordinate has no stiffness", where,
+                "internal coordinates must not move without strain; write the file with fixed-boundary modes");
   c.massless_dropped = static_cast<int>(form.massless);
   e.dof_node.resize(static_cast<std::size_t>(n));
   e.dof_component.resize(static_cast<std::size_t>(n));

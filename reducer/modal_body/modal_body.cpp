@@ -17,6 +17,7 @@
 #include "reducer/modes/full_model.hpp"
 #include "reducer/modes/internal_modes.hpp"
 #include "reducer/system/assembly.hpp"
+#include "reducer/system/mechanism.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -107,7 +108,11 @@ LumpedModes held_modes(const Mesh& mesh, const System& system, const formats::Mo
                 "hold one node, or 3 + 2 + 1 translations at three nodes, or for a rod four components and two");
   const Blocks blocks = split(system.matrices, p);
   const Factor S_II(blocks.S_II);
-  check_no_mechanism(S_II, mesh, system, p, body.where);
+  require_stiffness(null_space(blocks.S_II, S_II), S_II, mesh, system, p,
+                    {"the modal body", "on its reference",
+                     "give the elements there stiffness in that direction, or split the part at the hinge: a modal body "
+                     "has no mechanism"},
+                    body.where);
   const int available = finite_mode_count(blocks.M_II);
   if (body.modes > available) fail_for_modes(body.modes, available, body.where);
   const Spectrum spectrum = lowest_pairs({blocks.S_II, blocks.M_II, S_II, 0.0}, body.modes, available,
@@ -133,7 +138,7 @@ LumpedModes free_modes(const Mesh& mesh, const System& system, const formats::Mo
   if (!(lowest > 0.0))
     throw Error("modal_body: the part has no free frequencies, and so no mean axis", body.where,
                 "hold six components: reference: tip");
-  const std::optional<FreeModes> pairs = full_free_modes(system, lowest, body.modes, asked);
+  const std::optional<FreeModes> pairs = full_free_modes(system, lowest, body.modes, 6, asked);
   if (!pairs)
     throw Error("modal_body: some rigid motion of the lumped masses moves no mass, which leaves the mean axis open",
                 body.where, "hold six components, or give the part inertia about every axis");

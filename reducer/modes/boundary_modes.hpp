@@ -21,13 +21,6 @@ struct BoundaryModes {
   double rigid_defect = 0.0;
 };
 
-/// Where the null vectors of a singular factor of free coordinates (Partition::internal) move most, in words.
-std::string motions_without_stiffness(const Factor& factor, const Mesh& mesh, const System& system, const Partition& p);
-
-/// Throws Error that names nodes and directions if S_II is singular: a mechanism inside the part.
-void check_no_mechanism(const Factor& S_II, const Mesh& mesh, const System& system, const Partition& p,
-                        const std::string& where);
-
 /// Solves in blocks, then adds (R_I − Ψ R_B) R_B⁺ so that rigid motions of the boundary move the inside rigidly to the
 /// last digit; R = System::R. `share` hears how much is done.
 BoundaryModes boundary_modes(const Factor& S_II, const Blocks& blocks, const System& system, const Partition& p,

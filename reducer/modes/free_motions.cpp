@@ -10,9 +10,10 @@ namespace tisserand::reducer {
 namespace {
 
 FreeMotions held_motions(const InternalProblem& problem, const InternalModes& internal, int most) {
-  const Eigen::Index count = std::min<Eigen::Index>(most, internal.lambda.size());
-  FreeMotions modes{true, internal.lambda.head(count), Eigen::MatrixXd::Zero(problem.system.size(), count)};
-  modes.q(problem.partition.internal, Eigen::all) = internal.Phi.leftCols(count);
+  const Eigen::Index count = std::min<Eigen::Index>(most, internal.lambda.size() - internal.loose());
+  FreeMotions modes{true, internal.lambda.segment(internal.loose(), count),
+                    Eigen::MatrixXd::Zero(problem.system.size(), count)};
+  modes.q(problem.partition.internal, Eigen::all) = internal.Phi.middleCols(internal.loose(), count);
   return modes;
 }
 
@@ -20,13 +21,13 @@ FreeMotions held_motions(const InternalProblem& problem, const InternalModes& in
 
 FreeMotions free_motions(const InternalProblem& problem, const BoundaryModes& boundary, const InternalModes& internal,
                          const formats::Superelement& element, int most) {
+  const int rigid = 6 + internal.loose();
   EigenPairs pairs;
   try {
-    pairs = free_modes(element.stiffness, element.mass, 6 + most);
+    pairs = free_modes(element.stiffness, element.mass, rigid + most, rigid);
   } catch (const Error&) {
     return held_motions(problem, internal, most);  // a rigid motion without mass, something loose: FileCertificate says
   }
-  constexpr int rigid = 6;
   constexpr double resolved = 1e13;  // eigenvalues farther above the first are round-off of massless directions
   Eigen::Index count = 0;
   while (rigid + count < pairs.value.size() && pairs.value[rigid + count] > 0.0 &&

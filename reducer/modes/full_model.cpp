@@ -19,8 +19,9 @@ Eigen::Matrix<double, 6, 6> rigid_mass_about(const System& system, const Eigen::
 
 }  // namespace
 
-Blocks take_apart(System& system, const Partition& p, formats::ReductionMethod method) {
-  if (method == formats::ReductionMethod::craig_bampton && system.size() > most_compared_coordinates)
+Blocks take_apart(System& system, const Partition& p, const formats::ModeSelection& asked) {
+  const bool needed = asked.method != formats::ReductionMethod::craig_bampton || asked.mechanism == formats::Mechanisms::allow;
+  if (!needed && system.size() > most_compared_coordinates)
     return split(std::move(system.matrices), p);
   return split(system.matrices, p);
 }
@@ -37,7 +38,7 @@ formats::RigidProperties full_rigid_properties(const System& system) {
   return rigid;
 }
 
-std::optional<FreeModes> full_free_modes(const System& system, double scale, int count,
+std::optional<FreeModes> full_free_modes(const System& system, double scale, int count, int rigid_motions,
                                          const formats::ModeSelection& asked, Count verify,
                                          const std::function<void(double)>& share) {
   const Eigen::Matrix<double, 6, 6> rigid = rigid_mass_about(system, system.middle);
@@ -48,27 +49,27 @@ std::optional<FreeModes> full_free_modes(const System& system, double scale, int
 
   const SystemMatrices matrices = to_petsc(system.matrices);
   const int available = finite_mode_count(matrices.mass);
-  const int wanted = std::min(available, 6 + count);
-  if (wanted <= 6) return FreeModes{};
+  const int wanted = std::min(available, rigid_motions + count);
+  if (wanted <= rigid_motions) return FreeModes{};
   // As far below the rigid motions as the first mode above: a solution errs by ε λ_max/(λ − shift), 7e-8 for bricks
   // with a tenth of it.
   const double shift = -scale;
   const Factor factor(combine(matrices.stiffness, -shift, matrices.mass));
   const Spectrum spectrum = lowest_pairs({matrices.stiffness, matrices.mass, factor, shift, share}, wanted, available,
                                          choose_solver(system.size(), wanted, asked), verify);
-  const int kept = spectrum.kept - 6;
-  FreeModes modes{{spectrum.pairs.value.segment(6, kept), spectrum.pairs.vector.middleCols(6, kept)},
+  const int kept = spectrum.kept - rigid_motions;
+  FreeModes modes{{spectrum.pairs.value.segment(rigid_motions, kept), spectrum.pairs.vector.middleCols(rigid_motions, kept)},
                   {},
                   report_of(spectrum)};
-  if (spectrum.counted) modes.counted = *spectrum.counted - 6;
+  if (spectrum.counted) modes.counted = *spectrum.counted - rigid_motions;
   return modes;
 }
 
-ModeComparison compare_free_modes(const System& system, double scale, int count, const formats::ModeSelection& asked,
-                                  const Eigen::MatrixXd& u) {
+ModeComparison compare_free_modes(const System& system, double scale, int count, int rigid_motions,
+                                  const formats::ModeSelection& asked,                                  const Eigen::MatrixXd& u) {
   ModeComparison result;
   try {
-    const std::optional<FreeModes> pairs = full_free_modes(system, scale, count, asked);
+    const std::optional<FreeModes> pairs = full_free_modes(system, scale, count, rigid_motions, asked);
     if (!pairs) return result;
     const Eigen::Index kept = std::min<Eigen::Index>(count, pairs->value.size());
     for (Eigen::Index k = 0; k < kept; ++k)

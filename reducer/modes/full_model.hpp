@@ -17,8 +17,8 @@ namespace tisserand::reducer {
 inline constexpr int most_compared_coordinates = 6000;
 
 /// The blocks of S and M. `system` keeps the whole matrices, too, where functions below need them later: for methods
-/// with modes of the free part, and for parts that are small enough to be compared.
-Blocks take_apart(System& system, const Partition& p, formats::ReductionMethod method);
+/// with modes of the free part, for mechanisms, and for parts that are small enough to be compared.
+Blocks take_apart(System& system, const Partition& p, const formats::ModeSelection& asked);
 
 /// Mass, centre of mass and inertia about it from Rᵀ M R of the full mass matrix.
 formats::RigidProperties full_rigid_properties(const System& system);
@@ -29,10 +29,11 @@ struct FreeModes : EigenPairs {
 };
 
 /// Elastic modes of the free part, vᵀ M v = 1: the `count` lowest, fewer if there are no more; a group of equal ones is
-/// completed. `scale`: some eigenvalue ω² of the size of the lowest. `asked`: by which solver. `share` hears how much of the search is done.
+/// completed. `rigid_motions`: six, and those of mechanisms. `scale`: some eigenvalue ω² of the size of the lowest. `asked`: by which solver. `share` hears how much of the search is done.
 /// Empty if a rigid motion moves no mass. Throws Error if round-off hides the frequencies.
 std::optional<FreeModes> full_free_modes(
-    const System& system, double scale, int count, const formats::ModeSelection& asked, Count verify = Count::if_cheap,
+    const System& system, double scale, int count, int rigid_motions, const formats::ModeSelection& asked,
+    Count verify = Count::if_cheap,
     const std::function<void(double)>& share = [](double /*done*/) {});
 
 /// Elastic modes of the free part beside others.
@@ -44,7 +45,7 @@ struct ModeComparison {
 /// Up to `count` lowest modes v of the full part beside the modes `u` (coordinates q, uᵀ M u = 1): modal assurance
 /// criterion weighted with the mass, 1 where they agree. `scale` as above. Empty if a rigid motion moves no mass or
 /// round-off hides the frequencies.
-ModeComparison compare_free_modes(const System& system, double scale, int count, const formats::ModeSelection& asked,
-                                  const Eigen::MatrixXd& u);
+ModeComparison compare_free_modes(const System& system, double scale, int count, int rigid_motions,
+                                  const formats::ModeSelection& asked,                                  const Eigen::MatrixXd& u);
 
 }  // namespace tisserand::reducer

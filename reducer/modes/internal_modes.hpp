@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "formats/part/part.hpp"
 #include "reducer/modes/boundary_modes.hpp"
@@ -27,6 +28,9 @@ struct InternalModes {
   std::optional<double> first_dropped;  ///< ω² of the lowest mode left out
   SolverReport solver;
   std::optional<int> counted;  ///< of the modes kept, by inertia: all of them, or not counted
+  std::vector<int> pins;       ///< internal coordinates, one of each mechanism: its motions come first, λ = 0
+
+  int loose() const { return static_cast<int>(pins.size()); }
 };
 
 /// What the internal modes are computed from.
@@ -35,7 +39,7 @@ struct InternalProblem {
   const System& system;
   const Partition& partition;
   const Blocks& blocks;
-  const Factor& S_II;
+  const Factor& S_II;  ///< of a part with a mechanism: of what its pins leave
   std::string where;
   std::function<void(double)> share = [](double /*done*/) {};  ///< hears how much of a phase is done
   std::function<void(const std::string&)> begin = [](const std::string& /*phase*/) {};  ///< Pencil::begin

@@ -54,7 +54,8 @@ double rigid_residual(const formats::Superelement& element, double length, const
   R.rightCols<3>() /= length;
   const Eigen::MatrixXd SR = scale.asDiagonal() * element.stiffness.topLeftCorner(n_B, n_B) * R;
   const Eigen::MatrixXd S = scale.asDiagonal() * element.stiffness.topLeftCorner(n_B, n_B) * scale.asDiagonal();
-  const double softest = internal.lambda.size() > 0 ? internal.lambda[0] : internal.first_dropped.value_or(0.0);
+  const double softest = internal.lambda.size() > internal.loose() ? internal.lambda[internal.loose()]
+                                                                   : internal.first_dropped.value_or(0.0);
   const double reference = std::max(S.cwiseAbs().maxCoeff(), softest * formats::rigid_properties(element).mass);
   return reference > 0.0 ? SR.cwiseAbs().maxCoeff() / reference : 0.0;
 }

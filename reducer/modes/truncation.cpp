@@ -17,20 +17,20 @@ constexpr int rigid = 6;
 
 /// Below the spectrum, of the size of the first elastic eigenvalue; 0 if there is none. Begins with the largest
 /// quotient of a coordinate; where M is nearly singular, so much of it leaves S behind in round-off, and less is tried.
-double shift_of(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M) {
+double shift_of(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int rigid_motions) {
   double coarse = 0.0;
   for (Eigen::Index i = 0; i < S.rows(); ++i)
     if (M(i, i) > 0.0) coarse = std::max(coarse, S(i, i) / M(i, i));
-  if (!(coarse > 0.0) || S.rows() <= rigid) return 0.0;
+  if (!(coarse > 0.0) || S.rows() <= rigid_motions) return 0.0;
   constexpr int more_trials = 4;
   for (int trial = 0; trial < more_trials; ++trial, coarse *= 1e-3) {
     try {
-      return -0.5 * dense_lowest(S, M, -coarse, rigid + 1).value[rigid];
+      return -0.5 * dense_lowest(S, M, -coarse, rigid_motions + 1).value[rigid_motions];
     } catch (const Error&) {
       continue;
     }
   }
-  return -0.5 * dense_lowest(S, M, -coarse, rigid + 1).value[rigid];
+  return -0.5 * dense_lowest(S, M, -coarse, rigid_motions + 1).value[rigid_motions];
 }
 
 /// All modes of the reduced part that have mass, and what the boundary sees of its directions without.
@@ -141,19 +141,19 @@ Eigen::MatrixXd LeftOut::residual(double lambda) const {
   return R;
 }
 
-EigenPairs free_modes(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count) {
-  const double shift = shift_of(S, M);
+EigenPairs free_modes(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count, int rigid_motions) {
+  const double shift = shift_of(S, M, rigid_motions);
   if (shift == 0.0) return {};
   return dense_lowest(S, M, shift, std::min(count, static_cast<int>(S.rows())));
 }
 
-Eigen::VectorXd free_eigenvalues(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count) {
-  return free_modes(S, M, count).value;
+Eigen::VectorXd free_eigenvalues(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count, int rigid_motions) {
+  return free_modes(S, M, count, rigid_motions).value;
 }
 
 TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, int most) {
   TruncationErrors errors;
-  const double shift = shift_of(S, M);
+  const double shift = shift_of(S, M, rigid);
   if (shift == 0.0) return errors;
   const ReducedModes modes = reduced_modes(S, M, shift, out.G.rows());
   const EigenPairs& pairs = modes.pairs;
@@ -182,7 +182,7 @@ double largest_truncation_error(const Eigen::MatrixXd& S, const Eigen::MatrixXd&
   constexpr double infinite = std::numeric_limits<double>::infinity();
   if (!(lambda < out.first_dropped)) return infinite;
   if (!std::isfinite(out.first_dropped)) return 0.0;  // nothing is left out
-  const double shift = shift_of(S, M);
+  const double shift = shift_of(S, M, rigid);
   if (shift == 0.0) return 0.0;
   const ReducedModes modes = reduced_modes(S, M, shift, out.G.rows());
   const Eigen::Index count = count_with(modes, upper_side(out, lambda), lambda);

@@ -48,11 +48,11 @@ TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::Matrix
 /// the bound; infinite if `lambda` is not below λ_d.
 double largest_truncation_error(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, double lambda);
 
-/// Modes of the free part, the six rigid motions first, from a shift of the size of the first elastic eigenvalue; at
-/// most `count`. Throws Error if S − shift M is not positive definite.
-EigenPairs free_modes(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count);
+/// Modes of the free part, the `rigid_motions` without stiffness first (six, and those of mechanisms), from a shift of
+/// the size of the first elastic eigenvalue; at most `count`. Throws Error if S − shift M is not positive definite.
+EigenPairs free_modes(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count, int rigid_motions);
 
 /// Their eigenvalues.
-Eigen::VectorXd free_eigenvalues(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count);
+Eigen::VectorXd free_eigenvalues(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, int count, int rigid_motions);
 
 }  // namespace tisserand::reducer

@@ -238,6 +238,7 @@ void add_loads(const InternalProblem& problem, const InternalModes& internal, co
   loads.share.bottomRows(m) = answers.share;
   loads.stiffness = Eigen::VectorXd::Zero(n);
   loads.stiffness.tail(m) = internal.lambda;
+  loads.stiffness.segment(n - m, internal.loose()).setConstant(m > internal.loose() ? internal.lambda[internal.loose()] : 1.0);
   loads.left_out = internal.first_dropped.value_or(m > 0 && m < internal.available ? internal.lambda.maxCoeff() : 0.0);
   source.head.loads = std::move(loads);
   add_forces(problem, internal, std::move(answers.force), superelement, source);

@@ -54,14 +54,21 @@ std::vector<double> fixed_frequencies(const formats::Superelement& element) {
   return result;
 }
 
-/// The elastic ones among the lowest.
-std::vector<double> free_frequencies(const formats::Superelement& element, int massless) {
-  const int count = std::min(static_cast<int>(element.size()) - massless, 6 + most_frequencies);
-  if (count <= 6) return {};
-  const Eigen::VectorXd lambda = free_eigenvalues(element.stiffness, element.mass, count);
+/// Internal coordinates without any stiffness: mechanisms that a part has on purpose.
+int mechanisms_of(const formats::Superelement& element) {
+  int count = 0;
+  for (const int row : internal_rows(element)) count += element.stiffness.row(row).isZero(0.0) ? 1 : 0;
+  return count;
+}
+
+/// The elastic ones among the lowest, behind `rigid` without stiffness.
+std::vector<double> free_frequencies(const formats::Superelement& element, int massless, int rigid) {
+  const int count = std::min(static_cast<int>(element.size()) - massless, rigid + most_frequencies);
+  if (count <= rigid) return {};
+  const Eigen::VectorXd lambda = free_eigenvalues(element.stiffness, element.mass, count, rigid);
   std::vector<double> result;
   constexpr double resolved = 1e13;  // eigenvalues farther above the first are round-off
-  for (Eigen::Index k = 6; k < lambda.size() && lambda[k] > 0.0 && lambda[k] < resolved * lambda[6]; ++k)
+  for (Eigen::Index k = rigid; k < lambda.size() && lambda[k] > 0.0 && lambda[k] < resolved * lambda[rigid]; ++k)
     result.push_back(frequency(lambda[k]));
   return result;
 }
@@ -110,7 +117,8 @@ FileCertificate certify(const formats::Superelement& element, const formats::Sup
   const Eigen::VectorXd scale = row_scale(element, report.characteristic_length);
   using Solver = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
   const Solver S(scale.asDiagonal() * element.stiffness * scale.asDiagonal(), Eigen::EigenvaluesOnly);
-  if (element.size() > 6) c.stiffness_condition = S.eigenvalues().maxCoeff() / S.eigenvalues()[6];
+  const int rigid = 6 + mechanisms_of(element);
+  if (element.size() > rigid) c.stiffness_condition = S.eigenvalues().maxCoeff() / S.eigenvalues()[rigid];
   const Solver M(scale.asDiagonal() * element.mass * scale.asDiagonal());
   const Eigen::VectorXd value = M.eigenvalues();
   const int massless = static_cast<int>((value.array() < massless_limit * value.maxCoeff()).count());
@@ -123,7 +131,7 @@ FileCertificate certify(const formats::Superelement& element, const formats::Sup
     c.massless.push_back(listed(words, " with "));
   }
   const auto free = (S.eigenvalues().array() < unresisted_limit * S.eigenvalues().maxCoeff()).count();
-  if (free > 6) {
+  if (free > rigid) {
     c.free_frequency_note =
         fmt::format("{} motions meet no stiffness where a rigid body has six: something in it is loose", free);
     return c;
@@ -133,7 +141,7 @@ FileCertificate certify(const formats::Superelement& element, const formats::Sup
     return c;
   }
   try {
-    c.free_frequency = free_frequencies(element, massless);
+    c.free_frequency = free_frequencies(element, massless, rigid);
   } catch (const Error& error) {
     c.free_frequency_note = error.message();
   }

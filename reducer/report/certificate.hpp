@@ -62,6 +62,7 @@ struct ModelCertificate {
   formats::RigidProperties rigid;     ///< of the mesh, from its full mass matrix
   int modes_requested = 0, modes_kept = 0, modes_available = 0;
   int moment_vectors = 0;         ///< internal coordinates behind the modes
+  int mechanisms = 0;             ///< internal coordinates without stiffness, before the modes
   std::optional<int> free_modes;  ///< of Rubin's and MacNeal's method: elastic modes of the free part
   std::optional<double> cutoff;
   std::optional<formats::Accuracy> accuracy;

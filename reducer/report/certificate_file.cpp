@@ -98,6 +98,7 @@ json model_json(const ModelCertificate& c) {
           {"modes_requested", c.modes_requested},
           {"modes_kept", c.modes_kept},
           {"modes_available", c.modes_available},
+          {"mechanisms", c.mechanisms},
           {"moment_vectors", c.moment_vectors},
           {"free_modes", c.free_modes ? json(*c.free_modes) : json(nullptr)},
           {"cutoff", optional_json(c.cutoff)},
@@ -161,6 +162,7 @@ ModelCertificate model_from(const json& j) {
   c.modes_requested = j.at("modes_requested");
   c.modes_kept = j.at("modes_kept");
   c.modes_available = j.at("modes_available");
+  c.mechanisms = j.value("mechanisms", 0);
   c.moment_vectors = j.value("moment_vectors", 0);
   if (const json free = j.value("free_modes", json()); !free.is_null()) c.free_modes = free.get<int>();
   c.cutoff = optional_from(j.at("cutoff"));
@@ -222,7 +224,7 @@ std::string frequency_table(const FileCertificate& file, const std::optional<Mod
   const std::vector<double>& estimate = model ? model->truncation_estimate : none;
   const std::string unit = units.named() ? (units.time.factor == 1.0 ? "Hz" : "1/" + units.time.label) : "1/time";
   // Behind the modes with the boundary held stand values that are no modes of the part.
-  const std::size_t modes = !model ? count : model->free_modes ? 0 : static_cast<std::size_t>(model->modes_kept);
+  const std::size_t modes = !model ? count : model->free_modes ? 0 : static_cast<std::size_t>(model->mechanisms + model->modes_kept);
   std::string text = fmt::format("frequencies [{}]\n  {:>4} {:>16} {:>16} {:>16} {:>10} {:>10}\n", unit, "mode",
                                  "boundary fixed", "free, reduced", full.empty() ? "" : "free, full",
                                  full.empty() ? "" : "error", estimate.empty() ? "" : "estimate");
@@ -342,6 +344,7 @@ std::string modes_text(const ModelCertificate& c) {
   if (!first.empty()) text += ", first dropped" + first;
   text += fmt::format("\n{:<19}{}", "count by inertia",
                       c.modes_counted ? fmt::format("{} below the cut", *c.modes_counted) : "not counted");
+  if (c.mechanisms > 0) text += fmt::format("\n{:<19}{} without stiffness, before the modes", "mechanisms", c.mechanisms);
   if (c.moment_vectors > 0) text += fmt::format("\n{:<19}{}", "moment vectors", c.moment_vectors);
   return text + "\n";
 }

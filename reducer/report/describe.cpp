@@ -81,8 +81,10 @@ void describe_mesh_errors(const formats::Part& part, const MeshErrors& errors, M
 void describe_comparison(const formats::ModeSelection& asked, const System& system, const InternalModes& internal,
                          const FreeMotions& modes, ModelCertificate& c) {
   if (system.size() > most_compared_coordinates || internal.available == 0) return;
-  const double scale = internal.lambda.size() > 0 ? internal.lambda[0] : internal.first_dropped.value_or(0.0);
-  const ModeComparison full = compare_free_modes(system, scale, most_compared, asked, modes.q);
+  const int loose = internal.loose();
+  const double scale =
+      internal.lambda.size() > loose ? internal.lambda[loose] : internal.first_dropped.value_or(0.0);
+  const ModeComparison full = compare_free_modes(system, scale, most_compared, 6 + loose, asked, modes.q);
   c.free_frequency = full.frequency;
   if (modes.boundary_held) return;
   for (const auto& row : full.assurance.rowwise()) c.assurance.emplace_back(row.begin(), row.end());
@@ -110,7 +112,8 @@ ModelCertificate describe(const formats::Part& part, const BoundaryModes& bounda
   ModelCertificate c;
   c.part = part.file;
   c.modes_requested = internal.requested;
-  c.modes_kept = static_cast<int>(internal.lambda.size()) - internal.moments;
+  c.modes_kept = static_cast<int>(internal.lambda.size()) - internal.moments - internal.loose();
+  c.mechanisms = internal.loose();
   c.moment_vectors = internal.moments;
   c.free_modes = internal.free_modes;
   c.modes_available = internal.available;

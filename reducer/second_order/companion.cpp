@@ -343,13 +343,14 @@ std::optional<formats::Companion> companion_if_asked(const formats::Part& part, 
                                                      const BoundaryModes& boundary, const InternalModes& internal,
                                                      const formats::Superelement& element, ModelCertificate& model) {
   const bool wanted = wants_second_order(part, element), has_own_mass = internal.boundary_mass.size() > 0;
-  if (wanted && has_own_mass)
+  const bool loose = internal.loose() > 0;  // no stress follows from its turns
+  if (!loose && wanted && has_own_mass)
     model.notes.push_back(
         "No second order in a companion file (stiffening, exact inertia): method macneal leaves out the mass that its "
         "coordinates move; take method craig_bampton or rubin.");
-  else
+  else if (!loose)
     describe_companion(problem.mesh, part, element, model);
-  const bool second_order = wanted && !has_own_mass;
+  const bool second_order = wanted && !has_own_mass && !loose;
   if (!second_order && problem.mesh.load_cases.empty()) return std::nullopt;
   const Eigen::VectorXd weights = default_weights(element);
   if (!second_order) return make_load_companion(problem, boundary, internal, element, weights);

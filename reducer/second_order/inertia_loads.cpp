@@ -2,6 +2,7 @@
 #include "reducer/second_order/inertia_loads.hpp"
 
 #include "common/parallel.hpp"
+#include "reducer/modes/loose_modes.hpp"
 #include "reducer/second_order/inertia.hpp"
 
 namespace tisserand::reducer {
@@ -13,8 +14,10 @@ MatrixXd residual_displacements(const InternalProblem& problem, const InternalMo
   MatrixXd w = MatrixXd::Zero(force.rows(), force.cols());
   if (problem.partition.n_I() == 0) return w;
   const MatrixXd f_I = rows(force, problem.partition.internal);
-  MatrixXd w_I = problem.S_II.solve(f_I);
-  w_I -= internal.Phi * (internal.lambda.cwiseInverse().asDiagonal() * (internal.Phi.transpose() * f_I));
+  MatrixXd w_I = static_answers(problem, internal, f_I);
+  const Index elastic = internal.lambda.size() - internal.loose();
+  const auto Phi = internal.Phi.rightCols(elastic);
+  w_I -= Phi * (internal.lambda.tail(elastic).cwiseInverse().asDiagonal() * (Phi.transpose() * f_I));
   for (std::size_t i = 0; i < problem.partition.internal.size(); ++i)
     w.row(problem.partition.internal[i]) = w_I.row(static_cast<Index>(i));
   return w;
@@ -30,6 +33,7 @@ InertiaAnswers inertia_answers(const InternalProblem& problem, const InternalMod
   const MatrixXd g = gather(system.T, inertia.load);
   answers.x = expand(system.T, residual_displacements(problem, internal, g));
   if (problem.partition.n_I() > 0) answers.share = internal.Phi.transpose() * rows(g, problem.partition.internal);
+  answers.share.topRows(internal.loose()).setZero();
   answers.force = g;
   return answers;
 }

@@ -16,7 +16,7 @@ Eigen::MatrixXd residual_displacements(const InternalProblem& problem, const Int
 struct InertiaAnswers {
   Eigen::Vector3d reference_point = Eigen::Vector3d::Zero();
   Eigen::MatrixXd x;      ///< displacements of all coordinates of the mesh x 12
-  Eigen::MatrixXd share;  ///< m x 12: Φ_Iᵀ g
+  Eigen::MatrixXd share;  ///< m x 12: Φ_Iᵀ g; 0 of mechanisms, which have no static answer
   Eigen::MatrixXd force;  ///< q x 12: g
 };
 

@@ -9,8 +9,8 @@
 
 #include "common/error.hpp"
 #include "common/text.hpp"
-#include "reducer/modes/boundary_modes.hpp"
 #include "reducer/report/memory.hpp"
+#include "reducer/system/mechanism.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -55,13 +55,9 @@ void check_rigid(const Mesh& mesh, const System& system, const std::vector<HeldC
 }
 
 void check_stiff(const Supported& s, const Mesh& mesh, const System& system, const std::string& where) {
-  if (s.factor.null() == 0 && s.factor.negative() == 0) return;
-  if (s.factor.null() == 0)
-    throw Error(fmt::format("the stiffness of the supported part has {} negative eigenvalues", s.factor.negative()),
-                where, "check the sections and materials: some stiffness is negative or vanishes beside the others");
-  throw Error(fmt::format("the part has {} motion(s) without stiffness on its supports: {}", s.factor.null(),
-                          motions_without_stiffness(s.factor, mesh, system, s.partition)),
-              where, "give the elements there stiffness in that direction, or support these nodes");
+  const HeldState state{"the part", s.is_free ? "beyond the six of a rigid body" : "on its supports",
+                        "give the elements there stiffness in that direction, or support these nodes"};
+  require_stiffness(null_space(s.S, s.factor), s.factor, mesh, system, s.partition, state, where);
 }
 
 }  // namespace

@@ -115,7 +115,8 @@ Eigen::Index modes_to_keep(const Eigen::VectorXd& eigenvalue, const Superelement
 }
 
 void cut_modes(const SuperelementOptions& options, CanonicalMatrices& matrices, SuperelementBody& body) {
-  const Eigen::Index wanted = modes_to_keep(matrices.S_II, options);
+  const Eigen::Index loose = (matrices.S_II.array() <= 0.0).count();  // mechanisms move whatever is cut
+  const Eigen::Index wanted = std::max(loose, modes_to_keep(matrices.S_II, options));
   const Eigen::Index kept = complete_cluster(matrices.S_II, wanted);
   if (kept != wanted)
     body.notes.push_back(

@@ -176,7 +176,7 @@ TEST(CompanionErrors, MechanismsInsideThePartAreNamed) {
   mesh.beams.back().released = 1 << 4 | 1 << 5;  // the last piece of the whip, at its first end
   EXPECT_THAT(test_support::error_of([&] { reduce_with_companion(mesh, 2); }),
               ::testing::AllOf(HasSubstr("the part has 2 motion(s) without stiffness while its boundary is held"),
-                               HasSubstr("end (rotation x)"), HasSubstr("hold these nodes at the boundary")));
+                               HasSubstr("end turns about"), HasSubstr("hold these nodes at the boundary")));
 }
 
 // A straight line of point masses has no inertia about its axis: the file is accepted, and N of that turn vanishes.

@@ -10,6 +10,7 @@
 #include "reducer/modes/full_model.hpp"
 #include "reducer/modes/project.hpp"
 #include "reducer/second_order/companion.hpp"
+#include "reducer/system/mechanism.hpp"
 #include "tests/reducer/parts.hpp"
 
 namespace tisserand::testing {
@@ -28,9 +29,11 @@ ReducedPart reduce_with_companion(const reducer::Mesh& mesh, const formats::Mode
   part.modes = modes;
   reducer::System system = reducer::build_system(mesh, "test");
   const reducer::Partition coordinates = reducer::partition(mesh, system);
-  const reducer::Blocks blocks = reducer::take_apart(system, coordinates, modes.method);
+  const reducer::Blocks blocks = reducer::take_apart(system, coordinates, modes);
   const reducer::Factor S_II = coordinates.n_I() > 0 ? reducer::Factor(blocks.S_II) : reducer::Factor();
-  reducer::check_no_mechanism(S_II, mesh, system, coordinates, "test");
+  if (coordinates.n_I() > 0)
+    reducer::require_stiffness(reducer::null_space(blocks.S_II, S_II), S_II, mesh, system, coordinates,
+                               reducer::boundary_held(), "test");
   const reducer::BoundaryModes boundary = reducer::boundary_modes(S_II, blocks, system, coordinates, [](double) {});
   const reducer::InternalProblem problem{mesh, system, coordinates, blocks, S_II, "test"};
   const reducer::InternalModes internal = reducer::internal_modes(problem, boundary, part.modes);
