@@ -235,6 +235,11 @@ std::vector<std::string> plausibility_warnings(const Mesh& mesh, const Units& un
     if (std::string doubt = formats::inertia_doubt(fmt::format("point mass '{}'", mass.name), mass.inertia);
         !doubt.empty())
       warnings.push_back(std::move(doubt));
+  for (const formats::Material& m : materials)
+    if (m.poisson_ratio < 0.0)
+      warnings.push_back(fmt::format("material '{}': a Poisson's ratio of {:.4g} is unusual; common are 0 to 0.5",
+                                     m.name, m.poisson_ratio));
+  for (const std::string& doubt : stiff_spring_doubts(mesh)) warnings.push_back(doubt);
   if (!units.named()) return warnings;
   for (const Substance& s : substances(mesh, materials)) doubt(s, units, warnings);
   const double size = 2.0 * characteristic_length(mesh) * units.length.factor;

@@ -26,6 +26,10 @@ inline std::vector<std::string> plausibility_warnings(const Mesh& mesh, const Un
   return plausibility_warnings(mesh, units, {});
 }
 
+/// Springs 1e8 times as stiff as the stiffest of up to a thousand elements of each kind: the part is lost in their
+/// digits.
+std::vector<std::string> stiff_spring_doubts(const Mesh& mesh);
+
 /// The same for a mass above 1e6 kg: a bracket in millimetres taken for metres weighs 1e9 times too much.
 std::optional<std::string> mass_doubt(double mass, const Units& units);
 

@@ -34,13 +34,31 @@ void sample_stresses(const Mesh& mesh, const SolidElement& solid, const Eigen::M
 /// next) the twisting moment M_ns passes into shear along the edge in a layer of width δ = √(f_Q/f_M), of the size of
 /// the thickness (f: compliances of M_ns and of shear along the edge), that σ* does not have. With M_ns(1 − e^(−y/δ))
 /// and the shear in equilibrium with it HR is less by ∫ 2 M_ns γ_s + δ f_M M_ns² ds, γ_s: shear strain of the edge.
+/// Nodes on a curved surface or edge that a finer mesh follows (`ShellSurround`): h above the flat element, with the
+/// slopes g = ∇h, adds to first order in g gᵀ the strain sym(g ⊗ ∇w) of a shallow shell, the area ½ |g|² and the
+/// longer paths of derivatives; `bow` adds a strip along a free edge.
 using ShellEdges = std::array<bool, 4>;
+struct ShellSurround {
+  ShellEdges ending{};
+  Eigen::Matrix<double, 2, 4> slope = Eigen::Matrix<double, 2, 4>::Zero();  ///< ∇h at the corners, element axes
+  Eigen::Matrix2d turn = Eigen::Matrix2d::Zero();  ///< by which ∇h changes over the size of the element
+  std::array<double, 4> bow{};  ///< mean distance of the curved edge beyond the straight one, of free edges
+};
 Eigen::VectorXd energy_error(const Mesh& mesh, const ShellElement& shell, const Eigen::MatrixXd& u,
-                             const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth, const ShellEdges& ending);
+                             const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth, const ShellSurround& around);
 Eigen::VectorXd energy_error(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u,
                              const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth);
 
-/// The same of a beam, which is exact for loads at its ends: the energy that its own inertia, spread evenly, has
+/// Per mode what smooth stresses lack of equilibrium inside a solid, as energy: ∫ (h/π)² |div σ* + λ ρ u|²/G dV, h the
+/// shortest of its three sizes.
+Eigen::VectorXd imbalance(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u,
+                          const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth);
+
+/// Per mode the size of the element times the mean over points of sᵀ C⁻¹ s, `stress` as in StressSamples.
+Eigen::VectorXd stress_energy(const Mesh& mesh, const ShellElement& shell, const Eigen::MatrixXd& stress, int modes);
+Eigen::VectorXd stress_energy(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& stress, int modes);
+
+/// energy_error() of a beam, which is exact for loads at its ends: the energy that its own inertia, spread evenly, has
 /// between held ends: q² L⁵/(720 EI) + q² L³/(12 GA) across, p² L³/(12 EA) along, likewise of torsion ([Prz68] 5.6).
 Eigen::VectorXd energy_error(const Mesh& mesh, const BeamElement& beam, const Eigen::MatrixXd& u,
                              const Eigen::VectorXd& lambda);

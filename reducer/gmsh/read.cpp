@@ -300,20 +300,18 @@ void open_file(const GeometryRequest& request) {
   check_gmsh_messages(request.file, open_with_gmsh);
 }
 
-/// The tolerances of gmsh are lengths, about 1e-8: below a thousandth it meshes badly, below a tenth of that not at
-/// all. Files with units are then read in millimetres and scaled after meshing.
+/// The tolerances of gmsh are lengths, about 1e-8, and made for millimetres: in metres it meshes small parts badly or
+/// not at all. Files with units are read in millimetres and scaled after meshing, so a part meshes alike in all units.
 void open_geometry(GeometryRequest& request) {
-  open_file(request);
   static const std::map<std::string, double> millimetres{
       {"M", 1e3}, {"CM", 10.0}, {"KM", 1e6}, {"INCH", 25.4}, {"FT", 304.8}};
   const auto unit = millimetres.find(request.target_unit);
   const bool has_units = request.kind == MeshFileKind::step || request.kind == MeshFileKind::iges;
-  if (has_units && unit != millimetres.end() && size_of_model() < 1e-3) {
-    gmsh::model::remove();
+  if (has_units && unit != millimetres.end()) {
     request.target_unit = "MM";
     request.scale /= unit->second;
-    open_file(request);
   }
+  open_file(request);
   const double size = size_of_model();
   if (size > 0.0 && size < 1e-4)
     throw Error(fmt::format("the geometry is {:.3g} {} large: the tolerances of gmsh, lengths of 1e-8, are too coarse "

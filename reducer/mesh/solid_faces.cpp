@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace tisserand::reducer {
@@ -74,6 +75,31 @@ std::vector<Cell> outer_faces(const Mesh& mesh, const std::function<bool(int nod
   std::vector<Cell> result;
   for (const auto& [key, face] : faces)
     if (face.second == 1) result.push_back(face.first);
+  return result;
+}
+
+std::vector<OuterFace> outer_faces_of_solids(const Mesh& mesh) {
+  struct Seen {
+    std::array<int, 4> key;
+    int solid, face;
+  };
+  std::vector<Seen> seen;
+  for (int s = 0; s < static_cast<int>(mesh.solids.size()); ++s) {
+    const auto& faces = faces_of(form_of(as_cell(mesh.solids[s]).shape).corners).faces;
+    for (int f = 0; f < static_cast<int>(faces.size()); ++f) {
+      Seen one{{-1, -1, -1, -1}, s, f};
+      for (std::size_t k = 0; k < faces[f].size(); ++k) one.key[k] = mesh.solids[s].nodes[faces[f][k]];
+      std::ranges::sort(one.key);
+      seen.push_back(one);
+    }
+  }
+  std::ranges::sort(seen, {}, [](const Seen& one) { return std::tuple(one.key, one.solid, one.face); });
+  std::vector<OuterFace> result;
+  for (std::size_t k = 0; k < seen.size(); ++k) {
+    if ((k > 0 && seen[k - 1].key == seen[k].key) || (k + 1 < seen.size() && seen[k + 1].key == seen[k].key)) continue;
+    const Cell cell = as_cell(mesh.solids[seen[k].solid]);
+    result.push_back({seen[k].solid, faces_of(form_of(cell.shape).corners).faces[seen[k].face]});
+  }
   return result;
 }
 

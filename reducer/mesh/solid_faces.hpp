@@ -16,4 +16,11 @@ Cell as_cell(const SolidElement& solid);
 /// from outside, then the middles of their edges.
 std::vector<Cell> outer_faces(const Mesh& mesh, const std::function<bool(int node)>& wanted);
 
+/// A face that belongs to one solid only, by the numbers of its corners in that solid: three or four.
+struct OuterFace {
+  int solid = 0;
+  std::vector<int> corners;  ///< counter-clockwise seen from outside
+};
+std::vector<OuterFace> outer_faces_of_solids(const Mesh& mesh);
+
 }  // namespace tisserand::reducer

@@ -7,7 +7,6 @@
 
 #include "common/parallel.hpp"
 #include "reducer/elements/mesh_error.hpp"
-#include "reducer/mesh_error/smooth_stress.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -29,30 +28,16 @@ MatrixXd motions(const Mesh& mesh, const System& system, const MatrixXd& q) {
   return motion;
 }
 
-/// One row per element: beams, then shells, then solids.
-MatrixXd element_errors(const Mesh& mesh, const MatrixXd& motion, const VectorXd& lambda) {
-  const int beams = static_cast<int>(mesh.beams.size()), shells = static_cast<int>(mesh.shells.size());
-  const int count = beams + shells + static_cast<int>(mesh.solids.size());
-  const SmoothStress smooth(mesh, motion);
-  MatrixXd errors(count, lambda.size());
+MatrixXd beam_errors(const Mesh& mesh, const MatrixXd& motion, const VectorXd& lambda) {
+  MatrixXd errors(static_cast<Eigen::Index>(mesh.beams.size()), lambda.size());
+  const int count = static_cast<int>(mesh.beams.size());
   on_threads(core_count(), [&](int t) {
     const Share share = share_of(count, t, core_count());
     for (int e = share.first; e < share.end; ++e) {
-      if (e < beams) {
-        const BeamElement& beam = mesh.beams[e];
-        MatrixXd u(12, lambda.size());
-        u << motion.middleRows<6>(6 * beam.first), motion.middleRows<6>(6 * beam.second);
-        errors.row(e) = energy_error(mesh, beam, u, lambda).transpose();
-      } else if (e < beams + shells) {
-        const ShellElement& shell = mesh.shells[e - beams];
-        errors.row(e) = energy_error(mesh, shell, motion_of(shell, motion), lambda, smooth.of_shell(e - beams),
-                                     smooth.ending(e - beams))
-                            .transpose();
-      } else {
-        const SolidElement& solid = mesh.solids[e - beams - shells];
-        errors.row(e) = energy_error(mesh, solid, motion_of(solid, motion), lambda, smooth.of_solid(e - beams - shells))
-                            .transpose();
-      }
+      const BeamElement& beam = mesh.beams[e];
+      MatrixXd u(12, lambda.size());
+      u << motion.middleRows<6>(6 * beam.first), motion.middleRows<6>(6 * beam.second);
+      errors.row(e) = energy_error(mesh, beam, u, lambda).transpose();
     }
   });
   return errors;
@@ -84,9 +69,14 @@ Properties by_property(const Mesh& mesh, const MatrixXd& errors) {
 MeshErrors mesh_errors(const Mesh& mesh, const System& system, const FreeMotions& modes, int most) {
   const Eigen::Index count = std::min<Eigen::Index>(most, modes.lambda.size());
   MeshErrors result{
-      modes.boundary_held, modes.lambda.head(count), VectorXd::Zero(count), Eigen::Matrix3Xd::Zero(3, count), {}};
+      modes.boundary_held, modes.lambda.head(count), VectorXd::Zero(count), Eigen::Matrix3Xd::Zero(3, count), {}, {}};
   if (count == 0) return result;
-  const MatrixXd errors = element_errors(mesh, motions(mesh, system, modes.q.leftCols(count)), result.lambda);
+  const MatrixXd motion = motions(mesh, system, modes.q.leftCols(count));
+  const MatrixXd of_beams = beam_errors(mesh, motion, result.lambda);
+  const MeshMeasures measures = mesh_measures(mesh, motion, result.lambda);
+  MatrixXd errors(of_beams.rows() + measures.error.rows(), count);  // beams, shells, solids
+  errors << of_beams, measures.error;
+  result.doubts = mesh_doubts(mesh, measures, of_beams.colwise().sum().transpose(), result.lambda);
   const auto beams = static_cast<Eigen::Index>(mesh.beams.size()),
              shells = static_cast<Eigen::Index>(mesh.shells.size());
   result.by_kind.row(0) = errors.topRows(beams).colwise().sum();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reducer/mesh_error/doubts.hpp"
 #include "reducer/modes/free_motions.hpp"
 
 namespace tisserand::reducer {
@@ -17,12 +18,13 @@ struct MeshErrors {
   /// Share of beams, shells, solids in λ_h − λ, relative to λ_h: 3 x modes.
   Eigen::Matrix3Xd by_kind;
   std::vector<std::string> place;  ///< per mode: the property whose elements cause most of it
+  MeshDoubts doubts;               ///< where `relative` is not known within a factor of two
 };
 
 /// At most `most` modes. With smooth stresses σ* the continuous part has λ ≈ HR(σ*, u)/M(u) (energy_error() of the
 /// elements), whose error is the product of those of σ* and u; so λ_h − λ ≈ Σ energy_error for uᵀ M u = 1, and
-/// (f_h − f)/f = √(λ_h/λ) − 1. Springs, masses, spiders and equations have no error of the mesh; neither facets in
-/// place of a curved surface nor edges of spiders are seen.
+/// (f_h − f)/f = √(λ_h/λ) − 1. Springs, masses, spiders and equations have no error of the mesh. Not seen:
+/// stresses that edges of spiders concentrate, faces of solids in place of curved ones.
 MeshErrors mesh_errors(const Mesh& mesh, const System& system, const FreeMotions& modes, int most);
 
 }  // namespace tisserand::reducer

@@ -9,6 +9,7 @@
 #include "common/parallel.hpp"
 #include "reducer/elements/mesh_error.hpp"
 #include "reducer/elements/shell/geometry.hpp"
+#include "reducer/mesh_error/surround.hpp"
 
 namespace tisserand::reducer {
 namespace {
@@ -133,6 +134,14 @@ MatrixXd by_points(const StressSamples& samples, Index modes) {
   return rows;
 }
 
+/// Shape function of a shell's corner at one of its samples: the middle of a triangle; a fifth of the way from the
+/// middle to the corner `sample` of a quadrilateral.
+double sample_weight(int corners, int sample, int corner) {
+  if (corners == 3) return 1.0 / 3.0;
+  const int apart = std::abs(sample - corner);
+  return apart == 0 ? 0.36 : apart == 2 ? 0.16 : 0.24;
+}
+
 }  // namespace
 
 MatrixXd motion_of(const ShellElement& shell, const MatrixXd& motion) {
@@ -149,7 +158,7 @@ MatrixXd motion_of(const SolidElement& solid, const MatrixXd& motion) {
 }
 
 SmoothStress::SmoothStress(const Mesh& mesh, const MatrixXd& motion)
-    : mesh_(mesh), modes_(motion.cols()), patches_(stress_patches(mesh)) {
+    : mesh_(mesh), modes_(motion.cols()), patches_(stress_patches(mesh)), surround_(surroundings(mesh, patches_)) {
   const int shells = static_cast<int>(mesh.shells.size()), elements = shells + static_cast<int>(mesh.solids.size());
   const int threads = core_count(), patches = static_cast<int>(patches_.patch.size());
   axes_.resize(mesh.shells.size());
@@ -270,6 +279,30 @@ MatrixXd SmoothStress::of_solid(int solid) const {
     result.middleRows<6>(6 * k) = 0.5 * (at(patch(a), place) + at(patch(b), place));
   }
   return result;
+}
+
+MatrixXd SmoothStress::samples(int element) const {
+  const Index points = place_[element].cols();
+  MatrixXd result(6, points * modes_);
+  for (Index q = 0; q < points; ++q)
+    result.middleCols(q * modes_, modes_) = sample_[element].row(q).reshaped(6, modes_);
+  return result;
+}
+
+MatrixXd SmoothStress::scatter(int element) const {
+  MatrixXd gap = -samples(element);
+  const int shells = static_cast<int>(mesh_.shells.size()), corners = corners_of(mesh_, element);
+  const MatrixXd at_corners = element < shells ? of_shell(element) : MatrixXd();
+  for (Index q = 0; q < place_[element].cols(); ++q)
+    for (int i = 0; i < corners; ++i) {
+      auto here = gap.middleCols(q * modes_, modes_);
+      if (element < shells) {
+        here += sample_weight(corners, static_cast<int>(q), i) * at_corners.middleRows<6>(8 * i);
+      } else {
+        here += at(patches_.of_corner[patches_.first[element] + i], place_[element].col(q)) / corners;
+      }
+    }
+  return gap;
 }
 
 }  // namespace tisserand::reducer

@@ -22,7 +22,12 @@ class SmoothStress {
   /// yy zz xy yz zx] at all nodes of a solid.
   Eigen::MatrixXd of_shell(int shell) const;
   Eigen::MatrixXd of_solid(int solid) const;
-  const ShellEdges& ending(int shell) const { return patches_.ending[shell]; }
+  const ShellSurround& around(int shell) const { return surround_[shell]; }
+
+  /// Stresses at the points from which the smooth ones are made, and the smooth ones there less these; 6 x (points ·
+  /// modes), modes within a point. Elements as in StressPatch.
+  Eigen::MatrixXd samples(int element) const;
+  Eigen::MatrixXd scatter(int element) const;
 
  private:
   struct Polynomial {
@@ -37,6 +42,7 @@ class SmoothStress {
   const Mesh& mesh_;
   Eigen::Index modes_;
   StressPatches patches_;
+  std::vector<ShellSurround> surround_;
   std::vector<Eigen::Matrix3d> axes_;  ///< R_PE of shells
   std::vector<Eigen::Matrix3Xd> place_;
   std::vector<Eigen::MatrixXd> sample_;  ///< points x (6 · modes)

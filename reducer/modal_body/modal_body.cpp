@@ -76,6 +76,7 @@ NodalMass rigid_mass(const Matrix6& block, int node, const Mesh& mesh, double le
 struct LumpedModes {
   Eigen::VectorXd lambda;
   Eigen::MatrixXd q;
+  std::string solver;  ///< what found them
 };
 
 Partition held_partition(const Mesh& mesh, const System& system) {
@@ -117,7 +118,7 @@ LumpedModes held_modes(const Mesh& mesh, const System& system, const formats::Mo
   if (body.modes > available) fail_for_modes(body.modes, available, body.where);
   const Spectrum spectrum = lowest_pairs({blocks.S_II, blocks.M_II, S_II, 0.0}, body.modes, available,
                                          choose_solver(p.n_I(), body.modes, asked), Count::if_cheap);
-  LumpedModes modes{spectrum.pairs.value.head(spectrum.kept), {}};
+  LumpedModes modes{spectrum.pairs.value.head(spectrum.kept), {}, report_of(spectrum).text};
   Eigen::MatrixXd Phi = spectrum.pairs.vector.leftCols(spectrum.kept);
   fix_basis({mesh, system, p, blocks, S_II, body.where}, modes.lambda, Phi);
   modes.q.setZero(system.size(), spectrum.kept);
@@ -143,7 +144,7 @@ LumpedModes free_modes(const Mesh& mesh, const System& system, const formats::Mo
     throw Error("modal_body: some rigid motion of the lumped masses moves no mass, which leaves the mean axis open",
                 body.where, "hold six components, or give the part inertia about every axis");
   if (pairs->value.size() < body.modes) fail_for_modes(body.modes, static_cast<int>(pairs->value.size()), body.where);
-  LumpedModes modes{pairs->value, pairs->vector};
+  LumpedModes modes{pairs->value, pairs->vector, pairs->solver.text};
   const Partition p = held_partition(mesh, system);
   const Factor none;
   fix_basis({mesh, system, p, Blocks{}, none, body.where}, modes.lambda, modes.q);
@@ -232,8 +233,9 @@ void set_reference(const Mesh& mesh, formats::ModalBody& body) {
 }
 
 /// What the certificate tells.
-ModalBodyCertificate describe(const formats::ModalBody& body) {
+ModalBodyCertificate describe(const formats::ModalBody& body, const std::string& solver) {
   ModalBodyCertificate c;
+  c.eigenvalue_solver = solver;
   for (const double value : body.omega2) c.frequency.push_back(frequency(value));
   const formats::ModalIntegrals& sums = body.integrals;
   c.rigid = {sums.mass, body.frame_position, sums.P0.trace() * Eigen::Matrix3d::Identity() - sums.P0 + sums.J_mu};
@@ -244,10 +246,12 @@ ModalBodyCertificate describe(const formats::ModalBody& body) {
   return c;
 }
 
-}  // namespace
+struct FoundBody {
+  formats::ModalBody body;
+  std::string solver;
+};
 
-formats::ModalBody lumped_modal_body(const Mesh& mesh, const formats::Part& part, double lowest,
-                                     const RecoveryListener& recover) {
+FoundBody find_body(const Mesh& mesh, const formats::Part& part, double lowest, const RecoveryListener& recover) {
   const formats::ModalBodyRequest& request = *part.modal_body;
   const Mesh lumped = lumped_mesh(mesh);
   const System system = build_system(lumped, part.file);
@@ -271,7 +275,14 @@ formats::ModalBody lumped_modal_body(const Mesh& mesh, const formats::Part& part
   }
   set_reference(mesh, body);
   if (recover) recover(recovery_source(mesh, system, modes.q, body));
-  return body;
+  return {std::move(body), modes.solver};
+}
+
+}  // namespace
+
+formats::ModalBody lumped_modal_body(const Mesh& mesh, const formats::Part& part, double lowest,
+                                     const RecoveryListener& recover) {
+  return find_body(mesh, part, lowest, recover).body;
 }
 
 std::optional<formats::ModalBody> modal_body_if_asked(const Mesh& mesh, const formats::Part& part,
@@ -281,9 +292,9 @@ std::optional<formats::ModalBody> modal_body_if_asked(const Mesh& mesh, const fo
   if (!part.modal_body) return std::nullopt;
   begin("modal body");
   const double lowest = file.free_frequency.empty() ? 0.0 : std::pow(2.0 * EIGEN_PI * file.free_frequency[0], 2);
-  formats::ModalBody body = lumped_modal_body(mesh, part, lowest, part.recovery ? recover : nullptr);
-  model.modal_body = describe(body);
-  return body;
+  FoundBody found = find_body(mesh, part, lowest, part.recovery ? recover : nullptr);
+  model.modal_body = describe(found.body, found.solver);
+  return std::move(found.body);
 }
 
 }  // namespace tisserand::reducer

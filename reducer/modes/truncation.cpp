@@ -119,6 +119,9 @@ double share_with(const ReducedModes& modes, const LeftOut& out, Eigen::Index k,
   return good;
 }
 
+/// Relative error of the frequency whose square is too high by this share of it; infinite for the whole.
+double error_of(double share) { return 1.0 / std::sqrt(1.0 - share) - 1.0; }
+
 /// By which it is below at least, to first order in the estimate.
 double least_share(const ReducedModes& modes, const LeftOut& out, Eigen::Index k, double estimate) {
   const double share = 1.98 * estimate, s = modes.pairs.value[k] * (1.0 - share);
@@ -163,6 +166,7 @@ TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::Matrix
   errors.estimate.resize(count);
   for (Eigen::Index k = 0; k < count; ++k) errors.estimate[k] = estimate_of(pairs, out, rigid + k);
   errors.bound = errors.estimate.array() / (1.0 - errors.lambda.array() / out.first_dropped);
+  errors.known.assign(static_cast<std::size_t>(count), true);
   errors.upper = errors.lambda;
   errors.lower = errors.lambda;
   if (!std::isfinite(out.first_dropped) || !(out.G.diagonal().maxCoeff() > 0.0)) return errors;
@@ -173,7 +177,11 @@ TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::Matrix
                                      : share_with(modes, out, rigid + k, 0.0, most_below);
     errors.lower[k] = errors.lambda[k] * (1.0 - most_below);
     errors.upper[k] = errors.lambda[k] * (1.0 - least_below);
-    if (!small) errors.estimate[k] = 1.0 / std::sqrt(1.0 - share_with(modes, out, rigid + k, likely, most_below)) - 1.0;
+    if (small) continue;
+    const double most_error = error_of(most_below), least_error = error_of(least_below);
+    const double likely_error = error_of(share_with(modes, out, rigid + k, likely, most_below));
+    errors.estimate[k] = std::max(likely_error, 0.5 * most_error);
+    errors.known[static_cast<std::size_t>(k)] = likely_error >= 0.5 * most_error || most_error <= 4.0 * least_error;
   }
   return errors;
 }

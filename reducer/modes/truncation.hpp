@@ -1,6 +1,8 @@
 // What leaving out internal modes can do to the part, whatever it is attached to: a bound from one block of solutions.
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "reducer/modes/spectrum.hpp"
@@ -27,7 +29,10 @@ struct TruncationErrors {
   Eigen::VectorXd lambda;  ///< ω² of the reduced part
   Eigen::VectorXd estimate;  ///< relative error of the frequency: ½ λ uᵀ R(λ) u for unit modal mass; where that may be
                              ///< above 1e-6 what taking the lower side and a quarter of the way to the upper one off
-                             ///< does to the eigenvalue
+                             ///< does to the eigenvalue, and at least half of what the upper one does
+  /// Whether the true error is at most twice the estimate, and not below half of it: by the enclosure, or because the
+  /// quarter of the way is above half of the upper side.
+  std::vector<bool> known;
   Eigen::VectorXd bound;  ///< the first with the upper side of the bound: estimate/(1 − λ/λ_d)
   Eigen::VectorXd lower;  ///< the full part's ω² is not below this
   Eigen::VectorXd upper;  ///< nor above this

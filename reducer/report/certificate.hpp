@@ -37,15 +37,17 @@ struct ModalBodyCertificate {
   std::string reference;           ///< "center held", "mean axis"
   std::vector<double> frequency;   ///< of its modes
   formats::RigidProperties rigid;  ///< of the lumped masses
+  std::string eigenvalue_solver;   ///< as of the part; empty in certificates of former versions
 };
 
 /// What the mesh does to the lowest frequencies: mesh_error/mesh_error.hpp.
 struct MeshCertificate {
   bool boundary_held = false;              ///< of the part with its boundary held; else free
   std::vector<double> frequency;           ///< of the reduced part
-  std::vector<double> error;               ///< estimate of (f_h − f)/f: positive where the frequency is too high
+  std::vector<double> error;  ///< estimate of (f_h − f)/f: positive where the frequency is too high; NaN: unknown
   std::vector<double> beam, shell, solid;  ///< their parts of (λ_h − λ)/λ_h
   std::vector<std::string> place;          ///< property whose elements cause most of it
+  std::vector<std::string> unknown;        ///< why it is unknown; "" where it is known
 };
 
 /// What is only known while reducing.

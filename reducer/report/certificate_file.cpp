@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -59,19 +60,37 @@ json file_json(const FileCertificate& c) {
 
 json modal_body_json(const std::optional<ModalBodyCertificate>& c) {
   if (!c) return nullptr;
-  return {{"reference", c->reference}, {"frequency", c->frequency}, {"rigid", rigid_json(c->rigid)}};
+  return {{"reference", c->reference},
+          {"frequency", c->frequency},
+          {"rigid", rigid_json(c->rigid)},
+          {"eigenvalue_solver", c->eigenvalue_solver}};
 }
 
 std::optional<ModalBodyCertificate> modal_body_from(const json& j) {
   if (j.is_null()) return std::nullopt;
   return ModalBodyCertificate{j.at("reference"), j.at("frequency").get<std::vector<double>>(),
-                              rigid_from(j.at("rigid"))};
+                              rigid_from(j.at("rigid")), j.value("eigenvalue_solver", std::string())};
+}
+
+/// null where a number is unknown.
+json numbers_or_null(const std::vector<double>& values) {
+  json list = json::array();
+  for (const double value : values) list.push_back(std::isfinite(value) ? json(value) : json(nullptr));
+  return list;
+}
+
+std::vector<double> numbers_or_unknown(const json& list) {
+  std::vector<double> values;
+  for (const json& value : list)
+    values.push_back(value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>());
+  return values;
 }
 
 json mesh_json(const MeshCertificate& c) {
   return {{"boundary_held", c.boundary_held},
           {"frequency", c.frequency},
-          {"error", c.error},
+          {"error", numbers_or_null(c.error)},
+          {"unknown", c.unknown},
           {"beams", c.beam},
           {"shells", c.shell},
           {"solids", c.solid},
@@ -82,11 +101,12 @@ MeshCertificate mesh_from(const json& j) {
   const auto numbers = [&j](const char* key) { return j.at(key).get<std::vector<double>>(); };
   return {j.at("boundary_held"),
           numbers("frequency"),
-          numbers("error"),
+          numbers_or_unknown(j.at("error")),
           numbers("beams"),
           numbers("shells"),
           numbers("solids"),
-          j.at("place").get<std::vector<std::string>>()};
+          j.at("place").get<std::vector<std::string>>(),
+          j.value("unknown", std::vector<std::string>())};
 }
 
 json model_json(const ModelCertificate& c) {
@@ -103,7 +123,7 @@ json model_json(const ModelCertificate& c) {
           {"free_modes", c.free_modes ? json(*c.free_modes) : json(nullptr)},
           {"cutoff", optional_json(c.cutoff)},
           {"accuracy", c.accuracy ? json{{"error", c.accuracy->error}, {"up_to", c.accuracy->up_to}} : json(nullptr)},
-          {"truncation_estimate", c.truncation_estimate},
+          {"truncation_estimate", numbers_or_null(c.truncation_estimate)},
           {"truncation_lower", c.truncation_lower},
           {"truncation_upper", c.truncation_upper},
           {"first_dropped_frequency", optional_json(c.first_dropped_frequency)},
@@ -168,7 +188,7 @@ ModelCertificate model_from(const json& j) {
   c.cutoff = optional_from(j.at("cutoff"));
   if (const json& accuracy = j.at("accuracy"); !accuracy.is_null())
     c.accuracy = formats::Accuracy{accuracy.at("error"), accuracy.at("up_to")};
-  c.truncation_estimate = j.at("truncation_estimate").get<std::vector<double>>();
+  c.truncation_estimate = numbers_or_unknown(j.at("truncation_estimate"));
   c.truncation_lower = j.at("truncation_lower").get<std::vector<double>>();
   c.truncation_upper = j.at("truncation_upper").get<std::vector<double>>();
   c.first_dropped_frequency = optional_from(j.at("first_dropped_frequency"));
@@ -214,6 +234,13 @@ std::string rigid_text(const char* source, const formats::RigidProperties& rigid
   return text;
 }
 
+/// The error by dropped modes; where it is not known within a factor of two what it is at most.
+std::string estimate_text(const ModelCertificate& model, const FileCertificate& file, std::size_t k) {
+  if (std::isfinite(model.truncation_estimate[k])) return fmt::format("{:.1e}", model.truncation_estimate[k]);
+  const bool bounded = k < file.free_frequency.size() && model.truncation_lower[k] > 0.0;
+  return bounded ? fmt::format("<{:.1e}", file.free_frequency[k] / model.truncation_lower[k] - 1.0) : "unknown";
+}
+
 /// `model`: of the full part where that is small, and what dropped modes may cause.
 std::string frequency_table(const FileCertificate& file, const std::optional<ModelCertificate>& model,
                             const Units& units) {
@@ -238,7 +265,7 @@ std::string frequency_table(const FileCertificate& file, const std::optional<Mod
                         cell(file.fixed_frequency, k) + (k < modes || k >= file.fixed_frequency.size() ? "" : "*"),
                         cell(file.free_frequency, k), full.empty() ? "" : cell(full, k),
                         both ? fmt::format("{:.1e}", file.free_frequency[k] / full[k] - 1.0) : "",
-                        k < estimate.size() ? fmt::format("{:.1e}", estimate[k]) : "");
+                        k < estimate.size() ? estimate_text(*model, file, k) : "");
   }
   if (file.fixed_frequency.size() > modes)
     text += fmt::format("  {:>4} of a {}: no mode of the part\n", "*",
@@ -310,6 +337,7 @@ std::string modal_body_text(const ModalBodyCertificate& c, double length, const 
   for (const double value : c.frequency) frequencies.push_back(fmt::format("{:.6g}", value));
   return fmt::format("{:<19}{} modes, {}: {} [1/time]\n", "modal body", c.frequency.size(), c.reference,
                      listed(frequencies)) +
+         (c.eigenvalue_solver.empty() ? "" : fmt::format("{:<19}its eigenvalues by {}\n", "", c.eigenvalue_solver)) +
          rigid_text("lumped masses", c.rigid, length, units);
 }
 
@@ -353,9 +381,16 @@ std::string modes_text(const ModelCertificate& c) {
 std::string mesh_text(const MeshCertificate& c) {
   if (c.error.empty()) return "";
   std::vector<std::string> words;
-  for (const double error : c.error) words.push_back(fmt::format("{:+.3g} %", 100.0 * error));
-  return fmt::format("{:<19}{} of the lowest {} frequencies (estimate; +: too high)\n", "error of the mesh",
-                     listed(words), c.boundary_held ? "fixed" : "free");
+  for (const double error : c.error)
+    words.push_back(std::isfinite(error) ? fmt::format("{:+.3g} %", 100.0 * error) : "unknown");
+  std::string text = fmt::format("{:<19}{} of the lowest {} frequencies (estimate; +: too high)\n",
+                                 "error of the mesh", listed(words), c.boundary_held ? "fixed" : "free");
+  std::map<std::string, std::vector<std::string>> modes;  // by reason
+  for (std::size_t k = 0; k < c.unknown.size(); ++k)
+    if (!c.unknown[k].empty()) modes[c.unknown[k]].push_back(fmt::format("{}", k + 1));
+  for (const auto& [reason, list] : modes)
+    text += fmt::format("{:<19}unknown for {} {}: {}\n", "", list.size() > 1 ? "modes" : "mode", listed(list), reason);
+  return text;
 }
 
 std::string model_text(const ModelCertificate& c) {

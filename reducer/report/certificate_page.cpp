@@ -71,7 +71,7 @@ std::string frequencies(const FileCertificate& file, const ModelCertificate& mod
     const double f = file.free_frequency[k];
     const double mesh =
         k < model.mesh_error.error.size() && !model.mesh_error.boundary_held ? model.mesh_error.error[k] : 0;
-    const double exact = f / (1.0 + mesh);
+    const double exact = std::isfinite(mesh) ? f / (1.0 + mesh) : f;
     rows.push_back(fmt::format("{} {} {} {}", k + 1, f, std::min({model.truncation_lower[k], exact, f}),
                                std::max({model.truncation_upper[k], exact, f})));
   }
@@ -109,7 +109,7 @@ std::string errors(const ModelCertificate& model) {
   if (plots.empty()) return "";
   return fmt::format(
              "<h2>Errors of the {} frequencies</h2>\n<p>Estimates: what a finer mesh, and what more internal modes, "
-             "would change.</p>\n",
+             "would change. Errors that are unknown have no point; the certificate below says why.</p>\n",
              model.mesh_error.boundary_held ? "fixed" : "free") +
          picture(1200, 420,
                  blocks +

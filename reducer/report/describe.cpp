@@ -2,12 +2,14 @@
 #include "reducer/report/describe.hpp"
 
 #include <algorithm>
-
 #include <cmath>
+#include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "common/error.hpp"
+#include "common/text.hpp"
 #include "reducer/elements/checks.hpp"
 #include "reducer/mesh_error/mesh_error.hpp"
 #include "reducer/modes/full_model.hpp"
@@ -32,7 +34,9 @@ void describe_truncation(const formats::Superelement& element, const InternalMod
   try {
     const TruncationErrors errors =
         truncation_errors(element.stiffness, element.mass, internal.left_out, most_estimated);
-    c.truncation_estimate.assign(errors.estimate.begin(), errors.estimate.end());
+    for (std::size_t k = 0; k < errors.known.size(); ++k)
+      c.truncation_estimate.push_back(errors.known[k] ? errors.estimate[static_cast<Eigen::Index>(k)]
+                                                      : std::numeric_limits<double>::quiet_NaN());
     c.truncation_lower = frequencies(errors.lower);
     c.truncation_upper = frequencies(errors.upper);
   } catch (const Error&) {
@@ -47,14 +51,36 @@ std::string remedy_for(Eigen::Index kind) {
   return "a smaller `size`, or `order: 2`";
 }
 
+constexpr double usual_limit = 0.05;
+
+/// One warning for each reason for which errors are unknown that may exceed the limit.
+void warn_of_unknown(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c) {
+  const auto& accuracy = part.modes.accuracy;
+  const double limit = accuracy ? accuracy->error : usual_limit;
+  std::map<MeshDoubt, std::vector<std::string>> modes;
+  for (Eigen::Index k = 0; k < errors.relative.size(); ++k) {
+    if (accuracy && frequency(errors.lambda[k]) > accuracy->up_to) break;
+    const MeshDoubt doubt = errors.doubts.doubt[static_cast<std::size_t>(k)];
+    if (doubt != MeshDoubt::none && doubt != MeshDoubt::too_large && errors.doubts.size[k] > limit)
+      modes[doubt].push_back(fmt::format("{:.4g}", frequency(errors.lambda[k])));
+  }
+  for (const auto& [doubt, list] : modes)
+    c.warnings.push_back(fmt::format("the error of the mesh of the {} {} {} is unknown and may exceed {:.3g} %: {}; "
+                                     "give the mesh {}",
+                                     errors.boundary_held ? "fixed" : "free",
+                                     list.size() > 1 ? "frequencies" : "frequency", listed(list), 100.0 * limit,
+                                     explain(doubt), remedy_for(doubt == MeshDoubt::free_faces ? 2 : 1)));
+}
+
 /// One warning, of the worst mode among those that matter.
 void warn_of_mesh(const formats::Part& part, const MeshErrors& errors, ModelCertificate& c) {
-  constexpr double usual_limit = 0.05;
   const auto& accuracy = part.modes.accuracy;
   const double limit = accuracy ? accuracy->error : usual_limit;
   Eigen::Index worst = -1;
   for (Eigen::Index k = 0; k < errors.relative.size(); ++k) {
     if (accuracy && frequency(errors.lambda[k]) > accuracy->up_to) break;
+    const MeshDoubt doubt = errors.doubts.doubt[static_cast<std::size_t>(k)];
+    if (doubt != MeshDoubt::none && doubt != MeshDoubt::too_large) continue;
     if (worst < 0 || std::abs(errors.relative[k]) > std::abs(errors.relative[worst])) worst = k;
   }
   if (worst < 0 || std::abs(errors.relative[worst]) <= limit) return;
@@ -74,8 +100,14 @@ void describe_mesh_errors(const formats::Part& part, const MeshErrors& errors, M
   const Eigen::RowVectorXd beam = errors.by_kind.row(0), shell = errors.by_kind.row(1), solid = errors.by_kind.row(2);
   c.mesh_error = {
       errors.boundary_held, frequencies(errors.lambda), list(errors.relative), list(beam), list(shell), list(solid),
-      errors.place};
+      errors.place, {}};
+  for (std::size_t k = 0; k < errors.doubts.doubt.size(); ++k) {
+    c.mesh_error.unknown.emplace_back(explain(errors.doubts.doubt[k]));
+    if (errors.doubts.doubt[k] != MeshDoubt::none)
+      c.mesh_error.error[k] = std::numeric_limits<double>::quiet_NaN();
+  }
   warn_of_mesh(part, errors, c);
+  warn_of_unknown(part, errors, c);
 }
 
 void describe_comparison(const formats::ModeSelection& asked, const System& system, const InternalModes& internal,

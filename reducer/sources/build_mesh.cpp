@@ -128,6 +128,7 @@ void build(MeshBuilder& builder) {
   add_loads(builder);
   tell_unjoined_beams(builder);
   join_coincident_nodes(builder);
+  tell_hanging_nodes(builder);
 }
 
 }  // namespace

@@ -55,6 +55,7 @@ void add_loads(MeshBuilder& builder);            ///< sources/loads.cpp: support
 void tell_unjoined_beams(MeshBuilder& builder);  ///< sources/unjoined.cpp: warnings
 /// Nodes of the mesh file at one place that nothing ties: a warning, or one of them takes the elements of the others.
 void join_coincident_nodes(MeshBuilder& builder);
+void tell_hanging_nodes(MeshBuilder& builder);   ///< sources/hanging.cpp: a warning
 void finish(MeshBuilder& builder);               ///< positions; nodes that nothing uses leave
 
 /// Marks the nodes of all elements in builder.used.

@@ -1,13 +1,13 @@
 // What touches without a node in common: told, because it is not joined there.
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "reducer/sources/apart_on_purpose.hpp"
 #include "reducer/sources/mesh_builder.hpp"
 #include "reducer/sources/node_grid.hpp"
 #include "reducer/sources/node_references.hpp"
@@ -16,19 +16,9 @@ namespace tisserand::reducer {
 namespace {
 
 using Eigen::Vector3d;
-using Pairs = std::set<std::pair<int, int>>;
 
 constexpr double touching = 1e-6;  ///< of an element's length
 constexpr std::size_t most_told = 10;
-
-/// Pairs of nodes that a spring or a spider ties: they may lie at one place on purpose.
-Pairs tied_pairs(const Mesh& mesh) {
-  Pairs pairs;
-  for (const Spring& spring : mesh.springs) pairs.insert(std::minmax(spring.first, spring.second));
-  for (const Spider& spider : mesh.spiders)
-    for (const int node : spider.nodes) pairs.insert(std::minmax(spider.reference, node));
-  return pairs;
-}
 
 double longest_element(const MeshBuilder& builder) {
   double longest = 0.0;
@@ -41,7 +31,7 @@ double longest_element(const MeshBuilder& builder) {
 /// Nodes of other beams on the elements of one, by node.
 class Line {
  public:
-  Line(const MeshBuilder& builder, std::size_t number, const Pairs& tied)
+  Line(const MeshBuilder& builder, std::size_t number, const NodePairs& tied)
       : builder_(builder), nodes_(builder.beam_nodes[number]), own_(nodes_.begin(), nodes_.end()), tied_(tied) {}
 
   std::set<int> touched(const NodeGrid& grid) const {
@@ -66,7 +56,7 @@ class Line {
   const MeshBuilder& builder_;
   const std::vector<int>& nodes_;
   std::set<int> own_;
-  const Pairs& tied_;
+  const NodePairs& tied_;
 };
 
 }  // namespace
@@ -79,8 +69,8 @@ void tell_unjoined_beams(MeshBuilder& builder) {
   for (const std::vector<int>& nodes : builder.beam_nodes)
     for (const int node : nodes)
       if (added.insert(node).second) grid.add(builder.position(node), node);
-  const Pairs tied = tied_pairs(builder.mesh);
-  Pairs met;  // nodes at the same place are met from both beams
+  const NodePairs tied = tied_pairs(builder.mesh);
+  NodePairs met;  // nodes at the same place are met from both beams
   std::vector<std::string> texts;
   for (std::size_t b = 0; b < builder.beam_nodes.size(); ++b)
     for (const int node : Line(builder, b, tied).touched(grid)) {
@@ -126,36 +116,6 @@ double extent(const MeshBuilder& builder, const std::vector<char>& counts) {
     }
   return (high - low).norm();
 }
-
-/// Whether nodes at one place are apart on purpose: a spring or an equation has both, they follow one rigid spider, or
-/// both stay, so that a joint may connect them.
-class ApartOnPurpose {
- public:
-  explicit ApartOnPurpose(const Mesh& mesh) : tied_(tied_pairs(mesh)) {
-    for (const TieEquation& equation : mesh.equations)
-      for (const TieTerm& one : equation.terms)
-        for (const TieTerm& other : equation.terms) tied_.insert(std::minmax(one.node, other.node));
-    for (const Spider& spider : mesh.spiders)
-      if (spider.kind == SpiderKind::rigid)
-        for (const int node : spider.nodes) leads_[node].insert(spider.reference);
-    for (const MeshBoundary& node : mesh.boundary) stays_.insert(node.node);
-  }
-
-  bool operator()(int a, int b) const {
-    return tied_.contains(std::minmax(a, b)) || (stays_.contains(a) && stays_.contains(b)) || have_one_leader(a, b);
-  }
-
- private:
-  bool have_one_leader(int a, int b) const {
-    const auto of_a = leads_.find(a), of_b = leads_.find(b);
-    return of_a != leads_.end() && of_b != leads_.end() &&
-           std::ranges::any_of(of_a->second, [&](int leader) { return of_b->second.contains(leader); });
-  }
-
-  Pairs tied_;
-  std::map<int, std::set<int>> leads_;  ///< references of the rigid spiders that a node follows
-  std::set<int> stays_;
-};
 
 }  // namespace
 

@@ -13,7 +13,9 @@
 #include "reducer/elements/mesh_error.hpp"
 #include "reducer/mesh_error/patches.hpp"
 #include "reducer/mesh_error/smooth_stress.hpp"
+#include "reducer/mesh_error/surround.hpp"
 #include "reducer/properties/laminate.hpp"
+#include "reducer/report/certificate.hpp"
 #include "tests/reducer/mesh_errors.hpp"
 #include "tests/reducer/parts.hpp"
 #include "tests/support/meshes/shell_grids.hpp"
@@ -59,7 +61,7 @@ Energies energies(const Mesh& mesh, const MatrixXd& motion) {
     element_matrices(mesh, mesh.shells[e], matrices);
     const MatrixXd stress = smooth.of_shell(e);
     sum.error += energy_error(mesh, mesh.shells[e], u, none, stress, {})[0];
-    sum.with_layers += energy_error(mesh, mesh.shells[e], u, none, stress, smooth.ending(e))[0];
+    sum.with_layers += energy_error(mesh, mesh.shells[e], u, none, stress, smooth.around(e))[0];
     sum.energy += (u.transpose() * matrices.S * u)(0, 0);
   }
   return sum;
@@ -172,22 +174,93 @@ TEST(MeshError, OfBeamsIsThatOfTheHermiteElement) {
   }
 }
 
-/// The demand: estimate over error between 0.3 and 3 for the five lowest modes of a plate, a curved shell and a solid;
-/// references of other meshes and elements (docs/VERIFICATION.md has the figures).
-TEST(MeshError, IsOfTheSizeOfTheError) {
+/// The demand: an estimate that is not said to be unknown is within a factor of two of the error, and most are known on
+/// meshes that are not coarse. References of other meshes and elements (docs/VERIFICATION.md has the figures).
+TEST(MeshError, IsWithinAFactorOfTwoOrUnknown) {
   std::string part;
-  std::vector<double> exact;
+  reducer::FreeShapes reference;
+  int known = 0, all = 0;
   for (const reducer::MeshErrorCase& one : reducer::mesh_error_cases()) {
-    if (one.part != part) exact = reducer::reduction_for_mesh_errors(one.reference()).model.mesh_error.frequency;
-    const auto coarse = reducer::reduction_for_mesh_errors(one.mesh()).model.mesh_error;
+    if (one.part != part) reference = reducer::free_shapes(one.reference(), 16);
     part = one.part;
-    ASSERT_EQ(coarse.error.size(), 5u);
-    for (const auto& [error, estimate] : compared_errors(coarse, exact)) {
-      if (std::abs(error) < reducer::least_compared_error) continue;
-      EXPECT_GT(estimate / error, 0.3) << one.part << ", " << one.element << ", error " << error;
-      EXPECT_LT(estimate / error, 3.0) << one.part << ", " << one.element << ", error " << error;
+    for (const reducer::ComparedError& mode : compared_errors(reducer::free_shapes(one.mesh(), 6), reference)) {
+      ++all;
+      if (mode.doubt != reducer::MeshDoubt::none) continue;
+      ++known;
+      if (!mode.compared()) continue;
+      EXPECT_GT(mode.estimate / mode.error, 0.5) << one.part << ", " << one.element << ", " << one.size;
+      EXPECT_LT(mode.estimate / mode.error, 2.0) << one.part << ", " << one.element << ", " << one.size;
     }
   }
+  EXPECT_GT(known, 0.4 * all) << "the cases are coarse on purpose";
+}
+
+int known_of(const Mesh& mesh) {
+  const auto& doubt = reducer::free_shapes(mesh, 6).estimate.doubts.doubt;
+  return static_cast<int>(std::count(doubt.begin(), doubt.end(), reducer::MeshDoubt::none));
+}
+
+/// Ordinary meshes keep their figures.
+TEST(MeshError, IsKnownOnOrdinaryMeshes) {
+  int least = 5;
+  for (const reducer::MeshErrorCase& one : reducer::mesh_error_cases()) {
+    const bool quads = one.element == "4-node shells", bricks = one.element == "hexahedron8";
+    const bool fine = (quads && one.part == "plate" && one.size == "16 x 16") ||
+                      (quads && one.part == "cylinder" && one.size == "32 x 32") ||
+                      (quads && one.part == "disc" && (one.size == "8 across" || one.size == "16 across")) ||
+                      (quads && one.part == "square tube" && one.size == "8 across") ||
+                      (bricks && (one.size == "16 x 4 x 2" || one.size == "32 x 4 x 4" || one.size == "12 x 9 x 3"));
+    if (fine) EXPECT_EQ(known_of(one.mesh()), 5) << one.part << ", " << one.element << ", " << one.size;
+    if (fine) least = std::min(least, known_of(one.mesh()));
+  }
+  EXPECT_EQ(least, 5);
+}
+
+/// The trial torsion_bricks: torsion of 16 x 2 x 1 bricks errs by 8.1 % (the table), and the estimate said 0.4 %.
+TEST(MeshError, TorsionOfAFewBricksAcrossIsUnknown) {
+  Mesh mesh = solid_block({SolidShape::hexahedron8, {16, 2, 1}, Vector3d(0.2, 0.02, 0.01), 0.0},
+                          steel(formats::MassMatrix::consistent));
+  for (const Vector3d& place : {Vector3d(0, 0, 0), Vector3d(0.2, 0, 0), Vector3d(0, 0.02, 0)})
+    mesh.boundary.push_back({"b" + std::to_string(mesh.boundary.size()), node_at(mesh, place), true, false});
+  const reducer::Reduction bar = reducer::reduction_for_mesh_errors(mesh);
+  const reducer::MeshCertificate& c = bar.model.mesh_error;
+  ASSERT_EQ(c.error.size(), 5u);
+  EXPECT_TRUE(std::isnan(c.error[3]));
+  EXPECT_THAT(c.unknown[3], HasSubstr("free faces"));
+  EXPECT_TRUE(c.unknown[0].empty());
+  EXPECT_THAT(bar.model.warnings, ::testing::Contains(AllOf(HasSubstr("unknown"), HasSubstr("may exceed 5 %"))));
+  const std::string text = reducer::certificate_text(bar.superelement, bar.file, bar.model);
+  EXPECT_THAT(text, AllOf(HasSubstr(", unknown, "), HasSubstr("unknown for mode 4: smoothed stresses")));
+  EXPECT_THAT(reducer::certificate_json(bar.superelement, bar.file, bar.model), HasSubstr("null"));
+}
+
+/// h of a cylinder's facet has the slopes ± half of the turn, and free edges of a disc bow by a twelfth of length and
+/// turn.
+TEST(MeshError, CurvedSurfacesAndEdgesAreSeenFromTheNodes) {
+  constexpr int around = 24;
+  const double turn = 2.0 * EIGEN_PI / around;
+  const auto section = reducer::isotropic_shell(1e6, 0.3, 1.0, 0.05, 5.0 / 6.0);
+  const Mesh cylinder = shell_grid(
+      {around, 4, reducer::Facets::quadrilaterals, true},
+      [](double a, double b) { return Vector3d(b, std::cos(2 * EIGEN_PI * a), std::sin(2 * EIGEN_PI * a)); }, section);
+  for (const reducer::ShellSurround& one : reducer::surroundings(cylinder, reducer::stress_patches(cylinder))) {
+    EXPECT_NEAR(one.slope.colwise().norm().mean(), std::tan(0.5 * turn), 1e-12);
+    for (const double bow : one.bow) EXPECT_NEAR(bow, 0.0, 1e-15) << "ends of a cylinder are straight in its surface";
+  }
+  const Mesh disc = shell_grid(
+      {around, 3, reducer::Facets::quadrilaterals, true},
+      [](double a, double b) {
+        return Vector3d((1 + b) * std::cos(2 * EIGEN_PI * a), (1 + b) * std::sin(2 * EIGEN_PI * a), 0.0);
+      },
+      section);
+  std::vector<double> bows;
+  for (const reducer::ShellSurround& one : reducer::surroundings(disc, reducer::stress_patches(disc)))
+    for (const double bow : one.bow)
+      if (bow != 0.0) bows.push_back(bow);
+  ASSERT_EQ(bows.size(), 2u * around);
+  const auto [least, most] = std::minmax_element(bows.begin(), bows.end());
+  EXPECT_NEAR(*most, 2.0 * 2.0 * std::sin(0.5 * turn) * turn / 12.0, 1e-12) << "outside material is missing";
+  EXPECT_NEAR(*least, -2.0 * std::sin(0.5 * turn) * turn / 12.0, 1e-12) << "at the hole there is too much";
 }
 
 /// A single first-order tetrahedron through a plate makes bending several times too stiff; it went untold.

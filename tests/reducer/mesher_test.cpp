@@ -79,6 +79,29 @@ TEST(Mesher, SolidsHaveTheSameMeshInEveryRun) {
   for (int again = 0; again < 3; ++again) EXPECT_EQ(reducer::build_mesh(part).position, first.position);
 }
 
+/// The trial step_in_metres: sizes of 0.012 and 0.02 failed in metres, 12 and 20 in millimetres did not.
+TEST(Mesher, APartInMetresHasTheMeshOfThatInMillimetres) {
+  for (const double size : {0.004, 0.012, 0.02}) {
+    formats::Part part;
+    part.file = TISSERAND_SOURCE_DIR "/meshes/part.yaml";
+    part.mesh.file = TISSERAND_SOURCE_DIR "/meshes/bracket.step";
+    part.mesh.order = 2;
+    part.materials = {{"steel", 2.1e11, 0.3, 7850.0, "part.yaml"}};
+    part.solids = {{"body", {"all"}, "steel", formats::MassMatrix::consistent, "part.yaml"}};
+    const auto mesh = [&](const Units& units, double length) {  // the trial step_in_inches
+      part.units = units;
+      part.mesh.size = length;
+      return reducer::build_mesh_to_solve(part);
+    };
+    const reducer::Mesh metres = mesh(Units::si(), size), millimetres = mesh(Units::consistent(), 1e3 * size);
+    ASSERT_EQ(metres.nodes(), millimetres.nodes()) << size;
+    const reducer::Mesh inches = mesh(Units{{0.0254, "in"}, {1.0, "kg"}, {1.0, "s"}}, size / 0.0254);
+    EXPECT_NEAR(inches.nodes(), millimetres.nodes(), 0.01 * millimetres.nodes()) << "the size is rounded";
+    EXPECT_LT((25.4 * inches.position.rowwise().maxCoeff() - millimetres.position.rowwise().maxCoeff()).norm(), 1e-5);
+    EXPECT_LT((1e3 * metres.position - millimetres.position).cwiseAbs().maxCoeff(), 1e-5) << size << ", of 40";
+  }
+}
+
 TEST(Mesher, SizeGivesTheNumberOfElements) {
   formats::Part part = plain_beam(Vector3d::Zero(), Vector3d(0, 1, 0), 0, 0);
   part.beams[0].size = 0.25;

@@ -53,6 +53,16 @@ formats::Part slender_beam(int elements) {
   return part;
 }
 
+// The trials: a report that does not say which eigensolver found the modes of the body.
+TEST(ReducedModalBody, ReportNamesItsEigensolver) {
+  for (const std::vector<ModalBodyRequest::Held>& held : {std::vector<ModalBodyRequest::Held>{{"base"}}, {}}) {
+    const reducer::Reduction r = reduce(asking(slender_beam(8), held, 2));
+    ASSERT_TRUE(r.model.modal_body);
+    EXPECT_FALSE(r.model.modal_body->eigenvalue_solver.empty());
+    EXPECT_NE(reducer::certificate_text(r.superelement, r.file, r.model).find("its eigenvalues by "), std::string::npos);
+  }
+}
+
 // Roots of cos k cosh k = -1 (clamped) and 1 (free). Lumped masses leave an error of order 2 in the size of the
 // elements.
 TEST(ReducedModalBody, BeamsHaveTheirAnalyticFrequencies) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "reducer/decks/abaqus/sets.hpp"
+#include "reducer/decks/abaqus/surfaces.hpp"
 #include "reducer/decks/abaqus/ties.hpp"
 
 namespace tisserand::reducer::abaqus {
@@ -108,7 +109,11 @@ class EquationReader {
     for (std::size_t i = 0; i < count; ++i) {
       TieEquation equation;
       equation.name = fmt::format("equation at {}", model_.input.where(line));
-      for (const Term& term : terms_) add_term(model_, term.nodes[term.nodes.size() == 1 ? 0 : i], term, equation);
+      for (const Term& term : terms_) {
+        const int node = term.nodes[term.nodes.size() == 1 ? 0 : i];
+        if (!has_directions(model_, node, model_.input.where(line))) return;
+        add_term(model_, node, term, equation);
+      }
       model_.deck.mesh.equations.push_back(std::move(equation));
     }
   }

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include "reducer/decks/abaqus/surfaces.hpp"
 #include "reducer/elements/beam/beam.hpp"
 #include "reducer/elements/spring.hpp"
 
@@ -125,6 +126,9 @@ int add_spring(Model& model, const RawElement& element, const SectionUse& use) {
                          "use SPRING2, which has a direction of its own");
     spring.stiffness = stiffness.value_or(Eigen::Matrix<double, 12, 12>::Zero());
   } else {
+    if (!use.axes)
+      for (const int node : {nodes[0], nodes[1]})
+        if (!has_directions(model, node, model.where(element))) return -1;
     spring.stiffness = scalar_spring(use.stiffness, {use.components[0], component_axes(model, use, nodes[0])},
                                      {use.components[1], component_axes(model, use, nodes[1])});
     const double defect = rigid_motion_defect(spring.stiffness, reach);

@@ -109,6 +109,7 @@ struct Model {
   std::vector<long> node_ids;
   std::vector<int> node_scopes;
   std::map<int, Eigen::Matrix3d> node_axes;  ///< *TRANSFORM: columns are the directions of the node's components
+  std::map<int, std::string> undirected;     ///< nodes whose *TRANSFORM gives no directions: the reason
   std::vector<RawElement> elements;
   std::vector<int> connectivity;
   std::map<std::string, AbaqusMaterial> materials;

@@ -171,15 +171,55 @@ void read_orientation(Model& model, int scope, const Block& block) {
   owner.orientations[name] = orientation;
 }
 
+namespace {
+
+/// Columns: away from the axis through the two points of the block, around it, along it.
+void set_cylindrical_axes(Model& model, int scope, const std::vector<int>& nodes, const Block& block) {
+  std::array<double, 6> p{};
+  if (!block.data.empty() && !read_numbers(model, block, block.data[0], p)) return;
+  const Placement& placement = model.scopes[scope].placement;
+  const Eigen::Vector3d start = placement.R * Eigen::Vector3d(p[0], p[1], p[2]) + placement.t;
+  const Eigen::Vector3d along = placement.R * Eigen::Vector3d(p[3] - p[0], p[4] - p[1], p[5] - p[2]);
+  if (!(along.norm() > 0.0)) {
+    model.findings.add(fmt::format("{}: the two points of its axis coincide", block.title), model.input.where(block),
+                       "give two points on the axis");
+    return;
+  }
+  const Eigen::Vector3d z = along.normalized();
+  for (const int node : nodes) {
+    const Eigen::Vector3d arm = position(model, node) - start, away = arm - z * z.dot(arm);
+    if (away.norm() <= 1e-9 * std::max(arm.norm(), along.norm())) {
+      model.undirected[node] = "it lies on the axis of its *TRANSFORM, TYPE=C, where no direction leads away from it";
+      continue;
+    }
+    Eigen::Matrix3d axes;
+    axes << away.normalized(), z.cross(away.normalized()), z;
+    model.node_axes[node] = axes;
+  }
+}
+
+}  // namespace
+
+bool has_directions(Model& model, int node, const std::string& where) {
+  const auto found = model.undirected.find(node);
+  if (found == model.undirected.end()) return true;
+  model.findings.add(fmt::format("node {}: {}", model.node_ids[node], found->second), where,
+                     "use rectangular axes, TYPE=R, for this node");
+  return false;
+}
+
 void read_transform(Model& model, int scope, const Block& block) {
   const std::string type = block.find("TYPE") == nullptr ? "R" : upper_without_blanks(*block.find("TYPE"));
   const std::string where = model.input.where(block);
-  if (type != "R") {
-    model.findings.add(fmt::format("*TRANSFORM, TYPE={} is not understood", type), where,
-                       "use rectangular axes, TYPE=R, for each group of nodes");
+  if (type != "R" && type != "C" && type != "S") {
+    model.findings.add(fmt::format("*TRANSFORM, TYPE={} is not understood", type), where, "write R, C or S");
     return;
   }
   const auto nodes = find_nodes(model, scope, block.name_of("NSET"), where);
+  if (nodes && type == "C") set_cylindrical_axes(model, scope, *nodes, block);
+  if (nodes && type == "S")
+    for (const int node : *nodes) model.undirected[node] = "spherical axes (*TRANSFORM, TYPE=S) are not understood";
+  if (type != "R") return;
   const std::optional<Eigen::Matrix3d> axes = read_axes(model, block);
   if (!nodes || !axes) return;
   for (const int node : *nodes) model.node_axes[node] = model.scopes[scope].placement.R * *axes;

@@ -165,9 +165,61 @@ Eigen::VectorXd layer_at_edge(const ShellGeometry<Corners>& geometry, int i, con
   return length * ((a + b) * gamma + width * f_M / 3.0 * (a.square() + a * b + b.square()));
 }
 
+/// [xx yy xy] of a tensor on the curved surface: each of its `derivatives` is along a path longer by ½ g gᵀ, and the
+/// area by ½ |g|².
+Eigen::Matrix3Xd on_surface(const Eigen::Vector2d& g, double derivatives, const Eigen::Matrix3Xd& flat) {
+  const double xx = g.x() * g.x(), yy = g.y() * g.y(), xy = g.x() * g.y(), f = 0.5 * derivatives;
+  Eigen::Matrix3d change;
+  change << -2.0 * f * xx, 0.0, -f * xy,  //
+      0.0, -2.0 * f * yy, -f * xy,        //
+      -2.0 * f * xy, -2.0 * f * xy, -f * (xx + yy);
+  return flat + (change + 0.5 * (xx + yy) * Eigen::Matrix3d::Identity()) * flat;
+}
+
+/// Strains of the displacements on the surface with the slopes g, times its area over the flat one.
+template <int Corners>
+Eigen::Matrix<double, 8, Eigen::Dynamic> surface_strains(const StrainPoint<Corners>& point, const Eigen::Vector2d& g,
+                                                         const Eigen::MatrixXd& v) {
+  Eigen::Matrix<double, 8, Eigen::Dynamic> strain = strains<Corners>(point, v);
+  Eigen::Matrix2Xd turn = Eigen::Matrix2Xd::Zero(2, v.cols());  // -theta_y, theta_x: slopes of w without shear
+  for (int i = 0; i < Corners; ++i) {
+    turn.row(0) -= point.N[i] * v.row(6 * i + 4);
+    turn.row(1) += point.N[i] * v.row(6 * i + 3);
+  }
+  const Eigen::Matrix2Xd slope = strain.template bottomRows<2>() + turn;
+  strain.template topRows<3>() = on_surface(g, 1.0, strain.template topRows<3>());
+  strain.template middleRows<3>(3) = on_surface(g, 0.5, strain.template middleRows<3>(3));
+  strain.row(0) += g.x() * slope.row(0);
+  strain.row(1) += g.y() * slope.row(1);
+  strain.row(2) += g.x() * slope.row(1) + g.y() * slope.row(0);
+  return strain;
+}
+
+/// |u|² of the middle surface.
+template <int Corners>
+Eigen::VectorXd squared_displacement(const Eigen::Matrix<double, Corners, 1>& N, const Eigen::MatrixXd& v) {
+  Eigen::Matrix3Xd u = Eigen::Matrix3Xd::Zero(3, v.cols());
+  for (int i = 0; i < Corners; ++i) u += N[i] * v.middleRows<3>(6 * i);
+  return u.colwise().squaredNorm().transpose();
+}
+
+/// Mass less stiffness of the strip between the straight edge from corner i and the curved one.
+template <int Corners>
+Eigen::VectorXd strip_at_edge(const ShellGeometry<Corners>& geometry, int i, const Eigen::Matrix<double, 8, 8>& F,
+                              const Eigen::VectorXd& inertia, const Eigen::MatrixXd& v,
+                              const Eigen::MatrixXd& smooth) {
+  Eigen::VectorXd density = Eigen::VectorXd::Zero(v.cols());
+  for (const int k : {i, (i + 1) % Corners}) {
+    const auto stress = smooth.middleRows<8>(8 * k);
+    density += 0.5 * inertia.cwiseProduct(v.middleRows<3>(6 * k).colwise().squaredNorm().transpose());
+    density -= 0.5 * stress.cwiseProduct(F * stress).colwise().sum().transpose();
+  }
+  return (geometry.corner.col((i + 1) % Corners) - geometry.corner.col(i)).norm() * density;
+}
+
 template <int Corners>
 Eigen::VectorXd error_of(const Mesh& mesh, const ShellElement& shell, const Eigen::MatrixXd& u,
-                         const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth, const ShellEdges& ending) {
+                         const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth, const ShellSurround& around) {
   const ShellProperty& property = mesh.shell_properties[shell.property];
   const ShellSection& section = property.section;
   const ShellGeometry<Corners> geometry = shell_geometry<Corners>(mesh, shell);
@@ -179,11 +231,19 @@ Eigen::VectorXd error_of(const Mesh& mesh, const ShellElement& shell, const Eige
     for (int i = 0; i < Corners; ++i) stress += point.N[i] * smooth.middleRows<8>(8 * i);
     if (section.A.isZero(0.0)) stress.topRows<3>().setZero();
     if (section.D.isZero(0.0)) stress.bottomRows<5>().setZero();
-    const Eigen::Matrix<double, 8, Eigen::Dynamic> gap = F * stress - 2.0 * strains<Corners>(point, v);
+    const Eigen::Vector2d g = around.slope.leftCols<Corners>() * point.N;
+    const double more = 0.5 * g.squaredNorm();
+    const Eigen::Matrix<double, 8, Eigen::Dynamic> gap =
+        (1.0 + more) * F * stress - 2.0 * surface_strains<Corners>(point, g, v);
     error += point.dA * stress.cwiseProduct(gap).colwise().sum().transpose();
+    if (more > 0.0)
+      error += more * point.dA * section.mass * lambda.cwiseProduct(squared_displacement<Corners>(point.N, v));
   }
-  for (int i = 0; i < Corners; ++i)
-    if (ending[i] && !section.D.isZero(0.0)) error += layer_at_edge<Corners>(geometry, i, F, v, smooth);
+  for (int i = 0; i < Corners; ++i) {
+    if (around.ending[i] && !section.D.isZero(0.0)) error += layer_at_edge<Corners>(geometry, i, F, v, smooth);
+    if (around.bow[i] != 0.0)
+      error += around.bow[i] * strip_at_edge<Corners>(geometry, i, F, section.mass * lambda, v, smooth);
+  }
   if (property.mass_matrix == formats::MassMatrix::lumped) {
     using Arms = Eigen::Matrix<double, Corners, 1>;
     const Eigen::MatrixXd at_middle = motion_along_normal<Corners>(geometry, Arms(Arms::Constant(shell.offset)), u);
@@ -236,9 +296,19 @@ void sample_stresses(const Mesh& mesh, const ShellElement& shell, const Eigen::M
 }
 
 Eigen::VectorXd energy_error(const Mesh& mesh, const ShellElement& shell, const Eigen::MatrixXd& u,
-                             const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth, const ShellEdges& ending) {
-  return shell.corners() == 3 ? error_of<3>(mesh, shell, u, lambda, smooth, ending)
-                              : error_of<4>(mesh, shell, u, lambda, smooth, ending);
+                             const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth,
+                             const ShellSurround& around) {
+  return shell.corners() == 3 ? error_of<3>(mesh, shell, u, lambda, smooth, around)
+                              : error_of<4>(mesh, shell, u, lambda, smooth, around);
+}
+
+Eigen::VectorXd stress_energy(const Mesh& mesh, const ShellElement& shell, const Eigen::MatrixXd& stress, int modes) {
+  const double area =
+      shell.corners() == 3 ? shell_geometry<3>(mesh, shell).area : shell_geometry<4>(mesh, shell).area;
+  const Eigen::Matrix<double, 6, 6> F =
+      compliance(mesh.shell_properties[shell.property].section).topLeftCorner<6, 6>();
+  const Eigen::VectorXd energy = stress.cwiseProduct(F * stress).colwise().sum().transpose();
+  return area * energy.reshaped(modes, stress.cols() / modes).rowwise().mean();
 }
 
 double angle_at_corner(const Mesh& mesh, const ShellElement& shell, int corner) {

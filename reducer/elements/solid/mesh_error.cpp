@@ -28,13 +28,14 @@ constexpr auto energy_rule() {
 }
 
 /// Share of the way from the middle to the corners where stresses are sampled, along each natural coordinate: near the
-/// middle of first-order shapes; the points of degree 2 and of reduced integration of the others.
+/// middle of first-order shapes; the points of degree 2 and of reduced integration of the others; of second-order
+/// prisms the middles of the sides ([ZZ92a]: of triangles), where stresses of bending in their plane are good.
 template <SolidShape shape>
 constexpr NaturalPoint sample_share() {
   constexpr double gauss = gauss2[1].at, tetrahedron = 0.44721359549995793928;
   if constexpr (shape == SolidShape::tetrahedron10) return {tetrahedron, tetrahedron, tetrahedron};
   if constexpr (shape == SolidShape::hexahedron20) return {gauss, gauss, gauss};
-  if constexpr (shape == SolidShape::prism15) return {0.5, 0.5, gauss};
+  if constexpr (shape == SolidShape::prism15) return {-0.5, -0.5, gauss};
   return {0.2, 0.2, 0.2};
 }
 
@@ -203,6 +204,48 @@ Eigen::VectorXd error_of(const Mesh& mesh, const SolidElement& solid, const Eige
   return error + lambda.cwiseProduct(excess_of_mass<shape>(mesh, solid, u));
 }
 
+/// ∂σ_ij/∂x_j of [xx yy zz xy yz zx] with the gradient g of a function.
+Eigen::Vector3d divergence(const Eigen::Matrix<double, 6, 1>& s, const Eigen::RowVector3d& g) {
+  return {s[0] * g[0] + s[3] * g[1] + s[5] * g[2], s[3] * g[0] + s[1] * g[1] + s[4] * g[2],
+          s[5] * g[0] + s[4] * g[1] + s[2] * g[2]};
+}
+
+template <SolidShape shape>
+Eigen::VectorXd imbalance_of(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u,
+                             const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth) {
+  static constexpr auto rule = energy_rule<shape>();
+  static constexpr auto table = tabulate<shape>(rule);
+  constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
+  const SolidMaterial& material = mesh.solid_properties[solid.property].material;
+  const auto x = node_positions<shape>(mesh, solid);
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(u.cols());
+  for (std::size_t q = 0; q < rule.point.size(); ++q) {
+    const Eigen::Matrix3d J = jacobian<nodes>(x, table.gradient[q]), inverse = J.inverse();
+    const Eigen::Matrix<double, nodes, 3> slope = GradientMap<nodes>(table.gradient[q][0].data()) * inverse;
+    const double h = 2.0 / inverse.colwise().norm().maxCoeff();
+    const double weight = table.weight[q] * J.determinant() * h * h / (EIGEN_PI * EIGEN_PI * material.C(3, 3));
+    const Eigen::Map<const Eigen::Matrix<double, nodes, 1>> N(table.value[q].data());
+    for (Eigen::Index m = 0; m < u.cols(); ++m) {
+      const Eigen::Map<const Eigen::Matrix<double, 3, nodes>> displacement(u.col(m).data());
+      Eigen::Vector3d force = lambda[m] * material.density * (displacement * N);
+      for (int k = 0; k < nodes; ++k) force += divergence(smooth.block<6, 1>(6 * k, m), slope.row(k));
+      sum[m] += weight * force.squaredNorm();
+    }
+  }
+  return sum;
+}
+
+template <SolidShape shape>
+double volume_of(const Mesh& mesh, const SolidElement& solid) {
+  static constexpr auto table = tabulate<shape>(energy_rule<shape>());
+  const auto x = node_positions<shape>(mesh, solid);
+  double volume = 0.0;
+  constexpr int nodes = static_cast<int>(SolidBasis<shape>::nodes.size());
+  for (std::size_t q = 0; q < table.weight.size(); ++q)
+    volume += table.weight[q] * jacobian<nodes>(x, table.gradient[q]).determinant();
+  return volume;
+}
+
 template <SolidShape shape>
 std::array<int, 2> ends_of(int node) {
   for (const auto& [a, b] : SolidBasis<shape>::edges) {
@@ -254,6 +297,20 @@ void sample_stresses(const Mesh& mesh, const SolidElement& solid, const Eigen::M
 Eigen::VectorXd energy_error(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u,
                              const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth) {
   return with_shape(solid.shape, [&]<SolidShape shape>() { return error_of<shape>(mesh, solid, u, lambda, smooth); });
+}
+
+Eigen::VectorXd imbalance(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& u,
+                          const Eigen::VectorXd& lambda, const Eigen::MatrixXd& smooth) {
+  return with_shape(solid.shape,
+                    [&]<SolidShape shape>() { return imbalance_of<shape>(mesh, solid, u, lambda, smooth); });
+}
+
+Eigen::VectorXd stress_energy(const Mesh& mesh, const SolidElement& solid, const Eigen::MatrixXd& stress, int modes) {
+  const double volume =
+      with_shape(solid.shape, [&]<SolidShape shape>() { return volume_of<shape>(mesh, solid); });
+  const Eigen::Matrix<double, 6, 6> F = mesh.solid_properties[solid.property].material.C.inverse();
+  const Eigen::VectorXd energy = stress.cwiseProduct(F * stress).colwise().sum().transpose();
+  return volume * energy.reshaped(modes, stress.cols() / modes).rowwise().mean();
 }
 
 int corner_count(SolidShape shape) {

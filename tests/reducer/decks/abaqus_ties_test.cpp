@@ -86,6 +86,26 @@ TEST(AbaqusTies, Mpcs) {
   EXPECT_THAT(abaqus_error(abaqus_plate + "*MPC\nSLIDER, 1, 2, 3\n"), HasSubstr("BEAM, TIE or PIN"));
 }
 
+/// The trial transform_supports: axes of nodes that nothing but supports uses have no effect. Away from the axis of
+/// TYPE=C the first direction leads away from it, the second around it (Abaqus keywords, *TRANSFORM).
+TEST(AbaqusTies, CylindricalAxesOfNodes) {
+  const std::string on_axis = "*NSET, NSET=t\n1\n*TRANSFORM, NSET=t, TYPE=C\n0., 0., 0., 0., 0., 1.\n";
+  EXPECT_TRUE(abaqus_deck(abaqus_plate + on_axis).mesh.equations.empty());
+  EXPECT_TRUE(abaqus_deck(abaqus_plate + "*NSET, NSET=t\n1\n*TRANSFORM, NSET=t, TYPE=S\n0., 0., 0., 0., 0., 1.\n")
+                  .mesh.equations.empty());
+  const std::string equation = "*EQUATION\n2\n1, 1, 1., 2, 2, -3.\n";
+  EXPECT_THAT(abaqus_error(abaqus_plate + on_axis + equation),
+              AllOf(HasSubstr("node 1: it lies on the axis"), HasSubstr("TYPE=R")));
+  // Node 2 at (1, 0, 0), axis along y through (1, 0, 4): away from it −z, around it y x (−z) = −x.
+  const Deck deck = abaqus_deck(abaqus_plate +
+                                "*NSET, NSET=t\n2\n*TRANSFORM, NSET=t, TYPE=C\n1., 0., 4., 1., 2., 4.\n" + equation);
+  const auto& terms = deck.mesh.equations.at(0).terms;
+  ASSERT_EQ(terms.size(), 2u);
+  EXPECT_EQ(terms[1].node, 1);
+  EXPECT_EQ(terms[1].component, 0);
+  EXPECT_NEAR(terms[1].coefficient, 3.0, 1e-14);
+}
+
 TEST(AbaqusTies, EquationsTurnWithTransformedNodes) {
   const Deck deck = abaqus_deck(
       abaqus_plate +

@@ -1,0 +1,19 @@
+// Meshes of shells on which smooth stresses cannot be known: what turns too much, what is folded too often.
+#pragma once
+
+#include <vector>
+
+#include "reducer/mesh/mesh.hpp"
+
+namespace tisserand::reducer {
+
+struct ShellForm {
+  bool turned = false;  ///< at two edges, or at both ends of a free edge, by 25 to 75 degrees: a curve in coarse pieces
+  bool few_across = false;  ///< it and all shells that share a corner with it touch a fold: fewer than three across
+  bool double_curvature =
+      false;  ///< both curvatures turn it by more than 1.5 degrees, the smaller by a fifth of the other
+};
+
+std::vector<ShellForm> shell_forms(const Mesh& mesh);
+
+}  // namespace tisserand::reducer

@@ -1,0 +1,17 @@
+// The curved surface and the curved edges on which the nodes of shells lie, from the turns between neighbours.
+#pragma once
+
+#include <vector>
+
+#include "reducer/elements/mesh_error.hpp"
+#include "reducer/mesh/mesh.hpp"
+#include "reducer/mesh_error/patches.hpp"
+
+namespace tisserand::reducer {
+
+/// One per shell. The normal at a corner is the mean of those of its patch, weighted by their angles; at borders, where
+/// a patch has one side only, curvature goes on as inside. A free edge is curved where it turns by less than 30 degrees
+/// into the next one; its bow is a twelfth of length and mean turn.
+std::vector<ShellSurround> surroundings(const Mesh& mesh, const StressPatches& patches);
+
+}  // namespace tisserand::reducer

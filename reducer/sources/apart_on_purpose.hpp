@@ -1,0 +1,32 @@
+// Nodes that touch without being one: whether something ties them, or a joint may.
+#pragma once
+
+#include <map>
+#include <set>
+#include <utility>
+
+#include "reducer/mesh/mesh.hpp"
+
+namespace tisserand::reducer {
+
+using NodePairs = std::set<std::pair<int, int>>;
+
+/// Pairs of nodes that a spring or a spider ties: they may lie at one place on purpose.
+NodePairs tied_pairs(const Mesh& mesh);
+
+/// Whether nodes at one place are apart on purpose: a spring or an equation has both, they follow one rigid spider, or
+/// both stay, so that a joint may connect them.
+class ApartOnPurpose {
+ public:
+  explicit ApartOnPurpose(const Mesh& mesh);
+  bool operator()(int a, int b) const;
+
+ private:
+  bool have_one_leader(int a, int b) const;
+
+  NodePairs tied_;
+  std::map<int, std::set<int>> leads_;  ///< references of the rigid spiders that a node follows
+  std::set<int> stays_;
+};
+
+}  // namespace tisserand::reducer
