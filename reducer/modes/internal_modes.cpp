@@ -195,29 +195,30 @@ Eigen::MatrixXd dropped_flexibility(const BoundaryModes& boundary, const Eigen::
   return boundary.flexibility - coupling * lambda.cwiseInverse().asDiagonal() * coupling.transpose();
 }
 
-/// Bound of the error up to the frequency of `accuracy` with these modes and the Ritz vectors of `out`.
-double error_with(const BoundaryModes& boundary, const Eigen::VectorXd& lambda, const Eigen::MatrixXd& coupling,
-                  const LeftOut& out, const formats::Accuracy& accuracy) {
-  const Eigen::Index n_B = boundary.S.rows(), m = lambda.size(), p = out.theta.size();
-  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n_B + m + p, n_B + m + p), M = S;
-  S.topLeftCorner(n_B, n_B) = boundary.S;
-  S.diagonal().tail(m + p) << lambda, out.theta;
-  M.setIdentity();
-  M.topLeftCorner(n_B, n_B) = boundary.M;
-  M.topRightCorner(n_B, m + p) << coupling, out.coupling;
-  M.bottomLeftCorner(m + p, n_B) = M.topRightCorner(n_B, m + p).transpose();
-  return largest_truncation_error(S, M, out, eigenvalue_of(accuracy.up_to));
+/// What no eigenvalue is below that is left out when the first `kept` are kept and that moves the boundary: modes that
+/// do not, such as those of a cylinder between two rings, change nothing that it is attached to.
+double first_coupled(const BoundaryModes& boundary, const Candidates& c, Eigen::Index kept, double lambda) {
+  constexpr double negligible = 1e-10;  ///< share of a mode's mass
+  const Eigen::VectorXd& all = c.spectrum.pairs.value;
+  const Eigen::VectorXd value = all.head(kept);
+  const Eigen::MatrixXd L = c.coupling.leftCols(kept);
+  const Eigen::VectorXd share =
+      boundary_shares({boundary.S, boundary.M, value, L}, lambda, c.coupling.rightCols(c.coupling.cols() - kept));
+  Eigen::Index first = kept;
+  while (first < all.size() && all[first] > lambda && share[first - kept] < negligible) ++first;
+  return first < all.size() ? all[first] : least_dropped(all, all.size(), c.available);
 }
 
-/// The same of the first `kept` candidates and no other vectors.
+/// Bound of the error up to the frequency of `accuracy` with the first `kept` candidates and no other vectors.
 double error_with(const BoundaryModes& boundary, const Candidates& c, int kept, const formats::Accuracy& accuracy) {
-  const Eigen::VectorXd& value = c.spectrum.pairs.value;
+  const Eigen::VectorXd value = c.spectrum.pairs.value.head(kept);
   const Eigen::MatrixXd L = c.coupling.leftCols(kept);
+  const double lambda = eigenvalue_of(accuracy.up_to);
   LeftOut out;
-  out.first_dropped = least_dropped(value, kept, c.available);
-  out.G = dropped_flexibility(boundary, L, value.head(kept));
+  out.first_dropped = least_dropped(c.spectrum.pairs.value, kept, c.available);
+  out.G = dropped_flexibility(boundary, L, value);
   out.coupling.resize(L.rows(), 0);
-  return error_with(boundary, value.head(kept), L, out, accuracy);
+  return attached_error({boundary.S, boundary.M, value, L}, out, first_coupled(boundary, c, kept, lambda), lambda);
 }
 
 /// The least number in [least, most] that meets the accuracy; −1 if `most` does not.
@@ -240,10 +241,12 @@ int moments_for(const InternalProblem& problem, const BoundaryModes& boundary, c
   const Eigen::MatrixXd G = dropped_flexibility(boundary, L, value);
   const MomentSpace moments =
       moment_space(problem, boundary, c.spectrum.pairs.vector.leftCols(kept), G, eigenvalue_of(accuracy.up_to));
-  const double dropped = least_dropped(all, kept, c.available);
+  const double dropped = least_dropped(all, kept, c.available), lambda = eigenvalue_of(accuracy.up_to);
+  const double coupled = first_coupled(boundary, c, kept, lambda);
   const RitzSpace& space = moments.space;
   const int count = fewest(0, static_cast<int>(space.size()), [&](int p) {
-    return error_with(boundary, value, L, space.left_out(space.values(p), G, dropped), accuracy) <= accuracy.error;
+    const LeftOut out = space.left_out(space.values(p), G, dropped);
+    return attached_error({boundary.S, boundary.M, value, L}, out, coupled, lambda) <= accuracy.error;
   });
   return count < 0 ? count : static_cast<int>(moments.whole(count));
 }

@@ -2,10 +2,12 @@
 #include "reducer/modes/truncation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include "common/error.hpp"
@@ -186,22 +188,93 @@ TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::Matrix
   return errors;
 }
 
-double largest_truncation_error(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, double lambda) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  if (!(lambda < out.first_dropped)) return infinite;
-  if (!std::isfinite(out.first_dropped)) return 0.0;  // nothing is left out
-  const double shift = shift_of(S, M, rigid);
-  if (shift == 0.0) return 0.0;
-  const ReducedModes modes = reduced_modes(S, M, shift, out.G.rows());
-  const Eigen::Index count = count_with(modes, upper_side(out, lambda), lambda);
-  if (count > modes.pairs.value.size()) return infinite;
-  double largest = 0.0;
-  for (Eigen::Index k = rigid; k < count; ++k) {
-    const double ratio = std::min(modes.pairs.value[k] / out.first_dropped, 0.9);
-    const double share = largest_share(modes, out, k, first_share(estimate_of(modes.pairs, out, k) / (1.0 - ratio)));
-    largest = std::max(largest, share < 1.0 ? 1.0 / std::sqrt(1.0 - share) - 1.0 : infinite);
+namespace {
+
+/// W and E of attached_error(), the least up to Λ: λ/Λ times W(λ) and E(λ) are not below them.
+struct Weights {
+  Eigen::MatrixXd mass, strain;
+};
+
+void add_vectors(const Eigen::VectorXd& value, const Eigen::MatrixXd& coupling, double lambda, Weights& w) {
+  Eigen::VectorXd mass(value.size()), strain(value.size());
+  for (Eigen::Index k = 0; k < value.size(); ++k) {
+    const double a = value[k], apart = std::pow(lambda - a, 2);
+    // (λ_k²/(λ_k − λ)² − 1)/λ and λ_k/(λ_k − λ)²: grow up to the pole at λ_k and fall behind it.
+    const double at_end = (2.0 * a - lambda) * lambda / apart;
+    mass[k] = lambda < a ? 2.0 * lambda / a : lambda > 2.0 * a ? at_end : std::min(2.0 * lambda / a, at_end);
+    strain[k] = lambda < a ? lambda / a : std::min(lambda / a, lambda * a / apart);
   }
-  return largest;
+  w.mass += coupling * mass.asDiagonal() * coupling.transpose();
+  w.strain += coupling * strain.asDiagonal() * coupling.transpose();
+}
+
+Weights weights_of(const BoundaryView& part, const LeftOut* out, double lambda) {
+  Weights w{part.M, part.S / lambda};
+  add_vectors(part.lambda, part.coupling, lambda, w);
+  if (out != nullptr && out->theta.size() > 0) add_vectors(out->theta, out->coupling, lambda, w);
+  return w;
+}
+
+/// Coordinates in which `weight` has a unit diagonal, and the regularised weight there.
+struct ScaledWeight {
+  Eigen::VectorXd unit;
+  Eigen::MatrixXd weight;
+};
+
+ScaledWeight scaled_weight(const Eigen::MatrixXd& weight) {
+  constexpr double round_off = 1e-13;
+  const Eigen::VectorXd d = weight.diagonal();
+  ScaledWeight s{(d.array() > 0.0).select(d.cwiseMax(1e-300).cwiseSqrt().cwiseInverse(), 0.0), {}};
+  s.weight = s.unit.asDiagonal() * weight * s.unit.asDiagonal();
+  s.weight.diagonal().array() += round_off;
+  for (Eigen::Index i = 0; i < d.size(); ++i)
+    if (s.unit[i] == 0.0) s.weight(i, i) = 1.0;
+  return s;
+}
+
+/// Largest eigenvalue of (A, weight).
+double largest_quotient(const Eigen::MatrixXd& A, const Eigen::MatrixXd& weight) {
+  const ScaledWeight s = scaled_weight(weight);
+  const Eigen::LLT<Eigen::MatrixXd> factor(s.weight);
+  if (factor.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+  Eigen::MatrixXd B = s.unit.asDiagonal() * A * s.unit.asDiagonal();
+  factor.matrixL().solveInPlace(B);
+  B.transposeInPlace();
+  factor.matrixL().solveInPlace(B);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(0.5 * (B + B.transpose()), Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().maxCoeff();
+}
+
+}  // namespace
+
+double attached_error(const BoundaryView& part, const LeftOut& out, double first_coupled, double lambda) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  constexpr std::array<double, 5> parts_of_mass{0.5, 0.25, 0.75, 0.1, 0.9};
+  constexpr std::array<double, 3> instants{1.0, 0.5, 0.25};  // of λ: λ R(λ) falls below it, except for oddities
+  constexpr Eigen::Index most_for_all = 100;
+  if (!(lambda < first_coupled)) return infinite;
+  if (!std::isfinite(out.first_dropped) || out.G.rows() == 0) return 0.0;  // nothing is left out
+  const Weights w = weights_of(part, &out, lambda);
+  const bool small = out.G.rows() <= most_for_all;
+  double least = infinite;
+  for (std::size_t t = 0; t < (small ? parts_of_mass.size() : 1); ++t) {
+    const Eigen::MatrixXd weight = parts_of_mass[t] * w.mass + (1.0 - parts_of_mass[t]) * w.strain;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < (small ? instants.size() : 1); ++i) {
+      const double at = instants[i] * lambda;
+      largest = std::max(largest, largest_quotient(lambda / (1.0 - at / first_coupled) * out.residual(at), weight));
+    }
+    least = std::min(least, largest);
+  }
+  return least < 1.0 ? std::sqrt(1.0 + least / (1.0 - least)) - 1.0 : infinite;
+}
+
+Eigen::VectorXd boundary_shares(const BoundaryView& part, double lambda, const Eigen::MatrixXd& coupling) {
+  const Weights w = weights_of(part, nullptr, lambda);
+  const ScaledWeight s = scaled_weight(w.mass + w.strain);
+  const Eigen::MatrixXd C = s.unit.asDiagonal() * coupling;
+  const Eigen::MatrixXd solved = s.weight.llt().solve(C);
+  return C.cwiseProduct(solved).colwise().sum();
 }
 
 }  // namespace tisserand::reducer

@@ -49,9 +49,29 @@ struct TruncationErrors {
 /// values (law of inertia) with both sides of the bound taken off. At most `most` modes.
 TruncationErrors truncation_errors(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, int most);
 
-/// Largest relative error of those frequencies whose ω² of the full part may be up to `lambda`, by the upper side of
-/// the bound; infinite if `lambda` is not below λ_d.
-double largest_truncation_error(const Eigen::MatrixXd& S, const Eigen::MatrixXd& M, const LeftOut& out, double lambda);
+/// What the boundary sees of the part: S̄_BB, M̄_BB, and per internal vector that is kept its ω² and coupling.
+struct BoundaryView {
+  const Eigen::MatrixXd& S;         ///< n_B x n_B
+  const Eigen::MatrixXd& M;         ///< n_B x n_B
+  const Eigen::VectorXd& lambda;    ///< ω² of the kept modes; those of Ritz vectors are in LeftOut
+  const Eigen::MatrixXd& coupling;  ///< n_B x modes
+};
+
+/// Largest relative error that what is left out causes to a frequency of ω² ≤ `lambda` of the part attached to anything
+/// with stiffness K ≥ 0 and mass ≥ 0, other bodies included. The motion u of the boundary in such a mode of unit mass
+/// shares strain and mass with what the part is attached to, so that, with m_k and λ_k of the kept vectors,
+///
+///     uᵀ W u ≤ 1,  W(λ) = M̄_BB + Σ (λ_k²/(λ_k − λ)² − 1) m_k m_kᵀ     (mass of the part),
+///     uᵀ E u ≤ 1,  E(λ) = S̄_BB/λ + Σ λ λ_k/(λ_k − λ)² m_k m_kᵀ         (its strain energy over λ),
+///
+/// and the left-out Δ (truncation_errors()) lowers ω² by uᵀ Δ u. So relatively by no more than the largest eigenvalue γ
+/// of (λ R(λ)/(1 − λ/λ_c), t W + (1 − t) E) for any t in [0, 1]: the least of some t, for the least W/λ and E/λ up to
+/// `lambda`. λ_c = `first_coupled`: what no left-out eigenvalue that moves the boundary is below. Infinite if `lambda`
+/// is not below that.
+double attached_error(const BoundaryView& part, const LeftOut& out, double first_coupled, double lambda);
+
+/// m_kᵀ (W + E)⁻¹ m_k of each column of `coupling` (n_B x k): the largest share of a mode's mass that it can have.
+Eigen::VectorXd boundary_shares(const BoundaryView& part, double lambda, const Eigen::MatrixXd& coupling);
 
 /// Modes of the free part, the `rigid_motions` without stiffness first (six, and those of mechanisms), from a shift of
 /// the size of the first elastic eigenvalue; at most `count`. Throws Error if S − shift M is not positive definite.
