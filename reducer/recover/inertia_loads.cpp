@@ -3,7 +3,11 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "common/text.hpp"
 #include "formats/recovery/load_factors.hpp"
+#include "formats/yaml/tree.hpp"
 #include "reducer/recover/stresses.hpp"
 
 namespace tisserand::reducer {
@@ -77,6 +81,23 @@ bool may_have_loads(const formats::Recovery& recovery, std::vector<std::string>&
 std::string unknown_loads_note() {
   return "the results do not hold the acceleration of the floating frame (written before version 1.10, or of an "
          "analysis without accelerations): stress that the modes leave out is not added; run the scene again";
+}
+
+std::string load_cases_note(const formats::SimulatedScene& scene, const std::string& body) {
+  if (scene.text.empty()) return "";
+  const formats::YamlDocument document = formats::parse_yaml(scene.text, "/scene/text");
+  const formats::YamlNode* loads = formats::find_child(document.root, "loads");
+  std::vector<std::string> names;
+  for (const formats::YamlNode& load : loads == nullptr ? std::vector<formats::YamlNode>{} : loads->children) {
+    const formats::YamlNode *type = formats::find_child(load, "type"), *of = formats::find_child(load, "body");
+    if (type != nullptr && of != nullptr && type->text == "part_load" && of->text == body)
+      names.push_back(fmt::format("'{}'", load.key));
+  }
+  if (names.empty()) return "";
+  return fmt::format(
+      "load cases of the part act on the body ({}): stress of theirs that the modes leave out is neither added nor "
+      "estimated; more `modes` or `moments` in the part file leave out less",
+      join(names, ", "));
 }
 
 void add_load_factors(const formats::Recovery& recovery, const formats::ResultsReader& results,

@@ -19,6 +19,10 @@ bool may_have_loads(const formats::Recovery& recovery, std::vector<std::string>&
 /// What is said where the results do not hold the motion of the frame.
 std::string unknown_loads_note();
 
+/// What is said where load cases of the part act on the body in the run, whose static answers the file does not hold;
+/// empty where none do, or where the results do not hold the scene.
+std::string load_cases_note(const formats::SimulatedScene& scene, const std::string& body);
+
 /// Sets load_factor and spin_squared of the motion, at the rows of superelement `row`, where the results hold the
 /// motion of the frame.
 void add_load_factors(const formats::Recovery& recovery, const formats::ResultsReader& results,

@@ -166,6 +166,7 @@ MotionReader::MotionReader(const formats::Recovery& recovery, const formats::Res
         "the results were written before version 1.10: of a body with its companion file, stress holds the strain of "
         "foreshortening, which is none; run the scene again");
   if (!body_.is_modal) has_loads_ = may_have_loads(recovery, notes_);
+  if (std::string note = load_cases_note(layout.simulated, body_.name); !note.empty()) notes_.push_back(std::move(note));
   look_at_all(request);
 }
 
