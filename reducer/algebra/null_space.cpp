@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double suspicious_share = 1e-11;  ///< energies that are looked at more closely
+constexpr double suspicious_share = 1e-12;  ///< energies that are looked at more closely
 
 /// Numbers between -1/2 and 1/2 that are the same in every run (a linear congruential generator modulo 2⁶⁴).
 MatrixXd scattered(Index rows, Index columns) {
@@ -38,12 +38,21 @@ VectorXd scale_of(const Matrix& S) {
   return (d.array() > 0.0).select(d, largest > 0.0 ? largest : 1.0).cwiseSqrt();
 }
 
+/// Gram and Schmidt, three times, since columns may be parallel but for round-off.
+MatrixXd orthonormal(MatrixXd Q) {
+  constexpr int passes = 3;
+  for (Index c = 0; c < Q.cols(); ++c)
+    for (int pass = 0; pass < passes; ++pass) {
+      Q.col(c).normalize();
+      Q.col(c) -= Q.leftCols(c) * (Q.leftCols(c).transpose() * Q.col(c)).eval();
+      Q.col(c).normalize();
+    }
+  return Q;
+}
+
 /// Ritz vectors of S in the space of X, softest first.
 MatrixXd softest_first(const Matrix& S, const VectorXd& scale, const MatrixXd& X) {
-  MatrixXd Q = scale.asDiagonal() * X;
-  Q = (Q * Q.colwise().norm().cwiseInverse().asDiagonal()).eval();
-  const Eigen::ColPivHouseholderQR<MatrixXd> basis(Q);
-  Q = basis.householderQ() * MatrixXd::Identity(Q.rows(), Q.cols());
+  const MatrixXd Q = orthonormal(scale.asDiagonal() * X);
   const MatrixXd V = scale.cwiseInverse().asDiagonal() * Q;
   const MatrixXd energy = V.transpose() * multiply(S, V);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(0.5 * (energy + energy.transpose()));
@@ -134,7 +143,6 @@ NullSpace searched_null_space(const Matrix& S, const Factor& factor) {
 }
 
 NullSpace null_space(const Matrix& S, const Factor& factor) {
-  constexpr double trusted_pivot = 1e-6;
   if (factor.least_pivot() > trusted_pivot) return {};
   return searched_null_space(S, factor);
 }

@@ -26,9 +26,12 @@ inline constexpr double null_share = 4e-15;
 /// Round-off is more than a thousandth of an energy below this.
 inline constexpr double doubtful_share = 1e-13;
 
+/// Share of its diagonal entry that a pivot keeps where it is trusted.
+inline constexpr double trusted_pivot = 1e-6;
+
 /// `factor`: of S, by Factor(S). Where all its pivots keep 1e-6 of their diagonal entries there is no null space: at
 /// the last coordinate that a motion v moves the pivot is vᵀ S v/v_j². Else one block of solutions looks for v, and if
-/// that finds energies below 1e-11, subspace iteration with S + 1e-12 diag(S), which is definite where S is
+/// that finds energies below 1e-12, subspace iteration with S + 1e-12 diag(S), which is definite where S is
 /// semidefinite, decides.
 NullSpace null_space(const Matrix& S, const Factor& factor);
 
