@@ -29,7 +29,8 @@ struct FreeModes : EigenPairs {
 };
 
 /// Elastic modes of the free part, vᵀ M v = 1: the `count` lowest, fewer if there are no more; a group of equal ones is
-/// completed. `rigid_motions`: six, and those of mechanisms. `scale`: some eigenvalue ω² of the size of the lowest. `asked`: by which solver. `share` hears how much of the search is done.
+/// completed. `rigid_motions`: six, and those of mechanisms. `scale`: some eigenvalue ω² of the size of the lowest.
+/// `asked`: by which solver. `share` hears how much of the search is done.
 /// Empty if a rigid motion moves no mass. Throws Error if round-off hides the frequencies.
 std::optional<FreeModes> full_free_modes(
     const System& system, double scale, int count, int rigid_motions, const formats::ModeSelection& asked,

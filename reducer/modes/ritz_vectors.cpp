@@ -67,7 +67,8 @@ FreeModes chosen_free_modes(const InternalProblem& problem, const formats::ModeS
     count = std::max(0, count_below(all.stiffness, all.mass, std::pow(2.0 * EIGEN_PI * *selection.cutoff, 2)) - rigid);
   }
   if (count == 0 && !selection.cutoff) return {{VectorXd(), MatrixXd(problem.system.size(), 0)}, {}, {}};
-  std::optional<FreeModes> pairs = full_free_modes(problem.system, lambda_1, std::max(1, count), 6, selection, verify, problem.share);
+  std::optional<FreeModes> pairs =
+      full_free_modes(problem.system, lambda_1, std::max(1, count), 6, selection, verify, problem.share);
   if (!pairs) fail_without_mass(problem);
   if (count == 0 && pairs->value.size() > 0) fail_low_cutoff(selection, "free", pairs->value[0]);
   if (pairs->value.size() < count)
