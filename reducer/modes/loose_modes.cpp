@@ -79,16 +79,17 @@ void release_pins(const InternalProblem& problem, const std::vector<int>& pins, 
   require_mass_of(problem, N, mass);
   const MatrixXd shared = internal.coupling.bottomRows(k), share = mass.ldlt().solve(shared);
   const MatrixXd rest = MatrixXd::Identity(m, m) - shared.transpose() * share;
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> elastic(MatrixXd(internal.lambda.asDiagonal()),
-                                                                   symmetric_part(rest));
   const Eigen::SelfAdjointEigenSolver<MatrixXd> loose(mass);
   MatrixXd Phi(p.n_I(), k + m);
   Phi.leftCols(k) = N * loose.operatorInverseSqrt();
-  if (m > 0)
-    Phi.rightCols(m) = (whole(problem, pins, internal.Phi, MatrixXd::Zero(k, m)) - N * share) * elastic.eigenvectors();
-  internal.Phi = std::move(Phi);
   VectorXd lambda = VectorXd::Zero(k + m);
-  if (m > 0) lambda.tail(m) = elastic.eigenvalues();
+  if (m > 0) {
+    const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> elastic(MatrixXd(internal.lambda.asDiagonal()),
+                                                                     symmetric_part(rest));
+    Phi.rightCols(m) = (whole(problem, pins, internal.Phi, MatrixXd::Zero(k, m)) - N * share) * elastic.eigenvectors();
+    lambda.tail(m) = elastic.eigenvalues();
+  }
+  internal.Phi = std::move(Phi);
   internal.lambda = std::move(lambda);
 
   boundary.Psi = whole(problem, pins, boundary.Psi * T, c);

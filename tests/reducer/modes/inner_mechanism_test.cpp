@@ -205,6 +205,20 @@ TEST(InnerMechanism, StaysAsACoordinateOfFrequencyZero) {
   }
 }
 
+// Without modes the flap turns as a rigid body; a cut-off counts the modes beside it.
+TEST(InnerMechanism, StaysWithoutModesAndBelowACutoff) {
+  const reducer::Reduction bare = reduce(flap({"modes=0"}));
+  EXPECT_EQ(bare.superelement.size(), 7);
+  EXPECT_EQ(bare.superelement.stiffness.row(6).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_NEAR(bare.file.rigid.mass / bare.model.rigid.mass, 1.0, 1e-12);
+  formats::Part part = flap({});
+  part.modes.count = 0;
+  part.modes.cutoff = 800.0;
+  const reducer::Reduction below = reduce(part);
+  EXPECT_EQ(below.model.mechanisms, 1);
+  EXPECT_EQ(below.model.modes_kept, 8);  // the ninth has 862.5 Hz, one coordinate of the flap held
+}
+
 TEST(InnerMechanism, MeetsOnlyWhatHasModesWithTheBoundaryHeld) {
   for (const std::string other : {"method=rubin", "method=macneal", "modal_body={reference: base, modes: 2}"})
     EXPECT_THAT(test_support::error_of([&] { flap({other}); }), HasSubstr("mechanism: allow")) << other;
