@@ -187,7 +187,7 @@ void set_cylindrical_axes(Model& model, int scope, const std::vector<int>& nodes
   }
   const Eigen::Vector3d z = along.normalized();
   for (const int node : nodes) {
-    const Eigen::Vector3d arm = position(model, node) - start, away = arm - z * z.dot(arm);
+    const Eigen::Vector3d arm = model.positions[node] - start, away = arm - z * z.dot(arm);
     if (away.norm() <= 1e-9 * std::max(arm.norm(), along.norm())) {
       model.undirected[node] = "it lies on the axis of its *TRANSFORM, TYPE=C, where no direction leads away from it";
       continue;
