@@ -39,8 +39,11 @@ bool is_loaded(const Evaluation& evaluation) {
 
 /// Turns per time of ω around the axis of least or largest inertia, in axes of a body that nothing acts on:
 /// p/(4 K(m)) with p² = (I₃ − I₂)(h² − 2 I₁ T)/(I₁ I₂ I₃), m = (I₂ − I₁)(2 I₃ T − h²)/((I₃ − I₂)(h² − 2 I₁ T)) where
-/// h² > 2 I₂ T, else with 1 and 3 exchanged (Landau, Lifshitz, Mechanics, 1976, equations 37.8 to 37.12).
+/// h² > 2 I₂ T, else with 1 and 3 exchanged (Landau, Lifshitz, Mechanics, 1976, equations 37.8 to 37.12). Zero on the
+/// middle axis, where h² = 2 I₂ T but for the rounding of both.
 double tumbling_frequency(const Eigen::Vector3d& I, double h2, double T2) {
+  constexpr double rounding = 1e-13;
+  if (!(std::abs(h2 - I[1] * T2) > rounding * h2)) return 0.0;
   const bool about_largest = h2 > I[1] * T2;
   const double a = about_largest ? I[0] : I[2], c = about_largest ? I[2] : I[0];
   const double numerator = (I[1] - a) * (c * T2 - h2), denominator = (c - I[1]) * (h2 - a * T2);

@@ -22,7 +22,7 @@ struct Stiffest {
   }
 };
 
-/// Of at most a thousand elements of a kind, evenly taken.
+/// Takes the diagonals of the elements into `stiffest`: of all, or of about a thousand with equal gaps between them.
 template <class Element>
 void take_some(const Mesh& mesh, const std::vector<Element>& elements, Index per_node, Stiffest& stiffest) {
   constexpr std::size_t most = 1000;

@@ -56,9 +56,9 @@ class NodeTable : public HistoryTable {
       shell_{formats::RecoveryField::shell_stress}, solid_{formats::RecoveryField::solid_stress};
 };
 
-/// Of beams forces and moments at both ends and the largest and smallest normal stress; of shells von Mises stress of
-/// both faces, principal stresses, membrane and bending; of solids von Mises and principal stresses, the worst of its
-/// nodes, and the mean of its nodes.
+/// The histories of single elements. Columns of a beam: forces and moments at both ends, largest and smallest normal
+/// stress. Of a shell: von Mises stress of both faces, principal stresses, membrane and bending stress. Of a solid: von
+/// Mises and principal stresses of its worst node, and the mean stress of its nodes.
 class StressTable : public HistoryTable {
  public:
   StressTable(const formats::Recovery& recovery, const BodyMotion& still, std::vector<ChosenItem> elements);

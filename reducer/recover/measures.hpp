@@ -14,8 +14,9 @@ struct Placed {
   int place = 0;
 };
 
-/// Of a beam the normal stresses of its sections: `von_mises` the largest |normal stress|, the others the largest and
-/// the smallest. Of a shell the principal stresses are those in its plane.
+/// The stresses of an element that are compared over time: von Mises stress, largest and smallest principal stress. A
+/// beam has its normal stress in place of them: `von_mises` is the largest |normal stress|. The principal stresses of a
+/// shell are those in its plane.
 struct Measures {
   Placed von_mises, largest, smallest;
 };

@@ -137,7 +137,7 @@ bool knows_strain(const std::string& version) {
   return dot == std::string::npos || std::atoi(version.c_str() + dot + 1) >= 10;
 }
 
-/// Of the widest dataset over the coordinates of all bodies.
+/// Number of instants that are read at once: as many as `batch_doubles` holds rows of the widest dataset.
 Index batch_of(const ResultsLayout& layout) {
   const auto last = [](const std::vector<int>& offset) { return offset.empty() ? 0 : offset.back(); };
   const double width =

@@ -24,7 +24,7 @@ struct NodalLoads {
   NodeForces frame, deformation;  ///< nodes of the mesh
 };
 
-/// Of one instant. Throws Error where the recovery file or the results lack what it takes.
+/// Computes the loads of one instant. After require_nodal_loads() of the same files.
 NodalLoads nodal_loads(const formats::RecoveryReader& file, const BodyMotion& motion, Eigen::Index instant);
 
 /// Throws Error, with the reason: a modal body, a file before version 1.2 or of method macneal, results without the

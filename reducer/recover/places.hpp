@@ -8,7 +8,8 @@
 
 namespace tisserand::reducer {
 
-/// Of values that symmetry makes equal the first one is named, not the one that round-off of floats makes larger.
+/// Relative difference up to which two stresses count as equal. Stresses at symmetric places differ by round-off alone;
+/// the first of them is then named.
 inline constexpr float equal_by_symmetry = 2e-6f;
 
 /// "shell 17 of 'skin'".

@@ -37,7 +37,7 @@ struct ModalBodyCertificate {
   std::string reference;           ///< "center held", "mean axis"
   std::vector<double> frequency;   ///< of its modes
   formats::RigidProperties rigid;  ///< of the lumped masses
-  std::string eigenvalue_solver;   ///< as of the part; empty in certificates of former versions
+  std::string eigenvalue_solver;   ///< name, type, iterations; empty in former files
 };
 
 /// What the mesh does to the lowest frequencies: mesh_error/mesh_error.hpp.

@@ -106,7 +106,7 @@ std::vector<char> carrying_nodes(const MeshBuilder& builder) {
   return carries;
 }
 
-/// Of some nodes, the diagonal of the box around them.
+/// The diagonal of the box around the nodes that count.
 double extent(const MeshBuilder& builder, const std::vector<char>& counts) {
   Vector3d low = Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (std::size_t n = 0; n < counts.size(); ++n)

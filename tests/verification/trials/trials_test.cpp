@@ -478,5 +478,16 @@ TEST(Tumbling, ChangedPeriodIsTold) {
   }
 }
 
+// Exactly on its middle axis a body stays there, and rounding is no tumbling.
+TEST(Tumbling, OfTheMiddleAxisIsNoRounding) {
+  for (const char* integrator : {"{step: 0.01, end: 1000}", "{method: bdf, end: 1000}",
+                                 "{method: radau, step: auto, end: 1000, error_control: {tolerance: 1e-9}}"}) {
+    const Trial trial("tumbling_body", {"bodies.n.inertia=[1.1, 2.7, 3.3]", "bodies.n.angular_velocity=[0, 2.1, 0]",
+                                        fmt::format("integrator={}", integrator)});
+    EXPECT_NEAR(trial.last("nodes/angular_velocity/n/y"), 2.1, 1e-3) << integrator;
+    EXPECT_THAT(trial.report().doubts, IsEmpty()) << integrator;
+  }
+}
+
 }  // namespace
 }  // namespace tisserand::mechanism::trials_test
