@@ -95,8 +95,8 @@ std::string load_cases_note(const formats::SimulatedScene& scene, const std::str
   }
   if (names.empty()) return "";
   return fmt::format(
-      "load cases of the part act on the body ({}): stress of theirs that the modes leave out is neither added nor "
-      "estimated; more `modes` or `moments` in the part file leave out less",
+      "load cases of the part act on the body ({}): the stress of load cases that the modes leave out is neither added "
+      "nor estimated; with more `modes` or `moments` in the part file less of it is left out",
       join(names, ", "));
 }
 
