@@ -65,40 +65,52 @@ TurningPivot arm_pivot(const ElementRows3& rotation, const Eigen::Ref<const Load
   return pivot;
 }
 
-/// Z −= f~ u + ½ m~ θ for each load: f·(ω × u) + m·½ (ω × θ) = ω·(−f~ u − ½ m~ θ).
-void add_turned(const PointLoads& loads, const ElementRows3& u, const ElementRows3& rotation,
-                std::array<ElementRows3, inertial_loads>& Z) {
+/// [U; Θ] of all points, then ω where there is one, and what the loads do to them: [f; m] about the points.
+struct PointRows {
+  MatrixXd motion;  ///< 6 p (+ 3) x n
+  MatrixXd load;    ///< 6 p x 12
+};
+
+/// Rows of `turned` of all loads: f·(ω × u) + m·½ (ω × θ) = ω·(−f~ u − ½ m~ θ) of the points with u = U + ½ x~ ω, less
+/// the same of the nodes, where U and θ are coordinates. One product: of [−f~, −½ m~] of all points and the rows before
+/// ω, and [U; Θ] of all points and ω.
+void set_turned(const MovingMass& mass, const PointRows& rows, const Vector3d& reference, TurningMass& out) {
+  const Index points = static_cast<Index>(mass.points.size()), at_turn = 6 * points;
+  MatrixXd factors(3 * inertial_loads, at_turn + 3);
+  factors.rightCols<3>().setZero();
+  /// −½ f~ x~, f~ x~ = x fᵀ − (f·x) 1
+  const auto add_arm = [&](int l, const Vector3d& f, const Vector3d& x) {
+    factors.block<3, 3>(3 * l, at_turn) -= 0.5 * x * f.transpose();
+    factors.block<3, 3>(3 * l, at_turn).diagonal().array() += 0.5 * f.dot(x);
+  };
   for (int l = 0; l < inertial_loads; ++l) {
-    const Vector3d f = loads.block<3, 1>(0, l), m = 0.5 * loads.block<3, 1>(3, l);
-    for (Index c = 0; c < u.cols(); ++c) {
-      const Vector3d at_u = u.col(c), at_r = rotation.col(c);
-      Z[l].col(c) -= f.cross(at_u) + m.cross(at_r);
+    for (Index p = 0; p < points; ++p) {
+      const Vector3d f = rows.load.block<3, 1>(6 * p, l), m = rows.load.block<3, 1>(6 * p + 3, l);
+      factors.block<3, 3>(3 * l, 6 * p) = -skew<double>(f);
+      factors.block<3, 3>(3 * l, 6 * p + 3) = -0.5 * skew<double>(m);
+      add_arm(l, f, mass.points[static_cast<std::size_t>(p)].at - reference);
     }
+    for (Index i = 0; i < mass.nodes.cols(); ++i)
+      add_arm(l, -out.load.block<3, 1>(6 * i, l), mass.nodes.col(i) - reference);
   }
+  out.turned.noalias() = factors * rows.motion;
+  for (int l = 0; l < inertial_loads; ++l)
+    for (Index i = 0; i < mass.nodes.cols(); ++i) {
+      out.turned.block<3, 3>(3 * l, 6 * i) += skew<double>(Vector3d(out.load.block<3, 1>(6 * i, l)));
+      out.turned.block<3, 3>(3 * l, 6 * i + 3) += 0.5 * skew<double>(Vector3d(out.load.block<3, 1>(6 * i + 3, l)));
+    }
 }
 
 /// The motion of the points with the element, less what their nodes have of it; arms.
-void add_turn(const MovingMass& mass, const std::vector<PointLoads>& loads, const Vector3d& reference,
-              TurningMass& out) {
-  const Index n = mass.coordinates;
+void add_turn(const MovingMass& mass, const PointRows& rows, const Vector3d& reference, TurningMass& out) {
   out.turn = mass.turn;
-  for (ElementRows3& one : out.turned) one.setZero(3, n);
-  for (std::size_t p = 0; p < mass.points.size(); ++p) {
-    const MassPoint& point = mass.points[p];
-    const ElementRows3 u = point.displacement + 0.5 * skew<double>(Vector3d(point.at - reference)) * mass.turn;
-    PointLoads about_point = loads[p];
-    if (!point.centre.isZero(0.0)) about_point.bottomRows<3>() += skew<double>(point.centre) * loads[p].topRows<3>();
-    add_turned(about_point, u, point.rotation, out.turned);
-  }
+  set_turned(mass, rows, reference, out);
   for (Index i = 0; i < mass.nodes.cols(); ++i) {
-    ElementRows3 u = 0.5 * skew<double>(Vector3d(mass.nodes.col(i) - reference)) * mass.turn;
-    ElementRows3 psi = ElementRows3::Zero(3, n);
-    u.middleCols<3>(6 * i) += Matrix3d::Identity();
-    psi.middleCols<3>(6 * i + 3) = Matrix3d::Identity();
-    const PointLoads on_node = out.load.middleRows<6>(6 * i);
-    add_turned(-on_node, u, psi, out.turned);
     const Vector3d r = mass.arms.col(i);
-    if (!r.isZero(0.0)) out.pivots.push_back(arm_pivot(psi - mass.turn, on_node.topRows<3>(), r));
+    if (r.isZero(0.0)) continue;
+    ElementRows3 against_element = -mass.turn;
+    against_element.middleCols<3>(6 * i + 3) += Matrix3d::Identity();
+    out.pivots.push_back(arm_pivot(against_element, out.load.middleRows<3>(6 * i), r));
   }
 }
 
@@ -144,7 +156,7 @@ TurningForms turning_forms(const TurningMass& mass) {
           mass.translation.middleRows(a * count, count).transpose() * mass.momentum.middleRows(b * count, count);
   add_translations(product, forms);
   for (int l = 0; l < inertial_loads && mass.turn.cols() > 0; ++l) {
-    const MatrixXd half = mass.turn.transpose() * mass.turned[l];
+    const MatrixXd half = mass.turn.transpose() * mass.turned.middleRows<3>(3 * l);
     forms.of(TurningPivot::work + l) += half + half.transpose();
   }
   for (const TurningPivot& pivot : mass.pivots)
@@ -164,22 +176,31 @@ void turning_mass(const MovingMass& mass, const Vector3d& reference, TurningMass
   out.momentum.resize(3 * count, n);
   out.turn.resize(3, 0);
   out.pivots.clear();
-  out.load.setZero(n, inertial_loads);
-  std::vector<PointLoads> loads;
+  PointRows rows;
+  rows.motion.resize(6 * count + (mass.turn.cols() > 0 ? 3 : 0), n);
+  rows.load.resize(6 * count, inertial_loads);
   for (Index p = 0; p < count; ++p) {
     const MassPoint& point = mass.points[static_cast<std::size_t>(p)];
-    const ElementRows3 centre = point.displacement - skew<double>(point.centre) * point.rotation;
+    const bool is_beside = !point.centre.isZero(0.0);
+    rows.motion.middleRows<3>(6 * p) = point.displacement;
+    rows.motion.middleRows<3>(6 * p + 3) = point.rotation;
+    ElementRows3 centre = point.displacement;
+    if (is_beside) centre -= skew<double>(point.centre) * point.rotation;
     for (int a = 0; a < 3; ++a) {
       out.translation.row(a * count + p) = centre.row(a);
       out.momentum.row(a * count + p) = point.mass * centre.row(a);
     }
-    loads.push_back(loads_on(point, point.at + point.centre - reference));
-    out.load.noalias() += centre.transpose() * loads.back().topRows<3>();
-    out.load.noalias() += point.rotation.transpose() * loads.back().bottomRows<3>();
-    if (!point.centre.isZero(0.0))
-      out.pivots.push_back(arm_pivot(point.rotation, loads.back().topRows<3>(), point.centre));
+    auto load = rows.load.middleRows<6>(6 * p);
+    load = loads_on(point, point.at + point.centre - reference);
+    if (!is_beside) continue;
+    out.pivots.push_back(arm_pivot(point.rotation, load.topRows<3>(), point.centre));
+    load.bottomRows<3>() += skew<double>(point.centre) * load.topRows<3>();
   }
-  if (mass.turn.cols() > 0) add_turn(mass, loads, reference, out);
+  out.load.noalias() = rows.motion.topRows(6 * count).transpose() * rows.load;
+  if (mass.turn.cols() > 0) {
+    rows.motion.bottomRows<3>() = mass.turn;
+    add_turn(mass, rows, reference, out);
+  }
   for (const RotaryMass& part : mass.rotary)
     if (!part.inertia.isZero(0.0)) out.pivots.push_back(rotary_pivot(part));
 }

@@ -71,10 +71,10 @@ struct TurningPivot {
 
 /// What an element adds, over its n coordinates.
 struct TurningMass {
-  Eigen::MatrixXd translation;                      ///< 3 r x n: x of r masses, then y and z
-  Eigen::MatrixXd momentum;                         ///< the same times their masses
-  ElementRows3 turn;                                ///< ω; without columns: none
-  std::array<ElementRows3, inertial_loads> turned;  ///< work of each load on its second order: ω·(turned d)
+  Eigen::MatrixXd translation;  ///< 3 r x n: x of r masses, then y and z
+  Eigen::MatrixXd momentum;     ///< the same times their masses
+  ElementRows3 turn;            ///< ω; without columns: none
+  Eigen::MatrixXd turned;       ///< 3 x n for each load: its work on the second order is ω·(turned d)
   std::vector<TurningPivot> pivots;
   Eigen::MatrixXd load;  ///< n x 12: of the loads, on the nodes
 };

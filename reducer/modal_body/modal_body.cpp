@@ -139,7 +139,7 @@ LumpedModes free_modes(const Mesh& mesh, const System& system, const formats::Mo
   if (!(lowest > 0.0))
     throw Error("modal_body: the part has no free frequencies, and so no mean axis", body.where,
                 "hold six components: reference: tip");
-  const std::optional<FreeModes> pairs = full_free_modes(system, lowest, body.modes, 6, asked);
+  const std::optional<FreeModes> pairs = full_free_modes(system, {.scale = lowest, .count = body.modes}, asked);
   if (!pairs)
     throw Error("modal_body: some rigid motion of the lumped masses moves no mass, which leaves the mean axis open",
                 body.where, "hold six components, or give the part inertia about every axis");

@@ -20,9 +20,9 @@ Eigen::Matrix<double, 6, 6> rigid_mass_about(const System& system, const Eigen::
 }  // namespace
 
 Blocks take_apart(System& system, const Partition& p, const formats::ModeSelection& asked) {
-  const bool needed = asked.method != formats::ReductionMethod::craig_bampton || asked.mechanism == formats::Mechanisms::allow;
-  if (!needed && system.size() > most_compared_coordinates)
-    return split(std::move(system.matrices), p);
+  const bool needed =
+      asked.method != formats::ReductionMethod::craig_bampton || asked.mechanism == formats::Mechanisms::allow;
+  if (!needed && system.size() > most_compared_coordinates) return split(std::move(system.matrices), p);
   return split(system.matrices, p);
 }
 
@@ -38,7 +38,7 @@ formats::RigidProperties full_rigid_properties(const System& system) {
   return rigid;
 }
 
-std::optional<FreeModes> full_free_modes(const System& system, double scale, int count, int rigid_motions,
+std::optional<FreeModes> full_free_modes(const System& system, const FreeSearch& sought,
                                          const formats::ModeSelection& asked, Count verify,
                                          const std::function<void(double)>& share) {
   const Eigen::Matrix<double, 6, 6> rigid = rigid_mass_about(system, system.middle);
@@ -48,30 +48,35 @@ std::optional<FreeModes> full_free_modes(const System& system, double scale, int
   if (Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled).eigenvalues()[0] < 1e-12) return std::nullopt;
 
   const SystemMatrices matrices = to_petsc(system.matrices);
-  const int available = finite_mode_count(matrices.mass);
-  const int wanted = std::min(available, rigid_motions + count);
+  const int rigid_motions = sought.rigid_motions, most = rigid_motions + sought.count;
+  constexpr int beyond = 2;  // that an iteration seeks, too
+  const bool is_dense = choose_solver(system.size(), most, asked) == EigenSolver::lapack;
+  const int available =
+      !is_dense && most + beyond <= sought.finite ? static_cast<int>(system.size()) : finite_mode_count(matrices.mass);
+  const int wanted = std::min(available, most);
   if (wanted <= rigid_motions) return FreeModes{};
   // As far below the rigid motions as the first mode above: a solution errs by ε λ_max/(λ − shift), 7e-8 for bricks
   // with a tenth of it.
-  const double shift = -scale;
+  const double shift = -sought.scale;
   const Factor factor(combine(matrices.stiffness, -shift, matrices.mass));
   const Spectrum spectrum = lowest_pairs({matrices.stiffness, matrices.mass, factor, shift, share}, wanted, available,
                                          choose_solver(system.size(), wanted, asked), verify);
   const int kept = spectrum.kept - rigid_motions;
-  FreeModes modes{{spectrum.pairs.value.segment(rigid_motions, kept), spectrum.pairs.vector.middleCols(rigid_motions, kept)},
-                  {},
-                  report_of(spectrum)};
+  FreeModes modes{
+      {spectrum.pairs.value.segment(rigid_motions, kept), spectrum.pairs.vector.middleCols(rigid_motions, kept)},
+      {},
+      report_of(spectrum)};
   if (spectrum.counted) modes.counted = *spectrum.counted - rigid_motions;
   return modes;
 }
 
-ModeComparison compare_free_modes(const System& system, double scale, int count, int rigid_motions,
-                                  const formats::ModeSelection& asked,                                  const Eigen::MatrixXd& u) {
+ModeComparison compare_free_modes(const System& system, const FreeSearch& sought, const formats::ModeSelection& asked,
+                                  const Eigen::MatrixXd& u) {
   ModeComparison result;
   try {
-    const std::optional<FreeModes> pairs = full_free_modes(system, scale, count, rigid_motions, asked);
+    const std::optional<FreeModes> pairs = full_free_modes(system, sought, asked);
     if (!pairs) return result;
-    const Eigen::Index kept = std::min<Eigen::Index>(count, pairs->value.size());
+    const Eigen::Index kept = std::min<Eigen::Index>(sought.count, pairs->value.size());
     for (Eigen::Index k = 0; k < kept; ++k)
       result.frequency.push_back(std::sqrt(std::max(0.0, pairs->value[k])) / (2.0 * EIGEN_PI));
     const Eigen::MatrixXd Mu = multiply(symmetric_rows(system.matrices, system.matrices.M), u);

@@ -28,13 +28,19 @@ struct FreeModes : EigenPairs {
   SolverReport solver;
 };
 
-/// Elastic modes of the free part, vᵀ M v = 1: the `count` lowest, fewer if there are no more; a group of equal ones is
-/// completed. `rigid_motions`: six, and those of mechanisms. `scale`: some eigenvalue ω² of the size of the lowest.
-/// `asked`: by which solver. `share` hears how much of the search is done.
+/// Which elastic modes of the free part are sought.
+struct FreeSearch {
+  double scale = 0.0;     ///< some eigenvalue ω² of the size of the lowest
+  int count = 0;          ///< the lowest
+  int rigid_motions = 6;  ///< with those of mechanisms
+  int finite = 0;         ///< so many finite eigenvalues are known to exist, which can save a count
+};
+
+/// Elastic modes of the free part, vᵀ M v = 1, fewer if there are no more; a group of equal ones is completed. `asked`:
+/// by which solver. `share` hears how much of the search is done.
 /// Empty if a rigid motion moves no mass. Throws Error if round-off hides the frequencies.
 std::optional<FreeModes> full_free_modes(
-    const System& system, double scale, int count, int rigid_motions, const formats::ModeSelection& asked,
-    Count verify = Count::if_cheap,
+    const System& system, const FreeSearch& sought, const formats::ModeSelection& asked, Count verify = Count::if_cheap,
     const std::function<void(double)>& share = [](double /*done*/) {});
 
 /// Elastic modes of the free part beside others.
@@ -43,10 +49,9 @@ struct ModeComparison {
   Eigen::MatrixXd assurance;      ///< (vᵢᵀ M u_k)²: one row per frequency, one column per mode u
 };
 
-/// Up to `count` lowest modes v of the full part beside the modes `u` (coordinates q, uᵀ M u = 1): modal assurance
-/// criterion weighted with the mass, 1 where they agree. `scale` as above. Empty if a rigid motion moves no mass or
-/// round-off hides the frequencies.
-ModeComparison compare_free_modes(const System& system, double scale, int count, int rigid_motions,
-                                  const formats::ModeSelection& asked,                                  const Eigen::MatrixXd& u);
+/// Modes v of the full part beside the modes `u` (coordinates q, uᵀ M u = 1): modal assurance criterion weighted with
+/// the mass, 1 where they agree. Empty if a rigid motion moves no mass or round-off hides the frequencies.
+ModeComparison compare_free_modes(const System& system, const FreeSearch& sought, const formats::ModeSelection& asked,
+                                  const Eigen::MatrixXd& u);
 
 }  // namespace tisserand::reducer

@@ -68,7 +68,7 @@ FreeModes chosen_free_modes(const InternalProblem& problem, const formats::ModeS
   }
   if (count == 0 && !selection.cutoff) return {{VectorXd(), MatrixXd(problem.system.size(), 0)}, {}, {}};
   std::optional<FreeModes> pairs =
-      full_free_modes(problem.system, lambda_1, std::max(1, count), 6, selection, verify, problem.share);
+      full_free_modes(problem.system, {.scale = lambda_1, .count = std::max(1, count)}, selection, verify, problem.share);
   if (!pairs) fail_without_mass(problem);
   if (count == 0 && pairs->value.size() > 0) fail_low_cutoff(selection, "free", pairs->value[0]);
   if (pairs->value.size() < count)

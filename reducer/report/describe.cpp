@@ -116,7 +116,9 @@ void describe_comparison(const formats::ModeSelection& asked, const System& syst
   const int loose = internal.loose();
   const double scale =
       internal.lambda.size() > loose ? internal.lambda[loose] : internal.first_dropped.value_or(0.0);
-  const ModeComparison full = compare_free_modes(system, scale, most_compared, 6 + loose, asked, modes.q);
+  const ModeComparison full = compare_free_modes(
+      system,
+      {.scale = scale, .count = most_compared, .rigid_motions = 6 + loose, .finite = internal.available}, asked, modes.q);
   c.free_frequency = full.frequency;
   if (modes.boundary_held) return;
   for (const auto& row : full.assurance.rowwise()) c.assurance.emplace_back(row.begin(), row.end());

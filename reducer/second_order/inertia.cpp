@@ -109,7 +109,7 @@ void fill(const MatrixXd& Phi, ElementInertia& element, InertiaBlock& block) {
   if (mass.turn.cols() > 0) {
     block.turn.middleRows<3>(element.turn).noalias() = mass.turn * element.motion;
     for (int l = 0; l < inertial_loads; ++l)
-      block.turned[l].middleRows<3>(element.turn).noalias() = mass.turned[l] * element.motion;
+      block.turned[l].middleRows<3>(element.turn).noalias() = mass.turned.middleRows<3>(3 * l) * element.motion;
   }
   for (std::size_t p = 0; p < mass.pivots.size(); ++p)
     block.rotation.middleRows<3>(element.pivot + 3 * static_cast<Index>(p)).noalias() =

@@ -26,7 +26,8 @@ void free_modes(const System& system, const Supported& s, int count, int availab
                 const formats::ModeSelection& asked, const std::string& where,
                 const std::function<void(double)>& share, SupportedModes& modes) {
   const double scale = lowest(s, 1, available, asked, [](double /*done*/) {}).pairs.value[0];
-  const std::optional<FreeModes> pairs = full_free_modes(system, scale, count, 6, asked, Count::if_cheap, share);
+  const std::optional<FreeModes> pairs = full_free_modes(
+      system, {.scale = scale, .count = count, .finite = available}, asked, Count::if_cheap, share);
   if (!pairs)
     throw Error("some rigid motion of the part moves no mass, so it has no free modes", where,
                 "give supports, or inertia about every axis");

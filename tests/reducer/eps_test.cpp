@@ -16,6 +16,7 @@
 #include "reducer/modes/eps_block_lanczos.hpp"
 #include "reducer/modes/spectrum.hpp"
 #include "tests/reducer/parts.hpp"
+#include "tests/reducer/registered_type.hpp"
 #include "tests/support/thrown.hpp"
 
 namespace tisserand::testing::eps_test {
@@ -91,7 +92,12 @@ void expect_orthonormal(const Problem& problem, const MatrixXd& X) {
 
 class EpsTypes : public ::testing::TestWithParam<EigenSolver> {
  protected:
-  void SetUp() override { start_solvers(); }
+  void SetUp() override {
+    start_solvers();
+    if (GetParam() == EigenSolver::block_lanczos) {
+      NEEDS_BLOCK_LANCZOS();
+    }
+  }
 };
 
 TEST_P(EpsTypes, FindAMembranesDoubleEigenvalues) {
@@ -174,6 +180,7 @@ INSTANTIATE_TEST_SUITE_P(All, EpsIterations, ::testing::Values(EigenSolver::bloc
 
 // Five masses, blocks of eight columns: the basis cannot grow, and Krylov-Schur finds them.
 TEST(EpsFallBack, IsKrylovSchurWhereTheBlocksBreakDown) {
+  NEEDS_BLOCK_LANCZOS();
   start_solvers();
   const Problem problem(chain(5, 60, 1.0));
   const reducer::Spectrum s =
@@ -194,6 +201,7 @@ class RegisteredType : public ::testing::Test {
   EPS eps = nullptr;
 
   void SetUp() override {
+    NEEDS_BLOCK_LANCZOS();
     start_solvers();
     reducer::register_block_lanczos();
     matrices = membrane(n);

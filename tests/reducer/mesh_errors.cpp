@@ -182,8 +182,9 @@ FreeShapes free_shapes(const Mesh& mesh, int modes) {
   constexpr int estimated = 5;
   const System system = build_system(mesh, "mesh");
   const formats::ModeSelection asked;
-  const double first = full_free_modes(system, 1e4 / (system.length * system.length), 1, 6, asked, Count::never)->value[0];
-  const FreeModes found = *full_free_modes(system, first, modes, 6, asked, Count::never);
+  const double first =
+      full_free_modes(system, {.scale = 1e4 / (system.length * system.length), .count = 1}, asked, Count::never)->value[0];
+  const FreeModes found = *full_free_modes(system, {.scale = first, .count = modes}, asked, Count::never);
   FreeShapes shapes{mesh, found.value.cwiseMax(0.0).cwiseSqrt() / (2.0 * std::numbers::pi), {}, {}};
   const Eigen::MatrixXd x = expand(system.T, found.vector);
   shapes.translation.resize(3 * mesh.nodes(), x.cols());

@@ -13,6 +13,7 @@
 #include "reducer/report/memory.hpp"
 #include "reducer/sources/build_mesh.hpp"
 #include "tests/reducer/parts.hpp"
+#include "tests/reducer/registered_type.hpp"
 #include "tests/support/thrown.hpp"
 
 namespace tisserand::testing::modes_test {
@@ -81,6 +82,7 @@ TEST(Cutoff, BelowTheFirstModeIsAnErrorThatNamesIt) {
 }
 
 TEST(Cutoff, NeedsNoCountWhereNoneIsWanted) {
+  NEEDS_BLOCK_LANCZOS();
   formats::Part part = cardona_beam(40, 4);
   for (const auto method : {formats::ReductionMethod::craig_bampton, formats::ReductionMethod::rubin}) {
     part.modes.method = method;
@@ -201,6 +203,7 @@ Pieces pieces_of(const formats::Part& part) {
 class Solvers : public ::testing::TestWithParam<reducer::EigenSolver> {};
 
 TEST_P(Solvers, AgreeWithTheDenseOneOnAGridWithDoubleFrequencies) {
+  NEEDS_BLOCK_LANCZOS();
   const Pieces p = pieces_of(grid(4, 3));
   const reducer::Pencil pencil{p.blocks.S_II, p.blocks.M_II, p.factor, 0.0};
   const int available = reducer::finite_mode_count(p.blocks.M_II);
@@ -243,6 +246,7 @@ formats::Part star(int beams, int elements) {
 }
 
 TEST(BlockLanczos, FortyEqualFrequenciesOfTwentyLookAlikes) {
+  NEEDS_BLOCK_LANCZOS();
   // More copies of one eigenvalue than the block has columns: the iteration alone proves nothing, so they are counted
   // although nobody asks for it, and those that hid are found.
   const Pieces p = pieces_of(star(20, 12));
@@ -260,6 +264,7 @@ TEST(BlockLanczos, FortyEqualFrequenciesOfTwentyLookAlikes) {
 
 // A factor in which one of two arms is 1e12 times as stiff: no search sees the modes of that arm, the count does.
 TEST(EigenvalueSolver, ThatMissesModesIsAnError) {
+  NEEDS_BLOCK_LANCZOS();
   const Pieces p = pieces_of(star(2, 12));
   reducer::SymmetricPair altered = p.system.matrices;
   for (int q = 0; q < altered.size(); ++q)
@@ -278,6 +283,7 @@ TEST(EigenvalueSolver, ThatMissesModesIsAnError) {
 
 // The factor of a softer part: its eigenvalues are not those that are counted.
 TEST(EigenvalueSolver, ThatSolvesAnotherProblemIsAnError) {
+  NEEDS_BLOCK_LANCZOS();
   const Pieces p = pieces_of(grid(4, 3));
   reducer::SymmetricPair altered = p.system.matrices;
   for (double& value : altered.S) value *= 0.3;
@@ -292,6 +298,7 @@ TEST(EigenvalueSolver, ThatSolvesAnotherProblemIsAnError) {
 
 // A free part with a shift so close to its rigid motions that a solution keeps no digit of them.
 TEST(EigenvalueSolver, ThatIsNotAccurateEnoughIsAnError) {
+  NEEDS_BLOCK_LANCZOS();
   const Pieces p = pieces_of(grid(4, 3));
   const reducer::SystemMatrices free = reducer::to_petsc(p.system.matrices);
   const int available = reducer::finite_mode_count(free.mass);
@@ -314,6 +321,7 @@ TEST(EigenvalueSolver, ThatIsNotAccurateEnoughIsAnError) {
 
 /// Where the key `eigensolver` is read: for all methods, with the same result, named in the certificate.
 TEST(EigenvalueSolver, IsTheOneThatThePartAsksFor) {
+  NEEDS_BLOCK_LANCZOS();
   using formats::EigenSolverChoice;
   using formats::ReductionMethod;
   for (const ReductionMethod method :
@@ -365,6 +373,7 @@ TEST(Memory, PartsThatDoNotFitAreRefusedBeforeTheyAreFactored) {
 }
 
 TEST(BlockLanczos, CountsOnlyWhereAskedOrCheap) {
+  NEEDS_BLOCK_LANCZOS();
   const Pieces p = pieces_of(grid(8, 6));
   const reducer::Pencil pencil{p.blocks.S_II, p.blocks.M_II, p.factor, 0.0};
   const int available = reducer::finite_mode_count(p.blocks.M_II);
@@ -437,6 +446,7 @@ TEST(Truncation, AccuracyThatIsNotMetTellsWhatWasReached) {
 // Where modes below the frequency suffice beside moment vectors, the count that chose them proves them; where more are
 // kept, one more count does. 4600 coordinates: found by iteration.
 TEST(Truncation, ModesThatAnAccuracyKeepsAreCounted) {
+  NEEDS_BLOCK_LANCZOS();
   formats::Part part = grid(8, 6);
   const double up_to = 1.001 * reduce(part).model.free_frequency[4];
   part.modes.accuracy = formats::Accuracy{1e-3, up_to};
@@ -468,6 +478,7 @@ TEST(BlockLanczos, FortyModesOfAVeryThinShell) {
 }
 
 TEST(BlockLanczos, FiveThousandCoordinatesNoneMissed) {
+  NEEDS_BLOCK_LANCZOS();
   const Pieces p = pieces_of(grid(8, 6));
   EXPECT_GT(p.system.size(), 4500);
   const reducer::Pencil pencil{p.blocks.S_II, p.blocks.M_II, p.factor, 0.0};

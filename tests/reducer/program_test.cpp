@@ -17,6 +17,7 @@
 #include "formats/modal_body/modal_body.hpp"
 #include "formats/recovery/recovery.hpp"
 #include "formats/superelement/superelement.hpp"
+#include "tests/reducer/registered_type.hpp"
 
 namespace tisserand::testing::program_test {
 namespace {
@@ -173,6 +174,7 @@ TEST_F(Program, ThreadsOfTheBlasLeaveEveryBitAsItIs) {
 }
 
 TEST_F(Program, InternalModesAreCountedOnRequest) {
+  NEEDS_BLOCK_LANCZOS();
   const auto counted = [&](const std::string& options) {
     const Outcome run = call("run " + part + options);
     EXPECT_EQ(run.code, 0) << run.text;
