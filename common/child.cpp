@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -44,8 +45,10 @@ TemporaryFile temporary_file(const std::string& program) {
   return file;
 }
 
-std::string content(std::FILE* file) {
-  std::string text(std::size_t{1} << 16, '\0');
+std::string content(std::FILE* file, std::size_t most) {
+  std::fseek(file, 0, SEEK_END);
+  const long size = std::ftell(file);
+  std::string text(std::min(most, static_cast<std::size_t>(std::max(size, 0L))), '\0');
   std::rewind(file);
   text.resize(std::fread(text.data(), 1, text.size(), file));
   return text;
@@ -166,8 +169,8 @@ ChildReport run_child(const ChildRequest& request) {
     if (errno != EINTR) throw Error("the process was lost", program, std::strerror(errno));
   if (report.ending == ChildEnding::left && WIFSIGNALED(status)) report.ending = ChildEnding::killed;
   report.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);
-  report.text = content(out.get());
-  report.complaint = content(error.get());
+  report.text = content(out.get(), request.most_text);
+  report.complaint = content(error.get(), std::size_t{1} << 16);
   const auto seconds = [](const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * time.tv_usec; };
   report.cpu_seconds = seconds(used.ru_utime) + seconds(used.ru_stime);
   return report;

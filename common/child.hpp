@@ -10,6 +10,7 @@ namespace tisserand {
 struct ChildRequest {
   std::vector<std::string> words;    ///< program (a path, or a name on the PATH) and its arguments
   std::string input;                 ///< its standard input
+  std::size_t most_text = 1 << 16;   ///< of what it says, in bytes
   double seconds = 0.0;              ///< by the clock; 0: as long as it takes
   std::function<bool()> is_stopped;  ///< asked ten times a second; true ends the child. Empty: never
   /// Called once, while the child runs, with a socket whose other end are the child's descriptors 3 (it reads) and 4
@@ -23,7 +24,7 @@ enum class ChildEnding { left, killed, timed_out, stopped };
 struct ChildReport {
   ChildEnding ending = ChildEnding::left;
   int code = 0;              ///< exit code (left) or number of the signal (killed)
-  std::string text;          ///< the first 64 KiB of its standard output
+  std::string text;          ///< the first most_text bytes of its standard output
   std::string complaint;     ///< the first 64 KiB of its standard error
   double cpu_seconds = 0.0;  ///< user and system, with those of its own children
 };

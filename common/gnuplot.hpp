@@ -1,18 +1,16 @@
 // Pictures that gnuplot draws as a child process.
 #pragma once
 
-#include <functional>
 #include <string>
 
 namespace tisserand {
 
-/// A gnuplot string in single quotes, in which nothing is expanded. Throws Error on control characters (a line end
-/// would end the command).
+/// A gnuplot string in single quotes, in which nothing is expanded; control characters become visible.
 std::string gnuplot_quoted(const std::string& text);
 
-/// Has gnuplot write the picture `output` (.png, .svg): `script` makes the text that gnuplot reads from the name of the
-/// file that it writes. The picture appears whole or not at all. Throws Error: no gnuplot, gnuplot's own message, a
-/// folder that cannot be written, a full disk.
-void draw_with_gnuplot(const std::string& output, const std::function<std::string(const std::string& picture)>& script);
+/// The picture that gnuplot makes of `script`, whose terminal is pngcairo, svg or pdfcairo, with no output set: no name
+/// of a file reaches gnuplot, which would run "|command". `where`: what messages name. Throws Error: no gnuplot,
+/// gnuplot's own message, a picture that is cut short.
+std::string gnuplot_picture(const std::string& script, const std::string& where);
 
 }  // namespace tisserand

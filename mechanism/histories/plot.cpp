@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/error.hpp"
 #include "common/gnuplot.hpp"
@@ -243,6 +244,32 @@ void check_finite(const std::vector<Series>& series) {
   }
 }
 
+/// gnuplot's own words on an empty picture name lines of our script.
+void check_something_is_seen(const std::vector<Series>& series, const PlotOptions& options) {
+  const auto range = options.x_range;
+  bool is_in_range = false, is_positive = false;
+  double first = std::numeric_limits<double>::infinity(), last = -first;
+  for (const Series& one : series)
+    for (std::size_t i = 0; i < one.x.size(); ++i) {
+      if (!std::isfinite(one.x[i]) || !std::isfinite(one.y[i])) continue;
+      first = std::min(first, one.x[i]);
+      last = std::max(last, one.x[i]);
+      if (range && !(one.x[i] >= std::min((*range)[0], (*range)[1]) && one.x[i] <= std::max((*range)[0], (*range)[1])))
+        continue;
+      is_in_range = true;
+      is_positive = is_positive || ((options.x_scale == AxisScale::linear || one.x[i] > 0.0) &&
+                                    (options.y_scale == AxisScale::linear || one.y[i] > 0.0));
+    }
+  const Series& one = series.front();
+  if (!is_in_range)
+    throw Error(fmt::format("nothing between {:g} and {:g}; the run has {:g} to {:g} {}", (*range)[0], (*range)[1], first,
+                            last, one.x_unit),
+                one.source, "choose another --range");
+  if (!is_positive)
+    throw Error(fmt::format("'{}' has no positive values, which a logarithmic axis needs", one.channel), one.source,
+                "leave --log-x and --log-y away, or choose another channel");
+}
+
 }  // namespace
 
 std::string with_superscripts(const std::string& unit) {
@@ -264,10 +291,10 @@ std::string with_superscripts(const std::string& unit) {
   return text;
 }
 
-std::string gnuplot_script(const std::vector<Series>& series, const PlotOptions& options, const std::string& picture) {
+std::string gnuplot_script(const std::vector<Series>& series, const PlotOptions& options) {
   const std::vector<Panel> panels = panels_of(series);
-  std::string script = terminal_of(picture, panels.size());
-  script += "set output " + gnuplot_quoted(picture) + "\nset encoding utf8\n";
+  std::string script = terminal_of(options.output, panels.size());
+  script += "set encoding utf8\n";
   for (std::size_t i = 0; i < series.size(); ++i) append_data(script, series[i], i);
   script +=
       "set grid back lc rgb '#DDDDDD' lt 1 lw 0.7\n"
@@ -303,9 +330,9 @@ void plot(const std::vector<Series>& series, const PlotOptions& options) {
   if (!has_points) throw Error("nothing to draw: the chosen channels hold no instant", "plot", "choose another run");
   check_abscissae(series);
   check_finite(series);
+  check_something_is_seen(series, options);
   terminal_of(options.output, 1);  // throws for another ending before anything is done
-  draw_with_gnuplot(options.output,
-                    [&](const std::string& picture) { return gnuplot_script(series, options, picture); });
+  write_text_file(options.output, gnuplot_picture(gnuplot_script(series, options), options.output));
 }
 
 }  // namespace tisserand::mechanism

@@ -30,8 +30,8 @@ struct PlotOptions {
 /// Throws Error: no gnuplot, another ending than .png or .svg, nothing to draw, gnuplot's own message.
 void plot(const std::vector<Series>& series, const PlotOptions& options);
 
-/// The text that gnuplot reads: data in blocks, every text quoted by gnuplot_quoted(). `picture` is the file it writes.
-std::string gnuplot_script(const std::vector<Series>& series, const PlotOptions& options, const std::string& picture);
+/// The text that gnuplot reads: data in blocks, every text quoted by gnuplot_quoted().
+std::string gnuplot_script(const std::vector<Series>& series, const PlotOptions& options);
 
 /// "m s^-2" -> "m s⁻²": exponents of unit labels as superscripts.
 std::string with_superscripts(const std::string& unit);

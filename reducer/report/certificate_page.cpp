@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "common/child.hpp"
 #include "common/error.hpp"
+#include "common/gnuplot.hpp"
 #include "common/text.hpp"
 
 namespace tisserand::reducer {
@@ -43,20 +43,17 @@ std::string safe(const std::string& text) {
   return result;
 }
 
-/// What gnuplot draws (-d: without the user's settings), or what is in the way.
+/// What gnuplot draws, or what is in the way.
 std::string picture(int width, int height, const std::string& script) {
-  if (!is_program("gnuplot")) return "<p class=warned>no picture: gnuplot is not installed</p>\n";
-  ChildRequest request;
-  request.words = {"gnuplot", "-d"};
-  request.input = fmt::format(
-      "set terminal svg size {},{} font 'sans,15' linewidth 1.3 background 'white'\nset encoding utf8\n"
-      "set grid ytics lc rgb '#dddddd'\nset border 3\nset tics nomirror\n{}",
-      width, height, script);
-  const ChildReport report = run_child(request);
-  const std::size_t begin = report.text.find("<svg"), end = report.text.rfind("</svg>");
-  if (report.ending != ChildEnding::left || report.code != 0 || begin == std::string::npos || end == std::string::npos)
-    return fmt::format("<p class=warned>no picture: gnuplot failed: {}</p>\n", safe(report.complaint));
-  return report.text.substr(begin, end + 6 - begin) + "\n";
+  try {
+    const std::string text = gnuplot_picture(fmt::format(
+        "set terminal svg size {},{} font 'sans,15' linewidth 1.3 background 'white'\nset encoding utf8\n"
+        "set grid ytics lc rgb '#dddddd'\nset border 3\nset tics nomirror\n{}",
+        width, height, script), "certificate");
+    return text.substr(std::min(text.find("<svg"), text.size())) + "\n";
+  } catch (const Error& error) {
+    return fmt::format("<p class=warned>no picture: {}</p>\n", safe(error.message()));
+  }
 }
 
 /// Named data of gnuplot, one line per row.

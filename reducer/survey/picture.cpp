@@ -120,14 +120,13 @@ std::string canvas(const std::array<Panel, 2>& panels) {
 }
 
 std::string faces_script(const std::array<Panel, 2>& panels, const std::array<std::string, 4>& texts,
-                         const std::string& picture) {
+                         bool is_svg) {
   constexpr int width = 2 * panel_width, height = head + panel_height + foot;
   std::string script = fmt::format(
-      "set terminal {} size {},{} font 'sans,15' background 'white'\nset output {}\nset encoding utf8\n"
+      "set terminal {} size {},{} font 'sans,15' background 'white'\nset encoding utf8\n"
       "unset border\nunset tics\nunset key\nset margins 0,0,0,0\nset xrange [0:{}]\nset yrange [{}:0]\n"
       "set style textbox opaque fillcolor rgb 'white' noborder margins 0.4,0.4\n",
-      picture.ends_with(".svg") ? "svg" : "pngcairo", width, height, gnuplot_quoted(picture), width, height, width,
-      height);
+      is_svg ? "svg" : "pngcairo", width, height, width, height);
   const auto write = [&script](const std::string& text, double x, double y, const char* style) {
     script += fmt::format("set label {} at {:.1f},{:.1f} {} front noenhanced\n",
                           gnuplot_quoted(printable_line(text, 300)), x, y, style);
@@ -170,7 +169,7 @@ void draw_picture(const Survey& survey, const std::vector<FacePiece>& pieces, co
   const std::array<std::string, 4> texts{
       title, "from the front, right and above", "from behind, left and below",
       missing.empty() ? "" : "hidden in both views, or too small: " + listed(missing)};
-  draw_with_gnuplot(output, [&](const std::string& picture) { return faces_script(panels, texts, picture); });
+  write_text_file(output, gnuplot_picture(faces_script(panels, texts, output.ends_with(".svg")), output));
 }
 
 }  // namespace

@@ -179,6 +179,25 @@ output: {channels: [nodes/position/rod/end]}
   }
 }
 
+// gnuplot takes "|command" for a pipe, so no name of a file may reach it.
+TEST_F(Outputs, NamesOfPicturesAreNoCommands) {
+  ASSERT_EQ(mechanism({"run", "arm.scene.yaml"}).code, 0);
+  const std::string name = "|touch EXECUTED;'.png";
+  const auto plot = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"plot", "arm.results.h5", "-c", "energy/kinetic", "-o", name};
+    words.insert(words.end(), more.begin(), more.end());
+    return mechanism(words);
+  };
+  const Outcome drawn = plot({});
+  if (drawn.error.find("gnuplot is not installed") != std::string::npos) GTEST_SKIP() << "gnuplot is not installed";
+  EXPECT_EQ(drawn.code, 0) << drawn.error;
+  EXPECT_TRUE(std::filesystem::exists(file(name)));
+  EXPECT_FALSE(std::filesystem::exists(file("EXECUTED")));
+  EXPECT_THAT(plot({"--range", "100", "200"}).error, HasSubstr("nothing between 100 and 200; the run has 0 to "));
+  EXPECT_EQ(plot({"--title", "it's\na `touch EXECUTED`"}).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(file("EXECUTED")));
+}
+
 TEST_F(Outputs, RunTellsTheDoubtsOfCheckOnce) {
   const std::string told = "2 groups that nothing connects: ";  // nothing holds the superelement
   EXPECT_THAT(mechanism({"check", "arm.scene.yaml"}).out, HasSubstr(told));

@@ -43,6 +43,12 @@ Series reference(const std::string& label) {
   return series;
 }
 
+PlotOptions into(const std::string& output) {
+  PlotOptions options;
+  options.output = output;
+  return options;
+}
+
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;
   for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
@@ -52,33 +58,34 @@ std::size_t count(const std::string& text, const std::string& part) {
 TEST(GnuplotQuoted, ExpandsNothing) {
   EXPECT_EQ(gnuplot_quoted("a `rm` $x \"b\" \\n"), "'a `rm` $x \"b\" \\n'");
   EXPECT_EQ(gnuplot_quoted("it's"), "'it''s'");
-  EXPECT_THAT(error_of([] { (void)gnuplot_quoted("a\nsystem('x')"); }), HasSubstr("control character"));
+  EXPECT_EQ(gnuplot_quoted("a\nsystem('x')\x01"), "'a system(''x'')\\x01'");
 }
 
 TEST(GnuplotScript, KeepsForeignTextInsideQuotes) {
   PlotOptions options;
+  options.output = "|touch owned;.svg";
   options.title = "'; system('touch owned'); '";
-  const std::string script = gnuplot_script({wave("run", "energy/total", "J", 5)}, options, "a'b.svg");
+  const std::string script = gnuplot_script({wave("run", "energy/total", "J", 5)}, options);
   EXPECT_THAT(script, HasSubstr("set title '''; system(''touch owned''); '''"));
-  EXPECT_THAT(script, HasSubstr("set output 'a''b.svg'"));
+  EXPECT_THAT(script, Not(HasSubstr("set output")));
 }
 
 TEST(GnuplotScript, LabelsAxesWithQuantityAndUnit) {
   const std::string script =
-      gnuplot_script({wave("run", "nodes/angular_velocity/beam/tip/z", "rad s^-1", 5)}, {}, "a.png");
+      gnuplot_script({wave("run", "nodes/angular_velocity/beam/tip/z", "rad s^-1", 5)}, into("a.png"));
   EXPECT_THAT(script, HasSubstr("set ylabel 'angular velocity [rad s⁻¹]'"));
   EXPECT_THAT(script, HasSubstr("set xlabel 'time [s]'"));
   EXPECT_THAT(script, HasSubstr("title 'beam/tip/z'"));
-  EXPECT_THAT(gnuplot_script({wave("run", "solver/iterations", "1", 5)}, {}, "a.png"),
+  EXPECT_THAT(gnuplot_script({wave("run", "solver/iterations", "1", 5)}, into("a.png")),
               HasSubstr("set ylabel 'iterations'"));
-  PlotOptions own;
+  PlotOptions own = into("a.png");
   own.x_label = "turns";
   own.y_label = "speed";
-  EXPECT_THAT(gnuplot_script({wave("run", "energy/total", "J", 5)}, own, "a.png"), HasSubstr("set ylabel 'speed'"));
+  EXPECT_THAT(gnuplot_script({wave("run", "energy/total", "J", 5)}, own), HasSubstr("set ylabel 'speed'"));
 }
 
 TEST(GnuplotScript, LegendNamesWhatDiffers) {
-  const auto legend = [](const std::vector<Series>& series) { return gnuplot_script(series, {}, "a.png"); };
+  const auto legend = [](const std::vector<Series>& series) { return gnuplot_script(series, into("a.png")); };
   EXPECT_THAT(legend({wave("a", "energy/total", "J", 5), wave("b", "energy/total", "J", 5)}), HasSubstr("title 'b'"));
   EXPECT_THAT(legend({wave("a", "energy/total", "J", 5), wave("a", "energy/kinetic", "J", 5)}),
               HasSubstr("title 'kinetic'"));
@@ -90,12 +97,12 @@ TEST(GnuplotScript, LegendIsTheLabelWhereItSaysAll) {
   std::vector<Series> series = {wave("a", "nodes/position/rod/base/x", "m", 5),
                                 wave("b", "nodes/position/rod/start/x", "m", 5)};
   for (Series& one : series) one.has_own_label = true;
-  EXPECT_THAT(gnuplot_script(series, {}, "a.png"), HasSubstr("title 'b'"));
+  EXPECT_THAT(gnuplot_script(series, into("a.png")), HasSubstr("title 'b'"));
 }
 
 TEST(GnuplotScript, ReferencesLieBeneathAndJoinTheFirstPanel) {
   const std::string script = gnuplot_script(
-      {wave("a", "energy/total", "J", 5), wave("a", "solver/step", "s", 5), reference("exact")}, {}, "a.png");
+      {wave("a", "energy/total", "J", 5), wave("a", "solver/step", "s", 5), reference("exact")}, into("a.png"));
   EXPECT_EQ(count(script, "\nplot "), 2u);
   EXPECT_LT(script.find("title 'exact'"), script.find("title 'total'"));
   EXPECT_LT(script.find("title 'total'"), script.find("title 'step'"));
@@ -105,14 +112,14 @@ TEST(GnuplotScript, ReferencesLieBeneathAndJoinTheFirstPanel) {
 TEST(GnuplotScript, RefusesMoreThanFourUnits) {
   std::vector<Series> series;
   for (const char* unit : {"m", "s", "J", "N", "rad"}) series.push_back(wave("a", "energy/total", unit, 5));
-  EXPECT_THAT(error_of([&] { (void)gnuplot_script(series, {}, "a.png"); }), HasSubstr("5 different units"));
+  EXPECT_THAT(error_of([&] { (void)gnuplot_script(series, into("a.png")); }), HasSubstr("5 different units"));
 }
 
 TEST(GnuplotScript, RangesAndLogarithmicScales) {
-  PlotOptions options;
+  PlotOptions options = into("a.svg");
   options.x_range = {0.5, 2.0};
   options.y_scale = AxisScale::logarithmic;
-  const std::string script = gnuplot_script({wave("a", "energy/total", "J", 5)}, options, "a.svg");
+  const std::string script = gnuplot_script({wave("a", "energy/total", "J", 5)}, options);
   EXPECT_THAT(script, HasSubstr("set xrange [0.5:2]"));
   EXPECT_THAT(script, HasSubstr("set logscale y"));
   EXPECT_THAT(script, Not(HasSubstr("set logscale x")));
@@ -125,7 +132,7 @@ TEST(GnuplotScript, DrawsModesAsBarsBesideOneAnother) {
     one.x_name = "mode";
     one.x_unit = "";
   }
-  const std::string script = gnuplot_script(series, {}, "a.svg");
+  const std::string script = gnuplot_script(series, into("a.svg"));
   EXPECT_THAT(script, HasSubstr("$d0 using ($1-0.2):2:(0.38) with boxes"));
   EXPECT_THAT(script, HasSubstr("$d1 using ($1+0.2):2:(0.38) with boxes"));
   EXPECT_THAT(script, HasSubstr("set xrange [0.5:5.5]"));
@@ -137,15 +144,15 @@ TEST(GnuplotScript, DrawsModesAsBarsBesideOneAnother) {
 
 TEST(GnuplotScript, ShowsTheTimeOfTheRuns) {
   const Series run = wave("a", "energy/total", "J", 5);  // 0 to 0.04; the reference goes on to 0.09
-  EXPECT_THAT(gnuplot_script({run, reference("exact")}, {}, "a.svg"), HasSubstr("set xrange [0:0.04]"));
-  EXPECT_THAT(gnuplot_script({reference("exact")}, {}, "a.svg"), Not(HasSubstr("set xrange")));
+  EXPECT_THAT(gnuplot_script({run, reference("exact")}, into("a.svg")), HasSubstr("set xrange [0:0.04]"));
+  EXPECT_THAT(gnuplot_script({reference("exact")}, into("a.svg")), Not(HasSubstr("set xrange")));
 }
 
 TEST(GnuplotScript, ThinsLongHistoriesToTheirEnvelope) {
   Series series = wave("a", "energy/total", "J", 1000000);
   series.y[123457] = 77.0;  // one spike among a million points must stay
   series.y[765432] = -78.0;
-  const std::string script = gnuplot_script({series}, {}, "a.png");
+  const std::string script = gnuplot_script({series}, into("a.png"));
   EXPECT_LT(count(script, "\n"), 13000u);
   EXPECT_THAT(script, HasSubstr(" 77\n"));
   EXPECT_THAT(script, HasSubstr(" -78\n"));
@@ -155,7 +162,7 @@ TEST(GnuplotScript, ThinsLongHistoriesToTheirEnvelope) {
 TEST(GnuplotScript, LeavesGapsWhereThereIsNoNumber) {
   Series series = wave("a", "joints/coordinate/hinge", "rad", 3);
   series.y[1] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THAT(gnuplot_script({series}, {}, "a.png"), Not(HasSubstr("nan")));
+  EXPECT_THAT(gnuplot_script({series}, into("a.png")), Not(HasSubstr("nan")));
 }
 
 TEST(Superscripts, OfUnits) {
@@ -205,7 +212,7 @@ TEST_F(Picture, FaultsAreToldAndLeaveNothing) {
   options.output = path("a.pdf");
   EXPECT_THAT(error_of([&] { plot({series}, options); }), HasSubstr("neither a .png nor an .svg"));
   options.output = path("none/a.png");
-  EXPECT_THAT(error_of([&] { plot({series}, options); }), HasSubstr("cannot write into the folder"));
+  EXPECT_THAT(error_of([&] { plot({series}, options); }), HasSubstr("cannot create the file"));
   options.output = path("a.png");
   EXPECT_THAT(error_of([&] { plot({wave("a", "energy/total", "J", 0)}, options); }), HasSubstr("nothing to draw"));
   Series empty = wave("a", "nodes/rotation/beam/tip/w", "", 5);
